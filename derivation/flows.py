@@ -1,0 +1,113 @@
+"""The flows of the three zones: SymPy solves the law with w given (contact) or p given (adhesion, free gap).
+
+One integration constant per mode is eliminated by the state in which the zone is entered, at the phase ``s_0``. Relative
+to that edge every exponent is ``-(s - s_0)/T <= 0``: nothing can overflow.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from .check import BEYOND, REPRODUCED, Derived, DerivationError, derived, zero
+from .strip import Strip
+from .symbols import gap_0, p, p_0, q_0, s, s_0, w_0
+
+
+@dataclass(frozen=True)
+class Flows:
+    """Stage 3: pressure in contact, displacement under a constant pressure, as functions of s."""
+
+    strip: Strip
+    contact: Derived  # p(s), entered at s_0 with the pressure q_0 - p_0
+    relaxation: Derived  # w(s) under the constant pressure p, entered at s_0 with w_0
+    gap: Derived  # g(s) = w - u, entered with gap_0
+
+
+def flows(strip: Strip) -> Flows:
+    relaxation = relaxation_flow(strip)
+    return Flows(strip, contact_flow(strip), relaxation, gap_flow(strip, relaxation.value))
+
+
+def contact_flow(strip: Strip) -> Derived:
+    r"""Eq. 15 and its transient: :math:`p = p_{sat}(s) + (p(s_0) - p_{sat}(s_0))\,e^{-(s-s_0)/\alpha}`."""
+    name = "contact flow"
+    pressure = _solved(name, lambda unknown: strip.law(strip.u, unknown), entry=q_0 - p_0)
+    checks = [
+        zero(name, "the law holds with w = u", strip.law(strip.u, pressure)),
+        zero(name, "the zone is entered at the pressure q_0 - p_0", pressure.subs(s, s_0) - (q_0 - p_0)),
+    ]
+    return derived(
+        contact_flow,
+        pressure,
+        name=name,
+        statement="In contact w = u is given and the law is an equation for p: the saturated field plus a transient that "
+        "dies out over alpha.",
+        latex="p(s) = " + sp.latex(pressure),
+        checks=checks,
+        paper="Eq. 5",
+        status=REPRODUCED,
+        emitted=("excess_after", "contact_pressure"),
+    )
+
+
+def relaxation_flow(strip: Strip) -> Derived:
+    r"""Adhesion :math:`p=-p_0` or free :math:`p=0`: :math:`w = p + (w_0 - p)\,e^{-(s-s_0)/\beta}`."""
+    name = "relaxation flow"
+    displacement = _solved(name, lambda unknown: strip.law(unknown, p), entry=w_0)
+    checks = [
+        zero(name, "the law holds under the constant pressure p", strip.law(displacement, p)),
+        zero(name, "the zone is entered with w_0", displacement.subs(s, s_0) - w_0),
+    ]
+    return derived(
+        relaxation_flow,
+        displacement,
+        name=name,
+        statement="Out of contact p is constant, -p_0 within the reach of adhesion and 0 beyond it, and w creeps towards p.",
+        latex="w(s) = " + sp.latex(displacement),
+        checks=checks,
+        paper="Eq. 5",
+        status=REPRODUCED,
+        emitted=("displacement_after",),
+    )
+
+
+def gap_flow(strip: Strip, displacement: sp.Expr) -> Derived:
+    r""":math:`g = w - u`, which obeys :math:`g + \beta g' = p - H`, :math:`H = u + \beta u'`."""
+    name = "gap flow"
+    gap = displacement.subs(w_0, strip.u.subs(s, s_0) + gap_0) - strip.u
+    forcing = strip.law(strip.u, sp.Integer(0))
+    checks = [
+        zero(name, "the gap obeys g + beta g' = p - H", strip.law(gap, p) + forcing),
+        zero(name, "the zone is entered with gap_0", gap.subs(s, s_0) - gap_0),
+    ]
+    return derived(
+        gap_flow,
+        gap,
+        name=name,
+        statement="The gap between the foundation and the rigid profile is driven by the single harmonic H = u + beta u'.",
+        latex="g(s) = " + sp.latex(gap),
+        checks=checks,
+        status=BEYOND,
+        emitted=("gap_after",),
+    )
+
+
+def _solved(name, law, entry: sp.Expr) -> sp.Expr:
+    """Solve the linear law for a function of s with ``f(s_0) = entry``.
+
+    The general solution is a particular one plus a constant times a mode. The entry condition fixes the constant, and
+    the mode is written relative to the entry edge.
+    """
+    function = sp.Function("f")
+    general = sp.expand(sp.dsolve(sp.Eq(law(function(s)), 0), function(s)).rhs)
+    constants = sorted(general.free_symbols - law(function(s)).free_symbols, key=str)
+    if len(constants) != 1:
+        raise DerivationError(name, f"one integration constant, not {constants}")
+    mode = general.coeff(constants[0])
+    if sp.expand(general - constants[0] * mode).has(constants[0]):
+        raise DerivationError(name, "the general solution is linear in its integration constant")
+    particular = sp.factor_terms(sp.expand(general.subs(constants[0], 0)))
+    decayed = sp.exp(sp.factor_terms(sp.expand(sp.log(mode / mode.subs(s, s_0)), force=True)))
+    return particular + (entry - particular.subs(s, s_0)) * decayed

@@ -1,0 +1,222 @@
+"""A viscoelastic model is data: a name, parameters, and the two operators of ``Q(d/dt) w = P(d/dt) p``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from .check import BEYOND, CORRECTED, REPRODUCED, Check, Derived, DerivationError, derived, holds, zero
+
+rate = sp.Symbol("rate")  # stands for d/dt in the operators
+omega = sp.Symbol("omega", positive=True)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A material constant: its symbol, its name in Python, unit and meaning."""
+
+    symbol: sp.Symbol
+    name: str
+    unit: str
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Model:
+    """``sum_n Q[n] d^n w/dt^n = sum_n P[n] d^n p/dt^n``.
+
+    ``differences`` writes parameters as sums of nonnegative ones, so that an inequality the model asks of its parameters
+    (``T_eps >= T_sigma``) holds by construction where admissibility is checked.
+    """
+
+    name: str
+    title: str
+    parameters: tuple[Parameter, ...]
+    Q: tuple[sp.Expr, ...]
+    P: tuple[sp.Expr, ...]
+    differences: tuple[tuple[sp.Symbol, sp.Expr], ...] = ()
+
+    @property
+    def modes(self) -> int:
+        """Number of relaxation times: the internal states of a material point."""
+        return len(self.Q) - 1
+
+    def operator_w(self, step: sp.Expr = rate) -> sp.Expr:
+        return sum((q * step**n for n, q in enumerate(self.Q)), sp.Integer(0))
+
+    def operator_p(self, step: sp.Expr = rate) -> sp.Expr:
+        return sum((p * step**n for n, p in enumerate(self.P)), sp.Integer(0))
+
+    def transfer(self, step: sp.Expr = rate) -> sp.Expr:
+        """Stiffness ``p/w`` of a motion ``exp(rate t)``."""
+        return self.operator_w(step) / self.operator_p(step)
+
+
+@dataclass(frozen=True)
+class Foundation:
+    """An admissible model and what its operators say at once."""
+
+    model: Model
+    operators: Derived
+    relaxed: Derived  # K = p/w at rest
+    compliance: Derived  # J_0: instantaneous w/p
+    admissible: Derived
+
+    @property
+    def K(self) -> sp.Expr:
+        return self.relaxed.value
+
+    @property
+    def J_0(self) -> sp.Expr:
+        return self.compliance.value
+
+
+def foundation(model: Model) -> Foundation:
+    """First stage: read the operators; refuse a model that is no passive, stable solid."""
+    return Foundation(
+        model, foundation_law(model), relaxed_stiffness(model), instantaneous_compliance(model), admissibility(model)
+    )
+
+
+def foundation_law(model: Model) -> Derived:
+    r"""Eq. 1: :math:`w + T_\epsilon \dot w = (p + T_\sigma \dot p)/K`, the model's two operators."""
+    name = "foundation law"
+    time = sp.Symbol("t", real=True)
+    w, p = sp.Function("w")(time), sp.Function("p")(time)
+    law = _applied(model.Q, w, time) - _applied(model.P, p, time)
+    mode = sp.exp(rate * time)
+    substituted = law.subs({w: mode, p: model.transfer() * mode}).doit()
+    checks = [zero(name, "w = exp(rate t), p = (Q/P) w solves the law for any rate", sp.simplify(substituted))]
+    return derived(
+        foundation_law,
+        sp.Eq(_applied(model.Q, w, time), _applied(model.P, p, time)),
+        name=name,
+        statement="The foundation is local: at each material point its displacement w and pressure p obey one linear "
+        "equation in time.",
+        latex=sp.latex(sp.Eq(_applied(model.Q, w, time), _applied(model.P, p, time))),
+        checks=checks,
+        paper="Eq. 1",
+        status=REPRODUCED,
+    )
+
+
+def relaxed_stiffness(model: Model) -> Derived:
+    r"""Eq. 1 at rest: :math:`p = K w`. The paper calls K an elastic compliance; it is a stiffness per area."""
+    name = "relaxed stiffness"
+    stiffness = sp.limit(model.transfer(), rate, 0)
+    load = sp.Symbol("p", positive=True)
+    at_rest = model.Q[0] * (load / stiffness) - model.P[0] * load
+    softer = sp.diff(load / stiffness, model.parameters[0].symbol)
+    checks = [
+        zero(name, "w = p/K is at rest under the constant pressure p", at_rest),
+        holds(name, "a larger K deforms less: K is a stiffness", softer.is_negative),
+    ]
+    return derived(
+        relaxed_stiffness,
+        stiffness,
+        name=name,
+        statement="At rest p = K w, so K is a stiffness per area (Pa/m).",
+        latex=rf"K = \lim_{{\omega\to 0}} K^*(i\omega) = {sp.latex(stiffness)}",
+        checks=checks,
+        paper="Eq. 1",
+        status=CORRECTED,
+        correction="The paper calls K the elastic compliance of the foundation. Its own law gives p = K w at rest: K is a "
+        "stiffness. Read as a compliance it would invert every pressure.",
+    )
+
+
+def instantaneous_compliance(model: Model) -> Derived:
+    r"""Response to a step: :math:`J_0 = \lim_{s\to\infty} P(s)/Q(s) = T_\sigma/(K T_\epsilon)`."""
+    name = "instantaneous compliance"
+    compliance = sp.limit(1 / model.transfer(), rate, sp.oo)
+    top = len(model.Q) - 1
+    checks = [zero(name, "J_0 Q_n = P_n: the highest derivatives balance", compliance * model.Q[top] - model.P[top])]
+    return derived(
+        instantaneous_compliance,
+        compliance,
+        name=name,
+        statement="A sudden pressure step is answered at once by a step of displacement, J_0 times as large.",
+        latex=rf"J_0 = \lim_{{s\to\infty}} \frac{{P(s)}}{{Q(s)}} = {sp.latex(compliance)}",
+        checks=checks,
+    )
+
+
+def admissibility(model: Model) -> Derived:
+    r"""Solid-like, stable and passive: :math:`0 < Q(0)/P(0) < \infty`, roots left of 0, :math:`\mathrm{Im}\,K^*(i\omega) \ge 0`."""
+    name = "admissibility"
+    reasons = inadmissible(model)
+    checks = tuple(
+        holds(name, claim, not [r for r in reasons if r.startswith(claim)]) for claim in ("solid-like", "stable", "passive")
+    )
+    return derived(
+        admissibility,
+        True,
+        name=name,
+        statement="The model carries a constant load at rest, forgets its past, and never gives out energy in a cycle.",
+        latex=r"0 < K < \infty,\quad \mathrm{Re}\,s_i < 0,\quad \mathrm{Im}\,K^*(i\omega) \ge 0",
+        checks=checks,
+    )
+
+
+def inadmissible(model: Model) -> list[str]:
+    """The reasons why a model is refused; none for an admissible one."""
+    reasons = []
+    if len(model.P) != len(model.Q):
+        reasons.append(f"solid-like: P has {len(model.P)} coefficients and Q {len(model.Q)}; pad the shorter with zeros")
+        return reasons
+    differences = dict(model.differences)
+    Q, P = ([sp.expand(sp.sympify(c).subs(differences)) for c in op] for op in (model.Q, model.P))
+    if not (Q[0].is_positive and P[0].is_positive):
+        reasons.append("solid-like: Q(0) and P(0) must be positive, so that a constant load is carried at rest")
+    if not Q[-1].is_positive:
+        reasons.append("stable: the highest coefficient of Q must be positive")
+    for label, operator in (("Q", Q), ("P", P)):
+        if not all(_nonnegative(c) for c in operator):
+            reasons.append(f"stable: {label} has a negative coefficient, so a motion that grows in time")
+    if not reasons and len(Q) > 3:  # up to degree 2 positive coefficients suffice
+        reasons += _unstable_roots(Q, "Q") + _unstable_roots(P, "P")
+    numerator = sp.expand(sp.im(sp.expand_complex(_at(Q, sp.I * omega) * sp.conjugate(_at(P, sp.I * omega)))))
+    if not all(_nonnegative(c) for c in sp.Poly(numerator, omega).coeffs()):
+        reasons.append("passive: Im K*(i omega) is not shown to be nonnegative at every frequency")
+    return reasons
+
+
+def require_admissible(model: Model) -> None:
+    """Raise an error that names every reason against the model."""
+    reasons = inadmissible(model)
+    if reasons:
+        raise DerivationError("admissibility", f"model {model.name!r} is refused: " + "; ".join(reasons))
+
+
+def _unstable_roots(operator: list[sp.Expr], label: str) -> list[str]:
+    if any(c.free_symbols for c in operator):
+        return [f"stable: the roots of {label} can only be checked for numbers"]
+    roots = sp.Poly(_at(operator, rate), rate).nroots()
+    return [f"stable: {label} has the root {root}, which does not decay" for root in roots if sp.re(root) >= 0]
+
+
+def _at(operator: list[sp.Expr], step: sp.Expr) -> sp.Expr:
+    return sum((c * step**n for n, c in enumerate(operator)), sp.Integer(0))
+
+
+def _applied(operator: tuple[sp.Expr, ...], function: sp.Expr, variable: sp.Symbol) -> sp.Expr:
+    return sum((c * sp.diff(function, variable, n) for n, c in enumerate(operator)), sp.Integer(0))
+
+
+def _nonnegative(coefficient: sp.Expr) -> bool:
+    return bool(sp.factor(coefficient).is_nonnegative)
+
+
+__all__ = [
+    "BEYOND",
+    "Check",
+    "Foundation",
+    "Model",
+    "Parameter",
+    "foundation",
+    "inadmissible",
+    "omega",
+    "rate",
+    "require_admissible",
+]

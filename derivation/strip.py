@@ -1,0 +1,142 @@
+"""One strip of the moving surface: rigid profile, the law in the frame of the surface, dimensionless groups."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from .check import BEYOND, CORRECTED, REPRODUCED, Derived, derived, holds, zero
+from .model import Foundation
+from .symbols import A, D, D_j, D_level, J, K, L, T_eps, T_sigma, V, alpha, beta, h, k, s, t, x, y
+
+
+@dataclass(frozen=True)
+class Strip:
+    """The second stage: the profile ``u(s)`` in a strip and the dimensionless operators that act on it."""
+
+    foundation: Foundation
+    profile: Derived  # u(s) = D - 1 + cos s
+    moving_frame: Derived
+    groups: Derived
+    operator_w: tuple[sp.Expr, ...]  # coefficients of d^n w/ds^n
+    operator_p: tuple[sp.Expr, ...]
+
+    @property
+    def u(self) -> sp.Expr:
+        return self.profile.value
+
+    def law(self, w: sp.Expr, p: sp.Expr) -> sp.Expr:
+        """Left minus right side of the law for ``w(s)`` and ``p(s)``: zero on a motion."""
+        return _apply(self.operator_w, w) - _apply(self.operator_p, p)
+
+
+def strip(foundation: Foundation) -> Strip:
+    """Stage 2: from the law of the material to the law in a strip."""
+    moving = moving_frame(foundation)
+    groups = dimensionless_groups(foundation)
+    operator_w, operator_p = groups.value
+    return Strip(foundation, strip_profile(), moving, groups, operator_w, operator_p)
+
+
+def strip_profile() -> Derived:
+    r"""Eq. 4, 6, 8: :math:`w = D - f = D_j - A(1-\cos kx)`, :math:`A = \frac h4(1+\cos ky)`, :math:`D_j = D - \frac h2(1-\cos ky)`."""
+    name = "strip profile"
+    f = h - h / 4 * (sp.cos(k * x) + 1) * (sp.cos(k * y) + 1)
+    amplitude = h / 4 * (1 + sp.cos(k * y))
+    penetration = D_level - h / 2 * (1 - sp.cos(k * y))
+    target = penetration - amplitude * (1 - sp.cos(k * x))
+    printed = sp.expand(f + D_level)
+    u = D - 1 + sp.cos(s)
+    scaled = (D_j - A * (1 - sp.cos(k * x))).subs({D_j: A * D, x: -s / k}) / A
+    checks = [
+        zero(name, "w = D - f is D_j - A (1 - cos kx) with the A and D_j of Eq. 8", D_level - f - target),
+        holds(
+            name,
+            "the printed w = f + D is deepest in the valleys of the surface: its cos kx term has the other sign",
+            sp.expand(printed.coeff(sp.cos(k * x)) + sp.expand(target).coeff(sp.cos(k * x))) == 0,
+        ),
+        zero(name, "in units of A and with s = -k x the profile is u = D - 1 + cos s", scaled - u),
+    ]
+    return derived(
+        strip_profile,
+        u,
+        name=name,
+        statement="In contact the foundation follows the rigid surface, w = D - f. In the strip at y this is a cosine of "
+        "amplitude A about the strip's own penetration D_j.",
+        latex=r"u(s) = D - 1 + \cos s,\quad A = \tfrac h4 (1 + \cos k y),\quad D_j = D - \tfrac h2 (1 - \cos k y)",
+        checks=checks,
+        paper="Eq. 4, 6, 8",
+        status=CORRECTED,
+        correction="Eq. 6 is printed as w = f + D. Eq. 8 and 15 follow only from w = D - f; with the printed sign the contact "
+        "would be deepest where the surface is farthest from the foundation.",
+        emitted=("profile", "profile_slope", "profile_rise"),
+    )
+
+
+def moving_frame(foundation: Foundation) -> Derived:
+    r"""Eq. 5: steady in the frame of the surface, :math:`w - V T_\epsilon w_x = (p - V T_\sigma p_x)/K`."""
+    name = "moving frame"
+    model = foundation.model
+    fixed = sp.Symbol("X", real=True)
+    w, p = sp.Function("w"), sp.Function("p")
+    frame = {x: fixed - V * t}
+    moved = _in_time(model.Q, w(fixed - V * t)) - _in_time(model.P, p(fixed - V * t))
+    claimed = _in_space(model.Q, w(x)) - _in_space(model.P, p(x))
+    tried = {w: sp.Lambda(x, sp.exp(3 * x) + x**3), p: sp.Lambda(x, sp.sin(2 * x) + x**2)}
+    difference = moved.subs(tried).doit() - claimed.subs(tried).doit().subs(frame)
+    checks = [zero(name, "a field that moves with the surface, w(X - V t), obeys d/dt = -V d/dx", sp.expand(difference))]
+    equation = sp.Eq(_in_space(model.Q, w(x)), _in_space(model.P, p(x)))
+    return derived(
+        moving_frame,
+        equation,
+        name=name,
+        statement="In the frame of the surface, which slides in +x, the fields are steady; a material point passes towards -x.",
+        latex=sp.latex(equation),
+        checks=checks,
+        paper="Eq. 5",
+        status=REPRODUCED,
+    )
+
+
+def dimensionless_groups(foundation: Foundation) -> Derived:
+    r"""With :math:`s=-kx`, lengths in A, pressures in KA: :math:`w + \beta w' = p + \alpha p'`, :math:`\alpha = kVT_\sigma`, :math:`\beta = kVT_\epsilon`."""
+    name = "dimensionless groups"
+    model = foundation.model
+    times = {T_sigma: alpha / (k * V), T_eps: beta / (k * V)}
+    # d/dt = -V d/dx = k V d/ds; p is in units of K A, w in units of A, and the law is divided by A.
+    operator_w = tuple(sp.cancel((q * (k * V) ** n).subs(times)) for n, q in enumerate(model.Q))
+    operator_p = tuple(sp.cancel((q * foundation.K * (k * V) ** n).subs(times)) for n, q in enumerate(model.P))
+    w, p = sp.Function("w"), sp.Function("p")
+    fields = {w: sp.Lambda(x, A * sp.exp(2 * k * x)), p: sp.Lambda(x, K * A * sp.cos(k * x))}
+    si = (_in_space(model.Q, w(x)) - _in_space(model.P, p(x))).subs(fields).doit()
+    ours = _apply(operator_w, sp.exp(-2 * s)) - _apply(operator_p, sp.cos(s))
+    compliance = (foundation.J_0 * foundation.K).subs(times)
+    checks = [
+        zero(name, "the SI law of the moving frame, divided by A, is the law in s", (si / A).subs(x, -s / k).subs(times) - ours),
+        zero(name, "K J_0 = alpha/beta = J", compliance - J),
+        zero(name, "beta - alpha = L beta with L = 1 - J", beta - alpha - L * beta),
+    ]
+    return derived(
+        dimensionless_groups,
+        (operator_w, operator_p),
+        name=name,
+        statement="Everything about a strip follows from alpha, beta, p_0/(K A), delta_0/A and D_j/A. J = K J_0 and L = 1 - J "
+        "are kept beside alpha and beta, because neither can be had from them at V = 0 or without cancellation.",
+        latex=r"w + \beta w' = p + \alpha p',\quad \alpha = k V T_\sigma,\ \beta = k V T_\epsilon,\ J = T_\sigma/T_\epsilon,\ L = 1 - J",
+        checks=checks,
+        paper="Eq. 5",
+        status=BEYOND,
+    )
+
+
+def _apply(operator: tuple[sp.Expr, ...], function: sp.Expr) -> sp.Expr:
+    return sum((q * sp.diff(function, s, n) for n, q in enumerate(operator)), sp.Integer(0))
+
+
+def _in_time(operator: tuple[sp.Expr, ...], function: sp.Expr) -> sp.Expr:
+    return sum((q * sp.diff(function, t, n) for n, q in enumerate(operator)), sp.Integer(0))
+
+
+def _in_space(operator: tuple[sp.Expr, ...], function: sp.Expr) -> sp.Expr:
+    return sum((q * (-V) ** n * sp.diff(function, x, n) for n, q in enumerate(operator)), sp.Integer(0))

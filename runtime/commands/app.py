@@ -1,0 +1,37 @@
+"""The Typer application: its commands, one module each."""
+
+from __future__ import annotations
+
+import typer
+
+from hystrip.commands import check, init, regenerate, schema, solve
+
+
+def build() -> typer.Typer:
+    """The application with all its commands."""
+    app = typer.Typer(
+        help="Hysteretic sliding friction of multiscale wavy surfaces on a viscoelastic foundation with adhesion.",
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+        rich_markup_mode=None,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    app.callback()(_options)
+    for module in (solve, init, schema, regenerate, check):
+        app.command(name=module.__name__.rsplit(".", 1)[1])(module.command)
+    return app
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from hystrip import __version__
+
+        typer.echo(f"hystrip {__version__}")
+        raise typer.Exit()
+
+
+def _options(
+    version: bool = typer.Option(False, "--version", help="Show the version and exit.", is_eager=True, callback=_version),
+) -> None:
+    pass

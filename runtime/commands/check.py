@@ -1,0 +1,24 @@
+"""``hystrip check``: is the checked-in solver what the derivation emits?"""
+
+from __future__ import annotations
+
+import typer
+
+
+def command() -> None:
+    """Compare the generated solver with a fresh one.
+
+    Byte by byte; exits with 1 if they differ. Needs the extra `regenerate`.
+    """
+    from hystrip.commands.derivation import needed
+
+    needed("checking the generated files")
+    import hystrip.derivation
+
+    drift = list(hystrip.derivation.check())
+    for record in drift:
+        typer.echo(str(record))
+    if drift:
+        typer.echo(f"{len(drift)} generated file(s) differ from the derivation", err=True)
+        raise typer.Exit(1)
+    typer.echo("the generated files are what the derivation emits")

@@ -1,0 +1,11 @@
+"""What commands that derive have in common."""
+
+from __future__ import annotations
+
+from hystrip.extras import require
+
+
+def needed(purpose: str) -> None:
+    """Check that the derivation can run. Raises MissingExtra, which names the extra."""
+    for module in ("sympy", "jinja2", "ruff"):
+        require(module, "regenerate", purpose)

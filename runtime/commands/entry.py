@@ -1,0 +1,61 @@
+"""Where the command line starts. Every failure ends as one message on standard error and a non-zero status."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from hystrip.errors import HystripError, InputError, MissingExtra
+from hystrip.extras import require
+
+USAGE, FAILED, INTERRUPTED = 2, 1, 130
+
+
+def main() -> None:
+    """Run the command line and exit: 0 done, 1 failed, 2 wrong input, 130 interrupted."""
+    sys.exit(_status())
+
+
+def _status() -> int:
+    try:
+        require("typer", "cli", "the command line")
+        from hystrip.commands.app import build
+
+        build()(prog_name="hystrip", standalone_mode=True)
+    except SystemExit as end:
+        _discard_closed_output()
+        if end.code == INTERRUPTED:
+            _say("interrupted")
+        return end.code if isinstance(end.code, int) else FAILED if end.code else 0
+    except KeyboardInterrupt:
+        _say("interrupted")
+        return INTERRUPTED
+    except BrokenPipeError:  # the reader of our output, such as `head`, has had enough
+        _discard_closed_output()
+        return FAILED
+    except (InputError, MissingExtra) as error:
+        _say(str(error))
+        return USAGE
+    except HystripError as error:
+        _say(str(error))
+        return FAILED
+    except OSError as error:
+        place = f"{error.filename}: " if error.filename else ""
+        _say(f"{place}{error.strerror or error}")
+        return FAILED
+    except MemoryError:
+        _say("not enough memory for this scene: give fewer pressures or velocities")
+        return FAILED
+    return 0
+
+
+def _say(text: str) -> None:
+    print(f"hystrip: {text}", file=sys.stderr, flush=True)
+
+
+def _discard_closed_output() -> None:
+    """Keep the interpreter's last flush from complaining about a pipe that nobody reads."""
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

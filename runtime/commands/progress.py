@@ -1,0 +1,25 @@
+"""A progress bar on a terminal, nothing elsewhere."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Callable, Iterator
+
+Report = Callable[[int, int], None]
+
+
+@contextlib.contextmanager
+def progress(title: str) -> Iterator[Report | None]:
+    """Yield a function to call with (done, total), or None where no person watches standard error."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from hystrip.extras import require
+
+    console = require("rich.console", "cli", "the progress bar").Console(stderr=True)
+    bars = require("rich.progress", "cli", "the progress bar")
+    columns = (bars.TextColumn("{task.description}"), bars.BarColumn(), bars.MofNCompleteColumn(), bars.TimeRemainingColumn())
+    with bars.Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task(title, total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)

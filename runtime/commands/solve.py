@@ -1,0 +1,46 @@
+"""``hystrip solve``: friction of one scene, as a table, a CSV and a picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import typer
+
+
+def command(
+    scene: str = typer.Argument(help="A scene file (TOML), or the name of a built-in scene such as paper_fig6."),
+    out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
+    plot: bool = typer.Option(True, help="Draw mu over velocity (PNG)."),
+    table: bool = typer.Option(True, help="Print the table."),
+) -> None:
+    """Solve a scene: friction over velocity.
+
+    Writes a CSV and, for more than one velocity, a picture of mu with the share of every level.
+    """
+    from hystrip.commands.progress import progress
+    from hystrip.extras import require
+    from hystrip.files import Outputs, refuse_unwritable
+    from hystrip.scene import load_scene
+    from hystrip.tables import friction_rows, write_csv
+
+    case = load_scene(scene)
+    draws = plot and case.velocity.size > 1
+    # What can fail without the work fails before it.
+    if draws:
+        require("matplotlib", "plot", "drawing (or give --no-plot)")
+    refuse_unwritable(out, "--out")
+    with progress(case.title or case.name) as report:
+        result = case.solve(progress=report)
+    columns = friction_rows(case, result)
+    with Outputs(out) as files:
+        write_csv(files.path(f"{case.name}.csv"), columns)
+        if draws:
+            from hystrip.plots import friction_over_velocity, save
+
+            save(friction_over_velocity(case, result), files.path(f"{case.name}.png"))
+    if table:
+        from hystrip.commands.show import show_friction
+
+        show_friction(case, columns)
+    for suffix in ("csv", "png") if draws else ("csv",):
+        typer.echo(f"wrote {out / case.name}.{suffix}")

@@ -1,0 +1,83 @@
+"""A scene, checked and in SI, ready to be solved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Everything that determines a run.
+
+    Attributes
+    ----------
+    name : short name, used for file names
+    title, description : text of the file
+    material, adhesion, levels : the library's objects; levels from the largest to the smallest
+    pressure : nominal pressure, shape () or (P,) [Pa]; None if `penetration` is given
+    penetration : penetration of level 1, shape () or (P,) [m]; None if `pressure` is given
+    velocity : sliding velocity, shape () or (V,) [m/s]
+    edge, branch : closure where the pressure steps, and which of several solutions
+    rtol : relative tolerance
+    strips : number of equal strips, None for as many as `rtol` needs
+    text : the TOML text it was read from
+    """
+
+    name: str
+    title: str
+    description: str
+    material: Any
+    adhesion: Any
+    levels: tuple[Any, ...]
+    pressure: np.ndarray | None
+    penetration: np.ndarray | None
+    velocity: np.ndarray
+    edge: str
+    branch: str
+    rtol: float
+    strips: int | None
+    text: str
+
+    @property
+    def load(self) -> tuple[str, np.ndarray]:
+        """``("pressure", values)`` or ``("penetration", values)``, whichever the scene gives."""
+        return ("penetration", self.penetration) if self.pressure is None else ("pressure", self.pressure)
+
+    def solve(self, progress: Callable[[int, int], None] | None = None) -> Any:
+        """Solve every combination of load and velocity.
+
+        Parameters
+        ----------
+        progress : called with (done, total) as the work goes on
+
+        Returns
+        -------
+        result of :func:`hystrip.solve`, arrays of shape load.shape + velocity.shape (a level axis in front where
+        there is one)
+
+        Raises
+        ------
+        InputError, SolverError : as :func:`hystrip.solve`
+        """
+        import hystrip
+
+        name, load = self.load
+        options: dict[str, Any] = {name: load.reshape(load.shape + (1,) * self.velocity.ndim)}
+        if self.strips is not None:
+            options["strips"] = self.strips
+        if progress is not None:
+            options["progress"] = progress
+        return hystrip.solve(
+            self.material,
+            self.adhesion,
+            self.levels,
+            velocity=self.velocity,
+            edge=self.edge,
+            branch=self.branch,
+            rtol=self.rtol,
+            **options,
+        )

@@ -1,0 +1,81 @@
+"""A physical quantity: a number in SI, or text with a unit such as ``"10 um"``."""
+
+from __future__ import annotations
+
+import functools
+import math
+import re
+from decimal import Decimal
+from typing import Any
+
+from hystrip.errors import InputError
+from hystrip.extras import require
+
+_TEXT = re.compile(r"\s*(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?)\s*(?P<unit>[^\W\d_].*?)?\s*")
+_UNIT = re.compile(r"[\w\s*/^().\-²³⁻¹]+")
+
+
+def to_si(value: float | str, unit: str, field: str) -> float:
+    """The quantity as a finite number in `unit`.
+
+    Parameters
+    ----------
+    value : number in `unit`, or text of a number and a unit
+    unit : SI unit that is wanted, e.g. ``"Pa/m"``
+    field : name used in the error
+
+    Raises
+    ------
+    InputError : not finite, no unit, a unit that is unknown or of another dimension
+    MissingExtra : a unit is written and Pint is not installed
+    """
+    number = _converted(value, unit, field) if isinstance(value, str) else float(value)
+    if not math.isfinite(number):
+        raise InputError(field, value, _allowed(unit))
+    return number
+
+
+def _converted(text: str, unit: str, field: str) -> float:
+    # The number is read here, not by Pint: that reads "0,1 kPa" as 0 kPa.
+    match = _TEXT.fullmatch(text)
+    if match is None:
+        raise InputError(field, text, _allowed(unit))
+    if match["unit"] is None:
+        raise InputError(field, text, f"a number in {unit} without quotes, or text with a unit")
+    if not _UNIT.fullmatch(match["unit"]):
+        raise InputError(field, text, _allowed(unit))
+    return float(Decimal(match["number"]) * _factor(match["unit"], unit, field, text))
+
+
+def _factor(written: str, unit: str, field: str, text: str) -> Decimal:
+    pint = require("pint", "units", "a quantity written with a unit")
+    registry = _registry()
+    try:
+        return registry.Quantity(Decimal(1), registry.parse_units(written)).to(unit).magnitude
+    except pint.UndefinedUnitError:
+        raise InputError(field, text, f"{_allowed(unit)}; the unit {written!r} is not known (case counts)") from None
+    except pint.DimensionalityError:
+        raise InputError(field, text, f"{_allowed(unit)}; {written!r} is a unit of something else") from None
+    except Exception:  # Pint's parser ends malformed input in errors of many kinds
+        raise InputError(field, text, f"{_allowed(unit)}; {written!r} cannot be read as a unit") from None
+
+
+@functools.cache
+def _registry() -> Any:
+    # Decimal keeps "10 um" the number 1e-05 instead of 9.999999999999999e-06.
+    return require("pint", "units", "a quantity written with a unit").UnitRegistry(non_int_type=Decimal)
+
+
+def _allowed(unit: str) -> str:
+    return f"a finite number in {unit}, or text with a unit such as {EXAMPLES[unit]!r}"
+
+
+EXAMPLES: dict[str, Any] = {
+    "m": "10 um",
+    "s": "10 ms",
+    "Pa": "0.1 kPa",
+    "Pa/m": "1 GPa/m",
+    "J/m^2": "25 uJ/m^2",
+    "m/s": "5 mm/s",
+}
+"""An example for every SI unit that a scene uses."""

@@ -1,0 +1,124 @@
+"""The keys of a scene file. Types, bounds and descriptions stand here once: validation and JSON Schema both use them."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from hystrip.extras import require
+from hystrip.scene.quantity import EXAMPLES
+
+msgspec = require("msgspec", "cli", "reading scenes")
+Meta, Struct = msgspec.Meta, msgspec.Struct
+
+Number = float | str
+
+
+def _meta(description: str, unit: str) -> Any:
+    return Meta(
+        description=f"{description}: a number in {unit} or text with a unit such as {EXAMPLES[unit]!r}",
+        extra={"unit": unit},
+        extra_json_schema={"examples": [EXAMPLES[unit]]},
+    )
+
+
+def _range_meta(description: str, unit: str) -> Any:
+    return Meta(
+        description=f"{description}: a number in {unit}, text with a unit such as {EXAMPLES[unit]!r}, a list of these, "
+        'or {start, stop, num, spacing = "linear" | "log"}',
+        extra={"unit": unit},
+        extra_json_schema={"examples": [EXAMPLES[unit]]},
+    )
+
+
+class Range(Struct, forbid_unknown_fields=True, kw_only=True):
+    """`num` values from `start` to `stop`, both included."""
+
+    start: Annotated[Number, Meta(description="first value: a number in SI or text with a unit")]
+    stop: Annotated[Number, Meta(description="last value: a number in SI or text with a unit")]
+    num: Annotated[int, Meta(ge=2, le=1_000_000, description="an integer from 2 to 1000000, how many values")]
+    spacing: Annotated[
+        Literal["linear", "log"],
+        Meta(description='"linear" (equal steps, the default) or "log" (equal ratios; start and stop > 0)'),
+    ] = "linear"
+
+
+Values = Number | list[Number] | Range
+
+
+class Material(Struct, forbid_unknown_fields=True, kw_only=True):
+    """The viscoelastic foundation: a stiffness per area and its two times."""
+
+    model: Annotated[
+        Literal["standard_linear_solid"],
+        Meta(description='"standard_linear_solid" (the default)'),
+    ] = "standard_linear_solid"
+    K: Annotated[Number, _meta("relaxed stiffness per area, > 0", "Pa/m")]
+    T_eps: Annotated[Number, _meta("retardation time, >= T_sigma", "s")]
+    T_sigma: Annotated[Number, _meta("relaxation time, from 0 to T_eps", "s")]
+
+
+class Adhesion(Struct, forbid_unknown_fields=True, kw_only=True):
+    """Dugdale adhesion: a constant attraction up to a range. Either its energy or its stress is given."""
+
+    gamma: Annotated[Number | None, _meta("energy of adhesion gamma = p_0 delta_0, >= 0", "J/m^2")] = None
+    p_0: Annotated[Number | None, _meta("adhesive stress, >= 0", "Pa")] = None
+    delta_0: Annotated[Number, _meta("range of adhesion, > 0", "m")]
+
+
+class Level(Struct, forbid_unknown_fields=True, kw_only=True):
+    """One level of roughness, a double cosine wave."""
+
+    l: Annotated[Number, _meta("wavelength, > 0", "m")]  # noqa: E741 - the paper's name
+    h: Annotated[Number, _meta("height from valley to summit, > 0", "m")]
+
+
+class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):
+    """A hystrip scene. Keys of the scene itself stand above the first [table] of the file."""
+
+    title: Annotated[str, Meta(description="text, one line that names the scene", max_length=200)] = ""
+    description: Annotated[str, Meta(description="text, anything worth saying about the scene")] = ""
+    pressure: Annotated[Values | None, _range_meta("nominal pressure (negative pulls); or give penetration", "Pa")] = None
+    penetration: Annotated[Values | None, _range_meta("penetration of level 1, in place of pressure", "m")] = None
+    velocity: Annotated[Values, _range_meta("sliding velocity, > 0", "m/s")]
+    edge: Annotated[
+        Literal["continuous", "constitutive"],
+        Meta(description='"continuous" (the default) or "constitutive", the closure where the pressure steps'),
+    ] = "continuous"
+    branch: Annotated[
+        Literal["unloading", "loading"],
+        Meta(description='"unloading" (the default, the most engaged solution) or "loading" (the least engaged)'),
+    ] = "unloading"
+    rtol: Annotated[float, Meta(gt=0, lt=1, description="a number > 0 and < 1, relative tolerance (default 1e-6)")] = 1e-6
+    strips: Annotated[
+        Annotated[int, Meta(ge=1, le=1_000_000)] | None,
+        Meta(description="an integer >= 1, that many equal strips; absent: as many as rtol needs"),
+    ] = None
+    material: Annotated[Material, Meta(description="a table [material] with K, T_eps and T_sigma")]
+    adhesion: Annotated[Adhesion | None, Meta(description="a table [adhesion]; without one there is no adhesion")] = None
+    levels: Annotated[
+        list[Level], Meta(min_length=1, description="one [[levels]] table or more, each with l and h, the largest first")
+    ]
+
+
+def json_schema() -> dict[str, Any]:
+    """The JSON Schema (draft 2020-12) of a scene file, as plain dicts and lists."""
+    schema = msgspec.json.schema(SceneFile)
+    parts = schema["$defs"]
+    parts["SceneFile"]["oneOf"] = [{"required": ["pressure"]}, {"required": ["penetration"]}]
+    parts["Adhesion"]["oneOf"] = [{"required": ["gamma"]}, {"required": ["p_0"]}]
+    _without_null(schema)
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "hystrip scene", **schema}
+
+
+def _without_null(part: Any) -> None:
+    """TOML has no null: a key that may be absent is absent."""
+    if isinstance(part, list):
+        for each in part:
+            _without_null(each)
+    elif isinstance(part, dict):
+        if "anyOf" in part:
+            part["anyOf"] = [each for each in part["anyOf"] if each != {"type": "null"}]
+        if part.get("default", 0) is None:
+            del part["default"]
+        for each in part.values():
+            _without_null(each)

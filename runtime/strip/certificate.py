@@ -1,0 +1,59 @@
+"""What a strip must satisfy before it is returned.
+
+A small residual proves nothing: a wrong orbit balances too. An orbit is accepted when its edges lie in the arcs in which
+the events they stand for can happen at all (then each is the first crossing, see ``crossing``), in one period, when the
+zones between them stay within their gaps, and when it is stable: an extremal orbit is, one in between is not.
+"""
+
+import numpy as np
+
+from .march import TWO_PI, Orbit
+from .problem import Cycle, Strips
+from .sensitivity import onset_margin, slope_factor
+
+_EPS = np.finfo(float).eps
+#: Slack of a forcing's sign at an edge, in units of rounding of the largest term; edges at grazing sit at zero.
+_SLACK = 64 * _EPS
+#: Near a fold the slope of the onset map approaches one like the square root of the distance; rounding blurs it.
+_STABLE = 1e-6
+
+
+def edges_admissible(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
+    """Every edge lies in the arc of its event, in order, within one period; and the contact that is not met stays open."""
+    s = cycle.strips
+    contact = ~np.isnan(orbit.b)
+    slack = _SLACK * (1 + np.abs(s.D) + s.beta + s.p_0 + s.delta_0)
+    turn = _SLACK * TWO_PI
+    ok = kernel.forcing(orbit.x, s.D, s.beta) + s.delta_0 >= -slack
+    b, a = np.where(contact, orbit.b, orbit.x), np.where(contact, orbit.a, orbit.c)
+    ok &= ~contact | (cycle.direct | (kernel.forcing(b, s.D, s.beta) + s.p_0 >= -slack))
+    ok &= ~contact | (kernel.forcing(a, s.D, s.beta) + s.p_0 <= slack)
+    ok &= kernel.forcing(orbit.c, s.D, s.beta) + s.p_0 + s.delta_0 <= slack
+    ok &= (orbit.x <= b + turn) & (b <= a + turn) & (a <= orbit.c + turn) & (orbit.c <= orbit.x + TWO_PI + turn)
+    end = cycle.centre + cycle.half_b
+    open_ = np.flatnonzero(~contact & (orbit.x < end))
+    gap = kernel.gap_after(
+        orbit.x[open_], end[open_], cycle.gap_on[open_], -s.p_0[open_], s.D[open_], s.beta[open_]
+    )
+    ok[open_] &= gap >= -slack[open_]
+    return ok
+
+
+def stable(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
+    """Slope of the onset map at most one: true of both extremal orbits, false of every orbit in between."""
+    N, F = slope_factor(kernel, cycle, orbit), onset_margin(kernel, cycle, orbit.x)
+    scale = 1 + np.abs(cycle.strips.D) + cycle.strips.delta_0 + N
+    return N - F <= _STABLE * np.abs(F) + _SLACK * scale
+
+
+def always_adhering(kernel, strips: Strips, cycle: Cycle, orbit: Orbit) -> np.ndarray:
+    """The gap of a strip in contact that adheres everywhere else never exceeds delta_0.
+
+    gap - delta_0 rises through zero only where ``H + p_0 + delta_0 < 0``, so it is enough to look at the end of that arc.
+    """
+    centre, half = kernel.forcing_arc(strips.p_0 + strips.delta_0, strips.D, strips.beta)
+    end = centre + TWO_PI - half
+    gap = kernel.gap_after(
+        orbit.a, np.maximum(end, orbit.a), np.zeros(strips.size), -strips.p_0, strips.D, strips.beta
+    )
+    return (half >= np.pi) | (end <= orbit.a) | (gap <= strips.delta_0)

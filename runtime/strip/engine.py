@@ -1,0 +1,238 @@
+"""The extremal periodic orbit of every strip of a batch.
+
+Why these are the extremal orbits. The period map of a material point preserves the order "engaged before free, then by
+z = w - J_0 p": in a gap two states keep their distance in z up to a positive factor, in contact likewise, and a state
+that is engaged earlier stays so. Therefore iterates from the deepest contact rise to the most engaged periodic orbit and
+iterates from infinitely far fall to the least engaged one, and there is no longer period.
+
+* Always engaged states contract onto one candidate: saturated contact, saturated adhesion, or contact with saturated
+  adhesion. If its inequalities hold it is the most engaged orbit; nothing more engaged exists.
+* Every other orbit but the free one has an onset phase and is a zero of the onset map's defect ``r``. ``search`` returns the
+  first (or last) of them and proves that it passed over none.
+* The free orbit is the least engaged one, where it is admissible: ``D <= -delta_0`` (``D <= 0`` without adhesion).
+
+``unloading`` asks in the order engaged, first zero, free; ``loading`` in the order free, last zero, engaged.
+"""
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from .certificate import always_adhering, edges_admissible, stable
+from .march import Orbit
+from .polish import polish
+from .problem import Cycle, Strips, adhesive_cycle, bare_cycle
+from .regimes import CODE
+from .search import extremal_orbit
+
+#: Strips solved at a time: their working arrays stay in the cache, and memory stays bounded.
+CHUNK = 4096
+#: Largest correction that an orbit may still ask for, as a fraction of its closing balance's margin.
+_CONVERGED = 1e-11
+_UNDECIDED = -1
+
+
+@dataclass(slots=True)
+class Solved:
+    """Solutions of a batch, arrays of shape (n,): regime code (``regimes.CODE``), edges as phases (NaN where absent),
+    dimensionless means and fractions, work, and which strips passed their certificate."""
+
+    code: np.ndarray
+    d: np.ndarray
+    b: np.ndarray
+    a: np.ndarray
+    c: np.ndarray
+    p_mean: np.ndarray
+    tau_mean: np.ndarray
+    contact_fraction: np.ndarray
+    adhesion_fraction: np.ndarray
+    certified: np.ndarray
+    evaluations: np.ndarray
+
+    @classmethod
+    def empty(cls, n: int) -> "Solved":
+        edges = [np.full(n, np.nan) for _ in range(4)]
+        values = [np.full(n, np.nan) for _ in range(4)]
+        return cls(np.full(n, _UNDECIDED, np.int8), *edges, *values, np.zeros(n, bool), np.zeros(n))
+
+    def put(self, index, other: "Solved") -> None:
+        for f in fields(self):
+            getattr(self, f.name)[index] = getattr(other, f.name)
+
+
+def solve_strips(kernel, strips: Strips, unloading: bool) -> Solved:
+    """Solve a batch with the generated ``kernel``; ``certified`` is false for every strip that must not be used."""
+    solved = Solved.empty(strips.size)
+    for start in range(0, strips.size, CHUNK):
+        part = slice(start, min(start + CHUNK, strips.size))
+        solved.put(part, _Batch(kernel, strips.take(part), unloading).solve())
+    return solved
+
+
+class _Batch:
+    def __init__(self, kernel, strips: Strips, unloading: bool):
+        self.kernel, self.strips, self.unloading = kernel, strips, unloading
+        self.solved = Solved.empty(strips.size)
+
+    def solve(self) -> Solved:
+        adhesive = self.strips.p_0 > 0
+        self._without_adhesion(np.flatnonzero(~adhesive))
+        index = np.flatnonzero(adhesive)
+        if self.unloading:
+            index = self._engaged(index)
+            index = self._onset(index)
+            self._free(index)
+        else:
+            index = self._free(index)
+            index = self._onset(index)
+            self._engaged(index)
+        return self.solved
+
+    # -- the three kinds of orbit; each decides what it can and returns the indices of the strips it could not ------------
+
+    def _free(self, index):
+        s = self.strips
+        free = s.D[index] <= -s.delta_0[index]
+        self._set(index[free], "f", 0.0, 0.0, 0.0, 0.0)
+        return index[~free]
+
+    def _engaged(self, index):
+        s = self.strips.take(index)
+        full = s.D - 1 + s.p_0 >= self.kernel.modulus_ratio(s.alpha, s.beta)
+        self._saturated_contact(index[full])
+        clinging = ~full & (s.D <= -s.p_0)
+        reaches = 2 - s.D - s.p_0 <= s.delta_0  # the foundation is never above -p_0, so the valley's gap is at least this
+        hold = index[clinging & reaches]
+        self._set(hold, "a", -self.strips.p_0[hold], 0.0, 0.0, 1.0)
+        partial = np.flatnonzero(~full & ~clinging & reaches)
+        engaged = full | (clinging & reaches)
+        if partial.size:
+            ok = self._contact_with_saturated_adhesion(index[partial])
+            engaged[partial[ok]] = True
+        return index[~engaged]
+
+    def _onset(self, index):
+        """Orbits that are free once per period."""
+        if not index.size:
+            return index
+        cycle = adhesive_cycle(self.kernel, self.strips.take(index))
+        result = extremal_orbit(self.kernel, cycle, last=not self.unloading)
+        self.solved.evaluations[index] += result.evaluations
+        contact = ~np.isnan(result.orbit.b)
+        kinds = {
+            "acaf": contact & ~cycle.direct,
+            "afc": contact & cycle.direct,
+            "af": ~contact,
+        }
+        for sequence, kind in kinds.items():
+            pick = np.flatnonzero(result.found & kind)
+            if pick.size:
+                self._finish(index[pick], sequence, cycle.take(pick), result.orbit.take(pick), ~result.unresolved[pick])
+        undecided = result.unresolved & ~result.found
+        self.solved.code[index[undecided]] = CODE["acaf"]
+        return index[~result.found & ~undecided]
+
+    def _without_adhesion(self, index):
+        if not index.size:
+            return
+        s = self.strips.take(index)
+        full = s.D - 1 >= self.kernel.modulus_ratio(s.alpha, s.beta)
+        free = ~full & (s.D <= 0)
+        self._saturated_contact(index[full])
+        self._set(index[free], "f", 0.0, 0.0, 0.0, 0.0)
+        rest = index[~full & ~free]
+        if rest.size:
+            cycle = bare_cycle(self.kernel, self.strips.take(rest))
+            result = extremal_orbit(self.kernel, cycle, last=False)
+            self.solved.evaluations[rest] += result.evaluations
+            self._finish(rest, "cf", cycle, result.orbit, result.found & ~result.unresolved)
+
+    def _contact_with_saturated_adhesion(self, index):
+        """Solve as the strip without adhesion at ``D + p_0``; returns which are admissible."""
+        strips = self.strips.take(index)
+        cycle = bare_cycle(self.kernel, strips)
+        result = extremal_orbit(self.kernel, cycle, last=False)
+        self.solved.evaluations[index] += result.evaluations
+        usable = result.found & ~result.unresolved
+        ok = np.zeros(index.size, bool)
+        pick = np.flatnonzero(usable)
+        ok[pick] = always_adhering(self.kernel, strips.take(pick), cycle.take(pick), result.orbit.take(pick))
+        pick = np.flatnonzero(ok)
+        if pick.size:
+            self._finish(index[pick], "ac", cycle.take(pick), result.orbit.take(pick), np.ones(pick.size, bool))
+        return ok
+
+    # -- writing results ---------------------------------------------------------------------------------------------
+
+    def _saturated_contact(self, index):
+        s = self.strips.take(index)
+        p_mean, tau_mean = self.kernel.means_c(*_arguments(s))
+        self._set(index, "c", p_mean, tau_mean, 1.0, 0.0)
+
+    def _set(self, index, sequence, p_mean, tau_mean, contact, adhesion):
+        out = self.solved
+        out.code[index] = CODE[sequence]
+        out.p_mean[index], out.tau_mean[index] = p_mean, tau_mean
+        out.contact_fraction[index], out.adhesion_fraction[index] = contact, adhesion
+        out.certified[index] = True
+
+    def _finish(self, index, sequence, cycle: Cycle, orbit: Orbit, usable):
+        """Polish, certify and write orbits that all have the same sequence of zones."""
+        strips = self.strips.take(index)
+        orbit, converged = _polished(self.kernel, sequence, cycle, orbit)
+        certified = usable & converged & edges_admissible(self.kernel, cycle, orbit) & stable(self.kernel, cycle, orbit)
+        out = self.solved
+        out.code[index] = CODE[sequence]
+        out.certified[index] = certified
+        good = np.flatnonzero(certified)
+        edges, s = _edges(sequence, orbit), strips.take(good)
+        means = getattr(self.kernel, "means_ac" if sequence == "cf" else f"means_{sequence}")
+        where = index[good]
+        out.p_mean[where], out.tau_mean[where] = means(*edges[:, good], *_arguments(s))
+        contact = np.where(np.isnan(orbit.b), 0.0, orbit.a - orbit.b)[good] / (2 * np.pi)
+        out.contact_fraction[where] = contact
+        if sequence == "cf":
+            out.adhesion_fraction[where] = 0.0
+        elif sequence == "ac":
+            out.adhesion_fraction[where] = 1 - contact
+        else:
+            out.adhesion_fraction[where] = (orbit.c - orbit.x)[good] / (2 * np.pi) - contact
+        if sequence in ("ac", "cf"):
+            out.b[where], out.a[where] = orbit.b[good], orbit.a[good]
+        else:
+            out.d[where], out.b[where], out.a[where], out.c[where] = (
+                orbit.x[good], orbit.b[good], orbit.a[good], orbit.c[good],
+            )
+
+
+def _arguments(s: Strips):
+    return s.alpha, s.beta, s.J, s.L, s.p_0, s.delta_0, s.D, s.chi
+
+
+def _edges(sequence: str, orbit: Orbit) -> np.ndarray:
+    """Unknown edges of the regime's boundary equations."""
+    return np.array(
+        {
+            "acaf": (orbit.x, orbit.b, orbit.a, orbit.c),
+            "afc": (orbit.x, orbit.a, orbit.c),
+            "af": (orbit.x, orbit.c),
+            "ac": (orbit.b, orbit.a),
+            "cf": (orbit.b, orbit.a),
+        }[sequence]
+    )
+
+
+def _polished(kernel, sequence: str, cycle: Cycle, orbit: Orbit) -> tuple[Orbit, np.ndarray]:
+    """The orbit with its edges refined, and whether nothing was left to correct."""
+    # the cycle of an always adhering strip is the bare one, shifted: its boundary equations are those of "ac" at p_0 = 0
+    refined = polish(kernel, "ac" if sequence in ("ac", "cf") else sequence, cycle.strips, _edges(sequence, orbit))
+    e, x = refined.edges, orbit.x
+    if sequence == "acaf":
+        new = Orbit(e[0], e[1], e[2], e[3], orbit.engaged, orbit.r, orbit.w_end)
+    elif sequence == "afc":
+        new = Orbit(e[0], e[0], e[1], e[2], orbit.engaged, orbit.r, orbit.w_end)
+    elif sequence == "af":
+        new = Orbit(e[0], orbit.b, orbit.a, e[1], orbit.engaged, orbit.r, orbit.w_end)
+    else:
+        new = Orbit(e[0], e[0], e[1], e[1], orbit.engaged, orbit.r, orbit.w_end)
+    return new, refined.correction * refined.margin <= _CONVERGED

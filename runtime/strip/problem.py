@@ -1,0 +1,111 @@
+"""A batch of strips in dimensionless form: everything that a period of sliding needs, and nothing else."""
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+
+@dataclass(frozen=True, slots=True)
+class Strips:
+    """Dimensionless groups of a batch of strips, each an array of shape (n,).
+
+    Lengths are divided by the amplitude A, pressures by K A. ``alpha = k V T_sigma``, ``beta = k V T_eps``,
+    ``J = T_sigma/T_eps`` (instantaneous compliance times K), ``L = 1 - J``; ``chi`` is 0 under the continuous and 1
+    under the constitutive closure.
+    """
+
+    alpha: np.ndarray
+    beta: np.ndarray
+    J: np.ndarray
+    L: np.ndarray
+    p_0: np.ndarray
+    delta_0: np.ndarray
+    D: np.ndarray
+    chi: np.ndarray
+
+    def take(self, index: np.ndarray) -> "Strips":
+        """The strips at ``index``."""
+        return type(self)(*(getattr(self, f.name)[index] for f in fields(self)))
+
+    @property
+    def size(self) -> int:
+        return self.D.size
+
+
+@dataclass(frozen=True, slots=True)
+class Cycle:
+    """One period that starts at an onset of contact or adhesion, as constants of the march; arrays of shape (n,).
+
+    Attributes:
+        strips: the groups the march uses (the bare problem of an always adhering strip has them shifted).
+        direct: contact starts at the onset itself: no adhesion before it (snap-in, or no adhesion at all).
+        bare: no adhesion: contact ends to free where the pressure vanishes.
+        gap_on: gap just after the onset. q_on: excess pressure ``p + p_0`` just after a direct onset.
+        jump: step of w where adhesion ends, ``chi J p_0``.
+        slope_on: ``H(onset) + slope_on`` is proportional to the sensitivity of the first edge to the onset.
+        centre: phase where the forcing H is largest; half_d, half_b, half_c: half widths of the arcs in which H
+            exceeds ``-delta_0``, ``-p_0`` and ``-p_0 - delta_0``.
+    """
+
+    strips: Strips
+    direct: np.ndarray
+    bare: np.ndarray
+    gap_on: np.ndarray
+    q_on: np.ndarray
+    jump: np.ndarray
+    slope_on: np.ndarray
+    centre: np.ndarray
+    half_d: np.ndarray
+    half_b: np.ndarray
+    half_c: np.ndarray
+
+    def take(self, index: np.ndarray) -> "Cycle":
+        """The cycles at ``index``."""
+        return type(self)(
+            self.strips.take(index), *(getattr(self, f.name)[index] for f in fields(self) if f.name != "strips")
+        )
+
+    @property
+    def size(self) -> int:
+        return self.centre.size
+
+
+def snaps_in(strips: Strips) -> np.ndarray:
+    """Where the step of w at the adhesion onset closes the whole gap: ``J_0 p_0 >= delta_0``, constitutive."""
+    return (strips.chi > 0) & (strips.p_0 > 0) & (strips.J * strips.p_0 >= strips.delta_0)
+
+
+def adhesive_cycle(kernel, strips: Strips) -> Cycle:
+    """Cycle of a strip that is free once per period and meets adhesion (or snaps into contact) at its onset."""
+    direct = snaps_in(strips)
+    jump = strips.chi * strips.J * strips.p_0
+    reach = np.divide(strips.delta_0, strips.J, out=np.zeros_like(jump), where=direct)
+    centre, half_d = kernel.forcing_arc(strips.delta_0, strips.D, strips.beta)
+    return Cycle(
+        strips=strips,
+        direct=direct,
+        bare=np.zeros(strips.size, bool),
+        gap_on=np.where(direct, 0.0, strips.delta_0 - jump),
+        q_on=np.where(direct, strips.p_0 - reach, 0.0),
+        jump=jump,
+        slope_on=np.where(direct, reach, strips.delta_0 + (1 - strips.chi * strips.J) * strips.p_0),
+        centre=centre,
+        half_d=half_d,
+        half_b=kernel.forcing_arc(strips.p_0, strips.D, strips.beta)[1],
+        half_c=kernel.forcing_arc(strips.p_0 + strips.delta_0, strips.D, strips.beta)[1],
+    )
+
+
+def bare_cycle(kernel, strips: Strips) -> Cycle:
+    """Cycle of a strip without adhesion, or of one whose gap always adheres.
+
+    The foundation law is unchanged when ``p_0`` is added to both w and p: a strip that adheres in the whole gap is the
+    strip without adhesion at penetration ``D + p_0/K``, its pressure lowered by ``p_0``.
+    """
+    zero = np.zeros(strips.size)
+    shifted = Strips(
+        strips.alpha, strips.beta, strips.J, strips.L, zero, zero, strips.D + strips.p_0, strips.chi
+    )
+    centre, half = kernel.forcing_arc(zero, shifted.D, shifted.beta)
+    yes = np.ones(strips.size, bool)
+    return Cycle(shifted, yes, yes, zero, zero, zero, zero, centre, half, half, half)

@@ -1,0 +1,237 @@
+"""The extremal periodic orbit of a cycle, with a proof that no more extremal one was passed over.
+
+The return map of a material point preserves order (see ``solve``), so the onset map T is monotone, and may only jump
+upward. Hence the most engaged orbit with a free part is the first zero of ``r`` from the left, and the least engaged the
+last one. A zero is skipped by no one: an interval is left behind only when a bound excludes every zero in it.
+
+Exclusion. Write ``R(x) = r(x) exp(x/beta)``; then ``beta R' = exp(x/beta)(N - F)``, ``F = H + delta_0``. On an interval
+with ``N >= N_min`` two bounds follow from the left end, where r > 0:
+
+* comparison: r stays above the gap of a foundation that relaxes towards ``N_min`` from the left end (sharp at small beta);
+* linear: ``r exp(..) >= r_left - (F_max - N_min)(exp((x - x_left)/beta) - 1)`` (sharp at large beta, no cancellation);
+
+and their mirror images from the right end. Where ``N_max < F_min``, R falls strictly: a change of sign brackets
+exactly one zero, a stable orbit. All other intervals are halved.
+"""
+
+import numpy as np
+
+from .march import TWO_PI, Orbit, march
+from .problem import Cycle
+from .sensitivity import SlopeBounds, slope_bounds, slope_factor
+
+_EPS = np.finfo(float).eps
+_MAX_STEPS = 4000
+
+
+class SearchResult:
+    """Outcome of a search: ``found`` flags, the orbit at the zero, and counts. Arrays of shape (n,)."""
+
+    def __init__(self, cycle: Cycle):
+        n = cycle.size
+        self.found = np.zeros(n, bool)
+        self.orbit = Orbit(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), *(np.full(n, np.nan) for _ in range(2)))
+        self.unresolved = np.zeros(n, bool)
+        self.marches = np.zeros(n, int)
+        self.evaluations = 0
+
+
+def extremal_orbit(kernel, cycle: Cycle, last: bool) -> SearchResult:
+    """First (``last=False``) or last zero of r on the onset arc of every cycle.
+
+    Returns a ``SearchResult``; ``found`` is false where the arc holds no periodic orbit, ``unresolved`` marks strips whose
+    search did not end (they must not be returned).
+    """
+    return _Search(kernel, cycle, last).run()
+
+
+class _Search:
+    """State of a batch of searches. The frontier advances from one end of the arc; all behind it is excluded."""
+
+    def __init__(self, kernel, cycle: Cycle, last: bool):
+        self.kernel, self.cycle, self.last = kernel, cycle, last
+        self.result = SearchResult(cycle)
+
+    def march(self, index, x):
+        orbit, spent = march(self.kernel, self.cycle.take(index), x)
+        self.result.marches[index] += 1
+        self.result.evaluations += spent
+        return orbit
+
+    def run(self) -> SearchResult:
+        cycle, result = self.cycle, self.result
+        index = np.flatnonzero(cycle.half_d > 0)
+        if not index.size:
+            return result
+        left, right = cycle.centre - cycle.half_d, cycle.centre + cycle.half_d
+        start, stop = (right, left) if self.last else (left, right)
+        sign = -1.0 if self.last else 1.0  # sign of r on the excluded side
+        frontier = self.march(index, start[index])
+        # r has the other sign at the very start only where the orbit sits there (a foundation without memory), or where
+        # the strip stays engaged through the period: from the last onset on, then, from every onset
+        step = np.abs(stop - start)[index]
+        at_start = sign * frontier.r <= 0
+        accepted = np.flatnonzero(at_start & ~frontier.engaged)
+        self._accept(index[accepted], frontier.take(accepted))
+        keep = np.flatnonzero(~at_start | (frontier.engaged & (not self.last)))
+        index, frontier, step = index[keep], frontier.take(keep), step[keep]
+        for _ in range(_MAX_STEPS):
+            if not index.size:
+                return result
+            index, frontier, step = self._advance(index, frontier, step, stop, sign)
+        result.unresolved[index] = True
+        return result
+
+    def _advance(self, index, frontier, step, stop, sign):
+        """Probe one step ahead of each frontier, then exclude, bracket or halve."""
+        span = sign * (stop[index] - frontier.x)
+        final = step >= span
+        target = np.where(final, stop[index], frontier.x + sign * step)
+        probe = self.march(index, target)
+        changes = (sign * probe.r <= 0) & ~probe.engaged
+        tiny = np.abs(target - frontier.x) <= 4 * _EPS * np.maximum(np.abs(target), np.abs(frontier.x))
+        left, right = (probe, frontier) if self.last else (frontier, probe)
+        excluded, unique = right.engaged | (tiny & ~changes), changes & tiny
+        open_ = np.flatnonzero(~excluded & ~unique)
+        proof = self._weigh(index[open_], left.take(open_), right.take(open_), changes[open_])
+        excluded[open_[proof & ~changes[open_]]] = True
+        unique[open_[proof & changes[open_]]] = True
+        bracketed = np.flatnonzero(unique)
+        if bracketed.size:
+            zero = self._zero(index[bracketed], left.take(bracketed), right.take(bracketed))
+            self._accept(index[bracketed], zero)
+        ended = excluded & final
+        step = np.where(excluded, 2 * step, 0.5 * np.abs(target - frontier.x))
+        moved = np.flatnonzero(excluded)
+        frontier.put(moved, probe.take(moved))
+        keep = np.ones(index.size, bool)
+        keep[bracketed] = False
+        keep &= ~ended
+        keep = np.flatnonzero(keep)
+        return index[keep], frontier.take(keep), step[keep]
+
+    def _weigh(self, index, left: Orbit, right: Orbit, changes) -> np.ndarray:
+        """Proof that an interval holds exactly one zero (where the sign of r changes) or none (where it does not)."""
+        cycle = self.cycle.take(index)
+        bounds = slope_bounds(self.kernel, cycle, left, right)
+        unique = ~left.engaged & (bounds.N_max < bounds.F_min)
+        if not self.last:
+            left = _released(self.kernel, cycle, left)
+        return np.where(changes, unique, _excluded(self.kernel, cycle, left, right, bounds, self.last))
+
+    def _accept(self, index, orbit: Orbit):
+        self.result.found[index] = True
+        self.result.orbit.put(index, orbit)
+
+    def _zero(self, index, left: Orbit, right: Orbit) -> Orbit:
+        """The one zero of r between ``left`` (r > 0) and ``right`` (r < 0): safeguarded Newton on the march."""
+        cycle = self.cycle.take(index)
+        low, high = left.x.copy(), right.x.copy()
+        secant = left.r / np.where(left.r > right.r, left.r - right.r, 1.0)
+        x = np.clip(low + (high - low) * secant, low, high)
+        best = left.take(np.arange(index.size))
+        active = np.arange(index.size)
+        width = high - low
+        for _ in range(200):
+            sub = cycle.take(active)
+            orbit = self.march(index[active], x[active])
+            best.put(active, orbit)
+            lo = np.where(orbit.r > 0, orbit.x, low[active])
+            hi = np.where(orbit.r > 0, high[active], orbit.x)
+            slope = _residual_slope(self.kernel, sub, orbit)
+            step = np.divide(-orbit.r, slope, out=np.full_like(slope, np.inf), where=slope < 0)
+            new = orbit.x + step
+            poor = ~((new >= lo) & (new <= hi)) | (np.abs(step) > 0.5 * width[active])
+            new = np.where(poor, 0.5 * (lo + hi), new)
+            width[active] = np.where(poor, hi - lo, np.abs(step))
+            # the polishing that follows squares this error
+            tolerance = 1e-9 * np.minimum(np.maximum(np.abs(lo), np.abs(hi)), high[active] - low[active]) + _EPS * np.abs(hi)
+            done = (orbit.r == 0) | (hi - lo <= tolerance) | (~poor & (np.abs(step) <= tolerance))
+            low[active], high[active], x[active] = lo, hi, np.where(orbit.r == 0, orbit.x, new)
+            active = active[~done]
+            if not active.size:
+                return best
+        self.result.unresolved[index[active]] = True
+        return best
+
+
+def _residual_slope(kernel, cycle: Cycle, orbit: Orbit):
+    s = cycle.strips
+    N = slope_factor(kernel, cycle, orbit)
+    drift = np.divide(N - orbit.w_end, s.beta, out=np.zeros_like(N), where=s.beta > 0)
+    return drift - kernel.profile_slope(orbit.x)
+
+
+def _released(kernel, cycle: Cycle, orbit: Orbit) -> Orbit:
+    """Where the orbit stays engaged, the least w that a later onset can end with: adhesion ends last, by grazing.
+
+    Adhesion ends earlier and w is larger the later the onset, so this r bounds from below every orbit that does end.
+    """
+    if not orbit.engaged.any():
+        return orbit
+    s = cycle.strips
+    c = cycle.centre + TWO_PI - cycle.half_c
+    end = orbit.x + TWO_PI
+    w_c = kernel.profile(c, s.D) + s.delta_0 + cycle.jump
+    r = kernel.gap_after(c, end, s.delta_0 + cycle.jump, 0.0 * c, s.D, s.beta) - s.delta_0
+    w_end = w_c * kernel.decay(end - c, s.beta)
+    pick = orbit.engaged
+    return Orbit(
+        orbit.x, orbit.b, orbit.a, np.where(pick, c, orbit.c), pick, np.where(pick, r, orbit.r), np.where(pick, w_end, orbit.w_end)
+    )
+
+
+def _excluded(kernel, cycle: Cycle, left: Orbit, right: Orbit, bounds: SlopeBounds, last: bool) -> np.ndarray:
+    """True where the bounds leave no zero of r between two onsets at which r has the sign of the excluded side."""
+    width = right.x - left.x
+    beta = cycle.strips.beta
+    fall = np.maximum(bounds.F_max - bounds.N_min, 0.0)
+    rise = np.maximum(bounds.N_max - bounds.F_min, 0.0)
+    if last:
+        near = _reach_back(beta, -right.r, fall)
+        far = _reach_on(beta, np.where(left.engaged, 0.0, -left.r), rise)
+        compared = _stays_below(kernel, cycle, left.x, right, bounds.N_min)
+    else:
+        near = _reach_on(beta, left.r, fall)
+        far = _reach_back(beta, right.r, rise)
+        compared = _stays_above(kernel, cycle, left, right.x, bounds.N_min)
+    return compared | (near + far > width)
+
+
+def _reach_on(beta, margin, rate):
+    """Distance in the direction of travel over which ``margin - rate (exp(x/beta) - 1)`` stays positive."""
+    ratio = np.divide(np.maximum(margin, 0.0), rate, out=np.full_like(margin, np.inf), where=rate > 0)
+    return np.where(np.isinf(ratio), np.inf, beta * np.log1p(np.where(np.isinf(ratio), 0.0, ratio)))
+
+
+def _reach_back(beta, margin, rate):
+    """Distance against the direction of travel over which ``margin - rate (1 - exp(-x/beta))`` stays positive."""
+    ratio = np.divide(np.maximum(margin, 0.0), rate, out=np.full_like(margin, np.inf), where=rate > 0)
+    inside = ratio < 1
+    return np.where(inside, -beta * np.log1p(-np.where(inside, ratio, 0.0)), np.inf)
+
+
+def _stays_above(kernel, cycle: Cycle, left: Orbit, x_right, N_min):
+    """r > 0 on the interval: the comparison gap, relaxing towards N_min, does not reach delta_0.
+
+    The comparison gap crosses delta_0 downward only where H > N_min - delta_0, an arc about the centre, so it is
+    enough to look at the end of that arc and of the interval.
+    """
+    s = cycle.strips
+    half = kernel.forcing_arc(s.delta_0 - N_min, s.D, s.beta)[1]
+    turn = np.clip(cycle.centre + half, left.x, x_right)
+    above = np.ones(left.x.shape, bool)
+    noise = 16 * _EPS * (1 + np.abs(s.D) + s.delta_0 + np.abs(left.r) + N_min)
+    for phase in (turn, x_right):
+        above &= kernel.gap_after(left.x, phase, s.delta_0 + left.r, N_min, s.D, s.beta) > s.delta_0 + noise
+    return above
+
+
+def _stays_below(kernel, cycle: Cycle, x_left, right: Orbit, N_min):
+    """r < 0 on the interval, the mirror image of ``_stays_above``: compared at the onset that is hardest to exclude."""
+    s = cycle.strips
+    half = kernel.forcing_arc(s.delta_0 - N_min, s.D, s.beta)[1]
+    turn = np.clip(cycle.centre - half, x_left, right.x)
+    lag = kernel.profile(turn, s.D) + s.delta_0 - N_min
+    noise = 16 * _EPS * (1 + np.abs(s.D) + s.delta_0 + np.abs(right.w_end) + N_min)
+    return right.w_end - N_min + noise < lag * kernel.decay(right.x - turn, s.beta)

@@ -1,0 +1,24 @@
+"""``import hystrip`` is cheap: what is heavy loads when it is used."""
+
+import statistics
+import subprocess
+import sys
+
+HEAVY = ("sympy", "matplotlib", "xarray", "pandas", "scipy.optimize", "scipy.special", "jinja2", "typer", "msgspec", "pint")
+LIMIT = 0.030  # seconds over numpy's own import
+
+
+def run(code):
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+
+
+def test_nothing_heavy_is_loaded():
+    loaded = run(f"import sys, hystrip; print([name for name in {HEAVY!r} if name in sys.modules])")
+    assert loaded.strip() == "[]"
+
+
+def test_cost_over_numpy():
+    code = "import time, numpy; start = time.perf_counter(); import hystrip; print(time.perf_counter() - start)"
+    run(code)  # byte code is compiled at the first
+    seconds = [float(run(code)) for _ in range(9)]
+    assert statistics.median(seconds) <= LIMIT, seconds

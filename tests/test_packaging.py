@@ -1,0 +1,153 @@
+"""The wheel holds all of the tree, and works where the repository is not."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+FOLDERS = {"runtime": "hystrip", "derivation": "hystrip/derivation", "generated": "hystrip/generated"}
+SHIPPED = (".py", ".jinja", ".toml", ".json", ".typed")
+
+
+def tree():
+    """Path in the wheel -> file of the tree, for everything that a user needs."""
+    files = {}
+    for folder, place in FOLDERS.items():
+        for path in (ROOT / folder).rglob("*"):
+            if path.suffix in SHIPPED or path.name == "py.typed":
+                files[f"{place}/{path.relative_to(ROOT / folder).as_posix()}"] = path
+    return files
+
+
+def test_every_subpackage_is_listed():
+    listed = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]["packages"]
+    found = {name.rsplit("/", 1)[0].replace("/", ".") for name in tree() if name.endswith(".py")}
+    assert sorted(listed) == sorted(found)
+
+
+def test_every_subpackage_has_an_init():
+    folders = {path.parent for path in tree().values() if path.suffix == ".py"}
+    assert not [str(folder.relative_to(ROOT)) for folder in folders if not (folder / "__init__.py").exists()]
+
+
+def test_versions_agree():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    import hystrip
+
+    assert hystrip.__version__ == project["version"]
+
+
+def test_core_needs_numpy_and_scipy_alone():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert [re.match(r"[a-z]+", each)[0] for each in project["dependencies"]] == ["numpy", "scipy"]
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    """Built from a copy: a build folder left in the tree would end up in later wheels."""
+    place = tmp_path_factory.mktemp("wheel")
+    source = place / "source"
+    source.mkdir()
+    for name in ("pyproject.toml", "README.md", "LICENSE"):
+        shutil.copy(ROOT / name, source / name)
+    for folder in FOLDERS:
+        shutil.copytree(ROOT / folder, source / folder, ignore=shutil.ignore_patterns("__pycache__"))
+    command = [sys.executable, "-m", "pip", "wheel", "--no-deps", "--no-input", "--disable-pip-version-check"]
+    built = subprocess.run([*command, "-w", place, source], capture_output=True, text=True)
+    assert built.returncode == 0, built.stdout + built.stderr
+    return next(place.glob("*.whl"))
+
+
+@pytest.fixture(scope="module")
+def installed(wheel, tmp_path_factory):
+    """Runs Python code against the unpacked wheel, away from the repository. `hide`: modules that are not there."""
+    place = tmp_path_factory.mktemp("installed")
+    site = place / "site"
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(site)
+    work = place / "work"
+    work.mkdir()
+
+    def run(code, hide=()):
+        start = f"import sys; sys.path.insert(0, {str(site)!r})\n"
+        start += f"sys.modules.update(dict.fromkeys({list(hide)!r}))\n"
+        start += f"import hystrip; assert hystrip.__file__.startswith({str(site)!r}), hystrip.__file__\n"
+        result = subprocess.run([sys.executable, "-c", start + code], cwd=work, capture_output=True, text=True,
+                                env={**os.environ, "PYTHONPATH": ""})
+        assert result.returncode == 0, result.stdout + result.stderr
+        return result.stdout, work
+
+    return run
+
+
+def test_wheel_holds_the_tree(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        names = {name for name in archive.namelist() if ".dist-info/" not in name}
+        assert names == set(tree())
+        for name, path in tree().items():
+            assert archive.read(name) == path.read_bytes(), name
+
+
+def test_wheel_solves_the_demo_scene(installed):
+    code = "from hystrip.commands.entry import main; sys.argv = ['hystrip', 'solve', 'paper_fig6', '--out', 'demo']; main()"
+    out, work = installed(code)
+    lines = (work / "demo" / "paper_fig6.csv").read_text(encoding="utf-8").splitlines()
+    assert len(lines) == 61
+    assert (work / "demo" / "paper_fig6.png").read_bytes().startswith(b"\x89PNG")
+    assert "mu" in out
+
+
+OPTIONAL = ("sympy", "jinja2", "matplotlib", "xarray", "pandas", "typer", "rich", "msgspec", "pint", "mpmath")
+
+
+def test_core_solves_without_any_extra(installed):
+    code = """
+material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+adhesion = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+levels = [hystrip.Level(l=10e-6, h=1e-6), hystrip.Level(l=500e-9, h=100e-9)]
+print(float(hystrip.solve(material, adhesion, levels, pressure=100.0, velocity=5e-3).mu))
+"""
+    out, _ = installed(code, hide=OPTIONAL)
+    assert float(out) > 0
+
+
+@pytest.mark.parametrize(
+    ("hidden", "arguments", "extra"),
+    [
+        ("typer", ["--version"], "cli"),
+        ("msgspec", ["solve", "paper_fig6"], "cli"),
+        ("matplotlib", ["solve", "paper_fig6"], "plot"),
+        ("sympy", ["check"], "regenerate"),
+        ("jinja2", ["regenerate", "--out", "elsewhere"], "regenerate"),
+    ],
+)
+def test_missing_extra_is_named(installed, hidden, arguments, extra):
+    code = f"""
+import contextlib, io
+from hystrip.commands.entry import main
+sys.argv = ["hystrip", *{arguments!r}]
+said = io.StringIO()
+try:
+    with contextlib.redirect_stderr(said):
+        main()
+except SystemExit as end:
+    print(end.code, said.getvalue())
+"""
+    out, work = installed(code, hide=[hidden])
+    assert out.startswith("2 hystrip: ") and repr(hidden) in out and f"pip install 'hystrip[{extra}]'" in out
+    assert not (work / "elsewhere").exists() and not (work / "hystrip-out").exists()
+
+
+def test_wheel_regenerates_the_same_bytes(installed):
+    code = "from hystrip.commands.entry import main; sys.argv = ['hystrip', 'regenerate', '--out', 'emitted']; main()"
+    _, work = installed(code)
+    for path in (work / "emitted").rglob("*.py"):
+        assert path.read_bytes() == (ROOT / "generated" / path.relative_to(work / "emitted")).read_bytes()
+    assert (work / "emitted" / "standard_linear_solid.py").exists()

@@ -1,0 +1,38 @@
+"""The whole test suite. Further arguments go on to pytest; the exit status is pytest's.
+
+    python3 tools/test.py [PYTEST ARGUMENTS]
+
+Needs nothing but Python 3.11 or newer: it makes its own environment at the first run. A run in which no test was
+executed fails, whatever pytest says of it.
+"""
+
+import os
+import sys
+import tempfile
+import xml.etree.ElementTree as ElementTree
+
+import _environment
+
+
+def executed(report):
+    """Number of tests that really ran according to a JUnit report (0 if there is none)."""
+    try:
+        suites = ElementTree.parse(report).getroot().iter("testsuite")
+        return sum(int(suite.get("tests", 0)) - int(suite.get("skipped", 0)) for suite in suites)
+    except (OSError, ElementTree.ParseError):
+        return 0
+
+
+def main(arguments):
+    exe = _environment.python("test", ["test"])
+    with tempfile.TemporaryDirectory() as folder:
+        report = os.path.join(folder, "report.xml")
+        status = _environment.run(exe, "-m", "pytest", "--junitxml=" + report, *arguments)
+        if status == 0 and not executed(report):
+            sys.stderr.write("no test ran\n")
+            return 5
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
