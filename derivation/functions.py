@@ -98,16 +98,26 @@ class quotient(Helper):
 
 
 class arc_half(Helper):
-    """Half width of the arc where ``cos > cosine``: ``arccos`` clipped to [0, pi]."""
+    """Half width of the arc where a cosine is above a level, from twice its distances to 1 and to -1 (times any scale)."""
+
+    nargs = 2
+
+    @classmethod
+    def meaning(cls, to_top, to_bottom):
+        return sp.acos((to_bottom - to_top) / (to_bottom + to_top))
+
+
+class stack_sum(Helper):
+    """Sum over the levels, which lie along the last axis; for one level, the term itself."""
 
     nargs = 1
 
     @classmethod
-    def meaning(cls, cosine):
-        return sp.acos(cosine)
+    def meaning(cls, term):
+        return term
 
 
-HELPERS = (decay, decay_loss, decay_rate, decay_mean, loss_mean, sine_deficit, versine, hypot, quotient, arc_half)
+HELPERS = (decay, decay_loss, decay_rate, decay_mean, loss_mean, sine_deficit, versine, hypot, quotient, arc_half, stack_sum)
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Draw scenes of one strip, solve them with the high-precision oracle, and store the answers as test data.
 
-    python tools/truths.py [--out tests/data/truths.json] [--seed 1] [--candidates 14000] [--cell 25] [--folds 200]
+    python tools/truths.py [--out tests/data/truths.json] [--seed 1] [--candidates 12000] [--cell 32] [--folds 200]
 
 Scenes have K = 1 Pa/m and A = 1 m, so the stored SI inputs are, but for the factor k V in the times, the dimensionless ones.
 Kinds:
@@ -30,8 +30,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
 
-from oracle import march  # noqa: E402
-from oracle.orbits import Unresolved  # noqa: E402
+from oracle import march
+from oracle.orbits import Unresolved
 
 INPUTS = ("T_eps", "T_sigma", "V", "l", "D", "p_0", "delta_0", "edge", "branch")
 MEANS = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
@@ -184,7 +184,7 @@ def at_threshold(task):
 
 
 def near_change(task):
-    """Rows on both sides of one penetration where the sequence changes, found by bisection to neighbouring floats."""
+    """Rows on both sides of one penetration where the sequence changes, found by bisection."""
     seed, number = task
     rng = random.Random(f"{seed} fold {number}")
     groups = draw_groups(rng, rng.choice(("wide", "moderate", "moderate", "moderate")))
@@ -201,7 +201,8 @@ def near_change(task):
         low, high = (low, item["D"]) if letters(item["D"]) != before else (item["D"], high)
         before = letters(low)
     span, rows = high - low, []
-    while low < (middle := low + (high - low) / 2) < high:
+    for _ in range(55):  # to neighbouring floats
+        middle = low + (high - low) / 2
         try:
             low, high = (middle, high) if letters(middle) == before else (low, middle)
         except Unresolved:  # as good as found
@@ -253,8 +254,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, default=ROOT / "tests" / "data" / "truths.json")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--candidates", type=int, default=14000, help="free draws before thinning")
-    parser.add_argument("--cell", type=int, default=25, help="most scenes for one sequence, closure, branch and set of orbits")
+    parser.add_argument("--candidates", type=int, default=12000, help="free draws before thinning")
+    parser.add_argument("--cell", type=int, default=32, help="most scenes for one sequence, closure, branch and set of orbits")
     parser.add_argument("--folds", type=int, default=200, help="changes of sequence to surround with scenes")
     parser.add_argument("--thresholds", type=int, default=100, help="scenes at an exact equality")
     parser.add_argument("--processes", type=int, default=2)

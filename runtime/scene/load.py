@@ -54,7 +54,7 @@ def parse_scene(text: str, name: str = "scene", source: str = "") -> Scene:
     except RecursionError:
         raise SceneError("", None, "", "not valid TOML: nested too deeply", source) from None
     try:
-        return _assembled(validated(raw), text, name)
+        return _assembled(validated(raw), text, name, source)
     except InputError as error:
         problem = getattr(error, "problem", "")
         raise SceneError(error.field, error.value, error.allowed, problem, source) from None
@@ -82,9 +82,8 @@ def _read(path: str) -> str:
         raise SceneError("", path, "a TOML file, which is UTF-8 text", problem, path) from None
 
 
-def _assembled(values: dict[str, Any], text: str, name: str) -> Scene:
+def _assembled(values: dict[str, Any], text: str, name: str, source: str) -> Scene:
     """The library's own objects check signs, orders and bounds; their errors get the place in the file added."""
-    import hystrip
 
     _one_of(values, "", "pressure", "penetration")
     material = dict(values.pop("material"))
@@ -96,6 +95,7 @@ def _assembled(values: dict[str, Any], text: str, name: str) -> Scene:
     return Scene(
         name=name,
         text=text,
+        source=source,
         material=_made(_MODELS[model], material, "material"),
         adhesion=_made("Dugdale", {key: each for key, each in adhesion.items() if each is not None}, "adhesion"),
         levels=tuple(_made("Level", level, f"levels[{index}]") for index, level in enumerate(levels)),
@@ -112,7 +112,9 @@ def _made(kind: str, arguments: dict[str, Any], path: str) -> Any:
     try:
         return getattr(hystrip, kind)(**arguments)
     except InputError as error:
-        raise SceneError(f"{path}.{error.field}", error.value, error.allowed) from None
+        # The library says "level.h", the file "levels[1].h".
+        field = path + error.field[len(error.field.partition(".")[0]) :]
+        raise SceneError(field, error.value, error.allowed) from None
 
 
 def _one_of(values: dict[str, Any], path: str, first: str, second: str) -> None:

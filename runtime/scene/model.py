@@ -25,6 +25,7 @@ class Scene:
     rtol : relative tolerance
     strips : number of equal strips, None for as many as `rtol` needs
     text : the TOML text it was read from
+    source : the file or built-in scene it was read from, named in errors
     """
 
     name: str
@@ -41,6 +42,7 @@ class Scene:
     rtol: float
     strips: int | None
     text: str
+    source: str = ""
 
     @property
     def load(self) -> tuple[str, np.ndarray]:
@@ -64,6 +66,8 @@ class Scene:
         InputError, SolverError : as :func:`hystrip.solve`
         """
         import hystrip
+        from hystrip.errors import InputError
+        from hystrip.scene.errors import SceneError
 
         name, load = self.load
         options: dict[str, Any] = {name: load.reshape(load.shape + (1,) * self.velocity.ndim)}
@@ -71,13 +75,16 @@ class Scene:
             options["strips"] = self.strips
         if progress is not None:
             options["progress"] = progress
-        return hystrip.solve(
-            self.material,
-            self.adhesion,
-            self.levels,
-            velocity=self.velocity,
-            edge=self.edge,
-            branch=self.branch,
-            rtol=self.rtol,
-            **options,
-        )
+        try:
+            return hystrip.solve(
+                self.material,
+                self.adhesion,
+                self.levels,
+                velocity=self.velocity,
+                edge=self.edge,
+                branch=self.branch,
+                rtol=self.rtol,
+                **options,
+            )
+        except InputError as error:
+            raise SceneError(error.field, error.value, error.allowed, source=self.source) from None

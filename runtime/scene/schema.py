@@ -69,7 +69,7 @@ class Level(Struct, forbid_unknown_fields=True, kw_only=True):
     """One level of roughness, a double cosine wave."""
 
     l: Annotated[Number, _meta("wavelength, > 0", "m")]  # noqa: E741 - the paper's name
-    h: Annotated[Number, _meta("height from valley to summit, > 0", "m")]
+    h: Annotated[Number, _meta("height from valley to summit, >= 0", "m")]
 
 
 class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):

@@ -9,7 +9,7 @@ import numpy as np
 
 from .march import TWO_PI, Orbit
 from .problem import Cycle, Strips
-from .sensitivity import onset_margin, slope_factor
+from .sensitivity import onset_margin, slope_excess
 
 _EPS = np.finfo(float).eps
 #: Slack of a forcing's sign at an edge, in units of rounding of the largest term; edges at grazing sit at zero.
@@ -41,9 +41,10 @@ def edges_admissible(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
 
 def stable(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     """Slope of the onset map at most one: true of both extremal orbits, false of every orbit in between."""
-    N, F = slope_factor(kernel, cycle, orbit), onset_margin(kernel, cycle, orbit.x)
-    scale = 1 + np.abs(cycle.strips.D) + cycle.strips.delta_0 + N
-    return N - F <= _STABLE * np.abs(F) + _SLACK * scale
+    log_slope, N = slope_excess(kernel, cycle, orbit)
+    F = onset_margin(kernel, cycle, orbit.x)
+    # a foundation without memory meets its onset at the very end of the arc, where F is rounding
+    return (log_slope <= _STABLE) | (N - F <= _SLACK * (1 + np.abs(cycle.strips.D) + cycle.strips.delta_0))
 
 
 def always_adhering(kernel, strips: Strips, cycle: Cycle, orbit: Orbit) -> np.ndarray:

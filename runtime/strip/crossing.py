@@ -19,12 +19,12 @@ def crossing(
     low: np.ndarray,
     high: np.ndarray,
     guess: np.ndarray | None = None,
-) -> tuple[np.ndarray, int]:
+) -> tuple[np.ndarray, np.ndarray]:
     """Zero of ``event`` between ``low`` (where it is positive) and ``high`` (where it is not), elementwise.
 
     ``event(x, index)`` returns value and slope at ``x`` for the elements ``index`` of the batch. The caller
-    guarantees the signs at the ends; they are not evaluated. Returns the zeros, shape of ``low``, and the number of
-    single evaluations spent.
+    guarantees the signs at the ends; they are not evaluated. Returns the zeros and the evaluations each took, both of
+    the shape of ``low``.
     """
     low, high = low.copy(), high.copy()
     x = np.clip(guess, low, high) if guess is not None else 0.5 * (low + high)
@@ -32,13 +32,13 @@ def crossing(
     active = np.flatnonzero(high > low)
     result[high <= low] = high[high <= low]
     width = high - low
-    spent = 0
+    spent = np.zeros(low.shape)
     for _ in range(_MAX_ITERATIONS):
         if active.size == 0:
             break
         xa, lo, hi = x[active], low[active], high[active]
         value, slope = event(xa, active)
-        spent += active.size
+        spent[active] += 1
         positive = value > 0
         lo = np.where(positive, xa, lo)
         hi = np.where(positive, hi, xa)

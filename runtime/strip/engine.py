@@ -235,4 +235,4 @@ def _polished(kernel, sequence: str, cycle: Cycle, orbit: Orbit) -> tuple[Orbit,
         new = Orbit(e[0], orbit.b, orbit.a, e[1], orbit.engaged, orbit.r, orbit.w_end)
     else:
         new = Orbit(e[0], e[0], e[1], e[1], orbit.engaged, orbit.r, orbit.w_end)
-    return new, refined.correction * refined.margin <= _CONVERGED
+    return new, refined.correction <= _CONVERGED / np.maximum(refined.margin, _CONVERGED)

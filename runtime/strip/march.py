@@ -43,28 +43,28 @@ class Orbit:
             getattr(self, f.name)[index] = getattr(other, f.name)
 
 
-def march(kernel, cycle: Cycle, x: np.ndarray) -> tuple[Orbit, int]:
-    """March every cycle from its onset phase ``x``; also returns the number of single event evaluations spent."""
-    s = cycle.strips
-    b, spent_b = _contact_begins(kernel, cycle, x)
-    a, spent_a = _contact_ends(kernel, cycle, x, b)
-    c, spent_c = _adhesion_ends(kernel, cycle, x, b, a)
+def march(kernel, cycle: Cycle, x: np.ndarray) -> tuple[Orbit, np.ndarray]:
+    """March every cycle from its onset phase ``x``; also returns the event evaluations each took."""
+    spent = np.ones(x.shape)
+    b = _contact_begins(kernel, cycle, x, spent)
+    a = _contact_ends(kernel, cycle, x, b, spent)
+    c = _adhesion_ends(kernel, cycle, x, b, a, spent)
     engaged = np.isnan(c)
     r, w_end = np.full(x.shape, -np.inf), np.full(x.shape, np.nan)
     free = np.flatnonzero(~engaged)
     if free.size:
         r[free], w_end[free] = _closing(kernel, cycle.take(free), x[free], b[free], a[free], c[free])
-    return Orbit(x.copy(), b, a, c, engaged, r, w_end), spent_a + spent_b + spent_c
+    return Orbit(x.copy(), b, a, c, engaged, r, w_end), spent
 
 
-def _contact_begins(kernel, cycle: Cycle, x):
+def _contact_begins(kernel, cycle: Cycle, x, spent):
     """Downward zero of the gap after the onset, where H + p_0 > 0; NaN where the gap stays open."""
     s = cycle.strips
     b = np.where(cycle.direct, x, np.nan)
     end = cycle.centre + cycle.half_b
     reach = np.flatnonzero(~cycle.direct & (x < end))
     if not reach.size:
-        return b, 0
+        return b
 
     def gap(phase, sub):
         i = reach[sub]
@@ -72,13 +72,15 @@ def _contact_begins(kernel, cycle: Cycle, x):
         return kernel.gap_after(*args), kernel.gap_after_slope(*args)
 
     at_end, _ = gap(end[reach], np.arange(reach.size))
+    spent[reach] += 1
     reach = reach[at_end <= 0]
     start = np.maximum(x[reach], cycle.centre[reach] - cycle.half_b[reach])
-    b[reach], spent = crossing(gap, start, end[reach])
-    return b, spent + at_end.size
+    b[reach], used = crossing(gap, start, end[reach])
+    spent[reach] += used
+    return b
 
 
-def _contact_ends(kernel, cycle: Cycle, x, b):
+def _contact_ends(kernel, cycle: Cycle, x, b, spent):
     """Downward zero of the excess pressure p + p_0, where H + p_0 < 0; NaN without contact, +inf if it never ends."""
     s = cycle.strips
     a = np.full(x.shape, np.nan)
@@ -92,14 +94,16 @@ def _contact_ends(kernel, cycle: Cycle, x, b):
     low = cycle.centre[touched] + cycle.half_b[touched]
     high = cycle.centre[touched] + TWO_PI - cycle.half_b[touched]
     at_end, _ = excess(high, np.arange(touched.size))
+    spent[touched] += 1
     leaves = (at_end <= 0) & (high > low)
     a[touched[~leaves]] = np.inf
     touched, low, high = touched[leaves], low[leaves], high[leaves]
-    a[touched], spent = crossing(excess, np.maximum(low, b[touched]), high)
-    return a, spent + at_end.size
+    a[touched], used = crossing(excess, np.maximum(low, b[touched]), high)
+    spent[touched] += used
+    return a
 
 
-def _adhesion_ends(kernel, cycle: Cycle, x, b, a):
+def _adhesion_ends(kernel, cycle: Cycle, x, b, a, spent):
     """Upward zero of gap - delta_0, where H + p_0 + delta_0 < 0; NaN where the strip stays engaged."""
     s = cycle.strips
     c = np.where(cycle.bare & np.isfinite(a), a, np.nan)
@@ -116,11 +120,13 @@ def _adhesion_ends(kernel, cycle: Cycle, x, b, a):
         return s.delta_0[i] - kernel.gap_after(*args), -kernel.gap_after_slope(*args)
 
     if not leaves.size:
-        return c, 0
+        return c
     at_end, _ = closed(high[leaves], np.arange(leaves.size))
+    spent[leaves] += 1
     leaves = leaves[at_end <= 0]
-    c[leaves], spent = crossing(closed, np.maximum(low[leaves], start[leaves]), high[leaves])
-    return c, spent + at_end.size
+    c[leaves], used = crossing(closed, np.maximum(low[leaves], start[leaves]), high[leaves])
+    spent[leaves] += used
+    return c
 
 
 def _closing(kernel, cycle: Cycle, x, b, a, c):

@@ -40,7 +40,7 @@ def polish(kernel, sequence: str, strips: Strips, edges: np.ndarray) -> Polished
         size = np.max(np.abs(step), axis=0)
         # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction
         better = size < last
-        edges = np.where(better, edges + step, edges)
+        edges = np.where(better, np.maximum.accumulate(edges + step, axis=0), edges)
         last = np.where(better, size, last)
         if not np.any(better & (size > 4 * _EPS)):
             break

@@ -8,9 +8,10 @@ Exclusion. Write ``R(x) = r(x) exp(x/beta)``; then ``beta R' = exp(x/beta)(N - F
 with ``N >= N_min`` two bounds follow from the left end, where r > 0:
 
 * comparison: r stays above the gap of a foundation that relaxes towards ``N_min`` from the left end (sharp at small beta);
-* linear: ``r exp(..) >= r_left - (F_max - N_min)(exp((x - x_left)/beta) - 1)`` (sharp at large beta, no cancellation);
+* linear: ``r exp(..) >= r_left - fall (exp((x - x_left)/beta) - 1)``, ``fall >= F - N`` (sharp at large beta, where it does not
+  cancel);
 
-and their mirror images from the right end. Where ``N_max < F_min``, R falls strictly: a change of sign brackets
+and their mirror images from the right end. Where ``N < F`` throughout, R falls strictly: a change of sign brackets
 exactly one zero, a stable orbit. All other intervals are halved.
 """
 
@@ -18,7 +19,7 @@ import numpy as np
 
 from .march import TWO_PI, Orbit, march
 from .problem import Cycle
-from .sensitivity import SlopeBounds, slope_bounds, slope_factor
+from .sensitivity import SlopeBounds, onset_margin, slope_bounds, slope_excess
 
 _EPS = np.finfo(float).eps
 _MAX_STEPS = 4000
@@ -33,7 +34,7 @@ class SearchResult:
         self.orbit = Orbit(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), *(np.full(n, np.nan) for _ in range(2)))
         self.unresolved = np.zeros(n, bool)
         self.marches = np.zeros(n, int)
-        self.evaluations = 0
+        self.evaluations = np.zeros(n)
 
 
 def extremal_orbit(kernel, cycle: Cycle, last: bool) -> SearchResult:
@@ -55,7 +56,7 @@ class _Search:
     def march(self, index, x):
         orbit, spent = march(self.kernel, self.cycle.take(index), x)
         self.result.marches[index] += 1
-        self.result.evaluations += spent
+        self.result.evaluations[index] += spent
         return orbit
 
     def run(self) -> SearchResult:
@@ -114,7 +115,7 @@ class _Search:
         """Proof that an interval holds exactly one zero (where the sign of r changes) or none (where it does not)."""
         cycle = self.cycle.take(index)
         bounds = slope_bounds(self.kernel, cycle, left, right)
-        unique = ~left.engaged & (bounds.N_max < bounds.F_min)
+        unique = ~left.engaged & bounds.falls
         if not self.last:
             left = _released(self.kernel, cycle, left)
         return np.where(changes, unique, _excluded(self.kernel, cycle, left, right, bounds, self.last))
@@ -157,9 +158,13 @@ class _Search:
 
 def _residual_slope(kernel, cycle: Cycle, orbit: Orbit):
     s = cycle.strips
-    N = slope_factor(kernel, cycle, orbit)
-    drift = np.divide(N - orbit.w_end, s.beta, out=np.zeros_like(N), where=s.beta > 0)
-    return drift - kernel.profile_slope(orbit.x)
+    log_slope, N = slope_excess(kernel, cycle, orbit)
+    F = onset_margin(kernel, cycle, orbit.x)
+    close = np.abs(log_slope) < 0.5
+    change = np.where(close, F * np.expm1(np.where(close, log_slope, 0.0)), N - F) - orbit.r
+    # without memory r is the gap of the undeformed surface
+    steep = -kernel.profile_slope(orbit.x)
+    return np.divide(change, s.beta, out=steep, where=s.beta > 1e-12)
 
 
 def _released(kernel, cycle: Cycle, orbit: Orbit) -> Orbit:
@@ -185,28 +190,31 @@ def _excluded(kernel, cycle: Cycle, left: Orbit, right: Orbit, bounds: SlopeBoun
     """True where the bounds leave no zero of r between two onsets at which r has the sign of the excluded side."""
     width = right.x - left.x
     beta = cycle.strips.beta
-    fall = np.maximum(bounds.F_max - bounds.N_min, 0.0)
-    rise = np.maximum(bounds.N_max - bounds.F_min, 0.0)
     if last:
-        near = _reach_back(beta, -right.r, fall)
-        far = _reach_on(beta, np.where(left.engaged, 0.0, -left.r), rise)
+        near = _reach_back(beta, -right.r, bounds.fall)
+        far = _reach_on(beta, np.where(left.engaged, 0.0, -left.r), bounds.rise)
         compared = _stays_below(kernel, cycle, left.x, right, bounds.N_min)
     else:
-        near = _reach_on(beta, left.r, fall)
-        far = _reach_back(beta, right.r, rise)
+        near = _reach_on(beta, left.r, bounds.fall)
+        far = _reach_back(beta, right.r, bounds.rise)
         compared = _stays_above(kernel, cycle, left, right.x, bounds.N_min)
     return compared | (near + far > width)
 
 
+def _ratio(margin, rate):
+    """``margin/rate``, inf where it would overflow."""
+    return np.divide(margin, rate, out=np.full_like(margin, np.inf), where=rate > 1e-290 * margin)
+
+
 def _reach_on(beta, margin, rate):
     """Distance in the direction of travel over which ``margin - rate (exp(x/beta) - 1)`` stays positive."""
-    ratio = np.divide(np.maximum(margin, 0.0), rate, out=np.full_like(margin, np.inf), where=rate > 0)
+    ratio = _ratio(np.maximum(margin, 0.0), rate)
     return np.where(np.isinf(ratio), np.inf, beta * np.log1p(np.where(np.isinf(ratio), 0.0, ratio)))
 
 
 def _reach_back(beta, margin, rate):
     """Distance against the direction of travel over which ``margin - rate (1 - exp(-x/beta))`` stays positive."""
-    ratio = np.divide(np.maximum(margin, 0.0), rate, out=np.full_like(margin, np.inf), where=rate > 0)
+    ratio = _ratio(np.maximum(margin, 0.0), rate)
     inside = ratio < 1
     return np.where(inside, -beta * np.log1p(-np.where(inside, ratio, 0.0)), np.inf)
 

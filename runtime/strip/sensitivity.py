@@ -1,13 +1,14 @@
 """Rigorous bounds on the slope of the onset-to-onset map over an interval of onset phases.
 
 With R(x) = r(x) exp(x/beta), r from ``march``, the chain rule through the edges gives
-``beta R' = exp(x/beta) (N - H(x) - delta_0)`` with
+``beta R' = exp(x/beta) (N - F)``, where ``F = H(x) + delta_0`` and ``N = F T'`` with
 
-``N = exp(-2 pi/beta - (a - b) L/alpha) (H_x + slope_on) (H_c + delta_0 + jump)/(H_c + delta_0 + p_0)``;
+``T' = exp(-2 pi/beta - (a - b) L/alpha) (1 + s_x/F) (1 + s_c/M)``, ``M = -(H_c + delta_0 + p_0)``,
 
-at a periodic orbit the slope of the map is ``T' = N/(H_x + delta_0)``. Along the onset arc b grows, a and c fall with x
-(a later onset is a less engaged orbit), so every factor is bounded by its values at the ends of an interval and at the
-extremum of the one harmonic H.
+``s_x`` and ``s_c`` constants of the strip; at a periodic orbit T' is the slope of the map. Along the onset arc b grows, a
+and c fall with x (a later onset is a less engaged orbit), so every factor is bounded by its values at the ends of an interval
+and at the extremum of the one harmonic H. The logarithm of T' is kept beside N: at large beta T' is one but for terms of
+order 1/beta, which N - F would lose to rounding.
 """
 
 from dataclasses import dataclass
@@ -20,25 +21,25 @@ from .problem import Cycle
 
 @dataclass(frozen=True, slots=True)
 class SlopeBounds:
-    """Bounds over an interval: least and greatest N, least and greatest ``H + delta_0`` (onset threshold)."""
+    """Over an interval: how fast R can fall and rise at most (``N - F`` from below and above, as rates >= 0), whether it falls
+    strictly, and a lower bound of N."""
 
+    fall: np.ndarray
+    rise: np.ndarray
+    falls: np.ndarray
     N_min: np.ndarray
-    N_max: np.ndarray
-    F_min: np.ndarray
-    F_max: np.ndarray
 
 
-def slope_factor(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
-    """N at each orbit (not engaged)."""
+def slope_excess(kernel, cycle: Cycle, orbit: Orbit) -> tuple[np.ndarray, np.ndarray]:
+    """``log T'`` and N at each orbit (not engaged)."""
     s = cycle.strips
-    forcing_x = kernel.forcing(orbit.x, s.D, s.beta)
-    forcing_c = kernel.forcing(orbit.c, s.D, s.beta)
-    onset = np.maximum(forcing_x + cycle.slope_on, 0.0)
-    return _product(_damping(kernel, cycle, _length(orbit.b, orbit.a)) * onset, _release(cycle, forcing_c))
+    F = onset_margin(kernel, cycle, orbit.x)
+    M = -(kernel.forcing(orbit.c, s.D, s.beta) + s.delta_0 + s.p_0)
+    return _log_slope(cycle, _length(orbit.b, orbit.a), F, M), _numerator(kernel, cycle, _length(orbit.b, orbit.a), F, M)
 
 
 def onset_margin(kernel, cycle: Cycle, x: np.ndarray) -> np.ndarray:
-    """``H(x) + delta_0``: positive in the onset arc."""
+    """``F = H(x) + delta_0``: positive in the onset arc."""
     s = cycle.strips
     return kernel.forcing(x, s.D, s.beta) + s.delta_0
 
@@ -51,47 +52,61 @@ def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds
     b_left = np.where(np.isnan(left.b) & ~np.isnan(right.b), right.b, left.b)
     a_left = np.where(left.engaged, last_a, left.a)
     c_left = np.where(left.engaged, last_c, left.c)
-    longest = np.where(
-        left.engaged & np.isnan(left.b) & np.isnan(right.b), 0.0, _length(b_left, a_left)
-    )
+    longest = np.where(left.engaged & np.isnan(left.b) & np.isnan(right.b), 0.0, _length(b_left, a_left))
     shortest = _length(right.b, right.a)
     F_left, F_right = onset_margin(kernel, cycle, left.x), onset_margin(kernel, cycle, right.x)
     top = s.D - 1 + np.hypot(1, s.beta) + s.delta_0
     F_min = np.minimum(F_left, F_right)
     F_max = np.where((left.x < cycle.centre) & (right.x > cycle.centre), top, np.maximum(F_left, F_right))
-    shift = cycle.slope_on - s.delta_0
-    H_left = np.where(left.engaged, -s.p_0 - s.delta_0, kernel.forcing(c_left, s.D, s.beta))
-    H_right = kernel.forcing(right.c, s.D, s.beta)
-    bottom = s.D - 1 - np.hypot(1, s.beta)
+    M_left = np.where(left.engaged, 0.0, -(kernel.forcing(c_left, s.D, s.beta) + s.delta_0 + s.p_0))
+    M_right = -(kernel.forcing(right.c, s.D, s.beta) + s.delta_0 + s.p_0)
+    deepest = -(s.D - 1 - np.hypot(1, s.beta) + s.delta_0 + s.p_0)
     middle = cycle.centre + np.pi
-    H_c_min = np.where((right.c < middle) & (c_left > middle), bottom, np.minimum(H_left, H_right))
-    H_c_max = np.maximum(H_left, H_right)
-    return SlopeBounds(
-        N_min=_product(_damping(kernel, cycle, longest) * np.maximum(F_min + shift, 0.0), _release(cycle, H_c_min)),
-        N_max=_product(_damping(kernel, cycle, shortest) * np.maximum(F_max + shift, 0.0), _release(cycle, H_c_max)),
-        F_min=F_min,
-        F_max=F_max,
+    M_max = np.where((right.c < middle) & (c_left > middle), deepest, np.maximum(M_left, M_right))
+    M_min = np.minimum(M_left, M_right)
+    # T' falls with F and M, N grows with F
+    log_min = _log_slope(cycle, longest, F_max, M_max)
+    log_max = _log_slope(cycle, shortest, F_min, M_min)
+    N_min = _numerator(kernel, cycle, longest, F_min, M_max)
+    N_max = _numerator(kernel, cycle, shortest, F_max, M_min)
+    N_min = np.where(np.isfinite(N_min), N_min, 0.0)
+    fall = np.minimum(-F_max * np.expm1(np.minimum(log_min, 0.0)), np.maximum(F_max - N_min, 0.0))
+    growth = np.where(log_max < 700, np.expm1(np.clip(log_max, 0.0, 700.0)), np.inf)
+    rise = np.minimum(
+        np.multiply(F_max, growth, out=np.zeros_like(F_max), where=growth > 0), np.maximum(N_max - F_min, 0.0)
     )
-
-
-def _product(factor, release):
-    """Zero where nothing of the onset is remembered, also when the end of adhesion grazes."""
-    return np.multiply(factor, release, out=np.zeros_like(factor), where=factor > 0)
+    return SlopeBounds(fall, rise, (log_max < 0) | (N_max < F_min), N_min)
 
 
 def _length(b, a):
     return np.where(np.isnan(b), 0.0, np.maximum(a - b, 0.0))
 
 
-def _damping(kernel, cycle: Cycle, contact_length):
+def _gains(cycle: Cycle):
+    """The constants ``s_x = slope_on - delta_0`` and ``s_c = p_0 - jump``."""
     s = cycle.strips
-    return kernel.decay(TWO_PI, s.beta) * kernel.decay(contact_length * s.L, s.alpha)
+    return cycle.slope_on - s.delta_0, np.where(cycle.bare, 0.0, s.p_0 - cycle.jump)
 
 
-def _release(cycle: Cycle, forcing_c):
-    """``(H_c + delta_0 + jump)/(H_c + delta_0 + p_0)`` where the denominator is negative: at least 1, inf at grazing."""
+def _log_slope(cycle: Cycle, length, F, M):
+    """``log T'``: -inf where nothing of the onset is remembered, +inf where the onset or the end of adhesion grazes."""
     s = cycle.strips
-    margin = -(forcing_c + s.delta_0 + s.p_0)
-    excess = s.p_0 - cycle.jump
-    ratio = np.divide(excess, margin, out=np.full_like(margin, np.inf), where=margin > 0)
-    return np.where(cycle.bare | (excess <= 0), 1.0, 1 + ratio)
+    memory = _over(TWO_PI + 0 * length, s.beta) + _over(length * s.L, s.alpha)
+    onset, release = _gains(cycle)
+    gain = np.log1p(_over(onset, F)) + np.log1p(_over(release, M))
+    return np.where(np.isinf(memory), -np.inf, gain - np.where(np.isinf(memory), 0.0, memory))
+
+
+def _numerator(kernel, cycle: Cycle, length, F, M):
+    """``N = F T'`` with F multiplied in, so that it stays finite where the onset grazes."""
+    s = cycle.strips
+    onset, release = _gains(cycle)
+    damping = kernel.decay(TWO_PI, s.beta) * kernel.decay(length * s.L, s.alpha)
+    factor = damping * np.maximum(F + onset, 0.0)
+    return np.multiply(factor, 1 + _over(release, M), out=np.zeros_like(factor), where=factor > 0)
+
+
+def _over(numerator, denominator):
+    """``numerator/denominator`` for ``numerator >= 0``: 0 if it is 0, inf where the denominator is not positive or too small."""
+    out = np.where(numerator > 0, np.inf, 0.0)
+    return np.divide(numerator, denominator, out=out, where=(denominator > 0) & (denominator > 1e-290 * numerator) & (numerator > 0))

@@ -1,0 +1,148 @@
+"""Means of pressure and friction of a strip (Eq. 10), in closed form in the edges: SymPy does the integrals per zone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from . import stable
+from .check import REPRODUCED, Check, Derived, derived, zero
+from .flows import Flows
+from .functions import Formula, written_out
+from .regimes import CONTACT, NOTHING, PERIOD, Regime
+from .symbols import PARAMETERS, D, L, alpha, beta, c, d, p, p_0, q_0, s, s_0, s_1, w_0
+from .zones import Kernel
+
+
+@dataclass(frozen=True)
+class ZoneIntegrals:
+    """Integrals over a zone from s_0 to s_1, by SymPy: of p, of w, and of p u'."""
+
+    contact: Derived  # in s_0, s_1, q_0
+    relaxation: Derived  # in s_0, s_1, w_0, p
+
+
+def zone_integrals(flows: Flows) -> ZoneIntegrals:
+    return ZoneIntegrals(contact_integrals(flows), relaxation_integrals(flows))
+
+
+def contact_integrals(flows: Flows) -> Derived:
+    r"""Over a contact zone: :math:`\int p\,ds,\ \int u\,ds,\ \int p\,u'\,ds`."""
+    u, pressure = flows.strip.u, flows.contact.value
+    value, checks = _integrated("integrals over contact", (pressure, u, pressure * sp.diff(u, s)))
+    return derived(
+        contact_integrals,
+        value,
+        name="integrals over contact",
+        statement="What a contact zone adds to the sums of pressure, displacement and friction.",
+        latex=r"\int_{s_0}^{s_1} p\,ds,\quad \int_{s_0}^{s_1} u\,ds,\quad \int_{s_0}^{s_1} p\,u'\,ds",
+        checks=checks,
+        paper="Eq. 10",
+        status=REPRODUCED,
+        emitted=("profile_integral", "contact_work"),
+    )
+
+
+def relaxation_integrals(flows: Flows) -> Derived:
+    r"""Over an adhesion or free zone: :math:`p\,(s_1-s_0),\ \int w\,ds,\ p\,[u]`."""
+    u, displacement = flows.strip.u, flows.relaxation.value
+    value, checks = _integrated("integrals over adhesion and free gap", (p, displacement, p * sp.diff(u, s)))
+    return derived(
+        relaxation_integrals,
+        value,
+        name="integrals over adhesion and free gap",
+        statement="What a zone at constant pressure adds. Adhesion counts in both means.",
+        latex=r"\int_{s_0}^{s_1} p\,ds = p\,(s_1 - s_0),\quad \int_{s_0}^{s_1} w\,ds,\quad p\,[u]_{s_0}^{s_1}",
+        checks=checks,
+        paper="Eq. 10",
+        status=REPRODUCED,
+        emitted=("relaxation_integral", "profile_rise"),
+    )
+
+
+def _integrated(name: str, integrands: tuple[sp.Expr, ...]) -> tuple[tuple[sp.Expr, ...], list[Check]]:
+    """Definite integrals from s_0 to s_1, term by term, each antiderivative differentiated back."""
+    values, residuals = [], []
+    for integrand in map(sp.expand, integrands):
+        primitive = sp.Add(*(sp.integrate(term, s) for term in sp.Add.make_args(integrand)))
+        residuals.append(sp.diff(primitive, s) - integrand)
+        values.append(primitive.subs(s, s_1) - primitive.subs(s, s_0))
+    return tuple(values), [zero(name, "every antiderivative differentiates back to its integrand", residuals, phases=(s_0, s))]
+
+
+def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
+    r"""Eq. 10: :math:`\bar p = \frac1{2\pi}\oint p\,ds = \frac1{2\pi}\oint w\,ds`, :math:`\bar\tau = \frac1{2\pi}\oint p\,u'\,ds`."""
+    name = f"means_{regime.sequence}"
+    sums = [NOTHING, NOTHING, NOTHING]  # of p, w, p u'
+    for zone in regime.zones:
+        edges = {s_0: zone.first, s_1: zone.last}
+        if zone.kind == CONTACT:
+            parts = [e.subs({**edges, q_0: zone.entry}, simultaneous=True) for e in integrals.contact.value]
+        else:
+            state = {w_0: zone.displacement, p: zone.load}
+            parts = [e.subs({**edges, **state}, simultaneous=True) for e in integrals.relaxation.value]
+        sums = [total + written_out(part) for total, part in zip(sums, parts, strict=True)]
+    sum_p, sum_w, sum_tau = sums
+    formula = Formula(name, regime.args, _stable_means(regime))
+    stated = formula.written_out(formula.args)
+    exact = (sum_w / PERIOD, sum_tau / PERIOD)
+    checks = [
+        zero(
+            name,
+            "int p ds = int w ds + beta times the closing balance: mean p = mean w on an orbit",
+            sum_p - sum_w - beta * regime.closing,
+            phases=regime.edges,
+        ),
+        zero(name, "the stable forms equal the averages", [stated[0] - exact[0], stated[1] - exact[1]], phases=regime.edges),
+    ]
+    record = derived(
+        strip_means,
+        exact,
+        name=name,
+        statement=f"Means of a strip: {regime.title}. The mean pressure is computed as the mean of w, equal to it on a closed orbit, "
+        "because that sum holds no large terms that cancel.",
+        latex=r"\bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds",
+        checks=checks,
+        paper="Eq. 10",
+        status=REPRODUCED,
+        emitted=(name,),
+    )
+    return Kernel(formula, exact, record)
+
+
+def constant_means(regime: Regime) -> Kernel:
+    r"""Eq. 10 at rest, :math:`w = p` constant: :math:`\bar p = p,\ \bar\tau = 0`."""
+    name = f"means_{regime.sequence}"
+    (zone,) = regime.zones
+    u = stable.PROFILE(s, D)
+    mean_tau = sp.integrate(zone.load * sp.diff(written_out(u), s), (s, 0, PERIOD)) / PERIOD
+    exact = (zone.load, mean_tau)
+    formula = Formula(name, PARAMETERS, (zone.load, NOTHING))
+    checks = [zero(name, "a constant pressure does no work over a period", mean_tau)]
+    record = derived(
+        constant_means,
+        exact,
+        name=name,
+        statement=f"Means of a strip: {regime.title}.",
+        latex=rf"\bar p = {sp.latex(zone.load)},\quad \bar\tau = 0",
+        checks=checks,
+        paper="Eq. 10",
+        status=REPRODUCED,
+        emitted=(name,),
+    )
+    return Kernel(formula, exact, record)
+
+
+def _stable_means(regime: Regime) -> tuple[sp.Expr, sp.Expr]:
+    """Candidates: w summed zone by zone; work of the excess q, and of -p_0 on the rise of u between onset and release."""
+    sum_w = work = NOTHING
+    for zone in regime.zones:
+        if zone.kind == CONTACT:
+            sum_w += stable.PROFILE_INTEGRAL(zone.first, zone.last, D)
+            work += stable.CONTACT_WORK(zone.first, zone.last, zone.entry, p_0, D, alpha, beta, L)
+        else:
+            sum_w += stable.RELAXATION_INTEGRAL(zone.first, zone.last, zone.displacement, zone.load, beta)
+    if c in regime.edges:  # without a free zone u does not rise over the engaged part, the whole period
+        work -= p_0 * stable.PROFILE_RISE(d, c)
+    return sum_w / PERIOD, work / PERIOD

@@ -1,0 +1,223 @@
+"""Emission: verified kernels in, the text of the generated files out. Nothing is derived or rearranged here."""
+
+from __future__ import annotations
+
+import hashlib
+import subprocess
+import sys
+import textwrap
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import jinja2
+import sympy as sp
+
+from .check import DerivationError
+from .derive import Derivation
+from .functions import HELPERS, Call, Formula
+from .printing import results, source
+
+INTERFACE = 1
+WIDTH = 110  # of a docstring's lines
+HERE = Path(__file__).parent
+TEMPLATES = {"stable": "stable.py.jinja", "model": "model.py.jinja", "package": "package.py.jinja"}
+PARAMETER_MEANINGS = (
+    ("alpha", "k V T_sigma"),
+    ("beta", "k V T_eps"),
+    ("J", "T_sigma/T_eps, the instantaneous compliance times K"),
+    ("L", "1 - J, so that beta - alpha = L beta"),
+    ("p_0", "p_0/(K A), the traction of adhesion"),
+    ("delta_0", "delta_0/A, its reach"),
+    ("D", "D_j/A, the penetration of the strip"),
+    ("chi", "what w does where p steps: 0 continuous, 1 constitutive"),
+)
+
+
+@dataclass(frozen=True)
+class FunctionText:
+    """One function of a generated module, as text for its template."""
+
+    name: str
+    args: tuple[str, ...]
+    statement: str  # first sentence
+    explanation: tuple[str, ...]
+    equation: tuple[str, ...]
+    derived_by: str
+    paper: str
+    steps: tuple[tuple[str, str], ...]
+    result: str
+
+
+@dataclass(frozen=True)
+class Section:
+    title: str
+    functions: tuple[FunctionText, ...]
+
+
+def emit(derivations: tuple[Derivation, ...]) -> dict[str, str]:
+    """Text of every generated Python file, by its path in the output folder."""
+    files = {"stable.py": stable_text()}
+    for derivation in derivations:
+        files[f"{derivation.model.name}.py"] = model_text(derivation)
+    files["__init__.py"] = package_text(tuple(derivation.model.name for derivation in derivations))
+    return {name: formatted(text) for name, text in sorted(files.items())}
+
+
+def model_text(derivation: Derivation) -> str:
+    sections = tuple(
+        Section(title, tuple(function_text(kernel.formula, kernel.derived) for kernel in kernels))
+        for title, kernels in derivation.sections
+    )
+    used = _helpers_used(kernel.formula for _, kernels in derivation.sections for kernel in kernels)
+    emitted = {function.name for section in sections for function in section.functions}
+    return _render(
+        "model",
+        derivation.model.name,
+        title=derivation.model.title,
+        model=derivation.model.name,
+        interface=INTERFACE,
+        parameters=PARAMETER_MEANINGS,
+        material=derivation.model.parameters,
+        helpers=used,
+        sections=sections,
+        regimes=[_regime_data(regime, emitted) for regime in derivation.regimes],
+    )
+
+
+def _regime_data(regime: Any, emitted: set[str]) -> dict[str, Any]:
+    def name(kind: str) -> str:
+        candidate = f"{kind}_{regime.sequence}"
+        return candidate if candidate in emitted else "None"
+
+    edgeless = not regime.edges
+    return {
+        "sequence": regime.sequence,
+        "title": regime.title,
+        "zones": [(z.kind, "" if edgeless else str(z.first), "" if edgeless else str(z.last).replace("*", " ")) for z in regime.zones],
+        "edges": [str(edge) for edge in regime.edges],
+        "closures": regime.closures,
+        "equations": [label for label, _ in regime.equations],
+        "admissible": regime.admissible,
+        **{kind: name(kind) for kind in ("residual", "jacobian", "means", "onset_slope")},
+    }
+
+
+def function_text(formula: Formula, record: Any) -> FunctionText:
+    return FunctionText(
+        formula.name,
+        tuple(map(source, formula.args)),
+        *_docstring(record.statement),
+        tuple(record.latex.split("\n")) if len(record.latex) <= WIDTH else (),
+        record.function,
+        record.paper,
+        tuple((source(label), source(term)) for label, term in formula.steps),
+        results(formula.result),
+    )
+
+
+def _docstring(statement: str) -> tuple[str, tuple[str, ...]]:
+    """The first sentence, which must fit a line, and the rest, wrapped."""
+    first, dot, rest = statement.partition(". ")
+    lines = textwrap.wrap(first + (dot.strip() or ""), WIDTH)
+    return lines[0], (*lines[1:], *textwrap.wrap(rest, WIDTH))
+
+
+def _helpers_used(formulas: Any) -> list[str]:
+    found: set[str] = set()
+    for formula in formulas:
+        terms = [term for _, term in formula.steps] + _flat(formula.result)
+        for term in terms:
+            found |= {type(f).__name__ for f in sp.sympify(term).atoms(sp.Function) if isinstance(f, HELPERS)}
+    found.discard("hypot")
+    return sorted(found)
+
+
+def _flat(result: Any) -> list[sp.Expr]:
+    return [e for part in result for e in _flat(part)] if isinstance(result, tuple) else [result]
+
+
+def stable_text() -> str:
+    """The stable helpers; SymPy supplies the series of those that have one."""
+    n, x = sp.symbols("n x")
+    loss = _alternating(1 - (1 - sp.exp(-n)) / n, n, first=1, step=1, terms=15)
+    sine = _alternating(x - sp.sin(x), x, first=3, step=2, terms=10)
+    return _render(
+        "stable",
+        "every model",
+        gone="750.0",
+        tiny=repr(sys.float_info.min),
+        late="40.0",
+        loss_limit="0.5",
+        loss_first=f"{loss[0]}.0",
+        loss_divisors=loss[1:],
+        sine_limit="1.0",
+        sine_first=f"{sine[0]}.0",
+        sine_divisors=sine[1:],
+    )
+
+
+def _alternating(function: sp.Expr, variable: sp.Symbol, first: int, step: int, terms: int) -> list[sp.Integer]:
+    """Ratios of neighbouring coefficients of an alternating Taylor series, the first by itself; they must be integers."""
+    polynomial = sp.series(function, variable, 0, first + step * terms).removeO()
+    coefficients = [polynomial.coeff(variable, first + step * k) for k in range(terms)]
+    ratios = [1 / coefficients[0]] + [-a / b for a, b in zip(coefficients, coefficients[1:], strict=False)]
+    if not all(ratio.is_Integer and ratio > 0 for ratio in ratios):
+        raise DerivationError("stable series", f"{function} alternates with integer ratios", ratios)
+    return ratios
+
+
+def package_text(models: tuple[str, ...]) -> str:
+    return _render("package", ", ".join(models), models=models)
+
+
+def _render(kind: str, concerning: str, **values: Any) -> str:
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(HERE / "templates"),
+        undefined=jinja2.StrictUndefined,
+        keep_trailing_newline=True,
+        autoescape=False,
+    )
+    template = TEMPLATES[kind]
+    values.setdefault("hash", input_hash())
+    header = "\n".join(
+        (
+            "# Generated by `hystrip regenerate`. Do not edit: change the derivation or the template instead.",
+            f"# Template: derivation/templates/{template}; model: {concerning}.",
+            f"# sympy {sp.__version__}, jinja2 {jinja2.__version__}, ruff {formatter_version()}.",
+            f"# Inputs (derivation, templates, models): sha256 {values['hash']}.",
+        )
+    )
+    return environment.get_template(template).render(header=header, **values)
+
+
+def input_hash() -> str:
+    """Hash of everything that the generated files are made from: sources of the derivation, models and templates."""
+    digest = hashlib.sha256()
+    for path in sorted(HERE.rglob("*")):
+        if path.suffix in (".py", ".jinja") and "__pycache__" not in path.parts:
+            digest.update(path.relative_to(HERE).as_posix().encode() + b"\0" + path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
+    return digest.hexdigest()[:32]
+
+
+def _ruff(*arguments: str, text: str | None = None) -> str:
+    command = [sys.executable, "-m", "ruff", *arguments]
+    done = subprocess.run(command, input=text, capture_output=True, text=True, check=False, encoding="utf-8")
+    if done.returncode:
+        raise RuntimeError(f"{' '.join(arguments)}: ruff failed: {done.stderr.strip()}")
+    return done.stdout
+
+
+def formatter_version() -> str:
+    from importlib.metadata import version
+
+    return version("ruff")
+
+
+def formatted(text: str) -> str:
+    """The text as the pinned formatter lays it out, independent of any configuration file around."""
+    options = ("--isolated", "--line-length", "120", "--target-version", "py311", "--stdin-filename", "generated.py", "-")
+    return _ruff("format", *options, text=text)
+
+
+__all__ = ["INTERFACE", "Call", "emit", "input_hash"]

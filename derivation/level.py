@@ -1,0 +1,191 @@
+"""A whole level in complete contact, averaged over its strips (Eq. 11), and the friction coefficient of saturated levels (Eq. 16).
+
+SI throughout. The level's strips are those of :mod:`.strip`, with amplitude and penetration that vary over y.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from .check import BEYOND, CORRECTED, Check, Derived, derived, holds, zero
+from .functions import Formula, hypot, stack_sum
+from .saturated import Saturated
+from .symbols import A, D, D_j, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, y
+from .zones import Kernel
+
+_si = (K, T_eps, T_sigma)
+ratio, pulsation, creep, spread, slender = sp.symbols("ratio pulsation creep spread slender", positive=True)
+_SLENDER = ((creep, V * (T_eps - T_sigma)), (spread, hypot(l, 2 * sp.pi * V * T_sigma)), (slender, h / spread))
+TIMES = {alpha: k * V * T_sigma, beta: k * V * T_eps, L: 1 - T_sigma / T_eps}
+WAVE = {k: 2 * sp.pi / l}
+AMPLITUDE = h / 4 * (1 + sp.cos(k * y))
+PENETRATION = D_level - h / 2 * (1 - sp.cos(k * y))
+
+
+@dataclass(frozen=True)
+class Level:
+    """Stage 6: the level in complete contact."""
+
+    kernels: tuple[Kernel, ...]
+    comparison: Derived  # Eq. 16 as printed against as derived
+
+
+def level(saturated: Saturated) -> Level:
+    mean_p, mean_tau = saturated.means.exact
+    penetration = saturation_penetration(saturated.threshold.value)
+    pressure = saturation_pressure(penetration.exact, mean_p)
+    friction = saturation_friction(mean_tau)
+    stack = stack_friction(friction.exact)
+    return Level((penetration, pressure, friction, stack), printed_equation_16(friction.exact))
+
+
+def over_strips(quantity: sp.Expr) -> sp.Expr:
+    """Eq. 11: mean over the strips of a level, y from 0 to l."""
+    return sp.simplify(sp.integrate(sp.expand(quantity), (y, 0, 2 * sp.pi / k)) * k / (2 * sp.pi))
+
+
+def saturation_penetration(threshold: sp.Expr) -> Kernel:
+    r"""Every strip is saturated when :math:`D \ge \frac h2 (1 + R) - p_0/K`."""
+    name = "level_saturation_penetration"
+    R = sp.Symbol("R", positive=True)
+    over_one = sp.Symbol("R_minus_1", nonnegative=True)  # R >= 1, since beta >= alpha
+    scaled = threshold.subs(sp.sqrt((1 + beta**2) / (1 + alpha**2)), R)  # D_j/A, with p_0 in K A
+    needed = sp.expand(AMPLITUDE * scaled.subs(p_0, p_0 / (K * AMPLITUDE)) + h / 2 * (1 - sp.cos(k * y)))  # D of the level
+    cosine = sp.Symbol("cosine", real=True)
+    slope = sp.diff(needed.subs(sp.cos(k * y), cosine), cosine).subs(R, 1 + over_one)
+    exact = needed.subs(y, 0)
+    checks = [
+        holds(name, "R >= 1: R^2 - 1 = (beta^2 - alpha^2)/(1 + alpha^2) >= 0", _at_least_one()),
+        zero(name, "the penetration a strip needs is linear in cos ky", sp.diff(slope, cosine)),
+        holds(name, "and grows with it: the middle strip, y = 0, is the last to saturate", sp.factor(slope).is_nonnegative),
+    ]
+    si = exact.subs(R, sp.sqrt((1 + beta**2) / (1 + alpha**2))).subs(TIMES).subs(WAVE)
+    formula = Formula(
+        name,
+        (*_si, p_0, l, h, V),
+        h / 2 * (1 + ratio) - p_0 / K,
+        ((pulsation, 2 * sp.pi * V / l), (ratio, hypot(1, pulsation * T_eps) / hypot(1, pulsation * T_sigma))),
+    )
+    return _kernel(saturation_penetration, formula, si, checks,
+                   "Penetration from which every strip of a level is in complete contact.",
+                   r"D_{sat} = \frac h2 (1 + R) - \frac{p_0}{K},\quad R = \sqrt{\frac{1 + (kVT_\epsilon)^2}{1 + (kVT_\sigma)^2}}")
+
+
+def saturation_pressure(penetration: sp.Expr, mean_p: sp.Expr) -> Kernel:
+    r"""Eq. 11 there: :math:`p_{sat} = K h (2R - 1)/4 - p_0`."""
+    name = "level_saturation_pressure"
+    strip_p = K * AMPLITUDE * mean_p.subs(D, PENETRATION / AMPLITUDE)
+    mean = over_strips(sp.expand(sp.simplify(strip_p)))
+    exact = mean.subs(k, 2 * sp.pi / l).subs(D_level, penetration)
+    formula = Formula(
+        name,
+        (*_si, p_0, l, h, V),
+        K * h / 4 * (2 * ratio - 1) - p_0,
+        ((pulsation, 2 * sp.pi * V / l), (ratio, hypot(1, pulsation * T_eps) / hypot(1, pulsation * T_sigma))),
+    )
+    checks = [zero(name, "the level's mean pressure in complete contact is K (D - 3h/4)", mean - K * (D_level - sp.Rational(3, 4) * h))]
+    return _kernel(saturation_pressure, formula, exact, checks, "Nominal pressure from which a level is in complete contact.",
+                   r"p_{sat} = \tfrac14 K h (2R - 1) - p_0", paper="Eq. 11")
+
+
+def saturation_friction(mean_tau: sp.Expr) -> Kernel:
+    r"""Eq. 10, 11: :math:`\tau_{sat} = \frac{3\pi^2}{16}\frac{K V (T_\epsilon - T_\sigma) h^2}{l^2 + 4\pi^2V^2T_\sigma^2}`."""
+    name = "level_saturation_friction"
+    strip_tau = K * AMPLITUDE * k * AMPLITUDE * mean_tau.subs(TIMES)  # in units of K A times k A
+    exact = sp.factor(over_strips(strip_tau).subs(WAVE))
+    stated = sp.Rational(3, 16) * sp.pi**2 * K * V * (T_eps - T_sigma) * h**2 / (l**2 + 4 * sp.pi**2 * V**2 * T_sigma**2)
+    formula = Formula(
+        name,
+        (*_si, l, h, V),
+        3 * sp.pi**2 / 16 * K * creep * slender**2,
+        _SLENDER,
+    )
+    checks = [zero(name, "it is 3 pi^2/16 K V (T_eps - T_sigma) h^2/(l^2 + 4 pi^2 V^2 T_sigma^2)", exact - stated)]
+    return _kernel(saturation_friction, formula, exact, checks, "Friction of a level in complete contact.",
+                   r"\tau_{sat} = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma) h^2}{l^2 + 4\pi^2 V^2 T_\sigma^2}", paper="Eq. 10-11")
+
+
+def stack_friction(one_level: sp.Expr) -> Kernel:
+    r"""Eq. 16, corrected: :math:`\mu = \frac1{p_1}\sum_i \tau_{sat}(h_i, l_i)`."""
+    name = "saturated_stack_friction"
+    exact = one_level / p_nominal
+    formula = Formula(
+        name,
+        (*_si, l, h, V, p_nominal),
+        3 * sp.pi**2 / 16 * stack_sum(K * creep * slender**2) / p_nominal,
+        _SLENDER,
+    )
+    checks = [
+        zero(name, "complete contact on every level: the means do not depend on the pressure, so the levels add (Eq. 12-14)", sp.diff(one_level, p_nominal)),
+    ]
+    return _kernel(stack_friction, formula, exact, checks,
+                   "Friction coefficient when every level is in complete contact. The levels lie along the last axis of l and h, against "
+                   "which all but p_1 broadcasts.",
+                   r"\mu = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma)}{p_1} \sum_i \frac{h_i^2}{l_i^2 + 4\pi^2 V^2 T_\sigma^2}",
+                   paper="Eq. 16", status=CORRECTED, correction=MISPRINT)
+
+
+MISPRINT = (
+    "Printed with the factor pi^2 and with h_i to the first power. That is no number: it scales with the unit of length. "
+    "Integrating Eq. 15 as Eq. 10 and 11 ask gives 3 pi^2/16 and h_i^2; each printed term is 16/(3 h_i) times the true one."
+)
+
+
+def printed_equation_16(one_level: sp.Expr) -> Derived:
+    r"""Eq. 16 as printed, per level: :math:`\pi^2 \frac{K V (T_\epsilon - T_\sigma)}{p_1} \frac{h_i}{l_i^2 + 4\pi^2V^2T_\sigma^2}`."""
+    name = "Eq. 16 as printed"
+    true = one_level / p_nominal
+    printed = sp.pi**2 * K * V * (T_eps - T_sigma) / p_nominal * h / (l**2 + 4 * sp.pi**2 * V**2 * T_sigma**2)
+    unit = sp.Symbol("lambda", positive=True)  # lengths in a unit smaller by lambda; Pa and s as they are
+    change = {h: unit * h, l: unit * l, V: unit * V, K: K / unit}
+    scaled_true = sp.cancel(sp.together(true.subs(change, simultaneous=True) / true))
+    scaled_printed = sp.cancel(sp.together(printed.subs(change, simultaneous=True) / printed))
+    speed = l / (2 * sp.pi * T_sigma)
+    peak = sp.diff(true, V)
+    peaks = {form: sp.simplify(e.subs(V, speed)) for form, e in (("true", true), ("printed", printed))}
+    paper_scene = {"level 1": (sp.Rational(1, 100000), sp.Rational(1, 1000000)), "level 2": (sp.Rational(5, 10**7), sp.Rational(1, 10**7)), "level 3": (sp.Rational(5, 10**9), sp.Rational(5, 10**9))}
+    checks: list[Check] = [
+        zero(name, "the derived form does not depend on the unit of length", scaled_true - 1),
+        zero(name, "the printed form does: in a unit of length smaller by lambda it is smaller by lambda", scaled_printed - 1 / unit),
+        zero(name, "each printed term is 16/(3 h) times the derived one", printed / true - sp.Rational(16, 3) / h),
+        zero(name, "each level's friction peaks at V = l/(2 pi T_sigma)", peak.subs(V, speed)),
+        zero(name, "the peaks go like h^2/l; as printed they would go like h/l", [sp.diff(peaks["true"] * l / h**2, v) for v in (h, l)] + [sp.diff(peaks["printed"] * l / h, v) for v in (h, l)]),
+        holds(name, "Fig. 7: its text says that level 1 has the highest peak; h^2/l has (1 : 0.2 : 0.05), h/l the reverse order", _peak_orders(paper_scene)),
+    ]
+    return derived(
+        printed_equation_16,
+        (true, printed),
+        name=name,
+        statement="What is wrong with Eq. 16 as printed, and by what factor.",
+        latex=r"\frac{\text{printed}}{\text{derived}} = \frac{16}{3 h_i}",
+        checks=checks,
+        paper="Eq. 16",
+        status=CORRECTED,
+        correction=MISPRINT,
+        emitted=("saturated_stack_friction",),
+    )
+
+
+def _peak_orders(levels: dict[str, tuple[sp.Rational, sp.Rational]]) -> bool:
+    square = [height**2 / length for length, height in levels.values()]
+    plain = [height / length for length, height in levels.values()]
+    return [value / square[0] for value in square] == [1, sp.Rational(1, 5), sp.Rational(1, 20)] and plain == sorted(plain)
+
+
+def _at_least_one() -> bool:
+    excess = sp.Symbol("T_delta", nonnegative=True)
+    above = sp.factor(((beta**2 - alpha**2) / (1 + alpha**2)).subs(beta, alpha + excess))
+    return bool(above.is_nonnegative)
+
+
+def _kernel(by, formula: Formula, exact: sp.Expr, checks, statement, latex, **options) -> Kernel:
+    name = formula.name
+    residual = formula.written_out(formula.args) - exact
+    checks = [*checks, zero(name, f"{name}: the stable form equals the derived expression", sp.simplify(residual))]
+    options.setdefault("status", BEYOND)
+    return Kernel(formula, exact, derived(by, exact, name=name, statement=statement, latex=latex, checks=checks, emitted=(name,), **options))
+
+
+__all__ = ["A", "D_j", "Level", "level"]

@@ -1,0 +1,94 @@
+"""Slope of the onset-to-onset map at a periodic orbit: how much of a shift of the onset is left one period later."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from . import stable
+from .check import Derived, derived, zero
+from .functions import Formula, decay, quotient, written_out
+from .regimes import CONTACT, Regime
+from .symbols import D, L, alpha, beta, gap_0, p, p_0, q_0, s_0, s_1
+from .zones import Kernel
+
+
+def shift_of_events() -> Derived:
+    r"""A zone whose entry shifts by :math:`ds_0` at a fixed entry state is left later by :math:`ds_1 = -\frac{\partial F/\partial s_0}{\partial F/\partial s_1}\,ds_0`."""
+    name = "shift of an event"
+    gap = stable.GAP_AFTER(s_0, s_1, gap_0, p, D, beta)
+    pressure = stable.EXCESS_AFTER(s_0, s_1, q_0, p_0, D, alpha, beta, L)
+    load_0, load_1 = stable.FORCING(s_0, D, beta), stable.FORCING(s_1, D, beta)
+    checks = [
+        zero(
+            name,
+            "adhesion and free gap: beta dg/ds_0 = (H_0 + gap_0 - p) exp(-(s_1 - s_0)/beta), beta dg/ds_1 = -(H_1 + g - p)",
+            [
+                beta * sp.diff(gap, s_0) - (load_0 + gap_0 - p) * decay(s_1 - s_0, beta),
+                beta * sp.diff(gap, s_1) + (load_1 + gap - p),
+            ],
+            phases=(s_0, s_1),
+        ),
+        zero(
+            name,
+            "contact: alpha dq/ds_0 = -(H_0 + p_0 - q_0) exp(-(s_1 - s_0)/alpha), alpha dq/ds_1 = H_1 + p_0 - q",
+            [
+                alpha * sp.diff(pressure, s_0) + (load_0 + p_0 - q_0) * decay(s_1 - s_0, alpha),
+                alpha * sp.diff(pressure, s_1) - (load_1 + p_0 - pressure),
+            ],
+            phases=(s_0, s_1),
+        ),
+    ]
+    return derived(
+        shift_of_events,
+        None,
+        name=name,
+        statement="The derivatives of a zone's flow by its two edges are loads: what drives the event function there.",
+        latex=r"\frac{ds_1}{ds_0} = \frac{H_0 + g_0 - p}{H_1 + g_1 - p}\,e^{-(s_1 - s_0)/\beta}"
+        r"\quad\text{or}\quad \frac{H_0 + p_0 - q_0}{H_1 + p_0 - q_1}\,e^{-(s_1 - s_0)/\alpha}",
+        checks=checks,
+    )
+
+
+def onset_slope(regime: Regime) -> Kernel:
+    r""":math:`T' = \prod_{\text{zones}} \frac{ds_{last}}{ds_{first}}`: loads telescope except where p steps."""
+    name = f"onset_slope_{regime.sequence}"
+    product: sp.Expr = sp.Integer(1)
+    forgotten: sp.Expr = sp.Integer(1)
+    upper, lower = [], []
+    for zone in regime.zones:
+        width = zone.last - zone.first
+        forgotten *= decay(width, alpha if zone.kind == CONTACT else beta)
+        offset = (lambda state: p_0 - state) if zone.kind == CONTACT else (lambda state, load=zone.load: state - load)
+        last = _same_phase(zone.last)
+        upper.append(sp.expand(stable.FORCING(zone.first, D, beta) + offset(zone.entry)))
+        lower.append(sp.expand(stable.FORCING(last, D, beta) + offset(zone.exit)))
+    for above, below in zip(upper, lower, strict=True):
+        product *= above / below
+    product *= forgotten
+    # What a zone is left with is what the next is entered with, except at a step of p: pair each zone's exit with the
+    # next zone's entry.
+    formula_result = forgotten
+    for below, above in zip(lower, upper[1:] + upper[:1], strict=True):
+        if sp.expand(below - above) != 0:
+            formula_result *= quotient(above, below)
+    formula = Formula(name, regime.args, formula_result)
+    checks = [zero(name, "the product over the zones, telescoped", written_out(formula_result) - written_out(product), phases=regime.edges)]
+    return Kernel(
+        formula,
+        written_out(product),
+        derived(
+            onset_slope,
+            product,
+            name=name,
+            statement="A shift of the onset fades over contact with alpha and over the rest of the period with beta, and is scaled where p "
+            "steps. The orbit is stable when T' < 1; T' = 1 is a fold.",
+            latex=rf"T' = {sp.latex(written_out(formula_result))}",
+            checks=checks,
+            emitted=(name,),
+        ),
+    )
+
+
+def _same_phase(edge: sp.Expr) -> sp.Expr:
+    """The edge itself instead of one period later: the load has the period 2 pi."""
+    return edge.subs(sp.pi, 0)

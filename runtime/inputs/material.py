@@ -1,0 +1,68 @@
+"""The viscoelastic foundation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hystrip.errors import InputError
+
+from .checks import broadcast, numbers
+
+
+@dataclass(frozen=True, eq=False)
+class StandardLinearSolid:
+    """Foundation with one relaxation time: ``w + T_eps w_t = (p + T_sigma p_t)/K`` (Eq. 1).
+
+    Parameters
+    ----------
+    K : relaxed stiffness per area, Pa/m, > 0 (``p = K w`` at rest; the printed paper calls it a compliance)
+    T_eps : retardation time, s, >= T_sigma
+    T_sigma : relaxation time, s, >= 0; zero is the Kelvin-Voigt foundation
+
+    Scalars or arrays that broadcast. Raises ``InputError`` for a value outside these ranges.
+    """
+
+    K: float
+    T_eps: float
+    T_sigma: float
+
+    def __post_init__(self):
+        K = numbers("material.K", self.K, "Pa/m", 0, strict=True)
+        T_eps = numbers("material.T_eps", self.T_eps, "s", 0)
+        T_sigma = numbers("material.T_sigma", self.T_sigma, "s", 0)
+        broadcast(**{"material.K": K, "material.T_eps": T_eps, "material.T_sigma": T_sigma})
+        above = np.broadcast_arrays(T_sigma > T_eps, T_sigma, T_eps)
+        if above[0].any():
+            sigma, eps = (float(a[above[0]].flat[0]) for a in above[1:])
+            raise InputError("material.T_sigma", sigma, f"a number from 0 to T_eps = {eps:g} (s)")
+        for name, value in (("K", K), ("T_eps", T_eps), ("T_sigma", T_sigma)):
+            object.__setattr__(self, name, float(value) if value.ndim == 0 else value)
+
+    @property
+    def J(self):
+        """Instantaneous compliance times K, ``T_sigma/T_eps``; 1 for an elastic foundation (both times zero)."""
+        T_eps, T_sigma = np.broadcast_arrays(self.T_eps, self.T_sigma)
+        return np.divide(T_sigma, T_eps, out=np.ones(T_eps.shape), where=T_eps > 0)
+
+    @property
+    def L(self):
+        """``1 - J = (T_eps - T_sigma)/T_eps``, without the cancellation of the difference."""
+        T_eps, T_sigma = np.broadcast_arrays(self.T_eps, self.T_sigma)
+        return np.divide(T_eps - T_sigma, T_eps, out=np.zeros(T_eps.shape), where=T_eps > 0)
+
+    @property
+    def K_glassy(self):
+        """Glassy stiffness ``K T_eps/T_sigma``, Pa/m; inf for Kelvin-Voigt."""
+        J = self.J
+        return np.divide(self.K, J, out=np.full(np.broadcast_shapes(J.shape, np.shape(self.K)), np.inf), where=J > 0)
+
+    def _key(self):
+        return (type(self), *(np.asarray(v).tobytes() for v in (self.K, self.T_eps, self.T_sigma)))
+
+    def __eq__(self, other):
+        return isinstance(other, StandardLinearSolid) and self._key() == other._key()
+
+    def __hash__(self):
+        return hash(self._key())

@@ -1,0 +1,26 @@
+"""Friction laws of one level at several velocities, each as far up as it will be asked for."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .curve import trace
+from .inverse import cut_penetration
+from .law import Law, law_of
+from .strips import Columns
+
+
+def build_laws(
+    columns: Columns, rtol: np.ndarray, p_full: np.ndarray, D_full: np.ndarray, saturated: np.ndarray, p_max: np.ndarray | None
+) -> list[Law]:
+    """One law per column (its ``D`` is not used).
+
+    ``p_full``, ``D_full`` (n,): where the level, and all it carries, is saturated; ``saturated`` (n, q): means there. ``p_max`` (n,):
+    greatest pressure that will be asked for, or None for the whole law.
+    """
+    top = D_full if p_max is None else np.where(p_max < p_full, cut_penetration(columns, np.minimum(p_max, p_full), D_full), D_full)
+    curves = trace(columns, rtol, top)
+    unloading = columns.branch == "unloading"
+    return [
+        law_of(curve, unloading, float(p_full[i]), saturated[i], bool(top[i] < D_full[i])) for i, curve in enumerate(curves)
+    ]

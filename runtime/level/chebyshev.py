@@ -1,0 +1,78 @@
+"""Chebyshev interpolation of several quantities at once on a piece ``low <= D <= high``.
+
+``D = low + width sin^2(pi t/2)``: a quantity that ends like a square root in D is smooth in t.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+
+@lru_cache
+def lobatto(n: int) -> np.ndarray:
+    """Chebyshev-Lobatto nodes on [0, 1], ascending, n + 1 of them; those of n/2 are every other one."""
+    return np.sin(0.5 * np.pi * np.arange(n + 1) / n) ** 2
+
+
+@lru_cache
+def _barycentric(n: int) -> np.ndarray:
+    weights = (-1.0) ** np.arange(n + 1)
+    weights[[0, -1]] *= 0.5
+    return weights
+
+
+def coefficients(values: np.ndarray) -> np.ndarray:
+    """Chebyshev coefficients (n + 1, q) of the interpolant through ``values`` (n + 1, q) at ``lobatto(n)``."""
+    n = values.shape[0] - 1
+    return _transform(n) @ values
+
+
+@lru_cache
+def _transform(n: int) -> np.ndarray:
+    j = np.arange(n + 1)
+    weight = np.where((j == 0) | (j == n), 0.5, 1.0)
+    # ascending nodes are cos(pi (n - j)/n)
+    matrix = np.cos(np.pi * np.outer(j, n - j) / n) * weight * (2 / n)
+    matrix[[0, -1]] *= 0.5
+    return matrix
+
+
+@lru_cache
+def refinement(n: int) -> np.ndarray:
+    """Matrix that takes values at ``lobatto(n/2)`` to the nodes of ``lobatto(n)`` that are new, (n/2, n/2 + 1)."""
+    x, new, w = lobatto(n // 2), lobatto(n)[1::2], _barycentric(n // 2)
+    terms = w / (new[:, None] - x)
+    return terms / terms.sum(axis=1, keepdims=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t; ``error`` bounds each of them, (q,)."""
+
+    low: float
+    high: float
+    coefficients: np.ndarray
+    error: np.ndarray
+
+    def penetration(self, t):
+        """D at t."""
+        return self.low + (self.high - self.low) * np.sin(0.5 * np.pi * t) ** 2
+
+    def parameter(self, D):
+        """t at D."""
+        share = np.clip((D - self.low) / (self.high - self.low), 0.0, 1.0)
+        return 2 / np.pi * np.arcsin(np.sqrt(share))
+
+    def values(self, t) -> np.ndarray:
+        """Quantities at t (m,), shape (m, q)."""
+        return np.polynomial.chebyshev.chebval(2 * t - 1, self.coefficients, tensor=True).T
+
+    def first(self, t) -> tuple[np.ndarray, np.ndarray]:
+        """The first quantity (pressure) and its derivative with respect to t."""
+        c = self.coefficients[:, 0]
+        return _value(2 * t - 1, c), 2 * _value(2 * t - 1, np.polynomial.chebyshev.chebder(c))
+
+
+def _value(x, c):
+    return np.polynomial.chebyshev.chebval(x, c)

@@ -1,0 +1,196 @@
+"""Friction law of a level: what it carries at a given nominal pressure, on one branch of loading.
+
+Unloading follows the largest penetration at which the level carries the pressure: from saturation downwards a part of the curve
+counts only where its pressure lies below everything above it. Loading follows the smallest: from the first contact upwards
+only where the pressure lies above everything below. What remains is a stack of monotone branches in disjoint intervals of pressure; the
+law may jump between them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .chebyshev import Piece
+from .curve import Curve
+
+_GRID = np.linspace(0, 1, 65)
+_EPS = np.finfo(float).eps
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """A monotone part of a curve: piece and parameters between which pressure rises from ``p_low`` to ``p_high``."""
+
+    piece: Piece
+    t_low: float
+    t_high: float
+    p_low: float
+    p_high: float
+
+    def parameter(self, p: np.ndarray) -> np.ndarray:
+        """t at which the pressure is ``p`` (clipped to the branch); safeguarded Newton, all at once."""
+        low, high = np.full(p.shape, self.t_low), np.full(p.shape, self.t_high)
+        span = self.p_high - self.p_low
+        share = np.clip((p - self.p_low) / span, 0, 1) if span > 0 else np.zeros(p.shape)
+        t = low + (high - low) * share
+        for _ in range(80):
+            value, slope = self.piece.first(t)
+            below = value < p
+            low, high = np.where(below, t, low), np.where(below, high, t)
+            step = np.divide(p - value, slope, out=np.full(t.shape, np.inf), where=slope > 0)
+            new = t + step
+            new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
+            moved = np.abs(new - t)
+            t = new
+            if np.all(moved <= 4 * _EPS):
+                break
+        return t
+
+
+def branches(curve: Curve, unloading: bool) -> list[Branch]:
+    """Branches that load control follows, in order of rising pressure."""
+    parts = [part for piece in curve.pieces for part in _rising(piece)]  # from high D to low D
+    kept = []
+    if unloading:
+        least = np.inf
+        for part in parts:
+            cut = _below(part, least)
+            if cut is not None:
+                kept.append(cut)
+                least = cut.p_low
+        return kept[::-1]
+    most = -np.inf
+    for part in reversed(parts):
+        cut = _above(part, most)
+        if cut is not None:
+            kept.append(cut)
+            most = cut.p_high
+    return kept
+
+
+def _rising(piece: Piece) -> list[Branch]:
+    """Maximal parts of a piece in which pressure rises with D, from high to low D."""
+    value, slope = piece.first(_GRID)
+    rising = value[1:] > value[:-1]
+    parts = []
+    i = len(rising)
+    while i > 0:
+        if not rising[i - 1]:
+            i -= 1
+            continue
+        j = i
+        while i > 0 and rising[i - 1]:
+            i -= 1
+        t_low = _turn(piece, max(i - 1, 0), min(i + 1, 64)) if i > 0 else 0.0
+        t_high = _turn(piece, max(j - 1, 0), min(j + 1, 64)) if j < 64 else 1.0
+        ends = piece.first(np.array([t_low, t_high]))[0]
+        if t_high > t_low and ends[1] > ends[0]:
+            parts.append(Branch(piece, t_low, t_high, float(ends[0]), float(ends[1])))
+    return parts
+
+
+def _turn(piece: Piece, i: int, j: int) -> float:
+    """Zero of dp/dt between grid points i and j."""
+    low, high = _GRID[i], _GRID[j]
+    sign = piece.first(np.array([low]))[1][0]
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        if piece.first(np.array([middle]))[1][0] * sign > 0:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)
+
+
+def _below(part: Branch, least: float) -> Branch | None:
+    if part.p_low >= least:
+        return None
+    if part.p_high <= least:
+        return part
+    t = float(part.parameter(np.array([least]))[0])
+    return Branch(part.piece, part.t_low, t, part.p_low, least) if t > part.t_low else None
+
+
+def _above(part: Branch, most: float) -> Branch | None:
+    if part.p_high <= most:
+        return None
+    if part.p_low >= most:
+        return part
+    t = float(part.parameter(np.array([most]))[0])
+    return Branch(part.piece, t, part.t_high, most, part.p_high) if part.t_high > t else None
+
+
+@dataclass(frozen=True)
+class Law:
+    """Means of a level over nominal pressure at one velocity.
+
+    Attributes:
+        branches: in order of rising pressure. pull_off: below it there is no contact.
+        p_sat: pressure of saturated contact; ``saturated`` are the means there (from there on constant, but for pressure).
+        p_top: largest pressure the law was built for (``p_sat``, unless it was cut below that).
+        error: bound of the interpolation error of each quantity, (q,).
+    """
+
+    branches: list[Branch]
+    pull_off: float
+    p_sat: float
+    saturated: np.ndarray
+    p_top: float
+    error: np.ndarray
+    strips: int
+
+    @property
+    def friction_error(self) -> float:
+        """Bound of the interpolation error of friction, its own and what it carries, Pa."""
+        below = (self.saturated.size - 4) // 4
+        return float(self.error[1 : 2 + 3 * below : 3].sum())
+
+    @property
+    def breaks(self) -> np.ndarray:
+        """Pressures at which the law jumps or is not smooth, ascending, from pull-off to saturation."""
+        ends = [b.p_low for b in self.branches] + [b.p_high for b in self.branches]
+        return np.unique([e for e in [*ends, self.pull_off, self.p_sat] if np.isfinite(e)])
+
+    def __call__(self, p: np.ndarray) -> np.ndarray:
+        """Quantities at the nominal pressures ``p`` (m,), shape (m, q): zero below pull-off, saturated above ``p_sat``."""
+        out = np.zeros((p.size, self.saturated.size))
+        out[:, 0] = p
+        high = p >= self.p_sat
+        out[high, 1:] = self.saturated[1:]
+        rest = np.flatnonzero(~high & (p >= self.pull_off))
+        if not rest.size or not self.branches:
+            return out
+        upper = np.array([b.p_high for b in self.branches])
+        which = np.minimum(np.searchsorted(upper, p[rest]), len(self.branches) - 1)
+        for i, branch in enumerate(self.branches):
+            here = rest[which == i]
+            if here.size:
+                out[here] = branch.piece.values(branch.parameter(p[here]))
+        return out
+
+    def slope(self, p: float) -> float:
+        """d(tau)/dp at the nominal pressure ``p``, own friction only; 0 where the branch ends in a fold of the curve."""
+        upper = np.array([b.p_high for b in self.branches])
+        branch = self.branches[min(int(np.searchsorted(upper, p)), len(self.branches) - 1)]
+        t = branch.parameter(np.array([p]))
+        step = 1e-6 * (branch.t_high - branch.t_low)
+        ends = np.clip(np.concatenate((t - step, t + step)), branch.t_low, branch.t_high)
+        values = branch.piece.values(ends)
+        rise = values[1] - values[0]
+        return float(rise[1] / rise[0]) if rise[0] > 0 else 0.0
+
+    def penetration(self, p: float) -> float:
+        """D at which the level carries the nominal pressure ``p``, pull-off <= p < p_top."""
+        upper = np.array([b.p_high for b in self.branches])
+        branch = self.branches[min(int(np.searchsorted(upper, p)), len(self.branches) - 1)]
+        return float(branch.piece.penetration(branch.parameter(np.array([p])))[0])
+
+
+def law_of(curve: Curve, unloading: bool, p_sat: float, saturated: np.ndarray, cut: bool) -> Law:
+    """The friction law along one branch of loading of a traced curve."""
+    kept = branches(curve, unloading)
+    pull_off = kept[0].p_low if kept else p_sat
+    error = np.max([b.piece.error for b in kept], axis=0) if kept else np.zeros(saturated.size)
+    return Law(kept, pull_off, p_sat, saturated, kept[-1].p_high if cut and kept else p_sat, error, curve.strips)

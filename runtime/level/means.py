@@ -1,0 +1,30 @@
+"""Means of a level at given penetrations: adaptive panels, or the paper's equal strips."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .panels import Averages, average
+from .strips import Columns
+
+
+def level_means(columns: Columns, rtol: np.ndarray) -> Averages:
+    """Means of ``strips.QUANTITIES`` for every column, to ``rtol (|value| + 1e-3 scale)`` each; ``rtol`` of shape (n,)."""
+    floor = np.broadcast_to(1e-3 * columns.scales, (columns.size, columns.scales.size))
+    return average(columns.integrand, columns.transitions(), floor, rtol, columns.scales.size)
+
+
+def equal_strips(columns: Columns, strips: int) -> Averages:
+    """The paper's average over ``2 N`` equal strips of the cell (Eq. 11): midpoints; the halves are mirror images.
+
+    The error estimate is the difference to the sum over every third strip, whose thirds share their midpoints, where N is a
+    multiple of 3, and to half the strips' trapezoid otherwise.
+    """
+    theta = np.pi * (np.arange(strips) + 0.5) / strips
+    column = np.repeat(np.arange(columns.size), strips)
+    _, values = columns.integrand(column, np.tile(theta, columns.size))
+    values = values.reshape(columns.size, strips, -1)
+    mean = values.mean(axis=1)
+    # a jump of the integrand shifts the sum by up to one strip's share of it; a kink by less
+    errors = np.abs(np.diff(values, axis=1)).max(axis=1, initial=0.0) / strips
+    return Averages(mean, errors, np.full(columns.size, strips))

@@ -1,0 +1,226 @@
+"""Averages over y by panels between the transitions of regime.
+
+Inside a panel every strip is in the same regime and the integrand is smooth, but for its ends, where a strip may detach
+like a square root at a fold. The substitution ``theta = low + width sin^2(pi t/2)`` turns such an end into a smooth one, and
+Clenshaw-Curtis sums in t, doubled on nested nodes, converge geometrically. Where nodes of one panel disagree about the
+regime, the transition between them is located by bisection and the panel is split there.
+
+All panels of all columns (a column is one velocity and one penetration) advance together: one batch of strips per round.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+#: (column, theta) -> (regime code, values): arrays (m,), (m,) -> (m,), (m, q)
+Integrand = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+_FIRST, _LAST = 8, 64
+_ROUNDS = 60
+_EPS = np.finfo(float).eps
+#: how much the last doubling may be trusted to have gained over the one before
+_GAIN = 0.02
+
+
+@dataclass(slots=True)
+class Averages:
+    """Means over the cell: values and error estimates of shape (columns, q); strips evaluated per column."""
+
+    values: np.ndarray
+    errors: np.ndarray
+    strips: np.ndarray
+
+
+@dataclass(slots=True)
+class _Panels:
+    column: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+
+    def take(self, index):
+        return _Panels(self.column[index], self.low[index], self.high[index])
+
+    @property
+    def size(self):
+        return self.column.size
+
+
+def average(integrand: Integrand, starts: list[np.ndarray], floor: np.ndarray, rtol: np.ndarray, q: int) -> Averages:
+    """Means ``(1/pi) int_0^pi values d(theta)`` of every column to ``rtol (|value| + floor)``.
+
+    ``starts``: for each column the interior thetas known to be transitions, sorted. ``floor`` and ``rtol`` have shape
+    (columns, q) and (columns,).
+    """
+    n = len(starts)
+    edges = [np.concatenate(([0.0], s, [np.pi])) for s in starts]
+    panels = _Panels(
+        np.repeat(np.arange(n), [e.size - 1 for e in edges]),
+        np.concatenate([e[:-1] for e in edges]),
+        np.concatenate([e[1:] for e in edges]),
+    )
+    work = _Work(integrand, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
+    for _ in range(_ROUNDS):
+        panels = work.refine(panels.take(np.flatnonzero(panels.high > panels.low)))
+        if not panels.size:
+            break
+    else:
+        work.give_up(panels)
+    return Averages(work.values / np.pi, work.errors / np.pi, work.strips)
+
+
+@dataclass(slots=True)
+class _Work:
+    integrand: Integrand
+    floor: np.ndarray
+    rtol: np.ndarray
+    values: np.ndarray
+    errors: np.ndarray
+    strips: np.ndarray
+
+    def refine(self, panels: _Panels) -> _Panels:
+        """Accept what converges under doubling; return what has to be split."""
+        later = []
+        nodes = None
+        previous = None
+        n = _FIRST
+        while panels.size and n <= _LAST:
+            codes, values = self._sample(panels, n, nodes)
+            mixed = (codes != codes[:, :1]).any(axis=1)
+            if mixed.any():
+                later.append(self._split_at_transitions(panels.take(mixed), codes[mixed], values[mixed], n))
+            keep = ~mixed
+            panels, codes, values = panels.take(keep), codes[keep], values[keep]
+            width = (panels.high - panels.low)[:, None]
+            fine = width * np.einsum("j,pjq->pq", _weights(n), values)
+            coarse = width * np.einsum("j,pjq->pq", _weights(n // 2), values[:, 1::2])
+            change = np.abs(fine - coarse)
+            if previous is None:
+                coarser = width * np.einsum("j,pjq->pq", _weights(n // 4), values[:, 3::4])
+                before = np.abs(coarse - coarser)
+            else:
+                before = previous[keep]
+            gain = np.divide(change, before, out=np.ones_like(change), where=before > change)
+            rounding = 4 * _EPS * width * np.max(np.abs(values), axis=1, initial=0.0)
+            error = change * np.maximum(gain, _GAIN) + rounding
+            done = self._accept(panels, fine, error, rounding)
+            rest = ~done
+            panels, nodes, previous = panels.take(rest), (codes[rest], values[rest]), change[rest]
+            n *= 2
+        if panels.size:
+            middle = 0.5 * (panels.low + panels.high)
+            later.append(_Panels(panels.column, panels.low, middle))
+            later.append(_Panels(panels.column, middle, panels.high))
+        if not later:
+            return panels
+        return _Panels(*(np.concatenate([getattr(p, f) for p in later]) for f in ("column", "low", "high")))
+
+    def give_up(self, panels: _Panels) -> None:
+        """Take panels that never converged at the size they have shrunk to, with their whole content as error."""
+        codes, values = self._sample(panels, _FIRST, None)
+        width = (panels.high - panels.low)[:, None]
+        content = width * np.max(np.abs(values), axis=1)
+        np.add.at(self.values, panels.column, width * np.mean(values, axis=1))
+        np.add.at(self.errors, panels.column, content)
+
+    def _tolerance(self, column):
+        goal = self.rtol[:, None] * (np.abs(self.values) + np.pi * self.floor)
+        return 0.2 * goal[column]
+
+    def _accept(self, panels, fine, error, rounding):
+        # what is not accepted yet counts for the size of the result, not for the result
+        total = self.values.copy()
+        np.add.at(total, panels.column, fine)
+        goal = self.rtol[:, None] * (np.abs(total) + np.pi * self.floor)
+        done = (error <= 0.2 * goal[panels.column] + 2 * rounding).all(axis=1)
+        np.add.at(self.values, panels.column[done], fine[done])
+        np.add.at(self.errors, panels.column[done], error[done])
+        return done
+
+    def _sample(self, panels: _Panels, n: int, known):
+        """Codes (panels, n - 1) and values (panels, n - 1, q) at the interior nodes; ``known`` are those of n/2."""
+        t = _nodes(n)
+        if known is not None:
+            t = t[0::2]
+        theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * np.sin(0.5 * np.pi * t) ** 2
+        column = np.broadcast_to(panels.column[:, None], theta.shape)
+        codes, values = self.evaluate(column.ravel(), theta.ravel())
+        codes, values = codes.reshape(theta.shape), values.reshape(*theta.shape, -1)
+        if known is None:
+            return codes, values
+        all_codes = np.empty((panels.size, n - 1), codes.dtype)
+        all_values = np.empty((panels.size, n - 1, values.shape[2]))
+        all_codes[:, 0::2], all_codes[:, 1::2] = codes, known[0]
+        all_values[:, 0::2], all_values[:, 1::2] = values, known[1]
+        return all_codes, all_values
+
+    def evaluate(self, column, theta):
+        np.add.at(self.strips, column, 1)
+        return self.integrand(column, theta)
+
+    def _split_at_transitions(self, panels: _Panels, codes, values, n) -> _Panels:
+        """Locate the transition between neighbouring nodes that disagree; panels end there."""
+        t = _nodes(n)
+        theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * np.sin(0.5 * np.pi * t) ** 2
+        row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
+        column = panels.column[row]
+        low, high = theta[row, node], theta[row, node + 1]
+        code_low, code_high = codes[row, node], codes[row, node + 1]
+        jump = np.abs(values[row, node + 1] - values[row, node]) + np.abs(values).max(axis=1)[row]
+        low, high = self._bisect(column, low, high, code_low, code_high, jump)
+        # the sliver between the two sides is left out; what it could hold is part of the error
+        np.add.at(self.errors, column, (high - low)[:, None] * jump)
+        np.add.at(self.values, column, (high - low)[:, None] * 0.5 * (values[row, node + 1] + values[row, node]))
+        first = np.concatenate(([True], row[1:] != row[:-1]))
+        last = np.concatenate((row[1:] != row[:-1], [True]))
+        starts = np.where(first, panels.low[row], 0.0)
+        starts[~first] = high[np.flatnonzero(~first) - 1]
+        tail = _Panels(column[last], high[last], panels.high[row[last]])
+        return _Panels(
+            np.concatenate((column, tail.column)),
+            np.concatenate((starts, tail.low)),
+            np.concatenate((low, tail.high)),
+        )
+
+    def _bisect(self, column, low, high, code_low, code_high, jump):
+        goal = 0.02 * self._tolerance(column)
+        allowed = np.min(np.divide(goal, jump, out=np.full_like(goal, np.inf), where=jump > 0), axis=1)
+        active = np.arange(column.size)
+        low, high = low.copy(), high.copy()
+        for _ in range(60):
+            width = high[active] - low[active]
+            active = active[width > np.maximum(allowed[active], 4 * _EPS * high[active])]
+            if not active.size:
+                break
+            # more points per round where the batch is small: rounds, not strips, are then what costs
+            m = int(np.clip(64 // active.size, 1, 15))
+            share = np.arange(1, m + 1) / (m + 1)
+            theta = low[active][:, None] + (high - low)[active][:, None] * share
+            codes, _ = self.evaluate(np.repeat(column[active], m), theta.ravel())
+            codes = codes.reshape(-1, m)
+            codes = np.concatenate((code_low[active][:, None], codes, code_high[active][:, None]), axis=1)
+            points = np.concatenate((low[active][:, None], theta, high[active][:, None]), axis=1)
+            step = np.argmax(codes[:, 1:] != codes[:, :-1], axis=1)
+            rows = np.arange(active.size)
+            low[active], high[active] = points[rows, step], points[rows, step + 1]
+            code_high[active] = codes[rows, step + 1]
+        return low, high
+
+
+@lru_cache
+def _nodes(n: int) -> np.ndarray:
+    """Interior Clenshaw-Curtis nodes on (0, 1)."""
+    j = np.arange(1, n)
+    return np.sin(0.5 * np.pi * j / n) ** 2
+
+
+@lru_cache
+def _weights(n: int) -> np.ndarray:
+    """Clenshaw-Curtis weights at the interior nodes, times the derivative of the substitution (zero at both ends)."""
+    j = np.arange(1, n)
+    m = np.arange(1, n // 2 + 1)
+    b = np.where(m == n / 2, 1.0, 2.0)
+    angle = 2 * np.outer(j, m) * np.pi / n
+    weights = (2 / n) * (1 - (b * np.cos(angle) / (4 * m**2 - 1)).sum(axis=1)) / 2
+    return weights * 0.5 * np.pi * np.sin(np.pi * _nodes(n))

@@ -1,0 +1,190 @@
+"""Public interface of one level: its means, and its friction law."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from hystrip.errors import InputError
+from hystrip.inputs.adhesion import Dugdale
+from hystrip.inputs.checks import broadcast, choice, number, numbers
+from hystrip.inputs.material import StandardLinearSolid
+from hystrip.inputs.surface import Level
+from hystrip.strip.solution import BRANCHES, EDGES
+
+from .build import build_laws
+from .law import Law
+from .means import equal_strips, level_means
+from .saturated import saturated_level
+from .strips import QUANTITIES, Columns, Tally
+
+
+@dataclass(frozen=True, eq=False)
+class LevelSolution:
+    """Means of a level; arrays have the broadcast shape of V and D (or pressure), SI units.
+
+    ``D`` and means are NaN and zero below pull-off (``pulled_off``). ``error_estimate``: of ``p_mean``, ``tau_mean``, ``contact_fraction``,
+    ``adhesion_fraction``, absolute, shape (4, ...). ``strips``: strips evaluated, in all.
+    """
+
+    D: np.ndarray
+    p_mean: np.ndarray
+    tau_mean: np.ndarray
+    contact_fraction: np.ndarray
+    adhesion_fraction: np.ndarray
+    error_estimate: np.ndarray
+    pulled_off: np.ndarray
+    strips: int
+
+
+@dataclass(frozen=True, eq=False)
+class FrictionLaw:
+    """Friction stress of a level over nominal pressure at one velocity: ``law(p)``, Pa, any shape.
+
+    Zero below ``pull_off``, ``tau_sat`` from ``p_sat`` on. ``breaks``: pressures at which it jumps or has a kink. ``below``: largest
+    pressure it was built for; asking for more is an ``InputError``. ``error_estimate``: absolute error of the friction, Pa.
+    """
+
+    pull_off: float
+    p_sat: float
+    tau_sat: float
+    below: float
+    error_estimate: float
+    _law: Law = field(repr=False)
+
+    @property
+    def breaks(self) -> np.ndarray:
+        """Pressures, Pa, ascending, at which the law jumps or is not smooth."""
+        return self._law.breaks
+
+    @property
+    def strips(self) -> int:
+        """Strips that were evaluated to build the law."""
+        return self._law.strips
+
+    def __call__(self, p):
+        """Friction stress at nominal pressure ``p`` (Pa), same shape."""
+        return self._evaluate(p, 1)
+
+    def contact_fraction(self, p):
+        """Contact fraction at nominal pressure ``p`` (Pa), same shape."""
+        return self._evaluate(p, 2)
+
+    def _evaluate(self, p, quantity):
+        p = numbers("p", p, "Pa")
+        if (p > self.below).any() and self.below < self.p_sat:
+            raise InputError("p", float(p.max()), f"at most {self.below:g} Pa: the law was built up to there")
+        return self._law(p.ravel())[:, quantity].reshape(p.shape)[()]
+
+
+def solve_level(
+    material: StandardLinearSolid,
+    adhesion: Dugdale,
+    level: Level,
+    *,
+    V,
+    D=None,
+    pressure=None,
+    edge: str = "continuous",
+    branch: str = "unloading",
+    rtol: float = 1e-9,
+    strips: int | None = None,
+) -> LevelSolution:
+    """Means of a level over its strips (Eq. 11) at penetration ``D`` (m) or nominal ``pressure`` (Pa) and velocity ``V`` (m/s).
+
+    ``strips=N``: the paper's equal strips (midpoints of N strips of half a cell) instead of adaptive panels; with ``D`` only.
+    ``rtol`` is relative to ``|value| + 1e-3 scale``, scale ``K h + p_0`` for pressure, times ``h/l`` for friction, 1 for fractions.
+
+    Raises ``InputError`` for inputs out of range, ``SolverError`` for a strip that could not be certified.
+    """
+    V, level, edge, branch, rtol = _checked(material, adhesion, level, V, edge, branch, rtol)
+    if (D is None) == (pressure is None):
+        raise InputError("D, pressure", {"D": D, "pressure": pressure}, "exactly one of the two")
+    if strips is not None:
+        if isinstance(strips, bool) or not isinstance(strips, (int, np.integer)) or strips < 1:
+            raise InputError("strips", strips, "an integer >= 1, or None for adaptive panels")
+        if D is None:
+            raise InputError("strips", strips, "None where the pressure is given: equal strips need D")
+    name, load = ("D", numbers("D", D, "m")) if pressure is None else ("pressure", numbers("pressure", pressure, "Pa"))
+    shape = broadcast(**{"V": V, name: load})
+    V, load = (np.broadcast_to(v, shape).ravel() for v in (V, load))
+    tally = Tally()
+    if pressure is not None:
+        return _at_pressure(material, adhesion, level, V, load, edge, branch, rtol, shape, tally)
+    columns = Columns(material, adhesion, level, edge, branch, V, load, tally=tally)
+    means = level_means(columns, np.full(V.size, rtol)) if strips is None else equal_strips(columns, int(strips))
+    return _solution(load, means.values, means.errors, np.zeros(V.size, bool), shape, tally)
+
+
+def _at_pressure(material, adhesion, level, V, p, edge, branch, rtol, shape, tally):
+    velocities, group = np.unique(V, return_inverse=True)
+    top = np.full(velocities.size, -np.inf)
+    np.maximum.at(top, group, p)
+    columns = Columns(material, adhesion, level, edge, branch, velocities, np.zeros(velocities.size), tally=tally)
+    laws = _laws(columns, 0.2 * rtol, top)
+    q = len(QUANTITIES)
+    D, values, errors, off = np.full(p.size, np.nan), np.zeros((p.size, q)), np.zeros((p.size, q)), np.zeros(p.size, bool)
+    for i, g in enumerate(group):
+        law = laws[g]
+        off[i] = p[i] < law.pull_off or (p[i] < law.p_sat and not law.branches)
+        if p[i] >= law.p_sat:
+            D[i] = p[i] / material.K + 0.75 * level.h
+        elif not off[i]:
+            D[i] = law.penetration(p[i])
+    on = np.flatnonzero(~off)
+    means = level_means(columns.at(group[on], D[on]), np.full(on.size, rtol))
+    values[on], errors[on] = means.values, means.errors
+    errors[on, 0] += np.abs(values[on, 0] - p[on])
+    slopes = np.array([laws[group[i]].slope(p[i]) if p[i] < laws[group[i]].p_sat else 0.0 for i in on])
+    errors[on, 1] += np.abs(slopes) * errors[on, 0]
+    return _solution(D, values, errors, off, shape, tally)
+
+
+def _solution(D, values, errors, off, shape, tally):
+    columns = [values[:, i].reshape(shape) for i in range(len(QUANTITIES))]
+    return LevelSolution(
+        D.reshape(shape), *columns, errors.T.reshape(-1, *shape), off.reshape(shape), tally.solved + tally.decided
+    )
+
+
+def friction_law(
+    material: StandardLinearSolid,
+    adhesion: Dugdale,
+    level: Level,
+    *,
+    V,
+    edge: str = "continuous",
+    branch: str = "unloading",
+    rtol: float = 1e-6,
+    below: float | None = None,
+) -> FrictionLaw:
+    """Friction law of a level at one velocity ``V`` (m/s), from pull-off up to saturation, or up to the pressure ``below`` (Pa).
+
+    Raises ``InputError`` for inputs out of range, ``SolverError`` for a strip that could not be certified.
+    """
+    V, level, edge, branch, rtol = _checked(material, adhesion, level, V, edge, branch, rtol)
+    if V.ndim:
+        raise InputError("V", V, "a single number: a finite number >= 0 (m/s)")
+    top = None if below is None else np.array([number("below", below, "Pa")])
+    columns = Columns(material, adhesion, level, edge, branch, V.reshape(1), np.zeros(1))
+    law = _laws(columns, rtol, top)[0]
+    built = law.p_sat if below is None or below >= law.p_top else float(below)
+    return FrictionLaw(law.pull_off, law.p_sat, float(law.saturated[1]), built, law.friction_error, law)
+
+
+def _laws(columns: Columns, rtol: float, top) -> list[Law]:
+    n = columns.size
+    s = saturated_level(columns.material, columns.adhesion, columns.level, columns.V)
+    saturated = np.stack([s.p_sat, s.tau_sat, np.ones(n), np.zeros(n)], axis=1)
+    return build_laws(columns, np.full(n, rtol), s.p_sat, s.D_sat, saturated, top)
+
+
+def _checked(material, adhesion, level, V, edge, branch, rtol):
+    from hystrip.solve import check_rtol, check_single
+
+    check_single(material, adhesion)
+    if not isinstance(level, Level):
+        raise InputError("level", level, "a hystrip.Level")
+    V = numbers("V", V, "m/s", 0)
+    return V, level, choice("edge", edge, EDGES), choice("branch", branch, BRANCHES), check_rtol(rtol)

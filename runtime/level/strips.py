@@ -1,0 +1,153 @@
+"""The strips of a level as the integrand of its averages."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Protocol
+
+import numpy as np
+
+from hystrip.inputs.adhesion import Dugdale
+from hystrip.inputs.material import StandardLinearSolid
+from hystrip.inputs.surface import Level
+from hystrip.solver import kernel_of
+from hystrip.strip.engine import Solved
+from hystrip.strip.problem import Strips
+from hystrip.strip.regimes import CODE
+from hystrip.strip.solution import refuse_uncertified, solve_si
+
+#: What is averaged over the strips of a level, in this order; what lower levels carry in its contact follows.
+QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
+
+
+@dataclass
+class Tally:
+    """Work done so far: strips whose orbit was searched for, and strips decided by a closed form alone."""
+
+    solved: int = 0
+    decided: int = 0
+
+    def count(self, solved: Solved) -> None:
+        searched = int(np.count_nonzero(solved.evaluations))
+        self.solved += searched
+        self.decided += solved.code.size - searched
+
+
+class Carry(Protocol):
+    """What the levels below contribute in the contact of a strip."""
+
+    scales: np.ndarray
+
+    def over_contact(self, kernel, strips: "SolvedStrips", group: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Number of law breaks the strip's pressure exceeds (m,), and the contributions averaged over the period (m, q)."""
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Pairs of velocity and penetration at which one level is averaged; ``V`` and ``D`` of shape (n,).
+
+    ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
+    laws belongs to a column.
+    """
+
+    material: StandardLinearSolid
+    adhesion: Dugdale
+    level: Level
+    edge: str
+    branch: str
+    V: np.ndarray
+    D: np.ndarray
+    carry: Carry | None = None
+    group: np.ndarray | None = None
+    tally: Tally = field(default_factory=Tally, compare=False)
+
+    def at(self, index, D) -> "Columns":
+        """The columns ``index`` at other penetrations ``D``."""
+        group = None if self.group is None else self.group[index]
+        return replace(self, V=self.V[index], D=D, group=group)
+
+    @property
+    def size(self) -> int:
+        return self.D.size
+
+    @property
+    def scales(self) -> np.ndarray:
+        """Natural scale of each quantity: ``K h + p_0``, that times ``h/l``, 1, 1, and those of what is carried."""
+        p = self.material.K * self.level.h + self.adhesion.p_0
+        own = np.array([p, p * self.level.h / self.level.l, 1.0, 1.0])
+        return own if self.carry is None else np.concatenate((own, self.carry.scales))
+
+    def solve(self, column: np.ndarray, theta: np.ndarray) -> "SolvedStrips":
+        """Strips at ``theta = k y`` of the given columns, both of shape (m,). Raises ``SolverError`` for one not certified."""
+        n = column.size
+        m, a = self.material, self.adhesion
+        full = lambda value: np.full(n, float(value))  # noqa: E731
+        A = self.level.amplitude(theta)
+        D = self.D[column] - self.level.drop(theta)
+        inputs = (
+            full(self.level.l), A, D, self.V[column], full(m.K), full(m.T_eps), full(m.T_sigma),
+            full(a.p_0), full(a.delta_0), full(m.J), full(m.L),
+        )
+        solved, strips, scales = solve_si(kernel_of(m), *inputs, self.edge, self.branch)
+        refuse_uncertified(solved, inputs, self.edge, self.branch)
+        self.tally.count(solved)
+        tau = solved.tau_mean * scales["p"] * scales["k"] * scales["A"]
+        return SolvedStrips(solved, strips, scales, solved.p_mean * scales["p"], tau)
+
+    def integrand(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Codes that change wherever the integrand may not be smooth (m,), and the values to average (m, q)."""
+        strips = self.solve(column, theta)
+        code, values = strips.solved.code.astype(int), strips.values
+        if self.carry is None:
+            return code, values
+        crossed, carried = self.carry.over_contact(kernel_of(self.material), strips, self.group[column])
+        return code + len(CODE) * crossed, np.concatenate((values, carried), axis=1)
+
+    def transitions(self) -> list[np.ndarray]:
+        """Thetas of the transitions known in closed form, for every column: where strips become saturated, where they lose touch."""
+        return _known_transitions(self)
+
+
+@dataclass(frozen=True)
+class SolvedStrips:
+    """Solved strips of a batch, with pressure and friction means in Pa."""
+
+    solved: Solved
+    strips: Strips
+    scales: dict
+    p_mean: np.ndarray
+    tau_mean: np.ndarray
+
+    @property
+    def values(self) -> np.ndarray:
+        s = self.solved
+        return np.column_stack([self.p_mean, self.tau_mean, s.contact_fraction, s.adhesion_fraction])
+
+
+def saturation_depth(columns: Columns) -> np.ndarray:
+    """Penetration from which the whole level is in contact, ``(h/2)(1 + R) - p_0/K``, m; shape (n,)."""
+    m, h = columns.material, columns.level.h
+    k = columns.level.k
+    R = kernel_of(m).modulus_ratio(k * columns.V * m.T_sigma, k * columns.V * m.T_eps)
+    # the edge strip is flat and saturates by itself once the crest of the level is h deep, which R >= 1 implies
+    return 0.5 * h * (1 + R) - columns.adhesion.p_0 / m.K
+
+
+def _known_transitions(columns: Columns) -> list[np.ndarray]:
+    m, h, p_0, delta_0 = columns.material, columns.level.h, columns.adhesion.p_0, columns.adhesion.delta_0
+    if h == 0:
+        return [np.empty(0)] * columns.size
+    R = 2 * saturation_depth(columns) / h + 2 * p_0 / (h * m.K) - 1
+    # saturated where D - drop >= A (1 + R) - p_0/K, with drop = (h/2)(1 - cos), A = (h/4)(1 + cos)
+    numerator = (columns.D + p_0 / m.K) / h - 0.5 - 0.25 * (1 + R)
+    saturated = np.divide(4 * numerator, R - 1, out=np.full(columns.size, np.inf), where=R > 1)
+    found = [saturated]
+    if columns.branch == "loading" or p_0 == 0:
+        # free where D - drop <= -delta_0 (or 0 without adhesion)
+        found.append(1 - 2 * (columns.D + (delta_0 if p_0 > 0 else 0.0)) / h)
+    out = []
+    for cosines in np.array(found).T:
+        inside = cosines[(cosines > -1) & (cosines < 1)]
+        out.append(np.sort(np.arccos(inside)))
+    return out
+

@@ -1,0 +1,225 @@
+"""All levels of a surface: laws from the smallest level upwards, as far as the level above asks for them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hystrip.inputs.adhesion import Dugdale
+from hystrip.inputs.material import StandardLinearSolid
+from hystrip.inputs.surface import Level
+from hystrip.level.build import build_laws
+from hystrip.level.carried import CarriedByLaws, peak_pressure
+from hystrip.level.inverse import cut_penetration
+from hystrip.level.means import level_means
+from hystrip.level.saturated import SaturatedLevel, saturated_level
+from hystrip.level.strips import QUANTITIES, Columns, Tally
+
+_OWN = len(QUANTITIES)
+#: the error column of what is carried never asks for refinement
+_NO_SCALE = 1e300
+#: laws are built this much finer than what is asked of the result
+_FINER = 0.2
+
+
+@dataclass
+class Points:
+    """Results at points (velocity, load), arrays (n,) and (levels, n), SI."""
+
+    D: np.ndarray
+    p: np.ndarray
+    tau: np.ndarray
+    contact: np.ndarray
+    adhesion: np.ndarray
+    error: np.ndarray
+    pull_off: np.ndarray
+    p_sat: np.ndarray
+    closed_form: np.ndarray
+    pulled_off: np.ndarray
+
+
+@dataclass(frozen=True)
+class Surface:
+    """What stays the same over all points of a solution."""
+
+    material: StandardLinearSolid
+    adhesion: Dugdale
+    levels: Sequence[Level]
+    edge: str
+    branch: str
+    rtol: float
+    skip: bool
+    tally: Tally
+
+    def columns(self, i: int, V, D=None, carry=None, group=None) -> Columns:
+        """Columns of level ``i``."""
+        D = np.zeros(V.size) if D is None else D
+        return Columns(self.material, self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, self.tally)
+
+    def saturated(self, V) -> "Stack":
+        """Saturation of every level, and of each level with all below it."""
+        own = [saturated_level(self.material, self.adhesion, level, V) for level in self.levels]
+        p_full, D_full = [own[-1].p_sat], [own[-1].D_sat]
+        for level, s in zip(self.levels[-2::-1], own[-2::-1], strict=True):
+            # the least local pressure, at the crest, has to saturate everything below; and -p_0 keeps the level's own contact
+            needed = np.maximum(s.p_sat, p_full[0] + s.lift)
+            p_full.insert(0, needed)
+            D_full.insert(0, needed / self.material.K + 0.75 * level.h)
+        return Stack(own, p_full, D_full)
+
+    def solve(self, V, load, by_pressure: bool, progress: Callable[[int, int], None] | None = None) -> Points:
+        """Solve points; ``V`` (m/s) and ``load`` (Pa or m) of shape (n,)."""
+        return _Solve(self, V, load, by_pressure).run(progress)
+
+
+@dataclass(frozen=True)
+class Stack:
+    """``own[i]``: level i alone. ``p_full[i]``, ``D_full[i]``: from there on level i and all below are saturated."""
+
+    own: list[SaturatedLevel]
+    p_full: list[np.ndarray]
+    D_full: list[np.ndarray]
+
+    def means(self, i: int, K: float, h: float) -> np.ndarray:
+        """Quantities of level i at full saturation, in the order of its columns: own, then carried."""
+        n = self.p_full[i].size
+        one, zero = np.ones(n), np.zeros(n)
+        values = [self.p_full[i], self.own[i].tau_sat, one, zero]
+        for s in self.own[i + 1 :]:
+            values += [s.tau_sat, one, zero]
+        values += [zero] * (len(self.own) - 1 - i)
+        return np.stack(values, axis=1)
+
+
+class _Solve:
+    def __init__(self, surface: Surface, V, load, by_pressure: bool):
+        self.surface, self.V, self.load, self.by_pressure = surface, V, load, by_pressure
+        self.M = len(surface.levels)
+        n = V.size
+        per_level = lambda: np.zeros((self.M, n))  # noqa: E731
+        self.out = Points(
+            np.full(n, np.nan), np.zeros(n), per_level(), per_level(), per_level(), np.zeros(n), np.full(n, np.nan), np.zeros(n),
+            np.zeros(n, bool), np.zeros(n, bool),
+        )
+
+    def run(self, progress) -> Points:
+        stack = self.surface.saturated(self.V)
+        out, K, h = self.out, self.surface.material.K, self.surface.levels[0].h
+        out.p_sat[:] = stack.own[0].p_sat
+        full = self.load >= (stack.p_full[0] if self.by_pressure else stack.D_full[0])
+        if not self.surface.skip:
+            full[:] = False
+        i = np.flatnonzero(full)
+        out.p[i] = self.load[i] if self.by_pressure else K * (self.load[i] - 0.75 * h)
+        out.D[i] = self.load[i] / K + 0.75 * h if self.by_pressure else self.load[i]
+        out.tau[:, i] = np.array([s.tau_sat for s in stack.own])[:, i]
+        out.contact[:, i] = 1.0
+        out.closed_form[i] = True
+        if progress:
+            progress(int(full.sum()), self.V.size)
+        rest = np.flatnonzero(~full)
+        velocities, group = np.unique(self.V[rest], return_inverse=True)
+        # a block of velocities at a time: large enough for the batch to pay, small enough to show progress
+        block = 16
+        for start in range(0, velocities.size, block):
+            chosen = (group >= start) & (group < start + block)
+            self._block(velocities[start : start + block], rest[chosen], group[chosen] - start)
+            if progress:
+                progress(int(full.sum() + np.count_nonzero(group < start + block)), self.V.size)
+        return out
+
+    def _block(self, V, index, group):
+        """Points ``index`` whose velocities are ``V[group]``."""
+        surface, out = self.surface, self.out
+        stack = surface.saturated(V)
+        D, slopes = self._penetrations(stack, V, index, group)
+        touching = np.flatnonzero(np.isfinite(D))
+        index, group, D, slopes = index[touching], group[touching], D[touching], slopes[touching]
+        if not index.size:
+            return
+        columns = surface.columns(0, V[group], D)
+        carry = self._carry(stack, V, group, columns) if self.M > 1 else None
+        columns = surface.columns(0, V[group], D, carry, group)
+        means = level_means(columns, np.full(index.size, 0.5 * surface.rtol))
+        self._write(index, D, slopes, means)
+
+    def _penetrations(self, stack: Stack, V, index, group):
+        """Penetration of each point (NaN below pull-off) and the slopes d(tau)/dp of level 1 there."""
+        load = self.load[index]
+        if not self.by_pressure:
+            return load.copy(), np.zeros(index.size)
+        surface, out = self.surface, self.out
+        top = np.full(V.size, -np.inf)
+        np.maximum.at(top, group, load)
+        own = stack.own[0]
+        saturated = np.stack([own.p_sat, own.tau_sat, np.ones(V.size), np.zeros(V.size)], axis=1)
+        columns = surface.columns(0, V)
+        laws = build_laws(columns, np.full(V.size, _FINER * surface.rtol), own.p_sat, own.D_sat, saturated, top)
+        D, slopes = np.full(index.size, np.nan), np.zeros(index.size)
+        K, h = surface.material.K, surface.levels[0].h
+        for i, g in enumerate(group):
+            law, p = laws[g], load[i]
+            out.pull_off[index[i]] = law.pull_off
+            if p >= law.p_sat:
+                D[i] = p / K + 0.75 * h
+            elif p >= law.pull_off and law.branches:
+                D[i], slopes[i] = law.penetration(p), law.slope(p)
+            else:
+                out.pulled_off[index[i]] = True
+                out.p[index[i]] = p
+        return D, slopes
+
+    def _carry(self, stack: Stack, V, group, columns: Columns) -> CarriedByLaws:
+        """Laws of level 2, built from the smallest level upwards, each as far as the level above reaches."""
+        surface = self.surface
+        p_max = np.full(V.size, -np.inf)
+        np.maximum.at(p_max, group, peak_pressure(columns))
+        ceilings = []
+        for i in range(1, self.M):
+            ceilings.append(p_max)
+            if i + 1 < self.M:
+                plain = surface.columns(i, V)
+                D = cut_penetration(plain, p_max, stack.D_full[i])
+                p_max = peak_pressure(surface.columns(i, V, D))
+        carry = None
+        nodes = _nodes_for(surface.rtol)
+        groups = np.arange(V.size)
+        for i in range(self.M - 1, 0, -1):
+            level_columns = surface.columns(i, V, None, carry, groups if carry else None)
+            saturated = stack.means(i, surface.material.K, surface.levels[i].h)
+            laws = build_laws(
+                level_columns, np.full(V.size, _FINER * surface.rtol), stack.p_full[i], stack.D_full[i], saturated, ceilings[i - 1]
+            )
+            # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error
+            scales = np.concatenate((level_columns.scales[1:], [_NO_SCALE]))
+            carry = CarriedByLaws(laws, nodes, scales)
+        return carry
+
+    def _write(self, index, D, slopes, means):
+        out, values, errors = self.out, means.values, means.errors
+        out.D[index] = D
+        p = values[:, 0]
+        miss = np.zeros(index.size)
+        if self.by_pressure:
+            miss = self.load[index] - p
+            p = self.load[index]
+        out.p[index] = p
+        tau, contact, adhesion, error = values[:, 1] + slopes * miss, values[:, 2], values[:, 3], errors[:, 1]
+        out.tau[0, index], out.contact[0, index], out.adhesion[0, index] = tau, contact, adhesion
+        error = error + np.abs(slopes) * (errors[:, 0] + np.abs(miss))
+        at = _OWN
+        for i in range(1, self.M):
+            out.tau[i, index], out.contact[i, index], out.adhesion[i, index] = values[:, at], values[:, at + 1], values[:, at + 2]
+            error = error + errors[:, at]
+            at += 3
+        for _ in range(1, self.M):
+            error = error + np.abs(values[:, at])
+            at += 1
+        out.error[index] = error
+
+
+def _nodes_for(rtol: float) -> int:
+    """Points per part of the contact in the integral of a law."""
+    return 8 if rtol > 1e-4 else 16 if rtol > 1e-8 else 32

@@ -1,0 +1,57 @@
+"""What ``hystrip.solve`` returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from hystrip.inputs.adhesion import Dugdale
+    from hystrip.inputs.material import StandardLinearSolid
+    from hystrip.inputs.surface import Level
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """Friction of a surface; arrays have the broadcast shape of pressure (or penetration) and velocity, SI units.
+
+    Attributes
+    ----------
+    mu : friction coefficient ``tau/pressure`` (Eq. 14); NaN at zero pressure, 0 below pull-off
+    tau : friction stress, Pa; ``tau_by_level`` : the share of each level, shape (levels, ...), summing to ``tau``
+    pressure : nominal pressure, Pa; penetration : D of level 1, m (NaN below pull-off)
+    contact_fraction : fraction of the nominal area in contact on every level: the real contact
+    contact_by_level, adhesion_by_level : fractions of the nominal area in contact and in adhesion on each level, (levels, ...)
+    pulled_off : the pressure lies below pull-off: no contact, mu = 0
+    pull_off : least nominal pressure that level 1 can carry, Pa (NaN where it did not have to be found)
+    p_sat : nominal pressure from which level 1 is in saturated contact, Pa
+    closed_form : the point was solved by the closed form of saturated contact on all levels
+    error_estimate : estimated absolute error of mu (of tau over the pressure); NaN at zero pressure
+    tau_error : estimated absolute error of tau, Pa
+    counts : strips solved, strips decided by a threshold, points solved in closed form, points below pull-off
+    """
+
+    mu: np.ndarray
+    tau: np.ndarray
+    tau_by_level: np.ndarray
+    pressure: np.ndarray
+    velocity: np.ndarray
+    penetration: np.ndarray
+    contact_fraction: np.ndarray
+    contact_by_level: np.ndarray
+    adhesion_by_level: np.ndarray
+    pulled_off: np.ndarray
+    pull_off: np.ndarray
+    p_sat: np.ndarray
+    closed_form: np.ndarray
+    error_estimate: np.ndarray
+    tau_error: np.ndarray
+    counts: dict[str, int]
+    material: StandardLinearSolid = field(repr=False)
+    adhesion: Dugdale = field(repr=False)
+    levels: tuple[Level, ...] = field(repr=False)
+    edge: str
+    branch: str
+    rtol: float

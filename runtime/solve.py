@@ -1,0 +1,141 @@
+"""The whole surface: friction coefficient over nominal pressure and velocity."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from hystrip.errors import InputError
+from hystrip.inputs.adhesion import Dugdale
+from hystrip.inputs.checks import broadcast, choice, number, numbers
+from hystrip.inputs.material import StandardLinearSolid
+from hystrip.inputs.surface import Level
+from hystrip.level.strips import Tally
+from hystrip.multilevel import Surface
+from hystrip.result import Result
+from hystrip.strip.solution import BRANCHES, EDGES
+
+
+def solve(
+    material: StandardLinearSolid,
+    adhesion: Dugdale,
+    levels: Sequence[Level],
+    *,
+    pressure=None,
+    penetration=None,
+    velocity,
+    edge: str = "continuous",
+    branch: str = "unloading",
+    rtol: float = 1e-6,
+    skip: bool = True,
+    progress: Callable[[int, int], None] | None = None,
+) -> Result:
+    """Friction coefficient of a multilevel surface (Eqs. 11-14).
+
+    Parameters
+    ----------
+    material, adhesion : the foundation and the adhesion, single values
+    levels : from the largest to the smallest, at least one
+    pressure : nominal pressure, Pa; or penetration : D of level 1, m. Exactly one of them
+    velocity : sliding velocity, m/s, >= 0; broadcasts with the load
+    edge, branch : edge closure and branch of loading, as in ``solve_strip``
+    rtol : accuracy asked for, relative to ``|tau| + 1e-3 (K h + p_0) h/l`` of level 1, 1e-12 to 0.1
+    skip : use the closed form where every level is saturated (off: every point is solved)
+    progress : called with the number of points done and the total
+
+    Raises
+    ------
+    InputError : an input outside its range, named with what is allowed
+    SolverError : a strip that could not be certified, named
+    """
+    levels = tuple(_checked_levels(levels))
+    check_single(material, adhesion)
+    edge, branch = choice("edge", edge, EDGES), choice("branch", branch, BRANCHES)
+    rtol = check_rtol(rtol)
+    velocity = numbers("velocity", velocity, "m/s", 0)
+    if (pressure is None) == (penetration is None):
+        given = {"pressure": pressure, "penetration": penetration}
+        raise InputError("pressure, penetration", given, "exactly one of the two")
+    name, load = ("pressure", pressure) if penetration is None else ("penetration", penetration)
+    load = numbers(name, load, "Pa" if name == "pressure" else "m")
+    shape = broadcast(**{name: load, "velocity": velocity})
+    V, L = (np.broadcast_to(v, shape).ravel() for v in (velocity, load))
+    tally = Tally()
+    surface = Surface(material, adhesion, levels, edge, branch, rtol, skip, tally)
+    points = surface.solve(V, L, name == "pressure", progress)
+    return _result(points, surface, shape, V)
+
+
+def _result(points, surface: Surface, shape, V) -> Result:
+    tau = points.tau.sum(axis=0)
+    loaded = points.p != 0
+    mu = np.divide(tau, points.p, out=np.full(tau.shape, np.nan), where=loaded)
+    error = np.divide(points.error, np.abs(points.p), out=np.full(tau.shape, np.nan), where=loaded)
+    one = lambda v: v.reshape(shape)  # noqa: E731
+    many = lambda v: v.reshape(len(surface.levels), *shape)  # noqa: E731
+    return Result(
+        mu=one(mu),
+        tau=one(tau),
+        tau_by_level=many(points.tau),
+        pressure=one(points.p),
+        velocity=one(V.copy()),
+        penetration=one(points.D),
+        contact_fraction=one(points.contact[-1]),
+        contact_by_level=many(points.contact),
+        adhesion_by_level=many(points.adhesion),
+        pulled_off=one(points.pulled_off),
+        pull_off=one(points.pull_off),
+        p_sat=one(points.p_sat),
+        closed_form=one(points.closed_form),
+        error_estimate=one(error),
+        tau_error=one(points.error),
+        counts={
+            "strips_solved": surface.tally.solved,
+            "strips_decided_by_threshold": surface.tally.decided,
+            "points_in_closed_form": int(points.closed_form.sum()),
+            "points_below_pull_off": int(points.pulled_off.sum()),
+        },
+        material=surface.material,
+        adhesion=surface.adhesion,
+        levels=tuple(surface.levels),
+        edge=surface.edge,
+        branch=surface.branch,
+        rtol=surface.rtol,
+    )
+
+
+def _checked_levels(levels) -> list[Level]:
+    if isinstance(levels, Level):
+        return [levels]
+    try:
+        levels = list(levels)
+    except TypeError:
+        raise InputError("levels", levels, "a sequence of hystrip.Level, the largest first") from None
+    if not levels:
+        raise InputError("levels", levels, "at least one hystrip.Level")
+    for i, level in enumerate(levels):
+        if not isinstance(level, Level):
+            raise InputError(f"levels[{i}]", level, "a hystrip.Level")
+    return levels
+
+
+def check_single(material, adhesion) -> None:
+    """Refuse anything but one material and one adhesion law with single values."""
+    if not isinstance(material, StandardLinearSolid):
+        raise InputError("material", material, "a hystrip.StandardLinearSolid")
+    if not isinstance(adhesion, Dugdale):
+        raise InputError("adhesion", adhesion, "a hystrip.Dugdale (gamma=0: no adhesion)")
+    for name, owner, fields in (("material", material, ("K", "T_eps", "T_sigma")), ("adhesion", adhesion, ("p_0", "delta_0"))):
+        for field in fields:
+            value = getattr(owner, field)
+            if np.ndim(value):
+                raise InputError(f"{name}.{field}", value, "a single number (arrays are for solve_strip)")
+
+
+def check_rtol(rtol) -> float:
+    """``rtol`` as a float between 1e-12 and 0.1."""
+    rtol = number("rtol", rtol, "", 1e-12)
+    if rtol > 0.1:
+        raise InputError("rtol", rtol, "a number from 1e-12 to 0.1")
+    return rtol

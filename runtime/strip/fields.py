@@ -1,0 +1,57 @@
+"""Pressure and displacement of solved strips at any phase, from their edges, without solving again."""
+
+import numpy as np
+
+from .engine import Solved
+from .march import TWO_PI
+from .problem import Strips, adhesive_cycle, bare_cycle
+from .regimes import CODE
+
+_ZONES = {"c": "c", "ac": "ca", "acaf": "acaf", "afc": "caf", "cf": "cf", "af": "af", "a": "a", "f": "f"}
+
+
+def fields(kernel, strips: Strips, solved: Solved, phase: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Dimensionless pressure and gap at ``phase``; all arguments of shape (n,), one phase per strip.
+
+    At an edge the value is that of the zone which begins there.
+    """
+    p, gap = np.empty(strips.size), np.empty(strips.size)
+    for sequence, code in CODE.items():
+        index = np.flatnonzero(solved.code == code)
+        if index.size:
+            p[index], gap[index] = _one_regime(kernel, sequence, strips.take(index), solved, index, phase[index])
+    return p, gap
+
+
+def _one_regime(kernel, sequence, s: Strips, solved: Solved, index, phase):
+    zero = np.zeros(index.size)
+    if sequence == "c":
+        return kernel.saturated_pressure(phase, s.D, s.alpha, s.beta, s.L), zero
+    if sequence in ("a", "f"):
+        p = zero if sequence == "f" else -s.p_0
+        return p, p - kernel.profile(phase, s.D)
+    b, a, c, d = (getattr(solved, e)[index] for e in "bacd")
+    # for each zone: where it starts, the gap and the excess pressure there; in the order met
+    if sequence in ("ac", "cf"):
+        cycle = bare_cycle(kernel, s)
+        starts, gaps = [b, a], [zero, zero]
+    else:
+        cycle = adhesive_cycle(kernel, s)
+        released = s.delta_0 + cycle.jump
+        starts, gaps = {
+            "acaf": ([d, b, a, c], [cycle.gap_on, zero, zero, released]),
+            "afc": ([d, a, c], [zero, zero, released]),
+            "af": ([d, c], [cycle.gap_on, released]),
+        }[sequence]
+    phase = starts[0] + np.mod(phase - starts[0], TWO_PI)
+    p, gap = zero.copy(), zero.copy()
+    for zone, start, first in zip(_ZONES[sequence], starts, gaps, strict=True):
+        inside = phase >= start
+        if zone == "c":
+            q = kernel.excess_after(start, np.maximum(phase, start), cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
+            zone_p, zone_gap = q - s.p_0, zero
+        else:
+            zone_p = -s.p_0 if zone == "a" else zero
+            zone_gap = kernel.gap_after(start, np.maximum(phase, start), first, zone_p, s.D, s.beta)
+        p, gap = np.where(inside, zone_p, p), np.where(inside, zone_gap, gap)
+    return p, gap

@@ -1,0 +1,29 @@
+"""The strip without a wave (the edge of a level's cell): a flat punch held at a constant penetration."""
+
+import numpy as np
+
+from .regimes import CODE
+
+#: A wave this much smaller than every other length is below their rounding.
+_NEGLIGIBLE = 1e-18
+
+
+def is_flat(A, beta, D, p_0_over_K, delta_0):
+    """Where the amplitude A does not count: nothing of the wave, stiffened by the motion, shows in the other lengths."""
+    return A * (1 + beta) <= _NEGLIGIBLE * (np.abs(D) + p_0_over_K + delta_0)
+
+
+def solve_flat(D, p_0_over_K, delta_0, unloading: bool):
+    """Regime code and mean pressure over K of a flat strip; arrays of shape (n,).
+
+    Contact carries ``p = K D`` down to ``-p_0``; the gap adheres (``w = -p_0/K``) while it is at most ``delta_0``. Unloading holds on
+    as long as it can; loading stays free until the gap of the undeformed surface is ``delta_0``.
+    """
+    contact = D >= -p_0_over_K
+    clinging = ~contact & (-p_0_over_K - D <= delta_0)
+    free = ~contact & ~clinging
+    if not unloading:
+        free |= D <= -delta_0
+    code = np.where(free, CODE["f"], np.where(contact, CODE["c"], CODE["a"]))
+    p = np.where(free, 0.0, np.where(contact, D, -p_0_over_K))
+    return code.astype(np.int8), p

@@ -1,0 +1,142 @@
+"""The command line, run as a person would."""
+
+import csv
+import json
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from hystrip.commands import entry
+from hystrip.scene import load_scene
+
+SCENE = """
+title = "two velocities"
+pressure = 100
+velocity = [1e-3, 5e-3]
+strips = 8
+[material]
+K = 1e9
+T_eps = 0.01
+T_sigma = 1e-4
+[adhesion]
+gamma = 2.5e-5
+delta_0 = 1e-8
+[[levels]]
+l = 1e-5
+h = 1e-6
+[[levels]]
+l = 5e-7
+h = 1e-7
+"""
+
+
+@pytest.fixture
+def run(monkeypatch, tmp_path, capsys):
+    """Run a command line in an empty folder; gives (status, standard output, standard error)."""
+    monkeypatch.chdir(tmp_path)
+
+    def call(*arguments):
+        monkeypatch.setattr(sys, "argv", ["hystrip", *map(str, arguments)])
+        with pytest.raises(SystemExit) as end:
+            entry.main()
+        out, err = capsys.readouterr()
+        return end.value.code, out, err
+
+    return call
+
+
+def rows(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_solve_writes_table_csv_and_picture(run, tmp_path):
+    (tmp_path / "mine.toml").write_text(SCENE)
+    status, out, err = run("solve", "mine.toml", "--out", "a/b")
+    assert (status, err) == (0, "")
+    assert "two velocities" in out and "level 2" in out
+    assert sorted(each.name for each in (tmp_path / "a/b").iterdir()) == ["mine.csv", "mine.png"]
+    table = rows(tmp_path / "a/b/mine.csv")
+    assert [float(row["velocity [m/s]"]) for row in table] == [1e-3, 5e-3]
+    result = load_scene(tmp_path / "mine.toml").solve()
+    assert [float(row["mu"]) for row in table] == list(result.mu)
+    for row in table:
+        assert float(row["mu of level 1"]) + float(row["mu of level 2"]) == pytest.approx(float(row["mu"]), rel=1e-12)
+        assert float(row["share of level 1"]) + float(row["share of level 2"]) == pytest.approx(1, rel=1e-12)
+
+
+def test_solve_without_picture_and_table(run, tmp_path):
+    (tmp_path / "mine.toml").write_text(SCENE)
+    status, out, _ = run("solve", "mine.toml", "--no-plot", "--no-table")
+    assert status == 0
+    assert out.split() == ["wrote", "hystrip-out/mine.csv"]
+    assert [each.name for each in (tmp_path / "hystrip-out").iterdir()] == ["mine.csv"]
+
+
+def test_one_velocity_has_no_curve_to_draw(run, tmp_path):
+    (tmp_path / "one.toml").write_text(SCENE.replace("[1e-3, 5e-3]", "5e-3"))
+    status, _, _ = run("solve", "one.toml")
+    assert status == 0
+    assert [each.name for each in (tmp_path / "hystrip-out").iterdir()] == ["one.csv"]
+
+
+def test_several_pressures_have_a_row_each_zero_an_empty_mu(run, tmp_path):
+    (tmp_path / "some.toml").write_text(SCENE.replace("pressure = 100", "pressure = [-10, 0, 100]"))
+    status, _, _ = run("solve", "some.toml")
+    assert status == 0
+    table = rows(tmp_path / "hystrip-out/some.csv")
+    assert [float(row["pressure [Pa]"]) for row in table] == [-10, -10, 0, 0, 100, 100]
+    assert [row["mu"] == "" for row in table] == [False, False, True, True, False, False]
+    assert np.isfinite([float(row["tau [Pa]"]) for row in table]).all()
+
+
+def test_init_writes_a_scene_that_solves(run, tmp_path):
+    status, out, _ = run("init", "mine.toml")
+    assert status == 0 and "hystrip solve mine.toml" in out
+    assert len(load_scene(tmp_path / "mine.toml").levels) == 2
+    assert run("init", "mine.toml")[0] == 2
+    assert run("init", "mine.toml", "--force")[0] == 0
+
+
+def test_schema_is_json(run):
+    status, out, _ = run("schema")
+    assert status == 0
+    assert json.loads(out)["$schema"].endswith("2020-12/schema")
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["-h"], ["solve", "--help"], ["--version"]])
+def test_help_and_version(run, arguments):
+    status, out, err = run(*arguments)
+    assert (status, err) == (0, "") and "hystrip" in out
+
+
+def test_module_runs_as_a_program(tmp_path):
+    done = subprocess.run([sys.executable, "-m", "hystrip", "schema"], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0 and json.loads(done.stdout)
+
+
+def test_a_reader_that_stops_reading_is_no_traceback(tmp_path):
+    command = [sys.executable, "-m", "hystrip", "schema"]
+    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process.stdout.close()
+    assert process.stderr.read() == ""
+    process.wait()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
+def test_ctrl_c_is_one_line_and_leaves_no_file(tmp_path):
+    (tmp_path / "big.toml").write_text(SCENE.replace("strips = 8", "").replace(
+        "[1e-3, 5e-3]", '{ start = 1e-4, stop = 1e-2, num = 5000, spacing = "log" }'))
+    command = [sys.executable, "-m", "hystrip", "solve", "big.toml"]
+    # A session of its own: a shell that runs tests in the background would have it ignore SIGINT.
+    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+    time.sleep(2.0)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, out, err) == (130, "", "hystrip: interrupted\n")
+    assert [each.name for each in tmp_path.iterdir()] == ["big.toml"]

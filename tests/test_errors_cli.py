@@ -1,0 +1,112 @@
+"""Forty wrong scenes and calls: each ends with one message, a non-zero status, and no file."""
+
+import sys
+
+import pytest
+
+from hystrip.commands import entry
+
+SCENE = """pressure = 100
+velocity = 5e-3
+[material]
+K = 1e9
+T_eps = 0.01
+T_sigma = 1e-4
+[adhesion]
+gamma = 2.5e-5
+delta_0 = 1e-8
+[[levels]]
+l = 1e-5
+h = 1e-6
+"""
+
+SCENES = [  # what is replaced, by what, and what the message says: the field, the value, what is allowed
+    ("K = 1e9", "K = -1", ["material.K", "-1", "> 0"]),
+    ("K = 1e9", "K = 0", ["material.K", "0", "> 0"]),
+    ("K = 1e9", "K = nan", ["material.K", "nan", "finite"]),
+    ("K = 1e9", "K = inf", ["material.K", "inf", "finite"]),
+    ("K = 1e9", "K = true", ["material.K", "True", "number"]),
+    ("K = 1e9", 'K = "1 GPa"', ["material.K", "1 GPa", "Pa/m"]),
+    ("K = 1e9", 'K = "1e9"', ["material.K", "1e9", "without quotes"]),
+    ("K = 1e9", "", ["material.K", "missing", "stiffness"]),
+    ("K = 1e9", "k = 1e9", ["material.k", "did you mean 'K'"]),
+    ("K = 1e9", "K = [1e9]", ["material.K", "[1000000000.0]", "number"]),
+    ("T_eps = 0.01", "T_eps = -0.01", ["material.T_eps", "-0.01"]),
+    ("T_sigma = 1e-4", "T_sigma = -1e-4", ["material.T_sigma", "-0.0001"]),
+    ("T_sigma = 1e-4", "T_sigma = 0.02", ["material.T_sigma", "0.02", "T_eps"]),
+    ("[material]", '[material]\nmodel = "maxwell"', ["material.model", "maxwell", "standard_linear_solid"]),
+    ("gamma = 2.5e-5", "gamma = -1", ["adhesion.gamma", "-1"]),
+    ("gamma = 2.5e-5", "", ["adhesion", "neither gamma nor p_0"]),
+    ("gamma = 2.5e-5", "gamma = 1\np_0 = 1", ["adhesion", "both gamma and p_0"]),
+    ("delta_0 = 1e-8", "delta_0 = 0", ["adhesion.delta_0", "0", "> 0"]),
+    ("delta_0 = 1e-8", "delta = 1e-8", ["adhesion.delta", "did you mean 'delta_0'"]),
+    ("l = 1e-5", "l = 0", ["levels[0].l", "0", "> 0"]),
+    ("l = 1e-5", 'l = "10 umm"', ["levels[0].l", "umm", "not known"]),
+    ("h = 1e-6", "h = -1e-6", ["levels[0].h", "-1e-06"]),
+    ("h = 1e-6", "h = 1e-6\nvelocity = 1", ["levels[0].velocity", "above the first [table]"]),
+    ("[[levels]]\nl = 1e-5\nh = 1e-6\n", "", ["levels", "missing", "[[levels]]"]),
+    ("[[levels]]", "[levels]", ["levels", "[[levels]]"]),
+    ("pressure = 100", "", ["neither pressure nor penetration"]),
+    ("pressure = 100", "pressure = 1\npenetration = 1e-7", ["both pressure and penetration"]),
+    ("pressure = 100", 'pressure = "0,1 kPa"', ["pressure", "0,1 kPa"]),
+    ("pressure = 100", "pressure = []", ["pressure", "[]", "one value or more"]),
+    ("velocity = 5e-3", "velocity = -5e-3", ["velocity", "-0.005"]),
+    ("velocity = 5e-3", "velocity = [1e-3, nan]", ["velocity[1]", "nan", "finite"]),
+    ("velocity = 5e-3", "velocity = {start = 1, stop = 2}", ["velocity.num", "missing", "integer"]),
+    ("velocity = 5e-3", 'velocity = {start = 0, stop = 2, num = 3, spacing = "log"}', ["velocity.start", "0", "> 0"]),
+    ("velocity = 5e-3", "velocity = {start = 1, stop = 2, num = 1}", ["velocity.num", "1", "from 2"]),
+    ("velocity = 5e-3", "velocity = {start = 1, end = 2, num = 3}", ["velocity.end", "unknown key"]),
+    ("pressure = 100", 'pressure = 100\nedge = "sharp"', ["edge", "sharp", '"constitutive"']),
+    ("pressure = 100", 'pressure = 100\nbranch = "both"', ["branch", "both", '"loading"']),
+    ("pressure = 100", "pressure = 100\nrtol = 0", ["rtol", "0", "> 0"]),
+    ("pressure = 100", "pressure = 100\nstrips = 1.5", ["strips", "1.5", "integer"]),
+    ("pressure = 100", "pressure = 100\npressure = 100", ["not valid TOML", "line 2"]),
+    ("pressure = 100", "pressure 100", ["not valid TOML", "line 1"]),
+]
+
+CALLS = [
+    (["solve", "absent.toml"], ["absent.toml", "no such file"]),
+    (["solve", "paper_fig66"], ["did you mean 'paper_fig6'"]),
+    (["solve", "folder"], ["folder", "this is a folder"]),
+    (["solve", "binary.toml"], ["binary.toml", "UTF-8"]),
+    (["solve", "/dev/zero"], ["/dev/zero", "too large"]),
+    (["solve"], ["Missing argument"]),
+    (["solve", "paper_fig6", "--out", "binary.toml"], ["--out", "binary.toml", "a folder"]),
+    (["solve", "paper_fig6", "--outt", "x"], ["No such option"]),
+    (["solv"], ["No such command", "solve"]),
+    (["init", "nowhere/scene.toml"], ["nowhere/scene.toml", "folder that exists"]),
+    (["init", "binary.toml"], ["binary.toml", "--force"]),
+    (["regenerate", "--out", "binary.toml"], ["--out", "binary.toml", "a folder"]),
+]
+
+
+def fails(monkeypatch, capsys, folder, arguments):
+    monkeypatch.chdir(folder)
+    monkeypatch.setattr(sys, "argv", ["hystrip", *arguments])
+    before = {path: path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
+    with pytest.raises(SystemExit) as end:
+        entry.main()
+    out, err = capsys.readouterr()
+    assert end.value.code not in (0, None)
+    assert out == "" and "Traceback" not in err and err.strip()
+    assert {path: path.read_bytes() if path.is_file() else None for path in folder.rglob("*")} == before
+    return err
+
+
+@pytest.mark.parametrize(("old", "new", "said"), SCENES, ids=[f"{new}"[:40] for _, new, _ in SCENES])
+def test_wrong_scene(monkeypatch, capsys, tmp_path, old, new, said):
+    assert SCENE.count(old) == 1
+    (tmp_path / "mine.toml").write_text(SCENE.replace(old, new), encoding="utf-8")
+    message = fails(monkeypatch, capsys, tmp_path, ["solve", "mine.toml"])
+    assert message.startswith("hystrip: mine.toml: ") and message.count("\n") == 1
+    for part in said:
+        assert part in message
+
+
+@pytest.mark.parametrize(("arguments", "said"), CALLS, ids=[" ".join(arguments) for arguments, _ in CALLS])
+def test_wrong_call(monkeypatch, capsys, tmp_path, arguments, said):
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "binary.toml").write_bytes(b"\xff\xfe\x00")
+    message = fails(monkeypatch, capsys, tmp_path, arguments)
+    for part in said:
+        assert part in message
