@@ -1,1 +1,29 @@
-"""x"""
+"""Derivation of the strip solver: a viscoelastic model in, verified and emitted NumPy out.
+
+The stages, each a function from one frozen dataclass to the next:
+model -> strip -> flows -> jumps -> zones -> saturated, regimes -> means, stability, level -> emit -> certify.
+"""
+
+from .check import Check, DerivationError, Derived
+from .derive import Derivation, derive
+from .drift import CertificateError, Drift, check, generated_folder, regenerate, stored_bounds
+from .model import Model, Parameter
+from .models import MODELS, STANDARD_LINEAR_SOLID
+
+__all__ = [
+    "MODELS",
+    "STANDARD_LINEAR_SOLID",
+    "CertificateError",
+    "Check",
+    "Derivation",
+    "DerivationError",
+    "Derived",
+    "Drift",
+    "Model",
+    "Parameter",
+    "check",
+    "derive",
+    "generated_folder",
+    "regenerate",
+    "stored_bounds",
+]

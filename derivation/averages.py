@@ -10,9 +10,9 @@ from . import stable
 from .check import REPRODUCED, Check, Derived, derived, zero
 from .flows import Flows
 from .functions import Formula, written_out
-from .regimes import CONTACT, NOTHING, PERIOD, Regime
-from .symbols import PARAMETERS, D, L, alpha, beta, c, d, p, p_0, q_0, s, s_0, s_1, w_0
-from .zones import Kernel
+from .kernel import Kernel
+from .regime import CONTACT, FREE, NOTHING, PERIOD, Regime
+from .symbols import PARAMETERS, D, L, alpha, beta, p, p_0, q_0, s, s_0, s_1, w_0
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,10 @@ def _integrated(name: str, integrands: tuple[sp.Expr, ...]) -> tuple[tuple[sp.Ex
 
 
 def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
-    r"""Eq. 10: :math:`\bar p = \frac1{2\pi}\oint p\,ds = \frac1{2\pi}\oint w\,ds`, :math:`\bar\tau = \frac1{2\pi}\oint p\,u'\,ds`."""
+    r"""Eq. 10, over one period of s:
+
+    .. math:: \bar p = \frac1{2\pi}\oint p\,ds = \frac1{2\pi}\oint w\,ds,\qquad \bar\tau = \frac1{2\pi}\oint p\,u'\,ds
+    """
     name = f"means_{regime.sequence}"
     sums = [NOTHING, NOTHING, NOTHING]  # of p, w, p u'
     for zone in regime.zones:
@@ -100,8 +103,8 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
         strip_means,
         exact,
         name=name,
-        statement=f"Means of a strip: {regime.title}. The mean pressure is computed as the mean of w, equal to it on a closed orbit, "
-        "because that sum holds no large terms that cancel.",
+        statement=f"Means of a strip: {regime.title}. The mean pressure is computed as the mean of w, "
+        "equal to it on a closed orbit, because that sum holds no large terms that cancel.",
         latex=r"\bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds",
         checks=checks,
         paper="Eq. 10",
@@ -135,14 +138,19 @@ def constant_means(regime: Regime) -> Kernel:
 
 
 def _stable_means(regime: Regime) -> tuple[sp.Expr, sp.Expr]:
-    """Candidates: w summed zone by zone; work of the excess q, and of -p_0 on the rise of u between onset and release."""
+    """Candidates: w summed and the work of p, zone by zone.
+
+    Where nothing is free the traction acts everywhere and does no work over a period: pressures are counted from -p_0,
+    which is the same strip raised by p_0.
+    """
+    raised = NOTHING if any(zone.kind == FREE for zone in regime.zones) else p_0
     sum_w = work = NOTHING
     for zone in regime.zones:
         if zone.kind == CONTACT:
+            pressure = sp.expand(zone.entry - p_0 + raised)
             sum_w += stable.PROFILE_INTEGRAL(zone.first, zone.last, D)
-            work += stable.CONTACT_WORK(zone.first, zone.last, zone.entry, p_0, D, alpha, beta, L)
+            work += stable.CONTACT_WORK(zone.first, zone.last, pressure, D + raised, alpha, beta, L)
         else:
             sum_w += stable.RELAXATION_INTEGRAL(zone.first, zone.last, zone.displacement, zone.load, beta)
-    if c in regime.edges:  # without a free zone u does not rise over the engaged part, the whole period
-        work -= p_0 * stable.PROFILE_RISE(d, c)
+            work += (zone.load + raised) * stable.PROFILE_RISE(zone.first, zone.last)
     return sum_w / PERIOD, work / PERIOD

@@ -6,19 +6,35 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, is_dataclass
 from typing import Any
 
+import sympy as sp
+
 from .averages import constant_means, strip_means, zone_integrals
 from .check import Derived
 from .flows import flows
+from .functions import Call
 from .jumps import jumps
+from .kernel import Kernel
 from .level import level
 from .model import Model, foundation, require_admissible
-from .regimes import Regime, regimes
+from .regime import Regime
+from .regimes import regimes
 from .saturated import saturated
 from .stability import onset_slope, shift_of_events
 from .strip import strip
-from .zones import Kernel, zones
+from .zones import zones
 
 Progress = Callable[[str], None]
+STAGES = (
+    "model",
+    "strip",
+    "flows",
+    "edge conditions",
+    "zones",
+    "complete contact",
+    "regimes",
+    "means",
+    "stability",
+)
 
 
 @dataclass(frozen=True)
@@ -44,33 +60,36 @@ class Derivation:
 
 
 def derive(model: Model, progress: Progress | None = None) -> Derivation:
-    """Derive and verify everything that follows from the two operators of ``model``."""
-    say = progress or (lambda stage: None)
-    say("model")
+    """Derive and verify everything that follows from the two operators of ``model``.
+
+    ``progress`` is called with the name of each stage of ``STAGES`` when it is done.
+    """
+    done = progress or (lambda stage: None)
     require_admissible(model)
     ground = foundation(model)
-    say("strip")
+    done("model")
     one_strip = strip(ground)
-    say("flows")
+    done("strip")
     flow = flows(one_strip)
-    say("edge conditions")
+    done("flows")
     jump = jumps(one_strip)
-    say("zones")
+    done("edge conditions")
     zone = zones(flow, jump)
-    say("saturated contact")
+    done("zones")
     full = saturated(flow)
     whole = level(full)
-    say("regimes")
+    done("complete contact")
     table = regimes(zone)
     partial = [regime for regime in table if regime.edges]
-    systems = tuple(k for regime in partial for k in system_kernels(regime))
-    say("means")
+    systems = tuple(k for regime in partial for k in system_kernels(regime, zone.kernels))
+    done("regimes")
     integrals = zone_integrals(flow)
-    means = tuple(strip_means(regime, integrals) for regime in partial)
     still = tuple(constant_means(regime) for regime in table if regime.sequence in ("a", "f"))
-    say("stability")
+    means = tuple(strip_means(regime, integrals) for regime in partial)
+    done("means")
     shift = shift_of_events()
     slopes = tuple(onset_slope(regime) for regime in partial)
+    done("stability")
     sections = (
         ("Rigid profile, load, zones", zone.kernels),
         ("Complete contact", full.kernels),
@@ -83,11 +102,24 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     return Derivation(model, stages, table, sections)
 
 
-def system_kernels(regime: Regime) -> tuple[Kernel, Kernel]:
-    residual, jacobian = regime.residual_formula, regime.jacobian_formula
+def system_kernels(regime: Regime, zone_kernels: tuple[Kernel, ...]) -> tuple[Kernel, Kernel]:
+    """Boundary equations and Jacobian to emit, with the exact expressions they compute: the derived flows put in."""
+    by_name = {kernel.formula.name: kernel for kernel in zone_kernels}
+
+    def as_derived(call: Call) -> sp.Expr:
+        kernel = by_name[call.formula.name]
+        return kernel.exact.subs(dict(zip(kernel.formula.args, call.args, strict=True)), simultaneous=True)
+
+    parts = tuple(
+        tuple(part.replace(lambda e: isinstance(e, Call), as_derived) for part in sp.Add.make_args(term))
+        for _, term in regime.equations
+    )
+    exact = tuple(sp.Add(*equation) for equation in parts)
+    slopes = tuple(tuple(sp.diff(part, edge) for part in equation) for equation in parts for edge in regime.edges)
+    matrix = tuple(tuple(sp.diff(term, edge) for edge in regime.edges) for term in exact)
     return (
-        Kernel(residual, residual.written_out(residual.args), regime.derived),
-        Kernel(jacobian, jacobian.written_out(jacobian.args), regime.derived),
+        Kernel(regime.residual_formula, exact, regime.derived, parts),
+        Kernel(regime.jacobian_formula, matrix, regime.derived, slopes),
     )
 
 

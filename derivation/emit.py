@@ -94,7 +94,9 @@ def _regime_data(regime: Any, emitted: set[str]) -> dict[str, Any]:
     return {
         "sequence": regime.sequence,
         "title": regime.title,
-        "zones": [(z.kind, "" if edgeless else str(z.first), "" if edgeless else str(z.last).replace("*", " ")) for z in regime.zones],
+        "zones": [
+            (z.kind, "" if edgeless else str(z.first), "" if edgeless else str(z.last).replace("*", " ")) for z in regime.zones
+        ],
         "edges": [str(edge) for edge in regime.edges],
         "closures": regime.closures,
         "equations": [label for label, _ in regime.equations],
@@ -140,7 +142,8 @@ def _flat(result: Any) -> list[sp.Expr]:
 def stable_text() -> str:
     """The stable helpers; SymPy supplies the series of those that have one."""
     n, x = sp.symbols("n x")
-    loss = _alternating(1 - (1 - sp.exp(-n)) / n, n, first=1, step=1, terms=15)
+    loss = _alternating(1 - (1 - sp.exp(-n)) / n, n, first=1, step=1, terms=18)
+    twice = _alternating(1 - 2 / n * (1 - (1 - sp.exp(-n)) / n), n, first=1, step=1, terms=19)
     sine = _alternating(x - sp.sin(x), x, first=3, step=2, terms=10)
     return _render(
         "stable",
@@ -148,9 +151,11 @@ def stable_text() -> str:
         gone="750.0",
         tiny=repr(sys.float_info.min),
         late="40.0",
-        loss_limit="0.5",
+        loss_limit="1.0",
         loss_first=f"{loss[0]}.0",
         loss_divisors=loss[1:],
+        twice_first=f"{twice[0]}.0",
+        twice_divisors=twice[1:],
         sine_limit="1.0",
         sine_first=f"{sine[0]}.0",
         sine_divisors=sine[1:],

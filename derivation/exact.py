@@ -36,9 +36,7 @@ def independent(expression: Any, phases: Sequence[sp.Symbol] = ()) -> sp.Expr:
     expression = written_out(sp.sympify(expression)).doit()
     expression = expression.subs(RELATIONS)
     expression = expression.subs(widths(phases)) if phases else expression
-    expression = expression.replace(
-        lambda e: isinstance(e, (sp.exp, sp.sin, sp.cos)), lambda e: e.func(sp.expand(e.args[0]))
-    )
+    expression = expression.replace(lambda e: isinstance(e, (sp.exp, sp.sin, sp.cos)), lambda e: e.func(sp.expand(e.args[0])))
     expression = sp.expand_trig(expression)
     expression = expression.replace(sp.exp, lambda a: sp.expand(sp.exp(a), power_exp=True))
     return expression.replace(sp.exp, _power_of_token)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from .check import BEYOND, REPRODUCED, Derived, DerivationError, derived, zero
+from .check import BEYOND, REPRODUCED, DerivationError, Derived, derived, zero
 from .strip import Strip
 from .symbols import gap_0, p, p_0, q_0, s, s_0, w_0
 

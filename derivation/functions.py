@@ -63,6 +63,14 @@ class loss_mean(Helper):
         return 1 - T / tau * (1 - sp.exp(-tau / T))
 
 
+class loss_mean_twice(Helper):
+    nargs = 2
+
+    @classmethod
+    def meaning(cls, tau, T):
+        return 1 - 2 * T / tau * (1 - T / tau * (1 - sp.exp(-tau / T)))
+
+
 class sine_deficit(Helper):
     nargs = 1
 
@@ -117,7 +125,20 @@ class stack_sum(Helper):
         return term
 
 
-HELPERS = (decay, decay_loss, decay_rate, decay_mean, loss_mean, sine_deficit, versine, hypot, quotient, arc_half, stack_sum)
+HELPERS = (
+    decay,
+    decay_loss,
+    decay_rate,
+    decay_mean,
+    loss_mean,
+    loss_mean_twice,
+    sine_deficit,
+    versine,
+    hypot,
+    quotient,
+    arc_half,
+    stack_sum,
+)
 
 
 @dataclass(frozen=True)

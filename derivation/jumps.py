@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from .check import BEYOND, Derived, DerivationError, derived, holds, zero
-from .strip import Strip
+from .check import BEYOND, DerivationError, Derived, derived, holds, zero
+from .strip import TIMES, Strip
 from .symbols import J, chi, s
 
 
@@ -38,7 +38,7 @@ def jump_law(strip: Strip) -> Derived:
     if len(solutions) != 1:
         raise DerivationError(name, f"one step of w for a step of p, not {solutions}")
     ratio = sp.cancel(solutions[0] / step_p)
-    instantaneous = (strip.foundation.J_0 * strip.foundation.K).subs(_times(strip))
+    instantaneous = (strip.foundation.J_0 * strip.foundation.K).subs(TIMES)
     checks = [
         zero(name, "the singular part of the law vanishes", balance.subs(step_w, ratio * step_p)),
         zero(name, "[w]/[p] is the instantaneous compliance J", [ratio - J, ratio - instantaneous]),
@@ -82,21 +82,19 @@ def closures(strip: Strip, ratio: sp.Expr) -> Derived:
     checks = [
         zero(name, "chi = 1 is the jump law: z is continuous", [step_w.subs(chi, 1) - ratio * step, step_z.subs(chi, 1)]),
         zero(name, "chi = 0 keeps w continuous", step_w.subs(chi, 0)),
-        zero(name, "over a period the steps of z cancel: p falls by p_0 at d and rises by p_0 at c", step_z + step_z.subs(step, -step)),
+        zero(
+            name,
+            "over a period the steps of z cancel: p falls by p_0 at d and rises by p_0 at c",
+            step_z + step_z.subs(step, -step),
+        ),
         holds(name, "with T_sigma = 0 (J = 0) the two are one", step_w.subs(J, 0) == 0),
     ]
     return derived(
         closures,
         step_w,
         name=name,
-        statement="The paper does not say what w does where p steps. Its vanishing friction at very high speed needs w continuous; "
-        "the law itself asks for a step. One symbol selects.",
+        statement="The paper does not say what w does where p steps. Its vanishing friction at very high speed needs "
+        "w continuous; the law itself asks for a step. One symbol selects.",
         latex=r"[w] = \chi J [p],\qquad \chi = 0:\ \text{continuous},\quad \chi = 1:\ \text{constitutive}",
         checks=checks,
     )
-
-
-def _times(strip: Strip) -> dict[sp.Symbol, sp.Expr]:
-    from .symbols import T_eps, T_sigma, V, alpha, beta, k
-
-    return {T_sigma: alpha / (k * V), T_eps: beta / (k * V)}

@@ -1,4 +1,4 @@
-"""A whole level in complete contact, averaged over its strips (Eq. 11), and the friction coefficient of saturated levels (Eq. 16).
+"""A whole level in complete contact, averaged over its strips (Eq. 11), and a stack of such levels (Eq. 16).
 
 SI throughout. The level's strips are those of :mod:`.strip`, with amplitude and penetration that vary over y.
 """
@@ -11,9 +11,9 @@ import sympy as sp
 
 from .check import BEYOND, CORRECTED, Check, Derived, derived, holds, zero
 from .functions import Formula, hypot, stack_sum
+from .kernel import Kernel
 from .saturated import Saturated
 from .symbols import A, D, D_j, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, y
-from .zones import Kernel
 
 _si = (K, T_eps, T_sigma)
 ratio, pulsation, creep, spread, slender = sp.symbols("ratio pulsation creep spread slender", positive=True)
@@ -68,9 +68,14 @@ def saturation_penetration(threshold: sp.Expr) -> Kernel:
         h / 2 * (1 + ratio) - p_0 / K,
         ((pulsation, 2 * sp.pi * V / l), (ratio, hypot(1, pulsation * T_eps) / hypot(1, pulsation * T_sigma))),
     )
-    return _kernel(saturation_penetration, formula, si, checks,
-                   "Penetration from which every strip of a level is in complete contact.",
-                   r"D_{sat} = \frac h2 (1 + R) - \frac{p_0}{K},\quad R = \sqrt{\frac{1 + (kVT_\epsilon)^2}{1 + (kVT_\sigma)^2}}")
+    return _kernel(
+        saturation_penetration,
+        formula,
+        si,
+        checks,
+        "Penetration from which every strip of a level is in complete contact.",
+        r"D_{sat} = \frac h2 (1 + R) - \frac{p_0}{K},\quad R = \sqrt{\frac{1 + (kVT_\epsilon)^2}{1 + (kVT_\sigma)^2}}",
+    )
 
 
 def saturation_pressure(penetration: sp.Expr, mean_p: sp.Expr) -> Kernel:
@@ -85,9 +90,18 @@ def saturation_pressure(penetration: sp.Expr, mean_p: sp.Expr) -> Kernel:
         K * h / 4 * (2 * ratio - 1) - p_0,
         ((pulsation, 2 * sp.pi * V / l), (ratio, hypot(1, pulsation * T_eps) / hypot(1, pulsation * T_sigma))),
     )
-    checks = [zero(name, "the level's mean pressure in complete contact is K (D - 3h/4)", mean - K * (D_level - sp.Rational(3, 4) * h))]
-    return _kernel(saturation_pressure, formula, exact, checks, "Nominal pressure from which a level is in complete contact.",
-                   r"p_{sat} = \tfrac14 K h (2R - 1) - p_0", paper="Eq. 11")
+    checks = [
+        zero(name, "the level's mean pressure in complete contact is K (D - 3h/4)", mean - K * (D_level - sp.Rational(3, 4) * h))
+    ]
+    return _kernel(
+        saturation_pressure,
+        formula,
+        exact,
+        checks,
+        "Nominal pressure from which a level is in complete contact.",
+        r"p_{sat} = \tfrac14 K h (2R - 1) - p_0",
+        paper="Eq. 11",
+    )
 
 
 def saturation_friction(mean_tau: sp.Expr) -> Kernel:
@@ -103,8 +117,15 @@ def saturation_friction(mean_tau: sp.Expr) -> Kernel:
         _SLENDER,
     )
     checks = [zero(name, "it is 3 pi^2/16 K V (T_eps - T_sigma) h^2/(l^2 + 4 pi^2 V^2 T_sigma^2)", exact - stated)]
-    return _kernel(saturation_friction, formula, exact, checks, "Friction of a level in complete contact.",
-                   r"\tau_{sat} = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma) h^2}{l^2 + 4\pi^2 V^2 T_\sigma^2}", paper="Eq. 10-11")
+    return _kernel(
+        saturation_friction,
+        formula,
+        exact,
+        checks,
+        "Friction of a level in complete contact.",
+        r"\tau_{sat} = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma) h^2}{l^2 + 4\pi^2 V^2 T_\sigma^2}",
+        paper="Eq. 10-11",
+    )
 
 
 def stack_friction(one_level: sp.Expr) -> Kernel:
@@ -118,13 +139,24 @@ def stack_friction(one_level: sp.Expr) -> Kernel:
         _SLENDER,
     )
     checks = [
-        zero(name, "complete contact on every level: the means do not depend on the pressure, so the levels add (Eq. 12-14)", sp.diff(one_level, p_nominal)),
+        zero(
+            name,
+            "complete contact on every level: the means do not depend on the pressure, so the levels add (Eq. 12-14)",
+            sp.diff(one_level, p_nominal),
+        ),
     ]
-    return _kernel(stack_friction, formula, exact, checks,
-                   "Friction coefficient when every level is in complete contact. The levels lie along the last axis of l and h, against "
-                   "which all but p_1 broadcasts.",
-                   r"\mu = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma)}{p_1} \sum_i \frac{h_i^2}{l_i^2 + 4\pi^2 V^2 T_\sigma^2}",
-                   paper="Eq. 16", status=CORRECTED, correction=MISPRINT)
+    return _kernel(
+        stack_friction,
+        formula,
+        exact,
+        checks,
+        "Friction coefficient when every level is in complete contact. The levels lie along the last axis of l and h, against "
+        "which all but p_1 broadcasts.",
+        r"\mu = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma)}{p_1} \sum_i \frac{h_i^2}{l_i^2 + 4\pi^2 V^2 T_\sigma^2}",
+        paper="Eq. 16",
+        status=CORRECTED,
+        correction=MISPRINT,
+    )
 
 
 MISPRINT = (
@@ -134,7 +166,10 @@ MISPRINT = (
 
 
 def printed_equation_16(one_level: sp.Expr) -> Derived:
-    r"""Eq. 16 as printed, per level: :math:`\pi^2 \frac{K V (T_\epsilon - T_\sigma)}{p_1} \frac{h_i}{l_i^2 + 4\pi^2V^2T_\sigma^2}`."""
+    r"""Eq. 16 as printed, per level:
+
+    .. math:: \pi^2\,\frac{K V (T_\epsilon - T_\sigma)}{p_1}\,\frac{h_i}{l_i^2 + 4\pi^2V^2T_\sigma^2}
+    """
     name = "Eq. 16 as printed"
     true = one_level / p_nominal
     printed = sp.pi**2 * K * V * (T_eps - T_sigma) / p_nominal * h / (l**2 + 4 * sp.pi**2 * V**2 * T_sigma**2)
@@ -145,14 +180,30 @@ def printed_equation_16(one_level: sp.Expr) -> Derived:
     speed = l / (2 * sp.pi * T_sigma)
     peak = sp.diff(true, V)
     peaks = {form: sp.simplify(e.subs(V, speed)) for form, e in (("true", true), ("printed", printed))}
-    paper_scene = {"level 1": (sp.Rational(1, 100000), sp.Rational(1, 1000000)), "level 2": (sp.Rational(5, 10**7), sp.Rational(1, 10**7)), "level 3": (sp.Rational(5, 10**9), sp.Rational(5, 10**9))}
+    paper_scene = {
+        "level 1": (sp.Rational(1, 100000), sp.Rational(1, 1000000)),
+        "level 2": (sp.Rational(5, 10**7), sp.Rational(1, 10**7)),
+        "level 3": (sp.Rational(5, 10**9), sp.Rational(5, 10**9)),
+    }
     checks: list[Check] = [
         zero(name, "the derived form does not depend on the unit of length", scaled_true - 1),
-        zero(name, "the printed form does: in a unit of length smaller by lambda it is smaller by lambda", scaled_printed - 1 / unit),
+        zero(
+            name,
+            "the printed form does: in a unit of length smaller by lambda it is smaller by lambda",
+            scaled_printed - 1 / unit,
+        ),
         zero(name, "each printed term is 16/(3 h) times the derived one", printed / true - sp.Rational(16, 3) / h),
         zero(name, "each level's friction peaks at V = l/(2 pi T_sigma)", peak.subs(V, speed)),
-        zero(name, "the peaks go like h^2/l; as printed they would go like h/l", [sp.diff(peaks["true"] * l / h**2, v) for v in (h, l)] + [sp.diff(peaks["printed"] * l / h, v) for v in (h, l)]),
-        holds(name, "Fig. 7: its text says that level 1 has the highest peak; h^2/l has (1 : 0.2 : 0.05), h/l the reverse order", _peak_orders(paper_scene)),
+        zero(
+            name,
+            "the peaks go like h^2/l; as printed they would go like h/l",
+            [sp.diff(peaks["true"] * l / h**2, v) for v in (h, l)] + [sp.diff(peaks["printed"] * l / h, v) for v in (h, l)],
+        ),
+        holds(
+            name,
+            "Fig. 7: its text says that level 1 has the highest peak; h^2/l has (1 : 0.2 : 0.05), h/l the reverse order",
+            _peak_orders(paper_scene),
+        ),
     ]
     return derived(
         printed_equation_16,
@@ -185,7 +236,9 @@ def _kernel(by, formula: Formula, exact: sp.Expr, checks, statement, latex, **op
     residual = formula.written_out(formula.args) - exact
     checks = [*checks, zero(name, f"{name}: the stable form equals the derived expression", sp.simplify(residual))]
     options.setdefault("status", BEYOND)
-    return Kernel(formula, exact, derived(by, exact, name=name, statement=statement, latex=latex, checks=checks, emitted=(name,), **options))
+    return Kernel(
+        formula, exact, derived(by, exact, name=name, statement=statement, latex=latex, checks=checks, emitted=(name,), **options)
+    )
 
 
 __all__ = ["A", "D_j", "Level", "level"]

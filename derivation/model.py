@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from .check import BEYOND, CORRECTED, REPRODUCED, Check, Derived, DerivationError, derived, holds, zero
+from .check import BEYOND, CORRECTED, REPRODUCED, Check, DerivationError, Derived, derived, holds, zero
 
 rate = sp.Symbol("rate")  # stands for d/dt in the operators
 omega = sp.Symbol("omega", positive=True)
@@ -143,7 +143,7 @@ def instantaneous_compliance(model: Model) -> Derived:
 
 
 def admissibility(model: Model) -> Derived:
-    r"""Solid-like, stable and passive: :math:`0 < Q(0)/P(0) < \infty`, roots left of 0, :math:`\mathrm{Im}\,K^*(i\omega) \ge 0`."""
+    r"""Solid-like, stable, passive: :math:`0 < Q(0)/P(0) < \infty`, roots left of 0, :math:`\mathrm{Im}\,K^*(i\omega) \ge 0`."""
     name = "admissibility"
     reasons = inadmissible(model)
     checks = tuple(

@@ -10,8 +10,9 @@ from . import stable
 from .check import BEYOND, REPRODUCED, Check, Derived, derived, holds, zero
 from .flows import Flows
 from .functions import Formula
-from .symbols import PARAMETERS, D, L, alpha, beta, p_0, q_0, s, s_0, s_1
-from .zones import Kernel, kernel
+from .kernel import Kernel, kernel
+from .strip import TIMES
+from .symbols import PARAMETERS, D, L, V, alpha, beta, k, p_0, q_0, s, s_0, s_1
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,9 @@ class Saturated:
 def saturated(flows: Flows) -> Saturated:
     modulus = complex_modulus(flows)
     field = field_kernels(flows, modulus.value)
-    return Saturated(modulus, (*modulus_kernels(modulus), *field), means(flows, field[0].exact), threshold(field[0].exact, modulus.value))
+    return Saturated(
+        modulus, (*modulus_kernels(modulus), *field), means(flows, field[0].exact), threshold(field[0].exact, modulus.value)
+    )
 
 
 def complex_modulus(flows: Flows) -> Derived:
@@ -37,10 +40,7 @@ def complex_modulus(flows: Flows) -> Derived:
     ratio = sum(q * sp.I**n for n, q in enumerate(strip.operator_w)) / sum(c * sp.I**n for n, c in enumerate(strip.operator_p))
     real, imaginary = (sp.factor(part) for part in sp.cancel(sp.expand_complex(ratio)).as_real_imag())
     model = strip.foundation.model
-    from .symbols import T_eps, T_sigma, V, k
-
-    times = {T_sigma: alpha / (k * V), T_eps: beta / (k * V)}
-    si = (model.transfer(sp.I * k * V) / strip.foundation.K).subs(times)
+    si = (model.transfer(sp.I * k * V) / strip.foundation.K).subs(TIMES)
     checks = [
         zero(name, "storage + i loss is K*(i k V)/K of the material", sp.expand_complex(si) - real - sp.I * imaginary),
         zero(name, "loss = (beta - alpha)/(1 + alpha^2)", imaginary - (beta - alpha) / (1 + alpha**2)),
@@ -50,7 +50,8 @@ def complex_modulus(flows: Flows) -> Derived:
         (real, imaginary),
         name=name,
         statement="Stiffness against a displacement that oscillates at the rate k V at which the strip's wave passes.",
-        latex=r"\frac{K^*(ikV)}{K} = \frac{1 + i\beta}{1 + i\alpha} = \frac{1 + \alpha\beta}{1 + \alpha^2} + i\,\frac{\beta - \alpha}{1 + \alpha^2}",
+        latex=r"\frac{K^*(ikV)}{K} = \frac{1 + i\beta}{1 + i\alpha}"
+        r" = \frac{1 + \alpha\beta}{1 + \alpha^2} + i\,\frac{\beta - \alpha}{1 + \alpha^2}",
         checks=checks,
     )
 
@@ -61,9 +62,24 @@ def modulus_kernels(modulus: Derived) -> tuple[Kernel, ...]:
     ratio = sp.sqrt((1 + beta**2) / (1 + alpha**2))
     squares = zero("modulus_ratio", "R^2 = storage^2 + loss^2", ratio**2 - storage**2 - loss**2)
     return (
-        kernel(modulus_kernels, stable.STORAGE, storage, "Real part of K*/K.", r"\mathrm{Re}\,K^*/K = \frac{1 + \alpha\beta}{1 + \alpha^2}"),
-        kernel(modulus_kernels, stable.LOSS, loss, "Imaginary part of K*/K.", r"\mathrm{Im}\,K^*/K = \frac{L\beta}{1 + \alpha^2}"),
-        kernel(modulus_kernels, stable.MODULUS_RATIO, ratio, "Modulus of K*/K.", r"R = \sqrt{\frac{1 + \beta^2}{1 + \alpha^2}}", squares),
+        kernel(
+            modulus_kernels,
+            stable.STORAGE,
+            storage,
+            "Real part of K*/K.",
+            r"\mathrm{Re}\,K^*/K = \frac{1 + \alpha\beta}{1 + \alpha^2}",
+        ),
+        kernel(
+            modulus_kernels, stable.LOSS, loss, "Imaginary part of K*/K.", r"\mathrm{Im}\,K^*/K = \frac{L\beta}{1 + \alpha^2}"
+        ),
+        kernel(
+            modulus_kernels,
+            stable.MODULUS_RATIO,
+            ratio,
+            "Modulus of K*/K.",
+            r"R = \sqrt{\frac{1 + \beta^2}{1 + \alpha^2}}",
+            squares,
+        ),
     )
 
 
@@ -71,25 +87,36 @@ def field_kernels(flows: Flows, modulus: tuple[sp.Expr, sp.Expr]) -> tuple[Kerne
     r"""Eq. 15: :math:`p_{sat}(s) = D - 1 + \mathrm{Re}[K^*/K\; e^{is}]`."""
     name = "saturated_pressure"
     storage, loss = modulus
-    # The periodic solution is what the contact flow leaves behind: entered on it, the transient is zero.
+    # The periodic solution is what the contact flow leaves behind when its transient has died out.
     pressure = flows.contact.value
-    transient = sp.Wild("transient")
-    entered = pressure.coeff(sp.exp((s_0 - s) / alpha)) if pressure.is_Add else sp.Integer(0)
-    entry = sp.solve(entered, q_0)[0]
-    periodic = sp.expand(pressure.subs(q_0, entry))
+    periodic = pressure.replace(sp.exp, lambda exponent: sp.Integer(0))
     eq_15 = D - 1 + sp.re(sp.expand_complex((storage + sp.I * loss) * sp.exp(sp.I * s)))
-    del transient
     own = (
         zero(name, "the law holds with w = u", flows.strip.law(flows.strip.u, periodic)),
+        holds(name, "nothing of the entry is left", not periodic.has(s_0, q_0)),
         zero(name, "it has the period 2 pi", periodic.subs(s, s + 2 * sp.pi) - periodic),
         zero(name, "it is Eq. 15: the mean and one harmonic, weighted by K*", periodic - eq_15, phases=(s,)),
     )
     rise = periodic.subs(s, s_1) - periodic.subs(s, s_0)
     return (
-        kernel(field_kernels, stable.SATURATED_PRESSURE, periodic, "Pressure of complete contact.",
-               r"p_{sat} = D - 1 + \frac{(1 + \alpha\beta)\cos s - (\beta - \alpha)\sin s}{1 + \alpha^2}", *own, paper="Eq. 15", status=REPRODUCED),
+        kernel(
+            field_kernels,
+            stable.SATURATED_PRESSURE,
+            periodic,
+            "Pressure of complete contact.",
+            r"p_{sat} = D - 1 + \frac{(1 + \alpha\beta)\cos s - (\beta - \alpha)\sin s}{1 + \alpha^2}",
+            *own,
+            paper="Eq. 15",
+            status=REPRODUCED,
+        ),
         kernel(field_kernels, stable.SATURATED_SLOPE, sp.diff(periodic, s), "Its slope.", r"p_{sat}'(s)"),
-        kernel(field_kernels, stable.SATURATED_RISE, rise, "Its rise between two phases, without cancellation.", r"[p_{sat}]_{s_0}^{s_1}"),
+        kernel(
+            field_kernels,
+            stable.SATURATED_RISE,
+            rise,
+            "Its rise between two phases, without cancellation.",
+            r"[p_{sat}]_{s_0}^{s_1}",
+        ),
     )
 
 
@@ -110,9 +137,17 @@ def means(flows: Flows, pressure: sp.Expr) -> Kernel:
     return Kernel(
         formula,
         value,
-        derived(means, value, name=name, statement="Means of pressure and friction of a strip in complete contact.",
-                latex=r"\bar p = D - 1,\quad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds = \frac{L\beta}{2(1 + \alpha^2)}",
-                checks=checks, paper="Eq. 10", status=REPRODUCED, emitted=(name,)),
+        derived(
+            means,
+            value,
+            name=name,
+            statement="Means of pressure and friction of a strip in complete contact.",
+            latex=r"\bar p = D - 1,\quad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds = \frac{L\beta}{2(1 + \alpha^2)}",
+            checks=checks,
+            paper="Eq. 10",
+            status=REPRODUCED,
+            emitted=(name,),
+        ),
     )
 
 
@@ -141,6 +176,3 @@ def threshold(pressure: sp.Expr, modulus: tuple[sp.Expr, sp.Expr]) -> Derived:
         checks=checks,
         status=BEYOND,
     )
-
-
-__all__ = ["Saturated", "saturated", "s_1"]

@@ -7,13 +7,16 @@ import sympy as sp
 from . import stable
 from .check import Derived, derived, zero
 from .functions import Formula, decay, quotient, written_out
-from .regimes import CONTACT, Regime
+from .kernel import Kernel
+from .regime import CONTACT, Regime
 from .symbols import D, L, alpha, beta, gap_0, p, p_0, q_0, s_0, s_1
-from .zones import Kernel
 
 
 def shift_of_events() -> Derived:
-    r"""A zone whose entry shifts by :math:`ds_0` at a fixed entry state is left later by :math:`ds_1 = -\frac{\partial F/\partial s_0}{\partial F/\partial s_1}\,ds_0`."""
+    r"""A zone whose entry shifts at a fixed entry state is left later:
+
+    .. math:: ds_1 = -\frac{\partial F/\partial s_0}{\partial F/\partial s_1}\,ds_0
+    """
     name = "shift of an event"
     gap = stable.GAP_AFTER(s_0, s_1, gap_0, p, D, beta)
     pressure = stable.EXCESS_AFTER(s_0, s_1, q_0, p_0, D, alpha, beta, L)
@@ -72,7 +75,14 @@ def onset_slope(regime: Regime) -> Kernel:
         if sp.expand(below - above) != 0:
             formula_result *= quotient(above, below)
     formula = Formula(name, regime.args, formula_result)
-    checks = [zero(name, "the product over the zones, telescoped", written_out(formula_result) - written_out(product), phases=regime.edges)]
+    checks = [
+        zero(
+            name,
+            "the product over the zones, telescoped",
+            written_out(formula_result) - written_out(product),
+            phases=regime.edges,
+        )
+    ]
     return Kernel(
         formula,
         written_out(product),
@@ -80,8 +90,8 @@ def onset_slope(regime: Regime) -> Kernel:
             onset_slope,
             product,
             name=name,
-            statement="A shift of the onset fades over contact with alpha and over the rest of the period with beta, and is scaled where p "
-            "steps. The orbit is stable when T' < 1; T' = 1 is a fold.",
+            statement="A shift of the onset fades over contact with alpha and over the rest of the period with beta, "
+            "and is scaled where p steps. The orbit is stable when T' < 1; T' = 1 is a fold.",
             latex=rf"T' = {sp.latex(written_out(formula_result))}",
             checks=checks,
             emitted=(name,),

@@ -5,7 +5,8 @@ is believed: each is proven equal to the expression that SymPy derived, by the f
 
 Choices that matter:
 * differences of cosines as products of sines;
-* what a zone *changes*, rather than what it ends with, so that short zones and slow foundations keep relative accuracy;
+* states as ``(state + rise) decay - (forced state at the end) decay_loss``: exact for short zones, for long ones, between;
+* for the balance of a period what each zone *changes*, so that slow foundations keep relative accuracy;
 * decays only through the helpers ``decay``, ``decay_loss``, ... whose exponents are never positive;
 * ``loss = L beta/(1 + alpha^2)`` as the one constant of the saturated field, ``p_sat = u + loss (alpha cos s - sin s)``:
   it vanishes with ``T_eps = T_sigma`` and squares no large number;
@@ -26,16 +27,19 @@ from .functions import (
     decay_rate,
     hypot,
     loss_mean,
+    loss_mean_twice,
     sine_deficit,
     versine,
 )
-from .symbols import D, J, L, alpha, beta, excess, gap_0, lag_0, p, p_0, q_0, s, s_0, s_1, w_0
+from .symbols import D, J, L, alpha, beta, excess, gap_0, lag_0, p, p_0, p_in, q_0, s, s_0, s_1, w_0
 
 middle, half, width, lag, transient = sp.symbols("middle half width lag transient", real=True)
 loss_factor, sin_ahead, cos_ahead = sp.symbols("loss_factor sin_ahead cos_ahead", real=True)
 unit, alpha_unit, beta_unit = sp.symbols("unit alpha_unit beta_unit", positive=True)
-rise, sweep, tail, held = sp.symbols("rise sweep tail held", real=True)
-moment_sin, moment_cos, lost_sin, lost_cos = sp.symbols("moment_sin moment_cos lost_sin lost_cos", real=True)
+rise, kept, lost, lost_twice = sp.symbols("rise kept lost lost_twice", real=True)
+moment_sin, moment_cos, kept_sin, kept_cos = sp.symbols("moment_sin moment_cos kept_sin kept_cos", real=True)
+part, t_versine, lost_sin, lost_versine = sp.symbols("part t_versine lost_sin lost_versine", real=True)
+ramp, ramp_work = sp.symbols("ramp ramp_work", real=True)
 amplitude, steepness, level = sp.symbols("amplitude steepness level", real=True)
 
 HALVES = ((middle, (s_0 + s_1) / 2), (half, (s_1 - s_0) / 2))
@@ -65,9 +69,7 @@ PROFILE.partials[0] = lambda s, D: PROFILE_SLOPE(s)
 # -- saturated contact --------------------------------------------------------------------------------------------------
 
 _unit = ((unit, 1 / hypot(1, alpha)), (alpha_unit, alpha * unit))
-STORAGE = Formula(
-    "storage", (alpha, beta), unit**2 + alpha_unit * beta_unit, (*_unit, (beta_unit, beta * unit))
-)
+STORAGE = Formula("storage", (alpha, beta), unit**2 + alpha_unit * beta_unit, (*_unit, (beta_unit, beta * unit)))
 LOSS = Formula("loss", (alpha, beta, L), L * beta_unit * unit, (_unit[0], (beta_unit, beta * unit)))
 MODULUS_RATIO = Formula("modulus_ratio", (alpha, beta), hypot(1, beta) / hypot(1, alpha))
 
@@ -95,8 +97,12 @@ _lag = (lag, PROFILE(s_0, D) + gap_0 - p)
 GAP_AFTER = Formula(
     "gap_after",
     (s_0, s_1, gap_0, p, D, beta),
-    gap_0 - PROFILE_RISE(s_0, s_1) + lag * decay_loss(s_1 - s_0, beta),
-    (_lag,),
+    (gap_0 - PROFILE_RISE(s_0, s_1)) * decay(s_1 - s_0, beta) + (PROFILE(s_1, D) - p) * decay_loss(s_1 - s_0, beta),
+)
+GAP_CHANGE = Formula(
+    "gap_change",
+    (s_0, s_1, gap_0, p, D, beta),
+    (PROFILE(s_1, D) + gap_0 - p) * decay_loss(s_1 - s_0, beta) - PROFILE_RISE(s_0, s_1) * decay(s_1 - s_0, beta),
 )
 GAP_AFTER_SLOPE = Formula(
     "gap_after_slope",
@@ -111,12 +117,12 @@ GAP_AFTER_START = Formula(
     (_lag,),
 )
 DISPLACEMENT_AFTER = Formula(
-    "displacement_after", (s_0, s_1, w_0, p, beta), w_0 + (w_0 - p) * decay_loss(s_1 - s_0, beta)
+    "displacement_after",
+    (s_0, s_1, w_0, p, beta),
+    w_0 * decay(s_1 - s_0, beta) - p * decay_loss(s_1 - s_0, beta),
 )
 RELAXATION_INCREMENT = Formula("relaxation_increment", (s_0, s_1, lag_0, beta), lag_0 * decay_loss(s_1 - s_0, beta))
-RELAXATION_INCREMENT_SLOPE = Formula(
-    "relaxation_increment_slope", (s_0, s_1, lag_0, beta), -lag_0 * decay_rate(s_1 - s_0, beta)
-)
+RELAXATION_INCREMENT_SLOPE = Formula("relaxation_increment_slope", (s_0, s_1, lag_0, beta), -lag_0 * decay_rate(s_1 - s_0, beta))
 RELAXATION_INTEGRAL = Formula(
     "relaxation_integral",
     (s_0, s_1, w_0, p, beta),
@@ -124,7 +130,8 @@ RELAXATION_INTEGRAL = Formula(
     (WIDTH,),
 )
 
-GAP_AFTER.partials.update({0: lambda *v: GAP_AFTER_START(*v), 1: lambda *v: GAP_AFTER_SLOPE(*v)})
+for _formula in (GAP_AFTER, GAP_CHANGE):  # they differ by gap_0, which is held
+    _formula.partials.update({0: lambda *v: GAP_AFTER_START(*v), 1: lambda *v: GAP_AFTER_SLOPE(*v)})
 RELAXATION_INCREMENT.partials.update(
     {
         0: lambda s_0, s_1, lag_0, beta: -RELAXATION_INCREMENT_SLOPE(s_0, s_1, lag_0, beta),
@@ -140,8 +147,8 @@ _contact = (s_0, s_1, q_0, p_0, D, alpha, beta, L)
 EXCESS_AFTER = Formula(
     "excess_after",
     _contact,
-    q_0 + SATURATED_RISE(s_0, s_1, alpha, beta, L) + transient * decay_loss(s_1 - s_0, alpha),
-    (_transient,),
+    (q_0 + SATURATED_RISE(s_0, s_1, alpha, beta, L)) * decay(s_1 - s_0, alpha)
+    - (p_0 + SATURATED_PRESSURE(s_1, D, alpha, beta, L)) * decay_loss(s_1 - s_0, alpha),
 )
 EXCESS_AFTER_SLOPE = Formula(
     "excess_after_slope",
@@ -158,10 +165,17 @@ EXCESS_AFTER_START = Formula(
 CONTACT_PRESSURE = Formula(
     "contact_pressure",
     _contact,
-    q_0 - p_0 + SATURATED_RISE(s_0, s_1, alpha, beta, L) + transient * decay_loss(s_1 - s_0, alpha),
-    (_transient,),
+    (q_0 - p_0 + SATURATED_RISE(s_0, s_1, alpha, beta, L)) * decay(s_1 - s_0, alpha)
+    - SATURATED_PRESSURE(s_1, D, alpha, beta, L) * decay_loss(s_1 - s_0, alpha),
 )
-EXCESS_AFTER.partials.update({0: lambda *v: EXCESS_AFTER_START(*v), 1: lambda *v: EXCESS_AFTER_SLOPE(*v)})
+
+
+def _pressure_only(formula: Formula):
+    """What depends on q_0 - p_0 alone, called with that difference (simplified by SymPy where it can) and 0."""
+    return lambda s_0, s_1, q_0, p_0, *rest: formula(s_0, s_1, sp.expand(q_0 - p_0), 0, *rest)
+
+
+EXCESS_AFTER.partials.update({0: _pressure_only(EXCESS_AFTER_START), 1: _pressure_only(EXCESS_AFTER_SLOPE)})
 
 _increment = (s_0, s_1, q_0, p_0, D, alpha, beta, J, L)
 _contact_lag = (lag, PROFILE(s_0, D) + p_0 - q_0)
@@ -174,9 +188,7 @@ CONTACT_INCREMENT = Formula(
     "contact_increment",
     _increment,
     J * lag * decay_loss(width, alpha)
-    + L
-    * unit
-    * (sin_ahead * (width * loss_mean(width, alpha) - sine_deficit(width)) - cos_ahead * versine(width)),
+    + L * unit * (sin_ahead * (width * loss_mean(width, alpha) - sine_deficit(width)) - cos_ahead * versine(width)),
     (WIDTH, _contact_lag, *_ahead),
 )
 CONTACT_INCREMENT_SLOPE = Formula(
@@ -193,36 +205,44 @@ CONTACT_INCREMENT_START = Formula(
     + L * unit * (sin_ahead * decay_loss(width, alpha) + cos_ahead * width * decay_mean(width, alpha)),
     (WIDTH, _contact_lag, *_ahead),
 )
-CONTACT_INCREMENT.partials.update(
-    {0: lambda *v: CONTACT_INCREMENT_START(*v), 1: lambda *v: CONTACT_INCREMENT_SLOPE(*v)}
-)
+CONTACT_INCREMENT.partials.update({0: _pressure_only(CONTACT_INCREMENT_START), 1: _pressure_only(CONTACT_INCREMENT_SLOPE)})
 
-# Work of the excess pressure q = p + p_0 on the profile, int q u' ds. With held = int (1 - exp(-t/alpha)) dt the
-# integrals of (1 - exp(-t/alpha)) cos t and of (1 - exp(-t/alpha)) sin t follow by parts from those of t sin t and t cos t.
+# Work of the contact pressure on the profile, int p u' ds, with t = s - s_0 and e = exp(-t/alpha):
+#     p = p_in e + [u] + u(s_0) (1 - e) + loss (cos s_0 C - sin s_0 S),
+#     C = alpha (cos t - e) - sin t,   S = -C' = cos t - e + alpha sin t.
+# C ("ramp") starts like t^2 although its terms start like t: written with lost = int (1 - e) dt, its terms do too. The
+# integrals of (1 - e)(1 - cos t) and of (1 - e) sin t follow by parts, with lost_twice = int lost dt; those of e cos t and
+# e sin t likewise, with kept = int e dt.
+_vs, _sd = versine(width), sine_deficit(width)
 CONTACT_WORK = Formula(
     "contact_work",
-    _contact,
-    q_0 * rise
-    + (1 + alpha * loss_factor) * rise**2 / 2
-    + loss_factor * sweep
-    + transient * (sp.sin(s_0) * lost_cos + sp.cos(s_0) * lost_sin),
+    (s_0, s_1, p_in, D, alpha, beta, L),
+    rise**2 / 2
+    - p_in * (sp.sin(s_0) * kept_cos + sp.cos(s_0) * kept_sin)
+    - PROFILE(s_0, D) * (sp.sin(s_0) * (lost - lost_versine) + sp.cos(s_0) * lost_sin)
+    - LOSS(alpha, beta, L) * (ramp_work + sp.sin(s_0) * sp.sin(s_1) * ramp),
     (
         WIDTH,
-        _transient,
-        _loss,
         (rise, PROFILE_RISE(s_0, s_1)),
-        (tail, sine_deficit(2 * width) / 4),
-        (
-            sweep,
-            sp.cos(s_0) ** 2 * tail
-            + sp.sin(s_0) * sp.cos(s_0) * versine(width) * sp.cos(width)
-            + sp.sin(s_0) ** 2 * (sine_deficit(width) - tail),
-        ),
-        (held, width * loss_mean(width, alpha)),
-        (moment_sin, held * sp.cos(width) + width * versine(width) - sine_deficit(width)),
-        (moment_cos, held * sp.sin(width) + versine(width) - width * sp.sin(width)),
         *_unit,
-        (lost_cos, unit * (unit * moment_sin - alpha_unit * moment_cos)),
-        (lost_sin, unit * (alpha_unit * moment_sin + unit * moment_cos)),
+        (kept, width * decay_mean(width, alpha)),
+        (moment_cos, unit * kept * sp.cos(width) + alpha_unit * _vs),
+        (moment_sin, alpha_unit * decay(width, alpha) * sp.sin(width)),
+        (kept_cos, unit * moment_cos + alpha_unit * moment_sin),
+        (kept_sin, alpha_unit * moment_cos - unit * moment_sin),
+        (lost, width * loss_mean(width, alpha)),
+        (lost_twice, width**2 / 2 * loss_mean_twice(width, alpha)),
+        (part, _sd - kept * _vs),
+        (t_versine, width * _sd - sine_deficit(width / 2) * (width + 2 * sp.sin(width / 2))),
+        (
+            lost_versine,
+            unit * (unit * part + alpha_unit * (lost * sp.sin(width) + t_versine - lost_twice)),
+        ),
+        (
+            lost_sin,
+            unit * (unit * (lost * sp.sin(width) + t_versine - lost_twice) - alpha_unit * part),
+        ),
+        (ramp, _sd - lost - alpha * _vs),
+        (ramp_work, lost_versine - part - sine_deficit(2 * width) / 4 - alpha * _vs**2 / 2),
     ),
 )

@@ -10,6 +10,9 @@ from .check import BEYOND, CORRECTED, REPRODUCED, Derived, derived, holds, zero
 from .model import Foundation
 from .symbols import A, D, D_j, D_level, J, K, L, T_eps, T_sigma, V, alpha, beta, h, k, s, t, x, y
 
+TIMES = {T_sigma: alpha / (k * V), T_eps: beta / (k * V)}
+"""Times of the material in terms of those of the strip."""
+
 
 @dataclass(frozen=True)
 class Strip:
@@ -40,7 +43,10 @@ def strip(foundation: Foundation) -> Strip:
 
 
 def strip_profile() -> Derived:
-    r"""Eq. 4, 6, 8: :math:`w = D - f = D_j - A(1-\cos kx)`, :math:`A = \frac h4(1+\cos ky)`, :math:`D_j = D - \frac h2(1-\cos ky)`."""
+    r"""Eq. 4, 6, 8:
+
+    .. math:: w = D - f = D_j - A(1 - \cos kx),\quad A = \tfrac h4(1 + \cos ky),\quad D_j = D - \tfrac h2(1 - \cos ky)
+    """
     name = "strip profile"
     f = h - h / 4 * (sp.cos(k * x) + 1) * (sp.cos(k * y) + 1)
     amplitude = h / 4 * (1 + sp.cos(k * y))
@@ -100,20 +106,22 @@ def moving_frame(foundation: Foundation) -> Derived:
 
 
 def dimensionless_groups(foundation: Foundation) -> Derived:
-    r"""With :math:`s=-kx`, lengths in A, pressures in KA: :math:`w + \beta w' = p + \alpha p'`, :math:`\alpha = kVT_\sigma`, :math:`\beta = kVT_\epsilon`."""
+    r"""With :math:`s = -kx`, lengths in A, pressures in KA:
+
+    .. math:: w + \beta w' = p + \alpha p',\quad \alpha = kVT_\sigma,\quad \beta = kVT_\epsilon
+    """
     name = "dimensionless groups"
     model = foundation.model
-    times = {T_sigma: alpha / (k * V), T_eps: beta / (k * V)}
     # d/dt = -V d/dx = k V d/ds; p is in units of K A, w in units of A, and the law is divided by A.
-    operator_w = tuple(sp.cancel((q * (k * V) ** n).subs(times)) for n, q in enumerate(model.Q))
-    operator_p = tuple(sp.cancel((q * foundation.K * (k * V) ** n).subs(times)) for n, q in enumerate(model.P))
+    operator_w = tuple(sp.cancel((q * (k * V) ** n).subs(TIMES)) for n, q in enumerate(model.Q))
+    operator_p = tuple(sp.cancel((q * foundation.K * (k * V) ** n).subs(TIMES)) for n, q in enumerate(model.P))
     w, p = sp.Function("w"), sp.Function("p")
     fields = {w: sp.Lambda(x, A * sp.exp(2 * k * x)), p: sp.Lambda(x, K * A * sp.cos(k * x))}
     si = (_in_space(model.Q, w(x)) - _in_space(model.P, p(x))).subs(fields).doit()
     ours = _apply(operator_w, sp.exp(-2 * s)) - _apply(operator_p, sp.cos(s))
-    compliance = (foundation.J_0 * foundation.K).subs(times)
+    compliance = (foundation.J_0 * foundation.K).subs(TIMES)
     checks = [
-        zero(name, "the SI law of the moving frame, divided by A, is the law in s", (si / A).subs(x, -s / k).subs(times) - ours),
+        zero(name, "the SI law of the moving frame, divided by A, is the law in s", (si / A).subs(x, -s / k).subs(TIMES) - ours),
         zero(name, "K J_0 = alpha/beta = J", compliance - J),
         zero(name, "beta - alpha = L beta with L = 1 - J", beta - alpha - L * beta),
     ]
@@ -123,7 +131,8 @@ def dimensionless_groups(foundation: Foundation) -> Derived:
         name=name,
         statement="Everything about a strip follows from alpha, beta, p_0/(K A), delta_0/A and D_j/A. J = K J_0 and L = 1 - J "
         "are kept beside alpha and beta, because neither can be had from them at V = 0 or without cancellation.",
-        latex=r"w + \beta w' = p + \alpha p',\quad \alpha = k V T_\sigma,\ \beta = k V T_\epsilon,\ J = T_\sigma/T_\epsilon,\ L = 1 - J",
+        latex=r"w + \beta w' = p + \alpha p',\quad \alpha = k V T_\sigma,\quad \beta = k V T_\epsilon,"
+        r"\quad J = T_\sigma/T_\epsilon,\quad L = 1 - J",
         checks=checks,
         paper="Eq. 5",
         status=BEYOND,

@@ -8,7 +8,7 @@ import sympy as sp
 
 # Surface and motion (SI)
 x, y, t = sp.symbols("x y t", real=True)
-V, k, l, h, A, K = sp.symbols("V k l h A K", positive=True)
+V, k, l, h, A, K = sp.symbols("V k l h A K", positive=True)  # noqa: E741
 T_eps, T_sigma = sp.symbols("T_epsilon T_sigma", positive=True)
 D_level = sp.Symbol("D", real=True)  # penetration of a level; that of a strip is D_j
 D_j = sp.Symbol("D_j", real=True)
@@ -22,7 +22,7 @@ p_0, delta_0 = sp.symbols("p_0 delta_0", nonnegative=True)
 D = sp.Symbol("D", real=True)  # D_j / A
 chi = sp.Symbol("chi", nonnegative=True)  # 0: w continuous where p steps; 1: constitutive
 p = sp.Symbol("p", real=True)  # a constant pressure: 0 or -p_0
-gap_0, q_0, lag_0, w_0 = sp.symbols("gap_0 q_0 lag_0 w_0", real=True)  # state where a zone begins
+gap_0, q_0, p_in, lag_0, w_0 = sp.symbols("gap_0 q_0 p_in lag_0 w_0", real=True)  # state where a zone begins
 excess = sp.Symbol("excess", real=True)
 
 # Edges of the zones, in the order a material point meets them: adhesion begins (d), contact begins (b), contact

@@ -1,30 +1,18 @@
-"""What each zone does to a material point: stable forms proven equal to the flows that SymPy solved.
-
-A :class:`Kernel` ties a formula, which is going to be emitted, to the exact expression it computes.
-"""
+"""What each zone does to a material point: stable forms proven equal to the flows that SymPy solved."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import sympy as sp
 
 from . import stable
-from .check import BEYOND, Check, Derived, derived, holds, zero
+from .check import BEYOND, derived, zero
+from .contact import contact, contact_state
 from .flows import Flows
-from .functions import Formula
 from .jumps import Jumps
-from .symbols import D, J, L, alpha, beta, excess, lag_0, p, p_0, q_0, s, s_0, s_1, w_0
-
-
-@dataclass(frozen=True)
-class Kernel:
-    """A formula and the expression that it was proven to compute, both in the formula's arguments."""
-
-    formula: Formula
-    exact: Any
-    derived: Derived
+from .kernel import Kernel, kernel
+from .symbols import D, beta, excess, gap_0, lag_0, p, s, s_0, s_1, w_0
 
 
 @dataclass(frozen=True)
@@ -48,21 +36,6 @@ def zones(flows: Flows, jumps: Jumps) -> Zones:
             *contact(flows),
             *contact_state(flows, jumps),
         ),
-    )
-
-
-def same(step: str, formula: Formula, exact: Any, phases: tuple = (s_0, s_1)) -> Check:
-    """The stable form equals the derived expression, identically."""
-    return zero(step, f"{formula.name}: the stable form equals the derived expression", formula.written_out(formula.args) - exact, phases=phases)
-
-
-def kernel(by: Any, formula: Formula, exact: Any, statement: str, latex: str, *extra: Check, **options: Any) -> Kernel:
-    """Prove ``formula`` equal to ``exact`` and record it under the function ``by`` that derived it."""
-    checks = [same(formula.name, formula, exact), *extra]
-    return Kernel(
-        formula,
-        exact,
-        derived(by, exact, name=formula.name, statement=statement, latex=latex, checks=checks, emitted=(formula.name,), **options),
     )
 
 
@@ -104,7 +77,9 @@ def load(flows: Flows) -> tuple[Kernel, ...]:
     stated = stable.FORCING_ARC.written_out(stable.FORCING_ARC.args)
     checks = [
         zero(name, "about s = -arctan(beta), H is D - 1 + sqrt(1 + beta^2) cos", sp.radsimp(sp.expand(around - harmonic))),
-        zero(name, "H + e vanishes where that cosine is (1 - D - e)/sqrt(1 + beta^2)", harmonic.subs(sp.cos(angle), half) + excess),
+        zero(
+            name, "H + e vanishes where that cosine is (1 - D - e)/sqrt(1 + beta^2)", harmonic.subs(sp.cos(angle), half) + excess
+        ),
         zero(name, "the stable form says the same", [stated[0] - centre, sp.radsimp(sp.cos(stated[1]) - half)]),
     ]
     arc = Kernel(
@@ -114,8 +89,8 @@ def load(flows: Flows) -> tuple[Kernel, ...]:
             load,
             (centre, sp.acos(half)),
             name=name,
-            statement="H + e > 0 exactly for |s - centre| < half, modulo 2 pi. An event function F with F + T F' = +-(H + e) has at a "
-            "zero a slope of the sign of that harmonic: its upward and downward zeros lie in these arcs.",
+            statement="H + e > 0 exactly for |s - centre| < half, modulo 2 pi. An event function F with F + T F' = +-(H + e) "
+            "has at a zero a slope of the sign of that harmonic: its upward and downward zeros lie in these arcs.",
             latex=r"\text{centre} = -\arctan\beta,\quad \text{half} = \arccos\frac{1 - D - e}{\sqrt{1 + \beta^2}}",
             checks=checks,
             status=BEYOND,
@@ -129,10 +104,20 @@ def gap(flows: Flows) -> tuple[Kernel, ...]:
     r""":math:`g(s_1) = g_0 - [u] + (u(s_0) + g_0 - p)(e^{-(s_1-s_0)/\beta} - 1)` and its derivatives."""
     g = flows.gap.value.subs(s, s_1)
     return (
-        kernel(gap, stable.GAP_AFTER, g, "Gap at s_1 when it was gap_0 at s_0 and the pressure is the constant p since.",
-               r"g(s_1) = g_0 - [u]_{s_0}^{s_1} + (u(s_0) + g_0 - p)\,(e^{-(s_1 - s_0)/\beta} - 1)"),
+        kernel(
+            gap,
+            stable.GAP_AFTER,
+            g,
+            "Gap at s_1 when it was gap_0 at s_0 and the pressure is the constant p since.",
+            r"g(s_1) = (g_0 - [u]_{s_0}^{s_1})\,e^{-(s_1 - s_0)/\beta} + (u(s_1) - p)\,(e^{-(s_1 - s_0)/\beta} - 1)",
+        ),
+        kernel(
+            gap, stable.GAP_CHANGE, g - gap_0, "Its change since s_0, for zones too short to change it much.", r"g(s_1) - g_0"
+        ),
         kernel(gap, stable.GAP_AFTER_SLOPE, sp.diff(g, s_1), "Its derivative by s_1.", r"\partial g/\partial s_1"),
-        kernel(gap, stable.GAP_AFTER_START, sp.diff(g, s_0), "Its derivative by s_0 with gap_0 held.", r"\partial g/\partial s_0"),
+        kernel(
+            gap, stable.GAP_AFTER_START, sp.diff(g, s_0), "Its derivative by s_0 with gap_0 held.", r"\partial g/\partial s_0"
+        ),
     )
 
 
@@ -145,9 +130,27 @@ def relaxation(flows: Flows, jumps: Jumps) -> tuple[Kernel, ...]:
     total = integral.subs(s, s_1) - integral.subs(s, s_0)
     name = "relaxation_integral"
     return (
-        kernel(relaxation, stable.DISPLACEMENT_AFTER, after, "Displacement under a constant pressure.", r"w(s_1) = w_0 + (w_0 - p)(e^{-(s_1-s_0)/\beta} - 1)"),
-        kernel(relaxation, stable.RELAXATION_INCREMENT, change, "Change of w, and of z, over an adhesion or free zone entered with the lag w - p.", r"\Delta z = (w_0 - p)(e^{-(s_1-s_0)/\beta} - 1)"),
-        kernel(relaxation, stable.RELAXATION_INCREMENT_SLOPE, sp.diff(change, s_1), "Its derivative by s_1.", r"\partial \Delta z/\partial s_1"),
+        kernel(
+            relaxation,
+            stable.DISPLACEMENT_AFTER,
+            after,
+            "Displacement under a constant pressure.",
+            r"w(s_1) = w_0 + (w_0 - p)(e^{-(s_1-s_0)/\beta} - 1)",
+        ),
+        kernel(
+            relaxation,
+            stable.RELAXATION_INCREMENT,
+            change,
+            "Change of w, and of z, over an adhesion or free zone entered with the lag w - p.",
+            r"\Delta z = (w_0 - p)(e^{-(s_1-s_0)/\beta} - 1)",
+        ),
+        kernel(
+            relaxation,
+            stable.RELAXATION_INCREMENT_SLOPE,
+            sp.diff(change, s_1),
+            "Its derivative by s_1.",
+            r"\partial \Delta z/\partial s_1",
+        ),
         kernel(
             relaxation,
             stable.RELAXATION_INTEGRAL,
@@ -155,56 +158,12 @@ def relaxation(flows: Flows, jumps: Jumps) -> tuple[Kernel, ...]:
             "Displacement summed over the zone: a convex combination of w_0 and p, so nothing cancels.",
             r"\int_{s_0}^{s_1} w\,ds",
             zero(name, "the antiderivative differentiates to w", sp.diff(integral, s) - w),
-            zero(name, "int (p - w) ds = beta (w(s_1) - w_0): the balance of z", p * (s_1 - s_0) - total - beta * (after - w_0), phases=(s_0, s_1)),
-            paper="Eq. 10",
-        ),
-    )
-
-
-def contact(flows: Flows) -> tuple[Kernel, ...]:
-    r""":math:`q = p + p_0` in contact, and its derivatives."""
-    pressure = flows.contact.value.subs(s, s_1)
-    q = pressure + p_0
-    latex = r"q(s_1) = q_0 + [p_{sat}]_{s_0}^{s_1} + (q_0 - p_0 - p_{sat}(s_0))\,(e^{-(s_1 - s_0)/\alpha} - 1)"
-    return (
-        kernel(contact, stable.EXCESS_AFTER, q, "Pressure above -p_0 in contact, when it was q_0 at s_0.", latex),
-        kernel(contact, stable.EXCESS_AFTER_SLOPE, sp.diff(q, s_1), "Its derivative by s_1.", r"\partial q/\partial s_1"),
-        kernel(contact, stable.EXCESS_AFTER_START, sp.diff(q, s_0), "Its derivative by s_0 with q_0 held.", r"\partial q/\partial s_0"),
-        kernel(contact, stable.CONTACT_PRESSURE, pressure, "Contact pressure.", r"p(s_1) = q(s_1) - p_0"),
-    )
-
-
-def contact_state(flows: Flows, jumps: Jumps) -> tuple[Kernel, ...]:
-    r""":math:`\Delta z = [u] - J[p]` over contact, equal to :math:`\frac1\beta\int(p-u)\,ds`; the work :math:`\int q\,u'\,ds`."""
-    u, pressure = flows.strip.u, flows.contact.value
-    rise = u.subs(s, s_1) - u.subs(s, s_0)
-    change = rise - J * (pressure.subs(s, s_1) - (q_0 - p_0))
-    integrand = sp.expand(pressure - u)
-    lagging = sp.integrate(integrand, s)
-    balance = lagging.subs(s, s_1) - lagging.subs(s, s_0) - beta * change
-    work_rate = sp.expand((pressure + p_0) * sp.diff(u, s))
-    work = sp.Add(*(sp.integrate(term, s) for term in sp.Add.make_args(work_rate)))
-    total = work.subs(s, s_1) - work.subs(s, s_0)
-    name = "contact_increment"
-    return (
-        kernel(
-            contact_state,
-            stable.CONTACT_INCREMENT,
-            change,
-            "Change of z = w - J p over contact.",
-            r"\Delta z = [u]_{s_0}^{s_1} - J [p]_{s_0}^{s_1} = \frac1\beta \int_{s_0}^{s_1} (p - u)\,ds",
-            zero(name, "the antiderivative of p - u differentiates back", sp.diff(lagging, s) - integrand),
-            zero(name, "int (p - w) ds = beta (z(s_1) - z(s_0)): the balance of z", balance, phases=(s_0, s_1)),
-        ),
-        kernel(contact_state, stable.CONTACT_INCREMENT_SLOPE, sp.diff(change, s_1), "Its derivative by s_1.", r"\partial \Delta z/\partial s_1"),
-        kernel(contact_state, stable.CONTACT_INCREMENT_START, sp.diff(change, s_0), "Its derivative by s_0 with q_0 held.", r"\partial \Delta z/\partial s_0"),
-        kernel(
-            contact_state,
-            stable.CONTACT_WORK,
-            total,
-            "Work of the excess pressure on the rigid profile.",
-            r"\int_{s_0}^{s_1} (p + p_0)\,u'\,ds",
-            zero("contact_work", "the antiderivative differentiates to q u'", sp.diff(work, s) - work_rate, phases=(s_0, s)),
+            zero(
+                name,
+                "int (p - w) ds = beta (w(s_1) - w_0): the balance of z",
+                p * (s_1 - s_0) - total - beta * (after - w_0),
+                phases=(s_0, s_1),
+            ),
             paper="Eq. 10",
         ),
     )

@@ -237,6 +237,7 @@ def collect(pool, options):
     for part in pool.imap(near_change, [(options.seed, number) for number in range(options.folds)]):
         rows.extend(part)
     rows.extend(pool.imap(at_threshold, [(options.seed, number) for number in range(options.thresholds)]))
+    rows = list({tuple(row[name] for name in INPUTS): row for row in rows}.values())
     print(f"{len(rows)} scenes; measuring their spread", flush=True)
     return list(pool.imap(spread, rows, chunksize=8))
 

@@ -194,7 +194,7 @@ class _Work:
             if not active.size:
                 break
             # more points per round where the batch is small: rounds, not strips, are then what costs
-            m = int(np.clip(64 // active.size, 1, 15))
+            m = int(np.clip(256 // active.size, 1, 15))
             share = np.arange(1, m + 1) / (m + 1)
             theta = low[active][:, None] + (high - low)[active][:, None] * share
             codes, _ = self.evaluate(np.repeat(column[active], m), theta.ravel())

@@ -28,10 +28,11 @@ def crossing(
     """
     low, high = low.copy(), high.copy()
     x = np.clip(guess, low, high) if guess is not None else 0.5 * (low + high)
-    result = x.copy()
+    result = np.where(high > low, x, high)
     active = np.flatnonzero(high > low)
-    result[high <= low] = high[high <= low]
-    width = high - low
+    before = high - low  # last step taken, or the bracket
+    older = (x, np.zeros(low.shape), np.zeros(low.shape))  # point, value, slope of the evaluation before (slope 0: none)
+    older = tuple(v.copy() for v in older)
     spent = np.zeros(low.shape)
     for _ in range(_MAX_ITERATIONS):
         if active.size == 0:
@@ -42,16 +43,38 @@ def crossing(
         positive = value > 0
         lo = np.where(positive, xa, lo)
         hi = np.where(positive, hi, xa)
-        # a slope of the wrong sign, or none, sends Newton outside the bracket: bisection then
-        step = np.divide(-value, slope, out=np.full_like(value, np.inf), where=slope < 0)
-        newton = xa + step
-        slow = np.abs(step) > 0.5 * width[active]
-        outside = ~((newton >= lo) & (newton <= hi)) | slow
-        new = np.where(outside, 0.5 * (lo + hi), newton)
-        width[active] = np.where(outside, hi - lo, np.abs(step))
+        step = _step(xa, value, slope, *(v[active] for v in older))
+        new = xa + step
+        size, last = np.abs(step), before[active]
+        # a slope of the wrong sign, or none, sends the step outside the bracket: bisection then
+        bisected = ~((new >= lo) & (new <= hi)) | (size > 0.5 * last)
+        new = np.where(bisected, 0.5 * (lo + hi), new)
+        size = np.where(bisected, hi - lo, size)
         tolerance = 2 * _EPS * np.maximum(np.abs(lo), np.abs(hi))
-        done = (value == 0) | (hi - lo <= tolerance) | (~outside & (np.abs(step) <= tolerance))
-        result[active] = np.where(value == 0, xa, new)
-        x[active], low[active], high[active] = new, lo, hi
+        # steps shrink at least quadratically by now: what the next one would be need not be taken
+        ratio = np.minimum(size / last, 1.0)
+        done = (value == 0) | (hi - lo <= tolerance) | (~bisected & (size * ratio * ratio <= tolerance))
+        new = np.where(value == 0, xa, new)
+        result[active] = new
+        for array, now in zip((x, low, high, before, *older), (new, lo, hi, size, xa, value, slope), strict=True):
+            array[active] = now
         active = active[~done]
     return result, spent
+
+
+def _step(x, value, slope, x_old, value_old, slope_old):
+    """Step to the zero of the inverse cubic through the last two evaluations and their slopes; Newton's where there is but one."""
+    newton = np.divide(-value, slope, out=np.full_like(value, np.inf), where=slope < -1e-290 * (1 + np.abs(value)))
+    span = value_old - value
+    usable = (slope < 0) & (slope_old < 0) & (np.abs(span) > 1e-3 * np.abs(value)) & np.isfinite(newton)
+    if not usable.any():
+        return newton
+    safe = np.where(usable, span, 1.0)
+    s, s_old = np.where(usable, slope, -1.0), np.where(usable, slope_old, -1.0)
+    # inverse Hermite interpolation, by divided differences in the values, at value 0
+    first = (x_old - x) / safe
+    second = (first - 1 / s) / safe
+    third = ((1 / s_old - first) / safe - second) / safe
+    v = np.where(usable, value, 0.0)
+    cubic = -v / s + v * v * (second - third * np.where(usable, value_old, 0.0))
+    return np.where(usable, cubic, newton)

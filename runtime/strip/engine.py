@@ -19,16 +19,17 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from .certificate import always_adhering, edges_admissible, stable
-from .march import Orbit
+from .march import Orbit, between, lies_between
 from .polish import polish
 from .problem import Cycle, Strips, adhesive_cycle, bare_cycle
 from .regimes import CODE
-from .search import extremal_orbit
+from .search import SearchResult, isolate, locate
 
 #: Strips solved at a time: their working arrays stay in the cache, and memory stays bounded.
 CHUNK = 4096
-#: Largest correction that an orbit may still ask for, as a fraction of its closing balance's margin.
-_CONVERGED = 1e-11
+#: Largest correction that an orbit may still ask for: this much, or this many times what rounding leaves uncertain, which
+#: itself must not be worse than near a fold.
+_CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 32, 1e-6
 _UNDECIDED = -1
 
 
@@ -116,9 +117,9 @@ class _Batch:
         if not index.size:
             return index
         cycle = adhesive_cycle(self.kernel, self.strips.take(index))
-        result = extremal_orbit(self.kernel, cycle, last=not self.unloading)
-        self.solved.evaluations[index] += result.evaluations
-        contact = ~np.isnan(result.orbit.b)
+        result = isolate(self.kernel, cycle, last=not self.unloading)
+        orbit, failed = self._located(index, cycle, result)
+        contact = ~np.isnan(orbit.b)
         kinds = {
             "acaf": contact & ~cycle.direct,
             "afc": contact & cycle.direct,
@@ -127,7 +128,7 @@ class _Batch:
         for sequence, kind in kinds.items():
             pick = np.flatnonzero(result.found & kind)
             if pick.size:
-                self._finish(index[pick], sequence, cycle.take(pick), result.orbit.take(pick), ~result.unresolved[pick])
+                self._finish(index[pick], sequence, cycle.take(pick), orbit.take(pick), ~failed[pick])
         undecided = result.unresolved & ~result.found
         self.solved.code[index[undecided]] = CODE["acaf"]
         return index[~result.found & ~undecided]
@@ -143,24 +144,50 @@ class _Batch:
         rest = index[~full & ~free]
         if rest.size:
             cycle = bare_cycle(self.kernel, self.strips.take(rest))
-            result = extremal_orbit(self.kernel, cycle, last=False)
-            self.solved.evaluations[rest] += result.evaluations
-            self._finish(rest, "cf", cycle, result.orbit, result.found & ~result.unresolved)
+            result = isolate(self.kernel, cycle, last=False)
+            orbit, failed = self._located(rest, cycle, result)
+            self._finish(rest, "cf", cycle, orbit, result.found & ~failed)
 
     def _contact_with_saturated_adhesion(self, index):
         """Solve as the strip without adhesion at ``D + p_0``; returns which are admissible."""
         strips = self.strips.take(index)
         cycle = bare_cycle(self.kernel, strips)
-        result = extremal_orbit(self.kernel, cycle, last=False)
-        self.solved.evaluations[index] += result.evaluations
-        usable = result.found & ~result.unresolved
+        result = isolate(self.kernel, cycle, last=False)
+        orbit, failed = self._located(index, cycle, result)
         ok = np.zeros(index.size, bool)
-        pick = np.flatnonzero(usable)
-        ok[pick] = always_adhering(self.kernel, strips.take(pick), cycle.take(pick), result.orbit.take(pick))
+        pick = np.flatnonzero(result.found & ~failed)
+        ok[pick] = always_adhering(self.kernel, strips.take(pick), cycle.take(pick), orbit.take(pick))
         pick = np.flatnonzero(ok)
         if pick.size:
-            self._finish(index[pick], "ac", cycle.take(pick), result.orbit.take(pick), np.ones(pick.size, bool))
+            self._finish(index[pick], "ac", cycle.take(pick), orbit.take(pick), np.ones(pick.size, bool))
         return ok
+
+    def _located(self, index, cycle: Cycle, result: SearchResult) -> tuple[Orbit, np.ndarray]:
+        """Orbits at the isolated zeros, and which of them failed to converge."""
+        orbit = result.left.take(np.arange(index.size))
+        failed = result.unresolved.copy()
+        self.solved.evaluations[index] += result.evaluations
+        pick = np.flatnonzero(result.found)
+        left, right, cycle = result.left.take(pick), result.right.take(pick), cycle.take(pick)
+        orbit.put(pick, between(left, right))
+        # Newton on the boundary equations, from in between, may stand in for the march where it stays in between
+        rest = np.ones(pick.size, bool)
+        for sequence, kind in _kinds(cycle, left, right).items():
+            here = np.flatnonzero(kind)
+            if here.size:
+                ends = left.take(here), right.take(here)
+                new, converged, spent = _polished(self.kernel, sequence, cycle.take(here), between(*ends), ends)
+                inside = converged & lies_between(new, *ends)
+                self.solved.evaluations[index[pick[here]]] += spent
+                orbit.put(pick[here[inside]], new.take(np.flatnonzero(inside)))
+                rest[here[inside]] = False
+        rest = np.flatnonzero(rest)
+        if rest.size:
+            at_zero, missed, spent = locate(self.kernel, cycle.take(rest), left.take(rest), right.take(rest))
+            orbit.put(pick[rest], at_zero)
+            failed[pick[rest]] |= missed
+            self.solved.evaluations[index[pick[rest]]] += spent
+        return orbit, failed
 
     # -- writing results ---------------------------------------------------------------------------------------------
 
@@ -179,7 +206,8 @@ class _Batch:
     def _finish(self, index, sequence, cycle: Cycle, orbit: Orbit, usable):
         """Polish, certify and write orbits that all have the same sequence of zones."""
         strips = self.strips.take(index)
-        orbit, converged = _polished(self.kernel, sequence, cycle, orbit)
+        orbit, converged, spent = _polished(self.kernel, sequence, cycle, orbit)
+        self.solved.evaluations[index] += spent
         certified = usable & converged & edges_admissible(self.kernel, cycle, orbit) & stable(self.kernel, cycle, orbit)
         out = self.solved
         out.code[index] = CODE[sequence]
@@ -222,11 +250,29 @@ def _edges(sequence: str, orbit: Orbit) -> np.ndarray:
     )
 
 
-def _polished(kernel, sequence: str, cycle: Cycle, orbit: Orbit) -> tuple[Orbit, np.ndarray]:
-    """The orbit with its edges refined, and whether nothing was left to correct."""
+def _kinds(cycle: Cycle, left: Orbit, right: Orbit) -> dict[str, np.ndarray]:
+    """Which isolated zeros are certain to be of which regime: both ends of the interval are."""
+    contact = ~np.isnan(left.b) & ~np.isnan(right.b) & ~left.engaged & ~right.engaged
+    return {
+        "acaf": contact & ~cycle.direct,
+        "afc": contact & cycle.direct & ~cycle.bare,
+        "cf": contact & cycle.bare,
+        "af": np.isnan(left.b) & np.isnan(right.b) & ~left.engaged & ~right.engaged,
+    }
+
+
+def _polished(kernel, sequence: str, cycle: Cycle, orbit: Orbit, ends=None) -> tuple[Orbit, np.ndarray, np.ndarray]:
+    """The orbit with its edges refined, whether nothing was left to correct, and the evaluations it took.
+
+    ``ends``: orbits from an earlier and a later onset, between whose edges those of this one lie.
+    """
+    bounds = (-np.inf, np.inf)
+    if ends is not None:
+        one, two = (_edges(sequence, end) for end in ends)
+        bounds = np.minimum(one, two), np.maximum(one, two)
     # the cycle of an always adhering strip is the bare one, shifted: its boundary equations are those of "ac" at p_0 = 0
-    refined = polish(kernel, "ac" if sequence in ("ac", "cf") else sequence, cycle.strips, _edges(sequence, orbit))
-    e, x = refined.edges, orbit.x
+    refined = polish(kernel, "ac" if sequence in ("ac", "cf") else sequence, cycle.strips, _edges(sequence, orbit), bounds)
+    e = refined.edges
     if sequence == "acaf":
         new = Orbit(e[0], e[1], e[2], e[3], orbit.engaged, orbit.r, orbit.w_end)
     elif sequence == "afc":
@@ -235,4 +281,5 @@ def _polished(kernel, sequence: str, cycle: Cycle, orbit: Orbit) -> tuple[Orbit,
         new = Orbit(e[0], orbit.b, orbit.a, e[1], orbit.engaged, orbit.r, orbit.w_end)
     else:
         new = Orbit(e[0], e[0], e[1], e[1], orbit.engaged, orbit.r, orbit.w_end)
-    return new, refined.correction <= _CONVERGED / np.maximum(refined.margin, _CONVERGED)
+    converged = refined.correction <= _CONVERGED + _ROUNDINGS * np.minimum(refined.attainable, _COARSEST)
+    return new, converged, refined.evaluations

@@ -12,6 +12,7 @@ from .crossing import crossing
 from .problem import Cycle
 
 TWO_PI = 2 * np.pi
+_EPS = np.finfo(float).eps
 
 
 @dataclass(slots=True)
@@ -43,12 +44,16 @@ class Orbit:
             getattr(self, f.name)[index] = getattr(other, f.name)
 
 
-def march(kernel, cycle: Cycle, x: np.ndarray) -> tuple[Orbit, np.ndarray]:
-    """March every cycle from its onset phase ``x``; also returns the event evaluations each took."""
+def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, later: Orbit | None = None):
+    """March every cycle from its onset phase ``x``; returns the orbits and the event evaluations each took, (n,).
+
+    ``earlier`` and ``later``: orbits from an earlier and a later onset, if known. By the order of orbits b lies between theirs, a and c too
+    (the other way round), which leaves narrow brackets; NaN edges bound nothing.
+    """
     spent = np.ones(x.shape)
-    b = _contact_begins(kernel, cycle, x, spent)
-    a = _contact_ends(kernel, cycle, x, b, spent)
-    c = _adhesion_ends(kernel, cycle, x, b, a, spent)
+    b = _contact_begins(kernel, cycle, x, spent, _Known(x, earlier, later, "b"))
+    a = _contact_ends(kernel, cycle, x, b, spent, _Known(x, earlier, later, "a"))
+    c = _adhesion_ends(kernel, cycle, x, b, a, spent, _Known(x, earlier, later, "c"))
     engaged = np.isnan(c)
     r, w_end = np.full(x.shape, -np.inf), np.full(x.shape, np.nan)
     free = np.flatnonzero(~engaged)
@@ -57,7 +62,91 @@ def march(kernel, cycle: Cycle, x: np.ndarray) -> tuple[Orbit, np.ndarray]:
     return Orbit(x.copy(), b, a, c, engaged, r, w_end), spent
 
 
-def _contact_begins(kernel, cycle: Cycle, x, spent):
+def next_onset(kernel, cycle: Cycle, orbit: Orbit) -> tuple[np.ndarray, np.ndarray]:
+    """Onset phase of the period that follows, less 2 pi: the onset map. NaN where the strip is engaged or misses the onset.
+
+    Also returns the event evaluations each took.
+    """
+    s = cycle.strips
+    x = np.full(orbit.x.shape, np.nan)
+    spent = np.zeros(x.shape)
+    end = cycle.centre + cycle.half_d + TWO_PI
+    index = np.flatnonzero(~orbit.engaged)
+
+    def gap(phase, sub):
+        i = index[sub]
+        args = (orbit.c[i], phase, s.delta_0[i] + cycle.jump[i], 0.0 * phase, s.D[i], s.beta[i])
+        return kernel.gap_after(*args) - s.delta_0[i], kernel.gap_after_slope(*args)
+
+    if not index.size:
+        return x, spent
+    index = index[_happens(gap, end[index], index, np.zeros(index.size, bool), spent)]
+    here = orbit.x[index] + TWO_PI
+    start = np.maximum(end[index] - 2 * cycle.half_d[index], orbit.c[index])
+    early = orbit.r[index] < 0
+    low, high = np.where(early, start, here), np.where(early, here, end[index])
+    found, used = crossing(gap, low, np.maximum(low, high))
+    x[index] = found - TWO_PI
+    spent[index] += used
+    return x, spent
+
+
+def between(left: Orbit, right: Orbit) -> Orbit:
+    """Edges interpolated to where r vanishes linearly between two onsets: a start for Newton, not an orbit."""
+    fall = left.r - right.r
+    share = np.clip(np.divide(left.r, fall, out=np.full(fall.shape, 0.5), where=np.isfinite(fall) & (fall > 0)), 0, 1)
+    mixed = [(1 - share) * getattr(left, e) + share * getattr(right, e) for e in ("x", "b", "a", "c")]
+    return Orbit(*mixed, left.engaged.copy(), left.r.copy(), left.w_end.copy())
+
+
+def lies_between(orbit: Orbit, left: Orbit, right: Orbit) -> np.ndarray:
+    """Every edge lies between those of an earlier and a later onset, as it must by the order of orbits."""
+    ok = np.ones(orbit.x.shape, bool)
+    for edge in ("x", "b", "a", "c"):
+        value, one, two = (getattr(o, edge) for o in (orbit, left, right))
+        slack = 64 * _EPS * TWO_PI
+        ok &= np.isnan(one) | ((value >= np.minimum(one, two) - slack) & (value <= np.maximum(one, two) + slack))
+    return ok
+
+
+class _Known:
+    """What orbits from an earlier and a later onset say of an edge: bounds, and whether it exists at all."""
+
+    def __init__(self, x, earlier: Orbit | None, later: Orbit | None, edge: str):
+        if earlier is None or later is None:
+            self.sure = np.zeros(x.shape, bool)
+            return
+        first, second = getattr(earlier, edge), getattr(later, edge)
+        self.sure = np.isfinite(first) & np.isfinite(second)
+        first, second = np.where(self.sure, first, 0.0), np.where(self.sure, second, 0.0)
+        self.low, self.high = np.minimum(first, second), np.maximum(first, second)
+        span = later.x - earlier.x
+        share = np.divide(x - earlier.x, span, out=np.full(x.shape, 0.5), where=span > 0)
+        self.guess = first + share * (second - first)
+
+    def crossing(self, event, low, high, index):
+        """``crossing`` for the elements ``index``, in the narrower of the brackets."""
+        if not self.sure.any():
+            return crossing(event, low, high)
+        sure = self.sure[index]
+        low = np.where(sure, np.clip(self.low[index], low, high), low)
+        high = np.where(sure, np.clip(self.high[index], low, high), high)
+        guess = np.where(sure, self.guess[index], 0.5 * (low + high))
+        return crossing(event, low, high, guess)
+
+
+def _happens(event, end, index, sure, spent):
+    """Which of ``index`` meet their event before ``end``: known, or seen from the sign there."""
+    meets = sure.copy()
+    ask = np.flatnonzero(~sure)
+    if ask.size:
+        value, _ = event(end[ask], ask)
+        spent[index[ask]] += 1
+        meets[ask] = value <= 0
+    return meets
+
+
+def _contact_begins(kernel, cycle: Cycle, x, spent, known: _Known):
     """Downward zero of the gap after the onset, where H + p_0 > 0; NaN where the gap stays open."""
     s = cycle.strips
     b = np.where(cycle.direct, x, np.nan)
@@ -71,16 +160,14 @@ def _contact_begins(kernel, cycle: Cycle, x, spent):
         args = (x[i], phase, cycle.gap_on[i], -s.p_0[i], s.D[i], s.beta[i])
         return kernel.gap_after(*args), kernel.gap_after_slope(*args)
 
-    at_end, _ = gap(end[reach], np.arange(reach.size))
-    spent[reach] += 1
-    reach = reach[at_end <= 0]
+    reach = reach[_happens(gap, end[reach], reach, known.sure[reach], spent)]
     start = np.maximum(x[reach], cycle.centre[reach] - cycle.half_b[reach])
-    b[reach], used = crossing(gap, start, end[reach])
+    b[reach], used = known.crossing(gap, start, end[reach], reach)
     spent[reach] += used
     return b
 
 
-def _contact_ends(kernel, cycle: Cycle, x, b, spent):
+def _contact_ends(kernel, cycle: Cycle, x, b, spent, known: _Known):
     """Downward zero of the excess pressure p + p_0, where H + p_0 < 0; NaN without contact, +inf if it never ends."""
     s = cycle.strips
     a = np.full(x.shape, np.nan)
@@ -93,17 +180,15 @@ def _contact_ends(kernel, cycle: Cycle, x, b, spent):
 
     low = cycle.centre[touched] + cycle.half_b[touched]
     high = cycle.centre[touched] + TWO_PI - cycle.half_b[touched]
-    at_end, _ = excess(high, np.arange(touched.size))
-    spent[touched] += 1
-    leaves = (at_end <= 0) & (high > low)
+    leaves = _happens(excess, high, touched, known.sure[touched], spent) & (high > low)
     a[touched[~leaves]] = np.inf
     touched, low, high = touched[leaves], low[leaves], high[leaves]
-    a[touched], used = crossing(excess, np.maximum(low, b[touched]), high)
+    a[touched], used = known.crossing(excess, np.maximum(low, b[touched]), high, touched)
     spent[touched] += used
     return a
 
 
-def _adhesion_ends(kernel, cycle: Cycle, x, b, a, spent):
+def _adhesion_ends(kernel, cycle: Cycle, x, b, a, spent, known: _Known):
     """Upward zero of gap - delta_0, where H + p_0 + delta_0 < 0; NaN where the strip stays engaged."""
     s = cycle.strips
     c = np.where(cycle.bare & np.isfinite(a), a, np.nan)
@@ -121,10 +206,8 @@ def _adhesion_ends(kernel, cycle: Cycle, x, b, a, spent):
 
     if not leaves.size:
         return c
-    at_end, _ = closed(high[leaves], np.arange(leaves.size))
-    spent[leaves] += 1
-    leaves = leaves[at_end <= 0]
-    c[leaves], used = crossing(closed, np.maximum(low[leaves], start[leaves]), high[leaves])
+    leaves = leaves[_happens(closed, high[leaves], leaves, known.sure[leaves], spent)]
+    c[leaves], used = known.crossing(closed, np.maximum(low[leaves], start[leaves]), high[leaves], leaves)
     spent[leaves] += used
     return c
 

@@ -10,58 +10,106 @@ import numpy as np
 
 from .problem import Strips
 
-_ITERATIONS = 4
+_ITERATIONS = 10
+#: steps larger than this are corrections, whatever the one before was
+_ROUNDING_LIMITED = 1e-6
 _EPS = np.finfo(float).eps
 
 
 @dataclass(slots=True)
 class Polished:
-    """Edges of shape (k, n), the size of the last correction (n,), and how well posed the closing balance is (n,).
+    """Edges of shape (k, n); ``correction`` (n,): the last step; ``attainable`` (n,): how well rounding lets the edges be known.
 
-    ``margin`` is the net sensitivity of the closing balance to the first edge over the sum of the absolute values of its
-    parts: of order one in general, near zero at a fold, where an edge is known to about ``sqrt(eps)`` only.
+    ``evaluations`` (n,): of the boundary equations and their Jacobian.
+
+    ``attainable`` is of the order of rounding in general, and of its square root where an edge is nearly grazed or at a fold.
     """
 
     edges: np.ndarray
     correction: np.ndarray
-    margin: np.ndarray
+    attainable: np.ndarray
+    evaluations: np.ndarray
 
 
-def polish(kernel, sequence: str, strips: Strips, edges: np.ndarray) -> Polished:
-    """Refine ``edges``, shape (k, n), of strips that all are in the regime ``sequence``."""
+def polish(kernel, sequence: str, strips: Strips, edges: np.ndarray, bounds=(-np.inf, np.inf)) -> Polished:
+    """Refine ``edges``, shape (k, n), of strips that all are in the regime ``sequence``, kept within ``bounds`` (arrays (k, n))."""
     residual = getattr(kernel, f"residual_{sequence}")
     jacobian = getattr(kernel, f"jacobian_{sequence}")
     arguments = (strips.alpha, strips.beta, strips.J, strips.L, strips.p_0, strips.delta_0, strips.D, strips.chi)
+    noise = _noise(kernel, sequence, strips)
     edges = edges.copy()
-    last = np.full(strips.size, np.inf)
-    margin = np.zeros(strips.size)
+    n = strips.size
+    last, attainable, evaluations = np.full(n, np.inf), np.full(n, np.inf), np.zeros(n)
+    low, high = (np.broadcast_to(bound, edges.shape) for bound in bounds)
+    active = np.arange(n)
     for _ in range(_ITERATIONS):
-        step, margin = _step(residual(*edges, *arguments), jacobian(*edges, *arguments))
+        here = tuple(v[active] for v in arguments)
+        current = edges[:, active]
+        matrix = jacobian(*current, *here)
+        step = _newton(residual(*current, *here), matrix)
+        evaluations[active] += 1
         size = np.max(np.abs(step), axis=0)
         # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction
-        better = size < last
-        edges = np.where(better, np.maximum.accumulate(edges + step, axis=0), edges)
-        last = np.where(better, size, last)
-        if not np.any(better & (size > 4 * _EPS)):
+        better = (size < last[active]) | (size > _ROUNDING_LIMITED)
+        moved = active[better]
+        new = np.clip(np.maximum.accumulate(current + step, axis=0), low[:, active], high[:, active])
+        edges[:, moved] = new[:, better]
+        last[moved] = size[better]
+        attainable[moved] = _propagated([e[moved] for e in noise], _rows(matrix, better))
+        active = active[better & (size > 4 * _EPS)]
+        if not active.size:
             break
-    return Polished(edges, last, margin)
+    return Polished(edges, last, attainable, evaluations)
 
 
-def _step(residual, jacobian):
+def _rows(matrix, pick):
+    return [[entry if np.ndim(entry) == 0 else entry[pick] for entry in row] for row in matrix]
+
+
+def _newton(residual, jacobian):
     """Newton step by elimination along the chain of edges."""
     k = len(residual)
-    constant, linear = [np.zeros_like(residual[0])], [np.ones_like(residual[0])]
+    constant, linear = [np.zeros_like(residual[0])], _linear(jacobian, residual[0])
     for i in range(k - 1):
-        pivot = np.broadcast_to(jacobian[i][i + 1], residual[i].shape)
-        ok = pivot != 0
-        for part, right in ((constant, residual[i]), (linear, 0.0)):
-            value = -(right + jacobian[i][i] * part[-1])
-            part.append(np.divide(value, pivot, out=np.zeros_like(value), where=ok))
-    known, slope, size = residual[-1].copy(), np.zeros_like(residual[-1]), np.zeros_like(residual[-1])
-    for j in range(k):
-        known = known + jacobian[-1][j] * constant[j]
-        slope = slope + jacobian[-1][j] * linear[j]
-        size = size + np.abs(jacobian[-1][j] * linear[j])
-    first = np.divide(-known, slope, out=np.zeros_like(known), where=slope != 0)
-    margin = np.divide(np.abs(slope), size, out=np.zeros_like(slope), where=size > 0)
-    return np.array([constant[j] + linear[j] * first for j in range(k)]), margin
+        constant.append(-_ratio(residual[i] + jacobian[i][i] * constant[-1], jacobian[i][i + 1]))
+    known = residual[-1] + sum(jacobian[-1][j] * constant[j] for j in range(k))
+    slope = sum(jacobian[-1][j] * linear[j] for j in range(k))
+    first = -_ratio(known, slope)
+    return np.array([constant[j] + linear[j] * first for j in range(k)])
+
+
+def _propagated(noise, jacobian):
+    """Greatest uncertainty of an edge that residuals known to ``noise`` leave, by the same elimination with absolute values."""
+    k = len(noise)
+    constant, linear = [np.zeros_like(noise[0])], _linear(jacobian, noise[0])
+    for i in range(k - 1):
+        constant.append(_ratio(noise[i] + np.abs(jacobian[i][i]) * constant[-1], np.abs(jacobian[i][i + 1])))
+    known = noise[-1] + sum(np.abs(jacobian[-1][j]) * constant[j] for j in range(k))
+    first = _ratio(known, np.abs(sum(jacobian[-1][j] * linear[j] for j in range(k))))
+    return np.max([constant[j] + np.abs(linear[j]) * first for j in range(k)], axis=0)
+
+
+def _linear(jacobian, like):
+    """Movement of each edge with the first, along the chain."""
+    linear = [np.ones_like(like)]
+    for i in range(len(jacobian) - 1):
+        linear.append(-_ratio(jacobian[i][i] * linear[-1], jacobian[i][i + 1]))
+    return linear
+
+
+def _ratio(upper, lower):
+    """``upper/lower``; 0 where the divisor vanishes or is lost (a grazed edge stays where the search put it)."""
+    lower = np.broadcast_to(lower, np.shape(upper))
+    return np.divide(upper, lower, out=np.zeros_like(upper), where=np.abs(lower) > 1e-290 * (1 + np.abs(upper)))
+
+
+def _noise(kernel, sequence: str, s: Strips):
+    """Rounding of each boundary equation of a regime."""
+    size = 1 + np.abs(s.D) + s.p_0
+    slow = 2 * np.pi / (2 * np.pi + s.beta)
+    R = kernel.modulus_ratio(s.alpha, s.beta)
+    gap = _EPS * (1 + s.delta_0 + (size + s.delta_0) * slow)
+    excess = _EPS * (R + (size + R) * 2 * np.pi / (2 * np.pi + s.alpha))
+    closing = _EPS * (size + s.delta_0) * slow
+    chain = {"acaf": (gap, excess, gap), "afc": (excess, gap), "af": (gap,), "ac": (excess,)}[sequence]
+    return (*chain, closing)

@@ -17,7 +17,7 @@ exactly one zero, a stable orbit. All other intervals are halved.
 
 import numpy as np
 
-from .march import TWO_PI, Orbit, march
+from .march import TWO_PI, Orbit, march, next_onset
 from .problem import Cycle
 from .sensitivity import SlopeBounds, onset_margin, slope_bounds, slope_excess
 
@@ -26,23 +26,26 @@ _MAX_STEPS = 4000
 
 
 class SearchResult:
-    """Outcome of a search: ``found`` flags, the orbit at the zero, and counts. Arrays of shape (n,)."""
+    """Outcome of a search over n cycles.
 
-    def __init__(self, cycle: Cycle):
-        n = cycle.size
+    ``found``: the arc holds an orbit, isolated between the onsets of ``left`` (r >= 0) and ``right`` (r <= 0); ``unresolved``: the search did
+    not end (such a strip must not be returned). ``marches``, ``evaluations``: work spent on each.
+    """
+
+    def __init__(self, n: int):
         self.found = np.zeros(n, bool)
-        self.orbit = Orbit(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), *(np.full(n, np.nan) for _ in range(2)))
+        self.left, self.right = _blank(n), _blank(n)
         self.unresolved = np.zeros(n, bool)
         self.marches = np.zeros(n, int)
         self.evaluations = np.zeros(n)
 
 
-def extremal_orbit(kernel, cycle: Cycle, last: bool) -> SearchResult:
-    """First (``last=False``) or last zero of r on the onset arc of every cycle.
+def _blank(n: int) -> Orbit:
+    return Orbit(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), *(np.full(n, np.nan) for _ in range(2)))
 
-    Returns a ``SearchResult``; ``found`` is false where the arc holds no periodic orbit, ``unresolved`` marks strips whose
-    search did not end (they must not be returned).
-    """
+
+def isolate(kernel, cycle: Cycle, last: bool) -> SearchResult:
+    """Isolate the first (``last=False``) or last zero of r on the onset arc of every cycle, or prove that there is none."""
     return _Search(kernel, cycle, last).run()
 
 
@@ -51,45 +54,79 @@ class _Search:
 
     def __init__(self, kernel, cycle: Cycle, last: bool):
         self.kernel, self.cycle, self.last = kernel, cycle, last
-        self.result = SearchResult(cycle)
+        self.sign = -1.0 if last else 1.0  # sign of r on the excluded side
+        self.result = SearchResult(cycle.size)
 
-    def march(self, index, x):
-        orbit, spent = march(self.kernel, self.cycle.take(index), x)
+    def march(self, index, x, earlier=None, later=None):
+        orbit, spent = march(self.kernel, self.cycle.take(index), x, earlier, later)
         self.result.marches[index] += 1
         self.result.evaluations[index] += spent
         return orbit
 
     def run(self) -> SearchResult:
-        cycle, result = self.cycle, self.result
-        index = np.flatnonzero(cycle.half_d > 0)
-        if not index.size:
-            return result
-        left, right = cycle.centre - cycle.half_d, cycle.centre + cycle.half_d
-        start, stop = (right, left) if self.last else (left, right)
-        sign = -1.0 if self.last else 1.0  # sign of r on the excluded side
-        frontier = self.march(index, start[index])
+        index = np.flatnonzero(self.cycle.half_d > 0)
+        if index.size:
+            index, frontier, stop = self._start(index)
+            beyond = stop.take(np.arange(index.size))
+            step = np.abs(stop.x - frontier.x)
+            for _ in range(_MAX_STEPS):
+                if not index.size:
+                    break
+                index, frontier, step, stop, beyond = self._advance(index, frontier, step, stop, beyond)
+            self.result.unresolved[index] = True
+        return self.result
+
+    def _start(self, index):
+        """Both ends of the arc, moved inward by the onset map itself: every fixed point of a monotone map lies between the images."""
+        cycle = self.cycle.take(index)
+        near = cycle.centre + self.sign * -cycle.half_d
+        far = cycle.centre + self.sign * cycle.half_d
+        frontier = self.march(index, near)
         # r has the other sign at the very start only where the orbit sits there (a foundation without memory), or where
         # the strip stays engaged through the period: from the last onset on, then, from every onset
-        step = np.abs(stop - start)[index]
-        at_start = sign * frontier.r <= 0
+        at_start = self.sign * frontier.r <= 0
         accepted = np.flatnonzero(at_start & ~frontier.engaged)
-        self._accept(index[accepted], frontier.take(accepted))
+        self._isolated(index[accepted], frontier.take(accepted), frontier.take(accepted))
         keep = np.flatnonzero(~at_start | (frontier.engaged & (not self.last)))
-        index, frontier, step = index[keep], frontier.take(keep), step[keep]
-        for _ in range(_MAX_STEPS):
-            if not index.size:
-                return result
-            index, frontier, step = self._advance(index, frontier, step, stop, sign)
-        result.unresolved[index] = True
+        index, frontier, cycle, far = index[keep], frontier.take(keep), cycle.take(keep), far[keep]
+        stop = self.march(index, far)
+        frontier, stop = self._inward(index, frontier, cycle, stop), self._inward(index, stop, cycle, frontier)
+        # rounding may push the ends past each other: the orbit lies between them
+        crossed = np.flatnonzero(self.sign * (stop.x - frontier.x) <= 0)
+        if crossed.size:
+            self._isolated(index[crossed], frontier.take(crossed), frontier.take(crossed))
+        keep = np.flatnonzero(self.sign * (stop.x - frontier.x) > 0)
+        return index[keep], frontier.take(keep), stop.take(keep)
+
+    def _inward(self, index, orbit: Orbit, cycle: Cycle, other: Orbit) -> Orbit:
+        """The orbit from the image of an end, where it lies further in."""
+        image, spent = next_onset(self.kernel, cycle, orbit)
+        self.result.evaluations[index] += spent
+        toward = np.sign(other.x - orbit.x)
+        moved = np.flatnonzero((toward * (image - orbit.x) > 0) & (toward * (other.x - image) > 0))
+        if not moved.size:
+            return orbit
+        ends = orbit.take(moved), other.take(moved)
+        earlier, later = ends if toward[moved][0] > 0 else ends[::-1]
+        inner = self.march(index[moved], image[moved], earlier, later)
+        # the image of a fixed point's outer side stays on that side; only rounding, close to the orbit, can say otherwise
+        valid = np.flatnonzero(inner.r * orbit.r[moved] > 0)
+        result = orbit.take(np.arange(index.size))
+        result.put(moved[valid], inner.take(valid))
         return result
 
-    def _advance(self, index, frontier, step, stop, sign):
+    def _advance(self, index, frontier, step, stop, beyond):
         """Probe one step ahead of each frontier, then exclude, bracket or halve."""
-        span = sign * (stop[index] - frontier.x)
+        span = self.sign * (stop.x - frontier.x)
         final = step >= span
-        target = np.where(final, stop[index], frontier.x + sign * step)
-        probe = self.march(index, target)
-        changes = (sign * probe.r <= 0) & ~probe.engaged
+        target = np.where(final, stop.x, frontier.x + self.sign * step)
+        probe = stop.take(np.arange(index.size))
+        fresh = np.flatnonzero(~final)
+        if fresh.size:
+            ends = frontier.take(fresh), beyond.take(fresh)
+            earlier, later = ends[::-1] if self.last else ends
+            probe.put(fresh, self.march(index[fresh], target[fresh], earlier, later))
+        changes = (self.sign * probe.r <= 0) & ~probe.engaged
         tiny = np.abs(target - frontier.x) <= 4 * _EPS * np.maximum(np.abs(target), np.abs(frontier.x))
         left, right = (probe, frontier) if self.last else (frontier, probe)
         excluded, unique = right.engaged | (tiny & ~changes), changes & tiny
@@ -98,18 +135,16 @@ class _Search:
         excluded[open_[proof & ~changes[open_]]] = True
         unique[open_[proof & changes[open_]]] = True
         bracketed = np.flatnonzero(unique)
-        if bracketed.size:
-            zero = self._zero(index[bracketed], left.take(bracketed), right.take(bracketed))
-            self._accept(index[bracketed], zero)
+        self._isolated(index[bracketed], left.take(bracketed), right.take(bracketed))
         ended = excluded & final
         step = np.where(excluded, 2 * step, 0.5 * np.abs(target - frontier.x))
+        closer = np.flatnonzero(~excluded)
+        beyond.put(closer, probe.take(closer))
         moved = np.flatnonzero(excluded)
+        beyond.put(moved, stop.take(moved))
         frontier.put(moved, probe.take(moved))
-        keep = np.ones(index.size, bool)
-        keep[bracketed] = False
-        keep &= ~ended
-        keep = np.flatnonzero(keep)
-        return index[keep], frontier.take(keep), step[keep]
+        keep = np.flatnonzero(~unique & ~ended)
+        return index[keep], frontier.take(keep), step[keep], stop.take(keep), beyond.take(keep)
 
     def _weigh(self, index, left: Orbit, right: Orbit, changes) -> np.ndarray:
         """Proof that an interval holds exactly one zero (where the sign of r changes) or none (where it does not)."""
@@ -120,40 +155,50 @@ class _Search:
             left = _released(self.kernel, cycle, left)
         return np.where(changes, unique, _excluded(self.kernel, cycle, left, right, bounds, self.last))
 
-    def _accept(self, index, orbit: Orbit):
+    def _isolated(self, index, left: Orbit, right: Orbit):
         self.result.found[index] = True
-        self.result.orbit.put(index, orbit)
+        self.result.left.put(index, left)
+        self.result.right.put(index, right)
 
-    def _zero(self, index, left: Orbit, right: Orbit) -> Orbit:
-        """The one zero of r between ``left`` (r > 0) and ``right`` (r < 0): safeguarded Newton on the march."""
-        cycle = self.cycle.take(index)
-        low, high = left.x.copy(), right.x.copy()
-        secant = left.r / np.where(left.r > right.r, left.r - right.r, 1.0)
-        x = np.clip(low + (high - low) * secant, low, high)
-        best = left.take(np.arange(index.size))
-        active = np.arange(index.size)
-        width = high - low
-        for _ in range(200):
-            sub = cycle.take(active)
-            orbit = self.march(index[active], x[active])
-            best.put(active, orbit)
-            lo = np.where(orbit.r > 0, orbit.x, low[active])
-            hi = np.where(orbit.r > 0, high[active], orbit.x)
-            slope = _residual_slope(self.kernel, sub, orbit)
-            step = np.divide(-orbit.r, slope, out=np.full_like(slope, np.inf), where=slope < 0)
-            new = orbit.x + step
-            poor = ~((new >= lo) & (new <= hi)) | (np.abs(step) > 0.5 * width[active])
-            new = np.where(poor, 0.5 * (lo + hi), new)
-            width[active] = np.where(poor, hi - lo, np.abs(step))
-            # the polishing that follows squares this error
-            tolerance = 1e-9 * np.minimum(np.maximum(np.abs(lo), np.abs(hi)), high[active] - low[active]) + _EPS * np.abs(hi)
-            done = (orbit.r == 0) | (hi - lo <= tolerance) | (~poor & (np.abs(step) <= tolerance))
-            low[active], high[active], x[active] = lo, hi, np.where(orbit.r == 0, orbit.x, new)
-            active = active[~done]
-            if not active.size:
-                return best
-        self.result.unresolved[index[active]] = True
-        return best
+
+def locate(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[Orbit, np.ndarray, np.ndarray]:
+    """The one zero of r between the onsets of ``left`` and ``right`` by safeguarded Newton on the march.
+
+    Returns the orbits, which of them did not converge, and the event evaluations spent on each.
+    """
+    low, high = left.take(np.arange(cycle.size)), right.take(np.arange(cycle.size))
+    best = left.take(np.arange(cycle.size))
+    spent = np.zeros(cycle.size)
+    share = left.r / np.where(left.r > right.r, left.r - right.r, 1.0)
+    x = np.clip(left.x + (right.x - left.x) * share, left.x, right.x)
+    width = right.x - left.x
+    first = width.copy()
+    active = np.flatnonzero(width > 0)
+    for _ in range(200):
+        if not active.size:
+            break
+        sub = cycle.take(active)
+        orbit, used = march(kernel, sub, x[active], low.take(active), high.take(active))
+        spent[active] += used
+        best.put(active, orbit)
+        after = orbit.r > 0
+        low.put(active[after], orbit.take(after))
+        high.put(active[~after], orbit.take(~after))
+        lo, hi = low.x[active], high.x[active]
+        slope = _residual_slope(kernel, sub, orbit)
+        step = np.divide(-orbit.r, slope, out=np.full_like(slope, np.inf), where=slope < 0)
+        new = orbit.x + step
+        poor = ~((new >= lo) & (new <= hi)) | (np.abs(step) > 0.5 * width[active])
+        new = np.where(poor, 0.5 * (lo + hi), new)
+        width[active] = np.where(poor, hi - lo, np.abs(step))
+        # the polishing that follows squares this error
+        tolerance = 1e-9 * np.minimum(np.maximum(np.abs(lo), np.abs(hi)), first[active]) + _EPS * np.abs(hi)
+        done = (orbit.r == 0) | (hi - lo <= tolerance) | (~poor & (np.abs(step) <= tolerance))
+        x[active] = np.where(orbit.r == 0, orbit.x, new)
+        active = active[~done]
+    failed = np.zeros(cycle.size, bool)
+    failed[active] = True
+    return best, failed, spent
 
 
 def _residual_slope(kernel, cycle: Cycle, orbit: Orbit):

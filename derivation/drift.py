@@ -1,0 +1,261 @@
+"""Writing the generated files, and finding out whether those on disk are what the derivation would write.
+
+Two gates. Text: the emitted Python is compared byte by byte. Numbers: ``certificates.json`` holds a bound on the error of every
+emitted function; the figures measured vary with the processor and with NumPy, so what is compared is that every function
+has a certificate, made for this very solver, and (in the tests) that the error measured here stays below the bound.
+"""
+
+from __future__ import annotations
+
+import difflib
+import importlib.util
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from .certify import SCALE, measure
+from .derive import STAGES, derive
+from .emit import INTERFACE, emit, input_hash
+from .kernel import Kernel
+from .model import Model
+from .models import MODELS
+
+CERTIFICATES = "certificates.json"
+AIM = 16.0  # ulp of the natural scale
+IGNORED = ("__pycache__",)
+Report = Callable[[int, int], None]
+
+
+class _Progress:
+    """Counts finished stages for a caller that wants (done, total)."""
+
+    def __init__(self, report: Report | None, total: int):
+        self._report, self._done, self._total = report, 0, total
+
+    def __call__(self, stage: str = "") -> None:
+        self._done += 1
+        if self._report is not None:
+            self._report(self._done, self._total)
+
+
+class CertificateError(Exception):
+    """An emitted function is less accurate than its stored bound."""
+
+
+@dataclass(frozen=True)
+class Drift:
+    """One difference: ``kind`` is "missing", "stray" or "different"; ``diff`` is what would be written against what is."""
+
+    kind: str
+    path: str
+    diff: str
+
+    def __str__(self) -> str:
+        return f"{self.kind}: {self.path}\n{self.diff}".rstrip()
+
+
+def generated_folder() -> Path:
+    """Where the solvers of the package live."""
+    found = importlib.util.find_spec("hystrip.generated")
+    if found is None or found.origin is None:
+        raise FileNotFoundError("the package hystrip.generated is not installed")
+    return Path(found.origin).parent
+
+
+def regenerate(
+    out_dir: str | os.PathLike[str] | None = None,
+    models: Iterable[Model] | None = None,
+    progress: Report | None = None,
+    accept: dict[str, str] | None = None,
+) -> list[Path]:
+    """Derive, emit and certify the solvers of ``models`` (those that ship) into ``out_dir``; returns the files written.
+
+    Nothing is written unless everything succeeded; each file is written aside and renamed. A bound in an existing
+    ``certificates.json`` grows only for a function in ``accept``, which says why: ``{"module.function": "reason"}``.
+    ``progress`` is called with (stages done, stages in all).
+    """
+    chosen = tuple(models) if models is not None else MODELS
+    target = Path(out_dir) if out_dir is not None else generated_folder()
+    say = _Progress(progress, len(chosen) * (len(STAGES) + 1) + 2)
+    derivations = tuple(derive(model, say) for model in chosen)
+    files = emit(derivations)
+    say("emission")
+    with tempfile.TemporaryDirectory() as aside:
+        folder = _staged(Path(aside), files)
+        stored = _read_certificates(target / CERTIFICATES)
+        certificates = {}
+        for derivation in derivations:
+            solver = _loaded(folder, derivation.model.name)
+            rows = bounds_of(derivation.model.name, derivation.kernels, solver, stored, accept or {})
+            certificates[derivation.model.name] = {"interface": INTERFACE, "functions": rows}
+            say("certificates")
+    files[CERTIFICATES] = _certificates_text(certificates)
+    target.mkdir(parents=True, exist_ok=True)
+    written = write_files(target, files)
+    say("writing")
+    return written
+
+
+def check(
+    generated: str | os.PathLike[str] | None = None,
+    models: Iterable[Model] | None = None,
+    progress: Report | None = None,
+) -> list[Drift]:
+    """Compare the folder of generated files with what the derivation emits now; an empty list means no drift."""
+    folder = Path(generated) if generated is not None else generated_folder()
+    chosen = tuple(models) if models is not None else MODELS
+    say = _Progress(progress, len(chosen) * len(STAGES))
+    derivations = tuple(derive(model, say) for model in chosen)
+    return compare(folder, emit(derivations), {d.model.name: [k.formula.name for k in d.kernels] for d in derivations})
+
+
+def compare(folder: Path, files: dict[str, str], functions: dict[str, list[str]]) -> list[Drift]:
+    """Differences between the files in ``folder`` and the text of those that should be there."""
+    found = {path.relative_to(folder).as_posix(): path for path in sorted(folder.rglob("*")) if _counts(path, folder)}
+    drift = []
+    for name, text in sorted(files.items()):
+        if name not in found:
+            drift.append(Drift("missing", name, _diff(name, "", text)))
+        elif found[name].read_bytes() != text.encode():
+            drift.append(Drift("different", name, _diff(name, found[name].read_bytes().decode(errors="replace"), text)))
+    drift += _certificate_drift(folder, functions)
+    for name in sorted(set(found) - set(files) - {CERTIFICATES}):
+        drift.append(Drift("stray", name, _diff(name, found[name].read_bytes().decode(errors="replace"), "")))
+    return drift
+
+
+def _certificate_drift(folder: Path, functions: dict[str, list[str]]) -> list[Drift]:
+    path = folder / CERTIFICATES
+    if not path.exists():
+        return [Drift("missing", CERTIFICATES, "every emitted function needs a certificate: regenerate")]
+    try:
+        stored = json.loads(path.read_text(encoding="utf-8"))
+        present = {model: list(entry["functions"]) for model, entry in stored["models"].items()}
+        hash_stored, text_again = stored["hash"], _dumped(stored)
+    except (ValueError, KeyError, TypeError, AttributeError) as problem:
+        return [Drift("different", CERTIFICATES, f"not a table of certificates: {problem!r}")]
+    lines = []
+    if hash_stored != input_hash():
+        lines += [f"-hash {hash_stored}", f"+hash {input_hash()}"]
+    for model in sorted(set(present) | set(functions)):
+        has, wants = set(present.get(model, ())), set(functions.get(model, ()))
+        lines += [f"-{model}.{name}" for name in sorted(has - wants)] + [f"+{model}.{name}" for name in sorted(wants - has)]
+    if not lines and path.read_text(encoding="utf-8") != text_again:
+        lines = list(_diff(CERTIFICATES, path.read_text(encoding="utf-8"), text_again).splitlines())
+    return [Drift("different", CERTIFICATES, "\n".join(lines))] if lines else []
+
+
+def stored_bounds(folder: Path | None = None) -> dict[str, dict[str, float]]:
+    """Bounds in ulp of the natural scale, by model and function."""
+    stored = _read_certificates((folder or generated_folder()) / CERTIFICATES)
+    return {model: {name: row["bound"] for name, row in entry["functions"].items()} for model, entry in stored.items()}
+
+
+def bounds_of(
+    model: str, kernels: Iterable[Kernel], solver: Any, stored: dict[str, Any], accept: dict[str, str]
+) -> dict[str, dict[str, Any]]:
+    """Measure the kernels and hold them to the ``stored`` bounds; one without a bound gets one."""
+    before = stored.get(model, {}).get("functions", {})
+    rows = {}
+    for kernel in kernels:
+        certificate = measure(kernel, getattr(solver, kernel.formula.name))
+        name, worst = certificate.name, certificate.worst
+        row = {key: value for key, value in before.get(name, {"bound": _bound(worst)}).items() if key in ("bound", "why")}
+        why = accept.get(f"{model}.{name}")
+        if worst > row["bound"]:
+            if why is None:
+                raise CertificateError(
+                    f"{model}.{name} is off by {worst:.3g} ulp of its natural scale, beyond its stored bound "
+                    f"{row['bound']:g}, at {certificate.where}. Find a better form, or say why it may grow."
+                )
+            row = {"bound": _bound(worst), "why": why}
+        if row["bound"] > AIM and "why" not in row:
+            raise CertificateError(f"{model}.{name}: {worst:.3g} ulp, too near to the aim of {AIM:g} without a reason given")
+        rows[name] = {**row, "points": certificate.points}
+    return rows
+
+
+def _bound(worst: float) -> float:
+    """Twice what was measured, on the ladder 1, 2, 4, ...: processors and libraries differ by an ulp."""
+    bound = 1.0
+    while bound < 2.0 * worst:
+        bound *= 2.0
+    return bound
+
+
+def _certificates_text(models: dict[str, Any]) -> str:
+    return _dumped({"hash": input_hash(), "unit": f"ulp (2**-52) of the natural scale: {SCALE}", "models": models})
+
+
+def _dumped(content: Any) -> str:
+    return json.dumps(content, indent=1, sort_keys=True) + "\n"
+
+
+def _read_certificates(path: Path) -> dict[str, Any]:
+    return json.loads(path.read_text(encoding="utf-8"))["models"] if path.exists() else {}
+
+
+def _staged(folder: Path, files: dict[str, str]) -> Path:
+    package = folder / "candidate"
+    package.mkdir()
+    for name, text in files.items():
+        (package / name).parent.mkdir(parents=True, exist_ok=True)
+        (package / name).write_bytes(text.encode())
+    return package
+
+
+def _loaded(package: Path, name: str) -> ModuleType:
+    """Import ``name`` from a folder that is no installed package, without leaving a trace in ``sys.modules``."""
+    import sys
+
+    root = f"_hystrip_candidate_{abs(hash(str(package)))}"
+    try:
+        for module, path in (
+            (root, package / "__init__.py"),
+            (f"{root}.stable", package / "stable.py"),
+            (f"{root}.{name}", package / f"{name}.py"),
+        ):
+            spec = importlib.util.spec_from_file_location(
+                module, path, submodule_search_locations=[str(package)] if module == root else None
+            )
+            loaded = importlib.util.module_from_spec(spec)
+            sys.modules[module] = loaded
+            spec.loader.exec_module(loaded)
+        return loaded
+    finally:
+        for module in [m for m in sys.modules if m == root or m.startswith(f"{root}.")]:
+            del sys.modules[module]
+
+
+def write_files(folder: Path, files: dict[str, str]) -> list[Path]:
+    """Write each file aside and rename it into place."""
+    return [_write(folder / name, text) for name, text in sorted(files.items())]
+
+
+def _write(path: Path, text: str) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, aside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(text.encode())
+        shutil.copymode(path, aside) if path.exists() else os.chmod(aside, 0o644)
+        os.replace(aside, path)
+    except BaseException:
+        Path(aside).unlink(missing_ok=True)
+        raise
+    return path
+
+
+def _counts(path: Path, folder: Path) -> bool:
+    return path.is_file() and not set(path.relative_to(folder).parts) & set(IGNORED)
+
+
+def _diff(name: str, before: str, after: str) -> str:
+    lines = difflib.unified_diff(before.splitlines(), after.splitlines(), f"generated/{name}", f"regenerated/{name}", lineterm="")
+    return "\n".join(lines)

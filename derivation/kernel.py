@@ -1,0 +1,44 @@
+"""A formula to emit, tied to the expression that it was proven to compute."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from .check import Check, Derived, derived, zero
+from .functions import Formula
+from .symbols import s_0, s_1
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """A formula and the expression that it was proven to compute, both in the formula's arguments."""
+
+    formula: Formula
+    exact: Any
+    derived: Derived
+    parts: tuple[tuple[sp.Expr, ...], ...] = ()  # of a balance: the terms of each component of ``exact``, flattened
+
+
+def same(step: str, formula: Formula, exact: Any, phases: tuple = (s_0, s_1)) -> Check:
+    """The stable form equals the derived expression, identically."""
+    return zero(
+        step,
+        f"{formula.name}: the stable form equals the derived expression",
+        formula.written_out(formula.args) - exact,
+        phases=phases,
+    )
+
+
+def kernel(by: Any, formula: Formula, exact: Any, statement: str, latex: str, *extra: Check, **options: Any) -> Kernel:
+    """Prove ``formula`` equal to ``exact`` and record it under the function ``by`` that derived it."""
+    checks = [same(formula.name, formula, exact), *extra]
+    return Kernel(
+        formula,
+        exact,
+        derived(
+            by, exact, name=formula.name, statement=statement, latex=latex, checks=checks, emitted=(formula.name,), **options
+        ),
+    )

@@ -1,0 +1,194 @@
+"""The regimes of a strip: zones and edge conditions in, boundary equations and Jacobians out.
+
+A regime is written down as the zones that a material point meets, each with the state in which it is entered and the
+state in which it is left. Everything else follows. A state is the gap where p is given, and the excess pressure
+``q = p + p_0`` in contact. The closing condition is taken as a balance, "the changes of z over a period sum to zero",
+because the other way round the last zone would have to be subtracted from itself when the foundation is slow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import sympy as sp
+
+from . import stable
+from .check import BEYOND, REPRODUCED, Check, Derived, derived, zero
+from .functions import Formula, written_out
+from .symbols import PARAMETERS, D, J, L, a, alpha, b, beta, c, p_0
+
+PERIOD = 2 * sp.pi
+CONTACT, ADHESION, FREE = "contact", "adhesion", "free"
+NOTHING = sp.Integer(0)
+EQUATIONS = {  # by the edge at which a zone ends
+    b: ("contact_begins", "the gap closes at b"),
+    a: ("contact_ends", "the pressure falls to -p_0 at a"),
+    c: ("adhesion_ends", "the gap reaches delta_0 at c from below"),
+}
+PERIODIC = ("period", "the changes of z over the period sum to zero, so that the gap falls to delta_0 again at d + 2 pi")
+
+
+@dataclass(frozen=True)
+class Zone:
+    """From ``first`` to ``last``; entered and left with a gap (adhesion, free) or an excess pressure (contact)."""
+
+    kind: str
+    first: sp.Symbol
+    last: sp.Expr
+    entry: sp.Expr
+    exit: sp.Expr
+
+    @property
+    def load(self) -> sp.Expr:
+        """The constant pressure of an adhesion or free zone."""
+        return -p_0 if self.kind == ADHESION else NOTHING
+
+    def after(self) -> sp.Expr:
+        """The state at the end of the zone by its flow."""
+        if self.kind == CONTACT:
+            return stable.EXCESS_AFTER(self.first, self.last, self.entry, p_0, D, alpha, beta, L)
+        return stable.GAP_AFTER(self.first, self.last, self.entry, self.load, D, beta)
+
+    def misses(self) -> sp.Expr:
+        """What is left to the exit state at the end of the zone: a boundary equation."""
+        if self.kind != CONTACT and self.exit != 0:  # delta_0 against delta_0: take the change
+            return sp.expand(self.entry - self.exit) + stable.GAP_CHANGE(self.first, self.last, self.entry, self.load, D, beta)
+        return self.after() - self.exit
+
+    def increment(self) -> sp.Expr:
+        """The change of z over the zone by its flow."""
+        if self.kind == CONTACT:
+            pressure = sp.expand(self.entry - p_0)  # all that counts here, so the traction is handed over as 0
+            return stable.CONTACT_INCREMENT(self.first, self.last, pressure, NOTHING, D, alpha, beta, J, L)
+        return stable.RELAXATION_INCREMENT(self.first, self.last, self.displacement - self.load, beta)
+
+    @property
+    def displacement(self) -> sp.Expr:
+        """w on entry."""
+        return stable.PROFILE(self.first, D) + (NOTHING if self.kind == CONTACT else self.entry)
+
+    def fields(self, edge: sp.Expr, state: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+        """(w, p) at an edge, from the state of this zone there."""
+        height = stable.PROFILE(edge, D)
+        return (height, state - p_0) if self.kind == CONTACT else (height + state, self.load)
+
+
+@dataclass(frozen=True)
+class Regime:
+    """One row of the regime table. ``sequence`` names the zones in order: f free, a adhesion, c contact."""
+
+    sequence: str
+    title: str
+    zones: tuple[Zone, ...]
+    edges: tuple[sp.Symbol, ...]
+    equations: tuple[tuple[str, sp.Expr], ...]
+    jacobian: tuple[tuple[sp.Expr, ...], ...]
+    admissible: tuple[str, ...]
+    closures: tuple[int, ...]
+    derived: Derived
+
+    @property
+    def args(self) -> tuple[sp.Symbol, ...]:
+        return (*self.edges, *PARAMETERS)
+
+    @property
+    def closing(self) -> sp.Expr:
+        """The closing balance."""
+        return self.equations[-1][1]
+
+    @property
+    def residual_formula(self) -> Formula:
+        return Formula(f"residual_{self.sequence}", self.args, tuple(term for _, term in self.equations))
+
+    @property
+    def jacobian_formula(self) -> Formula:
+        return Formula(f"jacobian_{self.sequence}", self.args, self.jacobian)
+
+
+def edgeless(by: Callable, sequence: str, kind: str, title: str, admissible: tuple[str, ...]) -> Regime:
+    name = f"regime {sequence}"
+    zone = Zone(kind, sp.Symbol("s_0", real=True), sp.Symbol("s_0", real=True) + PERIOD, NOTHING, NOTHING)
+    if kind == CONTACT:
+        residual, latex = zone.displacement - stable.PROFILE(zone.first, D), "w = u"
+    else:  # a constant w at rest under its load does not change
+        residual, latex = (
+            stable.RELAXATION_INCREMENT(zone.first, zone.last, zone.load - zone.load, beta),
+            f"w = p = {sp.latex(zone.load)}",
+        )
+    record = derived(
+        by,
+        sequence,
+        name=name,
+        statement=f"{title}: no unknown edge.",
+        latex=latex,
+        checks=[zero(name, "the field is steady", residual)],
+        status=REPRODUCED,
+        emitted=(f"means_{sequence}",),
+    )
+    return Regime(sequence, title, (zone,), (), (), (), admissible, (0, 1), record)
+
+
+def partial(
+    by: Callable,
+    sequence: str,
+    title: str,
+    zones: tuple[Zone, ...],
+    ratio: sp.Expr,
+    admissible: tuple[str, ...],
+    closures: tuple[int, ...] = (0, 1),
+) -> Regime:
+    name = f"regime {sequence}"
+    edges = tuple(zone.first for zone in zones)
+    events = [(EQUATIONS[zone.last][0], zone.misses()) for zone in zones[:-1]]
+    equations = (*events, (PERIODIC[0], sp.Add(*(zone.increment() for zone in zones))))
+    jacobian = tuple(tuple(sp.diff(term, edge) for edge in edges) for _, term in equations)
+    checks = [
+        _edge_conditions(name, zones, ratio),
+        _closing_is_periodicity(name, zones, events, equations[-1][1], edges),
+        _jacobian_is_derivative(name, equations, jacobian, edges),
+    ]
+    meaning = [EQUATIONS[zone.last][1] for zone in zones[:-1]] + [PERIODIC[1]]
+    record = derived(
+        by,
+        tuple(term for _, term in equations),
+        name=name,
+        statement=f"{title[0].upper()}{title[1:]}: unknown edges {', '.join(map(str, edges))}; {'; '.join(meaning)}.",
+        latex=r"\\ ".join(f"{sp.latex(written_out(term))} = 0" for _, term in equations),
+        checks=checks,
+        status=BEYOND if closures == (1,) else REPRODUCED,
+        emitted=(f"residual_{sequence}", f"jacobian_{sequence}"),
+    )
+    return Regime(sequence, title, zones, edges, equations, jacobian, admissible, closures, record)
+
+
+def _edge_conditions(name: str, zones: tuple[Zone, ...], ratio: sp.Expr) -> Check:
+    """At every edge, from the exit of one zone to the entry of the next: ``[w] = chi J [p]``."""
+    residuals = []
+    for before, after in zip(zones, (*zones[1:], zones[0]), strict=True):
+        w_before, p_before = before.fields(before.last, before.exit)
+        w_after, p_after = after.fields(after.first, after.entry)
+        residuals.append(w_after - w_before - ratio * (p_after - p_before))
+    return zero(name, "every edge obeys the jump law, [w] = chi J [p]", residuals)
+
+
+def _closing_is_periodicity(name, zones, events, closing, edges) -> Check:
+    """Sum of increments = sum over zones of what w - J p misses at the zone's end: zero with the events iff periodic."""
+    direct = zones[-1].misses()
+    weights = [-J if zone.kind == CONTACT else 1 for zone in zones[:-1]]
+    combined = sp.Add(direct, *(weight * term for weight, (_, term) in zip(weights, events, strict=True)))
+    return zero(
+        name,
+        "given the other equations, the closing balance is the gap condition one period after the first edge",
+        closing - combined,
+        phases=edges,
+    )
+
+
+def _jacobian_is_derivative(name, equations, jacobian, edges) -> Check:
+    residuals = [
+        sp.diff(written_out(term), edge) - written_out(entry)
+        for (_, term), row in zip(equations, jacobian, strict=True)
+        for edge, entry in zip(edges, row, strict=True)
+    ]
+    return zero(name, "the stable Jacobian equals SymPy's derivative of the equations", residuals, phases=edges)

@@ -1,0 +1,43 @@
+"""The derivation of the shipped models, made once per test session; and patched copies of it."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import itertools
+import shutil
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import hystrip.derivation
+from hystrip.derivation import STANDARD_LINEAR_SOLID, Derivation, derive
+from hystrip.derivation.emit import emit
+
+SOURCES = Path(hystrip.derivation.__file__).parent
+_copies = itertools.count()
+
+
+@functools.cache
+def derivation() -> Derivation:
+    return derive(STANDARD_LINEAR_SOLID)
+
+
+@functools.cache
+def emitted() -> dict[str, str]:
+    return emit((derivation(),))
+
+
+def tampered(folder: Path, file: str, before: str, after: str) -> ModuleType:
+    """Import a copy of the derivation in which ``before``, found exactly once in ``file``, reads ``after``."""
+    name = f"tampered_{next(_copies)}"
+    shutil.copytree(SOURCES, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+    path = folder / name / file
+    text = path.read_text(encoding="utf-8")
+    assert text.count(before) == 1, f"{before!r} is in {file} {text.count(before)} times"
+    path.write_text(text.replace(before, after), encoding="utf-8")
+    sys.path.insert(0, str(folder))
+    try:
+        return importlib.import_module(name)
+    finally:
+        sys.path.remove(str(folder))

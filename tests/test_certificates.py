@@ -1,0 +1,105 @@
+"""The numbers gate: every emitted function against its SymPy expression at 50 digits, below its stored bound."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from derived_once import derivation
+
+from hystrip.derivation import CertificateError, generated_folder, stored_bounds
+from hystrip.derivation.certify import measure
+from hystrip.derivation.drift import AIM, CERTIFICATES, bounds_of
+from hystrip.generated import stable, standard_linear_solid
+
+NAMES = sorted(stored_bounds()["standard_linear_solid"])
+
+
+def kernel(name: str):
+    return next(kernel for kernel in derivation().kernels if kernel.formula.name == name)
+
+
+def test_every_emitted_function_has_a_certificate() -> None:
+    assert NAMES == sorted(kernel.formula.name for kernel in derivation().kernels)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_function_stays_below_its_bound(name: str) -> None:
+    certificate = measure(kernel(name), getattr(standard_linear_solid, name))
+    assert certificate.worst <= stored_bounds()["standard_linear_solid"][name], f"{certificate.worst} ulp at {certificate.where}"
+
+
+def test_bounds_meet_the_aim() -> None:
+    rows = json.loads((generated_folder() / CERTIFICATES).read_text(encoding="utf-8"))["models"]["standard_linear_solid"][
+        "functions"
+    ]
+    assert not {name: row for name, row in rows.items() if row["bound"] > AIM and not row.get("why")}
+
+
+def test_a_cancelling_form_is_found_out() -> None:
+    def naive(s_0, s_1):
+        return np.cos(s_1) - np.cos(s_0)
+
+    assert measure(kernel("profile_rise"), naive).worst > 1e6
+
+
+def test_a_bound_does_not_grow_by_itself() -> None:
+    class Worse:
+        def __getattr__(self, name):
+            good = getattr(standard_linear_solid, name)
+            return (lambda s_0, s_1: good(s_0, s_1) * (1 + 1e-13)) if name == "profile_rise" else good
+
+    stored = {"standard_linear_solid": {"functions": {"profile_rise": {"bound": 2.0}}}}
+    only = [kernel("profile_rise")]
+    with pytest.raises(CertificateError, match="profile_rise"):
+        bounds_of("standard_linear_solid", only, Worse(), stored, {})
+    rows = bounds_of("standard_linear_solid", only, Worse(), stored, {"standard_linear_solid.profile_rise": "a worse sine"})
+    assert rows["profile_rise"]["why"] == "a worse sine" and rows["profile_rise"]["bound"] > 2.0
+
+
+EXTREME = [0.0, 5e-324, 1e-308, 1e-160, 1e-9, 1.0, 6.3, 1e9, 1e160, 1e308]
+
+
+@pytest.mark.parametrize("name", ["decay", "decay_loss", "decay_rate", "decay_mean", "loss_mean", "loss_mean_twice"])
+def test_helpers_never_overflow(name: str) -> None:
+    tau, T = np.meshgrid([-1.0, *EXTREME], EXTREME)
+    with np.errstate(all="raise", under="ignore"):
+        values = getattr(stable, name)(tau, T)
+    assert np.all(np.isfinite(values))
+    if name != "decay_rate":
+        assert np.all(np.abs(values) <= 1.0)
+
+
+def test_helpers_at_their_limits() -> None:
+    assert stable.decay(0.0, 0.0) == 1.0 and stable.decay(1e-300, 0.0) == 0.0
+    assert stable.decay_loss(0.0, 0.0) == 0.0 and stable.decay_loss(1e-300, 0.0) == -1.0
+    assert stable.decay_rate(0.0, 0.0) == 0.0 and stable.decay_rate(1.0, 0.0) == 0.0
+    assert stable.decay_mean(0.0, 2.0) == 1.0 and stable.decay_mean(1.0, 0.0) == 0.0
+    assert stable.loss_mean(0.0, 2.0) == 0.0 and stable.loss_mean(1.0, 0.0) == 1.0
+    assert stable.loss_mean_twice(0.0, 2.0) == 0.0 and stable.loss_mean_twice(1.0, 0.0) == 1.0
+
+
+def test_degenerate_materials_raise_no_warning() -> None:
+    edges = (-2.0, -1.5, 0.5, 1.0)
+    cases = [
+        (0.0, 0.0, 0.5),
+        (0.0, 0.0, 1.0),
+        (0.0, 3.0, 0.0),
+        (3.0, 3.0, 1.0),
+        (0.0, 0.0, 0.0),
+        (1e8, 1e9, 0.1),
+        (1e200, 1e200, 1.0),
+    ]
+    with np.errstate(all="raise", under="ignore"):
+        for alpha, beta, J in cases:
+            for sequence, regime in standard_linear_solid.REGIMES.items():
+                if sequence == "afc" and J == 0.0:
+                    continue  # a snap into contact needs an instantaneous compliance
+                given = (*edges[: len(regime["edges"])], alpha, beta, J, 1.0 - J, 0.3, 0.1, 0.2, 1.0)
+                for kind in ("residual", "jacobian", "means", "onset_slope"):
+                    if regime[kind] is not None:
+                        flat = np.concatenate(
+                            [np.ravel(np.asarray(part, dtype=float)) for part in np.atleast_1d(regime[kind](*given))]
+                        )
+                        assert np.all(np.isfinite(flat)), (sequence, kind, alpha, beta, J)

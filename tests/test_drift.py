@@ -1,0 +1,113 @@
+"""The text gate: what is checked in is what the derivation emits, byte by byte."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from derived_once import derivation, emitted
+
+from hystrip.derivation import generated_folder
+from hystrip.derivation.drift import CERTIFICATES, compare, write_files
+
+FILES = ("__init__.py", "stable.py", "standard_linear_solid.py")
+EMIT = """
+import hashlib, json
+from hystrip.derivation import STANDARD_LINEAR_SOLID, derive
+from hystrip.derivation.emit import emit
+print(json.dumps({name: hashlib.sha256(text.encode()).hexdigest() for name, text in emit((derive(STANDARD_LINEAR_SOLID),)).items()}))
+"""
+
+
+def drift(folder: Path):
+    made = derivation()
+    return compare(folder, emitted(), {made.model.name: [kernel.formula.name for kernel in made.kernels]})
+
+
+@pytest.fixture
+def copy(tmp_path: Path) -> Path:
+    return Path(shutil.copytree(generated_folder(), tmp_path / "generated", ignore=shutil.ignore_patterns("__pycache__")))
+
+
+def test_the_emitted_files_are_those_tested_here() -> None:
+    assert sorted(emitted()) == sorted(FILES)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_checked_in_file_is_what_the_derivation_emits(name: str) -> None:
+    found = [record for record in drift(generated_folder()) if record.path == name]
+    assert not found, "\n".join(map(str, found))
+
+
+def test_nothing_is_missing_or_stray() -> None:
+    assert not drift(generated_folder())
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_one_deleted_character_is_drift(copy: Path, name: str) -> None:
+    text = (copy / name).read_text(encoding="utf-8")
+    place = text.index("import") if "import" in text else text.index("MODELS")
+    (copy / name).write_text(text[:place] + text[place + 1 :], encoding="utf-8")
+    (record,) = drift(copy)
+    assert (record.kind, record.path) == ("different", name)
+    assert f"--- generated/{name}" in record.diff and f"+++ regenerated/{name}" in record.diff
+
+
+def test_a_changed_line_ending_is_drift(copy: Path) -> None:
+    content = (copy / FILES[1]).read_bytes()
+    (copy / FILES[1]).write_bytes(content.replace(b"\n", b"\r\n"))
+    assert [record.kind for record in drift(copy)] == ["different"]
+
+
+@pytest.mark.parametrize("name", [*FILES, CERTIFICATES])
+def test_a_missing_file_is_drift(copy: Path, name: str) -> None:
+    (copy / name).unlink()
+    (record,) = drift(copy)
+    assert (record.kind, record.path) == ("missing", name)
+    assert record.diff
+
+
+@pytest.mark.parametrize("name", ["old_model.py", "notes.txt", "audit/index.html"])
+def test_a_stray_file_is_drift(copy: Path, name: str) -> None:
+    (copy / name).parent.mkdir(exist_ok=True)
+    (copy / name).write_text("left over\n", encoding="utf-8")
+    (record,) = drift(copy)
+    assert (record.kind, record.path) == ("stray", name)
+    assert "-left over" in record.diff
+
+
+def test_a_certificate_for_another_solver_is_drift(copy: Path) -> None:
+    stored = json.loads((copy / CERTIFICATES).read_text(encoding="utf-8"))
+    stored["hash"] = "0" * len(stored["hash"])
+    del stored["models"]["standard_linear_solid"]["functions"]["gap_after"]
+    (copy / CERTIFICATES).write_text(json.dumps(stored), encoding="utf-8")
+    (record,) = drift(copy)
+    assert record.path == CERTIFICATES and "+standard_linear_solid.gap_after" in record.diff and "hash" in record.diff
+
+
+def test_text_does_not_depend_on_the_hash_seed() -> None:
+    runs = []
+    for seed in ("0", "4242"):
+        environment = {**os.environ, "PYTHONHASHSEED": seed}
+        runs.append(subprocess.Popen([sys.executable, "-c", EMIT], env=environment, stdout=subprocess.PIPE, text=True))
+    first, second = (run.communicate()[0] for run in runs)
+    assert first == second and json.loads(first).keys() == emitted().keys()
+
+
+def test_writing_leaves_the_old_file_if_it_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a.py").write_text("old", encoding="utf-8")
+
+    def refuse(source: str, target: str) -> None:
+        raise OSError("no")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("os.replace", refuse)
+        with pytest.raises(OSError, match="no"):
+            write_files(tmp_path, {"a.py": "new"})
+    assert (tmp_path / "a.py").read_text(encoding="utf-8") == "old"
+    assert [path.name for path in tmp_path.iterdir()] == ["a.py"]
