@@ -10,6 +10,7 @@ import sympy as sp
 
 from .averages import constant_means, strip_means, zone_integrals
 from .check import Derived
+from .energy import friction_balance, power_balance
 from .flows import flows
 from .functions import Call
 from .jumps import jumps
@@ -86,6 +87,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     integrals = zone_integrals(flow)
     still = tuple(constant_means(regime) for regime in table if regime.sequence in ("a", "f"))
     means = tuple(strip_means(regime, integrals) for regime in partial)
+    balances = (power_balance(flow, jump), *(friction_balance(regime) for regime in partial))
     done("means")
     shift = shift_of_events()
     slopes = tuple(onset_slope(regime) for regime in partial)
@@ -98,7 +100,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         ("Slope of the onset-to-onset map", slopes),
         ("A whole level in complete contact, and a stack of them: SI units", whole.kernels),
     )
-    stages = (ground, one_strip, flow, jump, zone, full, whole, table, systems, integrals, means, still, shift, slopes)
+    stages = (ground, one_strip, flow, jump, zone, full, whole, table, systems, integrals, means, still, balances, shift, slopes)
     return Derivation(model, stages, table, sections)
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from .check import BEYOND, CORRECTED, Check, Derived, derived, holds, zero
+from .check import BEYOND, CORRECTED, REPRODUCED, Check, Derived, derived, holds, zero
 from .functions import Formula, hypot, stack_sum
 from .kernel import Kernel
 from .saturated import Saturated
@@ -235,7 +235,7 @@ def _kernel(by, formula: Formula, exact: sp.Expr, checks, statement, latex, **op
     name = formula.name
     residual = formula.written_out(formula.args) - exact
     checks = [*checks, zero(name, f"{name}: the stable form equals the derived expression", sp.simplify(residual))]
-    options.setdefault("status", BEYOND)
+    options.setdefault("status", REPRODUCED if options.get("paper") else BEYOND)
     return Kernel(
         formula, exact, derived(by, exact, name=name, statement=statement, latex=latex, checks=checks, emitted=(name,), **options)
     )

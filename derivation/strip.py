@@ -8,7 +8,7 @@ import sympy as sp
 
 from .check import BEYOND, CORRECTED, REPRODUCED, Derived, derived, holds, zero
 from .model import Foundation
-from .symbols import A, D, D_j, D_level, J, K, L, T_eps, T_sigma, V, alpha, beta, h, k, s, t, x, y
+from .symbols import A, D, D_j, D_level, J, K, L, T_eps, T_sigma, V, alpha, beta, delta_0, h, k, p_0, s, t, x, y
 
 TIMES = {T_sigma: alpha / (k * V), T_eps: beta / (k * V)}
 """Times of the material in terms of those of the strip."""
@@ -19,6 +19,7 @@ class Strip:
     """The second stage: the profile ``u(s)`` in a strip and the dimensionless operators that act on it."""
 
     foundation: Foundation
+    adhesion: Derived  # gamma
     profile: Derived  # u(s) = D - 1 + cos s
     moving_frame: Derived
     groups: Derived
@@ -39,7 +40,30 @@ def strip(foundation: Foundation) -> Strip:
     moving = moving_frame(foundation)
     groups = dimensionless_groups(foundation)
     operator_w, operator_p = groups.value
-    return Strip(foundation, strip_profile(), moving, groups, operator_w, operator_p)
+    return Strip(foundation, adhesion_law(), strip_profile(), moving, groups, operator_w, operator_p)
+
+
+def adhesion_law() -> Derived:
+    r"""Eq. 2, 3: traction :math:`-p_0` for gaps up to :math:`\delta_0`, none beyond; :math:`\gamma = p_0 \delta_0`."""
+    name = "adhesion law"
+    opening, far = sp.symbols("g g_1", positive=True)
+    pressure = sp.Piecewise((-p_0, opening <= delta_0), (0, True))
+    work = -sp.integrate(pressure, (opening, 0, far))
+    energy = sp.simplify(work.subs(far, delta_0 + t**2 + 1))
+    checks = [
+        zero(name, "the work that separates a unit area beyond delta_0 is p_0 delta_0", energy - p_0 * delta_0),
+        zero(name, "and half of that at half of the range", work.subs(far, delta_0 / 2) - p_0 * delta_0 / 2),
+    ]
+    return derived(
+        adhesion_law,
+        p_0 * delta_0,
+        name=name,
+        statement="Dugdale's adhesion: a constant traction within a short range of the surface.",
+        latex=r"p = -p_0\ (0 < g \le \delta_0),\quad p = 0\ (g > \delta_0),\qquad \gamma = \int p_0\,dg = p_0 \delta_0",
+        checks=checks,
+        paper="Eq. 2, 3",
+        status=REPRODUCED,
+    )
 
 
 def strip_profile() -> Derived:
@@ -134,7 +158,6 @@ def dimensionless_groups(foundation: Foundation) -> Derived:
         latex=r"w + \beta w' = p + \alpha p',\quad \alpha = k V T_\sigma,\quad \beta = k V T_\epsilon,"
         r"\quad J = T_\sigma/T_\epsilon,\quad L = 1 - J",
         checks=checks,
-        paper="Eq. 5",
         status=BEYOND,
     )
 

@@ -204,11 +204,9 @@ class _Batch:
         out.certified[index] = True
 
     def _finish(self, index, sequence, cycle: Cycle, orbit: Orbit, usable):
-        """Polish, certify and write orbits that all have the same sequence of zones."""
+        """Certify and write orbits that all have the same sequence of zones."""
         strips = self.strips.take(index)
-        orbit, converged, spent = _polished(self.kernel, sequence, cycle, orbit)
-        self.solved.evaluations[index] += spent
-        certified = usable & converged & edges_admissible(self.kernel, cycle, orbit) & stable(self.kernel, cycle, orbit)
+        certified = usable & edges_admissible(self.kernel, cycle, orbit) & stable(self.kernel, cycle, orbit)
         out = self.solved
         out.code[index] = CODE[sequence]
         out.certified[index] = certified

@@ -80,9 +80,10 @@ def next_onset(kernel, cycle: Cycle, orbit: Orbit) -> tuple[np.ndarray, np.ndarr
 
     if not index.size:
         return x, spent
-    index = index[_happens(gap, end[index], index, np.zeros(index.size, bool), spent)]
+    start = np.maximum(end - 2 * cycle.half_d, np.where(orbit.engaged, -np.inf, orbit.c))
+    index = index[_happens(gap, start[index], end[index], index, np.zeros(index.size, bool), spent)]
     here = orbit.x[index] + TWO_PI
-    start = np.maximum(end[index] - 2 * cycle.half_d[index], orbit.c[index])
+    start = start[index]
     early = orbit.r[index] < 0
     low, high = np.where(early, start, here), np.where(early, here, end[index])
     found, used = crossing(gap, low, np.maximum(low, high))
@@ -135,14 +136,18 @@ class _Known:
         return crossing(event, low, high, guess)
 
 
-def _happens(event, end, index, sure, spent):
-    """Which of ``index`` meet their event before ``end``: known, or seen from the sign there."""
+def _happens(event, start, end, index, sure, spent):
+    """Which of ``index`` meet their event in the arc from ``start`` to ``end``: known, or seen from the sign at its end.
+
+    Where there is next to no memory the event function follows the harmonic and vanishes at the end but for rounding; it is deepest half way.
+    """
     meets = sure.copy()
-    ask = np.flatnonzero(~sure)
-    if ask.size:
-        value, _ = event(end[ask], ask)
-        spent[index[ask]] += 1
-        meets[ask] = value <= 0
+    for where in (end, 0.5 * (start + end)):
+        ask = np.flatnonzero(~meets)
+        if ask.size:
+            value, _ = event(where[ask], ask)
+            spent[index[ask]] += 1
+            meets[ask] = value <= 0
     return meets
 
 
@@ -160,9 +165,9 @@ def _contact_begins(kernel, cycle: Cycle, x, spent, known: _Known):
         args = (x[i], phase, cycle.gap_on[i], -s.p_0[i], s.D[i], s.beta[i])
         return kernel.gap_after(*args), kernel.gap_after_slope(*args)
 
-    reach = reach[_happens(gap, end[reach], reach, known.sure[reach], spent)]
-    start = np.maximum(x[reach], cycle.centre[reach] - cycle.half_b[reach])
-    b[reach], used = known.crossing(gap, start, end[reach], reach)
+    start = np.maximum(x, cycle.centre - cycle.half_b)
+    reach = reach[_happens(gap, start[reach], end[reach], reach, known.sure[reach], spent)]
+    b[reach], used = known.crossing(gap, start[reach], end[reach], reach)
     spent[reach] += used
     return b
 
@@ -180,7 +185,7 @@ def _contact_ends(kernel, cycle: Cycle, x, b, spent, known: _Known):
 
     low = cycle.centre[touched] + cycle.half_b[touched]
     high = cycle.centre[touched] + TWO_PI - cycle.half_b[touched]
-    leaves = _happens(excess, high, touched, known.sure[touched], spent) & (high > low)
+    leaves = _happens(excess, np.maximum(low, b[touched]), high, touched, known.sure[touched], spent) & (high > low)
     a[touched[~leaves]] = np.inf
     touched, low, high = touched[leaves], low[leaves], high[leaves]
     a[touched], used = known.crossing(excess, np.maximum(low, b[touched]), high, touched)
@@ -206,8 +211,9 @@ def _adhesion_ends(kernel, cycle: Cycle, x, b, a, spent, known: _Known):
 
     if not leaves.size:
         return c
-    leaves = leaves[_happens(closed, high[leaves], leaves, known.sure[leaves], spent)]
-    c[leaves], used = known.crossing(closed, np.maximum(low[leaves], start[leaves]), high[leaves], leaves)
+    low = np.maximum(low, start, out=low, where=np.isfinite(start))
+    leaves = leaves[_happens(closed, low[leaves], high[leaves], leaves, known.sure[leaves], spent)]
+    c[leaves], used = known.crossing(closed, low[leaves], high[leaves], leaves)
     spent[leaves] += used
     return c
 

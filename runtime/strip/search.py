@@ -151,8 +151,13 @@ class _Search:
         cycle = self.cycle.take(index)
         bounds = slope_bounds(self.kernel, cycle, left, right)
         unique = ~left.engaged & bounds.falls
-        if not self.last:
+        if not self.last and left.engaged.any():
             left = _released(self.kernel, cycle, left)
+            # up to the unknown onset from which it is released nothing adds to w
+            top = onset_margin(self.kernel, cycle, cycle.centre)
+            bounds = SlopeBounds(
+                np.where(left.engaged, top, bounds.fall), bounds.rise, bounds.falls, np.where(left.engaged, 0.0, bounds.N_min)
+            )
         return np.where(changes, unique, _excluded(self.kernel, cycle, left, right, bounds, self.last))
 
     def _isolated(self, index, left: Orbit, right: Orbit):
@@ -172,7 +177,6 @@ def locate(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[Orbit, np.n
     share = left.r / np.where(left.r > right.r, left.r - right.r, 1.0)
     x = np.clip(left.x + (right.x - left.x) * share, left.x, right.x)
     width = right.x - left.x
-    first = width.copy()
     active = np.flatnonzero(width > 0)
     for _ in range(200):
         if not active.size:
@@ -191,8 +195,7 @@ def locate(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[Orbit, np.n
         poor = ~((new >= lo) & (new <= hi)) | (np.abs(step) > 0.5 * width[active])
         new = np.where(poor, 0.5 * (lo + hi), new)
         width[active] = np.where(poor, hi - lo, np.abs(step))
-        # the polishing that follows squares this error
-        tolerance = 1e-9 * np.minimum(np.maximum(np.abs(lo), np.abs(hi)), first[active]) + _EPS * np.abs(hi)
+        tolerance = 2 * _EPS * np.maximum(np.abs(lo), np.abs(hi))
         done = (orbit.r == 0) | (hi - lo <= tolerance) | (~poor & (np.abs(step) <= tolerance))
         x[active] = np.where(orbit.r == 0, orbit.x, new)
         active = active[~done]
@@ -217,8 +220,6 @@ def _released(kernel, cycle: Cycle, orbit: Orbit) -> Orbit:
 
     Adhesion ends earlier and w is larger the later the onset, so this r bounds from below every orbit that does end.
     """
-    if not orbit.engaged.any():
-        return orbit
     s = cycle.strips
     c = cycle.centre + TWO_PI - cycle.half_c
     end = orbit.x + TWO_PI

@@ -1,0 +1,322 @@
+"""The derivation: what it states, that a wrong step is refused by name, and that its kernels agree with an independent march."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import fields, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy as sp
+from derived_once import derivation, tampered
+
+from hystrip.derivation import STANDARD_LINEAR_SOLID, DerivationError, Model, derive
+from hystrip.derivation.check import CORRECTED, REPRODUCED, STATUSES, derived, zero
+from hystrip.derivation.exact import is_zero
+from hystrip.derivation.flows import contact_flow
+from hystrip.derivation.model import inadmissible
+from hystrip.derivation.symbols import (
+    D,
+    J,
+    K,
+    L,
+    T_eps,
+    T_sigma,
+    V,
+    alpha,
+    beta,
+    h,
+    l,
+    p_0,
+    p_nominal,
+    q_0,
+    s,
+    s_0,
+)
+from hystrip.generated import standard_linear_solid as solver
+
+STRIPS = (
+    json.loads((Path(__file__).parents[2] / "shared" / "reference" / "strips.json").read_text())
+    if (Path(__file__).parents[2] / "shared" / "reference" / "strips.json").exists()
+    else []
+)
+
+
+def step(name: str):
+    (found,) = [record for record in derivation().steps if record.name == name]
+    return found
+
+
+def stage(kind: str):
+    (found,) = [part for part in derivation().stages if type(part).__name__ == kind]
+    return found
+
+
+# -- what is stated -----------------------------------------------------------------------------------------------------
+
+
+def test_every_step_is_verified_and_described() -> None:
+    assert len(derivation().steps) > 60
+    for record in derivation().steps:
+        assert record.checks and record.statement and record.latex and record.status in STATUSES
+        assert all(check.outcome in ("exact zero", "holds") for check in record.checks)
+        assert (record.status == CORRECTED) == bool(record.correction)
+
+
+def test_names_of_steps_are_unique() -> None:
+    names = [record.name for record in derivation().steps]
+    assert len(names) == len(set(names))
+
+
+def test_every_step_names_the_function_that_derives_it() -> None:
+    for record in derivation().steps:
+        module, _, function = record.function.partition(".")
+        assert callable(getattr(__import__(f"hystrip.derivation.{module}", fromlist=[function]), function))
+
+
+def test_every_emitted_function_belongs_to_a_step() -> None:
+    claimed = {name for record in derivation().steps for name in record.emitted}
+    emitted = {kernel.formula.name for kernel in derivation().kernels}
+    assert emitted == claimed
+    assert all(callable(getattr(solver, name)) for name in emitted)
+
+
+def test_stages_are_frozen() -> None:
+    flows = stage("Flows")
+    with pytest.raises(AttributeError):
+        setattr(flows, fields(flows)[0].name, None)
+
+
+@pytest.mark.parametrize("equation", [1, 2, 3, 4, 5, 6, 8, 10, 11, 15, 16])
+def test_the_papers_equations_are_there(equation: int) -> None:
+    numbers = {
+        int(part)
+        for record in derivation().steps
+        for part in record.paper.replace("Eq.", "").replace("-", ",").split(",")
+        if part.strip()
+    }
+    assert equation in numbers
+
+
+def test_saturated_field_is_equation_15() -> None:
+    printed = D - 1 + ((1 + alpha * beta) * sp.cos(s) - (beta - alpha) * sp.sin(s)) / (1 + alpha**2)
+    assert sp.simplify(step("saturated_pressure").value - printed) == 0
+    assert step("saturated_pressure").status == REPRODUCED
+
+
+def test_equation_16_is_corrected() -> None:
+    true, printed = step("Eq. 16 as printed").value
+    assert (
+        sp.simplify(
+            true - 3 * sp.pi**2 / 16 * K * V * (T_eps - T_sigma) / p_nominal * h**2 / (l**2 + (2 * sp.pi * V * T_sigma) ** 2)
+        )
+        == 0
+    )
+    assert sp.simplify(printed / true - sp.Rational(16, 3) / h) == 0
+    assert step("saturated_stack_friction").status == CORRECTED
+
+
+def test_figure_7_peaks() -> None:
+    """Three levels, all saturated at 5 MPa: friction coefficient at the peak of each level."""
+    length, height = np.array([10e-6, 500e-9, 5e-9]), np.array([1e-6, 100e-9, 5e-9])
+    peaks = [
+        solver.level_saturation_friction(1e9, 1e-2, 1e-4, x, y, x / (2 * math.pi * 1e-4)) / 5e6
+        for x, y in zip(length, height, strict=True)
+    ]
+    assert peaks == pytest.approx([2.92e-4, 5.83e-5, 1.46e-5], rel=3e-3)
+    speeds = length[:, None] / (2 * math.pi * 1e-4)
+    together = solver.saturated_stack_friction(1e9, 1e-2, 1e-4, length, height, speeds, 5e6)
+    assert together.shape == (3,) and np.all(together > peaks)
+
+
+def test_a_parabola_gives_the_known_pressure() -> None:
+    """The contact flow under another profile: the single parabola of the physics, entered at p = 0 and x = b."""
+    strip = stage("Strip")
+    parabola = replace(strip, profile=replace(strip.profile, value=D - s**2 / 2))
+    x, b, shift, creep = sp.symbols("x b s_shift q", positive=True)
+    pressure = contact_flow(parabola).value.subs({q_0: 0, p_0: 0, D: b**2 / 2, s_0: -b, s: -x})
+    known = (b**2 - x**2) / 2 + creep * (x + shift - (b + shift) * sp.exp(-(b - x) / shift))
+    difference = pressure.subs({alpha: shift, beta: shift + creep}) - known
+    assert sp.simplify(sp.expand(difference)) == 0
+    field = sp.lambdify(x, known.subs({b: 0.7, shift: 0.1, creep: 0.9}).subs(x, x))
+    assert field(-0.31652973) == pytest.approx(0, abs=1e-7)
+
+
+# -- what is refused ----------------------------------------------------------------------------------------------------
+
+TAMPERED = {
+    "admissibility": ("models/standard_linear_solid.py", "P=(1 / K, T_sigma / K)", "P=(1 / K, -T_sigma / K)"),
+    "strip profile": ("strip.py", "u = D - 1 + sp.cos(s)", "u = D - 1 - sp.cos(s)"),
+    "contact flow": ("flows.py", "(entry - particular.subs(s, s_0)) * decayed", "(entry + particular.subs(s, s_0)) * decayed"),
+    "closures": ("jumps.py", "step_w = chi * J * step", "step_w = -chi * J * step"),
+    "forcing": ("stable.py", "PROFILE(s, D) + beta * PROFILE_SLOPE(s)", "PROFILE(s, D) - beta * PROFILE_SLOPE(s)"),
+    "contact_work": ("stable.py", "rise**2 / 2", "-(rise**2) / 2"),
+    "complex modulus": ("saturated.py", "sp.I**n for n, q", "(-sp.I) ** n for n, q"),
+    "level_saturation_pressure": ("level.py", "K * h / 4 * (2 * ratio - 1) - p_0", "K * h / 4 * (2 * ratio - 1) + p_0"),
+    "regime acaf": (
+        "regimes.py",
+        "Zone(ADHESION, d, b, delta_0 - step, NOTHING)",
+        "Zone(ADHESION, d, b, delta_0 + step, NOTHING)",
+    ),
+    "means_acaf": ("averages.py", "exact = (sum_w / PERIOD, sum_tau / PERIOD)", "exact = (sum_w / PERIOD, -sum_tau / PERIOD)"),
+    "power balance": (
+        "energy.py",
+        "residuals.append(pressure * sp.diff(w, s) - beta",
+        "residuals.append(pressure * sp.diff(w, s) + beta",
+    ),
+    "shift of an event": ("stability.py", "(load_0 + gap_0 - p) * decay", "(load_0 - gap_0 - p) * decay"),
+}
+
+
+@pytest.mark.parametrize("name", TAMPERED)
+def test_a_changed_sign_is_refused_by_name(name: str, tmp_path: Path) -> None:
+    wrong = tampered(tmp_path, *TAMPERED[name])
+    with pytest.raises(wrong.DerivationError, match=f"'{name}'") as failure:
+        wrong.derive(wrong.STANDARD_LINEAR_SOLID)
+    assert failure.value.step == name
+
+
+@pytest.mark.parametrize(("function", "name"), [("dsolve", "contact flow"), ("integrate", "adhesion law"), ("solve", "jump law")])
+def test_a_wrong_answer_of_sympy_is_refused(function: str, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    right = getattr(sp, function)
+
+    def wrong(*args, **options):
+        found = right(*args, **options)
+        if function == "dsolve":
+            return sp.Eq(found.lhs, found.rhs + sp.sin(s) / 7)
+        return (
+            [2 * part for part in found]
+            if isinstance(found, list) and not options
+            else found
+            if isinstance(found, list)
+            else 2 * found
+        )
+
+    monkeypatch.setattr(sp, function, wrong)
+    with pytest.raises(DerivationError) as failure:
+        derive(STANDARD_LINEAR_SOLID)
+    assert failure.value.step == name
+
+
+def test_zero_is_proven_and_not_guessed() -> None:
+    s_1 = sp.Symbol("s_1", real=True)
+    assert is_zero(sp.sin(s_0) ** 2 + sp.cos(s_0) ** 2 - 1)
+    assert is_zero(sp.cos(s_1) - sp.cos(s_0) + 2 * sp.sin((s_0 + s_1) / 2) * sp.sin((s_1 - s_0) / 2), (s_0, s_1))
+    assert is_zero(sp.exp((s_0 - s_1) / alpha) * sp.exp(-(s_0 - s_1) / alpha) - 1, (s_0, s_1))
+    assert is_zero(L + J - 1) and is_zero(L * beta - beta + alpha)
+    assert not is_zero(sp.Rational(1, 10**40) * sp.sin(s_0))
+    assert not is_zero(sp.exp((s_0 - s_1) / alpha) - sp.exp((s_0 - s_1) / beta), (s_0, s_1))
+    assert not is_zero(L * beta - beta - alpha)
+
+
+def test_a_failing_check_names_its_step() -> None:
+    with pytest.raises(DerivationError, match="step 'some step' failed: one is nothing"):
+        zero("some step", "one is nothing", sp.Integer(1))
+    with pytest.raises(DerivationError, match="has no check"):
+        derived(test_a_failing_check_names_its_step, None, name="idle", statement="", latex="", checks=[])
+
+
+def _model(Q, P, **options) -> Model:
+    return Model(
+        "test", "test", STANDARD_LINEAR_SOLID.parameters, tuple(map(sp.sympify, Q)), tuple(map(sp.sympify, P)), **options
+    )
+
+
+@pytest.mark.parametrize(
+    ("reason", "Q", "P"),
+    [
+        ("passive", (1, 1), (1, 2)),  # T_eps < T_sigma
+        ("solid-like", (0, 1), (1, 1)),  # a liquid
+        ("solid-like", (1, 1), (1,)),
+        ("stable", (1, -1), (1, 0)),
+        ("stable", (1, 1, 1, 2), (1, 1, 1, 1)),  # positive coefficients, roots on the right
+    ],
+)
+def test_an_inadmissible_model_is_refused_with_the_reason(reason: str, Q: tuple, P: tuple) -> None:
+    assert any(text.startswith(reason) for text in inadmissible(_model(Q, P)))
+    with pytest.raises(DerivationError, match=reason):
+        derive(_model(Q, P))
+
+
+def test_admissible_models_pass() -> None:
+    assert not inadmissible(STANDARD_LINEAR_SOLID)
+    assert not inadmissible(_model((1, 3), (1, 0)))  # Kelvin-Voigt
+    assert not inadmissible(_model((1, 3, 2), (1, 2, sp.Rational(1, 2))))
+
+
+# -- the emitted kernels against an independent march --------------------------------------------------------------------
+
+ORDER = {"acaf": "acaf", "afc": "caf", "af": "af", "ac": "ca", "cf": "cf"}
+
+
+def _given(case: dict) -> dict:
+    k, unit = 2 * math.pi / case["l"], case["K"] * case["A"]
+    return {
+        "alpha": k * case["V"] * case["T_sigma"],
+        "beta": k * case["V"] * case["T_eps"],
+        "J": case["T_sigma"] / case["T_eps"],
+        "L": (case["T_eps"] - case["T_sigma"]) / case["T_eps"],
+        "p_0": case["p_0"] / unit,
+        "delta_0": case["delta_0"] / case["A"],
+        "D": case["D"] / case["A"],
+        "chi": float(case["edge"] == "constitutive"),
+    }
+
+
+def _edges(zones: tuple, sequence: str) -> list[float]:
+    letters = "".join(zone[0] for zone in zones)
+    start = (letters * 2).index(ORDER[sequence])
+    edges: list[float] = []
+    for n in range(len(zones)):
+        edge = float(zones[(start + n) % len(zones)][1])
+        while edges and edge < edges[-1]:
+            edge += 2 * math.pi
+        edges.append(edge)
+    return edges
+
+
+@pytest.mark.skipif(not STRIPS, reason="the reference strips are not beside the repository")
+def test_kernels_agree_with_the_march() -> None:
+    from mpmath import mp
+    from oracle.flow import Strip
+    from oracle.march import groups
+    from oracle.orbits import extremal_orbit
+
+    seen = set()
+    for number, case in enumerate(STRIPS):
+        given = _given(case)
+        sequence = {"cf": "ac"}.get(case["sequence"], case["sequence"])
+        regime = solver.REGIMES[sequence]
+        edges: list[float] = []
+        if regime["edges"]:
+            with mp.workdps(30):
+                si = [case[name] for name in ("K", "T_eps", "T_sigma", "V", "l", "A", "D", "p_0", "delta_0")]
+                orbit = extremal_orbit(Strip(closure=case["edge"], **groups(*si, digits=30)), case["branch"])
+            edges = _edges(orbit.zones, case["sequence"])
+            scale = 1 + given["p_0"] + given["beta"]
+            assert np.max(np.abs(regime["residual"](*edges, **given))) < 1e-14 * scale, number
+            assert float(regime["onset_slope"](*edges, **given)) == pytest.approx(float(orbit.slope), rel=1e-12, abs=1e-60), (
+                number
+            )
+            _assert_jacobian(regime, edges, given)
+        p_mean, tau_mean = regime["means"](*edges, **given)
+        unit, k = case["K"] * case["A"], 2 * math.pi / case["l"]
+        scale = abs(case["p_mean"]) + 1e-3 * (unit + case["p_0"])
+        assert abs(p_mean * unit - case["p_mean"]) < 1e-11 * scale, number
+        scale = abs(case["tau_mean"]) + 1e-3 * k * case["A"] * (unit + case["p_0"])
+        assert abs(tau_mean * unit * k * case["A"] - case["tau_mean"]) < 1e-11 * scale, number
+        seen.add(case["sequence"])
+    assert seen == {"acaf", "afc", "af", "ac", "cf", "c", "a", "f"}
+
+
+def _assert_jacobian(regime: dict, edges: list[float], given: dict) -> None:
+    jacobian = np.array([[float(entry) for entry in row] for row in regime["jacobian"](*edges, **given)])
+    step_size = 1e-6
+    for n in range(len(edges)):
+        above, below = [list(edges) for _ in range(2)]
+        above[n] += step_size
+        below[n] -= step_size
+        slope = (np.array(regime["residual"](*above, **given)) - np.array(regime["residual"](*below, **given))) / (2 * step_size)
+        assert np.all(np.abs(slope - jacobian[:, n]) < 1e-7 * (1e-2 + np.max(np.abs(jacobian), axis=1)))
