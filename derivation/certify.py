@@ -29,7 +29,8 @@ from .kernel import Kernel
 from .printing import source
 
 EPS = 2.0**-52
-POINTS = 200
+POINTS = 500  # of the grid of a building block
+POINTS_OF_REGIME = 200  # of a function of a whole regime, whose reference costs more
 DIGITS = 260  # the worst cancellation of a derived form on this grid costs about 60, the stand-in for zero 120
 ZERO = mpmath.mpf(10) ** -60  # stands for a vanishing time: the derived forms divide by it
 FLOOR = mpmath.mpf(10) ** -40  # least scale: below it lie only remains of ZERO, and decays that underflow
@@ -49,14 +50,16 @@ class Certificate:
     where: dict[str, float]
 
 
-def certify(derivation: Derivation, solver: ModuleType, points: int = POINTS, only: str | None = None) -> Iterator[Certificate]:
+def certify(derivation: Derivation, solver: ModuleType) -> Iterator[Certificate]:
     """Measure every kernel of the derivation as ``solver`` computes it."""
     for kernel in derivation.kernels:
-        if only is None or kernel.formula.name == only:
-            yield measure(kernel, getattr(solver, kernel.formula.name), points)
+        yield measure(kernel, getattr(solver, kernel.formula.name))
 
 
-def measure(kernel: Kernel, function: Callable[..., Any], points: int = POINTS) -> Certificate:
+def measure(kernel: Kernel, function: Callable[..., Any], points: int | None = None) -> Certificate:
+    """Measure one function, given as ``function``, against the kernel's exact expression."""
+    if points is None:
+        points = POINTS_OF_REGIME if set(PHASES) & {str(argument) for argument in kernel.formula.args} else POINTS
     names = [source(argument) for argument in kernel.formula.args]
     with mpmath.workdps(DIGITS):
         reference = _evaluator(kernel, _flat(kernel.exact))

@@ -26,8 +26,8 @@ class Flows:
 
 
 def flows(strip: Strip) -> Flows:
-    relaxation = relaxation_flow(strip)
-    return Flows(strip, contact_flow(strip), relaxation, gap_flow(strip, relaxation.value))
+    contact, relaxation = contact_flow(strip), relaxation_flow(strip)
+    return Flows(strip, contact, relaxation, gap_flow(strip, relaxation.value))
 
 
 def contact_flow(strip: Strip) -> Derived:

@@ -122,7 +122,7 @@ class _Solve:
         rest = np.flatnonzero(~full)
         velocities, group = np.unique(self.V[rest], return_inverse=True)
         # a block of velocities at a time: large enough for the batch to pay, small enough to show progress
-        block = 16
+        block = 64
         for start in range(0, velocities.size, block):
             chosen = (group >= start) & (group < start + block)
             self._block(velocities[start : start + block], rest[chosen], group[chosen] - start)

@@ -37,11 +37,8 @@ from hystrip.derivation.symbols import (
 )
 from hystrip.generated import standard_linear_solid as solver
 
-STRIPS = (
-    json.loads((Path(__file__).parents[2] / "shared" / "reference" / "strips.json").read_text())
-    if (Path(__file__).parents[2] / "shared" / "reference" / "strips.json").exists()
-    else []
-)
+_shared = Path(__file__).parents[2] / "shared" / "reference" / "strips.json"
+STRIPS = json.loads(_shared.read_text(encoding="utf-8")) if _shared.exists() else []
 
 
 def step(name: str):
@@ -91,12 +88,8 @@ def test_stages_are_frozen() -> None:
 
 @pytest.mark.parametrize("equation", [1, 2, 3, 4, 5, 6, 8, 10, 11, 15, 16])
 def test_the_papers_equations_are_there(equation: int) -> None:
-    numbers = {
-        int(part)
-        for record in derivation().steps
-        for part in record.paper.replace("Eq.", "").replace("-", ",").split(",")
-        if part.strip()
-    }
+    parts = [part for record in derivation().steps for part in record.paper.removeprefix("Eq. ").replace("-", ", ").split(", ")]
+    numbers = {int(part) for part in parts if part}
     assert equation in numbers
 
 
@@ -108,12 +101,8 @@ def test_saturated_field_is_equation_15() -> None:
 
 def test_equation_16_is_corrected() -> None:
     true, printed = step("Eq. 16 as printed").value
-    assert (
-        sp.simplify(
-            true - 3 * sp.pi**2 / 16 * K * V * (T_eps - T_sigma) / p_nominal * h**2 / (l**2 + (2 * sp.pi * V * T_sigma) ** 2)
-        )
-        == 0
-    )
+    right = 3 * sp.pi**2 / 16 * K * V * (T_eps - T_sigma) / p_nominal * h**2 / (l**2 + (2 * sp.pi * V * T_sigma) ** 2)
+    assert sp.simplify(true - right) == 0
     assert sp.simplify(printed / true - sp.Rational(16, 3) / h) == 0
     assert step("saturated_stack_friction").status == CORRECTED
 
@@ -121,13 +110,10 @@ def test_equation_16_is_corrected() -> None:
 def test_figure_7_peaks() -> None:
     """Three levels, all saturated at 5 MPa: friction coefficient at the peak of each level."""
     length, height = np.array([10e-6, 500e-9, 5e-9]), np.array([1e-6, 100e-9, 5e-9])
-    peaks = [
-        solver.level_saturation_friction(1e9, 1e-2, 1e-4, x, y, x / (2 * math.pi * 1e-4)) / 5e6
-        for x, y in zip(length, height, strict=True)
-    ]
+    at_peak = length / (2 * math.pi * 1e-4)
+    peaks = solver.level_saturation_friction(1e9, 1e-2, 1e-4, length, height, at_peak) / 5e6
     assert peaks == pytest.approx([2.92e-4, 5.83e-5, 1.46e-5], rel=3e-3)
-    speeds = length[:, None] / (2 * math.pi * 1e-4)
-    together = solver.saturated_stack_friction(1e9, 1e-2, 1e-4, length, height, speeds, 5e6)
+    together = solver.saturated_stack_friction(1e9, 1e-2, 1e-4, length, height, at_peak[:, None], 5e6)
     assert together.shape == (3,) and np.all(together > peaks)
 
 
@@ -147,25 +133,17 @@ def test_a_parabola_gives_the_known_pressure() -> None:
 # -- what is refused ----------------------------------------------------------------------------------------------------
 
 TAMPERED = {
-    "admissibility": ("models/standard_linear_solid.py", "P=(1 / K, T_sigma / K)", "P=(1 / K, -T_sigma / K)"),
+    "admissibility": ("models/standard_linear_solid.py", "T_sigma / K)", "-T_sigma / K)"),
     "strip profile": ("strip.py", "u = D - 1 + sp.cos(s)", "u = D - 1 - sp.cos(s)"),
-    "contact flow": ("flows.py", "(entry - particular.subs(s, s_0)) * decayed", "(entry + particular.subs(s, s_0)) * decayed"),
+    "contact flow": ("flows.py", "(entry - particular.subs(s, s_0))", "(entry + particular.subs(s, s_0))"),
     "closures": ("jumps.py", "step_w = chi * J * step", "step_w = -chi * J * step"),
     "forcing": ("stable.py", "PROFILE(s, D) + beta * PROFILE_SLOPE(s)", "PROFILE(s, D) - beta * PROFILE_SLOPE(s)"),
     "contact_work": ("stable.py", "rise**2 / 2", "-(rise**2) / 2"),
     "complex modulus": ("saturated.py", "sp.I**n for n, q", "(-sp.I) ** n for n, q"),
-    "level_saturation_pressure": ("level.py", "K * h / 4 * (2 * ratio - 1) - p_0", "K * h / 4 * (2 * ratio - 1) + p_0"),
-    "regime acaf": (
-        "regimes.py",
-        "Zone(ADHESION, d, b, delta_0 - step, NOTHING)",
-        "Zone(ADHESION, d, b, delta_0 + step, NOTHING)",
-    ),
-    "means_acaf": ("averages.py", "exact = (sum_w / PERIOD, sum_tau / PERIOD)", "exact = (sum_w / PERIOD, -sum_tau / PERIOD)"),
-    "power balance": (
-        "energy.py",
-        "residuals.append(pressure * sp.diff(w, s) - beta",
-        "residuals.append(pressure * sp.diff(w, s) + beta",
-    ),
+    "level_saturation_pressure": ("level.py", "(2 * ratio - 1) - p_0", "(2 * ratio - 1) + p_0"),
+    "regime acaf": ("regimes.py", "Zone(ADHESION, d, b, delta_0 - step", "Zone(ADHESION, d, b, delta_0 + step"),
+    "means_acaf": ("averages.py", "(sum_w / PERIOD, sum_tau / PERIOD)", "(sum_w / PERIOD, -sum_tau / PERIOD)"),
+    "power balance": ("energy.py", "sp.diff(w, s) - beta / L", "sp.diff(w, s) + beta / L"),
     "shift of an event": ("stability.py", "(load_0 + gap_0 - p) * decay", "(load_0 - gap_0 - p) * decay"),
 }
 
@@ -184,15 +162,9 @@ def test_a_wrong_answer_of_sympy_is_refused(function: str, name: str, monkeypatc
 
     def wrong(*args, **options):
         found = right(*args, **options)
-        if function == "dsolve":
+        if isinstance(found, sp.Eq):
             return sp.Eq(found.lhs, found.rhs + sp.sin(s) / 7)
-        return (
-            [2 * part for part in found]
-            if isinstance(found, list) and not options
-            else found
-            if isinstance(found, list)
-            else 2 * found
-        )
+        return [2 * part for part in found] if isinstance(found, list) else 2 * found
 
     monkeypatch.setattr(sp, function, wrong)
     with pytest.raises(DerivationError) as failure:
@@ -218,10 +190,9 @@ def test_a_failing_check_names_its_step() -> None:
         derived(test_a_failing_check_names_its_step, None, name="idle", statement="", latex="", checks=[])
 
 
-def _model(Q, P, **options) -> Model:
-    return Model(
-        "test", "test", STANDARD_LINEAR_SOLID.parameters, tuple(map(sp.sympify, Q)), tuple(map(sp.sympify, P)), **options
-    )
+def _model(Q, P) -> Model:
+    Q, P = (tuple(map(sp.sympify, operator)) for operator in (Q, P))
+    return Model("test", "test", STANDARD_LINEAR_SOLID.parameters, Q, P)
 
 
 @pytest.mark.parametrize(
@@ -297,9 +268,8 @@ def test_kernels_agree_with_the_march() -> None:
             edges = _edges(orbit.zones, case["sequence"])
             scale = 1 + given["p_0"] + given["beta"]
             assert np.max(np.abs(regime["residual"](*edges, **given))) < 1e-14 * scale, number
-            assert float(regime["onset_slope"](*edges, **given)) == pytest.approx(float(orbit.slope), rel=1e-12, abs=1e-60), (
-                number
-            )
+            slope = float(regime["onset_slope"](*edges, **given))
+            assert slope == pytest.approx(float(orbit.slope), rel=1e-12, abs=1e-29), number
             _assert_jacobian(regime, edges, given)
         p_mean, tau_mean = regime["means"](*edges, **given)
         unit, k = case["K"] * case["A"], 2 * math.pi / case["l"]

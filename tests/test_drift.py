@@ -20,7 +20,8 @@ EMIT = """
 import hashlib, json
 from hystrip.derivation import STANDARD_LINEAR_SOLID, derive
 from hystrip.derivation.emit import emit
-print(json.dumps({name: hashlib.sha256(text.encode()).hexdigest() for name, text in emit((derive(STANDARD_LINEAR_SOLID),)).items()}))
+files = emit((derive(STANDARD_LINEAR_SOLID),))
+print(json.dumps({name: hashlib.sha256(text.encode()).hexdigest() for name, text in files.items()}))
 """
 
 

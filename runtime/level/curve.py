@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .appearance import appearance
 from .chebyshev import Piece, coefficients, lobatto, refinement
 from .means import level_means
 from .strips import Columns, saturation_depth
@@ -118,29 +119,42 @@ def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None) -> 
 
 
 def _interpolate(columns, rtol, column, low, high, pieces, strips):
-    """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return halves of what does not."""
-    values = _sample(columns, rtol, column, low, high, lobatto(_FIRST), strips)
+    """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not."""
+    sample = _Sample(columns, rtol, column, low, high, strips)
+    values, errors, zones = sample.at(lobatto(_FIRST))
     n = _FIRST
     floor = 1e-3 * columns.scales
+    parts = []
     while column.size and n < _LAST:
         n *= 2
-        predicted = np.einsum("ij,pjq->piq", refinement(n), values[0])
-        new = _sample(columns, rtol, column, low, high, lobatto(n)[1::2], strips)
-        merged = [_merge(old, fresh) for old, fresh in zip(values, new, strict=True)]
-        miss = np.abs(new[0] - predicted).max(axis=1)
-        size = np.abs(merged[0]).max(axis=1)
-        noise = merged[1].max(axis=1)
-        goal = rtol[column][:, None] * (np.abs(merged[0]).min(axis=1) + floor)
+        predicted = np.einsum("ij,pjq->piq", refinement(n), values)
+        fresh = sample.at(lobatto(n)[1::2])
+        miss = np.abs(fresh[0] - predicted).max(axis=1)
+        values, errors = _merge(values, fresh[0]), _merge(errors, fresh[1])
+        zones = [[z for pair in zip(old, new + [None], strict=True) for z in pair][:-1] for old, new in zip(zones, fresh[2], strict=True)]
+        size = np.abs(values).max(axis=1)
+        goal = rtol[column][:, None] * (np.abs(values).min(axis=1) + floor)
         # the interpolant through twice the nodes is better than the miss of the one before: at least by its square root
         error = miss * np.minimum(np.sqrt(np.divide(miss, size, out=np.zeros_like(miss), where=size > 0)), 1.0)
         done = (error <= 0.5 * goal).all(axis=1) | (high - low <= 1e-11 * np.maximum(np.abs(high), columns.level.h))
         for i in np.flatnonzero(done):
-            pieces[column[i]].append(Piece(low[i], high[i], coefficients(merged[0][i]), error[i] + noise[i]))
-        rest = ~done
-        column, low, high = column[rest], low[rest], high[rest]
-        values = [m[rest] for m in merged]
+            bound = error[i] + errors[i].max(axis=0)
+            pieces[column[i]].append(Piece(low[i], high[i], coefficients(values[i]), bound))
+        # what appears or vanishes between two nodes, away from the crest, is a break of its own
+        split = np.zeros(column.size, bool)
+        for i in np.flatnonzero(~done):
+            D_break = appearance(columns, column[i], sample.penetrations(i, lobatto(n)), zones[i], strips)
+            if D_break is not None and low[i] < D_break < high[i]:
+                split[i] = True
+                parts += [(column[i], low[i], D_break), (column[i], D_break, high[i])]
+        rest = np.flatnonzero(~done & ~split)
+        column, low, high, values, errors = (v[rest] for v in (column, low, high, values, errors))
+        zones = [zones[i] for i in rest]
+        sample = _Sample(columns, rtol, column, low, high, strips)
     middle = 0.5 * (low + high)
-    return np.tile(column, 2), np.concatenate((low, middle)), np.concatenate((middle, high))
+    parts += [*zip(column, low, middle, strict=True), *zip(column, middle, high, strict=True)]
+    column, low, high = (np.array([part[j] for part in parts], dtype) for j, dtype in enumerate((int, float, float)))
+    return column, low, high
 
 
 def _merge(old, fresh):
@@ -149,13 +163,31 @@ def _merge(old, fresh):
     return out
 
 
-def _sample(columns, rtol, column, low, high, t, strips):
-    """Means and their errors at the nodes ``t`` of every interval, shape (intervals, nodes, q) each."""
-    if not column.size:
-        return np.empty((0, t.size, columns.scales.size)), np.empty((0, t.size, columns.scales.size))
-    D = (low[:, None] + (high - low)[:, None] * np.sin(0.5 * np.pi * t) ** 2).ravel()
-    rows = np.repeat(column, t.size)
-    means = level_means(columns.at(rows, D), 0.1 * rtol[rows])
-    np.add.at(strips, rows, means.strips)
-    shape = (column.size, t.size, -1)
-    return means.values.reshape(shape), means.errors.reshape(shape)
+@dataclass
+class _Sample:
+    """Intervals of D to be sampled, with the count of strips it takes."""
+
+    columns: Columns
+    rtol: np.ndarray
+    column: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    strips: np.ndarray
+
+    def penetrations(self, i, t):
+        """D of interval ``i`` (or of all, with a slice) at the parameters ``t``."""
+        low, high = self.low[i], self.high[i]
+        return np.expand_dims(low, -1) + np.expand_dims(high - low, -1) * np.sin(0.5 * np.pi * t) ** 2
+
+    def at(self, t):
+        """Means and errors (intervals, nodes, q) at the nodes ``t`` of every interval, and the zones met at each."""
+        q = self.columns.scales.size
+        if not self.column.size:
+            return np.empty((0, t.size, q)), np.empty((0, t.size, q)), []
+        D = self.penetrations(slice(None), t).ravel()
+        rows = np.repeat(self.column, t.size)
+        means = level_means(self.columns.at(rows, D), 0.1 * self.rtol[rows])
+        np.add.at(self.strips, rows, means.strips)
+        shape = (self.column.size, t.size, -1)
+        zones = [means.zones[i : i + t.size] for i in range(0, rows.size, t.size)]
+        return means.values.reshape(shape), means.errors.reshape(shape), zones

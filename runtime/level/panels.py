@@ -9,7 +9,7 @@ All panels of all columns (a column is one velocity and one penetration) advance
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
@@ -26,11 +26,15 @@ _GAIN = 0.02
 
 @dataclass(slots=True)
 class Averages:
-    """Means over the cell: values and error estimates of shape (columns, q); strips evaluated per column."""
+    """Means over the cell: values and error estimates of shape (columns, q); strips evaluated per column.
+
+    ``zones``: for each column the codes met along y, one row (code, low, high) for each run of panels that share it.
+    """
 
     values: np.ndarray
     errors: np.ndarray
     strips: np.ndarray
+    zones: list[np.ndarray] = field(default_factory=list)
 
 
 @dataclass(slots=True)
@@ -60,14 +64,14 @@ def average(integrand: Integrand, starts: list[np.ndarray], floor: np.ndarray, r
         np.concatenate([e[:-1] for e in edges]),
         np.concatenate([e[1:] for e in edges]),
     )
-    work = _Work(integrand, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
+    work = _Work(integrand, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int), [])
     for _ in range(_ROUNDS):
         panels = work.refine(panels.take(np.flatnonzero(panels.high > panels.low)))
         if not panels.size:
             break
     else:
         work.give_up(panels)
-    return Averages(work.values / np.pi, work.errors / np.pi, work.strips)
+    return Averages(work.values / np.pi, work.errors / np.pi, work.strips, work.zones())
 
 
 @dataclass(slots=True)
@@ -78,6 +82,22 @@ class _Work:
     values: np.ndarray
     errors: np.ndarray
     strips: np.ndarray
+    accepted: list[tuple]
+
+    def zones(self) -> list[np.ndarray]:
+        """See ``Averages.zones``."""
+        column, code, low, high = (np.concatenate(v) for v in zip(*self.accepted, strict=True))
+        order = np.lexsort((low, column))
+        column, code, low, high = column[order], code[order], low[order], high[order]
+        rows = np.stack((code, low, high), axis=1)
+        out = []
+        for part in np.split(rows, np.searchsorted(column, np.arange(1, self.strips.size))):
+            first = np.concatenate(([True], part[1:, 0] != part[:-1, 0])) if part.size else np.empty(0, bool)
+            runs = part[first]
+            if runs.size:
+                runs[:, 2] = np.append(part[np.flatnonzero(first)[1:] - 1, 2], part[-1, 2])
+            out.append(runs)
+        return out
 
     def refine(self, panels: _Panels) -> _Panels:
         """Accept what converges under doubling; return what has to be split."""
@@ -104,7 +124,7 @@ class _Work:
             gain = np.divide(change, before, out=np.ones_like(change), where=before > change)
             rounding = 4 * _EPS * width * np.max(np.abs(values), axis=1, initial=0.0)
             error = change * np.maximum(gain, _GAIN) + rounding
-            done = self._accept(panels, fine, error, rounding)
+            done = self._accept(panels, codes[:, 0], fine, error, rounding)
             rest = ~done
             panels, nodes, previous = panels.take(rest), (codes[rest], values[rest]), change[rest]
             n *= 2
@@ -128,7 +148,7 @@ class _Work:
         goal = self.rtol[:, None] * (np.abs(self.values) + np.pi * self.floor)
         return 0.2 * goal[column]
 
-    def _accept(self, panels, fine, error, rounding):
+    def _accept(self, panels, codes, fine, error, rounding):
         # what is not accepted yet counts for the size of the result, not for the result
         total = self.values.copy()
         np.add.at(total, panels.column, fine)
@@ -136,6 +156,7 @@ class _Work:
         done = (error <= 0.2 * goal[panels.column] + 2 * rounding).all(axis=1)
         np.add.at(self.values, panels.column[done], fine[done])
         np.add.at(self.errors, panels.column[done], error[done])
+        self.accepted.append((panels.column[done], codes[done], panels.low[done], panels.high[done]))
         return done
 
     def _sample(self, panels: _Panels, n: int, known):
