@@ -53,14 +53,14 @@ class Certificate:
 def certify(derivation: Derivation, solver: ModuleType) -> Iterator[Certificate]:
     """Measure every kernel of the derivation as ``solver`` computes it."""
     for kernel in derivation.kernels:
-        yield measure(kernel, getattr(solver, kernel.formula.name))
+        yield measure(kernel, solver)
 
 
-def measure(kernel: Kernel, function: Callable[..., Any], points: int | None = None) -> Certificate:
-    """Measure one function, given as ``function``, against the kernel's exact expression."""
+def measure(kernel: Kernel, solver: Any, points: int | None = None) -> Certificate:
+    """Measure one function, as ``solver`` computes it, against the kernel's exact expression."""
     if points is None:
-        points = POINTS_OF_REGIME if set(PHASES) & {str(argument) for argument in kernel.formula.args} else POINTS
-    names = [source(argument) for argument in kernel.formula.args]
+        points = POINTS_OF_REGIME if set(PHASES) & {str(argument) for argument in kernel.args} else POINTS
+    names = [source(argument) for argument in kernel.args]
     with mpmath.workdps(DIGITS):
         reference = _evaluator(kernel, _flat(kernel.exact))
         scale = _scale(kernel)
@@ -68,7 +68,7 @@ def measure(kernel: Kernel, function: Callable[..., Any], points: int | None = N
         truths = [reference(inputs.exact()) for inputs in grid]
         scales = [scale(inputs) for inputs in grid]
         columns = {name: np.array([float(inputs.given[name]) for inputs in grid]) for name in names}
-        computed = _called(function, columns, points)
+        computed = _called(kernel, solver, columns, points)
         worst, where = 0.0, 0
         for index in range(points):
             for got, truth, size in zip((c[index] for c in computed), truths[index], scales[index], strict=True):
@@ -79,17 +79,17 @@ def measure(kernel: Kernel, function: Callable[..., Any], points: int | None = N
         return Certificate(kernel.formula.name, worst, points, {name: float(columns[name][where]) for name in names})
 
 
-def _called(function: Callable[..., Any], columns: dict[str, np.ndarray], points: int) -> list[np.ndarray]:
+def _called(kernel: Kernel, solver: Any, columns: dict[str, np.ndarray], points: int) -> list[np.ndarray]:
     arrays = dict(columns)
     if "p_1" in arrays:  # a stack: one level along the last axis
         arrays = {name: (values if name == "p_1" else values[:, None]) for name, values in arrays.items()}
     with np.errstate(all="raise", under="ignore"):
-        result = function(**arrays)
+        result = kernel.computed(solver, arrays)
     return [np.broadcast_to(np.asarray(part, dtype=float), (points,)) for part in _flat(result)]
 
 
 def _evaluator(kernel: Kernel, expressions: list[sp.Expr]) -> Callable[[Point], list[mpmath.mpf]]:
-    symbols = kernel.formula.args
+    symbols = kernel.args
     modules = [{"acos": lambda cosine: mpmath.acos(max(-1, min(1, cosine)))}, "mpmath"]
     evaluate = sp.lambdify(symbols, expressions, modules=modules, cse=True)
     names = [source(symbol) for symbol in symbols]

@@ -11,6 +11,7 @@ import sympy as sp
 from .averages import constant_means, strip_means, zone_integrals
 from .check import Derived
 from .energy import friction_balance, power_balance
+from .events import excess_event, gap_event
 from .flows import flows
 from .functions import Call
 from .jumps import jumps
@@ -76,6 +77,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     jump = jumps(one_strip)
     done("edge conditions")
     zone = zones(flow, jump)
+    events = (*gap_event(flow), *excess_event(flow))
     done("zones")
     full = saturated(flow)
     whole = level(full)
@@ -94,13 +96,31 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     done("stability")
     sections = (
         ("Rigid profile, load, zones", zone.kernels),
+        ("Events: value and slope, for root finding in a zone whose entry is evaluated once", events),
         ("Complete contact", full.kernels),
         ("Boundary equations of each regime, and their derivatives by the unknown edges", systems),
         ("Means of pressure and friction", (full.means, *still, *means)),
         ("Slope of the onset-to-onset map", slopes),
         ("A whole level in complete contact, and a stack of them: SI units", whole.kernels),
     )
-    stages = (ground, one_strip, flow, jump, zone, full, whole, table, systems, integrals, means, still, balances, shift, slopes)
+    stages = (
+        ground,
+        one_strip,
+        flow,
+        jump,
+        zone,
+        events,
+        full,
+        whole,
+        table,
+        systems,
+        integrals,
+        means,
+        still,
+        balances,
+        shift,
+        slopes,
+    )
     return Derivation(model, stages, table, sections)
 
 

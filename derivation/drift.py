@@ -164,7 +164,7 @@ def bounds_of(
     before = stored.get(model, {}).get("functions", {})
     rows = {}
     for kernel in kernels:
-        certificate = measure(kernel, getattr(solver, kernel.formula.name))
+        certificate = measure(kernel, solver)
         name, worst = certificate.name, certificate.worst
         row = {key: value for key, value in before.get(name, {"bound": _bound(worst)}).items() if key in ("bound", "why")}
         why = accept.get(f"{model}.{name}")

@@ -16,7 +16,7 @@ import sympy as sp
 from .check import DerivationError
 from .derive import Derivation
 from .functions import HELPERS, Call, Formula
-from .printing import results, source
+from .printing import RENAMED, results, source
 
 INTERFACE = 1
 WIDTH = 110  # of a docstring's lines
@@ -131,8 +131,7 @@ def _helpers_used(formulas: Any) -> list[str]:
         terms = [term for _, term in formula.steps] + _flat(formula.result)
         for term in terms:
             found |= {type(f).__name__ for f in sp.sympify(term).atoms(sp.Function) if isinstance(f, HELPERS)}
-    found.discard("hypot")
-    return sorted(found)
+    return sorted(found - set(RENAMED))
 
 
 def _flat(result: Any) -> list[sp.Expr]:
@@ -149,6 +148,7 @@ def stable_text() -> str:
         "stable",
         "every model",
         gone="750.0",
+        least="1e-290",
         tiny=repr(sys.float_info.min),
         late="40.0",
         loss_limit="1.0",

@@ -71,6 +71,36 @@ class loss_mean_twice(Helper):
         return 1 - 2 * T / tau * (1 - T / tau * (1 - sp.exp(-tau / T)))
 
 
+class expm1(Helper):
+    """exp(x) - 1; NumPy's own."""
+
+    nargs = 1
+
+    @classmethod
+    def meaning(cls, x):
+        return sp.exp(x) - 1
+
+
+class divisible(Helper):
+    """A relaxation time that can be divided by, also where it vanishes."""
+
+    nargs = 1
+
+    @classmethod
+    def meaning(cls, T):
+        return T
+
+
+class per_time(Helper):
+    """x/T; 0 where T = 0."""
+
+    nargs = 2
+
+    @classmethod
+    def meaning(cls, x, T):
+        return x / T
+
+
 class sine_deficit(Helper):
     nargs = 1
 
@@ -132,6 +162,9 @@ HELPERS = (
     decay_mean,
     loss_mean,
     loss_mean_twice,
+    expm1,
+    divisible,
+    per_time,
     sine_deficit,
     versine,
     hypot,

@@ -10,9 +10,9 @@ import sympy as sp
 from sympy.printing.precedence import precedence
 from sympy.printing.pycode import PythonCodePrinter
 
-FUNCTIONS = {sp.sin: "np.sin", sp.cos: "np.cos", sp.sqrt: "np.sqrt", sp.atan: "np.arctan", sp.acos: "np.arccos"}
+FUNCTIONS = {sp.sin: "np.sin", sp.cos: "np.cos", sp.sqrt: "np.sqrt", sp.atan: "np.arctan", sp.acos: "np.arccos", sp.exp: "np.exp"}
 SYMBOLS = {"T_epsilon": "T_eps"}  # named so in Python; the long name is for LaTeX
-RENAMED = {"hypot": "np.hypot"}
+RENAMED = {"hypot": "np.hypot", "expm1": "np.expm1"}  # helpers that NumPy has
 
 
 class NumPySource(PythonCodePrinter):
@@ -22,7 +22,7 @@ class NumPySource(PythonCodePrinter):
         name = FUNCTIONS.get(expr.func) or RENAMED.get(expr.func.__name__, expr.func.__name__)
         return f"{name}({', '.join(self._print(argument) for argument in expr.args)})"
 
-    _print_sin = _print_cos = _print_atan = _print_acos = _print_hypot = _print_Function
+    _print_sin = _print_cos = _print_atan = _print_acos = _print_exp = _print_hypot = _print_expm1 = _print_Function
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         return SYMBOLS.get(expr.name, expr.name)

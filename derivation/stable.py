@@ -25,9 +25,12 @@ from .functions import (
     decay_loss,
     decay_mean,
     decay_rate,
+    divisible,
+    expm1,
     hypot,
     loss_mean,
     loss_mean_twice,
+    per_time,
     sine_deficit,
     versine,
 )
@@ -40,6 +43,9 @@ rise, kept, lost, lost_twice = sp.symbols("rise kept lost lost_twice", real=True
 moment_sin, moment_cos, kept_sin, kept_cos = sp.symbols("moment_sin moment_cos kept_sin kept_cos", real=True)
 part, t_versine, lost_sin, lost_versine = sp.symbols("part t_versine lost_sin lost_versine", real=True)
 ramp, ramp_work = sp.symbols("ramp ramp_work", real=True)
+start, time, turn, back, late, sine, twice = sp.symbols("start time turn back late sine twice", real=True)
+lead, ahead, double, steep, top, ratio = sp.symbols("lead ahead double steep top ratio", real=True)
+lag_rate, transient_rate, decayed, lapsed = sp.symbols("lag_rate transient_rate decayed lapsed", real=True)
 amplitude, steepness, level = sp.symbols("amplitude steepness level", real=True)
 
 HALVES = ((middle, (s_0 + s_1) / 2), (half, (s_1 - s_0) / 2))
@@ -244,5 +250,61 @@ CONTACT_WORK = Formula(
         ),
         (ramp, _sd - lost - alpha * _vs),
         (ramp_work, lost_versine - part - sine_deficit(2 * width) / 4 - alpha * _vs**2 / 2),
+    ),
+)
+
+# -- events: few operations, since a root finder asks for them at many phases of one zone ----------------------------------
+# The exponent is back/time, with time > 0: no cut-off is needed while s_1 >= s_0. Both exp and expm1 are taken, since
+# 1 + expm1 would lose a large gap_0 or q_0 long after the entry.
+
+_times = ((turn, s_1 / 2), (back, start - turn), (late, back / time), (decayed, sp.exp(late)), (lapsed, expm1(late)))
+GAP_ENTRY = Formula(
+    "gap_entry",
+    (s_0, gap_0, p, D, beta),
+    (gap_0, s_0 / 2, divisible(beta) / 2, level, per_time(level + gap_0 - versine(s_0), beta)),
+    ((level, D - p),),
+)
+GAP_EVENT = Formula(
+    "gap_event",
+    (s_1, gap_0, start, time, level, lag_rate),
+    (
+        (gap_0 - 2 * (sp.sin(back) * sp.sin(middle))) * decayed + (level - twice * sine) * lapsed,
+        twice * sp.cos(turn) - lag_rate * decayed,
+    ),
+    (*_times, (middle, start + turn), (sine, sp.sin(turn)), (twice, 2 * sine)),
+)
+EXCESS_ENTRY = Formula(
+    "excess_entry",
+    (s_0, q_0, p_0, D, alpha, beta, L),
+    (
+        q_0,
+        s_0 / 2,
+        divisible(alpha) / 2,
+        lead,
+        2 * ratio,
+        top,
+        per_time(q_0 - top + ratio * versine(s_0 + 2 * lead), alpha),
+    ),
+    (
+        (ratio, MODULUS_RATIO(alpha, beta)),
+        _loss,
+        (lead, sp.atan(loss_factor / STORAGE(alpha, beta)) / 2),
+        (steepness, (alpha + beta) / (1 + ratio)),
+        (top, D + p_0 + loss_factor * steepness),
+    ),
+)
+EXCESS_EVENT = Formula(
+    "excess_event",
+    (s_1, q_0, start, time, lead, double, top, transient_rate),
+    (
+        (q_0 + double * sp.sin(back) * sp.sin(middle)) * decayed - (top - steep * sine) * lapsed,
+        -(steep * sp.cos(ahead) + transient_rate * decayed),
+    ),
+    (
+        *_times,
+        (ahead, lead + turn),
+        (middle, back + 2 * ahead),
+        (sine, sp.sin(ahead)),
+        (steep, double * sine),
     ),
 )

@@ -5,14 +5,13 @@ A rigid surface of nested waves slides over a viscoelastic foundation with Dugda
 ``hystrip.derivation``.
 """
 
+from typing import TYPE_CHECKING
+
 from hystrip.errors import HystripError, InputError, MissingExtra, SolverError
 from hystrip.inputs.adhesion import Dugdale
 from hystrip.inputs.material import StandardLinearSolid
 from hystrip.inputs.surface import Level
-from hystrip.level.solution import FrictionLaw, LevelSolution, friction_law, solve_level
-from hystrip.result import Result
 from hystrip.solve import solve
-from hystrip.strip.solution import StripSolution, solve_strip
 
 __version__ = "0.1.0"
 
@@ -37,10 +36,35 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str):
-    # scenes need the command-line extra; everything else works without
-    if name in ("Scene", "load_scene"):
-        import hystrip.scene
+#: Where a name lives that is loaded when it is first used; scenes need the command-line extra, everything else works without.
+_LAZY = {
+    "FrictionLaw": "hystrip.level.solution",
+    "LevelSolution": "hystrip.level.solution",
+    "Result": "hystrip.result",
+    "Scene": "hystrip.scene",
+    "StripSolution": "hystrip.strip.solution",
+    "friction_law": "hystrip.level.solution",
+    "load_scene": "hystrip.scene",
+    "solve_level": "hystrip.level.solution",
+    "solve_strip": "hystrip.strip.solution",
+}
 
-        return getattr(hystrip.scene, name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+if TYPE_CHECKING:
+    from hystrip.level.solution import FrictionLaw, LevelSolution, friction_law, solve_level
+    from hystrip.result import Result
+    from hystrip.scene import Scene, load_scene
+    from hystrip.strip.solution import StripSolution, solve_strip
+
+
+def __getattr__(name: str):
+    if name not in _LAZY:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    import importlib
+
+    value = getattr(importlib.import_module(_LAZY[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_LAZY})

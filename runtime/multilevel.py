@@ -12,7 +12,7 @@ from hystrip.inputs.material import StandardLinearSolid
 from hystrip.inputs.surface import Level
 from hystrip.level.build import build_laws
 from hystrip.level.carried import CarriedByLaws, peak_pressure
-from hystrip.level.inverse import cut_penetration
+from hystrip.level.inverse import cut_penetration, invert
 from hystrip.level.means import level_means
 from hystrip.level.saturated import SaturatedLevel, saturated_level
 from hystrip.level.strips import QUANTITIES, Columns, Tally
@@ -150,25 +150,19 @@ class _Solve:
         load = self.load[index]
         if not self.by_pressure:
             return load.copy(), np.zeros(index.size)
-        surface, out = self.surface, self.out
-        top = np.full(V.size, -np.inf)
-        np.maximum.at(top, group, load)
-        own = stack.own[0]
-        saturated = np.stack([own.p_sat, own.tau_sat, np.ones(V.size), np.zeros(V.size)], axis=1)
-        columns = surface.columns(0, V)
-        laws = build_laws(columns, np.full(V.size, _FINER * surface.rtol), own.p_sat, own.D_sat, saturated, top)
+        surface, own = self.surface, stack.own[0]
         D, slopes = np.full(index.size, np.nan), np.zeros(index.size)
         K, h = surface.material.K, surface.levels[0].h
-        for i, g in enumerate(group):
-            law, p = laws[g], load[i]
-            out.pull_off[index[i]] = law.pull_off
-            if p >= law.p_sat:
-                D[i] = p / K + 0.75 * h
-            elif p >= law.pull_off and law.branches:
-                D[i], slopes[i] = law.penetration(p), law.slope(p)
-            else:
-                out.pulled_off[index[i]] = True
-                out.p[index[i]] = p
+        saturated = load >= own.p_sat[group]
+        D[saturated] = load[saturated] / K + 0.75 * h
+        rest = np.flatnonzero(~saturated)
+        if rest.size:
+            columns = surface.columns(0, V[group[rest]])
+            found = invert(columns, load[rest], own.D_sat[group[rest]], 0.5 * surface.rtol)
+            D[rest], slopes[rest] = found.D, found.slope
+        off = np.isnan(D)
+        self.out.pulled_off[index[off]] = True
+        self.out.p[index[off]] = load[off]
         return D, slopes
 
     def _carry(self, stack: Stack, V, group, columns: Columns) -> CarriedByLaws:

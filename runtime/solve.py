@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,10 +12,10 @@ from hystrip.inputs.adhesion import Dugdale
 from hystrip.inputs.checks import broadcast, choice, number, numbers
 from hystrip.inputs.material import StandardLinearSolid
 from hystrip.inputs.surface import Level
-from hystrip.level.strips import Tally
-from hystrip.multilevel import Surface
-from hystrip.result import Result
-from hystrip.strip.solution import BRANCHES, EDGES
+
+if TYPE_CHECKING:
+    from hystrip.multilevel import Surface
+    from hystrip.result import Result
 
 
 def solve(
@@ -49,6 +50,11 @@ def solve(
     InputError : an input outside its range, named with what is allowed
     SolverError : a strip that could not be certified, named
     """
+    # loaded here: `import hystrip` is to cost next to nothing
+    from hystrip.level.strips import Tally
+    from hystrip.multilevel import Surface
+    from hystrip.strip.solution import BRANCHES, EDGES
+
     levels = tuple(_checked_levels(levels))
     check_single(material, adhesion)
     edge, branch = choice("edge", edge, EDGES), choice("branch", branch, BRANCHES)
@@ -68,6 +74,8 @@ def solve(
 
 
 def _result(points, surface: Surface, shape, V) -> Result:
+    from hystrip.result import Result
+
     tau = points.tau.sum(axis=0)
     loaded = points.p != 0
     mu = np.divide(tau, points.p, out=np.full(tau.shape, np.nan), where=loaded)

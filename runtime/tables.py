@@ -40,8 +40,8 @@ def friction_rows(scene: Any, result: Any) -> dict[str, np.ndarray]:
         columns[f"mu of level {number}"] = np.where(tau != 0, part * per_tau, mu)
     for number, part in enumerate(parts, start=1):
         columns[f"share of level {number}"] = np.divide(part, tau, out=np.full(shape, np.nan), where=tau != 0)
-    columns["contact fraction"] = np.broadcast_to(result.contact_fraction, shape)
-    columns["relative error estimate"] = np.broadcast_to(result.error_estimate, shape)
+    columns["contact fraction"] = result.contact_fraction
+    columns["error estimate of mu"] = result.error_estimate
     return {name: np.array(values, dtype=float).reshape(-1) for name, values in columns.items()}
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -26,7 +27,7 @@ def test_every_emitted_function_has_a_certificate() -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_function_stays_below_its_bound(name: str) -> None:
-    certificate = measure(kernel(name), getattr(standard_linear_solid, name))
+    certificate = measure(kernel(name), standard_linear_solid)
     assert certificate.worst <= stored_bounds()["standard_linear_solid"][name], f"{certificate.worst} ulp at {certificate.where}"
 
 
@@ -41,7 +42,7 @@ def test_a_cancelling_form_is_found_out() -> None:
     def naive(s_0, s_1):
         return np.cos(s_1) - np.cos(s_0)
 
-    assert measure(kernel("profile_rise"), naive).worst > 1e6
+    assert measure(kernel("profile_rise"), SimpleNamespace(profile_rise=naive)).worst > 1e6
 
 
 def test_a_bound_does_not_grow_by_itself() -> None:

@@ -58,8 +58,8 @@ SCENES = [  # what is replaced, by what, and what the message says: the field, t
     ("velocity = 5e-3", "velocity = {start = 1, end = 2, num = 3}", ["velocity.end", "unknown key"]),
     ("pressure = 100", 'pressure = 100\nedge = "sharp"', ["edge", "sharp", '"constitutive"']),
     ("pressure = 100", 'pressure = 100\nbranch = "both"', ["branch", "both", '"loading"']),
-    ("pressure = 100", "pressure = 100\nrtol = 0", ["rtol", "0", "> 0"]),
-    ("pressure = 100", "pressure = 100\nstrips = 1.5", ["strips", "1.5", "integer"]),
+    ("pressure = 100", "pressure = 100\nrtol = 0", ["rtol", "0", "1e-12 to 0.1"]),
+    ("pressure = 100", "pressure = 100\nstrips = 8", ["strips", "unknown key"]),
     ("pressure = 100", "pressure = 100\npressure = 100", ["not valid TOML", "line 2"]),
     ("pressure = 100", "pressure 100", ["not valid TOML", "line 1"]),
 ]

@@ -27,7 +27,7 @@ def show_friction(scene: Scene, columns: dict[str, np.ndarray]) -> None:
         cells = [f"{at[load_column]:.4g}"] if load.ndim else []
         cells += [f"{at['velocity [m/s]']:.4g}", _number(at["mu"])]
         cells += [_part(at[f"mu of level {level}"], at[f"share of level {level}"]) for level in levels]
-        table.add_row(*cells, f"{at['relative error estimate']:.0e}")
+        table.add_row(*cells, _error(at["error estimate of mu"]))
     # Wide enough for every column also where the output is no terminal: a file has no width to fit into.
     console = Console()
     console.print(table) if console.is_terminal else Console(width=max(100, 24 * (3 + len(scene.levels)))).print(table)
@@ -38,6 +38,10 @@ def show_friction(scene: Scene, columns: dict[str, np.ndarray]) -> None:
 
 def _number(value: Any) -> str:
     return "-" if np.isnan(value) else f"{value:.4f}" if 1e-3 <= abs(value) < 1e4 or value == 0 else f"{value:.3e}"
+
+
+def _error(value: Any) -> str:
+    return "-" if np.isnan(value) else f"{value:.0e}"
 
 
 def _part(value: Any, share: Any) -> str:

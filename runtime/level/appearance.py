@@ -53,7 +53,7 @@ def _bisect(columns: Columns, column: int, code: int, low: float, high: float, w
         middle = 0.5 * (with_it + without)
         theta = np.concatenate(([low], low + (high - low) * _POINTS, [high]))
         index = np.full(theta.size, column)
-        codes, _ = columns.at(index, np.full(theta.size, middle)).integrand(np.arange(theta.size), theta)
+        codes = columns.at(index, np.full(theta.size, middle)).codes(np.arange(theta.size), theta)
         strips[column] += theta.size
         inside = np.flatnonzero(codes == code)
         if inside.size:

@@ -34,16 +34,27 @@ class CarriedByLaws:
     nodes: int
     scales: np.ndarray
 
+    def crossed(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
+        """See ``strips.Carry``."""
+        crossed = np.zeros(group.size, int)
+        contact = np.flatnonzero(strips.solved.contact_fraction > 0)
+        if contact.size:
+            peak = _Contact(kernel, strips, contact).p_peak
+            for g in np.unique(group[contact]):
+                mine = group[contact] == g
+                crossed[contact[mine]] = np.searchsorted(self.laws[g].breaks, peak[mine])
+        return crossed
+
     def over_contact(self, kernel, strips: SolvedStrips, group: np.ndarray):
         """See ``strips.Carry``. The contributions are the law's quantities from friction on, then their error."""
         m = group.size
         q = self.scales.size
-        crossed, carried = np.zeros(m, int), np.zeros((m, q))
+        carried = np.zeros((m, q))
         contact = strips.solved.contact_fraction > 0
         for g in np.unique(group[contact]):
             index = np.flatnonzero(contact & (group == g))
-            crossed[index], carried[index] = _one_law(kernel, self.laws[g], strips, index, self.nodes)
-        return crossed, carried
+            carried[index] = _one_law(kernel, self.laws[g], strips, index, self.nodes)
+        return carried
 
 
 def peak_pressure(columns: Columns) -> np.ndarray:
@@ -62,14 +73,12 @@ def _one_law(kernel, law: Law, strips: SolvedStrips, index, nodes):
     breaks = breaks[breaks < contact.p_peak.max(initial=-np.inf)]
     n, q = index.size, law.saturated.size
     total, error = np.zeros((n, q - 1)), np.zeros(n)
-    crossed = np.zeros(n, int)
     # phases between which the pressure exceeds each break, nested
     up, down, reached = [], [], []
     for p in breaks:
         above = contact.p_peak > p
         u, d = contact.passes(p, above)
         up.append(u), down.append(d), reached.append(above)
-        crossed += above
     for j in range(len(breaks)):
         inner = reached[j + 1] if j + 1 < len(breaks) else np.zeros(n, bool)
         if breaks[j] >= law.p_sat:
@@ -85,7 +94,7 @@ def _one_law(kernel, law: Law, strips: SolvedStrips, index, nodes):
                 value, miss = _part(contact, law, rows, low[rows], high[rows], nodes)
                 total[rows] += value
                 error[rows] += miss + law.friction_error * (high[rows] - low[rows])
-    return crossed, np.concatenate((total, error[:, None]), axis=1) / TWO_PI
+    return np.concatenate((total, error[:, None]), axis=1) / TWO_PI
 
 
 def _part(contact: "_Contact", law: Law, rows, low, high, nodes):

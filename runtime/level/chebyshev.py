@@ -4,7 +4,7 @@
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -46,7 +46,7 @@ def refinement(n: int) -> np.ndarray:
     return terms / terms.sum(axis=1, keepdims=True)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Piece:
     """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t; ``error`` bounds each of them, (q,)."""
 
@@ -66,13 +66,21 @@ class Piece:
 
     def values(self, t) -> np.ndarray:
         """Quantities at t (m,), shape (m, q)."""
-        return np.polynomial.chebyshev.chebval(2 * t - 1, self.coefficients, tensor=True).T
+        return evaluate(self.coefficients, t)
 
     def first(self, t) -> tuple[np.ndarray, np.ndarray]:
         """The first quantity (pressure) and its derivative with respect to t."""
+        both = evaluate(self._first, t)
+        return both[:, 0], 2 * both[:, 1]
+
+    @cached_property
+    def _first(self) -> np.ndarray:
+        """Coefficients of the first quantity and of its derivative."""
         c = self.coefficients[:, 0]
-        return _value(2 * t - 1, c), 2 * _value(2 * t - 1, np.polynomial.chebyshev.chebder(c))
+        return np.stack((c, np.append(np.polynomial.chebyshev.chebder(c), 0.0)), axis=1)
 
 
-def _value(x, c):
-    return np.polynomial.chebyshev.chebval(x, c)
+def evaluate(coefficients: np.ndarray, t) -> np.ndarray:
+    """Chebyshev sums of ``coefficients`` (n + 1, q) at ``t`` in [0, 1] (m,), shape (m, q)."""
+    angle = np.arccos(np.clip(2 * np.asarray(t, float) - 1, -1.0, 1.0))
+    return np.cos(angle[:, None] * np.arange(coefficients.shape[0])) @ coefficients

@@ -15,6 +15,7 @@ from .appearance import appearance
 from .chebyshev import Piece, coefficients, lobatto, refinement
 from .means import level_means
 from .strips import Columns, saturation_depth
+from .transitions import locate
 
 _FIRST, _LAST = 8, 32
 _ROUNDS = 40
@@ -56,8 +57,12 @@ def breakpoints(columns: Columns, top: np.ndarray) -> list[np.ndarray]:
     rows = np.repeat(np.arange(n), D.shape[1])
     codes = _crest_codes(columns, rows, D.ravel()).reshape(D.shape)
     row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
-    column, breaks = _locate(columns, row, D[row, node], D[row, node + 1], codes[row, node], codes[row, node + 1])
-    for r, D_break in zip(column, breaks, strict=True):
+    low, high = D[row, node], D[row, node + 1]
+    width = 16 * _EPS * np.maximum(np.maximum(np.abs(low), np.abs(high)), h)
+    transitions = locate(
+        lambda line, x: _crest_codes(columns, line, x), row, low, high, codes[row, node], codes[row, node + 1], width
+    )
+    for r, D_break in zip(transitions.line, transitions.high, strict=True):
         found[r].append(D_break)
     edge = [h - a.p_0 / K, h - a.p_0 / K - a.delta_0, h - (a.delta_0 if a.p_0 > 0 else 0.0)]
     out = []
@@ -70,31 +75,8 @@ def breakpoints(columns: Columns, top: np.ndarray) -> list[np.ndarray]:
     return out
 
 
-def _locate(columns: Columns, column, low, high, code_low, code_high):
-    """Penetrations where the crest's code changes, from brackets in which it does at least once; with their columns."""
-    found_column, found = [], []
-    for _ in range(60):
-        narrow = high - low <= 16 * _EPS * np.maximum(np.maximum(np.abs(low), np.abs(high)), columns.level.h)
-        found_column.append(column[narrow])
-        found.append(high[narrow])
-        column, low, high, code_low, code_high = (v[~narrow] for v in (column, low, high, code_low, code_high))
-        if not column.size:
-            break
-        # many points at once: rounds, not strips, are what costs here
-        m = int(np.clip(256 // column.size, 1, 15))
-        D = low[:, None] + (high - low)[:, None] * np.arange(1, m + 1) / (m + 1)
-        codes = _crest_codes(columns, np.repeat(column, m), D.ravel()).reshape(D.shape)
-        points = np.concatenate((low[:, None], D, high[:, None]), axis=1)
-        codes = np.concatenate((code_low[:, None], codes, code_high[:, None]), axis=1)
-        row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
-        column, low, high = column[row], points[row, node], points[row, node + 1]
-        code_low, code_high = codes[row, node], codes[row, node + 1]
-    return np.concatenate(found_column), np.concatenate(found)
-
-
 def _crest_codes(columns: Columns, column, D):
-    codes, _ = columns.at(column, D).integrand(np.arange(D.size), np.zeros(D.size))
-    return codes
+    return columns.at(column, D).codes(np.arange(D.size), np.zeros(D.size))
 
 
 def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None) -> list[Curve]:

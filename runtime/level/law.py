@@ -8,11 +8,11 @@ law may jump between them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .chebyshev import Piece
+from .chebyshev import Piece, coefficients, evaluate, lobatto, refinement
 from .curve import Curve
 
 _GRID = np.linspace(0, 1, 65)
@@ -21,13 +21,41 @@ _EPS = np.finfo(float).eps
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """A monotone part of a curve: piece and parameters between which pressure rises from ``p_low`` to ``p_high``."""
+    """A monotone part of a curve: piece and parameters between which pressure rises from ``p_low`` to ``p_high``.
+
+    ``direct``: coefficients of its quantities over ``p = p_low + (p_high - p_low) sin^2(pi u/2)``, which is smooth where the curve turns.
+    """
 
     piece: Piece
     t_low: float
     t_high: float
     p_low: float
     p_high: float
+    direct: np.ndarray | None = None
+
+    def values(self, p: np.ndarray) -> np.ndarray:
+        """Quantities at the pressures ``p`` (m,), shape (m, q)."""
+        if self.direct is None:
+            return self.piece.values(self.parameter(p))
+        share = np.clip((p - self.p_low) / (self.p_high - self.p_low), 0.0, 1.0)
+        return evaluate(self.direct, 2 / np.pi * np.arcsin(np.sqrt(share)))
+
+    def resampled(self, tolerance: np.ndarray) -> "Branch":
+        """The same branch interpolated over pressure, to ``tolerance`` (q,), so that it need not be inverted again."""
+        values = self._at(lobatto(8))
+        for n in (16, 32, 64, 128):
+            fresh = self._at(lobatto(n)[1::2])
+            miss = np.abs(fresh - refinement(n) @ values).max(axis=0)
+            merged = np.empty((n + 1, values.shape[1]))
+            merged[0::2], merged[1::2] = values, fresh
+            values = merged
+            if np.all(miss <= tolerance):
+                return replace(self, direct=coefficients(values))
+        return self
+
+    def _at(self, u):
+        p = self.p_low + (self.p_high - self.p_low) * np.sin(0.5 * np.pi * u) ** 2
+        return self.piece.values(self.parameter(p))
 
     def parameter(self, p: np.ndarray) -> np.ndarray:
         """t at which the pressure is ``p`` (clipped to the branch); safeguarded Newton, all at once."""
@@ -44,7 +72,7 @@ class Branch:
             new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
             moved = np.abs(new - t)
             t = new
-            if np.all(moved <= 4 * _EPS):
+            if np.all((moved <= 16 * _EPS) | (high - low <= 16 * _EPS)):
                 break
         return t
 
@@ -151,7 +179,10 @@ class Law:
     def breaks(self) -> np.ndarray:
         """Pressures at which the law jumps or is not smooth, ascending, from pull-off to saturation."""
         ends = [b.p_low for b in self.branches] + [b.p_high for b in self.branches]
-        return np.unique([e for e in [*ends, self.pull_off, self.p_sat] if np.isfinite(e)])
+        ends = np.unique([e for e in [*ends, self.pull_off, self.p_sat] if np.isfinite(e)])
+        # branches that follow one another meet to rounding
+        apart = np.diff(ends, append=np.inf) > 1e-12 * np.abs(ends).max(initial=0.0)
+        return ends[apart]
 
     def __call__(self, p: np.ndarray) -> np.ndarray:
         """Quantities at the nominal pressures ``p`` (m,), shape (m, q): zero below pull-off, saturated above ``p_sat``."""
@@ -167,7 +198,7 @@ class Law:
         for i, branch in enumerate(self.branches):
             here = rest[which == i]
             if here.size:
-                out[here] = branch.piece.values(branch.parameter(p[here]))
+                out[here] = branch.values(p[here])
         return out
 
     def slope(self, p: float) -> float:
@@ -193,4 +224,5 @@ def law_of(curve: Curve, unloading: bool, p_sat: float, saturated: np.ndarray, c
     kept = branches(curve, unloading)
     pull_off = kept[0].p_low if kept else p_sat
     error = np.max([b.piece.error for b in kept], axis=0) if kept else np.zeros(saturated.size)
-    return Law(kept, pull_off, p_sat, saturated, kept[-1].p_high if cut and kept else p_sat, error, curve.strips)
+    kept = [b.resampled(np.maximum(0.5 * b.piece.error, 1e-15 * np.abs(saturated))) for b in kept]
+    return Law(kept, pull_off, p_sat, saturated, kept[-1].p_high if cut and kept else p_sat, 1.5 * error, curve.strips)

@@ -11,7 +11,7 @@ from .strips import Columns
 def level_means(columns: Columns, rtol: np.ndarray) -> Averages:
     """Means of ``strips.QUANTITIES`` for every column, to ``rtol (|value| + 1e-3 scale)`` each; ``rtol`` of shape (n,)."""
     floor = np.broadcast_to(1e-3 * columns.scales, (columns.size, columns.scales.size))
-    return average(columns.integrand, columns.transitions(), floor, rtol, columns.scales.size)
+    return average(columns.integrand, columns.codes, columns.transitions(), floor, rtol, columns.scales.size)
 
 
 def equal_strips(columns: Columns, strips: int) -> Averages:

@@ -14,8 +14,13 @@ from functools import lru_cache
 
 import numpy as np
 
+from .transitions import locate
+
 #: (column, theta) -> (regime code, values): arrays (m,), (m,) -> (m,), (m, q)
 Integrand = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+#: (column, theta) -> the integrand's codes alone
+Codes = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 _FIRST, _LAST = 8, 64
 _ROUNDS = 60
@@ -51,7 +56,7 @@ class _Panels:
         return self.column.size
 
 
-def average(integrand: Integrand, starts: list[np.ndarray], floor: np.ndarray, rtol: np.ndarray, q: int) -> Averages:
+def average(integrand: Integrand, codes_at: Codes, starts: list[np.ndarray], floor: np.ndarray, rtol: np.ndarray, q: int) -> Averages:
     """Means ``(1/pi) int_0^pi values d(theta)`` of every column to ``rtol (|value| + floor)``.
 
     ``starts``: for each column the interior thetas known to be transitions, sorted. ``floor`` and ``rtol`` have shape
@@ -64,7 +69,7 @@ def average(integrand: Integrand, starts: list[np.ndarray], floor: np.ndarray, r
         np.concatenate([e[:-1] for e in edges]),
         np.concatenate([e[1:] for e in edges]),
     )
-    work = _Work(integrand, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int), [])
+    work = _Work(integrand, codes_at, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int), [])
     for _ in range(_ROUNDS):
         panels = work.refine(panels.take(np.flatnonzero(panels.high > panels.low)))
         if not panels.size:
@@ -77,6 +82,7 @@ def average(integrand: Integrand, starts: list[np.ndarray], floor: np.ndarray, r
 @dataclass(slots=True)
 class _Work:
     integrand: Integrand
+    codes_at: Codes
     floor: np.ndarray
     rtol: np.ndarray
     values: np.ndarray
@@ -166,7 +172,8 @@ class _Work:
             t = t[0::2]
         theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * np.sin(0.5 * np.pi * t) ** 2
         column = np.broadcast_to(panels.column[:, None], theta.shape)
-        codes, values = self.evaluate(column.ravel(), theta.ravel())
+        np.add.at(self.strips, column.ravel(), 1)
+        codes, values = self.integrand(column.ravel(), theta.ravel())
         codes, values = codes.reshape(theta.shape), values.reshape(*theta.shape, -1)
         if known is None:
             return codes, values
@@ -176,57 +183,37 @@ class _Work:
         all_values[:, 0::2], all_values[:, 1::2] = values, known[1]
         return all_codes, all_values
 
-    def evaluate(self, column, theta):
+    def _codes(self, column, theta):
         np.add.at(self.strips, column, 1)
-        return self.integrand(column, theta)
+        return self.codes_at(column, theta)
 
     def _split_at_transitions(self, panels: _Panels, codes, values, n) -> _Panels:
-        """Locate the transition between neighbouring nodes that disagree; panels end there."""
+        """Locate every transition between neighbouring nodes that disagree; panels end there."""
         t = _nodes(n)
         theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * np.sin(0.5 * np.pi * t) ** 2
         row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
-        column = panels.column[row]
-        low, high = theta[row, node], theta[row, node + 1]
-        code_low, code_high = codes[row, node], codes[row, node + 1]
-        jump = np.abs(values[row, node + 1] - values[row, node]) + np.abs(values).max(axis=1)[row]
-        low, high = self._bisect(column, low, high, code_low, code_high, jump)
-        # the sliver between the two sides is left out; what it could hold is part of the error
-        np.add.at(self.errors, column, (high - low)[:, None] * jump)
-        np.add.at(self.values, column, (high - low)[:, None] * 0.5 * (values[row, node + 1] + values[row, node]))
-        first = np.concatenate(([True], row[1:] != row[:-1]))
-        last = np.concatenate((row[1:] != row[:-1], [True]))
-        starts = np.where(first, panels.low[row], 0.0)
-        starts[~first] = high[np.flatnonzero(~first) - 1]
-        tail = _Panels(column[last], high[last], panels.high[row[last]])
-        return _Panels(
-            np.concatenate((column, tail.column)),
-            np.concatenate((starts, tail.low)),
-            np.concatenate((low, tail.high)),
+        range_ = (values.max(axis=1) - values.min(axis=1))[row] + 1e-300
+        goal = 0.02 * self._tolerance(panels.column[row])
+        width = np.maximum(np.min(goal / range_, axis=1), 4 * _EPS * theta[row, node + 1])
+        found = locate(
+            lambda line, x: self._codes(panels.column[line], x),
+            row, theta[row, node], theta[row, node + 1], codes[row, node], codes[row, node + 1], width,
         )
-
-    def _bisect(self, column, low, high, code_low, code_high, jump):
-        goal = 0.02 * self._tolerance(column)
-        allowed = np.min(np.divide(goal, jump, out=np.full_like(goal, np.inf), where=jump > 0), axis=1)
-        active = np.arange(column.size)
-        low, high = low.copy(), high.copy()
-        for _ in range(60):
-            width = high[active] - low[active]
-            active = active[width > np.maximum(allowed[active], 4 * _EPS * high[active])]
-            if not active.size:
-                break
-            # more points per round where the batch is small: rounds, not strips, are then what costs
-            m = int(np.clip(256 // active.size, 1, 15))
-            share = np.arange(1, m + 1) / (m + 1)
-            theta = low[active][:, None] + (high - low)[active][:, None] * share
-            codes, _ = self.evaluate(np.repeat(column[active], m), theta.ravel())
-            codes = codes.reshape(-1, m)
-            codes = np.concatenate((code_low[active][:, None], codes, code_high[active][:, None]), axis=1)
-            points = np.concatenate((low[active][:, None], theta, high[active][:, None]), axis=1)
-            step = np.argmax(codes[:, 1:] != codes[:, :-1], axis=1)
-            rows = np.arange(active.size)
-            low[active], high[active] = points[rows, step], points[rows, step + 1]
-            code_high[active] = codes[rows, step + 1]
-        return low, high
+        # the sliver of a bracket is left out: what it could hold is its value and its error
+        column, sliver = panels.column[found.line], (found.high - found.low)[:, None]
+        low_side, high_side = values.min(axis=1)[found.line], values.max(axis=1)[found.line]
+        np.add.at(self.values, column, sliver * 0.5 * (low_side + high_side))
+        np.add.at(self.errors, column, sliver * 0.5 * (high_side - low_side))
+        first = np.concatenate(([True], found.line[1:] != found.line[:-1]))
+        last = np.concatenate((found.line[1:] != found.line[:-1], [True]))
+        starts = panels.low[found.line]
+        starts[~first] = found.high[np.flatnonzero(~first) - 1]
+        tail = found.line[last]
+        return _Panels(
+            np.concatenate((column, panels.column[tail])),
+            np.concatenate((starts, found.high[last])),
+            np.concatenate((found.low, panels.high[tail])),
+        )
 
 
 @lru_cache

@@ -14,6 +14,7 @@ from hystrip.inputs.surface import Level
 from hystrip.strip.solution import BRANCHES, EDGES
 
 from .build import build_laws
+from .inverse import invert
 from .law import Law
 from .means import equal_strips, level_means
 from .saturated import saturated_level
@@ -118,26 +119,24 @@ def solve_level(
 
 
 def _at_pressure(material, adhesion, level, V, p, edge, branch, rtol, shape, tally):
-    velocities, group = np.unique(V, return_inverse=True)
-    top = np.full(velocities.size, -np.inf)
-    np.maximum.at(top, group, p)
-    columns = Columns(material, adhesion, level, edge, branch, velocities, np.zeros(velocities.size), tally=tally)
-    laws = _laws(columns, 0.2 * rtol, top)
-    q = len(QUANTITIES)
-    D, values, errors, off = np.full(p.size, np.nan), np.zeros((p.size, q)), np.zeros((p.size, q)), np.zeros(p.size, bool)
-    for i, g in enumerate(group):
-        law = laws[g]
-        off[i] = p[i] < law.pull_off or (p[i] < law.p_sat and not law.branches)
-        if p[i] >= law.p_sat:
-            D[i] = p[i] / material.K + 0.75 * level.h
-        elif not off[i]:
-            D[i] = law.penetration(p[i])
+    columns = Columns(material, adhesion, level, edge, branch, V, np.zeros(V.size), tally=tally)
+    s = saturated_level(material, adhesion, level, V)
+    D = np.where(p >= s.p_sat, p / material.K + 0.75 * level.h, np.nan)
+    slopes = np.zeros(p.size)
+    rest = np.flatnonzero(p < s.p_sat)
+    if rest.size:
+        found = invert(columns.at(rest, D[rest]), p[rest], s.D_sat[rest], 0.3 * rtol)
+        D[rest], slopes[rest] = found.D, found.slope
+    off = np.isnan(D)
     on = np.flatnonzero(~off)
-    means = level_means(columns.at(group[on], D[on]), np.full(on.size, rtol))
+    q = len(QUANTITIES)
+    values, errors = np.zeros((p.size, q)), np.zeros((p.size, q))
+    values[off, 0] = p[off]
+    means = level_means(columns.at(on, D[on]), np.full(on.size, rtol))
     values[on], errors[on] = means.values, means.errors
-    errors[on, 0] += np.abs(values[on, 0] - p[on])
-    slopes = np.array([laws[group[i]].slope(p[i]) if p[i] < laws[group[i]].p_sat else 0.0 for i in on])
-    errors[on, 1] += np.abs(slopes) * errors[on, 0]
+    miss = np.abs(values[on, 0] - p[on])
+    errors[on, 0] += miss
+    errors[on, 1] += np.abs(slopes[on]) * errors[on, 0]
     return _solution(D, values, errors, off, shape, tally)
 
 

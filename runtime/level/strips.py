@@ -38,8 +38,11 @@ class Carry(Protocol):
 
     scales: np.ndarray
 
-    def over_contact(self, kernel, strips: "SolvedStrips", group: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Number of law breaks the strip's pressure exceeds (m,), and the contributions averaged over the period (m, q)."""
+    def crossed(self, kernel, strips: "SolvedStrips", group: np.ndarray) -> np.ndarray:
+        """Number of law breaks that each strip's pressure exceeds, (m,)."""
+
+    def over_contact(self, kernel, strips: "SolvedStrips", group: np.ndarray) -> np.ndarray:
+        """Contributions averaged over the period, (m, q)."""
 
 
 @dataclass(frozen=True)
@@ -94,14 +97,24 @@ class Columns:
         tau = solved.tau_mean * scales["p"] * scales["k"] * scales["A"]
         return SolvedStrips(solved, strips, scales, solved.p_mean * scales["p"], tau)
 
+    def codes(self, column: np.ndarray, theta: np.ndarray) -> np.ndarray:
+        """Codes that change wherever the integrand may not be smooth, (m,): the regime, and the breaks of the law below that are passed."""
+        return self._codes(self.solve(column, theta), column)
+
     def integrand(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Codes that change wherever the integrand may not be smooth (m,), and the values to average (m, q)."""
+        """Codes (m,) and the values to average (m, q)."""
         strips = self.solve(column, theta)
-        code, values = strips.solved.code.astype(int), strips.values
+        codes, values = self._codes(strips, column), strips.values
         if self.carry is None:
-            return code, values
-        crossed, carried = self.carry.over_contact(kernel_of(self.material), strips, self.group[column])
-        return code + len(CODE) * crossed, np.concatenate((values, carried), axis=1)
+            return codes, values
+        carried = self.carry.over_contact(kernel_of(self.material), strips, self.group[column])
+        return codes, np.concatenate((values, carried), axis=1)
+
+    def _codes(self, strips: SolvedStrips, column):
+        codes = strips.solved.code.astype(int)
+        if self.carry is None:
+            return codes
+        return codes + len(CODE) * self.carry.crossed(kernel_of(self.material), strips, self.group[column])
 
     def transitions(self) -> list[np.ndarray]:
         """Thetas of the transitions known in closed form, for every column: where strips become saturated, where they lose touch."""

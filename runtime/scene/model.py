@@ -22,8 +22,7 @@ class Scene:
     penetration : penetration of level 1, shape () or (P,) [m]; None if `pressure` is given
     velocity : sliding velocity, shape () or (V,) [m/s]
     edge, branch : closure where the pressure steps, and which of several solutions
-    rtol : relative tolerance
-    strips : number of equal strips, None for as many as `rtol` needs
+    rtol : accuracy asked for, as in :func:`hystrip.solve`
     text : the TOML text it was read from
     source : the file or built-in scene it was read from, named in errors
     """
@@ -40,7 +39,6 @@ class Scene:
     edge: str
     branch: str
     rtol: float
-    strips: int | None
     text: str
     source: str = ""
 
@@ -71,8 +69,6 @@ class Scene:
 
         name, load = self.load
         options: dict[str, Any] = {name: load.reshape(load.shape + (1,) * self.velocity.ndim)}
-        if self.strips is not None:
-            options["strips"] = self.strips
         if progress is not None:
             options["progress"] = progress
         try:

@@ -79,7 +79,7 @@ class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):
     description: Annotated[str, Meta(description="text, anything worth saying about the scene")] = ""
     pressure: Annotated[Values | None, _range_meta("nominal pressure (negative pulls); or give penetration", "Pa")] = None
     penetration: Annotated[Values | None, _range_meta("penetration of level 1, in place of pressure", "m")] = None
-    velocity: Annotated[Values, _range_meta("sliding velocity, > 0", "m/s")]
+    velocity: Annotated[Values, _range_meta("sliding velocity, >= 0", "m/s")]
     edge: Annotated[
         Literal["continuous", "constitutive"],
         Meta(description='"continuous" (the default) or "constitutive", the closure where the pressure steps'),
@@ -88,11 +88,9 @@ class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):
         Literal["unloading", "loading"],
         Meta(description='"unloading" (the default, the most engaged solution) or "loading" (the least engaged)'),
     ] = "unloading"
-    rtol: Annotated[float, Meta(gt=0, lt=1, description="a number > 0 and < 1, relative tolerance (default 1e-6)")] = 1e-6
-    strips: Annotated[
-        Annotated[int, Meta(ge=1, le=1_000_000)] | None,
-        Meta(description="an integer >= 1, that many equal strips; absent: as many as rtol needs"),
-    ] = None
+    rtol: Annotated[
+        float, Meta(ge=1e-12, le=0.1, description="a number from 1e-12 to 0.1, the accuracy asked for (default 1e-6)")
+    ] = 1e-6
     material: Annotated[Material, Meta(description="a table [material] with K, T_eps and T_sigma")]
     adhesion: Annotated[Adhesion | None, Meta(description="a table [adhesion]; without one there is no adhesion")] = None
     levels: Annotated[

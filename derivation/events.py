@@ -1,0 +1,151 @@
+"""Events for a root finder: value and slope at many phases of one zone, whose entry is evaluated once.
+
+The same functions as ``gap_after`` and ``excess_after`` with their slopes, split in two: an ``..._entry`` that turns the
+state in which the zone is entered into constants, and an ``..._event`` that takes the phase and these constants. What an
+event computes costs a fourth; it loses no accuracy, and the pair is proven and certified as one function.
+
+The contact event needs the saturated field as one harmonic, ``p_sat = D - 1 + R cos(s + phi)``: with
+``K*(i omega)/K = R e^(i phi)`` that is ``phi = arctan(beta) - arctan(alpha)``.
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from . import stable
+from .check import Check, Derived, derived, zero
+from .flows import Flows
+from .functions import Formula
+from .kernel import Kernel
+from .symbols import D, alpha, beta, gap_0, p, p_0, q_0, s, s_0, s_1
+
+_phase = sp.Symbol("phi", positive=True)
+
+
+def gap_event(flows: Flows) -> tuple[Kernel, Kernel]:
+    r""":math:`(g, g')` at :math:`s_1` from :math:`s_0/2,\ \beta/2,\ D - p,\ (u(s_0) + g_0 - p)/\beta`."""
+    g = flows.gap.value.subs(s, s_1)
+    exact = (g, sp.diff(g, s_1))
+    lag = flows.strip.u.subs(s, s_0) + gap_0 - p
+    constants = (gap_0, s_0 / 2, beta / 2, D - p, lag / beta)
+    composed = _applied(stable.GAP_EVENT, s_1, constants)
+    return _pair(
+        exact,
+        (stable.GAP_ENTRY, stable.GAP_EVENT),
+        derived(
+            gap_event,
+            constants,
+            name="gap_entry",
+            statement="Constants of gap_event in a zone entered at s_0 with gap_0 under the constant pressure p. For beta = 0 the "
+            "last is 0 and the third the least time that can be divided by.",
+            latex=r"g_0,\quad \tfrac{s_0}{2},\quad \tfrac{\beta}{2},\quad D - p,\quad \frac{u(s_0) + g_0 - p}{\beta}",
+            checks=_agree("gap_entry", stable.GAP_ENTRY, constants),
+            emitted=("gap_entry",),
+        ),
+        derived(
+            gap_event,
+            exact,
+            name="gap_event",
+            statement="Gap and its slope at s_1, from the constants of gap_entry. Same as gap_after and gap_after_slope; "
+            "s_1 must not be before s_0.",
+            latex=r"g = \left(g_0 - [u]_{s_0}^{s_1}\right) e^{-(s_1 - s_0)/\beta} + (u(s_1) - p)\left(e^{-(s_1 - s_0)/\beta} "
+            r"- 1\right),\quad g' = \sin s_1 - \frac{u(s_0) + g_0 - p}{\beta} e^{-(s_1 - s_0)/\beta}",
+            checks=[
+                zero(
+                    "gap_event",
+                    "gap_event after gap_entry is the derived gap",
+                    _halved(composed[0] - exact[0]),
+                    phases=(s_0, s_1),
+                ),
+                zero("gap_event", "and its derivative by s_1", _halved(composed[1] - exact[1]), phases=(s_0, s_1)),
+            ],
+            emitted=("gap_event",),
+        ),
+    )
+
+
+def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
+    r""":math:`(q, q')` at :math:`s_1`, with :math:`p_{sat} = D - 1 + R\cos(s + \varphi)`."""
+    q = flows.contact.value.subs(s, s_1) + p_0
+    exact = (q, sp.diff(q, s_1))
+    name = "excess_event"
+    # Rational in alpha and tan(phi): beta = tan(arctan(alpha) + phi), R = sqrt((1 + beta^2)/(1 + alpha^2)).
+    shrunk = sp.cos(_phase) - alpha * sp.sin(_phase)
+    tilted = {beta: (alpha * sp.cos(_phase) + sp.sin(_phase)) / shrunk}
+    modulus = 1 / shrunk
+    transient = q_0 - p_0 - (D - 1 + modulus * sp.cos(s_0 + _phase))
+    constants = (q_0, s_0 / 2, alpha / 2, _phase / 2, 2 * modulus, D + p_0 - 1 + modulus, transient / alpha)
+    composed = _applied(stable.EXCESS_EVENT, s_1, constants)
+    tangent = (beta - alpha) / (1 + alpha * beta)
+    R_squared = (1 + beta**2) / (1 + alpha**2)
+    loss = (beta - alpha) / (1 + alpha**2)
+    stated = stable.EXCESS_ENTRY.written_out(stable.EXCESS_ENTRY.args)
+    R = sp.sqrt(1 + beta**2) / sp.sqrt(1 + alpha**2)
+    phase_check = [
+        zero(name, "tan(phi) = (beta - alpha)/(1 + alpha beta)", sp.tan(2 * stated[3]) - tangent),
+        zero(name, "beta = tan(arctan(alpha) + phi)", (alpha + tangent) / (1 - alpha * tangent) - beta),
+        zero(name, "R^2 = (1 + beta^2)/(1 + alpha^2) is what that makes of 1/(cos phi - alpha sin phi)^2",
+             ((1 + tangent**2) / (1 - alpha * tangent) ** 2) - R_squared),
+        zero(name, "R^2 - 1 = loss (alpha + beta), so that R - 1 need not cancel", R_squared - 1 - loss * (alpha + beta)),
+    ]  # fmt: skip
+    rest = [
+        zero("excess_entry", "q_0, s_0/2, alpha/2", [a - b for a, b in zip(stated[:3], constants[:3], strict=True)]),
+        zero("excess_entry", "2 R", stated[4] - 2 * R),
+        zero("excess_entry", "D + p_0 - 1 + R", (stated[5] - (D + p_0)) * (1 + R) - loss * (alpha + beta)),
+        zero(
+            "excess_entry",
+            "q_0 - p_0 - p_sat(s_0), over alpha, with p_sat(s_0) as the harmonic",
+            stated[6] * alpha - (q_0 - stated[5] + R * (1 - sp.cos(s_0 + 2 * stated[3]))),
+        ),
+    ]
+    return _pair(
+        exact,
+        (stable.EXCESS_ENTRY, stable.EXCESS_EVENT),
+        derived(
+            excess_event,
+            constants,
+            name="excess_entry",
+            statement="Constants of excess_event in a contact entered at s_0 with q_0. For alpha = 0 the last is 0 and the third "
+            "the least time that can be divided by.",
+            latex=r"q_0,\quad \tfrac{s_0}{2},\quad \tfrac{\alpha}{2},\quad \tfrac{\varphi}{2},\quad 2R,\quad D + p_0 - 1 + R,"
+            r"\quad \frac{q_0 - p_0 - p_{sat}(s_0)}{\alpha}",
+            checks=rest,
+            emitted=("excess_entry",),
+        ),
+        derived(
+            excess_event,
+            exact,
+            name=name,
+            statement="Pressure above -p_0 in contact and its slope at s_1, from the constants of excess_entry. Same as "
+            "excess_after and excess_after_slope; s_1 must not be before s_0.",
+            latex=r"p_{sat}(s) = D - 1 + R\cos(s + \varphi),\quad R\,e^{i\varphi} = \frac{1 + i\beta}{1 + i\alpha}",
+            checks=[
+                *phase_check,
+                zero(name, "excess_event after excess_entry is the derived q",
+                     _halved(composed[0] - exact[0].subs(tilted)), phases=(s_0, s_1)),
+                zero(name, "and its derivative by s_1", _halved(composed[1] - exact[1].subs(tilted)), phases=(s_0, s_1)),
+            ],
+            paper="Eq. 15",
+            status="reproduced",
+            emitted=(name,),
+        ),
+    )  # fmt: skip
+
+
+def _halved(expression: sp.Expr) -> sp.Expr:
+    """The same identity in half the angles, so that only multiples of them occur."""
+    return expression.subs({angle: 2 * angle for angle in (s_0, s_1, _phase)}, simultaneous=True)
+
+
+def _applied(event: Formula, phase: sp.Symbol, constants: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...]:
+    return event.written_out((phase, *constants))
+
+
+def _agree(step: str, formula: Formula, constants: tuple[sp.Expr, ...]) -> list[Check]:
+    stated = formula.written_out(formula.args)
+    return [zero(step, "the emitted constants are these", [a - b for a, b in zip(stated, constants, strict=True)])]
+
+
+def _pair(exact: tuple, chain: tuple[Formula, Formula], entry: Derived, event: Derived) -> tuple[Kernel, Kernel]:
+    """Two kernels, both measured as the one function that they are together."""
+    return Kernel(chain[0], exact, entry, chain=chain), Kernel(chain[1], exact, event, chain=chain)
