@@ -17,7 +17,7 @@ from .means import level_means
 from .strips import Columns, saturation_depth
 from .transitions import locate
 
-_FIRST, _LAST = 8, 32
+_FIRST, _LAST = 4, 32
 _ROUNDS = 40
 _SCAN = 48
 _EPS = np.finfo(float).eps

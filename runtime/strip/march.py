@@ -73,15 +73,14 @@ def next_onset(kernel, cycle: Cycle, orbit: Orbit) -> tuple[np.ndarray, np.ndarr
     end = cycle.centre + cycle.half_d + TWO_PI
     index = np.flatnonzero(~orbit.engaged)
 
-    def gap(phase, sub):
-        i = index[sub]
-        args = (orbit.c[i], phase, s.delta_0[i] + cycle.jump[i], 0.0 * phase, s.D[i], s.beta[i])
-        return kernel.gap_after(*args) - s.delta_0[i], kernel.gap_after_slope(*args)
-
     if not index.size:
         return x, spent
+    i = index
+    entry = kernel.gap_entry(orbit.c[i], s.delta_0[i] + cycle.jump[i], np.zeros(i.size), s.D[i], s.beta[i])
+    gap = _Event(kernel.gap_event, entry, s.delta_0[i])
     start = np.maximum(end - 2 * cycle.half_d, np.where(orbit.engaged, -np.inf, orbit.c))
-    index = index[_happens(gap, start[index], end[index], index, np.zeros(index.size, bool), spent)]
+    meets = _happens(gap, start[index], end[index], index, np.zeros(index.size, bool), spent)
+    index, gap = index[meets], gap.take(meets)
     here = orbit.x[index] + TWO_PI
     start = start[index]
     early = orbit.r[index] < 0
@@ -151,6 +150,24 @@ def _happens(event, start, end, index, sure, spent):
     return meets
 
 
+class _Event:
+    """An event function of a batch with its entry data worked into constants once: value and slope at later phases."""
+
+    def __init__(self, function, constants, offset=0.0, sign=1.0):
+        self.function, self.sign = function, sign
+        self.constants = np.stack(np.broadcast_arrays(offset, *constants))
+
+    def take(self, index) -> "_Event":
+        other = object.__new__(_Event)
+        other.function, other.sign, other.constants = self.function, self.sign, self.constants[:, index]
+        return other
+
+    def __call__(self, phase, sub):
+        offset, *constants = self.constants[:, sub]
+        value, slope = self.function(phase, *constants)
+        return self.sign * (value - offset), self.sign * slope
+
+
 def _contact_begins(kernel, cycle: Cycle, x, spent, known: _Known):
     """Downward zero of the gap after the onset, where H + p_0 > 0; NaN where the gap stays open."""
     s = cycle.strips
@@ -160,13 +177,11 @@ def _contact_begins(kernel, cycle: Cycle, x, spent, known: _Known):
     if not reach.size:
         return b
 
-    def gap(phase, sub):
-        i = reach[sub]
-        args = (x[i], phase, cycle.gap_on[i], -s.p_0[i], s.D[i], s.beta[i])
-        return kernel.gap_after(*args), kernel.gap_after_slope(*args)
-
+    i = reach
+    gap = _Event(kernel.gap_event, kernel.gap_entry(x[i], cycle.gap_on[i], -s.p_0[i], s.D[i], s.beta[i]))
     start = np.maximum(x, cycle.centre - cycle.half_b)
-    reach = reach[_happens(gap, start[reach], end[reach], reach, known.sure[reach], spent)]
+    meets = _happens(gap, start[reach], end[reach], reach, known.sure[reach], spent)
+    reach, gap = reach[meets], gap.take(meets)
     b[reach], used = known.crossing(gap, start[reach], end[reach], reach)
     spent[reach] += used
     return b
@@ -178,16 +193,16 @@ def _contact_ends(kernel, cycle: Cycle, x, b, spent, known: _Known):
     a = np.full(x.shape, np.nan)
     touched = np.flatnonzero(~np.isnan(b))
 
-    def excess(phase, sub):
-        i = touched[sub]
-        args = (b[i], phase, cycle.q_on[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
-        return kernel.excess_after(*args), kernel.excess_after_slope(*args)
-
+    if not touched.size:
+        return a
+    i = touched
+    entry = kernel.excess_entry(b[i], cycle.q_on[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
+    excess = _Event(kernel.excess_event, entry)
     low = cycle.centre[touched] + cycle.half_b[touched]
     high = cycle.centre[touched] + TWO_PI - cycle.half_b[touched]
     leaves = _happens(excess, np.maximum(low, b[touched]), high, touched, known.sure[touched], spent) & (high > low)
     a[touched[~leaves]] = np.inf
-    touched, low, high = touched[leaves], low[leaves], high[leaves]
+    touched, low, high, excess = touched[leaves], low[leaves], high[leaves], excess.take(leaves)
     a[touched], used = known.crossing(excess, np.maximum(low, b[touched]), high, touched)
     spent[touched] += used
     return a
@@ -204,15 +219,14 @@ def _adhesion_ends(kernel, cycle: Cycle, x, b, a, spent, known: _Known):
     high = cycle.centre + TWO_PI - cycle.half_c
     leaves = np.flatnonzero(~cycle.bare & np.isfinite(start) & (start < high))
 
-    def closed(phase, sub):
-        i = leaves[sub]
-        args = (start[i], phase, first[i], -s.p_0[i], s.D[i], s.beta[i])
-        return s.delta_0[i] - kernel.gap_after(*args), -kernel.gap_after_slope(*args)
-
     if not leaves.size:
         return c
+    i = leaves
+    entry = kernel.gap_entry(start[i], first[i], -s.p_0[i], s.D[i], s.beta[i])
+    closed = _Event(kernel.gap_event, entry, s.delta_0[i], -1.0)
     low = np.maximum(low, start, out=low, where=np.isfinite(start))
-    leaves = leaves[_happens(closed, low[leaves], high[leaves], leaves, known.sure[leaves], spent)]
+    meets = _happens(closed, low[leaves], high[leaves], leaves, known.sure[leaves], spent)
+    leaves, closed = leaves[meets], closed.take(meets)
     c[leaves], used = known.crossing(closed, low[leaves], high[leaves], leaves)
     spent[leaves] += used
     return c

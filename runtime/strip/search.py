@@ -135,7 +135,11 @@ class _Search:
         excluded[open_[proof & ~changes[open_]]] = True
         unique[open_[proof & changes[open_]]] = True
         bracketed = np.flatnonzero(unique)
-        self._isolated(index[bracketed], left.take(bracketed), right.take(bracketed))
+        left, right = left.take(bracketed), right.take(bracketed)
+        # an orbit at the last bit before the strip stays engaged: the nearest one that is released stands for it
+        squeezed = np.flatnonzero(left.engaged)
+        left.put(squeezed, right.take(squeezed))
+        self._isolated(index[bracketed], left, right)
         ended = excluded & final
         step = np.where(excluded, 2 * step, 0.5 * np.abs(target - frontier.x))
         closer = np.flatnonzero(~excluded)
