@@ -9,10 +9,12 @@ from .derive import Derivation, derive
 from .drift import CertificateError, Drift, check, generated_folder, regenerate, stored_bounds
 from .model import Model, Parameter
 from .models import MODELS, STANDARD_LINEAR_SOLID
+from .pages.publish import AuditError, audit
 
 __all__ = [
     "MODELS",
     "STANDARD_LINEAR_SOLID",
+    "AuditError",
     "CertificateError",
     "Check",
     "Derivation",
@@ -21,6 +23,7 @@ __all__ = [
     "Drift",
     "Model",
     "Parameter",
+    "audit",
     "check",
     "derive",
     "generated_folder",

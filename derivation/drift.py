@@ -20,13 +20,16 @@ from types import ModuleType
 from typing import Any
 
 from .certify import SCALE, measure
-from .derive import STAGES, derive
+from .derive import STAGES, Derivation, derive
 from .emit import INTERFACE, emit, input_hash
 from .kernel import Kernel
 from .model import Model
 from .models import MODELS
+from .pages import audit_files
 
 CERTIFICATES = "certificates.json"
+AUDIT = "audit"
+MEASURED = f"{AUDIT}/measured.json"  # pictures and measured figures of the pages, which `hystrip audit` makes anew
 AIM = 16.0  # ulp of the natural scale
 IGNORED = ("__pycache__",)
 Report = Callable[[int, int], None]
@@ -88,7 +91,7 @@ def regenerate(
     say("emission")
     with tempfile.TemporaryDirectory() as aside:
         folder = _staged(Path(aside), files)
-        stored = _read_certificates(target / CERTIFICATES)
+        stored = read_certificates(target / CERTIFICATES)
         certificates = {}
         for derivation in derivations:
             solver = _loaded(folder, derivation.model.name)
@@ -96,6 +99,10 @@ def regenerate(
             certificates[derivation.model.name] = {"interface": INTERFACE, "functions": rows}
             say("certificates")
     files[CERTIFICATES] = _certificates_text(certificates)
+    known = read_measured(target) or read_measured(generated_folder())
+    measured = {name: known[name] for name in certificates if name in known}
+    files |= audit_texts(derivations, files, certificates, measured)
+    files[MEASURED] = dumped(measured)
     target.mkdir(parents=True, exist_ok=True)
     written = write_files(target, files)
     say("writing")
@@ -112,7 +119,9 @@ def check(
     chosen = tuple(models) if models is not None else MODELS
     say = _Progress(progress, len(chosen) * len(STAGES))
     derivations = tuple(derive(model, say) for model in chosen)
-    return compare(folder, emit(derivations), {d.model.name: [k.formula.name for k in d.kernels] for d in derivations})
+    texts = emit(derivations)
+    texts |= audit_texts(derivations, texts, _readable_certificates(folder), read_measured(folder))
+    return compare(folder, texts, {d.model.name: [k.formula.name for k in d.kernels] for d in derivations})
 
 
 def compare(folder: Path, files: dict[str, str], functions: dict[str, list[str]]) -> list[Drift]:
@@ -124,20 +133,20 @@ def compare(folder: Path, files: dict[str, str], functions: dict[str, list[str]]
             drift.append(Drift("missing", name, _diff(name, "", text)))
         elif found[name].read_bytes() != text.encode():
             drift.append(Drift("different", name, _diff(name, found[name].read_bytes().decode(errors="replace"), text)))
-    drift += _certificate_drift(folder, functions)
-    for name in sorted(set(found) - set(files) - {CERTIFICATES}):
+    drift += certificate_drift(folder, functions) + _measured_drift(folder)
+    for name in sorted(set(found) - set(files) - {CERTIFICATES, MEASURED}):
         drift.append(Drift("stray", name, _diff(name, found[name].read_bytes().decode(errors="replace"), "")))
     return drift
 
 
-def _certificate_drift(folder: Path, functions: dict[str, list[str]]) -> list[Drift]:
+def certificate_drift(folder: Path, functions: dict[str, list[str]]) -> list[Drift]:
     path = folder / CERTIFICATES
     if not path.exists():
         return [Drift("missing", CERTIFICATES, "every emitted function needs a certificate: regenerate")]
     try:
         stored = json.loads(path.read_text(encoding="utf-8"))
         present = {model: list(entry["functions"]) for model, entry in stored["models"].items()}
-        hash_stored, text_again = stored["hash"], _dumped(stored)
+        hash_stored, text_again = stored["hash"], dumped(stored)
     except (ValueError, KeyError, TypeError, AttributeError) as problem:
         return [Drift("different", CERTIFICATES, f"not a table of certificates: {problem!r}")]
     lines = []
@@ -151,9 +160,30 @@ def _certificate_drift(folder: Path, functions: dict[str, list[str]]) -> list[Dr
     return [Drift("different", CERTIFICATES, "\n".join(lines))] if lines else []
 
 
+def _measured_drift(folder: Path) -> list[Drift]:
+    path = folder / MEASURED
+    if not path.exists():
+        return [Drift("missing", MEASURED, "pictures and measured figures of the audit: run `hystrip audit`")]
+    try:
+        return (
+            [] if isinstance(json.loads(path.read_text(encoding="utf-8")), dict) else [Drift("different", MEASURED, "no table")]
+        )
+    except ValueError as problem:
+        return [Drift("different", MEASURED, f"not JSON: {problem}")]
+
+
+def audit_texts(
+    derivations: Iterable[Derivation], texts: dict[str, str], certificates: dict[str, Any], measured: dict[str, Any]
+) -> dict[str, str]:
+    """Text of the audit's pages and tables, by path in the folder of generated files."""
+    solvers = {name: text for name, text in texts.items() if name.endswith(".py")}
+    pages = audit_files(tuple(derivations), solvers, certificates, measured)
+    return {f"{AUDIT}/{name}": text for name, text in pages.items()}
+
+
 def stored_bounds(folder: Path | None = None) -> dict[str, dict[str, float]]:
     """Bounds in ulp of the natural scale, by model and function."""
-    stored = _read_certificates((folder or generated_folder()) / CERTIFICATES)
+    stored = read_certificates((folder or generated_folder()) / CERTIFICATES)
     return {model: {name: row["bound"] for name, row in entry["functions"].items()} for model, entry in stored.items()}
 
 
@@ -188,15 +218,31 @@ def _bound(worst: float) -> float:
 
 
 def _certificates_text(models: dict[str, Any]) -> str:
-    return _dumped({"hash": input_hash(), "unit": f"ulp (2**-52) of the natural scale: {SCALE}", "models": models})
+    return dumped({"hash": input_hash(), "unit": f"ulp (2**-52) of the natural scale: {SCALE}", "models": models})
 
 
-def _dumped(content: Any) -> str:
+def dumped(content: Any) -> str:
     return json.dumps(content, indent=1, sort_keys=True) + "\n"
 
 
-def _read_certificates(path: Path) -> dict[str, Any]:
+def read_certificates(path: Path) -> dict[str, Any]:
     return json.loads(path.read_text(encoding="utf-8"))["models"] if path.exists() else {}
+
+
+def _readable_certificates(folder: Path) -> dict[str, Any]:
+    try:
+        return read_certificates(folder / CERTIFICATES)
+    except (ValueError, KeyError, TypeError):
+        return {}  # and certificate_drift says so
+
+
+def read_measured(folder: Path) -> dict[str, Any]:
+    """What was measured and drawn for the pages in a folder of generated files, by model; empty if nothing can be read."""
+    try:
+        stored = json.loads((folder / MEASURED).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return stored if isinstance(stored, dict) else {}
 
 
 def _staged(folder: Path, files: dict[str, str]) -> Path:

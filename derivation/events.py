@@ -36,8 +36,8 @@ def gap_event(flows: Flows) -> tuple[Kernel, Kernel]:
             gap_event,
             constants,
             name="gap_entry",
-            statement="Constants of gap_event in a zone entered at s_0 with gap_0 under the constant pressure p. For beta = 0 the "
-            "last is 0 and the third the least time that can be divided by.",
+            statement="Constants of gap_event in a zone entered at s_0 with gap_0 under the constant pressure p. For beta = 0 "
+            "the last is 0 and the third the least time that can be divided by.",
             latex=r"g_0,\quad \tfrac{s_0}{2},\quad \tfrac{\beta}{2},\quad D - p,\quad \frac{u(s_0) + g_0 - p}{\beta}",
             checks=_agree("gap_entry", stable.GAP_ENTRY, constants),
             emitted=("gap_entry",),

@@ -1,7 +1,7 @@
 """Hysteretic sliding friction of multiscale wavy surfaces by the strip method.
 
 A rigid surface of nested waves slides over a viscoelastic foundation with Dugdale adhesion. ``solve_strip`` solves single strips,
-``solve_level`` and ``friction_law`` one level, ``solve`` the whole surface. The strip solver's formulas are generated: see
+``solve_level`` and ``friction_law`` one level, ``solve`` the whole surface, ``sweep`` a scene over its parameters. The strip solver's formulas are generated: see
 ``hystrip.derivation``.
 """
 
@@ -28,11 +28,13 @@ __all__ = [
     "SolverError",
     "StandardLinearSolid",
     "StripSolution",
+    "Sweep",
     "friction_law",
     "load_scene",
     "solve",
     "solve_level",
     "solve_strip",
+    "sweep",
 ]
 
 
@@ -42,11 +44,13 @@ _LAZY = {
     "LevelSolution": "hystrip.level.solution",
     "Result": "hystrip.result",
     "Scene": "hystrip.scene",
+    "Sweep": "hystrip.sweeps",
     "StripSolution": "hystrip.strip.solution",
     "friction_law": "hystrip.level.solution",
     "load_scene": "hystrip.scene",
     "solve_level": "hystrip.level.solution",
     "solve_strip": "hystrip.strip.solution",
+    "sweep": "hystrip.sweeps",
 }
 
 if TYPE_CHECKING:
@@ -54,6 +58,7 @@ if TYPE_CHECKING:
     from hystrip.result import Result
     from hystrip.scene import Scene, load_scene
     from hystrip.strip.solution import StripSolution, solve_strip
+    from hystrip.sweeps import Sweep, sweep
 
 
 def __getattr__(name: str):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -30,6 +30,7 @@ class Result:
     closed_form : the point was solved by the closed form of saturated contact on all levels
     error_estimate : estimated absolute error of mu (of tau over the pressure); NaN at zero pressure
     tau_error : estimated absolute error of tau, Pa
+    load : which of the two was given, "pressure" or "penetration"; scene : the TOML text it came from, if it did
     counts : strips solved, strips decided by a threshold, points solved in closed form, points below pull-off
     """
 
@@ -55,3 +56,29 @@ class Result:
     edge: str
     branch: str
     rtol: float
+    load: str = "pressure"
+    scene: str = field(default="", repr=False)
+
+    def to_dataset(self) -> Any:
+        """The result as an xarray Dataset: labelled dimensions, units, long names, inputs and versions in the attributes.
+
+        Needs the extra ``dataset``. ``to_netcdf(path, engine="h5netcdf")`` writes it.
+        """
+        from hystrip.dataset import to_dataset
+
+        return to_dataset(self)
+
+    def summary(self) -> str:
+        """Where the friction comes from, as text: levels, shares of mu, real contact, pull-off, saturation, what was skipped."""
+        from hystrip.summary import summary
+
+        return summary(self)
+
+    def plot(self) -> Any:
+        """A matplotlib Figure of mu over velocity (over the load if there is one velocity) with every level's part.
+
+        Needs the extra ``plot``; ``hystrip.plots.save(figure, path)`` writes it.
+        """
+        from hystrip.plots import friction
+
+        return friction(self)

@@ -49,6 +49,15 @@ def solve(
     ------
     InputError : an input outside its range, named with what is allowed
     SolverError : a strip that could not be certified, named
+
+    Examples
+    --------
+    >>> import hystrip
+    >>> material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+    >>> levels = [hystrip.Level(l=10e-6, h=1e-6), hystrip.Level(l=500e-9, h=100e-9)]
+    >>> result = hystrip.solve(material, hystrip.Dugdale(gamma=0), levels, pressure=5e6, velocity=[1e-3, 1e-2])
+    >>> print(result.mu.round(6))  # every level saturated: the closed form
+    [9.30e-05 2.72e-04]
     """
     # loaded here: `import hystrip` is to cost next to nothing
     from hystrip.level.strips import Tally
@@ -70,10 +79,10 @@ def solve(
     tally = Tally()
     surface = Surface(material, adhesion, levels, edge, branch, rtol, skip, tally)
     points = surface.solve(V, L, name == "pressure", progress)
-    return _result(points, surface, shape, V)
+    return _result(points, surface, shape, V, name)
 
 
-def _result(points, surface: Surface, shape, V) -> Result:
+def _result(points, surface: Surface, shape, V, load: str) -> Result:
     from hystrip.result import Result
 
     tau = points.tau.sum(axis=0)
@@ -110,6 +119,7 @@ def _result(points, surface: Surface, shape, V) -> Result:
         edge=surface.edge,
         branch=surface.branch,
         rtol=surface.rtol,
+        load=load,
     )
 
 

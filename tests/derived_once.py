@@ -11,7 +11,8 @@ from pathlib import Path
 from types import ModuleType
 
 import hystrip.derivation
-from hystrip.derivation import STANDARD_LINEAR_SOLID, Derivation, derive
+from hystrip.derivation import STANDARD_LINEAR_SOLID, Derivation, derive, generated_folder
+from hystrip.derivation.drift import CERTIFICATES, audit_texts, read_certificates, read_measured
 from hystrip.derivation.emit import emit
 
 SOURCES = Path(hystrip.derivation.__file__).parent
@@ -26,6 +27,13 @@ def derivation() -> Derivation:
 @functools.cache
 def emitted() -> dict[str, str]:
     return emit((derivation(),))
+
+
+@functools.cache
+def audited() -> dict[str, str]:
+    """The audit's pages as they should be, with the certificates and the measured figures that are checked in."""
+    folder = generated_folder()
+    return audit_texts((derivation(),), emitted(), read_certificates(folder / CERTIFICATES), read_measured(folder))
 
 
 def tampered(folder: Path, file: str, before: str, after: str) -> ModuleType:

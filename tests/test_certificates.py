@@ -59,6 +59,37 @@ def test_a_bound_does_not_grow_by_itself() -> None:
     assert rows["profile_rise"]["why"] == "a worse sine" and rows["profile_rise"]["bound"] > 2.0
 
 
+EVENTS = {
+    "gap": ("gap_after", ("s_0", "s_1", "gap_0", "p", "D", "beta")),
+    "excess": ("excess_after", ("s_0", "s_1", "q_0", "p_0", "D", "alpha", "beta", "L")),
+}
+
+
+@pytest.mark.parametrize("kind", EVENTS)
+def test_an_event_is_the_function_it_stands_for_even_where_a_zone_begins_without_memory(kind: str) -> None:
+    name, arguments = EVENTS[kind]
+    start = np.array([-2.0, 0.0, 1.5])
+    given = dict.fromkeys(arguments, np.full(3, 0.3)) | {"s_0": start}
+    with np.errstate(all="raise", under="ignore"):
+        for alpha, beta, L in (
+            (0.0, 0.0, 0.5),
+            (0.0, 0.0, 0.0),
+            (0.0, 3.0, 1.0),
+            (3.0, 3.0, 0.0),
+            (1e7, 1e9, 0.99),
+            (0.0, 1e9, 1.0),
+        ):
+            given |= {"alpha": np.full(3, alpha), "beta": np.full(3, beta), "L": np.full(3, L)}
+            for width in (0.0, 1e-300, 1e-9, 1.0, 6.0):
+                given["s_1"] = start + width
+                full = [given[argument] for argument in arguments]
+                constants = getattr(standard_linear_solid, f"{kind}_entry")(*full[:1], *full[2:])
+                value, slope = getattr(standard_linear_solid, f"{kind}_event")(given["s_1"], *constants)
+                for got, true in ((value, name), (slope, f"{name}_slope")):
+                    expected = getattr(standard_linear_solid, true)(*full)
+                    assert np.allclose(got, expected, rtol=1e-13, atol=1e-14 * (1 + beta)), (kind, alpha, beta, width)
+
+
 EXTREME = [0.0, 5e-324, 1e-308, 1e-160, 1e-9, 1.0, 6.3, 1e9, 1e160, 1e308]
 
 

@@ -15,7 +15,7 @@ from hystrip.scene import load_scene
 
 SCENE = """
 title = "two velocities"
-pressure = 100
+pressure = 5e6
 velocity = [1e-3, 5e-3]
 rtol = 1e-2
 [material]
@@ -69,6 +69,24 @@ def test_solve_writes_table_csv_and_picture(run, tmp_path):
         assert float(row["share of level 1"]) + float(row["share of level 2"]) == pytest.approx(1, rel=1e-12)
 
 
+def test_solve_writes_netcdf_and_a_summary(run, tmp_path):
+    xarray = pytest.importorskip("xarray")
+    (tmp_path / "mine.toml").write_text(SCENE)
+    status, out, _ = run("solve", "mine.toml", "--netcdf", "--summary", "--no-plot")
+    assert status == 0 and "share of mu" in out and "wrote hystrip-out/mine.nc" in out
+    with xarray.open_dataset(tmp_path / "hystrip-out/mine.nc", engine="h5netcdf") as data:
+        assert data.mu.dims == ("velocity",) and data.attrs["scene"] == SCENE
+
+
+def test_sweep_of_a_scene(run, tmp_path):
+    (tmp_path / "mine.toml").write_text(SCENE.replace("gamma = 2.5e-5", "gamma = [0, 1e-5]"))
+    status, out, err = run("sweep", "mine.toml")
+    assert (status, err) == (0, "") and out.split("\n")[0] == "4 points"
+    assert len(rows(tmp_path / "hystrip-out/mine.csv")) == 4
+    status, out, err = run("sweep", "mine.toml", "--netcdf")
+    assert (status, err) == (0, "") and "1 of 1 batches from before" in out and "wrote hystrip-out/mine.nc" in out
+
+
 def test_solve_without_picture_and_table(run, tmp_path):
     (tmp_path / "mine.toml").write_text(SCENE)
     status, out, _ = run("solve", "mine.toml", "--no-plot", "--no-table")
@@ -85,7 +103,7 @@ def test_one_velocity_has_no_curve_to_draw(run, tmp_path):
 
 
 def test_several_pressures_have_a_row_each_zero_an_empty_mu(run, tmp_path):
-    (tmp_path / "some.toml").write_text(SCENE.replace("pressure = 100", "pressure = [-10, 0, 100]"))
+    (tmp_path / "some.toml").write_text(SCENE.replace("pressure = 5e6", "pressure = [-10, 0, 100]").replace("[[levels]]\nl = 1e-5\nh = 1e-6\n", ""))
     status, _, _ = run("solve", "some.toml")
     assert status == 0
     table = rows(tmp_path / "hystrip-out/some.csv")
@@ -129,7 +147,7 @@ def test_a_reader_that_stops_reading_is_no_traceback(tmp_path):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
 def test_ctrl_c_is_one_line_and_leaves_no_file(tmp_path):
-    (tmp_path / "big.toml").write_text(SCENE.replace(
+    (tmp_path / "big.toml").write_text(SCENE.replace("pressure = 5e6", "pressure = 100").replace(
         "[1e-3, 5e-3]", '{ start = 1e-4, stop = 1e-2, num = 5000, spacing = "log" }'))
     command = [sys.executable, "-m", "hystrip", "solve", "big.toml"]
     # A session of its own: a shell that runs tests in the background would have it ignore SIGINT.

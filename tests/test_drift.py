@@ -10,24 +10,28 @@ import sys
 from pathlib import Path
 
 import pytest
-from derived_once import derivation, emitted
+from derived_once import audited, derivation, emitted
 
 from hystrip.derivation import generated_folder
-from hystrip.derivation.drift import CERTIFICATES, compare, write_files
+from hystrip.derivation.drift import CERTIFICATES, MEASURED, compare, write_files
 
 FILES = ("__init__.py", "stable.py", "standard_linear_solid.py")
+PAGES = ("audit/index.html", "audit/standard_linear_solid.html", "audit/standard_linear_solid.json")
 EMIT = """
 import hashlib, json
 from hystrip.derivation import STANDARD_LINEAR_SOLID, derive
 from hystrip.derivation.emit import emit
-files = emit((derive(STANDARD_LINEAR_SOLID),))
+from hystrip.derivation.drift import audit_texts
+derived = (derive(STANDARD_LINEAR_SOLID),)
+files = emit(derived)
+files |= audit_texts(derived, files, {}, {})
 print(json.dumps({name: hashlib.sha256(text.encode()).hexdigest() for name, text in files.items()}))
 """
 
 
 def drift(folder: Path):
     made = derivation()
-    return compare(folder, emitted(), {made.model.name: [kernel.formula.name for kernel in made.kernels]})
+    return compare(folder, {**emitted(), **audited()}, {made.model.name: [kernel.formula.name for kernel in made.kernels]})
 
 
 @pytest.fixture
@@ -37,9 +41,10 @@ def copy(tmp_path: Path) -> Path:
 
 def test_the_emitted_files_are_those_tested_here() -> None:
     assert sorted(emitted()) == sorted(FILES)
+    assert sorted(audited()) == sorted(PAGES)
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", [*FILES, *PAGES])
 def test_checked_in_file_is_what_the_derivation_emits(name: str) -> None:
     found = [record for record in drift(generated_folder()) if record.path == name]
     assert not found, "\n".join(map(str, found))
@@ -49,10 +54,10 @@ def test_nothing_is_missing_or_stray() -> None:
     assert not drift(generated_folder())
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", [*FILES, *PAGES])
 def test_one_deleted_character_is_drift(copy: Path, name: str) -> None:
     text = (copy / name).read_text(encoding="utf-8")
-    place = text.index("import") if "import" in text else text.index("MODELS")
+    place = next(text.index(mark) for mark in ("import numpy", "MODELS", "Derived", "sha256") if mark in text)
     (copy / name).write_text(text[:place] + text[place + 1 :], encoding="utf-8")
     (record,) = drift(copy)
     assert (record.kind, record.path) == ("different", name)
@@ -65,7 +70,7 @@ def test_a_changed_line_ending_is_drift(copy: Path) -> None:
     assert [record.kind for record in drift(copy)] == ["different"]
 
 
-@pytest.mark.parametrize("name", [*FILES, CERTIFICATES])
+@pytest.mark.parametrize("name", [*FILES, *PAGES, CERTIFICATES, MEASURED])
 def test_a_missing_file_is_drift(copy: Path, name: str) -> None:
     (copy / name).unlink()
     (record,) = drift(copy)
@@ -73,7 +78,7 @@ def test_a_missing_file_is_drift(copy: Path, name: str) -> None:
     assert record.diff
 
 
-@pytest.mark.parametrize("name", ["old_model.py", "notes.txt", "audit/index.html"])
+@pytest.mark.parametrize("name", ["old_model.py", "notes.txt", "audit/old_model.html"])
 def test_a_stray_file_is_drift(copy: Path, name: str) -> None:
     (copy / name).parent.mkdir(exist_ok=True)
     (copy / name).write_text("left over\n", encoding="utf-8")
@@ -97,7 +102,7 @@ def test_text_does_not_depend_on_the_hash_seed() -> None:
         environment = {**os.environ, "PYTHONHASHSEED": seed}
         runs.append(subprocess.Popen([sys.executable, "-c", EMIT], env=environment, stdout=subprocess.PIPE, text=True))
     first, second = (run.communicate()[0] for run in runs)
-    assert first == second and json.loads(first).keys() == emitted().keys()
+    assert first == second and json.loads(first).keys() == {*FILES, *PAGES}
 
 
 def test_writing_leaves_the_old_file_if_it_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

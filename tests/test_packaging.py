@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 FOLDERS = {"runtime": "hystrip", "derivation": "hystrip/derivation", "generated": "hystrip/generated"}
-SHIPPED = (".py", ".jinja", ".toml", ".json", ".typed")
+SHIPPED = (".py", ".jinja", ".toml", ".json", ".html", ".typed")
 
 
 def tree():
@@ -104,7 +104,7 @@ def test_wheel_solves_the_demo_scene(installed):
     assert "mu" in out
 
 
-OPTIONAL = ("sympy", "jinja2", "matplotlib", "xarray", "pandas", "typer", "rich", "msgspec", "pint", "mpmath")
+OPTIONAL = ("sympy", "jinja2", "matplotlib", "xarray", "pandas", "typer", "rich", "msgspec", "pint", "mpmath", "distributed")
 
 
 def test_core_solves_without_any_extra(installed):
@@ -124,6 +124,8 @@ print(float(hystrip.solve(material, adhesion, levels, pressure=100.0, velocity=5
         ("typer", ["--version"], "cli"),
         ("msgspec", ["solve", "paper_fig6"], "cli"),
         ("matplotlib", ["solve", "paper_fig6"], "plot"),
+        ("distributed", ["sweep", "paper_fig7", "--scheduler", "tcp://127.0.0.1:9"], "dask"),
+        ("xarray", ["sweep", "paper_fig7", "--netcdf"], "dataset"),
         ("sympy", ["check"], "regenerate"),
         ("jinja2", ["regenerate", "--out", "elsewhere"], "regenerate"),
     ],

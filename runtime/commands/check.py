@@ -12,10 +12,13 @@ def command() -> None:
     """
     from hystrip.commands.derivation import needed
 
+    from hystrip.commands.progress import progress
+
     needed("checking the generated files")
     import hystrip.derivation
 
-    drift = list(hystrip.derivation.check())
+    with progress("deriving") as report:
+        drift = list(hystrip.derivation.check(progress=report))
     for record in drift:
         typer.echo(str(record))
     if drift:

@@ -7,5 +7,5 @@ from hystrip.extras import require
 
 def needed(purpose: str) -> None:
     """Check that the derivation can run. Raises MissingExtra, which names the extra."""
-    for module in ("sympy", "jinja2", "ruff"):
+    for module in ("sympy", "jinja2", "ruff", "latex2mathml"):
         require(module, "regenerate", purpose)

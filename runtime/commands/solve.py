@@ -12,6 +12,8 @@ def command(
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
     plot: bool = typer.Option(True, help="Draw mu over velocity (PNG)."),
     table: bool = typer.Option(True, help="Print the table."),
+    netcdf: bool = typer.Option(False, "--netcdf", help="Write the labelled results as netCDF too (extra `dataset`)."),
+    summary: bool = typer.Option(False, "--summary", help="Say where the friction comes from."),
 ) -> None:
     """Solve a scene: friction over velocity.
 
@@ -28,19 +30,26 @@ def command(
     # What can fail without the work fails before it.
     if draws:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
+    if netcdf:
+        require("xarray", "dataset", "writing netCDF")
+        require("h5netcdf", "dataset", "writing netCDF")
     refuse_unwritable(out, "--out")
     with progress(case.title or case.name) as report:
         result = case.solve(progress=report)
-    columns = friction_rows(case, result)
+    columns = friction_rows(result)
     with Outputs(out) as files:
         write_csv(files.path(f"{case.name}.csv"), columns)
+        if netcdf:
+            result.to_dataset().to_netcdf(files.path(f"{case.name}.nc"), engine="h5netcdf")
         if draws:
-            from hystrip.plots import friction_over_velocity, save
+            from hystrip.plots import save
 
-            save(friction_over_velocity(case, result), files.path(f"{case.name}.png"))
+            save(result.plot(), files.path(f"{case.name}.png"))
     if table:
         from hystrip.commands.show import show_friction
 
         show_friction(case, columns)
-    for suffix in ("csv", "png") if draws else ("csv",):
+    if summary:
+        typer.echo(result.summary())
+    for suffix in ("csv", *["nc"] * netcdf, *["png"] * draws):
         typer.echo(f"wrote {out / case.name}.{suffix}")

@@ -21,6 +21,9 @@ class Dugdale:
     delta_0 : range of the adhesion, m, > 0 where there is adhesion
 
     Scalars or arrays that broadcast. Raises ``InputError`` for values outside these ranges, or if not exactly two fix the law.
+
+    >>> Dugdale(gamma=2.5e-5, delta_0=1e-8).p_0
+    2500.0
     """
 
     __slots__ = ("gamma", "p_0", "delta_0")

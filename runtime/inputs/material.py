@@ -22,6 +22,9 @@ class StandardLinearSolid:
     T_sigma : relaxation time, s, >= 0; zero is the Kelvin-Voigt foundation
 
     Scalars or arrays that broadcast. Raises ``InputError`` for a value outside these ranges.
+
+    >>> float(StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4).K_glassy)
+    100000000000.0
     """
 
     K: float

@@ -19,6 +19,9 @@ class Level:
     h : height, m, >= 0
 
     Raises ``InputError`` for a value outside these ranges.
+
+    >>> round(Level(l=10e-6, h=1e-6).k)
+    628319
     """
 
     l: float  # noqa: E741 - the paper's symbol

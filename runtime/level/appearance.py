@@ -6,59 +6,81 @@ that grows like the square root of the distance in D, and the level's means with
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from .strips import Columns
 
-_POINTS = np.arange(1, 16) / 16
-_EPS = np.finfo(float).eps
-#: a break this close to an end of its piece, as a share of it, is that end
-_CLOSE = 1e-6
+#: points across an island, and penetrations tried at once
+_ACROSS, _AT_ONCE = 15, 7
+_ROUNDS = 12
+#: a break this close to an end of its piece, as a share of it, is left to halving
+_CLOSE = 0.02
 
 
-def appearance(columns: Columns, column: int, D: np.ndarray, zones: list[np.ndarray], strips: np.ndarray) -> float | None:
-    """A penetration between two of the nodes ``D`` at which the sequence of codes along y changes; None if it never does.
+@dataclass
+class Island:
+    """Strips with ``code`` between the thetas ``low`` and ``high`` at penetration ``present``, none of them at ``absent``."""
 
-    ``zones``: ``Averages.zones`` at the nodes. ``strips``: count of strips, increased.
+    column: int
+    code: int
+    low: float
+    high: float
+    present: float
+    absent: float
+
+
+def island(column: int, D: np.ndarray, zones: list[np.ndarray]) -> Island | None:
+    """The first change in the sequence of codes along y between two of the nodes ``D``; None if there is none.
+
+    ``zones``: ``Averages.zones`` at the nodes. The end nodes are breaks already: what they show may belong to either side.
     """
-    # the ends of a piece are breaks already: what its end nodes show may belong to either side
     for i in range(1, D.size - 2):
-        ones, others = zones[i][:, 0], zones[i + 1][:, 0]
-        if ones.size == others.size and np.all(ones == others):
+        one, two = zones[i], zones[i + 1]
+        if len(one) == len(two) and np.all(one[:, 0] == two[:, 0]):
             continue
-        longer = zones[i] if ones.size > others.size else zones[i + 1]
-        shorter = others if ones.size > others.size else ones
-        island = _island(longer, shorter)
-        with_it, without = (D[i], D[i + 1]) if ones.size > others.size else (D[i + 1], D[i])
-        found = _bisect(columns, column, *island, with_it, without, strips)
-        if min(found - D[0], D[-1] - found) > _CLOSE * (D[-1] - D[0]):
-            return found
+        ends = (D[i], D[i + 1])
+        if len(one) < len(two):
+            one, two, ends = two, one, ends[::-1]
+        same = 0
+        while same < len(two) and one[same, 0] == two[same, 0]:
+            same += 1
+        code, low, high = one[min(same, len(one) - 1)]
+        return Island(column, int(code), low, high, *ends)
     return None
 
 
-def _island(longer: np.ndarray, shorter: np.ndarray):
-    """Code and extent of the first zone of ``longer`` that ``shorter`` does not have."""
-    same = 0
-    while same < shorter.size and longer[same, 0] == shorter[same]:
-        same += 1
-    row = longer[min(same, len(longer) - 1)]
-    return int(row[0]), float(row[1]), float(row[2])
+def vanishing(columns: Columns, islands: list[Island], strips: np.ndarray) -> np.ndarray:
+    """Penetrations at which the islands have shrunk to nothing, all at once; ``strips`` (per column) counts the work."""
+    share = np.arange(1, _AT_ONCE + 1) / (_AT_ONCE + 1)
+    across = np.arange(_ACROSS + 2) / (_ACROSS + 1)
+    for _ in range(_ROUNDS):
+        D = np.array([i.present + (i.absent - i.present) * share for i in islands])
+        theta = np.array([i.low + (i.high - i.low) * across for i in islands])
+        shape = (len(islands), _AT_ONCE, across.size)
+        column = np.array([i.column for i in islands])
+        every = np.broadcast_to(column[:, None, None], shape).ravel()
+        np.add.at(strips, every, 1)
+        at = columns.at(every, np.broadcast_to(D[:, :, None], shape).ravel())
+        codes = at.codes(np.arange(every.size), np.broadcast_to(theta[:, None, :], shape).ravel()).reshape(shape)
+        for k, this in enumerate(islands):
+            _narrow(this, D[k], theta[k], codes[k] == this.code)
+    return np.array([0.5 * (i.present + i.absent) for i in islands])
 
 
-def _bisect(columns: Columns, column: int, code: int, low: float, high: float, with_it: float, without: float, strips):
-    """Penetration at which the island [low, high] of strips with ``code`` has shrunk to nothing."""
-    for _ in range(60):
-        if abs(with_it - without) <= 8 * _EPS * max(abs(with_it), abs(without), columns.level.h):
-            break
-        middle = 0.5 * (with_it + without)
-        theta = np.concatenate(([low], low + (high - low) * _POINTS, [high]))
-        index = np.full(theta.size, column)
-        codes = columns.at(index, np.full(theta.size, middle)).codes(np.arange(theta.size), theta)
-        strips[column] += theta.size
-        inside = np.flatnonzero(codes == code)
-        if inside.size:
-            with_it = middle
-            low, high = theta[max(inside[0] - 1, 0)], theta[min(inside[-1] + 1, theta.size - 1)]
-        else:
-            without = middle
-    return 0.5 * (with_it + without)
+def _narrow(this: Island, D, theta, there) -> None:
+    """Keep the last penetration at which the island is seen, and its extent there."""
+    seen = there.any(axis=1)
+    gone = int(np.argmin(seen)) if not seen.all() else seen.size
+    if gone < seen.size:
+        this.absent = D[gone]
+    if gone > 0:
+        this.present = D[gone - 1]
+        inside = np.flatnonzero(there[gone - 1])
+        this.low, this.high = theta[max(inside[0] - 1, 0)], theta[min(inside[-1] + 1, theta.size - 1)]
+
+
+def is_inside(D_break: float, low: float, high: float) -> bool:
+    """Whether a break lies in the interior of a piece."""
+    return min(D_break - low, high - D_break) > _CLOSE * (high - low)

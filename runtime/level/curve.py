@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .appearance import appearance
+from .appearance import is_inside, island, vanishing
 from .chebyshev import Piece, coefficients, lobatto, refinement
 from .means import level_means
 from .strips import Columns, saturation_depth
@@ -85,8 +85,12 @@ def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None) -> 
     top = saturation_depth(columns) if top is None else top
     points = breakpoints(columns, top)
     column = np.repeat(np.arange(n), [max(p.size - 1, 0) for p in points])
-    low = np.concatenate([p[:-1] for p in points]) if n else np.empty(0)
-    high = np.concatenate([p[1:] for p in points]) if n else np.empty(0)
+    # just inside its breaks a piece does not see strips that sit on a threshold but for rounding
+    inside = _threshold_width(columns, top)
+    low = np.concatenate([p[:-1] for p in points]) + inside[column] if n else np.empty(0)
+    high = np.concatenate([p[1:] for p in points]) - inside[column] if n else np.empty(0)
+    proper = high > low
+    column, low, high = column[proper], low[proper], high[proper]
     pieces: list[list[Piece]] = [[] for _ in range(n)]
     strips = np.zeros(n, int)
     for _ in range(_ROUNDS):
@@ -98,6 +102,12 @@ def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None) -> 
     return [
         Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)
     ]
+
+
+def _threshold_width(columns: Columns, top):
+    """Distance in D from a threshold below which rounding may decide it the other way."""
+    a = columns.adhesion
+    return 64 * _EPS * (columns.level.h + np.abs(top) + 2 * a.p_0 / columns.material.K + a.delta_0)
 
 
 def _interpolate(columns, rtol, column, low, high, pieces, strips):
@@ -122,13 +132,16 @@ def _interpolate(columns, rtol, column, low, high, pieces, strips):
         for i in np.flatnonzero(done):
             bound = error[i] + errors[i].max(axis=0)
             pieces[column[i]].append(Piece(low[i], high[i], coefficients(values[i]), bound))
-        # what appears or vanishes between two nodes, away from the crest, is a break of its own
         split = np.zeros(column.size, bool)
-        for i in np.flatnonzero(~done):
-            D_break = appearance(columns, column[i], sample.penetrations(i, lobatto(n)), zones[i], strips)
-            if D_break is not None and low[i] < D_break < high[i]:
-                split[i] = True
-                parts += [(column[i], low[i], D_break), (column[i], D_break, high[i])]
+        if n > _FIRST * 2:
+            # what appears or vanishes between two nodes, away from the crest, is a break of its own
+            todo = [(i, island(int(column[i]), sample.penetrations(i, lobatto(n)), zones[i])) for i in np.flatnonzero(~done)]
+            todo = [(i, found) for i, found in todo if found is not None]
+            breaks = vanishing(columns, [found for _, found in todo], strips) if todo else []
+            for (i, _), D_break in zip(todo, breaks, strict=True):
+                if is_inside(D_break, low[i], high[i]):
+                    split[i] = True
+                    parts += [(column[i], low[i], D_break), (column[i], D_break, high[i])]
         rest = np.flatnonzero(~done & ~split)
         column, low, high, values, errors = (v[rest] for v in (column, low, high, values, errors))
         zones = [zones[i] for i in rest]

@@ -24,6 +24,8 @@ Codes = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 _FIRST, _LAST = 8, 64
 _ROUNDS = 60
+#: panels a column may have waiting at once
+_CROWD = 150
 _EPS = np.finfo(float).eps
 #: how much the last doubling may be trusted to have gained over the one before
 _GAIN = 0.02
@@ -72,6 +74,11 @@ def average(integrand: Integrand, codes_at: Codes, starts: list[np.ndarray], flo
     work = _Work(integrand, codes_at, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int), [])
     for _ in range(_ROUNDS):
         panels = work.refine(panels.take(np.flatnonzero(panels.high > panels.low)))
+        # at a penetration where strips sit on a threshold all along y, rounding decides each: no use in splitting further
+        crowded = np.bincount(panels.column, minlength=n)[panels.column] > _CROWD
+        if crowded.any():
+            work.give_up(panels.take(np.flatnonzero(crowded)))
+            panels = panels.take(np.flatnonzero(~crowded))
         if not panels.size:
             break
     else:
@@ -143,12 +150,12 @@ class _Work:
         return _Panels(*(np.concatenate([getattr(p, f) for p in later]) for f in ("column", "low", "high")))
 
     def give_up(self, panels: _Panels) -> None:
-        """Take panels that never converged at the size they have shrunk to, with their whole content as error."""
+        """Take panels that do not converge as they are, with the spread of their values as error."""
         codes, values = self._sample(panels, _FIRST, None)
         width = (panels.high - panels.low)[:, None]
-        content = width * np.max(np.abs(values), axis=1)
-        np.add.at(self.values, panels.column, width * np.mean(values, axis=1))
-        np.add.at(self.errors, panels.column, content)
+        np.add.at(self.values, panels.column, width * np.einsum("j,pjq->pq", _weights(_FIRST), values))
+        np.add.at(self.errors, panels.column, width * (values.max(axis=1) - values.min(axis=1)))
+        self.accepted.append((panels.column, codes[:, 0], panels.low, panels.high))
 
     def _tolerance(self, column):
         goal = self.rtol[:, None] * (np.abs(self.values) + np.pi * self.floor)
@@ -192,9 +199,10 @@ class _Work:
         t = _nodes(n)
         theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * np.sin(0.5 * np.pi * t) ** 2
         row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
-        range_ = (values.max(axis=1) - values.min(axis=1))[row] + 1e-300
+        spread = (values.max(axis=1) - values.min(axis=1))[row]
         goal = 0.02 * self._tolerance(panels.column[row])
-        width = np.maximum(np.min(goal / range_, axis=1), 4 * _EPS * theta[row, node + 1])
+        width = np.min(np.divide(goal, spread, out=np.full_like(goal, np.pi), where=spread > goal / np.pi), axis=1)
+        width = np.maximum(width, 4 * _EPS * theta[row, node + 1])
         found = locate(
             lambda line, x: self._codes(panels.column[line], x),
             row, theta[row, node], theta[row, node + 1], codes[row, node], codes[row, node + 1], width,

@@ -72,6 +72,12 @@ class FrictionLaw:
         """Contact fraction at nominal pressure ``p`` (Pa), same shape."""
         return self._evaluate(p, 2)
 
+    def plot(self):
+        """A matplotlib Figure of friction stress and contact fraction over nominal pressure. Needs the extra ``plot``."""
+        from hystrip.plots import law_over_pressure
+
+        return law_over_pressure(self)
+
     def _evaluate(self, p, quantity):
         p = numbers("p", p, "Pa")
         if (p > self.below).any() and self.below < self.p_sat:

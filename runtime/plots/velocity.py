@@ -1,4 +1,4 @@
-"""Friction coefficient over sliding velocity, with what every level contributes."""
+"""Friction coefficient over sliding velocity or load, with what every level contributes."""
 
 from __future__ import annotations
 
@@ -6,64 +6,67 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, axes, styled
-from hystrip.tables import friction_rows
+from hystrip.errors import InputError
+from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, axes, length, styled
+from hystrip.tables import LOAD_UNITS, parts_of_mu
 
-_PREFIXES = ((1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
+_PANELS = 6
+LOAD_LABELS = {"pressure": "nominal pressure $p$ (Pa)", "penetration": "penetration $D$ (m)"}
 
 
 @styled
-def friction_over_velocity(scene: Any, result: Any) -> Any:
-    """Draw mu over log velocity: the total in black, every level's part in colour.
+def friction(result: Any) -> Any:
+    """Draw mu with every level's part: over log velocity, one panel for each of at most six loads; over the load where there is
+    a single velocity.
 
     Parameters
     ----------
-    scene : the :class:`hystrip.scene.Scene` that was solved, with at least two velocities
-    result : what its ``solve`` returned. With several loads one panel is drawn for each of at most six of them.
+    result : a :class:`hystrip.Result` with at least two points
 
     Returns
     -------
     matplotlib Figure
     """
-    columns = friction_rows(scene, result)
-    load_name, load = scene.load
-    loads = np.atleast_1d(load)
-    shown = np.unique(np.linspace(0, loads.size - 1, min(loads.size, 6)).round().astype(int))
-    first = axes(COLUMN, (0.68 * shown.size + 0.1) * COLUMN)
+    shape = np.shape(result.mu)
+    if np.size(result.mu) < 2:
+        raise InputError("result", f"{np.size(result.mu)} point", "a result of two points or more: one point is no curve")
+    load = np.asarray(getattr(result, result.load))
+    over_velocity = np.unique(result.velocity).size > 1
+    # one curve for each row; rows differ in the load
+    flat = (lambda v: np.reshape(v, (-1, shape[-1]))) if over_velocity and len(shape) > 1 else (lambda v: np.reshape(v, (1, -1)))
+    velocity, load, mu = flat(result.velocity), flat(load), flat(result.mu)
+    parts = [flat(part) for part in parts_of_mu(result)]
+    rows = np.unique(np.linspace(0, len(mu) - 1, min(len(mu), _PANELS)).round().astype(int))
+    first = axes(COLUMN, (0.68 * rows.size + 0.1) * COLUMN)
     figure = first.figure
     first.remove()
-    panels = figure.subplots(shown.size, 1, sharex=True, squeeze=False)[:, 0]
-    table = {name: values.reshape(loads.size, -1) for name, values in columns.items()}
-    for panel, row in zip(panels, shown, strict=True):
-        _panel(panel, scene, {name: values[row] for name, values in table.items()})
-        if loads.size > 1:
-            panel.set_title(f"{load_name} {loads[row]:.4g} {'Pa' if load_name == 'pressure' else 'm'}", fontsize=7)
-    panels[0].legend(loc="best", handlelength=2.6)
-    panels[-1].set_xlabel("sliding velocity $V$ (m/s)")
+    panels = figure.subplots(rows.size, 1, sharex=True, squeeze=False)[:, 0]
+    for panel, row in zip(panels, rows, strict=True):
+        x = velocity[row] if over_velocity else load[row]
+        _panel(panel, result.levels, x, mu[row], [part[row] for part in parts])
+        if rows.size > 1:
+            panel.set_title(f"{result.load} {load[row][0]:.4g} {LOAD_UNITS[result.load]}", fontsize=7)
+        if over_velocity and x.min() > 0:
+            panel.set_xscale("log")
+    if len(result.levels) > 1:
+        handles, labels = panels[0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside upper center", ncols=min(3, len(handles)), handlelength=2.2, columnspacing=1.0)
+    panels[-1].set_xlabel("sliding velocity $V$ (m/s)" if over_velocity else LOAD_LABELS[result.load])
     return figure
 
 
-def _panel(panel: Any, scene: Any, columns: dict[str, np.ndarray]) -> None:
-    order = np.argsort(columns["velocity [m/s]"], kind="stable")
-    velocity = columns["velocity [m/s]"][order]
-    panel.plot(velocity, columns["mu"][order], color="black", label="total", zorder=3)
-    if len(scene.levels) > 1:
-        for index, level in enumerate(scene.levels):
+def _panel(panel: Any, levels: Any, x: np.ndarray, mu: np.ndarray, parts: list[np.ndarray]) -> None:
+    order = np.argsort(x, kind="stable")
+    panel.plot(x[order], mu[order], color="black", label="total", zorder=3)
+    if len(levels) > 1:
+        for index, (level, part) in enumerate(zip(levels, parts, strict=True)):
             panel.plot(
-                velocity,
-                columns[f"mu of level {index + 1}"][order],
+                x[order],
+                part[order],
                 color=OKABE_ITO[index % len(OKABE_ITO)],
                 linestyle=DASHES[index % len(DASHES)],
-                label=f"level {index + 1} ($l$ = {_length(level.l)})",
+                label=f"level {index + 1} ($l$ = {length(level.l)})",
             )
-    panel.set_xscale("log")
-    panel.set_xlim(velocity[0], velocity[-1])
+    panel.set_xlim(x[order][0], x[order][-1])
     panel.axhline(0, color="0.6", linewidth=0.5, zorder=0)
     panel.set_ylabel(r"friction coefficient $\mu$")
-
-
-def _length(metres: float) -> str:
-    for factor, unit in _PREFIXES:
-        if metres >= 0.999 * factor:
-            return f"{metres / factor:.4g} {unit}"
-    return f"{metres:.3g} m"

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import tomllib
+from collections.abc import Iterator
 from importlib import resources
 from typing import Any
+
+import numpy as np
 
 from hystrip.errors import InputError
 from hystrip.scene.errors import SceneError, nearest
@@ -23,6 +27,14 @@ BUILTIN = _builtin_names()
 """Names of the scenes that come with hystrip."""
 
 
+def scene_text(source: str | os.PathLike[str]) -> tuple[str, str]:
+    """Text and short name of a scene file or built-in scene. Raises SceneError."""
+    path = os.fspath(source)
+    if path in BUILTIN:
+        return (resources.files("hystrip") / "scenes" / f"{path}.toml").read_text(encoding="utf-8"), path
+    return _read(path), os.path.splitext(os.path.basename(path))[0] or "scene"
+
+
 def load_scene(source: str | os.PathLike[str]) -> Scene:
     """Read a scene.
 
@@ -35,29 +47,35 @@ def load_scene(source: str | os.PathLike[str]) -> Scene:
     SceneError : the file cannot be read, or its content not be used; names key, value and what is allowed
     MissingExtra : msgspec, or Pint where a unit is written, is not installed
     """
-    path = os.fspath(source)
-    if path in BUILTIN:
-        text = (resources.files("hystrip") / "scenes" / f"{path}.toml").read_text(encoding="utf-8")
-        return parse_scene(text, name=path, source=path)
-    name = os.path.splitext(os.path.basename(path))[0]
-    return parse_scene(_read(path), name=name or "scene", source=path)
+    text, name = scene_text(source)
+    return parse_scene(text, name=name, source=os.fspath(source))
 
 
 def parse_scene(text: str, name: str = "scene", source: str = "") -> Scene:
     """Build a scene from TOML text; `source` is named in errors. Raises as :func:`load_scene`."""
     from hystrip.scene.validate import validated
 
+    with located(source):
+        return _assembled(validated(parse_toml(text)), text, name, source)
+
+
+def parse_toml(text: str) -> dict[str, Any]:
+    """Content of a TOML text. Raises SceneError."""
     try:
-        raw = tomllib.loads(text)
+        return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise SceneError("", None, "", f"not valid TOML: {error}", source) from None
+        raise SceneError("", None, "", f"not valid TOML: {error}") from None
     except RecursionError:
-        raise SceneError("", None, "", "not valid TOML: nested too deeply", source) from None
+        raise SceneError("", None, "", "not valid TOML: nested too deeply") from None
+
+
+@contextlib.contextmanager
+def located(source: str) -> Iterator[None]:
+    """Add the file's name to every input error that leaves the block."""
     try:
-        return _assembled(validated(raw), text, name, source)
+        yield
     except InputError as error:
-        problem = getattr(error, "problem", "")
-        raise SceneError(error.field, error.value, error.allowed, problem, source) from None
+        raise SceneError(error.field, error.value, error.allowed, getattr(error, "problem", ""), source) from None
 
 
 def _read(path: str) -> str:
@@ -85,22 +103,45 @@ def _read(path: str) -> str:
 def _assembled(values: dict[str, Any], text: str, name: str, source: str) -> Scene:
     """The library's own objects check signs, orders and bounds; their errors get the place in the file added."""
 
+    refuse_ambiguous(values)
+    for field, each in quantities(values):
+        if each.ndim and field not in ("pressure", "penetration", "velocity"):
+            raise SceneError(field, each.tolist(), "a single number or text with a unit (lists and ranges here are for `hystrip sweep`)")
+    objects = build_objects(values)
+    rest = {key: each for key, each in values.items() if key not in ("material", "adhesion", "levels", "sweep")}
+    return Scene(name=name, text=text, source=source, **objects, **rest)
+
+
+def refuse_ambiguous(values: dict[str, Any]) -> None:
+    """Check that load and adhesion are each given in one way."""
     _one_of(values, "", "pressure", "penetration")
-    material = dict(values.pop("material"))
-    model = material.pop("model")
-    adhesion = values.pop("adhesion") or {"gamma": 0.0, "p_0": None, "delta_0": None}
-    levels = values.pop("levels")
-    if adhesion["delta_0"] is not None:
-        _one_of(adhesion, "adhesion", "gamma", "p_0")
-    return Scene(
-        name=name,
-        text=text,
-        source=source,
-        material=_made(_MODELS[model], material, "material"),
-        adhesion=_made("Dugdale", {key: each for key, each in adhesion.items() if each is not None}, "adhesion"),
-        levels=tuple(_made("Level", level, f"levels[{index}]") for index, level in enumerate(levels)),
-        **values,
-    )
+    if values["adhesion"] is not None:
+        _one_of(values["adhesion"], "adhesion", "gamma", "p_0")
+
+
+def quantities(values: dict[str, Any]) -> Iterator[tuple[str, np.ndarray]]:
+    """Dotted key and value of every quantity of a validated scene: levels, material, adhesion, load, velocity."""
+    tables = [(f"levels[{index}]", level) for index, level in enumerate(values["levels"])]
+    tables += [("material", values["material"]), ("adhesion", values["adhesion"] or {})]
+    for path, table in tables:
+        for key, each in table.items():
+            if isinstance(each, np.ndarray):
+                yield f"{path}.{key}", each
+    for key in ("pressure", "penetration", "velocity"):
+        if values[key] is not None:
+            yield key, values[key]
+
+
+def build_objects(values: dict[str, Any]) -> dict[str, Any]:
+    """Material, adhesion and levels of a validated scene whose quantities there are single values."""
+    material = {key: float(each) for key, each in values["material"].items() if key != "model"}
+    adhesion = {key: float(each) for key, each in (values["adhesion"] or {"gamma": 0.0}).items() if each is not None}
+    levels = [{key: float(each) for key, each in level.items()} for level in values["levels"]]
+    return {
+        "material": _made(_MODELS[values["material"]["model"]], material, "material"),
+        "adhesion": _made("Dugdale", adhesion, "adhesion"),
+        "levels": tuple(_made("Level", level, f"levels[{index}]") for index, level in enumerate(levels)),
+    }
 
 
 _MODELS = {"standard_linear_solid": "StandardLinearSolid"}

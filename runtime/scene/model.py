@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -64,15 +65,14 @@ class Scene:
         InputError, SolverError : as :func:`hystrip.solve`
         """
         import hystrip
-        from hystrip.errors import InputError
-        from hystrip.scene.errors import SceneError
+        from hystrip.scene.load import located
 
         name, load = self.load
         options: dict[str, Any] = {name: load.reshape(load.shape + (1,) * self.velocity.ndim)}
         if progress is not None:
             options["progress"] = progress
-        try:
-            return hystrip.solve(
+        with located(self.source):
+            result = hystrip.solve(
                 self.material,
                 self.adhesion,
                 self.levels,
@@ -82,5 +82,4 @@ class Scene:
                 rtol=self.rtol,
                 **options,
             )
-        except InputError as error:
-            raise SceneError(error.field, error.value, error.allowed, source=self.source) from None
+        return dataclasses.replace(result, scene=self.text)

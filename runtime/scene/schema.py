@@ -13,9 +13,10 @@ Meta, Struct = msgspec.Meta, msgspec.Struct
 Number = float | str
 
 
-def _meta(description: str, unit: str) -> Any:
+def _swept_meta(description: str, unit: str) -> Any:
     return Meta(
-        description=f"{description}: a number in {unit} or text with a unit such as {EXAMPLES[unit]!r}",
+        description=f"{description}: a number in {unit} or text with a unit such as {EXAMPLES[unit]!r} "
+        "(for `hystrip sweep` also a list or a range of these)",
         extra={"unit": unit},
         extra_json_schema={"examples": [EXAMPLES[unit]]},
     )
@@ -52,24 +53,36 @@ class Material(Struct, forbid_unknown_fields=True, kw_only=True):
         Literal["standard_linear_solid"],
         Meta(description='"standard_linear_solid" (the default)'),
     ] = "standard_linear_solid"
-    K: Annotated[Number, _meta("relaxed stiffness per area, > 0", "Pa/m")]
-    T_eps: Annotated[Number, _meta("retardation time, >= T_sigma", "s")]
-    T_sigma: Annotated[Number, _meta("relaxation time, from 0 to T_eps", "s")]
+    K: Annotated[Values, _swept_meta("relaxed stiffness per area, > 0", "Pa/m")]
+    T_eps: Annotated[Values, _swept_meta("retardation time, >= T_sigma", "s")]
+    T_sigma: Annotated[Values, _swept_meta("relaxation time, from 0 to T_eps", "s")]
 
 
 class Adhesion(Struct, forbid_unknown_fields=True, kw_only=True):
     """Dugdale adhesion: a constant attraction up to a range. Either its energy or its stress is given."""
 
-    gamma: Annotated[Number | None, _meta("energy of adhesion gamma = p_0 delta_0, >= 0", "J/m^2")] = None
-    p_0: Annotated[Number | None, _meta("adhesive stress, >= 0", "Pa")] = None
-    delta_0: Annotated[Number, _meta("range of adhesion, > 0", "m")]
+    gamma: Annotated[Values | None, _swept_meta("energy of adhesion gamma = p_0 delta_0, >= 0", "J/m^2")] = None
+    p_0: Annotated[Values | None, _swept_meta("adhesive stress, >= 0", "Pa")] = None
+    delta_0: Annotated[Values, _swept_meta("range of adhesion, > 0", "m")]
 
 
 class Level(Struct, forbid_unknown_fields=True, kw_only=True):
     """One level of roughness, a double cosine wave."""
 
-    l: Annotated[Number, _meta("wavelength, > 0", "m")]  # noqa: E741 - the paper's name
-    h: Annotated[Number, _meta("height from valley to summit, >= 0", "m")]
+    l: Annotated[Values, _swept_meta("wavelength, > 0", "m")]  # noqa: E741 - the paper's name
+    h: Annotated[Values, _swept_meta("height from valley to summit, >= 0", "m")]
+
+
+class Sweep(Struct, forbid_unknown_fields=True, kw_only=True):
+    """How `hystrip sweep` combines the lists and ranges of a scene."""
+
+    combine: Annotated[
+        Literal["grid", "list"],
+        Meta(description='"grid" (every combination, the default) or "list" (all of one length, taken together)'),
+    ] = "grid"
+    batch: Annotated[
+        int, Meta(ge=1, le=100_000, description="an integer from 1 to 100000, points that are solved and stored together")
+    ] = 64
 
 
 class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):
@@ -93,6 +106,7 @@ class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):
     ] = 1e-6
     material: Annotated[Material, Meta(description="a table [material] with K, T_eps and T_sigma")]
     adhesion: Annotated[Adhesion | None, Meta(description="a table [adhesion]; without one there is no adhesion")] = None
+    sweep: Annotated[Sweep | None, Meta(description="a table [sweep] with combine and batch, for `hystrip sweep`")] = None
     levels: Annotated[
         list[Level], Meta(min_length=1, description="one [[levels]] table or more, each with l and h, the largest first")
     ]

@@ -28,8 +28,8 @@ def validated(raw: dict[str, Any]) -> dict[str, Any]:
 
     Returns
     -------
-    dict with the keys of :class:`hystrip.scene.schema.SceneFile`; quantities are floats, ranges 1-D arrays, a single
-    value is an array of shape (); absent optional keys are None or their default
+    dict with the keys of :class:`hystrip.scene.schema.SceneFile`; a quantity is an array of shape (), a list or range of
+    them one of shape (n,); absent optional keys are None or their default
 
     Raises
     ------
@@ -130,8 +130,7 @@ def _resolved(struct: Any, path: str) -> dict[str, Any]:
         value, field = getattr(struct, name), _join(path, name)
         unit = (meta.extra or {}).get("unit")
         if value is not None and unit is not None:
-            ranged = type(struct) is schema.SceneFile
-            value = _values(value, unit, field) if ranged else to_si(value, unit, field)
+            value = _values(value, unit, field)
         elif isinstance(value, schema.Struct):
             value = _resolved(value, field)
         elif isinstance(value, list):

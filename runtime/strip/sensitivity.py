@@ -73,7 +73,7 @@ def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds
     fall = np.minimum(-F_max * np.expm1(np.minimum(log_min, 0.0)), np.maximum(F_max - N_min, 0.0))
     growth = np.where(log_max < 700, np.expm1(np.clip(log_max, 0.0, 700.0)), np.inf)
     rise = np.minimum(
-        np.multiply(F_max, growth, out=np.zeros_like(F_max), where=growth > 0), np.maximum(N_max - F_min, 0.0)
+        np.multiply(F_max, growth, out=np.zeros_like(F_max), where=(growth > 0) & (F_max > 0)), np.maximum(N_max - F_min, 0.0)
     )
     return SlopeBounds(fall, rise, (log_max < 0) | (N_max < F_min), N_min)
 

@@ -75,6 +75,12 @@ class StripSolution:
         profile = D - 2 * A * np.sin(0.5 * k * x) ** 2
         return self.gap(x) + profile
 
+    def plot(self):
+        """A matplotlib Figure of pressure, foundation and profile of a single strip. Needs the extra ``plot``."""
+        from hystrip.plots import strip_fields
+
+        return strip_fields(self)
+
     def _fields(self, x):
         x = numbers("x", x, "m")
         shape = broadcast(x=x, strips=self.p_mean)

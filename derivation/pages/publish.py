@@ -1,0 +1,63 @@
+"""Writing the audit: pages, JSON, and the pictures and figures that only the running solver can supply."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from ..derive import STAGES, derive
+from ..drift import AUDIT, CERTIFICATES, MEASURED, certificate_drift, dumped, generated_folder, read_certificates, write_files
+from ..emit import emit
+from ..model import Model
+from ..models import MODELS, STANDARD_LINEAR_SOLID
+from .measured import measured
+from .render import audit_files
+
+DRAWN = (STANDARD_LINEAR_SOLID.name,)  # models whose strips hystrip.solve_strip can solve
+
+
+class AuditError(Exception):
+    """The installed solver is not the one that would be audited."""
+
+
+def audit(
+    out_dir: str | os.PathLike[str] | None = None,
+    models: Iterable[Model] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[Path]:
+    """Derive, verify and write the audit into ``out_dir`` (the generated folder's own); returns the files written.
+
+    Raises :class:`DerivationError` at the first step that does not verify, and :class:`AuditError` unless the installed
+    solver and its certificates are those of this derivation.
+    """
+    chosen = tuple(models) if models is not None else MODELS
+    installed = generated_folder()
+    target = Path(out_dir) if out_dir is not None else installed / AUDIT
+    total, done = len(chosen) * len(STAGES) + 2, 0
+
+    def say(stage: str = "") -> None:
+        nonlocal done
+        done += 1
+        if progress is not None:
+            progress(done, total)
+
+    derivations = tuple(derive(model, say) for model in chosen)
+    texts = emit(derivations)
+    say()
+    stale = [name for name, text in texts.items() if not _same(installed / name, text)]
+    functions = {d.model.name: [kernel.formula.name for kernel in d.kernels] for d in derivations}
+    stale += [record.path for record in certificate_drift(installed, functions)]
+    if stale:
+        raise AuditError(f"{', '.join(stale)} in {installed} is not what the derivation emits; run `hystrip regenerate` first")
+    found = {model.name: measured() for model in chosen if model.name in DRAWN}
+    pages = audit_files(derivations, texts, read_certificates(installed / CERTIFICATES), found)
+    pages[Path(MEASURED).name] = dumped(found)
+    target.mkdir(parents=True, exist_ok=True)
+    written = write_files(target, pages)
+    say()
+    return written
+
+
+def _same(path: Path, text: str) -> bool:
+    return path.exists() and path.read_bytes() == text.encode()

@@ -1,0 +1,68 @@
+"""Pages and JSON from the content."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import jinja2
+from markupsafe import Markup, escape
+
+from ..derive import Derivation
+from .content import content, identity
+from .latex import mathml
+
+INDEX = "index.html"
+TEMPLATES = Path(__file__).parents[1] / "templates"
+FORMULA = re.compile(r"\$([^$]+)\$")
+
+
+def audit_files(
+    derivations: tuple[Derivation, ...], files: dict[str, str], certificates: dict[str, Any], measured: dict[str, Any]
+) -> dict[str, str]:
+    """Text of every page and table, by its path in the audit's folder.
+
+    ``certificates`` holds the certified functions of each model, ``measured`` what was measured and drawn for each.
+    """
+    pages = {}
+    about = identity(files)
+    models = []
+    for derivation in derivations:
+        name = derivation.model.name
+        told = content(derivation, files, certificates.get(name, {}).get("functions", {}))
+        pages[f"{name}.json"] = json.dumps(told, indent=1, sort_keys=True) + "\n"
+        pages[f"{name}.html"] = _render("page", page=told, measured=measured.get(name, {}))
+        models.append(told)
+    pages[INDEX] = _render("index", models=models, identity=about)
+    return pages
+
+
+def _render(kind: str, **values: Any) -> str:
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(TEMPLATES),
+        undefined=jinja2.StrictUndefined,
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    environment.filters.update(mathml=mathml, anchor=anchor, picture=_picture, prose=_prose)
+    return environment.get_template(f"audit/{kind}.html.jinja").render(**values)
+
+
+def anchor(name: str) -> str:
+    """A name as the identifier of an element."""
+    return re.sub(r"[^a-z0-9_.]+", "-", name.lower()).strip("-")
+
+
+def _picture(svg: str) -> str:
+    return "data:image/svg+xml;base64," + base64.b64encode(svg.encode()).decode()
+
+
+def _prose(text: str) -> Markup:
+    """Text in which ``$...$`` is an equation."""
+    parts = FORMULA.split(text)
+    return Markup("").join(mathml(part) if n % 2 else escape(part) for n, part in enumerate(parts))

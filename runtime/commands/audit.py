@@ -1,0 +1,35 @@
+"""``hystrip audit``: where every formula comes from, how it was verified, where it is computed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import typer
+
+
+def command(
+    out: Path = typer.Option(None, "--out", help="Folder to write into; without it, the installed package's own."),
+) -> None:
+    """Derive and verify the solver anew and write the audit: pages for a browser, and JSON.
+
+    Exits with 1, and names the step, if one does not verify. Needs the extras `regenerate` and `plot`.
+    """
+    from hystrip.commands.derivation import needed
+    from hystrip.commands.progress import progress
+    from hystrip.extras import require
+    from hystrip.files import refuse_unwritable
+
+    needed("auditing")
+    require("matplotlib", "plot", "drawing the audit's examples")
+    import hystrip.derivation
+    import hystrip.generated
+
+    folder = out if out is not None else Path(hystrip.generated.__file__).parent / "audit"
+    refuse_unwritable(folder, "--out")
+    try:
+        with progress("auditing") as report:
+            hystrip.derivation.audit(folder, progress=report)
+    except (hystrip.derivation.DerivationError, hystrip.derivation.AuditError) as problem:
+        typer.echo(f"hystrip: {problem}", err=True)
+        raise typer.Exit(1) from None
+    typer.echo(f"wrote {folder / 'index.html'}")

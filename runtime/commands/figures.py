@@ -1,0 +1,25 @@
+"""``hystrip figures``: Figures 3 to 7 of the paper."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import typer
+
+
+def command(
+    only: list[str] = typer.Argument(None, help="Which ones, such as fig3 fig6; all without any."),
+    out: Path = typer.Option(Path("hystrip-figures"), "--out", help="Folder for the pictures and their data."),
+) -> None:
+    """Draw the paper's Figures 3 to 7: PNG, SVG, and the data of each as CSV."""
+    from hystrip.commands.progress import progress
+    from hystrip.extras import require
+    from hystrip.figures import draw
+    from hystrip.files import refuse_unwritable
+
+    require("matplotlib", "plot", "drawing")
+    refuse_unwritable(out, "--out")
+    with progress("figures") as report:
+        written = draw(only, out, report)
+    for path in written:
+        typer.echo(f"wrote {path}")

@@ -1,0 +1,48 @@
+"""``hystrip sweep``: a scene over all its lists and ranges."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import typer
+
+
+def command(
+    scene: str = typer.Argument(help="A scene file (TOML) in which any quantity may be a list or a range."),
+    out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results; run again with the same to go on."),
+    workers: int = typer.Option(1, "--workers", help="Local processes."),
+    scheduler: str = typer.Option(None, "--scheduler", help="Address of a Dask scheduler, such as tcp://host:8786."),
+    batch: int = typer.Option(None, "--batch", help="Points solved and stored together [the scene's, or 64]."),
+    netcdf: bool = typer.Option(False, "--netcdf", help="Write the labelled results as netCDF too (extra `dataset`)."),
+    restart: bool = typer.Option(False, "--restart", help="Delete what an earlier sweep left in the folder."),
+) -> None:
+    """Solve a scene over every combination of its lists and ranges.
+
+    Results go to disk as they come: after Ctrl-C, a crash or a kill the same command goes on where it was. A point that
+    cannot be solved is recorded with its reason.
+    """
+    from hystrip.commands.progress import progress
+    from hystrip.extras import require
+    from hystrip.files import Outputs
+    from hystrip.sweeps import sweep
+
+    if netcdf:
+        require("xarray", "dataset", "writing netCDF")
+        require("h5netcdf", "dataset", "writing netCDF")
+    try:
+        with progress("sweeping", rate=True) as report:
+            done = sweep(scene, out=out, workers=workers, scheduler=scheduler, batch=batch, restart=restart, progress=report)
+    except KeyboardInterrupt:
+        typer.echo("hystrip: finished batches are kept; the same command goes on from there", err=True)
+        raise
+    written = [done.path]
+    if netcdf:
+        with Outputs(out) as files:
+            done.to_dataset().to_netcdf(files.path(f"{done.plan.name}.nc"), engine="h5netcdf")
+        written.append(out / f"{done.plan.name}.nc")
+    again = f", {done.kept} of {done.plan.batches} batches from before" if done.kept else ""
+    typer.echo(f"{done.plan.size} points{again}")
+    if done.failed:
+        typer.echo(f"{len(done.failed)} points failed; the column 'failed' says why, the first: {next(iter(done.failed.values()))}", err=True)
+    for path in written:
+        typer.echo(f"wrote {path}")

@@ -1,0 +1,44 @@
+"""Figures 3 to 7 of the paper, one module each: ``data`` solves and returns a table, ``paint`` draws it."""
+
+from __future__ import annotations
+
+import importlib
+import os
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from hystrip.errors import InputError
+from hystrip.files import Outputs
+
+FIGURES = ("fig3", "fig4", "fig5", "fig6", "fig7")
+
+
+def draw(
+    only: Sequence[str] | None, out: str | os.PathLike[str], progress: Callable[[int, int], None] | None = None
+) -> list[Path]:
+    """Solve and draw the figures in ``only`` (all if empty) into a folder: PNG, SVG and CSV of each; returns the files.
+
+    Raises InputError for a name that is not one of :data:`FIGURES`.
+    """
+    from hystrip.plots.style import save
+    from hystrip.tables import write_csv
+
+    names = list(dict.fromkeys(only or FIGURES))
+    for name in names:
+        if name not in FIGURES:
+            raise InputError("figures", name, ", ".join(FIGURES))
+    written = []
+    if progress:
+        progress(0, len(names))
+    for done, name in enumerate(names, start=1):
+        module = importlib.import_module(f"hystrip.figures.{name}")
+        table = module.data()
+        with Outputs(out) as files:
+            write_csv(files.path(f"{name}.csv"), table)
+            figure = module.paint(table)
+            for kind in ("png", "svg"):
+                save(figure, files.path(f"{name}.{kind}"))
+        written += [Path(out) / f"{name}.{kind}" for kind in ("csv", "png", "svg")]
+        if progress:
+            progress(done, len(names))
+    return written

@@ -1,0 +1,43 @@
+"""Friction stress and real contact of one level over nominal pressure."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from hystrip.plots.style import COLUMN, OKABE_ITO, axes, styled
+
+
+@styled
+def law_over_pressure(law: Any, points: int = 400) -> Any:
+    """Draw a :class:`hystrip.FrictionLaw`: friction stress and contact fraction, from pull-off to a little above saturation.
+
+    Returns
+    -------
+    matplotlib Figure
+    """
+    reach = law.p_sat if law.below >= law.p_sat else law.below
+    span = max(reach - law.pull_off, np.finfo(float).tiny)
+    end = reach + 0.1 * span if law.below >= law.p_sat else reach
+    first = axes(COLUMN, 1.2 * COLUMN)
+    figure = first.figure
+    first.remove()
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    inner = [b for b in law.breaks if law.pull_off < b < end]
+    start = law.pull_off - 0.1 * span
+    ends = [law.pull_off, *inner, end]
+    for low, high in zip(ends[:-1], ends[1:], strict=True):
+        # a jump of the law is not joined by a line
+        p = np.linspace(np.nextafter(low, high), np.nextafter(high, low), max(points // len(ends), 20))
+        upper.plot(p, law(p), color=OKABE_ITO[0])
+        lower.plot(p, law.contact_fraction(p), color=OKABE_ITO[0])
+    for panel in (upper, lower):
+        panel.plot([start, law.pull_off], [0, 0], color=OKABE_ITO[0])
+        panel.axvline(law.pull_off, color="0.5", linewidth=0.6, linestyle=":")
+    upper.set_ylabel(r"friction stress $\tau$ (Pa)")
+    lower.set_ylabel("contact fraction")
+    lower.set_xlabel("nominal pressure $p$ (Pa)")
+    lower.set_xlim(start, end)
+    lower.set_ylim(-0.03, 1.05)
+    return figure

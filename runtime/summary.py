@@ -1,0 +1,107 @@
+"""Where the friction of a result comes from, in words."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from hystrip.tables import shares
+
+
+def summary(result: Any) -> str:
+    """Text about a :class:`hystrip.Result`: the levels, the friction, what every level adds, and what was skipped."""
+    return "\n".join([*_inputs(result), "", *_levels(result), "", *_friction(result), *_contact(result), *_work(result)])
+
+
+def deborah(result: Any) -> np.ndarray:
+    """Deborah number ``k V T_eps`` of every level, shape (levels, ...): retardation time over the time to slide ``l/(2 pi)``."""
+    k = np.array([level.k for level in result.levels])
+    return np.multiply.outer(k, np.asarray(result.velocity)) * result.material.T_eps
+
+
+def peak_velocities(result: Any) -> np.ndarray:
+    """Velocity at which each level would rub most in saturated contact, ``l/(2 pi T_sigma)`` (m/s); inf for ``T_sigma = 0``."""
+    lengths = np.array([level.l for level in result.levels])
+    T_sigma = result.material.T_sigma
+    return lengths / (2 * np.pi * T_sigma) if T_sigma > 0 else np.full(lengths.shape, np.inf)
+
+
+def _inputs(result: Any) -> list[str]:
+    m, a = result.material, result.adhesion
+    sticky = f"gamma = {a.gamma:.4g} J/m^2, delta_0 = {a.delta_0:.4g} m, p_0 = {a.p_0:.4g} Pa" if a.p_0 > 0 else "none"
+    return [
+        f"material   {type(m).__name__}: K = {m.K:.4g} Pa/m, T_eps = {m.T_eps:.4g} s, T_sigma = {m.T_sigma:.4g} s",
+        f"adhesion   {sticky}",
+        f"closure    {result.edge}, branch {result.branch}, rtol {result.rtol:g}",
+        f"points     {np.size(result.mu)}: pressure {_span(result.pressure, 'Pa')}, velocity {_span(result.velocity, 'm/s')}",
+    ]
+
+
+def _levels(result: Any) -> list[str]:
+    from hystrip.level.saturated import saturated_level
+
+    De, V_peak, part = deborah(result), peak_velocities(result), shares(result)
+    V = np.atleast_1d(np.asarray(result.velocity)).ravel()
+    rows = [("level", "l [m]", "h [m]", "De = k V T_eps", "V of its peak if", "p_sat alone", "share of mu", "in contact", "in adhesion")]
+    rows.append(("", "", "", "", "saturated [m/s]", "[Pa]", "", "", ""))
+    for i, level in enumerate(result.levels):
+        p_sat = saturated_level(result.material, result.adhesion, level, V).p_sat
+        rows.append((
+            str(i + 1), f"{level.l:.4g}", f"{level.h:.4g}", _span(De[i]), f"{V_peak[i]:.4g}", _span(p_sat),
+            _percent(part[i]), _percent(result.contact_by_level[i]), _percent(result.adhesion_by_level[i]),
+        ))  # fmt: skip
+    widths = [max(len(row[j]) for row in rows) for j in range(len(rows[0]))]
+    return ["  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+
+
+def _friction(result: Any) -> list[str]:
+    mu = np.ravel(result.mu)
+    out = [f"mu         {_span(mu)}"]
+    if np.isfinite(mu).sum() > 1:
+        top = int(np.nanargmax(np.abs(mu)))
+        at = f"V = {np.ravel(result.velocity)[top]:.4g} m/s, p = {np.ravel(result.pressure)[top]:.4g} Pa"
+        out.append(f"           largest at {at}: level shares " + ", ".join(
+            _percent(np.ravel(part)[top]) for part in shares(result)))
+    error = np.ravel(result.error_estimate)
+    out.append(f"error      of mu at most {np.nanmax(error):.1e} (estimate)" if np.isfinite(error).any() else "error      undefined: zero pressure")
+    return out
+
+
+def _contact(result: Any) -> list[str]:
+    found = np.isfinite(result.pull_off)
+    pull_off = _span(np.asarray(result.pull_off)[found], "Pa") if found.any() else "not needed: no point asked for it"
+    off = int(np.count_nonzero(result.pulled_off))
+    return [
+        f"real contact (touching on every level)  {_percent(result.contact_fraction)}",
+        f"level 1: pull-off {pull_off}; saturated from {_span(result.p_sat, 'Pa')}",
+        *([f"{off} points lie below pull-off: no contact, mu = 0, nothing to solve"] if off else []),
+    ]
+
+
+def _work(result: Any) -> list[str]:
+    c = result.counts
+    return [
+        f"work       {c['strips_solved']} strips solved; skipped: {c['strips_decided_by_threshold']} strips by a threshold (saturated or free),",
+        f"           {c['points_in_closed_form']} points by the closed form (every level saturated), "
+        f"{c['points_below_pull_off']} points below pull-off",
+    ]
+
+
+def _span(values: Any, unit: str = "") -> str:
+    values = np.ravel(values)
+    values = values[~np.isnan(values)]
+    tail = f" {unit}" if unit else ""
+    if not values.size:
+        return "-"
+    low, high = f"{values.min():.4g}", f"{values.max():.4g}"
+    return (low if low == high else f"{low} .. {high}") + tail
+
+
+def _percent(values: Any) -> str:
+    values = np.ravel(values)
+    values = 100 * values[~np.isnan(values)]
+    if not values.size:
+        return "-"
+    low, high = f"{values.min():.3g}", f"{values.max():.3g}"
+    return (low if low == high else f"{low} .. {high}") + " %"

@@ -1,0 +1,79 @@
+"""Where batches run: in this process, on local processes, or on a Dask cluster."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import threading
+from collections.abc import Iterator
+from concurrent.futures import Executor, Future, ProcessPoolExecutor
+from typing import Any
+
+from hystrip.errors import HystripError, InputError
+from hystrip.extras import require
+
+
+class InProcess(Executor):
+    """Runs what is submitted at once, here."""
+
+    def submit(self, function: Any, /, *arguments: Any, **options: Any) -> Future:
+        """Run and return a finished future."""
+        future: Future = Future()
+        try:
+            future.set_result(function(*arguments, **options))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+
+@contextlib.contextmanager
+def local(workers: int) -> Iterator[tuple[Executor, int]]:
+    """An executor of this machine and how many batches to keep in flight."""
+    if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
+        raise InputError("workers", workers, "an integer >= 1, local processes")
+    if workers == 1:
+        yield InProcess(), 1
+        return
+    from multiprocessing import get_context
+
+    pool = ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=_start_worker)
+    try:
+        yield pool, 2 * workers
+    except BaseException:
+        # what is in flight is not waited for: it will be solved again
+        processes = list((getattr(pool, "_processes", None) or {}).values())
+        pool.shutdown(wait=False, cancel_futures=True)
+        for process in processes:
+            process.terminate()
+        raise
+    pool.shutdown()
+
+
+@contextlib.contextmanager
+def dask(address: str) -> Iterator[tuple[Executor, int]]:
+    """The executor of a Dask cluster at ``address`` and how many batches to keep in flight."""
+    distributed = require("distributed", "dask", "a Dask scheduler")
+    try:
+        client = distributed.Client(address, timeout=10, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise HystripError(f"--scheduler {address}: no Dask scheduler answers ({error or type(error).__name__})") from None
+    try:
+        threads = sum(client.nthreads().values())
+        yield client.get_executor(retries=3), max(2 * threads, 8)
+    finally:
+        client.close(timeout=5)
+
+
+def _start_worker() -> None:
+    """Ctrl-C is the parent's to handle; and a worker ends when its parent was killed."""
+    from multiprocessing import connection, parent_process
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = parent_process()
+
+    def watch() -> None:
+        connection.wait([parent.sentinel])
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()

@@ -1,0 +1,168 @@
+"""What a sweep solves: points in a fixed order, cut into batches that the scene alone decides."""
+
+from __future__ import annotations
+
+import copy
+import hashlib
+import json
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hystrip.errors import InputError
+from hystrip.inputs.checks import numbers
+from hystrip.scene.errors import SceneError, nearest
+from hystrip.scene.load import build_objects, quantities, refuse_ambiguous
+
+_LOADS = ("pressure", "penetration")
+_UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "gamma": "J/m^2", "p_0": "Pa", "delta_0": "m",
+          "pressure": "Pa", "penetration": "m", "velocity": "m/s"}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One swept quantity: its dotted key in the scene, its values in SI."""
+
+    key: str
+    values: np.ndarray
+
+    @property
+    def name(self) -> str:
+        """Short name: ``gamma``, ``h_2`` (level 2's h), ``velocity``."""
+        return short_name(self.key)
+
+    @property
+    def unit(self) -> str:
+        return _UNITS[self.key.rsplit(".", 1)[-1]]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A sweep. ``base``: the validated scene; ``axes``: what varies, the slowest first; load and velocity come last."""
+
+    name: str
+    text: str
+    base: dict[str, Any]
+    axes: tuple[Axis, ...]
+    combine: str
+    batch: int
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Lengths of the axes of a grid; one length for a list."""
+        sizes = tuple(axis.values.size for axis in self.axes)
+        return sizes if self.combine == "grid" else sizes[:1]
+
+    @property
+    def size(self) -> int:
+        return int(np.prod(self.shape, dtype=int))
+
+    @property
+    def batches(self) -> int:
+        return -(-self.size // self.batch)
+
+    @property
+    def levels(self) -> int:
+        return len(self.base["levels"])
+
+    @property
+    def load(self) -> str:
+        return "penetration" if self.base["pressure"] is None else "pressure"
+
+    def points_of(self, number: int) -> np.ndarray:
+        """Indices of the points of a batch."""
+        return np.arange(number * self.batch, min((number + 1) * self.batch, self.size))
+
+    def coordinates(self, points: np.ndarray) -> np.ndarray:
+        """Values of the axes at points (n,), shape (n, axes)."""
+        index = np.unravel_index(points, self.shape) if self.combine == "grid" else [points] * len(self.axes)
+        return np.column_stack([axis.values[i] for axis, i in zip(self.axes, index, strict=True)])
+
+    @property
+    def fingerprint(self) -> str:
+        """Changes with anything that the numbers, their order or the batches depend on."""
+        import hystrip
+
+        solved = {key: each for key, each in self.base.items() if key not in ("title", "description", "sweep")}
+        seen = [solved, [[axis.key, axis.values] for axis in self.axes], self.combine, self.batch, hystrip.__version__]
+        return hashlib.sha256(json.dumps(seen, default=_listed, sort_keys=True).encode()).hexdigest()
+
+
+def _listed(value: Any) -> Any:
+    return [float(each).hex() for each in np.ravel(value)] + [list(np.shape(value))]
+
+
+def short_name(key: str) -> str:
+    """``levels[1].h`` -> ``h_2``, ``material.K`` -> ``K``."""
+    level = re.fullmatch(r"levels\[(\d+)\]\.(\w+)", key)
+    return f"{level[2]}_{int(level[1]) + 1}" if level else key.rsplit(".", 1)[-1]
+
+
+def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], combine: str | None, batch: int | None) -> Plan:
+    """The sweep of a validated scene, with the values in ``over`` (dotted key -> values in SI) in place of the scene's."""
+    values = copy.deepcopy(values)
+    for key, given in over.items():
+        _put(values, key, given)
+    refuse_ambiguous(values)
+    settings = values["sweep"] or {"combine": "grid", "batch": 64}
+    combine = settings["combine"] if combine is None else combine
+    batch = settings["batch"] if batch is None else batch
+    if combine not in ("grid", "list"):
+        raise InputError("combine", combine, "'grid' (every combination) or 'list' (all of one length, taken together)")
+    if isinstance(batch, bool) or not isinstance(batch, int) or batch < 1:
+        raise InputError("batch", batch, "an integer >= 1, points that are solved and stored together")
+    axes = tuple(Axis(key, each) for key, each in quantities(values) if each.ndim)
+    for axis in axes:
+        # what no combination can mend is refused before any work; what a combination spoils is recorded point by point
+        if axis.key not in _LOADS:
+            numbers(axis.key, axis.values, axis.unit, 0, strict=axis.key.endswith((".K", ".l")))
+    sizes = {axis.key: axis.values.size for axis in axes}
+    if combine == "list" and len(set(sizes.values())) > 1:
+        raise SceneError("sweep.combine", "list", "lists and ranges of one length, or combine = \"grid\"", f"lengths differ: {sizes}")
+    if not axes:
+        raise SceneError("", None, "a list or a range for at least one quantity", "nothing is swept: every quantity is a single value")
+    plan = Plan(name, text, values, axes, combine, batch)
+    if plan.size > 100_000_000:
+        raise SceneError("", plan.size, "at most 1e8 points", f"{plan.size} points")
+    return plan
+
+
+def _put(values: dict[str, Any], key: str, given: Any) -> None:
+    known = [*keys_of(values)]
+    if key not in known:
+        near = nearest(key, known)
+        raise InputError("over", key, f"one of {', '.join(known)}" + (f" (did you mean {near!r}?)" if near else ""))
+    array = numbers(key, given, _UNITS[key.rsplit(".", 1)[-1]])
+    if array.ndim > 1 or not array.size:
+        raise InputError(key, given, "a number or a one-dimensional list of numbers, at least one")
+    if key in _LOADS:
+        values["pressure"] = values["penetration"] = None
+    level = re.fullmatch(r"levels\[(\d+)\]\.(\w+)", key)
+    if level:
+        values["levels"][int(level[1])][level[2]] = array
+    elif "." in key:
+        table, field = key.split(".")
+        if table == "adhesion":
+            values["adhesion"] = values["adhesion"] or {"gamma": None, "p_0": None, "delta_0": np.array(0.0)}
+            if field in ("gamma", "p_0"):
+                values["adhesion"]["gamma"] = values["adhesion"]["p_0"] = None
+        values[table][field] = array
+    else:
+        values[key] = array
+
+
+def keys_of(values: dict[str, Any]) -> list[str]:
+    """Dotted keys of everything that can be swept in a validated scene."""
+    keys = [f"levels[{i}].{field}" for i in range(len(values["levels"])) for field in ("l", "h")]
+    keys += ["material.K", "material.T_eps", "material.T_sigma", "adhesion.gamma", "adhesion.p_0", "adhesion.delta_0"]
+    return [*keys, "pressure", "penetration", "velocity"]
+
+
+def single(base: dict[str, Any], keys: list[str], at: np.ndarray) -> dict[str, Any]:
+    """Material, adhesion and levels at one combination of the values of ``keys`` (load and velocity are left alone)."""
+    values = copy.deepcopy({key: base[key] for key in ("material", "adhesion", "levels")} | {key: base[key] for key in (*_LOADS, "velocity")})
+    for key, value in zip(keys, at, strict=True):
+        _put(values, key, float(value))
+    return build_objects(values)

@@ -1,0 +1,159 @@
+"""Running a sweep: batches out, results to disk as they come, one table at the end."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hystrip.errors import HystripError, InputError
+from hystrip.files import Outputs, refuse_unwritable
+from hystrip.sweeps.batch import Task, outputs, solve_batch
+from hystrip.sweeps.executors import dask, local
+from hystrip.sweeps.plan import Plan, plan_of
+from hystrip.sweeps.store import Store
+from hystrip.tables import write_csv
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """A finished sweep.
+
+    Attributes
+    ----------
+    columns : column name (with its unit) -> values, one for every point in the order of the scene; ``failed`` holds the reason of
+        a point that could not be solved, and its numbers are NaN
+    path : the CSV file; plan : what was swept
+    solved, kept : batches solved now, and found finished on disk
+    """
+
+    columns: dict[str, Any]
+    path: Path
+    plan: Plan
+    solved: int
+    kept: int
+
+    @property
+    def failed(self) -> dict[int, str]:
+        """Reasons of the points that could not be solved."""
+        return {row: reason for row, reason in enumerate(self.columns["failed"]) if reason}
+
+    def to_dataset(self) -> Any:
+        """The sweep as an xarray Dataset: one dimension for every swept quantity of a grid, ``point`` for a list."""
+        from hystrip.sweeps.dataset import to_dataset
+
+        return to_dataset(self)
+
+
+def sweep(
+    scene: str | os.PathLike[str],
+    *,
+    over: dict[str, Any] | None = None,
+    out: str | os.PathLike[str] = "hystrip-out",
+    combine: str | None = None,
+    batch: int | None = None,
+    workers: int = 1,
+    executor: Executor | None = None,
+    scheduler: str | None = None,
+    restart: bool = False,
+    progress: Callable[[int, int], None] | None = None,
+) -> Sweep:
+    """Solve a scene over all lists and ranges in it. Killed at any moment and called again, it goes on where it was.
+
+    Parameters
+    ----------
+    scene : path of a scene file or name of a built-in scene; any quantity in it may be a list or a range
+    over : further swept quantities, dotted key of the scene -> values in SI, e.g. ``{"adhesion.gamma": [0, 1e-5]}``, ``"levels[1].h"``
+    out : folder for ``<name>.csv`` and the finished batches (``<name>.parts/``)
+    combine : ``"grid"`` (every combination) or ``"list"`` (all of one length, taken together); the scene's ``[sweep]`` if None
+    batch : points solved and stored together; the scene's ``[sweep]`` if None
+    workers : local processes, 1 for this one; or executor : anything with the ``concurrent.futures`` interface, such as
+        Dask's ``Client.get_executor()``; or scheduler : address of a Dask scheduler
+    restart : delete what an earlier sweep left in the folder
+    progress : called with the number of points done and the total
+
+    Raises
+    ------
+    InputError : the scene or an argument; a single point that fails is recorded, it raises nothing
+    """
+    from hystrip.scene.load import located, parse_toml, scene_text
+    from hystrip.scene.validate import validated
+
+    text, name = scene_text(scene)
+    with located(os.fspath(scene)):
+        values = validated(parse_toml(text))
+    with located(os.fspath(scene)) if not over else contextlib.nullcontext():
+        plan = plan_of(values, name, text, over or {}, combine, batch)
+    out = Path(out)
+    refuse_unwritable(out, "--out")
+    if sum((workers != 1, executor is not None, scheduler is not None)) > 1:
+        raise InputError("workers, executor, scheduler", (workers, executor, scheduler), "one of them")
+    where = contextlib.nullcontext((executor, 64)) if executor is not None else dask(scheduler) if scheduler else local(workers)
+    about = {"name": name, "points": plan.size, "batches": plan.batches, "scene": text}
+    store = Store(out / f"{name}.parts", plan.fingerprint, about)
+    with where as (runs_on, in_flight), store.open(restart):
+        missing = [number for number in range(plan.batches) if store.read(number) is None]
+        _run(plan, store, missing, runs_on, in_flight, progress)
+        columns = _collected(plan, store)
+        with Outputs(out) as files:
+            write_csv(files.path(f"{name}.csv"), columns)
+    return Sweep(columns, out / f"{name}.csv", plan, len(missing), plan.batches - len(missing))
+
+
+def _run(plan: Plan, store: Store, missing: list[int], executor: Executor, in_flight: int, progress: Any) -> None:
+    done = plan.size - sum(plan.points_of(number).size for number in missing)
+    tasks = _tasks(plan, missing)
+    running: dict[Future, int] = {}
+    if progress:
+        progress(done, plan.size)
+    try:
+        while True:
+            while len(running) < in_flight and (task := next(tasks, None)) is not None:
+                running[executor.submit(solve_batch, task)] = task.number
+            if not running:
+                return
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                number = running.pop(future)
+                store.write(number, *future.result())
+                done += plan.points_of(number).size
+                if progress:
+                    progress(done, plan.size)
+    except BrokenExecutor as error:
+        raise HystripError(f"a worker process died ({error}); finished batches are kept: run the sweep again to go on") from None
+    finally:
+        for future in running:
+            future.cancel()
+
+
+def _tasks(plan: Plan, missing: list[int]) -> Iterator[Task]:
+    keys = tuple(axis.key for axis in plan.axes)
+    base = {key: each for key, each in plan.base.items() if key not in ("title", "description", "sweep")}
+    for number in missing:
+        yield Task(number, base, keys, plan.coordinates(plan.points_of(number)))
+
+
+def _collected(plan: Plan, store: Store) -> dict[str, Any]:
+    """All batches as one table."""
+    rows, failed = [], [""] * plan.size
+    for number in range(plan.batches):
+        stored = store.read(number)
+        if stored is None:
+            raise HystripError(f"{store.path(number)} vanished while the sweep ran: run it again")
+        rows.append(stored[0])
+        for row, reason in stored[1].items():
+            failed[number * plan.batch + row] = reason
+    coordinates = plan.coordinates(np.arange(plan.size))
+    columns: dict[str, Any] = {f"{axis.name} [{axis.unit}]": coordinates[:, i] for i, axis in enumerate(plan.axes)}
+    numbers = np.concatenate(rows)
+    for i, name in enumerate(outputs(plan.levels)):
+        columns.setdefault(name, numbers[:, i])
+    if "velocity [m/s]" not in columns:
+        columns = {"velocity [m/s]": np.full(plan.size, float(plan.base["velocity"])), **columns}
+    columns["failed"] = failed
+    return columns

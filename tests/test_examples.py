@@ -1,0 +1,41 @@
+"""The examples of the README run as they stand there; so does every example in a docstring."""
+
+import doctest
+import importlib
+import pkgutil
+import re
+from pathlib import Path
+
+import pytest
+
+import hystrip
+
+README = Path(__file__).resolve().parent.parent / "README.md"
+
+
+def examples():
+    return re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
+
+
+@pytest.mark.parametrize("number", range(len(examples())))
+def test_readme_example(number, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    exec(compile(examples()[number], f"README example {number + 1}", "exec"), {})
+    assert capsys.readouterr().out.strip()
+
+
+def test_there_are_three_examples():
+    assert len(examples()) == 3
+
+
+def modules():
+    skip = ("hystrip.derivation", "hystrip.generated", "hystrip.__main__")
+    return [m.name for m in pkgutil.walk_packages(hystrip.__path__, "hystrip.") if not m.name.startswith(skip)]
+
+
+def test_docstrings():
+    failed = attempted = 0
+    for name in modules():
+        result = doctest.testmod(importlib.import_module(name))
+        failed, attempted = failed + result.failed, attempted + result.attempted
+    assert failed == 0 and attempted

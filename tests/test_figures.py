@@ -1,0 +1,42 @@
+"""The figures of the paper: they are drawn, with their data, and say what the paper says where the text does."""
+
+import csv
+
+import numpy as np
+import pytest
+
+import hystrip
+from hystrip.figures import FIGURES, draw, fig7
+
+
+def read(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_files_of_fig5_and_fig7(tmp_path):
+    written = draw(["fig7", "fig5"], tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(f"{f}.{kind}" for f in ("fig5", "fig7") for kind in ("csv", "png", "svg"))
+    assert set(written) == set(tmp_path.iterdir()) and all(path.stat().st_size > 1000 for path in written)
+    rows = read(tmp_path / "fig5.csv")
+    regimes = {row["strip"]: row["regime"] for row in rows}
+    assert regimes["0.0"] == "partial contact, discrete adhesion zones"
+    assert regimes["75.0"] == "saturated contact"
+    # level 2 adds only where level 1 is in contact; both are drawn with their sign
+    assert max(float(row["tangential stress of level 2 [Pa]"]) for row in rows if row["strip"] == "0.0") > 0
+
+
+def test_fig7_peaks_where_eq_16_corrected_says():
+    table = fig7.data()
+    V = table["velocity [m/s]"]
+    for level, (wavelength, mu) in enumerate([(1e-5, 2.92e-4), (5e-7, 5.83e-5), (5e-9, 1.46e-5)], start=1):
+        part = table[f"mu of level {level}"]
+        top = int(np.argmax(part))
+        assert part[top] == pytest.approx(mu, rel=5e-3)
+        assert V[top] == pytest.approx(wavelength / (2 * np.pi * 1e-4), rel=0.13)
+
+
+def test_an_unknown_figure_is_refused_before_any_work(tmp_path):
+    with pytest.raises(hystrip.InputError, match="figures: got 'fig8'"):
+        draw(["fig7", "fig8"], tmp_path / "out")
+    assert not (tmp_path / "out").exists() and len(FIGURES) == 5

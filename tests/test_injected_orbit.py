@@ -1,0 +1,55 @@
+"""A wrong orbit that balances: the repelling one between two attracting ones is refused by the certificate."""
+
+import numpy as np
+import pytest
+from mpmath import mp
+from oracle.flow import Strip
+from oracle.orbits import returning_orbits
+
+from hystrip.generated import standard_linear_solid as kernel
+from hystrip.strip import certificate
+from hystrip.strip.march import Orbit
+from hystrip.strip.problem import Strips, adhesive_cycle
+
+# alpha, beta, P0, Delta, delta: a repelling orbit between an attracting one with an onset and another without
+SCENES = {
+    "continuous": (5.35, 14.9, 2.4, 1.13, -1.0),
+    "constitutive": (0.2, 7.5, 6.3, 0.64, -2.4),
+}
+
+
+def orbits_of(groups, closure):
+    """All orbits with an onset, from the most engaged on, by the oracle."""
+    with mp.workdps(50):
+        return list(returning_orbits(Strip(*groups, closure)))
+
+
+def as_input(groups, closure, orbit):
+    """The orbit and its cycle as the certificate takes them."""
+    alpha, beta, P0, Delta, delta = groups
+    values = (alpha, beta, alpha / beta, 1 - alpha / beta, P0, Delta, delta, float(closure == "constitutive"))
+    cycle = adhesive_cycle(kernel, Strips(*(np.array([v]) for v in values)))
+    ends = {letter: (float(start), float(end)) for letter, start, end in orbit.zones if letter != "a"}
+    x = ends["f"][1] - 2 * np.pi
+    b, a, c = *ends["c"], ends["f"][0]
+    shift = 2 * np.pi * np.round((x - cycle.centre[0]) / (2 * np.pi))
+    edges = [np.array([v - shift]) for v in (x, b, a, c)]
+    return cycle, Orbit(*edges, np.zeros(1, bool), np.zeros(1), np.full(1, np.nan))
+
+
+def residual(groups, closure, orbit):
+    alpha, beta, P0, Delta, delta = groups
+    edges = [e[0] for e in (orbit.x, orbit.b, orbit.a, orbit.c)]
+    return kernel.residual_acaf(*edges, alpha, beta, alpha / beta, 1 - alpha / beta, P0, Delta, delta, float(closure == "constitutive"))
+
+
+@pytest.mark.parametrize("closure", SCENES)
+def test_only_the_repelling_orbit_is_refused(closure):
+    groups = SCENES[closure]
+    orbits = orbits_of(groups, closure)
+    assert any(orbit.slope > 1 for orbit in orbits) and any(orbit.slope < 1 for orbit in orbits)
+    for found in orbits:
+        cycle, orbit = as_input(groups, closure, found)
+        assert np.max(np.abs(residual(groups, closure, orbit))) < 1e-12  # it balances
+        assert certificate.edges_admissible(kernel, cycle, orbit).all()  # and keeps every inequality
+        assert certificate.stable(kernel, cycle, orbit).all() == (found.slope < 1)

@@ -1,0 +1,86 @@
+"""What a result can do: a labelled dataset, a summary, a picture."""
+
+import json
+
+import numpy as np
+import pytest
+
+import hystrip
+from hystrip.plots import save
+from hystrip.scene import load_scene
+from hystrip.summary import deborah, peak_velocities
+
+xarray = pytest.importorskip("xarray")
+
+MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+LEVELS = [hystrip.Level(l=10e-6, h=1e-6), hystrip.Level(l=500e-9, h=100e-9), hystrip.Level(l=5e-9, h=5e-9)]
+
+
+def solved(pressure, velocity, levels=LEVELS):
+    return hystrip.solve(MATERIAL, ADHESION, levels, pressure=pressure, velocity=velocity, rtol=1e-2)
+
+
+@pytest.fixture(scope="module")
+def grid():
+    return solved(np.array([[5e6], [1e7]]), [1e-4, 1e-3, 1e-2])
+
+
+def test_dataset_is_labelled(grid):
+    data = grid.to_dataset()
+    assert data.mu.dims == ("pressure", "velocity") and data.tau_by_level.dims == ("level", "pressure", "velocity")
+    assert data.pressure.values.tolist() == [5e6, 1e7] and data.velocity.values.tolist() == [1e-4, 1e-3, 1e-2]
+    assert data.mu.sel(pressure=1e7, velocity=1e-3).item() == grid.mu[1, 1]
+    assert data.wavelength.values.tolist() == [level.l for level in LEVELS]
+    for name in [*data.variables]:
+        assert data[name].attrs["units"] and data[name].attrs["long_name"], name
+    assert np.allclose(data.mu_by_level.sum("level"), data.mu, rtol=1e-14)
+    assert data.attrs["hystrip_version"] == hystrip.__version__
+    assert json.loads(data.attrs["material"])["T_sigma"] == 1e-4
+
+
+@pytest.mark.parametrize(
+    ("pressure", "velocity", "dims"),
+    [(5e6, 1e-3, ()), (5e6, [1e-3], ("velocity",)), (5e6, [1e-3, 2e-3], ("velocity",)), ([5e6, 6e6], 1e-3, ("pressure",)),
+     ([5e6, 6e6], [1e-3, 2e-3], ("point",)), ([[5e6], [6e6]], 1e-3, ("pressure", "point"))],
+)  # fmt: skip
+def test_dimensions_follow_what_changes(pressure, velocity, dims):
+    assert solved(pressure, velocity).to_dataset().mu.dims == dims
+
+
+def test_netcdf_round_trip(grid, tmp_path):
+    data = grid.to_dataset()
+    data.to_netcdf(tmp_path / "r.nc", engine="h5netcdf")
+    with xarray.open_dataset(tmp_path / "r.nc", engine="h5netcdf") as again:
+        assert again.load().identical(data)
+
+
+def test_scene_text_goes_along():
+    scene = load_scene("paper_fig7")
+    assert scene.solve().to_dataset().attrs["scene"] == scene.text
+
+
+def test_summary_says_it_all(grid):
+    text = grid.summary()
+    for part in ("share of mu", "pull-off", "saturated from", "real contact", "closed form", "error", "De = k V T_eps", "p_sat alone"):
+        assert part in text
+    assert deborah(grid)[1, 0, 2] == pytest.approx(2 * np.pi / 5e-7 * 1e-2 * 1e-2)
+    assert peak_velocities(grid) == pytest.approx([1e-5 / (2e-4 * np.pi), 5e-7 / (2e-4 * np.pi), 5e-9 / (2e-4 * np.pi)])
+
+
+def test_summary_of_zero_pressure_and_of_no_contact():
+    level = [hystrip.Level(l=500e-9, h=100e-9)]
+    assert "zero pressure" in solved(0.0, 5e-3, level).summary()
+    assert "below pull-off" in solved(-1e5, 5e-3, level).summary()
+
+
+def test_pictures(grid, tmp_path):
+    save(grid.plot(), tmp_path / "velocity.svg")
+    save(solved([5e6, 1e7], 1e-3).plot(), tmp_path / "pressure.png")
+    law = hystrip.friction_law(MATERIAL, hystrip.Dugdale(gamma=0), LEVELS[1], V=5e-3, rtol=1e-2)
+    save(law.plot(), tmp_path / "law.png")
+    strip = hystrip.solve_strip(MATERIAL, ADHESION, l=500e-9, A=5e-8, D=2e-8, V=5e-3)
+    save(strip.plot(), tmp_path / "strip.png")
+    assert all((tmp_path / name).stat().st_size > 1000 for name in ("velocity.svg", "pressure.png", "law.png", "strip.png"))
+    with pytest.raises(hystrip.InputError, match="one point is no curve"):
+        solved(5e6, 1e-3).plot()

@@ -1,0 +1,212 @@
+"""Sweeps: what is solved, how it gets to disk, and that nothing is lost when a run is killed."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import hystrip
+from hystrip.sweeps.plan import short_name
+
+SATURATED = """
+pressure = [5e6, 6e6]
+velocity = { start = 1e-4, stop = 1e-2, num = 5, spacing = "log" }
+[sweep]
+batch = 7
+[material]
+K = [1e9, 1.1e9]
+T_eps = 0.01
+T_sigma = 1e-4
+[adhesion]
+gamma = [0, "25 uJ/m^2"]
+delta_0 = 1e-8
+[[levels]]
+l = 1e-5
+h = [1e-6, 5e-7]
+[[levels]]
+l = 5e-7
+h = 1e-7
+"""
+
+
+@pytest.fixture
+def scene(tmp_path):
+    path = tmp_path / "s.toml"
+    path.write_text(SATURATED)
+    return path
+
+
+def test_grid_is_every_combination(scene, tmp_path):
+    done = hystrip.sweep(scene, out=tmp_path / "out")
+    assert (done.plan.size, done.plan.batches, done.solved, done.kept, done.failed) == (80, 12, 12, 0, {})
+    assert list(done.columns)[:5] == ["h_1 [m]", "K [Pa/m]", "gamma [J/m^2]", "pressure [Pa]", "velocity [m/s]"]
+    data = done.to_dataset()
+    assert data.mu.dims == ("h_1", "K", "gamma", "pressure", "velocity") and data.mu_by_level.dims[0] == "level"
+    one = hystrip.solve(
+        hystrip.StandardLinearSolid(1.1e9, 0.01, 1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8),
+        [hystrip.Level(1e-5, 5e-7), hystrip.Level(5e-7, 1e-7)], pressure=6e6, velocity=[1e-4, 1e-2],
+    )  # fmt: skip
+    found = data.mu.sel(h_1=5e-7, K=1.1e9, gamma=2.5e-5, pressure=6e6).isel(velocity=[0, -1])
+    assert np.array_equal(found, one.mu)
+    data.to_netcdf(tmp_path / "s.nc", engine="h5netcdf")
+    import xarray
+
+    with xarray.open_dataset(tmp_path / "s.nc", engine="h5netcdf") as again:
+        assert np.array_equal(again.mu, data.mu)
+
+
+def test_list_takes_values_together(scene, tmp_path):
+    over = {"levels[0].h": [1e-6, 5e-7, 2e-7], "material.K": 1e9, "adhesion.gamma": [0, 1e-5, 2e-5], "pressure": 5e6, "velocity": [1e-4, 1e-3, 1e-2]}
+    done = hystrip.sweep(scene, over=over, combine="list", out=tmp_path / "out")
+    assert done.plan.shape == (3,) and done.columns["velocity [m/s]"].tolist() == [1e-4, 1e-3, 1e-2]
+    assert done.to_dataset().mu.dims == ("point",) and not done.failed
+
+
+@pytest.mark.parametrize(
+    ("over", "said"),
+    [
+        ({"material.k": [1.0]}, "did you mean 'material.K'"),
+        ({"levels[2].h": [1.0]}, "levels\\[1\\].h"),
+        ({"velocity": [1.0, -1.0]}, "velocity: got -1.0"),
+        ({"material.K": [0.0, 1.0]}, "material.K: got 0.0"),
+        ({"pressure": [[1.0]]}, "pressure: got .*one-dimensional"),
+        ({"adhesion.gamma": []}, "adhesion.gamma: got"),
+    ],
+)
+def test_wrong_sweeps_are_refused_before_any_work(scene, tmp_path, over, said):
+    with pytest.raises(hystrip.InputError, match=said):
+        hystrip.sweep(scene, over=over, out=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_nothing_to_sweep_and_unequal_lists(scene, tmp_path):
+    with pytest.raises(hystrip.InputError, match="lengths differ"):
+        hystrip.sweep(scene, combine="list", out=tmp_path / "out")
+    singles = {"levels[0].h": 1e-6, "material.K": 1e9, "adhesion.gamma": 0.0, "pressure": 5e6, "velocity": 1e-3}
+    with pytest.raises(hystrip.InputError, match="nothing is swept"):
+        hystrip.sweep(scene, over=singles, out=tmp_path / "out")
+    assert short_name("levels[1].h") == "h_2" and short_name("material.K") == "K"
+
+
+def test_a_failed_point_is_recorded_and_the_rest_goes_on(scene, tmp_path):
+    done = hystrip.sweep(scene, over={"material.T_sigma": [1e-4, 0.02, 1e-3]}, out=tmp_path / "out")
+    bad = done.columns["T_sigma [s]"] == 0.02
+    assert np.array_equal(np.isnan(done.columns["mu"]), bad) and len(done.failed) == bad.sum() == 80
+    assert all("material.T_sigma: got 0.02" in reason for reason in done.failed.values())
+    assert "T_sigma: got 0.02" in done.path.read_text()
+
+
+def test_batches_and_executors_give_the_same_bytes(scene, tmp_path):
+    first = hystrip.sweep(scene, out=tmp_path / "a").path.read_bytes()
+    with ThreadPoolExecutor(2) as threads:
+        assert hystrip.sweep(scene, out=tmp_path / "b", executor=threads).path.read_bytes() == first
+    assert hystrip.sweep(scene, out=tmp_path / "c", workers=2).path.read_bytes() == first
+
+
+def test_finished_batches_are_kept_and_damaged_ones_solved_again(scene, tmp_path):
+    first = hystrip.sweep(scene, out=tmp_path / "out").path.read_bytes()
+    parts = sorted((tmp_path / "out/s.parts").glob("part-*"))
+    parts[3].unlink()
+    parts[5].write_bytes(parts[5].read_bytes()[:-20])
+    parts[6].write_bytes(b"")
+    parts[7].write_bytes(b"\xff" * 100)
+    done = hystrip.sweep(scene, out=tmp_path / "out")
+    assert (done.solved, done.kept) == (4, 8) and done.path.read_bytes() == first
+    with pytest.raises(hystrip.InputError, match="--restart"):
+        hystrip.sweep(scene, over={"material.K": [2e9]}, out=tmp_path / "out")
+    assert hystrip.sweep(scene, over={"material.K": [2e9]}, out=tmp_path / "out", restart=True).kept == 0
+
+
+def test_partial_contact_batches_do_not_depend_on_what_was_solved_before(tmp_path):
+    path = tmp_path / "p.toml"
+    path.write_text(
+        "pressure = [100, 200]\nvelocity = [4e-3, 5e-3]\nrtol = 1e-2\n[sweep]\nbatch = 3\n[material]\nK = 1e9\nT_eps = 0.01\nT_sigma = 1e-4\n"
+        "[[levels]]\nl = 5e-7\nh = 1e-7\n"
+    )
+    first = hystrip.sweep(path, out=tmp_path / "out").path.read_bytes()
+    (tmp_path / "out/p.parts/part-000001.json").unlink()
+    assert hystrip.sweep(path, out=tmp_path / "out").path.read_bytes() == first
+
+
+def many(folder, points=10_000):
+    text = SATURATED.replace("num = 5", f"num = {points // 16}").replace("batch = 7", "batch = 10")
+    (folder / "many.toml").write_text(text)
+
+
+def started(folder, *options):
+    command = [sys.executable, "-m", "hystrip", "sweep", "many.toml", *options]
+    return subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))  # fmt: skip
+
+
+def parts_in(folder):
+    return len(list(folder.glob("hystrip-out/many.parts/part-*.json")))
+
+
+def wait_for_parts(folder, number, process):
+    end = time.monotonic() + 120
+    while parts_in(folder) < number and process.poll() is None and time.monotonic() < end:
+        time.sleep(0.002)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends SIGKILL")
+@pytest.mark.parametrize("workers", [1, 2])
+def test_killed_five_times_the_final_file_is_the_same(tmp_path, workers):
+    (tmp_path / "whole").mkdir()
+    many(tmp_path)
+    many(tmp_path / "whole")
+    whole = started(tmp_path / "whole")
+    out, err = whole.communicate(timeout=300)
+    assert whole.returncode == 0, err
+    chance, before = random.Random(workers), 0
+    for _ in range(5):
+        process = started(tmp_path, "--workers", str(workers))
+        wait_for_parts(tmp_path, before + chance.randrange(1, 150), process)
+        time.sleep(chance.random() * 0.02)
+        process.kill()  # the parent alone: its workers have to notice
+        process.communicate(timeout=60)
+        assert process.returncode == -signal.SIGKILL
+        assert parts_in(tmp_path) >= before and not (tmp_path / "hystrip-out/many.csv").exists()
+        before = parts_in(tmp_path)
+    assert 5 <= before < 1000
+    stamps = {path: path.stat().st_mtime_ns for path in (tmp_path / "hystrip-out/many.parts").glob("part-*.json")}
+    last = started(tmp_path)
+    out, err = last.communicate(timeout=300)
+    assert last.returncode == 0 and f"{before} of 1000 batches from before" in out, err
+    assert {path: path.stat().st_mtime_ns for path in stamps} == stamps
+    assert (tmp_path / "hystrip-out/many.csv").read_bytes() == (tmp_path / "whole/hystrip-out/many.csv").read_bytes()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
+@pytest.mark.parametrize("workers", [1, 2])
+def test_ctrl_c_ends_cleanly(tmp_path, workers):
+    many(tmp_path)
+    process = started(tmp_path, "--workers", str(workers))
+    wait_for_parts(tmp_path, 20, process)
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does: parent and workers
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 130 and out == ""
+    assert err.splitlines() == ["hystrip: finished batches are kept; the same command goes on from there", "hystrip: interrupted"]
+    assert not list(tmp_path.glob("hystrip-out/many.parts/*.tmp")) and not (tmp_path / "hystrip-out/many.csv").exists()
+
+
+def test_two_runs_at_once_are_refused(scene, tmp_path):
+    fcntl = pytest.importorskip("fcntl")
+    hystrip.sweep(scene, out=tmp_path / "out")
+    with open(tmp_path / "out/s.parts/lock") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        with pytest.raises(hystrip.HystripError, match="another run"):
+            hystrip.sweep(scene, out=tmp_path / "out")
+
+
+def test_schema_knows_the_sweep_table():
+    from hystrip.scene.schema import json_schema
+
+    assert set(json.loads(json.dumps(json_schema()))["$defs"]["Sweep"]["properties"]) == {"combine", "batch"}

@@ -1,0 +1,67 @@
+"""A sweep on a Dask cluster of two workers, one of which is killed in mid-sweep."""
+
+import subprocess
+import sys
+import time
+
+import distributed
+import numpy as np
+import pytest
+
+import hystrip
+from hystrip.sweeps.batch import solve_batch
+
+SCENE = """
+pressure = 100
+velocity = { start = 4e-3, stop = 6e-3, num = 24 }
+rtol = 1e-2
+[sweep]
+batch = 2
+[material]
+K = 1e9
+T_eps = 0.01
+T_sigma = 1e-4
+[[levels]]
+l = 5e-7
+h = 1e-7
+"""
+
+
+@pytest.fixture
+def cluster():
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster:
+        yield cluster
+
+
+def test_a_killed_worker_changes_nothing(cluster, tmp_path):
+    (tmp_path / "s.toml").write_text(SCENE)
+    expected = hystrip.sweep(tmp_path / "s.toml", out=tmp_path / "serial").path.read_bytes()
+    victim = list(cluster.workers.values())[0]
+    killed = []
+
+    def progress(done, total):
+        if done >= 4 and not killed:
+            killed.append(victim.pid)
+            victim.process.process._process.kill()
+
+    with distributed.Client(cluster, set_as_default=False) as client:
+        done = hystrip.sweep(tmp_path / "s.toml", out=tmp_path / "dask", executor=client.get_executor(retries=3), progress=progress)
+    assert killed and done.path.read_bytes() == expected
+
+
+def test_the_command_line_finds_the_scheduler(cluster, tmp_path):
+    (tmp_path / "s.toml").write_text(SCENE.replace("num = 24", "num = 4"))
+    command = [sys.executable, "-m", "hystrip", "sweep", "s.toml", "--scheduler", cluster.scheduler_address]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0 and "wrote hystrip-out/s.csv" in done.stdout, done.stderr
+    values = np.genfromtxt(tmp_path / "hystrip-out/s.csv", delimiter=",", names=True, usecols=(0, 1))
+    assert values.size == 4 and (values["mu"] > 0).all()
+
+
+def test_no_scheduler_is_one_sentence(tmp_path):
+    (tmp_path / "s.toml").write_text(SCENE)
+    start = time.monotonic()
+    command = [sys.executable, "-m", "hystrip", "sweep", "s.toml", "--scheduler", "tcp://127.0.0.1:9"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 1 and "no Dask scheduler answers" in done.stderr and "Traceback" not in done.stderr, done.stderr
+    assert time.monotonic() - start < 60 and solve_batch
