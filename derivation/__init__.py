@@ -1,7 +1,7 @@
 """Derivation of the strip solver: a viscoelastic model in, verified and emitted NumPy out.
 
 The stages, each a function from one frozen dataclass to the next:
-model -> strip -> flows -> jumps -> zones -> saturated, regimes -> means, stability, level -> emit -> certify.
+model -> strip -> flows -> jumps -> zones, events -> saturated, regimes -> means, stability, level -> emit -> certify -> pages.
 """
 
 from .check import Check, DerivationError, Derived

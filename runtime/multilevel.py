@@ -82,7 +82,7 @@ class Stack:
     p_full: list[np.ndarray]
     D_full: list[np.ndarray]
 
-    def means(self, i: int, K: float, h: float) -> np.ndarray:
+    def means(self, i: int) -> np.ndarray:
         """Quantities of level i at full saturation, in the order of its columns: own, then carried."""
         n = self.p_full[i].size
         one, zero = np.ones(n), np.zeros(n)
@@ -132,7 +132,7 @@ class _Solve:
 
     def _block(self, V, index, group):
         """Points ``index`` whose velocities are ``V[group]``."""
-        surface, out = self.surface, self.out
+        surface = self.surface
         stack = surface.saturated(V)
         D, slopes = self._penetrations(stack, V, index, group)
         touching = np.flatnonzero(np.isfinite(D))
@@ -182,7 +182,7 @@ class _Solve:
         groups = np.arange(V.size)
         for i in range(self.M - 1, 0, -1):
             level_columns = surface.columns(i, V, None, carry, groups if carry else None)
-            saturated = stack.means(i, surface.material.K, surface.levels[i].h)
+            saturated = stack.means(i)
             laws = build_laws(
                 level_columns, np.full(V.size, _FINER * surface.rtol), stack.p_full[i], stack.D_full[i], saturated, ceilings[i - 1]
             )

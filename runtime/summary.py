@@ -43,7 +43,19 @@ def _levels(result: Any) -> list[str]:
 
     De, V_peak, part = deborah(result), peak_velocities(result), shares(result)
     V = np.atleast_1d(np.asarray(result.velocity)).ravel()
-    rows = [("level", "l [m]", "h [m]", "De = k V T_eps", "V of its peak if", "p_sat alone", "share of mu", "in contact", "in adhesion")]
+    rows = [
+        (
+            "level",
+            "l [m]",
+            "h [m]",
+            "De = k V T_eps",
+            "V of its peak if",
+            "p_sat alone",
+            "share of mu",
+            "in contact",
+            "in adhesion",
+        )
+    ]
     rows.append(("", "", "", "", "saturated [m/s]", "[Pa]", "", "", ""))
     for i, level in enumerate(result.levels):
         p_sat = saturated_level(result.material, result.adhesion, level, V).p_sat
@@ -61,10 +73,15 @@ def _friction(result: Any) -> list[str]:
     if np.isfinite(mu).sum() > 1:
         top = int(np.nanargmax(np.abs(mu)))
         at = f"V = {np.ravel(result.velocity)[top]:.4g} m/s, p = {np.ravel(result.pressure)[top]:.4g} Pa"
-        out.append(f"           largest at {at}: level shares " + ", ".join(
-            _percent(np.ravel(part)[top]) for part in shares(result)))
+        out.append(
+            f"           largest at {at}: level shares " + ", ".join(_percent(np.ravel(part)[top]) for part in shares(result))
+        )
     error = np.ravel(result.error_estimate)
-    out.append(f"error      of mu at most {np.nanmax(error):.1e} (estimate)" if np.isfinite(error).any() else "error      undefined: zero pressure")
+    out.append(
+        f"error      of mu at most {np.nanmax(error):.1e} (estimate)"
+        if np.isfinite(error).any()
+        else "error      undefined: zero pressure"
+    )
     return out
 
 
@@ -81,10 +98,11 @@ def _contact(result: Any) -> list[str]:
 
 def _work(result: Any) -> list[str]:
     c = result.counts
+    decided, closed, off = (c[name] for name in ("strips_decided_by_threshold", "points_in_closed_form", "points_below_pull_off"))
     return [
-        f"work       {c['strips_solved']} strips solved; skipped: {c['strips_decided_by_threshold']} strips by a threshold (saturated or free),",
-        f"           {c['points_in_closed_form']} points by the closed form (every level saturated), "
-        f"{c['points_below_pull_off']} points below pull-off",
+        f"work       {c['strips_solved']} strips solved; skipped: {decided} strips by a threshold (saturated or free),",
+        f"           {closed} points by the closed form (every level saturated), "
+        f"{off} points below pull-off",
     ]
 
 

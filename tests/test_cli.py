@@ -103,7 +103,9 @@ def test_one_velocity_has_no_curve_to_draw(run, tmp_path):
 
 
 def test_several_pressures_have_a_row_each_zero_an_empty_mu(run, tmp_path):
-    (tmp_path / "some.toml").write_text(SCENE.replace("pressure = 5e6", "pressure = [-10, 0, 100]").replace("[[levels]]\nl = 1e-5\nh = 1e-6\n", ""))
+    (tmp_path / "some.toml").write_text(
+        SCENE.replace("pressure = 5e6", "pressure = [-10, 0, 100]").replace("[[levels]]\nl = 1e-5\nh = 1e-6\n", "")
+    )
     status, _, _ = run("solve", "some.toml")
     assert status == 0
     table = rows(tmp_path / "hystrip-out/some.csv")

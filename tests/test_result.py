@@ -62,7 +62,16 @@ def test_scene_text_goes_along():
 
 def test_summary_says_it_all(grid):
     text = grid.summary()
-    for part in ("share of mu", "pull-off", "saturated from", "real contact", "closed form", "error", "De = k V T_eps", "p_sat alone"):
+    for part in (
+        "share of mu",
+        "pull-off",
+        "saturated from",
+        "real contact",
+        "closed form",
+        "error",
+        "De = k V T_eps",
+        "p_sat alone",
+    ):
         assert part in text
     assert deborah(grid)[1, 0, 2] == pytest.approx(2 * np.pi / 5e-7 * 1e-2 * 1e-2)
     assert peak_velocities(grid) == pytest.approx([1e-5 / (2e-4 * np.pi), 5e-7 / (2e-4 * np.pi), 5e-9 / (2e-4 * np.pi)])

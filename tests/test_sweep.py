@@ -63,7 +63,13 @@ def test_grid_is_every_combination(scene, tmp_path):
 
 
 def test_list_takes_values_together(scene, tmp_path):
-    over = {"levels[0].h": [1e-6, 5e-7, 2e-7], "material.K": 1e9, "adhesion.gamma": [0, 1e-5, 2e-5], "pressure": 5e6, "velocity": [1e-4, 1e-3, 1e-2]}
+    over = {
+        "levels[0].h": [1e-6, 5e-7, 2e-7],
+        "material.K": 1e9,
+        "adhesion.gamma": [0, 1e-5, 2e-5],
+        "pressure": 5e6,
+        "velocity": [1e-4, 1e-3, 1e-2],
+    }
     done = hystrip.sweep(scene, over=over, combine="list", out=tmp_path / "out")
     assert done.plan.shape == (3,) and done.columns["velocity [m/s]"].tolist() == [1e-4, 1e-3, 1e-2]
     assert done.to_dataset().mu.dims == ("point",) and not done.failed
@@ -127,7 +133,8 @@ def test_finished_batches_are_kept_and_damaged_ones_solved_again(scene, tmp_path
 def test_partial_contact_batches_do_not_depend_on_what_was_solved_before(tmp_path):
     path = tmp_path / "p.toml"
     path.write_text(
-        "pressure = [100, 200]\nvelocity = [4e-3, 5e-3]\nrtol = 1e-2\n[sweep]\nbatch = 3\n[material]\nK = 1e9\nT_eps = 0.01\nT_sigma = 1e-4\n"
+        "pressure = [100, 200]\nvelocity = [4e-3, 5e-3]\nrtol = 1e-2\n[sweep]\nbatch = 3\n"
+        "[material]\nK = 1e9\nT_eps = 0.01\nT_sigma = 1e-4\n"
         "[[levels]]\nl = 5e-7\nh = 1e-7\n"
     )
     first = hystrip.sweep(path, out=tmp_path / "out").path.read_bytes()
@@ -142,8 +149,9 @@ def many(folder, points=10_000):
 
 def started(folder, *options):
     command = [sys.executable, "-m", "hystrip", "sweep", "many.toml", *options]
-    return subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
-                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))  # fmt: skip
+    # a shell that runs tests in the background would have it ignore SIGINT
+    listening = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.default_int_handler), "start_new_session": True}
+    return subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **listening)
 
 
 def parts_in(folder):

@@ -45,7 +45,9 @@ def test_a_killed_worker_changes_nothing(cluster, tmp_path):
             victim.process.process._process.kill()
 
     with distributed.Client(cluster, set_as_default=False) as client:
-        done = hystrip.sweep(tmp_path / "s.toml", out=tmp_path / "dask", executor=client.get_executor(retries=3), progress=progress)
+        done = hystrip.sweep(
+            tmp_path / "s.toml", out=tmp_path / "dask", executor=client.get_executor(retries=3), progress=progress
+        )
     assert killed and done.path.read_bytes() == expected
 
 

@@ -11,7 +11,6 @@ def command() -> None:
     Byte by byte; exits with 1 if they differ. Needs the extra `regenerate`.
     """
     from hystrip.commands.derivation import needed
-
     from hystrip.commands.progress import progress
 
     needed("checking the generated files")

@@ -11,7 +11,10 @@ Report = Callable[[int, int], None]
 
 @contextlib.contextmanager
 def progress(title: str, rate: bool = False) -> Iterator[Report | None]:
-    """Yield a function to call with (done, total), or None where no person watches standard error. ``rate``: show points a second."""
+    """Yield a function to call with (done, total), or None where no person watches standard error.
+
+    ``rate``: show how many a second.
+    """
     if not sys.stderr.isatty():
         yield None
         return

@@ -43,6 +43,9 @@ def command(
     again = f", {done.kept} of {done.plan.batches} batches from before" if done.kept else ""
     typer.echo(f"{done.plan.size} points{again}")
     if done.failed:
-        typer.echo(f"{len(done.failed)} points failed; the column 'failed' says why, the first: {next(iter(done.failed.values()))}", err=True)
+        typer.echo(
+            f"{len(done.failed)} points failed; the column 'failed' says why, the first: {next(iter(done.failed.values()))}",
+            err=True,
+        )
     for path in written:
         typer.echo(f"wrote {path}")

@@ -50,7 +50,9 @@ def data() -> dict[str, Any]:
                     rows.append((v, kind, *[np.nan] * 5))
             rows += _above(scene, columns, v, D_top, _KINDS[0] if branch == "unloading" else _KINDS[2])
     names = ("velocity [m/s]", "part", "penetration [m]", *_QUANTITIES)
-    return {name: [row[i] for row in rows] if name == "part" else np.array([row[i] for row in rows]) for i, name in enumerate(names)}
+    return {
+        name: [row[i] for row in rows] if name == "part" else np.array([row[i] for row in rows]) for i, name in enumerate(names)
+    }
 
 
 def _above(scene: Any, columns: Any, v: float, D_top: float, kind: str) -> list[tuple]:

@@ -1,7 +1,7 @@
 """Fig. 5: tangential stress along strips of level 1: its own, and what level 2 adds in its contact.
 
-The paper shows strips 0 and 63 and calls the latter saturated. With the energy of adhesion that its text gives the first saturated
-strip is a later one, so that one is drawn too.
+The paper shows strips 0 and 63 and calls the latter saturated. With the energy of adhesion that its text gives the first
+saturated strip is a later one, so that one is drawn too.
 """
 
 from __future__ import annotations
@@ -60,7 +60,13 @@ def paint(table: dict[str, Any]) -> Any:
         here = np.flatnonzero(table["strip"] == strip)
         for level in (1, 2):
             stress = table[f"tangential stress of level {level} [Pa]"][here] / 1e3
-            panel.plot(table["x [m]"][here] / l, stress, color=OKABE_ITO[level - 1], linestyle=("-", DASHES[0])[level - 1], label=f"level {level}")
+            panel.plot(
+                table["x [m]"][here] / l,
+                stress,
+                color=OKABE_ITO[level - 1],
+                linestyle=("-", DASHES[0])[level - 1],
+                label=f"level {level}",
+            )
         panel.axhline(0, color="0.7", linewidth=0.5, zorder=0)
         panel.set_title(f"strip {strip:.0f}: {table['regime'][here[0]]}", fontsize=7)
         panel.set_ylabel("tangential stress (kPa)")

@@ -201,23 +201,6 @@ class Law:
                 out[here] = branch.values(p[here])
         return out
 
-    def slope(self, p: float) -> float:
-        """d(tau)/dp at the nominal pressure ``p``, own friction only; 0 where the branch ends in a fold of the curve."""
-        upper = np.array([b.p_high for b in self.branches])
-        branch = self.branches[min(int(np.searchsorted(upper, p)), len(self.branches) - 1)]
-        t = branch.parameter(np.array([p]))
-        step = 1e-6 * (branch.t_high - branch.t_low)
-        ends = np.clip(np.concatenate((t - step, t + step)), branch.t_low, branch.t_high)
-        values = branch.piece.values(ends)
-        rise = values[1] - values[0]
-        return float(rise[1] / rise[0]) if rise[0] > 0 else 0.0
-
-    def penetration(self, p: float) -> float:
-        """D at which the level carries the nominal pressure ``p``, pull-off <= p < p_top."""
-        upper = np.array([b.p_high for b in self.branches])
-        branch = self.branches[min(int(np.searchsorted(upper, p)), len(self.branches) - 1)]
-        return float(branch.piece.penetration(branch.parameter(np.array([p])))[0])
-
 
 def law_of(curve: Curve, unloading: bool, p_sat: float, saturated: np.ndarray, cut: bool) -> Law:
     """The friction law along one branch of loading of a traced curve."""

@@ -29,12 +29,11 @@ class SaturatedLevel:
 def saturated_level(material: StandardLinearSolid, adhesion: Dugdale, level: Level, V: np.ndarray) -> SaturatedLevel:
     """Thresholds and friction of a level in saturated contact at velocities ``V`` (m/s), shape (n,)."""
     kernel = kernel_of(material)
-    k, h, K = level.k, level.h, material.K
-    alpha, beta = k * V * material.T_sigma, k * V * material.T_eps
-    R = kernel.modulus_ratio(alpha, beta)
-    lift = 0.25 * K * h * (2 * R - 1)
-    # mean of A^2 over the strips: (h/4)^2 times 3/2
-    tau = 0.5 * k * K * kernel.loss(alpha, beta, material.L) * 1.5 * (0.25 * h) ** 2
+    K, times = material.K, (material.T_eps, material.T_sigma)
+    p_sat = kernel.level_saturation_pressure(K, *times, adhesion.p_0, level.l, level.h, V)
     return SaturatedLevel(
-        p_sat=lift - adhesion.p_0, tau_sat=tau, D_sat=0.5 * h * (1 + R) - adhesion.p_0 / K, lift=lift
+        p_sat=p_sat,
+        tau_sat=kernel.level_saturation_friction(K, *times, level.l, level.h, V),
+        D_sat=kernel.level_saturation_penetration(K, *times, adhesion.p_0, level.l, level.h, V),
+        lift=p_sat + adhesion.p_0,
     )

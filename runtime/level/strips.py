@@ -16,6 +16,8 @@ from hystrip.strip.problem import Strips
 from hystrip.strip.regimes import CODE
 from hystrip.strip.solution import refuse_uncertified, solve_si
 
+from .saturated import saturated_level
+
 #: What is averaged over the strips of a level, in this order; what lower levels carry in its contact follows.
 QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
 
@@ -138,19 +140,15 @@ class SolvedStrips:
 
 
 def saturation_depth(columns: Columns) -> np.ndarray:
-    """Penetration from which the whole level is in contact, ``(h/2)(1 + R) - p_0/K``, m; shape (n,)."""
-    m, h = columns.material, columns.level.h
-    k = columns.level.k
-    R = kernel_of(m).modulus_ratio(k * columns.V * m.T_sigma, k * columns.V * m.T_eps)
-    # the edge strip is flat and saturates by itself once the crest of the level is h deep, which R >= 1 implies
-    return 0.5 * h * (1 + R) - columns.adhesion.p_0 / m.K
+    """Penetration from which the whole level is in contact, m; shape (n,)."""
+    return saturated_level(columns.material, columns.adhesion, columns.level, columns.V).D_sat
 
 
 def _known_transitions(columns: Columns) -> list[np.ndarray]:
     m, h, p_0, delta_0 = columns.material, columns.level.h, columns.adhesion.p_0, columns.adhesion.delta_0
     if h == 0:
         return [np.empty(0)] * columns.size
-    R = 2 * saturation_depth(columns) / h + 2 * p_0 / (h * m.K) - 1
+    R = kernel_of(m).modulus_ratio(columns.level.k * columns.V * m.T_sigma, columns.level.k * columns.V * m.T_eps)
     # saturated where D - drop >= A (1 + R) - p_0/K, with drop = (h/2)(1 - cos), A = (h/4)(1 + cos)
     numerator = (columns.D + p_0 / m.K) / h - 0.5 - 0.25 * (1 + R)
     saturated = np.divide(4 * numerator, R - 1, out=np.full(columns.size, np.inf), where=R > 1)

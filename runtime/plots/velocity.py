@@ -50,7 +50,9 @@ def friction(result: Any) -> Any:
             panel.set_xscale("log")
     if len(result.levels) > 1:
         handles, labels = panels[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside upper center", ncols=min(3, len(handles)), handlelength=2.2, columnspacing=1.0)
+        figure.legend(
+            handles, labels, loc="outside upper center", ncols=min(3, len(handles)), handlelength=2.2, columnspacing=1.0
+        )
     panels[-1].set_xlabel("sliding velocity $V$ (m/s)" if over_velocity else LOAD_LABELS[result.load])
     return figure
 

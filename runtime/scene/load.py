@@ -106,7 +106,8 @@ def _assembled(values: dict[str, Any], text: str, name: str, source: str) -> Sce
     refuse_ambiguous(values)
     for field, each in quantities(values):
         if each.ndim and field not in ("pressure", "penetration", "velocity"):
-            raise SceneError(field, each.tolist(), "a single number or text with a unit (lists and ranges here are for `hystrip sweep`)")
+            allowed = "a single number or text with a unit (lists and ranges here are for `hystrip sweep`)"
+            raise SceneError(field, each.tolist(), allowed)
     objects = build_objects(values)
     rest = {key: each for key, each in values.items() if key not in ("material", "adhesion", "levels", "sweep")}
     return Scene(name=name, text=text, source=source, **objects, **rest)

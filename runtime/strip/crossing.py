@@ -64,7 +64,13 @@ def crossing(
 
 def _step(x, value, slope, x_old, value_old, slope_old):
     """Step to the zero of the inverse cubic through the last two evaluations and their slopes; Newton's where there is but one."""
-    newton = np.divide(-value, slope, out=np.full_like(value, np.inf), where=slope < -1e-290 * (1 + np.abs(value)))
+    # a step that overflows or is undefined falls outside the bracket, and bisection takes its place
+    with np.errstate(over="ignore", invalid="ignore"):
+        return _inverse_cubic(x, value, slope, x_old, value_old, slope_old)
+
+
+def _inverse_cubic(x, value, slope, x_old, value_old, slope_old):
+    newton = np.divide(-value, slope, out=np.full_like(value, np.inf), where=slope < 0)
     span = value_old - value
     usable = (slope < 0) & (slope_old < 0) & (np.abs(span) > 1e-3 * np.abs(value)) & np.isfinite(newton)
     if not usable.any():

@@ -14,7 +14,7 @@ iterates from infinitely far fall to the least engaged one, and there is no long
 ``unloading`` asks in the order engaged, first zero, free; ``loading`` in the order free, last zero, engaged.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -31,6 +31,9 @@ CHUNK = 4096
 #: itself must not be worse than near a fold.
 _CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 32, 1e-6
 _UNDECIDED = -1
+_EPS = np.finfo(float).eps
+#: distances in roundings of D at which a strip on the end of a branch is settled
+_SHIFTS = (8, 64, 512)
 
 
 @dataclass(slots=True)
@@ -56,6 +59,9 @@ class Solved:
         values = [np.full(n, np.nan) for _ in range(4)]
         return cls(np.full(n, _UNDECIDED, np.int8), *edges, *values, np.zeros(n, bool), np.zeros(n))
 
+    def take(self, index) -> "Solved":
+        return Solved(*(getattr(self, f.name)[index] for f in fields(self)))
+
     def put(self, index, other: "Solved") -> None:
         for f in fields(self):
             getattr(self, f.name)[index] = getattr(other, f.name)
@@ -67,7 +73,26 @@ def solve_strips(kernel, strips: Strips, unloading: bool) -> Solved:
     for start in range(0, strips.size, CHUNK):
         part = slice(start, min(start + CHUNK, strips.size))
         solved.put(part, _Batch(kernel, strips.take(part), unloading).solve())
+    _settle(kernel, strips, solved, unloading)
     return solved
+
+
+def _settle(kernel, strips: Strips, solved: Solved, unloading: bool) -> None:
+    """Decide strips that sit on the end of a branch to the last bits, where the tests of its two sides contradict each other.
+
+    Which side they belong to is below the rounding of the inputs. They get the solution a few roundings of D further along the way their
+    branch is followed: the unloading orbit is continuous towards larger D, the loading orbit towards smaller.
+    """
+    for roundings in _SHIFTS:
+        index = np.flatnonzero(~solved.certified)
+        if not index.size:
+            return
+        these = strips.take(index)
+        shift = roundings * _EPS * (1 + np.abs(these.D) + these.p_0 + these.delta_0)
+        nearby = replace(these, D=these.D + (shift if unloading else -shift))
+        again = _Batch(kernel, nearby, unloading).solve()
+        again.evaluations += solved.evaluations[index]
+        solved.put(index[again.certified], again.take(np.flatnonzero(again.certified)))
 
 
 class _Batch:
@@ -226,9 +251,9 @@ class _Batch:
         if sequence in ("ac", "cf"):
             out.b[where], out.a[where] = orbit.b[good], orbit.a[good]
         else:
-            out.d[where], out.b[where], out.a[where], out.c[where] = (
-                orbit.x[good], orbit.b[good], orbit.a[good], orbit.c[good],
-            )
+            out.b[where], out.a[where], out.c[where] = orbit.b[good], orbit.a[good], orbit.c[good]
+            if sequence != "afc":
+                out.d[where] = orbit.x[good]
 
 
 def _arguments(s: Strips):

@@ -40,7 +40,7 @@ def _one_regime(kernel, sequence, s: Strips, solved: Solved, index, phase):
         released = s.delta_0 + cycle.jump
         starts, gaps = {
             "acaf": ([d, b, a, c], [cycle.gap_on, zero, zero, released]),
-            "afc": ([d, a, c], [zero, zero, released]),
+            "afc": ([b, a, c], [zero, zero, released]),
             "af": ([d, c], [cycle.gap_on, released]),
         }[sequence]
     phase = starts[0] + np.mod(phase - starts[0], TWO_PI)

@@ -141,6 +141,7 @@ def _happens(event, start, end, index, sure, spent):
     Where there is next to no memory the event function follows the harmonic and vanishes at the end but for rounding; it is deepest half way.
     """
     meets = sure.copy()
+    end = np.maximum(start, end)
     for where in (end, 0.5 * (start + end)):
         ask = np.flatnonzero(~meets)
         if ask.size:

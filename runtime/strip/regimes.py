@@ -16,15 +16,3 @@ REGIMES = {
 
 SEQUENCES = np.array(list(REGIMES))
 CODE = {sequence: code for code, sequence in enumerate(REGIMES)}
-
-#: Edges that a regime has, in the order a material point meets them.
-EDGES = {
-    "c": "",
-    "ac": "ba",
-    "acaf": "dbac",
-    "afc": "dbac",
-    "cf": "ba",
-    "af": "dc",
-    "a": "",
-    "f": "",
-}

@@ -23,6 +23,8 @@ from .sensitivity import SlopeBounds, onset_margin, slope_bounds, slope_excess
 
 _EPS = np.finfo(float).eps
 _MAX_STEPS = 4000
+#: beta below which the past decays within the rounding of a phase
+_MEMORYLESS = 1e-16
 
 
 class SearchResult:
@@ -64,7 +66,8 @@ class _Search:
         return orbit
 
     def run(self) -> SearchResult:
-        index = np.flatnonzero(self.cycle.half_d > 0)
+        self._without_memory(np.flatnonzero((self.cycle.half_d > 0) & (self.cycle.strips.beta <= _MEMORYLESS)))
+        index = np.flatnonzero((self.cycle.half_d > 0) & (self.cycle.strips.beta > _MEMORYLESS))
         if index.size:
             index, frontier, stop = self._start(index)
             beyond = stop.take(np.arange(index.size))
@@ -76,14 +79,23 @@ class _Search:
             self.result.unresolved[index] = True
         return self.result
 
+    def _without_memory(self, index):
+        """At beta = 0 every onset leads to the same next one, where the undeformed surface comes within reach: the start of the arc."""
+        if not index.size:
+            return
+        orbit = self.march(index, (self.cycle.centre - self.cycle.half_d)[index])
+        orbit.r = np.where(orbit.engaged, orbit.r, 0.0)
+        ends = np.flatnonzero(~orbit.engaged)
+        self._isolated(index[ends], orbit.take(ends), orbit.take(ends))
+
     def _start(self, index):
         """Both ends of the arc, moved inward by the onset map itself: every fixed point of a monotone map lies between the images."""
         cycle = self.cycle.take(index)
         near = cycle.centre + self.sign * -cycle.half_d
         far = cycle.centre + self.sign * cycle.half_d
         frontier = self.march(index, near)
-        # r has the other sign at the very start only where the orbit sits there (a foundation without memory), or where
-        # the strip stays engaged through the period: from the last onset on, then, from every onset
+        # r has the other sign at the very start only where the orbit sits there, to rounding, or where the strip stays
+        # engaged through the period: from the last onset on, then, from every onset
         at_start = self.sign * frontier.r <= 0
         accepted = np.flatnonzero(at_start & ~frontier.engaged)
         self._isolated(index[accepted], frontier.take(accepted), frontier.take(accepted))
@@ -242,7 +254,7 @@ def _excluded(kernel, cycle: Cycle, left: Orbit, right: Orbit, bounds: SlopeBoun
     beta = cycle.strips.beta
     if last:
         near = _reach_back(beta, -right.r, bounds.fall)
-        far = _reach_on(beta, np.where(left.engaged, 0.0, -left.r), bounds.rise)
+        far = np.where(left.engaged, 0.0, _reach_on(beta, np.where(left.engaged, 0.0, -left.r), bounds.rise))
         compared = _stays_below(kernel, cycle, left.x, right, bounds.N_min)
     else:
         near = _reach_on(beta, left.r, bounds.fall)

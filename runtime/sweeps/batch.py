@@ -25,7 +25,16 @@ class Task:
 def outputs(levels: int) -> list[str]:
     """Names of the numbers that a point gives, in order."""
     parts = [f"mu of level {i}" for i in range(1, levels + 1)]
-    return ["mu", "tau [Pa]", *parts, "pressure [Pa]", "penetration [m]", "contact fraction", "pulled off", "error estimate of mu"]
+    return [
+        "mu",
+        "tau [Pa]",
+        *parts,
+        "pressure [Pa]",
+        "penetration [m]",
+        "contact fraction",
+        "pulled off",
+        "error estimate of mu",
+    ]
 
 
 def solve_batch(task: Task) -> tuple[np.ndarray, dict[int, str]]:
@@ -64,7 +73,13 @@ def _numbers(task: Task, at: np.ndarray, fixed: list[int], rows: np.ndarray) -> 
     run = {key: np.broadcast_to(base[key], rows.size) for key in _RUN_KEYS if base[key] is not None and key not in task.keys}
     run |= {key: task.coordinates[rows, i] for i, key in enumerate(task.keys) if key in _RUN_KEYS}
     result = hystrip.solve(
-        objects["material"], objects["adhesion"], objects["levels"], **run, edge=base["edge"], branch=base["branch"], rtol=base["rtol"]
+        objects["material"],
+        objects["adhesion"],
+        objects["levels"],
+        **run,
+        edge=base["edge"],
+        branch=base["branch"],
+        rtol=base["rtol"],
     )
     return np.column_stack([
         result.mu, result.tau, *parts_of_mu(result), result.pressure, result.penetration, result.contact_fraction,

@@ -27,7 +27,9 @@ def to_dataset(sweep: Any) -> Any:
     plan, columns = sweep.plan, sweep.columns
     grid = plan.combine == "grid"
     dims = tuple(axis.name for axis in plan.axes) if grid else ("point",)
-    coords: dict[str, Any] = {"level": ("level", np.arange(1, plan.levels + 1), {"units": "1", "long_name": "level of the surface"})}
+    coords: dict[str, Any] = {
+        "level": ("level", np.arange(1, plan.levels + 1), {"units": "1", "long_name": "level of the surface"})
+    }
     for axis in plan.axes:
         coords[axis.name] = (axis.name if grid else "point", axis.values, {"units": axis.unit, "long_name": f"swept: {axis.key}"})
     variables = {}

@@ -120,9 +120,13 @@ def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], 
             numbers(axis.key, axis.values, axis.unit, 0, strict=axis.key.endswith((".K", ".l")))
     sizes = {axis.key: axis.values.size for axis in axes}
     if combine == "list" and len(set(sizes.values())) > 1:
-        raise SceneError("sweep.combine", "list", "lists and ranges of one length, or combine = \"grid\"", f"lengths differ: {sizes}")
+        raise SceneError(
+            "sweep.combine", "list", 'lists and ranges of one length, or combine = "grid"', f"lengths differ: {sizes}"
+        )
     if not axes:
-        raise SceneError("", None, "a list or a range for at least one quantity", "nothing is swept: every quantity is a single value")
+        raise SceneError(
+            "", None, "a list or a range for at least one quantity", "nothing is swept: every quantity is a single value"
+        )
     plan = Plan(name, text, values, axes, combine, batch)
     if plan.size > 100_000_000:
         raise SceneError("", plan.size, "at most 1e8 points", f"{plan.size} points")
@@ -162,7 +166,9 @@ def keys_of(values: dict[str, Any]) -> list[str]:
 
 def single(base: dict[str, Any], keys: list[str], at: np.ndarray) -> dict[str, Any]:
     """Material, adhesion and levels at one combination of the values of ``keys`` (load and velocity are left alone)."""
-    values = copy.deepcopy({key: base[key] for key in ("material", "adhesion", "levels")} | {key: base[key] for key in (*_LOADS, "velocity")})
+    values = copy.deepcopy(
+        {key: base[key] for key in ("material", "adhesion", "levels")} | {key: base[key] for key in (*_LOADS, "velocity")}
+    )
     for key, value in zip(keys, at, strict=True):
         _put(values, key, float(value))
     return build_objects(values)

@@ -69,7 +69,8 @@ def sweep(
     Parameters
     ----------
     scene : path of a scene file or name of a built-in scene; any quantity in it may be a list or a range
-    over : further swept quantities, dotted key of the scene -> values in SI, e.g. ``{"adhesion.gamma": [0, 1e-5]}``, ``"levels[1].h"``
+    over : further swept quantities, dotted key of the scene -> values in SI, such as
+        ``{"adhesion.gamma": [0, 1e-5], "levels[1].h": [5e-8, 1e-7]}``
     out : folder for ``<name>.csv`` and the finished batches (``<name>.parts/``)
     combine : ``"grid"`` (every combination) or ``"list"`` (all of one length, taken together); the scene's ``[sweep]`` if None
     batch : points solved and stored together; the scene's ``[sweep]`` if None

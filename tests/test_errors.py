@@ -1,0 +1,149 @@
+"""Wrong inputs of the Python API: each refusal names the field, the value and what is allowed, before any work is done."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import hystrip
+
+MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+LEVEL = hystrip.Level(l=500e-9, h=100e-9)
+ARRAYS = hystrip.StandardLinearSolid(K=[1e9, 2e9], T_eps=1e-2, T_sigma=1e-4)
+
+
+def material(**changed):
+    return hystrip.StandardLinearSolid(**{"K": 1e9, "T_eps": 1e-2, "T_sigma": 1e-4, **changed})
+
+
+def strip(**changed):
+    given = {"material": MATERIAL, "adhesion": ADHESION, "l": 500e-9, "A": 5e-8, "D": 2e-8, "V": 5e-3, **changed}
+    return hystrip.solve_strip(given.pop("material"), given.pop("adhesion"), **given)
+
+
+def one_level(**changed):
+    given = {"material": MATERIAL, "adhesion": ADHESION, "level": LEVEL, "V": 5e-3, "D": 1e-7, **changed}
+    return hystrip.solve_level(given.pop("material"), given.pop("adhesion"), given.pop("level"), **given)
+
+
+def law(**changed):
+    given = {"level": LEVEL, "V": 5e-3, **changed}
+    return hystrip.friction_law(MATERIAL, ADHESION, given.pop("level"), **given)
+
+
+def surface(**changed):
+    given = {"material": MATERIAL, "adhesion": ADHESION, "levels": [LEVEL], "pressure": 1e6, "velocity": 5e-3, **changed}
+    return hystrip.solve(given.pop("material"), given.pop("adhesion"), given.pop("levels"), **given)
+
+
+CASES = [  # the call, what is wrong, the field, and words on the value and on what is allowed
+    (material, {"K": 0}, "material.K", "got 0;", "> 0 (Pa/m)"),
+    (material, {"K": -1.0}, "material.K", "-1.0", "> 0"),
+    (material, {"K": np.nan}, "material.K", "nan", "finite"),
+    (material, {"K": np.inf}, "material.K", "inf", "finite"),
+    (material, {"K": True}, "material.K", "True", "number"),
+    (material, {"K": np.True_}, "material.K", "True", "number"),
+    (material, {"K": "1e9"}, "material.K", "'1e9'", "number"),
+    (material, {"K": None}, "material.K", "None", "number"),
+    (material, {"K": 1e9 + 1j}, "material.K", "1j", "number"),
+    (material, {"K": 10**400}, "material.K", "10000", "finite"),
+    (material, {"K": [1e9, -2.0]}, "material.K", "-2.0", "> 0"),
+    (material, {"K": [[1.0], [1.0, 2.0]]}, "material.K", "[[1.0], [1.0, 2.0]]", "number"),
+    (material, {"T_eps": -1e-2}, "material.T_eps", "-0.01", ">= 0 (s)"),
+    (material, {"T_sigma": -1e-4}, "material.T_sigma", "-0.0001", ">= 0 (s)"),
+    (material, {"T_sigma": 2e-2}, "material.T_sigma", "0.02", "from 0 to T_eps = 0.01"),
+    (material, {"T_eps": [1e-2, 1e-5]}, "material.T_sigma", "0.0001", "from 0 to T_eps = 1e-05"),
+    (material, {"K": [1.0, 2.0], "T_eps": [1.0, 2.0, 3.0]}, "material.K, material.T_eps", "(2,), (3,)", "broadcast"),
+    (hystrip.Dugdale, {}, "adhesion", "{}", "either gamma"),
+    (hystrip.Dugdale, {"delta_0": 1e-8}, "adhesion", "delta_0", "either gamma"),
+    (hystrip.Dugdale, {"gamma": 1e-5, "p_0": 1e3, "delta_0": 1e-8}, "adhesion", "p_0", "either gamma"),
+    (hystrip.Dugdale, {"gamma": -1e-5, "delta_0": 1e-8}, "adhesion.gamma", "-1e-05", ">= 0 (N/m)"),
+    (hystrip.Dugdale, {"gamma": 1e-5}, "adhesion.delta_0", "None", "> 0 (m)"),
+    (hystrip.Dugdale, {"p_0": 1e3, "delta_0": 0.0}, "adhesion.delta_0", "0.0", "> 0 (m)"),
+    (hystrip.Dugdale, {"p_0": 1e3, "delta_0": -1e-8}, "adhesion.delta_0", "-1e-08", ">= 0 (m)"),
+    (hystrip.Dugdale, {"p_0": [1.0, np.nan], "delta_0": 1e-8}, "adhesion.p_0", "nan", "finite"),
+    (hystrip.Dugdale, {"gamma": 1e300, "delta_0": 1e-300}, "adhesion.gamma", "1e+300", "finite traction"),
+    (hystrip.Level, {"l": 0.0, "h": 1e-7}, "level.l", "0.0", "> 0 (m)"),
+    (hystrip.Level, {"l": 1e-6, "h": -1e-7}, "level.h", "-1e-07", ">= 0 (m)"),
+    (hystrip.Level, {"l": [1e-6, 2e-6], "h": 1e-7}, "level.l", "[1e-06, 2e-06]", "single number"),
+    (strip, {"material": 1e9}, "material", "1000000000.0", "StandardLinearSolid"),
+    (strip, {"adhesion": None}, "adhesion", "None", "gamma=0: no adhesion"),
+    (strip, {"l": -1e-6}, "l", "-1e-06", "> 0 (m)"),
+    (strip, {"A": -1e-9}, "A", "-1e-09", ">= 0 (m)"),
+    (strip, {"D": np.nan}, "D", "nan", "finite number (m)"),
+    (strip, {"V": -5e-3}, "V", "-0.005", ">= 0 (m/s)"),
+    (strip, {"V": 1e300, "l": 1e-30}, "V", "1e+300", "k V T_eps at most"),
+    (strip, {"V": [1e-3, 2e-3], "D": [1e-8, 2e-8, 3e-8]}, "D, V", "(3,), (2,)", "broadcast"),
+    (strip, {"edge": "sharp"}, "edge", "'sharp'", "'continuous', 'constitutive'"),
+    (strip, {"edge": None}, "edge", "None", "'continuous', 'constitutive'"),
+    (strip, {"branch": "both"}, "branch", "'both'", "'unloading', 'loading'"),
+    (one_level, {"D": None}, "D, pressure", "None", "exactly one"),
+    (one_level, {"pressure": 1e6}, "D, pressure", "1000000.0", "exactly one"),
+    (one_level, {"level": [LEVEL]}, "level", "Level(l=5e-07", "a hystrip.Level"),
+    (one_level, {"material": ARRAYS}, "material.K", "2.e+09", "single number"),
+    (one_level, {"strips": 0}, "strips", "0", ">= 1"),
+    (one_level, {"strips": True}, "strips", "True", "an integer"),
+    (one_level, {"strips": 10.0}, "strips", "10.0", "an integer"),
+    (one_level, {"strips": 10, "D": None, "pressure": 1e6}, "strips", "10", "equal strips need D"),
+    (one_level, {"rtol": 0.0}, "rtol", "0.0", ">= 1e-12"),
+    (one_level, {"rtol": 0.2}, "rtol", "0.2", "1e-12 to 0.1"),
+    (law, {"V": [1e-3, 2e-3]}, "V", "0.001", "single number"),
+    (law, {"V": np.inf}, "V", "inf", ">= 0 (m/s)"),
+    (law, {"below": np.nan}, "below", "nan", "finite number (Pa)"),
+    (law, {"level": "500 nm"}, "level", "'500 nm'", "a hystrip.Level"),
+    (surface, {"levels": []}, "levels", "[]", "at least one"),
+    (surface, {"levels": 2}, "levels", "2", "sequence of hystrip.Level"),
+    (surface, {"levels": [LEVEL, (1e-6, 1e-7)]}, "levels[1]", "(1e-06, 1e-07)", "a hystrip.Level"),
+    (surface, {"pressure": None}, "pressure, penetration", "None", "exactly one"),
+    (surface, {"penetration": 1e-7}, "pressure, penetration", "1e-07", "exactly one"),
+    (surface, {"pressure": [1e6, np.inf]}, "pressure", "inf", "finite number (Pa)"),
+    (surface, {"pressure": None, "penetration": "1 nm"}, "penetration", "'1 nm'", "finite number (m)"),
+    (surface, {"velocity": [1e-3, -1e-3]}, "velocity", "-0.001", ">= 0 (m/s)"),
+    (surface, {"velocity": [1e-3, 2e-3], "pressure": [1.0, 2.0, 3.0]}, "pressure, velocity", "(3,), (2,)", "broadcast"),
+    (surface, {"adhesion": hystrip.Dugdale(p_0=[1e3, 2e3], delta_0=1e-8)}, "adhesion.p_0", "2000.", "single number"),
+    (surface, {"rtol": [1e-3, 1e-4]}, "rtol", "0.001", "single number"),
+    (surface, {"rtol": np.nan}, "rtol", "nan", ">= 1e-12"),
+    (surface, {"edge": "Continuous"}, "edge", "'Continuous'", "'constitutive'"),
+    (surface, {"branch": 1}, "branch", "1", "'loading'"),
+]
+
+
+@pytest.mark.parametrize(("call", "wrong", "field", "value", "allowed"), CASES, ids=[f"{c.__name__}-{w}"[:60] for c, w, *_ in CASES])
+def test_refusal(call, wrong, field, value, allowed):
+    with pytest.raises(hystrip.InputError) as refused:
+        call(**wrong)
+    error, message = refused.value, str(refused.value)
+    assert error.field == field
+    assert message.startswith(f"{field}: got ") and "\n" not in message
+    got, _, may = message.partition("; allowed: ")
+    assert value in got + ";" and allowed in may
+
+
+@pytest.mark.parametrize("call", [strip, one_level, surface])
+def test_nothing_is_wrong_with_the_calls_themselves(call):
+    assert np.isfinite(call(**({"rtol": 1e-2} if call is not strip else {})).tau_mean if call is not surface else call().tau)
+
+
+def test_an_argument_that_does_not_exist():
+    with pytest.raises(TypeError, match="presure"):
+        surface(presure=1e6)
+
+
+def test_a_law_says_how_far_it_reaches():
+    known = law(below=0.0, rtol=1e-2)
+    with pytest.raises(hystrip.InputError, match="p: got .*; allowed: at most .* Pa"):
+        known(2 * abs(known.below) + 1e6)
+
+
+def test_a_refusal_survives_the_way_between_processes_and_is_a_value_error():
+    with pytest.raises(ValueError, match="velocity") as refused:
+        surface(velocity=-1)
+    again = pickle.loads(pickle.dumps(refused.value))
+    assert str(again) == str(refused.value) and again.field == "velocity"
+
+
+def test_inputs_cannot_be_changed_past_their_checks():
+    for owner, name in ((MATERIAL, "K"), (ADHESION, "p_0"), (LEVEL, "h")):
+        with pytest.raises(AttributeError):
+            setattr(owner, name, -1.0)
