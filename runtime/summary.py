@@ -8,10 +8,14 @@ import numpy as np
 
 from hystrip.tables import shares
 
+_STRIPS = 200
+
 
 def summary(result: Any) -> str:
     """Text about a :class:`hystrip.Result`: the levels, the friction, what every level adds, and what was skipped."""
-    return "\n".join([*_inputs(result), "", *_levels(result), "", *_friction(result), *_contact(result), *_work(result)])
+    return "\n".join(
+        [*_inputs(result), "", *_levels(result), "", *_friction(result), *_contact(result), *_closer(result), *_work(result)]
+    )
 
 
 def deborah(result: Any) -> np.ndarray:
@@ -86,14 +90,38 @@ def _friction(result: Any) -> list[str]:
 
 
 def _contact(result: Any) -> list[str]:
-    found = np.isfinite(result.pull_off)
-    pull_off = _span(np.asarray(result.pull_off)[found], "Pa") if found.any() else "not needed: no point asked for it"
     off = int(np.count_nonzero(result.pulled_off))
     return [
         f"real contact (touching on every level)  {_percent(result.contact_fraction)}",
-        f"level 1: pull-off {pull_off}; saturated from {_span(result.p_sat, 'Pa')}",
+        f"level 1 is saturated from {_span(result.p_sat, 'Pa')}",
         *([f"{off} points lie below pull-off: no contact, mu = 0, nothing to solve"] if off else []),
     ]
+
+
+def _closer(result: Any) -> list[str]:
+    """Pull-off of level 1, and the regimes of its strips, at the point of largest friction (the first, if there is none)."""
+    from hystrip.level.solution import friction_law
+    from hystrip.strip.solution import solve_strip
+
+    mu = np.abs(np.ravel(result.mu))
+    at = int(np.nanargmax(mu)) if np.isfinite(mu).any() else 0
+    V, D, level = float(np.ravel(result.velocity)[at]), float(np.ravel(result.penetration)[at]), result.levels[0]
+    how = {"edge": result.edge, "branch": result.branch}
+    law = friction_law(result.material, result.adhesion, level, V=V, rtol=1e-2, **how)
+    out = [f"at V = {V:.4g} m/s: pull-off of level 1 at {law.pull_off:.4g} Pa"]
+    if np.isfinite(D):
+        theta = (np.arange(_STRIPS) + 0.5) * np.pi / _STRIPS
+        A, depth = level.amplitude(theta), D - level.drop(theta)
+        names, counts = np.unique(
+            solve_strip(result.material, result.adhesion, l=level.l, A=A, D=depth, V=V, **how).regime_name.astype(str),
+            return_counts=True,
+        )
+        parts = [
+            f"{100 * count / _STRIPS:.3g} % {name}"
+            for name, count in sorted(zip(names, counts, strict=True), key=lambda e: -e[1])
+        ]
+        out.append(f"           regimes of its strips: {'; '.join(parts)}")
+    return out
 
 
 def _work(result: Any) -> list[str]:
@@ -101,8 +129,7 @@ def _work(result: Any) -> list[str]:
     decided, closed, off = (c[name] for name in ("strips_decided_by_threshold", "points_in_closed_form", "points_below_pull_off"))
     return [
         f"work       {c['strips_solved']} strips solved; skipped: {decided} strips by a threshold (saturated or free),",
-        f"           {closed} points by the closed form (every level saturated), "
-        f"{off} points below pull-off",
+        f"           {closed} points by the closed form (every level saturated), {off} points below pull-off",
     ]
 
 

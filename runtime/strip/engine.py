@@ -304,5 +304,6 @@ def _polished(kernel, sequence: str, cycle: Cycle, orbit: Orbit, ends=None) -> t
         new = Orbit(e[0], orbit.b, orbit.a, e[1], orbit.engaged, orbit.r, orbit.w_end)
     else:
         new = Orbit(e[0], e[0], e[1], e[1], orbit.engaged, orbit.r, orbit.w_end)
-    converged = refined.correction <= _CONVERGED + _ROUNDINGS * np.minimum(refined.attainable, _COARSEST)
+    limit = np.where(refined.stalled, _ROUNDINGS * np.minimum(refined.attainable, _COARSEST), 0.0)
+    converged = refined.correction <= _CONVERGED + limit
     return new, converged, refined.evaluations

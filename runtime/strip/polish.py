@@ -10,7 +10,7 @@ import numpy as np
 
 from .problem import Strips
 
-_ITERATIONS = 10
+_ITERATIONS = 20
 #: steps larger than this are corrections, whatever the one before was
 _ROUNDING_LIMITED = 1e-6
 _EPS = np.finfo(float).eps
@@ -20,7 +20,7 @@ _EPS = np.finfo(float).eps
 class Polished:
     """Edges of shape (k, n); ``correction`` (n,): the last step; ``attainable`` (n,): how well rounding lets the edges be known.
 
-    ``evaluations`` (n,): of the boundary equations and their Jacobian.
+    ``evaluations`` (n,): of the boundary equations and their Jacobian. ``stalled`` (n,): corrections had stopped to shrink.
 
     ``attainable`` is of the order of rounding in general, and of its square root where an edge is nearly grazed or at a fold.
     """
@@ -29,6 +29,7 @@ class Polished:
     correction: np.ndarray
     attainable: np.ndarray
     evaluations: np.ndarray
+    stalled: np.ndarray
 
 
 def polish(kernel, sequence: str, strips: Strips, edges: np.ndarray, bounds=(-np.inf, np.inf)) -> Polished:
@@ -41,6 +42,7 @@ def polish(kernel, sequence: str, strips: Strips, edges: np.ndarray, bounds=(-np
     n = strips.size
     last, attainable, evaluations = np.full(n, np.inf), np.full(n, np.inf), np.zeros(n)
     low, high = (np.broadcast_to(bound, edges.shape) for bound in bounds)
+    stalls = np.zeros(n, int)
     active = np.arange(n)
     for _ in range(_ITERATIONS):
         here = tuple(v[active] for v in arguments)
@@ -49,17 +51,18 @@ def polish(kernel, sequence: str, strips: Strips, edges: np.ndarray, bounds=(-np
         step = _newton(residual(*current, *here), matrix)
         evaluations[active] += 1
         size = np.max(np.abs(step), axis=0)
-        # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction
+        # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction. Once may be chance
         better = (size < last[active]) | (size > _ROUNDING_LIMITED)
         moved = active[better]
         new = np.clip(np.maximum.accumulate(current + step, axis=0), low[:, active], high[:, active])
         edges[:, moved] = new[:, better]
         last[moved] = size[better]
         attainable[moved] = _propagated([e[moved] for e in noise], _rows(matrix, better))
-        active = active[better & (size > 4 * _EPS)]
+        stalls[active[~better]] += 1
+        active = active[(stalls[active] < 2) & (size > 4 * _EPS * np.max(np.abs(new), axis=0))]
         if not active.size:
             break
-    return Polished(edges, last, attainable, evaluations)
+    return Polished(edges, last, attainable, evaluations, stalls > 0)
 
 
 def _rows(matrix, pick):
