@@ -89,7 +89,8 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
     sum_p, sum_w, sum_tau = sums
     formula = Formula(name, regime.args, _stable_means(regime))
     stated = formula.written_out(formula.args)
-    exact = (sum_w / PERIOD, sum_tau / PERIOD)
+    touches = any(zone.kind == CONTACT for zone in regime.zones)
+    exact = ((sum_w if touches else sum_p) / PERIOD, sum_tau / PERIOD)
     checks = [
         zero(
             name,
@@ -103,8 +104,12 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
         strip_means,
         exact,
         name=name,
-        statement=f"Means of a strip: {regime.title}. The mean pressure is computed as the mean of w, "
-        "equal to it on a closed orbit, because that sum holds no large terms that cancel.",
+        statement=f"Means of a strip: {regime.title}. The mean pressure is computed "
+        + (
+            "as the mean of w, equal to it on a closed orbit, because that sum holds no large terms that cancel."
+            if touches
+            else "from the adhesion zone alone, where the pressure is constant."
+        ),
         latex=r"\bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds",
         checks=checks,
         paper="Eq. 10",
@@ -138,19 +143,23 @@ def constant_means(regime: Regime) -> Kernel:
 
 
 def _stable_means(regime: Regime) -> tuple[sp.Expr, sp.Expr]:
-    """Candidates: w summed and the work of p, zone by zone.
+    """Candidates: w (without contact p, which is zero or -p_0) summed and the work of p, zone by zone.
 
     Where nothing is free the traction acts everywhere and does no work over a period: pressures are counted from -p_0,
     which is the same strip raised by p_0.
     """
     raised = NOTHING if any(zone.kind == FREE for zone in regime.zones) else p_0
-    sum_w = work = NOTHING
+    touches = any(zone.kind == CONTACT for zone in regime.zones)
+    total = work = NOTHING
     for zone in regime.zones:
         if zone.kind == CONTACT:
             pressure = sp.expand(zone.entry - p_0 + raised)
-            sum_w += stable.PROFILE_INTEGRAL(zone.first, zone.last, D)
+            total += stable.PROFILE_INTEGRAL(zone.first, zone.last, D)
             work += stable.CONTACT_WORK(zone.first, zone.last, pressure, D + raised, alpha, beta, L)
         else:
-            sum_w += stable.RELAXATION_INTEGRAL(zone.first, zone.last, zone.displacement, zone.load, beta)
+            if touches:
+                total += stable.RELAXATION_INTEGRAL(zone.first, zone.last, zone.displacement, zone.load, beta)
+            else:
+                total += zone.load * (zone.last - zone.first)
             work += (zone.load + raised) * stable.PROFILE_RISE(zone.first, zone.last)
-    return sum_w / PERIOD, work / PERIOD
+    return total / PERIOD, work / PERIOD

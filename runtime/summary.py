@@ -107,8 +107,8 @@ def _closer(result: Any) -> list[str]:
     at = int(np.nanargmax(mu)) if np.isfinite(mu).any() else 0
     V, D, level = float(np.ravel(result.velocity)[at]), float(np.ravel(result.penetration)[at]), result.levels[0]
     how = {"edge": result.edge, "branch": result.branch}
-    law = friction_law(result.material, result.adhesion, level, V=V, rtol=1e-2, **how)
-    out = [f"at V = {V:.4g} m/s: pull-off of level 1 at {law.pull_off:.4g} Pa"]
+    law = friction_law(result.material, result.adhesion, level, V=V, rtol=1e-2, below=0.0, **how)
+    out = [f"at V = {V:.4g} m/s: pull-off of level 1 at {law.pull_off if result.adhesion.p_0 > 0 else 0.0:.4g} Pa"]
     if np.isfinite(D):
         theta = (np.arange(_STRIPS) + 0.5) * np.pi / _STRIPS
         A, depth = level.amplitude(theta), D - level.drop(theta)

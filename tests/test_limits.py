@@ -100,10 +100,20 @@ def test_slow_strip_is_elastic(edge, p_0, delta_0):
 def test_strip_at_rest_is_the_limit_of_the_slow_one(edge, branch):
     D, p_0 = np.meshgrid(np.linspace(-1, 3, 17), [0.0, 0.05, 0.3])
     D = D + 0.013  # off the thresholds
-    rest, slow = (strip(D, V, p_0=p_0, edge=edge, branch=branch) for V in (0.0, 1e-9))
+    rest, slow = (strip(D, V, p_0=p_0, edge=edge, branch=branch) for V in (0.0, 1e-8))
     for name in ("p_mean", "contact_fraction", "adhesion_fraction"):
         assert np.abs(getattr(rest, name) - getattr(slow, name)).max() < 1e-7, name
     assert np.abs(rest.tau_mean - slow.tau_mean).max() < 1e-7
+
+
+@pytest.mark.parametrize(("edge", "branch"), BOTH)
+@pytest.mark.parametrize("V", [3e-9, 1e-10, 1e-12, 1e-15, 1e-17, 1e-30, 1e-300])
+def test_the_slowest_strip_is_as_good_as_at_rest(V, edge, branch):
+    """The foundation forgets within less than the rounding of a phase: still a solution, the one at rest."""
+    D = np.linspace(-1, 3, 17) + 0.013
+    rest, slow = (strip(D, v, p_0=0.3, edge=edge, branch=branch) for v in (0.0, V))
+    for name in ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction"):
+        assert np.abs(getattr(rest, name) - getattr(slow, name)).max() < 1e-7, name
 
 
 @pytest.mark.parametrize("edge", EDGES)
@@ -115,7 +125,7 @@ def test_kelvin_voigt_pressure_is_local(edge):
     expected = D - 1 + np.cos(x) + V * T_eps * np.sin(x)  # K (u - V T_eps u_x)
     touching = s.gap(x) == 0
     assert touching.any(axis=0).all()
-    assert np.abs(s.pressure(x) - expected)[touching].max() < 1e-13 * 10
+    assert np.abs(s.pressure(x) - expected)[touching].max() < 1e-12
     assert (s.pressure(x)[touching] >= -0.2 - 1e-13).all()
 
 
@@ -132,7 +142,7 @@ def test_long_wave_is_a_parabola():
     b, k = 0.7, np.array([1e-2, 1e-3, 1e-4])
     s = strip(b**2 / 2, 1.0, A=1 / k**2, l=2 * np.pi / k)
     assert (s.regime == "cf").all()
-    found = np.array([s.a, s.b, s.p_mean * s._scales["l"] if "l" in s._scales else s.p_mean * 2 * np.pi / k, s.tau_mean * 2 * np.pi / k])
+    found = np.array([s.a, s.b, s.p_mean * 2 * np.pi / k, s.tau_mean * 2 * np.pi / k])
     known = np.array([[0.31652973], [0.7], [0.38150201], [0.10574816]])
     assert np.all(np.abs(found - known) < 0.1 * k**2 + 1e-8)
 
@@ -154,8 +164,6 @@ def test_flat_strip(edge, branch):
     """A = 0: contact down to -p_0, clinging down to a gap of delta_0, then nothing; loading waits for the undeformed gap."""
     D = np.array([1.0, 0.0, -0.05, -0.15, -0.25, -0.3999, -0.4001, -5.0])
     s = strip(D, np.array([[0.0], [1.0], [1e6]]), p_0=0.3, A=0.0, edge=edge, branch=branch)
-    regimes = "ccccccff" if False else {"unloading": "cccccc", "loading": "ccccff"}
-    del regimes
     for row, p in zip(s.regime, s.p_mean, strict=True):
         contact, free = row == "c", row == "f"
         assert np.array_equal(p[contact], D[contact]) and not p[free].any() and (p[row == "a"] == -0.3).all()
@@ -172,7 +180,7 @@ def test_nearly_flat_strip_tends_to_the_flat_one():
     for A in (1e-6, 1e-12, 1e-17, 1e-19, 1e-300):
         s = strip(D, p_0=0.3, A=A)
         assert (s.regime == flat.regime).all()
-        assert np.abs(s.p_mean - flat.p_mean).max() <= 2 * A
+        assert np.abs(s.p_mean - flat.p_mean).max() <= 2 * A + 1e-16
 
 
 @pytest.mark.parametrize(("edge", "branch"), BOTH)

@@ -65,6 +65,7 @@ def test_summary_says_it_all(grid):
     for part in (
         "share of mu",
         "pull-off",
+        "regimes of its strips: 100 % saturated contact",
         "saturated from",
         "real contact",
         "closed form",

@@ -9,15 +9,18 @@ from markupsafe import Markup
 
 ROOM = 36  # characters of LaTeX from which a line may break before a sign
 WIDE = 55  # visible characters from which it may break inside brackets too
-SEPARATORS = (r"\\", r",\quad", r",\qquad", r"\quad", r"\qquad", r"\;\Rightarrow\;")
+SEPARATORS = (r"\\", r",\quad", r",\qquad", r"\quad", r"\qquad")
 SIGNS = (" + ", " - ", " = ", r" \ge ", r" \le ")
+ARROW = r"\Rightarrow"
+FUNCTION = re.compile(r"<mi>(sin|cos|tan|arctan|arccos)</mi>(?=<m[in]>)")  # they touch what follows without a bracket
 TOKEN = re.compile(r"\\left\s*(?:\\.|.)|\\right\s*(?:\\.|.)|\\[,;! ]|\\\\|\\[A-Za-z]+|.", re.DOTALL)
 SIZED = re.compile(r"\\(?:left|right)\s*([()\[\]])")
 
 
 def mathml(latex: str) -> Markup:
     """MathML of an equation: one inline element for each piece, between which a browser may break the line."""
-    return Markup(" ").join(Markup(latex2mathml.converter.convert(piece)) for piece in pieces(latex))
+    made = (latex2mathml.converter.convert(piece) for piece in pieces(latex))
+    return Markup(" ").join(Markup(FUNCTION.sub(r'<mi>\1</mi><mspace width="0.17em"/>', text)) for text in made)
 
 
 def pieces(latex: str) -> list[str]:
@@ -46,7 +49,8 @@ def _cut(latex: str, inside: bool) -> list[str]:
                 position += len(separator)
                 start = position
                 continue
-            if position - start > ROOM and latex.startswith(SIGNS, position):
+            arrow = latex.startswith(ARROW, position)
+            if arrow or position - start > ROOM and latex.startswith(SIGNS, position):
                 found.append(latex[start:position])
                 start = position
         token = TOKEN.match(latex, position).group()

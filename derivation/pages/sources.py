@@ -26,7 +26,9 @@ def deriving(function: str) -> Source:
 
 def title(module: str) -> str:
     """First line of a stage's docstring."""
-    return (importlib.import_module(f"{PACKAGE}.{module}").__doc__ or module).strip().splitlines()[0].rstrip(".").replace("``", "")
+    return (
+        (importlib.import_module(f"{PACKAGE}.{module}").__doc__ or module).strip().splitlines()[0].rstrip(".").replace("``", "")
+    )
 
 
 def generated(file: str, text: str) -> dict[str, Source]:
