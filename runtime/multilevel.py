@@ -60,7 +60,7 @@ class Surface:
 
     def saturated(self, V) -> "Stack":
         """Saturation of every level, and of each level with all below it."""
-        own = [saturated_level(self.material, self.adhesion, level, V) for level in self.levels]
+        own = [saturated_level(self.material, self.adhesion, level, V, self.branch) for level in self.levels]
         p_full, D_full = [own[-1].p_sat], [own[-1].D_sat]
         for level, s in zip(self.levels[-2::-1], own[-2::-1], strict=True):
             # the least local pressure, at the crest, has to saturate everything below; and -p_0 keeps the level's own contact

@@ -126,7 +126,7 @@ def solve_level(
 
 def _at_pressure(material, adhesion, level, V, p, edge, branch, rtol, shape, tally):
     columns = Columns(material, adhesion, level, edge, branch, V, np.zeros(V.size), tally=tally)
-    s = saturated_level(material, adhesion, level, V)
+    s = saturated_level(material, adhesion, level, V, branch)
     D = np.where(p >= s.p_sat, p / material.K + 0.75 * level.h, np.nan)
     slopes = np.zeros(p.size)
     rest = np.flatnonzero(p < s.p_sat)
@@ -180,7 +180,7 @@ def friction_law(
 
 def _laws(columns: Columns, rtol: float, top) -> list[Law]:
     n = columns.size
-    s = saturated_level(columns.material, columns.adhesion, columns.level, columns.V)
+    s = saturated_level(columns.material, columns.adhesion, columns.level, columns.V, columns.branch)
     saturated = np.stack([s.p_sat, s.tau_sat, np.ones(n), np.zeros(n)], axis=1)
     return build_laws(columns, np.full(n, rtol), s.p_sat, s.D_sat, saturated, top)
 

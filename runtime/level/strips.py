@@ -141,7 +141,7 @@ class SolvedStrips:
 
 def saturation_depth(columns: Columns) -> np.ndarray:
     """Penetration from which the whole level is in contact, m; shape (n,)."""
-    return saturated_level(columns.material, columns.adhesion, columns.level, columns.V).D_sat
+    return saturated_level(columns.material, columns.adhesion, columns.level, columns.V, columns.branch).D_sat
 
 
 def _known_transitions(columns: Columns) -> list[np.ndarray]:
@@ -152,7 +152,8 @@ def _known_transitions(columns: Columns) -> list[np.ndarray]:
     # saturated where D - drop >= A (1 + R) - p_0/K, with drop = (h/2)(1 - cos), A = (h/4)(1 + cos)
     numerator = (columns.D + p_0 / m.K) / h - 0.5 - 0.25 * (1 + R)
     saturated = np.divide(4 * numerator, R - 1, out=np.full(columns.size, np.inf), where=R > 1)
-    found = [saturated]
+    # saturation decides the unloading branch only
+    found = [saturated] if columns.branch == "unloading" or p_0 == 0 else []
     if columns.branch == "loading" or p_0 == 0:
         # free where D - drop <= -delta_0 (or 0 without adhesion)
         found.append(1 - 2 * (columns.D + (delta_0 if p_0 > 0 else 0.0)) / h)
