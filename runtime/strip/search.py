@@ -23,8 +23,8 @@ from .sensitivity import SlopeBounds, onset_margin, slope_bounds, slope_excess
 
 _EPS = np.finfo(float).eps
 _MAX_STEPS = 4000
-#: beta below which the past decays within the rounding of a phase
-_MEMORYLESS = 1e-16
+#: retardation times after which a displacement is gone, to the smallest number
+_FORGOTTEN = 750
 
 
 class SearchResult:
@@ -66,8 +66,7 @@ class _Search:
         return orbit
 
     def run(self) -> SearchResult:
-        self._without_memory(np.flatnonzero((self.cycle.half_d > 0) & (self.cycle.strips.beta <= _MEMORYLESS)))
-        index = np.flatnonzero((self.cycle.half_d > 0) & (self.cycle.strips.beta > _MEMORYLESS))
+        index = self._without_memory(np.flatnonzero(self.cycle.half_d > 0))
         if index.size:
             index, frontier, stop = self._start(index)
             beyond = stop.take(np.arange(index.size))
@@ -80,13 +79,22 @@ class _Search:
         return self.result
 
     def _without_memory(self, index):
-        """At beta = 0 every onset leads to the same next one, where the undeformed surface comes within reach: the start of the arc."""
-        if not index.size:
-            return
-        orbit = self.march(index, (self.cycle.centre - self.cycle.half_d)[index])
-        orbit.r = np.where(orbit.engaged, orbit.r, 0.0)
-        ends = np.flatnonzero(~orbit.engaged)
-        self._isolated(index[ends], orbit.take(ends), orbit.take(ends))
+        """Settle the cycles in which w decays to nothing before the next onset, whatever the onset was; returns the others.
+
+        The earliest onset is engaged longest. If it forgets, all do: each leads to the phase where the undeformed surface comes within reach,
+        ``u = -delta_0``.
+        """
+        quick = index[self.cycle.strips.beta[index] < 2 * np.pi / _FORGOTTEN]
+        if not quick.size:
+            return index
+        first = self.march(quick, (self.cycle.centre - self.cycle.half_d)[quick])
+        s = self.cycle.strips.take(quick)
+        forgets = np.flatnonzero(~first.engaged & (first.x + TWO_PI - first.c > _FORGOTTEN * s.beta))
+        reach = np.clip(0.5 * (s.D + s.delta_0), 0.0, 1.0)[forgets]
+        orbit = self.march(quick[forgets], -2 * np.arcsin(np.sqrt(reach)))
+        orbit.r = np.zeros(forgets.size)
+        self._isolated(quick[forgets], orbit, orbit)
+        return np.setdiff1d(index, quick[forgets])
 
     def _start(self, index):
         """Both ends of the arc, moved inward by the onset map itself: every fixed point of a monotone map lies between the images."""
