@@ -142,7 +142,7 @@ TAMPERED = {
     "complex modulus": ("saturated.py", "sp.I**n for n, q", "(-sp.I) ** n for n, q"),
     "level_saturation_pressure": ("level.py", "(2 * ratio - 1) - p_0", "(2 * ratio - 1) + p_0"),
     "regime acaf": ("regimes.py", "Zone(ADHESION, d, b, delta_0 - step", "Zone(ADHESION, d, b, delta_0 + step"),
-    "means_acaf": ("averages.py", "(sum_w / PERIOD, sum_tau / PERIOD)", "(sum_w / PERIOD, -sum_tau / PERIOD)"),
+    "means_acaf": ("averages.py", "sum_p) / PERIOD, sum_tau / PERIOD)", "sum_p) / PERIOD, -sum_tau / PERIOD)"),
     "power balance": ("energy.py", "sp.diff(w, s) - beta / L", "sp.diff(w, s) + beta / L"),
     "shift of an event": ("stability.py", "(load_0 + gap_0 - p) * decay", "(load_0 - gap_0 - p) * decay"),
 }

@@ -64,7 +64,7 @@ def test_errors_are_of_the_size_that_was_asked(two_levels):
     """The estimate bounds the error from above, and adds up levels and the pressure's error: a small multiple is to be expected."""
     for r in two_levels:
         scale = (MATERIAL.K * LARGE.h + r.adhesion.p_0) * LARGE.h / LARGE.l
-        assert (r.tau_error <= 3 * RTOL * (np.abs(r.tau) + 1e-3 * scale)).all()
+        assert (r.tau_error <= 5 * RTOL * (np.abs(r.tau) + 1e-3 * scale)).all()
 
 
 def test_contact_survives_negative_pressure_more_so_when_slow(laws):
@@ -80,6 +80,17 @@ def test_friction_is_positive_at_either_sign_of_pressure_and_has_a_maximum_over_
         assert all(law(part * law.pull_off) > 0 for law in laws)
     at_zero = [float(law(0.0)) for law in laws]
     assert 0 < np.argmax(at_zero) < len(at_zero) - 1
+
+
+@pytest.mark.parametrize("part", [0.03, 0.5, 0.9])
+@pytest.mark.parametrize("i", range(len(V_ONE)), ids=[f"{V:g}" for V in V_ONE])
+def test_a_pressure_above_pull_off_is_carried(laws, i, part):
+    """``solve`` finds the penetration the law knows, however narrow the range between pull-off and saturation is."""
+    law = laws[i]
+    p = law.pull_off + part * (min(law.p_sat, 0.0) - law.pull_off)
+    r = hystrip.solve(MATERIAL, WEAK, [SMALL], pressure=p, velocity=V_ONE[i], rtol=RTOL)
+    assert not r.pulled_off and r.tau == pytest.approx(float(law(p)), rel=5e-3)
+    assert r.contact_fraction == pytest.approx(float(law.contact_fraction(p)), rel=5e-3)
 
 
 def test_area_and_friction_level_off_at_full_contact():
@@ -99,7 +110,7 @@ def test_the_curve_is_multivalued_at_low_velocity():
     unloading, loading = both["unloading"], both["loading"]
     assert (unloading.contact_fraction >= loading.contact_fraction).all()
     assert (loading.contact_fraction[:2] == 0).all() and (unloading.contact_fraction[:2] > 1 - 1e-12).all()
-    between = (loading.contact_fraction > 0) & (loading.contact_fraction < 1)
+    between = (loading.contact_fraction > 0) & (loading.contact_fraction < 1 - 1e-9)
     assert between.sum() >= 3 and (unloading.tau_mean > loading.tau_mean)[between].all()
     assert not np.allclose(unloading.p_mean[between], loading.p_mean[between], rtol=0.1)
 

@@ -86,7 +86,7 @@ def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None) -> 
     points = breakpoints(columns, top)
     column = np.repeat(np.arange(n), [max(p.size - 1, 0) for p in points])
     # just inside its breaks a piece does not see strips that sit on a threshold but for rounding
-    inside = _threshold_width(columns, top)
+    inside = threshold_width(columns, top)
     low = np.concatenate([p[:-1] for p in points]) + inside[column] if n else np.empty(0)
     high = np.concatenate([p[1:] for p in points]) - inside[column] if n else np.empty(0)
     proper = high > low
@@ -104,7 +104,7 @@ def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None) -> 
     ]
 
 
-def _threshold_width(columns: Columns, top):
+def threshold_width(columns: Columns, top):
     """Distance in D from a threshold below which rounding may decide it the other way."""
     a = columns.adhesion
     return 64 * _EPS * (columns.level.h + np.abs(top) + 2 * a.p_0 / columns.material.K + a.delta_0)

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .curve import first_contact
+from .curve import breakpoints, first_contact, threshold_width
 from .means import level_means
 from .strips import Columns
 
 _COARSE = 1e-2
-_GRID = 14
+_GRID = 5
 _REFINEMENTS = 4
 _STEPS = 60
 _EPS = np.finfo(float).eps
@@ -63,18 +63,28 @@ def invert(columns: Columns, p: np.ndarray, full: np.ndarray, rtol: float) -> In
     return Inverse(D, slope)
 
 
+def _grid(points: np.ndarray, inside: float) -> np.ndarray:
+    """Penetrations of a first look at a curve whose pieces end at ``points``, the last free one below included."""
+    rows = [np.array([points[0] - inside])]
+    for low, high in zip(points[:-1], points[1:], strict=True):
+        if high - low > 4 * inside:
+            rows.append(low + inside + (high - low - 2 * inside) * np.sin(0.5 * np.pi * np.arange(_GRID + 1) / _GRID) ** 2)
+    rows.append(points[-1:])
+    return np.concatenate(rows)
+
+
 class _Scan:
     """Coarse samples of the curve of every column, refined where it turns close to the pressure asked for."""
 
     def __init__(self, columns: Columns, p, top):
         self.columns, self.p = columns, p
         self.unloading = columns.branch == "unloading"
-        bottom = first_contact(columns)
-        share = np.linspace(0, 1, _GRID + 1)
-        # finer towards the first contact, where the curve turns
-        D = bottom + (top - bottom)[:, None] * share**1.5
-        self.D = [row for row in D]
-        self.P = [row for row in self._sample(np.repeat(np.arange(p.size), _GRID + 1), D.ravel()).reshape(D.shape)]
+        # between the breaks of the curve, and just inside them: however narrow a piece is, it is looked at
+        inside = threshold_width(columns, top)
+        self.D = [_grid(points, width) for points, width in zip(breakpoints(columns, top), inside, strict=True)]
+        counts = [row.size for row in self.D]
+        P = self._sample(np.repeat(np.arange(p.size), counts), np.concatenate(self.D))
+        self.P = np.split(P, np.cumsum(counts)[:-1])
         self.near, self.far = np.full(p.size, np.nan), np.full(p.size, np.nan)
 
     def _sample(self, column, D):
