@@ -26,7 +26,7 @@ class Result:
     contact_by_level, adhesion_by_level : fractions of the nominal area in contact and in adhesion on each level, (levels, ...)
     pulled_off : the pressure lies below pull-off: no contact, mu = 0
     pull_off : least nominal pressure that level 1 can carry, Pa (NaN where it did not have to be found)
-    p_sat : nominal pressure from which level 1 is in saturated contact, Pa
+    p_sat : nominal pressure from which level 1 is in saturated contact, Pa; on the loading branch one that suffices
     closed_form : the point was solved by the closed form of saturated contact on all levels
     error_estimate : estimated absolute error of mu (of tau over the pressure); NaN at zero pressure
     tau_error : estimated absolute error of tau, Pa

@@ -109,7 +109,10 @@ CASES = [  # the call, what is wrong, the field, and words on the value and on w
 ]
 
 
-@pytest.mark.parametrize(("call", "wrong", "field", "value", "allowed"), CASES, ids=[f"{c.__name__}-{w}"[:60] for c, w, *_ in CASES])
+IDS = [f"{call.__name__}-{wrong}"[:60] for call, wrong, *_ in CASES]
+
+
+@pytest.mark.parametrize(("call", "wrong", "field", "value", "allowed"), CASES, ids=IDS)
 def test_refusal(call, wrong, field, value, allowed):
     with pytest.raises(hystrip.InputError) as refused:
         call(**wrong)

@@ -50,7 +50,8 @@ class Case:
         self.J = self.T_sigma / T_EPS
 
     def solve(self, branch):
-        material, adhesion = hystrip.StandardLinearSolid(K, T_EPS, self.T_sigma), hystrip.Dugdale(p_0=self.p_0, delta_0=self.delta_0)
+        material = hystrip.StandardLinearSolid(K, T_EPS, self.T_sigma)
+        adhesion = hystrip.Dugdale(p_0=self.p_0, delta_0=self.delta_0)
         return hystrip.solve_strip(material, adhesion, l=LENGTH, A=A, D=self.D, V=self.V, edge=self.edge, branch=branch)
 
     @property
@@ -220,9 +221,8 @@ def snap(stiffness, p_0, delta_0, touching):
 @pytest.mark.parametrize(("x_shape", "strips"), list(product([(), (5,), (5, 1)], [(), (5,), (1, 5)])))
 def test_positions_broadcast_against_strips(x_shape, strips):
     case = Case(STRIPS[4])
-    s = hystrip.solve_strip(
-        hystrip.StandardLinearSolid(K, T_EPS, 0.2), hystrip.Dugdale(p_0=0.3, delta_0=0.1), l=LENGTH, A=A, D=np.full(strips, 0.4), V=0.5
-    )
+    material, adhesion = hystrip.StandardLinearSolid(K, T_EPS, 0.2), hystrip.Dugdale(p_0=0.3, delta_0=0.1)
+    s = hystrip.solve_strip(material, adhesion, l=LENGTH, A=A, D=np.full(strips, 0.4), V=0.5)
     x = np.full(x_shape, 0.2)
     for name in ("pressure", "gap", "displacement"):
         found = getattr(s, name)(x)
@@ -231,9 +231,8 @@ def test_positions_broadcast_against_strips(x_shape, strips):
 
 
 def test_flat_strips_have_fields():
-    s = hystrip.solve_strip(
-        hystrip.StandardLinearSolid(2.0, 1.0, 0.1), hystrip.Dugdale(p_0=0.6, delta_0=0.1), l=1.0, A=0.0, D=[0.5, -0.35, -1.0], V=1.0
-    )
+    material, adhesion = hystrip.StandardLinearSolid(2.0, 1.0, 0.1), hystrip.Dugdale(p_0=0.6, delta_0=0.1)
+    s = hystrip.solve_strip(material, adhesion, l=1.0, A=0.0, D=[0.5, -0.35, -1.0], V=1.0)
     x = np.array([[0.0], [0.3]])
     assert s.regime.tolist() == ["c", "a", "f"]
     assert np.allclose(s.pressure(x), [1.0, -0.6, 0.0])

@@ -154,7 +154,8 @@ def test_length_and_velocity_scale_together(edge, branch, factor):
     given = {"p_0": 0.3, "edge": edge, "branch": branch}
     s, scaled = strip(D, 0.8, **given), strip(D, 0.8 * factor, l=LENGTH * factor, **given)
     assert (s.regime == scaled.regime).all()
-    for name, power in {"p_mean": 0, "contact_fraction": 0, "adhesion_fraction": 0, "tau_mean": -1, "a": 1, "b": 1, "c": 1, "d": 1}.items():
+    powers = {"p_mean": 0, "contact_fraction": 0, "adhesion_fraction": 0, "tau_mean": -1, **dict.fromkeys("abcd", 1)}
+    for name, power in powers.items():
         found, known = getattr(scaled, name) / factor**power, getattr(s, name)
         assert np.allclose(found, known, rtol=1e-11, atol=1e-13, equal_nan=True), name
 

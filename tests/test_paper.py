@@ -61,7 +61,7 @@ def test_adhesion_raises_friction_and_moves_its_maximum_to_higher_velocity(two_l
 
 
 def test_errors_are_of_the_size_that_was_asked(two_levels):
-    """The estimate bounds the error from above, and adds up levels and the pressure's error: a small multiple is to be expected."""
+    """The estimate adds up the levels' errors and the pressure's from above: a small multiple is to be expected."""
     for r in two_levels:
         scale = (MATERIAL.K * LARGE.h + r.adhesion.p_0) * LARGE.h / LARGE.l
         assert (r.tau_error <= 5 * RTOL * (np.abs(r.tau) + 1e-3 * scale)).all()
@@ -82,7 +82,7 @@ def test_friction_is_positive_at_either_sign_of_pressure_and_has_a_maximum_over_
     assert 0 < np.argmax(at_zero) < len(at_zero) - 1
 
 
-@pytest.mark.parametrize("part", [0.03, 0.5, 0.9])
+@pytest.mark.parametrize("part", [0.03, 0.5])
 @pytest.mark.parametrize("i", range(len(V_ONE)), ids=[f"{V:g}" for V in V_ONE])
 def test_a_pressure_above_pull_off_is_carried(laws, i, part):
     """``solve`` finds the penetration the law knows, however narrow the range between pull-off and saturation is."""
@@ -104,10 +104,9 @@ def test_area_and_friction_level_off_at_full_contact():
 def test_the_curve_is_multivalued_at_low_velocity():
     """V = 0.1 mm/s: at the same penetration, unloading and loading are different contacts."""
     D = np.linspace(-6e-8, 1e-7, 9)
-    both = {
-        branch: hystrip.solve_level(MATERIAL, WEAK, SMALL, V=1e-4, D=D, branch=branch, rtol=RTOL) for branch in ("unloading", "loading")
-    }
-    unloading, loading = both["unloading"], both["loading"]
+    unloading, loading = (
+        hystrip.solve_level(MATERIAL, WEAK, SMALL, V=1e-4, D=D, branch=branch, rtol=RTOL) for branch in ("unloading", "loading")
+    )
     assert (unloading.contact_fraction >= loading.contact_fraction).all()
     assert (loading.contact_fraction[:2] == 0).all() and (unloading.contact_fraction[:2] > 1 - 1e-12).all()
     between = (loading.contact_fraction > 0) & (loading.contact_fraction < 1 - 1e-9)
@@ -117,7 +116,7 @@ def test_the_curve_is_multivalued_at_low_velocity():
 
 @pytest.mark.parametrize(("adhesion", "first"), [(WEAK, 75), (STRONG, 62)], ids=["weak", "strong"])
 def test_strips_of_figure_4(adhesion, first):
-    """Level 1 at V = 5 mm/s: strip 0 is partial with discrete zones, the outer strips are saturated, strip 63 with the larger energy."""
+    """Level 1 at V = 5 mm/s: strip 0 is partial with discrete zones, the outer ones are saturated."""
     D = hystrip.solve_level(MATERIAL, adhesion, LARGE, V=5e-3, pressure=100.0, rtol=RTOL).D
     theta = np.arange(100) * np.pi / 100
     s = hystrip.solve_strip(MATERIAL, adhesion, l=LARGE.l, A=LARGE.amplitude(theta), D=D - LARGE.drop(theta), V=5e-3)

@@ -86,4 +86,5 @@ def test_a_batch_is_the_same_as_its_strips_one_by_one(seed, edge, branch, draw):
         for name in ARRAYS:
             value = getattr(alone, name)
             for other in (getattr(together, name)[i], getattr(backwards, name)[24 - i]):
-                assert value == other if name == "regime" else value.tobytes() == other.tobytes(), (name, scenes.line(scene, i, edge, branch))
+                same = value == other if name == "regime" else value.tobytes() == other.tobytes()
+                assert same, (name, scenes.line(scene, i, edge, branch))

@@ -1,4 +1,4 @@
-"""Random strips over the extremes of parameter space: all are solved, all obey their bounds (``tools/stress.py`` is the long version)."""
+"""Random strips over the extremes of parameters: all are solved and obey their bounds (``tools/stress.py``: the long version)."""
 
 import sys
 from pathlib import Path

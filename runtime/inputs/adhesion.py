@@ -47,7 +47,8 @@ class Dugdale:
         value, delta = np.broadcast_arrays(value, delta)
         if ((value > 0) & (delta == 0)).any():
             raise InputError("adhesion.delta_0", 0.0, "a finite number > 0 (m), since there is adhesion")
-        p = np.divide(value, delta, out=np.zeros(value.shape), where=delta > 0) if name == "gamma" else value
+        with np.errstate(over="ignore"):  # refused below, by name
+            p = np.divide(value, delta, out=np.zeros(value.shape), where=delta > 0) if name == "gamma" else value
         if not np.isfinite(p).all():
             raise InputError("adhesion.gamma", float(value[~np.isfinite(p)].flat[0]), "gamma/delta_0 must be a finite traction (Pa)")
         self._set("p_0", p)

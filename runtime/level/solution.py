@@ -43,7 +43,7 @@ class LevelSolution:
 class FrictionLaw:
     """Friction stress of a level over nominal pressure at one velocity: ``law(p)``, Pa, any shape.
 
-    Zero below ``pull_off``, ``tau_sat`` from ``p_sat`` on. ``breaks``: pressures at which it jumps or has a kink. ``below``: largest
+    ``p_sat`` is where unloading leaves saturated contact; on the loading branch it is a pressure that suffices for it. Zero below ``pull_off``, ``tau_sat`` from ``p_sat`` on. ``breaks``: pressures at which it jumps or has a kink. ``below``: largest
     pressure it was built for; asking for more is an ``InputError``. ``error_estimate``: absolute error of the friction, Pa.
     """
 

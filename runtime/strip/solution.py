@@ -176,7 +176,8 @@ def solve_si(kernel, l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge, br
     A strip whose wave is negligible is solved as flat, in units of K alone. Nothing is refused here but groups that overflow.
     """
     k = 2 * np.pi / l
-    alpha, beta = k * V * T_sigma, k * V * T_eps
+    with np.errstate(over="ignore"):  # refused below, by name
+        alpha, beta = k * V * T_sigma, k * V * T_eps
     if np.any(beta > _GROUP_LIMIT):
         raise InputError("V", float(V[beta > _GROUP_LIMIT][0]), f"k V T_eps at most {_GROUP_LIMIT:g}")
     flat = is_flat(A, beta, D, p_0 / K, delta_0)
