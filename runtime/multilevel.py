@@ -58,7 +58,7 @@ class Surface:
         D = np.zeros(V.size) if D is None else D
         return Columns(self.material, self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, self.tally)
 
-    def saturated(self, V) -> "Stack":
+    def saturated(self, V) -> Stack:
         """Saturation of every level, and of each level with all below it."""
         own = [saturated_level(self.material, self.adhesion, level, V, self.branch) for level in self.levels]
         p_full, D_full = [own[-1].p_sat], [own[-1].D_sat]
@@ -100,8 +100,16 @@ class _Solve:
         n = V.size
         per_level = lambda: np.zeros((self.M, n))  # noqa: E731
         self.out = Points(
-            np.full(n, np.nan), np.zeros(n), per_level(), per_level(), per_level(), np.zeros(n), np.full(n, np.nan), np.zeros(n),
-            np.zeros(n, bool), np.zeros(n, bool),
+            np.full(n, np.nan),
+            np.zeros(n),
+            per_level(),
+            per_level(),
+            per_level(),
+            np.zeros(n),
+            np.full(n, np.nan),
+            np.zeros(n),
+            np.zeros(n, bool),
+            np.zeros(n, bool),
         )
 
     def run(self, progress) -> Points:
@@ -184,7 +192,12 @@ class _Solve:
             level_columns = surface.columns(i, V, None, carry, groups if carry else None)
             saturated = stack.means(i)
             laws = build_laws(
-                level_columns, np.full(V.size, _FINER * surface.rtol), stack.p_full[i], stack.D_full[i], saturated, ceilings[i - 1]
+                level_columns,
+                np.full(V.size, _FINER * surface.rtol),
+                stack.p_full[i],
+                stack.D_full[i],
+                saturated,
+                ceilings[i - 1],
             )
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error
             scales = np.concatenate((level_columns.scales[1:], [_NO_SCALE]))

@@ -50,7 +50,9 @@ class Dugdale:
         with np.errstate(over="ignore"):  # refused below, by name
             p = np.divide(value, delta, out=np.zeros(value.shape), where=delta > 0) if name == "gamma" else value
         if not np.isfinite(p).all():
-            raise InputError("adhesion.gamma", float(value[~np.isfinite(p)].flat[0]), "gamma/delta_0 must be a finite traction (Pa)")
+            raise InputError(
+                "adhesion.gamma", float(value[~np.isfinite(p)].flat[0]), "gamma/delta_0 must be a finite traction (Pa)"
+            )
         self._set("p_0", p)
         self._set("delta_0", delta)
         self._set("gamma", value if name == "gamma" else p * delta)

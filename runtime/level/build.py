@@ -18,9 +18,9 @@ def build_laws(
     ``p_full``, ``D_full`` (n,): where the level, and all it carries, is saturated; ``saturated`` (n, q): means there. ``p_max`` (n,):
     greatest pressure that will be asked for, or None for the whole law.
     """
-    top = D_full if p_max is None else np.where(p_max < p_full, cut_penetration(columns, np.minimum(p_max, p_full), D_full), D_full)
+    top = (
+        D_full if p_max is None else np.where(p_max < p_full, cut_penetration(columns, np.minimum(p_max, p_full), D_full), D_full)
+    )
     curves = trace(columns, rtol, top)
     unloading = columns.branch == "unloading"
-    return [
-        law_of(curve, unloading, float(p_full[i]), saturated[i], bool(top[i] < D_full[i])) for i, curve in enumerate(curves)
-    ]
+    return [law_of(curve, unloading, float(p_full[i]), saturated[i], bool(top[i] < D_full[i])) for i, curve in enumerate(curves)]

@@ -97,7 +97,7 @@ def _one_law(kernel, law: Law, strips: SolvedStrips, index, nodes):
     return np.concatenate((total, error[:, None]), axis=1) / TWO_PI
 
 
-def _part(contact: "_Contact", law: Law, rows, low, high, nodes):
+def _part(contact: _Contact, law: Law, rows, low, high, nodes):
     """Integral of the law over one part of the contact, smooth inside, and the change against half the nodes."""
     t, fine, coarse = _rule(nodes)
     s = low[:, None] + (high - low)[:, None] * t
@@ -147,9 +147,7 @@ class _Contact:
         i = rows[full]
         p[full] = self.mean[i] + self.amplitude[i] * np.cos(phase[full] - self.centre[i])
         i, rest = rows[~full], ~full
-        q = self.kernel.excess_after(
-            self.b[i], phase[rest], self.q_b[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i]
-        )
+        q = self.kernel.excess_after(self.b[i], phase[rest], self.q_b[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
         p[rest] = q - s.p_0[i]
         return p * self.unit[rows]
 
@@ -162,9 +160,7 @@ class _Contact:
         b, a, q_b = self.b[i], self.a[i], self.q_b[i]
 
         def lag(phase, sub):
-            q = self.kernel.excess_after(
-                b[sub], phase, q_b[sub], s.p_0[sub], s.D[sub], s.alpha[sub], s.beta[sub], s.L[sub]
-            )
+            q = self.kernel.excess_after(b[sub], phase, q_b[sub], s.p_0[sub], s.D[sub], s.alpha[sub], s.beta[sub], s.L[sub])
             H = self.kernel.forcing(phase, s.D[sub], s.beta[sub])
             return H + s.p_0[sub] - q, np.zeros(sub.size)
 

@@ -99,9 +99,7 @@ def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None) -> 
         column, low, high = _interpolate(columns, rtol, column, low, high, pieces, strips)
     else:
         raise ArithmeticError("the curve over penetration did not converge")
-    return [
-        Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)
-    ]
+    return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
 
 
 def threshold_width(columns: Columns, top):
@@ -123,7 +121,10 @@ def _interpolate(columns, rtol, column, low, high, pieces, strips):
         fresh = sample.at(lobatto(n)[1::2])
         miss = np.abs(fresh[0] - predicted).max(axis=1)
         values, errors = _merge(values, fresh[0]), _merge(errors, fresh[1])
-        zones = [[z for pair in zip(old, new + [None], strict=True) for z in pair][:-1] for old, new in zip(zones, fresh[2], strict=True)]
+        zones = [
+            [z for pair in zip(old, new + [None], strict=True) for z in pair][:-1]
+            for old, new in zip(zones, fresh[2], strict=True)
+        ]
         size = np.abs(values).max(axis=1)
         goal = rtol[column][:, None] * (np.abs(values).min(axis=1) + floor)
         # the interpolant through twice the nodes is better than the miss of the one before: at least by its square root

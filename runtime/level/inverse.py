@@ -185,9 +185,7 @@ def _refine(columns: Columns, p, index, near, far, rtol):
         last[active] = side
         root[active] = D
         rise = value[1][active] - value[0][active]
-        slope[active] = np.divide(
-            tau[1][active] - tau[0][active], rise, out=np.zeros(active.size), where=np.abs(rise) > 0
-        )
+        slope[active] = np.divide(tau[1][active] - tau[0][active], rise, out=np.zeros(active.size), where=np.abs(rise) > 0)
         done = (np.abs(v) <= 0.3 * rtol * (np.abs(goal[active]) + scale)) | (
             np.abs(ends[1] - ends[0])[active] <= 8 * _EPS * np.maximum(np.abs(D), columns.level.h)
         )

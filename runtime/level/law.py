@@ -40,7 +40,7 @@ class Branch:
         share = np.clip((p - self.p_low) / (self.p_high - self.p_low), 0.0, 1.0)
         return evaluate(self.direct, 2 / np.pi * np.arcsin(np.sqrt(share)))
 
-    def resampled(self, tolerance: np.ndarray) -> "Branch":
+    def resampled(self, tolerance: np.ndarray) -> Branch:
         """The same branch interpolated over pressure, to ``tolerance`` (q,), so that it need not be inverted again."""
         values = self._at(lobatto(8))
         for n in (16, 32, 64, 128):

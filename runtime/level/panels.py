@@ -58,7 +58,9 @@ class _Panels:
         return self.column.size
 
 
-def average(integrand: Integrand, codes_at: Codes, starts: list[np.ndarray], floor: np.ndarray, rtol: np.ndarray, q: int) -> Averages:
+def average(
+    integrand: Integrand, codes_at: Codes, starts: list[np.ndarray], floor: np.ndarray, rtol: np.ndarray, q: int
+) -> Averages:
     """Means ``(1/pi) int_0^pi values d(theta)`` of every column to ``rtol (|value| + floor)``.
 
     ``starts``: for each column the interior thetas known to be transitions, sorted. ``floor`` and ``rtol`` have shape
@@ -205,7 +207,12 @@ class _Work:
         width = np.maximum(width, 4 * _EPS * theta[row, node + 1])
         found = locate(
             lambda line, x: self._codes(panels.column[line], x),
-            row, theta[row, node], theta[row, node + 1], codes[row, node], codes[row, node + 1], width,
+            row,
+            theta[row, node],
+            theta[row, node + 1],
+            codes[row, node],
+            codes[row, node + 1],
+            width,
         )
         # the sliver of a bracket is left out: what it could hold is its value and its error
         column, sliver = panels.column[found.line], (found.high - found.low)[:, None]

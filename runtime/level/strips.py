@@ -40,10 +40,10 @@ class Carry(Protocol):
 
     scales: np.ndarray
 
-    def crossed(self, kernel, strips: "SolvedStrips", group: np.ndarray) -> np.ndarray:
+    def crossed(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Number of law breaks that each strip's pressure exceeds, (m,)."""
 
-    def over_contact(self, kernel, strips: "SolvedStrips", group: np.ndarray) -> np.ndarray:
+    def over_contact(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Contributions averaged over the period, (m, q)."""
 
 
@@ -66,7 +66,7 @@ class Columns:
     group: np.ndarray | None = None
     tally: Tally = field(default_factory=Tally, compare=False)
 
-    def at(self, index, D) -> "Columns":
+    def at(self, index, D) -> Columns:
         """The columns ``index`` at other penetrations ``D``."""
         group = None if self.group is None else self.group[index]
         return replace(self, V=self.V[index], D=D, group=group)
@@ -82,7 +82,7 @@ class Columns:
         own = np.array([p, p * self.level.h / self.level.l, 1.0, 1.0])
         return own if self.carry is None else np.concatenate((own, self.carry.scales))
 
-    def solve(self, column: np.ndarray, theta: np.ndarray) -> "SolvedStrips":
+    def solve(self, column: np.ndarray, theta: np.ndarray) -> SolvedStrips:
         """Strips at ``theta = k y`` of the given columns, both of shape (m,). Raises ``SolverError`` for one not certified."""
         n = column.size
         m, a = self.material, self.adhesion
@@ -90,8 +90,17 @@ class Columns:
         A = self.level.amplitude(theta)
         D = self.D[column] - self.level.drop(theta)
         inputs = (
-            full(self.level.l), A, D, self.V[column], full(m.K), full(m.T_eps), full(m.T_sigma),
-            full(a.p_0), full(a.delta_0), full(m.J), full(m.L),
+            full(self.level.l),
+            A,
+            D,
+            self.V[column],
+            full(m.K),
+            full(m.T_eps),
+            full(m.T_sigma),
+            full(a.p_0),
+            full(a.delta_0),
+            full(m.J),
+            full(m.L),
         )
         solved, strips, scales = solve_si(kernel_of(m), *inputs, self.edge, self.branch)
         refuse_uncertified(solved, inputs, self.edge, self.branch)
@@ -162,4 +171,3 @@ def _known_transitions(columns: Columns) -> list[np.ndarray]:
         inside = cosines[(cosines > -1) & (cosines < 1)]
         out.append(np.sort(np.arccos(inside)))
     return out
-

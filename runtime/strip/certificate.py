@@ -32,9 +32,7 @@ def edges_admissible(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     ok &= (orbit.x <= b + turn) & (b <= a + turn) & (a <= orbit.c + turn) & (orbit.c <= orbit.x + TWO_PI + turn)
     end = cycle.centre + cycle.half_b
     open_ = np.flatnonzero(~contact & (orbit.x < end))
-    gap = kernel.gap_after(
-        orbit.x[open_], end[open_], cycle.gap_on[open_], -s.p_0[open_], s.D[open_], s.beta[open_]
-    )
+    gap = kernel.gap_after(orbit.x[open_], end[open_], cycle.gap_on[open_], -s.p_0[open_], s.D[open_], s.beta[open_])
     ok[open_] &= gap >= -slack[open_]
     return ok
 
@@ -54,7 +52,5 @@ def always_adhering(kernel, strips: Strips, cycle: Cycle, orbit: Orbit) -> np.nd
     """
     centre, half = kernel.forcing_arc(strips.p_0 + strips.delta_0, strips.D, strips.beta)
     end = centre + TWO_PI - half
-    gap = kernel.gap_after(
-        orbit.a, np.maximum(end, orbit.a), np.zeros(strips.size), -strips.p_0, strips.D, strips.beta
-    )
+    gap = kernel.gap_after(orbit.a, np.maximum(end, orbit.a), np.zeros(strips.size), -strips.p_0, strips.D, strips.beta)
     return (half >= np.pi) | (end <= orbit.a) | (gap <= strips.delta_0)

@@ -243,13 +243,9 @@ def _closing(kernel, cycle: Cycle, x, b, a, c):
     first_end = np.where(contact, b, c)
     lead = ~cycle.direct
     i = np.flatnonzero(lead)
-    r[i] += kernel.relaxation_increment(
-        x[i], first_end[i], u_x[i] + cycle.gap_on[i] + s.p_0[i], s.beta[i]
-    )
+    r[i] += kernel.relaxation_increment(x[i], first_end[i], u_x[i] + cycle.gap_on[i] + s.p_0[i], s.beta[i])
     i = np.flatnonzero(contact)
-    r[i] += kernel.contact_increment(
-        b[i], a[i], cycle.q_on[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.J[i], s.L[i]
-    )
+    r[i] += kernel.contact_increment(b[i], a[i], cycle.q_on[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.J[i], s.L[i])
     i = np.flatnonzero(contact & ~cycle.bare)
     r[i] += kernel.relaxation_increment(a[i], c[i], kernel.profile(a[i], s.D[i]) + s.p_0[i], s.beta[i])
     w_c = kernel.profile(c, s.D) + s.delta_0 + cycle.jump

@@ -61,9 +61,7 @@ class Cycle:
 
     def take(self, index: np.ndarray) -> "Cycle":
         """The cycles at ``index``."""
-        return type(self)(
-            self.strips.take(index), *(getattr(self, f.name)[index] for f in fields(self) if f.name != "strips")
-        )
+        return type(self)(self.strips.take(index), *(getattr(self, f.name)[index] for f in fields(self) if f.name != "strips"))
 
     @property
     def size(self) -> int:
@@ -103,9 +101,7 @@ def bare_cycle(kernel, strips: Strips) -> Cycle:
     strip without adhesion at penetration ``D + p_0/K``, its pressure lowered by ``p_0``.
     """
     zero = np.zeros(strips.size)
-    shifted = Strips(
-        strips.alpha, strips.beta, strips.J, strips.L, zero, zero, strips.D + strips.p_0, strips.chi
-    )
+    shifted = Strips(strips.alpha, strips.beta, strips.J, strips.L, zero, zero, strips.D + strips.p_0, strips.chi)
     centre, half = kernel.forcing_arc(zero, shifted.D, shifted.beta)
     yes = np.ones(strips.size, bool)
     return Cycle(shifted, yes, yes, zero, zero, zero, zero, centre, half, half, half)

@@ -252,7 +252,13 @@ def _released(kernel, cycle: Cycle, orbit: Orbit) -> Orbit:
     w_end = w_c * kernel.decay(end - c, s.beta)
     pick = orbit.engaged
     return Orbit(
-        orbit.x, orbit.b, orbit.a, np.where(pick, c, orbit.c), pick, np.where(pick, r, orbit.r), np.where(pick, w_end, orbit.w_end)
+        orbit.x,
+        orbit.b,
+        orbit.a,
+        np.where(pick, c, orbit.c),
+        pick,
+        np.where(pick, r, orbit.r),
+        np.where(pick, w_end, orbit.w_end),
     )
 
 

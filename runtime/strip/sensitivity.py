@@ -109,4 +109,6 @@ def _numerator(kernel, cycle: Cycle, length, F, M):
 def _over(numerator, denominator):
     """``numerator/denominator`` for ``numerator >= 0``: 0 if it is 0, inf where the denominator is not positive or too small."""
     out = np.where(numerator > 0, np.inf, 0.0)
-    return np.divide(numerator, denominator, out=out, where=(denominator > 0) & (denominator > 1e-290 * numerator) & (numerator > 0))
+    return np.divide(
+        numerator, denominator, out=out, where=(denominator > 0) & (denominator > 1e-290 * numerator) & (numerator > 0)
+    )

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields as dataclass_fields
+from dataclasses import dataclass, field
+from dataclasses import fields as dataclass_fields
 
 import numpy as np
 
@@ -140,13 +141,33 @@ def solve_strip(
     V = numbers("V", V, "m/s", 0)
     edge, branch = choice("edge", edge, EDGES), choice("branch", branch, BRANCHES)
     shape = broadcast(
-        l=wavelength, A=A, D=D, V=V, K=material.K, T_eps=material.T_eps, T_sigma=material.T_sigma,
-        p_0=adhesion.p_0, delta_0=adhesion.delta_0,
+        l=wavelength,
+        A=A,
+        D=D,
+        V=V,
+        K=material.K,
+        T_eps=material.T_eps,
+        T_sigma=material.T_sigma,
+        p_0=adhesion.p_0,
+        delta_0=adhesion.delta_0,
     )
     kernel = kernel_of(material)
-    flat_in = [np.broadcast_to(np.asarray(v, float), shape).ravel() for v in (
-        wavelength, A, D, V, material.K, material.T_eps, material.T_sigma, adhesion.p_0, adhesion.delta_0, material.J, material.L,
-    )]
+    flat_in = [
+        np.broadcast_to(np.asarray(v, float), shape).ravel()
+        for v in (
+            wavelength,
+            A,
+            D,
+            V,
+            material.K,
+            material.T_eps,
+            material.T_sigma,
+            adhesion.p_0,
+            adhesion.delta_0,
+            material.J,
+            material.L,
+        )
+    ]
     solved, strips, scales = solve_si(kernel, *flat_in, edge, branch)
     refuse_uncertified(solved, flat_in, edge, branch)
     out = lambda v: v.reshape(shape)  # noqa: E731
