@@ -18,9 +18,12 @@ from hystrip.strip.problem import snaps_in
 from hystrip.strip.regimes import CODE
 
 from .law import Law
+from .panels import interior_nodes, mapped_weights
 from .strips import Columns, SolvedStrips
 
 TWO_PI = 2 * np.pi
+#: how much the last doubling of nodes may be trusted to have gained over the one before
+_GAIN = 0.1
 
 
 @dataclass(frozen=True)
@@ -93,28 +96,34 @@ def _one_law(kernel, law: Law, strips: SolvedStrips, index, nodes):
             if rows.size:
                 value, miss = _part(contact, law, rows, low[rows], high[rows], nodes)
                 total[rows] += value
-                error[rows] += miss + law.friction_error * (high[rows] - low[rows])
+                error[rows] += miss
     return np.concatenate((total, error[:, None]), axis=1) / TWO_PI
 
 
 def _part(contact: _Contact, law: Law, rows, low, high, nodes):
-    """Integral of the law over one part of the contact, smooth inside, and the change against half the nodes."""
-    t, fine, coarse = _rule(nodes)
+    """Integral of the law over one part of the contact, smooth inside, and its error in friction.
+
+    The error is the change against half the nodes, times what the last doubling gained, and that of the law itself there.
+    """
+    t, fine, coarse, coarser = _rule(nodes)
     s = low[:, None] + (high - low)[:, None] * t
     p = contact.pressure(np.repeat(rows, nodes - 1), s.ravel())
     values = law(p)[:, 1:].reshape(rows.size, nodes - 1, -1)
     width = (high - low)[:, None]
     best = width * np.einsum("j,pjq->pq", fine, values)
     half = width * np.einsum("j,pjq->pq", coarse, values[:, 1::2])
-    return best, np.abs(best - half).sum(axis=1)
+    quarter = width * np.einsum("j,pjq->pq", coarser, values[:, 3::4])
+    friction = law.friction_columns
+    change, before = (np.abs(one - two)[:, friction].sum(axis=1) for one, two in ((best, half), (half, quarter)))
+    gain = np.divide(change, before, out=np.ones_like(change), where=before > change)
+    own = width[:, 0] * (law.friction_error_at(p).reshape(rows.size, nodes - 1) @ fine)
+    return best, change * np.maximum(gain, _GAIN) + own
 
 
 @lru_cache
 def _rule(n: int):
-    """Phases on (0, 1) and weights of the rule with square-root ends, and the weights with half the nodes."""
-    from .panels import _nodes, _weights
-
-    return np.sin(0.5 * np.pi * _nodes(n)) ** 2, _weights(n), _weights(n // 2)
+    """Phases on (0, 1) and weights of the rule with square-root ends, and its weights with half and a quarter of the nodes."""
+    return np.sin(0.5 * np.pi * interior_nodes(n)) ** 2, mapped_weights(n), mapped_weights(n // 2), mapped_weights(n // 4)
 
 
 class _Contact:

@@ -19,6 +19,8 @@ from .transitions import locate
 
 _FIRST, _LAST = 4, 32
 _ROUNDS = 40
+#: how much the last doubling of nodes may be trusted to have gained over the one before
+_GAIN = 0.1
 _SCAN = 48
 _EPS = np.finfo(float).eps
 
@@ -112,7 +114,7 @@ def _interpolate(columns, rtol, column, low, high, pieces, strips):
     """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not."""
     sample = _Sample(columns, rtol, column, low, high, strips)
     values, errors, zones = sample.at(lobatto(_FIRST))
-    n = _FIRST
+    n, previous = _FIRST, None
     floor = 1e-3 * columns.scales
     parts = []
     while column.size and n < _LAST:
@@ -125,10 +127,11 @@ def _interpolate(columns, rtol, column, low, high, pieces, strips):
             [z for pair in zip(old, new + [None], strict=True) for z in pair][:-1]
             for old, new in zip(zones, fresh[2], strict=True)
         ]
-        size = np.abs(values).max(axis=1)
         goal = rtol[column][:, None] * (np.abs(values).min(axis=1) + floor)
-        # the interpolant through twice the nodes is better than the miss of the one before: at least by its square root
-        error = miss * np.minimum(np.sqrt(np.divide(miss, size, out=np.zeros_like(miss), where=size > 0)), 1.0)
+        # the interpolant through twice the nodes is better than the miss of the one before, by what that doubling gained
+        gain = np.divide(miss, previous, out=np.ones_like(miss), where=previous > miss) if previous is not None else 0.3
+        error = miss * np.maximum(gain, _GAIN)
+        previous = miss
         done = (error <= 0.5 * goal).all(axis=1) | (high - low <= 1e-11 * np.maximum(np.abs(high), columns.level.h))
         for i in np.flatnonzero(done):
             bound = error[i] + errors[i].max(axis=0)
@@ -144,7 +147,7 @@ def _interpolate(columns, rtol, column, low, high, pieces, strips):
                     split[i] = True
                     parts += [(column[i], low[i], D_break), (column[i], D_break, high[i])]
         rest = np.flatnonzero(~done & ~split)
-        column, low, high, values, errors = (v[rest] for v in (column, low, high, values, errors))
+        column, low, high, values, errors, previous = (v[rest] for v in (column, low, high, values, errors, previous))
         zones = [zones[i] for i in rest]
         sample = _Sample(columns, rtol, column, low, high, strips)
     middle = 0.5 * (low + high)

@@ -170,10 +170,24 @@ class Law:
     strips: int
 
     @property
+    def friction_columns(self) -> np.ndarray:
+        """Where the frictions, the level's own and those it carries, stand among the quantities after pressure."""
+        below = (self.saturated.size - 4) // 4
+        return 3 * np.arange(1 + below)
+
+    @property
     def friction_error(self) -> float:
         """Bound of the interpolation error of friction, its own and what it carries, Pa."""
-        below = (self.saturated.size - 4) // 4
-        return float(self.error[1 : 2 + 3 * below : 3].sum())
+        return float(self.error[1 + self.friction_columns].sum())
+
+    def friction_error_at(self, p: np.ndarray) -> np.ndarray:
+        """Bound of that error at the nominal pressures ``p`` (m,): of the branch that each lies on, Pa."""
+        if not self.branches:
+            return np.zeros(p.size)
+        each = np.array([1.5 * b.piece.error[1 + self.friction_columns].sum() for b in self.branches])
+        upper = np.array([b.p_high for b in self.branches])
+        which = np.minimum(np.searchsorted(upper, p), len(self.branches) - 1)
+        return np.where((p >= self.pull_off) & (p < self.p_sat), each[which], 0.0)
 
     @property
     def breaks(self) -> np.ndarray:

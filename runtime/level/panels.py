@@ -28,7 +28,7 @@ _ROUNDS = 60
 _CROWD = 150
 _EPS = np.finfo(float).eps
 #: how much the last doubling may be trusted to have gained over the one before
-_GAIN = 0.02
+_GAIN = 0.5
 
 
 @dataclass(slots=True)
@@ -128,11 +128,11 @@ class _Work:
             keep = ~mixed
             panels, codes, values = panels.take(keep), codes[keep], values[keep]
             width = (panels.high - panels.low)[:, None]
-            fine = width * np.einsum("j,pjq->pq", _weights(n), values)
-            coarse = width * np.einsum("j,pjq->pq", _weights(n // 2), values[:, 1::2])
+            fine = width * np.einsum("j,pjq->pq", mapped_weights(n), values)
+            coarse = width * np.einsum("j,pjq->pq", mapped_weights(n // 2), values[:, 1::2])
             change = np.abs(fine - coarse)
             if previous is None:
-                coarser = width * np.einsum("j,pjq->pq", _weights(n // 4), values[:, 3::4])
+                coarser = width * np.einsum("j,pjq->pq", mapped_weights(n // 4), values[:, 3::4])
                 before = np.abs(coarse - coarser)
             else:
                 before = previous[keep]
@@ -155,7 +155,7 @@ class _Work:
         """Take panels that do not converge as they are, with the spread of their values as error."""
         codes, values = self._sample(panels, _FIRST, None)
         width = (panels.high - panels.low)[:, None]
-        np.add.at(self.values, panels.column, width * np.einsum("j,pjq->pq", _weights(_FIRST), values))
+        np.add.at(self.values, panels.column, width * np.einsum("j,pjq->pq", mapped_weights(_FIRST), values))
         np.add.at(self.errors, panels.column, width * (values.max(axis=1) - values.min(axis=1)))
         self.accepted.append((panels.column, codes[:, 0], panels.low, panels.high))
 
@@ -176,7 +176,7 @@ class _Work:
 
     def _sample(self, panels: _Panels, n: int, known):
         """Codes (panels, n - 1) and values (panels, n - 1, q) at the interior nodes; ``known`` are those of n/2."""
-        t = _nodes(n)
+        t = interior_nodes(n)
         if known is not None:
             t = t[0::2]
         theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * np.sin(0.5 * np.pi * t) ** 2
@@ -198,7 +198,7 @@ class _Work:
 
     def _split_at_transitions(self, panels: _Panels, codes, values, n) -> _Panels:
         """Locate every transition between neighbouring nodes that disagree; panels end there."""
-        t = _nodes(n)
+        t = interior_nodes(n)
         theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * np.sin(0.5 * np.pi * t) ** 2
         row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
         spread = (values.max(axis=1) - values.min(axis=1))[row]
@@ -232,18 +232,18 @@ class _Work:
 
 
 @lru_cache
-def _nodes(n: int) -> np.ndarray:
+def interior_nodes(n: int) -> np.ndarray:
     """Interior Clenshaw-Curtis nodes on (0, 1)."""
     j = np.arange(1, n)
     return np.sin(0.5 * np.pi * j / n) ** 2
 
 
 @lru_cache
-def _weights(n: int) -> np.ndarray:
+def mapped_weights(n: int) -> np.ndarray:
     """Clenshaw-Curtis weights at the interior nodes, times the derivative of the substitution (zero at both ends)."""
     j = np.arange(1, n)
     m = np.arange(1, n // 2 + 1)
     b = np.where(m == n / 2, 1.0, 2.0)
     angle = 2 * np.outer(j, m) * np.pi / n
     weights = (2 / n) * (1 - (b * np.cos(angle) / (4 * m**2 - 1)).sum(axis=1)) / 2
-    return weights * 0.5 * np.pi * np.sin(np.pi * _nodes(n))
+    return weights * 0.5 * np.pi * np.sin(np.pi * interior_nodes(n))
