@@ -90,10 +90,12 @@ class _Search:
         first = self.march(quick, (self.cycle.centre - self.cycle.half_d)[quick])
         s = self.cycle.strips.take(quick)
         forgets = np.flatnonzero(~first.engaged & (first.x + TWO_PI - first.c > _FORGOTTEN * s.beta))
-        reach = np.clip(0.5 * (s.D + s.delta_0), 0.0, 1.0)[forgets]
-        orbit = self.march(quick[forgets], -2 * np.arcsin(np.sqrt(reach)))
-        orbit.r = np.zeros(forgets.size)
-        self._isolated(quick[forgets], orbit, orbit)
+        # a surface that stays out of reach has no onset to lead to
+        reach = 0.5 * (s.D + s.delta_0)
+        meets = forgets[reach[forgets] > 0]
+        orbit = self.march(quick[meets], -2 * np.arcsin(np.sqrt(np.minimum(reach[meets], 1.0))))
+        orbit.r = np.zeros(meets.size)
+        self._isolated(quick[meets], orbit, orbit)
         return np.setdiff1d(index, quick[forgets])
 
     def _start(self, index):
