@@ -17,6 +17,7 @@ from .functions import Call
 from .jumps import jumps
 from .kernel import Kernel
 from .level import level
+from .links import links
 from .model import Model, foundation, require_admissible
 from .regime import Regime
 from .regimes import regimes
@@ -78,6 +79,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     done("edge conditions")
     zone = zones(flow, jump)
     events = (*gap_event(flow), *excess_event(flow))
+    chain = links(flow)
     done("zones")
     full = saturated(flow)
     whole = level(full)
@@ -97,6 +99,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     sections = (
         ("Rigid profile, load, zones", zone.kernels),
         ("Events: value and slope, for root finding in a zone whose entry is evaluated once", events),
+        ("Links: value and derivatives by both edges, for Newton on the chain of edges", chain),
         ("Complete contact", full.kernels),
         ("Boundary equations of each regime, and their derivatives by the unknown edges", systems),
         ("Means of pressure and friction", (full.means, *still, *means)),
@@ -110,6 +113,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         jump,
         zone,
         events,
+        chain,
         full,
         whole,
         table,
