@@ -11,7 +11,7 @@ from hystrip.inputs.adhesion import Dugdale
 from hystrip.inputs.material import StandardLinearSolid
 from hystrip.inputs.surface import Level
 from hystrip.solver import kernel_of
-from hystrip.strip.engine import Solved
+from hystrip.strip.solved import Solved
 from hystrip.strip.problem import Strips
 from hystrip.strip.regimes import CODE
 from hystrip.strip.solution import refuse_uncertified, solve_si

@@ -15,7 +15,7 @@ _EPS = np.finfo(float).eps
 #: Slack of a forcing's sign at an edge, in units of rounding of the largest term; edges at grazing sit at zero.
 _SLACK = 64 * _EPS
 #: Near a fold the slope of the onset map approaches one like the square root of the distance; rounding blurs it.
-_STABLE = 1e-6
+STABLE = 1e-6
 
 
 def edges_admissible(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
@@ -30,10 +30,13 @@ def edges_admissible(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     ok &= ~contact | (kernel.forcing(a, s.D, s.beta) + s.p_0 <= slack)
     ok &= kernel.forcing(orbit.c, s.D, s.beta) + s.p_0 + s.delta_0 <= slack
     ok &= (orbit.x <= b + turn) & (b <= a + turn) & (a <= orbit.c + turn) & (orbit.c <= orbit.x + TWO_PI + turn)
+    # least at the end of the arc, but without memory next to nothing there and least on the way
     end = cycle.centre + cycle.half_b
     open_ = np.flatnonzero(~contact & (orbit.x < end))
-    gap = kernel.gap_after(orbit.x[open_], end[open_], cycle.gap_on[open_], -s.p_0[open_], s.D[open_], s.beta[open_])
-    ok[open_] &= gap >= -slack[open_]
+    for share in (0.5, 1.0):
+        phase = orbit.x[open_] + share * (end[open_] - orbit.x[open_])
+        gap = kernel.gap_after(orbit.x[open_], phase, cycle.gap_on[open_], -s.p_0[open_], s.D[open_], s.beta[open_])
+        ok[open_] &= gap >= -slack[open_]
     return ok
 
 
@@ -42,7 +45,7 @@ def stable(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     log_slope, N = slope_excess(kernel, cycle, orbit)
     F = onset_margin(kernel, cycle, orbit.x)
     # a foundation without memory meets its onset at the very end of the arc, where F is rounding
-    return (log_slope <= _STABLE) | (N - F <= _SLACK * (1 + np.abs(cycle.strips.D) + cycle.strips.delta_0))
+    return (log_slope <= STABLE) | (N - F <= _SLACK * (1 + np.abs(cycle.strips.D) + cycle.strips.delta_0))
 
 
 def always_adhering(kernel, strips: Strips, cycle: Cycle, orbit: Orbit) -> np.ndarray:

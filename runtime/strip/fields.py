@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .engine import Solved
+from .solved import Solved
 from .march import TWO_PI
 from .problem import Strips, adhesive_cycle, bare_cycle
 from .regimes import CODE

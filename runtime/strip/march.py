@@ -35,6 +35,16 @@ class Orbit:
     r: np.ndarray
     w_end: np.ndarray
 
+    @classmethod
+    def blank(cls, n: int) -> "Orbit":
+        """n places for orbits, none of them known."""
+        return cls(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), *(np.full(n, np.nan) for _ in range(2)))
+
+    @classmethod
+    def joined(cls, parts: list["Orbit"]) -> "Orbit":
+        """The orbits of all ``parts``, one after another."""
+        return cls(*(np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(cls)))
+
     def take(self, index: np.ndarray) -> "Orbit":
         return Orbit(*(getattr(self, f.name)[index] for f in fields(self)))
 

@@ -36,26 +36,26 @@ class SearchResult:
 
     def __init__(self, n: int):
         self.found = np.zeros(n, bool)
-        self.left, self.right = _blank(n), _blank(n)
+        self.left, self.right = Orbit.blank(n), Orbit.blank(n)
         self.unresolved = np.zeros(n, bool)
         self.marches = np.zeros(n, int)
         self.evaluations = np.zeros(n)
 
 
-def _blank(n: int) -> Orbit:
-    return Orbit(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), *(np.full(n, np.nan) for _ in range(2)))
+def isolate(kernel, cycle: Cycle, last: bool, known: Orbit | None = None) -> SearchResult:
+    """Isolate the first (``last=False``) or last zero of r on the onset arc of every cycle, or prove that there is none.
 
-
-def isolate(kernel, cycle: Cycle, last: bool) -> SearchResult:
-    """Isolate the first (``last=False``) or last zero of r on the onset arc of every cycle, or prove that there is none."""
-    return _Search(kernel, cycle, last).run()
+    ``known``: periodic orbits (r = 0) of some of the cycles, x NaN for the others; nothing beyond them is looked at.
+    """
+    return _Search(kernel, cycle, last, known).run()
 
 
 class _Search:
     """State of a batch of searches. The frontier advances from one end of the arc; all behind it is excluded."""
 
-    def __init__(self, kernel, cycle: Cycle, last: bool):
+    def __init__(self, kernel, cycle: Cycle, last: bool, known: Orbit | None):
         self.kernel, self.cycle, self.last = kernel, cycle, last
+        self.known = known or Orbit.blank(cycle.size)
         self.sign = -1.0 if last else 1.0  # sign of r on the excluded side
         self.result = SearchResult(cycle.size)
 
@@ -111,8 +111,14 @@ class _Search:
         self._isolated(index[accepted], frontier.take(accepted), frontier.take(accepted))
         keep = np.flatnonzero(~at_start | (frontier.engaged & (not self.last)))
         index, frontier, cycle, far = index[keep], frontier.take(keep), cycle.take(keep), far[keep]
-        stop = self.march(index, far)
-        frontier, stop = self._inward(index, frontier, cycle, stop), self._inward(index, stop, cycle, frontier)
+        stop = self.known.take(index)
+        open_ = np.flatnonzero(np.isnan(stop.x))
+        if open_.size:
+            stop.put(open_, self.march(index[open_], far[open_]))
+        first = frontier
+        frontier = self._inward(index, first, cycle, stop)
+        if open_.size:
+            stop.put(open_, self._inward(index[open_], stop.take(open_), cycle.take(open_), first.take(open_)))
         # rounding may push the ends past each other: the orbit lies between them
         crossed = np.flatnonzero(self.sign * (stop.x - frontier.x) <= 0)
         if crossed.size:
@@ -184,7 +190,7 @@ class _Search:
             bounds = SlopeBounds(
                 np.where(left.engaged, top, bounds.fall), bounds.rise, bounds.falls, np.where(left.engaged, 0.0, bounds.N_min)
             )
-        return np.where(changes, unique, _excluded(self.kernel, cycle, left, right, bounds, self.last))
+        return np.where(changes, unique, excluded(self.kernel, cycle, left, right, bounds, self.last))
 
     def _isolated(self, index, left: Orbit, right: Orbit):
         self.result.found[index] = True
@@ -264,7 +270,7 @@ def _released(kernel, cycle: Cycle, orbit: Orbit) -> Orbit:
     )
 
 
-def _excluded(kernel, cycle: Cycle, left: Orbit, right: Orbit, bounds: SlopeBounds, last: bool) -> np.ndarray:
+def excluded(kernel, cycle: Cycle, left: Orbit, right: Orbit, bounds: SlopeBounds, last: bool) -> np.ndarray:
     """True where the bounds leave no zero of r between two onsets at which r has the sign of the excluded side."""
     width = right.x - left.x
     beta = cycle.strips.beta

@@ -13,11 +13,12 @@ from hystrip.inputs.checks import broadcast, choice, numbers
 from hystrip.inputs.material import StandardLinearSolid
 from hystrip.solver import kernel_of
 
-from .engine import Solved, solve_strips
+from .engine import solve_strips
 from .fields import fields
 from .flat import is_flat, solve_flat
 from .problem import Strips
 from .regimes import CODE, REGIMES, SEQUENCES
+from .solved import Solved
 
 EDGES = ("continuous", "constitutive")
 BRANCHES = ("unloading", "loading")

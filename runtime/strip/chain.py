@@ -1,0 +1,135 @@
+"""Newton on the chain of edges of one regime, from a rough start.
+
+A period is a chain: the onset leads to the next edge, each edge to the one after it, and the last back to the onset. Every
+link is a generated function that gives its value and both derivatives at once, so a step eliminates the edges one after
+another and leaves one unknown, the onset. What comes out is an orbit of the boundary equations, nothing more: whether it is
+admissible, stable and the extremal one is asked elsewhere (``certificate``, ``exclusion``).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .problem import Cycle
+
+TWO_PI = 2 * np.pi
+_ITERATIONS = 9
+#: iterations before strips that are done are set aside
+_TOGETHER = 4
+#: a step this small leaves an error of its square
+_SMALL = 1e-7
+#: share of the way to the end of its arc that an edge may move at once
+_BOLD = 0.9
+#: edges of each sequence, the onset first
+EDGES = {"acaf": "xbac", "afc": "xac", "af": "xc", "ac": "xa", "cf": "xa"}
+
+
+@dataclass(slots=True)
+class Chain:
+    """Edges (k, n) of orbits; ``slope`` (n,) of the onset map there; which ``converged``; ``correction`` (n,): the last step,
+    taken from boundary equations that do not cancel; ``evaluations`` (n,) of the links of a period."""
+
+    edges: np.ndarray
+    slope: np.ndarray
+    converged: np.ndarray
+    correction: np.ndarray
+    evaluations: np.ndarray
+
+
+def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
+    """Newton from ``edges`` (k, n) for cycles that are all taken to follow ``sequence``."""
+    n = cycle.size
+    edges = edges.copy()
+    low, high = _arcs(cycle, sequence)
+    spent, step_size, slope = np.zeros(n), np.full(n, np.inf), np.full(n, np.nan)
+    step = np.full(edges.shape, np.nan)
+    active, part = np.arange(n), cycle
+    # where a link is lost to rounding or overflows the step is no number, and the strip is left to the search
+    with np.errstate(all="ignore"):
+        for iteration in range(_ITERATIONS):
+            here = edges[:, active]
+            values, before, after = _links(kernel, part, sequence, here)
+            move, steep = _step(values, before, after)
+            size = np.abs(move).max(axis=0)
+            lo, hi = low[:, active], high[:, active]
+            new = np.clip(here + move, here + _BOLD * (lo - here), here + _BOLD * (hi - here))
+            new = np.where(np.isnan(new), here, np.maximum.accumulate(new, axis=0))
+            edges[:, active], step_size[active], slope[active] = new, size, steep
+            spent[active] += 1
+            if iteration + 1 >= _TOGETHER:
+                going = np.flatnonzero(~(size <= _SMALL) & np.isfinite(size))
+                if not going.size:
+                    break
+                if going.size < active.size:
+                    active = active[going]
+                    part = cycle.take(active)
+        step = _refined(kernel, cycle, sequence, edges)
+    spent += 1
+    correction = np.abs(step).max(axis=0)
+    converged = (step_size <= _SMALL) & (correction <= 1e3 * _SMALL)
+    edges = np.where(converged, edges + step, edges)
+    return Chain(edges, slope, converged, np.where(converged, correction, np.inf), spent)
+
+
+def _arcs(cycle: Cycle, sequence: str) -> tuple[np.ndarray, np.ndarray]:
+    """Ends of the arcs in which each edge can lie, (k, n)."""
+    centre, turned = cycle.centre, cycle.centre + TWO_PI
+    arcs = {
+        "x": (centre - cycle.half_d, centre + cycle.half_d),
+        "b": (centre - cycle.half_b, centre + cycle.half_b),
+        "a": (centre + cycle.half_b, turned - cycle.half_b),
+        "c": (centre + cycle.half_c, turned - cycle.half_c),
+    }
+    ends = [arcs[edge] for edge in EDGES[sequence]]
+    return np.array([low for low, _ in ends]), np.array([high for _, high in ends])
+
+
+def _links(kernel, cycle: Cycle, sequence: str, edges):
+    """Values of the links along the chain and their derivatives by the edge before and the edge after, k of each."""
+    s = cycle.strips
+    links, first = [], edges[0]
+    rest = iter(edges[1:])
+    here = first
+    if sequence == "acaf":
+        b = next(rest)
+        links.append(kernel.gap_link(here, b, cycle.gap_on, -s.p_0, s.D, s.beta))
+        here = b
+    if sequence != "af":
+        a = next(rest)
+        links.append(kernel.excess_link(here, a, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L))
+        here = a
+    if sequence in ("ac", "cf"):
+        links.append(kernel.gap_link(here, first + TWO_PI, 0.0, 0.0, s.D, s.beta))
+    else:
+        c = next(rest)
+        gap = cycle.gap_on if sequence == "af" else 0.0
+        value, before, after = kernel.gap_link(here, c, gap, -s.p_0, s.D, s.beta)
+        links.append((value - s.delta_0, before, after))
+        value, before, after = kernel.gap_link(c, first + TWO_PI, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
+        links.append((value - s.delta_0, before, after))
+    return zip(*links, strict=True)
+
+
+def _step(values, before, after):
+    """Newton step of the edges (k, n), and the slope of the onset map."""
+    constant, linear = [np.zeros_like(values[0])], [np.ones_like(values[0])]
+    for value, back, on in zip(values[:-1], before[:-1], after[:-1], strict=True):
+        constant.append(-(value + back * constant[-1]) / on)
+        linear.append(-back * linear[-1] / on)
+    slope = -before[-1] * linear[-1] / after[-1]
+    first = (values[-1] + before[-1] * constant[-1]) / (after[-1] * (slope - 1))
+    return np.array([k + m * first for k, m in zip(constant, linear, strict=True)]), slope
+
+
+def _refined(kernel, cycle: Cycle, sequence: str, edges):
+    """A step from the generated boundary equations, whose closing balance keeps its digits however slow the foundation is.
+
+    That balance is the sum of the changes of z: of the closing link, of those before it, and of the contact's times -J.
+    """
+    s = cycle.strips
+    _, before, after = _links(kernel, cycle, sequence, edges)
+    residual = getattr(kernel, f"residual_{'ac' if sequence == 'cf' else sequence}")
+    *values, closing = residual(*edges, s.alpha, s.beta, s.J, s.L, s.p_0, s.delta_0, s.D, s.chi)
+    contact = {"acaf": 1, "af": None}.get(sequence, 0)
+    balance = closing - sum(value * (-s.J if i == contact else 1.0) for i, value in enumerate(values))
+    return _step((*values, balance), before, after)[0]

@@ -1,0 +1,82 @@
+"""Orbits found by Newton from a rough start and proven to be the extremal ones: the way most strips are solved.
+
+Newton may find any periodic orbit, or none. What it finds counts only with the certificate of an orbit and the proof that no
+more extremal one exists; all else is left to ``search``.
+"""
+
+import numpy as np
+
+from .certificate import STABLE, edges_admissible, stable
+from .chain import follow
+from .exclusion import alone, empty
+from .march import Orbit
+from .problem import Cycle
+from .refine import CONVERGED, refined
+from .solved import orbit_of
+from .start import start
+
+
+def certified(kernel, cycle: Cycle, sequence: str) -> tuple[Orbit, np.ndarray, np.ndarray]:
+    """Orbits of ``sequence`` that Newton finds, which of them are certified, and the evaluations spent on each."""
+    chain = follow(kernel, cycle, sequence, start(kernel, cycle, sequence))
+    spent = chain.evaluations
+    orbit = orbit_of(sequence, chain.edges)
+    good = chain.converged & (chain.slope < 1 - STABLE)
+    coarse = np.flatnonzero(good & (chain.correction > CONVERGED))
+    if coarse.size:
+        new, converged, more = refined(kernel, sequence, cycle.take(coarse), orbit.take(coarse), blurred=False)
+        spent[coarse] += more
+        orbit.put(coarse, new)
+        good[coarse] = converged
+    here = np.flatnonzero(good)
+    part, there = cycle.take(here), orbit.take(here)
+    good[here] = edges_admissible(kernel, part, there) & stable(kernel, part, there)
+    return orbit, good, spent
+
+
+def extremal(kernel, cycle: Cycle, last: bool):
+    """Extremal orbits with a free part, where they can be had without a search.
+
+    Returns, for n cycles: a certified orbit of each (x NaN where there is none), its sequence (``""`` if none), which are proven extremal,
+    which cycles are proven to have no such orbit at all, and the evaluations spent.
+    """
+    n = cycle.size
+    found = Orbit.blank(n)
+    sequences, proven, spent = np.full(n, "", dtype="<U4"), np.zeros(n, bool), np.zeros(n)
+    s = cycle.strips
+    arc = cycle.half_d > 0
+    if last:
+        # next to saturated contact a less engaged orbit is rare: ask the search, which sees that first
+        possible = arc & (s.D - 1 + s.p_0 < kernel.modulus_ratio(s.alpha, s.beta))
+    else:
+        possible = arc
+    attempts = [("acaf", possible & ~cycle.direct), ("afc", possible & cycle.direct)]
+    if last:
+        attempts.append(("af", possible & ~cycle.direct))
+    for sequence, kind in attempts:
+        pick = np.flatnonzero(kind & ~proven)
+        if not pick.size:
+            continue
+        part = cycle.take(pick)
+        orbit, good, used = certified(kernel, part, sequence)
+        spent[pick] += used
+        here = np.flatnonzero(good)
+        if not here.size:
+            continue
+        sure, used = alone(kernel, part.take(here), orbit.take(here), last)
+        pick = pick[here]
+        spent[pick] += used
+        # of two orbits that are known the more extremal one is worth keeping
+        nearer = ~(found.x[pick] >= orbit.x[here]) if last else ~(found.x[pick] <= orbit.x[here])
+        keep = np.flatnonzero(sure | nearer)
+        found.put(pick[keep], orbit.take(here[keep]))
+        sequences[pick[keep]] = sequence
+        proven[pick] |= sure
+    none = ~arc
+    if not last:
+        # a surface out of reach of the undeformed foundation is mostly not met at all
+        ask = np.flatnonzero(arc & (sequences == "") & (s.D <= -s.delta_0))
+        if ask.size:
+            none[ask], used = empty(kernel, cycle.take(ask))
+            spent[ask] += used
+    return found, sequences, proven, none, spent

@@ -1,0 +1,193 @@
+"""Proof that no more extremal orbit exists beside one that is known, from a few evaluations of its neighbours' events.
+
+A more engaged orbit has an earlier onset, so the unloading orbit at x* is proven by excluding zeros of r between the start of
+the onset arc and x*, the loading orbit by excluding them between x* and the end of the arc. Edges of orbits are ordered: from an
+earlier onset contact begins earlier, contact and adhesion end later. One-sided bounds of the edges are enough for every
+inequality used, and a bound is verified by the sign of one event, so nothing is solved for.
+
+With a probe x1 between the end of the arc x0 and x*,
+
+* [x1, x*] holds no second zero where R falls strictly on it (``sensitivity.slope_bounds``);
+* [x0, x1] holds none where the onset map already takes x0 beyond x1 (it is monotone), or by the bounds of ``search``.
+
+What is not proven here is left to ``search``; nothing is ever accepted for lack of a counterexample.
+"""
+
+import numpy as np
+
+from .march import TWO_PI, Orbit, march
+from .problem import Cycle
+from .search import excluded
+from .sensitivity import slope_bounds
+
+_EPS = np.finfo(float).eps
+#: bounds are sought this far beyond the linear estimate
+_BEYOND = 1.3
+_TRIES = 4
+#: probes tried, each this share of the way from what is proven to the end of the arc, or closer after a failure
+_PROBES, _SHARE = 4, 0.5
+
+
+def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Which orbits are proven to be the first (``last``: last) of their onset arc, and the event evaluations spent on each."""
+    s = cycle.strips
+    w_end = kernel.profile(orbit.x, s.D) + s.delta_0
+    known = Orbit(orbit.x, orbit.b, orbit.a, orbit.c, np.zeros(cycle.size, bool), np.zeros(cycle.size), w_end)
+    return _cleared(kernel, cycle, known, -1.0 if last else 1.0)
+
+
+def empty(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
+    """Which onset arcs are proven to hold no orbit because every onset is followed by a later one, or by none."""
+    latest, spent = march(kernel, cycle, cycle.centre + cycle.half_d)
+    proven = np.zeros(cycle.size, bool)
+    missed = ~latest.engaged & (latest.r > 64 * _EPS * (1 + np.abs(cycle.strips.D) + cycle.strips.delta_0))
+    contact = ~np.isnan(latest.b)
+    for kind in (contact, ~contact):
+        ask = np.flatnonzero(missed & kind)
+        if ask.size:
+            proven[ask], used = _cleared(kernel, cycle.take(ask), latest.take(ask), 1.0)
+            spent[ask] += used
+    return proven, spent
+
+
+def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float) -> tuple[np.ndarray, np.ndarray]:
+    """Where no zero of r lies between the end of the onset arc (``sign`` > 0: its start) and the onsets of ``known``."""
+    n = cycle.size
+    proven, spent = np.zeros(n, bool), np.zeros(n)
+    active, part, here = np.arange(n), cycle, known
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        outer, used = enclose(kernel, cycle, cycle.centre - sign * cycle.half_d, known, sign)
+        spent += used
+        frontier, share = known.take(active), np.full(n, _SHARE)
+        for _ in range(_PROBES):
+            x = frontier.x + share * (outer.x - frontier.x)
+            probe, used = enclose(kernel, part, x, here, sign)
+            spent[active] += used
+            near = _empty(kernel, part, probe, frontier, here, sign)
+            done = near & _empty(kernel, part, outer, probe, here, sign)
+            proven[active[done]] = True
+            share = np.where(near, _SHARE, 0.4 * share)
+            going = np.flatnonzero(~done)
+            if not going.size:
+                break
+            near = np.flatnonzero(near)
+            frontier.put(near, probe.take(near))
+            active, part, here, share = active[going], part.take(going), here.take(going), share[going]
+            frontier, outer = frontier.take(going), outer.take(going)
+    return proven, spent
+
+
+def _empty(kernel, cycle: Cycle, outer: Orbit, inner: Orbit, known: Orbit, sign) -> np.ndarray:
+    """Whether no zero of r other than the known one lies between the onsets of ``outer`` and ``inner``."""
+    s = cycle.strips
+    noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
+    # the edges of the known orbit bound those of any other from the inner side
+    bounded = Orbit(inner.x, known.b, known.a, known.c, known.engaged, inner.r, inner.w_end)
+    left, right = (outer, bounded) if sign > 0 else (bounded, outer)
+    bounds = slope_bounds(kernel, cycle, left, right)
+    apart = (sign * outer.r > noise) & (sign * inner.r > noise) & excluded(kernel, cycle, left, right, bounds, sign < 0)
+    by_slope = ~outer.engaged & (bounds.falls | apart)
+    by_image = sign * _gap_at(kernel, cycle, _last_end(cycle, outer, sign), inner.x) > noise
+    return ~inner.engaged & (by_slope | by_image)
+
+
+def _last_end(cycle: Cycle, outer: Orbit, sign):
+    """How late (``sign`` < 0: early) adhesion can end from any onset between the end of the arc and the probe, if it ends."""
+    arc = cycle.centre + (TWO_PI - cycle.half_c if sign > 0 else cycle.half_c)
+    return np.where(outer.engaged, arc, outer.c)
+
+
+def _gap_at(kernel, cycle: Cycle, c, x):
+    """Gap over delta_0 one period after the onset phase x, when adhesion ended at c."""
+    s = cycle.strips
+    c = np.minimum(c, x + TWO_PI)
+    return kernel.gap_after(c, x + TWO_PI, s.delta_0 + cycle.jump, 0.0, s.D, s.beta) - s.delta_0
+
+
+def enclose(kernel, cycle: Cycle, x, known: Orbit, sign) -> tuple[Orbit, np.ndarray]:
+    """Bounds on the edges met from the onset x on the outer side of a known orbit, and on r there.
+
+    ``sign`` > 0: x is earlier, b is bounded from below, a, c from above, r from below; ``sign`` < 0: the other way round. ``engaged``
+    marks where no bound was found. Contact that is lost on the way to a later onset counts as contact of no length.
+    """
+    s = cycle.strips
+    centre, turned = cycle.centre, cycle.centre + TWO_PI
+    noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
+    spent = np.ones(x.shape)
+    if np.isnan(known.b).all():
+        no, yes = np.zeros(x.shape, bool), np.ones(x.shape, bool)
+        clinging = _release(kernel, cycle, x, x, x, yes, no, known.c, sign, noise, spent)
+        if sign < 0:
+            return clinging, spent
+        # an earlier onset may lead to contact, at once at the earliest
+        b = np.maximum(x, centre - cycle.half_b)
+        a, failed = _detachment(kernel, cycle, b, b, sign, noise, spent)
+        touching = _release(kernel, cycle, x, b, a, no, failed, known.c, sign, noise, spent)
+        later = np.flatnonzero(touching.engaged | ~(touching.c <= clinging.c))
+        clinging.put(later, touching.take(later))
+        return clinging, spent
+    # contact begins: an event that falls; its bound lies on the outer side of the known edge
+    entry = kernel.gap_entry(x, cycle.gap_on, -s.p_0, s.D, s.beta)
+    far = np.maximum(x, centre - cycle.half_b) if sign > 0 else centre + cycle.half_b
+    b, found = _bound(kernel.gap_event, entry, 0.0, 1.0, np.maximum(known.b, x), far, -sign, noise, spent)
+    lost = failed = np.zeros(x.shape, bool)
+    if sign < 0:
+        # a gap that is still open at the end of the arc does not close
+        open_ = kernel.gap_event(np.maximum(far, x), *entry)[0] > noise
+        lost, failed = ~found & ~cycle.direct & open_, ~found & ~cycle.direct & ~open_
+    b = np.where(cycle.direct | ~found, x, b)
+    a, loose = _detachment(kernel, cycle, b, known.a, sign, noise, spent)
+    b, a = np.where(lost, x, b), np.where(lost, x, a)
+    return _release(kernel, cycle, x, b, a, lost, failed | loose, known.c, sign, noise, spent), spent
+
+
+def _detachment(kernel, cycle: Cycle, b, start, sign, noise, spent):
+    """Bound on the end of the contact that begins at b, and where none was found."""
+    s = cycle.strips
+    entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
+    first, last = np.maximum(b, cycle.centre + cycle.half_b), cycle.centre + TWO_PI - cycle.half_b
+    far = last if sign > 0 else first
+    a, found = _bound(kernel.excess_event, entry, 0.0, 1.0, np.maximum(start, first), far, sign, noise + 64 * _EPS * entry[4], spent)
+    return np.where(found, a, far), ~found & (sign > 0)
+
+
+def _release(kernel, cycle: Cycle, x, b, a, lost, failed, start, sign, noise, spent) -> Orbit:
+    """The bounds completed by one on the end of adhesion after a, or after x where contact is ``lost``, and by r."""
+    s = cycle.strips
+    entry = kernel.gap_entry(a, np.where(lost, cycle.gap_on, 0.0), -s.p_0, s.D, s.beta)
+    start = np.maximum(start, a)
+    far = cycle.centre + TWO_PI - cycle.half_c if sign > 0 else np.maximum(a, cycle.centre + cycle.half_c)
+    c, found = _bound(kernel.gap_event, entry, s.delta_0, -1.0, start, far, sign, noise, spent)
+    failed = failed | (~found & (sign > 0))
+    c = np.where(found, c, far)
+    r = np.where(failed, -np.inf, _gap_at(kernel, cycle, c, x))
+    w_end = (kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(x + TWO_PI - c, s.beta)
+    return Orbit(x, b, a, c, failed, r, w_end)
+
+
+def _bound(event, entry, offset, rising, start, far, side, noise, spent):
+    """A phase between ``start`` and ``far`` that is beyond the event's zero, and whether one was found.
+
+    The event function, ``rising`` times (value - offset), is positive before its zero and negative after. ``side`` > 0 seeks a phase
+    after it (``start`` lies before), ``side`` < 0 a phase before it.
+    """
+    x, done = start, np.zeros(start.shape, bool)
+    result = start
+    for _ in range(_TRIES):
+        value, slope = event(x, *entry)
+        value, slope = rising * (value - offset), rising * slope
+        good = side * value < -noise
+        better = good & (~done | (side * (result - x) > 0))
+        result = np.where(better, x, result)
+        spent += ~done
+        done = done | good
+        newton = -value / slope
+        ahead = np.where(slope < 0, newton, np.nan)
+        # from the inner side step beyond the estimate and beyond what rounding blurs (where nothing is remembered the bound is the
+        # known edge itself), from the outer side not quite back to it
+        step = np.where(good, 0.9 * ahead, _BEYOND * ahead - side * 4 * noise / slope)
+        halfway = 0.5 * (far - x)
+        tame = np.abs(step) <= np.abs(halfway)
+        x = x + np.where(tame | good, step, halfway)
+        x = np.where(np.isfinite(x), np.clip(x, np.minimum(start, far), np.maximum(start, far)), far)
+    return result, done

@@ -1,0 +1,104 @@
+"""Solutions of a batch, and how certified orbits are written into them."""
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from .march import TWO_PI, Orbit
+from .problem import Strips
+from .regimes import CODE
+
+UNDECIDED = -1
+
+
+@dataclass(slots=True)
+class Solved:
+    """Solutions of a batch, arrays of shape (n,): regime code (``regimes.CODE``), edges as phases (NaN where absent),
+    dimensionless means and fractions, work, and which strips passed their certificate."""
+
+    code: np.ndarray
+    d: np.ndarray
+    b: np.ndarray
+    a: np.ndarray
+    c: np.ndarray
+    p_mean: np.ndarray
+    tau_mean: np.ndarray
+    contact_fraction: np.ndarray
+    adhesion_fraction: np.ndarray
+    certified: np.ndarray
+    evaluations: np.ndarray
+
+    @classmethod
+    def empty(cls, n: int) -> "Solved":
+        nan = [np.full(n, np.nan) for _ in range(8)]
+        return cls(np.full(n, UNDECIDED, np.int8), *nan, np.zeros(n, bool), np.zeros(n))
+
+    def take(self, index) -> "Solved":
+        return Solved(*(getattr(self, f.name)[index] for f in fields(self)))
+
+    def put(self, index, other: "Solved") -> None:
+        for f in fields(self):
+            getattr(self, f.name)[index] = getattr(other, f.name)
+
+
+class Record:
+    """Writes what is certain about the strips of a batch into ``solved``."""
+
+    def __init__(self, kernel, strips: Strips):
+        self.kernel, self.strips = kernel, strips
+        self.solved = Solved.empty(strips.size)
+
+    def saturated_contact(self, index) -> None:
+        p_mean, tau_mean = self.kernel.means_c(*groups(self.strips.take(index)))
+        self.constant(index, "c", p_mean, tau_mean, 1.0, 0.0)
+
+    def constant(self, index, sequence: str, p_mean, tau_mean, contact: float, adhesion: float) -> None:
+        """A regime without edges."""
+        out = self.solved
+        out.code[index], out.certified[index] = CODE[sequence], True
+        out.p_mean[index], out.tau_mean[index] = p_mean, tau_mean
+        out.contact_fraction[index], out.adhesion_fraction[index] = contact, adhesion
+
+    def orbits(self, index, sequence: str, orbit: Orbit) -> None:
+        """Certified orbits that all have the same sequence of zones."""
+        if not index.size:
+            return
+        out = self.solved
+        out.code[index], out.certified[index] = CODE[sequence], True
+        means = getattr(self.kernel, "means_ac" if sequence == "cf" else f"means_{sequence}")
+        out.p_mean[index], out.tau_mean[index] = means(*edges_of(sequence, orbit), *groups(self.strips.take(index)))
+        contact = np.where(np.isnan(orbit.b), 0.0, orbit.a - orbit.b) / TWO_PI
+        adhesion = {"cf": 0.0, "ac": 1 - contact}.get(sequence)
+        out.contact_fraction[index] = contact
+        out.adhesion_fraction[index] = (orbit.c - orbit.x) / TWO_PI - contact if adhesion is None else adhesion
+        out.b[index], out.a[index] = orbit.b, orbit.a
+        if sequence not in ("ac", "cf"):
+            out.c[index] = orbit.c
+            if sequence != "afc":
+                out.d[index] = orbit.x
+
+
+def groups(s: Strips) -> tuple:
+    """Dimensionless groups in the order in which the kernel's regime functions take them."""
+    return s.alpha, s.beta, s.J, s.L, s.p_0, s.delta_0, s.D, s.chi
+
+
+def edges_of(sequence: str, orbit: Orbit) -> np.ndarray:
+    """Unknown edges of the regime's boundary equations, (k, n)."""
+    return np.array(
+        {
+            "acaf": (orbit.x, orbit.b, orbit.a, orbit.c),
+            "afc": (orbit.x, orbit.a, orbit.c),
+            "af": (orbit.x, orbit.c),
+            "ac": (orbit.b, orbit.a),
+            "cf": (orbit.b, orbit.a),
+        }[sequence]
+    )
+
+
+def orbit_of(sequence: str, edges: np.ndarray) -> Orbit:
+    """The periodic orbit with these edges, (k, n) in the order of ``edges_of``."""
+    absent = np.full(edges.shape[1], np.nan)
+    places = {"acaf": (0, 1, 2, 3), "afc": (0, 0, 1, 2), "af": (0, None, None, 1), "ac": (0, 0, 1, 1), "cf": (0, 0, 1, 1)}
+    x, b, a, c = (absent if place is None else edges[place] for place in places[sequence])
+    return Orbit(x.copy(), b.copy(), a.copy(), c.copy(), np.zeros(x.size, bool), np.zeros(x.size), absent.copy())

@@ -1,0 +1,39 @@
+"""Rough edges to start Newton from: where they typically lie in their arcs, by how slow the foundation is.
+
+Medians over random strips, nothing more. A start that leads astray costs a search, never a wrong orbit.
+"""
+
+import numpy as np
+
+from .chain import EDGES, TWO_PI
+from .problem import Cycle
+
+#: log10 of beta
+_DECADES = (-2.0, -1.0, 0.0, 1.0, 2.0, 3.0)
+#: place of the onset in its arc, -1 to 1: with adhesion, without, and where adhesion never leads to contact
+_ONSET = {"adhesive": (-0.99, -0.9, -0.4, -0.05, -0.1, -0.15), "bare": (-0.99, -0.95, -0.7, -0.4, -0.25, -0.15), "af": (0.9,) * 6}
+#: share of its arc that the end of contact lies behind the start of it, long after the forcing turned
+_CONTACT_END, _SLOW = 0.45, 60.0
+_RELEASE = 0.1
+_LEAST = 1e-9
+
+
+def start(kernel, cycle: Cycle, sequence: str) -> np.ndarray:
+    """Edges (k, n) in the order of ``chain.EDGES`` for cycles taken to follow ``sequence``."""
+    s = cycle.strips
+    centre, turned = cycle.centre, cycle.centre + TWO_PI
+    places = _ONSET["bare" if sequence in ("ac", "cf") else sequence if sequence == "af" else "adhesive"]
+    x = centre + np.interp(np.log10(np.maximum(s.beta, _LEAST)), _DECADES, places) * cycle.half_d
+    edges = {"x": x}
+    last = x
+    if "b" in EDGES[sequence]:
+        end = np.maximum(centre + cycle.half_b, x)
+        closing = np.maximum(kernel.forcing(x, s.D, s.beta) + s.p_0 + cycle.gap_on, _LEAST)
+        edges["b"] = last = x + np.minimum(cycle.gap_on * np.maximum(s.beta, _LEAST) / closing, 0.5 * (end - x))
+    if "a" in EDGES[sequence]:
+        share = _CONTACT_END * s.beta / (s.beta + _SLOW) + 1e-3
+        edges["a"] = last = np.maximum(centre + cycle.half_b + share * (TWO_PI - 2 * cycle.half_b), last)
+    if "c" in EDGES[sequence]:
+        low = np.maximum(last, centre + cycle.half_c)
+        edges["c"] = low + _RELEASE * np.maximum(turned - cycle.half_c - low, 0.0)
+    return np.array([edges[edge] for edge in EDGES[sequence]])
