@@ -36,7 +36,7 @@ def edges_admissible(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     for share in (0.5, 1.0):
         phase = orbit.x[open_] + share * (end[open_] - orbit.x[open_])
         gap = kernel.gap_after(orbit.x[open_], phase, cycle.gap_on[open_], -s.p_0[open_], s.D[open_], s.beta[open_])
-        ok[open_] &= gap >= -slack[open_]
+        ok[open_] &= gap >= -_SLACK * (1 + np.abs(s.D) + s.p_0 + s.delta_0)[open_]
     return ok
 
 

@@ -20,6 +20,8 @@ _TOGETHER = 4
 _SMALL = 1e-7
 #: share of the way to the end of its arc that an edge may move at once
 _BOLD = 0.9
+#: sign of the slope with which the event of each link is met: gap and pressure fall, the gap opens where adhesion ends
+_SENSE = {"acaf": (-1, -1, 1, -1), "afc": (-1, 1, -1), "af": (1, -1), "ac": (-1, -1), "cf": (-1, -1)}
 #: edges of each sequence, the onset first
 EDGES = {"acaf": "xbac", "afc": "xac", "af": "xc", "ac": "xa", "cf": "xa"}
 
@@ -63,10 +65,10 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
                 if going.size < active.size:
                     active = active[going]
                     part = cycle.take(active)
-        step = _refined(kernel, cycle, sequence, edges)
+        step, sense = _refined(kernel, cycle, sequence, edges)
     spent += 1
     correction = np.abs(step).max(axis=0)
-    converged = (step_size <= _SMALL) & (correction <= 1e3 * _SMALL)
+    converged = sense & (step_size <= _SMALL) & (correction <= 1e3 * _SMALL)
     edges = np.where(converged, edges + step, edges)
     return Chain(edges, slope, converged, np.where(converged, correction, np.inf), spent)
 
@@ -122,7 +124,8 @@ def _step(values, before, after):
 
 
 def _refined(kernel, cycle: Cycle, sequence: str, edges):
-    """A step from the generated boundary equations, whose closing balance keeps its digits however slow the foundation is.
+    """A step from the generated boundary equations, whose closing balance keeps its digits however slow the foundation is, and
+    where all events are met in the right sense.
 
     That balance is the sum of the changes of z: of the closing link, of those before it, and of the contact's times -J.
     """
@@ -132,4 +135,5 @@ def _refined(kernel, cycle: Cycle, sequence: str, edges):
     *values, closing = residual(*edges, s.alpha, s.beta, s.J, s.L, s.p_0, s.delta_0, s.D, s.chi)
     contact = {"acaf": 1, "af": None}.get(sequence, 0)
     balance = closing - sum(value * (-s.J if i == contact else 1.0) for i, value in enumerate(values))
-    return _step((*values, balance), before, after)[0]
+    sense = np.all([sign * slope > 0 for sign, slope in zip(_SENSE[sequence], after, strict=True)], axis=0)
+    return _step((*values, balance), before, after)[0], sense

@@ -8,7 +8,7 @@ import numpy as np
 
 from .certificate import STABLE, edges_admissible, stable
 from .chain import follow
-from .exclusion import alone, empty
+from .exclusion import alone
 from .march import Orbit
 from .problem import Cycle
 from .refine import CONVERGED, refined
@@ -72,11 +72,4 @@ def extremal(kernel, cycle: Cycle, last: bool):
         found.put(pick[keep], orbit.take(here[keep]))
         sequences[pick[keep]] = sequence
         proven[pick] |= sure
-    none = ~arc
-    if not last:
-        # a surface out of reach of the undeformed foundation is mostly not met at all
-        ask = np.flatnonzero(arc & (sequences == "") & (s.D <= -s.delta_0))
-        if ask.size:
-            none[ask], used = empty(kernel, cycle.take(ask))
-            spent[ask] += used
-    return found, sequences, proven, none, spent
+    return found, sequences, proven, ~arc, spent

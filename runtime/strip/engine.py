@@ -21,6 +21,7 @@ import numpy as np
 
 from .certificate import always_adhering
 from .direct import certified, extremal
+from .exclusion import empty
 from .march import Orbit
 from .problem import Cycle, Strips, adhesive_cycle, bare_cycle
 from .regimes import CODE
@@ -28,7 +29,7 @@ from .solved import Record, Solved
 from .sought import sought
 
 #: Strips solved at a time: their working arrays stay in the cache, and memory stays bounded.
-CHUNK = 4096
+CHUNK = 16384
 _EPS = np.finfo(float).eps
 #: distances in roundings of D at which a strip on the end of a branch is settled
 _SHIFTS = (8, 64, 512)
@@ -146,6 +147,17 @@ class _Batch:
         return index[none]
 
     def _onset_searched(self, index, cycle: Cycle):
+        none = np.zeros(index.size, bool)
+        if self.unloading:
+            # a surface out of reach of the undeformed foundation is mostly not met at all
+            ask = np.flatnonzero(np.isnan(self.known.x[index]) & (self.strips.D[index] <= -self.strips.delta_0[index]))
+            if ask.size:
+                none[ask], spent = empty(self.kernel, cycle.take(ask))
+                self.record.solved.evaluations[index[ask]] += spent
+        rest = np.flatnonzero(~none)
+        return np.concatenate([index[none], self._sought(index[rest], cycle.take(rest))])
+
+    def _sought(self, index, cycle: Cycle):
         result = sought(self.kernel, cycle, last=not self.unloading, known=self.known.take(index))
         self.record.solved.evaluations[index] += result.evaluations
         for sequence, pick in result.of(cycle).items():

@@ -119,13 +119,11 @@ def enclose(kernel, cycle: Cycle, x, known: Orbit, sign) -> tuple[Orbit, np.ndar
         clinging = _release(kernel, cycle, x, x, x, yes, no, known.c, sign, noise, spent)
         if sign < 0:
             return clinging, spent
-        # an earlier onset may lead to contact, at once at the earliest
+        # an earlier onset may lead to contact, at once at the earliest; either way the later end of adhesion bounds both
         b = np.maximum(x, centre - cycle.half_b)
         a, failed = _detachment(kernel, cycle, b, b, sign, noise, spent)
-        touching = _release(kernel, cycle, x, b, a, no, failed, known.c, sign, noise, spent)
-        later = np.flatnonzero(touching.engaged | ~(touching.c <= clinging.c))
-        clinging.put(later, touching.take(later))
-        return clinging, spent
+        either = _release(kernel, cycle, x, b, a, no, failed | clinging.engaged, np.maximum(known.c, clinging.c), sign, noise, spent)
+        return either, spent
     # contact begins: an event that falls; its bound lies on the outer side of the known edge
     entry = kernel.gap_entry(x, cycle.gap_on, -s.p_0, s.D, s.beta)
     far = np.maximum(x, centre - cycle.half_b) if sign > 0 else centre + cycle.half_b
