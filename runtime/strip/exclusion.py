@@ -23,7 +23,9 @@ from .sensitivity import slope_bounds
 _EPS = np.finfo(float).eps
 #: bounds are sought this far beyond the linear estimate
 _BEYOND = 1.3
-_TRIES = 4
+_TRIES = 9
+#: a bound is good enough when this many tries have been beyond the zero, the later ones closer to it
+_LOOSE, _CLOSER = 2, 3
 #: probes tried, each this share of the way from what is proven to the end of the arc, or closer after a failure
 _PROBES, _SHARE = 4, 0.5
 
@@ -58,6 +60,11 @@ def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float) -> tuple[np.ndarra
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         outer, used = enclose(kernel, cycle, cycle.centre - sign * cycle.half_d, known, sign)
         spent += used
+        stuck = np.flatnonzero(outer.engaged)
+        if stuck.size:
+            closer, used = _released(kernel, cycle.take(stuck), known.take(stuck), outer.x[stuck], sign)
+            outer.put(stuck, closer)
+            spent[stuck] += used
         frontier, share = known.take(active), np.full(n, _SHARE)
         for _ in range(_PROBES):
             x = frontier.x + share * (outer.x - frontier.x)
@@ -75,6 +82,23 @@ def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float) -> tuple[np.ndarra
             active, part, here, share = active[going], part.take(going), here.take(going), share[going]
             frontier, outer = frontier.take(going), outer.take(going)
     return proven, spent
+
+
+def _released(kernel, cycle: Cycle, known: Orbit, x, sign) -> tuple[Orbit, np.ndarray]:
+    """A closer end for arcs whose end x may keep the strip engaged through the period.
+
+    Whatever the onset, adhesion ends at the end of its own arc at the latest (``sign`` < 0: earliest), if it ends: no onset before the one that
+    follows then belongs to an orbit.
+    """
+    s = cycle.strips
+    latest = cycle.centre + (TWO_PI - cycle.half_c if sign > 0 else cycle.half_c)
+    entry = kernel.gap_entry(latest, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
+    noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
+    spent = np.zeros(x.shape)
+    start, far = known.x + TWO_PI, np.maximum(x + TWO_PI, latest)
+    next_onset, found = _bound(kernel.gap_event, entry, s.delta_0, 1.0, np.maximum(start, far), far, -sign, noise, spent)
+    closer, used = enclose(kernel, cycle, np.where(found, next_onset - TWO_PI, x), known, sign)
+    return closer, spent + used
 
 
 def _empty(kernel, cycle: Cycle, outer: Orbit, inner: Orbit, known: Orbit, sign) -> np.ndarray:
@@ -169,23 +193,32 @@ def _bound(event, entry, offset, rising, start, far, side, noise, spent):
     The event function, ``rising`` times (value - offset), is positive before its zero and negative after. ``side`` > 0 seeks a phase
     after it (``start`` lies before), ``side`` < 0 a phase before it.
     """
-    x, done = start, np.zeros(start.shape, bool)
-    result = start
-    for _ in range(_TRIES):
-        value, slope = event(x, *entry)
-        value, slope = rising * (value - offset), rising * slope
-        good = side * value < -noise
-        better = good & (~done | (side * (result - x) > 0))
-        result = np.where(better, x, result)
-        spent += ~done
-        done = done | good
-        newton = -value / slope
-        ahead = np.where(slope < 0, newton, np.nan)
+    result, found, since = start.copy(), np.zeros(start.shape, bool), np.zeros(start.shape, int)
+    low, high = np.minimum(start, far), np.maximum(start, far)
+    constants = np.stack(np.broadcast_arrays(offset, noise, *entry))
+    x, index = start, np.arange(start.size)
+    for attempt in range(_TRIES):
+        level, blur, *rest = constants
+        value, slope = event(x, *rest)
+        value, slope = rising * (value - level), rising * slope
+        good = side * value < -blur
+        better = good & (~found[index] | (side * (result[index] - x) > 0))
+        result[index] = np.where(better, x, result[index])
+        found[index] |= good
+        since[index] += found[index]
+        spent[index] += 1
+        if attempt >= _LOOSE:
+            going = np.flatnonzero(since[index] < _CLOSER)
+            if not going.size:
+                break
+            if going.size < index.size:
+                index = index[going]
+                x, value, slope, good, blur, constants = (v[..., going] for v in (x, value, slope, good, blur, constants))
+        ahead = np.where(slope < 0, -value / slope, np.nan)
         # from the inner side step beyond the estimate and beyond what rounding blurs (where nothing is remembered the bound is the
         # known edge itself), from the outer side not quite back to it
-        step = np.where(good, 0.9 * ahead, _BEYOND * ahead - side * 4 * noise / slope)
-        halfway = 0.5 * (far - x)
-        tame = np.abs(step) <= np.abs(halfway)
-        x = x + np.where(tame | good, step, halfway)
-        x = np.where(np.isfinite(x), np.clip(x, np.minimum(start, far), np.maximum(start, far)), far)
-    return result, done
+        step = np.where(good, 0.9 * ahead, _BEYOND * ahead - side * 4 * blur / slope)
+        halfway = 0.5 * (far[index] - x)
+        x = x + np.where((np.abs(step) <= np.abs(halfway)) | good, step, halfway)
+        x = np.where(np.isfinite(x), np.clip(x, low[index], high[index]), far[index])
+    return result, found
