@@ -109,6 +109,16 @@ class sine_deficit(Helper):
         return angle - sp.sin(angle)
 
 
+class sine_lag(Helper):
+    """sin(tau) less its lag over the same time, the integral of exp(-t/T)."""
+
+    nargs = 2
+
+    @classmethod
+    def meaning(cls, tau, T):
+        return sp.sin(tau) - T * (1 - sp.exp(-tau / T))
+
+
 class versine(Helper):
     nargs = 1
 
@@ -166,6 +176,7 @@ HELPERS = (
     divisible,
     per_time,
     sine_deficit,
+    sine_lag,
     versine,
     hypot,
     quotient,

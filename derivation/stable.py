@@ -32,6 +32,7 @@ from .functions import (
     loss_mean_twice,
     per_time,
     sine_deficit,
+    sine_lag,
     versine,
 )
 from .symbols import D, J, L, alpha, beta, excess, gap_0, lag_0, p, p_0, p_in, q_0, s, s_0, s_1, w_0
@@ -196,7 +197,7 @@ CONTACT_INCREMENT = Formula(
     "contact_increment",
     _increment,
     J * lag * decay_loss(width, alpha)
-    + L * unit * (sin_ahead * (width * loss_mean(width, alpha) - sine_deficit(width)) - cos_ahead * versine(width)),
+    + L * unit * (sin_ahead * sine_lag(width, alpha) - cos_ahead * versine(width)),
     (WIDTH, _contact_lag, *_ahead),
 )
 CONTACT_INCREMENT_SLOPE = Formula(

@@ -43,7 +43,8 @@ def crossing(
         positive = value > 0
         lo = np.where(positive, xa, lo)
         hi = np.where(positive, hi, xa)
-        step = _step(xa, value, slope, *(v[active] for v in older))
+        earlier = tuple(v[active] for v in older)
+        step = _step(xa, value, slope, *earlier)
         new = xa + step
         size, last = np.abs(step), before[active]
         # a slope of the wrong sign, or none, sends the step outside the bracket: bisection then
@@ -51,15 +52,22 @@ def crossing(
         new = np.where(bisected, 0.5 * (lo + hi), new)
         size = np.where(bisected, hi - lo, size)
         tolerance = 2 * _EPS * np.maximum(np.abs(lo), np.abs(hi))
-        # steps shrink at least quadratically by now: what the next one would be need not be taken
-        ratio = np.minimum(size / last, 1.0)
-        done = (value == 0) | (hi - lo <= tolerance) | (~bisected & (size * ratio * ratio <= tolerance))
+        # Newton's corrections at two points that shrink this fast do so quadratically: the next one need not be taken
+        now, then = _correction(value, slope), _correction(earlier[1], earlier[2])
+        ratio = np.divide(now, then, out=np.ones_like(now), where=then > now)
+        done = (value == 0) | (hi - lo <= tolerance) | (~bisected & (np.maximum(now, size) * ratio * ratio <= tolerance))
         new = np.where(value == 0, xa, new)
         result[active] = new
         for array, now in zip((x, low, high, before, *older), (new, lo, hi, size, xa, value, slope), strict=True):
             array[active] = now
         active = active[~done]
     return result, spent
+
+
+def _correction(value, slope):
+    """Size of Newton's correction; 0 where there is no slope to take it from."""
+    usable = (slope < 0) & (np.abs(slope) > 1e-290 * np.abs(value))
+    return np.divide(np.abs(value), -slope, out=np.zeros_like(value), where=usable)
 
 
 def _step(x, value, slope, x_old, value_old, slope_old):

@@ -24,7 +24,7 @@ def certified(kernel, cycle: Cycle, sequence: str) -> tuple[Orbit, np.ndarray, n
     good = chain.converged & (chain.slope < 1 - STABLE)
     coarse = np.flatnonzero(good & (chain.correction > CONVERGED))
     if coarse.size:
-        new, converged, more = refined(kernel, sequence, cycle.take(coarse), orbit.take(coarse), blurred=False)
+        new, converged, _, more = refined(kernel, sequence, cycle.take(coarse), orbit.take(coarse), blurred=False)
         spent[coarse] += more
         orbit.put(coarse, new)
         good[coarse] = converged

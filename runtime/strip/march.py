@@ -109,12 +109,12 @@ def between(left: Orbit, right: Orbit) -> Orbit:
     return Orbit(*mixed, left.engaged.copy(), left.r.copy(), left.w_end.copy())
 
 
-def lies_between(orbit: Orbit, left: Orbit, right: Orbit) -> np.ndarray:
-    """Every edge lies between those of an earlier and a later onset, as it must by the order of orbits."""
+def lies_between(orbit: Orbit, left: Orbit, right: Orbit, blur) -> np.ndarray:
+    """Every edge lies between those of an earlier and a later onset, as it must by the order of orbits, or within ``blur`` of that."""
     ok = np.ones(orbit.x.shape, bool)
     for edge in ("x", "b", "a", "c"):
         value, one, two = (getattr(o, edge) for o in (orbit, left, right))
-        slack = 64 * _EPS * TWO_PI
+        slack = 64 * _EPS * TWO_PI + blur
         ok &= np.isnan(one) | ((value >= np.minimum(one, two) - slack) & (value <= np.maximum(one, two) + slack))
     return ok
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from .chain import tighten
 from .march import Orbit
 from .polish import polish
 from .problem import Cycle
@@ -10,10 +11,12 @@ from .solved import edges_of, orbit_of
 #: Largest correction that an orbit may still ask for: this much, or this many times what rounding leaves uncertain, which
 #: itself must not be worse than near a fold.
 CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 32, 1e-6
+_EPS = np.finfo(float).eps
 
 
-def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, ends=None, blurred: bool = True) -> tuple[Orbit, np.ndarray, np.ndarray]:
-    """The orbit with its edges refined, whether nothing was left to correct, and the evaluations it took.
+def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, ends=None, blurred: bool = True):
+    """The orbit with its edges refined, whether nothing was left to correct, how far rounding may have moved the edges where it
+    blurs them (else 0), and the evaluations it took.
 
     ``ends``: orbits from an earlier and a later onset, between whose edges those of this one lie. ``blurred``: corrections that
     rounding blurs may be larger.
@@ -25,5 +28,12 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, ends=None, blurre
     # the cycle of an always adhering strip is the bare one, shifted: its boundary equations are those of "ac" at p_0 = 0
     found = polish(kernel, "ac" if sequence == "cf" else sequence, cycle.strips, edges_of(sequence, orbit), bounds)
     limit = np.where(blurred & found.stalled, _ROUNDINGS * np.minimum(found.attainable, _COARSEST), 0.0)
-    new = orbit_of(sequence, found.edges)
-    return new, found.correction <= CONVERGED + limit, found.evaluations
+    edges, correction = found.edges, found.correction
+    if sequence in ("ac", "cf"):
+        loose = np.flatnonzero((correction <= CONVERGED + limit) & (found.attainable > _EPS * (_ROUNDINGS + cycle.strips.beta)))
+        if loose.size:
+            closer, last = tighten(kernel, cycle.take(loose), sequence, edges[:, loose])
+            moved = np.abs(closer - edges[:, loose]).max(axis=0)
+            better = (last < found.attainable[loose]) & (moved <= _ROUNDINGS * found.attainable[loose])
+            edges[:, loose[better]], correction[loose[better]] = closer[:, better], last[better]
+    return orbit_of(sequence, edges), correction <= CONVERGED + limit, limit, found.evaluations

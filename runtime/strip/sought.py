@@ -52,8 +52,8 @@ def _located(kernel, cycle: Cycle, result: SearchResult) -> tuple[Orbit, np.ndar
         here = np.flatnonzero(kind)
         if here.size:
             ends = left.take(here), right.take(here)
-            new, converged, used = refined(kernel, sequence, cycle.take(here), between(*ends), ends)
-            inside = np.flatnonzero(converged & lies_between(new, *ends))
+            new, converged, blur, used = refined(kernel, sequence, cycle.take(here), between(*ends), ends)
+            inside = np.flatnonzero(converged & lies_between(new, *ends, blur))
             spent[pick[here]] += used
             orbit.put(pick[here[inside]], new.take(inside))
             rest[here[inside]] = False
