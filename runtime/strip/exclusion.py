@@ -39,9 +39,12 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool) -> tuple[np.ndarray, n
 
 
 def empty(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
-    """Which onset arcs are proven to hold no orbit because every onset is followed by a later one, or by none."""
+    """Which onset arcs are proven to hold no orbit because every onset is followed by a later one, or by none.
+
+    Where the latest onset keeps the strip engaged through the period, every onset does.
+    """
     latest, spent = march(kernel, cycle, cycle.centre + cycle.half_d)
-    proven = np.zeros(cycle.size, bool)
+    proven = latest.engaged.copy()
     missed = ~latest.engaged & (latest.r > 64 * _EPS * (1 + np.abs(cycle.strips.D) + cycle.strips.delta_0))
     contact = ~np.isnan(latest.b)
     for kind in (contact, ~contact):
