@@ -13,7 +13,7 @@ import numpy as np
 from .problem import Cycle
 
 TWO_PI = 2 * np.pi
-_ITERATIONS = 9
+_ITERATIONS = 24
 #: iterations before strips that are done are set aside
 _TOGETHER = 4
 _TIGHTENING = 5

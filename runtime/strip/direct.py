@@ -24,7 +24,9 @@ def certified(kernel, cycle: Cycle, sequence: str) -> tuple[Orbit, np.ndarray, n
     good = chain.converged & (chain.slope < 1 - STABLE)
     coarse = np.flatnonzero(good & (chain.correction > CONVERGED))
     if coarse.size:
-        new, converged, _, more = refined(kernel, sequence, cycle.take(coarse), orbit.take(coarse), blurred=False)
+        # next to a fold or a graze the search knows better; a strip without adhesion has neither
+        blurred = sequence in ("ac", "cf")
+        new, converged, _, more = refined(kernel, sequence, cycle.take(coarse), orbit.take(coarse), blurred=blurred)
         spent[coarse] += more
         orbit.put(coarse, new)
         good[coarse] = converged

@@ -26,8 +26,10 @@ _BEYOND = 1.3
 _TRIES = 9
 #: a bound is good enough when this many tries have been beyond the zero, the later ones closer to it
 _LOOSE, _CLOSER = 2, 3
-#: probes tried, each this share of the way from what is proven to the end of the arc, or closer after a failure
-_PROBES, _SHARE = 4, 0.5
+#: probes tried; the first half way to the end of the arc, the next ones after longer steps from what is proven, or shorter ones after a failure
+_PROBES, _FIRST, _BOLDER, _WARIER = 24, 0.5, 3.0, 0.2
+#: where there is no orbit, the ends of the arc tell at once or not at all
+_PROBES_OF_NONE = 4
 
 
 def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool) -> tuple[np.ndarray, np.ndarray]:
@@ -35,7 +37,7 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool) -> tuple[np.ndarray, n
     s = cycle.strips
     w_end = kernel.profile(orbit.x, s.D) + s.delta_0
     known = Orbit(orbit.x, orbit.b, orbit.a, orbit.c, np.zeros(cycle.size, bool), np.zeros(cycle.size), w_end)
-    return _cleared(kernel, cycle, known, -1.0 if last else 1.0)
+    return _cleared(kernel, cycle, known, -1.0 if last else 1.0, _PROBES)
 
 
 def empty(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
@@ -50,12 +52,12 @@ def empty(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
     for kind in (contact, ~contact):
         ask = np.flatnonzero(missed & kind)
         if ask.size:
-            proven[ask], used = _cleared(kernel, cycle.take(ask), latest.take(ask), 1.0)
+            proven[ask], used = _cleared(kernel, cycle.take(ask), latest.take(ask), 1.0, _PROBES_OF_NONE)
             spent[ask] += used
     return proven, spent
 
 
-def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float) -> tuple[np.ndarray, np.ndarray]:
+def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, probes: int) -> tuple[np.ndarray, np.ndarray]:
     """Where no zero of r lies between the end of the onset arc (``sign`` > 0: its start) and the onsets of ``known``."""
     n = cycle.size
     proven, spent = np.zeros(n, bool), np.zeros(n)
@@ -68,21 +70,21 @@ def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float) -> tuple[np.ndarra
             closer, used = _released(kernel, cycle.take(stuck), known.take(stuck), outer.x[stuck], sign)
             outer.put(stuck, closer)
             spent[stuck] += used
-        frontier, share = known.take(active), np.full(n, _SHARE)
-        for _ in range(_PROBES):
-            x = frontier.x + share * (outer.x - frontier.x)
+        frontier, step = known.take(active), _FIRST * (outer.x - known.x)
+        for _ in range(probes):
+            x = frontier.x + np.where(np.abs(step) < 0.9 * np.abs(outer.x - frontier.x), step, _FIRST * (outer.x - frontier.x))
             probe, used = enclose(kernel, part, x, here, sign)
             spent[active] += used
             near = _empty(kernel, part, probe, frontier, here, sign)
             done = near & _empty(kernel, part, outer, probe, here, sign)
             proven[active[done]] = True
-            share = np.where(near, _SHARE, 0.4 * share)
+            step = (x - frontier.x) * np.where(near, _BOLDER, _WARIER)
             going = np.flatnonzero(~done)
             if not going.size:
                 break
             near = np.flatnonzero(near)
             frontier.put(near, probe.take(near))
-            active, part, here, share = active[going], part.take(going), here.take(going), share[going]
+            active, part, here, step = active[going], part.take(going), here.take(going), step[going]
             frontier, outer = frontier.take(going), outer.take(going)
     return proven, spent
 
@@ -101,7 +103,14 @@ def _released(kernel, cycle: Cycle, known: Orbit, x, sign) -> tuple[Orbit, np.nd
     start, far = known.x + TWO_PI, np.maximum(x + TWO_PI, latest)
     next_onset, found = _bound(kernel.gap_event, entry, s.delta_0, 1.0, np.maximum(start, far), far, -sign, noise, spent)
     closer, used = enclose(kernel, cycle, np.where(found, next_onset - TWO_PI, x), known, sign)
-    return closer, spent + used
+    spent += used
+    # bounds may miss an adhesion that ends just before its arc does: then the edges themselves
+    missed = np.flatnonzero(closer.engaged)
+    if missed.size:
+        exact, used = march(kernel, cycle.take(missed), closer.x[missed])
+        closer.put(missed, exact)
+        spent[missed] += used
+    return closer, spent
 
 
 def _empty(kernel, cycle: Cycle, outer: Orbit, inner: Orbit, known: Orbit, sign) -> np.ndarray:

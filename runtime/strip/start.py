@@ -15,6 +15,8 @@ _ONSET = {"adhesive": (-0.99, -0.9, -0.4, -0.05, -0.1, -0.15), "bare": (-0.99, -
 #: share of its arc that the end of contact lies behind the start of it, long after the forcing turned
 _CONTACT_END, _SLOW = 0.45, 60.0
 _RELEASE = 0.1
+#: contact all but complete, in parts of the pressure's amplitude, and the width of its gap over the half width where the saturated field pulls
+_NEARLY, _GAP = 0.3, 3.0
 _LEAST = 1e-9
 
 
@@ -33,7 +35,21 @@ def start(kernel, cycle: Cycle, sequence: str) -> np.ndarray:
     if "a" in EDGES[sequence]:
         share = _CONTACT_END * s.beta / (s.beta + _SLOW) + 1e-3
         edges["a"] = last = np.maximum(centre + cycle.half_b + share * (TWO_PI - 2 * cycle.half_b), last)
+    if sequence in ("ac", "cf"):
+        _nearly_complete(kernel, cycle, edges)
     if "c" in EDGES[sequence]:
         low = np.maximum(last, centre + cycle.half_c)
         edges["c"] = low + _RELEASE * np.maximum(turned - cycle.half_c - low, 0.0)
     return np.array([edges[edge] for edge in EDGES[sequence]])
+
+
+def _nearly_complete(kernel, cycle: Cycle, edges: dict[str, np.ndarray]) -> None:
+    """Where the saturated field hardly pulls, contact ends as it begins to and is closed again soon after."""
+    s = cycle.strips
+    ratio = kernel.modulus_ratio(s.alpha, s.beta)
+    pull = 1 - (s.D - 1) / ratio
+    near = pull < _NEARLY
+    half = 2 * np.arcsin(np.sqrt(np.clip(pull / 2, 0.0, 1.0)))
+    a = np.pi - np.arctan(s.beta) + np.arctan(s.alpha) - half
+    edges["a"] = np.where(near, a, edges["a"])
+    edges["x"] = np.where(near, a - TWO_PI + _GAP * half, edges["x"])
