@@ -31,8 +31,7 @@ def crossing(
     result = np.where(high > low, x, high)
     active = np.flatnonzero(high > low)
     before = high - low  # last step taken, or the bracket
-    older = (x, np.zeros(low.shape), np.zeros(low.shape))  # point, value, slope of the evaluation before (slope 0: none)
-    older = tuple(v.copy() for v in older)
+    correction = np.zeros(low.shape)  # Newton's step before, 0 if that was none
     spent = np.zeros(low.shape)
     for _ in range(_MAX_ITERATIONS):
         if active.size == 0:
@@ -43,52 +42,20 @@ def crossing(
         positive = value > 0
         lo = np.where(positive, xa, lo)
         hi = np.where(positive, hi, xa)
-        earlier = tuple(v[active] for v in older)
-        step = _step(xa, value, slope, *earlier)
+        # a slope of the wrong sign, or one too small to divide by, sends the step outside the bracket: bisection then
+        usable = (slope < 0) & (np.abs(slope) > 1e-290 * np.abs(value))
+        step = np.divide(-value, slope, out=np.full_like(value, np.inf), where=usable)
         new = xa + step
-        size, last = np.abs(step), before[active]
-        # a slope of the wrong sign, or none, sends the step outside the bracket: bisection then
-        bisected = ~((new >= lo) & (new <= hi)) | (size > 0.5 * last)
+        size, then = np.abs(step), correction[active]
+        bisected = ~((new >= lo) & (new <= hi)) | (size > 0.5 * before[active])
         new = np.where(bisected, 0.5 * (lo + hi), new)
-        size = np.where(bisected, hi - lo, size)
         tolerance = 2 * _EPS * np.maximum(np.abs(lo), np.abs(hi))
-        # Newton's corrections at two points that shrink this fast do so quadratically: the next one need not be taken
-        now, then = _correction(value, slope), _correction(earlier[1], earlier[2])
-        ratio = np.divide(now, then, out=np.ones_like(now), where=then > now)
-        done = (value == 0) | (hi - lo <= tolerance) | (~bisected & (np.maximum(now, size) * ratio * ratio <= tolerance))
+        # two steps in a row that shrink this fast do so quadratically: the next one need not be taken
+        ratio = np.divide(size, then, out=np.ones_like(size), where=then > size)
+        done = (value == 0) | (hi - lo <= tolerance) | (~bisected & (size * ratio * ratio <= tolerance))
         new = np.where(value == 0, xa, new)
-        result[active] = new
-        for array, now in zip((x, low, high, before, *older), (new, lo, hi, size, xa, value, slope), strict=True):
-            array[active] = now
+        result[active], x[active], low[active], high[active] = new, new, lo, hi
+        before[active] = np.where(bisected, hi - lo, size)
+        correction[active] = np.where(bisected, 0.0, size)
         active = active[~done]
     return result, spent
-
-
-def _correction(value, slope):
-    """Size of Newton's correction; 0 where there is no slope to take it from."""
-    usable = (slope < 0) & (np.abs(slope) > 1e-290 * np.abs(value))
-    return np.divide(np.abs(value), -slope, out=np.zeros_like(value), where=usable)
-
-
-def _step(x, value, slope, x_old, value_old, slope_old):
-    """Step to the zero of the inverse cubic through the last two evaluations and their slopes; Newton's where there is but one."""
-    # a step that overflows or is undefined falls outside the bracket, and bisection takes its place
-    with np.errstate(over="ignore", invalid="ignore"):
-        return _inverse_cubic(x, value, slope, x_old, value_old, slope_old)
-
-
-def _inverse_cubic(x, value, slope, x_old, value_old, slope_old):
-    newton = np.divide(-value, slope, out=np.full_like(value, np.inf), where=slope < 0)
-    span = value_old - value
-    usable = (slope < 0) & (slope_old < 0) & (np.abs(span) > 1e-3 * np.abs(value)) & np.isfinite(newton)
-    if not usable.any():
-        return newton
-    safe = np.where(usable, span, 1.0)
-    s, s_old = np.where(usable, slope, -1.0), np.where(usable, slope_old, -1.0)
-    # inverse Hermite interpolation, by divided differences in the values, at value 0
-    first = (x_old - x) / safe
-    second = (first - 1 / s) / safe
-    third = ((1 / s_old - first) / safe - second) / safe
-    v = np.where(usable, value, 0.0)
-    cubic = -v / s + v * v * (second - third * np.where(usable, value_old, 0.0))
-    return np.where(usable, cubic, newton)
