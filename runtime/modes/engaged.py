@@ -14,6 +14,8 @@ from .propagation import Order, propagation, solve_order
 
 _STEPS = 80
 _EPS = np.finfo(float).eps
+#: slow modes leave their displacements less certain than the edges; the state serves as a bound and as a start for ``polish``
+_COARSEST = 1e-7
 
 
 def engaged_orbit(kernel, strips: ModeStrips, start) -> tuple[np.ndarray, Period, np.ndarray, np.ndarray]:
@@ -43,7 +45,7 @@ def engaged_orbit(kernel, strips: ModeStrips, start) -> tuple[np.ndarray, Period
         active = active[~done & usable]
         if not active.size:
             break
-    converged = last <= 1e-10 * s.size_of_lengths
+    converged = last <= _COARSEST * s.size_of_lengths
     period = march(kernel, s, yes, z, start)
     period.evaluations += spent
     return z, period, propagation(s, order, period, None), converged & ~period.lost

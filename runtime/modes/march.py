@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .crossing import LOST, LOWER, NONE, Field, first_crossing
-from .problem import ModeStrips, take_modes
+from .problem import ModeStrips
 
 TWO_PI = 2 * np.pi
 CONTACT, ADHESION, FREE = 0, 1, 2
@@ -100,17 +100,12 @@ def march(kernel, s: ModeStrips, engaged, z, start) -> Period:
         zone, pressure = _one_zone(kernel, here, index, letter, where, limit, zone_z, pressure, out)
         out.zones.append(zone)
         going = (zone.following >= 0) & ~out.lost[index]
-        _note(out, zone, zone_z_end(z, out, zone))
+        _note(out, zone, z[:, zone.index] + out.dz[:, zone.index])
         rest = np.flatnonzero(going)
         index, letter, where, limit = index[rest], zone.following[rest], zone.end[rest], limit[rest]
         here, pressure = here.take(rest), pressure[rest]
     out.lost[index] = True
     return out
-
-
-def zone_z_end(z, out: Period, zone: Zone):
-    """State at the end of a zone."""
-    return z[:, zone.index] + out.dz[:, zone.index]
 
 
 def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, out: Period):
@@ -180,7 +175,3 @@ def _note(out: Period, zone: Zone, z_end):
     out.z_onset[:, i[onset]], out.z_release[:, i[release]] = z_end[:, onset], z_end[:, release]
     out.engaged[i[onset]], out.engaged[i[release]] = True, False
 
-
-def joined_modes(m, index):
-    """See ``take_modes``."""
-    return take_modes(m, index)
