@@ -1,0 +1,135 @@
+"""Emission for n modes: verified kernels and regimes in, values for the template out. Nothing is derived here."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy as sp
+
+from ..emit import docstring, flat, function_text, helpers_used
+from ..functions import Formula
+from ..printing import source
+from ..regime import ADHESION, CONTACT, NOTHING
+from .derive import ModesDerivation
+from .kernel import ModeKernel
+from .law import series_of
+from .regimes import ModeRegime, ModeZone
+from .symbols import J_0
+from .symbols import MATERIAL as FIELDS
+from .tensor import SUMS
+
+ORDINALS = ("first", "second", "third", "fourth")
+OF_THE_STRIP = {symbol: sp.Symbol(f"m.{symbol.name}", real=True) for symbol in FIELDS}
+# Used by the template itself, beside what the formulas call.
+FROM_MODES = ("Modes", "Passage", "edge_slopes", "for_batch", "monodromy", "periodic", "scaled", "spectrum")
+FROM_STABLE = ("quotient", "stack_sum")
+
+
+def template_values(derivation: ModesDerivation) -> dict[str, Any]:
+    """What the template of a model with n modes is rendered with."""
+    model, series = derivation.model, series_of(derivation.model)
+    arrays = [source(symbol) for symbol in series.arrays]
+    formulas = [kernel.formula for kernel in derivation.kernels]
+    sums = {type(f).__name__ for f in _functions(formulas) if isinstance(f, SUMS)}
+    validators = {"per_mode"} if arrays else set()
+    names = [source(parameter.symbol) for parameter in model.parameters]
+    validators |= {"positive"} | ({"nonnegative"} if set(names) - {*arrays, source(series.K)} else set())
+    complete = derivation.complete
+    return {
+        "title": model.title,
+        "model": model.name,
+        "n": model.modes,
+        "closures": derivation.closures.value,
+        "material": model.parameters,
+        "arrays": arrays,
+        "stiffness": source(series.K),
+        "viscosity": source(series.viscosity) if arrays else f"first_mode({source(series.viscosity)})",
+        "time": source(series.time) if arrays else f"first_mode({source(series.time)})",
+        "series": next(step for step in derivation.steps if step.name == "Prony series"),
+        "sums": sorted({*sums, *FROM_MODES, *validators, *(() if arrays else ("first_mode",))}, key=lambda n: (n.islower(), n)),
+        "helpers": sorted({*helpers_used(formulas), *FROM_STABLE}),
+        "sections": [
+            {"title": title, "functions": [_function(kernel) for kernel in kernels]} for title, kernels in derivation.sections
+        ],
+        "level": {
+            "penetration": complete.penetration.function,
+            "pressure": complete.pressure.function,
+            "friction": complete.friction.function,
+            "stack": complete.stack.function,
+        },
+        "means": derivation.means,
+        "regimes": [_regime(regime) for regime in derivation.regimes],
+    }
+
+
+def _function(kernel: ModeKernel) -> Any:
+    formula = kernel.formula
+    inside = {symbol: named for symbol, named in OF_THE_STRIP.items() if symbol not in formula.args}
+    steps = tuple((label, _renamed(term, inside)) for label, term in _needed(formula))
+    return function_text(Formula(formula.name, formula.args, _renamed(formula.result, inside), steps), kernel.derived)
+
+
+def _needed(formula: Formula) -> list[tuple[sp.Symbol, sp.Expr]]:
+    """The steps of a formula that its result goes back to."""
+    wanted = set().union(*(sp.sympify(part).free_symbols for part in flat(formula.result)))
+    kept = []
+    for label, term in reversed(formula.steps):
+        if label in wanted:
+            wanted |= sp.sympify(term).free_symbols
+            kept.append((label, term))
+    return kept[::-1]
+
+
+def _renamed(value: Any, names: dict[sp.Symbol, sp.Symbol]) -> Any:
+    return tuple(_renamed(part, names) for part in value) if isinstance(value, tuple) else sp.sympify(value).xreplace(names)
+
+
+def _functions(formulas: list[Formula]) -> set[Any]:
+    terms = [term for formula in formulas for term in (*(step for _, step in formula.steps), *flat(formula.result))]
+    return {f for term in terms for f in sp.sympify(term).atoms(sp.Function)}
+
+
+def _regime(regime: ModeRegime) -> dict[str, Any]:
+    touches = any(zone.kind == CONTACT for zone in regime.zones)
+    # Where nothing is free the traction acts everywhere and does no work over a period: pressures count from -p_0.
+    raised = touches and all(zone.kind in (CONTACT, ADHESION) for zone in regime.zones)
+    first, rest = docstring(regime.derived.statement)
+    meanings = "; ".join(meaning for _, meaning in regime.equations) if regime.edges else ""
+    heading, more = docstring(f"Boundary equations: {meanings}. Each is counted from the edge before.")
+    return {
+        "sequence": regime.sequence,
+        "title": regime.title,
+        "edges": [str(edge) for edge in regime.edges],
+        "statement": [first, *rest],
+        "equations": [heading, *more],
+        "labels": [label for label, _ in regime.equations] if regime.edges else [],
+        "derived_by": regime.derived.function,
+        "zones": [_zone(zone, n, raised) for n, zone in enumerate(regime.zones)],
+        "onset_pressure": _of_strip(regime.onset_pressure),
+        "onset_gap": "" if regime.onset_gap == NOTHING else f" - {_of_strip(regime.onset_gap)}",
+        "touches": touches,
+        "raised": "D + p_0" if raised else "D",
+        "admissible": regime.admissible,
+    }
+
+
+def _zone(zone: ModeZone, number: int, raised: bool) -> dict[str, Any]:
+    missing = "" if zone.missing == 0 else f"{_of_strip(zone.missing)} + "
+    return {
+        "kind": zone.kind,
+        "flow": "contact" if zone.kind == CONTACT else "relaxation",
+        "name": ORDINALS[number],
+        "first": source(zone.first),
+        "last": source(zone.last),
+        "to": str(zone.last).replace("*", " ") if zone.last.has(sp.pi) else str(zone.last),
+        "pressure": _of_strip(zone.pressure),
+        "missing": missing,
+        "work": "0" if raised or zone.kind == CONTACT else _of_strip(zone.pressure),
+    }
+
+
+def _of_strip(expression: sp.Expr) -> str:
+    return source(sp.sympify(expression).xreplace({J_0: OF_THE_STRIP[J_0]}))
+
+
+
