@@ -23,6 +23,7 @@ from .certify import SCALE, Certificate
 from .dispatch import AnyDerivation, certificates_of, certified_names, derive_any, stages_of
 from .emit import INTERFACE, emit, input_hash
 from .model import Model
+from .model_file import require_names
 from .models import MODELS
 from .pages import audit_files
 
@@ -79,12 +80,16 @@ def regenerate(
 ) -> list[Path]:
     """Derive, emit and certify the solvers of ``models`` (those that ship) into ``out_dir``; returns the files written.
 
-    Nothing is written unless everything succeeded; each file is written aside and renamed. A bound in an existing
+    Nothing is written unless everything succeeded. A folder that does not exist yet is written aside and renamed as a whole, in
+    one that does each file is. Raises :class:`DerivationError` for an inadmissible model, :class:`CertificateError` for a
+    function that is not accurate enough, and :class:`FileExistsError` for a folder that holds something else. A bound in an existing
     ``certificates.json`` grows only for a function in ``accept``, which says why: ``{"module.function": "reason"}``.
     ``progress`` is called with (stages done, stages in all).
     """
     chosen = tuple(models) if models is not None else MODELS
+    require_names(chosen)
     target = Path(out_dir) if out_dir is not None else generated_folder()
+    require_folder(target)
     say = _Progress(progress, sum(len(stages_of(model)) + 1 for model in chosen) + 2)
     derivations = tuple(derive_any(model, say) for model in chosen)
     files = emit(derivations)
@@ -103,10 +108,18 @@ def regenerate(
     measured = {name: known[name] for name in certificates if name in known}
     files |= audit_texts(derivations, files, certificates, measured)
     files[MEASURED] = dumped(measured)
-    target.mkdir(parents=True, exist_ok=True)
-    written = write_files(target, files)
+    written = write_files(target, files) if target.exists() else write_folder(target, files)
     say("writing")
     return written
+
+
+def require_folder(target: Path) -> None:
+    """Raise an error unless solvers can be written there: a new or empty folder, or one that holds solvers."""
+    if target.is_dir():
+        if any(target.iterdir()) and not (target / CERTIFICATES).is_file():
+            raise FileExistsError(f"{target} holds files, but no solver: name a new folder")
+    elif target.exists():
+        raise FileExistsError(f"{target} is a file: name a folder")
 
 
 def check(
@@ -279,6 +292,17 @@ def _loaded(package: Path, name: str) -> ModuleType:
 def write_files(folder: Path, files: dict[str, str]) -> list[Path]:
     """Write each file aside and rename it into place."""
     return [_write(folder / name, text) for name, text in sorted(files.items())]
+
+
+def write_folder(folder: Path, files: dict[str, str]) -> list[Path]:
+    """Write a new folder aside and rename it into place."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}.") as aside:
+        whole = Path(aside) / folder.name
+        whole.mkdir()
+        write_files(whole, files)
+        os.replace(whole, folder)
+    return [folder / name for name in sorted(files)]
 
 
 def _write(path: Path, text: str) -> Path:
