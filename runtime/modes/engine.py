@@ -94,14 +94,13 @@ class _Batch:
         self._engaged(index[holds], ends[:, holds], "ac")
         rest = np.flatnonzero(~holds)
         if rest.size:
-            found = approach(self.kernel, s.take(rest), np.ones(rest.size, bool), z[:, rest], self.start[index[rest]], True, None)
+            found = approach(self.kernel, s.take(rest), z[:, rest], self.start[index[rest]], True, None)
             self._found(index[rest], found)
             self._free(index[rest[found.kind == FREE]])
 
     def _falling(self, index, z, floor, ends):
         s = self.strips.take(index)
-        top = s.m.share.sum(axis=1) * np.maximum(s.D, 0.0)
-        found = approach(self.kernel, s, np.zeros(index.size, bool), top, self.start[index], False, floor)
+        found = approach(self.kernel, s, z, self.start[index], False, floor)
         self._found(index, found)
         held = found.kind == ENGAGED
         closed = self.full[index] | self.clinging[index]

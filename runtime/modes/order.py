@@ -47,7 +47,7 @@ NARROW = 1e-6
 _STEPS = 400
 _EPS = np.finfo(float).eps
 #: least width of a window, in units of the strip's lengths: what rounding leaves of the sign of P(y) - y
-_LEAST = 1e-12
+_LEAST, _WIDEST = 1e-12, 1e-5
 
 ENGAGED, FREE, ORBIT, UNRESOLVED = 0, 1, 2, -1
 
@@ -64,15 +64,19 @@ class Approach:
     steps: np.ndarray
 
 
-def approach(kernel, s: ModeStrips, engaged: np.ndarray, z: np.ndarray, start, rising: bool, floor: np.ndarray | None) -> Approach:
-    """Iterate from states below (``rising``) or above every orbit to the first one, (n, N) at the phases ``start``.
+def approach(kernel, s: ModeStrips, lowest: np.ndarray, start, rising: bool, floor: np.ndarray | None) -> Approach:
+    """Iterate from below (``rising``) or above every orbit to the first one.
 
-    ``floor``: for falling iterates, a lower bound of the map's derivative less the identity below the start, (N, n, n).
+    ``lowest``: state z of the always engaged orbit, (n, N) at the phases ``start``. ``floor``: for falling iterates, a lower bound of the map's
+    derivative less the identity, (N, n, n): that of the always engaged orbit, which has the longest contact.
     """
     N = s.size
     out = Approach(np.full(N, UNRESOLVED), np.full((4, N), np.nan), np.full((4, N), np.nan), np.zeros(N), np.zeros(N, int))
-    state = _State(np.arange(N), s, Order.of(kernel, s), engaged.copy(), z.copy(), np.array(start, float), floor,
-                   np.full(N, 8.0), np.full(N, _LEAST), np.full(z.shape, np.inf))  # fmt: skip
+    order = Order.of(kernel, s)
+    low, high = order.to_e(lowest), np.broadcast_to(np.maximum(s.D, 0.0), lowest.shape)
+    z, other = (lowest.copy(), high) if rising else (order.to_z(high), low)
+    state = _State(np.arange(N), s, order, np.full(N, rising), z, np.array(start, float), floor, np.full(N, 8.0), np.full(N, _LEAST),
+                   np.maximum(high - low, 0.0), other, np.zeros(N, bool))  # fmt: skip
     for _ in range(_STEPS):
         if not state.index.size:
             break
@@ -83,7 +87,7 @@ def approach(kernel, s: ModeStrips, engaged: np.ndarray, z: np.ndarray, start, r
 @dataclass(slots=True)
 class _State:
     """Strips still on their way. ``reach``: factor by which a window may exceed the plain step; ``least``: its least width; ``room``: distance to
-    a state known to lie beyond the orbit, in e."""
+    a state known to lie beyond the orbit, in e; ``other``: the one known from the start; ``shut``: the room ends at a state that is mapped inwards."""
 
     index: np.ndarray
     s: ModeStrips
@@ -95,11 +99,14 @@ class _State:
     reach: np.ndarray
     least: np.ndarray
     room: np.ndarray
+    other: np.ndarray
+    shut: np.ndarray
 
     def take(self, i) -> _State:
         floor = None if self.floor is None else self.floor[i]
         return _State(self.index[i], self.s.take(i), self.order.take(i), self.engaged[i], self.z[:, i], self.start[i], floor,
-                      self.reach[i], self.least[i], self.room[:, i])  # fmt: skip
+                      self.reach[i], self.least[i], self.room[:, i], self.other[:, i],
+                      self.shut[i])  # fmt: skip
 
 
 def _advance(kernel, st: _State, rising: bool, out: Approach) -> _State:
@@ -114,8 +121,8 @@ def _advance(kernel, st: _State, rising: bool, out: Approach) -> _State:
     switched = (near.engaged != st.engaged) & ~ended
     i = np.flatnonzero(switched)
     st.z[:, i] += near.dz[:, i]
-    st.engaged[i] = near.engaged[i]
-    st.room[:, i] = np.inf
+    st.engaged[i], st.shut[i] = near.engaged[i], False
+    st.room[:, i] = np.maximum(sign * (st.other[:, i] - st.order.take(i).to_e(st.z[:, i])), 0.0)
     i = np.flatnonzero(~ended & ~switched)
     if i.size:
         ended[i] |= _step(kernel, st, i, _of(near, i), sign, out)
@@ -130,9 +137,9 @@ def _step(kernel, st: _State, i, near: Period, sign: float, out: Approach):
     r = np.maximum(sign * order.to_e(near.dz), 0.0)
     plain = propagation(s, order, near, None) if sub.floor is None else sub.floor
     sure = _valid(solve_order(plain, r))
-    newton = solve_order(propagation(s, order, near, exact_gains(s, near)), r)
-    window = np.minimum(_window(sure, newton, sub.reach), sub.room)
-    window = np.maximum(window, sub.least * scale)
+    exact = propagation(s, order, near, exact_gains(s, near))
+    window = np.minimum(_window(sure, solve_order(exact, r), sub.reach), sub.room)
+    window = np.maximum(window, np.minimum(sub.least * scale * _inward(exact), sub.room))
     far = march(kernel, s, sub.engaged, sub.z + sign * order.to_z(window), sub.start)
     out.evaluations[sub.index] += far.evaluations
     lower, upper = (near, far) if sign > 0 else (far, near)
@@ -144,22 +151,24 @@ def _step(kernel, st: _State, i, near: Period, sign: float, out: Approach):
     wanted = np.max(np.divide(inner, window, out=np.zeros_like(inner), where=window > 0), axis=0)
     inner = inner / np.maximum(wanted, 1.0)
     mapped = r + window + np.einsum("Nij,jN->iN", bound, window)
-    clear = np.all(mapped >= window, axis=0) & ~far.lost
+    clear = np.all(mapped > window, axis=0) & ~far.lost
     step = np.maximum(np.where(far.lost, 0.0, inner), sure)
     step = np.where(clear, np.maximum(step, window), step)
     beyond = sign * order.to_e(far.dz)
     turned = (far.engaged == sub.engaged) & np.all(beyond <= 0, axis=0) & ~far.lost & ~clear
     back = _valid(solve_order(bound, np.maximum(-beyond, 0.0)))
-    room = np.where(turned, np.maximum(window - back, step), np.where(np.isfinite(sub.room), sub.room, np.inf))
+    room = np.where(turned, np.maximum(window - back, step), sub.room)
     ends = _edges(lower), _edges(upper)
-    done = turned & alike & (lower.contacts == upper.contacts) & (lower.contacts <= 1) & _close(*ends)
+    inside = turned | (sub.shut & np.all(window >= sub.room, axis=0))
+    done = inside & alike & (lower.contacts == upper.contacts) & (lower.contacts <= 1) & _close(*ends)
     at = sub.index[done]
     out.kind[at] = ORBIT
     out.lower[:, at], out.upper[:, at] = ends[0][:, done], ends[1][:, done]
     st.z[:, i] += sign * order.to_z(step)
     st.room[:, i] = np.maximum(room - step, 0.0)
+    st.shut[i] |= turned
     small = ~turned & np.all(window <= 2 * sub.least * scale, axis=0)
-    st.least[i] = np.where(small, 4 * sub.least, sub.least)
+    st.least[i] = np.where(small, np.minimum(4 * sub.least, _WIDEST), sub.least)
     st.reach[i] = np.where(clear | (wanted > 1), 2 * sub.reach, np.maximum(0.5 * sub.reach, 2.0))
     return done
 
@@ -171,6 +180,15 @@ def _window(sure, newton, reach):
     ratio = np.divide(widest, newton, out=np.full(sure.shape, np.inf), where=(newton > 0) & good)
     factor = np.minimum(1.25, ratio.min(axis=0))
     return np.where(good, np.maximum(factor * np.where(good, newton, 0.0), sure), widest)
+
+
+def _inward(change):
+    """A direction, of largest component one, in which the linearised map shortens every component alike compared with what is forgotten anyway."""
+    forgotten = -np.minimum(np.diagonal(change, axis1=1, axis2=2), 0.0).T
+    v = solve_order(change, np.maximum(forgotten, 1e-300))
+    good = np.all(np.isfinite(v) & (v > 0), axis=0)
+    v = np.where(good, v, 1.0)
+    return v / v.max(axis=0)
 
 
 def _valid(v):
