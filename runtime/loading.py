@@ -61,8 +61,7 @@ def load_solver(folder: str | os.PathLike[str]) -> Solver:
     if not init.is_file():
         raise InputError("solver", str(folder), "a folder that `hystrip regenerate my_model.py --out FOLDER` has written")
     again = "run `hystrip regenerate my_model.py --out FOLDER` again"
-    key = hashlib.sha256(b"".join(f.name.encode() + f.read_bytes() for f in sorted(path.glob("*.py")))).hexdigest()[:16]
-    name = f"_hystrip_solver_{key}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
+    name = f"_hystrip_solver_{solver_key(path)[:16]}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
     try:
         package = _imported(name, init)
         models = {model: importlib.import_module(f"{name}.{model}") for model in package.MODELS}
@@ -78,6 +77,14 @@ def load_solver(folder: str | os.PathLike[str]) -> Solver:
     if not usable:
         raise InputError("solver", str(folder), f"a solver of a model with relaxation times; it has {', '.join(models) or 'none'}")
     return Solver(path, usable)
+
+
+def solver_key(folder: str | os.PathLike[str] | None) -> str:
+    """Hash of the code in a solver's folder; empty without one."""
+    if folder is None:
+        return ""
+    files = sorted(Path(folder).glob("*.py"))
+    return hashlib.sha256(b"".join(file.name.encode() + file.read_bytes() for file in files)).hexdigest()
 
 
 def _imported(name: str, init: Path) -> ModuleType:

@@ -170,7 +170,8 @@ def _step(kernel, st: _State, i, near: Period, sign: float, out: Approach):
     small = ~turned & np.all(window <= 2 * sub.least * scale, axis=0)
     st.least[i] = np.where(small, np.minimum(4 * sub.least, _WIDEST), sub.least)
     st.reach[i] = np.where(clear | (wanted > 1), 2 * sub.reach, np.maximum(0.5 * sub.reach, 2.0))
-    return done
+    # rounding alone decides the signs here, whatever the width: not to be certified
+    return done | (small & (sub.least >= _WIDEST))
 
 
 def _window(sure, newton, reach):
