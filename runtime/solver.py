@@ -31,6 +31,8 @@ class Foundation(Protocol):
 
     kernel: ModuleType
     K: Any
+    longest_time: float  # longest retardation time, s
+    lossiest_rate: float  # rate at which Im K* is greatest, 1/s; inf where it only grows
 
     def flat(self, shape) -> Foundation:
         """The same for strips of this shape, flattened: array parameters are broadcast to it."""

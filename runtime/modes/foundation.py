@@ -30,6 +30,24 @@ class ManyTimes:
             K, modes = material.K, material.modes if isinstance(material, ModelMaterial) else _of_prony(kernel, material)[1]
         self.K, self.modes = K, modes
 
+    @property
+    def longest_time(self):
+        return float(self.modes.beta.max())
+
+    @property
+    def lossiest_rate(self):
+        """By a grid in the logarithm of the rate, refined about its largest value."""
+        times = self.modes.alpha[self.modes.alpha > 0]
+        if not times.size or (self.modes.alpha == 0).any():
+            return np.inf
+        low, high = np.log(0.1 / times.max()), np.log(10 / times.min())
+        for _ in range(6):
+            grid = np.linspace(low, high, 401)
+            top = grid[np.argmax(self.kernel.loss(self.kernel.at_speed(self.modes, np.exp(grid))))]
+            width = grid[1] - grid[0]
+            low, high = top - width, top + width
+        return float(np.exp(top))
+
     def flat(self, shape) -> ManyTimes:
         m = self.material
         if isinstance(m, ModelMaterial) or not any(np.ndim(v) for v in (m.K, *m.moduli, *m.times)):

@@ -18,6 +18,14 @@ class SingleTime:
     def __init__(self, kernel: ModuleType, material: StandardLinearSolid):
         self.kernel, self.material, self.K = kernel, material, material.K
 
+    @property
+    def longest_time(self):
+        return self.material.T_eps
+
+    @property
+    def lossiest_rate(self):
+        return 1 / self.material.T_sigma if self.material.T_sigma > 0 else np.inf
+
     def flat(self, shape) -> SingleTime:
         """The same with array parameters broadcast to ``shape`` and flattened, like everything else."""
         m = self.material

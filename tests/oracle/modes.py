@@ -45,7 +45,7 @@ class ModesSolution:
 
 
 class Foundation:
-    """Relative moduli and times, and the retarded modes of the gap: ``lambdas`` (slow is large) with ``z = sum v_j``, ``v = S e``."""
+    """Relative moduli and times, and the modes of the gap: times ``lambdas``, ``z = sum weight_j v_j``, ``v = S e``, ``e = back v``."""
 
     def __init__(self, theta, m):
         self.theta, self.m = [mp.mpf(t) for t in theta], [mp.mpf(v) for v in m]
@@ -62,14 +62,14 @@ class Foundation:
         rates, Q = mp.eigsy(symmetric)
         scale = [mp.sqrt(m * t) for m, t in zip(self.m, self.theta)]
         self.lambdas = [1 / rate for rate in rates]
-        weight = [self.J * mp.fsum(self.m[i] / scale[i] * Q[i, j] for i in range(n)) for j in range(n)]
+        self.weight = [self.J * mp.fsum(self.m[i] / scale[i] * Q[i, j] for i in range(n)) for j in range(n)]
         self.S = mp.matrix(n, n)
         self.back = mp.matrix(n, n)
         for j in range(n):
             for i in range(n):
-                self.S[j, i] = weight[j] * Q[i, j] * scale[i]
-                self.back[i, j] = Q[i, j] / scale[i] / weight[j]
-        # under a constant pressure p each v_j tends to J_j p
+                self.S[j, i] = Q[i, j] * scale[i]
+                self.back[i, j] = Q[i, j] / scale[i]
+        # under a constant pressure p each v_j tends to j_j p
         self.j = [mp.fsum(self.S[k, i] / self.theta[i] for i in range(n)) * self.J * self.lambdas[k] for k in range(n)]
 
 
@@ -193,8 +193,8 @@ def advance(strip, letter, start, e, end):
     v = f.S * e
     off = [v[j] - f.j[j] * p for j in range(f.n)]
     if end is None:
-        # gap = w - u, w = p + sum off exp (J + sum j = 1)
-        terms = [(c, t) for c, t in zip(off, f.lambdas)]
+        # gap = w - u, w = p + sum weight off exp (J + sum weight j = 1)
+        terms = [(weight * c, t) for weight, c, t in zip(f.weight, off, f.lambdas)]
         level = lambda L, sign: Event(  # noqa: E731
             start, sign * (p - strip.mean - L), -sign, mp.zero, [(sign * c, t) for c, t in terms]
         )
