@@ -23,7 +23,7 @@ def marched(kernel, sequence: str, s: ModeStrips, edges: np.ndarray, allowed: np
     """Whether a turn from the first edge meets just the other edges, in order, within ``allowed``; edges (k, N) in the order met."""
     z = getattr(kernel, f"state_{sequence}")(*edges, *arguments(s))
     first = edges[0]
-    period = march(kernel, s.engaged() if sequence == "ac" and not np.any(s.p_0) else s, np.ones(s.size, bool), z, first)
+    period = march(kernel, s, np.ones(s.size, bool), z, first)
     close = lambda found, edge: np.abs(found - edge) <= allowed  # noqa: E731
     back = ~(period.onset < first + TWO_PI - allowed)
     if sequence == "ac":

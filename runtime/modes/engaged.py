@@ -21,9 +21,9 @@ _COARSEST = 1e-7
 def engaged_orbit(kernel, strips: ModeStrips, start) -> tuple[np.ndarray, Period, np.ndarray, np.ndarray]:
     """State at the phases ``start``, the period from there, the derivative of its map less the identity, and which did converge.
 
-    All in the order of the batch; ``evaluations`` of the period count all the work.
+    ``evaluations`` of the period count all the work.
     """
-    s = strips.engaged()
+    s = strips.raised()
     N = s.size
     z = np.broadcast_to(s.m.J, (s.modes, N)) * (s.D - 1)
     yes = np.ones(N, bool)
@@ -48,4 +48,4 @@ def engaged_orbit(kernel, strips: ModeStrips, start) -> tuple[np.ndarray, Period
     converged = last <= _COARSEST * s.size_of_lengths
     period = march(kernel, s, yes, z, start)
     period.evaluations += spent
-    return z, period, propagation(s, order, period, None), converged & ~period.lost
+    return z - s.m.J * strips.p_0, period, propagation(s, order, period, None), converged & ~period.lost

@@ -155,6 +155,8 @@ class _Batch:
         if not index.size:
             return
         s = self.strips.take(index)
+        if equations == "ac":
+            s = s.raised()
         good = np.all(np.isfinite(edges), axis=0)
         refined = polish(self.kernel, equations, s, np.where(good, edges, 0.0), *_around(lower, upper, slack))
         limit = _CONVERGED + _ROUNDINGS * np.minimum(refined.attainable, _COARSEST)
@@ -176,6 +178,8 @@ class _Batch:
     def _write(self, index, equations, sequence, s, e):
         out = self.solved
         out.p_mean[index], out.tau_mean[index] = getattr(self.kernel, f"means_{equations}")(*e, *arguments(s))
+        if sequence == "ac":
+            out.p_mean[index] -= self.strips.p_0[index]
         named = dict(zip({"acaf": "dbac", "afc": "bac", "af": "dc"}.get(sequence, "ba"), e, strict=True))
         for name, values in named.items():
             getattr(out, name)[index] = values

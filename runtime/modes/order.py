@@ -76,7 +76,7 @@ def approach(kernel, s: ModeStrips, lowest: np.ndarray, start, rising: bool, flo
     low, high = order.to_e(lowest), np.broadcast_to(np.maximum(s.D, 0.0), lowest.shape)
     z, other = (lowest.copy(), high) if rising else (order.to_z(high), low)
     state = _State(np.arange(N), s, order, np.full(N, rising), z, np.array(start, float), floor, np.full(N, 8.0), np.full(N, _LEAST),
-                   np.maximum(high - low, 0.0), other, np.zeros(N, bool))  # fmt: skip
+                   np.maximum(high - low, 0.0), other)  # fmt: skip
     for _ in range(_STEPS):
         if not state.index.size:
             break
@@ -87,7 +87,7 @@ def approach(kernel, s: ModeStrips, lowest: np.ndarray, start, rising: bool, flo
 @dataclass(slots=True)
 class _State:
     """Strips still on their way. ``reach``: factor by which a window may exceed the plain step; ``least``: its least width; ``room``: distance to
-    a state known to lie beyond the orbit, in e; ``other``: the one known from the start; ``shut``: the room ends at a state that is mapped inwards."""
+    a state known to lie beyond the orbit, in e; ``other``: the one known from the start."""
 
     index: np.ndarray
     s: ModeStrips
@@ -100,13 +100,11 @@ class _State:
     least: np.ndarray
     room: np.ndarray
     other: np.ndarray
-    shut: np.ndarray
 
     def take(self, i) -> _State:
         floor = None if self.floor is None else self.floor[i]
         return _State(self.index[i], self.s.take(i), self.order.take(i), self.engaged[i], self.z[:, i], self.start[i], floor,
-                      self.reach[i], self.least[i], self.room[:, i], self.other[:, i],
-                      self.shut[i])  # fmt: skip
+                      self.reach[i], self.least[i], self.room[:, i], self.other[:, i])  # fmt: skip
 
 
 def _advance(kernel, st: _State, rising: bool, out: Approach) -> _State:
@@ -121,7 +119,7 @@ def _advance(kernel, st: _State, rising: bool, out: Approach) -> _State:
     switched = (near.engaged != st.engaged) & ~ended
     i = np.flatnonzero(switched)
     st.z[:, i] += near.dz[:, i]
-    st.engaged[i], st.shut[i] = near.engaged[i], False
+    st.engaged[i] = near.engaged[i]
     st.room[:, i] = np.maximum(sign * (st.other[:, i] - st.order.take(i).to_e(st.z[:, i])), 0.0)
     i = np.flatnonzero(~ended & ~switched)
     if i.size:
@@ -159,14 +157,13 @@ def _step(kernel, st: _State, i, near: Period, sign: float, out: Approach):
     back = _valid(solve_order(bound, np.maximum(-beyond, 0.0)))
     room = np.where(turned, np.maximum(window - back, step), sub.room)
     ends = _edges(lower), _edges(upper)
-    inside = turned | (sub.shut & np.all(window >= sub.room, axis=0))
+    inside = turned | np.all(window >= sub.room, axis=0)
     done = inside & alike & (lower.contacts == upper.contacts) & (lower.contacts <= 1) & _close(*ends)
     at = sub.index[done]
     out.kind[at] = ORBIT
     out.lower[:, at], out.upper[:, at] = ends[0][:, done], ends[1][:, done]
     st.z[:, i] += sign * order.to_z(step)
     st.room[:, i] = np.maximum(room - step, 0.0)
-    st.shut[i] |= turned
     small = ~turned & np.all(window <= 2 * sub.least * scale, axis=0)
     st.least[i] = np.where(small, np.minimum(4 * sub.least, _WIDEST), sub.least)
     st.reach[i] = np.where(clear | (wanted > 1), 2 * sub.reach, np.maximum(0.5 * sub.reach, 2.0))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,8 +12,7 @@ class ModeStrips:
     """Dimensionless groups of N strips: lengths in A, pressures in K A, times in 1/(k V).
 
     ``m``: the kernel's ``Modes`` at the strips' speeds, per-mode arrays (n, N) or, where all strips share one material, (n, 1) and
-    matrices (n, n, 1). ``p_0``, ``delta_0``, ``D``: shape (N,). ``bare``: contact and gap only, engaged throughout at the traction
-    ``p_0``; nothing is ever released.
+    matrices (n, n, 1). ``p_0``, ``delta_0``, ``D``: shape (N,). ``bare``: nothing is ever released.
     """
 
     m: tuple
@@ -49,9 +48,9 @@ class ModeStrips:
         """The strips at ``index``."""
         return ModeStrips(take_modes(self.m, index), self.p_0[index], self.delta_0[index], self.D[index], self.bare)
 
-    def engaged(self) -> ModeStrips:
-        """The same strips with release put out of action."""
-        return replace(self, bare=True)
+    def raised(self) -> ModeStrips:
+        """The strips that are never released, seen from ``-p_0``: adding ``p_0`` to w, p and every e leaves the foundation's law unchanged."""
+        return ModeStrips(self.m, np.zeros(self.size), np.zeros(self.size), self.D + self.p_0, bare=True)
 
 
 def take_modes(m, index):
