@@ -7,11 +7,11 @@ A model given by its Prony series, with any number of relaxation times, goes thr
 
 from .check import Check, DerivationError, Derived
 from .derive import Derivation, derive
-from .drift import CertificateError, Drift, check, generated_folder, regenerate, stored_bounds
 from .dispatch import derive_any
-from .model import Model, Parameter, Series
+from .drift import CertificateError, Drift, check, generated_folder, regenerate, stored_bounds
+from .model import Model, Parameter, Roots, Series
 from .model_file import load_model
-from .models import GENERALISED_2, GENERALISED_3, KELVIN_VOIGT, MODELS, STANDARD_LINEAR_SOLID, prony_model
+from .models import GENERALISED_2, GENERALISED_3, KELVIN_VOIGT, MODELS, STANDARD_LINEAR_SOLID, operator_model, prony_model
 from .pages.publish import AuditError, audit
 
 __all__ = [
@@ -29,6 +29,7 @@ __all__ = [
     "Drift",
     "Model",
     "Parameter",
+    "Roots",
     "Series",
     "audit",
     "check",
@@ -36,6 +37,7 @@ __all__ = [
     "derive_any",
     "generated_folder",
     "load_model",
+    "operator_model",
     "prony_model",
     "regenerate",
     "stored_bounds",

@@ -82,7 +82,8 @@ def regenerate(
 
     Nothing is written unless everything succeeded. A folder that does not exist yet is written aside and renamed as a whole, in
     one that does each file is. Raises :class:`DerivationError` for an inadmissible model, :class:`CertificateError` for a
-    function that is not accurate enough, and :class:`FileExistsError` for a folder that holds something else. A bound in an existing
+    function that is not accurate enough, and :class:`FileExistsError` for a folder that holds something else. A bound in an
+    existing
     ``certificates.json`` grows only for a function in ``accept``, which says why: ``{"module.function": "reason"}``.
     ``progress`` is called with (stages done, stages in all).
     """

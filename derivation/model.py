@@ -42,6 +42,13 @@ class Series:
 
 
 @dataclass(frozen=True)
+class Roots:
+    """The Prony series of a model given by its operators alone: taken from their roots, once its parameters are numbers."""
+
+    K: sp.Expr
+
+
+@dataclass(frozen=True)
 class Model:
     """``sum_n Q[n] d^n w/dt^n = sum_n P[n] d^n p/dt^n``.
 
@@ -56,7 +63,7 @@ class Model:
     Q: tuple[sp.Expr, ...]
     P: tuple[sp.Expr, ...]
     differences: tuple[tuple[sp.Symbol, sp.Expr], ...] = ()
-    series: Series | None = None
+    series: Series | Roots | None = None
 
     @property
     def modes(self) -> int:
@@ -195,6 +202,8 @@ def inadmissible(model: Model) -> list[str]:
     for label, operator in (("Q", Q), ("P", P)):
         if not all(_nonnegative(c) for c in operator):
             reasons.append(f"stable: {label} has a negative coefficient, so a motion that grows in time")
+    if isinstance(model.series, Roots) and any(c.free_symbols for c in (*Q, *P)):
+        return reasons  # the rest depends on the numbers: the emitted solver refuses those that are no passive solid
     if not reasons and len(Q) > 3:  # up to degree 2 positive coefficients suffice
         reasons += _unstable_roots(Q, "Q") + _unstable_roots(P, "P")
     numerator = sp.expand(sp.im(sp.expand_complex(_at(Q, sp.I * omega) * sp.conjugate(_at(P, sp.I * omega)))))
@@ -235,6 +244,7 @@ __all__ = [
     "Foundation",
     "Model",
     "Parameter",
+    "Roots",
     "Series",
     "foundation",
     "inadmissible",

@@ -41,7 +41,7 @@ def load_model(path: str | os.PathLike[str]) -> tuple[Model, ...]:
     declared = getattr(module, "MODELS", None) or getattr(module, "MODEL", None)
     if declared is None:
         raise DerivationError(STEP, f"{file} declares MODEL, or MODELS, such as MODEL = prony_model('my_rubber', modes=5)")
-    models = (declared,) if isinstance(declared, Model) else tuple(declared)
+    models = tuple(declared) if isinstance(declared, (tuple, list)) else (declared,)
     require_names(models)
     return models
 
@@ -53,8 +53,14 @@ def require_names(models: Iterable[object]) -> None:
         if not isinstance(model, Model):
             raise DerivationError(STEP, f"a model is a hystrip.derivation.Model, not {type(model).__name__}")
         name = model.name
-        if not (name.isidentifier() and name.isascii() and name == name.lower()) or keyword.iskeyword(name) or name.startswith("_"):
-            raise DerivationError(STEP, f"the name of a model is a lower-case Python name without leading underscore, not {name!r}")
+        if (
+            not (name.isidentifier() and name.isascii() and name == name.lower())
+            or keyword.iskeyword(name)
+            or name.startswith("_")
+        ):
+            raise DerivationError(
+                STEP, f"the name of a model is a lower-case Python name without leading underscore, not {name!r}"
+            )
         if name in TAKEN or name in seen:
             raise DerivationError(STEP, f"the name {name!r} is free: {', '.join((*TAKEN, *sorted(seen)))} are taken")
         seen.add(name)

@@ -86,5 +86,8 @@ class Orbits:
             edges = [edge - part for edge, part in zip(edges, step, strict=True)]
         p_mean, tau_mean = functions["means"](*edges, m, *self.parameters)
         far = [np.abs(edge - known) for edge, known in zip(edges, self.edges, strict=True)]
-        far += [np.abs(p_mean - self.p_mean) / (1 + np.abs(self.p_mean)), np.abs(tau_mean - self.tau_mean) / (1 + np.abs(self.tau_mean))]
+        far += [
+            np.abs(p_mean - self.p_mean) / (1 + np.abs(self.p_mean)),
+            np.abs(tau_mean - self.tau_mean) / (1 + np.abs(self.tau_mean)),
+        ]
         return float(np.max(far))

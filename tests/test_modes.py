@@ -34,7 +34,9 @@ def test_two_equal_times_are_one(sequence: str) -> None:
 def test_two_nearly_equal_times_lose_nothing(sequence: str, apart: float) -> None:
     orbits = Orbits(sequence)
     K_1, tau_1 = orbits.branch
-    _, found = generalised_2.material_modes(1.0, np.concatenate((0.3 * K_1, 0.7 * K_1)), np.concatenate((tau_1, tau_1 * (1 + apart))))
+    _, found = generalised_2.material_modes(
+        1.0, np.concatenate((0.3 * K_1, 0.7 * K_1)), np.concatenate((tau_1, tau_1 * (1 + apart)))
+    )
     assert orbits.held(generalised_2, found) < 1e-12 + 1e2 * apart
 
 
@@ -88,7 +90,11 @@ def _material(solver, draw) -> tuple[dict, mpmath.mpf, list]:
         return {"K": 1e9, "T_eps": T_eps}, mpmath.mpf(1e9), [(mpmath.mpf(T_eps), mpmath.mpf(0))]
     K_i, tau_i = 1e9 * 10 ** draw.uniform(-2, 3, n), 10 ** draw.uniform(-6, 2, n)
     K = mpmath.mpf(1e9)
-    return {"K": 1e9, "K_i": K_i, "tau_i": tau_i}, K, [(mpmath.mpf(a) * mpmath.mpf(t) / K, mpmath.mpf(t)) for a, t in zip(K_i, tau_i, strict=True)]
+    return (
+        {"K": 1e9, "K_i": K_i, "tau_i": tau_i},
+        K,
+        [(mpmath.mpf(a) * mpmath.mpf(t) / K, mpmath.mpf(t)) for a, t in zip(K_i, tau_i, strict=True)],
+    )
 
 
 @pytest.mark.parametrize("solver", SHIPPED, ids=lambda s: s.MODEL)
@@ -96,17 +102,17 @@ def test_friction_of_full_contact_is_that_of_the_loss_modulus(solver) -> None:
     draw = np.random.default_rng(7)
     for _ in range(40):
         material, K, branches = _material(solver, draw)
-        V, l, h = 10 ** draw.uniform(-9, 2), 10 ** draw.uniform(-8, -4, 3), 10 ** draw.uniform(-9, -5, 3)
+        V, lengths, heights = 10 ** draw.uniform(-9, 2), 10 ** draw.uniform(-8, -4, 3), 10 ** draw.uniform(-9, -5, 3)
         stiffness, found = solver.material_modes(**material)
         with mpmath.workdps(50):
             total = mpmath.mpf(0)
-            for length, height in zip(l, h, strict=True):
+            for length, height in zip(lengths, heights, strict=True):
                 k = 2 * mpmath.pi / mpmath.mpf(length)
                 omega = k * mpmath.mpf(V)
                 loss = K * sum(eta * omega / (1 + (tau * omega) ** 2) for eta, tau in branches)
                 # A wave surface is, along x, a wave of amplitude (h/4)(1 + cos ky): mean square 3/2 (h/4)^2.
                 total += k / 2 * mpmath.mpf(3) / 2 * (mpmath.mpf(height) / 4) ** 2 * loss
-            mu = solver.saturated_stack_friction(stiffness, found, l, h, V, 1e5)
+            mu = solver.saturated_stack_friction(stiffness, found, lengths, heights, V, 1e5)
             assert abs(float(mu / (total / mpmath.mpf(1e5)) - 1)) < 1e-13
 
 

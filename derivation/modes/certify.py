@@ -25,12 +25,12 @@ from .derive import ModesDerivation
 from .kernel import ModeKernel
 from .law import Law
 from .regimes import ModeRegime
-from .symbols import MATERIAL, MATRICES, STATES, J_0, f_0, m, numbered, z, z_0
+from .symbols import J_0, MATERIAL, MATRICES, STATES, f_0, m, numbered, z, z_0
 from .tensor import components
 
-POINTS = 60  # of a building block, and for many modes
-POINTS_OF_MANY = 24
-MANY = 4  # modes, from which an evaluation of the reference costs seconds
+POINTS = 30  # of a building block
+POINTS_OF_REGIME = 12
+MANY = 4  # modes, from which a point of the reference costs so much that half as many do
 DIGITS = 320
 ZERO = mpmath.mpf(10) ** -90  # stands for a vanishing speed, and for the relaxation time of a dashpot
 Point = dict[sp.Symbol, mpmath.mpf]
@@ -39,7 +39,7 @@ PHASES = ("s", "s_0", "s_1")
 
 def measure(kernel: ModeKernel, law: Law, solver: Any, points: int | None = None) -> Certificate:
     """Measure one function, as ``solver`` computes it, against the kernel's exact expression."""
-    points = points or (POINTS if law.modes < MANY else POINTS_OF_MANY)
+    points = points or (POINTS if law.modes < MANY else POINTS // 2)
     with mpmath.workdps(DIGITS):
         args = _arguments(kernel)
         reference = Reference(kernel.exact, law.modes)
@@ -95,8 +95,8 @@ class Reference:
         names = {(symbol, mode): numbered(symbol, mode) for symbol in (*MATERIAL, *STATES) for mode in range(n)}
         names |= {key: matrix_symbol(*key) for matrix in MATRICES for key in _keys(matrix, n)}
         values = components(exact, n, names)
-        self.owner = [k for k, value in enumerate(values) for _ in sp.Add.make_args(value)]
-        parts = [part for value in values for part in sp.Add.make_args(value)]
+        self.owner = [k for k, parts in enumerate(values) for _ in parts]
+        parts = [part for parts in values for part in parts]
         self.count = len(values)
         self.symbols = sorted(set().union(*(part.free_symbols for part in parts)), key=str)
         self.evaluate = sp.lambdify(self.symbols, parts, modules="mpmath", cse=True)
@@ -156,7 +156,9 @@ class Inputs:
         for argument in args:
             if argument in STATES:
                 for mode in range(self.n):
-                    self.exact[numbered(argument, mode)] = mpmath.mpf(self.draw.choice((0.0, self._signed(-6, 3), self._signed(-2, 1))))
+                    self.exact[numbered(argument, mode)] = mpmath.mpf(
+                        self.draw.choice((0.0, self._signed(-6, 3), self._signed(-2, 1)))
+                    )
             elif str(argument) not in PHASES and argument != m:
                 self.exact[argument] = mpmath.mpf(self._value(str(argument)))
         self._phases([argument for argument in args if str(argument) in PHASES])
@@ -183,7 +185,9 @@ class Inputs:
             step *= draw.choice((1.0, 1.0, 1.0, 1e-9)) if k else 1.0
             position += mpmath.mpf(step) or ZERO
             times.append(position)
-        speed = mpmath.mpf(draw.choice((self._log(-2, 2) if moving else ZERO, self._log(-8, 6), self._log(-2, 2), self._log(-2, 2))))
+        speed = mpmath.mpf(
+            draw.choice((self._log(-2, 2) if moving else ZERO, self._log(-8, 6), self._log(-2, 2), self._log(-2, 2)))
+        )
         symbols = [law.values[(symbol, mode)] for mode in range(self.n) for symbol in (alpha, beta)]
         at = dict(zip(symbols, (time * speed for time in times), strict=True))
         ordered = list(at)
@@ -193,7 +197,9 @@ class Inputs:
 
     def _phases(self, phases: list[sp.Symbol]) -> None:
         draw = self.draw
-        start = draw.choice((draw.uniform(-math.pi, math.pi), self._signed(-9, 0), draw.choice((-math.pi, math.pi / 2)) + self._signed(-9, -1)))
+        start = draw.choice(
+            (draw.uniform(-math.pi, math.pi), self._signed(-9, 0), draw.choice((-math.pi, math.pi / 2)) + self._signed(-9, -1))
+        )
         for k, symbol in enumerate(sorted(phases, key=lambda phase: str(phase))):
             width = draw.choice((self._log(-9, 0), draw.uniform(0.0, 1.5), draw.uniform(0.0, 6.0))) if k else 0.0
             start = float(start + width)
@@ -265,7 +271,7 @@ Scaled = tuple[list[mpmath.mpf], list[mpmath.mpf]]
 def measure_regimes(derivation: ModesDerivation, solver: Any, points: int | None = None) -> Iterator[Certificate]:
     """Measure the functions of every regime with edges against the same composition of the derived expressions."""
     law = derivation.law
-    points = points or (POINTS_OF_MANY if law.modes < MANY else POINTS_OF_MANY // 4)
+    points = points or (POINTS_OF_REGIME if law.modes < MANY else POINTS_OF_REGIME // 2)
     with mpmath.workdps(DIGITS):
         blocks = {k.formula.name: Reference(k.exact, law.modes) for k in derivation.kernels if k.formula.name in BLOCKS}
         for regime in derivation.regimes:

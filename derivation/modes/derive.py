@@ -73,5 +73,16 @@ def derive_modes(model: Model, progress: Progress | None = None) -> ModesDerivat
     done("regimes")
     means = strip_means(ground)
     done("means")
-    stages = (ground, adhesion_law(), strip_profile(), flows, jump, closure, tuple(kernels for _, kernels in sections), complete, regimes, means)
+    stages = (
+        ground,
+        adhesion_law(),
+        strip_profile(),
+        flows,
+        jump,
+        closure,
+        tuple(kernels for _, kernels in sections),
+        complete,
+        regimes,
+        means,
+    )
     return ModesDerivation(model, ground, closure, complete, means, regimes, tuple(sections), stages)

@@ -8,7 +8,8 @@ import sympy as sp
 
 from ..emit import docstring, flat, function_text, helpers_used
 from ..functions import Formula
-from ..printing import source
+from ..model import Model, Parameter, Roots, Series
+from ..printing import results, source
 from ..regime import ADHESION, CONTACT, NOTHING
 from .derive import ModesDerivation
 from .kernel import ModeKernel
@@ -21,19 +22,19 @@ from .tensor import SUMS
 ORDINALS = ("first", "second", "third", "fourth")
 OF_THE_STRIP = {symbol: sp.Symbol(f"m.{symbol.name}", real=True) for symbol in FIELDS}
 # Used by the template itself, beside what the formulas call.
-FROM_MODES = ("Modes", "Passage", "edge_slopes", "for_batch", "monodromy", "periodic", "scaled", "spectrum")
+FROM_MODES = ("Modes", "Passage", "edge_slopes", "for_batch", "monodromy", "periodic", "scaled")
 FROM_STABLE = ("quotient", "stack_sum")
 
 
 def template_values(derivation: ModesDerivation) -> dict[str, Any]:
     """What the template of a model with n modes is rendered with."""
     model, series = derivation.model, series_of(derivation.model)
-    arrays = [source(symbol) for symbol in series.arrays]
+    arrays = [] if isinstance(series, Roots) else [source(symbol) for symbol in series.arrays]
     formulas = [kernel.formula for kernel in derivation.kernels]
     sums = {type(f).__name__ for f in _functions(formulas) if isinstance(f, SUMS)}
-    validators = {"per_mode"} if arrays else set()
-    names = [source(parameter.symbol) for parameter in model.parameters]
-    validators |= {"positive"} | ({"nonnegative"} if set(names) - {*arrays, source(series.K)} else set())
+    checked = [_checked(parameter, arrays) for parameter in model.parameters]
+    material, builders = _modes_of_material(model, series)
+    validators = {text.partition("(")[0] for _, text in checked}
     complete = derivation.complete
     return {
         "title": model.title,
@@ -42,11 +43,10 @@ def template_values(derivation: ModesDerivation) -> dict[str, Any]:
         "closures": derivation.closures.value,
         "material": model.parameters,
         "arrays": arrays,
-        "stiffness": source(series.K),
-        "viscosity": source(series.viscosity) if arrays else f"first_mode({source(series.viscosity)})",
-        "time": source(series.time) if arrays else f"first_mode({source(series.time)})",
+        "checked": checked,
+        "modes_of_material": material,
         "series": next(step for step in derivation.steps if step.name == "Prony series"),
-        "sums": sorted({*sums, *FROM_MODES, *validators, *(() if arrays else ("first_mode",))}, key=lambda n: (n.islower(), n)),
+        "sums": sorted({*sums, *FROM_MODES, *validators, *builders}, key=lambda n: (n.islower(), n)),
         "helpers": sorted({*helpers_used(formulas), *FROM_STABLE}),
         "sections": [
             {"title": title, "functions": [_function(kernel) for kernel in kernels]} for title, kernels in derivation.sections
@@ -60,6 +60,31 @@ def template_values(derivation: ModesDerivation) -> dict[str, Any]:
         "means": derivation.means,
         "regimes": [_regime(regime) for regime in derivation.regimes],
     }
+
+
+def _checked(parameter: Parameter, arrays: list[str]) -> tuple[str, str]:
+    """A parameter's name and the call that checks it, by what its symbol assumes."""
+    name = parameter.name
+    if name in arrays:
+        return name, f'per_mode("{name}", {name}, MODES)'
+    bound = (
+        "positive"
+        if parameter.symbol.is_positive and name == "K"
+        else "nonnegative"
+        if parameter.symbol.is_nonnegative
+        else "finite"
+    )
+    return name, f'{bound}("{name}", {name})'
+
+
+def _modes_of_material(model: Model, series: Series | Roots) -> tuple[str, tuple[str, ...]]:
+    """The expression that turns the parameters into (K, modes), and the functions it calls."""
+    if isinstance(series, Roots):
+        return f"of_operators({results(model.Q)}, {results(model.P)})", ("of_operators",)
+    stated = [source(series.viscosity), source(series.time)]
+    if series.arrays:
+        return f"{source(series.K)}, spectrum({', '.join(stated)})", ("spectrum",)
+    return f"{source(series.K)}, spectrum({', '.join(f'first_mode({part})' for part in stated)})", ("first_mode", "spectrum")
 
 
 def _function(kernel: ModeKernel) -> Any:
@@ -130,6 +155,3 @@ def _zone(zone: ModeZone, number: int, raised: bool) -> dict[str, Any]:
 
 def _of_strip(expression: sp.Expr) -> str:
     return source(sp.sympify(expression).xreplace({J_0: OF_THE_STRIP[J_0]}))
-
-
-

@@ -13,7 +13,7 @@ from ..flows import _solved as solved
 from ..model import rate
 from ..symbols import D, alpha, beta, p, s, s_0
 from .law import POINTS, SYMBOLIC, Law
-from .symbols import J, J_0, eta, f_0, z_0
+from .symbols import J_0, J, eta, f_0, z_0
 from .tensor import component
 
 u = D - 1 + sp.cos(s)
@@ -80,7 +80,8 @@ def contact_flow(law: Law) -> Derived:
         contact_flow,
         flow,
         name=name,
-        statement="In contact w = u is given, and the overstress of every branch follows it by itself: a harmonic, and a transient "
+        statement="In contact w = u is given, and the overstress of every branch follows it by itself: a harmonic, and "
+        "a transient "
         "that dies out over alpha_i.",
         latex=r"f_i(s) = f_{sat,i}(s) + (f_{i,0} - f_{sat,i}(s_0))\,e^{-(s - s_0)/\alpha_i},\quad "
         r"f_{sat,i} = \eta_i\frac{\alpha_i \cos s - \sin s}{1 + \alpha_i^2},\quad p = u + \sum_i f_i",

@@ -8,7 +8,7 @@ from ..check import BEYOND, Check, DerivationError, Derived, derived, holds
 from ..model import rate
 from ..symbols import alpha, beta
 from .law import Law, vanishes
-from .symbols import J, J_0
+from .symbols import J_0, J
 
 
 def jump_law(law: Law) -> Derived:
@@ -31,9 +31,7 @@ def jump_law(law: Law) -> Derived:
     derivatives = [list(steps_z)]
     for k in range(n - 1):
         derivatives.append([(law.values[(J, j)] * steps_p[k] - derivatives[k][j]) / law.values[(beta, j)] for j in order])
-    in_states = {
-        steps_w[k]: law.values[J_0] * steps_p[k] + sp.Add(*derivatives[k]) for k in order
-    }
+    in_states = {steps_w[k]: law.values[J_0] * steps_p[k] + sp.Add(*derivatives[k]) for k in order}
     inserted = [condition.subs(in_states) for condition in conditions]
     ratio = _ratio(name, conditions, steps_w, steps_p, law)
     checks: list[Check] = [
@@ -50,9 +48,11 @@ def jump_law(law: Law) -> Derived:
         jump_law,
         ratio,
         name=name,
-        statement="The law integrated n times across an edge gives n conditions. They say that every retardation displacement z_j, and "
+        statement="The law integrated n times across an edge gives n conditions. They say that every retardation "
+        "displacement z_j, and "
         "with it every dashpot displacement, is continuous; where p steps, w steps by J_0 [p].",
-        latex=r"\sum_k Q_{k+m+1}[w^{(k)}] = \sum_k P_{k+m+1}[p^{(k)}]\ (m = 0 \dots n-1)\;\Leftrightarrow\; [z_j] = 0\ (j = 1 \dots n)",
+        latex=r"\sum_k Q_{k+m+1}[w^{(k)}] = \sum_k P_{k+m+1}[p^{(k)}]\ (m = 0 \dots n-1)\;\Leftrightarrow\; [z_j] = 0\ "
+        r"(j = 1 \dots n)",
         checks=checks,
         status=BEYOND,
     )
@@ -82,31 +82,30 @@ def interlaced(law: Law) -> list[sp.Symbol]:
 
 
 def closures(law: Law) -> Derived:
-    r"""Which closures determine the states: ``constitutive`` always, ``continuous`` where it is the same or n = 1."""
+    r"""Which closures determine the states: ``constitutive`` always, ``continuous`` where it says the same."""
     name = "closures"
-    open_conditions = law.modes - 1
+    n = law.modes
+    steps = sp.symbols(f"step_z:{n}", real=True)
+    step_w = sp.Add(*steps)  # at given p: w continuous asks that this vanishes
+    open_conditions = n - sp.Matrix([[sp.diff(step_w, step) for step in steps]]).rank()
     without_response = law.model.P[-1] == 0
-    allowed = (0, 1) if without_response else (1,)
-    checks = [
-        holds(
-            name,
-            "no instantaneous compliance: w is continuous where p steps, and both closures are one"
-            if without_response
-            else f"w continuous is one condition and leaves {open_conditions} of {law.modes} open",
-            law.modes == 1 or not without_response,
-        )
-    ]
+    if without_response:
+        allowed, claim, holding = (0, 1), "no instantaneous compliance: the law itself keeps w continuous where p steps", True
+        why = "Without instantaneous compliance there is no step, and both are one."
+    elif n > 1:
+        allowed, claim = (1,), f"w continuous is one condition and leaves {open_conditions} of {n} open"
+        holding = open_conditions == n - 1 > 0
+        why = "With several relaxation times, w continuous does not determine the states: only the law itself does."
+    else:
+        allowed, claim, holding = (1,), "w continuous is one condition on one state", open_conditions == 0
+        why = "With one relaxation time either determines the state; the solver of the standard linear solid has both."
     return derived(
         closures,
         allowed,
         name=name,
-        statement="The paper does not say what w does where p steps. Its vanishing friction at very high speed needs w continuous; "
-        "the law itself asks for a step. "
-        + (
-            "Without instantaneous compliance there is no step, and both are one."
-            if without_response
-            else "With several relaxation times, w continuous does not determine the states: only the law itself does."
-        ),
+        statement="The paper does not say what w does where p steps. Its vanishing friction at very high speed needs w "
+        "continuous; "
+        f"the law itself asks for a step. {why}",
         latex=r"[w] = J_0 [p],\quad [z_j] = 0",
-        checks=checks,
+        checks=[holds(name, claim, holding)],
     )

@@ -25,7 +25,9 @@ class ModeKernel:
     moving: bool = False  # has no value at rest, V = 0
 
 
-def kernel(by: Any, formula: Formula, exact: Any, statement: str, latex: str, *extra: Check, moving: bool = False, **options: Any) -> ModeKernel:
+def kernel(
+    by: Any, formula: Formula, exact: Any, statement: str, latex: str, *extra: Check, moving: bool = False, **options: Any
+) -> ModeKernel:
     """Prove ``formula`` equal to ``exact``, sum by sum, and record it under the function ``by`` that derived it."""
     options.setdefault("status", REPRODUCED if options.get("paper") else BEYOND)
     checks = [same(formula.name, formula.written_out(formula.args), exact), *extra]

@@ -15,9 +15,9 @@ from typing import Any
 import sympy as sp
 
 from ..check import BEYOND, CORRECTED, REPRODUCED, Check, DerivationError, Derived, derived, holds
-from ..model import Model, Series, rate
+from ..model import Model, Roots, Series, inadmissible, rate
 from ..symbols import alpha, beta
-from .symbols import J, J_0, S, enter, eta, leave, numbered, share
+from .symbols import J_0, J, S, enter, eta, leave, numbered, share
 from .tensor import Values
 
 SYMBOLIC = 3  # up to so many modes identities between modes are proven in symbols, beyond at exact rational points
@@ -50,7 +50,7 @@ class Law:
 
 def law(model: Model) -> Law:
     n = model.modes
-    series = prony_series(model)
+    admissible = admissibility(model)
     times = strip_times(n)
     weights = branch_weights(times)
     values = strip_values(times, weights.value)
@@ -58,8 +58,8 @@ def law(model: Model) -> Law:
         model,
         foundation_law(model),
         relaxed_stiffness(model),
-        series,
-        admissibility(model),
+        prony_series(model),
+        admissible,
         factored_operators(model, times),
         weights,
         coordinates(times, values),
@@ -116,7 +116,7 @@ def relaxed_stiffness(model: Model) -> Derived:
     r"""Eq. 1 at rest: :math:`p = K w`, :math:`K = Q_0/P_0`."""
     name = "relaxed stiffness"
     stiffness = sp.cancel(model.Q[0] / model.P[0])
-    load = sp.Symbol("p", positive=True)
+    load, any_stiffness = sp.symbols("p stiffness", positive=True)
     checks = [
         vanishes(
             name,
@@ -124,7 +124,7 @@ def relaxed_stiffness(model: Model) -> Derived:
             [model.Q[0] * load / stiffness - model.P[0] * load],
             model.modes,
         ),
-        holds(name, "a larger K deforms less: K is a stiffness", sp.diff(load / stiffness, stiffness).is_negative),
+        holds(name, "a larger K deforms less: K is a stiffness", sp.diff(load / any_stiffness, any_stiffness).is_negative),
     ]
     return derived(
         relaxed_stiffness,
@@ -140,9 +140,9 @@ def relaxed_stiffness(model: Model) -> Derived:
     )
 
 
-def series_of(model: Model) -> Series:
+def series_of(model: Model) -> Series | Roots:
     if model.series is None:
-        raise DerivationError("prony series", f"model {model.name!r} states its Prony series")
+        raise DerivationError("prony series", f"model {model.name!r} states its Prony series, or leaves it to the roots")
     return model.series
 
 
@@ -150,6 +150,8 @@ def prony_series(model: Model) -> Derived:
     r"""Maxwell branches beside a spring: :math:`p = K w + \sum_i K_i (w - e_i)`, :math:`\tau_i \dot e_i + e_i = w`."""
     name = "Prony series"
     series = series_of(model)
+    if isinstance(series, Roots):
+        return series_of_roots(model)
     branches = [series.of_branch(number) for number in range(1, model.modes + 1)]
     stated = series.K * (1 + sp.Add(*(v * rate / (1 + time * rate) for v, time in branches)))
     checks = [vanishes(name, "Q/P is the series", [model.operator_w() - stated * model.operator_p()], model.modes)]
@@ -160,6 +162,31 @@ def prony_series(model: Model) -> Derived:
         statement="The foundation is a spring K beside branches, each a dashpot (displacement e_i) in line with a spring K_i. A "
         "branch without spring, tau_i = 0, is a bare dashpot.",
         latex=r"\frac{p}{w}(s) = K\left(1 + \sum_i \frac{\eta_i s}{1 + \tau_i s}\right),\quad \eta_i = \frac{K_i \tau_i}{K}",
+        checks=checks,
+    )
+
+
+def series_of_roots(model: Model) -> Derived:
+    r"""Branches from the roots: :math:`P(-1/\tau_i) = 0`, :math:`Q(-1/\lambda_j) = 0`, :math:`\eta_i` a product of "
+    r"differences."""
+    name = "Prony series"
+    n = model.modes
+    times = strip_times(n)
+    Q = sp.Poly(sp.Mul(*(1 + time * rate for time in times.beta)), rate)
+    at_root = [sum((-1) ** k * c * time ** (n - k) for (k,), c in Q.terms()) for time in times.beta]
+    checks = [
+        vanishes(name, "a retardation time is a root of sum_k (-1)^k Q_k lambda^(n-k); a relaxation time one of P", at_root, n),
+        holds(name, "K = Q_0/P_0", sp.cancel(series_of(model).K - model.Q[0] / model.P[0]) == 0),
+    ]
+    return derived(
+        series_of_roots,
+        series_of(model).K,
+        name=name,
+        statement="The operators are those of a spring K beside branches, each a dashpot in line with a spring, if and "
+        "only if the roots "
+        "of P and Q are real, negative and interlaced. They are found when the parameters are numbers.",
+        latex=r"\sum_k (-1)^k Q_k \lambda_j^{n-k} = 0,\quad \sum_k (-1)^k P_k \tau_i^{n-k} = 0,\quad "
+        r"\eta_i = (\lambda_i - \tau_i)\prod_{k \ne i}\frac{\lambda_k - \tau_i}{\tau_k - \tau_i}",
         checks=checks,
     )
 
@@ -176,7 +203,7 @@ def admissibility(model: Model) -> Derived:
     loss = sp.simplify(sp.im(sp.expand_complex(term)))
     claimed = viscosity * frequency / (1 + time**2 * frequency**2)
     checks = [
-        holds(name, "solid-like: K > 0 carries a constant load at rest", series_of(model).K.is_positive),
+        holds(name, "solid-like: K > 0 carries a constant load at rest", sp.factor(series_of(model).K).is_positive),
         vanishes(name, "passive: every branch loses eta_i omega/(1 + tau_i^2 omega^2)", [loss - claimed], 1),
         holds(name, "passive: which is not negative", claimed.is_nonnegative),
         *_retardation_times_interlace(name, model.modes),
@@ -185,7 +212,8 @@ def admissibility(model: Model) -> Derived:
         admissibility,
         True,
         name=name,
-        statement="The model carries a constant load at rest, forgets its past, and never gives out energy in a cycle. Between two "
+        statement="The model carries a constant load at rest, forgets its past, and never gives out energy in a cycle. "
+        "Between two "
         "relaxation times, and above the largest, lies one retardation time.",
         latex=r"K > 0,\quad \eta_i \ge 0,\quad \tau_i \ge 0,\qquad \tau_1 \le \lambda_1 \le \tau_2 \le \lambda_2 \le \dots",
         checks=checks,
@@ -193,8 +221,10 @@ def admissibility(model: Model) -> Derived:
 
 
 def inadmissible_series(model: Model) -> list[str]:
-    """The reasons against a model given by its Prony series; none for an admissible one."""
+    """The reasons against a model of this pipeline; none for an admissible one."""
     series = series_of(model)
+    if isinstance(series, Roots):
+        return inadmissible(model) or _not_interlaced(model)
     reasons = []
     if not sp.sympify(series.K).is_positive:
         reasons.append("solid-like: K must be positive, so that a constant load is carried at rest")
@@ -203,6 +233,23 @@ def inadmissible_series(model: Model) -> list[str]:
     if not sp.sympify(series.time).is_nonnegative:
         reasons.append("stable: tau_i must not be negative: a branch would grow in time")
     return reasons
+
+
+def _not_interlaced(model: Model) -> list[str]:
+    """The reason against operators whose coefficients are numbers and whose times are not real and interlaced."""
+    if any(sp.sympify(c).free_symbols for c in (*model.Q, *model.P)):
+        return []
+    Q, P = (sp.Poly(operator, rate).real_roots() for operator in (model.operator_w(), model.operator_p()))
+    met = sorted(
+        [(root, "Q") for root in Q] + [(root, "P") for root in P], reverse=True
+    )  # from 0 to the left: largest times first
+    order = "".join(kind for _, kind in met)
+    if len(Q) == model.modes and order == ("QP" * model.modes)[: len(order)] and len(P) >= model.modes - 1:
+        return []
+    return [
+        "passive: the relaxation and retardation times, -1/roots of P and Q, must be real and alternate, a retardation "
+        "time the largest"
+    ]
 
 
 def _retardation_times_interlace(name: str, n: int) -> list[Check]:
@@ -306,7 +353,8 @@ def branch_weights(times: Times) -> Derived:
         branch_weights,
         (tuple(products), compliances, instantaneous),
         name=name,
-        statement="Interlaced times, and these alone, make every branch viscosity and every compliance positive. Nothing cancels in "
+        statement="Interlaced times, and these alone, make every branch viscosity and every compliance positive. "
+        "Nothing cancels in "
         "either: both are products of differences.",
         latex=r"\eta_i = (\beta_i - \alpha_i)\prod_{k \ne i}\frac{\beta_k - \alpha_i}{\alpha_k - \alpha_i},\quad "
         r"J_j = \frac{\prod_i (\beta_j - \alpha_i)}{\beta_j \prod_{k \ne j}(\beta_j - \beta_k)},\quad "
@@ -358,12 +406,14 @@ def strip_values(times: Times, weights: tuple[Any, ...]) -> dict[Any, sp.Expr]:
 def coordinates(times: Times, values: Values) -> Derived:
     r"""States of a material point: retardation displacements z_j, overstresses f_i, dashpot displacements e_i.
 
-    .. math:: w = J_0 p + \sum_j z_j,\quad \beta_j z_j' + z_j = J_j p;\qquad p = w + \sum_i f_i,\quad \alpha_i f_i' + f_i = \eta_i w'
+    .. math:: w = J_0 p + \sum_j z_j,\quad \beta_j z_j' + z_j = J_j p;\qquad
+        p = w + \sum_i f_i,\quad \alpha_i f_i' + f_i = \eta_i w'
     """
     name = "states"
     n = len(times.alpha)
     modes = range(n)
-    # A motion exp(rate s) of p excites z_j/p = J_j/(1 + beta_j s), w/p = P/Q, f_i/p = eta_i s/(1 + alpha_i s) w/p, e_i = w - S_i f_i.
+    # A motion exp(rate s) of p excites z_j/p = J_j/(1 + beta_j s), w/p = P/Q, f_i/p = eta_i s/(1 + alpha_i s) w/p, and
+    # e_i = w - S_i f_i.
     w = 1 / times.transfer()
     z = [values[(J, j)] / (1 + times.beta[j] * rate) for j in modes]
     f = [values[(eta, i)] * rate / (1 + times.alpha[i] * rate) * w for i in modes]
@@ -385,13 +435,19 @@ def coordinates(times: Times, values: Values) -> Derived:
         vanishes(name, "z = share e", [z[j] - applied(share, j, e) for j in modes], n),
         vanishes(name, "e = w - S f", [e[i] - w + values[(S, i)] * f[i] for i in modes], n),
         vanishes(name, "leave is the inverse of enter", [product(leave, enter, j, k) - int(j == k) for j, k in pairs], n),
-        vanishes(name, "enter shares out: its columns sum to 1", [sp.Add(*(values[(enter, i, j)] for i in modes)) - 1 for j in modes], n),
+        vanishes(
+            name,
+            "enter shares out: its columns sum to 1",
+            [sp.Add(*(values[(enter, i, j)] for i in modes)) - 1 for j in modes],
+            n,
+        ),
     ]
     return derived(
         coordinates,
         (tuple(z), tuple(f), tuple(e)),
         name=name,
-        statement="Three sets of n numbers describe the state of a material point. Under a constant pressure the z_j decouple, in "
+        statement="Three sets of n numbers describe the state of a material point. Under a constant pressure the z_j "
+        "decouple, in "
         "contact the f_i; matrices that hold no time, only ratios of times, lead from one to the other. Checked on every motion "
         "exp(rate s).",
         latex=r"f = -N (z - J p),\ N_{ij} = \frac{\eta_i}{\beta_j - \alpha_i};\quad z - J p = -M f,\ "

@@ -68,8 +68,7 @@ class ModeRegime:
 
 def mode_regimes(snaps: bool) -> tuple[ModeRegime, ...]:
     """Every regime; without instantaneous compliance no point snaps into contact."""
-    return (discrete_adhesion(), *((trailing_adhesion(),) if snaps else ()), adhesion_only(), saturated_adhesion(),
-            *edgeless())  # fmt: skip
+    return (discrete_adhesion(), *((trailing_adhesion(),) if snaps else ()), adhesion_only(), saturated_adhesion(), *edgeless())
 
 
 def discrete_adhesion() -> ModeRegime:
@@ -171,7 +170,8 @@ def _partial(by, sequence, title, zones, onset, admissible) -> ModeRegime:
         by,
         sequence,
         name=name,
-        statement=f"{title[0].upper()}{title[1:]}: unknown edges {', '.join(map(str, edges))}. The state at the first edge follows "
+        statement=f"{title[0].upper()}{title[1:]}: unknown edges {', '.join(map(str, edges))}. The state at the first "
+        f"edge follows "
         "from them by one linear system, the edges from one event each.",
         latex=r"z = \text{drive} - (\text{forget} - 1) z,\qquad \text{" + "; ".join(_meanings(zones, edges)) + "}",
         checks=[_edge_conditions(name, zones), _period(name, zones)],

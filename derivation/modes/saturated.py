@@ -100,11 +100,26 @@ def field_kernels(flows: ModeFlows) -> tuple[ModeKernel, ...]:
         zero(name, "it is Eq. 15: one harmonic, weighted by the branch's part of K*", harmonic - eq_15, phases=(s,)),
     )
     return (
-        kernel(field_kernels, stable.SATURATED_OVERSTRESS, harmonic, "Overstress of every branch in complete contact.",
-               r"f_{sat,i} = \eta_i\frac{\alpha_i \cos s - \sin s}{1 + \alpha_i^2}", *own, paper="Eq. 15", status=REPRODUCED),
-        kernel(field_kernels, stable.SATURATED_PRESSURE, u + total(harmonic), "Pressure of complete contact.",
-               r"p_{sat} = u + \sum_i f_{sat,i}", paper="Eq. 15", status=REPRODUCED),
-    )  # fmt: skip
+        kernel(
+            field_kernels,
+            stable.SATURATED_OVERSTRESS,
+            harmonic,
+            "Overstress of every branch in complete contact.",
+            r"f_{sat,i} = \eta_i\frac{\alpha_i \cos s - \sin s}{1 + \alpha_i^2}",
+            *own,
+            paper="Eq. 15",
+            status=REPRODUCED,
+        ),
+        kernel(
+            field_kernels,
+            stable.SATURATED_PRESSURE,
+            u + total(harmonic),
+            "Pressure of complete contact.",
+            r"p_{sat} = u + \sum_i f_{sat,i}",
+            paper="Eq. 15",
+            status=REPRODUCED,
+        ),
+    )
 
 
 def threshold() -> Derived:
@@ -222,7 +237,9 @@ def stack_friction(friction: sp.Expr) -> Derived:
     times = sp.symbols("alpha beta", positive=True)
     one_time = (times[1] - times[0]) / (1 + times[0] ** 2)
     stated = sp.Rational(3, 16) * sp.pi**2 * K * h**2 * (times[1] - times[0]) / (2 * sp.pi * l * (1 + times[0] ** 2))
-    checks = [zero(name, "with one relaxation time each term is that of Eq. 16 as corrected", friction.subs(R_LOSS, one_time) - stated)]
+    checks = [
+        zero(name, "with one relaxation time each term is that of Eq. 16 as corrected", friction.subs(R_LOSS, one_time) - stated)
+    ]
     return derived(
         stack_friction,
         friction / p_nominal,

@@ -13,7 +13,19 @@ from __future__ import annotations
 import sympy as sp
 
 from .. import stable
-from ..functions import Formula, decay, decay_loss, decay_mean, decay_rate, divisible, hypot, loss_mean, per_time, sine_deficit, versine
+from ..functions import (
+    Formula,
+    decay,
+    decay_loss,
+    decay_mean,
+    decay_rate,
+    divisible,
+    hypot,
+    loss_mean,
+    per_time,
+    sine_deficit,
+    versine,
+)
 from ..stable import (
     HALVES,
     PROFILE,
@@ -44,19 +56,17 @@ amplitude = sp.Symbol("amplitude", real=True)
 _unit = ((unit, 1 / hypot(1, alpha)), (alpha_unit, alpha * unit))
 _response = (*_unit, (response, eta * unit**2))
 
-# -- states -----------------------------------------------------------------------------------------------------------------
+# -- states ------------------------------------------------------------------------------------------------------------
 
 DISPLACEMENT = Formula("displacement", (z, p, m), J_0 * p + total(z))
 OVERSTRESS = Formula("overstress", (z, p, m), -across(enter, z - J * p))
 RELAXED = Formula("retarded", (f, p, m), J * p - across(leave, f))
 DASHPOTS = Formula("dashpots", (z, p, m), J_0 * p + total(z) + S * across(enter, z - J * p))
 
-# -- adhesion and free gap: constant pressure -----------------------------------------------------------------------------------
+# -- adhesion and free gap: constant pressure --------------------------------------------------------------------------
 
 _gap_zone = (s_0, s_1, z_0, p, m)
-RELAXATION_AFTER = Formula(
-    "relaxation_after", _gap_zone, z_0 * decay(width, beta) - J * p * decay_loss(width, beta), (WIDTH,)
-)
+RELAXATION_AFTER = Formula("relaxation_after", _gap_zone, z_0 * decay(width, beta) - J * p * decay_loss(width, beta), (WIDTH,))
 RELAXATION_INCREMENT = Formula("relaxation_increment", _gap_zone, (z_0 - J * p) * decay_loss(s_1 - s_0, beta))
 RELAXATION_RATE = Formula("relaxation_rate", (z, p, m), per_time(J * p - z, beta))
 RELAXATION_INTEGRAL = Formula(
@@ -91,7 +101,10 @@ RELAXATION_PASSAGE = Formula(
     (WIDTH, (lag, z_0 - J * p), (lost, decay_loss(width, beta)), (rates, lag * decay_rate(width, beta))),
 )
 GAP_ENTRY = Formula(
-    "gap_entry", (s_0, z_0, p, D, m), (s_0, D - p, amplitude, divisible(beta), per_time(amplitude, beta)), ((amplitude, z_0 - J * p),)
+    "gap_entry",
+    (s_0, z_0, p, D, m),
+    (s_0, D - p, amplitude, divisible(beta), per_time(amplitude, beta)),
+    ((amplitude, z_0 - J * p),),
 )
 _event = ((sp.Symbol("decayed", real=True), sp.exp((s_0 - s_1) / time)),)
 GAP_EVENT = Formula(
@@ -101,7 +114,7 @@ GAP_EVENT = Formula(
     _event,
 )
 
-# -- contact: w = u -----------------------------------------------------------------------------------------------------------------
+# -- contact: w = u ----------------------------------------------------------------------------------------------------
 
 _contact_zone = (s_0, s_1, f_0, m)
 SATURATED_OVERSTRESS = Formula("saturated_overstress", (s, m), response * (alpha * sp.cos(s) - sp.sin(s)), _response)
@@ -200,7 +213,7 @@ EXCESS_EVENT = Formula(
     ),
 )
 
-# -- work of the contact pressure on the profile: the sums of one mode, per branch ---------------------------------------------------
+# -- work of the contact pressure on the profile: the sums of one mode, per branch -------------------------------------
 
 _work = {label: term for label, term in stable.CONTACT_WORK.steps}
 _of_branch = f_0 * (sp.sin(s_0) * stable.kept_cos + sp.cos(s_0) * stable.kept_sin) + response * (
@@ -213,7 +226,7 @@ CONTACT_WORK = Formula(
     (*_work.items(), (response, eta * unit**2)),
 )
 
-# -- complete contact ----------------------------------------------------------------------------------------------------------------
+# -- complete contact --------------------------------------------------------------------------------------------------
 
 STORAGE = Formula("storage", (m,), 1 + total(eta * unit * alpha_unit), _unit)
 LOSS = Formula("loss", (m,), total(eta * unit**2), _unit)

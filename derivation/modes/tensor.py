@@ -75,17 +75,22 @@ def component(expression: sp.Expr, n: int, values: Values, row: int | None = Non
         if row is None:
             raise ValueError(f"{expression} has one component per mode")
         return values.get((expression, row), numbered(expression, row))
-    if isinstance(expression, total):
-        return sp.Add(*(component(expression.args[0], n, values, mode) for mode in range(n)))
-    if isinstance(expression, across):
-        matrix, vector = expression.args
-        return sp.Add(*(entry(matrix, row, mode, n, values) * component(vector, n, values, mode) for mode in range(n)))
-    if isinstance(expression, back):
-        matrix, vector = expression.args
-        return sp.Add(*(component(vector, n, values, mode) * entry(matrix, mode, row, n, values) for mode in range(n)))
+    if isinstance(expression, (total, across, back)):
+        return sp.Add(*_terms(expression, n, values, row))
     if not expression.args:
         return values.get(expression, expression)
     return expression.func(*(component(argument, n, values, row) for argument in expression.args))
+
+
+def _terms(summed: sp.Expr, n: int, values: Values, row: int | None) -> list[sp.Expr]:
+    """The term of every mode in a sum over modes."""
+    vector = [component(summed.args[-1], n, values, mode) for mode in range(n)]
+    if isinstance(summed, total):
+        return vector
+    matrix = summed.args[0]
+    if isinstance(summed, across):
+        return [entry(matrix, row, mode, n, values) * vector[mode] for mode in range(n)]
+    return [vector[mode] * entry(matrix, mode, row, n, values) for mode in range(n)]
 
 
 def entry(matrix: sp.Expr, row: int, column: int, n: int, values: Values) -> sp.Expr:
@@ -132,13 +137,27 @@ def is_vector(expression: Any) -> bool:
     return isinstance(expression, (across, back)) or expression in VECTORS or any(map(is_vector, expression.args))
 
 
-def components(result: Any, n: int, values: Values) -> list[sp.Expr]:
-    """Every component of a result, nested as it may be, in the order in which NumPy lays it out."""
+def components(result: Any, n: int, values: Values) -> list[list[sp.Expr]]:
+    """Every component of a result, nested as it may be, in the order in which NumPy lays it out; each as the parts it sums.
+
+    A part is one mode's term of a sum over modes, or everything outside such sums together.
+    """
     if isinstance(result, tuple):
         return [part for item in result for part in components(item, n, values)]
     result = written_out(sp.sympify(result))
     if is_matrix(result):
-        return [entry(result, row, column, n, values) for row in range(n) for column in range(n)]
-    if is_vector(result):
-        return [component(result, n, values, row) for row in range(n)]
-    return [component(result, n, values)]
+        return [[entry(result, row, column, n, values)] for row in range(n) for column in range(n)]
+    rows = range(n) if is_vector(result) else (None,)
+    return [_parts(result, n, values, row) for row in rows]
+
+
+def _parts(expression: sp.Expr, n: int, values: Values, row: int | None) -> list[sp.Expr]:
+    parts, outside = [], []
+    for term in sp.Add.make_args(expression):
+        sums = [factor for factor in sp.Mul.make_args(term) if isinstance(factor, (total, across, back))]
+        if len(sums) != 1:
+            outside.append(component(term, n, values, row))
+            continue
+        others = component(term / sums[0], n, values, row)
+        parts += [others * part for part in _terms(sums[0], n, values, row)]
+    return [*parts, *([sp.Add(*outside)] if outside else [])] or [sp.Integer(0)]

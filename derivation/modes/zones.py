@@ -9,17 +9,14 @@ import sympy as sp
 from .. import stable as one_mode
 from ..check import zero
 from ..functions import written_out
-from ..symbols import D, alpha, beta, p, p_0, p_in, s, s_0, s_1
+from ..symbols import p, p_0, p_in, s, s_0, s_1
 from . import stable
 from .flows import ModeFlows, u
 from .kernel import ModeKernel, kernel, same
-from .symbols import J, J_0, S, enter, eta, f, f_0, leave, share, z, z_0
+from .symbols import J_0, J, S, enter, eta, f, f_0, leave, share, z, z_0
 from .tensor import across, back, diagonal, sandwich, total
 
 u_0, u_1 = u.subs(s, s_0), u.subs(s, s_1)
-
-
-
 
 
 def profile() -> tuple[ModeKernel, ...]:
@@ -28,7 +25,9 @@ def profile() -> tuple[ModeKernel, ...]:
     return (
         kernel(profile, one_mode.PROFILE, u, "Rigid profile of the strip.", r"u(s) = D - 1 + \cos s"),
         kernel(profile, one_mode.PROFILE_SLOPE, sp.diff(u, s), "Its slope.", r"u'(s) = -\sin s"),
-        kernel(profile, one_mode.PROFILE_RISE, u_1 - u_0, "Its rise between two phases, without cancellation.", r"u(s_1) - u(s_0)"),
+        kernel(
+            profile, one_mode.PROFILE_RISE, u_1 - u_0, "Its rise between two phases, without cancellation.", r"u(s_1) - u(s_0)"
+        ),
         kernel(
             profile,
             one_mode.PROFILE_INTEGRAL,
@@ -45,12 +44,22 @@ def states() -> tuple[ModeKernel, ...]:
     lag = z - J * p
     return (
         kernel(states, stable.DISPLACEMENT, J_0 * p + total(z), "Displacement of a material point.", r"w = J_0 p + \sum_j z_j"),
-        kernel(states, stable.OVERSTRESS, -across(enter, lag), "Overstress of every branch, where w and p belong together.",
-               r"f = -N (z - J p),\quad N_{ij} = \frac{\eta_i}{\beta_j - \alpha_i}"),
-        kernel(states, stable.RELAXED, J * p - across(leave, f), "Retardation displacements, from the overstresses.",
-               r"z = J p - M f,\quad M_{ji} = \frac{J_j \beta_j}{\beta_j - \alpha_i}"),
+        kernel(
+            states,
+            stable.OVERSTRESS,
+            -across(enter, lag),
+            "Overstress of every branch, where w and p belong together.",
+            r"f = -N (z - J p),\quad N_{ij} = \frac{\eta_i}{\beta_j - \alpha_i}",
+        ),
+        kernel(
+            states,
+            stable.RELAXED,
+            J * p - across(leave, f),
+            "Retardation displacements, from the overstresses.",
+            r"z = J p - M f,\quad M_{ji} = \frac{J_j \beta_j}{\beta_j - \alpha_i}",
+        ),
         kernel(states, stable.DASHPOTS, J_0 * p + total(z) + S * across(enter, lag), "Dashpot displacements.", r"e = w - S f"),
-    )  # fmt: skip
+    )
 
 
 def relaxation(flows: ModeFlows) -> tuple[ModeKernel, ...]:
@@ -59,10 +68,22 @@ def relaxation(flows: ModeFlows) -> tuple[ModeKernel, ...]:
     after = flow.subs(s, s_1)
     primitive = sp.integrate(sp.expand(flow), s)
     return (
-        kernel(relaxation, stable.RELAXATION_AFTER, after, "Retardation displacements under a constant pressure.",
-               r"z_j(s_1) = J_j p + (z_{j,0} - J_j p) e^{-(s_1 - s_0)/\beta_j}"),
+        kernel(
+            relaxation,
+            stable.RELAXATION_AFTER,
+            after,
+            "Retardation displacements under a constant pressure.",
+            r"z_j(s_1) = J_j p + (z_{j,0} - J_j p) e^{-(s_1 - s_0)/\beta_j}",
+        ),
         kernel(relaxation, stable.RELAXATION_INCREMENT, after - z_0, "Their change.", r"z_j(s_1) - z_j(s_0)"),
-        kernel(relaxation, stable.RELAXATION_RATE, sp.diff(flow, s).subs({s: s_0, z_0: z}), "Their rate; 0 where beta = 0.", r"z_j' = (J_j p - z_j)/\beta_j", moving=True),
+        kernel(
+            relaxation,
+            stable.RELAXATION_RATE,
+            sp.diff(flow, s).subs({s: s_0, z_0: z}),
+            "Their rate; 0 where beta = 0.",
+            r"z_j' = (J_j p - z_j)/\beta_j",
+            moving=True,
+        ),
         kernel(
             relaxation,
             stable.RELAXATION_INTEGRAL,
@@ -72,7 +93,7 @@ def relaxation(flows: ModeFlows) -> tuple[ModeKernel, ...]:
             zero("relaxation_integral", "the antiderivative differentiates to z", sp.diff(primitive, s) - flow, phases=(s_0, s)),
             paper="Eq. 10",
         ),
-    )  # fmt: skip
+    )
 
 
 def gap(flows: ModeFlows) -> tuple[ModeKernel, ...]:
@@ -87,15 +108,28 @@ def gap(flows: ModeFlows) -> tuple[ModeKernel, ...]:
     latex = r"g = p - u(s_1) + \sum_j (z_{j,0} - J_j p) e^{-(s_1 - s_0)/\beta_j}"
     chain = (stable.GAP_ENTRY, stable.GAP_EVENT)
     check = same("gap_event", composed, (level, slope))
-    entry = kernel(gap, stable.GAP_ENTRY, stable.GAP_ENTRY.written_out(stable.GAP_ENTRY.args),
-                   "Constants of gap_event in a zone entered at s_0 with z_0 under the constant pressure p. Those with one value "
-                   "per mode come last: amplitudes, times that can be divided by, rates.",
-                   r"s_0,\quad D - p,\quad z_0 - J p,\quad \beta,\quad (z_0 - J p)/\beta", check)  # fmt: skip
-    event = kernel(gap, stable.GAP_EVENT, stable.GAP_EVENT.written_out(stable.GAP_EVENT.args),
-                   "Gap and its slope at s_1, from the constants of gap_entry. s_1 must not be before s_0.", latex, check)  # fmt: skip
+    entry = kernel(
+        gap,
+        stable.GAP_ENTRY,
+        stable.GAP_ENTRY.written_out(stable.GAP_ENTRY.args),
+        "Constants of gap_event in a zone entered at s_0 with z_0 under the constant pressure p. Those with one value "
+        "per mode come last: amplitudes, times that can be divided by, rates.",
+        r"s_0,\quad D - p,\quad z_0 - J p,\quad \beta,\quad (z_0 - J p)/\beta",
+        check,
+    )
+    event = kernel(
+        gap,
+        stable.GAP_EVENT,
+        stable.GAP_EVENT.written_out(stable.GAP_EVENT.args),
+        "Gap and its slope at s_1, from the constants of gap_entry. s_1 must not be before s_0.",
+        latex,
+        check,
+    )
     return (
         kernel(gap, stable.GAP_AFTER, g, "Gap at s_1 under the constant pressure p since s_0.", latex),
-        kernel(gap, stable.GAP_CHANGE, change, "Its change since s_0, for zones too short to change it much.", r"g(s_1) - g(s_0)"),
+        kernel(
+            gap, stable.GAP_CHANGE, change, "Its change since s_0, for zones too short to change it much.", r"g(s_1) - g(s_0)"
+        ),
         ModeKernel(entry.formula, (level, slope), entry.derived, chain),
         ModeKernel(event.formula, (level, slope), event.derived, chain),
     )
@@ -115,17 +149,38 @@ def contact(flows: ModeFlows) -> tuple[ModeKernel, ...]:
     slope = sp.diff(u_1, s_1) + total(sp.diff(after, s_1))
     chain = (stable.EXCESS_ENTRY, stable.EXCESS_EVENT)
     check = same("excess_event", composed, (excess, slope))
-    entry = kernel(contact, stable.EXCESS_ENTRY, stable.EXCESS_ENTRY.written_out(stable.EXCESS_ENTRY.args),
-                   "Constants of excess_event in a contact entered at s_0 with the overstresses f_0.", r"s_0,\quad D + p_0,\quad f_0, \dots",
-                   check)  # fmt: skip
-    event = kernel(contact, stable.EXCESS_EVENT, stable.EXCESS_EVENT.written_out(stable.EXCESS_EVENT.args),
-                   "Pressure above -p_0 in contact and its slope at s_1, from the constants of excess_entry. s_1 must not be before s_0.",
-                   r"q = p_0 + u(s_1) + \sum_i f_i(s_1)", check)  # fmt: skip
+    entry = kernel(
+        contact,
+        stable.EXCESS_ENTRY,
+        stable.EXCESS_ENTRY.written_out(stable.EXCESS_ENTRY.args),
+        "Constants of excess_event in a contact entered at s_0 with the overstresses f_0.",
+        r"s_0,\quad D + p_0,\quad f_0, \dots",
+        check,
+    )
+    event = kernel(
+        contact,
+        stable.EXCESS_EVENT,
+        stable.EXCESS_EVENT.written_out(stable.EXCESS_EVENT.args),
+        "Pressure above -p_0 in contact and its slope at s_1, from the constants of excess_entry. s_1 must not be before s_0.",
+        r"q = p_0 + u(s_1) + \sum_i f_i(s_1)",
+        check,
+    )
     return (
-        kernel(contact, stable.OVERSTRESS_AFTER, after, "Overstress of every branch in contact, when it was f_0 at s_0.",
-               r"f_i(s_1) = f_{sat,i}(s_1) + (f_{i,0} - f_{sat,i}(s_0)) e^{-(s_1 - s_0)/\alpha_i}"),
+        kernel(
+            contact,
+            stable.OVERSTRESS_AFTER,
+            after,
+            "Overstress of every branch in contact, when it was f_0 at s_0.",
+            r"f_i(s_1) = f_{sat,i}(s_1) + (f_{i,0} - f_{sat,i}(s_0)) e^{-(s_1 - s_0)/\alpha_i}",
+        ),
         kernel(contact, stable.CONTACT_PRESSURE, u + total(f), "Contact pressure.", r"p = u + \sum_i f_i"),
-        kernel(contact, stable.EXCESS_CHANGE, u_1 - u_0 + total(after - f_0), "Change of the contact pressure since s_0.", r"p(s_1) - p(s_0)"),
+        kernel(
+            contact,
+            stable.EXCESS_CHANGE,
+            u_1 - u_0 + total(after - f_0),
+            "Change of the contact pressure since s_0.",
+            r"p(s_1) - p(s_0)",
+        ),
         kernel(
             contact,
             stable.CONTACT_INCREMENT,
@@ -145,7 +200,7 @@ def contact(flows: ModeFlows) -> tuple[ModeKernel, ...]:
         ),
         ModeKernel(entry.formula, (excess, slope), entry.derived, chain),
         ModeKernel(event.formula, (excess, slope), event.derived, chain),
-    )  # fmt: skip
+    )
 
 
 def passages(flows: ModeFlows) -> tuple[ModeKernel, ...]:
@@ -181,25 +236,42 @@ def passages(flows: ModeFlows) -> tuple[ModeKernel, ...]:
         -sp.diff(u_0, s_0) + total(sp.diff(pressed, s_0).subs(entered)),
         sp.diff(u_1, s_1) + total(sp.diff(pressed, s_1).subs(entered)),
     )
-    meaning = (
-        "In this order: change of z; what of z_0 is forgotten, as a matrix; derivative of the change by s_0 and by s_1; change of "
-    )
+    meaning = "In this order: change of z; what of z_0 is forgotten, as a matrix; its derivatives by s_0 and by s_1; change of "
     return (
-        kernel(passages, stable.RELAXATION_MAP, (-diagonal(sp.diff(change_z, z_0)), change_z.subs(zero_state)),
-               "A gap zone as an affine map of the state: z(s_1) - z_0 = drive - forget z_0.", r"\Delta z = c - R z_0"),
-        kernel(passages, stable.CONTACT_MAP,
-               (sandwich(share, by_f, enter), across(share, creep.subs(f_0, across(enter, J) * p_in))),
-               "A contact zone, entered at the pressure p_in, as an affine map of the state.", r"\Delta z = c - R z_0"),
-        kernel(passages, stable.RELAXATION_PASSAGE, relaxation_terms,
-               f"Passage through a gap zone and its derivatives. {meaning}the gap; its derivatives by z_0, s_0, s_1.",
-               r"\Delta z,\ R,\ \partial_{s_0}\Delta z,\ \partial_{s_1}\Delta z,\ \Delta g,\ \partial_{z_0} \Delta g,\ \partial_{s_0} \Delta g,\ "
-               r"\partial_{s_1} \Delta g"),
-        kernel(passages, stable.CONTACT_PASSAGE, contact_terms,
-               f"Passage through a contact zone, entered at the pressure p_in, and its derivatives. {meaning}the pressure; its "
-               "derivatives by z_0, s_0, s_1.",
-               r"\Delta z,\ R,\ \partial_{s_0}\Delta z,\ \partial_{s_1}\Delta z,\ \Delta p,\ \partial_{z_0} \Delta p,\ \partial_{s_0} \Delta p,\ "
-               r"\partial_{s_1} \Delta p"),
-    )  # fmt: skip
+        kernel(
+            passages,
+            stable.RELAXATION_MAP,
+            (-diagonal(sp.diff(change_z, z_0)), change_z.subs(zero_state)),
+            "A gap zone as an affine map of the state: z(s_1) - z_0 = drive - forget z_0.",
+            r"\Delta z = c - R z_0",
+        ),
+        kernel(
+            passages,
+            stable.CONTACT_MAP,
+            (sandwich(share, by_f, enter), across(share, creep.subs(f_0, across(enter, J) * p_in))),
+            "A contact zone, entered at the pressure p_in, as an affine map of the state.",
+            r"\Delta z = c - R z_0",
+        ),
+        kernel(
+            passages,
+            stable.RELAXATION_PASSAGE,
+            relaxation_terms,
+            f"Passage through a gap zone and its derivatives. {meaning}the gap; its derivatives by z_0, s_0, s_1.",
+            r"\Delta z,\ R,\ \partial_{s_0}\Delta z,\ \partial_{s_1}\Delta z,\ \Delta g,\ \partial_{z_0} \Delta g,\ "
+            r"\partial_{s_0} \Delta g,\ "
+            r"\partial_{s_1} \Delta g",
+        ),
+        kernel(
+            passages,
+            stable.CONTACT_PASSAGE,
+            contact_terms,
+            f"Passage through a contact zone, entered at the pressure p_in, and its derivatives. {meaning}the pressure; its "
+            "derivatives by z_0, s_0, s_1.",
+            r"\Delta z,\ R,\ \partial_{s_0}\Delta z,\ \partial_{s_1}\Delta z,\ \Delta p,\ \partial_{z_0} \Delta p,\ "
+            r"\partial_{s_0} \Delta p,\ "
+            r"\partial_{s_1} \Delta p",
+        ),
+    )
 
 
 def _constants(entry: Any) -> tuple[sp.Expr, ...]:
