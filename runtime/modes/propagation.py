@@ -154,7 +154,8 @@ def _ratio(step, slope):
 
 
 def _width(first, second):
-    return np.maximum(second - first, 0.0)
+    """Distance from an event to a later one; 0 where either is missing (the gain is 0 there)."""
+    return np.nan_to_num(np.maximum(second - first, 0.0))
 
 
 def _steepest_onset(s: ModeStrips, order: Order, lower: Period, upper: Period):
