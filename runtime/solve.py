@@ -147,7 +147,7 @@ def check_single(material, adhesion) -> None:
     given = {f"material.{name}": value for name, value in parameters(material).items()}
     given |= {f"adhesion.{name}": getattr(adhesion, name) for name in ("p_0", "delta_0")}
     for name, value in given.items():
-        if np.ndim(value) and not isinstance(value, tuple):
+        if np.ndim(value):
             raise InputError(name, value, "a single number (arrays are for solve_strip)")
 
 

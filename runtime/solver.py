@@ -111,10 +111,11 @@ def parameters(material) -> dict[str, Any]:
     """Names and values of a material's parameters, one entry for each number (or array over strips)."""
     if isinstance(material, StandardLinearSolid):
         return {name: getattr(material, name) for name in ("K", "T_eps", "T_sigma")}
-    if isinstance(material, ModelMaterial):
-        return dict(material.given)
-    named = [(f"{name}[{i}]", value) for name in ("moduli", "times") for i, value in enumerate(getattr(material, name))]
-    return {"K": material.K, **dict(named)}
+    given = material.given if isinstance(material, ModelMaterial) else {n: getattr(material, n) for n in ("K", "moduli", "times")}
+    named = {}
+    for name, value in given.items():
+        named |= {f"{name}[{i}]": each for i, each in enumerate(value)} if isinstance(value, tuple) else {name: value}
+    return named
 
 
 def _reduced(material):

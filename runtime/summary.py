@@ -44,8 +44,7 @@ def _inputs(result: Any) -> list[str]:
 def _parameter(name: str, value: Any) -> str:
     """``K = 1e+09 Pa/m``; the unit of what is not known here is left to the model."""
     unit = {"K": " Pa/m", "moduli": " Pa/m", "T_eps": " s", "T_sigma": " s", "times": " s"}.get(name.partition("[")[0], "")
-    text = ", ".join(f"{each:.4g}" for each in value) if isinstance(value, tuple) else f"{value:.4g}"
-    return f"{name} = {text}{unit}"
+    return f"{name} = {value:.4g}{unit}"
 
 
 def _levels(result: Any) -> list[str]:

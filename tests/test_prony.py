@@ -106,12 +106,14 @@ def test_high_speed_is_the_elastic_strip_of_the_glassy_stiffness():
 
 
 def test_slow_motion_is_the_elastic_strip_of_the_relaxed_stiffness():
+    """At V = 0 every phase has time to come to rest, whatever the times: only the snaps of the elastic strip dissipate."""
     material = Prony(1e9, [3e9, 2e10], [1e-3, 1e-1])
     relaxed = hystrip.StandardLinearSolid(1e9, 0.0, 0.0)
     for branch in ("unloading", "loading"):
         slow, elastic = solve(material, branch, V=0.0), solve(relaxed, branch, V=0.0)
-        assert slow.p_mean.shape == (N,)
-        assert np.all(np.isfinite(slow.p_mean)) and np.all(np.isfinite(elastic.p_mean))
+        for name in NUMBERS[:2]:
+            assert np.abs(getattr(slow, name) - getattr(elastic, name)).max() < 1e-11 * 3e3, name
+        assert np.any(elastic.tau_mean > 0)
 
 
 @pytest.mark.parametrize(

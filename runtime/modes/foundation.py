@@ -86,10 +86,7 @@ class ManyTimes:
     def _named(self, shape):
         from hystrip.solver import parameters
 
-        named = {}
-        for name, value in parameters(self.material).items():
-            for i, each in enumerate(value) if isinstance(value, tuple) else [(None, value)]:
-                named[name if i is None else f"{name}[{i}]"] = each
+        named = parameters(self.material)
         # a material of arrays was spread over the strips in `flat`; the strip's own values are in K and the modes
         return {n: np.broadcast_to(v, shape) for n, v in named.items() if np.ndim(v) == 0} | {"K": np.broadcast_to(self.K, shape)}
 
