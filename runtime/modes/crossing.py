@@ -20,6 +20,7 @@ import numpy as np
 NONE, LOWER, UPPER, LOST = 0, 1, 2, -1
 #: a step this small is below what the phase can be known to
 _TOLERANCE = 2e-15
+_ROUNDINGS, _SMALL = 4 * np.finfo(float).eps, 1e-8
 _MAX_STEPS = 600
 
 
@@ -52,9 +53,11 @@ def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
     for _ in range(_MAX_STEPS):
         if not active.size:
             break
-        step, low_first, slope = _safe_step(here, now, top, size)
+        step, low_first, slope, margin = _safe_step(here, now, top, size)
         spent[active] += 1
-        reached = step <= _TOLERANCE * np.maximum(1.0, np.abs(now))
+        # a margin of a few roundings, still shrinking, is none: steps too small to change it would never end
+        lost_in_rounding = (margin <= _ROUNDINGS * (np.abs(here.constant) + size)) & (step <= _SMALL) & (low_first == (slope < 0))
+        reached = (step <= _TOLERANCE * np.maximum(1.0, np.abs(now))) | lost_in_rounding
         after = now + step
         beyond = after >= limit
         done = reached | beyond
@@ -70,7 +73,7 @@ def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
 
 
 def _safe_step(f: Field, s, height, size):
-    """A step over which the field stays in its range, whether the lower limit bounds it, and the field's slope at ``s``."""
+    """A step over which the field stays in its range, whether the lower limit bounds it, the field's slope at ``s`` and its distance from that limit."""
     cosine, sine = np.cos(s), np.sin(s)
     lag = s - f.start
     term = f.c * np.exp(-lag * f.r)
@@ -89,12 +92,12 @@ def _safe_step(f: Field, s, height, size):
     step = np.maximum(_reach(low, harmonic - fast, size), _reach(low, slope, size + np.maximum(bend_below, 0.0)))
     bounded = np.isfinite(height)
     if not bounded.any():
-        return step, np.ones(step.shape, bool), slope
+        return step, np.ones(step.shape, bool), slope, low
     room = np.where(bounded, height, 1.0) - value
     room = np.where(at_start & (slope < 0), np.maximum(room, 0.0), room)
     up = np.maximum(_reach(room, slow - harmonic, size), _reach(room, -slope, size + bend))
     up = np.where(bounded, up, np.inf)
-    return np.minimum(step, up), step <= up, slope
+    return np.minimum(step, up), step <= up, slope, np.where(step <= up, low, room)
 
 
 def _reach(value, slope, curvature):
