@@ -44,7 +44,7 @@ from .propagation import Order, exact_gains, least_gains, propagation, solve_ord
 
 #: edges of the two ends of a window that is left to Newton's method agree to this
 NARROW = 1e-6
-_STEPS = 400
+_STEPS = 1500
 _EPS = np.finfo(float).eps
 #: least width of a window, in units of the strip's lengths: what rounding leaves of the sign of P(y) - y
 _LEAST, _WIDEST = 1e-12, 1e-5
