@@ -8,7 +8,7 @@ from typing import Any
 import sympy as sp
 
 from ..check import BEYOND, REPRODUCED, Check, DerivationError, Derived, derived, zero
-from ..functions import Formula
+from ..functions import Formula, written_out
 from ..symbols import alpha, s_0, s_1
 from .symbols import S, eta
 from .tensor import SUMS, generic
@@ -37,7 +37,25 @@ def kernel(
     return ModeKernel(formula, exact, record, moving=moving)
 
 
-def same(name: str, stated: Any, exact: Any, phases: tuple = (s_0, s_1)) -> Check:
+def pair(
+    by: Any, chain: tuple[Formula, Formula], exact: Any, statements: tuple[str, str], latex: tuple[str, str]
+) -> tuple[ModeKernel, ModeKernel]:
+    """An entry and its event, proven equal to ``exact`` together, and measured as the one function that they are."""
+    entry, event = chain
+    constants = tuple(written_out(part) for part in entry.written_out(entry.args))
+    composed = event.written_out((s_1, *constants))
+    check = same(event.name, composed, exact, claim=f"{event.name} after {entry.name} is the derived value and its slope")
+
+    def record(formula: Formula, value: Any, k: int) -> Derived:
+        return derived(
+            by, value, name=formula.name, statement=statements[k], latex=latex[k], checks=[check], emitted=(formula.name,)
+        )
+
+    records = record(entry, constants, 0), record(event, exact, 1)
+    return tuple(ModeKernel(formula, exact, found, chain) for formula, found in zip(chain, records, strict=True))
+
+
+def same(name: str, stated: Any, exact: Any, phases: tuple = (s_0, s_1), claim: str = "") -> Check:
     """The stable form equals the derived expression: what stands under the same sum over modes is the same."""
     pairs = list(zip(_flat(stated), _flat(exact), strict=True))
     residuals = []
@@ -45,7 +63,8 @@ def same(name: str, stated: Any, exact: Any, phases: tuple = (s_0, s_1)) -> Chec
         if {f.func for f in sp.sympify(one).atoms(*SUMS)} != {f.func for f in sp.sympify(other).atoms(*SUMS)}:
             raise DerivationError(name, "both forms sum over the modes in the same way", one - other)
         residuals.append((generic(one) - generic(other)).subs(S, alpha / eta))
-    return zero(name, f"{name}: the stable form equals the derived expression, mode by mode", residuals, phases=phases)
+    claim = claim or f"{name}: the stable form equals the derived expression"
+    return zero(name, f"{claim}, mode by mode", residuals, phases=phases)
 
 
 def _flat(result: Any) -> list[Any]:

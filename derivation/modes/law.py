@@ -353,7 +353,7 @@ def branch_weights(times: Times) -> Derived:
         branch_weights,
         (tuple(products), compliances, instantaneous),
         name=name,
-        statement="Interlaced times, and these alone, make every branch viscosity and every compliance positive. "
+        statement="Interlaced times make every branch viscosity and every compliance positive. "
         "Nothing cancels in "
         "either: both are products of differences.",
         latex=r"\eta_i = (\beta_i - \alpha_i)\prod_{k \ne i}\frac{\beta_k - \alpha_i}{\alpha_k - \alpha_i},\quad "

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..check import BEYOND, REPRODUCED, Check, Derived, derived, holds, zero
-from ..level import AMPLITUDE, PENETRATION, over_strips
+from ..check import BEYOND, CORRECTED, REPRODUCED, Check, Derived, derived, holds, zero
+from ..level import AMPLITUDE, MISPRINT, PENETRATION, over_strips
 from ..symbols import D, K, alpha, beta, h, k, l, p_0, p_nominal, s, y
 from . import stable
 from .flows import ModeFlows, u
@@ -247,7 +247,8 @@ def stack_friction(friction: sp.Expr) -> Derived:
         statement="Friction coefficient when every level is in complete contact: the levels add.",
         latex=r"\mu = \frac{3\pi}{32\,p_1} \sum_i \frac{h_i^2}{l_i}\,\mathrm{Im}\,K^*(ik_iV)",
         checks=checks,
-        paper="Eq. 14, 16",
-        status=BEYOND,
+        paper="Eq. 16",
+        status=CORRECTED,
+        correction=MISPRINT,
         emitted=(name,),
     )

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import sympy as sp
 
 from .. import stable as one_mode
 from ..check import zero
-from ..functions import written_out
 from ..symbols import p, p_0, p_in, s, s_0, s_1
 from . import stable
 from .flows import ModeFlows, u
-from .kernel import ModeKernel, kernel, same
+from .kernel import ModeKernel, kernel, pair
 from .symbols import J_0, J, S, enter, eta, f, f_0, leave, share, z, z_0
 from .tensor import across, back, diagonal, sandwich, total
 
@@ -104,34 +101,24 @@ def gap(flows: ModeFlows) -> tuple[ModeKernel, ...]:
     # J_0 = 1 - sum J: what is left of w long after the entry is p.
     level = p + total(after - J * p) - u_1
     slope = total(sp.diff(after, s_1)) - sp.diff(u_1, s_1)
-    composed = stable.GAP_EVENT.written_out((s_1, *_constants(stable.GAP_ENTRY)))
     latex = r"g = p - u(s_1) + \sum_j (z_{j,0} - J_j p) e^{-(s_1 - s_0)/\beta_j}"
-    chain = (stable.GAP_ENTRY, stable.GAP_EVENT)
-    check = same("gap_event", composed, (level, slope))
-    entry = kernel(
+    events = pair(
         gap,
-        stable.GAP_ENTRY,
-        stable.GAP_ENTRY.written_out(stable.GAP_ENTRY.args),
-        "Constants of gap_event in a zone entered at s_0 with z_0 under the constant pressure p. Those with one value "
-        "per mode come last: amplitudes, times that can be divided by, rates.",
-        r"s_0,\quad D - p,\quad z_0 - J p,\quad \beta,\quad (z_0 - J p)/\beta",
-        check,
-    )
-    event = kernel(
-        gap,
-        stable.GAP_EVENT,
-        stable.GAP_EVENT.written_out(stable.GAP_EVENT.args),
-        "Gap and its slope at s_1, from the constants of gap_entry. s_1 must not be before s_0.",
-        latex,
-        check,
+        (stable.GAP_ENTRY, stable.GAP_EVENT),
+        (level, slope),
+        (
+            "Constants of gap_event in a zone entered at s_0 with z_0 under the constant pressure p. Those with one value per "
+            "mode come last: amplitudes, times that can be divided by, rates.",
+            "Gap and its slope at s_1, from the constants of gap_entry. s_1 must not be before s_0.",
+        ),
+        (r"s_0,\quad D - p,\quad z_0 - J p,\quad \beta,\quad (z_0 - J p)/\beta", latex),
     )
     return (
         kernel(gap, stable.GAP_AFTER, g, "Gap at s_1 under the constant pressure p since s_0.", latex),
         kernel(
             gap, stable.GAP_CHANGE, change, "Its change since s_0, for zones too short to change it much.", r"g(s_1) - g(s_0)"
         ),
-        ModeKernel(entry.formula, (level, slope), entry.derived, chain),
-        ModeKernel(event.formula, (level, slope), event.derived, chain),
+        *events,
     )
 
 
@@ -145,25 +132,21 @@ def contact(flows: ModeFlows) -> tuple[ModeKernel, ...]:
     work = sp.Add(*(sp.integrate(term, s) for term in sp.Add.make_args(rate)))
     own = sp.integrate(sp.expand(u * sp.diff(u, s)), s)
     excess = p_0 + u_1 + total(after)
-    composed = stable.EXCESS_EVENT.written_out((s_1, *_constants(stable.EXCESS_ENTRY)))
     slope = sp.diff(u_1, s_1) + total(sp.diff(after, s_1))
-    chain = (stable.EXCESS_ENTRY, stable.EXCESS_EVENT)
-    check = same("excess_event", composed, (excess, slope))
-    entry = kernel(
+    events = pair(
         contact,
-        stable.EXCESS_ENTRY,
-        stable.EXCESS_ENTRY.written_out(stable.EXCESS_ENTRY.args),
-        "Constants of excess_event in a contact entered at s_0 with the overstresses f_0.",
-        r"s_0,\quad D + p_0,\quad f_0, \dots",
-        check,
-    )
-    event = kernel(
-        contact,
-        stable.EXCESS_EVENT,
-        stable.EXCESS_EVENT.written_out(stable.EXCESS_EVENT.args),
-        "Pressure above -p_0 in contact and its slope at s_1, from the constants of excess_entry. s_1 must not be before s_0.",
-        r"q = p_0 + u(s_1) + \sum_i f_i(s_1)",
-        check,
+        (stable.EXCESS_ENTRY, stable.EXCESS_EVENT),
+        (excess, slope),
+        (
+            "Constants of excess_event in a contact entered at s_0 with the overstresses f_0.",
+            "Pressure above -p_0 in contact and its slope at s_1, from the constants of excess_entry. s_1 must not be "
+            "before s_0.",
+        ),
+        (
+            r"s_0,\quad D + p_0,\quad f_0,\quad \frac{\eta}{1 + \alpha^2},\quad \alpha,\quad \alpha,\quad "
+            r"\frac{f_0 - f_{sat}(s_0)}{\alpha}",
+            r"q = p_0 + u(s_1) + \sum_i f_i(s_1)",
+        ),
     )
     return (
         kernel(
@@ -198,8 +181,7 @@ def contact(flows: ModeFlows) -> tuple[ModeKernel, ...]:
             zero("contact_work", "the antiderivative differentiates to f u'", sp.diff(work, s) - rate, phases=(s_0, s)),
             paper="Eq. 10",
         ),
-        ModeKernel(entry.formula, (excess, slope), entry.derived, chain),
-        ModeKernel(event.formula, (excess, slope), event.derived, chain),
+        *events,
     )
 
 
@@ -272,7 +254,3 @@ def passages(flows: ModeFlows) -> tuple[ModeKernel, ...]:
             r"\partial_{s_1} \Delta p",
         ),
     )
-
-
-def _constants(entry: Any) -> tuple[sp.Expr, ...]:
-    return tuple(written_out(part) for part in entry.written_out(entry.args))
