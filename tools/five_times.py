@@ -23,7 +23,7 @@ import hystrip
 
 MODEL = 'from hystrip.derivation import prony_model\n\nMODEL = prony_model("rubber", modes=5)\n'
 #: a master curve in steps of a decade and a half: the shorter the time, the stiffer the branch
-K, MODULI, TIMES = 1e9, (4e8, 8e8, 1.6e9, 3.2e9, 6.4e9), (1.0, 3e-2, 1e-3, 3e-5, 1e-6)
+K, MODULI, TIMES = 1e9, (1e8, 4e8, 1.6e9, 6.4e9, 2.56e10), (1.0, 3e-2, 1e-3, 3e-5, 1e-6)
 LEVEL = hystrip.Level(l=1e-5, h=1e-6)
 ADHESIONS = {"no adhesion": hystrip.Dugdale(gamma=0), r"$p_0$ = 20 Pa, $\delta_0$ = 20 nm": hystrip.Dugdale(p_0=20.0, delta_0=2e-8)}
 PRESSURE = 50.0

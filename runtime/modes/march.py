@@ -38,7 +38,8 @@ class Period:
     """A period of N points. ``dz``: change of the state (accurate also where it is small), (n, N).
 
     ``onset``, ``entry``, ``exit``, ``release``: phase of the last of each event, NaN where none; ``onsets``, ``contacts``, ``releases``: how
-    many. ``z_onset``, ``z_release``: state there. ``slope_onset``, ``slope_release``: of the gap just before. ``lost``: not followed to the end.
+    many. ``z_onset``, ``z_release``: state there. ``slope_onset``, ``slope_release``: of the gap just before.
+    ``from_onset``, ``from_release``: where the zone began that the event ends, ``z_from_onset``, ``z_from_release``: state there. ``lost``: not followed to the end.
     """
 
     engaged_before: np.ndarray
@@ -55,6 +56,10 @@ class Period:
     z_release: np.ndarray
     slope_onset: np.ndarray
     slope_release: np.ndarray
+    from_onset: np.ndarray
+    from_release: np.ndarray
+    z_from_onset: np.ndarray
+    z_from_release: np.ndarray
     lost: np.ndarray
     evaluations: np.ndarray
     zones: list[Zone] = field(default_factory=list)
@@ -88,7 +93,8 @@ def march(kernel, s: ModeStrips, engaged, z, start) -> Period:
     letter, now_engaged = zone_at(kernel, s, engaged, z, start)
     out = Period(
         np.array(now_engaged), np.array(now_engaged), np.zeros((n, N)), nan(), nan(), nan(), nan(),
-        *(np.zeros(N, int) for _ in range(3)), np.zeros((n, N)), np.zeros((n, N)), nan(), nan(), np.zeros(N, bool), np.zeros(N),
+        *(np.zeros(N, int) for _ in range(3)), np.zeros((n, N)), np.zeros((n, N)), nan(), nan(), nan(), nan(),
+        np.zeros((n, N)), np.zeros((n, N)), np.zeros(N, bool), np.zeros(N),
     )  # fmt: skip
     index, here, phase, end = np.arange(N), s, np.array(start, float), start + TWO_PI
     where, limit = phase.copy(), end
@@ -173,5 +179,7 @@ def _note(out: Period, zone: Zone, z_end):
             count[i[which]] += 1
     out.slope_onset[i[onset]], out.slope_release[i[release]] = zone.slope[onset], zone.slope[release]
     out.z_onset[:, i[onset]], out.z_release[:, i[release]] = z_end[:, onset], z_end[:, release]
+    out.from_onset[i[onset]], out.from_release[i[release]] = zone.start[onset], zone.start[release]
+    out.z_from_onset[:, i[onset]], out.z_from_release[:, i[release]] = zone.z[:, onset], zone.z[:, release]
     out.engaged[i[onset]], out.engaged[i[release]] = True, False
 

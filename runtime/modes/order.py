@@ -50,6 +50,7 @@ _EPS = np.finfo(float).eps
 _LEAST, _WIDEST = 1e-12, 1e-5
 
 ENGAGED, FREE, ORBIT, UNRESOLVED = 0, 1, 2, -1
+_STATES = ("dz", "z_onset", "z_release", "z_from_onset", "z_from_release")
 
 
 @dataclass(slots=True)
@@ -215,6 +216,6 @@ def _of(p: Period, i) -> Period:
             zones.append(type(zone)(where[zone.index[keep]], zone.letter[keep], zone.start[keep], zone.end[keep], zone.z[:, keep],
                                     zone.slope[keep], zone.following[keep]))  # fmt: skip
     plain = ("engaged_before", "engaged", "onset", "entry", "exit", "release", "onsets", "contacts", "releases", "slope_onset",
-             "slope_release", "lost", "evaluations")  # fmt: skip
-    values = {name: getattr(p, name)[i] for name in plain} | {name: getattr(p, name)[:, i] for name in ("dz", "z_onset", "z_release")}
+             "slope_release", "from_onset", "from_release", "lost", "evaluations")  # fmt: skip
+    values = {name: getattr(p, name)[i] for name in plain} | {name: getattr(p, name)[:, i] for name in _STATES}
     return Period(**values, zones=zones)

@@ -85,9 +85,9 @@ def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period) -> Ga
     gamma = np.broadcast_to(order.gamma, late.shape)
     fading = lambda width: np.exp(-width * order.rate)  # noqa: E731
     shrink = lambda width: np.exp(-width * gamma)[None]  # noqa: E731
-    onset = _ratio(s.jump_on, _steepest_onset(s, order, lower, upper))
-    release = _ratio(s.step, _steepest_release(s, order, lower, upper))
-    return Gains(onset, shrink(late), fading(late), release, fading(early), shrink(early))
+    steep_on = np.fmin(_steepest_onset(s, order, lower, upper), _steepest_by_modes(s, order, lower, upper, True))
+    steep_off = np.fmin(_steepest_release(s, order, lower, upper), _steepest_by_modes(s, order, lower, upper, False))
+    return Gains(_ratio(s.jump_on, steep_on), shrink(late), fading(late), _ratio(s.step, steep_off), fading(early), shrink(early))
 
 
 def propagation(s: ModeStrips, order: Order, period: Period, gains: Gains | None) -> np.ndarray:
@@ -182,6 +182,44 @@ def _steepest_release(s: ModeStrips, order: Order, lower: Period, upper: Period)
     e = np.where(w <= last, last, before)
     gamma = order.gamma
     return _harmonic_max(gamma, 1.0, low, high) + gamma * (s.D - 1 + s.delta_0) - (weight * e).sum(axis=0)
+
+
+def _steepest_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period, onset: bool):
+    """The same upper bounds from the modes of the gap zone that the event ends: fast ones have died out since it began.
+
+    The state there lies between those of the two marches, whatever the phase at which the zone began, and between the bounds of all orbits.
+    """
+    name = "onset" if onset else "release"
+    (z_low, from_low), (z_up, from_up) = ((getattr(p, f"z_from_{name}"), getattr(p, f"from_{name}")) for p in (lower, upper))
+    first, last = np.minimum(from_low, from_up), np.maximum(from_low, from_up)
+    floor, ceiling = -s.p_0, np.maximum(s.D, 0.0)
+    kept = np.exp(-(last - first) * order.rate)
+    low = _extreme(order.to_e(z_low), floor, ceiling, kept, from_low >= from_up, -1.0)
+    high = _extreme(order.to_e(z_up), floor, ceiling, kept, from_up >= from_low, 1.0)
+    rising, falling = np.maximum(order.share, 0.0), np.minimum(order.share, 0.0)
+    times = lambda matrix, e: np.einsum("ij...,j...->i...", matrix, e)  # noqa: E731
+    rest = s.m.J * (0.0 if onset else -s.p_0)
+    least, most = times(rising, low) + times(falling, high) - rest, times(rising, high) + times(falling, low) - rest
+    event = np.sort(np.stack([getattr(lower, name), getattr(upper, name)]), axis=0)
+    short, long = np.maximum(event[0] - last, 0.0), event[1] - first
+    rate = np.minimum(np.divide(1.0, s.m.beta, out=np.full(s.m.beta.shape, _FASTEST), where=s.m.beta > 1 / _FASTEST), _FASTEST)
+    little, much = rate * np.exp(-long * rate), rate * np.exp(-short * rate)
+    if onset:
+        return _harmonic_max(0.0, -1.0, event[0], event[1]) + (most * np.where(most > 0, much, little)).sum(axis=0)
+    return _harmonic_max(0.0, 1.0, event[0], event[1]) - (least * np.where(least > 0, little, much)).sum(axis=0)
+
+
+def _extreme(e, floor, ceiling, kept, at_end, sign):
+    """Largest (``sign`` 1) or least (-1) value over a range of phases of displacements known at its end or at its start.
+
+    They tend to w, which lies between ``floor`` and ``ceiling`` like themselves; ``kept``: what is left of a deviation after the range.
+    """
+    toward, away = (ceiling, floor) if sign > 0 else (floor, ceiling)
+    after = np.where(sign * (toward - e) > 0, e + (toward - e) * (1 - kept), e)
+    before = np.divide(e - away * (1 - kept), kept, out=np.full(e.shape, sign * np.inf), where=kept > 1e-290)
+    before = np.where(sign * (away - e) >= 0, e, before)
+    value = np.where(at_end, before, after)
+    return np.clip(value, np.minimum(floor, e), np.maximum(ceiling, e))
 
 
 def _least_cosine(low, high):
