@@ -2,16 +2,22 @@
 
 The stages, each a function from one frozen dataclass to the next:
 model -> strip -> flows -> jumps -> zones, events -> saturated, regimes -> means, stability, level -> emit -> certify -> pages.
+A model given by its Prony series, with any number of relaxation times, goes through the same stages in :mod:`.modes`.
 """
 
 from .check import Check, DerivationError, Derived
 from .derive import Derivation, derive
+from .dispatch import derive_any
 from .drift import CertificateError, Drift, check, generated_folder, regenerate, stored_bounds
-from .model import Model, Parameter
-from .models import MODELS, STANDARD_LINEAR_SOLID
+from .model import Model, Parameter, Roots, Series
+from .model_file import load_model
+from .models import GENERALISED_2, GENERALISED_3, KELVIN_VOIGT, MODELS, STANDARD_LINEAR_SOLID, operator_model, prony_model
 from .pages.publish import AuditError, audit
 
 __all__ = [
+    "GENERALISED_2",
+    "GENERALISED_3",
+    "KELVIN_VOIGT",
     "MODELS",
     "STANDARD_LINEAR_SOLID",
     "AuditError",
@@ -23,10 +29,16 @@ __all__ = [
     "Drift",
     "Model",
     "Parameter",
+    "Roots",
+    "Series",
     "audit",
     "check",
     "derive",
+    "derive_any",
     "generated_folder",
+    "load_model",
+    "operator_model",
+    "prony_model",
     "regenerate",
     "stored_bounds",
 ]

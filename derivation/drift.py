@@ -19,11 +19,11 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from .certify import SCALE, measure
-from .derive import STAGES, Derivation, derive
+from .certify import SCALE, Certificate
+from .dispatch import AnyDerivation, certificates_of, certified_names, derive_any, stages_of
 from .emit import INTERFACE, emit, input_hash
-from .kernel import Kernel
 from .model import Model
+from .model_file import require_names
 from .models import MODELS
 from .pages import audit_files
 
@@ -32,6 +32,7 @@ AUDIT = "audit"
 MEASURED = f"{AUDIT}/measured.json"  # pictures and measured figures of the pages, which `hystrip audit` makes anew
 AIM = 16.0  # ulp of the natural scale
 IGNORED = ("__pycache__",)
+HELPERS = ("stable", "modes")  # what a solver imports
 Report = Callable[[int, int], None]
 
 
@@ -79,14 +80,19 @@ def regenerate(
 ) -> list[Path]:
     """Derive, emit and certify the solvers of ``models`` (those that ship) into ``out_dir``; returns the files written.
 
-    Nothing is written unless everything succeeded; each file is written aside and renamed. A bound in an existing
+    Nothing is written unless everything succeeded. A folder that does not exist yet is written aside and renamed as a whole, in
+    one that does each file is. Raises :class:`DerivationError` for an inadmissible model, :class:`CertificateError` for a
+    function that is not accurate enough, and :class:`FileExistsError` for a folder that holds something else. A bound in an
+    existing
     ``certificates.json`` grows only for a function in ``accept``, which says why: ``{"module.function": "reason"}``.
     ``progress`` is called with (stages done, stages in all).
     """
     chosen = tuple(models) if models is not None else MODELS
+    require_names(chosen)
     target = Path(out_dir) if out_dir is not None else generated_folder()
-    say = _Progress(progress, len(chosen) * (len(STAGES) + 1) + 2)
-    derivations = tuple(derive(model, say) for model in chosen)
+    require_folder(target)
+    say = _Progress(progress, sum(len(stages_of(model)) + 1 for model in chosen) + 2)
+    derivations = tuple(derive_any(model, say) for model in chosen)
     files = emit(derivations)
     say("emission")
     with tempfile.TemporaryDirectory() as aside:
@@ -95,7 +101,7 @@ def regenerate(
         certificates = {}
         for derivation in derivations:
             solver = _loaded(folder, derivation.model.name)
-            rows = bounds_of(derivation.model.name, derivation.kernels, solver, stored, accept or {})
+            rows = bounds_of(derivation.model.name, certificates_of(derivation, solver), stored, accept or {})
             certificates[derivation.model.name] = {"interface": INTERFACE, "functions": rows}
             say("certificates")
     files[CERTIFICATES] = _certificates_text(certificates)
@@ -103,10 +109,18 @@ def regenerate(
     measured = {name: known[name] for name in certificates if name in known}
     files |= audit_texts(derivations, files, certificates, measured)
     files[MEASURED] = dumped(measured)
-    target.mkdir(parents=True, exist_ok=True)
-    written = write_files(target, files)
+    written = write_files(target, files) if target.exists() else write_folder(target, files)
     say("writing")
     return written
+
+
+def require_folder(target: Path) -> None:
+    """Raise an error unless solvers can be written there: a new or empty folder, or one that holds solvers."""
+    if target.is_dir():
+        if any(target.iterdir()) and not (target / CERTIFICATES).is_file():
+            raise FileExistsError(f"{target} holds files, but no solver: name a new folder")
+    elif target.exists():
+        raise FileExistsError(f"{target} is a file: name a folder")
 
 
 def check(
@@ -117,11 +131,11 @@ def check(
     """Compare the folder of generated files with what the derivation emits now; an empty list means no drift."""
     folder = Path(generated) if generated is not None else generated_folder()
     chosen = tuple(models) if models is not None else MODELS
-    say = _Progress(progress, len(chosen) * len(STAGES))
-    derivations = tuple(derive(model, say) for model in chosen)
+    say = _Progress(progress, sum(len(stages_of(model)) for model in chosen))
+    derivations = tuple(derive_any(model, say) for model in chosen)
     texts = emit(derivations)
     texts |= audit_texts(derivations, texts, _readable_certificates(folder), read_measured(folder))
-    return compare(folder, texts, {d.model.name: [k.formula.name for k in d.kernels] for d in derivations})
+    return compare(folder, texts, {d.model.name: certified_names(d) for d in derivations})
 
 
 def compare(folder: Path, files: dict[str, str], functions: dict[str, list[str]]) -> list[Drift]:
@@ -173,7 +187,7 @@ def _measured_drift(folder: Path) -> list[Drift]:
 
 
 def audit_texts(
-    derivations: Iterable[Derivation], texts: dict[str, str], certificates: dict[str, Any], measured: dict[str, Any]
+    derivations: Iterable[AnyDerivation], texts: dict[str, str], certificates: dict[str, Any], measured: dict[str, Any]
 ) -> dict[str, str]:
     """Text of the audit's pages and tables, by path in the folder of generated files."""
     solvers = {name: text for name, text in texts.items() if name.endswith(".py")}
@@ -188,13 +202,12 @@ def stored_bounds(folder: Path | None = None) -> dict[str, dict[str, float]]:
 
 
 def bounds_of(
-    model: str, kernels: Iterable[Kernel], solver: Any, stored: dict[str, Any], accept: dict[str, str]
+    model: str, certificates: Iterable[Certificate], stored: dict[str, Any], accept: dict[str, str]
 ) -> dict[str, dict[str, Any]]:
-    """Measure the kernels and hold them to the ``stored`` bounds; one without a bound gets one."""
+    """Hold what was measured to the ``stored`` bounds; a function without a bound gets one."""
     before = stored.get(model, {}).get("functions", {})
     rows = {}
-    for kernel in kernels:
-        certificate = measure(kernel, solver)
+    for certificate in certificates:
         name, worst = certificate.name, certificate.worst
         row = {key: value for key, value in before.get(name, {"bound": _bound(worst)}).items() if key in ("bound", "why")}
         why = accept.get(f"{model}.{name}")
@@ -262,7 +275,7 @@ def _loaded(package: Path, name: str) -> ModuleType:
     try:
         for module, path in (
             (root, package / "__init__.py"),
-            (f"{root}.stable", package / "stable.py"),
+            *((f"{root}.{helpers}", package / f"{helpers}.py") for helpers in HELPERS if (package / f"{helpers}.py").exists()),
             (f"{root}.{name}", package / f"{name}.py"),
         ):
             spec = importlib.util.spec_from_file_location(
@@ -280,6 +293,17 @@ def _loaded(package: Path, name: str) -> ModuleType:
 def write_files(folder: Path, files: dict[str, str]) -> list[Path]:
     """Write each file aside and rename it into place."""
     return [_write(folder / name, text) for name, text in sorted(files.items())]
+
+
+def write_folder(folder: Path, files: dict[str, str]) -> list[Path]:
+    """Write a new folder aside and rename it into place."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}.") as aside:
+        whole = Path(aside) / folder.name
+        whole.mkdir()
+        write_files(whole, files)
+        os.replace(whole, folder)
+    return [folder / name for name in sorted(files)]
 
 
 def _write(path: Path, text: str) -> Path:

@@ -21,7 +21,13 @@ from .printing import RENAMED, results, source
 INTERFACE = 1
 WIDTH = 110  # of a docstring's lines
 HERE = Path(__file__).parent
-TEMPLATES = {"stable": "stable.py.jinja", "model": "model.py.jinja", "package": "package.py.jinja"}
+TEMPLATES = {
+    "stable": "stable.py.jinja",
+    "modes": "modes.py.jinja",
+    "model": "model.py.jinja",
+    "modes_model": "modes_model.py.jinja",
+    "package": "package.py.jinja",
+}
 PARAMETER_MEANINGS = (
     ("alpha", "k V T_sigma"),
     ("beta", "k V T_eps"),
@@ -58,8 +64,11 @@ class Section:
 def emit(derivations: tuple[Derivation, ...]) -> dict[str, str]:
     """Text of every generated Python file, by its path in the output folder."""
     files = {"stable.py": stable_text()}
+    if any(derivation.model.series for derivation in derivations):
+        files["modes.py"] = _render("modes", "every model with a Prony series")
     for derivation in derivations:
-        files[f"{derivation.model.name}.py"] = model_text(derivation)
+        text = modes_text(derivation) if derivation.model.series else model_text(derivation)
+        files[f"{derivation.model.name}.py"] = text
     files["__init__.py"] = package_text(tuple(derivation.model.name for derivation in derivations))
     return {name: formatted(text) for name, text in sorted(files.items())}
 
@@ -69,7 +78,7 @@ def model_text(derivation: Derivation) -> str:
         Section(title, tuple(function_text(kernel.formula, kernel.derived) for kernel in kernels))
         for title, kernels in derivation.sections
     )
-    used = _helpers_used(kernel.formula for _, kernels in derivation.sections for kernel in kernels)
+    used = helpers_used(kernel.formula for _, kernels in derivation.sections for kernel in kernels)
     emitted = {function.name for section in sections for function in section.functions}
     return _render(
         "model",
@@ -83,6 +92,12 @@ def model_text(derivation: Derivation) -> str:
         sections=sections,
         regimes=[_regime_data(regime, emitted) for regime in derivation.regimes],
     )
+
+
+def modes_text(derivation: Any) -> str:
+    from .modes.emit import template_values
+
+    return _render("modes_model", derivation.model.name, interface=INTERFACE, **template_values(derivation))
 
 
 def _regime_data(regime: Any, emitted: set[str]) -> dict[str, Any]:
@@ -109,7 +124,7 @@ def function_text(formula: Formula, record: Any) -> FunctionText:
     return FunctionText(
         formula.name,
         tuple(map(source, formula.args)),
-        *_docstring(record.statement),
+        *docstring(record.statement),
         tuple(record.latex.split("\n")) if len(record.latex) <= WIDTH else (),
         record.function,
         record.paper,
@@ -118,24 +133,24 @@ def function_text(formula: Formula, record: Any) -> FunctionText:
     )
 
 
-def _docstring(statement: str) -> tuple[str, tuple[str, ...]]:
+def docstring(statement: str) -> tuple[str, tuple[str, ...]]:
     """The first sentence, which must fit a line, and the rest, wrapped."""
     first, dot, rest = statement.partition(". ")
     lines = textwrap.wrap(first + (dot.strip() or ""), WIDTH)
     return lines[0], (*lines[1:], *textwrap.wrap(rest, WIDTH))
 
 
-def _helpers_used(formulas: Any) -> list[str]:
+def helpers_used(formulas: Any) -> list[str]:
     found: set[str] = set()
     for formula in formulas:
-        terms = [term for _, term in formula.steps] + _flat(formula.result)
+        terms = [term for _, term in formula.steps] + flat(formula.result)
         for term in terms:
             found |= {type(f).__name__ for f in sp.sympify(term).atoms(sp.Function) if isinstance(f, HELPERS)}
     return sorted(found - set(RENAMED))
 
 
-def _flat(result: Any) -> list[sp.Expr]:
-    return [e for part in result for e in _flat(part)] if isinstance(result, tuple) else [result]
+def flat(result: Any) -> list[sp.Expr]:
+    return [e for part in result for e in flat(part)] if isinstance(result, tuple) else [result]
 
 
 def stable_text() -> str:

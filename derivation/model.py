@@ -23,11 +23,38 @@ class Parameter:
 
 
 @dataclass(frozen=True)
+class Series:
+    """The Prony series of a model, ``p/w = K (1 + sum_i eta_i s/(1 + tau_i s))``, one term per relaxation time.
+
+    ``viscosity`` is eta_i = K_i tau_i/K in seconds and stays finite for a dashpot, tau_i = 0; ``time`` is tau_i. Both are given
+    for one generic branch, in the model's parameters, of which those in ``arrays`` have one value per branch.
+    """
+
+    K: sp.Symbol
+    viscosity: sp.Expr
+    time: sp.Expr
+    arrays: tuple[sp.Symbol, ...] = ()
+
+    def of_branch(self, number: int) -> tuple[sp.Expr, sp.Expr]:
+        """(viscosity, time) of one branch, counted from 1, in numbered parameters."""
+        numbered = {symbol: sp.Symbol(f"{symbol.name.removesuffix('_i')}_{number}", positive=True) for symbol in self.arrays}
+        return sp.sympify(self.viscosity).subs(numbered), sp.sympify(self.time).subs(numbered)
+
+
+@dataclass(frozen=True)
+class Roots:
+    """The Prony series of a model given by its operators alone: taken from their roots, once its parameters are numbers."""
+
+    K: sp.Expr
+
+
+@dataclass(frozen=True)
 class Model:
     """``sum_n Q[n] d^n w/dt^n = sum_n P[n] d^n p/dt^n``.
 
     ``differences`` writes parameters as sums of nonnegative ones, so that an inequality the model asks of its parameters
-    (``T_eps >= T_sigma``) holds by construction where admissibility is checked.
+    (``T_eps >= T_sigma``) holds by construction where admissibility is checked. A model with ``series`` goes through the
+    pipeline for n modes (:mod:`.modes`).
     """
 
     name: str
@@ -36,6 +63,7 @@ class Model:
     Q: tuple[sp.Expr, ...]
     P: tuple[sp.Expr, ...]
     differences: tuple[tuple[sp.Symbol, sp.Expr], ...] = ()
+    series: Series | Roots | None = None
 
     @property
     def modes(self) -> int:
@@ -174,6 +202,8 @@ def inadmissible(model: Model) -> list[str]:
     for label, operator in (("Q", Q), ("P", P)):
         if not all(_nonnegative(c) for c in operator):
             reasons.append(f"stable: {label} has a negative coefficient, so a motion that grows in time")
+    if isinstance(model.series, Roots) and any(c.free_symbols for c in (*Q, *P)):
+        return reasons  # the rest depends on the numbers: the emitted solver refuses those that are no passive solid
     if not reasons and len(Q) > 3:  # up to degree 2 positive coefficients suffice
         reasons += _unstable_roots(Q, "Q") + _unstable_roots(P, "P")
     numerator = sp.expand(sp.im(sp.expand_complex(_at(Q, sp.I * omega) * sp.conjugate(_at(P, sp.I * omega)))))
@@ -214,6 +244,8 @@ __all__ = [
     "Foundation",
     "Model",
     "Parameter",
+    "Roots",
+    "Series",
     "foundation",
     "inadmissible",
     "omega",

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from hystrip.errors import HystripError, InputError, MissingExtra, SolverError
 from hystrip.inputs.adhesion import Dugdale
-from hystrip.inputs.material import StandardLinearSolid
+from hystrip.inputs.material import KelvinVoigt, StandardLinearSolid
+from hystrip.inputs.prony import Prony
 from hystrip.inputs.surface import Level
 from hystrip.solve import solve
 
@@ -20,9 +21,11 @@ __all__ = [
     "FrictionLaw",
     "HystripError",
     "InputError",
+    "KelvinVoigt",
     "Level",
     "LevelSolution",
     "MissingExtra",
+    "Prony",
     "Result",
     "Scene",
     "SolverError",
@@ -31,6 +34,7 @@ __all__ = [
     "Sweep",
     "friction_law",
     "load_scene",
+    "load_solver",
     "solve",
     "solve_level",
     "solve_strip",
@@ -48,6 +52,7 @@ _LAZY = {
     "StripSolution": "hystrip.strip.solution",
     "friction_law": "hystrip.level.solution",
     "load_scene": "hystrip.scene",
+    "load_solver": "hystrip.loading",
     "solve_level": "hystrip.level.solution",
     "solve_strip": "hystrip.strip.solution",
     "sweep": "hystrip.sweeps",
@@ -55,6 +60,7 @@ _LAZY = {
 
 if TYPE_CHECKING:
     from hystrip.level.solution import FrictionLaw, LevelSolution, friction_law, solve_level
+    from hystrip.loading import load_solver
     from hystrip.result import Result
     from hystrip.scene import Scene, load_scene
     from hystrip.strip.solution import StripSolution, solve_strip

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from hystrip.extras import require
+from hystrip.solver import parameters
 from hystrip.tables import parts_of_mu
 
 #: unit and long name of every variable
@@ -93,7 +94,7 @@ def attributes(result: Any) -> dict[str, Any]:
         "hystrip_version": hystrip.__version__,
         "numpy_version": np.__version__,
         "material": json.dumps(
-            {"model": type(material).__name__, **{n: getattr(material, n) for n in ("K", "T_eps", "T_sigma")}}
+            {"model": type(material).__name__, **parameters(material)}
         ),
         "adhesion": json.dumps({n: getattr(adhesion, n) for n in ("gamma", "p_0", "delta_0")}),
         "levels": json.dumps([{"l": level.l, "h": level.h} for level in result.levels]),

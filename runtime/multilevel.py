@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from hystrip.inputs.adhesion import Dugdale
-from hystrip.inputs.material import StandardLinearSolid
 from hystrip.inputs.surface import Level
 from hystrip.level.build import build_laws
 from hystrip.level.carried import CarriedByLaws, peak_pressure
@@ -16,6 +15,7 @@ from hystrip.level.inverse import cut_penetration, invert
 from hystrip.level.means import level_means
 from hystrip.level.saturated import SaturatedLevel, saturated_level
 from hystrip.level.strips import QUANTITIES, Columns, Tally
+from hystrip.solver import Material
 
 _OWN = len(QUANTITIES)
 #: the error column of what is carried never asks for refinement
@@ -44,7 +44,7 @@ class Points:
 class Surface:
     """What stays the same over all points of a solution."""
 
-    material: StandardLinearSolid
+    material: Material
     adhesion: Dugdale
     levels: Sequence[Level]
     edge: str

@@ -9,8 +9,8 @@ import numpy as np
 
 if TYPE_CHECKING:
     from hystrip.inputs.adhesion import Dugdale
-    from hystrip.inputs.material import StandardLinearSolid
     from hystrip.inputs.surface import Level
+    from hystrip.solver import Material
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +50,7 @@ class Result:
     error_estimate: np.ndarray
     tau_error: np.ndarray
     counts: dict[str, int]
-    material: StandardLinearSolid = field(repr=False)
+    material: Material = field(repr=False)
     adhesion: Dugdale = field(repr=False)
     levels: tuple[Level, ...] = field(repr=False)
     edge: str

@@ -10,16 +10,17 @@ import numpy as np
 from hystrip.errors import InputError
 from hystrip.inputs.adhesion import Dugdale
 from hystrip.inputs.checks import broadcast, choice, number, numbers
-from hystrip.inputs.material import StandardLinearSolid
 from hystrip.inputs.surface import Level
+from hystrip.solver import check_edge, check_material, parameters
 
 if TYPE_CHECKING:
     from hystrip.multilevel import Surface
     from hystrip.result import Result
+    from hystrip.solver import Material
 
 
 def solve(
-    material: StandardLinearSolid,
+    material: Material,
     adhesion: Dugdale,
     levels: Sequence[Level],
     *,
@@ -62,11 +63,11 @@ def solve(
     # loaded here: `import hystrip` is to cost next to nothing
     from hystrip.level.strips import Tally
     from hystrip.multilevel import Surface
-    from hystrip.strip.solution import BRANCHES, EDGES
+    from hystrip.strip.solution import BRANCHES
 
     levels = tuple(_checked_levels(levels))
     check_single(material, adhesion)
-    edge, branch = choice("edge", edge, EDGES), choice("branch", branch, BRANCHES)
+    edge, branch = check_edge(material, edge), choice("branch", branch, BRANCHES)
     rtol = check_rtol(rtol)
     velocity = numbers("velocity", velocity, "m/s", 0)
     if (pressure is None) == (penetration is None):
@@ -140,15 +141,14 @@ def _checked_levels(levels) -> list[Level]:
 
 def check_single(material, adhesion) -> None:
     """Refuse anything but one material and one adhesion law with single values."""
-    if not isinstance(material, StandardLinearSolid):
-        raise InputError("material", material, "a hystrip.StandardLinearSolid")
+    check_material(material)
     if not isinstance(adhesion, Dugdale):
         raise InputError("adhesion", adhesion, "a hystrip.Dugdale (gamma=0: no adhesion)")
-    for name, owner, fields in (("material", material, ("K", "T_eps", "T_sigma")), ("adhesion", adhesion, ("p_0", "delta_0"))):
-        for field in fields:
-            value = getattr(owner, field)
-            if np.ndim(value):
-                raise InputError(f"{name}.{field}", value, "a single number (arrays are for solve_strip)")
+    given = {f"material.{name}": value for name, value in parameters(material).items()}
+    given |= {f"adhesion.{name}": getattr(adhesion, name) for name in ("p_0", "delta_0")}
+    for name, value in given.items():
+        if np.ndim(value):
+            raise InputError(name, value, "a single number (arrays are for solve_strip)")
 
 
 def check_rtol(rtol) -> float:

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from hystrip.solver import foundation_of, parameters
 from hystrip.tables import shares
 
 _STRIPS = 200
@@ -19,27 +20,31 @@ def summary(result: Any) -> str:
 
 
 def deborah(result: Any) -> np.ndarray:
-    """Deborah number ``k V T_eps`` of every level, shape (levels, ...): retardation time over the time to slide ``l/(2 pi)``."""
+    """Deborah number ``k V T_eps`` of every level, shape (levels, ...): longest retardation time over the time to slide ``l/(2 pi)``."""
     k = np.array([level.k for level in result.levels])
-    return np.multiply.outer(k, np.asarray(result.velocity)) * result.material.T_eps
+    return np.multiply.outer(k, np.asarray(result.velocity)) * foundation_of(result.material).longest_time
 
 
 def peak_velocities(result: Any) -> np.ndarray:
-    """Velocity at which each level would rub most in saturated contact, ``l/(2 pi T_sigma)`` (m/s); inf for ``T_sigma = 0``."""
-    lengths = np.array([level.l for level in result.levels])
-    T_sigma = result.material.T_sigma
-    return lengths / (2 * np.pi * T_sigma) if T_sigma > 0 else np.full(lengths.shape, np.inf)
+    """Velocity at which each level would rub most in saturated contact: where ``Im K*(kV)`` is greatest (m/s); inf for ``T_sigma = 0``."""
+    return np.array([level.l for level in result.levels]) / (2 * np.pi) * foundation_of(result.material).lossiest_rate
 
 
 def _inputs(result: Any) -> list[str]:
     m, a = result.material, result.adhesion
     sticky = f"gamma = {a.gamma:.4g} J/m^2, delta_0 = {a.delta_0:.4g} m, p_0 = {a.p_0:.4g} Pa" if a.p_0 > 0 else "none"
     return [
-        f"material   {type(m).__name__}: K = {m.K:.4g} Pa/m, T_eps = {m.T_eps:.4g} s, T_sigma = {m.T_sigma:.4g} s",
+        f"material   {type(m).__name__}: {', '.join(_parameter(*each) for each in parameters(m).items())}",
         f"adhesion   {sticky}",
         f"closure    {result.edge}, branch {result.branch}, rtol {result.rtol:g}",
         f"points     {np.size(result.mu)}: pressure {_span(result.pressure, 'Pa')}, velocity {_span(result.velocity, 'm/s')}",
     ]
+
+
+def _parameter(name: str, value: Any) -> str:
+    """``K = 1e+09 Pa/m``; the unit of what is not known here is left to the model."""
+    unit = {"K": " Pa/m", "moduli": " Pa/m", "T_eps": " s", "T_sigma": " s", "times": " s"}.get(name.partition("[")[0], "")
+    return f"{name} = {value:.4g}{unit}"
 
 
 def _levels(result: Any) -> list[str]:

@@ -11,7 +11,8 @@ from pathlib import Path
 from types import ModuleType
 
 import hystrip.derivation
-from hystrip.derivation import STANDARD_LINEAR_SOLID, Derivation, derive, generated_folder
+from hystrip.derivation import MODELS, STANDARD_LINEAR_SOLID, Derivation, derive, derive_any, generated_folder
+from hystrip.derivation.dispatch import AnyDerivation
 from hystrip.derivation.drift import CERTIFICATES, audit_texts, read_certificates, read_measured
 from hystrip.derivation.emit import emit
 
@@ -25,15 +26,21 @@ def derivation() -> Derivation:
 
 
 @functools.cache
+def derivations() -> tuple[AnyDerivation, ...]:
+    """Of every model that ships."""
+    return tuple(derivation() if model is STANDARD_LINEAR_SOLID else derive_any(model) for model in MODELS)
+
+
+@functools.cache
 def emitted() -> dict[str, str]:
-    return emit((derivation(),))
+    return emit(derivations())
 
 
 @functools.cache
 def audited() -> dict[str, str]:
     """The audit's pages as they should be, with the certificates and the measured figures that are checked in."""
     folder = generated_folder()
-    return audit_texts((derivation(),), emitted(), read_certificates(folder / CERTIFICATES), read_measured(folder))
+    return audit_texts(derivations(), emitted(), read_certificates(folder / CERTIFICATES), read_measured(folder))
 
 
 def tampered(folder: Path, file: str, before: str, after: str) -> ModuleType:

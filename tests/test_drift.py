@@ -10,19 +10,21 @@ import sys
 from pathlib import Path
 
 import pytest
-from derived_once import audited, derivation, emitted
+from derived_once import audited, derivations, emitted
 
-from hystrip.derivation import generated_folder
+from hystrip.derivation import MODELS, generated_folder
+from hystrip.derivation.dispatch import certified_names
 from hystrip.derivation.drift import CERTIFICATES, MEASURED, compare, write_files
 
-FILES = ("__init__.py", "stable.py", "standard_linear_solid.py")
-PAGES = ("audit/index.html", "audit/standard_linear_solid.html", "audit/standard_linear_solid.json")
+NAMES = [model.name for model in MODELS]
+FILES = ("__init__.py", "stable.py", "modes.py", *(f"{name}.py" for name in NAMES))
+PAGES = ("audit/index.html", *(f"audit/{name}.{kind}" for name in NAMES for kind in ("html", "json")))
 EMIT = """
 import hashlib, json
-from hystrip.derivation import STANDARD_LINEAR_SOLID, derive
+from hystrip.derivation import MODELS, derive_any
 from hystrip.derivation.emit import emit
 from hystrip.derivation.drift import audit_texts
-derived = (derive(STANDARD_LINEAR_SOLID),)
+derived = tuple(map(derive_any, MODELS))
 files = emit(derived)
 files |= audit_texts(derived, files, {}, {})
 print(json.dumps({name: hashlib.sha256(text.encode()).hexdigest() for name, text in files.items()}))
@@ -30,8 +32,8 @@ print(json.dumps({name: hashlib.sha256(text.encode()).hexdigest() for name, text
 
 
 def drift(folder: Path):
-    made = derivation()
-    return compare(folder, {**emitted(), **audited()}, {made.model.name: [kernel.formula.name for kernel in made.kernels]})
+    names = {made.model.name: certified_names(made) for made in derivations()}
+    return compare(folder, {**emitted(), **audited()}, names)
 
 
 @pytest.fixture

@@ -36,11 +36,11 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
         "material": [[p.name, p.unit, p.meaning] for p in derivation.model.parameters],
         "equations": paper.equations(derivation.steps),
         "misprints": paper.misprints(derivation.steps),
-        "stages": _stages(derivation, computed),
+        "stages": stages(derivation.steps, computed),
         "regimes": [_regime(regime, computed) for regime in derivation.regimes],
         "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
-        "sources": {name: _text(sources.deriving(name)) for name in sorted({step.function for step in derivation.steps})},
-        "generated": {name: _text(source) for name, source in computed.items()},
+        "sources": {name: text(sources.deriving(name)) for name in sorted({step.function for step in derivation.steps})},
+        "generated": {name: text(source) for name, source in computed.items()},
     }
 
 
@@ -54,11 +54,12 @@ def identity(files: dict[str, str]) -> dict[str, Any]:
     }
 
 
-def _stages(derivation: Derivation, computed: dict[str, sources.Source]) -> list[dict[str, Any]]:
-    stages: dict[str, list[dict[str, Any]]] = {}
-    for step in derivation.steps:
-        stages.setdefault(step.function.partition(".")[0], []).append(_step(step, computed))
-    return [{"module": module, "title": sources.title(module), "steps": steps} for module, steps in stages.items()]
+def stages(steps: tuple[Derived, ...], computed: dict[str, sources.Source]) -> list[dict[str, Any]]:
+    """The steps by the module that derives them."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    for step in steps:
+        found.setdefault(step.function.rpartition(".")[0], []).append(_step(step, computed))
+    return [{"module": module, "title": sources.title(module), "steps": steps} for module, steps in found.items()]
 
 
 def _step(step: Derived, computed: dict[str, sources.Source]) -> dict[str, Any]:
@@ -112,5 +113,5 @@ def _regime(regime: Regime, computed: dict[str, sources.Source]) -> dict[str, An
     }
 
 
-def _text(source: sources.Source) -> dict[str, Any]:
+def text(source: sources.Source) -> dict[str, Any]:
     return {"file": source.file, "line": source.line, "text": source.text}

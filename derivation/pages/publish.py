@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from ..derive import STAGES, derive
+from ..dispatch import certified_names, derive_any, stages_of
 from ..drift import AUDIT, CERTIFICATES, MEASURED, certificate_drift, dumped, generated_folder, read_certificates, write_files
 from ..emit import emit
 from ..model import Model
@@ -34,7 +34,7 @@ def audit(
     chosen = tuple(models) if models is not None else MODELS
     installed = generated_folder()
     target = Path(out_dir) if out_dir is not None else installed / AUDIT
-    total, done = len(chosen) * len(STAGES) + 2, 0
+    total, done = sum(len(stages_of(model)) for model in chosen) + 2, 0
 
     def say(stage: str = "") -> None:
         nonlocal done
@@ -42,11 +42,11 @@ def audit(
         if progress is not None:
             progress(done, total)
 
-    derivations = tuple(derive(model, say) for model in chosen)
+    derivations = tuple(derive_any(model, say) for model in chosen)
     texts = emit(derivations)
     say()
     stale = [name for name, text in texts.items() if not _same(installed / name, text)]
-    functions = {d.model.name: [kernel.formula.name for kernel in d.kernels] for d in derivations}
+    functions = {d.model.name: certified_names(d) for d in derivations}
     stale += [record.path for record in certificate_drift(installed, functions)]
     if stale:
         raise AuditError(f"{', '.join(stale)} in {installed} is not what the derivation emits; run `hystrip regenerate` first")

@@ -19,9 +19,9 @@ class Source:
 
 def deriving(function: str) -> Source:
     """Source of a deriving function, given as ``module.name``."""
-    module, _, name = function.partition(".")
+    module, _, name = function.rpartition(".")
     lines, first = inspect.getsourcelines(getattr(importlib.import_module(f"{PACKAGE}.{module}"), name))
-    return Source(f"derivation/{module}.py", first, "".join(lines).rstrip())
+    return Source(f"derivation/{module.replace('.', '/')}.py", first, "".join(lines).rstrip())
 
 
 def title(module: str) -> str:

@@ -1,4 +1,4 @@
-"""``hystrip regenerate``: derive and emit the solver anew."""
+"""``hystrip regenerate``: derive and emit a solver: the package's own anew, or that of a user's model."""
 
 from __future__ import annotations
 
@@ -8,22 +8,40 @@ import typer
 
 
 def command(
-    out: Path = typer.Option(None, "--out", help="Folder to write into; without it, the installed package's own."),
+    model: Path = typer.Argument(None, help="A Python file that declares MODEL (its code is run); without it, the models of hystrip."),
+    out: Path = typer.Option(None, "--out", help="Folder to write into; without it (and without MODEL), the installed package's own."),
 ) -> None:
-    """Derive the solver with SymPy and emit it.
+    """Derive a solver with SymPy, certify and emit it.
 
-    Needs the extra `regenerate`.
+    The folder is used with hystrip.load_solver(...), or in a scene as [material] solver. Needs the extra `regenerate`.
     """
     from hystrip.commands.derivation import needed
     from hystrip.commands.progress import progress
+    from hystrip.errors import HystripError, InputError
     from hystrip.files import refuse_unwritable
 
+    if model is not None and out is None:
+        raise InputError("--out", None, "a folder for the solver of your model")
     needed("regenerating")
     import hystrip.derivation
     import hystrip.generated
 
     folder = out if out is not None else Path(hystrip.generated.__file__).parent
     refuse_unwritable(folder, "--out")
-    with progress("deriving") as report:
-        hystrip.derivation.regenerate(folder, progress=report)
+    try:
+        models = None if model is None else hystrip.derivation.load_model(model)
+    except FileNotFoundError:
+        raise InputError("MODEL", str(model), "a Python file that declares MODEL") from None
+    except hystrip.derivation.DerivationError as error:
+        raise InputError("MODEL", str(model), f"a file that declares an admissible model: {error}") from None
+    try:
+        with progress("deriving") as report:
+            hystrip.derivation.regenerate(folder, models=models, progress=report)
+    except hystrip.derivation.DerivationError as error:
+        failure = InputError("MODEL", str(model), f"an admissible model: {error}") if model else HystripError(str(error))
+        raise failure from None
+    except FileExistsError as error:
+        raise InputError("--out", str(folder), f"a folder that is new or holds a solver: {error}") from None
+    except hystrip.derivation.CertificateError as error:
+        raise HystripError(str(error)) from None
     typer.echo(f"wrote {folder}")

@@ -14,6 +14,7 @@ def command(
     table: bool = typer.Option(True, help="Print the table."),
     netcdf: bool = typer.Option(False, "--netcdf", help="Write the labelled results as netCDF too (extra `dataset`)."),
     summary: bool = typer.Option(False, "--summary", help="Say where the friction comes from."),
+    allow_solver: bool = typer.Option(False, "--allow-solver", help="Run the code of a solver that the scene names."),
 ) -> None:
     """Solve a scene: friction over velocity.
 
@@ -25,7 +26,7 @@ def command(
     from hystrip.scene import load_scene
     from hystrip.tables import friction_rows, write_csv
 
-    case = load_scene(scene)
+    case = load_scene(scene, allow_solver=allow_solver)
     draws = plot and case.velocity.size > 1
     # What can fail without the work fails before it.
     if draws:

@@ -15,6 +15,7 @@ def command(
     batch: int = typer.Option(None, "--batch", help="Points solved and stored together [the scene's, or 64]."),
     netcdf: bool = typer.Option(False, "--netcdf", help="Write the labelled results as netCDF too (extra `dataset`)."),
     restart: bool = typer.Option(False, "--restart", help="Delete what an earlier sweep left in the folder."),
+    allow_solver: bool = typer.Option(False, "--allow-solver", help="Run the code of a solver that the scene names."),
 ) -> None:
     """Solve a scene over every combination of its lists and ranges.
 
@@ -31,7 +32,10 @@ def command(
         require("h5netcdf", "dataset", "writing netCDF")
     try:
         with progress("sweeping", rate=True) as report:
-            done = sweep(scene, out=out, workers=workers, scheduler=scheduler, batch=batch, restart=restart, progress=report)
+            done = sweep(
+                scene, out=out, workers=workers, scheduler=scheduler, batch=batch, restart=restart, allow_solver=allow_solver,
+                progress=report,
+            )  # fmt: skip
     except KeyboardInterrupt:
         typer.echo("hystrip: finished batches are kept; the same command goes on from there", err=True)
         raise

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -69,3 +69,23 @@ class StandardLinearSolid:
 
     def __hash__(self):
         return hash(self._key())
+
+
+@dataclass(frozen=True, eq=False)
+class KelvinVoigt(StandardLinearSolid):
+    """Foundation without instantaneous compliance: ``K (w + T_eps w_t) = p``; the standard linear solid with ``T_sigma = 0``.
+
+    Pressure steps where contact begins; there is no snap-in, and the two edge closures are one.
+
+    Parameters
+    ----------
+    K : relaxed stiffness per area, Pa/m, > 0
+    T_eps : retardation time, s, >= 0
+
+    Scalars or arrays that broadcast. Raises ``InputError`` for a value outside these ranges.
+
+    >>> hystrip.KelvinVoigt(K=1e9, T_eps=1e-2)
+    KelvinVoigt(K=1000000000.0, T_eps=0.01)
+    """
+
+    T_sigma: float = field(default=0.0, init=False, repr=False)

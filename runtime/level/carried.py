@@ -42,7 +42,7 @@ class CarriedByLaws:
         crossed = np.zeros(group.size, int)
         contact = np.flatnonzero(strips.solved.contact_fraction > 0)
         if contact.size:
-            peak = _Contact(kernel, strips, contact).p_peak
+            peak = contact_of(kernel, strips, contact).p_peak
             for g in np.unique(group[contact]):
                 mine = group[contact] == g
                 crossed[contact[mine]] = np.searchsorted(self.laws[g].breaks, peak[mine])
@@ -66,12 +66,12 @@ def peak_pressure(columns: Columns) -> np.ndarray:
     peak = np.full(columns.size, -np.inf)
     index = np.flatnonzero(strips.solved.contact_fraction > 0)
     if index.size:
-        peak[index] = _Contact(kernel_of(columns.material), strips, index).p_peak
+        peak[index] = contact_of(kernel_of(columns.material), strips, index).p_peak
     return peak
 
 
 def _one_law(kernel, law: Law, strips: SolvedStrips, index, nodes):
-    contact = _Contact(kernel, strips, index)
+    contact = contact_of(kernel, strips, index)
     breaks = law.breaks
     breaks = breaks[breaks < contact.p_peak.max(initial=-np.inf)]
     n, q = index.size, law.saturated.size
@@ -124,6 +124,15 @@ def _part(contact: _Contact, law: Law, rows, low, high, nodes):
 def _rule(n: int):
     """Phases on (0, 1) and weights of the rule with square-root ends, and its weights with half and a quarter of the nodes."""
     return np.sin(0.5 * np.pi * interior_nodes(n)) ** 2, mapped_weights(n), mapped_weights(n // 2), mapped_weights(n // 4)
+
+
+def contact_of(kernel, strips: SolvedStrips, index):
+    """Contact of the strips ``index``, for a foundation with one time or several."""
+    if hasattr(kernel, "MODES"):
+        from hystrip.modes.contact import ModeContact
+
+        return ModeContact(kernel, strips, index)
+    return _Contact(kernel, strips, index)
 
 
 class _Contact:

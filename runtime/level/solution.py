@@ -9,9 +9,9 @@ import numpy as np
 from hystrip.errors import InputError
 from hystrip.inputs.adhesion import Dugdale
 from hystrip.inputs.checks import broadcast, choice, number, numbers
-from hystrip.inputs.material import StandardLinearSolid
 from hystrip.inputs.surface import Level
-from hystrip.strip.solution import BRANCHES, EDGES
+from hystrip.solver import Material, check_edge
+from hystrip.strip.solution import BRANCHES
 
 from .build import build_laws
 from .inverse import invert
@@ -86,7 +86,7 @@ class FrictionLaw:
 
 
 def solve_level(
-    material: StandardLinearSolid,
+    material: Material,
     adhesion: Dugdale,
     level: Level,
     *,
@@ -154,7 +154,7 @@ def _solution(D, values, errors, off, shape, tally):
 
 
 def friction_law(
-    material: StandardLinearSolid,
+    material: Material,
     adhesion: Dugdale,
     level: Level,
     *,
@@ -192,4 +192,4 @@ def _checked(material, adhesion, level, V, edge, branch, rtol):
     if not isinstance(level, Level):
         raise InputError("level", level, "a hystrip.Level")
     V = numbers("V", V, "m/s", 0)
-    return V, level, choice("edge", edge, EDGES), choice("branch", branch, BRANCHES), check_rtol(rtol)
+    return V, level, check_edge(material, edge), choice("branch", branch, BRANCHES), check_rtol(rtol)

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
 from hystrip.inputs.adhesion import Dugdale
-from hystrip.inputs.material import StandardLinearSolid
 from hystrip.inputs.surface import Level
-from hystrip.solver import kernel_of
-from hystrip.strip.solved import Solved
-from hystrip.strip.problem import Strips
+from hystrip.solver import Material, foundation_of, kernel_of
 from hystrip.strip.regimes import CODE
-from hystrip.strip.solution import refuse_uncertified, solve_si
+from hystrip.strip.solved import Solved
 
 from .saturated import saturated_level
 
@@ -55,7 +52,7 @@ class Columns:
     laws belongs to a column.
     """
 
-    material: StandardLinearSolid
+    material: Material
     adhesion: Dugdale
     level: Level
     edge: str
@@ -84,26 +81,10 @@ class Columns:
 
     def solve(self, column: np.ndarray, theta: np.ndarray) -> SolvedStrips:
         """Strips at ``theta = k y`` of the given columns, both of shape (m,). Raises ``SolverError`` for one not certified."""
-        n = column.size
-        m, a = self.material, self.adhesion
-        full = lambda value: np.full(n, float(value))  # noqa: E731
         A = self.level.amplitude(theta)
         D = self.D[column] - self.level.drop(theta)
-        inputs = (
-            full(self.level.l),
-            A,
-            D,
-            self.V[column],
-            full(m.K),
-            full(m.T_eps),
-            full(m.T_sigma),
-            full(a.p_0),
-            full(a.delta_0),
-            full(m.J),
-            full(m.L),
-        )
-        solved, strips, scales = solve_si(kernel_of(m), *inputs, self.edge, self.branch)
-        refuse_uncertified(solved, inputs, self.edge, self.branch)
+        l, a = np.full(column.size, self.level.l), self.adhesion  # noqa: E741
+        solved, strips, scales = foundation_of(self.material).solve(l, A, D, self.V[column], a.p_0, a.delta_0, self.edge, self.branch)
         self.tally.count(solved)
         tau = solved.tau_mean * scales["p"] * scales["k"] * scales["A"]
         return SolvedStrips(solved, strips, scales, solved.p_mean * scales["p"], tau)
@@ -137,7 +118,7 @@ class SolvedStrips:
     """Solved strips of a batch, with pressure and friction means in Pa."""
 
     solved: Solved
-    strips: Strips
+    strips: Any
     scales: dict
     p_mean: np.ndarray
     tau_mean: np.ndarray
@@ -157,7 +138,7 @@ def _known_transitions(columns: Columns) -> list[np.ndarray]:
     m, h, p_0, delta_0 = columns.material, columns.level.h, columns.adhesion.p_0, columns.adhesion.delta_0
     if h == 0:
         return [np.empty(0)] * columns.size
-    R = kernel_of(m).modulus_ratio(columns.level.k * columns.V * m.T_sigma, columns.level.k * columns.V * m.T_eps)
+    R = foundation_of(m).modulus_ratio(columns.level.k * columns.V)
     # saturated where D - drop >= A (1 + R) - p_0/K, with drop = (h/2)(1 - cos), A = (h/4)(1 + cos)
     numerator = (columns.D + p_0 / m.K) / h - 0.5 - 0.25 * (1 + R)
     saturated = np.divide(4 * numerator, R - 1, out=np.full(columns.size, np.inf), where=R > 1)

@@ -35,12 +35,13 @@ def scene_text(source: str | os.PathLike[str]) -> tuple[str, str]:
     return _read(path), os.path.splitext(os.path.basename(path))[0] or "scene"
 
 
-def load_scene(source: str | os.PathLike[str]) -> Scene:
+def load_scene(source: str | os.PathLike[str], *, allow_solver: bool = False) -> Scene:
     """Read a scene.
 
     Parameters
     ----------
     source : path of a TOML file, or the name of a built-in scene (see :data:`BUILTIN`)
+    allow_solver : run the code of a solver that the scene names; without it such a scene is refused
 
     Raises
     ------
@@ -48,15 +49,29 @@ def load_scene(source: str | os.PathLike[str]) -> Scene:
     MissingExtra : msgspec, or Pint where a unit is written, is not installed
     """
     text, name = scene_text(source)
-    return parse_scene(text, name=name, source=os.fspath(source))
+    return parse_scene(text, name=name, source=os.fspath(source), allow_solver=allow_solver)
 
 
-def parse_scene(text: str, name: str = "scene", source: str = "") -> Scene:
+def parse_scene(text: str, name: str = "scene", source: str = "", *, allow_solver: bool = False) -> Scene:
     """Build a scene from TOML text; `source` is named in errors. Raises as :func:`load_scene`."""
     from hystrip.scene.validate import validated
 
     with located(source):
-        return _assembled(validated(parse_toml(text)), text, name, source)
+        values = validated(parse_toml(text))
+        resolve_solver(values, source, allow_solver)
+        return _assembled(values, text, name, source)
+
+
+def resolve_solver(values: dict[str, Any], source: str, allowed: bool) -> None:
+    """Make the solver's folder in a validated scene absolute (it is given from the scene's on); SceneError unless it may be run."""
+    folder = values["material"]["solver"]
+    if folder is None:
+        return
+    if not allowed:
+        problem = "the scene names a solver, which is code that would run"
+        how = "only if the caller allows it: --allow-solver on the command line, allow_solver=True in Python"
+        raise SceneError("material.solver", folder, how, problem)
+    values["material"]["solver"] = os.path.abspath(os.path.join(os.path.dirname(source), folder))
 
 
 def parse_toml(text: str) -> dict[str, Any]:
@@ -126,7 +141,7 @@ def quantities(values: dict[str, Any]) -> Iterator[tuple[str, np.ndarray]]:
     tables += [("material", values["material"]), ("adhesion", values["adhesion"] or {})]
     for path, table in tables:
         for key, each in table.items():
-            if isinstance(each, np.ndarray):
+            if isinstance(each, np.ndarray) and key not in ("moduli", "times"):  # a list of these is one material
                 yield f"{path}.{key}", each
     for key in ("pressure", "penetration", "velocity"):
         if values[key] is not None:
@@ -135,7 +150,7 @@ def quantities(values: dict[str, Any]) -> Iterator[tuple[str, np.ndarray]]:
 
 def build_objects(values: dict[str, Any]) -> dict[str, Any]:
     """Material, adhesion and levels of a validated scene whose quantities there are single values."""
-    material = {key: float(each) for key, each in values["material"].items() if key != "model"}
+    material = _parameters(values["material"])
     adhesion = {key: float(each) for key, each in (values["adhesion"] or {"gamma": 0.0}).items() if each is not None}
     levels = [{key: float(each) for key, each in level.items()} for level in values["levels"]]
     return {
@@ -145,7 +160,21 @@ def build_objects(values: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-_MODELS = {"standard_linear_solid": "StandardLinearSolid"}
+_MODELS = {"standard_linear_solid": "StandardLinearSolid", "kelvin_voigt": "KelvinVoigt", "prony": "Prony"}
+
+
+def _parameters(material: dict[str, Any]) -> dict[str, Any]:
+    """Arguments of the material's class."""
+    given = {key: each for key, each in material.items() if isinstance(each, np.ndarray)}
+    arguments: dict[str, Any] = {key: each.tolist() if each.ndim else float(each) for key, each in given.items()}
+    if material["solver"] is not None:
+        from hystrip.loading import load_solver
+
+        try:
+            arguments["solver"] = load_solver(material["solver"])
+        except InputError as error:
+            raise SceneError("material.solver", error.value, error.allowed) from None
+    return arguments
 
 
 def _made(kind: str, arguments: dict[str, Any], path: str) -> Any:

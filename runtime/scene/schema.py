@@ -31,6 +31,13 @@ def _range_meta(description: str, unit: str) -> Any:
     )
 
 
+def _list_meta(description: str, unit: str) -> Any:
+    return Meta(
+        description=f"{description}: a list of numbers in {unit} or texts with a unit such as {EXAMPLES[unit]!r}",
+        extra={"unit": unit},
+    )
+
+
 class Range(Struct, forbid_unknown_fields=True, kw_only=True):
     """`num` values from `start` to `stop`, both included."""
 
@@ -47,15 +54,35 @@ Values = Number | list[Number] | Range
 
 
 class Material(Struct, forbid_unknown_fields=True, kw_only=True):
-    """The viscoelastic foundation: a stiffness per area and its two times."""
+    """The viscoelastic foundation: a stiffness per area and its times."""
 
     model: Annotated[
-        Literal["standard_linear_solid"],
-        Meta(description='"standard_linear_solid" (the default)'),
+        Literal["standard_linear_solid", "kelvin_voigt", "prony"],
+        Meta(
+            description='"standard_linear_solid" (the default: K, T_eps, T_sigma), "kelvin_voigt" (K, T_eps) or "prony" '
+            "(K, moduli, times)"
+        ),
     ] = "standard_linear_solid"
     K: Annotated[Values, _swept_meta("relaxed stiffness per area, > 0", "Pa/m")]
-    T_eps: Annotated[Values, _swept_meta("retardation time, >= T_sigma", "s")]
-    T_sigma: Annotated[Values, _swept_meta("relaxation time, from 0 to T_eps", "s")]
+    T_eps: Annotated[Values | None, _swept_meta("retardation time, >= T_sigma", "s")] = None
+    T_sigma: Annotated[Values | None, _swept_meta("relaxation time, from 0 to T_eps", "s")] = None
+    moduli: Annotated[list[Number] | None, _list_meta("branch moduli K_i, one for each relaxation time, >= 0", "Pa/m")] = None
+    times: Annotated[list[Number] | None, _list_meta("relaxation times tau_i, > 0", "s")] = None
+    solver: Annotated[
+        str | None,
+        Meta(
+            description="folder of a solver from `hystrip regenerate`, for a prony series of so many times (from the scene's folder on); its "
+            "code is run, which has to be allowed"
+        ),
+    ] = None
+
+
+#: the parameters that each model of a material takes
+MATERIAL_KEYS = {
+    "standard_linear_solid": ("K", "T_eps", "T_sigma"),
+    "kelvin_voigt": ("K", "T_eps"),
+    "prony": ("K", "moduli", "times"),
+}
 
 
 class Adhesion(Struct, forbid_unknown_fields=True, kw_only=True):
@@ -104,7 +131,7 @@ class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):
     rtol: Annotated[
         float, Meta(ge=1e-12, le=0.1, description="a number from 1e-12 to 0.1, the accuracy asked for (default 1e-6)")
     ] = 1e-6
-    material: Annotated[Material, Meta(description="a table [material] with K, T_eps and T_sigma")]
+    material: Annotated[Material, Meta(description="a table [material] with K and the times of its model")]
     adhesion: Annotated[Adhesion | None, Meta(description="a table [adhesion]; without one there is no adhesion")] = None
     sweep: Annotated[Sweep | None, Meta(description="a table [sweep] with combine and batch, for `hystrip sweep`")] = None
     levels: Annotated[

@@ -40,10 +40,25 @@ def validated(raw: dict[str, Any]) -> dict[str, Any]:
         scene = msgspec.convert(raw, schema.SceneFile)
     except msgspec.ValidationError as error:
         raise _explained(error, raw) from None
+    _refuse_other_models(scene.material)
     try:
         return _resolved(scene, "")
     except InputError as error:
         raise SceneError(error.field, error.value, error.allowed) from None
+
+
+def _refuse_other_models(material: Any) -> None:
+    """Every parameter of the material's model, and none of another's."""
+    wanted = schema.MATERIAL_KEYS[material.model]
+    for key in sorted({key for keys in schema.MATERIAL_KEYS.values() for key in keys}):
+        given = getattr(material, key)
+        if key in wanted and given is None:
+            raise SceneError(f"material.{key}", None, _described(f"material.{key}"), "missing")
+        if key not in wanted and given is not None:
+            allowed = f'with model = "{material.model}" in [material]: {", ".join(wanted)}'
+            raise SceneError(f"material.{key}", given, allowed, "a key of another model")
+    if material.solver is not None and material.model != "prony":
+        raise SceneError("material.solver", material.solver, 'with model = "prony" only; other models come with hystrip')
 
 
 def _fields(struct: type) -> dict[str, tuple[Any, Any]]:

@@ -4,24 +4,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from dataclasses import fields as dataclass_fields
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hystrip.errors import InputError, SolverError
 from hystrip.inputs.adhesion import Dugdale
 from hystrip.inputs.checks import broadcast, choice, numbers
-from hystrip.inputs.material import StandardLinearSolid
-from hystrip.solver import kernel_of
+from hystrip.solver import Foundation, check_edge, check_material, foundation_of, parameters
 
 from .engine import solve_strips
-from .fields import fields
 from .flat import is_flat, solve_flat
 from .problem import Strips
 from .regimes import CODE, REGIMES, SEQUENCES
 from .solved import Solved
 
-EDGES = ("continuous", "constitutive")
 BRANCHES = ("unloading", "loading")
+if TYPE_CHECKING:
+    from hystrip.solver import Material
 #: beyond this alpha and beta squared overflow
 _GROUP_LIMIT = 1e150
 
@@ -50,10 +50,10 @@ class StripSolution:
     d: np.ndarray
     edge: str
     branch: str
-    _strips: Strips = field(repr=False)
+    _strips: Any = field(repr=False)
     _solved: Solved = field(repr=False)
     _scales: tuple = field(repr=False)
-    _kernel: object = field(repr=False)
+    _foundation: Foundation = field(repr=False)
 
     @property
     def regime_name(self) -> np.ndarray:
@@ -94,7 +94,7 @@ class StripSolution:
         wavy = np.flatnonzero(~flat)
         which = index[wavy]
         picked = Solved(*(getattr(self._solved, f.name)[which] for f in dataclass_fields(Solved)))
-        p[wavy], gap[wavy] = fields(self._kernel, self._strips.take(which), picked, phase[wavy])
+        p[wavy], gap[wavy] = self._foundation.fields(self._strips.take(which), picked, phase[wavy])
         level = np.flatnonzero(flat)
         p[level] = self._solved.p_mean[index[level]]
         contact = self._solved.code[index[level]] == CODE["c"]
@@ -103,7 +103,7 @@ class StripSolution:
 
 
 def solve_strip(
-    material: StandardLinearSolid,
+    material: Material,
     adhesion: Dugdale,
     *,
     l,  # noqa: E741 - the paper's symbol
@@ -132,45 +132,26 @@ def solve_strip(
     InputError : an input outside its range, named with what is allowed
     SolverError : a strip whose solution did not pass its certificate, named
     """
-    if not isinstance(material, StandardLinearSolid):
-        raise InputError("material", material, "a hystrip.StandardLinearSolid")
+    check_material(material)
     if not isinstance(adhesion, Dugdale):
         raise InputError("adhesion", adhesion, "a hystrip.Dugdale (gamma=0: no adhesion)")
     wavelength = numbers("l", l, "m", 0, strict=True)
     A = numbers("A", A, "m", 0)
     D = numbers("D", D, "m")
     V = numbers("V", V, "m/s", 0)
-    edge, branch = choice("edge", edge, EDGES), choice("branch", branch, BRANCHES)
+    edge, branch = check_edge(material, edge), choice("branch", branch, BRANCHES)
     shape = broadcast(
         l=wavelength,
         A=A,
         D=D,
         V=V,
-        K=material.K,
-        T_eps=material.T_eps,
-        T_sigma=material.T_sigma,
         p_0=adhesion.p_0,
         delta_0=adhesion.delta_0,
+        **parameters(material),
     )
-    kernel = kernel_of(material)
-    flat_in = [
-        np.broadcast_to(np.asarray(v, float), shape).ravel()
-        for v in (
-            wavelength,
-            A,
-            D,
-            V,
-            material.K,
-            material.T_eps,
-            material.T_sigma,
-            adhesion.p_0,
-            adhesion.delta_0,
-            material.J,
-            material.L,
-        )
-    ]
-    solved, strips, scales = solve_si(kernel, *flat_in, edge, branch)
-    refuse_uncertified(solved, flat_in, edge, branch)
+    flat_in = [np.broadcast_to(np.asarray(v, float), shape).ravel() for v in (wavelength, A, D, V, adhesion.p_0, adhesion.delta_0)]
+    foundation = foundation_of(material).flat(shape)
+    solved, strips, scales = foundation.solve(*flat_in, edge, branch)
     out = lambda v: v.reshape(shape)  # noqa: E731
     per_k = 1 / scales["k"]
     return StripSolution(
@@ -188,7 +169,7 @@ def solve_strip(
         _strips=strips,
         _solved=solved,
         _scales={n: out(v) for n, v in scales.items()},
-        _kernel=kernel,
+        _foundation=foundation,
     )
 
 
@@ -219,13 +200,12 @@ def solve_si(kernel, l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge, br
     return solved, strips, {"k": k, "A": A, "D": D, "p": K * unit, "length": unit, "flat": flat}
 
 
-def refuse_uncertified(solved: Solved, inputs, edge: str, branch: str) -> None:
-    """``SolverError`` naming the first strip that did not pass its certificate."""
+def refuse_uncertified(solved: Solved, inputs: dict[str, np.ndarray], edge: str, branch: str) -> None:
+    """``SolverError`` naming the first strip that did not pass its certificate, by its inputs (name to flat array)."""
     bad = np.flatnonzero(~solved.certified)
     if not bad.size:
         return
-    names = ("l", "A", "D", "V", "K", "T_eps", "T_sigma", "p_0", "delta_0")
-    strip = ", ".join(f"{n}={float(v[bad[0]])!r}" for n, v in zip(names, inputs, strict=False))
+    strip = ", ".join(f"{n}={float(v[bad[0]])!r}" for n, v in inputs.items())
     raise SolverError(
         f"{bad.size} of {solved.certified.size} strips could not be certified; the first, strip {bad[0]}: "
         f"{strip}, edge={edge!r}, branch={branch!r}"

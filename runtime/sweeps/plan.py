@@ -13,6 +13,7 @@ import numpy as np
 
 from hystrip.errors import InputError
 from hystrip.inputs.checks import numbers
+from hystrip.loading import solver_key
 from hystrip.scene.errors import SceneError, nearest
 from hystrip.scene.load import build_objects, quantities, refuse_ambiguous
 
@@ -86,7 +87,8 @@ class Plan:
         import hystrip
 
         solved = {key: each for key, each in self.base.items() if key not in ("title", "description", "sweep")}
-        seen = [solved, [[axis.key, axis.values] for axis in self.axes], self.combine, self.batch, hystrip.__version__]
+        solver = solver_key(self.base["material"]["solver"])
+        seen = [solved, solver, [[axis.key, axis.values] for axis in self.axes], self.combine, self.batch, hystrip.__version__]
         return hashlib.sha256(json.dumps(seen, default=_listed, sort_keys=True).encode()).hexdigest()
 
 
@@ -160,7 +162,8 @@ def _put(values: dict[str, Any], key: str, given: Any) -> None:
 def keys_of(values: dict[str, Any]) -> list[str]:
     """Dotted keys of everything that can be swept in a validated scene."""
     keys = [f"levels[{i}].{field}" for i in range(len(values["levels"])) for field in ("l", "h")]
-    keys += ["material.K", "material.T_eps", "material.T_sigma", "adhesion.gamma", "adhesion.p_0", "adhesion.delta_0"]
+    times = [f"material.{key}" for key in ("T_eps", "T_sigma") if values["material"][key] is not None]
+    keys += ["material.K", *times, "adhesion.gamma", "adhesion.p_0", "adhesion.delta_0"]
     return [*keys, "pressure", "penetration", "velocity"]
 
 

@@ -62,6 +62,7 @@ def sweep(
     executor: Executor | None = None,
     scheduler: str | None = None,
     restart: bool = False,
+    allow_solver: bool = False,
     progress: Callable[[int, int], None] | None = None,
 ) -> Sweep:
     """Solve a scene over all lists and ranges in it. Killed at any moment and called again, it goes on where it was.
@@ -77,18 +78,20 @@ def sweep(
     workers : local processes, 1 for this one; or executor : anything with the ``concurrent.futures`` interface, such as
         Dask's ``Client.get_executor()``; or scheduler : address of a Dask scheduler
     restart : delete what an earlier sweep left in the folder
+    allow_solver : run the code of a solver that the scene names; without it such a scene is refused
     progress : called with the number of points done and the total
 
     Raises
     ------
     InputError : the scene or an argument; a single point that fails is recorded, it raises nothing
     """
-    from hystrip.scene.load import located, parse_toml, scene_text
+    from hystrip.scene.load import located, parse_toml, resolve_solver, scene_text
     from hystrip.scene.validate import validated
 
     text, name = scene_text(scene)
     with located(os.fspath(scene)):
         values = validated(parse_toml(text))
+        resolve_solver(values, os.fspath(scene), allow_solver)
     with located(os.fspath(scene)) if not over else contextlib.nullcontext():
         plan = plan_of(values, name, text, over or {}, combine, batch)
     out = Path(out)

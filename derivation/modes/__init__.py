@@ -1,0 +1,1 @@
+"""The pipeline for a foundation with any number of relaxation times."""

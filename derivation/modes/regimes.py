@@ -1,0 +1,205 @@
+"""The table of regimes for n modes: the zones a material point meets, with the states in which they are entered and left.
+
+As for one mode, but the closing condition is not among the equations: the constants of integration, one state of n numbers,
+are eliminated by the linear condition that it returns after a period. What is left are the events at the edges.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from ..check import BEYOND, REPRODUCED, Check, Derived, derived, zero
+from ..regime import ADHESION, CONTACT, EQUATIONS, FREE, NOTHING, PERIOD
+from ..symbols import D, a, b, c, d, delta_0, p_0, s
+from .flows import u
+from .symbols import J_0
+
+ONSET = ("onset", "the gap falls to delta_0 at d")
+ONSET_OF_CONTACT = ("contact_begins", "the gap closes at b")
+
+
+@dataclass(frozen=True)
+class ModeZone:
+    """From ``first`` to ``last``; entered and left with a gap (adhesion, free) or a pressure above -p_0 (contact)."""
+
+    kind: str
+    first: sp.Symbol
+    last: sp.Expr
+    entry: sp.Expr
+    exit: sp.Expr
+
+    @property
+    def pressure(self) -> sp.Expr:
+        """Pressure on entry, which in a gap lasts."""
+        return {ADHESION: -p_0, FREE: NOTHING, CONTACT: self.entry - p_0}[self.kind]
+
+    @property
+    def missing(self) -> sp.Expr:
+        """What entry and exit leave for the change over the zone: the equation is ``missing + change = 0``."""
+        return sp.expand(self.entry - self.exit)
+
+    def fields(self, edge: sp.Expr, state: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+        """(w, p) at an edge, from the state of this zone there."""
+        height = u.subs(s, edge)
+        return (height, state - p_0) if self.kind == CONTACT else (height + state, self.pressure)
+
+
+@dataclass(frozen=True)
+class ModeRegime:
+    """One row of the regime table."""
+
+    sequence: str
+    title: str
+    zones: tuple[ModeZone, ...]
+    edges: tuple[sp.Symbol, ...]
+    onset_pressure: sp.Expr  # p on the side where the state at the first edge is met
+    onset_gap: sp.Expr  # the gap there
+    admissible: tuple[str, ...]
+    derived: Derived
+
+    @property
+    def equations(self) -> tuple[tuple[str, str], ...]:
+        """(label, meaning) of each boundary equation."""
+        first = ONSET if self.edges[0] == d else ONSET_OF_CONTACT
+        return (first, *(EQUATIONS[zone.last] for zone in self.zones[:-1]))
+
+
+def mode_regimes(snaps: bool) -> tuple[ModeRegime, ...]:
+    """Every regime; without instantaneous compliance no point snaps into contact."""
+    return (discrete_adhesion(), *((trailing_adhesion(),) if snaps else ()), adhesion_only(), saturated_adhesion(), *edgeless())
+
+
+def discrete_adhesion() -> ModeRegime:
+    r"""Partial contact between two adhesion zones. w steps by :math:`\mp J_0 p_0` at d and c."""
+    step = J_0 * p_0
+    return _partial(
+        discrete_adhesion,
+        "acaf",
+        "partial contact with discrete adhesion zones",
+        (
+            ModeZone(ADHESION, d, b, delta_0 - step, NOTHING),
+            ModeZone(CONTACT, b, a, NOTHING, NOTHING),
+            ModeZone(ADHESION, a, c, NOTHING, delta_0),
+            ModeZone(FREE, c, d + PERIOD, delta_0 + step, delta_0),
+        ),
+        (NOTHING, delta_0),
+        ("the gap falls at d and b, and rises at c", "the pressure falls at a", "d <= b <= a <= c <= d + 2 pi"),
+    )
+
+
+def trailing_adhesion() -> ModeRegime:
+    r"""Snap-in at d: the states are continuous, w steps by :math:`-\delta_0`, so contact is entered at :math:`-\delta_0/J_0`."""
+    return _partial(
+        trailing_adhesion,
+        "afc",
+        "partial contact with trailing adhesion only, after a snap into contact",
+        (
+            ModeZone(CONTACT, d, a, p_0 - delta_0 / J_0, NOTHING),
+            ModeZone(ADHESION, a, c, NOTHING, delta_0),
+            ModeZone(FREE, c, d + PERIOD, delta_0 + J_0 * p_0, delta_0),
+        ),
+        (NOTHING, delta_0),
+        (
+            "J_0 p_0 >= delta_0",
+            "the gap falls at d, and rises at c",
+            "the pressure falls at a",
+            "d <= a <= c <= d + 2 pi",
+        ),
+    )
+
+
+def adhesion_only() -> ModeRegime:
+    r"""No contact; adhesion from d to c."""
+    step = J_0 * p_0
+    return _partial(
+        adhesion_only,
+        "af",
+        "no contact, a discrete adhesion zone",
+        (
+            ModeZone(ADHESION, d, c, delta_0 - step, delta_0),
+            ModeZone(FREE, c, d + PERIOD, delta_0 + step, delta_0),
+        ),
+        (NOTHING, delta_0),
+        ("the gap falls at d, stays open, and rises at c", "d <= c <= d + 2 pi"),
+    )
+
+
+def saturated_adhesion() -> ModeRegime:
+    r"""Partial contact, the whole gap at :math:`-p_0`; with :math:`p_0 = 0` this is contact without adhesion ('cf')."""
+    return _partial(
+        saturated_adhesion,
+        "ac",
+        "partial contact with saturated adhesion, or without adhesion if p_0 = 0",
+        (ModeZone(CONTACT, b, a, NOTHING, NOTHING), ModeZone(ADHESION, a, b + PERIOD, NOTHING, NOTHING)),
+        (-p_0, NOTHING),
+        ("the gap falls at b, and stays within delta_0 unless p_0 = 0", "the pressure falls at a", "b <= a <= b + 2 pi"),
+    )
+
+
+def edgeless() -> tuple[ModeRegime, ...]:
+    """No edge: complete contact, everything at -p_0, nothing."""
+    rows = (
+        ("c", CONTACT, "complete contact", "w = u", ("D - 1 + p_0 >= modulus_ratio",)),
+        ("a", ADHESION, "no contact, saturated adhesion", "w = p = -p_0", ("D <= -p_0", "2 - D - p_0 <= delta_0")),
+        ("f", FREE, "no interaction", "w = p = 0", ("D <= -delta_0 if p_0 > 0, else D <= 0",)),
+    )
+    found = []
+    for sequence, kind, title, latex, admissible in rows:
+        zone = ModeZone(kind, s, s + PERIOD, NOTHING, NOTHING)
+        steady = zone.fields(s + PERIOD, NOTHING)[1] - zone.fields(s, NOTHING)[1]
+        record = derived(
+            edgeless,
+            sequence,
+            name=f"regime {sequence}",
+            statement=f"{title[0].upper()}{title[1:]}: no unknown edge.",
+            latex=latex,
+            checks=[zero(f"regime {sequence}", "the field is steady", steady)],
+            status=REPRODUCED,
+            emitted=(f"means_{sequence}",),
+        )
+        found.append(ModeRegime(sequence, title, (zone,), (), NOTHING, NOTHING, admissible, record))
+    return tuple(found)
+
+
+def _partial(by, sequence, title, zones, onset, admissible) -> ModeRegime:
+    name = f"regime {sequence}"
+    edges = tuple(zone.first for zone in zones)
+    record = derived(
+        by,
+        sequence,
+        name=name,
+        statement=f"{title[0].upper()}{title[1:]}: unknown edges {', '.join(map(str, edges))}. The state at the first "
+        f"edge follows "
+        "from them by one linear system, the edges from one event each.",
+        latex=r"z = \text{drive} - (\text{forget} - 1) z,\qquad \text{" + "; ".join(_meanings(zones, edges)) + "}",
+        checks=[_edge_conditions(name, zones), _period(name, zones)],
+        status=BEYOND,
+        emitted=tuple(f"{kind}_{sequence}" for kind in ("state", "residual", "jacobian", "return_map")),
+    )
+    return ModeRegime(sequence, title, zones, edges, *onset, admissible, record)
+
+
+def _meanings(zones: tuple[ModeZone, ...], edges: tuple[sp.Symbol, ...]) -> list[str]:
+    first = ONSET if edges[0] == d else ONSET_OF_CONTACT
+    return [first[1], *(EQUATIONS[zone.last][1] for zone in zones[:-1])]
+
+
+def _edge_conditions(name: str, zones: tuple[ModeZone, ...]) -> Check:
+    """At every edge, from the exit of one zone to the entry of the next: ``[w] = J_0 [p]``; the states have no step."""
+    residuals = []
+    for before, after in zip(zones, (*zones[1:], zones[0]), strict=True):
+        w_before, p_before = before.fields(before.last, before.exit)
+        w_after, p_after = after.fields(after.first, after.entry)
+        residuals.append(w_after - w_before - J_0 * (p_after - p_before))
+    return zero(name, "every edge obeys the jump law, [w] = J_0 [p]", residuals)
+
+
+def _period(name: str, zones: tuple[ModeZone, ...]) -> Check:
+    """The zones follow each other and close after one period."""
+    ends = [zone.last - zone.first for zone in zones]
+    return zero(name, "the zones are one period long", sp.Add(*ends) - PERIOD)
+
+
+__all__ = ["D", "ModeRegime", "ModeZone", "mode_regimes"]

@@ -1,0 +1,254 @@
+"""Complete contact of a strip and of a level with n modes: K* at the strip's frequency, threshold, friction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from ..check import BEYOND, CORRECTED, REPRODUCED, Check, Derived, derived, holds, zero
+from ..level import AMPLITUDE, MISPRINT, PENETRATION, over_strips
+from ..symbols import D, K, alpha, beta, h, k, l, p_0, p_nominal, s, y
+from . import stable
+from .flows import ModeFlows, u
+from .kernel import ModeKernel, kernel
+from .law import vanishes
+from .symbols import eta, f_0
+from .tensor import total
+
+R, R_LOSS = sp.symbols("R loss", positive=True)
+
+
+@dataclass(frozen=True)
+class Complete:
+    """Complete contact: the emitted kernels, and what holds for the strip and its level."""
+
+    modulus: Derived
+    kernels: tuple[ModeKernel, ...]
+    threshold: Derived
+    means: Derived
+    penetration: Derived
+    pressure: Derived
+    friction: Derived
+    stack: Derived
+
+
+def complete_contact(flows: ModeFlows) -> Complete:
+    modulus = complex_modulus(flows)
+    means = saturated_means()
+    penetration = saturation_penetration()
+    friction = saturation_friction()
+    return Complete(
+        modulus,
+        (*modulus_kernels(), *field_kernels(flows)),
+        threshold(),
+        means,
+        penetration,
+        saturation_pressure(penetration.value),
+        friction,
+        stack_friction(friction.value),
+    )
+
+
+def complex_modulus(flows: ModeFlows) -> Derived:
+    r""":math:`\frac{K^*(ikV)}{K} = 1 + \sum_i \frac{i\eta_i}{1 + i\alpha_i}`, the operators at s = i."""
+    name = "complex modulus"
+    law = flows.law
+    n = law.modes
+    modes = range(n)
+    Q, P = law.operators
+    rate = next(iter(Q.free_symbols - {law.values[(symbol, mode)] for symbol in (alpha, beta) for mode in modes}))
+    term = sp.I * eta / (1 + sp.I * alpha)
+    real, imaginary = (sp.simplify(part) for part in sp.expand_complex(term).as_real_imag())
+    at = [{eta: law.values[(eta, i)], alpha: law.values[(alpha, i)]} for i in modes]
+    series = 1 + sp.Add(*(term.subs(values) for values in at))
+    checks = [
+        vanishes(name, "storage + i loss is Q/P of the strip at d/ds = i", [Q.subs(rate, sp.I) - series * P.subs(rate, sp.I)], n),
+        zero(name, "every branch adds eta alpha/(1 + alpha^2) to the storage", real - eta * alpha / (1 + alpha**2)),
+        zero(name, "and eta/(1 + alpha^2) to the loss", imaginary - eta / (1 + alpha**2)),
+    ]
+    return derived(
+        complex_modulus,
+        (real, imaginary),
+        name=name,
+        statement="Stiffness against a displacement that oscillates at the rate k V at which the strip's wave passes.",
+        latex=r"\frac{K^*(ikV)}{K} = 1 + \sum_i \frac{\eta_i \alpha_i}{1 + \alpha_i^2} + i \sum_i \frac{\eta_i}{1 + \alpha_i^2}",
+        checks=checks,
+        emitted=("storage", "loss", "modulus_ratio"),
+    )
+
+
+def modulus_kernels() -> tuple[ModeKernel, ...]:
+    r"""Storage, loss and :math:`R = |K^*|/K`."""
+    real, imaginary = 1 + total(eta * alpha / (1 + alpha**2)), total(eta / (1 + alpha**2))
+    return (
+        kernel(modulus_kernels, stable.STORAGE, real, "Real part of K*/K.", r"1 + \sum_i \frac{\eta_i \alpha_i}{1 + \alpha_i^2}"),
+        kernel(modulus_kernels, stable.LOSS, imaginary, "Imaginary part of K*/K.", r"\sum_i \frac{\eta_i}{1 + \alpha_i^2}"),
+        kernel(modulus_kernels, stable.MODULUS_RATIO, sp.sqrt(real**2 + imaginary**2), "Modulus of K*/K.", r"R = |K^*(ikV)|/K"),
+    )
+
+
+def field_kernels(flows: ModeFlows) -> tuple[ModeKernel, ...]:
+    r"""Eq. 15: :math:`p_{sat} = u + \sum_i f_{sat,i}`."""
+    name = "saturated_overstress"
+    # What the contact flow leaves behind when its transients have died out.
+    harmonic = flows.contact.value.replace(sp.exp, lambda exponent: sp.Integer(0))
+    eq_15 = sp.re(sp.expand_complex(sp.I * eta / (1 + sp.I * alpha) * sp.exp(sp.I * s)))
+    own: tuple[Check, ...] = (
+        holds(name, "nothing of the entry is left", not harmonic.has(f_0)),
+        zero(name, "it has the period 2 pi", harmonic.subs(s, s + 2 * sp.pi) - harmonic),
+        zero(name, "it is Eq. 15: one harmonic, weighted by the branch's part of K*", harmonic - eq_15, phases=(s,)),
+    )
+    return (
+        kernel(
+            field_kernels,
+            stable.SATURATED_OVERSTRESS,
+            harmonic,
+            "Overstress of every branch in complete contact.",
+            r"f_{sat,i} = \eta_i\frac{\alpha_i \cos s - \sin s}{1 + \alpha_i^2}",
+            *own,
+            paper="Eq. 15",
+            status=REPRODUCED,
+        ),
+        kernel(
+            field_kernels,
+            stable.SATURATED_PRESSURE,
+            u + total(harmonic),
+            "Pressure of complete contact.",
+            r"p_{sat} = u + \sum_i f_{sat,i}",
+            paper="Eq. 15",
+            status=REPRODUCED,
+        ),
+    )
+
+
+def threshold() -> Derived:
+    r"""Complete contact needs :math:`\min p_{sat} \ge -p_0`: :math:`D \ge 1 + R - p_0`."""
+    name = "saturation threshold"
+    lag = sp.Symbol("lag", real=True)
+    storage, loss = R * sp.cos(lag), R * sp.sin(lag)
+    field = D - 1 + storage * sp.cos(s) - loss * sp.sin(s)
+    least = D - 1 - R
+    solution = sp.solve(least + p_0, D)[0]
+    checks = [
+        zero(name, "p_sat = D - 1 + R cos(s + arg K*)", sp.expand_trig(D - 1 + R * sp.cos(s + lag)) - field, phases=(s,)),
+        zero(name, "at the threshold the least pressure is -p_0", least.subs(D, solution) + p_0),
+        holds(name, "and it grows with D", sp.diff(least, D).is_positive),
+    ]
+    return derived(
+        threshold,
+        solution,
+        name=name,
+        statement="A strip is in complete contact when the least pressure of Eq. 15 is not below -p_0.",
+        latex=r"D_j \ge A(1 + |K^*|/K) - p_0/K",
+        checks=checks,
+        status=BEYOND,
+    )
+
+
+def saturated_means() -> Derived:
+    r"""Eq. 10 in complete contact: :math:`\bar p = D - 1`, :math:`\bar\tau = \frac12\mathrm{Im}\,K^*/K`."""
+    name = "means_c"
+    storage, loss = sp.symbols("storage loss", real=True)
+    pressure = D - 1 + storage * sp.cos(s) - loss * sp.sin(s)
+    mean = [sp.integrate(sp.expand(q), (s, 0, 2 * sp.pi)) / (2 * sp.pi) for q in (pressure, pressure * sp.diff(u, s), u)]
+    checks = [
+        zero(name, "mean p = mean w over a period", mean[0] - mean[2]),
+        zero(name, "mean friction = loss/2", mean[1] - loss / 2),
+    ]
+    return derived(
+        saturated_means,
+        (mean[0], mean[1]),
+        name=name,
+        statement="Means of pressure and friction of a strip in complete contact.",
+        latex=r"\bar p = D - 1,\quad \bar\tau = \tfrac12 \mathrm{Im}\,K^*(ikV)/K",
+        checks=checks,
+        paper="Eq. 10",
+        status=REPRODUCED,
+        emitted=("means_c",),
+    )
+
+
+def saturation_penetration() -> Derived:
+    r"""Every strip is saturated when :math:`D \ge \frac h2 (1 + R) - p_0/K`."""
+    name = "level_saturation_penetration"
+    over_one, cosine = sp.Symbol("R_minus_1", nonnegative=True), sp.Symbol("cosine", real=True)
+    needed = sp.expand(AMPLITUDE * (1 + R - p_0 / (K * AMPLITUDE)) + h / 2 * (1 - sp.cos(k * y)))
+    slope = sp.diff(needed.subs(sp.cos(k * y), cosine), cosine)
+    exact = needed.subs(y, 0)
+    storage, loss = sp.symbols("storage_minus_1 loss", nonnegative=True)
+    checks = [
+        holds(name, "R >= 1: the storage is at least 1", sp.expand((1 + storage) ** 2 + loss**2 - 1).is_nonnegative),
+        zero(name, "the penetration a strip needs is linear in cos ky", sp.diff(slope, cosine)),
+        holds(name, "and grows with it: the middle strip is the last", sp.factor(slope.subs(R, 1 + over_one)).is_nonnegative),
+        zero(name, "there it is h/2 (1 + R) - p_0/K", exact - (h / 2 * (1 + R) - p_0 / K)),
+    ]
+    return derived(
+        saturation_penetration,
+        exact,
+        name=name,
+        statement="Penetration from which every strip of a level is in complete contact.",
+        latex=r"D_{sat} = \frac h2 (1 + R) - \frac{p_0}{K}",
+        checks=checks,
+        emitted=(name,),
+    )
+
+
+def saturation_pressure(penetration: sp.Expr) -> Derived:
+    r"""Eq. 11 there: :math:`p_{sat} = K h (2R - 1)/4 - p_0`."""
+    name = "level_saturation_pressure"
+    mean = over_strips(sp.expand(K * (PENETRATION - AMPLITUDE)))
+    exact = mean.subs(sp.Symbol("D", real=True), penetration)
+    checks = [zero(name, "p_sat = K h (2 R - 1)/4 - p_0", exact - (K * h / 4 * (2 * R - 1) - p_0))]
+    return derived(
+        saturation_pressure,
+        exact,
+        name=name,
+        statement="Nominal pressure from which a level is in complete contact.",
+        latex=r"p_{sat} = \tfrac14 K h (2R - 1) - p_0",
+        checks=checks,
+        paper="Eq. 11",
+        status=REPRODUCED,
+        emitted=(name,),
+    )
+
+
+def saturation_friction() -> Derived:
+    r"""Eq. 10, 11: :math:`\tau_{sat} = \frac{3\pi}{32}\frac{h^2}{l}\,\mathrm{Im}\,K^*`."""
+    name = "level_saturation_friction"
+    exact = over_strips(K * k * AMPLITUDE**2 * R_LOSS / 2).subs(k, 2 * sp.pi / l)
+    checks = [zero(name, "it is 3 pi/32 h^2/l Im K*", exact - sp.Rational(3, 32) * sp.pi * K * h**2 / l * R_LOSS)]
+    return derived(
+        saturation_friction,
+        exact,
+        name=name,
+        statement="Friction of a level in complete contact.",
+        latex=r"\tau_{sat} = \frac{3\pi}{32} \frac{h^2}{l}\,\mathrm{Im}\,K^*(ikV)",
+        checks=checks,
+        paper="Eq. 10, 11",
+        status=REPRODUCED,
+        emitted=(name,),
+    )
+
+
+def stack_friction(friction: sp.Expr) -> Derived:
+    r"""Eq. 16: :math:`\mu = \frac1{p_1}\sum_i \tau_{sat,i}`, with n relaxation times."""
+    name = "saturated_stack_friction"
+    times = sp.symbols("alpha beta", positive=True)
+    one_time = (times[1] - times[0]) / (1 + times[0] ** 2)
+    stated = sp.Rational(3, 16) * sp.pi**2 * K * h**2 * (times[1] - times[0]) / (2 * sp.pi * l * (1 + times[0] ** 2))
+    checks = [
+        zero(name, "with one relaxation time each term is that of Eq. 16 as corrected", friction.subs(R_LOSS, one_time) - stated)
+    ]
+    return derived(
+        stack_friction,
+        friction / p_nominal,
+        name=name,
+        statement="Friction coefficient when every level is in complete contact: the levels add.",
+        latex=r"\mu = \frac{3\pi}{32\,p_1} \sum_i \frac{h_i^2}{l_i}\,\mathrm{Im}\,K^*(ik_iV)",
+        checks=checks,
+        paper="Eq. 16",
+        status=CORRECTED,
+        correction=MISPRINT,
+        emitted=(name,),
+    )

@@ -1,0 +1,236 @@
+"""Stable forms for n modes: candidates, each proven equal to the derived expression of a generic mode.
+
+Choices that matter, beyond those of one mode:
+* the state handed from zone to zone is z, which no step of p changes; contact works on the overstress f, which stays
+  finite for a branch without spring, and whose decay is independent of every other branch;
+* what contact changes in z is the change of the dashpot displacements e, shared out: slow modes change little, and that
+  little is not a difference of large terms;
+* every weight is positive, so that sums over modes do not cancel where the modes agree.
+"""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from .. import stable
+from ..functions import (
+    Formula,
+    decay,
+    decay_loss,
+    decay_mean,
+    decay_rate,
+    divisible,
+    hypot,
+    loss_mean,
+    per_time,
+    sine_deficit,
+    versine,
+)
+from ..stable import (
+    HALVES,
+    PROFILE,
+    PROFILE_RISE,
+    PROFILE_SLOPE,
+    WIDTH,
+    alpha_unit,
+    cos_ahead,
+    half,
+    middle,
+    sin_ahead,
+    unit,
+    width,
+)
+from ..symbols import D, alpha, beta, p, p_0, p_in, s, s_0, s_1
+from .symbols import J_0, J, S, enter, eta, f, f_0, leave, m, share, z, z_0
+from .tensor import across, back, diagonal, sandwich, total
+
+response, level, time, rates, moved, turn, rate_end, rate_start = sp.symbols(
+    "response level time rates moved turn rate_end rate_start", real=True
+)
+harmonic, transient, entered, creep, creep_end, creep_start, lost, slope_end = sp.symbols(
+    "harmonic transient entered creep creep_end creep_start lost slope_end", real=True
+)
+lag, moment = sp.symbols("lag moment", real=True)
+amplitude = sp.Symbol("amplitude", real=True)
+
+_unit = ((unit, 1 / hypot(1, alpha)), (alpha_unit, alpha * unit))
+_response = (*_unit, (response, eta * unit**2))
+
+# -- states ------------------------------------------------------------------------------------------------------------
+
+DISPLACEMENT = Formula("displacement", (z, p, m), J_0 * p + total(z))
+OVERSTRESS = Formula("overstress", (z, p, m), -across(enter, z - J * p))
+RELAXED = Formula("retarded", (f, p, m), J * p - across(leave, f))
+DASHPOTS = Formula("dashpots", (z, p, m), J_0 * p + total(z) + S * across(enter, z - J * p))
+
+# -- adhesion and free gap: constant pressure --------------------------------------------------------------------------
+
+_gap_zone = (s_0, s_1, z_0, p, m)
+RELAXATION_AFTER = Formula("relaxation_after", _gap_zone, z_0 * decay(width, beta) - J * p * decay_loss(width, beta), (WIDTH,))
+RELAXATION_INCREMENT = Formula("relaxation_increment", _gap_zone, (z_0 - J * p) * decay_loss(s_1 - s_0, beta))
+RELAXATION_RATE = Formula("relaxation_rate", (z, p, m), per_time(J * p - z, beta))
+RELAXATION_INTEGRAL = Formula(
+    "relaxation_integral",
+    _gap_zone,
+    width * (J_0 * p + total(z_0 * decay_mean(width, beta) + J * p * loss_mean(width, beta))),
+    (WIDTH,),
+)
+GAP_AFTER = Formula(
+    "gap_after",
+    (s_0, s_1, z_0, p, D, m),
+    J_0 * p + total(z_0 * decay(width, beta) - J * p * decay_loss(width, beta)) - PROFILE(s_1, D),
+    (WIDTH,),
+)
+GAP_CHANGE = Formula("gap_change", _gap_zone, total((z_0 - J * p) * decay_loss(s_1 - s_0, beta)) - PROFILE_RISE(s_0, s_1))
+RELAXATION_MAP = Formula(
+    "relaxation_map", (s_0, s_1, p, m), (-diagonal(lost), -J * p * lost), ((lost, decay_loss(s_1 - s_0, beta)),)
+)
+RELAXATION_PASSAGE = Formula(
+    "relaxation_passage",
+    _gap_zone,
+    (
+        lag * lost,
+        -diagonal(lost),
+        rates,
+        -rates,
+        total(lag * lost) - PROFILE_RISE(s_0, s_1),
+        lost,
+        total(rates) + PROFILE_SLOPE(s_0),
+        -total(rates) - PROFILE_SLOPE(s_1),
+    ),
+    (WIDTH, (lag, z_0 - J * p), (lost, decay_loss(width, beta)), (rates, lag * decay_rate(width, beta))),
+)
+GAP_ENTRY = Formula(
+    "gap_entry",
+    (s_0, z_0, p, D, m),
+    (s_0, D - p, amplitude, divisible(beta), per_time(amplitude, beta)),
+    ((amplitude, z_0 - J * p),),
+)
+_event = ((sp.Symbol("decayed", real=True), sp.exp((s_0 - s_1) / time)),)
+GAP_EVENT = Formula(
+    "gap_event",
+    (s_1, s_0, level, amplitude, time, rates),
+    (total(amplitude * _event[0][0]) + versine(s_1) - level, sp.sin(s_1) - total(rates * _event[0][0])),
+    _event,
+)
+
+# -- contact: w = u ----------------------------------------------------------------------------------------------------
+
+_contact_zone = (s_0, s_1, f_0, m)
+SATURATED_OVERSTRESS = Formula("saturated_overstress", (s, m), response * (alpha * sp.cos(s) - sp.sin(s)), _response)
+_rise = (moved, -2 * sp.sin(half) * response * (alpha * sp.sin(middle) + sp.cos(middle)))
+_end = (harmonic, response * (alpha * sp.cos(s_1) - sp.sin(s_1)))
+_excess_change = total(f_0 * decay_loss(width, alpha) + moved * decay(width, alpha) - harmonic * decay_loss(width, alpha))
+OVERSTRESS_AFTER = Formula(
+    "overstress_after",
+    _contact_zone,
+    (f_0 + moved) * decay(width, alpha) - harmonic * decay_loss(width, alpha),
+    (WIDTH, *HALVES, *_response, _rise, _end),
+)
+CONTACT_PRESSURE = Formula("contact_pressure", (s, f, D), PROFILE(s, D) + total(f))
+EXCESS_CHANGE = Formula(
+    "excess_change", _contact_zone, PROFILE_RISE(s_0, s_1) + _excess_change, (WIDTH, *HALVES, *_response, _rise, _end)
+)
+_ahead = (  # sine and cosine of atan(alpha) - s_0
+    *_unit,
+    (sin_ahead, alpha_unit * sp.cos(s_0) - unit * sp.sin(s_0)),
+    (cos_ahead, alpha_unit * sp.sin(s_0) + unit * sp.cos(s_0)),
+)
+_creep = (  # change of e over a contact entered without overstress
+    creep,
+    unit * (sin_ahead * (width * loss_mean(width, alpha) - sine_deficit(width)) - cos_ahead * versine(width)),
+)
+CONTACT_INCREMENT = Formula(
+    "contact_increment",
+    _contact_zone,
+    across(share, creep - S * f_0 * decay_loss(width, alpha)),
+    (WIDTH, *_ahead, _creep),
+)
+CONTACT_MAP = Formula(
+    "contact_map",
+    (s_0, s_1, p_in, m),
+    (-sandwich(share, lost, enter), across(share, creep - lost * across(enter, J) * p_in)),
+    (WIDTH, *_ahead, _creep, (lost, S * decay_loss(width, alpha))),
+)
+_f_start = response * (alpha * sp.cos(s_0) - sp.sin(s_0))
+CONTACT_PASSAGE = Formula(
+    "contact_passage",
+    (s_0, s_1, z_0, p_in, m),
+    (
+        across(share, creep - S * f_0 * lost),
+        -sandwich(share, S * lost, enter),
+        across(share, creep_start - S * f_0 * rate_end),
+        across(share, creep_end + S * f_0 * rate_end),
+        PROFILE_RISE(s_0, s_1) + total(f_0 * lost + moved * decay(width, alpha) - harmonic * lost),
+        -back(enter, lost),
+        total(transient + response * (alpha * sp.sin(s_0) + sp.cos(s_0)) * decay(width, alpha)) - PROFILE_SLOPE(s_0),
+        PROFILE_SLOPE(s_1) - total(transient + response * (alpha * sp.sin(s_1) + sp.cos(s_1))),
+    ),
+    (
+        WIDTH,
+        *HALVES,
+        *_ahead,
+        (response, eta * unit**2),
+        (f_0, OVERSTRESS(z_0, p_in, m)),
+        (lost, decay_loss(width, alpha)),
+        (rate_end, decay_rate(width, alpha)),
+        _creep,
+        (creep_end, -unit * (sin_ahead * (lost + versine(width)) + cos_ahead * sp.sin(width))),
+        (creep_start, unit * (sin_ahead * lost + cos_ahead * width * decay_mean(width, alpha))),
+        _rise,
+        _end,
+        (transient, (f_0 - _f_start) * rate_end),
+    ),
+)
+EXCESS_ENTRY = Formula(
+    "excess_entry",
+    (s_0, f_0, p_0, D, m),
+    (
+        s_0,
+        D + p_0,
+        f_0,
+        response,
+        alpha,
+        divisible(alpha),
+        per_time(f_0 - response * (alpha * sp.cos(s_0) - sp.sin(s_0)), alpha),
+    ),
+    _response,
+)
+_decayed, _lapsed = sp.symbols("decayed lapsed", real=True)
+EXCESS_EVENT = Formula(
+    "excess_event",
+    (s_1, s_0, level, f_0, response, alpha, time, rates),
+    (
+        level - versine(s_1) + total((f_0 + moved) * _decayed - harmonic * _lapsed),
+        -sp.sin(s_1) - total(response * (alpha * sp.sin(s_1) + sp.cos(s_1)) + rates * _decayed),
+    ),
+    (
+        *HALVES,
+        (_decayed, sp.exp((s_0 - s_1) / time)),
+        (_lapsed, stable.expm1((s_0 - s_1) / time)),
+        _rise,
+        _end,
+    ),
+)
+
+# -- work of the contact pressure on the profile: the sums of one mode, per branch -------------------------------------
+
+_work = {label: term for label, term in stable.CONTACT_WORK.steps}
+_of_branch = f_0 * (sp.sin(s_0) * stable.kept_cos + sp.cos(s_0) * stable.kept_sin) + response * (
+    stable.ramp_work + sp.sin(s_0) * sp.sin(s_1) * stable.ramp
+)
+CONTACT_WORK = Formula(
+    "contact_work",
+    (s_0, s_1, f_0, D, m),
+    stable.rise * (PROFILE(s_0, D) + PROFILE(s_1, D)) / 2 - total(_of_branch),
+    (*_work.items(), (response, eta * unit**2)),
+)
+
+# -- complete contact --------------------------------------------------------------------------------------------------
+
+STORAGE = Formula("storage", (m,), 1 + total(eta * unit * alpha_unit), _unit)
+LOSS = Formula("loss", (m,), total(eta * unit**2), _unit)
+MODULUS_RATIO = Formula("modulus_ratio", (m,), hypot(1 + total(eta * unit * alpha_unit), total(eta * unit**2)), _unit)
+SATURATED_PRESSURE = Formula(
+    "saturated_pressure", (s, D, m), PROFILE(s, D) + total(response * (alpha * sp.cos(s) - sp.sin(s))), _response
+)

@@ -1,0 +1,256 @@
+"""What each zone does to a material point with n modes: stable forms proven equal to the flows that SymPy solved."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from .. import stable as one_mode
+from ..check import zero
+from ..symbols import p, p_0, p_in, s, s_0, s_1
+from . import stable
+from .flows import ModeFlows, u
+from .kernel import ModeKernel, kernel, pair
+from .symbols import J_0, J, S, enter, eta, f, f_0, leave, share, z, z_0
+from .tensor import across, back, diagonal, sandwich, total
+
+u_0, u_1 = u.subs(s, s_0), u.subs(s, s_1)
+
+
+def profile() -> tuple[ModeKernel, ...]:
+    r"""Rigid profile :math:`u = D - 1 + \cos s`, its slope, rise and integral."""
+    integral = sp.integrate(u, s)
+    return (
+        kernel(profile, one_mode.PROFILE, u, "Rigid profile of the strip.", r"u(s) = D - 1 + \cos s"),
+        kernel(profile, one_mode.PROFILE_SLOPE, sp.diff(u, s), "Its slope.", r"u'(s) = -\sin s"),
+        kernel(
+            profile, one_mode.PROFILE_RISE, u_1 - u_0, "Its rise between two phases, without cancellation.", r"u(s_1) - u(s_0)"
+        ),
+        kernel(
+            profile,
+            one_mode.PROFILE_INTEGRAL,
+            integral.subs(s, s_1) - integral.subs(s, s_0),
+            "Its integral: the displacement summed over a contact zone.",
+            r"\int_{s_0}^{s_1} u\,ds",
+            zero("profile_integral", "the antiderivative differentiates to u", sp.diff(integral, s) - u),
+        ),
+    )
+
+
+def states() -> tuple[ModeKernel, ...]:
+    r""":math:`w = J_0 p + \sum z_j`, and the other coordinates of the same state."""
+    lag = z - J * p
+    return (
+        kernel(states, stable.DISPLACEMENT, J_0 * p + total(z), "Displacement of a material point.", r"w = J_0 p + \sum_j z_j"),
+        kernel(
+            states,
+            stable.OVERSTRESS,
+            -across(enter, lag),
+            "Overstress of every branch, where w and p belong together.",
+            r"f = -N (z - J p),\quad N_{ij} = \frac{\eta_i}{\beta_j - \alpha_i}",
+        ),
+        kernel(
+            states,
+            stable.RELAXED,
+            J * p - across(leave, f),
+            "Retardation displacements, from the overstresses.",
+            r"z = J p - M f,\quad M_{ji} = \frac{J_j \beta_j}{\beta_j - \alpha_i}",
+        ),
+        kernel(states, stable.DASHPOTS, J_0 * p + total(z) + S * across(enter, lag), "Dashpot displacements.", r"e = w - S f"),
+    )
+
+
+def relaxation(flows: ModeFlows) -> tuple[ModeKernel, ...]:
+    r"""z under a constant pressure: after, change, rate, and :math:`\int w\,ds`."""
+    flow = flows.relaxation.value
+    after = flow.subs(s, s_1)
+    primitive = sp.integrate(sp.expand(flow), s)
+    return (
+        kernel(
+            relaxation,
+            stable.RELAXATION_AFTER,
+            after,
+            "Retardation displacements under a constant pressure.",
+            r"z_j(s_1) = J_j p + (z_{j,0} - J_j p) e^{-(s_1 - s_0)/\beta_j}",
+        ),
+        kernel(relaxation, stable.RELAXATION_INCREMENT, after - z_0, "Their change.", r"z_j(s_1) - z_j(s_0)"),
+        kernel(
+            relaxation,
+            stable.RELAXATION_RATE,
+            sp.diff(flow, s).subs({s: s_0, z_0: z}),
+            "Their rate; 0 where beta = 0.",
+            r"z_j' = (J_j p - z_j)/\beta_j",
+            moving=True,
+        ),
+        kernel(
+            relaxation,
+            stable.RELAXATION_INTEGRAL,
+            J_0 * p * (s_1 - s_0) + total(primitive.subs(s, s_1) - primitive.subs(s, s_0)),
+            "Displacement summed over the zone.",
+            r"\int_{s_0}^{s_1} w\,ds",
+            zero("relaxation_integral", "the antiderivative differentiates to z", sp.diff(primitive, s) - flow, phases=(s_0, s)),
+            paper="Eq. 10",
+        ),
+    )
+
+
+def gap(flows: ModeFlows) -> tuple[ModeKernel, ...]:
+    r""":math:`g = w - u` under a constant pressure."""
+    after = flows.relaxation.value.subs(s, s_1)
+    g = J_0 * p + total(after) - u_1
+    change = total(after - z_0) - (u_1 - u_0)
+    # J_0 = 1 - sum J: what is left of w long after the entry is p.
+    level = p + total(after - J * p) - u_1
+    slope = total(sp.diff(after, s_1)) - sp.diff(u_1, s_1)
+    latex = r"g = p - u(s_1) + \sum_j (z_{j,0} - J_j p) e^{-(s_1 - s_0)/\beta_j}"
+    events = pair(
+        gap,
+        (stable.GAP_ENTRY, stable.GAP_EVENT),
+        (level, slope),
+        (
+            "Constants of gap_event in a zone entered at s_0 with z_0 under the constant pressure p. Those with one value per "
+            "mode come last: amplitudes, times that can be divided by, rates.",
+            "Gap and its slope at s_1, from the constants of gap_entry. s_1 must not be before s_0.",
+        ),
+        (r"s_0,\quad D - p,\quad z_0 - J p,\quad \beta,\quad (z_0 - J p)/\beta", latex),
+    )
+    return (
+        kernel(gap, stable.GAP_AFTER, g, "Gap at s_1 under the constant pressure p since s_0.", latex),
+        kernel(
+            gap, stable.GAP_CHANGE, change, "Its change since s_0, for zones too short to change it much.", r"g(s_1) - g(s_0)"
+        ),
+        *events,
+    )
+
+
+def contact(flows: ModeFlows) -> tuple[ModeKernel, ...]:
+    r"""Overstress and pressure in contact, the change of z, and the work :math:`\int p\,u'\,ds`."""
+    flow = flows.contact.value
+    after = flow.subs(s, s_1)
+    lagging = sp.integrate(sp.expand(flow), s)
+    creep = (lagging.subs(s, s_1) - lagging.subs(s, s_0)) / eta
+    rate = sp.expand(flow * sp.diff(u, s))
+    work = sp.Add(*(sp.integrate(term, s) for term in sp.Add.make_args(rate)))
+    own = sp.integrate(sp.expand(u * sp.diff(u, s)), s)
+    excess = p_0 + u_1 + total(after)
+    slope = sp.diff(u_1, s_1) + total(sp.diff(after, s_1))
+    events = pair(
+        contact,
+        (stable.EXCESS_ENTRY, stable.EXCESS_EVENT),
+        (excess, slope),
+        (
+            "Constants of excess_event in a contact entered at s_0 with the overstresses f_0.",
+            "Pressure above -p_0 in contact and its slope at s_1, from the constants of excess_entry. s_1 must not be "
+            "before s_0.",
+        ),
+        (
+            r"s_0,\quad D + p_0,\quad f_0,\quad \frac{\eta}{1 + \alpha^2},\quad \alpha,\quad \alpha,\quad "
+            r"\frac{f_0 - f_{sat}(s_0)}{\alpha}",
+            r"q = p_0 + u(s_1) + \sum_i f_i(s_1)",
+        ),
+    )
+    return (
+        kernel(
+            contact,
+            stable.OVERSTRESS_AFTER,
+            after,
+            "Overstress of every branch in contact, when it was f_0 at s_0.",
+            r"f_i(s_1) = f_{sat,i}(s_1) + (f_{i,0} - f_{sat,i}(s_0)) e^{-(s_1 - s_0)/\alpha_i}",
+        ),
+        kernel(contact, stable.CONTACT_PRESSURE, u + total(f), "Contact pressure.", r"p = u + \sum_i f_i"),
+        kernel(
+            contact,
+            stable.EXCESS_CHANGE,
+            u_1 - u_0 + total(after - f_0),
+            "Change of the contact pressure since s_0.",
+            r"p(s_1) - p(s_0)",
+        ),
+        kernel(
+            contact,
+            stable.CONTACT_INCREMENT,
+            across(share, creep),
+            "Change of the retardation displacements over contact: what the dashpots creep, shared out.",
+            r"\Delta z = G\,\Delta e,\quad \eta_i \Delta e_i = \int_{s_0}^{s_1} f_i\,ds",
+            zero("contact_increment", "the antiderivative differentiates to f", sp.diff(lagging, s) - flow, phases=(s_0, s)),
+        ),
+        kernel(
+            contact,
+            stable.CONTACT_WORK,
+            own.subs(s, s_1) - own.subs(s, s_0) + total(work.subs(s, s_1) - work.subs(s, s_0)),
+            "Work of the contact pressure on the rigid profile.",
+            r"\int_{s_0}^{s_1} p\,u'\,ds",
+            zero("contact_work", "the antiderivative differentiates to f u'", sp.diff(work, s) - rate, phases=(s_0, s)),
+            paper="Eq. 10",
+        ),
+        *events,
+    )
+
+
+def passages(flows: ModeFlows) -> tuple[ModeKernel, ...]:
+    """A zone as an affine map of the state, and with all its derivatives: what the edge equations of a regime are made of."""
+    gap_flow = flows.relaxation.value.subs(s, s_1)
+    contact_flow = flows.contact.value
+    lagging = sp.integrate(sp.expand(contact_flow), s)
+    creep = (lagging.subs(s, s_1) - lagging.subs(s, s_0)) / eta
+    pressed = contact_flow.subs(s, s_1)
+    zero_state = {z_0: sp.Integer(0)}
+    change_z = sp.expand(gap_flow - z_0)
+    overstress = sp.expand(-(z_0 - J * p_in))  # under across(enter, .)
+    by_f = sp.diff(creep, f_0)
+    relaxation_terms = (
+        change_z,
+        -diagonal(sp.diff(change_z, z_0)),
+        sp.diff(change_z, s_0),
+        sp.diff(change_z, s_1),
+        total(change_z) - (u_1 - u_0),
+        sp.diff(change_z, z_0),
+        total(sp.diff(change_z, s_0)) + sp.diff(u_0, s_0),
+        total(sp.diff(change_z, s_1)) - sp.diff(u_1, s_1),
+    )
+    f_entry = across(enter, overstress)
+    entered = {f_0: f_entry}
+    contact_terms = (
+        across(share, creep.subs(entered)),
+        sandwich(share, by_f, enter),
+        across(share, sp.diff(creep, s_0).subs(entered)),
+        across(share, sp.diff(creep, s_1).subs(entered)),
+        u_1 - u_0 + total((pressed - f_0).subs(entered)),
+        -back(enter, sp.diff(pressed - f_0, f_0)),
+        -sp.diff(u_0, s_0) + total(sp.diff(pressed, s_0).subs(entered)),
+        sp.diff(u_1, s_1) + total(sp.diff(pressed, s_1).subs(entered)),
+    )
+    meaning = "In this order: change of z; what of z_0 is forgotten, as a matrix; its derivatives by s_0 and by s_1; change of "
+    return (
+        kernel(
+            passages,
+            stable.RELAXATION_MAP,
+            (-diagonal(sp.diff(change_z, z_0)), change_z.subs(zero_state)),
+            "A gap zone as an affine map of the state: z(s_1) - z_0 = drive - forget z_0.",
+            r"\Delta z = c - R z_0",
+        ),
+        kernel(
+            passages,
+            stable.CONTACT_MAP,
+            (sandwich(share, by_f, enter), across(share, creep.subs(f_0, across(enter, J) * p_in))),
+            "A contact zone, entered at the pressure p_in, as an affine map of the state.",
+            r"\Delta z = c - R z_0",
+        ),
+        kernel(
+            passages,
+            stable.RELAXATION_PASSAGE,
+            relaxation_terms,
+            f"Passage through a gap zone and its derivatives. {meaning}the gap; its derivatives by z_0, s_0, s_1.",
+            r"\Delta z,\ R,\ \partial_{s_0}\Delta z,\ \partial_{s_1}\Delta z,\ \Delta g,\ \partial_{z_0} \Delta g,\ "
+            r"\partial_{s_0} \Delta g,\ "
+            r"\partial_{s_1} \Delta g",
+        ),
+        kernel(
+            passages,
+            stable.CONTACT_PASSAGE,
+            contact_terms,
+            f"Passage through a contact zone, entered at the pressure p_in, and its derivatives. {meaning}the pressure; its "
+            "derivatives by z_0, s_0, s_1.",
+            r"\Delta z,\ R,\ \partial_{s_0}\Delta z,\ \partial_{s_1}\Delta z,\ \Delta p,\ \partial_{z_0} \Delta p,\ "
+            r"\partial_{s_0} \Delta p,\ "
+            r"\partial_{s_1} \Delta p",
+        ),
+    )

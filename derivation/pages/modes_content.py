@@ -1,0 +1,124 @@
+"""What the audit says of a model with n relaxation times: the same plain data as for one, from its own objects."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy as sp
+
+from ..check import CORRECTED, REPRODUCED, Derived
+from ..modes.derive import ModesDerivation
+from ..modes.regimes import ModeRegime
+from ..regime import CONTACT
+from . import content, paper, sources
+
+FIELDS = (
+    ("alpha", "k V tau_i, relaxation times"),
+    ("beta", "k V lambda_j, retardation times, between and above them"),
+    ("eta", "k V K_i tau_i/K, branch viscosities"),
+    ("S", "K/K_i, branch compliances"),
+    ("J", "retardation compliances times K"),
+    ("J_0", "instantaneous compliance times K"),
+    ("enter, leave, share", "matrices between the states: f = -enter (z - J p), its inverse, z = share e"),
+    ("p_0", "p_0/(K A), the traction of adhesion"),
+    ("delta_0", "delta_0/A, its reach"),
+    ("D", "D_j/A, the penetration of the strip"),
+)
+
+
+def modes_content(derivation: ModesDerivation, files: dict[str, str], certificates: dict[str, Any]) -> dict[str, Any]:
+    """Everything on a model's page but what is measured."""
+    module = f"{derivation.model.name}.py"
+    computed = sources.generated(module, files[module])
+    wrong = _misprints(derivation.steps)
+    return {
+        "model": derivation.model.name,
+        "title": derivation.model.title,
+        "paper": paper.TITLE,
+        "identity": content.identity(files),
+        "parameters": [list(row) for row in FIELDS],
+        "material": [[p.name, p.unit, p.meaning] for p in derivation.model.parameters],
+        "equations": _equations(derivation.steps, wrong),
+        "misprints": wrong,
+        "stages": content.stages(derivation.steps, computed),
+        "regimes": [_regime(regime, computed, derivation.closures.value) for regime in derivation.regimes],
+        "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
+        "sources": {name: content.text(sources.deriving(name)) for name in sorted({s.function for s in derivation.steps})},
+        "generated": {name: content.text(source) for name, source in computed.items()},
+    }
+
+
+def _equations(steps: tuple[Derived, ...], misprints: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    wrong = {number for row in misprints for number in row["equations"]}
+    present = {step.name for step in steps}
+    rows = []
+    for number, subject in paper.SUBJECTS.items():
+        cited = [step.name for step in steps if number in paper.numbers(step.paper)]
+        note, names = paper.ELSEWHERE.get(number, ("", ()))
+        status = CORRECTED if number in wrong else REPRODUCED if cited else "no step of its own"
+        linked = [*cited, *(name for name in names if name in present and name not in cited)]
+        rows.append({"number": number, "subject": subject, "status": status, "note": note, "steps": linked})
+    return rows
+
+
+def _misprints(steps: tuple[Derived, ...]) -> list[dict[str, Any]]:
+    """What bears on every model; the demonstrations are on the page of the paper's own foundation."""
+    by_name = {step.name: step for step in steps}
+    corrected = [
+        {
+            "equations": paper.numbers(step.paper) if name != "strip profile" else [6],
+            "what": name[0].upper() + name[1:],
+            "printed": "See the page of the standard linear solid, the paper's own foundation.",
+            "here": step.statement,
+            "latex": step.latex,
+            "why": step.correction,
+            "steps": [name],
+            "table": None,
+            "measured": None,
+        }
+        for name, step in by_name.items()
+        if step.status == CORRECTED
+    ]
+    closures = by_name["closures"]
+    return [
+        *corrected,
+        {
+            "equations": [],
+            "what": "What w does where p steps",
+            "printed": "Nothing is said of the edges d and -c, where the traction begins and ends.",
+            "here": closures.statement,
+            "latex": closures.latex,
+            "why": by_name["jump law"].statement,
+            "steps": ["jump law", "closures"],
+            "table": None,
+            "measured": None,
+        },
+    ]
+
+
+def _regime(regime: ModeRegime, computed: dict[str, sources.Source], closures: tuple[int, ...]) -> dict[str, Any]:
+    zones = [] if not regime.edges else [[z.kind, sp.latex(z.first), sp.latex(z.last)] for z in regime.zones]
+    names = [f"{kind}_{regime.sequence}" for kind in ("state", "residual", "jacobian", "means", "return_map")]
+    return {
+        "sequence": regime.sequence,
+        "title": regime.title,
+        "zones": zones,
+        "kind": regime.zones[0].kind,
+        "unknowns": [str(edge) for edge in regime.edges],
+        "closures": [content.CLOSURES[closure] for closure in closures],
+        "equations": _conditions(regime) if regime.edges else [],
+        "admissible": list(regime.admissible),
+        "step": regime.derived.name,
+        "computed_by": [name for name in names if name in computed],
+    }
+
+
+def _conditions(regime: ModeRegime) -> list[list[str]]:
+    first = sp.latex(regime.edges[0])
+    onset = rf"J_0\,({sp.latex(regime.onset_pressure)}) + \sum_j z_j({first}) - u({first}) - {sp.latex(regime.onset_gap)} = 0"
+    changes = []
+    for zone in regime.zones[:-1]:
+        what = "p" if zone.kind == CONTACT else "g"
+        missing = "" if zone.missing == 0 else f"{sp.latex(zone.missing)} + "
+        changes.append(rf"{missing}[{what}]_{{{sp.latex(zone.first)}}}^{{{sp.latex(zone.last)}}} = 0")
+    return [[meaning, latex] for (_, meaning), latex in zip(regime.equations, [onset, *changes], strict=True)]

@@ -1,0 +1,65 @@
+"""A material of a solver that a user has generated."""
+
+from __future__ import annotations
+
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from hystrip.errors import InputError
+
+from .checks import numbers
+
+
+class ModelMaterial:
+    """Foundation whose model is that of a loaded solver; made by ``Solver.material``. Immutable.
+
+    ``kernel``: the generated module; ``given``: its parameters; ``K``: relaxed stiffness, Pa/m; ``modes``: the kernel's ``Modes`` in seconds with a
+    trailing axis of length one (single values only).
+    """
+
+    __slots__ = ("kernel", "given", "K", "modes")
+
+    def __init__(self, kernel: ModuleType, given: dict[str, Any]):
+        known = kernel.MATERIAL
+        for name in given:
+            if name not in known:
+                raise InputError(f"material.{name}", given[name], f"parameters of {kernel.MODEL}: {', '.join(known)}")
+        values = {}
+        for name, (unit, _) in known.items():
+            if name not in given:
+                raise InputError(f"material.{name}", None, f"a value ({unit}) for every parameter of {kernel.MODEL}: {', '.join(known)}")
+            array = numbers(f"material.{name}", given[name], unit)
+            shape = (kernel.MODES,) if name in kernel.MODE_PARAMETERS else ()
+            if array.shape != shape:
+                wanted = f"{kernel.MODES} numbers, one for each relaxation time" if shape else "a single number"
+                raise InputError(f"material.{name}", given[name], f"{wanted} ({unit})")
+            values[name] = array
+        K, modes = modes_of(kernel, {name: v[..., None] for name, v in values.items()})
+        shown = {name: tuple(map(float, v)) if v.ndim else float(v) for name, v in values.items()}
+        for name, value in (("kernel", kernel), ("given", shown), ("K", float(np.ravel(K)[0])), ("modes", modes)):
+            object.__setattr__(self, name, value)
+
+    def __setattr__(self, name, value):
+        raise AttributeError(f"a material is immutable: {name} cannot be set")
+
+    def __repr__(self):
+        return f"{self.kernel.MODEL}({', '.join(f'{name}={value!r}' for name, value in self.given.items())})"
+
+    def __eq__(self, other):
+        return isinstance(other, ModelMaterial) and self.kernel is other.kernel and self.given == other.given
+
+    def __hash__(self):
+        return hash((self.kernel.MODEL, tuple(self.given.items())))
+
+
+def modes_of(kernel: ModuleType, values: dict[str, np.ndarray]) -> tuple[np.ndarray, Any]:
+    """``kernel.material_modes`` with its refusals as ``InputError``: K and the ``Modes`` in seconds."""
+    try:
+        K, modes = kernel.material_modes(**values)
+    except ValueError as error:
+        shown = {name: np.ravel(v).tolist() for name, v in values.items()}
+        raise InputError("material", shown, f"an admissible material: {error}") from None
+    one = lambda a: a[..., None] if np.ndim(a) == 0 else a  # noqa: E731
+    return np.asarray(K), type(modes)(*(one(np.asarray(a, float)) for a in modes))

@@ -1,0 +1,101 @@
+"""Solvers that ``hystrip regenerate`` has written outside the package."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib
+import importlib.util
+import os
+import sys
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from hystrip.errors import InputError
+from hystrip.inputs.model import ModelMaterial
+
+#: version of the interface of emitted solvers that this runtime speaks
+INTERFACE = 1
+
+
+class Solver:
+    """A loaded solver folder: ``models`` maps names to generated modules."""
+
+    def __init__(self, folder: Path, models: dict[str, ModuleType]):
+        self.folder, self.models = folder, models
+
+    def __repr__(self):
+        return f"Solver({str(self.folder)!r}, models={sorted(self.models)})"
+
+    def material(self, model: str | None = None, /, **parameters: Any):
+        """Material of one of the models (of the only one by default) with its parameters in SI, as ``kernel.MATERIAL`` names them.
+
+        Raises ``InputError`` for an unknown model or a parameter that is missing, unknown or inadmissible.
+        """
+        return ModelMaterial(self.kernel(model), parameters)
+
+    def kernel(self, model: str | None = None) -> ModuleType:
+        """The module of a model, or of the only one."""
+        if model is None and len(self.models) == 1:
+            return next(iter(self.models.values()))
+        if model not in self.models:
+            raise InputError("model", model, f"a model of the solver {str(self.folder)!r}: {', '.join(sorted(self.models))}")
+        return self.models[model]
+
+    def prony_kernel(self, times: int) -> ModuleType:
+        """The module that solves a Prony series of so many times."""
+        fits = [m for m in self.models.values() if m.MODES == times and set(m.MATERIAL) == {"K", "K_i", "tau_i"}]
+        if not fits:
+            has = ", ".join(f"{m.MODEL} ({m.MODES})" for m in self.models.values())
+            raise InputError("material.solver", str(self.folder), f"a solver for a Prony series of {times} different times; this one has {has}")
+        return fits[0]
+
+
+def load_solver(folder: str | os.PathLike[str]) -> Solver:
+    """Load a solver that ``hystrip regenerate my_model.py --out folder`` has written. Its code is run.
+
+    Raises ``InputError`` if the folder holds no solver, or one for another version of the interface; it says how to regenerate.
+    """
+    path = Path(folder).resolve()
+    init = path / "__init__.py"
+    if not init.is_file():
+        raise InputError("solver", str(folder), "a folder that `hystrip regenerate my_model.py --out FOLDER` has written")
+    again = "run `hystrip regenerate my_model.py --out FOLDER` again"
+    name = f"_hystrip_solver_{solver_key(path)[:16]}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
+    try:
+        package = _imported(name, init)
+        models = {model: importlib.import_module(f"{name}.{model}") for model in package.MODELS}
+    except InputError:
+        raise
+    except Exception as error:  # whatever a folder of code can do wrong
+        raise InputError("solver", str(folder), f"a solver that loads ({type(error).__name__}: {error}); {again}") from None
+    for model, module in list(models.items()):
+        version = getattr(module, "INTERFACE", None)
+        if version != INTERFACE:
+            raise InputError("solver", str(folder), f"a solver for interface {INTERFACE} of this hystrip; {model} was emitted for {version}: {again}")
+    usable = {model: module for model, module in models.items() if hasattr(module, "MODES")}
+    if not usable:
+        raise InputError("solver", str(folder), f"a solver of a model with relaxation times; it has {', '.join(models) or 'none'}")
+    return Solver(path, usable)
+
+
+def solver_key(folder: str | os.PathLike[str] | None) -> str:
+    """Hash of the code in a solver's folder; empty without one."""
+    if folder is None:
+        return ""
+    files = sorted(Path(folder).glob("*.py"))
+    return hashlib.sha256(b"".join(file.name.encode() + file.read_bytes() for file in files)).hexdigest()
+
+
+def _imported(name: str, init: Path) -> ModuleType:
+    if name in sys.modules:
+        return sys.modules[name]
+    spec = importlib.util.spec_from_file_location(name, init, submodule_search_locations=[str(init.parent)])
+    package = importlib.util.module_from_spec(spec)
+    sys.modules[name] = package
+    try:
+        spec.loader.exec_module(package)
+    except BaseException:
+        del sys.modules[name]
+        raise
+    return package

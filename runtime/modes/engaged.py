@@ -1,0 +1,51 @@
+"""The one orbit of a strip that is never released, by Newton's method on its period map.
+
+Without release ``w = u + max(z - u - J_0 p_0, 0)`` is a convex function of the state, so the period map is convex and monotone: each Newton step
+from below lands below the fixed point again, higher up. It cannot miss, and near the orbit it converges quadratically.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .march import Period, march
+from .problem import ModeStrips
+from .propagation import Order, propagation, solve_order
+
+_STEPS = 80
+_EPS = np.finfo(float).eps
+#: slow modes leave their displacements less certain than the edges; the state serves as a bound and as a start for ``polish``
+_COARSEST = 1e-7
+
+
+def engaged_orbit(kernel, strips: ModeStrips, start) -> tuple[np.ndarray, Period, np.ndarray, np.ndarray]:
+    """State at the phases ``start``, the period from there, the derivative of its map less the identity, and which did converge.
+
+    ``evaluations`` of the period count all the work.
+    """
+    s = strips.raised()
+    N = s.size
+    z = np.broadcast_to(s.m.J, (s.modes, N)) * (s.D - 1)
+    yes = np.ones(N, bool)
+    order = Order.of(kernel, s)
+    last = np.full(N, np.inf)
+    spent = np.zeros(N)
+    active = np.arange(N)
+    for _ in range(_STEPS):
+        sub = s.take(active)
+        here = order.take(active)
+        period = march(kernel, sub, yes[active], z[:, active], start[active])
+        spent[active] += period.evaluations
+        step = solve_order(propagation(sub, here, period, None), here.to_e(period.dz))
+        size = np.abs(step).max(axis=0)
+        usable = np.isfinite(size)
+        z[:, active[usable]] += here.to_z(step)[:, usable]
+        done = usable & ((size <= 64 * _EPS * sub.size_of_lengths) | ((size < 1e-10 * sub.size_of_lengths) & (size >= 0.5 * last[active])))
+        last[active] = size
+        active = active[~done & usable]
+        if not active.size:
+            break
+    converged = last <= _COARSEST * s.size_of_lengths
+    period = march(kernel, s, yes, z, start)
+    period.evaluations += spent
+    return z - s.m.J * strips.p_0, period, propagation(s, order, period, None), converged & ~period.lost

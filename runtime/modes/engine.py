@@ -1,0 +1,213 @@
+"""The extremal periodic orbit of every strip of a batch with several relaxation times; the same answers as ``strip.engine`` gives for one.
+
+Why the orbits are extremal is shown in ``order``. ``unloading`` takes the always engaged orbit where it is admissible, else the first orbit above
+it; ``loading`` the free orbit where it is admissible, else the first orbit below ``max(D, 0)``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from hystrip.strip.solved import Solved
+from hystrip.strip.regimes import CODE
+
+from .certificate import enclosed, marched, stable
+from .engaged import engaged_orbit
+from .march import TWO_PI, march
+from .order import ENGAGED, FREE, NARROW, ORBIT, approach
+from .polish import arguments, polish
+from .problem import ModeStrips
+
+#: strips solved at a time: memory stays bounded
+CHUNK = 2048
+_CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
+_EPS = np.finfo(float).eps
+#: distances in roundings of D at which a strip on the end of a branch is settled
+_SHIFTS = (8, 64, 512)
+
+
+def solve_modes(kernel, strips: ModeStrips, unloading: bool) -> Solved:
+    """Solve a batch with the generated ``kernel``; ``certified`` is false for every strip that must not be used."""
+    solved = Solved.empty(strips.size)
+    for start in range(0, strips.size, CHUNK):
+        part = np.arange(start, min(start + CHUNK, strips.size))
+        solved.put(part, _Batch(kernel, strips.take(part), unloading).solve())
+    for roundings in _SHIFTS:
+        index = np.flatnonzero(~solved.certified)
+        if not index.size:
+            break
+        # which side of a branch's end these are on is below the rounding of the inputs: they get the solution of the side it is followed to
+        these = strips.take(index)
+        shift = roundings * _EPS * these.size_of_lengths
+        again = _Batch(kernel, replace(these, D=these.D + (shift if unloading else -shift)), unloading).solve()
+        again.evaluations += solved.evaluations[index]
+        good = np.flatnonzero(again.certified)
+        solved.put(index[good], again.take(good))
+    return solved
+
+
+class _Batch:
+    def __init__(self, kernel, strips: ModeStrips, unloading: bool):
+        self.kernel, self.strips, self.unloading = kernel, strips, unloading
+        self.solved = Solved.empty(strips.size)
+        self.start = np.full(strips.size, np.pi)
+
+    def solve(self) -> Solved:
+        s = self.strips
+        sticky = s.p_0 > 0
+        # saturated contact, and adhesion all along: closed forms of the always engaged orbit
+        self.full = s.D - 1 + s.p_0 >= self.kernel.modulus_ratio(s.m)
+        self.clinging = sticky & (s.D <= -s.p_0) & (2 - s.D - s.p_0 <= s.delta_0)
+        bare_free = ~sticky & (s.D <= 0)
+        away = sticky & (s.D <= -s.delta_0) & (not self.unloading)
+        decided = away | bare_free
+        if self.unloading:
+            decided |= self.full | self.clinging
+            self._closed(np.flatnonzero((self.full | self.clinging) & ~bare_free))
+        self._free(np.flatnonzero(away | bare_free))
+        decided_full = ~sticky & self.full & ~decided
+        self._closed(np.flatnonzero(decided_full))
+        index = np.flatnonzero(~decided & ~decided_full)
+        if index.size:
+            self._search(index)
+        return self.solved
+
+    def _search(self, index):
+        z, period, floor, ok = engaged_orbit(self.kernel, self.strips.take(index), self.start[index])
+        self.solved.evaluations[index] += period.evaluations
+        self.ends = _engaged_edges(period)
+        bare = self.strips.p_0[index] == 0
+        pick = np.flatnonzero(bare & ok)
+        self._engaged(index[pick], self.ends[:, pick], "cf")
+        pick = np.flatnonzero(~bare & ok)
+        if pick.size:
+            rise_or_fall = self._rising if self.unloading else self._falling
+            rise_or_fall(index[pick], z[:, pick], floor[pick], self.ends[:, pick])
+
+    def _rising(self, index, z, floor, ends):
+        s = self.strips.take(index)
+        real = march(self.kernel, s, np.ones(index.size, bool), z, self.start[index])
+        self.solved.evaluations[index] += real.evaluations
+        holds = real.never_free
+        self._engaged(index[holds], ends[:, holds], "ac")
+        rest = np.flatnonzero(~holds)
+        if rest.size:
+            found = approach(self.kernel, s.take(rest), z[:, rest], self.start[index[rest]], True, None)
+            self._found(index[rest], found)
+            self._free(index[rest[found.kind == FREE]])
+
+    def _falling(self, index, z, floor, ends):
+        s = self.strips.take(index)
+        found = approach(self.kernel, s, z, self.start[index], False, floor)
+        self._found(index, found)
+        held = found.kind == ENGAGED
+        closed = self.full[index] | self.clinging[index]
+        self._closed(index[held & closed])
+        self._engaged(index[held & ~closed], ends[:, held & ~closed], "ac")
+
+    # -- writing results ---------------------------------------------------------------------------------------------
+
+    def _free(self, index):
+        self._set(index, "f", 0.0, 0.0, 0.0, 0.0)
+
+    def _closed(self, index):
+        """Saturated contact, or adhesion all along."""
+        full = index[self.full[index]]
+        s = self.strips.take(full)
+        self._set(full, "c", *self.kernel.means_c(*arguments(s)), 1.0, 0.0)
+        hold = index[~self.full[index]]
+        self._set(hold, "a", -self.strips.p_0[hold], 0.0, 0.0, 1.0)
+
+    def _set(self, index, sequence, p_mean, tau_mean, contact, adhesion):
+        if not index.size:
+            return
+        out = self.solved
+        out.code[index] = CODE[sequence]
+        out.p_mean[index], out.tau_mean[index] = p_mean, tau_mean
+        out.contact_fraction[index], out.adhesion_fraction[index] = contact, adhesion
+        out.certified[index] = True
+
+    def _engaged(self, index, ends, sequence):
+        """Always engaged orbits with contact and gap: solved from their own edges."""
+        self._finish(index, "ac", sequence, ends, ends, ends, 1e-5)
+
+    def _found(self, index, found):
+        self.solved.evaluations[index] += found.evaluations
+        self.solved.code[index] = CODE["acaf"]
+        snaps = (self.strips.step >= self.strips.delta_0)[index]
+        contact = ~np.isnan(found.lower[1])
+        orbit = found.kind == ORBIT
+        lower, upper = _in_order(found.lower), _in_order(found.upper)
+        for sequence, kind, rows in (
+            ("acaf", contact & ~snaps, [0, 1, 2, 3]),
+            ("afc", contact & snaps, [0, 2, 3]),
+            ("af", ~contact, [0, 3]),
+        ):
+            i = np.flatnonzero(orbit & kind)
+            if i.size:
+                low, high = lower[rows][:, i], upper[rows][:, i]
+                self._finish(index[i], sequence, sequence, 0.5 * (low + high), low, high, NARROW)
+
+    def _finish(self, index, equations, sequence, edges, lower, upper, slack):
+        """Polish, certify and write orbits of one sequence of zones."""
+        if not index.size:
+            return
+        s = self.strips.take(index)
+        if equations == "ac":
+            s = s.raised()
+        good = np.all(np.isfinite(edges), axis=0)
+        refined = polish(self.kernel, equations, s, np.where(good, edges, 0.0), *_around(lower, upper, slack))
+        limit = _CONVERGED + _ROUNDINGS * np.minimum(refined.attainable, _COARSEST)
+        allowed = 1e-7 + limit
+        e = refined.edges
+        ok = good & (refined.correction <= limit) & np.all(np.diff(e, axis=0) >= -64 * _EPS, axis=0) & (e[-1] - e[0] <= TWO_PI + 64 * _EPS)
+        ok &= enclosed(e, lower, upper, slack + allowed)
+        i = np.flatnonzero(ok)
+        ok[i] = marched(self.kernel, equations, s.take(i), e[:, i], allowed[i])
+        i = np.flatnonzero(ok)
+        ok[i] = stable(self.kernel, equations, s.take(i), e[:, i])
+        out = self.solved
+        out.evaluations[index] += refined.evaluations
+        out.code[index] = CODE[sequence]
+        out.certified[index] = ok
+        i = np.flatnonzero(ok)
+        self._write(index[i], equations, sequence, s.take(i), e[:, i])
+
+    def _write(self, index, equations, sequence, s, e):
+        out = self.solved
+        out.p_mean[index], out.tau_mean[index] = getattr(self.kernel, f"means_{equations}")(*e, *arguments(s))
+        if sequence == "ac":
+            out.p_mean[index] -= self.strips.p_0[index]
+        named = dict(zip({"acaf": "dbac", "afc": "bac", "af": "dc"}.get(sequence, "ba"), e, strict=True))
+        for name, values in named.items():
+            getattr(out, name)[index] = values
+        contact = (named["a"] - named["b"]) / TWO_PI if "b" in named else np.zeros(index.size)
+        out.contact_fraction[index] = contact
+        if sequence == "cf":
+            out.adhesion_fraction[index] = 0.0
+        elif sequence == "ac":
+            out.adhesion_fraction[index] = 1 - contact
+        else:
+            out.adhesion_fraction[index] = (e[-1] - e[0]) / TWO_PI - contact
+
+
+def _around(lower, upper, slack):
+    """Bounds for edges enclosed by those of two states."""
+    return np.minimum(lower, upper) - slack, np.maximum(lower, upper) + slack
+
+
+def _in_order(edges):
+    """Edges d, b, a, c in one period that ends with c in (0, pi): the gap can only grow while the profile falls."""
+    d, b, a, c = edges
+    shifted = [np.where(e > c, e - TWO_PI, e) for e in (d, b, a)]
+    turns = TWO_PI * np.floor(c / TWO_PI)
+    return np.array([*shifted, c]) - turns
+
+
+def _engaged_edges(period):
+    """Edges b, a of an always engaged orbit, b first."""
+    b, a = period.entry, period.exit
+    b = np.where(b > a, b - TWO_PI, b)
+    return np.array([b, a]) - TWO_PI * np.floor((a + 0.5 * np.pi) / TWO_PI)

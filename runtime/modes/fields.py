@@ -1,0 +1,66 @@
+"""Pressure and gap of solved strips with several times at any phase, from their edges, without solving again."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hystrip.strip.solved import Solved
+from hystrip.strip.regimes import CODE
+
+from .march import TWO_PI
+from .polish import arguments
+from .problem import ModeStrips
+
+#: zones in the order met from the first edge on, and the edges at which they begin
+ZONES = {"acaf": ("acaf", "dbac"), "afc": ("caf", "bac"), "af": ("af", "dc"), "ac": ("ca", "ba"), "cf": ("ca", "ba")}
+
+
+def fields(kernel, strips: ModeStrips, solved: Solved, phase: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Dimensionless pressure and gap at ``phase``; all arguments of shape (N,), one phase per strip.
+
+    At an edge the value is that of the zone which begins there.
+    """
+    p, gap = np.empty(strips.size), np.empty(strips.size)
+    for sequence, code in CODE.items():
+        index = np.flatnonzero(solved.code == code)
+        if index.size:
+            p[index], gap[index] = _one_regime(kernel, sequence, strips.take(index), solved, index, phase[index])
+    return p, gap
+
+
+def _one_regime(kernel, sequence, s: ModeStrips, solved: Solved, index, phase):
+    if sequence == "c":
+        return kernel.saturated_pressure(phase, s.D, s.m), np.zeros(index.size)
+    if sequence in ("a", "f"):
+        p = np.zeros(index.size) if sequence == "f" else -s.p_0
+        return p, p - kernel.profile(phase, s.D)
+    zones, names = ZONES[sequence]
+    edges = [getattr(solved, name)[index] for name in names]
+    phase = edges[0] + np.mod(phase - edges[0], TWO_PI)
+    p, gap = np.zeros(index.size), np.zeros(index.size)
+    for zone, start, entry in passages(kernel, sequence, s, edges):
+        inside = phase >= start
+        later = np.maximum(phase, start)
+        if zone == "c":
+            zone_p, zone_gap = kernel.contact_pressure(later, kernel.overstress_after(start, later, entry, s.m), s.D), 0.0
+        else:
+            zone_p = -s.p_0 if zone == "a" else 0.0
+            zone_gap = kernel.gap_after(start, later, entry, zone_p, s.D, s.m)
+        p, gap = np.where(inside, zone_p, p), np.where(inside, zone_gap, gap)
+    return p, gap
+
+
+def passages(kernel, sequence, s: ModeStrips, edges):
+    """Zones of an orbit in the order met: letter, start, and the overstress (contact) or the state z (elsewhere) there, (n, N)."""
+    zones, _ = ZONES[sequence]
+    z = getattr(kernel, f"state_{'ac' if sequence == 'cf' else sequence}")(*edges, *arguments(s))
+    for i, (zone, start) in enumerate(zip(zones, edges, strict=True)):
+        end = edges[i + 1] if i + 1 < len(edges) else edges[0] + TWO_PI
+        if zone == "c":
+            snapped = sequence == "afc"
+            overstress = kernel.overstress(z, -s.delta_0 / s.m.J_0 if snapped else -s.p_0, s.m)
+            yield zone, start, overstress
+            z = z + kernel.contact_increment(start, end, overstress, s.m)
+        else:
+            yield zone, start, z
+            z = z + kernel.relaxation_increment(start, end, z, -s.p_0 if zone == "a" else 0.0, s.m)

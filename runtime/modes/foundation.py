@@ -1,0 +1,120 @@
+"""The foundation with several relaxation times and its generated solver, as ``hystrip.solver.Foundation``."""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+import numpy as np
+
+from hystrip.errors import InputError
+from hystrip.inputs.model import ModelMaterial, modes_of
+from hystrip.strip.solved import Solved
+from hystrip.strip.flat import is_flat, solve_flat
+from hystrip.strip.regimes import CODE
+from hystrip.strip.solution import refuse_uncertified
+
+from .engine import solve_modes
+from .fields import fields
+from .problem import ModeStrips
+
+#: beyond this k V tau its square overflows
+_GROUP_LIMIT = 1e150
+
+
+class ManyTimes:
+    """See ``hystrip.solver.Foundation``. ``modes``: the kernel's ``Modes`` in seconds, last axis strips or of length one."""
+
+    def __init__(self, kernel: ModuleType, material, K=None, modes=None):
+        self.kernel, self.material = kernel, material
+        if modes is None:
+            K, modes = material.K, material.modes if isinstance(material, ModelMaterial) else _of_prony(kernel, material)[1]
+        self.K, self.modes = K, modes
+
+    @property
+    def longest_time(self):
+        return float(self.modes.beta.max())
+
+    @property
+    def lossiest_rate(self):
+        """By a grid in the logarithm of the rate, refined about its largest value."""
+        times = self.modes.alpha[self.modes.alpha > 0]
+        if not times.size or (self.modes.alpha == 0).any():
+            return np.inf
+        low, high = np.log(0.1 / times.max()), np.log(10 / times.min())
+        for _ in range(6):
+            grid = np.linspace(low, high, 401)
+            top = grid[np.argmax(self.kernel.loss(self.kernel.at_speed(self.modes, np.exp(grid))))]
+            width = grid[1] - grid[0]
+            low, high = top - width, top + width
+        return float(np.exp(top))
+
+    def flat(self, shape) -> ManyTimes:
+        m = self.material
+        if isinstance(m, ModelMaterial) or not any(np.ndim(v) for v in (m.K, *m.moduli, *m.times)):
+            return self
+        spread = lambda v: np.broadcast_to(v, shape).ravel()  # noqa: E731
+        K, moduli, times = spread(m.K), np.stack([spread(v) for v in m.moduli]), np.stack([spread(v) for v in m.times])
+        return ManyTimes(self.kernel, m, *modes_of(self.kernel, {"K": K, "K_i": moduli, "tau_i": times}))
+
+    def solve(self, l, A, D, V, p_0, delta_0, edge, branch):  # noqa: E741
+        K, p_0, delta_0 = (np.broadcast_to(np.asarray(v, float), l.shape) for v in (self.K, p_0, delta_0))
+        k = 2 * np.pi / l
+        with np.errstate(over="ignore"):  # refused below, by name
+            m = self.kernel.at_speed(self.modes, k * V)
+            longest = np.broadcast_to(m.beta.max(axis=0), l.shape)
+        if np.any(longest > _GROUP_LIMIT):
+            raise InputError("V", float(V[longest > _GROUP_LIMIT][0]), f"k V times the longest retardation time at most {_GROUP_LIMIT:g}")
+        flat = is_flat(A, longest, D, p_0 / K, delta_0)
+        unit = np.where(flat, 1.0, A)
+        strips = ModeStrips(m, p_0 / K / unit, delta_0 / unit, D / unit)
+        solved = Solved.empty(D.size)
+        unloading = branch == "unloading"
+        wavy = np.flatnonzero(~flat)
+        if wavy.size:
+            solved.put(wavy, solve_modes(self.kernel, strips.take(wavy), unloading))
+        level = np.flatnonzero(flat)
+        if level.size:
+            code, p = solve_flat(D[level], (p_0 / K)[level], delta_0[level], unloading)
+            solved.code[level], solved.p_mean[level], solved.tau_mean[level] = code, p, 0.0
+            solved.contact_fraction[level] = code == CODE["c"]
+            solved.adhesion_fraction[level] = code == CODE["a"]
+            solved.certified[level] = True
+        named = {"l": l, "A": A, "D": D, "V": V, **self._named(l.shape), "p_0": p_0, "delta_0": delta_0}
+        refuse_uncertified(solved, named, edge, branch)
+        return solved, strips, {"k": k, "A": A, "D": D, "p": K * unit, "length": unit, "flat": flat}
+
+    def _named(self, shape):
+        from hystrip.solver import parameters
+
+        named = parameters(self.material)
+        # a material of arrays was spread over the strips in `flat`; the strip's own values are in K and the modes
+        return {n: np.broadcast_to(v, shape) for n, v in named.items() if np.ndim(v) == 0} | {"K": np.broadcast_to(self.K, shape)}
+
+    def fields(self, strips, solved, phase):
+        return fields(self.kernel, strips, solved, phase)
+
+    def modulus_ratio(self, rate):
+        rate = np.atleast_1d(np.asarray(rate, float))
+        return self.kernel.modulus_ratio(self.kernel.at_speed(self.modes, rate))
+
+    def saturation(self, p_0, l, h, V):  # noqa: E741
+        k, K, V = self.kernel, self.K, np.atleast_1d(np.asarray(V, float))
+        return (
+            k.level_saturation_pressure(K, self.modes, p_0, l, h, V),
+            k.level_saturation_friction(K, self.modes, l, h, V),
+            k.level_saturation_penetration(K, self.modes, p_0, l, h, V),
+        )
+
+    def surely_saturated(self, p_0, l, h, V):  # noqa: E741
+        """Contact pressure is at least ``K u - sum K_i (e_i - u)`` with no e_i above D: positive excess all along whatever the state."""
+        worst = 0.5 * h * 2 / float(self.modes.J_0[0]) - p_0 / self.K
+        return np.maximum(np.full(np.shape(V), worst), h)
+
+
+def _of_prony(kernel, material):
+    if any(np.ndim(v) for v in (material.K, *material.moduli, *material.times)):
+        column = lambda v: np.stack(np.broadcast_arrays(*v)).reshape(len(v), -1)  # noqa: E731
+        return modes_of(kernel, {"K": np.ravel(material.K), "K_i": column(material.moduli), "tau_i": column(material.times)})
+    column = lambda v: np.array(v, float)[:, None]  # noqa: E731
+    return modes_of(kernel, {"K": np.array([material.K]), "K_i": column(material.moduli), "tau_i": column(material.times)})
+

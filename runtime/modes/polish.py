@@ -1,0 +1,85 @@
+"""Newton on the generated boundary equations of a regime, from edges that the ordered iteration has already enclosed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .problem import ModeStrips
+
+_ITERATIONS = 12
+#: steps larger than this are corrections, whatever the one before was
+_ROUNDING_LIMITED = 1e-7
+_EPS = np.finfo(float).eps
+
+
+@dataclass(slots=True)
+class Polished:
+    """Edges (k, N); ``correction`` (N,): the last step; ``attainable`` (N,): how well rounding lets the edges be known; ``evaluations`` (N,)."""
+
+    edges: np.ndarray
+    correction: np.ndarray
+    attainable: np.ndarray
+    evaluations: np.ndarray
+
+
+def arguments(s: ModeStrips):
+    """What every function of a regime takes after the edges."""
+    return s.m, s.p_0, s.delta_0, s.D
+
+
+def polish(kernel, sequence: str, strips: ModeStrips, edges: np.ndarray, low: np.ndarray, high: np.ndarray) -> Polished:
+    """Refine ``edges`` (k, N) of strips that all are in the regime ``sequence``, kept between ``low`` and ``high`` and in order."""
+    residual, jacobian = (getattr(kernel, f"{what}_{sequence}") for what in ("residual", "jacobian"))
+    edges = edges.copy()
+    N = strips.size
+    last, attainable, spent = np.full(N, np.inf), np.full(N, np.inf), np.zeros(N)
+    active = np.arange(N)
+    for _ in range(_ITERATIONS):
+        s = strips.take(active)
+        here = edges[:, active]
+        matrix = _matrix(jacobian(*here, *arguments(s)), here)
+        inverse = _inverse(matrix)
+        step = -np.einsum("Nij,jN->iN", inverse, np.array(np.broadcast_arrays(*residual(*here, *arguments(s)))))
+        spent[active] += 1
+        size = np.abs(step).max(axis=0)
+        # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction
+        better = np.isfinite(size) & ((size < 0.5 * last[active]) | (size > _ROUNDING_LIMITED))
+        moved = active[better]
+        new = np.maximum.accumulate(here[:, better] + step[:, better], axis=0)
+        edges[:, moved] = np.clip(new, low[:, moved], high[:, moved])
+        last[moved] = size[better]
+        noise = _noise(kernel, len(edges), s)
+        attainable[moved] = np.einsum("Nij,jN->iN", np.abs(inverse), noise).max(axis=0)[better]
+        active = active[better & (size > 2 * _EPS * np.maximum(1.0, np.abs(here).max(axis=0)))]
+        if not active.size:
+            break
+    return Polished(edges, last, attainable, spent)
+
+
+def _matrix(rows, edges):
+    """Nested tuple of derivatives as (N, k, k)."""
+    k, N = edges.shape
+    out = np.empty((N, k, k))
+    for i in range(k):
+        for j in range(k):
+            out[:, i, j] = rows[i][j]
+    return out
+
+
+def _inverse(matrix):
+    """Inverses, NaN where there is none."""
+    scale = np.abs(matrix).max(axis=2, keepdims=True)
+    good = (np.isfinite(scale) & (scale > 0)).all(axis=(1, 2))
+    safe = np.where(good[:, None, None], np.divide(matrix, scale, out=np.zeros_like(matrix), where=scale > 0), np.eye(matrix.shape[1]))
+    singular = np.abs(np.linalg.det(safe)) < 1e-250
+    safe[singular] = np.eye(matrix.shape[1])
+    inverse = np.linalg.inv(safe) / np.where(good[:, None, None], np.swapaxes(scale, 1, 2), 1.0)
+    inverse[~good | singular] = np.nan
+    return inverse
+
+
+def _noise(kernel, k: int, s: ModeStrips):
+    """Rounding of each boundary equation, (k, N): pressures are of the size of the saturated one."""
+    return np.broadcast_to(_EPS * (s.size_of_lengths + kernel.modulus_ratio(s.m)), (k, s.size))

@@ -1,0 +1,58 @@
+"""A batch of strips on a foundation with n relaxation times, in dimensionless form."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ModeStrips:
+    """Dimensionless groups of N strips: lengths in A, pressures in K A, times in 1/(k V).
+
+    ``m``: the kernel's ``Modes`` at the strips' speeds, per-mode arrays (n, N) or, where all strips share one material, (n, 1) and
+    matrices (n, n, 1). ``p_0``, ``delta_0``, ``D``: shape (N,). ``bare``: nothing is ever released.
+    """
+
+    m: tuple
+    p_0: np.ndarray
+    delta_0: np.ndarray
+    D: np.ndarray
+    bare: bool = False
+
+    @property
+    def size(self) -> int:
+        return self.D.size
+
+    @property
+    def modes(self) -> int:
+        return self.m.alpha.shape[0]
+
+    @property
+    def step(self) -> np.ndarray:
+        """Width of the relay: the step ``J_0 p_0`` of w where the pressure steps by ``p_0``, (N,)."""
+        return np.broadcast_to(self.m.J_0 * self.p_0, self.D.shape)
+
+    @property
+    def jump_on(self) -> np.ndarray:
+        """How far w steps at an onset: the whole gap where the point snaps into contact, (N,)."""
+        return np.minimum(self.step, self.delta_0)
+
+    @property
+    def size_of_lengths(self) -> np.ndarray:
+        """Scale that lengths are rounded at, (N,)."""
+        return 1 + np.abs(self.D) + self.p_0 + self.delta_0
+
+    def take(self, index) -> ModeStrips:
+        """The strips at ``index``."""
+        return ModeStrips(take_modes(self.m, index), self.p_0[index], self.delta_0[index], self.D[index], self.bare)
+
+    def raised(self) -> ModeStrips:
+        """The strips that are never released, seen from ``-p_0``: adding ``p_0`` to w, p and every e leaves the foundation's law unchanged."""
+        return ModeStrips(self.m, np.zeros(self.size), np.zeros(self.size), self.D + self.p_0, bare=True)
+
+
+def take_modes(m, index):
+    """``Modes`` at ``index`` of the last axis; an axis of length one is shared by all strips and stays."""
+    return type(m)(*(a if a.shape[-1] == 1 else a[..., index] for a in m))

@@ -1,0 +1,234 @@
+"""Derivative of the period map along a march, in the coordinates of the order (dashpot displacements e), and lower bounds of it.
+
+Between events a deviation of e is carried by ``diag exp(-length/alpha_i)`` in contact and by the relaxation of the gap elsewhere, which
+is the larger of the two in every entry. At an onset and at a release w steps, and an event met earlier or later adds
+
+    gain (1/alpha_i) g^T,    gain = step of w/|slope of the gap|,    z = g^T e,
+
+a matrix without negative entries. So the longest contact and the least gains of a range of states bound the derivative from below.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .march import ADHESION, CONTACT, FREE, TWO_PI, Period
+from .problem import ModeStrips
+
+_FASTEST = 1e13
+
+
+@dataclass(slots=True)
+class Order:
+    """Coordinates of the order for a batch: ``z = share e``, ``e = back z`` (n, n, N or 1), ``g`` (n, N or 1): ``sum_j z_j = g . e``.
+
+    ``rate``: ``1/alpha_i``, capped. ``gamma = sum g_i/alpha_i``.
+    """
+
+    share: np.ndarray
+    back: np.ndarray
+    g: np.ndarray
+    rate: np.ndarray
+
+    @classmethod
+    def of(cls, kernel, s: ModeStrips) -> Order:
+        m = s.m
+        n = s.modes
+        unit = np.eye(n)[:, :, None]
+        back = np.stack([kernel.dashpots(unit[:, j], 0.0, m) for j in range(n)], axis=1)
+        rate = np.minimum(np.divide(1.0, m.alpha, out=np.full(m.alpha.shape, _FASTEST), where=m.alpha > 1 / _FASTEST), _FASTEST)
+        return cls(m.share, back, m.share.sum(axis=0), rate)
+
+    def take(self, index) -> Order:
+        return Order(*(a if a.shape[-1] == 1 else a[..., index] for a in (self.share, self.back, self.g, self.rate)))
+
+    @property
+    def gamma(self) -> np.ndarray:
+        return (self.g * self.rate).sum(axis=0)
+
+    def to_z(self, e):
+        return np.einsum("ij...,j...->i...", self.share, e)
+
+    def to_e(self, z):
+        return np.einsum("ij...,j...->i...", self.back, z)
+
+
+@dataclass(slots=True)
+class Gains:
+    """Rank-one terms at the onset and the release, each ``gain (column . rate) (row . g)^T``: gain (N,), column and row (n, N) or 1."""
+
+    onset: np.ndarray
+    onset_column: np.ndarray
+    onset_row: np.ndarray
+    release: np.ndarray
+    release_column: np.ndarray
+    release_row: np.ndarray
+
+
+def exact_gains(s: ModeStrips, period: Period) -> Gains:
+    """Gains at the events of a march that meets each at most once."""
+    one = np.ones((1, 1))
+    onset = _ratio(s.jump_on, -period.slope_onset)
+    release = _ratio(s.step, period.slope_release)
+    return Gains(onset, one, one, release, one, one)
+
+
+def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period) -> Gains:
+    """Lower bounds of the gains of every state between those of two marches that meet each event once.
+
+    Onsets lie between those of the two, releases too (the other way round). Placed where ``lower`` meets them: moving an event by ``delta``
+    multiplies its terms by no less than ``exp(-delta rate)`` componentwise or, against the flow, ``exp(-delta gamma)``.
+    """
+    late, early = _width(lower.onset, upper.onset), _width(upper.release, lower.release)
+    gamma = np.broadcast_to(order.gamma, late.shape)
+    fading = lambda width: np.exp(-width * order.rate)  # noqa: E731
+    shrink = lambda width: np.exp(-width * gamma)[None]  # noqa: E731
+    steep_on = np.fmin(_steepest_onset(s, order, lower, upper), _steepest_by_modes(s, order, lower, upper, True))
+    steep_off = np.fmin(_steepest_release(s, order, lower, upper), _steepest_by_modes(s, order, lower, upper, False))
+    return Gains(_ratio(s.jump_on, steep_on), shrink(late), fading(late), _ratio(s.step, steep_off), fading(early), shrink(early))
+
+
+def propagation(s: ModeStrips, order: Order, period: Period, gains: Gains | None) -> np.ndarray:
+    """Derivative of the period map less the identity, (N, n, n), with the given gains or none."""
+    n, N = s.modes, period.dz.shape[1]
+    change = np.zeros((N, n, n))
+    eye = np.eye(n)
+    share, back = np.moveaxis(order.share, -1, 0), np.moveaxis(order.back, -1, 0)
+    for zone in period.zones:
+        i, length = zone.index, zone.end - zone.start
+        X = eye + change[i]
+        contact = zone.letter == CONTACT
+        times = np.where(contact, _pick(s.m.alpha, i), _pick(s.m.beta, i))
+        loss = np.expm1(-np.divide(length, times, out=np.full((n, i.size), 800.0), where=times > 0)).T
+        step = loss[:, :, None] * X
+        gap = np.flatnonzero(~contact)
+        if gap.size:
+            here = i[gap]
+            S, B = (a if a.shape[0] == 1 else a[here] for a in (share, back))
+            step[gap] = B @ (loss[gap][:, :, None] * (S @ X[gap]))
+        change[i] += step
+        if gains is not None:
+            onset = np.flatnonzero((zone.letter == FREE) & (zone.following >= 0))
+            release = np.flatnonzero((zone.letter == ADHESION) & (zone.following == FREE))
+            _gain(change, eye, order, i[onset], gains.onset, gains.onset_column, gains.onset_row)
+            _gain(change, eye, order, i[release], gains.release, gains.release_column, gains.release_row)
+    return change
+
+
+def _gain(change, eye, order: Order, i, gain, column, row):
+    if not i.size:
+        return
+    left = (gain[i] * _pick(column, i) * _pick(order.rate, i)).T
+    right = (_pick(row, i) * _pick(order.g, i)).T
+    change[i] += left[:, :, None] * (right[:, None, :] @ (eye + change[i]))
+
+
+def solve_order(change: np.ndarray, r: np.ndarray) -> np.ndarray:
+    """``(I - M)^-1 r`` for ``M = I + change``; r and the result (n, N). NaN where singular."""
+    rows = -change
+    scale = np.abs(rows).max(axis=2)
+    bad = ~(np.isfinite(scale).all(axis=1) & (scale > 0).all(axis=1)) | ~np.isfinite(r).all(axis=0)
+    scale[bad] = 1.0
+    rows = rows / scale[:, :, None]
+    rows[bad] = np.eye(rows.shape[1])
+    try:
+        v = np.linalg.solve(rows, (r.T / scale)[:, :, None])[:, :, 0].T
+    except np.linalg.LinAlgError:
+        v = np.full(r.shape, np.nan)
+        for k in range(r.shape[1]):  # one singular matrix spoils the batch: rare
+            if np.linalg.cond(rows[k]) < 1e14:
+                v[:, k] = np.linalg.solve(rows[k], r[:, k] / scale[k])
+    v[:, bad] = np.nan
+    return v
+
+
+def _pick(a, index):
+    return a if a.shape[-1] == 1 else a[..., index]
+
+
+def _ratio(step, slope):
+    """``step/slope`` for a slope that bounds from above; 0 where that says nothing."""
+    return np.divide(step, slope, out=np.zeros(np.shape(step)), where=np.isfinite(slope) & (slope > 1e-290 + 1e-290 * np.abs(step)))
+
+
+def _width(first, second):
+    """Distance from an event to a later one; 0 where either is missing (the gain is 0 there)."""
+    return np.nan_to_num(np.maximum(second - first, 0.0))
+
+
+def _steepest_onset(s: ModeStrips, order: Order, lower: Period, upper: Period):
+    """Upper bound of the rate at which the gap falls to the onset: ``-sin d - gamma (u + delta_0) + sum (g_i/alpha_i) e_i(d)``."""
+    weight = order.g * order.rate
+    low, high = lower.onset, np.maximum(upper.onset, lower.onset)
+    last = order.to_e(upper.z_onset)
+    w = s.D - 1 + s.delta_0 + _least_cosine(low, high)
+    kept = np.exp(-(high - low) * order.rate)
+    before = np.divide(last - w * (1 - kept), kept, out=np.full(last.shape, np.inf), where=kept > 1e-290)
+    e = np.where(w >= last, last, before)
+    gamma = order.gamma
+    return _harmonic_max(-gamma, -1.0, low, high) - gamma * (s.D - 1 + s.delta_0) + (weight * e).sum(axis=0)
+
+
+def _steepest_release(s: ModeStrips, order: Order, lower: Period, upper: Period):
+    """Upper bound of the rate at which the gap grows to the release: ``sin c + gamma (u + delta_0) - sum (g_i/alpha_i) e_i(c)``."""
+    weight = order.g * order.rate
+    low, high = np.minimum(upper.release, lower.release), lower.release
+    last = order.to_e(lower.z_release)
+    w = s.D - 1 + s.delta_0 - _least_cosine(low + np.pi, high + np.pi)
+    kept = np.exp(-(high - low) * order.rate)
+    before = np.divide(last - w * (1 - kept), kept, out=np.full(last.shape, -np.inf), where=kept > 1e-290)
+    e = np.where(w <= last, last, before)
+    gamma = order.gamma
+    return _harmonic_max(gamma, 1.0, low, high) + gamma * (s.D - 1 + s.delta_0) - (weight * e).sum(axis=0)
+
+
+def _steepest_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period, onset: bool):
+    """The same upper bounds from the modes of the gap zone that the event ends: fast ones have died out since it began.
+
+    The state there lies between those of the two marches, whatever the phase at which the zone began, and between the bounds of all orbits.
+    """
+    name = "onset" if onset else "release"
+    (z_low, from_low), (z_up, from_up) = ((getattr(p, f"z_from_{name}"), getattr(p, f"from_{name}")) for p in (lower, upper))
+    first, last = np.minimum(from_low, from_up), np.maximum(from_low, from_up)
+    floor, ceiling = -s.p_0, np.maximum(s.D, 0.0)
+    kept = np.exp(-(last - first) * order.rate)
+    low = _extreme(order.to_e(z_low), floor, ceiling, kept, from_low >= from_up, -1.0)
+    high = _extreme(order.to_e(z_up), floor, ceiling, kept, from_up >= from_low, 1.0)
+    rising, falling = np.maximum(order.share, 0.0), np.minimum(order.share, 0.0)
+    times = lambda matrix, e: np.einsum("ij...,j...->i...", matrix, e)  # noqa: E731
+    rest = s.m.J * (0.0 if onset else -s.p_0)
+    least, most = times(rising, low) + times(falling, high) - rest, times(rising, high) + times(falling, low) - rest
+    event = np.sort(np.stack([getattr(lower, name), getattr(upper, name)]), axis=0)
+    short, long = np.maximum(event[0] - last, 0.0), event[1] - first
+    rate = np.minimum(np.divide(1.0, s.m.beta, out=np.full(s.m.beta.shape, _FASTEST), where=s.m.beta > 1 / _FASTEST), _FASTEST)
+    little, much = rate * np.exp(-long * rate), rate * np.exp(-short * rate)
+    if onset:
+        return _harmonic_max(0.0, -1.0, event[0], event[1]) + (most * np.where(most > 0, much, little)).sum(axis=0)
+    return _harmonic_max(0.0, 1.0, event[0], event[1]) - (least * np.where(least > 0, little, much)).sum(axis=0)
+
+
+def _extreme(e, floor, ceiling, kept, at_end, sign):
+    """Largest (``sign`` 1) or least (-1) value over a range of phases of displacements known at its end or at its start.
+
+    They tend to w, which lies between ``floor`` and ``ceiling`` like themselves; ``kept``: what is left of a deviation after the range.
+    """
+    toward, away = (ceiling, floor) if sign > 0 else (floor, ceiling)
+    after = np.where(sign * (toward - e) > 0, e + (toward - e) * (1 - kept), e)
+    before = np.divide(e - away * (1 - kept), kept, out=np.full(e.shape, sign * np.inf), where=kept > 1e-290)
+    before = np.where(sign * (away - e) >= 0, e, before)
+    value = np.where(at_end, before, after)
+    return np.clip(value, np.minimum(floor, e), np.maximum(ceiling, e))
+
+
+def _least_cosine(low, high):
+    return -_harmonic_max(-1.0, 0.0, low, high)
+
+
+def _harmonic_max(a, b, low, high):
+    """Greatest value of ``a cos s + b sin s`` on [low, high], elementwise."""
+    top, peak = np.hypot(a, b), np.arctan2(b, a)
+    ends = np.maximum(a * np.cos(low) + b * np.sin(low), a * np.cos(high) + b * np.sin(high))
+    inside = np.ceil((low - peak) / TWO_PI) * TWO_PI + peak <= high
+    return np.where(inside, top, ends)

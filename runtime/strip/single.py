@@ -1,0 +1,62 @@
+"""The foundation with one relaxation time and its generated solver, as ``hystrip.solver.Foundation``."""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+import numpy as np
+
+from hystrip.inputs.material import StandardLinearSolid
+
+from .fields import fields
+from .solution import refuse_uncertified, solve_si
+
+
+class SingleTime:
+    """See ``hystrip.solver.Foundation``."""
+
+    def __init__(self, kernel: ModuleType, material: StandardLinearSolid):
+        self.kernel, self.material, self.K = kernel, material, material.K
+
+    @property
+    def longest_time(self):
+        return self.material.T_eps
+
+    @property
+    def lossiest_rate(self):
+        return 1 / self.material.T_sigma if self.material.T_sigma > 0 else np.inf
+
+    def flat(self, shape) -> SingleTime:
+        """The same with array parameters broadcast to ``shape`` and flattened, like everything else."""
+        m = self.material
+        if not any(np.ndim(v) for v in (m.K, m.T_eps, m.T_sigma)):
+            return self
+        return SingleTime(self.kernel, StandardLinearSolid(*(np.broadcast_to(v, shape).ravel() for v in (m.K, m.T_eps, m.T_sigma))))
+
+    def solve(self, l, A, D, V, p_0, delta_0, edge, branch):  # noqa: E741
+        m = self.material
+        inputs = [np.broadcast_to(np.asarray(v, float), l.shape) for v in (l, A, D, V, m.K, m.T_eps, m.T_sigma, p_0, delta_0, m.J, m.L)]
+        solved, strips, scales = solve_si(self.kernel, *inputs, edge, branch)
+        names = ("l", "A", "D", "V", "K", "T_eps", "T_sigma", "p_0", "delta_0")
+        refuse_uncertified(solved, dict(zip(names, inputs, strict=False)), edge, branch)
+        return solved, strips, scales
+
+    def fields(self, strips, solved, phase):
+        return fields(self.kernel, strips, solved, phase)
+
+    def modulus_ratio(self, rate):
+        return self.kernel.modulus_ratio(rate * self.material.T_sigma, rate * self.material.T_eps)
+
+    def saturation(self, p_0, l, h, V):  # noqa: E741
+        k, m = self.kernel, self.material
+        times = (m.T_eps, m.T_sigma)
+        return (
+            k.level_saturation_pressure(m.K, *times, p_0, l, h, V),
+            k.level_saturation_friction(m.K, *times, l, h, V),
+            k.level_saturation_penetration(m.K, *times, p_0, l, h, V),
+        )
+
+    def surely_saturated(self, p_0, l, h, V):  # noqa: E741
+        """The forcing ``H + p_0`` is positive all along every strip, so contact once made is never left, and no strip is out of reach."""
+        steepest = np.hypot(1.0, 2 * np.pi / l * V * self.material.T_eps)
+        return np.maximum(0.5 * h * (1 + steepest) - p_0 / self.material.K, h)

@@ -1,0 +1,168 @@
+"""Solvers outside the package: loading, versions, permission, scenes and the command line."""
+
+import shutil
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import hystrip
+import hystrip.generated
+from hystrip import InputError
+from hystrip.commands import entry
+from hystrip.scene import parse_scene
+from hystrip.scene.errors import SceneError
+
+ADHESION = hystrip.Dugdale(p_0=2e3, delta_0=3e-7)
+MODULI, TIMES = (3e9, 2e10), (1e-3, 1e-1)
+
+SCENE = """
+penetration = 3e-7
+velocity = [1e-4, 1e-2]
+edge = "constitutive"
+rtol = 1e-3
+[material]
+model = "prony"
+K = "1 GPa/m"
+moduli = ["3 GPa/m", 2e10]
+times = ["1 ms", 0.1]
+{solver}
+[[levels]]
+l = 1e-5
+h = 1e-6
+"""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A solver folder as `hystrip regenerate` writes it: that of the package, under another name."""
+    target = tmp_path / "my_solver"
+    shutil.copytree(Path(hystrip.generated.__file__).parent, target, ignore=shutil.ignore_patterns("__pycache__", "audit"))
+    return target
+
+
+def test_a_loaded_solver_solves_as_the_package_does(folder):
+    solver = hystrip.load_solver(folder)
+    assert {"generalised_2", "generalised_3"} <= set(solver.models)
+    strips = {"l": 1e-5, "A": 1e-6, "D": np.linspace(-1e-6, 2e-6, 7), "V": 1e-3, "edge": "constitutive"}
+    ours = hystrip.solve_strip(hystrip.Prony(1e9, MODULI, TIMES), ADHESION, **strips)
+    for material in (
+        hystrip.Prony(1e9, MODULI, TIMES, solver=solver),
+        solver.material("generalised_2", K=1e9, K_i=MODULI, tau_i=TIMES),
+    ):
+        theirs = hystrip.solve_strip(material, ADHESION, **strips)
+        assert np.array_equal(ours.p_mean, theirs.p_mean) and np.array_equal(ours.tau_mean, theirs.tau_mean)
+        level = hystrip.solve_level(material, ADHESION, hystrip.Level(1e-5, 1e-6), V=1e-3, D=3e-7, edge="constitutive", rtol=1e-3)
+        assert np.isfinite(level.p_mean)
+
+
+def test_parameters_of_a_loaded_model_are_checked(folder):
+    solver = hystrip.load_solver(folder)
+    given = {"K": 1e9, "K_i": MODULI, "tau_i": TIMES}
+    for changed, field in (
+        ({"K": "x"}, "material.K"),
+        ({"K": -1.0}, "material"),
+        ({"K_i": 1e9}, "material.K_i"),
+        ({"tau_i": (1.0, np.inf)}, "material.tau_i"),
+        ({"T": 1.0}, "material.T"),
+    ):
+        with pytest.raises(InputError) as error:
+            solver.material("generalised_2", **(given | changed))
+        assert error.value.field == field
+    with pytest.raises(InputError, match="a model of the solver"):
+        solver.material("no_such", **given)
+    with pytest.raises(InputError, match="a Prony series of 5 different times"):
+        hystrip.solve_strip(
+            hystrip.Prony(1e9, [1e9] * 5, [1, 2, 3, 4, 5], solver=solver), ADHESION, l=1.0, A=1.0, D=0.0, V=1.0, edge="constitutive"
+        )
+
+
+def test_another_interface_is_refused_and_says_how_to_regenerate(folder):
+    module = folder / "generalised_2.py"
+    text = module.read_text()
+    assert "INTERFACE = 1" in text
+    module.write_text(text.replace("INTERFACE = 1", "INTERFACE = 0"))
+    with pytest.raises(InputError, match="emitted for 0.*hystrip regenerate my_model.py --out"):
+        hystrip.load_solver(folder)
+
+
+@pytest.mark.parametrize("spoil", ["nothing", "broken", "empty"])
+def test_what_is_no_solver_is_refused(tmp_path, folder, spoil):
+    if spoil == "nothing":
+        folder = tmp_path / "absent"
+    elif spoil == "broken":
+        (folder / "modes.py").write_text("raise RuntimeError('spoilt')")
+    else:
+        (folder / "__init__.py").write_text("MODELS = ()")
+    with pytest.raises(InputError) as error:
+        hystrip.load_solver(folder)
+    assert error.value.field == "solver"
+
+
+def test_a_scene_has_prony_series():
+    scene = parse_scene(SCENE.format(solver=""))
+    assert scene.material == hystrip.Prony(1e9, MODULI, TIMES)
+    result = scene.solve()
+    assert np.isfinite(result.mu).all() and "Prony" in result.summary()
+    assert "moduli[1]" in result.to_dataset().attrs["material"]
+
+
+@pytest.mark.parametrize(
+    "old, new, field, says",
+    [
+        ("times", "T_eps", "material.T_eps", "a key of another model"),
+        ('times = ["1 ms", 0.1]', "", "material.times", "missing"),
+        ('"1 ms", 0.1', '"1 ms"', "material.moduli", "as many"),
+        ('"1 ms", 0.1', '"1 ms", "0.1 m"', "material.times[1]", "unit of something else"),
+        ('"prony"', '"pronny"', "material.model", "prony"),
+        ('edge = "constitutive"', "", "edge", "not determined"),
+    ],
+)
+def test_scene_errors_name_the_key(old, new, field, says):
+    with pytest.raises(SceneError) as error:
+        parse_scene(SCENE.format(solver="").replace(old, new)).solve()
+    assert error.value.field.startswith(field) and says in str(error.value)
+
+
+def test_a_scene_runs_a_solver_only_where_that_is_allowed(folder, monkeypatch, capsys):
+    path = folder.parent / "scene.toml"
+    path.write_text(SCENE.format(solver='solver = "my_solver"'))
+    with pytest.raises(SceneError, match="allow_solver=True") as error:
+        hystrip.load_scene(path)
+    assert error.value.field == "material.solver" and "--allow-solver" in str(error.value)
+    allowed = hystrip.load_scene(path, allow_solver=True).solve()
+    ours = parse_scene(SCENE.format(solver="")).solve()
+    assert np.array_equal(allowed.mu, ours.mu)
+
+    def run(*arguments):
+        monkeypatch.setattr(sys, "argv", ["hystrip", *map(str, arguments)])
+        with pytest.raises(SystemExit) as end:
+            entry.main()
+        return end.value.code, capsys.readouterr()
+
+    out = folder.parent / "out"
+    for command in (["solve", path, "--no-plot"], ["sweep", path]):
+        status, said = run(*command, "--out", out)
+        assert status == 2 and "--allow-solver" in said.err and not out.exists()
+    assert run("solve", path, "--no-plot", "--allow-solver", "--out", out)[0] == 0
+    assert run("sweep", path, "--allow-solver", "--out", out)[0] == 0
+    rows = (out / "scene.csv").read_text().splitlines()
+    assert len(rows) == 3
+
+
+def test_regenerate_wants_a_folder_for_a_users_model(tmp_path, monkeypatch, capsys):
+    model = tmp_path / "my_model.py"
+    for text, arguments, says in (
+        ("", [model], "--out"),
+        (None, [model, "--out", tmp_path / "out"], "declares MODEL"),
+        ("MODEL = 3", [model, "--out", tmp_path / "out"], "admissible model"),
+    ):
+        model.unlink(missing_ok=True)
+        if text is not None:
+            model.write_text(text)
+        monkeypatch.setattr(sys, "argv", ["hystrip", "regenerate", *map(str, arguments)])
+        with pytest.raises(SystemExit) as end:
+            entry.main()
+        assert end.value.code == 2 and says in capsys.readouterr().err
+        assert not (tmp_path / "out").exists()

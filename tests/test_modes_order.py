@@ -1,0 +1,124 @@
+"""The claims that the choice of the extremal orbit rests on (``runtime/modes/order.py``), on random states, and the orbits it leads to."""
+
+import numpy as np
+import pytest
+
+from hystrip.generated import generalised_2, generalised_3
+from hystrip.inputs.model import modes_of
+from hystrip.modes.engine import solve_modes
+from hystrip.modes.march import march
+from hystrip.modes.problem import ModeStrips
+from hystrip.modes.propagation import Order, exact_gains, least_gains, propagation
+from hystrip.strip.regimes import SEQUENCES
+
+KERNELS = {2: generalised_2, 3: generalised_3}
+N = 4000
+
+
+def strips(rng, n, size=N):
+    """Strips that are often engaged and often not, a third of them snapping into contact."""
+    log = lambda low, high, *shape: 10 ** rng.uniform(np.log10(low), np.log10(high), shape)  # noqa: E731
+    kernel = KERNELS[n]
+    _, modes = modes_of(kernel, {"K": np.ones(size), "K_i": log(0.05, 30, n, size), "tau_i": np.sort(log(0.01, 30, n, size), axis=0)})
+    P0, Delta = log(0.05, 5, size), log(0.03, 2, size)
+    return kernel, ModeStrips(kernel.at_speed(modes, np.ones(size)), P0, Delta, rng.uniform(-1 - Delta, 3))
+
+
+def states(rng, order, s):
+    """A state and one that is nowhere below it: engaged before free, then every dashpot displacement."""
+    n, size = s.modes, s.size
+    lower = rng.uniform(-2, 3, (n, size))
+    # half of the pairs differ in one component only, and by little
+    apart = 10 ** rng.uniform(-6, 0.5, (n, size)) * (rng.random((n, size)) < 0.5)
+    engaged = rng.random(size) < 0.6
+    return engaged, lower, engaged & (rng.random(size) < 0.6), lower + apart
+
+
+@pytest.mark.parametrize("n", KERNELS)
+def test_a_period_preserves_the_order(n):
+    rng = np.random.default_rng(n)
+    kernel, s = strips(rng, n)
+    order = Order.of(kernel, s)
+    h, e, h_up, e_up = states(rng, order, s)
+    start = rng.uniform(0, 2 * np.pi, N)
+    one, two = (march(kernel, s, engaged, order.to_z(state), start) for engaged, state in ((h, e), (h_up, e_up)))
+    assert not one.lost.any() and not two.lost.any()
+    after, after_up = e + order.to_e(one.dz), e_up + order.to_e(two.dz)
+    assert np.all(after <= after_up + 1e-12 * (1 + np.abs(after)))
+    assert np.all(one.engaged | ~two.engaged)
+    # the test has seen all there is: snap-ins, releases of one but not the other, ordered pairs that stay apart
+    snaps = s.step >= s.delta_0
+    assert snaps.sum() > N / 10 and (one.engaged & ~two.engaged).sum() > 10 and np.any(after < after_up - 1e-3)
+
+
+def test_order_fails_where_a_free_state_lies_below_an_engaged_one():
+    """The order's first part is needed: pairs with e ascending but the free one below are not preserved."""
+    rng = np.random.default_rng(5)
+    kernel, s = strips(rng, 2)
+    order = Order.of(kernel, s)
+    e = rng.uniform(-2, 3, (2, N))
+    start = np.full(N, np.pi)
+    free, engaged = (march(kernel, s, np.full(N, h), order.to_z(state), start) for h, state in ((False, e), (True, e + 1e-3)))
+    assert np.any(order.to_e(free.dz) > 1e-3 + order.to_e(engaged.dz) + 1e-3)
+
+
+@pytest.mark.parametrize("n", KERNELS)
+def test_bounds_of_the_derivative(n):
+    """Between two ordered states the map grows at least as the lower bound of its derivative says, and the exact one is its slope."""
+    rng = np.random.default_rng(10 + n)
+    kernel, s = strips(rng, n)
+    order = Order.of(kernel, s)
+    h = rng.random(N) < 0.5
+    e = rng.uniform(-1, 2, (n, N))
+    step = 10 ** rng.uniform(-5, -1, (n, N))
+    start = np.full(N, np.pi)
+    lower, upper = (march(kernel, s, h, order.to_z(state), start) for state in (e, e + step))
+    once = (lower.onsets == 1) & (upper.onsets == 1) & (lower.releases == 1) & (upper.releases == 1) & (lower.engaged == upper.engaged)
+    gains = least_gains(s, order, lower, upper)
+    gains.onset, gains.release = np.where(once, gains.onset, 0.0), np.where(once, gains.release, 0.0)
+    bound = propagation(s, order, lower, gains)
+    grown = order.to_e(upper.dz - lower.dz)
+    assert np.all(grown >= np.einsum("Nij,jN->iN", bound, step) - 1e-11 * (1 + np.abs(e).max(axis=0)))
+    assert once.sum() > N / 10
+
+    near = np.flatnonzero(once & (step.max(axis=0) < 1e-3))
+    part = s.take(near)
+    tiny = 1e-7 * step[:, near] / step[:, near].max(axis=0)
+    base = march(kernel, part, h[near], order.take(near).to_z(e[:, near]), start[near])
+    moved = march(kernel, part, h[near], order.take(near).to_z(e[:, near] + tiny), start[near])
+    exact = np.einsum("Nij,jN->iN", propagation(part, order.take(near), base, exact_gains(part, base)), tiny)
+    steep = np.minimum(-base.slope_onset, base.slope_release) > 0.05  # away from grazing
+    same = (base.contacts == moved.contacts) & steep
+    measured = order.take(near).to_e(moved.dz - base.dz)
+    assert same.sum() > 20
+    assert np.allclose(measured[:, same], exact[:, same], rtol=1e-3, atol=1e-12)
+
+
+@pytest.mark.parametrize("n", KERNELS)
+def test_plain_iteration_ends_at_the_returned_orbits(n):
+    """From far below and far above, period after period: the map alone, without bounds, candidates or boundary equations."""
+    rng = np.random.default_rng(20 + n)
+    kernel, s = strips(rng, n, 600)
+    order = Order.of(kernel, s)
+    start = np.full(s.size, np.pi)
+    settled_in_all = 0
+    for unloading in (True, False):
+        solved = solve_modes(kernel, s, unloading)
+        assert solved.certified.all()
+        engaged = np.full(s.size, unloading)
+        z = order.to_z(np.full((n, s.size), -30.0 if unloading else 30.0))
+        for _ in range(400):
+            period = march(kernel, s, engaged, z, start)
+            engaged, z = period.engaged, z + period.dz
+        settled = np.abs(period.dz).max(axis=0) < 1e-10
+        contact = np.zeros(s.size)
+        adhesion = np.zeros(s.size)
+        for zone in period.zones:
+            length = (zone.end - zone.start) / (2 * np.pi)
+            np.add.at(contact, zone.index[zone.letter == 0], length[zone.letter == 0])
+            np.add.at(adhesion, zone.index[zone.letter == 1], length[zone.letter == 1])
+        off = np.maximum(np.abs(contact - solved.contact_fraction), np.abs(adhesion - solved.adhesion_fraction))
+        assert np.flatnonzero(settled & (off > 1e-6)).tolist() == []
+        assert {"acaf", "ac", "f", "afc"} <= set(SEQUENCES[solved.code[settled]])
+        settled_in_all += settled.sum()
+    assert settled_in_all > 0.8 * 2 * s.size

@@ -1,0 +1,49 @@
+"""Strips with two and three relaxation times against the 50-digit march; ``tools/modes.py`` does hundreds."""
+
+import mode_scenes as ms
+import numpy as np
+import pytest
+
+
+@pytest.mark.parametrize("wide", [False, True], ids=["near 1", "wide"])
+@pytest.mark.parametrize("n", [2, 3])
+def test_random_strips(n, wide):
+    """To 1e-11 of the natural scales, more only as far as rounding of the inputs demands it."""
+    rng = np.random.default_rng((7, n, wide))
+    scenes = [ms.draw(rng, n, wide) for _ in range(14)]
+    sequences, errors = set(), []
+    for branch in ms.BRANCHES:
+        with np.errstate(over="raise", divide="raise", invalid="raise"):
+            found = ms.solve(scenes, branch)
+        for i, scene in enumerate(scenes):
+            error, allowed, sequence = ms.compare(scene, branch, found, i)
+            assert error <= allowed, (scene, branch)
+            sequences.add(sequence)
+            errors.append(error)
+    assert np.median(errors) < 1e-14
+    assert len(sequences) >= 4
+
+
+def test_fields_are_those_of_the_march():
+    """Pressure and gap over the period: at the section of the march and across every zone, by its own flows."""
+    from mpmath import mp
+    from oracle import modes
+
+    theta, m, P0, Delta, delta = (0.3, 4.0), (2.0, 5.0), 1.5, 0.4, 0.2
+    scene = {"theta": np.array(theta), "m": np.array(m), "P0": P0, "Delta": Delta, "delta": delta}
+    found = ms.solve([scene], "unloading")
+    with mp.workdps(40):
+        strip = modes.ModesStrip(modes.Foundation(theta, m), P0, Delta, delta)
+        zones, _, _ = modes.extremal(strip, "unloading")
+        assert found.regime.item() == "acaf"
+        for zone in zones:
+            for share in (0.1, 0.5, 0.9):
+                s = zone.start + share * (zone.end - zone.start)
+                e = modes.advance(strip, zone.letter, zone.start, zone.e, s)
+                z = strip.J * mp.fsum(mp.mpf(a) * b for a, b in zip(m, e))
+                p = {"c": (strip.u(s) - z) / strip.J, "a": -strip.P0, "f": mp.zero}[zone.letter]
+                gap = mp.zero if zone.letter == "c" else strip.J * p + z - strip.u(s)
+                x = float(-s)
+                assert found.pressure(x).item() == pytest.approx(float(p), abs=1e-12)
+                assert found.gap(x).item() == pytest.approx(float(gap), abs=1e-12)
+                assert found.displacement(x).item() == pytest.approx(float(gap + strip.u(s)), abs=1e-12)
