@@ -13,6 +13,7 @@ from .check import BEYOND, CORRECTED, REPRODUCED, Check, Derived, derived, holds
 from .functions import Formula, hypot, stack_sum
 from .kernel import Kernel
 from .saturated import Saturated
+from .surface import AMPLITUDE, PENETRATION
 from .symbols import A, D, D_j, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, y
 
 _si = (K, T_eps, T_sigma)
@@ -20,8 +21,6 @@ ratio, pulsation, creep, spread, slender = sp.symbols("ratio pulsation creep spr
 _SLENDER = ((creep, V * (T_eps - T_sigma)), (spread, hypot(l, 2 * sp.pi * V * T_sigma)), (slender, h / spread))
 TIMES = {alpha: k * V * T_sigma, beta: k * V * T_eps, L: 1 - T_sigma / T_eps}
 WAVE = {k: 2 * sp.pi / l}
-AMPLITUDE = h / 4 * (1 + sp.cos(k * y))
-PENETRATION = D_level - h / 2 * (1 - sp.cos(k * y))
 
 
 @dataclass(frozen=True)

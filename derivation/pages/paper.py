@@ -8,6 +8,7 @@ from typing import Any
 import sympy as sp
 
 from ..check import CORRECTED, REPRODUCED, Derived
+from ..surface import HEIGHT
 from ..symbols import D_level, K, T_eps, T_sigma, V, h, k, l, p_nominal, x, y
 
 TITLE = (
@@ -108,10 +109,9 @@ def misprints(steps: tuple[Derived, ...]) -> list[dict[str, Any]]:
 
 
 def _sign_of_equation_6(step: Derived) -> dict[str, Any]:
-    f = h - h / 4 * (sp.cos(k * x) + 1) * (sp.cos(k * y) + 1)
     crest, valley = {x: 0, y: 0}, {x: sp.pi / k, y: 0}
     rows = []
-    for form, w in (("w = f + D, as printed", f + D_level), ("w = D - f", D_level - f)):
+    for form, w in (("w = f + D, as printed", HEIGHT + D_level), ("w = D - f", D_level - HEIGHT)):
         rows.append([form, *(f"${sp.latex(sp.expand(sp.simplify(w.subs(place))))}$" for place in (crest, valley))])
     return {
         "equations": [6],
