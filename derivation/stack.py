@@ -62,7 +62,7 @@ def least_pressure(threshold: sp.Expr, saturation: sp.Expr) -> Derived:
         least,
         name=name,
         statement="Level i and all below it are in complete contact from the nominal pressure P_i on: its least local pressure "
-        "must not fall below -p_0, nor below what the level under it needs. The paper gives Eq. 16 without this condition.",
+        "must not fall below -p_0, nor below what the level under it needs. Eq. 16 holds from P_1 on.",
         latex=r"\min p = p_i - \tfrac14 K h_i (2 R_i - 1),\quad P_M = p_{sat,M},\quad "
         r"P_i = \max\left(p_{sat,i},\ P_{i+1} + \tfrac14 K h_i (2 R_i - 1)\right)",
         checks=checks,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from importlib.metadata import version
 from typing import Any
 
@@ -13,13 +14,25 @@ from ..derive import Derivation
 from ..emit import INTERFACE, PARAMETER_MEANINGS, input_hash
 from ..functions import written_out
 from ..regime import EQUATIONS, PERIODIC, Regime
-from . import paper, sources
+from . import paper, places, sources
 from .latex import widest
 
 LONG = 130  # operations from which a value is only read in the generated function
 PAPER = 108  # characters of a piece too wide for a sheet
 TOOLS = ("sympy", "jinja2", "ruff", "latex2mathml")
 MEANINGS = dict([*EQUATIONS.values(), PERIODIC])
+FIELDS = (
+    ("s = -k x", "phase: grows in the time of a material point, which meets decreasing x"),
+    ("u(s)", "rigid profile, with the crest at s = 0; w = u in contact"),
+    ("w(s),\\quad p(s)", "displacement of the foundation and pressure on it"),
+    ("g = w - u", "gap"),
+    ("q = p + p_0", "pressure above the traction of adhesion; zero where contact ends"),
+    ("z = w - J p", "what a material point carries across a step of p"),
+    (
+        "H(s) = u + \\beta u'",
+        "load harmonic, forcing in the code: p + alpha p' in contact, and it drives the gap too",
+    ),
+)
 CLOSURES = {0: "continuous", 1: "constitutive"}
 
 
@@ -32,6 +45,7 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
         "title": derivation.model.title,
         "paper": paper.TITLE,
         "identity": identity(files),
+        "fields": [list(row) for row in FIELDS],
         "parameters": [list(row) for row in PARAMETER_MEANINGS],
         "material": [[p.name, p.unit, p.meaning] for p in derivation.model.parameters],
         "equations": paper.equations(derivation.steps),
@@ -41,6 +55,7 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
         "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
         "sources": {name: _text(sources.deriving(name)) for name in sorted({step.function for step in derivation.steps})},
         "generated": {name: _text(source) for name, source in computed.items()},
+        "measured": "measured.json",
     }
 
 
@@ -56,12 +71,13 @@ def identity(files: dict[str, str]) -> dict[str, Any]:
 
 def _stages(derivation: Derivation, computed: dict[str, sources.Source]) -> list[dict[str, Any]]:
     stages: dict[str, list[dict[str, Any]]] = {}
+    known = {step.name for step in derivation.steps}
     for step in derivation.steps:
-        stages.setdefault(step.function.partition(".")[0], []).append(_step(step, computed))
+        stages.setdefault(step.function.partition(".")[0], []).append(_step(step, computed, known))
     return [{"module": module, "title": sources.title(module), "steps": steps} for module, steps in stages.items()]
 
 
-def _step(step: Derived, computed: dict[str, sources.Source]) -> dict[str, Any]:
+def _step(step: Derived, computed: dict[str, sources.Source], known: set[str]) -> dict[str, Any]:
     derived_in = sources.deriving(step.function)
     return {
         "name": step.name,
@@ -77,6 +93,9 @@ def _step(step: Derived, computed: dict[str, sources.Source]) -> dict[str, Any]:
         "computed_by": [
             {"function": n, "file": computed[n].file, "line": computed[n].line} for n in step.emitted if n in computed
         ],
+        "carried_out_by": [vars(place) for place in places.carried_out(step.name)],
+        "enters": [name for name in places.ENTERS.get(step.name, ()) if name in known],
+        "measured": places.MEASURED.get(step.name, ""),
     }
 
 
@@ -88,7 +107,13 @@ def _values(step: Derived) -> list[str]:
     texts = [sp.latex(written_out(part)) for part in parts]
     if max(map(widest, texts)) > PAPER:
         return []
-    return [] if texts == [step.latex] or step.latex.endswith(f"= {texts[0]}") else texts
+    plain = step.latex.replace(r"\tfrac", r"\frac")
+    return [] if texts == [step.latex] or _unbraced(plain).endswith(f"= {_unbraced(texts[0])}") else texts
+
+
+def _unbraced(latex: str) -> str:
+    """Indices of one sign without braces, as one writes them by hand."""
+    return re.sub(r"_\{(\w)\}", r"_\1", latex)
 
 
 def _flat(value: Any) -> list[Any]:
