@@ -13,6 +13,7 @@ from typing import Any
 
 from .exact import is_zero
 
+PACKAGE = __name__.removesuffix("check")
 REPRODUCED = "reproduced"
 CORRECTED = "reproduced with a correction"
 BEYOND = "beyond the paper"
@@ -47,7 +48,7 @@ class Derived:
     paper: str  # the paper's equation number, "" if it has none
     status: str
     checks: tuple[Check, ...]
-    function: str  # dotted name of the function that derives it
+    function: str  # dotted name, from the package on, of the function that derives it
     correction: str = ""  # what is wrong in the printed paper, for status CORRECTED
     emitted: tuple[str, ...] = field(default=())  # names of the generated functions that compute it
 
@@ -86,7 +87,7 @@ def derived(
         raise DerivationError(name, "has no check")
     if status not in STATUSES or (status == CORRECTED) != bool(correction):
         raise DerivationError(name, f"status {status!r} does not fit its correction {correction!r}")
-    function = f"{by.__module__.rpartition('.')[2]}.{by.__name__}"
+    function = f"{by.__module__.removeprefix(PACKAGE)}.{by.__name__}"
     return Derived(value, name, statement, latex, paper, status, tuple(checks), function, correction, emitted)
 
 

@@ -65,7 +65,7 @@ def gap_event(flows: Flows) -> tuple[Kernel, Kernel]:
 
 
 def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
-    r""":math:`(q, q')` at :math:`s_1`, with :math:`p_{sat} = D - 1 + R\cos(s + \varphi)`."""
+    r""":math:`(q, q')` at :math:`s_1`, with Eq. 15 as :math:`p_{sat} = D - 1 + R\cos(s + \varphi)`."""
     q = flows.contact.value.subs(s, s_1) + p_0
     exact = (q, sp.diff(q, s_1))
     name = "excess_event"

@@ -109,12 +109,18 @@ def field_kernels(flows: Flows, modulus: tuple[sp.Expr, sp.Expr]) -> tuple[Kerne
             paper="Eq. 15",
             status=REPRODUCED,
         ),
-        kernel(field_kernels, stable.SATURATED_SLOPE, sp.diff(periodic, s), "Its slope.", r"p_{sat}'(s)"),
+        kernel(
+            field_kernels,
+            stable.SATURATED_SLOPE,
+            sp.diff(periodic, s),
+            "Slope of the pressure of complete contact.",
+            r"p_{sat}'(s)",
+        ),
         kernel(
             field_kernels,
             stable.SATURATED_RISE,
             rise,
-            "Its rise between two phases, without cancellation.",
+            "Rise of the pressure of complete contact between two phases, without cancellation.",
             r"[p_{sat}]_{s_0}^{s_1}",
         ),
     )

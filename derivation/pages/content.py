@@ -33,6 +33,13 @@ FIELDS = (
         "load harmonic, forcing in the code: p + alpha p' in contact, and it drives the gap too",
     ),
 )
+METHOD = (
+    ("check.zero", "A claim with the outcome exact zero has passed here; one that does not raises an error that names the step."),
+    ("exact.is_zero", "Zero is decided on a polynomial in algebraically independent quantities, which vanishes or does not; no "
+     "heuristic simplification takes part."),
+    ("kernel.same", "The form that is computed, chosen for floating point, equals the expression that was derived."),
+    ("regime.partial", "A regime's boundary equations follow from the list of its zones, and are checked, here."),
+)  # fmt: skip
 CLOSURES = {0: "continuous", 1: "constitutive"}
 
 
@@ -40,6 +47,7 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
     """Everything on a model's page but what is measured. ``files``: the emitted texts; ``certificates``: rows by function."""
     module = f"{derivation.model.name}.py"
     computed = sources.generated(module, files[module])
+    functions = {step.function for step in derivation.steps}
     return {
         "model": derivation.model.name,
         "title": derivation.model.title,
@@ -53,7 +61,8 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
         "stages": _stages(derivation, computed),
         "regimes": [_regime(regime, computed) for regime in derivation.regimes],
         "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
-        "sources": {name: _text(sources.deriving(name)) for name in sorted({step.function for step in derivation.steps})},
+        "method": [list(row) for row in METHOD],
+        "sources": {name: _text(sources.deriving(name)) for name in sorted({*functions, *(name for name, _ in METHOD)})},
         "generated": {name: _text(source) for name, source in computed.items()},
         "measured": "measured.json",
     }
@@ -73,7 +82,7 @@ def _stages(derivation: Derivation, computed: dict[str, sources.Source]) -> list
     stages: dict[str, list[dict[str, Any]]] = {}
     known = {step.name for step in derivation.steps}
     for step in derivation.steps:
-        stages.setdefault(step.function.partition(".")[0], []).append(_step(step, computed, known))
+        stages.setdefault(step.function.rpartition(".")[0], []).append(_step(step, computed, known))
     return [{"module": module, "title": sources.title(module), "steps": steps} for module, steps in stages.items()]
 
 
