@@ -19,7 +19,7 @@ from .level import Level, over_strips
 from .regime import ADHESION, CONTACT, PERIOD, Regime
 from .saturated import Saturated
 from .strip import Strip
-from .surface import AMPLITUDE, HEIGHT, PENETRATION
+from .surface import AMPLITUDE, HEIGHT, PENETRATION, mean_over_wave
 from .symbols import D, D_level, K, V, beta, h, k, l, p_0, p_nominal, q_0, s, s_0, s_1, t, x, y
 
 tau_below, slope_x = sp.symbols("tau_M f_x", real=True)
@@ -61,9 +61,7 @@ def means_over_a_level(pressure: sp.Expr, means: tuple[sp.Expr, sp.Expr]) -> Der
     in_strip = {D: PENETRATION / AMPLITUDE, s: -k * x}
     strip_p = sp.expand(sp.simplify(K * AMPLITUDE * means[0].subs(in_strip)))
     strip_tau = K * AMPLITUDE * k * AMPLITUDE * means[1]
-    cell = sp.expand(sp.simplify(K * AMPLITUDE * pressure.subs(in_strip)))
-    for along in (y, x):
-        cell = sp.integrate(cell, (along, 0, 2 * sp.pi / k)) * k / (2 * sp.pi)
+    cell = mean_over_wave(mean_over_wave(sp.simplify(K * AMPLITUDE * pressure.subs(in_strip)), y), x)
     checks = [
         zero(
             name,

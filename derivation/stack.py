@@ -8,10 +8,10 @@ import sympy as sp
 
 from .check import BEYOND, Derived, derived, holds, zero
 from .level import TIMES, WAVE, Level
-from .saturated import Saturated
+from .saturated import MODULUS, Saturated
 from .strip import Strip
-from .surface import AMPLITUDE, HEIGHT, PENETRATION
-from .symbols import D, D_level, K, V, alpha, beta, h, k, l, p_0, p_nominal, x, y
+from .surface import AMPLITUDE, HEIGHT, PENETRATION, mean_over_wave
+from .symbols import D, D_level, K, V, h, k, l, p_0, p_nominal, x, y
 
 RATIO = 20  # l_1/l_2 of the paper's two levels
 
@@ -38,15 +38,14 @@ def least_pressure(threshold: sp.Expr, saturation: sp.Expr) -> Derived:
     .. math:: P_M = p_{sat,M},\qquad P_i = \max\left(p_{sat,i},\ P_{i+1} + \tfrac14 K h_i (2R_i - 1)\right)
     """
     name = "least pressure in complete contact"
-    R = sp.sqrt((1 + beta**2) / (1 + alpha**2))
     symbol, over_one, cosine = sp.Symbol("R", positive=True), sp.Symbol("R_minus_1", nonnegative=True), sp.Symbol("c", real=True)
     lowest = D - threshold.subs(p_0, 0)  # of Eq. 15 in a strip: the threshold says where it is -p_0
-    in_strip = sp.expand(sp.simplify(K * AMPLITUDE * lowest.subs(R, symbol).subs(D, PENETRATION / AMPLITUDE)))
+    in_strip = sp.expand(sp.simplify(K * AMPLITUDE * lowest.subs(MODULUS, symbol).subs(D, PENETRATION / AMPLITUDE)))
     over_y = in_strip.subs(sp.cos(k * y), cosine)
     pressed = p_nominal / K + sp.Rational(3, 4) * h  # penetration in complete contact
     least = sp.expand(over_y.subs(cosine, 1).subs(D_level, pressed))
     drop = K * h * (2 * symbol - 1) / 4
-    at_saturation = least.subs(symbol, R.subs(TIMES).subs(WAVE)).subs(p_nominal, saturation)
+    at_saturation = least.subs(symbol, MODULUS.subs(TIMES).subs(WAVE)).subs(p_nominal, saturation)
     checks = [
         zero(name, "the least pressure of a strip is linear in cos ky", sp.diff(over_y, cosine, 2)),
         holds(
@@ -86,12 +85,12 @@ def levels_together(strip: Strip, one_level: sp.Expr) -> Derived:
         stated += n * k * wave**2 * sp.factor(imaginary) / 2
     equation = strip.moving_frame.value
     fields = {sp.Function("w")(x): w, sp.Function("p")(x): p}
-    friction = sp.integrate(sp.expand(-p * sp.diff(w, x)), (x, 0, 2 * sp.pi / k)) * k / (2 * sp.pi)
+    friction = mean_over_wave(-p * sp.diff(w, x), x)
     own = [{k: n * k, h: height} for n, height in zip(wave_numbers, heights, strict=True)]
     surface = D_level - sum(HEIGHT.subs(level, simultaneous=True) for level in own)
     harmonics = {wave: AMPLITUDE.subs(level, simultaneous=True) for wave, level in zip(amplitudes, own, strict=True)}
     rest = sp.expand(surface - (w - middle).subs(harmonics))
-    averaged = sp.integrate(sp.expand(stated.subs(harmonics)), (y, 0, 2 * sp.pi / k)) * k / (2 * sp.pi)
+    averaged = mean_over_wave(stated.subs(harmonics), y)
     levels = sum(one_level.subs(l, 2 * sp.pi / k).subs(level, simultaneous=True) for level in own)
     checks = [
         zero(

@@ -12,3 +12,8 @@ AMPLITUDE = h / 4 * (1 + sp.cos(k * y))
 
 PENETRATION = D_level - h / 2 * (1 - sp.cos(k * y))
 """Eq. 8: D_j(y), the strip's own penetration."""
+
+
+def mean_over_wave(quantity: sp.Expr, along: sp.Symbol) -> sp.Expr:
+    """Mean over one wavelength along x or y."""
+    return sp.integrate(sp.expand(quantity), (along, 0, 2 * sp.pi / k)) * k / (2 * sp.pi)

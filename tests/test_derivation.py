@@ -178,7 +178,7 @@ LATE = {
     "local shear": ("multilevel.py", "(D_level - HEIGHT).subs(x, fixed - V * t)", "(D_level - HEIGHT).subs(x, fixed + V * t)"),
     "friction coefficient": ("multilevel.py", "one_level.subs(own) + shear", "one_level.subs(own) - shear"),
     "least pressure in complete contact": ("stack.py", "D - threshold.subs", "D + threshold.subs"),
-    "levels in complete contact together": ("stack.py", "expand(-p * sp.diff(w, x))", "expand(p * sp.diff(w, x))"),
+    "levels in complete contact together": ("stack.py", "mean_over_wave(-p * sp.diff", "mean_over_wave(p * sp.diff"),
 }
 
 

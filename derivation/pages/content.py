@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import inspect
 import re
 from importlib.metadata import version
 from typing import Any
@@ -12,13 +13,14 @@ import sympy as sp
 from ..check import Derived
 from ..derive import Derivation
 from ..emit import INTERFACE, PARAMETER_MEANINGS, input_hash
-from ..functions import written_out
+from ..functions import HELPERS, written_out
 from ..regime import EQUATIONS, PERIODIC, Regime
 from . import paper, places, sources
 from .latex import widest
 
 LONG = 130  # operations from which a value is only read in the generated function
 PAPER = 108  # characters of a piece too wide for a sheet
+STATED = ("regime ", "onset_slope_")  # steps whose equation is the value written out already
 TOOLS = ("sympy", "jinja2", "ruff", "latex2mathml")
 MEANINGS = dict([*EQUATIONS.values(), PERIODIC])
 FIELDS = (
@@ -47,6 +49,7 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
     """Everything on a model's page but what is measured. ``files``: the emitted texts; ``certificates``: rows by function."""
     module = f"{derivation.model.name}.py"
     computed = sources.generated(module, files[module])
+    helpers = sources.generated("stable.py", files["stable.py"])
     functions = {step.function for step in derivation.steps}
     return {
         "model": derivation.model.name,
@@ -63,7 +66,8 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
         "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
         "method": [list(row) for row in METHOD],
         "sources": {name: _text(sources.deriving(name)) for name in sorted({*functions, *(name for name, _ in METHOD)})},
-        "generated": {name: _text(source) for name, source in computed.items()},
+        "generated": {name: _text(source) for name, source in (computed | helpers).items()},
+        "helpers": _helpers(helpers),
         "measured": "measured.json",
     }
 
@@ -111,13 +115,18 @@ def _step(step: Derived, computed: dict[str, sources.Source], known: set[str]) -
 def _values(step: Derived) -> list[str]:
     """LaTeX of the derived value, printed by SymPy; empty where it is too long to read or the equation above says as much."""
     parts = [part for part in _flat(step.value) if isinstance(part, sp.Basic)]
-    if not parts or step.name.startswith("regime ") or sum(sp.count_ops(part) for part in parts) > LONG:
+    if not parts or step.name.startswith(STATED) or sum(sp.count_ops(part) for part in parts) > LONG:
         return []
-    texts = [sp.latex(written_out(part)) for part in parts]
+    texts = [_latex(part) for part in parts]
     if max(map(widest, texts)) > PAPER:
         return []
     plain = step.latex.replace(r"\tfrac", r"\frac")
     return [] if texts == [step.latex] or _unbraced(plain).endswith(f"= {_unbraced(texts[0])}") else texts
+
+
+def _latex(term: sp.Expr) -> str:
+    """An expression with helpers and calls written out; a fraction far wider above than below as a product, to be cut."""
+    return sp.latex(written_out(term), long_frac_ratio=8)
 
 
 def _unbraced(latex: str) -> str:
@@ -139,11 +148,27 @@ def _regime(regime: Regime, computed: dict[str, sources.Source]) -> dict[str, An
         "kind": regime.zones[0].kind,
         "unknowns": [str(edge) for edge in regime.edges],
         "closures": [CLOSURES[closure] for closure in regime.closures],
-        "equations": [[MEANINGS[label], f"{sp.latex(written_out(term))} = 0"] for label, term in regime.equations],
+        "equations": [[MEANINGS[label], f"{_latex(term)} = 0"] for label, term in regime.equations],
         "admissible": list(regime.admissible),
         "step": regime.derived.name,
         "computed_by": [name for name in names if name in computed],
     }
+
+
+def _helpers(computed: dict[str, sources.Source]) -> list[dict[str, Any]]:
+    """The functions that stand in emitted formulas for themselves: what each means, where it is computed."""
+    rows = []
+    for helper in HELPERS:
+        taken = list(inspect.signature(helper.meaning).parameters)
+        arguments = sp.symbols(taken, positive=True)
+        rows.append(
+            {
+                "name": f"{helper.__name__}({', '.join(taken)})",
+                "meaning": sp.latex(helper.meaning(*arguments)),
+                "function": helper.__name__ if helper.__name__ in computed else "",
+            }
+        )
+    return rows
 
 
 def _text(source: sources.Source) -> dict[str, Any]:
