@@ -13,10 +13,10 @@ from typing import Any
 
 from .exact import is_zero
 
-PACKAGE = __name__.removesuffix("check")
 REPRODUCED = "reproduced"
 CORRECTED = "reproduced with a correction"
 BEYOND = "beyond the paper"
+PACKAGE = f"{__name__.rpartition('.')[0]}."
 STATUSES = (REPRODUCED, CORRECTED, BEYOND)
 
 
@@ -48,7 +48,7 @@ class Derived:
     paper: str  # the paper's equation number, "" if it has none
     status: str
     checks: tuple[Check, ...]
-    function: str  # dotted name, from the package on, of the function that derives it
+    function: str  # dotted name of the function that derives it, within this package
     correction: str = ""  # what is wrong in the printed paper, for status CORRECTED
     emitted: tuple[str, ...] = field(default=())  # names of the generated functions that compute it
 

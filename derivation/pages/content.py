@@ -51,6 +51,7 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
     computed = sources.generated(module, files[module])
     helpers = sources.generated("stable.py", files["stable.py"])
     functions = {step.function for step in derivation.steps}
+    wrong = paper.misprints(derivation.steps)
     return {
         "model": derivation.model.name,
         "title": derivation.model.title,
@@ -59,14 +60,14 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
         "fields": [list(row) for row in FIELDS],
         "parameters": [list(row) for row in PARAMETER_MEANINGS],
         "material": [[p.name, p.unit, p.meaning] for p in derivation.model.parameters],
-        "equations": paper.equations(derivation.steps),
-        "misprints": paper.misprints(derivation.steps),
-        "stages": _stages(derivation, computed),
+        "equations": paper.equations(derivation.steps, wrong),
+        "misprints": wrong,
+        "stages": stages(derivation.steps, computed),
         "regimes": [_regime(regime, computed) for regime in derivation.regimes],
         "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
         "method": [list(row) for row in METHOD],
-        "sources": {name: _text(sources.deriving(name)) for name in sorted({*functions, *(name for name, _ in METHOD)})},
-        "generated": {name: _text(source) for name, source in (computed | helpers).items()},
+        "sources": {name: text(sources.deriving(name)) for name in sorted({*functions, *(name for name, _ in METHOD)})},
+        "generated": {name: text(source) for name, source in (computed | helpers).items()},
         "helpers": _helpers(helpers),
         "measured": "measured.json",
     }
@@ -82,12 +83,13 @@ def identity(files: dict[str, str]) -> dict[str, Any]:
     }
 
 
-def _stages(derivation: Derivation, computed: dict[str, sources.Source]) -> list[dict[str, Any]]:
-    stages: dict[str, list[dict[str, Any]]] = {}
-    known = {step.name for step in derivation.steps}
-    for step in derivation.steps:
-        stages.setdefault(step.function.rpartition(".")[0], []).append(_step(step, computed, known))
-    return [{"module": module, "title": sources.title(module), "steps": steps} for module, steps in stages.items()]
+def stages(steps: tuple[Derived, ...], computed: dict[str, sources.Source]) -> list[dict[str, Any]]:
+    """The steps by the module that derives them."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    known = {step.name for step in steps}
+    for step in steps:
+        found.setdefault(step.function.rpartition(".")[0], []).append(_step(step, computed, known))
+    return [{"module": module, "title": sources.title(module), "steps": steps} for module, steps in found.items()]
 
 
 def _step(step: Derived, computed: dict[str, sources.Source], known: set[str]) -> dict[str, Any]:
@@ -106,9 +108,9 @@ def _step(step: Derived, computed: dict[str, sources.Source], known: set[str]) -
         "computed_by": [
             {"function": n, "file": computed[n].file, "line": computed[n].line} for n in step.emitted if n in computed
         ],
-        "carried_out_by": [vars(place) for place in places.carried_out(step.name)],
-        "enters": [name for name in places.ENTERS.get(step.name, ()) if name in known],
-        "measured": places.MEASURED.get(step.name, ""),
+        "carried_out_by": [vars(place) for place in places.carried_out(step)],
+        "enters": [name for name in places.ENTERS.get(step.function, ()) if name in known],
+        "measured": places.MEASURED.get(step.function, ""),
     }
 
 
@@ -171,5 +173,5 @@ def _helpers(computed: dict[str, sources.Source]) -> list[dict[str, Any]]:
     return rows
 
 
-def _text(source: sources.Source) -> dict[str, Any]:
+def text(source: sources.Source) -> dict[str, Any]:
     return {"file": source.file, "line": source.line, "text": source.text}

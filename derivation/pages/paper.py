@@ -38,6 +38,7 @@ UNREAD = (
     "Not compared: the printed text of this equation was not at hand. It stands between {before} and {after}; what has to be "
     "said there for the problem to be complete is stated, verified and computed in the steps named here."
 )
+ON_THE_PAPERS_PAGE = "The same for every foundation: derived on the page of the standard linear solid, the paper's own."
 ELSEWHERE = {
     7: (UNREAD.format(before="Eq. 6 (displacement in contact)", after="Eq. 8 (strips)"), ("zone conditions", "adhesion law")),
     9: (UNREAD.format(before="Eq. 8 (strips)", after="Eq. 10 (their means)"), ("strip problem", "regime acaf")),
@@ -52,17 +53,18 @@ def numbers(paper: str) -> list[int]:
     return found
 
 
-def equations(steps: tuple[Derived, ...]) -> list[dict[str, Any]]:
+def equations(steps: tuple[Derived, ...], misprinted: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """The contents by equation number; the first of a row's steps is the one that states the equation."""
-    wrong = {number for row in misprints(steps) for number in row["equations"]}
+    wrong = {number for row in misprinted for number in row["equations"]}
     known = [step.name for step in steps]
     rows = []
     for number, subject in SUBJECTS.items():
         note, names = ELSEWHERE.get(number, ("", ()))
         cited = [step.name for step in steps if number in numbers(step.paper)]
-        status = "not compared" if note else CORRECTED if number in wrong else REPRODUCED
+        status = "not compared" if note else CORRECTED if number in wrong else REPRODUCED if cited else "no step of its own"
         first = [MAIN[number]] if number in MAIN else []
         listed = list(dict.fromkeys(name for name in (*first, *cited, *names) if name in known))
+        note = note if listed else ON_THE_PAPERS_PAGE
         rows.append({"number": number, "subject": subject, "status": status, "note": note, "steps": listed})
     return rows
 

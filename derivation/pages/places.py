@@ -1,5 +1,7 @@
 """Where the runtime carries out what a step says, and which steps a step enters that no function computes by itself.
 
+All by the function that derives the step.
+
 A place is a function of the runtime and a piece of the line that does it. The page quotes the line; one that is gone, or
 no longer the only one, is an error that names the step.
 """
@@ -12,38 +14,38 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from ..check import DerivationError
+from ..check import DerivationError, Derived
 
 RUNTIME: dict[str, tuple[tuple[str, str, str], ...]] = {
-    "adhesion law": (("inputs/adhesion.py", "Dugdale.__init__", "p * delta"),),
-    "dimensionless groups": (("strip/solution.py", "solve_si", "alpha, beta ="),),
-    "closures": (("strip/problem.py", "adhesive_cycle", "jump ="),),
-    "saturation threshold": (("strip/engine.py", "_engaged", "modulus_ratio"),),
-    "means over a level": (
+    "strip.adhesion_law": (("inputs/adhesion.py", "Dugdale.__init__", "p * delta"),),
+    "strip.dimensionless_groups": (("strip/solution.py", "solve_si", "alpha, beta ="),),
+    "jumps.closures": (("strip/problem.py", "adhesive_cycle", "jump ="),),
+    "saturated.threshold": (("strip/engine.py", "_engaged", "modulus_ratio"),),
+    "multilevel.means_over_a_level": (
         ("level/means.py", "level_means", "return average("),
         ("level/means.py", "equal_strips", "mean = values.mean"),
     ),
-    "local shear": (("level/strips.py", "integrand", "np.concatenate((values, carried)"),),
-    "carried friction": (
+    "multilevel.local_shear": (("level/strips.py", "integrand", "np.concatenate((values, carried)"),),
+    "multilevel.carried_friction": (
         ("level/carried.py", "_one_law", "total[rows] += value"),
         ("level/carried.py", "_part", "best = width"),
     ),
-    "friction coefficient": (("solve.py", "_result", "mu = np.divide"),),
-    "least pressure in complete contact": (("multilevel.py", "saturated", "needed = "),),
+    "multilevel.friction_coefficient": (("solve.py", "_result", "mu = np.divide"),),
+    "stack.least_pressure": (("multilevel.py", "saturated", "needed = "),),
 }
 ENTERS: dict[str, tuple[str, ...]] = {
-    "foundation law": ("relaxed stiffness", "moving frame", "complex modulus"),
-    "relaxed stiffness": ("dimensionless groups",),
-    "instantaneous compliance": ("dimensionless groups", "jump law"),
-    "moving frame": ("dimensionless groups", "strip problem"),
-    "jump law": ("closures",),
-    "internal state": ("contact_increment", "relaxation_increment", "regime acaf"),
-    "complex modulus": ("storage", "loss", "modulus_ratio", "saturated_pressure"),
-    "zone conditions": ("strip problem", "regime acaf"),
-    "power balance": ("friction balance acaf",),
-    "shift of an event": ("onset_slope_acaf", "onset_slope_af"),
+    "model.foundation_law": ("relaxed stiffness", "moving frame", "complex modulus"),
+    "model.relaxed_stiffness": ("dimensionless groups",),
+    "model.instantaneous_compliance": ("dimensionless groups", "jump law"),
+    "strip.moving_frame": ("dimensionless groups", "strip problem"),
+    "jumps.jump_law": ("closures",),
+    "jumps.internal_state": ("contact_increment", "relaxation_increment", "regime acaf"),
+    "saturated.complex_modulus": ("storage", "loss", "modulus_ratio", "saturated_pressure"),
+    "conditions.zone_conditions": ("strip problem", "regime acaf"),
+    "energy.power_balance": ("friction balance acaf",),
+    "stability.shift_of_events": ("onset_slope_acaf", "onset_slope_af"),
 }
-MEASURED = {"friction coefficient": "two_levels"}  # a table of the measured figures that shows the runtime at it
+MEASURED = {"multilevel.friction_coefficient": "two_levels"}  # a table of the measured figures that shows the runtime at it
 
 
 @dataclass(frozen=True)
@@ -53,9 +55,9 @@ class Place:
     text: str
 
 
-def carried_out(step: str) -> list[Place]:
+def carried_out(step: Derived) -> list[Place]:
     """The runtime's lines for a step."""
-    return [_place(step, *where) for where in RUNTIME.get(step, ())]
+    return [_place(step.name, *where) for where in RUNTIME.get(step.function, ())]
 
 
 def _place(step: str, file: str, function: str, piece: str) -> Place:
