@@ -179,14 +179,16 @@ def test_a_changed_sign_stops_the_audit_by_name(tmp_path: Path) -> None:
     assert not (tmp_path / "audit").exists()
 
 
-def test_the_command_names_the_step_that_fails(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+@pytest.mark.parametrize("command", [["audit", "--out", "audit"], ["check"]])
+def test_the_command_names_the_step_that_fails(command: list[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     from typer.testing import CliRunner
 
     import hystrip.derivation.stable as stable
     from hystrip.commands.app import build
 
     monkeypatch.setattr(stable, "FORCING", stable.Formula("forcing", stable.FORCING.args, -stable.FORCING.result))
-    done = CliRunner().invoke(build(), ["audit", "--out", str(tmp_path / "audit")])
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(build(), command)
     assert done.exit_code == 1 and "step 'forcing' failed" in done.output
     assert not (tmp_path / "audit").exists()
 
