@@ -7,7 +7,6 @@ import sympy as sp
 from . import stable
 from .check import zero
 from .flows import Flows
-from .jumps import Jumps
 from .kernel import Kernel, kernel
 from .symbols import J, beta, p_0, p_in, q_0, s, s_0, s_1
 
@@ -35,7 +34,7 @@ def contact(flows: Flows) -> tuple[Kernel, ...]:
     )
 
 
-def contact_state(flows: Flows, jumps: Jumps) -> tuple[Kernel, ...]:
+def contact_state(flows: Flows) -> tuple[Kernel, ...]:
     r""":math:`\Delta z = [u] - J[p]` over contact, equal to :math:`\frac1\beta\int(p-u)\,ds`.
 
     The work that Eq. 10 sums is :math:`\int p\,u'\,ds`.

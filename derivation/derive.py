@@ -95,7 +95,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     integrals = zone_integrals(flow)
     still = tuple(constant_means(regime) for regime in table if regime.sequence in ("a", "f"))
     means = tuple(strip_means(regime, integrals) for regime in partial)
-    balances = (power_balance(flow, jump), *(friction_balance(regime) for regime in partial))
+    balances = (power_balance(flow), *(friction_balance(regime) for regime in partial))
     done("means")
     shift = shift_of_events()
     slopes = tuple(onset_slope(regime) for regime in partial)

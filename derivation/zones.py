@@ -34,7 +34,7 @@ def zones(flows: Flows, jumps: Jumps) -> Zones:
             *gap(flows),
             *relaxation(flows, jumps),
             *contact(flows),
-            *contact_state(flows, jumps),
+            *contact_state(flows),
         ),
     )
 

@@ -41,6 +41,7 @@ METHOD = (
      "heuristic simplification takes part."),
     ("kernel.same", "The form that is computed, chosen for floating point, equals the expression that was derived."),
     ("regime.partial", "A regime's boundary equations follow from the list of its zones, and are checked, here."),
+    ("regime.edgeless", "A regime without edges is checked here: its field is steady."),
 )  # fmt: skip
 CLOSURES = {0: "continuous", 1: "constitutive"}
 

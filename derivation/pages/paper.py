@@ -28,7 +28,7 @@ SUBJECTS = {
     10: "means over a strip",
     11: "means over a level",
     12: "shear of a level that carries another",
-    13: "its mean",
+    13: "mean of that shear",
     14: "friction coefficient",
     15: "pressure of complete contact",
     16: "friction coefficient in complete contact on all levels",
