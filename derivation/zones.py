@@ -32,7 +32,7 @@ def zones(flows: Flows, jumps: Jumps) -> Zones:
             *rigid_profile(flows),
             *load(flows),
             *gap(flows),
-            *relaxation(flows, jumps),
+            *relaxation(flows),
             *contact(flows),
             *contact_state(flows),
         ),
@@ -129,7 +129,7 @@ def gap(flows: Flows) -> tuple[Kernel, ...]:
     )
 
 
-def relaxation(flows: Flows, jumps: Jumps) -> tuple[Kernel, ...]:
+def relaxation(flows: Flows) -> tuple[Kernel, ...]:
     r""":math:`w(s_1)`, its change, and :math:`\int w\,ds` (Eq. 10), under a constant pressure."""
     w = flows.relaxation.value
     after = w.subs(s, s_1)
