@@ -18,6 +18,7 @@ from hystrip.derivation.emit import input_hash
 from hystrip.derivation.pages import places
 from hystrip.derivation.pages.latex import pieces
 from hystrip.derivation.pages.measured import measured
+from hystrip.derivation.pages.pictures import ADHESION, CONTACT
 from hystrip.generated import standard_linear_solid
 
 PAGE = "audit/standard_linear_solid.html"
@@ -126,6 +127,23 @@ def test_every_regime_has_its_equations_and_a_picture() -> None:
         assert len(regime["equations"]) == len(regime["unknowns"]) and regime["admissible"]
         assert pictures[regime["sequence"]]
     assert audited()[PAGE].count("data:image/svg+xml") == sum(map(len, pictures.values()))
+
+
+def test_zones_of_a_picture_are_shaded_and_their_edges_labelled() -> None:
+    stored = read_measured(generated_folder())["standard_linear_solid"]["pictures"]
+    for drawn in stored.values():
+        for picture in drawn:
+            sequence = re.search(r"\((\w+)\)", picture["caption"])[1]
+            for zone, colour in (("c", CONTACT), ("a", ADHESION)):
+                assert (colour in picture["svg"]) == (zone in sequence), (sequence, zone)
+            labels = {
+                "acaf": ("-a", "b", "-c", "d"),
+                "afc": ("-a", "b = d", "-c"),
+                "af": ("-c", "d"),
+                "ac": ("-a", "b"),
+                "cf": ("-a", "b"),
+            }
+            assert all(f">{label}</text>" in picture["svg"] for label in labels.get(sequence, ())), sequence
 
 
 def test_figure_7_is_demonstrated() -> None:

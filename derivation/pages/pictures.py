@@ -71,7 +71,7 @@ def picture(scene: dict[str, Any]) -> dict[str, Any]:
             if np.isfinite(place):
                 for axes in (upper, lower):
                     axes.axvline(place, color="#777777", lw=0.7, ls=":")
-                label = f"-{name}" if name in "ac" else name
+                label = f"-{name}" if name in "ac" else "b = d" if str(strip.regime) == "afc" else name
                 upper.text(
                     place,
                     0.03 + 0.1 * (n // 2),
@@ -113,7 +113,7 @@ def _shade(axes: Any, regime: str, at: dict[str, float]) -> None:
     """Contact and adhesion zones, in every period that is seen."""
     spans = {
         "acaf": [("b", "d", ADHESION), ("-a", "b", CONTACT), ("-c", "-a", ADHESION)],
-        "afc": [("-a", "d", CONTACT), ("-c", "-a", ADHESION)],
+        "afc": [("-a", "b", CONTACT), ("-c", "-a", ADHESION)],  # the snap at d is where contact begins: b = d
         "af": [("-c", "d", ADHESION)],
         "ac": [("-a", "b", CONTACT), ("b", "-a+1", ADHESION)],
         "cf": [("-a", "b", CONTACT)],
