@@ -28,7 +28,7 @@ def zone_integrals(flows: Flows) -> ZoneIntegrals:
 
 
 def contact_integrals(flows: Flows) -> Derived:
-    r"""Over a contact zone: :math:`\int p\,ds,\ \int u\,ds,\ \int p\,u'\,ds`."""
+    r"""What Eq. 10 sums over a contact zone: :math:`\int p\,ds,\ \int u\,ds,\ \int p\,u'\,ds`."""
     u, pressure = flows.strip.u, flows.contact.value
     value, checks = _integrated("integrals over contact", (pressure, u, pressure * sp.diff(u, s)))
     return derived(
@@ -45,7 +45,7 @@ def contact_integrals(flows: Flows) -> Derived:
 
 
 def relaxation_integrals(flows: Flows) -> Derived:
-    r"""Over an adhesion or free zone: :math:`p\,(s_1-s_0),\ \int w\,ds,\ p\,[u]`."""
+    r"""What Eq. 10 sums over an adhesion or free zone: :math:`p\,(s_1-s_0),\ \int w\,ds,\ p\,[u]`."""
     u, displacement = flows.strip.u, flows.relaxation.value
     value, checks = _integrated("integrals over adhesion and free gap", (p, displacement, p * sp.diff(u, s)))
     return derived(

@@ -7,7 +7,6 @@ import sympy as sp
 from . import stable
 from .check import zero
 from .flows import Flows
-from .jumps import Jumps
 from .kernel import Kernel, kernel
 from .symbols import J, beta, p_0, p_in, q_0, s, s_0, s_1
 
@@ -21,20 +20,25 @@ def contact(flows: Flows) -> tuple[Kernel, ...]:
     )
     return (
         kernel(contact, stable.EXCESS_AFTER, q, "Pressure above -p_0 in contact, when it was q_0 at s_0.", latex),
-        kernel(contact, stable.EXCESS_AFTER_SLOPE, sp.diff(q, s_1), "Its derivative by s_1.", r"\partial q/\partial s_1"),
+        kernel(
+            contact, stable.EXCESS_AFTER_SLOPE, sp.diff(q, s_1), "Derivative of excess_after by s_1.", r"\partial q/\partial s_1"
+        ),
         kernel(
             contact,
             stable.EXCESS_AFTER_START,
             sp.diff(q, s_0),
-            "Its derivative by s_0 with q_0 held.",
+            "Derivative of excess_after by s_0, with q_0 held.",
             r"\partial q/\partial s_0",
         ),
         kernel(contact, stable.CONTACT_PRESSURE, pressure, "Contact pressure.", r"p(s_1) = q(s_1) - p_0"),
     )
 
 
-def contact_state(flows: Flows, jumps: Jumps) -> tuple[Kernel, ...]:
-    r""":math:`\Delta z = [u] - J[p]` over contact, equal to :math:`\frac1\beta\int(p-u)\,ds`; the work :math:`\int p\,u'\,ds`."""
+def contact_state(flows: Flows) -> tuple[Kernel, ...]:
+    r""":math:`\Delta z = [u] - J[p]` over contact, equal to :math:`\frac1\beta\int(p-u)\,ds`.
+
+    The work that Eq. 10 sums is :math:`\int p\,u'\,ds`.
+    """
     u, pressure = flows.strip.u, flows.contact.value
     rise = u.subs(s, s_1) - u.subs(s, s_0)
     change = rise - J * (pressure.subs(s, s_1) - (q_0 - p_0))
@@ -59,14 +63,14 @@ def contact_state(flows: Flows, jumps: Jumps) -> tuple[Kernel, ...]:
             contact_state,
             stable.CONTACT_INCREMENT_SLOPE,
             sp.diff(change, s_1),
-            "Its derivative by s_1.",
+            "Derivative of contact_increment by s_1.",
             r"\partial \Delta z/\partial s_1",
         ),
         kernel(
             contact_state,
             stable.CONTACT_INCREMENT_START,
             sp.diff(change, s_0),
-            "Its derivative by s_0 with q_0 held.",
+            "Derivative of contact_increment by s_0, with q_0 held.",
             r"\partial \Delta z/\partial s_0",
         ),
         kernel(

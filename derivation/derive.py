@@ -1,4 +1,4 @@
-"""The whole derivation, stage after stage: model, strip, flows, edge conditions, zones, regimes, means."""
+"""The whole derivation, stage after stage: model, strip, flows, edge conditions, zones, regimes, means, levels."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import sympy as sp
 
 from .averages import constant_means, strip_means, zone_integrals
 from .check import Derived
+from .conditions import conditions
 from .energy import friction_balance, power_balance
 from .events import excess_event, gap_event
 from .flows import flows
@@ -19,10 +20,12 @@ from .kernel import Kernel
 from .level import level
 from .links import links
 from .model import Model, foundation, require_admissible
+from .multilevel import multilevel
 from .regime import Regime
 from .regimes import regimes
 from .saturated import saturated
 from .stability import onset_slope, shift_of_events
+from .stack import stack
 from .strip import strip
 from .zones import zones
 
@@ -37,6 +40,7 @@ STAGES = (
     "regimes",
     "means",
     "stability",
+    "levels",
 )
 
 
@@ -91,11 +95,15 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     integrals = zone_integrals(flow)
     still = tuple(constant_means(regime) for regime in table if regime.sequence in ("a", "f"))
     means = tuple(strip_means(regime, integrals) for regime in partial)
-    balances = (power_balance(flow, jump), *(friction_balance(regime) for regime in partial))
+    balances = (power_balance(flow), *(friction_balance(regime) for regime in partial))
     done("means")
     shift = shift_of_events()
     slopes = tuple(onset_slope(regime) for regime in partial)
     done("stability")
+    asked = conditions(one_strip, table[0])
+    upwards = multilevel(one_strip, full, whole, partial, means, integrals)
+    pile = stack(one_strip, full, whole)
+    done("levels")
     sections = (
         ("Rigid profile, load, zones", zone.kernels),
         ("Events: value and slope, for root finding in a zone whose entry is evaluated once", events),
@@ -116,6 +124,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         chain,
         full,
         whole,
+        asked,
         table,
         systems,
         integrals,
@@ -124,6 +133,8 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         balances,
         shift,
         slopes,
+        upwards,
+        pile,
     )
     return Derivation(model, stages, table, sections)
 

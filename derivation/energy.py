@@ -12,12 +12,11 @@ import sympy as sp
 
 from .check import Derived, derived, holds, zero
 from .flows import Flows
-from .jumps import Jumps
 from .regime import ADHESION, CONTACT, Regime
 from .symbols import J, L, beta, chi, delta_0, p, p_0, s, s_0
 
 
-def power_balance(flows: Flows, jumps: Jumps) -> Derived:
+def power_balance(flows: Flows) -> Derived:
     r"""On every motion :math:`p\,w' = \frac{\beta}{L} z'^2 + \Phi'`, :math:`\Phi = \frac{z^2}{2L} + \frac{J p^2}{2}`."""
     name = "power balance"
     residuals = []

@@ -14,12 +14,14 @@ import sympy as sp
 
 from . import stable
 from .check import Check, Derived, derived, zero
+from .exact import in_half_angles
 from .flows import Flows
 from .functions import Formula
 from .kernel import Kernel
 from .symbols import D, alpha, beta, gap_0, p, p_0, q_0, s, s_0, s_1
 
 _phase = sp.Symbol("phi", positive=True)
+ANGLES = (s_0, s_1, _phase)
 
 
 def gap_event(flows: Flows) -> tuple[Kernel, Kernel]:
@@ -54,10 +56,15 @@ def gap_event(flows: Flows) -> tuple[Kernel, Kernel]:
                 zero(
                     "gap_event",
                     "gap_event after gap_entry is the derived gap",
-                    _halved(composed[0] - exact[0]),
+                    in_half_angles(composed[0] - exact[0], *ANGLES),
                     phases=(s_0, s_1),
                 ),
-                zero("gap_event", "and its derivative by s_1", _halved(composed[1] - exact[1]), phases=(s_0, s_1)),
+                zero(
+                    "gap_event",
+                    "and its derivative by s_1",
+                    in_half_angles(composed[1] - exact[1], *ANGLES),
+                    phases=(s_0, s_1),
+                ),
             ],
             emitted=("gap_event",),
         ),
@@ -65,7 +72,7 @@ def gap_event(flows: Flows) -> tuple[Kernel, Kernel]:
 
 
 def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
-    r""":math:`(q, q')` at :math:`s_1`, with :math:`p_{sat} = D - 1 + R\cos(s + \varphi)`."""
+    r""":math:`(q, q')` at :math:`s_1`, with Eq. 15 as :math:`p_{sat} = D - 1 + R\cos(s + \varphi)`."""
     q = flows.contact.value.subs(s, s_1) + p_0
     exact = (q, sp.diff(q, s_1))
     name = "excess_event"
@@ -122,19 +129,15 @@ def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
             checks=[
                 *phase_check,
                 zero(name, "excess_event after excess_entry is the derived q",
-                     _halved(composed[0] - exact[0].subs(tilted)), phases=(s_0, s_1)),
-                zero(name, "and its derivative by s_1", _halved(composed[1] - exact[1].subs(tilted)), phases=(s_0, s_1)),
+                     in_half_angles(composed[0] - exact[0].subs(tilted), *ANGLES), phases=(s_0, s_1)),
+                zero(name, "and its derivative by s_1",
+                     in_half_angles(composed[1] - exact[1].subs(tilted), *ANGLES), phases=(s_0, s_1)),
             ],
             paper="Eq. 15",
             status="reproduced",
             emitted=(name,),
         ),
     )  # fmt: skip
-
-
-def _halved(expression: sp.Expr) -> sp.Expr:
-    """The same identity in half the angles, so that only multiples of them occur."""
-    return expression.subs({angle: 2 * angle for angle in (s_0, s_1, _phase)}, simultaneous=True)
 
 
 def _applied(event: Formula, phase: sp.Symbol, constants: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...]:

@@ -48,6 +48,11 @@ def _power_of_token(argument: sp.Expr) -> sp.Expr:
     return token**factor
 
 
+def in_half_angles(expression: sp.Expr, *angles: sp.Symbol) -> sp.Expr:
+    """The same identity with every angle written as twice another, so that only multiples of them occur."""
+    return expression.subs({angle: 2 * angle for angle in angles}, simultaneous=True)
+
+
 def is_zero(expression: Any, phases: Sequence[sp.Symbol] = ()) -> bool:
     """Whether the expression vanishes identically; ``phases`` in the order met."""
     expression = independent(expression, phases)

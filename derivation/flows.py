@@ -31,7 +31,10 @@ def flows(strip: Strip) -> Flows:
 
 
 def contact_flow(strip: Strip) -> Derived:
-    r"""Eq. 15 and its transient: :math:`p = p_{sat}(s) + (p(s_0) - p_{sat}(s_0))\,e^{-(s-s_0)/\alpha}`."""
+    r"""Eq. 5 with w given, that is Eq. 15 and its transient:
+
+    .. math:: p = p_{sat}(s) + (p(s_0) - p_{sat}(s_0))\,e^{-(s-s_0)/\alpha}
+    """
     name = "contact flow"
     pressure = _solved(name, lambda unknown: strip.law(strip.u, unknown), entry=q_0 - p_0)
     checks = [
@@ -53,7 +56,7 @@ def contact_flow(strip: Strip) -> Derived:
 
 
 def relaxation_flow(strip: Strip) -> Derived:
-    r"""Adhesion :math:`p=-p_0` or free :math:`p=0`: :math:`w = p + (w_0 - p)\,e^{-(s-s_0)/\beta}`."""
+    r"""Eq. 5 with p given, adhesion :math:`p=-p_0` or free :math:`p=0`: :math:`w = p + (w_0 - p)\,e^{-(s-s_0)/\beta}`."""
     name = "relaxation flow"
     displacement = _solved(name, lambda unknown: strip.law(unknown, p), entry=w_0)
     checks = [

@@ -2,8 +2,8 @@
 
 A stable helper is written by hand in ``templates/stable.py.jinja`` because its floating-point form matters; what it
 *means* is given here, and every proof goes by the meaning. An emitted :class:`Formula` is a list of labelled
-intermediate terms and a result. It is only a way of computing: ``proven`` in :mod:`.formulas` shows that it equals the
-expression that SymPy derived.
+intermediate terms and a result. It is only a way of computing: :func:`.kernel.same` proves that it equals the expression
+that SymPy derived.
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ class Jumps:
 
 def jumps(strip: Strip) -> Jumps:
     law = jump_law(strip)
-    return Jumps(law, internal_state(strip), closures(strip, law.value))
+    return Jumps(law, internal_state(strip), closures(law.value))
 
 
 def jump_law(strip: Strip) -> Derived:
@@ -73,7 +73,7 @@ def internal_state(strip: Strip) -> Derived:
     )
 
 
-def closures(strip: Strip, ratio: sp.Expr) -> Derived:
+def closures(ratio: sp.Expr) -> Derived:
     r"""Both closures in one: :math:`[w] = \chi J [p]`; :math:`\chi = 0` keeps w continuous, :math:`\chi = 1` is the jump law."""
     name = "closures"
     step = sp.Symbol("step_p", real=True)

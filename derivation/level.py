@@ -12,16 +12,16 @@ import sympy as sp
 from .check import BEYOND, CORRECTED, REPRODUCED, Check, Derived, derived, holds, zero
 from .functions import Formula, hypot, stack_sum
 from .kernel import Kernel
-from .saturated import Saturated
+from .saturated import MODULUS, Saturated
+from .surface import AMPLITUDE, PENETRATION, mean_over_wave
 from .symbols import A, D, D_j, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, y
 
 _si = (K, T_eps, T_sigma)
 ratio, pulsation, creep, spread, slender = sp.symbols("ratio pulsation creep spread slender", positive=True)
 _SLENDER = ((creep, V * (T_eps - T_sigma)), (spread, hypot(l, 2 * sp.pi * V * T_sigma)), (slender, h / spread))
+_RATIO = ((pulsation, 2 * sp.pi * V / l), (ratio, hypot(1, pulsation * T_eps) / hypot(1, pulsation * T_sigma)))
 TIMES = {alpha: k * V * T_sigma, beta: k * V * T_eps, L: 1 - T_sigma / T_eps}
 WAVE = {k: 2 * sp.pi / l}
-AMPLITUDE = h / 4 * (1 + sp.cos(k * y))
-PENETRATION = D_level - h / 2 * (1 - sp.cos(k * y))
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ def level(saturated: Saturated) -> Level:
 
 def over_strips(quantity: sp.Expr) -> sp.Expr:
     """Eq. 11: mean over the strips of a level, y from 0 to l."""
-    return sp.simplify(sp.integrate(sp.expand(quantity), (y, 0, 2 * sp.pi / k)) * k / (2 * sp.pi))
+    return sp.simplify(mean_over_wave(quantity, y))
 
 
 def saturation_penetration(threshold: sp.Expr) -> Kernel:
@@ -51,7 +51,7 @@ def saturation_penetration(threshold: sp.Expr) -> Kernel:
     name = "level_saturation_penetration"
     R = sp.Symbol("R", positive=True)
     over_one = sp.Symbol("R_minus_1", nonnegative=True)  # R >= 1, since beta >= alpha
-    scaled = threshold.subs(sp.sqrt((1 + beta**2) / (1 + alpha**2)), R)  # D_j/A, with p_0 in K A
+    scaled = threshold.subs(MODULUS, R)  # D_j/A, with p_0 in K A
     needed = sp.expand(AMPLITUDE * scaled.subs(p_0, p_0 / (K * AMPLITUDE)) + h / 2 * (1 - sp.cos(k * y)))  # D of the level
     cosine = sp.Symbol("cosine", real=True)
     slope = sp.diff(needed.subs(sp.cos(k * y), cosine), cosine).subs(R, 1 + over_one)
@@ -61,12 +61,12 @@ def saturation_penetration(threshold: sp.Expr) -> Kernel:
         zero(name, "the penetration a strip needs is linear in cos ky", sp.diff(slope, cosine)),
         holds(name, "and grows with it: the middle strip, y = 0, is the last to saturate", sp.factor(slope).is_nonnegative),
     ]
-    si = exact.subs(R, sp.sqrt((1 + beta**2) / (1 + alpha**2))).subs(TIMES).subs(WAVE)
+    si = exact.subs(R, MODULUS).subs(TIMES).subs(WAVE)
     formula = Formula(
         name,
         (*_si, p_0, l, h, V),
         h / 2 * (1 + ratio) - p_0 / K,
-        ((pulsation, 2 * sp.pi * V / l), (ratio, hypot(1, pulsation * T_eps) / hypot(1, pulsation * T_sigma))),
+        _RATIO,
     )
     return _kernel(
         saturation_penetration,
@@ -88,7 +88,7 @@ def saturation_pressure(penetration: sp.Expr, mean_p: sp.Expr) -> Kernel:
         name,
         (*_si, p_0, l, h, V),
         K * h / 4 * (2 * ratio - 1) - p_0,
-        ((pulsation, 2 * sp.pi * V / l), (ratio, hypot(1, pulsation * T_eps) / hypot(1, pulsation * T_sigma))),
+        _RATIO,
     )
     checks = [
         zero(name, "the level's mean pressure in complete contact is K (D - 3h/4)", mean - K * (D_level - sp.Rational(3, 4) * h))

@@ -10,6 +10,7 @@ import sympy as sp
 
 from . import stable
 from .check import derived, zero
+from .exact import in_half_angles
 from .flows import Flows
 from .functions import Formula
 from .kernel import Kernel
@@ -24,15 +25,15 @@ def links(flows: Flows) -> tuple[Kernel, Kernel]:
         _link(
             stable.GAP_LINK,
             gap,
-            "Gap at s_1 when it was gap_0 at s_0 and the pressure is p since, with its derivatives by s_0 and s_1. Same as gap_after, "
-            "gap_after_start and gap_after_slope; s_1 must not be before s_0.",
+            "Gap at s_1 when it was gap_0 at s_0 and the pressure is p since, with its derivatives by s_0 and s_1. Same as "
+            "gap_after, gap_after_start and gap_after_slope; s_1 must not be before s_0.",
             r"g,\quad \partial g/\partial s_0,\quad \partial g/\partial s_1",
         ),
         _link(
             stable.EXCESS_LINK,
             excess,
-            "Pressure above -p_0 at s_1 in contact entered at s_0 with q_0, with its derivatives by s_0 and s_1. Same as excess_after, "
-            "excess_after_start and excess_after_slope; s_1 must not be before s_0.",
+            "Pressure above -p_0 at s_1 in contact entered at s_0 with q_0, with its derivatives by s_0 and s_1. Same "
+            "as excess_after, excess_after_start and excess_after_slope; s_1 must not be before s_0.",
             r"q,\quad \partial q/\partial s_0,\quad \partial q/\partial s_1",
         ),
     )
@@ -44,13 +45,9 @@ def _link(formula: Formula, value: sp.Expr, statement: str, latex: str) -> Kerne
     claims = ("the value is the derived one", "its derivative by s_0", "its derivative by s_1")
     computed = formula.written_out(formula.args)
     checks = [
-        zero(name, claim, _halved(c - e), phases=(s_0, s_1)) for claim, c, e in zip(claims, computed, exact, strict=True)
+        zero(name, claim, in_half_angles(c - e, s_0, s_1), phases=(s_0, s_1))
+        for claim, c, e in zip(claims, computed, exact, strict=True)
     ]
     return Kernel(
         formula, exact, derived(links, exact, name=name, statement=statement, latex=latex, checks=checks, emitted=(name,))
     )
-
-
-def _halved(expression: sp.Expr) -> sp.Expr:
-    """The same identity in half the angles, so that only multiples of them occur."""
-    return expression.subs({angle: 2 * angle for angle in (s_0, s_1)}, simultaneous=True)

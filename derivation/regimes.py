@@ -1,4 +1,7 @@
-"""The table of regimes (physics of one strip): each is the list of its zones, with the states between them."""
+"""The table of regimes of a strip: each is the list of its zones, with the states between them.
+
+:func:`.regime.partial` makes the boundary equations of a regime from its zones and checks them.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +27,10 @@ def regimes(zones: Zones) -> tuple[Regime, ...]:
 
 
 def discrete_adhesion(ratio: sp.Expr) -> Regime:
-    r"""Partial contact between two adhesion zones; unknown d, b, a, c. w steps by :math:`\mp\chi J p_0` at d and c."""
+    r"""Partial contact between two adhesion zones; unknown d, b, a, c. w steps by :math:`\mp\chi J p_0` at d and c:
+
+    .. math:: g(b) = 0,\quad p(a) = -p_0,\quad g(c) = \delta_0,\quad g(d + 2\pi) = \delta_0
+    """
     step = ratio * p_0
     return partial(
         discrete_adhesion,
@@ -48,7 +54,10 @@ def discrete_adhesion(ratio: sp.Expr) -> Regime:
 
 
 def trailing_adhesion(ratio: sp.Expr) -> Regime:
-    r"""Snap-in at d into contact, adhesion from a to c. z is continuous at d, so contact is entered at :math:`-\delta_0/J`."""
+    r"""Snap-in at d into contact, adhesion from a to c. z is continuous at d, so contact is entered at :math:`-\delta_0/J`:
+
+    .. math:: p(a) = -p_0,\quad g(c) = \delta_0,\quad g(d + 2\pi) = \delta_0
+    """
     return partial(
         trailing_adhesion,
         "afc",
@@ -71,7 +80,7 @@ def trailing_adhesion(ratio: sp.Expr) -> Regime:
 
 
 def adhesion_only(ratio: sp.Expr) -> Regime:
-    r"""No contact; adhesion from d to c."""
+    r"""No contact; adhesion from d to c: :math:`g(c) = \delta_0,\ g(d + 2\pi) = \delta_0`."""
     step = ratio * p_0
     return partial(
         adhesion_only,
@@ -89,7 +98,10 @@ def adhesion_only(ratio: sp.Expr) -> Regime:
 
 
 def saturated_adhesion(ratio: sp.Expr) -> Regime:
-    r"""Partial contact, the whole gap at :math:`-p_0`; with :math:`p_0 = 0` this is contact without adhesion ('cf')."""
+    r"""Partial contact, the whole gap at :math:`-p_0`; with :math:`p_0 = 0` this is contact without adhesion ('cf'):
+
+    .. math:: p(a) = -p_0,\quad g(b + 2\pi) = 0
+    """
     return partial(
         saturated_adhesion,
         "ac",
@@ -106,15 +118,15 @@ def saturated_adhesion(ratio: sp.Expr) -> Regime:
 
 
 def complete_contact() -> Regime:
-    """No edge: ``w = u`` everywhere."""
+    r"""No edge: :math:`w = u` everywhere."""
     return edgeless(complete_contact, "c", CONTACT, "complete contact", ("D - 1 + p_0 >= modulus_ratio",))
 
 
 def clinging() -> Regime:
-    """No edge: the whole gap at ``-p_0``, at rest at ``w = -p_0``."""
+    r"""No edge: the whole gap at :math:`-p_0`, at rest at :math:`w = -p_0`."""
     return edgeless(clinging, "a", ADHESION, "no contact, saturated adhesion", ("D <= -p_0", "2 - D - p_0 <= delta_0"))
 
 
 def separated() -> Regime:
-    """No edge: ``w = 0``."""
+    r"""No edge: :math:`w = 0`."""
     return edgeless(separated, "f", FREE, "no interaction", ("D <= -delta_0 if p_0 > 0, else D <= 0",))

@@ -14,6 +14,9 @@ from .kernel import Kernel, kernel
 from .strip import TIMES
 from .symbols import PARAMETERS, D, L, V, alpha, beta, k, p_0, q_0, s, s_0, s_1
 
+MODULUS = sp.sqrt((1 + beta**2) / (1 + alpha**2))
+"""R = |K*|/K at the strip's frequency."""
+
 
 @dataclass(frozen=True)
 class Saturated:
@@ -59,8 +62,7 @@ def complex_modulus(flows: Flows) -> Derived:
 def modulus_kernels(modulus: Derived) -> tuple[Kernel, ...]:
     r"""Storage, loss and :math:`R = |K^*|/K = \sqrt{(1+\beta^2)/(1+\alpha^2)}`."""
     storage, loss = modulus.value
-    ratio = sp.sqrt((1 + beta**2) / (1 + alpha**2))
-    squares = zero("modulus_ratio", "R^2 = storage^2 + loss^2", ratio**2 - storage**2 - loss**2)
+    squares = zero("modulus_ratio", "R^2 = storage^2 + loss^2", MODULUS**2 - storage**2 - loss**2)
     return (
         kernel(
             modulus_kernels,
@@ -75,7 +77,7 @@ def modulus_kernels(modulus: Derived) -> tuple[Kernel, ...]:
         kernel(
             modulus_kernels,
             stable.MODULUS_RATIO,
-            ratio,
+            MODULUS,
             "Modulus of K*/K.",
             r"R = \sqrt{\frac{1 + \beta^2}{1 + \alpha^2}}",
             squares,
@@ -109,12 +111,18 @@ def field_kernels(flows: Flows, modulus: tuple[sp.Expr, sp.Expr]) -> tuple[Kerne
             paper="Eq. 15",
             status=REPRODUCED,
         ),
-        kernel(field_kernels, stable.SATURATED_SLOPE, sp.diff(periodic, s), "Its slope.", r"p_{sat}'(s)"),
+        kernel(
+            field_kernels,
+            stable.SATURATED_SLOPE,
+            sp.diff(periodic, s),
+            "Slope of the pressure of complete contact.",
+            r"p_{sat}'(s)",
+        ),
         kernel(
             field_kernels,
             stable.SATURATED_RISE,
             rise,
-            "Its rise between two phases, without cancellation.",
+            "Rise of the pressure of complete contact between two phases, without cancellation.",
             r"[p_{sat}]_{s_0}^{s_1}",
         ),
     )
@@ -155,7 +163,7 @@ def threshold(pressure: sp.Expr, modulus: tuple[sp.Expr, sp.Expr]) -> Derived:
     r"""Complete contact needs :math:`\min p_{sat} \ge -p_0`: :math:`D \ge 1 + R - p_0`."""
     name = "saturation threshold"
     storage, loss = modulus
-    R = sp.sqrt((1 + beta**2) / (1 + alpha**2))
+    R = MODULUS
     # p_sat = D - 1 + R cos(s + lag) with (cos lag, sin lag) = (storage, loss)/R.
     lag = sp.Symbol("lag", real=True)
     harmonic = sp.expand_trig(R * sp.cos(s + lag)).subs({sp.cos(lag): storage / R, sp.sin(lag): loss / R})

@@ -92,7 +92,7 @@ def onset_slope(regime: Regime) -> Kernel:
             name=name,
             statement="A shift of the onset fades over contact with alpha and over the rest of the period with beta, "
             "and is scaled where p steps. The orbit is stable when T' < 1; T' = 1 is a fold.",
-            latex=rf"T' = {sp.latex(written_out(formula_result))}",
+            latex="T' = " + r" \cdot ".join(sp.latex(written_out(part)) for part in sp.Mul.make_args(formula_result)),
             checks=checks,
             emitted=(name,),
         ),

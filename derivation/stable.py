@@ -196,8 +196,7 @@ _ahead = (  # sine and cosine of atan(alpha) - s_0
 CONTACT_INCREMENT = Formula(
     "contact_increment",
     _increment,
-    J * lag * decay_loss(width, alpha)
-    + L * unit * (sin_ahead * sine_lag(width, alpha) - cos_ahead * versine(width)),
+    J * lag * decay_loss(width, alpha) + L * unit * (sin_ahead * sine_lag(width, alpha) - cos_ahead * versine(width)),
     (WIDTH, _contact_lag, *_ahead),
 )
 CONTACT_INCREMENT_SLOPE = Formula(

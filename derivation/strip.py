@@ -8,7 +8,8 @@ import sympy as sp
 
 from .check import BEYOND, CORRECTED, REPRODUCED, Derived, derived, holds, zero
 from .model import Foundation
-from .symbols import A, D, D_j, D_level, J, K, L, T_eps, T_sigma, V, alpha, beta, delta_0, h, k, p_0, s, t, x, y
+from .surface import AMPLITUDE, HEIGHT, PENETRATION
+from .symbols import A, D, D_j, D_level, J, K, L, T_eps, T_sigma, V, alpha, beta, delta_0, k, p_0, s, t, x
 
 TIMES = {T_sigma: alpha / (k * V), T_eps: beta / (k * V)}
 """Times of the material in terms of those of the strip."""
@@ -72,15 +73,12 @@ def strip_profile() -> Derived:
     .. math:: w = D - f = D_j - A(1 - \cos kx),\quad A = \tfrac h4(1 + \cos ky),\quad D_j = D - \tfrac h2(1 - \cos ky)
     """
     name = "strip profile"
-    f = h - h / 4 * (sp.cos(k * x) + 1) * (sp.cos(k * y) + 1)
-    amplitude = h / 4 * (1 + sp.cos(k * y))
-    penetration = D_level - h / 2 * (1 - sp.cos(k * y))
-    target = penetration - amplitude * (1 - sp.cos(k * x))
-    printed = sp.expand(f + D_level)
+    target = PENETRATION - AMPLITUDE * (1 - sp.cos(k * x))
+    printed = sp.expand(HEIGHT + D_level)
     u = D - 1 + sp.cos(s)
     scaled = (D_j - A * (1 - sp.cos(k * x))).subs({D_j: A * D, x: -s / k}) / A
     checks = [
-        zero(name, "w = D - f is D_j - A (1 - cos kx) with the A and D_j of Eq. 8", D_level - f - target),
+        zero(name, "w = D - f is D_j - A (1 - cos kx) with the A and D_j of Eq. 8", D_level - HEIGHT - target),
         holds(
             name,
             "the printed w = f + D is deepest in the valleys of the surface: its cos kx term has the other sign",

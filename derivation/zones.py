@@ -32,9 +32,9 @@ def zones(flows: Flows, jumps: Jumps) -> Zones:
             *rigid_profile(flows),
             *load(flows),
             *gap(flows),
-            *relaxation(flows, jumps),
+            *relaxation(flows),
             *contact(flows),
-            *contact_state(flows, jumps),
+            *contact_state(flows),
         ),
     )
 
@@ -46,19 +46,19 @@ def rigid_profile(flows: Flows) -> tuple[Kernel, ...]:
     check = zero("profile_integral", "the antiderivative differentiates to u", sp.diff(integral, s) - u)
     return (
         kernel(rigid_profile, stable.PROFILE, u, "Rigid profile of the strip.", r"u(s) = D - 1 + \cos s"),
-        kernel(rigid_profile, stable.PROFILE_SLOPE, sp.diff(u, s), "Its slope.", r"u'(s) = -\sin s"),
+        kernel(rigid_profile, stable.PROFILE_SLOPE, sp.diff(u, s), "Slope of the rigid profile.", r"u'(s) = -\sin s"),
         kernel(
             rigid_profile,
             stable.PROFILE_RISE,
             u.subs(s, s_1) - u.subs(s, s_0),
-            "Its rise between two phases, without cancellation.",
+            "Rise of the rigid profile between two phases, without cancellation.",
             r"u(s_1) - u(s_0) = -2 \sin\tfrac{s_0 + s_1}{2} \sin\tfrac{s_1 - s_0}{2}",
         ),
         kernel(
             rigid_profile,
             stable.PROFILE_INTEGRAL,
             integral.subs(s, s_1) - integral.subs(s, s_0),
-            "Its integral: the displacement summed over a contact zone.",
+            "Integral of the rigid profile: the displacement summed over a contact zone.",
             r"\int_{s_0}^{s_1} u\,ds",
             check,
         ),
@@ -112,17 +112,25 @@ def gap(flows: Flows) -> tuple[Kernel, ...]:
             r"g(s_1) = (g_0 - [u]_{s_0}^{s_1})\,e^{-(s_1 - s_0)/\beta} + (u(s_1) - p)\,(e^{-(s_1 - s_0)/\beta} - 1)",
         ),
         kernel(
-            gap, stable.GAP_CHANGE, g - gap_0, "Its change since s_0, for zones too short to change it much.", r"g(s_1) - g_0"
+            gap,
+            stable.GAP_CHANGE,
+            g - gap_0,
+            "Change of the gap since s_0, for zones too short to change it much.",
+            r"g(s_1) - g_0",
         ),
-        kernel(gap, stable.GAP_AFTER_SLOPE, sp.diff(g, s_1), "Its derivative by s_1.", r"\partial g/\partial s_1"),
+        kernel(gap, stable.GAP_AFTER_SLOPE, sp.diff(g, s_1), "Derivative of gap_after by s_1.", r"\partial g/\partial s_1"),
         kernel(
-            gap, stable.GAP_AFTER_START, sp.diff(g, s_0), "Its derivative by s_0 with gap_0 held.", r"\partial g/\partial s_0"
+            gap,
+            stable.GAP_AFTER_START,
+            sp.diff(g, s_0),
+            "Derivative of gap_after by s_0, with gap_0 held.",
+            r"\partial g/\partial s_0",
         ),
     )
 
 
-def relaxation(flows: Flows, jumps: Jumps) -> tuple[Kernel, ...]:
-    r""":math:`w(s_1)`, its change, and :math:`\int w\,ds` under a constant pressure."""
+def relaxation(flows: Flows) -> tuple[Kernel, ...]:
+    r""":math:`w(s_1)`, its change, and :math:`\int w\,ds` (Eq. 10), under a constant pressure."""
     w = flows.relaxation.value
     after = w.subs(s, s_1)
     change = (after - w_0).subs(w_0, p + lag_0)
@@ -148,7 +156,7 @@ def relaxation(flows: Flows, jumps: Jumps) -> tuple[Kernel, ...]:
             relaxation,
             stable.RELAXATION_INCREMENT_SLOPE,
             sp.diff(change, s_1),
-            "Its derivative by s_1.",
+            "Derivative of relaxation_increment by s_1.",
             r"\partial \Delta z/\partial s_1",
         ),
         kernel(

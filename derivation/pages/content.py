@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import hashlib
+import inspect
+import re
 from importlib.metadata import version
 from typing import Any
 
@@ -11,15 +13,36 @@ import sympy as sp
 from ..check import Derived
 from ..derive import Derivation
 from ..emit import INTERFACE, PARAMETER_MEANINGS, input_hash
-from ..functions import written_out
+from ..functions import HELPERS, written_out
 from ..regime import EQUATIONS, PERIODIC, Regime
-from . import paper, sources
+from . import paper, places, sources
 from .latex import widest
 
 LONG = 130  # operations from which a value is only read in the generated function
 PAPER = 108  # characters of a piece too wide for a sheet
+STATED = ("regime ", "onset_slope_")  # steps whose equation is the value written out already
 TOOLS = ("sympy", "jinja2", "ruff", "latex2mathml")
 MEANINGS = dict([*EQUATIONS.values(), PERIODIC])
+FIELDS = (
+    ("s = -k x", "phase: grows in the time of a material point, which meets decreasing x"),
+    ("u(s)", "rigid profile, with the crest at s = 0; w = u in contact"),
+    ("w(s),\\quad p(s)", "displacement of the foundation and pressure on it"),
+    ("g = w - u", "gap"),
+    ("q = p + p_0", "pressure above the traction of adhesion; zero where contact ends"),
+    ("z = w - J p", "what a material point carries across a step of p"),
+    (
+        "H(s) = u + \\beta u'",
+        "load harmonic, forcing in the code: p + alpha p' in contact, and it drives the gap too",
+    ),
+)
+METHOD = (
+    ("check.zero", "A claim with the outcome exact zero has passed here; one that does not raises an error that names the step."),
+    ("exact.is_zero", "Zero is decided on a polynomial in algebraically independent quantities, which vanishes or does not; no "
+     "heuristic simplification takes part."),
+    ("kernel.same", "The form that is computed, chosen for floating point, equals the expression that was derived."),
+    ("regime.partial", "A regime's boundary equations follow from the list of its zones, and are checked, here."),
+    ("regime.edgeless", "A regime without edges is checked here: its field is steady."),
+)  # fmt: skip
 CLOSURES = {0: "continuous", 1: "constitutive"}
 
 
@@ -27,20 +50,27 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
     """Everything on a model's page but what is measured. ``files``: the emitted texts; ``certificates``: rows by function."""
     module = f"{derivation.model.name}.py"
     computed = sources.generated(module, files[module])
+    helpers = sources.generated("stable.py", files["stable.py"])
+    functions = {step.function for step in derivation.steps}
+    wrong = paper.misprints(derivation.steps)
     return {
         "model": derivation.model.name,
         "title": derivation.model.title,
         "paper": paper.TITLE,
         "identity": identity(files),
+        "fields": [list(row) for row in FIELDS],
         "parameters": [list(row) for row in PARAMETER_MEANINGS],
         "material": [[p.name, p.unit, p.meaning] for p in derivation.model.parameters],
-        "equations": paper.equations(derivation.steps),
-        "misprints": paper.misprints(derivation.steps),
+        "equations": paper.equations(derivation.steps, wrong),
+        "misprints": wrong,
         "stages": stages(derivation.steps, computed),
         "regimes": [_regime(regime, computed) for regime in derivation.regimes],
         "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
-        "sources": {name: text(sources.deriving(name)) for name in sorted({step.function for step in derivation.steps})},
-        "generated": {name: text(source) for name, source in computed.items()},
+        "method": [list(row) for row in METHOD],
+        "sources": {name: text(sources.deriving(name)) for name in sorted({*functions, *(name for name, _ in METHOD)})},
+        "generated": {name: text(source) for name, source in (computed | helpers).items()},
+        "helpers": helpers_table(helpers),
+        "measured": "measured.json",
     }
 
 
@@ -57,12 +87,13 @@ def identity(files: dict[str, str]) -> dict[str, Any]:
 def stages(steps: tuple[Derived, ...], computed: dict[str, sources.Source]) -> list[dict[str, Any]]:
     """The steps by the module that derives them."""
     found: dict[str, list[dict[str, Any]]] = {}
+    known = {step.name for step in steps}
     for step in steps:
-        found.setdefault(step.function.rpartition(".")[0], []).append(_step(step, computed))
+        found.setdefault(step.function.rpartition(".")[0], []).append(_step(step, computed, known))
     return [{"module": module, "title": sources.title(module), "steps": steps} for module, steps in found.items()]
 
 
-def _step(step: Derived, computed: dict[str, sources.Source]) -> dict[str, Any]:
+def _step(step: Derived, computed: dict[str, sources.Source], known: set[str]) -> dict[str, Any]:
     derived_in = sources.deriving(step.function)
     return {
         "name": step.name,
@@ -78,18 +109,32 @@ def _step(step: Derived, computed: dict[str, sources.Source]) -> dict[str, Any]:
         "computed_by": [
             {"function": n, "file": computed[n].file, "line": computed[n].line} for n in step.emitted if n in computed
         ],
+        "carried_out_by": [vars(place) for place in places.carried_out(step)],
+        "enters": [name for name in places.ENTERS.get(step.function, ()) if name in known],
+        "measured": places.MEASURED.get(step.function, ""),
     }
 
 
 def _values(step: Derived) -> list[str]:
     """LaTeX of the derived value, printed by SymPy; empty where it is too long to read or the equation above says as much."""
     parts = [part for part in _flat(step.value) if isinstance(part, sp.Basic)]
-    if not parts or step.name.startswith("regime ") or sum(sp.count_ops(part) for part in parts) > LONG:
+    if not parts or step.name.startswith(STATED) or sum(sp.count_ops(part) for part in parts) > LONG:
         return []
-    texts = [sp.latex(written_out(part)) for part in parts]
+    texts = [_latex(part) for part in parts]
     if max(map(widest, texts)) > PAPER:
         return []
-    return [] if texts == [step.latex] or step.latex.endswith(f"= {texts[0]}") else texts
+    plain = step.latex.replace(r"\tfrac", r"\frac")
+    return [] if texts == [step.latex] or _unbraced(plain).endswith(f"= {_unbraced(texts[0])}") else texts
+
+
+def _latex(term: sp.Expr) -> str:
+    """An expression with helpers and calls written out; a fraction far wider above than below as a product, to be cut."""
+    return sp.latex(written_out(term), long_frac_ratio=8)
+
+
+def _unbraced(latex: str) -> str:
+    """Indices of one sign without braces, as one writes them by hand."""
+    return re.sub(r"_\{(\w)\}", r"_\1", latex)
 
 
 def _flat(value: Any) -> list[Any]:
@@ -106,11 +151,27 @@ def _regime(regime: Regime, computed: dict[str, sources.Source]) -> dict[str, An
         "kind": regime.zones[0].kind,
         "unknowns": [str(edge) for edge in regime.edges],
         "closures": [CLOSURES[closure] for closure in regime.closures],
-        "equations": [[MEANINGS[label], f"{sp.latex(written_out(term))} = 0"] for label, term in regime.equations],
+        "equations": [[MEANINGS[label], f"{_latex(term)} = 0"] for label, term in regime.equations],
         "admissible": list(regime.admissible),
         "step": regime.derived.name,
         "computed_by": [name for name in names if name in computed],
     }
+
+
+def helpers_table(computed: dict[str, sources.Source]) -> list[dict[str, Any]]:
+    """The functions that stand in emitted formulas for themselves: what each means, where it is computed."""
+    rows = []
+    for helper in HELPERS:
+        taken = list(inspect.signature(helper.meaning).parameters)
+        arguments = sp.symbols(taken, positive=True)
+        rows.append(
+            {
+                "name": f"{helper.__name__}({', '.join(taken)})",
+                "meaning": sp.latex(helper.meaning(*arguments)),
+                "function": helper.__name__ if helper.__name__ in computed else "",
+            }
+        )
+    return rows
 
 
 def text(source: sources.Source) -> dict[str, Any]:

@@ -7,19 +7,21 @@ import re
 import latex2mathml.converter
 from markupsafe import Markup
 
-ROOM = 36  # characters of LaTeX from which a line may break before a sign
-WIDE = 55  # visible characters from which it may break inside brackets too
+ROOM = 12  # characters of LaTeX from which a line may break before a sign
+WIDE = 42  # visible characters from which it may break inside brackets too
 SEPARATORS = (r"\\", r",\quad", r",\qquad", r"\quad", r"\qquad")
-SIGNS = (" + ", " - ", " = ", r" \ge ", r" \le ")
+SIGNS = (" + ", " - ", " = ", r" \ge ", r" \le ", r" \cdot ")
 ARROW = r"\Rightarrow"
 FUNCTION = re.compile(r"<mi>(sin|cos|tan|arctan|arccos)</mi>(?=<m[in]>)")  # they touch what follows without a bracket
+LEADING = re.compile(r"(<math[^>]*><mrow>)<mo([^>]*)>(?=(?:&#x0002B;|&#x02212;|&#x0003D;|&#x022C5;|[+=−⋅])</mo>)")
 TOKEN = re.compile(r"\\left\s*(?:\\.|.)|\\right\s*(?:\\.|.)|\\[,;! ]|\\\\|\\[A-Za-z]+|.", re.DOTALL)
 SIZED = re.compile(r"\\(?:left|right)\s*([()\[\]])")
 
 
 def mathml(latex: str) -> Markup:
     """MathML of an equation: one inline element for each piece, between which a browser may break the line."""
-    made = (latex2mathml.converter.convert(piece) for piece in pieces(latex))
+    made = [latex2mathml.converter.convert(piece) for piece in pieces(latex)]
+    made = [text if n == 0 else LEADING.sub(r'\1<mo\2 form="infix">', text) for n, text in enumerate(made)]
     return Markup(" ").join(Markup(FUNCTION.sub(r'<mi>\1</mi><mspace width="0.17em"/>', text)) for text in made)
 
 

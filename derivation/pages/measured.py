@@ -1,18 +1,20 @@
-"""What has to be measured or drawn: solved strips. Run with the installed solver, which must be the one that is audited.
+"""What has to be measured or drawn: solved strips and levels, by the installed solver, which must be the one that is audited.
 
 The figures may differ in their last digits between processors, so they are stored and not compared.
 """
 
 from __future__ import annotations
 
+import platform
 from importlib.metadata import version
 from typing import Any
 
 import numpy as np
 
 from .pictures import SCENES, picture, solved
+from .two_levels import two_levels
 
-TOOLS = ("matplotlib", "numpy", "scipy")
+TOOLS = ("matplotlib", "mpmath", "numpy", "scipy")
 RATIOS = (1.1, 1.5, 2.0, 10.0, 100.0)  # T_eps/T_sigma
 NODES = 60  # Gauss points in each zone
 
@@ -23,9 +25,9 @@ def measured() -> dict[str, Any]:
     for scene in SCENES:
         pictures.setdefault(scene["of"], []).append(picture(scene))
     return {
-        "versions": {tool: version(tool) for tool in TOOLS},
+        "versions": {"python": platform.python_version(), **{tool: version(tool) for tool in TOOLS}},
         "pictures": pictures,
-        "tables": {"balance": _balance(), "branches": _branches()},
+        "tables": {"balance": _balance(), "branches": _branches(), "two_levels": two_levels()},
     }
 
 
@@ -47,6 +49,9 @@ def _balance() -> dict[str, Any]:
         "with other relaxation times. Under constitutive what is left is the energy that a detachment costs; under continuous it "
         "has no physical meaning. Last column: how far it is from the derived X, over the friction; the loss is integrated "
         "numerically.",
+        "shown": "Friction less the dashpot's loss, over the loss, with w continuous: "
+        + ", ".join(f"{row[5]} at T_eps/T_sigma = {row[0]}" for row in rows if row[1] == "continuous")
+        + ".",
         "head": ["T_eps/T_sigma", "closure", "friction", "loss", "left", "left/loss", "left against X"],
         "rows": rows,
     }
@@ -95,6 +100,7 @@ def _branches() -> dict[str, Any]:
     return {
         "caption": "The middle strip of the paper's Fig. 3 (l = 500 nm, h = 100 nm, gamma = 2.5e-5 N/m) at V = 0.1 mm/s, "
         "where its curve is multivalued. Pressures in Pa.",
+        "shown": f"One strip at D_j = {rows[1][0]} nm: mean friction {rows[1][3]} Pa on unloading, {rows[1][6]} Pa on loading.",
         "head": ["D_j, nm", "unloading", "p", "tau", "loading", "p", "tau"],
         "rows": rows,
     }

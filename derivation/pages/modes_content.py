@@ -6,7 +6,7 @@ from typing import Any
 
 import sympy as sp
 
-from ..check import CORRECTED, REPRODUCED, Derived
+from ..check import CORRECTED, Derived
 from ..modes.derive import ModesDerivation
 from ..modes.regimes import ModeRegime
 from ..regime import CONTACT
@@ -30,35 +30,30 @@ def modes_content(derivation: ModesDerivation, files: dict[str, str], certificat
     """Everything on a model's page but what is measured."""
     module = f"{derivation.model.name}.py"
     computed = sources.generated(module, files[module])
+    helpers = sources.generated("stable.py", files["stable.py"])
+    functions = {step.function for step in derivation.steps}
     wrong = _misprints(derivation.steps)
     return {
         "model": derivation.model.name,
         "title": derivation.model.title,
         "paper": paper.TITLE,
         "identity": content.identity(files),
+        "fields": [],
         "parameters": [list(row) for row in FIELDS],
         "material": [[p.name, p.unit, p.meaning] for p in derivation.model.parameters],
-        "equations": _equations(derivation.steps, wrong),
+        "equations": paper.equations(derivation.steps, wrong),
         "misprints": wrong,
         "stages": content.stages(derivation.steps, computed),
         "regimes": [_regime(regime, computed, derivation.closures.value) for regime in derivation.regimes],
         "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
-        "sources": {name: content.text(sources.deriving(name)) for name in sorted({s.function for s in derivation.steps})},
-        "generated": {name: content.text(source) for name, source in computed.items()},
+        "method": [list(row) for row in content.METHOD],
+        "sources": {
+            name: content.text(sources.deriving(name)) for name in sorted({*functions, *(name for name, _ in content.METHOD)})
+        },
+        "generated": {name: content.text(source) for name, source in (computed | helpers).items()},
+        "helpers": content.helpers_table(helpers),
+        "measured": "measured.json",
     }
-
-
-def _equations(steps: tuple[Derived, ...], misprints: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    wrong = {number for row in misprints for number in row["equations"]}
-    present = {step.name for step in steps}
-    rows = []
-    for number, subject in paper.SUBJECTS.items():
-        cited = [step.name for step in steps if number in paper.numbers(step.paper)]
-        note, names = paper.ELSEWHERE.get(number, ("", ()))
-        status = CORRECTED if number in wrong else REPRODUCED if cited else "no step of its own"
-        linked = [*cited, *(name for name in names if name in present and name not in cited)]
-        rows.append({"number": number, "subject": subject, "status": status, "note": note, "steps": linked})
-    return rows
 
 
 def _misprints(steps: tuple[Derived, ...]) -> list[dict[str, Any]]:

@@ -8,6 +8,7 @@ from typing import Any
 import sympy as sp
 
 from ..check import CORRECTED, REPRODUCED, Derived
+from ..surface import HEIGHT
 from ..symbols import D_level, K, T_eps, T_sigma, V, h, k, l, p_nominal, x, y
 
 TITLE = (
@@ -21,31 +22,26 @@ SUBJECTS = {
     4: "shape of a level",
     5: "law in the moving frame",
     6: "displacement in contact",
-    7: "setting of the strip's problem",
+    7: "by its place: conditions in contact and out of it",
     8: "amplitude and penetration of a strip",
-    9: "setting of the strip's problem",
+    9: "by its place: conditions of the problem of a strip",
     10: "means over a strip",
     11: "means over a level",
-    12: "friction law of the level below",
-    13: "means of a level that carries another",
+    12: "shear of a level that carries another",
+    13: "mean of that shear",
     14: "friction coefficient",
     15: "pressure of complete contact",
     16: "friction coefficient in complete contact on all levels",
 }
-STRIP_PROBLEM = (
-    "No step carries this number. What is asked of a strip, zone by zone and edge by edge, is stated and verified in the steps "
-    "named here; every regime lists its own conditions."
+MAIN = {10: "means_acaf", 11: "means over a level", 15: "saturated_pressure"}  # where it is not the first step with the number
+UNREAD = (
+    "Not compared: the printed text of this equation was not at hand. It stands between {before} and {after}; what has to be "
+    "said there for the problem to be complete is stated, verified and computed in the steps named here."
 )
-UPWARDS = (
-    "Not a formula to emit but a recursion over solved levels: runtime/multilevel.py and runtime/level/carried.py carry it out. "
-    "What of it can be had in closed form, complete contact on all levels, is the step named here."
-)
+ON_THE_PAPERS_PAGE = "The same for every foundation: derived on the page of the standard linear solid, the paper's own."
 ELSEWHERE = {
-    7: (STRIP_PROBLEM, ("strip profile", "adhesion law", "regime acaf")),
-    9: (STRIP_PROBLEM, ("strip profile", "dimensionless groups", "regime acaf")),
-    12: (UPWARDS, ("saturated_stack_friction",)),
-    13: (UPWARDS, ("saturated_stack_friction",)),
-    14: (UPWARDS, ("saturated_stack_friction",)),
+    7: (UNREAD.format(before="Eq. 6 (displacement in contact)", after="Eq. 8 (strips)"), ("zone conditions", "adhesion law")),
+    9: (UNREAD.format(before="Eq. 8 (strips)", after="Eq. 10 (their means)"), ("strip problem", "regime acaf")),
 }
 
 
@@ -57,67 +53,45 @@ def numbers(paper: str) -> list[int]:
     return found
 
 
-def equations(steps: tuple[Derived, ...]) -> list[dict[str, Any]]:
-    """The contents by equation number."""
-    wrong = {number for row in misprints(steps) for number in row["equations"]}
+def equations(steps: tuple[Derived, ...], misprinted: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The contents by equation number; the first of a row's steps is the one that states the equation."""
+    wrong = {number for row in misprinted for number in row["equations"]}
+    known = [step.name for step in steps]
     rows = []
     for number, subject in SUBJECTS.items():
-        cited = [step for step in steps if number in numbers(step.paper)]
         note, names = ELSEWHERE.get(number, ("", ()))
-        status = CORRECTED if number in wrong else REPRODUCED if cited else "no step of its own"
-        rows.append(
-            {"number": number, "subject": subject, "status": status, "note": note, "steps": [*(s.name for s in cited), *names]}
-        )
+        cited = [step.name for step in steps if number in numbers(step.paper)]
+        status = "not compared" if note else CORRECTED if number in wrong else REPRODUCED if cited else "no step of its own"
+        first = [MAIN[number]] if number in MAIN else []
+        listed = list(dict.fromkeys(name for name in (*first, *cited, *names) if name in known))
+        note = note if listed else ON_THE_PAPERS_PAGE
+        rows.append({"number": number, "subject": subject, "status": status, "note": note, "steps": listed})
     return rows
 
 
 def misprints(steps: tuple[Derived, ...]) -> list[dict[str, Any]]:
-    """Misprints and silences. ``measured`` names a table of the measured figures."""
+    """Misprints and silences, with what follows from each in numbers. ``measured`` names a table of the measured figures."""
     by_name = {step.name: step for step in steps}
     return [
         _sign_of_equation_6(by_name["strip profile"]),
         _stiffness(by_name["relaxed stiffness"]),
-        {
-            "equations": [],
-            "what": "What w does where p steps",
-            "printed": "Nothing is said of the edges d and -c, where the traction begins and ends.",
-            "here": by_name["closures"].statement,
-            "latex": by_name["closures"].latex,
-            "why": by_name["jump law"].statement + " Keeping w continuous instead leaves the instantaneous response to the step "
-            "out; the energy balance then holds only with the correction X of the friction balance.",
-            "steps": ["jump law", "internal state", "closures", "power balance", "friction balance acaf"],
-            "table": None,
-            "measured": "balance",
-        },
-        {
-            "equations": [],
-            "what": "Which solution is \"stable at unloading\"",
-            "printed": "Several solutions can exist at one penetration; the text takes the one that is \"stable at unloading\" "
-            "and does not define it.",
-            "here": "The most engaged periodic orbit, the limit from an arbitrarily deeply pressed contact. Its counterpart, the "
-            "least engaged orbit, is the limit from a free surface far below. Both can be asked for.",
-            "latex": "",
-            "why": "The map of a material point's state over one period preserves order, so both exist, and every other periodic "
-            "orbit lies between them. An orbit is stable where the slope of the onset-to-onset map is below 1.",
-            "steps": ["shift of an event", "onset_slope_acaf", "onset_slope_af"],
-            "table": None,
-            "measured": "branches",
-        },
+        _closure(by_name["closures"], by_name["jump law"]),
+        _unloading(),
         _equation_16(by_name["Eq. 16 as printed"]),
-    ]  # fmt: skip
+    ]
 
 
 def _sign_of_equation_6(step: Derived) -> dict[str, Any]:
-    f = h - h / 4 * (sp.cos(k * x) + 1) * (sp.cos(k * y) + 1)
     crest, valley = {x: 0, y: 0}, {x: sp.pi / k, y: 0}
     rows = []
-    for form, w in (("w = f + D, as printed", f + D_level), ("w = D - f", D_level - f)):
+    for form, w in (("w = f + D, as printed", HEIGHT + D_level), ("w = D - f", D_level - HEIGHT)):
         rows.append([form, *(f"${sp.latex(sp.expand(sp.simplify(w.subs(place))))}$" for place in (crest, valley))])
     return {
         "equations": [6],
         "what": "Sign in Eq. 6",
         "printed": "w = f + D",
         "here": "w = D - f",
+        "shown": f"As printed the foundation is deepest under the valley, {rows[0][2]}; it is under the crest, {rows[1][1]}.",
         "latex": step.latex,
         "why": step.correction,
         "steps": [step.name],
@@ -128,27 +102,61 @@ def _sign_of_equation_6(step: Derived) -> dict[str, Any]:
 
 def _stiffness(step: Derived) -> dict[str, Any]:
     stiffness, pressure = sp.Integer(10) ** 9, sp.Integer(100)
+    right, wrong = _figure(pressure / stiffness), _figure(pressure * stiffness)
     return {
         "equations": [1],
-        "what": "K called an elastic compliance",
+        "what": "K called a compliance",
         "printed": "K is introduced as the elastic compliance of the foundation.",
         "here": step.statement,
+        "shown": f"Under 100 Pa a foundation with K = 1e9 yields {right} m, not {wrong} m.",
         "latex": step.latex,
         "why": "At rest Eq. 1 reads p = K w: K is a stiffness per area, in Pa/m, and the compliance is 1/K.",
         "steps": [step.name, "instantaneous compliance"],
         "table": {
             "head": ["K = 1e9 read as", "displacement under 100 Pa"],
-            "rows": [
-                ["stiffness, Pa/m", f"{_figure(pressure / stiffness)} m"],
-                ["compliance, m/Pa", f"{_figure(pressure * stiffness)} m"],
-            ],
+            "rows": [["stiffness, Pa/m", f"{right} m"], ["compliance, m/Pa", f"{wrong} m"]],
         },
         "measured": "",
     }
 
 
+def _closure(step: Derived, law: Derived) -> dict[str, Any]:
+    return {
+        "equations": [],
+        "what": "What w does where p steps",
+        "printed": "Nothing is said of the edges d and -c, where the traction begins and ends.",
+        "here": step.statement,
+        "shown": "",
+        "latex": step.latex,
+        "why": law.statement + " Keeping w continuous instead leaves the instantaneous response to the step out; the energy "
+        "balance then holds only with the correction X of the friction balance.",
+        "steps": [law.name, "internal state", step.name, "power balance", "friction balance acaf"],
+        "table": None,
+        "measured": "balance",
+    }
+
+
+def _unloading() -> dict[str, Any]:
+    return {
+        "equations": [],
+        "what": 'Which solution is "stable at unloading"',
+        "printed": 'Several solutions can exist at one penetration; the text takes the one that is "stable at unloading" and '
+        "does not define it.",
+        "here": "The most engaged periodic orbit, the limit from an arbitrarily deeply pressed contact. Its counterpart, the "
+        "least engaged orbit, is the limit from a free surface far below. Both can be asked for.",
+        "shown": "",
+        "latex": "",
+        "why": "The map of a material point's state over one period preserves order, so both exist, and every other periodic "
+        "orbit lies between them. An orbit is stable where the slope of the onset-to-onset map is below 1.",
+        "steps": ["shift of an event", "onset_slope_acaf", "onset_slope_af"],
+        "table": None,
+        "measured": "branches",
+    }
+
+
 FIGURE_7 = {"K": "1e9", "T_eps": "1/100", "T_sigma": "1/10000", "p_1": "5e6"}
 FIGURE_7_LEVELS = (("1/100000", "1/1000000"), ("5/10000000", "1/10000000"), ("5/1000000000", "5/1000000000"))
+MICRO = 10**6  # the same lengths in micrometres: the pressures and times stay in Pa and s
 
 
 def _equation_16(step: Derived) -> dict[str, Any]:
@@ -159,24 +167,29 @@ def _equation_16(step: Derived) -> dict[str, Any]:
     for number, (length, height) in enumerate(FIGURE_7_LEVELS, 1):
         scene = {**given, l: sp.Rational(length), h: sp.Rational(height)}
         scene[V] = scene[l] / (2 * sp.pi * scene[T_sigma])
-        terms = [form.subs(scene) for form in (true, printed)]
-        rows.append([str(number), *map(_figure, (scene[l], scene[h], scene[V], *terms, terms[1] / terms[0]))])
+        other = {**scene, K: scene[K] / MICRO, **{symbol: scene[symbol] * MICRO for symbol in (l, h, V)}}
+        terms = (true.subs(scene), true.subs(other), printed.subs(scene), printed.subs(other))
+        rows.append([str(number), *map(_figure, (scene[l], scene[h], scene[V], *terms, terms[2] / terms[0]))])
     return {
         "equations": [16],
         "what": "Eq. 16: power of h, factor, dimensions, upper limit",
         "printed": "Factor pi^2, h_i to the first power, and a sum up to N.",
         "here": "Factor 3 pi^2/16, h_i squared, and a sum up to M: M counts the levels, N the strips of one level.",
+        "shown": f"Fig. 7: the levels' own peaks are {', '.join(row[4] for row in rows)}; as printed, with lengths in m, "
+        f"{', '.join(row[6] for row in rows)}.",
         "latex": step.latex,
         "why": step.correction,
-        "steps": ["saturated_stack_friction", step.name],
+        "steps": ["saturated_stack_friction", step.name, "levels in complete contact together",
+                  "least pressure in complete contact"],
         "table": {
             "caption": "Fig. 7, nominal pressure 5 MPa: each level's friction coefficient at its own peak. As printed, the third "
-            "level would be the highest; the paper's text says that the first is.",
-            "head": ["level", "l, m", "h, m", "V at the peak, m/s", "mu", "mu as printed (lengths in m)", "printed/true"],
+            "level would be the highest, where the paper's text says that the first is, and the number depends on the unit.",
+            "head": ["level", "l, m", "h, m", "V at the peak, m/s", "mu, lengths in m", "in µm", "mu as printed, lengths in m",
+                     "in µm", "printed/true, in m"],
             "rows": rows,
         },
         "measured": "",
-    }
+    }  # fmt: skip
 
 
 def _figure(value: sp.Expr, digits: int = 4) -> str:

@@ -71,7 +71,7 @@ def picture(scene: dict[str, Any]) -> dict[str, Any]:
             if np.isfinite(place):
                 for axes in (upper, lower):
                     axes.axvline(place, color="#777777", lw=0.7, ls=":")
-                label = f"-{name}" if name in "ac" else name
+                label = f"-{name}" if name in "ac" else "b = d" if str(strip.regime) == "afc" else name
                 upper.text(
                     place,
                     0.03 + 0.1 * (n // 2),
@@ -92,6 +92,7 @@ def picture(scene: dict[str, Any]) -> dict[str, Any]:
         lower.set_ylabel("pressure / (K A)")
         lower.set_xlabel("x / l")
         lower.set_xlim(-0.75, 0.75)
+        figure.suptitle(_parameters(scene).replace(", l =", ",\nl ="), fontsize=7.5, color="#454c54")
         stream = io.StringIO()
         figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     return {"caption": _caption(scene, strip), "svg": stream.getvalue(), "width": int(SIZE[0] * 96), "height": int(SIZE[1] * 96)}
@@ -112,7 +113,7 @@ def _shade(axes: Any, regime: str, at: dict[str, float]) -> None:
     """Contact and adhesion zones, in every period that is seen."""
     spans = {
         "acaf": [("b", "d", ADHESION), ("-a", "b", CONTACT), ("-c", "-a", ADHESION)],
-        "afc": [("-a", "d", CONTACT), ("-c", "-a", ADHESION)],
+        "afc": [("-a", "b", CONTACT), ("-c", "-a", ADHESION)],  # the snap at d is where contact begins: b = d
         "af": [("-c", "d", ADHESION)],
         "ac": [("-a", "b", CONTACT), ("b", "-a+1", ADHESION)],
         "cf": [("-a", "b", CONTACT)],
@@ -129,10 +130,13 @@ def _shade(axes: Any, regime: str, at: dict[str, float]) -> None:
                 axes.axvspan(max(low + shift, -0.75), min(high + shift, 0.75), color=color, lw=0)
 
 
+def _parameters(scene: dict[str, Any]) -> str:
+    return ", ".join(f"{name} = {scene[name]:g} {unit}" for name, unit in UNITS.items())
+
+
 def _caption(scene: dict[str, Any], strip: Any) -> str:
-    told = ", ".join(f"{name} = {scene[name]:g} {unit}" for name, unit in UNITS.items())
     zones = "Orange: contact; blue: adhesion. " if str(strip.regime) != "f" else ""
     return (
-        f"{strip.regime_name} ({strip.regime}), {scene['edge']}, {scene['branch']}. {zones}{told}. "
+        f"{strip.regime_name} ({strip.regime}), {scene['edge']}, {scene['branch']}. {zones}{_parameters(scene)}. "
         f"Mean pressure {float(strip.p_mean):.4g} Pa, mean friction {float(strip.tau_mean):.4g} Pa."
     )

@@ -18,14 +18,14 @@ class Source:
 
 
 def deriving(function: str) -> Source:
-    """Source of a deriving function, given as ``module.name``."""
+    """Source of a deriving function, given as ``module.name``, where a module in a folder has a dot in its name."""
     module, _, name = function.rpartition(".")
     lines, first = inspect.getsourcelines(getattr(importlib.import_module(f"{PACKAGE}.{module}"), name))
     return Source(f"derivation/{module.replace('.', '/')}.py", first, "".join(lines).rstrip())
 
 
 def title(module: str) -> str:
-    """First line of a stage's docstring."""
+    """First line of a module's docstring."""
     return (
         (importlib.import_module(f"{PACKAGE}.{module}").__doc__ or module).strip().splitlines()[0].rstrip(".").replace("``", "")
     )

@@ -8,7 +8,7 @@ import typer
 def command() -> None:
     """Compare the generated solver with a fresh one.
 
-    Byte by byte; exits with 1 if they differ. Needs the extra `regenerate`.
+    Byte by byte; exits with 1 if they differ, or if a step does not verify, and names it. Needs the extra `regenerate`.
     """
     from hystrip.commands.derivation import needed
     from hystrip.commands.progress import progress
@@ -16,8 +16,12 @@ def command() -> None:
     needed("checking the generated files")
     import hystrip.derivation
 
-    with progress("deriving") as report:
-        drift = list(hystrip.derivation.check(progress=report))
+    try:
+        with progress("deriving") as report:
+            drift = list(hystrip.derivation.check(progress=report))
+    except hystrip.derivation.DerivationError as problem:
+        typer.echo(f"hystrip: {problem}", err=True)
+        raise typer.Exit(1) from None
     for record in drift:
         typer.echo(str(record))
     if drift:

@@ -1,0 +1,135 @@
+"""What is asked of a strip: the conditions in its zones and at its edges, once more in the paper's variables x and SI.
+
+The regimes are derived in the phase ``s = -k x`` and without dimensions. Here the strip's problem is stated as the paper
+states it, Eq. 5 is solved in x with the conditions at d, b, -a and -c, and the same boundary equations have to come out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import sympy as sp
+
+from .check import REPRODUCED, Derived, derived, holds, zero
+from .regime import Regime
+from .strip import TIMES, Strip
+from .surface import AMPLITUDE, HEIGHT, PENETRATION
+from .symbols import A, D, D_j, D_level, K, a, b, c, chi, d, delta_0, k, p_0, s, x
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """The strip's problem in x; the second step only for a foundation with one relaxation time, as in Eq. 5."""
+
+    zones: Derived
+    problem: Derived | None
+
+
+def conditions(strip: Strip, discrete: Regime) -> Conditions:
+    """``discrete``: the regime with every kind of edge, partial contact with discrete adhesion zones."""
+    problem = strip_problem(strip, discrete) if strip.foundation.model.modes == 1 else None
+    return Conditions(zone_conditions(strip), problem)
+
+
+def zone_conditions(strip: Strip) -> Derived:
+    r"""Between Eq. 6 and 8, with the gap :math:`g = w - (D - f)`:
+
+    .. math:: g = 0,\ p \ge -p_0; \qquad 0 < g \le \delta_0,\ p = -p_0; \qquad g > \delta_0,\ p = 0
+    """
+    name = "zone conditions"
+    displacement = sp.Function("w")(s)  # in units of A
+    gap = AMPLITUDE * displacement - (D_level - HEIGHT)
+    in_strip = AMPLITUDE * (displacement - strip.u.subs({D: PENETRATION / AMPLITUDE, s: -k * x}))
+    checks = [
+        zero(name, "in the strip at y the gap is A (w - u)", sp.simplify(gap - in_strip)),
+        zero(name, "it is zero where Eq. 6 holds, w = D - f", gap.subs(displacement, (D_level - HEIGHT) / AMPLITUDE)),
+    ]
+    return derived(
+        zone_conditions,
+        gap,
+        name=name,
+        statement="Every point of a strip is in contact, where w is given and the pressure must not fall below -p_0, or out of "
+        "it, where the pressure is given by the gap and the gap must stay in its range.",
+        latex=r"g = w - (D - f):\quad g = 0,\ p \ge -p_0 \quad 0 < g \le \delta_0,\ p = -p_0 \quad g > \delta_0,\ p = 0",
+        checks=checks,
+        status=REPRODUCED,
+    )
+
+
+def strip_problem(strip: Strip, discrete: Regime) -> Derived:
+    r"""Between Eq. 8 and 10, Eq. 5 with the conditions of a strip:
+
+    .. math:: g(d) = \delta_0,\quad g(b) = 0,\ p(b) = -p_0,\quad p(-a) = -p_0,\quad g(-c) = \delta_0,\quad w(x + l) = w(x)
+    """
+    name = "strip problem"
+    profile = D_j - A * (1 - sp.cos(k * x))
+    onset, begins, ends, leaves = sp.symbols("x_d x_b x_a x_c", real=True)  # where d, b, -a, -c stand
+    step = chi * strip.foundation.J_0 * p_0  # of w where the traction begins; it steps back where the traction ends
+
+    def gap_at(place: sp.Expr, since: sp.Symbol, gap: sp.Expr, load: sp.Expr) -> sp.Expr:
+        """Gap at ``place`` after a zone at the pressure ``load`` that was entered at ``since`` with ``gap``."""
+        w = _solved(name, lambda unknown: _equation_5(strip, unknown, load), since, profile.subs(x, since) + gap)
+        return (w - profile).subs(x, place)
+
+    pressure = _solved(name, lambda unknown: _equation_5(strip, profile, unknown), begins, -p_0)
+    asked = (
+        gap_at(begins, onset, delta_0 - step, -p_0),
+        pressure.subs(x, ends) + p_0,
+        gap_at(leaves, ends, sp.Integer(0), -p_0) - delta_0,
+        gap_at(onset - 2 * sp.pi / k, leaves, delta_0 + step, sp.Integer(0)) - delta_0,
+    )
+    places = {onset: -d / k, begins: -b / k, ends: -a / k, leaves: -c / k}
+    unit = (A, K * A, A, A)  # of a gap, of a pressure
+    residuals = [
+        _dimensionless(condition, places) / size - zone.misses()
+        for condition, size, zone in zip(asked, unit, discrete.zones, strict=True)
+    ]
+    checks = [
+        zero(
+            name,
+            "Eq. 5 solved in x and SI with these conditions gives the boundary equations of the regime acaf",
+            residuals,
+            phases=discrete.edges,
+        ),
+        holds(name, "d > b > -a > -c in x is d < b < a < c in s", _falling(places)),
+    ]
+    return derived(
+        strip_problem,
+        asked,
+        name=name,
+        statement="The steady law in each zone and the conditions at its edges determine a, b, c and d. The pressure is "
+        "continuous at b and -a and steps by p_0 at d and -c, where w is continuous or steps too.",
+        latex=r"g(d) = \delta_0,\quad g(b) = 0,\quad p(b) = -p_0,\quad p(-a) = -p_0,\quad g(-c) = \delta_0,\quad "
+        r"[w]_d = -\chi J_0 p_0,\quad [w]_{-c} = \chi J_0 p_0,\quad w(x + l) = w(x)",
+        checks=checks,
+        status=REPRODUCED,
+        emitted=("residual_acaf",),
+    )
+
+
+def _equation_5(strip: Strip, w: sp.Expr, p: sp.Expr) -> sp.Expr:
+    """Eq. 5, left minus right side, for fields of x."""
+    equation = strip.moving_frame.value
+    fields = {sp.Function("w")(x): w, sp.Function("p")(x): p}
+    return (equation.lhs - equation.rhs).subs(fields).doit()
+
+
+def _solved(name: str, law: Callable[[sp.Expr], sp.Expr], since: sp.Symbol, value: sp.Expr) -> sp.Expr:
+    """The solution of the law that has the ``value`` at ``since``."""
+    unknown = sp.Function("f")(x)
+    general = sp.dsolve(sp.Eq(sp.expand(law(unknown)), 0), unknown).rhs
+    (constant,) = general.free_symbols - law(unknown).free_symbols
+    (found,) = sp.solve(general.subs(x, since) - value, constant)
+    solution = general.subs(constant, found)
+    zero(name, "the law holds", sp.simplify(law(solution)))
+    return solution
+
+
+def _dimensionless(condition: sp.Expr, places: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
+    groups = {p_0: K * A * p_0, delta_0: A * delta_0, D_j: A * D}
+    return sp.expand(condition.subs(groups, simultaneous=True).subs(TIMES).subs(places))
+
+
+def _falling(places: dict[sp.Symbol, sp.Expr]) -> bool:
+    return all(sp.diff(place, edge) == -1 / k for place, edge in zip(places.values(), (d, b, a, c), strict=True))

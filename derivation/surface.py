@@ -1,0 +1,19 @@
+"""The surface of one level (Eq. 4) and what a strip at y sees of it (Eq. 8). SI."""
+
+import sympy as sp
+
+from .symbols import D_level, h, k, x, y
+
+HEIGHT = h - h / 4 * (sp.cos(k * x) + 1) * (sp.cos(k * y) + 1)
+"""Eq. 4: f(x, y), how far the rigid surface stands back from its crest."""
+
+AMPLITUDE = h / 4 * (1 + sp.cos(k * y))
+"""Eq. 8: A(y)."""
+
+PENETRATION = D_level - h / 2 * (1 - sp.cos(k * y))
+"""Eq. 8: D_j(y), the strip's own penetration."""
+
+
+def mean_over_wave(quantity: sp.Expr, along: sp.Symbol) -> sp.Expr:
+    """Mean over one wavelength along x or y."""
+    return sp.integrate(sp.expand(quantity), (along, 0, 2 * sp.pi / k)) * k / (2 * sp.pi)
