@@ -23,7 +23,9 @@ def known(relaxed, moduli, times, omega=OMEGA):
 
 def written(path, data, head="f, E_stor, E_loss\nHz, MPa, MPa", scale=1e6):
     table = np.column_stack((data.omega / (2 * np.pi), data.storage / scale, data.loss / scale))
-    path.write_text(head + "\n" + "\n".join(",".join(map(repr, row)) for row in table.tolist()) + "\n", encoding="utf-8")
+    path.write_text(
+        head + "\n" + "\n".join(",".join(map(repr, row)) for row in table.tolist()) + "\n", encoding="utf-8"
+    )
     return path
 
 
@@ -37,7 +39,11 @@ def test_spectrum_on_the_grid_is_recovered():
 
 def test_times_that_are_not_there_are_dropped():
     series = fit_prony(known(7e5, MODULI[1::2], TIMES[1::2]))
-    assert series.offered == 7 and np.allclose(series.times, TIMES[1::2]) and np.allclose(series.moduli, MODULI[1::2], rtol=1e-10)
+    assert (
+        series.offered == 7
+        and np.allclose(series.times, TIMES[1::2])
+        and np.allclose(series.moduli, MODULI[1::2], rtol=1e-10)
+    )
 
 
 @pytest.mark.parametrize("terms", [1, 2, 3, 4])
@@ -51,7 +57,9 @@ def test_times_are_placed_where_they_were(terms):
 
 def test_noise_moves_the_modulus_by_less_than_itself():
     rng, exact = np.random.default_rng(7), known(7e5, MODULI, TIMES)
-    noisy = DynamicModulus(OMEGA, exact.storage * (1 + 0.03 * rng.standard_normal(61)), exact.loss * (1 + 0.03 * rng.standard_normal(61)))
+    noisy = DynamicModulus(
+        OMEGA, exact.storage * (1 + 0.03 * rng.standard_normal(61)), exact.loss * (1 + 0.03 * rng.standard_normal(61))
+    )
     series = fit_prony(noisy)
     assert 0.01 < series.rms_storage < 0.03 and 0.01 < series.rms_loss < 0.03
     off = series.modulus(OMEGA) / (exact.storage + 1j * exact.loss) - 1
@@ -61,7 +69,9 @@ def test_noise_moves_the_modulus_by_less_than_itself():
 def test_no_other_series_on_the_same_times_fits_better():
     """The optimum of the stated objective: moving any modulus, up or down, makes the sum of squares larger."""
     rng, exact = np.random.default_rng(3), known(7e5, MODULI, 3 * TIMES)
-    data = DynamicModulus(OMEGA, exact.storage * (1 + 0.1 * rng.standard_normal(61)), exact.loss * (1 + 0.1 * rng.standard_normal(61)))
+    data = DynamicModulus(
+        OMEGA, exact.storage * (1 + 0.1 * rng.standard_normal(61)), exact.loss * (1 + 0.1 * rng.standard_normal(61))
+    )
     series = fit_prony(data)
 
     def misfit(relaxed, moduli):
@@ -96,14 +106,23 @@ def test_layout_units_and_order(tmp_path):
     first = read_dma(written(tmp_path / "a.csv", data))
     assert np.allclose(first.omega, data.omega, rtol=1e-14) and np.allclose(first.storage, data.storage, rtol=1e-14)
     again = tmp_path / "b.csv"
-    again.write_text("\ufeffG_loss,note,omega,G_stor\nkPa,,rad/s,GPa\n3,x,2,1e-6\n\n,y,5,1\n4,z,1,2e-6\n", encoding="utf-8")
+    again.write_text(
+        "\ufeffG_loss,note,omega,G_stor\nkPa,,rad/s,GPa\n3,x,2,1e-6\n\n,y,5,1\n4,z,1,2e-6\n", encoding="utf-8"
+    )
     found = read_dma(again)
-    assert found.kind == "G" and found.omega.tolist() == [1, 2] and found.storage.tolist() == [2e3, 1e3] and found.loss.tolist() == [4e3, 3e3]
+    assert (
+        found.kind == "G"
+        and found.omega.tolist() == [1, 2]
+        and found.storage.tolist() == [2e3, 1e3]
+        and found.loss.tolist() == [4e3, 3e3]
+    )
 
 
 def test_one_temperature_of_raw_data(tmp_path):
     path = tmp_path / "raw.csv"
-    path.write_text("f,E_stor,E_loss,T,Set\nHz,MPa,MPa,C,-\n1,1,.1,20,0\n2,2,.2,20,0\n1,3,.3,30,1\n2,4,.4,30,1\n", encoding="utf-8")
+    path.write_text(
+        "f,E_stor,E_loss,T,Set\nHz,MPa,MPa,C,-\n1,1,.1,20,0\n2,2,.2,20,0\n1,3,.3,30,1\n2,4,.4,30,1\n", encoding="utf-8"
+    )
     assert read_dma(path, "1").storage.tolist() == [3e6, 4e6]
     with pytest.raises(hystrip.InputError, match="Set: got .*master curve"):
         read_dma(path)

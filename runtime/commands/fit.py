@@ -8,43 +8,52 @@ import typer
 
 
 def command(
-    data: Path = typer.Argument(help="CSV of frequency, storage and loss modulus: a row of names (f, E_stor, E_loss), a row of units."),
+    data: Path = typer.Argument(
+        help="CSV of frequency, storage and loss modulus: a row of names (f, E_stor, E_loss), a row of units."
+    ),
     length: str = typer.Option(
-        None, "--length", help='Modulus over this is the stiffness per area, such as "2 mm", a layer\'s thickness; writes a scene.'
+        None,
+        "--length",
+        help='Modulus over this is the stiffness per area, such as "2 mm", a layer\'s thickness; writes a scene.',
     ),
     terms: int = typer.Option(None, "--terms", help="So many relaxation times, placed where they fit best."),
     per_decade: float = typer.Option(None, "--per-decade", help="Or so many in each decade of the data [1]."),
     low: float = typer.Option(None, "--low", help="Lowest frequency to fit [Hz]."),
     high: float = typer.Option(None, "--high", help="Highest frequency to fit [Hz]."),
-    temperature_set: str = typer.Option(None, "--set", help="Of raw data at several temperatures, the rows of this set."),
-    scene: str = typer.Option("starter", "--scene", help="The scene whose material is replaced [that of `hystrip init`]."),
+    temperature_set: str = typer.Option(
+        None, "--set", help="Of raw data at several temperatures, the rows of this set."
+    ),
+    scene: str = typer.Option(
+        "starter", "--scene", help="The scene whose material is replaced [that of `hystrip init`]."
+    ),
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
     plot: bool = typer.Option(True, help="Draw the fit (PNG)."),
 ) -> None:
     """Fit a Prony series to storage and loss modulus, and say how well it fits.
 
-    Writes measured and fitted moduli as CSV, a picture, and with --length a scene that holds the material: SCENE with its own replaced.
+    Writes measured and fitted moduli as CSV, a picture, and with --length a scene that holds the material: SCENE with
+    its own replaced.
     """
+    from hystrip.commands.quantities import metres
     from hystrip.dma import fit_prony, read_dma
     from hystrip.dma.output import material_table, rows
     from hystrip.extras import require
     from hystrip.files import Outputs, refuse_unwritable
     from hystrip.scene.edit import with_material
     from hystrip.scene.load import located, scene_text
-    from hystrip.scene.quantity import to_si
     from hystrip.tables import write_csv
 
     if plot:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
-    metres = None if length is None else to_si(_number(length), "m", "--length")
+    over = metres(length, "--length")
     measured = read_dma(data, temperature_set)
     refuse_unwritable(out, "--out")
     measured = measured.between(low, high)
     series = fit_prony(measured, per_decade=per_decade, terms=terms)
     files = {f"{data.stem}.fit.csv": lambda path: write_csv(path, rows(series, measured))}
-    if metres is not None:
+    if over is not None:
         with located(scene):
-            text = with_material(scene_text(scene)[0], *material_table(series, metres, data.name))
+            text = with_material(scene_text(scene)[0], *material_table(series, over, data.name))
         files[f"{data.stem}.fitted.toml"] = lambda path: path.write_text(text, encoding="utf-8", newline="\n")
     if plot:
         from hystrip.plots import fitted_modulus, save
@@ -56,11 +65,3 @@ def command(
     typer.echo(series.report())
     for name in files:
         typer.echo(f"wrote {out / name}")
-
-
-def _number(text: str) -> float | str:
-    """On the command line a number in SI comes as text too."""
-    try:
-        return float(text)
-    except ValueError:
-        return text

@@ -1,4 +1,4 @@
-"""Measured relaxation: from the storage and loss modulus of a DMA run to a Prony series, and from that to the foundation."""
+"""Measured relaxation: from storage and loss modulus (DMA) to a Prony series, and from that to the foundation."""
 
 from hystrip.dma.fit import fit_prony
 from hystrip.dma.read import DynamicModulus, read_dma

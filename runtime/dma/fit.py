@@ -21,20 +21,22 @@ def fit_prony(
 ) -> PronySeries:
     """Fit ``relaxed + sum_j moduli_j i omega times_j/(1 + i omega times_j)`` to measured moduli.
 
-    Minimises the sum of the squared relative residuals of storage and loss modulus, each relative to its own measured value (a loss
-    of zero relative to the storage modulus), over non-negative moduli: ``scipy.optimize.nnls``. Times that get no modulus are dropped.
+    Minimises the sum of the squared relative residuals of storage and loss modulus, each relative to its own measured
+    value (a loss of zero relative to the storage modulus), over non-negative moduli: ``scipy.optimize.nnls``. Times
+    that get no modulus are dropped.
 
     Parameters
     ----------
     data : what was measured
-    per_decade : relaxation times per decade, > 0, evenly over the measured band from ``1/omega_max`` to ``1/omega_min``, both
-        included; 1 if neither this nor one of the next two is given
+    per_decade : relaxation times per decade, > 0, evenly over the measured band from ``1/omega_max`` to
+        ``1/omega_min``, both included; 1 if neither this nor one of the next two is given
     terms : in place of that, so many relaxation times, an integer from 1 to 8, placed where they fit best
     times : in place of that, the relaxation times themselves, s, > 0
 
     Raises
     ------
-    InputError : an argument out of range; more unknowns than numbers measured; or no relaxed modulus comes out: a foundation needs one
+    InputError : an argument out of range; more unknowns than numbers measured; or no relaxed modulus comes out: a
+        foundation needs one
 
     Examples
     --------
@@ -48,7 +50,9 @@ def fit_prony(
     """
     given = {"per_decade": per_decade, "terms": terms, "times": times}
     if sum(each is not None for each in given.values()) > 1:
-        raise InputError("per_decade, terms, times", {k: v for k, v in given.items() if v is not None}, "one of the three")
+        raise InputError(
+            "per_decade, terms, times", {k: v for k, v in given.items() if v is not None}, "one of the three"
+        )
     if terms is not None:
         if isinstance(terms, bool) or not isinstance(terms, (int, np.integer)) or not 1 <= terms <= 8:
             raise InputError("terms", terms, "an integer from 1 to 8")
@@ -66,7 +70,9 @@ def fit_prony(
 def _refuse_too_many(count: int, unknowns: int, data: DynamicModulus) -> None:
     if unknowns > 2 * data.omega.size:
         what = f"{count} relaxation times for {data.omega.size} frequencies"
-        raise InputError("relaxation times", what, "fewer unknowns than moduli measured: give a smaller per_decade, or terms")
+        raise InputError(
+            "relaxation times", what, "fewer unknowns than moduli measured: give a smaller per_decade, or terms"
+        )
     if count > _MOST_TIMES:
         raise InputError("relaxation times", count, f"at most {_MOST_TIMES}: give a smaller per_decade")
 
@@ -78,7 +84,7 @@ def _evenly(data: DynamicModulus, per_decade: float) -> np.ndarray:
 
 
 def _system(data: DynamicModulus, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Matrix and right-hand side of the relative residuals: storage rows, then loss rows; the relaxed modulus is the first unknown."""
+    """Matrix and goal of the relative residuals, storage rows above loss rows; the relaxed modulus comes first."""
     x = np.multiply.outer(data.omega, times)
     storage, loss = x**2 / (1 + x**2), x / (1 + x**2)
     one = np.ones((data.omega.size, 1))
@@ -110,7 +116,9 @@ def _placed(data: DynamicModulus, terms: int) -> np.ndarray:
     for start in _starts(data, terms, span):
         # within a decade of what was measured: beyond, a branch cannot be told from a constant
         bounds = span[0] - np.log(10), span[1] + np.log(10)
-        found = least_squares(lambda s: _solved(data, np.exp(s))[1], start, bounds=bounds, xtol=1e-14, ftol=1e-14, gtol=1e-14)
+        found = least_squares(
+            lambda s: _solved(data, np.exp(s))[1], start, bounds=bounds, xtol=1e-14, ftol=1e-14, gtol=1e-14
+        )
         if best is None or found.cost < best.cost:
             best = found
     return np.unique(np.exp(best.x))
@@ -136,8 +144,12 @@ def _series(data: DynamicModulus, times: np.ndarray) -> PronySeries:
     if not keep.any():
         raise InputError("dma", "no relaxation", "data whose loss modulus is not zero throughout")
     if moduli[0] <= _NOTHING * moduli.sum():
-        problem = f"no relaxed modulus between {data.omega[0] / (2 * np.pi):.4g} and {data.omega[-1] / (2 * np.pi):.4g} Hz"
-        raise InputError("dma", problem, "a solid: frequencies low enough for the storage modulus to level off, or fewer times")
+        problem = (
+            f"no relaxed modulus between {data.omega[0] / (2 * np.pi):.4g} and {data.omega[-1] / (2 * np.pi):.4g} Hz"
+        )
+        raise InputError(
+            "dma", problem, "a solid: frequencies low enough for the storage modulus to level off, or fewer times"
+        )
     n = data.omega.size
     f = data.omega / (2 * np.pi)
     worst = int(np.argmax(np.abs(residuals)))

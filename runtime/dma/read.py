@@ -54,13 +54,15 @@ class DynamicModulus:
             object.__setattr__(self, name, values[order])
 
     def between(self, low: float | None = None, high: float | None = None) -> DynamicModulus:
-        """The part with frequencies (Hz, not angular) from ``low`` to ``high``. Raises InputError if fewer than two remain."""
+        """The part from ``low`` to ``high``, in Hz, not angular. Raises InputError if fewer than two frequencies remain."""
         f = self.omega / (2 * np.pi)
         # a limit as written and a frequency that came through 2 pi and back differ by rounding
         keep = (f >= (low or 0) * (1 - 1e-12)) & (f <= (np.inf if high is None else high * (1 + 1e-12)))
         if keep.sum() < 2:
             span = f"{f[0]:.4g} to {f[-1]:.4g} Hz"
-            raise InputError("frequencies", (low, high), f"a range with two measured frequencies or more; measured: {span}")
+            raise InputError(
+                "frequencies", (low, high), f"a range with two measured frequencies or more; measured: {span}"
+            )
         return DynamicModulus(self.omega[keep], self.storage[keep], self.loss[keep], self.kind)
 
 
@@ -73,9 +75,9 @@ def read_dma(path: str | os.PathLike[str], temperature_set: str | None = None) -
         Hz, MPa, MPa
         0.01, 1.02, 0.11
 
-    Columns, in any order: ``f`` in Hz (or ``omega`` in rad/s); ``E_stor`` and ``E_loss`` (shear: ``G_stor``, ``G_loss``) in Pa, kPa,
-    MPa or GPa. Others are ignored, but for ``Set``: raw data at several temperatures have to be shifted to a master curve first.
-    Rows with an empty or undefined number are left out.
+    Columns, in any order: ``f`` in Hz (or ``omega`` in rad/s); ``E_stor`` and ``E_loss`` (shear: ``G_stor``,
+    ``G_loss``) in Pa, kPa, MPa or GPa. Others are ignored, but for ``Set``: raw data at several temperatures have to
+    be shifted to a master curve first. Rows with an empty or undefined number are left out.
 
     Parameters
     ----------
@@ -84,7 +86,8 @@ def read_dma(path: str | os.PathLike[str], temperature_set: str | None = None) -
 
     Raises
     ------
-    InputError : the file cannot be read, or a column, unit or number in it not be used; names file, place and what is allowed
+    InputError : the file cannot be read, or a column, unit or number in it not be used; names file, place and what is
+        allowed
     """
     where = os.fspath(path)
     rows = _rows(where)
@@ -109,7 +112,11 @@ def read_dma(path: str | os.PathLike[str], temperature_set: str | None = None) -
     if len(table) < 2:
         raise InputError(where, f"{len(table)} rows of numbers", "two or more")
     omega, storage, loss = (table * np.array(list(factors.values()))).T
-    for name, values, good in ((frequency, omega, omega > 0), (f"{kind}_stor", storage, storage > 0), (f"{kind}_loss", loss, loss >= 0)):
+    for name, values, good in (
+        (frequency, omega, omega > 0),
+        (f"{kind}_stor", storage, storage > 0),
+        (f"{kind}_loss", loss, loss >= 0),
+    ):
         if not good.all():
             bound = ">= 0" if values is loss else "> 0"
             raise InputError(f"{where}, {name}", float((values / factors[name])[~good][0]), f"numbers {bound}")
@@ -145,16 +152,22 @@ def _frequency_factor(where: str, name: str, unit: str) -> float:
     return factor
 
 
-def _of_one_temperature(where: str, rows: list[list[str]], at: dict[str, int], wanted: str | None) -> list[tuple[int, list[str]]]:
+def _of_one_temperature(
+    where: str, rows: list[list[str]], at: dict[str, int], wanted: str | None
+) -> list[tuple[int, list[str]]]:
     """Numbered rows, of one temperature alone."""
     numbered = [(number, row) for number, row in enumerate(rows, start=3) if any(row)]
     sets = list(dict.fromkeys(_cell(row, at["Set"]) for _, row in numbered)) if "Set" in at else []
     if wanted is not None:
         if wanted not in sets:
-            raise InputError("temperature_set", wanted, f"one of {', '.join(sets)}" if sets else f"None: {where} has no column 'Set'")
+            raise InputError(
+                "temperature_set", wanted, f"one of {', '.join(sets)}" if sets else f"None: {where} has no column 'Set'"
+            )
         return [(number, row) for number, row in numbered if _cell(row, at["Set"]) == wanted]
     if len(sets) > 1:
-        raise InputError(f"{where}, Set", sets, "one temperature: a master curve, or the rows of one set (temperature_set)")
+        raise InputError(
+            f"{where}, Set", sets, "one temperature: a master curve, or the rows of one set (temperature_set)"
+        )
     return numbered
 
 
@@ -167,7 +180,9 @@ def _numbers(where: str, rows: list[tuple[int, list[str]]], columns: list[int], 
             try:
                 values.append(float(text or "nan"))
             except ValueError:
-                raise InputError(f"{where}, row {number}, {name}", text, "a number with a decimal point, or nothing") from None
+                raise InputError(
+                    f"{where}, row {number}, {name}", text, "a number with a decimal point, or nothing"
+                ) from None
         if np.isinf(values).any():
             raise InputError(f"{where}, row {number}", cells, "finite numbers")
         if not np.isnan(values).any():

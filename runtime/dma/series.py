@@ -16,7 +16,8 @@ from hystrip.inputs.material import StandardLinearSolid
 class Foundation:
     """What a generalised foundation needs: ``K*(i omega) = K + sum_j moduli_j i omega times_j/(1 + i omega times_j)``.
 
-    ``K``: relaxed stiffness per area, Pa/m; ``moduli``: stiffness of each branch, Pa/m; ``times``: relaxation times, s, ascending.
+    ``K``: relaxed stiffness per area, Pa/m; ``moduli``: stiffness of each branch, Pa/m; ``times``: relaxation times,
+    s, ascending.
     """
 
     K: float
@@ -26,7 +27,7 @@ class Foundation:
 
 @dataclass(frozen=True)
 class PronySeries:
-    """Prony series fitted to a measured modulus, ``E*(i omega) = relaxed + sum_j moduli_j i omega times_j/(1 + i omega times_j)``.
+    """Prony series fitted to a modulus: ``E* = relaxed + sum_j moduli_j i omega times_j/(1 + i omega times_j)``.
 
     Attributes
     ----------
@@ -58,19 +59,22 @@ class PronySeries:
         return self.relaxed + sum(self.moduli)
 
     def modulus(self, omega: Any) -> np.ndarray:
-        """Complex modulus at angular frequencies ``omega`` (rad/s, any shape), Pa: storage its real part, loss its imaginary."""
+        """Complex modulus (storage + i loss), Pa, at angular frequencies ``omega``, rad/s, any shape."""
         x = np.multiply.outer(np.asarray(omega, dtype=float), np.array(self.times))
         return self.relaxed + (1j * x / (1 + 1j * x)) @ np.array(self.moduli)
 
     def foundation(self, length: float) -> Foundation:
         """Foundation with the stiffness per area ``modulus/length`` in every term; the times stay as they are.
 
-        A Winkler foundation knows no modulus, only a stiffness per area [Pa/m]: the length (m, > 0) has to come from the geometry.
+        A Winkler foundation knows no modulus, only a stiffness per area [Pa/m]: the length (m, > 0) has to come from
+        the geometry.
 
-        - A layer of thickness H on a rigid base, free to slide and bulge at its sides: ``length = H`` with E. Bonded, and thin against
-          the contact: H with the oedometric modulus ``E (1 - nu)/((1 + nu)(1 - 2 nu))``, that is ``length = H (1 + nu)(1 - 2 nu)/(1 - nu)``.
-        - A half-space under a pressure wave of wavelength l: ``K = pi E/((1 - nu^2) l)``, that is ``length = (1 - nu^2) l/pi`` (for
-          ``nu`` = 1/2 about 0.24 l). One number serves one wavelength: take that of the level that rubs most.
+        - A layer of thickness H on a rigid base, free to slide and bulge at its sides: ``length = H`` with E. Bonded,
+          and thin against the contact: H with the oedometric modulus ``E (1 - nu)/((1 + nu)(1 - 2 nu))``, that is
+          ``length = H (1 + nu)(1 - 2 nu)/(1 - nu)``.
+        - A half-space under a pressure wave of wavelength l: ``K = pi E/((1 - nu^2) l)``, that is
+          ``length = (1 - nu^2) l/pi`` (for ``nu`` = 1/2 about 0.24 l). One number serves one wavelength: take that of
+          the level that rubs most.
         - Shear data (G): divide the length by ``2 (1 + nu)``, since ``E = 2 (1 + nu) G`` with a constant Poisson ratio.
 
         Raises ``InputError`` for a length that is not a finite number > 0.
@@ -82,9 +86,10 @@ class PronySeries:
         return Foundation(self.relaxed / length, tuple(each / length for each in self.moduli), self.times)
 
     def standard_linear_solid(self, length: float) -> StandardLinearSolid:
-        """The material for a series of one branch: ``T_sigma`` its relaxation time, ``T_eps = T_sigma (1 + modulus/relaxed)``.
+        """The material of a series with one branch: ``T_sigma`` is its time, ``T_eps = T_sigma (1 + modulus/relaxed)``.
 
-        Raises ``InputError`` for a bad length, or if there is not exactly one branch (``fit_prony(data, terms=1)`` gives one).
+        Raises ``InputError`` for a bad length, or if there is not exactly one branch (``fit_prony(data, terms=1)``
+        gives one).
         """
         if len(self.times) != 1:
             raise InputError("series", f"{len(self.times)} relaxation times", "exactly one for a standard linear solid")
@@ -96,11 +101,13 @@ class PronySeries:
         low, high = self.band
         lines = [
             f"fitted     {self.points} frequencies, {low:.4g} to {high:.4g} Hz ({np.log10(high / low):.3g} decades)",
-            f"series     {len(self.times)} relaxation times of {self.offered} offered; {self.kind} relaxed {self.relaxed:.4g} Pa, "
-            f"glassy {self.glassy:.4g} Pa",
+            f"series     {len(self.times)} relaxation times of {self.offered} offered; "
+            f"{self.kind} relaxed {self.relaxed:.4g} Pa, glassy {self.glassy:.4g} Pa",
             f"residuals  storage {100 * self.rms_storage:.2g} % rms, loss {100 * self.rms_loss:.2g} % rms, "
             f"at most {100 * self.worst:.2g} % (at {self.worst_at:.4g} Hz)",
             "",
             f"{'time [s]':>12}  {self.kind + ' [Pa]':>12}",
         ]
-        return "\n".join(lines + [f"{time:12.4g}  {each:12.4g}" for time, each in zip(self.times, self.moduli, strict=True)])
+        return "\n".join(
+            lines + [f"{time:12.4g}  {each:12.4g}" for time, each in zip(self.times, self.moduli, strict=True)]
+        )

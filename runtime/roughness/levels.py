@@ -46,7 +46,8 @@ class RoughnessLevels:
         lines = [heads]
         for i, level in enumerate(self.levels):
             band = f"{self.bands[i, 0]:.3g} .. {self.bands[i, 1]:.3g}"
-            lines.append((str(i + 1), band, f"{self.rms_height[i]:.4g}", f"{self.rms_gradient[i]:.4g}", f"{level.l:.4g}", f"{level.h:.4g}"))
+            rms = f"{self.rms_height[i]:.4g}", f"{self.rms_gradient[i]:.4g}"
+            lines.append((str(i + 1), band, *rms, f"{level.l:.4g}", f"{level.h:.4g}"))
         widths = [max(len(line[j]) for line in lines) for j in range(len(heads))]
         table = ["  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True)) for line in lines]
         return "\n".join([*table, f"left out: rms height {self.rms_left_out:.3g} m (beyond the bands)"])
@@ -64,18 +65,20 @@ def levels_of(
 ) -> RoughnessLevels:
     """Levels with the roughness of a scan.
 
-    The rule: the range of wavelengths is cut into bands, one level for each. A band holds the Fourier modes of the heights (of an area:
-    of all directions) whose wavelength lies in it; their variances add up to the square of its rms height, and weighted with the square of
-    the wave number to the square of its rms gradient. The level's height is that at which the surface of Eq. 4 has the same rms height:
-    Eq. 4 has the variance ``5 h^2/64``, so ``h = 8/sqrt(5) rms``. Its wavelength is that at which Eq. 4 has the same rms gradient too: its
-    mean square gradient is ``6/5 k^2`` times its variance. So a surface that is made of levels, each inside its band, gives just these.
-    A line is taken as a cut through an isotropic surface: the same variance, half the mean square gradient.
+    The rule: the range of wavelengths is cut into bands, one level for each. A band holds the Fourier modes of the
+    heights (of an area: of all directions) whose wavelength lies in it; their variances add up to the square of its
+    rms height, and weighted with the square of the wave number to the square of its rms gradient. The level's height
+    is that at which the surface of Eq. 4 has the same rms height: Eq. 4 has the variance ``5 h^2/64``, so
+    ``h = 8/sqrt(5) rms``. Its wavelength is that at which Eq. 4 has the same rms gradient too: its mean square
+    gradient is ``6/5 k^2`` times its variance. So a surface that is made of levels, each inside its band, gives just
+    these. A line is taken as a cut through an isotropic surface: the same variance, half the mean square gradient.
 
     Parameters
     ----------
     scan : what was measured
-    count : number of bands, equal on a logarithmic scale, an integer from 1 to 20; 2 if neither this nor one of the next two is given.
-        Levels are solved as if far apart in wavelength, and three in partial contact already take long
+    count : number of bands, equal on a logarithmic scale, an integer from 1 to 20; 2 if neither this nor one of the
+        next two is given. Levels are solved as if far apart in wavelength, and three in partial contact already take
+        long
     ratio : in place of that, the ratio of the wavelengths that bound a band, > 1; a narrower rest goes to the last band
     edges : in place of that, and of the next two, all wavelengths that bound bands, m, at least two
     longest, shortest : the range, m; by default ``scan.longest`` and ``scan.shortest``
@@ -104,7 +107,7 @@ def levels_of(
     bounds = _listed(edges, longest, shortest) if edges is not None else _spread(scan, count, ratio, longest, shortest)
     q, variance = scan.spectrum()
     total = variance.sum()
-    # a mode whose wavelength is a bound belongs to the band above, the last bound's to the last band; rounding decides neither
+    # a mode on a bound belongs to the band of shorter waves, on the last one to the last band, whatever rounding says
     at = np.searchsorted(2 * np.pi / bounds * (1 - 1e-9), q, side="right") - 1
     at[(at == bounds.size - 1) & (q <= 2 * np.pi / bounds[-1] * (1 + 1e-9))] -= 1
     inside = (at >= 0) & (at < bounds.size - 1)
@@ -118,9 +121,17 @@ def levels_of(
         raise InputError("scan", problem, "bands in which there is some")
     bands = np.stack((bounds[:-1], bounds[1:]), axis=1)[kept]
     height2, gradient2 = height2[kept], gradient2[kept]
-    k = np.sqrt(gradient2 / (GRADIENT * height2)) if wavelength == "gradient" else 2 * np.pi / np.sqrt(bands.prod(axis=1))
-    levels = tuple(Level(l=2 * np.pi / each, h=np.sqrt(each2 / VARIANCE)) for each, each2 in zip(k, height2, strict=True))
-    return RoughnessLevels(levels, bands, np.sqrt(height2), np.sqrt(gradient2), float(np.sqrt(max(total - height2.sum(), 0.0))))
+    k = (
+        np.sqrt(gradient2 / (GRADIENT * height2))
+        if wavelength == "gradient"
+        else 2 * np.pi / np.sqrt(bands.prod(axis=1))
+    )
+    levels = tuple(
+        Level(l=2 * np.pi / each, h=np.sqrt(each2 / VARIANCE)) for each, each2 in zip(k, height2, strict=True)
+    )
+    return RoughnessLevels(
+        levels, bands, np.sqrt(height2), np.sqrt(gradient2), float(np.sqrt(max(total - height2.sum(), 0.0)))
+    )
 
 
 def _listed(edges: Any, longest: Any, shortest: Any) -> np.ndarray:
@@ -135,6 +146,13 @@ def _listed(edges: Any, longest: Any, shortest: Any) -> np.ndarray:
 def _spread(scan: Scan, count: int | None, ratio: float | None, longest: Any, shortest: Any) -> np.ndarray:
     high = scan.longest if longest is None else number("longest", longest, "m", 0, strict=True)
     low = scan.shortest if shortest is None else number("shortest", shortest, "m", 0, strict=True)
+    ends = 2 * min(size / n for size, n in zip(scan.sizes, scan.heights.shape, strict=True)), max(scan.sizes)
+    for name, value in (("longest", high), ("shortest", low)):
+        # as far as rounding of a size goes
+        if not ends[0] * (1 - 1e-6) <= value <= ends[1] * (1 + 1e-6):
+            raise InputError(
+                name, value, f"a wavelength from {ends[0]:.4g} to {ends[1]:.4g} m: two points to the whole scan"
+            )
     if low >= high:
         raise InputError("longest, shortest", (high, low), "a longest wavelength above the shortest (m)")
     if ratio is not None:

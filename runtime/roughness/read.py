@@ -22,8 +22,8 @@ def read_surface(
 ) -> Scan:
     """Read a scan with SurfaceTopography (extra ``roughness``).
 
-    Points that the instrument left undefined are filled by its harmonic interpolation; a line with uneven steps is interpolated to
-    even ones.
+    Points that the instrument left undefined are filled by its harmonic interpolation; a line with uneven steps is
+    interpolated to even ones.
 
     Parameters
     ----------
@@ -42,23 +42,29 @@ def read_surface(
     where = os.fspath(path)
     if not os.path.isfile(where):
         raise InputError(where, where, "a file with a measured surface")
-    given = {"channel_id": channel, "physical_sizes": sizes, "height_scale_factor": height_factor, "unit": unit}
+    given = {"physical_sizes": sizes, "height_scale_factor": height_factor, "unit": unit}
+    options = {key: each for key, each in given.items() if each is not None}
     try:
         with topographies.open_topography(where) as reader:
-            topography = reader.topography(**{key: each for key, each in given.items() if each is not None})
-            heights, lengths, periodic = _even(topography, where)
+            if channel is not None:
+                options |= _channel(reader, channel, where)
+            return Scan(*_even(reader.topography(**options), where))
     except InputError:
         raise
     except Exception as error:  # readers of forty formats end in errors of as many kinds
         said = (str(error).strip() or type(error).__name__).splitlines()[0]
         if type(error).__name__ == "CannotDetectFileFormat":
             said = "no format that SurfaceTopography knows"
-        raise InputError(where, _options(given), f"a measured surface and what its format lacks ({said})") from None
-    return Scan(heights, lengths, periodic)
+        allowed = "a measured surface, with sizes and unit in the file or else given (--size, --unit), not both"
+        raise InputError(where, said, allowed) from None
 
 
-def _options(given: dict[str, Any]) -> Any:
-    return {key: each for key, each in given.items() if each is not None} or "the file alone"
+def _channel(reader: Any, name: str, where: str) -> dict[str, int]:
+    names = [each.name for each in reader.channels]
+    if name not in names:
+        raise InputError(f"{where}, channel", name, f"one of {', '.join(map(repr, names))}")
+    index = names.index(name)
+    return {} if index == reader.default_channel.index else {"channel_index": index}
 
 
 def _even(topography: Any, where: str) -> tuple[np.ndarray, tuple[float, ...], bool]:
@@ -70,4 +76,8 @@ def _even(topography: Any, where: str) -> tuple[np.ndarray, tuple[float, ...], b
         topography = topography.to_uniform(nb_points=len(topography.heights()))
     if topography.has_undefined_data:
         topography = topography.interpolate_undefined_data()
-    return np.array(topography.heights(), dtype=float), tuple(map(float, topography.physical_sizes)), bool(topography.is_periodic)
+    return (
+        np.array(topography.heights(), dtype=float),
+        tuple(map(float, topography.physical_sizes)),
+        bool(topography.is_periodic),
+    )

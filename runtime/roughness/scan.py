@@ -34,7 +34,9 @@ class Scan:
         heights = numbers("scan.heights", self.heights, "m")
         sizes = np.atleast_1d(numbers("scan.sizes", self.sizes, "m", 0, strict=True))
         if heights.ndim not in (1, 2) or min(heights.shape) < 8:
-            raise InputError("scan.heights", heights.shape, "shape (n,) or (n, m) with at least 8 points in each direction")
+            raise InputError(
+                "scan.heights", heights.shape, "shape (n,) or (n, m) with at least 8 points in each direction"
+            )
         if sizes.shape != (heights.ndim,):
             raise InputError("scan.sizes", self.sizes, f"{heights.ndim} numbers, one for each direction of the heights")
         object.__setattr__(self, "heights", heights)
@@ -42,7 +44,7 @@ class Scan:
 
     @property
     def longest(self) -> float:
-        """Longest wavelength that the scan resolves in every direction, m: its shorter side, half of it unless periodic."""
+        """Longest wavelength resolved in every direction, m: the scan's shorter side, half of it unless periodic."""
         return min(self.sizes) * (1.0 if self.periodic else 0.5)
 
     @property
@@ -51,10 +53,10 @@ class Scan:
         return 4 * max(size / n for size, n in zip(self.sizes, self.heights.shape, strict=True))
 
     def spectrum(self) -> tuple[np.ndarray, np.ndarray]:
-        """Wave number, rad/m, and share of the height variance, m^2, of every Fourier mode but the constant one, both (modes,).
+        """Wave number, rad/m, and share of the variance, m^2, of each Fourier mode but the constant; both (modes,).
 
-        Unless the scan is periodic its least-squares plane (line) is subtracted and it is tapered by a Hann window in each direction,
-        scaled so that the variance of a stationary roughness stays what it is.
+        Unless the scan is periodic its least-squares plane (line) is subtracted and it is tapered by a Hann window in
+        each direction, scaled so that the variance of a stationary roughness stays what it is.
         """
         heights = self.heights - self.heights.mean() if self.periodic else _tapered(self.heights)
         variance = np.abs(np.fft.fftn(heights) / heights.size) ** 2
