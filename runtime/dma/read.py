@@ -54,7 +54,7 @@ class DynamicModulus:
             object.__setattr__(self, name, values[order])
 
     def between(self, low: float | None = None, high: float | None = None) -> DynamicModulus:
-        """The part from ``low`` to ``high``, in Hz, not angular. Raises InputError if fewer than two frequencies remain."""
+        """The part from ``low`` to ``high``, in Hz. Raises InputError if fewer than two frequencies remain."""
         f = self.omega / (2 * np.pi)
         # a limit as written and a frequency that came through 2 pi and back differ by rounding
         keep = (f >= (low or 0) * (1 - 1e-12)) & (f <= (np.inf if high is None else high * (1 + 1e-12)))
