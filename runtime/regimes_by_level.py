@@ -74,7 +74,7 @@ class _Strips:
         self.p_mean = self._solved.p_mean[..., 0].mean(axis=1)
 
     def in_contact(self, weight: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Local pressures in contact, Pa, and their shares of the level's area, both (m,); ``weight`` (n,) of each penetration."""
+        """Local pressures in contact, Pa, and their shares of the area, both (m,); ``weight`` (n,): of each depth."""
         touching = self._solved.gap(self._x) <= 0
         share = np.broadcast_to(weight[:, None, None], touching.shape) / touching[0].size
         return self._solved.pressure(self._x)[touching], share[touching]
