@@ -8,9 +8,14 @@ import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tools"))
+
+import kill_sweep
 
 import hystrip
 from hystrip.sweeps.plan import short_name
@@ -218,3 +223,9 @@ def test_schema_knows_the_sweep_table():
     from hystrip.scene.schema import json_schema
 
     assert set(json.loads(json.dumps(json_schema()))["$defs"]["Sweep"]["properties"]) == {"combine", "batch"}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends SIGKILL")
+def test_killed_in_partial_contact_csv_and_netcdf_are_the_same(tmp_path):
+    """The short version of ``tools/kill_sweep.py``."""
+    assert kill_sweep.compare(tmp_path, points=800, kills=2, workers=2, batch=10, seed=5, say=lambda text: None) == []
