@@ -32,10 +32,11 @@ def peak_velocities(result: Any) -> np.ndarray:
 def _inputs(result: Any) -> list[str]:
     m, a = result.material, result.adhesion
     sticky = f"gamma = {a.gamma:.4g} J/m^2, delta_0 = {a.delta_0:.4g} m, p_0 = {a.p_0:.4g} Pa" if a.p_0 > 0 else "none"
+    panels = "" if result.strips is None else f", level 1 over {result.strips} equal strips"
     return [
         f"material   {type(m).__name__}: K = {m.K:.4g} Pa/m, T_eps = {m.T_eps:.4g} s, T_sigma = {m.T_sigma:.4g} s",
         f"adhesion   {sticky}",
-        f"closure    {result.edge}, branch {result.branch}, rtol {result.rtol:g}",
+        f"closure    {result.edge}, branch {result.branch}, rtol {result.rtol:g}{panels}",
         f"points     {np.size(result.mu)}: pressure {_span(result.pressure, 'Pa')}, velocity {_span(result.velocity, 'm/s')}",
     ]
 

@@ -228,4 +228,4 @@ def test_schema_knows_the_sweep_table():
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGKILL")
 def test_killed_in_partial_contact_csv_and_netcdf_are_the_same(tmp_path):
     """The short version of ``tools/kill_sweep.py``."""
-    assert kill_sweep.compare(tmp_path, points=800, kills=2, workers=2, batch=10, seed=5, say=lambda text: None) == []
+    assert kill_sweep.compare(tmp_path, points=300, kills=2, workers=2, batch=5, seed=5, say=lambda text: None) == []

@@ -16,7 +16,7 @@ from hystrip.strip.solution import BRANCHES, EDGES
 from .build import build_laws
 from .inverse import invert
 from .law import Law
-from .means import equal_strips, level_means
+from .means import level_means
 from .saturated import saturated_level
 from .strips import QUANTITIES, Columns, Tally
 
@@ -108,19 +108,19 @@ def solve_level(
     V, level, edge, branch, rtol = _checked(material, adhesion, level, V, edge, branch, rtol)
     if (D is None) == (pressure is None):
         raise InputError("D, pressure", {"D": D, "pressure": pressure}, "exactly one of the two")
-    if strips is not None:
-        if isinstance(strips, bool) or not isinstance(strips, (int, np.integer)) or strips < 1:
-            raise InputError("strips", strips, "an integer >= 1, or None for adaptive panels")
-        if D is None:
-            raise InputError("strips", strips, "None where the pressure is given: equal strips need D")
+    from hystrip.solve import check_strips
+
+    strips = check_strips(strips)
+    if strips is not None and D is None:
+        raise InputError("strips", strips, "None where the pressure is given: equal strips need D")
     name, load = ("D", numbers("D", D, "m")) if pressure is None else ("pressure", numbers("pressure", pressure, "Pa"))
     shape = broadcast(**{"V": V, name: load})
     V, load = (np.broadcast_to(v, shape).ravel() for v in (V, load))
     tally = Tally()
     if pressure is not None:
         return _at_pressure(material, adhesion, level, V, load, edge, branch, rtol, shape, tally)
-    columns = Columns(material, adhesion, level, edge, branch, V, load, tally=tally)
-    means = level_means(columns, np.full(V.size, rtol)) if strips is None else equal_strips(columns, int(strips))
+    columns = Columns(material, adhesion, level, edge, branch, V, load, strips=strips, tally=tally)
+    means = level_means(columns, np.full(V.size, rtol))
     return _solution(load, means.values, means.errors, np.zeros(V.size, bool), shape, tally)
 
 
