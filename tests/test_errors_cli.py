@@ -68,6 +68,7 @@ SCENES = [  # what is replaced, by what, and what the message says: the field, t
 CALLS = [
     (["solve", "absent.toml"], ["absent.toml", "no such file"]),
     (["solve", "paper_fig66"], ["did you mean 'paper_fig6'"]),
+    (["solve", "binary"], ["did you mean 'binary.toml'"]),
     (["solve", "folder"], ["folder", "this is a folder"]),
     (["solve", "binary.toml"], ["binary.toml", "UTF-8"]),
     (["solve", "/dev/zero"], ["/dev/zero", "too large"]),

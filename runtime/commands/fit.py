@@ -29,8 +29,9 @@ def command(
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
     plot: bool = typer.Option(True, help="Draw the fit (PNG)."),
 ) -> None:
-    """Fit a Prony series to storage and loss modulus, and say how well it fits.
+    """Fit relaxation times to DMA data: a material.
 
+    Non-negative least squares of the relative residuals of storage and loss modulus; says how well it fits.
     Writes measured and fitted moduli as CSV, a picture, and with --length a scene that holds the material: SCENE with
     its own replaced.
     """

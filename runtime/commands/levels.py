@@ -31,7 +31,7 @@ def command(
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
     plot: bool = typer.Option(True, help="Draw the spectrum with the levels (PNG)."),
 ) -> None:
-    """Make levels with the roughness of a measured surface.
+    """Make levels from a measured surface.
 
     Each level has the rms height and the rms gradient of the surface in its band of wavelengths. Writes a scene that
     holds them: SCENE with its own replaced. Needs the extra `roughness`.

@@ -16,9 +16,9 @@ def command(
     netcdf: bool = typer.Option(False, "--netcdf", help="Write the labelled results as netCDF too (extra `dataset`)."),
     restart: bool = typer.Option(False, "--restart", help="Delete what an earlier sweep left in the folder."),
 ) -> None:
-    """Solve a scene over every combination of its lists and ranges.
+    """Solve a scene over all its lists and ranges.
 
-    Results go to disk as they come: after Ctrl-C, a crash or a kill the same command goes on where it was. A point that
+    Every combination of them is solved. Results go to disk as they come: after Ctrl-C, a crash or a kill the same command goes on where it was. A point that
     cannot be solved is recorded with its reason.
     """
     from hystrip.commands.progress import progress

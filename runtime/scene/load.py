@@ -83,7 +83,7 @@ def _read(path: str) -> str:
         with open(path, "rb") as file:
             data = file.read(_LARGEST + 1)
     except FileNotFoundError:
-        near = nearest(path, BUILTIN)
+        near = f"{path}.toml" if os.path.isfile(f"{path}.toml") else nearest(path, BUILTIN)
         hint = f" (did you mean {near!r}?)" if near else ""
         allowed = f"the path of a TOML file, or a built-in scene: {', '.join(BUILTIN)}"
         raise SceneError("", path, allowed, f"no such file{hint}", path) from None
