@@ -3,8 +3,8 @@
     python tools/sweep_efficiency.py [--points 4000] [--batch 100] [--workers 2] [--repeats 3]
 
 Partial contact with adhesion at given penetrations. Each way of running is timed ``--repeats`` times, in turn, and the
-
-time; workers are started beforehand for "warm" rows, by the sweep itself for the others. "one call" is ``hystrip.solve``
+median shown. Efficiency is serial time over workers times parallel time; workers are started beforehand for "warm"
+rows, by the sweep itself for the others. "one call" is ``hystrip.solve``
 over all points: what going to disk in batches costs.
 """
 

@@ -104,6 +104,13 @@ def solve_level(
     ``rtol`` is relative to ``|value| + 1e-3 scale``, scale ``K h + p_0`` for pressure, times ``h/l`` for friction, 1 for fractions.
 
     Raises ``InputError`` for inputs out of range, ``SolverError`` for a strip that could not be certified.
+
+    >>> import hystrip
+    >>> material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+    >>> adhesion = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+    >>> level = hystrip.solve_level(material, adhesion, hystrip.Level(l=1e-5, h=1e-6), V=5e-3, D=6e-7, rtol=1e-6)
+    >>> print(f"{float(level.p_mean):.4g} Pa, {float(level.tau_mean):.4g} Pa, {float(level.contact_fraction):.4g}")
+    42.54 Pa, 23.53 Pa, 0.4357
     """
     V, level, edge, branch, rtol = _checked(material, adhesion, level, V, edge, branch, rtol)
     if (D is None) == (pressure is None):
@@ -167,6 +174,12 @@ def friction_law(
     """Friction law of a level at one velocity ``V`` (m/s), from pull-off up to saturation, or up to the pressure ``below`` (Pa).
 
     Raises ``InputError`` for inputs out of range, ``SolverError`` for a strip that could not be certified.
+
+    >>> import hystrip
+    >>> material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+    >>> law = hystrip.friction_law(material, hystrip.Dugdale(gamma=0), hystrip.Level(l=5e-7, h=1e-7), V=5e-3, rtol=1e-3)
+    >>> print(law([0, 100, 1e6]).round(1), round(law.p_sat, 1), round(law.tau_sat, 1))
+    [ 0.   0.9 90.5] 4912.9 90.5
     """
     V, level, edge, branch, rtol = _checked(material, adhesion, level, V, edge, branch, rtol)
     if V.ndim:

@@ -46,13 +46,31 @@ def load_scene(source: str | os.PathLike[str]) -> Scene:
     ------
     SceneError : the file cannot be read, or its content not be used; names key, value and what is allowed
     MissingExtra : msgspec, or Pint where a unit is written, is not installed
+
+    Examples
+    --------
+    >>> scene = load_scene("paper_fig7")
+    >>> len(scene.levels), scene.velocity.shape, float(scene.pressure)
+    (3, (141,), 5000000.0)
+    >>> print(f"{scene.solve().mu.max():.3e}")
+    2.974e-04
     """
     text, name = scene_text(source)
     return parse_scene(text, name=name, source=os.fspath(source))
 
 
 def parse_scene(text: str, name: str = "scene", source: str = "") -> Scene:
-    """Build a scene from TOML text; `source` is named in errors. Raises as :func:`load_scene`."""
+    """Build a scene from TOML text; `source` is named in errors. Raises as :func:`load_scene`.
+
+    >>> text = '''
+    ... pressure = "0.2 MPa"
+    ... velocity = "1 mm/s"
+    ... material = { K = "2 GPa/m", T_eps = "5 ms", T_sigma = "0.1 ms" }
+    ... levels = [{ l = "20 um", h = "1 um" }]
+    ... '''
+    >>> parse_scene(text).material
+    StandardLinearSolid(K=2000000000.0, T_eps=0.005, T_sigma=0.0001)
+    """
     from hystrip.scene.validate import validated
 
     with located(source):

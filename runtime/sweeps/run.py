@@ -82,6 +82,15 @@ def sweep(
     Raises
     ------
     InputError : the scene or an argument; a single point that fails is recorded, it raises nothing
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     done = sweep("paper_fig7", over={"adhesion.gamma": [0, 1e-5]}, out=folder)
+    ...     again = sweep("paper_fig7", over={"adhesion.gamma": [0, 1e-5]}, out=folder)
+    >>> done.plan.shape, done.solved, again.solved, again.kept
+    ((2, 141), 5, 0, 5)
     """
     from hystrip.scene.load import located, parse_toml, scene_text
     from hystrip.scene.validate import validated
