@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -18,7 +19,8 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tools"))
 import kill_sweep
 
 import hystrip
-from hystrip.sweeps.plan import short_name
+from hystrip.scene.validate import validated
+from hystrip.sweeps.plan import plan_of, short_name
 
 SATURATED = """
 pressure = [5e6, 6e6]
@@ -95,6 +97,14 @@ def test_wrong_sweeps_are_refused_before_any_work(scene, tmp_path, over, said):
     with pytest.raises(hystrip.InputError, match=said):
         hystrip.sweep(scene, over=over, out=tmp_path / "out")
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(("points", "batch"), [(2, 64), (2048, 64), (10_000, 313), (100_000, 1024)])
+def test_batches_are_decided_by_the_number_of_points(points, batch):
+    values = validated(tomllib.loads(SATURATED.replace("batch = 7", "")))
+    over = {"levels[0].h": 1e-6, "material.K": 1e9, "adhesion.gamma": 0.0, "pressure": 5e6}
+    plan = plan_of(values, "s", SATURATED, over | {"velocity": np.geomspace(1e-4, 1e-2, points)}, None, None)
+    assert plan.batch == batch and plan.batches == -(-points // batch)
 
 
 def test_nothing_to_sweep_and_unequal_lists(scene, tmp_path):

@@ -81,8 +81,10 @@ class Sweep(Struct, forbid_unknown_fields=True, kw_only=True):
         Meta(description='"grid" (every combination, the default) or "list" (all of one length, taken together)'),
     ] = "grid"
     batch: Annotated[
-        int, Meta(ge=1, le=100_000, description="an integer from 1 to 100000, points that are solved and stored together")
-    ] = 64
+        Annotated[int, Meta(ge=1, le=100_000)] | None,
+        Meta(description="an integer from 1 to 100000, points that are solved and stored together "
+             "(without it a 32nd of all, 64 to 1024)"),
+    ] = None  # fmt: skip
 
 
 class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):
