@@ -106,8 +106,10 @@ def _closer(result: Any) -> list[str]:
     at = int(np.nanargmax(mu)) if np.isfinite(mu).any() else 0
     V, p = float(np.ravel(result.velocity)[at]), float(np.ravel(result.pressure)[at])
     how = {"edge": result.edge, "branch": result.branch}
-    law = friction_law(result.material, result.adhesion, result.levels[0], V=V, rtol=1e-2, below=0.0, **how)
-    pull_off = law.pull_off if result.adhesion.p_0 > 0 else 0.0
+    pull_off = 0.0
+    if result.adhesion.p_0 > 0:
+        law = friction_law(result.material, result.adhesion, result.levels[0], V=V, rtol=1e-2, below=0.0, **how)
+        pull_off = law.pull_off
     out = [f"at V = {V:.4g} m/s, p = {p:.4g} Pa: pull-off of level 1 at {pull_off:.4g} Pa; regimes of strips:"]
     for number, each in enumerate(regimes_by_level(result, at), start=1):
         place = "all the area" if number == 1 else f"the contact of level {number - 1}, {100 * each.area:.3g} % of the area"

@@ -188,6 +188,44 @@ def test_what_is_no_relaxing_solid_is_refused():
         fit_prony(known(7e5, MODULI, TIMES)).foundation(0)
 
 
+SEVERAL = pytest.mark.skipif(not hasattr(hystrip, "Prony"), reason="no material with several times")
+
+
+@SEVERAL
+def test_several_times_are_a_prony_material():
+    series = fit_prony(known(1e6, MODULI[2:4], TIMES[2:4]), times=TIMES[2:4])
+    material = series.material(2e-3)
+    assert isinstance(material, hystrip.Prony) and material.K == pytest.approx(5e8)
+    assert material.times == pytest.approx(TIMES[2:4]) and material.moduli == pytest.approx(MODULI[2:4] / 2e-3)
+    one = fit_prony(known(1e6, MODULI[:1], TIMES[:1]), terms=1).material(2e-3)
+    assert isinstance(one, hystrip.StandardLinearSolid)
+
+
+@SEVERAL
+def test_command_writes_a_prony_scene_that_solves(run, tmp_path):
+    written(tmp_path / "rubber.csv", known(1e6, MODULI[2:4], TIMES[2:4]))
+    status, _, err = run("fit", "rubber.csv", "--terms", 2, "--length", 0.002)
+    assert (status, err) == (0, "")
+    scene = tmp_path / "hystrip-out/rubber.fitted.toml"
+    case = load_scene(scene)
+    assert case.edge == "constitutive" and case.material.times == pytest.approx(TIMES[2:4])
+    scene.write_text(
+        scene.read_text(encoding="utf-8").replace("pressure = 100\n", "pressure = 1e8\n"), encoding="utf-8"
+    )
+    result = load_scene(scene).solve()
+    # saturated on all levels: 1/2 sum k A^2 Im K* over the waves of Eq. 4, with the loss modulus that was measured
+    tau = 0
+    for level in case.levels:
+        rate = level.k * result.velocity
+        tau = tau + 0.5 * level.k * 1.5 * (level.h / 4) ** 2 * series_loss(rate, MODULI[2:4], TIMES[2:4]) / 2e-3
+    assert np.allclose(result.tau, tau, rtol=1e-6)
+
+
+def series_loss(rate, moduli, times):
+    x = np.multiply.outer(rate, times)
+    return x / (1 + x**2) @ moduli
+
+
 @pytest.fixture
 def run(monkeypatch, tmp_path, capsys):
     monkeypatch.chdir(tmp_path)

@@ -40,7 +40,7 @@ def command(
     from hystrip.dma.output import material_table, rows
     from hystrip.extras import require
     from hystrip.files import Outputs, refuse_unwritable
-    from hystrip.scene.edit import with_material
+    from hystrip.scene.edit import with_material, with_setting
     from hystrip.scene.load import located, scene_text
     from hystrip.tables import write_csv
 
@@ -55,6 +55,8 @@ def command(
     if over is not None:
         with located(scene):
             text = with_material(scene_text(scene)[0], *material_table(series, over, data.name))
+            if len(series.times) > 1:  # the other closure does not determine the edges of such a material
+                text = with_setting(text, "edge", "constitutive")
         files[f"{data.stem}.fitted.toml"] = lambda path: path.write_text(text, encoding="utf-8", newline="\n")
     if plot:
         from hystrip.plots import fitted_modulus, save

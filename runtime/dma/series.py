@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hystrip.errors import InputError
 from hystrip.inputs.checks import number
 from hystrip.inputs.material import StandardLinearSolid
+
+if TYPE_CHECKING:
+    from hystrip.inputs.prony import Prony
 
 
 @dataclass(frozen=True)
@@ -84,6 +87,16 @@ class PronySeries:
         """
         length = number("length", length, "m", 0, strict=True)
         return Foundation(self.relaxed / length, tuple(each / length for each in self.moduli), self.times)
+
+    def material(self, length: float) -> StandardLinearSolid | Prony:
+        """The foundation as a material: a standard linear solid for one branch, ``hystrip.Prony`` for several.
+
+        Raises ``InputError`` for a bad length.
+        """
+        from hystrip.inputs.prony import Prony
+
+        each = self.foundation(length)
+        return self.standard_linear_solid(length) if len(self.times) == 1 else Prony(each.K, each.moduli, each.times)
 
     def standard_linear_solid(self, length: float) -> StandardLinearSolid:
         """The material of a series with one branch: ``T_sigma`` is its time, ``T_eps = T_sigma (1 + modulus/relaxed)``.

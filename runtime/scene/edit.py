@@ -23,6 +23,16 @@ def with_levels(text: str, levels: Sequence[Mapping[str, Any]], comment: str = "
     return _checked(text, _replaced(text, "levels", tables), "levels")
 
 
+def with_setting(text: str, key: str, value: str) -> str:
+    """The scene with another value of a key that stands above its tables, and holds text."""
+    lines = text.splitlines()
+    top = next((number for number, line in enumerate(lines) if _HEADER.match(line)), len(lines))
+    old = [number for number, line in enumerate(lines[:top]) if re.match(rf"\s*{key}\s*=", line)]
+    new = f"{key} = {_value(value)}"
+    lines = [*lines[: old[0]], new, *lines[old[0] + 1 :]] if old else [new, *lines]
+    return _checked(text, "\n".join(lines) + "\n", key)
+
+
 def _table(header: str, table: Mapping[str, Any], comment: str) -> str:
     lines = [f"# {line}" for line in comment.splitlines()]
     return "\n".join([*lines, header, *(f"{key} = {_value(value)}" for key, value in table.items())])
