@@ -60,17 +60,7 @@ def load_scene(source: str | os.PathLike[str]) -> Scene:
 
 
 def parse_scene(text: str, name: str = "scene", source: str = "") -> Scene:
-    """Build a scene from TOML text; `source` is named in errors. Raises as :func:`load_scene`.
-
-    >>> text = '''
-    ... pressure = "0.2 MPa"
-    ... velocity = "1 mm/s"
-    ... material = { K = "2 GPa/m", T_eps = "5 ms", T_sigma = "0.1 ms" }
-    ... levels = [{ l = "20 um", h = "1 um" }]
-    ... '''
-    >>> parse_scene(text).material
-    StandardLinearSolid(K=2000000000.0, T_eps=0.005, T_sigma=0.0001)
-    """
+    """Build a scene from TOML text; `source` is named in errors. Raises as :func:`load_scene`."""
     from hystrip.scene.validate import validated
 
     with located(source):

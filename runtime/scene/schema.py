@@ -95,6 +95,11 @@ class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):
     pressure: Annotated[Values | None, _range_meta("nominal pressure (negative pulls); or give penetration", "Pa")] = None
     penetration: Annotated[Values | None, _range_meta("penetration of level 1, in place of pressure", "m")] = None
     velocity: Annotated[Values, _range_meta("sliding velocity, >= 0", "m/s")]
+    strips: Annotated[
+        Annotated[int, Meta(ge=1, le=1_000_000)] | None,
+        Meta(description="an integer from 1 to 1000000: average level 1 over so many equal strips, as the paper does "
+             "(without it adaptive panels)"),
+    ] = None  # fmt: skip
     edge: Annotated[
         Literal["continuous", "constitutive"],
         Meta(description='"continuous" (the default) or "constitutive", the closure where the pressure steps'),
@@ -106,11 +111,6 @@ class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):
     rtol: Annotated[
         float, Meta(ge=1e-12, le=0.1, description="a number from 1e-12 to 0.1, the accuracy asked for (default 1e-6)")
     ] = 1e-6
-    strips: Annotated[
-        Annotated[int, Meta(ge=1, le=1_000_000)] | None,
-        Meta(description="an integer from 1 to 1000000: average level 1 over so many equal strips, as the paper does "
-             "(without it adaptive panels)"),
-    ] = None  # fmt: skip
     material: Annotated[Material, Meta(description="a table [material] with K, T_eps and T_sigma")]
     adhesion: Annotated[Adhesion | None, Meta(description="a table [adhesion]; without one there is no adhesion")] = None
     sweep: Annotated[Sweep | None, Meta(description="a table [sweep] with combine and batch, for `hystrip sweep`")] = None
