@@ -99,7 +99,7 @@ def test_wrong_sweeps_are_refused_before_any_work(scene, tmp_path, over, said):
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.parametrize(("points", "batch"), [(2, 64), (2048, 64), (10_000, 313), (100_000, 1024)])
+@pytest.mark.parametrize(("points", "batch"), [(2, 128), (2048, 128), (10_000, 625), (100_000, 2048)])
 def test_batches_are_decided_by_the_number_of_points(points, batch):
     values = validated(tomllib.loads(SATURATED.replace("batch = 7", "")))
     over = {"levels[0].h": 1e-6, "material.K": 1e9, "adhesion.gamma": 0.0, "pressure": 5e6}

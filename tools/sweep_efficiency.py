@@ -4,7 +4,8 @@
 
 Partial contact with adhesion at given penetrations. Each way of running is timed ``--repeats`` times, in turn, and the
 median shown. Efficiency is serial time over workers times parallel time; workers are started beforehand for "warm"
-rows, by the sweep itself for the others. "one call" is ``hystrip.solve`` over all points: what batches and the disk cost.
+rows, by the sweep itself for the others. "one call" is ``hystrip.solve`` over all points: what batches and the disk
+cost.
 
 On a machine that does other things too the times say little. The CPU seconds of all processes do: "work" is those of
 the serial run over those of this way, the efficiency of a machine with nothing else to do and enough batches.

@@ -22,7 +22,7 @@ _UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "gamma"
           "pressure": "Pa", "penetration": "m", "velocity": "m/s"}  # fmt: skip
 
 #: batches of a sweep that does not say: so many, of at least and at most so many points
-_SHARES, _LEAST, _MOST = 32, 64, 1024
+_SHARES, _LEAST, _MOST = 16, 128, 2048
 
 
 @dataclass(frozen=True)

@@ -73,7 +73,7 @@ def sweep(
         ``{"adhesion.gamma": [0, 1e-5], "levels[1].h": [5e-8, 1e-7]}``
     out : folder for ``<name>.csv`` and the finished batches (``<name>.parts/``)
     combine : ``"grid"`` (every combination) or ``"list"`` (all of one length, taken together); the scene's ``[sweep]`` if None
-    batch : points solved and stored together; the scene's ``[sweep]`` if None, and a 32nd of all, 64 to 1024, if it does not say
+    batch : points solved and stored together; the scene's ``[sweep]`` if None, and a 16th of all, 128 to 2048, if it does not say
     workers : local processes, 1 for this one; or executor : anything with the ``concurrent.futures`` interface, such as
         Dask's ``Client.get_executor()``; or scheduler : address of a Dask scheduler
     restart : delete what an earlier sweep left in the folder
@@ -90,7 +90,7 @@ def sweep(
     ...     done = sweep("paper_fig7", over={"adhesion.gamma": [0, 1e-5]}, out=folder)
     ...     again = sweep("paper_fig7", over={"adhesion.gamma": [0, 1e-5]}, out=folder)
     >>> done.plan.shape, done.solved, again.solved, again.kept
-    ((2, 141), 5, 0, 5)
+    ((2, 141), 3, 0, 3)
     """
     from hystrip.scene.load import located, parse_toml, scene_text
     from hystrip.scene.validate import validated
