@@ -105,6 +105,9 @@ def test_batches_are_decided_by_the_number_of_points(points, batch):
     over = {"levels[0].h": 1e-6, "material.K": 1e9, "adhesion.gamma": 0.0, "pressure": 5e6}
     plan = plan_of(values, "s", SATURATED, over | {"velocity": np.geomspace(1e-4, 1e-2, points)}, None, None)
     assert plan.batch == batch and plan.batches == -(-points // batch)
+    values["levels"] = values["levels"][:1]
+    alone = plan_of(values, "s", SATURATED, over | {"velocity": np.geomspace(1e-4, 1e-2, points)}, None, None)
+    assert alone.batch == max(batch, 512)
 
 
 def test_nothing_to_sweep_and_unequal_lists(scene, tmp_path):

@@ -12,7 +12,7 @@ def command(
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results; run again with the same to go on."),
     workers: int = typer.Option(1, "--workers", help="Local processes."),
     scheduler: str = typer.Option(None, "--scheduler", help="Address of a Dask scheduler, such as tcp://host:8786."),
-    batch: int = typer.Option(None, "--batch", help="Points solved and stored together [the scene's, or a 16th of all, 128 to 2048]."),
+    batch: int = typer.Option(None, "--batch", help="Points solved and stored together [the scene's, or a 16th of all]."),
     netcdf: bool = typer.Option(False, "--netcdf", help="Write the labelled results as netCDF too (extra `dataset`)."),
     restart: bool = typer.Option(False, "--restart", help="Delete what an earlier sweep left in the folder."),
 ) -> None:

@@ -21,8 +21,9 @@ _LOADS = ("pressure", "penetration")
 _UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "gamma": "J/m^2", "p_0": "Pa", "delta_0": "m",
           "pressure": "Pa", "penetration": "m", "velocity": "m/s"}  # fmt: skip
 
-#: batches of a sweep that does not say: so many, of at least and at most so many points
-_SHARES, _LEAST, _MOST = 16, 128, 2048
+#: batches of a sweep that does not say: so many, of at least and at most so many points; one level alone is so quick that
+#: smaller batches take longer than the solution
+_SHARES, _LEAST, _LEAST_OF_ONE_LEVEL, _MOST = 16, 128, 512, 2048
 
 
 @dataclass(frozen=True)
@@ -135,7 +136,8 @@ def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], 
     if plan.size > 100_000_000:
         raise SceneError("", plan.size, "at most 1e8 points", f"{plan.size} points")
     # large batches use the vectorised solver well, many share out among workers and lose little to a kill
-    return plan if batch else dataclasses.replace(plan, batch=min(max(-(-plan.size // _SHARES), _LEAST), _MOST))
+    least = _LEAST if plan.levels > 1 else _LEAST_OF_ONE_LEVEL
+    return plan if batch else dataclasses.replace(plan, batch=min(max(-(-plan.size // _SHARES), least), _MOST))
 
 
 def _put(values: dict[str, Any], key: str, given: Any) -> None:

@@ -73,7 +73,8 @@ def sweep(
         ``{"adhesion.gamma": [0, 1e-5], "levels[1].h": [5e-8, 1e-7]}``
     out : folder for ``<name>.csv`` and the finished batches (``<name>.parts/``)
     combine : ``"grid"`` (every combination) or ``"list"`` (all of one length, taken together); the scene's ``[sweep]`` if None
-    batch : points solved and stored together; the scene's ``[sweep]`` if None, and a 16th of all, 128 to 2048, if it does not say
+    batch : points solved and stored together; the scene's ``[sweep]`` if None, and if it does not say a
+        16th of all, from 128 (with one level 512) to 2048
     workers : local processes, 1 for this one; or executor : anything with the ``concurrent.futures`` interface, such as
         Dask's ``Client.get_executor()``; or scheduler : address of a Dask scheduler
     restart : delete what an earlier sweep left in the folder
