@@ -101,6 +101,7 @@ def attributes(result: Any) -> dict[str, Any]:
         "edge": result.edge,
         "branch": result.branch,
         "rtol": result.rtol,
+        "strips": "adaptive panels" if result.strips is None else result.strips,
         "load": result.load,
         **{name: int(count) for name, count in result.counts.items()},
     }

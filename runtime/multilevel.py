@@ -52,11 +52,16 @@ class Surface:
     rtol: float
     skip: bool
     tally: Tally
+    strips: int | None = None
 
     def columns(self, i: int, V, D=None, carry=None, group=None) -> Columns:
         """Columns of level ``i``."""
         D = np.zeros(V.size) if D is None else D
-        return Columns(self.material, self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, self.tally)
+        # the curves behind the laws of lower levels are interpolated over D: equal strips would make steps of them
+        strips = self.strips if i == 0 else None
+        return Columns(
+            self.material, self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, strips, self.tally
+        )
 
     def saturated(self, V) -> Stack:
         """Saturation of every level, and of each level with all below it."""

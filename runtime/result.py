@@ -30,6 +30,7 @@ class Result:
     closed_form : the point was solved by the closed form of saturated contact on all levels
     error_estimate : estimated absolute error of mu (of tau over the pressure); NaN at zero pressure
     tau_error : estimated absolute error of tau, Pa
+    strips : equal strips that level 1 was averaged over, None for adaptive panels
     load : which of the two was given, "pressure" or "penetration"; scene : the TOML text it came from, if it did
     counts : strips solved, strips decided by a threshold, points solved in closed form, points below pull-off
     """
@@ -56,6 +57,7 @@ class Result:
     edge: str
     branch: str
     rtol: float
+    strips: int | None = None
     load: str = "pressure"
     scene: str = field(default="", repr=False)
 

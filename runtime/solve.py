@@ -30,6 +30,7 @@ def solve(
     edge: str = "continuous",
     branch: str = "unloading",
     rtol: float = 1e-6,
+    strips: int | None = None,
     skip: bool = True,
     progress: Callable[[int, int], None] | None = None,
 ) -> Result:
@@ -43,6 +44,8 @@ def solve(
     velocity : sliding velocity, m/s, >= 0; broadcasts with the load
     edge, branch : edge closure and branch of loading, as in ``solve_strip``
     rtol : accuracy asked for, relative to ``|tau| + 1e-3 (K h + p_0) h/l`` of level 1, 1e-12 to 0.1
+    strips : average level 1 over the paper's so many equal strips of half a cell (midpoints) instead of adaptive panels: to compare with
+        the paper. The laws of the levels below stay adaptive, ``rtol`` holds for them alone, and the error estimate says the rest
     skip : use the closed form where every level is saturated (off: every point is solved)
     progress : called with the number of points done and the total
 
@@ -78,7 +81,7 @@ def solve(
     shape = broadcast(**{name: load, "velocity": velocity})
     V, L = (np.broadcast_to(v, shape).ravel() for v in (velocity, load))
     tally = Tally()
-    surface = Surface(material, adhesion, levels, edge, branch, rtol, skip, tally)
+    surface = Surface(material, adhesion, levels, edge, branch, rtol, skip, tally, check_strips(strips))
     points = surface.solve(V, L, name == "pressure", progress)
     return _result(points, surface, shape, V, name)
 
@@ -120,6 +123,7 @@ def _result(points, surface: Surface, shape, V, load: str) -> Result:
         edge=surface.edge,
         branch=surface.branch,
         rtol=surface.rtol,
+        strips=surface.strips,
         load=load,
     )
 
@@ -149,6 +153,15 @@ def check_single(material, adhesion) -> None:
     for name, value in given.items():
         if np.ndim(value):
             raise InputError(name, value, "a single number (arrays are for solve_strip)")
+
+
+def check_strips(strips) -> int | None:
+    """``strips`` as an int >= 1, or None."""
+    if strips is None:
+        return None
+    if isinstance(strips, bool) or not isinstance(strips, (int, np.integer)) or strips < 1:
+        raise InputError("strips", strips, "an integer >= 1, or None for adaptive panels")
+    return int(strips)
 
 
 def check_rtol(rtol) -> float:

@@ -9,8 +9,6 @@ import numpy as np
 from hystrip.solver import foundation_of, parameters
 from hystrip.tables import shares
 
-_STRIPS = 200
-
 
 def summary(result: Any) -> str:
     """Text about a :class:`hystrip.Result`: the levels, the friction, what every level adds, and what was skipped."""
@@ -33,10 +31,11 @@ def peak_velocities(result: Any) -> np.ndarray:
 def _inputs(result: Any) -> list[str]:
     m, a = result.material, result.adhesion
     sticky = f"gamma = {a.gamma:.4g} J/m^2, delta_0 = {a.delta_0:.4g} m, p_0 = {a.p_0:.4g} Pa" if a.p_0 > 0 else "none"
+    panels = "" if result.strips is None else f", level 1 over {result.strips} equal strips"
     return [
         f"material   {type(m).__name__}: {', '.join(_parameter(*each) for each in parameters(m).items())}",
         f"adhesion   {sticky}",
-        f"closure    {result.edge}, branch {result.branch}, rtol {result.rtol:g}",
+        f"closure    {result.edge}, branch {result.branch}, rtol {result.rtol:g}{panels}",
         f"points     {np.size(result.mu)}: pressure {_span(result.pressure, 'Pa')}, velocity {_span(result.velocity, 'm/s')}",
     ]
 
@@ -104,28 +103,23 @@ def _contact(result: Any) -> list[str]:
 
 
 def _closer(result: Any) -> list[str]:
-    """Pull-off of level 1, and the regimes of its strips, at the point of largest friction (the first, if there is none)."""
+    """Pull-off of level 1, and the regimes on every level, at the point of largest friction (the first, if there is none)."""
     from hystrip.level.solution import friction_law
-    from hystrip.strip.solution import solve_strip
+    from hystrip.regimes_by_level import regimes_by_level
 
     mu = np.abs(np.ravel(result.mu))
     at = int(np.nanargmax(mu)) if np.isfinite(mu).any() else 0
-    V, D, level = float(np.ravel(result.velocity)[at]), float(np.ravel(result.penetration)[at]), result.levels[0]
+    V, p = float(np.ravel(result.velocity)[at]), float(np.ravel(result.pressure)[at])
     how = {"edge": result.edge, "branch": result.branch}
-    law = friction_law(result.material, result.adhesion, level, V=V, rtol=1e-2, below=0.0, **how)
-    out = [f"at V = {V:.4g} m/s: pull-off of level 1 at {law.pull_off if result.adhesion.p_0 > 0 else 0.0:.4g} Pa"]
-    if np.isfinite(D):
-        theta = (np.arange(_STRIPS) + 0.5) * np.pi / _STRIPS
-        A, depth = level.amplitude(theta), D - level.drop(theta)
-        names, counts = np.unique(
-            solve_strip(result.material, result.adhesion, l=level.l, A=A, D=depth, V=V, **how).regime_name.astype(str),
-            return_counts=True,
-        )
-        parts = [
-            f"{100 * count / _STRIPS:.3g} % {name}"
-            for name, count in sorted(zip(names, counts, strict=True), key=lambda e: -e[1])
-        ]
-        out.append(f"           regimes of its strips: {'; '.join(parts)}")
+    pull_off = 0.0
+    if result.adhesion.p_0 > 0:
+        law = friction_law(result.material, result.adhesion, result.levels[0], V=V, rtol=1e-2, below=0.0, **how)
+        pull_off = law.pull_off
+    out = [f"at V = {V:.4g} m/s, p = {p:.4g} Pa: pull-off of level 1 at {pull_off:.4g} Pa; regimes of strips:"]
+    for number, each in enumerate(regimes_by_level(result, at), start=1):
+        place = "all the area" if number == 1 else f"the contact of level {number - 1}, {100 * each.area:.3g} % of the area"
+        out.append(f"           level {number} ({place}):")
+        out += [f"           {100 * share:6.3g} %  {name}" for name, share in each.shares.items()]
     return out
 
 

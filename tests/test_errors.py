@@ -106,6 +106,8 @@ CASES = [  # the call, what is wrong, the field, and words on the value and on w
     (surface, {"rtol": np.nan}, "rtol", "nan", ">= 1e-12"),
     (surface, {"edge": "Continuous"}, "edge", "'Continuous'", "'constitutive'"),
     (surface, {"branch": 1}, "branch", "1", "'loading'"),
+    (surface, {"strips": 0}, "strips", "0", "an integer >= 1"),
+    (surface, {"strips": 2.5}, "strips", "2.5", "adaptive panels"),
 ]
 
 

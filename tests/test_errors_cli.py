@@ -59,7 +59,8 @@ SCENES = [  # what is replaced, by what, and what the message says: the field, t
     ("pressure = 100", 'pressure = 100\nedge = "sharp"', ["edge", "sharp", '"constitutive"']),
     ("pressure = 100", 'pressure = 100\nbranch = "both"', ["branch", "both", '"loading"']),
     ("pressure = 100", "pressure = 100\nrtol = 0", ["rtol", "0", "1e-12 to 0.1"]),
-    ("pressure = 100", "pressure = 100\nstrips = 8", ["strips", "unknown key"]),
+    ("pressure = 100", "pressure = 100\nstrip = 8", ["strip", "unknown key", "did you mean 'strips'"]),
+    ("pressure = 100", "pressure = 100\nstrips = 0", ["strips", "0", "from 1 to 1000000"]),
     ("pressure = 100", "pressure = 100\npressure = 100", ["not valid TOML", "line 2"]),
     ("pressure = 100", "pressure 100", ["not valid TOML", "line 1"]),
 ]
@@ -67,6 +68,7 @@ SCENES = [  # what is replaced, by what, and what the message says: the field, t
 CALLS = [
     (["solve", "absent.toml"], ["absent.toml", "no such file"]),
     (["solve", "paper_fig66"], ["did you mean 'paper_fig6'"]),
+    (["solve", "binary"], ["did you mean 'binary.toml'"]),
     (["solve", "folder"], ["folder", "this is a folder"]),
     (["solve", "binary.toml"], ["binary.toml", "UTF-8"]),
     (["solve", "/dev/zero"], ["/dev/zero", "too large"]),

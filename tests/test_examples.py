@@ -39,3 +39,20 @@ def test_docstrings():
         result = doctest.testmod(importlib.import_module(name))
         failed, attempted = failed + result.failed, attempted + result.attempted
     assert failed == 0 and attempted
+
+
+CALLED = ("Dugdale", "Level", "StandardLinearSolid", "friction_law", "load_scene", "solve", "solve_level", "solve_strip", "sweep")
+
+
+@pytest.mark.parametrize("name", CALLED)
+def test_what_a_user_calls_has_an_example(name):
+    assert ">>> " in getattr(hystrip, name).__doc__
+
+
+def test_every_public_name_is_described():
+    for name in hystrip.__all__:
+        thing = getattr(hystrip, name)
+        assert thing.__doc__ and not thing.__doc__.startswith(f"{name}("), name
+        for member, value in vars(thing).items() if isinstance(thing, type) else ():
+            if not member.startswith("_") and (callable(value) or isinstance(value, property)):
+                assert value.__doc__, f"{name}.{member}"

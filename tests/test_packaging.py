@@ -104,7 +104,8 @@ def test_wheel_solves_the_demo_scene(installed):
     assert "mu" in out
 
 
-OPTIONAL = ("sympy", "jinja2", "matplotlib", "xarray", "pandas", "typer", "rich", "msgspec", "pint", "mpmath", "distributed")
+OPTIONAL = ("sympy", "jinja2", "matplotlib", "xarray", "pandas", "typer", "rich", "msgspec", "pint", "mpmath", "distributed",
+            "SurfaceTopography")
 
 
 def test_core_solves_without_any_extra(installed):
@@ -126,6 +127,8 @@ print(float(hystrip.solve(material, adhesion, levels, pressure=100.0, velocity=5
         ("matplotlib", ["solve", "paper_fig6"], "plot"),
         ("distributed", ["sweep", "paper_fig7", "--scheduler", "tcp://127.0.0.1:9"], "dask"),
         ("xarray", ["sweep", "paper_fig7", "--netcdf"], "dataset"),
+        ("SurfaceTopography", ["levels", "scan.nc"], "roughness"),
+        ("matplotlib", ["fit", "dma.csv"], "plot"),
         ("sympy", ["check"], "regenerate"),
         ("jinja2", ["regenerate", "--out", "elsewhere"], "regenerate"),
     ],

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import hystrip
+from hystrip.scene import load_scene, parse_scene
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 LARGE, SMALL = hystrip.Level(l=10e-6, h=1e-6), hystrip.Level(l=500e-9, h=100e-9)
@@ -122,3 +123,17 @@ def test_strips_of_figure_4(adhesion, first):
     s = hystrip.solve_strip(MATERIAL, adhesion, l=LARGE.l, A=LARGE.amplitude(theta), D=D - LARGE.drop(theta), V=5e-3)
     assert s.regime[0] == "acaf"
     assert (s.regime[:first] != "c").all() and (s.regime[first:] == "c").all()
+
+
+def test_equal_strips_of_the_whole_surface_are_those_of_the_level():
+    """``strips=N``: the paper's average, at its penetration as at its pressure, with an error estimate that covers it."""
+    scene = load_scene("paper_fig5")
+    level, V = scene.levels[:1], float(scene.velocity)
+    exact = hystrip.solve(scene.material, scene.adhesion, level, pressure=100, velocity=V, rtol=1e-5)
+    equal = hystrip.solve(scene.material, scene.adhesion, level, pressure=100, velocity=V, rtol=1e-4, strips=100)
+    assert 1e-3 < abs(equal.mu / exact.mu - 1) < 8e-3 and abs(equal.mu - exact.mu) < equal.error_estimate
+    D = float(exact.penetration)
+    at_D = hystrip.solve(scene.material, scene.adhesion, level, penetration=D, velocity=V, strips=100)
+    one = hystrip.solve_level(scene.material, scene.adhesion, level[0], D=D, V=V, strips=100)
+    assert (at_D.tau, at_D.pressure) == (one.tau_mean, one.p_mean)
+    assert parse_scene(scene.text.replace("velocity", "strips = 100\nvelocity", 1)).strips == 100

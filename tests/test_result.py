@@ -7,6 +7,7 @@ import pytest
 
 import hystrip
 from hystrip.plots import save
+from hystrip.regimes_by_level import PULLED_OFF, regimes_by_level
 from hystrip.scene import load_scene
 from hystrip.summary import deborah, peak_velocities
 
@@ -65,7 +66,8 @@ def test_summary_says_it_all(grid):
     for part in (
         "share of mu",
         "pull-off",
-        "regimes of its strips: 100 % saturated contact",
+        "level 1 (all the area):\n              100 %  saturated contact",
+        "level 3 (the contact of level 2, 100 % of the area):\n              100 %  saturated contact",
         "saturated from",
         "real contact",
         "closed form",
@@ -76,6 +78,26 @@ def test_summary_says_it_all(grid):
         assert part in text
     assert deborah(grid)[1, 0, 2] == pytest.approx(2 * np.pi / 5e-7 * 1e-2 * 1e-2)
     assert peak_velocities(grid) == pytest.approx([1e-5 / (2e-4 * np.pi), 5e-7 / (2e-4 * np.pi), 5e-9 / (2e-4 * np.pi)])
+
+
+@pytest.mark.parametrize("branch", ["unloading", "loading"])
+def test_regimes_of_every_level_agree_with_the_result(branch):
+    """Two levels in partial contact: the strips looked at have the contact that the averages have."""
+    result = hystrip.solve(MATERIAL, ADHESION, LEVELS[:2], pressure=100, velocity=5e-3, branch=branch, rtol=1e-2)
+    first, second = regimes_by_level(result, 0)
+    assert first.area == 1 and second.area == first.contact
+    for i, each in enumerate((first, second)):
+        assert each.contact == pytest.approx(result.contact_by_level[i], rel=0.02)
+        assert sum(each.shares.values()) == pytest.approx(1, abs=1e-12)
+    # adhesion lets level 1 pull: where its local pressure is below pull-off of level 2 there is no contact
+    assert 0.2 < second.shares[PULLED_OFF] < 0.3
+
+
+def test_regimes_of_no_contact_and_without_the_lower_level():
+    assert regimes_by_level(solved(-1e5, 5e-3, LEVELS[:1]), 0) == []
+    flat = hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), LEVELS[:2], penetration=-1e-6, velocity=1e-3)
+    (alone,) = regimes_by_level(flat, 0)
+    assert alone.shares == {"no interaction": pytest.approx(1)} and alone.contact == 0
 
 
 def test_summary_of_zero_pressure_and_of_no_contact():

@@ -7,13 +7,20 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "tools"))
+
+import kill_sweep
+
 import hystrip
-from hystrip.sweeps.plan import short_name
+from hystrip.scene.validate import validated
+from hystrip.sweeps.plan import plan_of, short_name
 
 SATURATED = """
 pressure = [5e6, 6e6]
@@ -90,6 +97,17 @@ def test_wrong_sweeps_are_refused_before_any_work(scene, tmp_path, over, said):
     with pytest.raises(hystrip.InputError, match=said):
         hystrip.sweep(scene, over=over, out=tmp_path / "out")
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(("points", "batch"), [(2, 128), (2048, 128), (10_000, 625), (100_000, 2048)])
+def test_batches_are_decided_by_the_number_of_points(points, batch):
+    values = validated(tomllib.loads(SATURATED.replace("batch = 7", "")))
+    over = {"levels[0].h": 1e-6, "material.K": 1e9, "adhesion.gamma": 0.0, "pressure": 5e6}
+    plan = plan_of(values, "s", SATURATED, over | {"velocity": np.geomspace(1e-4, 1e-2, points)}, None, None)
+    assert plan.batch == batch and plan.batches == -(-points // batch)
+    values["levels"] = values["levels"][:1]
+    alone = plan_of(values, "s", SATURATED, over | {"velocity": np.geomspace(1e-4, 1e-2, points)}, None, None)
+    assert alone.batch == max(batch, 512)
 
 
 def test_nothing_to_sweep_and_unequal_lists(scene, tmp_path):
@@ -218,3 +236,9 @@ def test_schema_knows_the_sweep_table():
     from hystrip.scene.schema import json_schema
 
     assert set(json.loads(json.dumps(json_schema()))["$defs"]["Sweep"]["properties"]) == {"combine", "batch"}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="sends SIGKILL")
+def test_killed_in_partial_contact_csv_and_netcdf_are_the_same(tmp_path):
+    """The short version of ``tools/kill_sweep.py``."""
+    assert kill_sweep.compare(tmp_path, points=300, kills=2, workers=2, batch=5, seed=5, say=lambda text: None) == []

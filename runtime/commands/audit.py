@@ -10,9 +10,9 @@ import typer
 def command(
     out: Path = typer.Option(None, "--out", help="Folder to write into; without it, the installed package's own."),
 ) -> None:
-    """Derive and verify the solver anew and write the audit: pages for a browser, and JSON.
+    """Derive, verify, and write the audit pages.
 
-    Exits with 1, and names the step, if one does not verify. Needs the extras `regenerate` and `plot`.
+    Pages for a browser, and JSON. Exits with 1, and names the step, if one does not verify. Needs the extras `regenerate` and `plot`.
     """
     from hystrip.commands.derivation import needed
     from hystrip.commands.progress import progress

@@ -11,7 +11,10 @@ def command(
     only: list[str] = typer.Argument(None, help="Which ones, such as fig3 fig6; all without any."),
     out: Path = typer.Option(Path("hystrip-figures"), "--out", help="Folder for the pictures and their data."),
 ) -> None:
-    """Draw the paper's Figures 3 to 7: PNG, SVG, and the data of each as CSV."""
+    """Draw the paper's Figures 3 to 7.
+
+    PNG, SVG, and the data of each as CSV.
+    """
     from hystrip.commands.progress import progress
     from hystrip.extras import require
     from hystrip.figures import draw

@@ -41,7 +41,7 @@ def _number(value: Any) -> str:
 
 
 def _error(value: Any) -> str:
-    return "-" if np.isnan(value) else f"{value:.0e}"
+    return "-" if np.isnan(value) else f"{value:.0e}" if value else "exact"
 
 
 def _part(value: Any, share: Any) -> str:

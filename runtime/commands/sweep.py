@@ -12,14 +12,14 @@ def command(
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results; run again with the same to go on."),
     workers: int = typer.Option(1, "--workers", help="Local processes."),
     scheduler: str = typer.Option(None, "--scheduler", help="Address of a Dask scheduler, such as tcp://host:8786."),
-    batch: int = typer.Option(None, "--batch", help="Points solved and stored together [the scene's, or 64]."),
+    batch: int = typer.Option(None, "--batch", help="Points solved and stored together [the scene's, or a 16th of all]."),
     netcdf: bool = typer.Option(False, "--netcdf", help="Write the labelled results as netCDF too (extra `dataset`)."),
     restart: bool = typer.Option(False, "--restart", help="Delete what an earlier sweep left in the folder."),
     allow_solver: bool = typer.Option(False, "--allow-solver", help="Run the code of a solver that the scene names."),
 ) -> None:
-    """Solve a scene over every combination of its lists and ranges.
+    """Solve a scene over all its lists and ranges.
 
-    Results go to disk as they come: after Ctrl-C, a crash or a kill the same command goes on where it was. A point that
+    Every combination of them is solved. Results go to disk as they come: after Ctrl-C, a crash or a kill the same command goes on where it was. A point that
     cannot be solved is recorded with its reason.
     """
     from hystrip.commands.progress import progress

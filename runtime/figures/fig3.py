@@ -107,6 +107,7 @@ def paint(table: dict[str, Any]) -> Any:
     panels[1].set_xlabel("nominal pressure $p$ (kPa)")
     panels[1].axvline(0, color="0.7", linewidth=0.5, zorder=0)
     panels[0].axvline(0, color="0.7", linewidth=0.5, zorder=0)
-    panels[1].set_xlim(np.nanmin(p) - 0.15, np.nanmax(p))
+    # coming from no contact, saturation is certain only far beyond where unloading leaves it: nothing happens there any more
+    panels[1].set_xlim(np.nanmin(p) - 0.15, np.nanmax(p[kinds != _KINDS[2]]))
     panels[1].legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncols=2, fontsize=6.5)
     return figure

@@ -60,6 +60,7 @@ def paint(table: dict[str, Any]) -> Any:
     bar.ax.set_ylim(p.min(), p.max())
     bar.ax.tick_params(labelsize=7)
     panel.set_aspect("equal")
+    panel.figure.set_layout_engine("compressed")  # the other one cuts labels beside a panel of fixed aspect
     panel.set_xlabel("$x/l_1$ (sliding towards $+x$)")
     panel.set_ylabel("$y/l_1$")
     return panel.figure

@@ -10,6 +10,8 @@ from .strips import Columns
 
 def level_means(columns: Columns, rtol: np.ndarray) -> Averages:
     """Means of ``strips.QUANTITIES`` for every column, to ``rtol (|value| + 1e-3 scale)`` each; ``rtol`` of shape (n,)."""
+    if columns.strips is not None:
+        return equal_strips(columns, columns.strips)
     floor = np.broadcast_to(1e-3 * columns.scales, (columns.size, columns.scales.size))
     return average(columns.integrand, columns.codes, columns.transitions(), floor, rtol, columns.scales.size)
 

@@ -16,7 +16,7 @@ from hystrip.strip.solution import BRANCHES
 from .build import build_laws
 from .inverse import invert
 from .law import Law
-from .means import equal_strips, level_means
+from .means import level_means
 from .saturated import saturated_level
 from .strips import QUANTITIES, Columns, Tally
 
@@ -104,23 +104,30 @@ def solve_level(
     ``rtol`` is relative to ``|value| + 1e-3 scale``, scale ``K h + p_0`` for pressure, times ``h/l`` for friction, 1 for fractions.
 
     Raises ``InputError`` for inputs out of range, ``SolverError`` for a strip that could not be certified.
+
+    >>> import hystrip
+    >>> material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+    >>> adhesion = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+    >>> level = hystrip.solve_level(material, adhesion, hystrip.Level(l=1e-5, h=1e-6), V=5e-3, D=6e-7, rtol=1e-6)
+    >>> print(f"{float(level.p_mean):.4g} Pa, {float(level.tau_mean):.4g} Pa, {float(level.contact_fraction):.4g}")
+    42.54 Pa, 23.53 Pa, 0.4357
     """
     V, level, edge, branch, rtol = _checked(material, adhesion, level, V, edge, branch, rtol)
     if (D is None) == (pressure is None):
         raise InputError("D, pressure", {"D": D, "pressure": pressure}, "exactly one of the two")
-    if strips is not None:
-        if isinstance(strips, bool) or not isinstance(strips, (int, np.integer)) or strips < 1:
-            raise InputError("strips", strips, "an integer >= 1, or None for adaptive panels")
-        if D is None:
-            raise InputError("strips", strips, "None where the pressure is given: equal strips need D")
+    from hystrip.solve import check_strips
+
+    strips = check_strips(strips)
+    if strips is not None and D is None:
+        raise InputError("strips", strips, "None where the pressure is given: equal strips need D")
     name, load = ("D", numbers("D", D, "m")) if pressure is None else ("pressure", numbers("pressure", pressure, "Pa"))
     shape = broadcast(**{"V": V, name: load})
     V, load = (np.broadcast_to(v, shape).ravel() for v in (V, load))
     tally = Tally()
     if pressure is not None:
         return _at_pressure(material, adhesion, level, V, load, edge, branch, rtol, shape, tally)
-    columns = Columns(material, adhesion, level, edge, branch, V, load, tally=tally)
-    means = level_means(columns, np.full(V.size, rtol)) if strips is None else equal_strips(columns, int(strips))
+    columns = Columns(material, adhesion, level, edge, branch, V, load, strips=strips, tally=tally)
+    means = level_means(columns, np.full(V.size, rtol))
     return _solution(load, means.values, means.errors, np.zeros(V.size, bool), shape, tally)
 
 
@@ -167,6 +174,12 @@ def friction_law(
     """Friction law of a level at one velocity ``V`` (m/s), from pull-off up to saturation, or up to the pressure ``below`` (Pa).
 
     Raises ``InputError`` for inputs out of range, ``SolverError`` for a strip that could not be certified.
+
+    >>> import hystrip
+    >>> material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+    >>> law = hystrip.friction_law(material, hystrip.Dugdale(gamma=0), hystrip.Level(l=5e-7, h=1e-7), V=5e-3, rtol=1e-3)
+    >>> print(law([0, 100, 1e6]).round(1), round(law.p_sat, 1), round(law.tau_sat, 1))
+    [ 0.   0.9 90.5] 4912.9 90.5
     """
     V, level, edge, branch, rtol = _checked(material, adhesion, level, V, edge, branch, rtol)
     if V.ndim:

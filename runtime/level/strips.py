@@ -49,7 +49,7 @@ class Columns:
     """Pairs of velocity and penetration at which one level is averaged; ``V`` and ``D`` of shape (n,).
 
     ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
-    laws belongs to a column.
+    laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels.
     """
 
     material: Material
@@ -61,6 +61,7 @@ class Columns:
     D: np.ndarray
     carry: Carry | None = None
     group: np.ndarray | None = None
+    strips: int | None = None
     tally: Tally = field(default_factory=Tally, compare=False)
 
     def at(self, index, D) -> Columns:

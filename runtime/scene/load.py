@@ -47,6 +47,14 @@ def load_scene(source: str | os.PathLike[str], *, allow_solver: bool = False) ->
     ------
     SceneError : the file cannot be read, or its content not be used; names key, value and what is allowed
     MissingExtra : msgspec, or Pint where a unit is written, is not installed
+
+    Examples
+    --------
+    >>> scene = load_scene("paper_fig7")
+    >>> len(scene.levels), scene.velocity.shape, float(scene.pressure)
+    (3, (141,), 5000000.0)
+    >>> print(f"{scene.solve().mu.max():.3e}")
+    2.974e-04
     """
     text, name = scene_text(source)
     return parse_scene(text, name=name, source=os.fspath(source), allow_solver=allow_solver)
@@ -98,7 +106,7 @@ def _read(path: str) -> str:
         with open(path, "rb") as file:
             data = file.read(_LARGEST + 1)
     except FileNotFoundError:
-        near = nearest(path, BUILTIN)
+        near = f"{path}.toml" if os.path.isfile(f"{path}.toml") else nearest(path, BUILTIN)
         hint = f" (did you mean {near!r}?)" if near else ""
         allowed = f"the path of a TOML file, or a built-in scene: {', '.join(BUILTIN)}"
         raise SceneError("", path, allowed, f"no such file{hint}", path) from None

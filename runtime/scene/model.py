@@ -23,7 +23,7 @@ class Scene:
     penetration : penetration of level 1, shape () or (P,) [m]; None if `pressure` is given
     velocity : sliding velocity, shape () or (V,) [m/s]
     edge, branch : closure where the pressure steps, and which of several solutions
-    rtol : accuracy asked for, as in :func:`hystrip.solve`
+    rtol : accuracy asked for, as in :func:`hystrip.solve`; strips : equal strips of level 1, None for adaptive panels
     text : the TOML text it was read from
     source : the file or built-in scene it was read from, named in errors
     """
@@ -40,6 +40,7 @@ class Scene:
     edge: str
     branch: str
     rtol: float
+    strips: int | None
     text: str
     source: str = ""
 
@@ -80,6 +81,7 @@ class Scene:
                 edge=self.edge,
                 branch=self.branch,
                 rtol=self.rtol,
+                strips=self.strips,
                 **options,
             )
         return dataclasses.replace(result, scene=self.text)

@@ -108,8 +108,10 @@ class Sweep(Struct, forbid_unknown_fields=True, kw_only=True):
         Meta(description='"grid" (every combination, the default) or "list" (all of one length, taken together)'),
     ] = "grid"
     batch: Annotated[
-        int, Meta(ge=1, le=100_000, description="an integer from 1 to 100000, points that are solved and stored together")
-    ] = 64
+        Annotated[int, Meta(ge=1, le=100_000)] | None,
+        Meta(description="an integer from 1 to 100000, points that are solved and stored together "
+             "(without it a 16th of all, from 128, with one level 512, to 2048)"),
+    ] = None  # fmt: skip
 
 
 class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):
@@ -120,6 +122,11 @@ class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):
     pressure: Annotated[Values | None, _range_meta("nominal pressure (negative pulls); or give penetration", "Pa")] = None
     penetration: Annotated[Values | None, _range_meta("penetration of level 1, in place of pressure", "m")] = None
     velocity: Annotated[Values, _range_meta("sliding velocity, >= 0", "m/s")]
+    strips: Annotated[
+        Annotated[int, Meta(ge=1, le=1_000_000)] | None,
+        Meta(description="an integer from 1 to 1000000: average level 1 over so many equal strips, as the paper does "
+             "(without it adaptive panels)"),
+    ] = None  # fmt: skip
     edge: Annotated[
         Literal["continuous", "constitutive"],
         Meta(description='"continuous" (the default) or "constitutive", the closure where the pressure steps'),

@@ -131,6 +131,17 @@ def solve_strip(
     ------
     InputError : an input outside its range, named with what is allowed
     SolverError : a strip whose solution did not pass its certificate, named
+
+    Examples
+    --------
+    >>> import hystrip
+    >>> material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+    >>> adhesion = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+    >>> strips = hystrip.solve_strip(material, adhesion, l=1e-5, A=5e-7, D=[2e-7, 2e-6, 2e-5], V=5e-3)
+    >>> strips.regime.tolist()
+    ['acaf', 'acaf', 'c']
+    >>> print(strips.contact_fraction.round(3))
+    [0.162 0.296 1.   ]
     """
     check_material(material)
     if not isinstance(adhesion, Dugdale):

@@ -80,6 +80,7 @@ def _numbers(task: Task, at: np.ndarray, fixed: list[int], rows: np.ndarray) -> 
         edge=base["edge"],
         branch=base["branch"],
         rtol=base["rtol"],
+        strips=base["strips"],
     )
     return np.column_stack([
         result.mu, result.tau, *parts_of_mu(result), result.pressure, result.penetration, result.contact_fraction,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 import hashlib
 import json
 import re
@@ -20,6 +21,10 @@ from hystrip.scene.load import build_objects, quantities, refuse_ambiguous
 _LOADS = ("pressure", "penetration")
 _UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "gamma": "J/m^2", "p_0": "Pa", "delta_0": "m",
           "pressure": "Pa", "penetration": "m", "velocity": "m/s"}  # fmt: skip
+
+#: batches of a sweep that does not say: so many, of at least and at most so many points; one level alone is so quick that
+#: smaller batches take longer than the solution
+_SHARES, _LEAST, _LEAST_OF_ONE_LEVEL, _MOST = 16, 128, 512, 2048
 
 
 @dataclass(frozen=True)
@@ -108,12 +113,12 @@ def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], 
     for key, given in over.items():
         _put(values, key, given)
     refuse_ambiguous(values)
-    settings = values["sweep"] or {"combine": "grid", "batch": 64}
+    settings = values["sweep"] or {"combine": "grid", "batch": None}
     combine = settings["combine"] if combine is None else combine
     batch = settings["batch"] if batch is None else batch
     if combine not in ("grid", "list"):
         raise InputError("combine", combine, "'grid' (every combination) or 'list' (all of one length, taken together)")
-    if isinstance(batch, bool) or not isinstance(batch, int) or batch < 1:
+    if batch is not None and (isinstance(batch, bool) or not isinstance(batch, int) or batch < 1):
         raise InputError("batch", batch, "an integer >= 1, points that are solved and stored together")
     axes = tuple(Axis(key, each) for key, each in quantities(values) if each.ndim)
     for axis in axes:
@@ -129,10 +134,12 @@ def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], 
         raise SceneError(
             "", None, "a list or a range for at least one quantity", "nothing is swept: every quantity is a single value"
         )
-    plan = Plan(name, text, values, axes, combine, batch)
+    plan = Plan(name, text, values, axes, combine, batch or 1)
     if plan.size > 100_000_000:
         raise SceneError("", plan.size, "at most 1e8 points", f"{plan.size} points")
-    return plan
+    # large batches use the vectorised solver well, many share out among workers and lose little to a kill
+    least = _LEAST if plan.levels > 1 else _LEAST_OF_ONE_LEVEL
+    return plan if batch else dataclasses.replace(plan, batch=min(max(-(-plan.size // _SHARES), least), _MOST))
 
 
 def _put(values: dict[str, Any], key: str, given: Any) -> None:

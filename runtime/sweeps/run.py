@@ -74,7 +74,8 @@ def sweep(
         ``{"adhesion.gamma": [0, 1e-5], "levels[1].h": [5e-8, 1e-7]}``
     out : folder for ``<name>.csv`` and the finished batches (``<name>.parts/``)
     combine : ``"grid"`` (every combination) or ``"list"`` (all of one length, taken together); the scene's ``[sweep]`` if None
-    batch : points solved and stored together; the scene's ``[sweep]`` if None
+    batch : points solved and stored together; the scene's ``[sweep]`` if None, and if it does not say a
+        16th of all, from 128 (with one level 512) to 2048
     workers : local processes, 1 for this one; or executor : anything with the ``concurrent.futures`` interface, such as
         Dask's ``Client.get_executor()``; or scheduler : address of a Dask scheduler
     restart : delete what an earlier sweep left in the folder
@@ -84,6 +85,15 @@ def sweep(
     Raises
     ------
     InputError : the scene or an argument; a single point that fails is recorded, it raises nothing
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     done = sweep("paper_fig7", over={"adhesion.gamma": [0, 1e-5]}, out=folder)
+    ...     again = sweep("paper_fig7", over={"adhesion.gamma": [0, 1e-5]}, out=folder)
+    >>> done.plan.shape, done.solved, again.solved, again.kept
+    ((2, 141), 3, 0, 3)
     """
     from hystrip.scene.load import located, parse_toml, resolve_solver, scene_text
     from hystrip.scene.validate import validated

@@ -1,0 +1,66 @@
+"""``hystrip levels``: from a measured surface to the levels of a scene."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import typer
+
+
+def command(
+    surface: Path = typer.Argument(help="A measured surface, in any format that SurfaceTopography reads."),
+    count: int = typer.Option(
+        None, "--count", help="Number of levels, in bands of equal width on a logarithmic scale [2]."
+    ),
+    ratio: float = typer.Option(None, "--ratio", help="Or the ratio of the wavelengths that bound a band."),
+    longest: str = typer.Option(
+        None, "--longest", help='Longest wavelength, such as "20 um" [half the scan; periodic: all of it].'
+    ),
+    shortest: str = typer.Option(None, "--shortest", help='Shortest wavelength, such as "0.1 um" [four points].'),
+    wavelength: str = typer.Option(
+        "gradient", "--wavelength", help="A level keeps the rms gradient of its band, or stands at its centre."
+    ),
+    channel: str = typer.Option(None, "--channel", help="Name of the channel [the file's default]."),
+    unit: str = typer.Option(None, "--unit", help="Length unit, for a file that does not say."),
+    size: list[float] = typer.Option(
+        None, "--size", help="Length of the scan in that unit, once for each direction, if the file does not say."
+    ),
+    scene: str = typer.Option(
+        "starter", "--scene", help="The scene whose levels are replaced [that of `hystrip init`]."
+    ),
+    out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
+    plot: bool = typer.Option(True, help="Draw the spectrum with the levels (PNG)."),
+) -> None:
+    """Make levels from a measured surface.
+
+    Each level has the rms height and the rms gradient of the surface in its band of wavelengths. Writes a scene that
+    holds them: SCENE with its own replaced. Needs the extra `roughness`.
+    """
+    from hystrip.commands.quantities import metres
+    from hystrip.extras import require
+    from hystrip.files import Outputs, refuse_unwritable
+    from hystrip.roughness import levels_of, read_surface
+    from hystrip.scene.edit import with_levels
+    from hystrip.scene.load import located, scene_text
+
+    if plot:
+        require("matplotlib", "plot", "drawing (or give --no-plot)")
+    limits = {"longest": metres(longest, "--longest"), "shortest": metres(shortest, "--shortest")}
+    refuse_unwritable(out, "--out")
+    scan = read_surface(surface, channel=channel, unit=unit, sizes=tuple(size) if size else None)
+    found = levels_of(scan, count=count, ratio=ratio, wavelength=wavelength, **limits)
+    ends = f"{found.bands.max():.4g} to {found.bands.min():.4g} m"
+    comment = f"Made from {surface.name}, wavelengths {ends}: rms height and gradient of each band."
+    with located(scene):
+        text = with_levels(scene_text(scene)[0], [{"l": each.l, "h": each.h} for each in found.levels], comment)
+    with Outputs(out) as files:
+        names = [f"{surface.stem}.levels.toml"]
+        files.path(names[0]).write_text(text, encoding="utf-8", newline="\n")
+        if plot:
+            from hystrip.plots import roughness_levels, save
+
+            names.append(f"{surface.stem}.levels.png")
+            save(roughness_levels(found, scan), files.path(names[1]))
+    typer.echo(found.report())
+    for name in names:
+        typer.echo(f"wrote {out / name}")

@@ -1,0 +1,87 @@
+"""Writing tables into the text of a scene: the rest of the file, its comments too, stays as it is."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from hystrip.scene.errors import SceneError
+from hystrip.scene.load import parse_scene, parse_toml
+
+_HEADER = re.compile(r"\s*\[\[?\s*(?P<name>[^\]\s]+)\s*\]?\]")
+
+
+def with_material(text: str, table: Mapping[str, Any], comment: str = "") -> str:
+    """The scene with another ``[material]``. Raises SceneError if what comes out is no scene."""
+    return _checked(text, _replaced(text, "material", [_table("[material]", table, comment)]), "material")
+
+
+def with_levels(text: str, levels: Sequence[Mapping[str, Any]], comment: str = "") -> str:
+    """The scene with other ``[[levels]]``. Raises SceneError if what comes out is no scene."""
+    tables = [_table("[[levels]]", level, comment if number == 0 else "") for number, level in enumerate(levels)]
+    return _checked(text, _replaced(text, "levels", tables), "levels")
+
+
+def with_setting(text: str, key: str, value: str) -> str:
+    """The scene with another value of a key that stands above its tables, and holds text."""
+    lines = text.splitlines()
+    top = next((number for number, line in enumerate(lines) if _HEADER.match(line)), len(lines))
+    old = [number for number, line in enumerate(lines[:top]) if re.match(rf"\s*{key}\s*=", line)]
+    new = f"{key} = {_value(value)}"
+    lines = [*lines[: old[0]], new, *lines[old[0] + 1 :]] if old else [new, *lines]
+    return _checked(text, "\n".join(lines) + "\n", key)
+
+
+def _table(header: str, table: Mapping[str, Any], comment: str) -> str:
+    lines = [f"# {line}" for line in comment.splitlines()]
+    return "\n".join([*lines, header, *(f"{key} = {_value(value)}" for key, value in table.items())])
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, str):
+        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    return repr(float(value))
+
+
+def _replaced(text: str, name: str, tables: list[str]) -> str:
+    """Cut every table called ``name`` and put ``tables`` where the first stood, or at the end."""
+    kept: list[str] = []
+    held: list[
+        str
+    ] = []  # comments and blank lines in a table that is cut: they belong to the next table, if one follows
+    place, cutting = None, False
+    for line in text.splitlines():
+        header = _HEADER.match(line)
+        if header:
+            cutting = header["name"] == name
+            place = len(kept) if cutting and place is None else place
+            kept += [] if cutting else held
+            held = []
+        elif cutting and (not line.strip() or line.lstrip().startswith("#")):
+            held.append(line)
+        elif cutting:
+            held = []
+        if not cutting:
+            kept.append(line)
+    kept += held
+    place = len(kept) if place is None else place
+    before, after = "\n".join(kept[:place]).rstrip(), "\n".join(kept[place:]).strip("\n")
+    return "\n\n".join(part for part in (before, *tables, after) if part) + "\n"
+
+
+def _checked(old: str, new: str, name: str) -> str:
+    """The new text, if it is a scene and differs from the old one in the table alone."""
+    was = parse_toml(old)
+    try:
+        now = parse_toml(new)
+    except SceneError:  # written in another way, and now there twice
+        now = {}
+    if {key: each for key, each in was.items() if key != name} != {
+        key: each for key, each in now.items() if key != name
+    }:
+        raise SceneError(name, was.get(name), "a table under its own header, so that it can be replaced")
+    parse_scene(new)
+    return new

@@ -1,0 +1,117 @@
+"""Kill a sweep again and again at random moments, go on each time, and compare the outcome with a sweep left alone.
+
+    python tools/kill_sweep.py [--points 10000] [--kills 5] [--workers 1] [--batch 40] [--seed 1]
+
+Partial contact with adhesion at given penetrations: about 3 ms a point. Each run is ended by SIGKILL, parent only: its
+workers have to notice. Exit status 1 unless the final CSV and netCDF files are the same bytes, no finished batch was
+solved again, and no file that is not whole was ever left in place.
+"""
+
+import argparse
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+SCENE = """
+penetration = {{ start = 1e-8, stop = 6e-8, num = 10 }}
+velocity = {{ start = 1e-4, stop = 1e-2, num = {velocities}, spacing = "log" }}
+rtol = 1e-2
+[sweep]
+batch = {batch}
+[material]
+K = 1e9
+T_eps = 0.01
+T_sigma = 1e-4
+[adhesion]
+gamma = [1e-5, 2e-5]
+delta_0 = 1e-8
+[[levels]]
+l = 5e-7
+h = 1e-7
+"""
+FILES = ("killed.csv", "killed.nc")
+
+
+class Run:
+    """A folder with the scene, and sweeps of it as processes of their own."""
+
+    def __init__(self, folder: Path, points: int, batch: int, workers: int):
+        folder.mkdir(parents=True)
+        (folder / "killed.toml").write_text(SCENE.format(velocities=points // 20, batch=batch), encoding="utf-8")
+        self.folder, self.workers, self.out = folder, workers, folder / "hystrip-out"
+
+    def start(self) -> subprocess.Popen:
+        command = [sys.executable, "-m", "hystrip", "sweep", "killed.toml", "--netcdf", "--workers", str(self.workers)]
+        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+        return subprocess.Popen(command, cwd=self.folder, start_new_session=True, **pipes)
+
+    def finish(self) -> str:
+        """Run to the end; standard output. RuntimeError if that fails."""
+        process = self.start()
+        out, err = process.communicate()
+        if process.returncode:
+            raise RuntimeError(err)
+        return out
+
+    def batches(self) -> dict[str, int]:
+        """Finished batches and when they were written."""
+        return {path.name: path.stat().st_mtime_ns for path in self.out.glob("killed.parts/part-*.json")}
+
+
+def wait_for(run: Run, batches: int, process: subprocess.Popen) -> None:
+    """Until so many batches are finished."""
+    while len(run.batches()) < batches and process.poll() is None:
+        time.sleep(0.002)
+
+
+def compare(folder: Path, points: int, kills: int, workers: int, batch: int, seed: int, say=print) -> list[str]:
+    """What went wrong, one line each: nothing, if the sweep is what it promises."""
+    alone, killed = Run(folder / "alone", points, batch, workers), Run(folder / "killed", points, batch, workers)
+    start = time.monotonic()
+    alone.finish()
+    took = time.monotonic() - start
+    total = len(alone.batches())
+    say(f"left alone: {took:.1f} s, {total} batches of {batch} points")
+    wrong, chance, before = [], random.Random(seed), {}
+    for number in range(1, kills + 1):
+        process = killed.start()
+        # after a random number of batches that leaves some for the runs to come, and then somewhere in the next ones
+        wait_for(killed, len(before) + chance.randint(0, (total - len(before)) // (kills + 2 - number)), process)
+        time.sleep(chance.uniform(0, 2 * took / total))
+        process.kill()
+        process.communicate()
+        if process.returncode != -signal.SIGKILL:
+            wrong.append(f"run {number} ended by itself, with status {process.returncode}: more points are needed")
+        after = killed.batches()
+        wrong += [f"run {number} solved {name} again" for name, stamp in before.items() if after.get(name) != stamp]
+        wrong += [f"run {number} left {name}" for name in FILES if (killed.out / name).exists()]
+        say(f"kill {number}: {len(before)} -> {len(after)} batches")
+        before = after
+    said = killed.finish().splitlines()[0]
+    after = killed.batches()
+    wrong += [f"the last run solved {name} again" for name, stamp in before.items() if after.get(name) != stamp]
+    say(f"last run: {said}")
+    for name in FILES:
+        same = (killed.out / name).read_bytes() == (alone.out / name).read_bytes()
+        say(f"{name}: {'the same bytes' if same else 'DIFFERS'}, {(killed.out / name).stat().st_size} of them")
+        wrong += [] if same else [f"{name} differs"]
+    return wrong
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name, default in (("points", 10_000), ("kills", 5), ("workers", 1), ("batch", 40), ("seed", 1)):
+        parser.add_argument(f"--{name}", type=int, default=default)
+    given = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        wrong = compare(Path(folder), given.points, given.kills, given.workers, given.batch, given.seed)
+    print("\n".join(wrong) if wrong else "nothing lost, nothing repeated")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
