@@ -8,6 +8,12 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
+_EPS = np.finfo(float).eps
+#: share of the roughest quantity's relative error that every other one is taken to have at least
+_COMMON = 0.3
+#: slowest decay that a sum of the rest may be extrapolated with
+_SLOWEST = 8.0
+
 
 @lru_cache
 def lobatto(n: int) -> np.ndarray:
@@ -38,6 +44,22 @@ def _transform(n: int) -> np.ndarray:
     return matrix
 
 
+def interpolation_errors(c: np.ndarray, noise: np.ndarray) -> np.ndarray:
+    """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q); ``noise`` (p, q): changes that don't matter.
+
+    What is left is extrapolated from the last coefficients, at the pace they fell at since the middle: that of the slowest quantity, and no
+    quantity is taken to be much smoother than the roughest, for they share their singularities.
+    """
+    n = c.shape[1] - 1
+    c = np.abs(c)
+    amplitude = c[:, 1:].max(axis=1) + noise + 64 * _EPS * c.max(axis=1) + np.finfo(float).tiny
+    shape = (c / amplitude[:, None]).max(axis=2)
+    last, middle = shape[:, n - 2 :].max(axis=1), shape[:, n // 2 - 2 : n // 2 + 1].max(axis=1)
+    pace = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0) ** (2 / n)
+    rest = np.minimum(2 * pace / np.maximum(1 - pace, 1e-3), _SLOWEST)[:, None]
+    return np.maximum(c[:, n - 2 :].max(axis=1), _COMMON * last[:, None] * amplitude) * rest
+
+
 @lru_cache
 def refinement(n: int) -> np.ndarray:
     """Matrix that takes values at ``lobatto(n/2)`` to the nodes of ``lobatto(n)`` that are new, (n/2, n/2 + 1)."""
@@ -48,12 +70,17 @@ def refinement(n: int) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Piece:
-    """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t; ``error`` bounds each of them, (q,)."""
+    """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t; ``error`` bounds each of them, (q,).
+
+    ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end, in another piece.
+    """
 
     low: float
     high: float
     coefficients: np.ndarray
     error: np.ndarray
+    soft_low: bool = False
+    soft_high: bool = False
 
     def penetration(self, t):
         """D at t."""

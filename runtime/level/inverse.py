@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .curve import breakpoints, first_contact, threshold_width
+from .breaks import breakpoints, first_contact, threshold_width
 from .means import level_means
 from .strips import Columns
 
