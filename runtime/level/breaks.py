@@ -48,7 +48,10 @@ def breakpoints(columns: Columns, top: np.ndarray) -> list[np.ndarray]:
     low, high = D[line, node], D[line, node + 1]
     width = 16 * _EPS * np.maximum(np.maximum(np.abs(low), np.abs(high)), h)
     changes = locate(codes_at, line, low, high, codes[line, node], codes[line, node + 1], width)
-    edge = [h - a.p_0 / K, h - a.p_0 / K - a.delta_0, h - (a.delta_0 if a.p_0 > 0 else 0.0)]
+    if columns.branch == "unloading" and a.p_0 > 0:
+        edge = [h - a.p_0 / K, h - a.p_0 / K - a.delta_0]
+    else:
+        edge = [h - a.p_0 / K, h - (a.delta_0 if a.p_0 > 0 else 0.0)]
     out = []
     for r in range(n):
         start = changes.high[changes.line == r].min(initial=np.inf)

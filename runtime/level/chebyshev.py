@@ -1,6 +1,7 @@
 """Chebyshev interpolation of several quantities at once on a piece ``low <= D <= high``.
 
-``D = low + width sin^2(pi t/2)``: a quantity that ends like a square root in D is smooth in t.
+``D = low + width graded(t)``: the grading is flat like t^4 at both ends. A quantity that ends like a square root in D is smooth in t, and one
+that ends like ``D log D`` nearly so (a level does where its crest lets go while its neighbours still hold).
 """
 
 from dataclasses import dataclass
@@ -52,7 +53,9 @@ def interpolation_errors(c: np.ndarray, noise: np.ndarray) -> np.ndarray:
     """
     n = c.shape[1] - 1
     c = np.abs(c)
-    amplitude = c[:, 1:].max(axis=1) + noise + 64 * _EPS * c.max(axis=1) + np.finfo(float).tiny
+    # what is rounding says nothing of the singularities
+    c = np.maximum(c - 16 * _EPS * c.max(axis=1)[:, None], 0.0)
+    amplitude = c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny
     shape = (c / amplitude[:, None]).max(axis=2)
     last, middle = shape[:, n - 2 :].max(axis=1), shape[:, n // 2 - 2 : n // 2 + 1].max(axis=1)
     pace = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0) ** (2 / n)
@@ -66,6 +69,17 @@ def refinement(n: int) -> np.ndarray:
     x, new, w = lobatto(n // 2), lobatto(n)[1::2], _barycentric(n // 2)
     terms = w / (new[:, None] - x)
     return terms / terms.sum(axis=1, keepdims=True)
+
+
+def graded(t):
+    """Share of an interval that lies below parameter t: both in [0, 1], flat like t^4 at both ends."""
+    return np.sin(0.5 * np.pi * np.sin(0.5 * np.pi * t) ** 2) ** 2
+
+
+def parameter(share):
+    """t at which ``graded`` is ``share``."""
+    inner = 2 / np.pi * np.arcsin(np.sqrt(share))
+    return 2 / np.pi * np.arcsin(np.sqrt(inner))
 
 
 @dataclass(frozen=True)
@@ -84,12 +98,11 @@ class Piece:
 
     def penetration(self, t):
         """D at t."""
-        return self.low + (self.high - self.low) * np.sin(0.5 * np.pi * t) ** 2
+        return self.low + (self.high - self.low) * graded(t)
 
     def parameter(self, D):
         """t at D."""
-        share = np.clip((D - self.low) / (self.high - self.low), 0.0, 1.0)
-        return 2 / np.pi * np.arcsin(np.sqrt(share))
+        return parameter(np.clip((D - self.low) / (self.high - self.low), 0.0, 1.0))
 
     def values(self, t) -> np.ndarray:
         """Quantities at t (m,), shape (m, q)."""

@@ -12,7 +12,7 @@ import numpy as np
 
 from .appearance import is_inside, island, vanishing
 from .breaks import breakpoints, threshold_width
-from .chebyshev import Piece, coefficients, interpolation_errors, lobatto
+from .chebyshev import Piece, coefficients, graded, interpolation_errors, lobatto
 from .expected import expect, hints
 from .means import level_means
 from .strips import Columns, saturation_depth
@@ -21,6 +21,8 @@ _FIRST, _LAST = 4, 32
 _ROUNDS = 40
 #: share of the error allowed that interpolating may have, and that of each mean
 _INTERPOLATION, _MEAN = 0.5, 0.3
+#: an interval's pressure is known at least this well
+_COARSEST = 1e-3
 #: a piece narrower than this, relative to D, is taken as it is
 _NARROWEST = 1e-11
 
@@ -53,16 +55,19 @@ class Interval:
 
     def penetrations(self, t):
         """D at the parameters ``t`` of a piece."""
-        return self.low + (self.high - self.low) * np.sin(0.5 * np.pi * t) ** 2
+        return self.low + (self.high - self.low) * graded(t)
 
 
-def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None) -> list[Curve]:
-    """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``."""
+def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None, frictional: bool = False) -> list[Curve]:
+    """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``.
+
+    ``frictional``: pressure need only be known as well as it takes for friction over pressure to be.
+    """
     n = columns.size
     top = saturation_depth(columns) if top is None else top
     strips = np.zeros(n, int)
     intervals = [i for row in smooth_intervals(columns, top) for i in row]
-    pieces = interpolate(columns, rtol, intervals, strips)
+    pieces = interpolate(columns, rtol, intervals, strips, frictional)
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
 
 
@@ -80,17 +85,19 @@ def smooth_intervals(columns: Columns, top: np.ndarray) -> list[list[Interval]]:
     ]
 
 
-def interpolate(columns: Columns, rtol: np.ndarray, intervals: list[Interval], strips: np.ndarray) -> list[list[Piece]]:
+def interpolate(
+    columns: Columns, rtol: np.ndarray, intervals: list[Interval], strips: np.ndarray, frictional: bool = False
+) -> list[list[Piece]]:
     """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work."""
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
     for _ in range(_ROUNDS):
         if not intervals:
             return pieces
-        intervals = _round(columns, rtol, intervals, pieces, strips)
+        intervals = _round(columns, rtol, intervals, pieces, strips, frictional)
     raise ArithmeticError("the curve over penetration did not converge")
 
 
-def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips) -> list[Interval]:
+def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, frictional: bool) -> list[Interval]:
     """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not."""
     batch = _Batch(columns, rtol, intervals, strips)
     batch.sample(_FIRST)
@@ -103,6 +110,8 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips) ->
         c = np.einsum("ij,pjq->piq", coefficients_of(n), batch.values)
         goal = rtol[batch.column][:, None] * (np.abs(batch.values).min(axis=1) + floor)
         error = interpolation_errors(c, 0.1 * goal)
+        if frictional:
+            goal[:, 0] = _pressure_goal(batch.values, goal)
         done = (error <= _INTERPOLATION * goal).all(axis=1)
         done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in batch.intervals]
         for k in np.flatnonzero(done):
@@ -116,6 +125,13 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips) ->
     for i in batch.intervals:
         parts += i.split(0.5 * (i.low + i.high), soft=True)
     return parts
+
+
+def _pressure_goal(values, goal):
+    """Error of pressure that moves friction by no more than is allowed for it, where friction rises steadily with pressure."""
+    pressure, friction = np.ptp(values[:, :, 0], axis=1), np.ptp(values[:, :, 1], axis=1)
+    share = np.divide(goal[:, 1], friction, out=np.full_like(friction, np.inf), where=friction > 0)
+    return np.maximum(goal[:, 0], pressure * np.minimum(share, _COARSEST))
 
 
 def _islands(columns: Columns, batch: _Batch, n: int, which, strips) -> dict[int, float]:

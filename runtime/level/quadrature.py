@@ -54,7 +54,9 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     """
     n = values.shape[1] + 1
     c = np.abs(np.einsum("kj,pjq->pkq", _second_kind(n), values))
-    amplitude = c[:, 1:].max(axis=1) + noise + 64 * _EPS * np.abs(values).max(axis=1) + np.finfo(float).tiny
+    # what is rounding says nothing of the singularities
+    c = np.maximum(c - 16 * _EPS * np.abs(values).max(axis=1)[:, None], 0.0)
+    amplitude = c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny
     shape = (c / amplitude[:, None]).max(axis=2)
     last, middle = shape[:, n - 4 :].max(axis=1), shape[:, n // 2 - 3 : n // 2].max(axis=1)
     decay = (np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0)) ** (1 / (n // 2 - 1))
