@@ -125,6 +125,8 @@ class _Work:
     errors: np.ndarray
     strips: np.ndarray
     accepted: list[tuple]
+    #: codes at the crest and next to the flat edge: what is narrower than a panel's first step shows up there
+    ends: np.ndarray | None = None
 
     def zones(self) -> list[np.ndarray]:
         """See ``Averages.zones``."""
@@ -149,6 +151,9 @@ class _Work:
         while panels.size and n <= _LAST:
             codes, values = self._sample(panels, n, nodes)
             mixed = (codes != codes[:, :1]).any(axis=1)
+            if n == _FIRST:
+                mixed |= (panels.low == 0) & (codes[:, 0] != self.ends[panels.column, 0])
+                mixed |= (panels.high == np.pi) & (codes[:, -1] != self.ends[panels.column, 1])
             if mixed.any():
                 later.append(self._split_at_transitions(panels.take(mixed), codes[mixed], values[mixed], n))
             keep = ~mixed
@@ -234,8 +239,16 @@ class _Work:
             t = t[0::2]
         theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * mapped(t)
         column = np.broadcast_to(panels.column[:, None], theta.shape)
-        np.add.at(self.strips, column.ravel(), 1)
-        codes, values = self.integrand(column.ravel(), theta.ravel())
+        column, theta_flat = column.ravel(), theta.ravel()
+        if self.ends is None:
+            every = np.arange(self.rtol.size)
+            column = np.concatenate((column, every, every))
+            theta_flat = np.concatenate((theta_flat, 0.0 * self.rtol, self._edge()))
+        np.add.at(self.strips, column, 1)
+        codes, values = self.integrand(column, theta_flat)
+        if self.ends is None:
+            self.ends = codes[theta.size :].reshape(2, -1).T
+            codes, values = codes[: theta.size], values[: theta.size]
         codes, values = codes.reshape(theta.shape), values.reshape(*theta.shape, -1)
         if known is None:
             return codes, values
@@ -245,6 +258,21 @@ class _Work:
         all_values[:, 0::2], all_values[:, 1::2] = values, known[1]
         return all_codes, all_values
 
+    def _with_ends(self, panels: _Panels, theta, codes):
+        """Nodes and codes with the crest and the flat edge added to the panels that end there (the end nodes twice elsewhere)."""
+        first, last = panels.low == 0, panels.high == np.pi
+        low = np.where(first, 0.0, theta[:, 0]), np.where(first, self.ends[panels.column, 0], codes[:, 0])
+        edge = np.maximum(self._edge()[panels.column], theta[:, -1])
+        high = np.where(last, edge, theta[:, -1]), np.where(last, self.ends[panels.column, 1], codes[:, -1])
+        return tuple(
+            np.concatenate((start[:, None], inner, end[:, None]), axis=1)
+            for start, inner, end in zip(low, (theta, codes), high, strict=True)
+        )
+
+    def _edge(self):
+        """Theta next to the flat edge of each column: what lies beyond does not matter at its accuracy."""
+        return np.pi * (1 - 0.01 * self.rtol)
+
     def _codes(self, column, theta):
         np.add.at(self.strips, column, 1)
         return self.codes_at(column, theta)
@@ -253,6 +281,8 @@ class _Work:
         """Locate every transition between neighbouring nodes that disagree; panels end there."""
         t = interior_nodes(n)
         theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * mapped(t)
+        if n == _FIRST:
+            theta, codes = self._with_ends(panels, theta, codes)
         row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
         spread = (values.max(axis=1) - values.min(axis=1))[row]
         # the size of the result is known by what is summed up, and by these panels' own share
