@@ -86,18 +86,26 @@ def smooth_intervals(columns: Columns, top: np.ndarray) -> list[list[Interval]]:
 
 
 def interpolate(
-    columns: Columns, rtol: np.ndarray, intervals: list[Interval], strips: np.ndarray, frictional: bool = False
+    columns: Columns,
+    rtol: np.ndarray,
+    intervals: list[Interval],
+    strips: np.ndarray,
+    frictional: bool = False,
+    pressure_goal: np.ndarray | None = None,
 ) -> list[list[Piece]]:
-    """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work."""
+    """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work.
+
+    ``frictional``: see ``trace``. ``pressure_goal`` (Pa, per column): nothing but pressure counts, to that absolute error.
+    """
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
     for _ in range(_ROUNDS):
         if not intervals:
             return pieces
-        intervals = _round(columns, rtol, intervals, pieces, strips, frictional)
+        intervals = _round(columns, rtol, intervals, pieces, strips, frictional, pressure_goal)
     raise ArithmeticError("the curve over penetration did not converge")
 
 
-def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, frictional: bool) -> list[Interval]:
+def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, frictional, pressure_goal) -> list[Interval]:
     """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not."""
     batch = _Batch(columns, rtol, intervals, strips)
     batch.sample(_FIRST)
@@ -110,7 +118,10 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, fr
         c = np.einsum("ij,pjq->piq", coefficients_of(n), batch.values)
         goal = rtol[batch.column][:, None] * (np.abs(batch.values).min(axis=1) + floor)
         error = interpolation_errors(c, 0.1 * goal)
-        if frictional:
+        if pressure_goal is not None:
+            goal = np.full_like(goal, np.inf)
+            goal[:, 0] = pressure_goal[batch.column]
+        elif frictional:
             goal[:, 0] = _pressure_goal(batch.values, goal)
         done = (error <= _INTERPOLATION * goal).all(axis=1)
         done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in batch.intervals]

@@ -83,7 +83,7 @@ class Branch:
 
 def branches(curve: Curve, unloading: bool) -> list[Branch]:
     """Branches that load control follows, in order of rising pressure."""
-    parts = [part for piece in curve.pieces for part in _rising(piece)]  # from high D to low D
+    parts = [part for piece in curve.pieces for part in rising(piece)]  # from high D to low D
     kept = []
     if unloading:
         least = np.inf
@@ -102,7 +102,7 @@ def branches(curve: Curve, unloading: bool) -> list[Branch]:
     return kept
 
 
-def _rising(piece: Piece) -> list[Branch]:
+def rising(piece: Piece) -> list[Branch]:
     """Maximal parts of a piece in which pressure rises with D, from high to low D."""
     value, slope = piece.first(_GRID)
     rising = value[1:] > value[:-1]
