@@ -22,7 +22,7 @@ _OWN = len(QUANTITIES)
 #: the error column of what is carried never asks for refinement
 _NO_SCALE = 1e300
 #: laws are built this much finer than what is asked of the result
-_FINER = 0.2
+_FINER = 0.5
 
 
 @dataclass

@@ -33,17 +33,30 @@ def threshold_width(columns: Columns, top):
 
 def breakpoints(columns: Columns, top: np.ndarray) -> list[np.ndarray]:
     """Penetrations between first contact and ``top`` (n,) where the curve may not be smooth, ascending, ends included."""
-    n, h = columns.size, columns.level.h
-    a, K = columns.adhesion, columns.material.K
+    inside, touched = breaks_on(columns, np.arange(columns.size), _scan(columns, top))
+    out = []
+    for r, points in enumerate(inside):
+        start = touched[r] if np.isfinite(touched[r]) else first_contact(columns)
+        points = np.unique([*points, top[r]])
+        out.append(points[(points >= start) & (points <= top[r])])
+    return out
+
+
+def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:
+    """Breaks between the first and the last of the penetrations ``D`` (m, points) of each ``column`` (m,), by the changes they show.
+
+    Returns them, ascending, for every row, and the lowest that is one of the crest (inf: none), (m,).
+    """
+    a, h, K = columns.adhesion, columns.level.h, columns.material.K
+    m = column.size
     # what levels below carry may change at the flat edge too
     ends = np.array((0.0, np.pi) if columns.carry else (0.0,))
-    lines = np.arange(n * ends.size)
 
-    def codes_at(line, D):
-        return columns.at(line % n, D).codes(np.arange(D.size), ends[line // n])
+    def codes_at(line, x):
+        return columns.at(column[line % m], x).codes(np.arange(x.size), ends[line // m])
 
-    D = np.tile(_scan(columns, top), (ends.size, 1))
-    codes = codes_at(np.repeat(lines, D.shape[1]), D.ravel()).reshape(D.shape)
+    D = np.tile(D, (ends.size, 1))
+    codes = codes_at(np.repeat(np.arange(m * ends.size), D.shape[1]), D.ravel()).reshape(D.shape)
     line, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
     low, high = D[line, node], D[line, node + 1]
     width = 16 * _EPS * np.maximum(np.maximum(np.abs(low), np.abs(high)), h)
@@ -52,15 +65,12 @@ def breakpoints(columns: Columns, top: np.ndarray) -> list[np.ndarray]:
         edge = [h - a.p_0 / K, h - a.p_0 / K - a.delta_0]
     else:
         edge = [h - a.p_0 / K, h - (a.delta_0 if a.p_0 > 0 else 0.0)]
-    out = []
-    for r in range(n):
-        start = changes.high[changes.line == r].min(initial=np.inf)
-        start = start if np.isfinite(start) else first_contact(columns)
-        points = np.unique([*changes.high[changes.line % n == r], *edge, top[r]])
-        points = points[(points >= start) & (points <= top[r])]
-        points = points[np.concatenate(([True], np.diff(points) > 1e-12 * h))] if points.size else points
-        out.append(points)
-    return out
+    out, touched = [], np.full(m, np.inf)
+    for r in range(m):
+        touched[r] = changes.high[changes.line == r].min(initial=np.inf)
+        points = np.unique([*changes.high[changes.line % m == r], *(e for e in edge if D[r, 0] < e < D[r, -1])])
+        out.append(points[np.concatenate(([True], np.diff(points) > 1e-12 * h))] if points.size else points)
+    return out, touched
 
 
 def _scan(columns: Columns, top):

@@ -20,7 +20,7 @@ from .strips import Columns, saturation_depth
 _FIRST, _LAST = 4, 32
 _ROUNDS = 40
 #: share of the error allowed that interpolating may have, and that of each mean
-_INTERPOLATION, _MEAN = 0.5, 0.3
+_INTERPOLATION, _MEAN = 0.6, 0.4
 #: an interval's pressure is known at least this well
 _COARSEST = 1e-3
 #: a piece narrower than this, relative to D, is taken as it is

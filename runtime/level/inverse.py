@@ -6,11 +6,12 @@ samples is bounded by the interpolation's error. Where that leaves open whether 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .curve import Interval, interpolate, smooth_intervals
+from .breaks import breaks_on, first_contact, threshold_width
+from .curve import Interval, interpolate
 from .law import Branch, rising
 from .means import level_means
 from .strips import Columns
@@ -19,6 +20,8 @@ from .strips import Columns
 _COARSE, _FINER = 2e-3, 0.03
 #: width of the first part of the curve to be looked at, in heights; each further one is twice as wide
 _NEXT = 0.1
+#: penetrations in each of them at which the crest is looked at
+_LOOKS = 12
 #: how much more than the estimated error of the interpolation a turn has to keep away from the pressure
 _DOUBT = 2.0
 _NEWTON, _STEPS = 6, 60
@@ -76,11 +79,11 @@ class _Descent:
         self.unloading = columns.branch == "unloading"
         scale = columns.scales[0]
         self.scale, self.finest = np.abs(p) + scale, rtol * (np.abs(p) + 1e-3 * scale)
-        # the next one last
-        self.waiting = [
-            [part for interval in (row if self.unloading else row[::-1]) for part in self._parts(interval)]
-            for row in smooth_intervals(columns, top)
-        ]
+        self.inside = threshold_width(columns, top)
+        bottom = first_contact(columns)
+        # the next one last; ``unbroken`` ones are known to hold no break
+        self.waiting = [self._parts(Interval(i, bottom, D)) if D > bottom else [] for i, D in enumerate(top)]
+        self.unbroken: set[Interval] = set()
 
     def _parts(self, interval: Interval) -> list[Interval]:
         """An interval in parts that grow from the end at which the branch arrives; the last one first."""
@@ -97,7 +100,7 @@ class _Descent:
         goal = np.maximum(_COARSE * self.scale, self.finest)
         strips = np.zeros(self.p.size, int)
         while True:
-            now = [row.pop() for row in self.waiting if row]
+            now = self._next()
             if not now:
                 return roots
             pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), now, strips, pressure_goal=goal)
@@ -111,6 +114,29 @@ class _Descent:
                     self.waiting[i].append(interval)
                 elif root is not None:
                     roots[i], self.waiting[i] = root, []
+
+    def _next(self) -> list[Interval]:
+        """The next interval of every column, taken from those that wait, free of breaks."""
+        fresh = [row.pop() for row in self.waiting if row and row[-1] not in self.unbroken]
+        if fresh:
+            share = np.linspace(0, 1, _LOOKS)
+            D = np.array([i.low + (i.high - i.low) * share for i in fresh])
+            found, _ = breaks_on(self.columns, np.array([i.column for i in fresh]), D)
+            for interval, breaks in zip(fresh, found, strict=True):
+                self._put(interval, breaks)
+        return [row.pop() for row in self.waiting if row]
+
+    def _put(self, interval: Interval, breaks) -> None:
+        i, inside = interval.column, self.inside[interval.column]
+        parts, rest = [], interval
+        for D in breaks:
+            if D - inside > rest.low:
+                parts.append(replace(rest, high=D - inside, soft_high=False))
+            rest = replace(rest, low=min(D + inside, rest.high), soft_low=False)
+        parts.append(rest)
+        parts = [part for part in parts if part.high > part.low]
+        self.unbroken.update(parts)
+        self.waiting[i] += parts if self.unloading else parts[::-1]
 
     def _along(self, piece) -> list[Branch]:
         parts = rising(piece)

@@ -29,7 +29,7 @@ _ROUNDS = 60
 _CROWD = 150
 _EPS = np.finfo(float).eps
 #: a panel's part of what a column may err, and that of the slivers in which transitions are bracketed
-_SHARE, _SLIVER = 0.25, 0.02
+_SHARE, _SLIVER = 0.4, 0.03
 
 
 @dataclass(frozen=True, slots=True)
