@@ -63,8 +63,9 @@ class Contact:
         return self.pressure(np.arange(self.b.size), self.top)
 
     def _least(self):
-        """Pressure, Pa, at entry; in saturated contact the least."""
-        return self.pressure(np.arange(self.b.size), np.where(self.full, self.centre - np.pi, self.b))
+        """Pressure, Pa, just after entry (without T_sigma it steps there); in saturated contact the least."""
+        entered = self.b + 1e-12 * (self.a - self.b)
+        return self.pressure(np.arange(self.b.size), np.where(self.full, self.centre - np.pi, entered))
 
     def slope(self, rows, phase):
         """Derivative of the pressure by phase, in the strip's own unit, of strip ``rows`` at ``phase`` in its contact."""
