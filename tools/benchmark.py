@@ -122,7 +122,7 @@ def scenes(short: bool) -> list[Scene]:
     adhesive = [_equal(n, 2) for n in strips] + [_script(1)]
     double = [_equal(n, 1) for n in strips if n <= 1000] + [_script(1)]
     many, few = (60, 4) if short else (1000, 20)
-    curve = np.linspace(0, 0.1, 11 if short else 201)[1:]
+    curve = np.linspace(0, 0.1, 5 if short else 201)[1:]
     return [
         Scene("non-adhesive, one point", SOFT, (NONE,), (LARGE,), one(1) * 100, one(1) * 3e-4, tolerances, 1e-12, plain),
         Scene(
@@ -133,10 +133,10 @@ def scenes(short: bool) -> list[Scene]:
             "adhesive, multivalued", MATERIAL, (WEAK,), (SMALL,), np.linspace(-400, 1500, few), one(few) * 1e-4,
             tolerances, 1e-11, adhesive,
         ),
-        Scene("Fig. 6, two levels", MATERIAL, (WEAK, STRONG), (LARGE, SMALL), one(curve.size) * 100, curve, two, 1e-8, double),
+        Scene("Fig. 6, two levels", MATERIAL, (WEAK, STRONG), (LARGE, SMALL), one(curve.size) * 100, curve, two, 1e-7 if short else 1e-8, double),
         Scene(
-            "three levels", MATERIAL, (WEAK,), (LARGE, SMALL, SMALLEST), one(2) * 100, np.array([1e-3, 1e-2]), (1e-3,) if short else (1e-3, 1e-4),
-            1e-6,
+            "three levels", MATERIAL, (WEAK,), (LARGE, SMALL, SMALLEST), one(2) * 100, np.array([1e-3, 1e-2]),
+            (1e-3,) if short else (1e-3, 1e-4), 1e-5 if short else 1e-6,
         ),
     ]  # fmt: skip
 

@@ -1,6 +1,6 @@
 """What the error estimate is worth: random surfaces solved at a tolerance, against the same at a far tighter one.
 
-    python tools/benchmark_errors.py [--scenes 100] [--seed 1] [--tolerances 1e-3 1e-4 1e-5] [--tighter 1e-3]
+    python tools/benchmark_errors.py [--scenes 100] [--seed 1] [--tolerances 1e-3 1e-4 1e-5] [--tighter 1e-3] [--first 0]
 
 Prints how many points meet the tolerance, at how many the estimate bounds the error, and the median of estimate over error; then every point at
 which it does not hold, with the scene's seed to draw it again. Points in closed form and below pull-off are exact and are not counted, nor are errors that rounding
@@ -51,16 +51,23 @@ class Survey:
         return float(np.mean(self.table[:, 3] <= self.table[:, 2])) if self.points else 1.0
 
     @property
+    def largest(self):
+        """The largest error over estimate."""
+        error, estimate = self.table[:, 3], self.table[:, 4]
+        counted = error > ROUNDING
+        return float(np.max(error[counted] / estimate[counted], initial=0.0))
+
+    @property
     def pessimism(self):
         """Median of estimate over error, where the error is more than rounding."""
         rows = self.table[self.table[:, 3] > ROUNDING]
         return float(np.median(rows[:, 4] / rows[:, 3])) if rows.size else 1.0
 
 
-def survey(scenes, seed, tolerances, tighter, levels=None, report=None):
-    """Draw ``scenes`` surfaces and solve each at one of the tolerances in turn, and ``tighter`` times that."""
+def survey(scenes, seed, tolerances, tighter, levels=None, report=None, first=0):
+    """Draw ``scenes`` surfaces from number ``first`` on, solve each at one of the tolerances in turn, and ``tighter`` times that."""
     out = Survey()
-    for number in range(scenes):
+    for number in range(first, first + scenes):
         surface = surfaces.draw(np.random.default_rng((seed, number)), levels=levels)
         rtol = tolerances[number % len(tolerances)]
         try:
@@ -75,7 +82,7 @@ def survey(scenes, seed, tolerances, tighter, levels=None, report=None):
             error = max(abs(coarse.tau[i] - fine.tau[i]) - fine.tau_error[i], 0.0)
             out.points.append((number, i, rtol, error / size[i], coarse.tau_error[i] / size[i]))
         if report:
-            report(number + 1, out)
+            report(number + 1 - first, out)
     return out
 
 
@@ -85,18 +92,20 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--tolerances", type=float, nargs="+", default=[1e-3, 1e-4, 1e-5])
     parser.add_argument("--tighter", type=float, default=1e-3, help="tolerance of the reference, relative")
+    parser.add_argument("--first", type=int, default=0, help="number of the first scene")
     parser.add_argument("--levels", type=int, choices=(1, 2, 3), help="levels of every scene, instead of one to three")
     options = parser.parse_args()
     start = time.perf_counter()
 
     def report(done, out):
-        print(f"\r{done} scenes, {len(out.points)} points", end="", file=sys.stderr, flush=True)
+        print(f"\r{done} scenes, {len(out.points)} points, {100 * out.bounded:.1f} % bounded, median {out.pessimism:.3g}", end="", file=sys.stderr, flush=True)
 
-    out = survey(options.scenes, options.seed, options.tolerances, options.tighter, options.levels, report)
+    out = survey(options.scenes, options.seed, options.tolerances, options.tighter, options.levels, report, options.first)
     print(file=sys.stderr)
     print(f"{options.scenes} scenes, {len(out.points)} points, {out.exact} more exact; {time.perf_counter() - start:.0f} s")
     print(f"tolerance met:                {100 * out.met:.2f} %")
     print(f"estimate bounds the error:    {100 * out.bounded:.2f} %")
+    print(f"largest error over estimate   {out.largest:.3g}")
     print(f"median of estimate over error {out.pessimism:.3g}")
     for number, i, rtol, error, estimate in out.points:
         if error > max(estimate, ROUNDING) or error > rtol:
