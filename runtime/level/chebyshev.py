@@ -13,7 +13,7 @@ _EPS = np.finfo(float).eps
 #: share of the roughest quantity's relative error that every other one is taken to have at least
 _COMMON = 0.3
 #: slowest decay that a sum of the rest may be extrapolated with
-_SLOWEST = 8.0
+_SLOWEST = 64.0
 
 
 @lru_cache
@@ -57,10 +57,12 @@ def interpolation_errors(c: np.ndarray, noise: np.ndarray) -> np.ndarray:
     c = np.maximum(c - 16 * _EPS * c.max(axis=1)[:, None], 0.0)
     amplitude = c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny
     shape = (c / amplitude[:, None]).max(axis=2)
-    last, middle = shape[:, n - 2 :].max(axis=1), shape[:, n // 2 - 2 : n // 2 + 1].max(axis=1)
-    pace = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0) ** (2 / n)
-    rest = np.minimum(2 * pace / np.maximum(1 - pace, 1e-3), _SLOWEST)[:, None]
-    return np.maximum(c[:, n - 2 :].max(axis=1), _COMMON * last[:, None] * amplitude) * rest
+    # a run long enough that a kink's coefficients, which come and go, are not all small in it
+    few = max(3, n // 5)
+    last, middle = shape[:, n - few :].max(axis=1), shape[:, n // 2 - 2 : n // 2 + 1].max(axis=1)
+    pace = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0) ** (1 / (n / 2 + 1 - few / 2))
+    rest = np.minimum(4 * pace / np.maximum(1 - pace, 1e-3), _SLOWEST)[:, None]
+    return np.maximum(c[:, n - few :].max(axis=1), _COMMON * last[:, None] * amplitude) * rest
 
 
 @lru_cache
