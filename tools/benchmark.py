@@ -275,16 +275,18 @@ def write(rows: list[Row], out: Path) -> None:
     draw(rows, out.with_suffix(".png"))
 
 
-def run(short: bool, repeat: int, only=None, report=lambda text: None) -> list[Row]:
-    """All rows of all scenes (or of those whose name contains ``only``)."""
+def run(short: bool, repeat: int, only=None, report=lambda text: None, save=lambda rows: None) -> list[Row]:
+    """All rows of all scenes (or of those whose name contains ``only``); ``save`` is called with what there is after every scene."""
     rows = []
     for scene in scenes(short):
         if not only or only in scene.name:
             POINTS[scene.name] = scene.points
             rows += measure(scene, repeat, report)
+            save(rows)
     if not only or only in "eight levels, saturated":
         POINTS["eight levels, saturated"] = 1000 if short else 100_000
         rows += saturated(POINTS["eight levels, saturated"], repeat)
+        save(rows)
     return rows
 
 
@@ -295,8 +297,8 @@ def main():
     parser.add_argument("--only", help="scenes whose name contains this")
     parser.add_argument("--out", type=Path, default=Path("benchmark"))
     options = parser.parse_args()
-    rows = run(options.short, options.repeat, options.only, lambda text: print(text, file=sys.stderr, flush=True))
-    write(rows, options.out)
+    report = lambda text: print(text, file=sys.stderr, flush=True)  # noqa: E731
+    run(options.short, options.repeat, options.only, report, lambda rows: write(rows, options.out))
     print(options.out.with_suffix(".md").read_text())
 
 
