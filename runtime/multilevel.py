@@ -15,13 +15,14 @@ from hystrip.level.inverse import cut_penetration, invert
 from hystrip.level.means import level_means
 from hystrip.level.saturated import SaturatedLevel, saturated_level
 from hystrip.level.strips import QUANTITIES, Columns, Tally
+from hystrip.level.table import LawTable
 from hystrip.solver import Material
 
 _OWN = len(QUANTITIES)
 #: the error column of what is carried never asks for refinement
 _NO_SCALE = 1e300
 #: laws are built this much finer than what is asked of the result
-_FINER = 0.2
+_FINER = 0.5
 
 
 @dataclass
@@ -191,7 +192,6 @@ class _Solve:
                 D = cut_penetration(plain, p_max, stack.D_full[i])
                 p_max = peak_pressure(surface.columns(i, V, D))
         carry = None
-        nodes = _nodes_for(surface.rtol)
         groups = np.arange(V.size)
         for i in range(self.M - 1, 0, -1):
             level_columns = surface.columns(i, V, None, carry, groups if carry else None)
@@ -206,7 +206,7 @@ class _Solve:
             )
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error
             scales = np.concatenate((level_columns.scales[1:], [_NO_SCALE]))
-            carry = CarriedByLaws(laws, nodes, scales)
+            carry = CarriedByLaws(LawTable(laws), surface.rtol, scales)
         return carry
 
     def _write(self, index, D, slopes, means):
@@ -230,8 +230,3 @@ class _Solve:
             error = error + np.abs(values[:, at])
             at += 1
         out.error[index] = error
-
-
-def _nodes_for(rtol: float) -> int:
-    """Points per part of the contact in the integral of a law."""
-    return 8 if rtol > 1e-4 else 16 if rtol > 1e-8 else 32

@@ -2,62 +2,153 @@
 
 In contact ``p - p* + alpha p' = H - p*``: like every event function, p passes a given pressure upward at most once and downward
 at most once, each in an arc known in closed form. So the contact is cut at the breaks of the law (pull-off, jumps, saturation)
-and each part integrated by itself.
+and each part integrated by itself, on as many nodes as it needs.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
 from hystrip.solver import kernel_of
-from hystrip.strip.crossing import crossing
-from hystrip.strip.problem import snaps_in
-from hystrip.strip.regimes import CODE
 
-from .law import Law
-from .panels import interior_nodes, mapped_weights
+from .contact import Contact, contact_of
+from .quadrature import interior_nodes, mapped, mapped_weights, sum_errors
 from .strips import Columns, SolvedStrips
+from .table import LawTable
 
 TWO_PI = 2 * np.pi
-#: how much the last doubling of nodes may be trusted to have gained over the one before
-_GAIN = 0.1
+_FIRST, _LAST = 8, 32
+_HALVINGS = 12
+#: a part's share of the error that an average of strips is allowed, and parts integrated at a time
+_SHARE, _CHUNK = 0.1, 8192
 
 
 @dataclass(frozen=True)
 class CarriedByLaws:
-    """Contributions of the next level down. ``laws[g]`` belongs to group g; the last column is an error estimate of friction.
+    """Contributions of the next level down. ``table`` holds its law for each group; the last column is an error estimate of friction.
 
-    ``nodes``: points per part of the contact.
+    ``scales`` (q,): natural scales of the contributions. ``rtol``: accuracy of the averages that they go into.
     """
 
-    laws: list[Law]
-    nodes: int
+    table: LawTable
+    rtol: float
     scales: np.ndarray
 
     def crossed(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """See ``strips.Carry``."""
+        """See ``strips.Carry``: how many breaks the greatest pressure exceeds, and how many the pressure exceeds all along (or at entry)."""
         crossed = np.zeros(group.size, int)
-        contact = np.flatnonzero(strips.solved.contact_fraction > 0)
-        if contact.size:
-            peak = contact_of(kernel, strips, contact).p_peak
-            for g in np.unique(group[contact]):
-                mine = group[contact] == g
-                crossed[contact[mine]] = np.searchsorted(self.laws[g].breaks, peak[mine])
+        index = np.flatnonzero(strips.solved.contact_fraction > 0)
+        if index.size:
+            contact = contact_of(kernel, strips, index)
+            breaks = self.table.breaks[group[index]]
+            top, least = (np.count_nonzero(breaks < p[:, None], axis=1) for p in (contact.p_peak, contact.p_least))
+            crossed[index] = 1 + top + (breaks.shape[1] + 1) * least
         return crossed
 
-    def over_contact(self, kernel, strips: SolvedStrips, group: np.ndarray):
+    def over_contact(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """See ``strips.Carry``. The contributions are the law's quantities from friction on, then their error."""
-        m = group.size
-        q = self.scales.size
-        carried = np.zeros((m, q))
-        contact = strips.solved.contact_fraction > 0
-        for g in np.unique(group[contact]):
-            index = np.flatnonzero(contact & (group == g))
-            carried[index] = _one_law(kernel, self.laws[g], strips, index, self.nodes)
+        carried = np.zeros((group.size, self.scales.size))
+        index = np.flatnonzero(strips.solved.contact_fraction > 0)
+        if index.size:
+            carried[index] = self._contributions(contact_of(kernel, strips, index), group[index]) / TWO_PI
         return carried
+
+    def _contributions(self, contact: Contact, group) -> np.ndarray:
+        table = self.table
+        total = np.zeros((group.size, self.scales.size))
+        breaks = table.breaks[group]
+        reached = np.count_nonzero(breaks < contact.p_peak[:, None], axis=1)
+        deepest = reached.max(initial=0)
+        # phases between which the pressure exceeds each break, nested
+        passes = [contact.passes(breaks[:, j], reached > j) for j in range(deepest)]
+        parts = []
+        for j, (up, down) in enumerate(passes):
+            saturated = (reached > j) & (breaks[:, j] >= table.p_sat[group])
+            total[saturated, :-1] += (down - up)[saturated, None] * table.saturated[group[saturated], 1:]
+            rest = (reached > j) & ~saturated
+            inner = rest & (reached > j + 1)
+            next_up, next_down = passes[j + 1] if j + 1 < deepest else (up, down)
+            for pick, low, high in ((rest & ~inner, up, down), (inner, up, next_up), (inner, next_down, down)):
+                rows = np.flatnonzero(pick & (high > low))
+                parts.append((rows, low[rows], high[rows]))
+            # where the break lies is known as well as the law's pressures: that much of the jump may fall on the wrong side
+            crossing = rest & (breaks[:, j] > contact.p_least)
+            total[crossing, -1] += self._misplaced(contact, group, j, np.flatnonzero(crossing), up, down)
+        if parts:
+            rows, low, high = (np.concatenate(v) for v in zip(*parts, strict=True))
+            self._integrate(contact, group, rows, low, high, total)
+        return total
+
+    def _misplaced(self, contact: Contact, group, j, rows, up, down):
+        table, g = self.table, group[rows]
+        shift = table.break_error[g, j] / contact.unit[rows]
+        reach = np.zeros(rows.size)
+        for phase in (up[rows], down[rows]):
+            slope = np.abs(contact.slope(rows, phase))
+            reach += np.minimum(np.divide(shift, slope, out=np.full(rows.size, np.inf), where=slope > 0), np.sqrt(shift))
+        return table.jumps[g, j] * np.minimum(reach, down[rows] - up[rows])
+
+    def _integrate(self, contact: Contact, group, rows, low, high, total):
+        """Add the integrals of the law over parts [low, high] of the contacts ``rows``, smooth inside, with their errors."""
+        for _ in range(_HALVINGS):
+            again = []
+            for start in range(0, rows.size, _CHUNK):
+                some = slice(start, start + _CHUNK)
+                left = self._attempt(contact, group, rows[some], low[some], high[some], total, last=False)
+                again.append([v[some][left] for v in (rows, low, high)])
+            rows, low, high = (np.concatenate(v) for v in zip(*again, strict=True)) if again else (rows, low, high)
+            if not rows.size:
+                return
+            middle = 0.5 * (low + high)
+            rows, low, high = np.tile(rows, 2), np.concatenate((low, middle)), np.concatenate((middle, high))
+        self._attempt(contact, group, rows, low, high, total, last=True)
+
+    def _attempt(self, contact: Contact, group, rows, low, high, total, last: bool):
+        """Integrate on doubled nodes what converges; returns the indices of what does not (or takes it as it is)."""
+        left, values, errors = np.arange(rows.size), None, None
+        n = _FIRST
+        while left.size:
+            t = interior_nodes(n)
+            fresh = t if values is None else t[0::2]
+            i, width = rows[left], (high - low)[left]
+            phase = low[left][:, None] + width[:, None] * mapped(fresh)
+            p = contact.pressure(np.repeat(i, fresh.size), phase.ravel())
+            new, new_errors = self.table(np.repeat(group[i], fresh.size), p)
+            new = np.concatenate((p[:, None], new), axis=1).reshape(left.size, fresh.size, -1)
+            new_errors = new_errors.reshape(left.size, fresh.size, 2)
+            values = new if values is None else _merged(new, values)
+            errors = new_errors if errors is None else _merged(new_errors, errors)
+            law, w = values[:, :, 1:], mapped_weights(n)
+            best = width[:, None] * np.einsum("j,pjq->pq", w, law)
+            noise = _SHARE * self.rtol * (1e-3 * self.scales[:-1] + np.abs(law).max(axis=1))
+            miss = width[:, None] * sum_errors(law, noise)
+            frictions = self.table.frictions
+            own = width * self._own(values, errors, w)
+            allowed = _SHARE * self.rtol * (width[:, None] * 1e-3 * self.scales[:-1] + np.abs(best))
+            # there is no use in integrating better than the law is known
+            done = ((miss <= allowed) | (miss <= own[:, None])).all(axis=1) | (last & (n == _LAST))
+            np.add.at(total, i[done], np.column_stack((best, miss[:, frictions].sum(axis=1) + own))[done])
+            left, values, errors = left[~done], values[~done], errors[~done]
+            if n == _LAST:
+                return left
+            n *= 2
+        return left
+
+    def _own(self, values, errors, w):
+        """Error that the law itself brings, per width: of its friction, and of the pressure it belongs to."""
+        p, friction = values[:, :, 0], np.abs(values[:, :, 1:][:, :, self.table.frictions]).sum(axis=2)
+        slope = np.divide(np.abs(np.diff(friction)), np.abs(np.diff(p)), out=np.zeros_like(p[:, 1:]), where=np.diff(p) != 0)
+        between = np.minimum(slope * errors[:, 1:, 1], np.abs(np.diff(friction)))
+        shifted = np.concatenate((between[:, :1], between), axis=1)
+        return (errors[:, :, 0] + shifted) @ w
+
+
+def _merged(fresh, known):
+    out = np.empty((known.shape[0], known.shape[1] + fresh.shape[1], known.shape[2]))
+    out[:, 0::2], out[:, 1::2] = fresh, known
+    return out
 
 
 def peak_pressure(columns: Columns) -> np.ndarray:
@@ -68,155 +159,3 @@ def peak_pressure(columns: Columns) -> np.ndarray:
     if index.size:
         peak[index] = contact_of(kernel_of(columns.material), strips, index).p_peak
     return peak
-
-
-def _one_law(kernel, law: Law, strips: SolvedStrips, index, nodes):
-    contact = contact_of(kernel, strips, index)
-    breaks = law.breaks
-    breaks = breaks[breaks < contact.p_peak.max(initial=-np.inf)]
-    n, q = index.size, law.saturated.size
-    total, error = np.zeros((n, q - 1)), np.zeros(n)
-    # phases between which the pressure exceeds each break, nested
-    up, down, reached = [], [], []
-    for p in breaks:
-        above = contact.p_peak > p
-        u, d = contact.passes(p, above)
-        up.append(u), down.append(d), reached.append(above)
-    for j in range(len(breaks)):
-        inner = reached[j + 1] if j + 1 < len(breaks) else np.zeros(n, bool)
-        if breaks[j] >= law.p_sat:
-            total[reached[j]] += ((down[j] - up[j])[:, None] * law.saturated[1:])[reached[j]]
-            continue
-        for pick, low, high in (
-            (reached[j] & ~inner, up[j], down[j]),
-            (inner, up[j], up[j + 1] if j + 1 < len(breaks) else up[j]),
-            (inner, down[j + 1] if j + 1 < len(breaks) else down[j], down[j]),
-        ):
-            rows = np.flatnonzero(pick & (high > low))
-            if rows.size:
-                value, miss = _part(contact, law, rows, low[rows], high[rows], nodes)
-                total[rows] += value
-                error[rows] += miss
-    return np.concatenate((total, error[:, None]), axis=1) / TWO_PI
-
-
-def _part(contact: _Contact, law: Law, rows, low, high, nodes):
-    """Integral of the law over one part of the contact, smooth inside, and its error in friction.
-
-    The error is the change against half the nodes, times what the last doubling gained, and that of the law itself there.
-    """
-    t, fine, coarse, coarser = _rule(nodes)
-    s = low[:, None] + (high - low)[:, None] * t
-    p = contact.pressure(np.repeat(rows, nodes - 1), s.ravel())
-    values = law(p)[:, 1:].reshape(rows.size, nodes - 1, -1)
-    width = (high - low)[:, None]
-    best = width * np.einsum("j,pjq->pq", fine, values)
-    half = width * np.einsum("j,pjq->pq", coarse, values[:, 1::2])
-    quarter = width * np.einsum("j,pjq->pq", coarser, values[:, 3::4])
-    friction = law.friction_columns
-    change, before = (np.abs(one - two)[:, friction].sum(axis=1) for one, two in ((best, half), (half, quarter)))
-    gain = np.divide(change, before, out=np.ones_like(change), where=before > change)
-    own = width[:, 0] * (law.friction_error_at(p).reshape(rows.size, nodes - 1) @ fine)
-    return best, change * np.maximum(gain, _GAIN) + own
-
-
-@lru_cache
-def _rule(n: int):
-    """Phases on (0, 1) and weights of the rule with square-root ends, and its weights with half and a quarter of the nodes."""
-    return np.sin(0.5 * np.pi * interior_nodes(n)) ** 2, mapped_weights(n), mapped_weights(n // 2), mapped_weights(n // 4)
-
-
-def contact_of(kernel, strips: SolvedStrips, index):
-    """Contact of the strips ``index``, for a foundation with one time or several."""
-    if hasattr(kernel, "MODES"):
-        from hystrip.modes.contact import ModeContact
-
-        return ModeContact(kernel, strips, index)
-    return _Contact(kernel, strips, index)
-
-
-class _Contact:
-    """Contact intervals of strips in phase, with the pressure in Pa inside them."""
-
-    def __init__(self, kernel, strips: SolvedStrips, index):
-        self.kernel = kernel
-        self.s = strips.strips.take(index)
-        solved = strips.solved
-        self.unit = strips.scales["p"][index]
-        self.flat = strips.scales["flat"][index]
-        self.full = solved.code[index] == CODE["c"]
-        s = self.s
-        self.mean = np.where(self.flat, solved.p_mean[index], s.D - 1)
-        storage, loss = kernel.storage(s.alpha, s.beta), kernel.loss(s.alpha, s.beta, s.L)
-        self.amplitude = np.where(self.flat, 0.0, np.hypot(storage, loss))
-        self.centre = -np.arctan2(loss, storage)  # phase of the saturated field's maximum
-        self.b = np.where(self.full, self.centre - np.pi, solved.b[index])
-        self.a = np.where(self.full, self.centre + np.pi, solved.a[index])
-        snap = snaps_in(s) & (solved.code[index] == CODE["afc"])
-        reach = np.divide(s.delta_0, s.J, out=np.zeros_like(s.J), where=snap)
-        self.q_b = np.where(snap, s.p_0 - reach, 0.0)
-        self.p_peak = self._peak()
-
-    def pressure(self, rows, phase):
-        """Pressure, Pa, of strip ``rows`` at ``phase`` in its contact."""
-        s = self.s
-        p = np.empty(rows.size)
-        full = self.full[rows]
-        i = rows[full]
-        p[full] = self.mean[i] + self.amplitude[i] * np.cos(phase[full] - self.centre[i])
-        i, rest = rows[~full], ~full
-        q = self.kernel.excess_after(self.b[i], phase[rest], self.q_b[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
-        p[rest] = q - s.p_0[i]
-        return p * self.unit[rows]
-
-    def _peak(self):
-        """Greatest pressure in contact, Pa: where ``p = H``."""
-        self.top = self.centre.copy()
-        i = np.flatnonzero(~self.full)
-        s = self.s.take(i)
-        # p - H falls through zero once: from entry, where p is below H, to exit, where it is above
-        b, a, q_b = self.b[i], self.a[i], self.q_b[i]
-
-        def lag(phase, sub):
-            q = self.kernel.excess_after(b[sub], phase, q_b[sub], s.p_0[sub], s.D[sub], s.alpha[sub], s.beta[sub], s.L[sub])
-            H = self.kernel.forcing(phase, s.D[sub], s.beta[sub])
-            return H + s.p_0[sub] - q, np.zeros(sub.size)
-
-        self.top[i], _ = crossing(lag, b, a)
-        peak = np.empty(self.b.size)
-        rows = np.arange(self.b.size)
-        peak[:] = self.pressure(rows, self.top)
-        return peak
-
-    def passes(self, p, above):
-        """Phases at which the pressure passes ``p`` (Pa) upward and downward; where it does not, both are the peak's."""
-        up, down = self.top.copy(), self.top.copy()
-        level = p / self.unit
-        full = np.flatnonzero(above & self.full)
-        cosine = np.divide(
-            level[full] - self.mean[full], self.amplitude[full], out=np.full(full.size, -1.0), where=self.amplitude[full] > 0
-        )
-        half = np.arccos(np.clip(cosine, -1, 1))
-        up[full], down[full] = self.centre[full] - half, self.centre[full] + half
-        part = np.flatnonzero(above & ~self.full)
-        if part.size:
-            s = self.s.take(part)
-            b, a, top = self.b[part], self.a[part], self.top[part]
-            q_b, goal = self.q_b[part], level[part] + s.p_0
-
-            def excess(phase, sub, sign):
-                args = (b[sub], phase, q_b[sub], s.p_0[sub], s.D[sub], s.alpha[sub], s.beta[sub], s.L[sub])
-                value = self.kernel.excess_after(*args) - goal[sub]
-                return sign * value, sign * self.kernel.excess_after_slope(*args)
-
-            starts = q_b < goal
-            first = b.copy()
-            rising = np.flatnonzero(starts)
-            first[rising], _ = crossing(lambda x, sub: excess(x, rising[sub], -1.0), b[rising], top[rising])
-            up[part] = first
-            ends = goal > 0
-            last = a.copy()
-            falling = np.flatnonzero(ends)
-            last[falling], _ = crossing(lambda x, sub: excess(x, falling[sub], 1.0), top[falling], a[falling])
-            down[part] = last
-        return up, down

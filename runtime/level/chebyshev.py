@@ -1,12 +1,19 @@
 """Chebyshev interpolation of several quantities at once on a piece ``low <= D <= high``.
 
-``D = low + width sin^2(pi t/2)``: a quantity that ends like a square root in D is smooth in t.
+``D = low + width graded(t)``: the grading is flat like t^4 at both ends. A quantity that ends like a square root in D is smooth in t, and one
+that ends like ``D log D`` nearly so (a level does where its crest lets go while its neighbours still hold).
 """
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
+
+_EPS = np.finfo(float).eps
+#: share of the roughest quantity's relative error that every other one is taken to have at least
+_COMMON = 0.3
+#: slowest decay that a sum of the rest may be extrapolated with
+_SLOWEST = 64.0
 
 
 @lru_cache
@@ -38,6 +45,26 @@ def _transform(n: int) -> np.ndarray:
     return matrix
 
 
+def interpolation_errors(c: np.ndarray, noise: np.ndarray) -> np.ndarray:
+    """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q); ``noise`` (p, q): changes that don't matter.
+
+    What is left is extrapolated from the last coefficients, at the pace they fell at since the middle: that of the slowest quantity, and no
+    quantity is taken to be much smoother than the roughest, for they share their singularities.
+    """
+    n = c.shape[1] - 1
+    c = np.abs(c)
+    # what is rounding says nothing of the singularities
+    c = np.maximum(c - 16 * _EPS * c.max(axis=1)[:, None], 0.0)
+    amplitude = c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny
+    shape = (c / amplitude[:, None]).max(axis=2)
+    # a run long enough that a kink's coefficients, which come and go, are not all small in it
+    few = max(3, n // 5)
+    last, middle = shape[:, n - few :].max(axis=1), shape[:, n // 2 - 2 : n // 2 + 1].max(axis=1)
+    pace = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0) ** (1 / (n / 2 + 1 - few / 2))
+    rest = np.minimum(4 * pace / np.maximum(1 - pace, 1e-3), _SLOWEST)[:, None]
+    return np.maximum(c[:, n - few :].max(axis=1), _COMMON * last[:, None] * amplitude) * rest
+
+
 @lru_cache
 def refinement(n: int) -> np.ndarray:
     """Matrix that takes values at ``lobatto(n/2)`` to the nodes of ``lobatto(n)`` that are new, (n/2, n/2 + 1)."""
@@ -46,23 +73,38 @@ def refinement(n: int) -> np.ndarray:
     return terms / terms.sum(axis=1, keepdims=True)
 
 
+def graded(t):
+    """Share of an interval that lies below parameter t: both in [0, 1], flat like t^4 at both ends."""
+    return np.sin(0.5 * np.pi * np.sin(0.5 * np.pi * t) ** 2) ** 2
+
+
+def parameter(share):
+    """t at which ``graded`` is ``share``."""
+    inner = 2 / np.pi * np.arcsin(np.sqrt(share))
+    return 2 / np.pi * np.arcsin(np.sqrt(inner))
+
+
 @dataclass(frozen=True)
 class Piece:
-    """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t; ``error`` bounds each of them, (q,)."""
+    """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t; ``error`` bounds each of them, (q,).
+
+    ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end, in another piece.
+    """
 
     low: float
     high: float
     coefficients: np.ndarray
     error: np.ndarray
+    soft_low: bool = False
+    soft_high: bool = False
 
     def penetration(self, t):
         """D at t."""
-        return self.low + (self.high - self.low) * np.sin(0.5 * np.pi * t) ** 2
+        return self.low + (self.high - self.low) * graded(t)
 
     def parameter(self, D):
         """t at D."""
-        share = np.clip((D - self.low) / (self.high - self.low), 0.0, 1.0)
-        return 2 / np.pi * np.arcsin(np.sqrt(share))
+        return parameter(np.clip((D - self.low) / (self.high - self.low), 0.0, 1.0))
 
     def values(self, t) -> np.ndarray:
         """Quantities at t (m,), shape (m, q)."""

@@ -1,19 +1,31 @@
-"""From nominal pressure to penetration along a branch of loading, and how far up a curve has to be known for that."""
+"""From nominal pressure to penetration along a branch of loading.
+
+The curve is interpolated piece by piece from the end its branch comes from, down to where it first passes the pressure; what it does between
+samples is bounded by the interpolation's error. Where that leaves open whether a turn reaches the pressure, the piece is interpolated again, finer.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .curve import breakpoints, first_contact, threshold_width
+from .breaks import breaks_on, first_contact, threshold_width
+from .curve import Interval, interpolate
+from .law import Branch, rising
 from .means import level_means
 from .strips import Columns
 
-_COARSE = 1e-2
-_GRID = 5
-_REFINEMENTS = 4
-_STEPS = 60
+#: accuracy of the first look, of the pressure's scale, and how much finer each further one is
+_COARSE, _FINER = 2e-3, 0.03
+#: width of the first part of the curve to be looked at, in heights; each further one is twice as wide
+_NEXT = 0.1
+#: penetrations in each of them at which the crest is looked at
+_LOOKS = 12
+#: how much more than the estimated error of the interpolation a turn has to keep away from the pressure
+_DOUBT = 2.0
+_NEWTON, _STEPS = 6, 60
+_CLOSE = 0.3
 _EPS = np.finfo(float).eps
 
 
@@ -26,121 +38,171 @@ class Inverse:
 
 
 def cut_penetration(columns: Columns, p_max: np.ndarray, full: np.ndarray) -> np.ndarray:
-    """A penetration above the one that carries ``p_max`` (Pa, (n,)) on the unloading path, at most ``full`` (m, (n,)).
+    """A penetration from which the level carries more than ``p_max`` (Pa, (n,)) on either branch, at most ``full`` (m, (n,)).
 
-    Doubles the distance from first contact until the level carries clearly more than ``p_max`` there and at the next two
-    doublings (or up to saturation), so that a local minimum of the curve is not taken for its rise.
+    Averaged over a period Eq. 5 says ``p_mean = K w_mean`` (the steps of w and p cancel), and w is nowhere below the profile: so
+    ``p_mean >= K (D - 3 h/4)``.
     """
-    # the curve turns where the crest touches, about -delta_0; from there doubling steps
-    base = max(first_contact(columns), -columns.adhesion.delta_0 - 0.5 * columns.level.h)
-    scale = 1e-3 * columns.scales[0]
-    n = columns.size
-    step, lead = np.full(n, columns.level.h), np.zeros(n, int)
-    candidate = full.copy()
-    active = np.flatnonzero(base + step < full)
-    while active.size:
-        D = base + step[active]
-        p = level_means(columns.at(active, D), np.full(active.size, _COARSE)).values[:, 0]
-        enough = p > p_max[active] + 2 * _COARSE * (np.abs(p) + scale)
-        lead[active] = np.where(enough, lead[active] + 1, 0)
-        candidate[active] = np.where(enough, np.where(lead[active] == 1, D, candidate[active]), full[active])
-        step[active] *= 2
-        active = active[(lead[active] < 3) & (base + step[active] < full[active])]
-    return candidate
+    level = columns.level
+    return np.minimum(p_max / columns.material.K + 0.75 * level.h + 1e-9 * (level.h + np.abs(p_max) / columns.material.K), full)
 
 
 def invert(columns: Columns, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
     """Largest penetration (``unloading``) or smallest (``loading``) at which each column carries ``p`` (Pa, (n,)), below saturation.
 
-    The curve is scanned from the end its branch comes from; a local turn that may reach ``p`` is resolved before it is passed. ``full``
-    (n,): penetration of saturated contact. The root is refined with averages to ``rtol``.
+    ``full`` (n,): penetration of saturated contact. The root is refined with averages to ``rtol``.
     """
-    scan = _Scan(columns, p, cut_penetration(columns, p, full))
-    bracketed = scan.run()
     D, slope = np.full(p.size, np.nan), np.zeros(p.size)
-    if bracketed.size:
-        D[bracketed], slope[bracketed] = _refine(columns, p, bracketed, scan.near[bracketed], scan.far[bracketed], rtol)
+    roots = _Descent(columns, p, cut_penetration(columns, p, full), rtol).run()
+    found = np.array([i for i, root in enumerate(roots) if root is not None], int)
+    if found.size:
+        D[found], slope[found] = _refine(columns.at(found, D[found]), p[found], [roots[i] for i in found], rtol)
     return Inverse(D, slope)
 
 
-def _grid(points: np.ndarray, inside: float) -> np.ndarray:
-    """Penetrations of a first look at a curve whose pieces end at ``points``, the last free one below included."""
-    rows = [np.array([points[0] - inside])]
-    for low, high in zip(points[:-1], points[1:], strict=True):
-        if high - low > 4 * inside:
-            rows.append(low + inside + (high - low - 2 * inside) * np.sin(0.5 * np.pi * np.arange(_GRID + 1) / _GRID) ** 2)
-    rows.append(points[-1:])
-    return np.concatenate(rows)
+@dataclass(frozen=True)
+class _Root:
+    """Where a coarse curve passes the pressure: on ``part``, whose pressures enclose it, or (None) in the jump at ``D``."""
+
+    D: float
+    slope: float = 0.0
+    friction_slope: float = 0.0
+    low: float = np.nan
+    high: float = np.nan
 
 
-class _Scan:
-    """Coarse samples of the curve of every column, refined where it turns close to the pressure asked for."""
+class _Descent:
+    """All columns go along their curves together, one piece each at a time."""
 
-    def __init__(self, columns: Columns, p, top):
-        self.columns, self.p = columns, p
+    def __init__(self, columns: Columns, p, top, rtol):
+        self.columns, self.p, self.rtol = columns, p, rtol
         self.unloading = columns.branch == "unloading"
-        # between the breaks of the curve, and just inside them: however narrow a piece is, it is looked at
-        inside = threshold_width(columns, top)
-        self.D = [_grid(points, width) for points, width in zip(breakpoints(columns, top), inside, strict=True)]
-        counts = [row.size for row in self.D]
-        P = self._sample(np.repeat(np.arange(p.size), counts), np.concatenate(self.D))
-        self.P = np.split(P, np.cumsum(counts)[:-1])
-        self.near, self.far = np.full(p.size, np.nan), np.full(p.size, np.nan)
+        scale = columns.scales[0]
+        self.scale, self.finest = np.abs(p) + scale, rtol * (np.abs(p) + 1e-3 * scale)
+        self.inside = threshold_width(columns, top)
+        bottom = first_contact(columns)
+        # the next one last; ``unbroken`` ones are known to hold no break
+        self.waiting = [self._parts(Interval(i, bottom, D)) if D > bottom else [] for i, D in enumerate(top)]
+        self.unbroken: set[Interval] = set()
 
-    def _sample(self, column, D):
-        return level_means(self.columns.at(column, D), np.full(D.size, _COARSE)).values[:, 0]
+    def _parts(self, interval: Interval) -> list[Interval]:
+        """An interval in parts that grow from the end at which the branch arrives; the last one first."""
+        parts, rest, width = [], interval, _NEXT * self.columns.level.h
+        while rest.high - rest.low > 2 * width:
+            lower, upper = rest.split(rest.high - width if self.unloading else rest.low + width, soft=True)
+            rest, part = (lower, upper) if self.unloading else (upper, lower)
+            parts.append(part)
+            width *= 2
+        return [rest, *parts[::-1]]
 
-    def run(self) -> np.ndarray:
-        """Brackets (near the end the branch comes from, and beyond the root); returns the columns that have one."""
-        for _ in range(_REFINEMENTS):
-            wanted = [(i, *gap) for i in range(self.p.size) for gap in self._doubtful(i)]
-            if not wanted:
-                break
-            column = np.repeat([w[0] for w in wanted], 3)
-            D = np.concatenate([w[1] + (w[2] - w[1]) * np.array([0.25, 0.5, 0.75]) for w in wanted])
-            P = self._sample(column, D)
-            for i in np.unique(column):
-                mine = column == i
-                order = np.argsort(np.concatenate((self.D[i], D[mine])), kind="stable")
-                self.D[i] = np.concatenate((self.D[i], D[mine]))[order]
-                self.P[i] = np.concatenate((self.P[i], P[mine]))[order]
-        for i in range(self.p.size):
-            k = self._crossing(i)
-            if k is not None:
-                ends = self.D[i][k], self.D[i][k + 1]
-                self.near[i], self.far[i] = ends[::-1] if self.unloading else ends
-        return np.flatnonzero(np.isfinite(self.near))
+    def run(self) -> list[_Root | None]:
+        roots: list[_Root | None] = [None] * self.p.size
+        goal = np.maximum(_COARSE * self.scale, self.finest)
+        strips = np.zeros(self.p.size, int)
+        while True:
+            now = self._next()
+            if not now:
+                return roots
+            pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), now, strips, pressure_goal=goal)
+            for interval in now:
+                i = interval.column
+                row = sorted(pieces[i], key=lambda piece: -piece.low if self.unloading else piece.low)
+                parts = [part for piece in row for part in self._along(piece)]
+                root, doubtful = self._first(parts, self.p[i], goal[i] > self.finest[i])
+                if doubtful:
+                    goal[i] = max(_FINER * goal[i], self.finest[i])
+                    self.waiting[i].append(interval)
+                elif root is not None:
+                    roots[i], self.waiting[i] = root, []
 
-    def _crossing(self, i) -> int | None:
-        """Interval in which the branch first meets the pressure."""
-        below = self.P[i] < self.p[i]
-        change = np.flatnonzero(below[:-1] & ~below[1:])
-        if not change.size:
-            return None
-        return int(change[-1] if self.unloading else change[0])
+    def _next(self) -> list[Interval]:
+        """The next interval of every column, taken from those that wait, free of breaks."""
+        fresh = [row.pop() for row in self.waiting if row and row[-1] not in self.unbroken]
+        if fresh:
+            share = np.linspace(0, 1, _LOOKS)
+            D = np.array([i.low + (i.high - i.low) * share for i in fresh])
+            found, _ = breaks_on(self.columns, np.array([i.column for i in fresh]), D)
+            for interval, breaks in zip(fresh, found, strict=True):
+                self._put(interval, breaks)
+        return [row.pop() for row in self.waiting if row]
 
-    def _doubtful(self, i):
-        """Gaps beside a turn of the curve that lies before the crossing and may reach the pressure between samples."""
-        P, D, p = self.P[i], self.D[i], self.p[i]
-        k = self._crossing(i)
-        gaps = set()
-        for j in range(1, P.size - 1):
-            if self.unloading:
-                turn = P[j] <= P[j - 1] and P[j] <= P[j + 1] and P[j] >= p
-                passed = k is None or j > k
-                margin = P[j] - p
-            else:
-                turn = P[j] >= P[j - 1] and P[j] >= P[j + 1] and P[j] < p
-                passed = k is None or j <= k
-                margin = p - P[j]
-            # between samples a smooth turn goes beyond its lowest sample by less than the neighbours rise above it
-            reach = 0.5 * max(abs(P[j - 1] - P[j]), abs(P[j + 1] - P[j]))
-            if turn and passed and margin <= reach + 2 * _COARSE * (abs(P[j]) + 1e-3 * self.columns.scales[0]):
-                gaps.update({(D[j - 1], D[j]), (D[j], D[j + 1])})
-        return sorted(gaps)
+    def _put(self, interval: Interval, breaks) -> None:
+        i, inside = interval.column, self.inside[interval.column]
+        parts, rest = [], interval
+        for D in breaks:
+            if D - inside > rest.low:
+                parts.append(replace(rest, high=D - inside, soft_high=False))
+            rest = replace(rest, low=min(D + inside, rest.high), soft_low=False)
+        parts.append(rest)
+        parts = [part for part in parts if part.high > part.low]
+        self.unbroken.update(parts)
+        self.waiting[i] += parts if self.unloading else parts[::-1]
+
+    def _along(self, piece) -> list[Branch]:
+        parts = rising(piece)
+        return parts if self.unloading else parts[::-1]
+
+    def _first(self, parts: list[Branch], p: float, refinable: bool) -> tuple[_Root | None, bool]:
+        """The first part that goes past the pressure, as a root, and whether the error of the curve leaves open which it is."""
+        index = self._passing(parts, p, 0.0)
+        if refinable:
+            around = {self._passing(parts, p, -_DOUBT), index, self._passing(parts, p, _DOUBT)}
+            if len(around) > 1:
+                return None, True
+        if index is None:
+            return None, False
+        part = parts[index]
+        edge = part.t_high if self.unloading else part.t_low
+        outside = p > part.p_high if self.unloading else p < part.p_low
+        if outside:  # between two pieces the curve jumps over the pressure
+            return _Root(float(part.piece.penetration(edge))), False
+        t = float(part.parameter(np.array([p]))[0])
+        step = 1e-4 * (part.t_high - part.t_low)
+        ends = np.clip([t - step, t + step], part.t_low, part.t_high)
+        values, D = part.piece.values(ends), part.piece.penetration(ends)
+        rise, wide = np.diff(values, axis=0)[0], D[1] - D[0]
+        slope = rise[0] / wide if wide > 0 else 0.0
+        friction_slope = rise[1] / rise[0] if rise[0] > 0 else 0.0
+        low, high = (float(part.piece.penetration(e)) for e in (part.t_low, part.t_high))
+        return _Root(float(part.piece.penetration(t)), slope, friction_slope, low, high), False
+
+    def _passing(self, parts, p, doubts) -> int | None:
+        for k, part in enumerate(parts):
+            shifted = p + doubts * part.piece.error[0]
+            if part.p_low < shifted if self.unloading else part.p_high >= shifted:
+                return k
+        return None
 
 
-def _refine(columns: Columns, p, index, near, far, rtol):
+def _refine(columns: Columns, p, roots: list[_Root], rtol):
+    """Penetrations and d(tau)/dp of the roots: Newton with the slope of the coarse curve, then of the last two averages."""
+    D, slope, friction_slope, low, high = (
+        np.array([getattr(root, name) for root in roots]) for name in ("D", "slope", "friction_slope", "low", "high")
+    )
+    goal = _CLOSE * rtol * (np.abs(p) + 1e-3 * columns.scales[0])
+    active = np.flatnonzero((slope > 0) & (high > low))
+    known = None
+    for _ in range(_NEWTON):
+        if not active.size:
+            return D, friction_slope
+        values = level_means(columns.at(active, D[active]), np.full(active.size, rtol)).values
+        miss = values[:, 0] - p[active]
+        if known is not None:
+            rows = np.searchsorted(known[0], active)
+            moved, rise, rub = D[active] - known[1][rows], values[:, 0] - known[2][rows], values[:, 1] - known[3][rows]
+            better = moved * rise > 0
+            slope[active[better]] = (rise[better]) / moved[better]
+            friction_slope[active[better]] = rub[better] / rise[better]
+        going = np.abs(miss) > goal[active]
+        known = tuple(v[going] for v in (active, D[active], values[:, 0], values[:, 1]))
+        active, miss = active[going], miss[going]
+        D[active] = np.clip(D[active] - miss / slope[active], low[active], high[active])
+    if active.size:
+        D[active], friction_slope[active] = _bracketed(columns, p, active, low[active], high[active], rtol)
+    return D, friction_slope
+
+
+def _bracketed(columns: Columns, p, index, low, high, rtol):
     """Root of p_mean(D) - p in each bracket: false position with halving of stale ends (Illinois), averages ever finer."""
     goal = p[index]
     scale = 1e-3 * columns.scales[0]
@@ -151,11 +213,11 @@ def _refine(columns: Columns, p, index, near, far, rtol):
         return values[:, 0] - goal[pick], values[:, 1]
 
     every = np.arange(n)
-    ends = [near.copy(), far.copy()]
+    ends = [low.copy(), high.copy()]
     value, tau = zip(*(sample(every, D, rtol) for D in ends), strict=True)
     value, tau = [v.copy() for v in value], [t.copy() for t in tau]
     weight = [v.copy() for v in value]
-    root, slope = near.copy(), np.zeros(n)
+    root, slope = low.copy(), np.zeros(n)
     # an end on the wrong side by the coarse scan's error is the root itself, to that accuracy: widen it
     active = every[(value[0] * value[1] < 0)]
     for side in (0, 1):

@@ -12,11 +12,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .chebyshev import Piece, coefficients, evaluate, lobatto, refinement
+from .chebyshev import Piece, coefficients, evaluate, lobatto
 from .curve import Curve
 
 _GRID = np.linspace(0, 1, 65)
 _EPS = np.finfo(float).eps
+_FINEST = 256
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +25,7 @@ class Branch:
     """A monotone part of a curve: piece and parameters between which pressure rises from ``p_low`` to ``p_high``.
 
     ``direct``: coefficients of its quantities over ``p = p_low + (p_high - p_low) sin^2(pi u/2)``, which is smooth where the curve turns.
+    ``soft_low``, ``soft_high``: the law goes on smoothly beyond that end, in another branch.
     """
 
     piece: Piece
@@ -32,6 +34,8 @@ class Branch:
     p_low: float
     p_high: float
     direct: np.ndarray | None = None
+    soft_low: bool = False
+    soft_high: bool = False
 
     def values(self, p: np.ndarray) -> np.ndarray:
         """Quantities at the pressures ``p`` (m,), shape (m, q)."""
@@ -42,16 +46,15 @@ class Branch:
 
     def resampled(self, tolerance: np.ndarray) -> Branch:
         """The same branch interpolated over pressure, to ``tolerance`` (q,), so that it need not be inverted again."""
-        values = self._at(lobatto(8))
-        for n in (16, 32, 64, 128):
-            fresh = self._at(lobatto(n)[1::2])
-            miss = np.abs(fresh - refinement(n) @ values).max(axis=0)
-            merged = np.empty((n + 1, values.shape[1]))
-            merged[0::2], merged[1::2] = values, fresh
-            values = merged
-            if np.all(miss <= tolerance):
-                return replace(self, direct=coefficients(values))
-        return self
+        n = 2 * (self.piece.coefficients.shape[0] - 1)
+        while True:
+            direct = coefficients(self._at(lobatto(n)))
+            significant = np.flatnonzero((np.abs(direct) > 0.02 * tolerance).any(axis=1))
+            size = int(significant[-1]) + 1 if significant.size else 1
+            if size <= 0.8 * n or n >= _FINEST:
+                # sizes in steps: branches of one size are evaluated together
+                return replace(self, direct=direct[: min(n + 1, 4 * -(-size // 4))])
+            n *= 2
 
     def _at(self, u):
         p = self.p_low + (self.p_high - self.p_low) * np.sin(0.5 * np.pi * u) ** 2
@@ -62,7 +65,8 @@ class Branch:
         low, high = np.full(p.shape, self.t_low), np.full(p.shape, self.t_high)
         span = self.p_high - self.p_low
         share = np.clip((p - self.p_low) / span, 0, 1) if span > 0 else np.zeros(p.shape)
-        t = low + (high - low) * share
+        grid = self.t_low + (self.t_high - self.t_low) * _GRID
+        t = np.interp(p, np.maximum.accumulate(self.piece.first(grid)[0]), grid) if p.size > 1 else low + (high - low) * share
         for _ in range(80):
             value, slope = self.piece.first(t)
             below = value < p
@@ -79,7 +83,7 @@ class Branch:
 
 def branches(curve: Curve, unloading: bool) -> list[Branch]:
     """Branches that load control follows, in order of rising pressure."""
-    parts = [part for piece in curve.pieces for part in _rising(piece)]  # from high D to low D
+    parts = [part for piece in curve.pieces for part in rising(piece)]  # from high D to low D
     kept = []
     if unloading:
         least = np.inf
@@ -98,7 +102,7 @@ def branches(curve: Curve, unloading: bool) -> list[Branch]:
     return kept
 
 
-def _rising(piece: Piece) -> list[Branch]:
+def rising(piece: Piece) -> list[Branch]:
     """Maximal parts of a piece in which pressure rises with D, from high to low D."""
     value, slope = piece.first(_GRID)
     rising = value[1:] > value[:-1]
@@ -115,7 +119,8 @@ def _rising(piece: Piece) -> list[Branch]:
         t_high = _turn(piece, max(j - 1, 0), min(j + 1, 64)) if j < 64 else 1.0
         ends = piece.first(np.array([t_low, t_high]))[0]
         if t_high > t_low and ends[1] > ends[0]:
-            parts.append(Branch(piece, t_low, t_high, float(ends[0]), float(ends[1])))
+            soft = piece.soft_low and t_low == 0.0, piece.soft_high and t_high == 1.0
+            parts.append(Branch(piece, t_low, t_high, float(ends[0]), float(ends[1]), None, *soft))
     return parts
 
 
@@ -138,7 +143,7 @@ def _below(part: Branch, least: float) -> Branch | None:
     if part.p_high <= least:
         return part
     t = float(part.parameter(np.array([least]))[0])
-    return Branch(part.piece, part.t_low, t, part.p_low, least) if t > part.t_low else None
+    return replace(part, t_high=t, p_high=least, soft_high=False) if t > part.t_low else None
 
 
 def _above(part: Branch, most: float) -> Branch | None:
@@ -147,7 +152,7 @@ def _above(part: Branch, most: float) -> Branch | None:
     if part.p_low >= most:
         return part
     t = float(part.parameter(np.array([most]))[0])
-    return Branch(part.piece, t, part.t_high, most, part.p_high) if part.t_high > t else None
+    return replace(part, t_low=t, p_low=most, soft_low=False) if part.t_high > t else None
 
 
 @dataclass(frozen=True)
@@ -180,23 +185,27 @@ class Law:
         """Bound of the interpolation error of friction, its own and what it carries, Pa."""
         return float(self.error[1 + self.friction_columns].sum())
 
-    def friction_error_at(self, p: np.ndarray) -> np.ndarray:
-        """Bound of that error at the nominal pressures ``p`` (m,): of the branch that each lies on, Pa."""
-        if not self.branches:
-            return np.zeros(p.size)
-        each = np.array([1.5 * b.piece.error[1 + self.friction_columns].sum() for b in self.branches])
-        upper = np.array([b.p_high for b in self.branches])
-        which = np.minimum(np.searchsorted(upper, p), len(self.branches) - 1)
-        return np.where((p >= self.pull_off) & (p < self.p_sat), each[which], 0.0)
-
     @property
     def breaks(self) -> np.ndarray:
         """Pressures at which the law jumps or is not smooth, ascending, from pull-off to saturation."""
-        ends = [b.p_low for b in self.branches] + [b.p_high for b in self.branches]
+        ends = [b.p_low for b in self.branches if not b.soft_low] + [b.p_high for b in self.branches if not b.soft_high]
         ends = np.unique([e for e in [*ends, self.pull_off, self.p_sat] if np.isfinite(e)])
         # branches that follow one another meet to rounding
         apart = np.diff(ends, append=np.inf) > 1e-12 * np.abs(ends).max(initial=0.0)
         return ends[apart]
+
+    def at_breaks(self) -> tuple[np.ndarray, np.ndarray]:
+        """Change of friction, its own and what it carries, at each break, and how well the pressure of the break is known, Pa."""
+        p = self.breaks
+        jumps, errors = np.zeros(p.size), np.zeros(p.size)
+        columns = 1 + self.friction_columns
+        # just to either side: what the law says there belongs to one branch each
+        aside = 1e-9 * (np.abs(p) + np.abs(p).max(initial=0.0))
+        jumps = np.abs(self(p + aside)[:, columns] - self(p - aside)[:, columns]).sum(axis=1)
+        for b in self.branches:
+            near = (p >= b.p_low - aside) & (p <= b.p_high + aside)
+            errors[near] = np.maximum(errors[near], b.piece.error[0])
+        return jumps, errors
 
     def __call__(self, p: np.ndarray) -> np.ndarray:
         """Quantities at the nominal pressures ``p`` (m,), shape (m, q): zero below pull-off, saturated above ``p_sat``."""
@@ -221,5 +230,5 @@ def law_of(curve: Curve, unloading: bool, p_sat: float, saturated: np.ndarray, c
     kept = branches(curve, unloading)
     pull_off = kept[0].p_low if kept else p_sat
     error = np.max([b.piece.error for b in kept], axis=0) if kept else np.zeros(saturated.size)
-    kept = [b.resampled(np.maximum(0.5 * b.piece.error, 1e-15 * np.abs(saturated))) for b in kept]
+    kept = [b.resampled(np.maximum(b.piece.error, 1e-15 * np.abs(saturated))) for b in kept]
     return Law(kept, pull_off, p_sat, saturated, kept[-1].p_high if cut and kept else p_sat, 1.5 * error, curve.strips)

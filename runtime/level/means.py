@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from .panels import Averages, average
+from .panels import Averages, Hints, average
 from .strips import Columns
 
 
-def level_means(columns: Columns, rtol: np.ndarray) -> Averages:
-    """Means of ``strips.QUANTITIES`` for every column, to ``rtol (|value| + 1e-3 scale)`` each; ``rtol`` of shape (n,)."""
+def level_means(columns: Columns, rtol: np.ndarray, hints: Hints | None = None) -> Averages:
+    """Means of ``strips.QUANTITIES`` for every column, to ``rtol (|value| + 1e-3 scale)`` each; ``rtol`` of shape (n,).
+
+    ``hints``: where transitions are expected."""
     if columns.strips is not None:
         return equal_strips(columns, columns.strips)
     floor = np.broadcast_to(1e-3 * columns.scales, (columns.size, columns.scales.size))
-    return average(columns.integrand, columns.codes, columns.transitions(), floor, rtol, columns.scales.size)
+    return average(columns.integrand, columns.codes, columns.transitions(), floor, rtol, columns.scales.size, hints)
 
 
 def equal_strips(columns: Columns, strips: int) -> Averages:

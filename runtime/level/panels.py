@@ -1,19 +1,20 @@
 """Averages over y by panels between the transitions of regime.
 
 Inside a panel every strip is in the same regime and the integrand is smooth, but for its ends, where a strip may detach
-like a square root at a fold. The substitution ``theta = low + width sin^2(pi t/2)`` turns such an end into a smooth one, and
+like a square root at a fold. The substitution ``theta = low + width (3 t^2 - 2 t^3)`` turns such an end into a smooth one, and
 Clenshaw-Curtis sums in t, doubled on nested nodes, converge geometrically. Where nodes of one panel disagree about the
-regime, the transition between them is located by bisection and the panel is split there.
+regime, the transition between them is located by multisection and the panel is split there; where neighbouring columns have
+told about where it lies, that bracket is tried first.
 
 All panels of all columns (a column is one velocity and one penetration) advance together: one batch of strips per round.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import lru_cache
 
 import numpy as np
 
+from .quadrature import interior_nodes, mapped, mapped_weights, sum_errors
 from .transitions import locate
 
 #: (column, theta) -> (regime code, values): arrays (m,), (m,) -> (m,), (m, q)
@@ -27,8 +28,20 @@ _ROUNDS = 60
 #: panels a column may have waiting at once
 _CROWD = 150
 _EPS = np.finfo(float).eps
-#: how much the last doubling may be trusted to have gained over the one before
-_GAIN = 0.5
+#: a panel's part of what a column may err, and that of the slivers in which transitions are bracketed
+_SHARE, _SLIVER = 0.4, 0.03
+
+
+@dataclass(frozen=True, slots=True)
+class Hints:
+    """Where transitions are expected, arrays (m,): ``column``, bracket in theta, codes at its ends; ``size`` (columns, q): of the values."""
+
+    column: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    code_low: np.ndarray
+    code_high: np.ndarray
+    size: np.ndarray
 
 
 @dataclass(slots=True)
@@ -59,21 +72,26 @@ class _Panels:
 
 
 def average(
-    integrand: Integrand, codes_at: Codes, starts: list[np.ndarray], floor: np.ndarray, rtol: np.ndarray, q: int
+    integrand: Integrand,
+    codes_at: Codes,
+    starts: list[np.ndarray],
+    floor: np.ndarray,
+    rtol: np.ndarray,
+    q: int,
+    hints: Hints | None = None,
 ) -> Averages:
     """Means ``(1/pi) int_0^pi values d(theta)`` of every column to ``rtol (|value| + floor)``.
 
     ``starts``: for each column the interior thetas known to be transitions, sorted. ``floor`` and ``rtol`` have shape
-    (columns, q) and (columns,).
+    (columns, q) and (columns,). ``hints``: what is expected, but not certain.
     """
     n = len(starts)
-    edges = [np.concatenate(([0.0], s, [np.pi])) for s in starts]
-    panels = _Panels(
-        np.repeat(np.arange(n), [e.size - 1 for e in edges]),
-        np.concatenate([e[:-1] for e in edges]),
-        np.concatenate([e[1:] for e in edges]),
-    )
     work = _Work(integrand, codes_at, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int), [])
+    column = np.repeat(np.arange(n), [s.size for s in starts])
+    cuts = [column, *[np.concatenate([*starts, np.empty(0)])] * 2]
+    if hints is not None and hints.column.size:
+        cuts = [np.concatenate(pair) for pair in zip(cuts, work.expected(hints, column, cuts[1]), strict=True)]
+    panels = _between(n, *cuts)
     for _ in range(_ROUNDS):
         panels = work.refine(panels.take(np.flatnonzero(panels.high > panels.low)))
         # at a penetration where strips sit on a threshold all along y, rounding decides each: no use in splitting further
@@ -88,6 +106,15 @@ def average(
     return Averages(work.values / np.pi, work.errors / np.pi, work.strips, work.zones())
 
 
+def _between(n: int, column, low, high) -> _Panels:
+    """The panels that the cuts [low, high] leave of every column."""
+    order = np.lexsort((low, column))
+    every = np.concatenate((np.arange(n), column[order]))
+    starts, ends = np.concatenate((np.zeros(n), high[order])), np.concatenate((low[order], np.full(n, np.pi)))
+    last = np.concatenate((column[order], np.arange(n)))
+    return _Panels(np.sort(every, kind="stable"), starts[np.argsort(every, kind="stable")], ends[np.argsort(last, kind="stable")])
+
+
 @dataclass(slots=True)
 class _Work:
     integrand: Integrand
@@ -98,6 +125,8 @@ class _Work:
     errors: np.ndarray
     strips: np.ndarray
     accepted: list[tuple]
+    #: codes at the crest and next to the flat edge: what is narrower than a panel's first step shows up there
+    ends: np.ndarray | None = None
 
     def zones(self) -> list[np.ndarray]:
         """See ``Averages.zones``."""
@@ -118,30 +147,25 @@ class _Work:
         """Accept what converges under doubling; return what has to be split."""
         later = []
         nodes = None
-        previous = None
         n = _FIRST
         while panels.size and n <= _LAST:
             codes, values = self._sample(panels, n, nodes)
             mixed = (codes != codes[:, :1]).any(axis=1)
+            if n == _FIRST:
+                mixed |= (panels.low == 0) & (codes[:, 0] != self.ends[panels.column, 0])
+                mixed |= (panels.high == np.pi) & (codes[:, -1] != self.ends[panels.column, 1])
             if mixed.any():
                 later.append(self._split_at_transitions(panels.take(mixed), codes[mixed], values[mixed], n))
             keep = ~mixed
             panels, codes, values = panels.take(keep), codes[keep], values[keep]
             width = (panels.high - panels.low)[:, None]
             fine = width * np.einsum("j,pjq->pq", mapped_weights(n), values)
-            coarse = width * np.einsum("j,pjq->pq", mapped_weights(n // 2), values[:, 1::2])
-            change = np.abs(fine - coarse)
-            if previous is None:
-                coarser = width * np.einsum("j,pjq->pq", mapped_weights(n // 4), values[:, 3::4])
-                before = np.abs(coarse - coarser)
-            else:
-                before = previous[keep]
-            gain = np.divide(change, before, out=np.ones_like(change), where=before > change)
             rounding = 4 * _EPS * width * np.max(np.abs(values), axis=1, initial=0.0)
-            error = change * np.maximum(gain, _GAIN) + rounding
+            noise = 0.1 * self.rtol[panels.column, None] * self.floor[panels.column]
+            error = width * sum_errors(values, noise) + rounding
             done = self._accept(panels, codes[:, 0], fine, error, rounding)
             rest = ~done
-            panels, nodes, previous = panels.take(rest), (codes[rest], values[rest]), change[rest]
+            panels, nodes = panels.take(rest), (codes[rest], values[rest])
             n *= 2
         if panels.size:
             middle = 0.5 * (panels.low + panels.high)
@@ -151,6 +175,44 @@ class _Work:
             return panels
         return _Panels(*(np.concatenate([getattr(p, f) for p in later]) for f in ("column", "low", "high")))
 
+    def expected(self, hints: Hints, column, known):
+        """Brackets (column, low, high) of the transitions that are where they were expected, narrowed; away from those ``known``."""
+        m = hints.column.size
+        both = np.concatenate((hints.column, hints.column))
+        np.add.at(self.strips, both, 1)
+        codes, values = self.integrand(both, np.concatenate((hints.low, hints.high)))
+        holds = (codes[:m] == hints.code_low) & (codes[m:] == hints.code_high)
+        for c, theta in zip(column, known, strict=True):
+            holds &= ~((hints.column == c) & (hints.low <= theta) & (hints.high >= theta))
+        index = np.flatnonzero(holds)
+        order = index[np.lexsort((hints.low[index], hints.column[index]))]
+        # brackets of one column must not overlap
+        tight = np.flatnonzero((hints.column[order[1:]] == hints.column[order[:-1]]) & (hints.low[order[1:]] <= hints.high[order[:-1]]))
+        index = np.delete(order, np.union1d(tight, tight + 1))
+        spread = np.abs(values[m:] - values[:m])[index]
+        line = hints.column[index]
+        size = np.pi * (hints.size[line] + self.floor[line])
+        width = self._bracket(self.rtol[line, None] * size, spread, hints.high[index])
+        codes_at = lambda i, x: self._codes(hints.column[i], x)  # noqa: E731
+        found = locate(codes_at, index, hints.low[index], hints.high[index], codes[index], codes[m + index], width)
+        end = {int(i): j for j, i in enumerate(index)}
+        which = np.array([end[int(i)] for i in found.line], int)
+        sliver = (found.high - found.low)[:, None]
+        first, last = values[index][which], values[m + index][which]
+        self._leave_out(hints.column[found.line], sliver, np.minimum(first, last), np.maximum(first, last))
+        return hints.column[found.line], found.low, found.high
+
+    def _bracket(self, goal, spread, theta):
+        """How narrow to bracket a transition at which the values change by ``spread``."""
+        goal = _SLIVER * _SHARE * goal
+        width = np.min(np.divide(goal, spread, out=np.full_like(goal, np.pi), where=spread > goal / np.pi), axis=1)
+        return np.maximum(width, 4 * _EPS * theta)
+
+    def _leave_out(self, column, sliver, low_side, high_side):
+        """The sliver of a bracket is left out: what it could hold is its value and its error."""
+        np.add.at(self.values, column, sliver * 0.5 * (low_side + high_side))
+        np.add.at(self.errors, column, sliver * 0.5 * (high_side - low_side))
+
     def give_up(self, panels: _Panels) -> None:
         """Take panels that do not converge as they are, with the spread of their values as error."""
         codes, values = self._sample(panels, _FIRST, None)
@@ -159,16 +221,12 @@ class _Work:
         np.add.at(self.errors, panels.column, width * (values.max(axis=1) - values.min(axis=1)))
         self.accepted.append((panels.column, codes[:, 0], panels.low, panels.high))
 
-    def _tolerance(self, column):
-        goal = self.rtol[:, None] * (np.abs(self.values) + np.pi * self.floor)
-        return 0.2 * goal[column]
-
     def _accept(self, panels, codes, fine, error, rounding):
         # what is not accepted yet counts for the size of the result, not for the result
         total = self.values.copy()
         np.add.at(total, panels.column, fine)
         goal = self.rtol[:, None] * (np.abs(total) + np.pi * self.floor)
-        done = (error <= 0.2 * goal[panels.column] + 2 * rounding).all(axis=1)
+        done = (error <= _SHARE * goal[panels.column] + 2 * rounding).all(axis=1)
         np.add.at(self.values, panels.column[done], fine[done])
         np.add.at(self.errors, panels.column[done], error[done])
         self.accepted.append((panels.column[done], codes[done], panels.low[done], panels.high[done]))
@@ -179,10 +237,18 @@ class _Work:
         t = interior_nodes(n)
         if known is not None:
             t = t[0::2]
-        theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * np.sin(0.5 * np.pi * t) ** 2
+        theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * mapped(t)
         column = np.broadcast_to(panels.column[:, None], theta.shape)
-        np.add.at(self.strips, column.ravel(), 1)
-        codes, values = self.integrand(column.ravel(), theta.ravel())
+        column, theta_flat = column.ravel(), theta.ravel()
+        if self.ends is None:
+            every = np.arange(self.rtol.size)
+            column = np.concatenate((column, every, every))
+            theta_flat = np.concatenate((theta_flat, 0.0 * self.rtol, self._edge()))
+        np.add.at(self.strips, column, 1)
+        codes, values = self.integrand(column, theta_flat)
+        if self.ends is None:
+            self.ends = codes[theta.size :].reshape(2, -1).T
+            codes, values = codes[: theta.size], values[: theta.size]
         codes, values = codes.reshape(theta.shape), values.reshape(*theta.shape, -1)
         if known is None:
             return codes, values
@@ -192,6 +258,21 @@ class _Work:
         all_values[:, 0::2], all_values[:, 1::2] = values, known[1]
         return all_codes, all_values
 
+    def _with_ends(self, panels: _Panels, theta, codes):
+        """Nodes and codes with the crest and the flat edge added to the panels that end there (the end nodes twice elsewhere)."""
+        first, last = panels.low == 0, panels.high == np.pi
+        low = np.where(first, 0.0, theta[:, 0]), np.where(first, self.ends[panels.column, 0], codes[:, 0])
+        edge = np.maximum(self._edge()[panels.column], theta[:, -1])
+        high = np.where(last, edge, theta[:, -1]), np.where(last, self.ends[panels.column, 1], codes[:, -1])
+        return tuple(
+            np.concatenate((start[:, None], inner, end[:, None]), axis=1)
+            for start, inner, end in zip(low, (theta, codes), high, strict=True)
+        )
+
+    def _edge(self):
+        """Theta next to the flat edge of each column: what lies beyond does not matter at its accuracy."""
+        return np.pi * (1 - 0.01 * self.rtol)
+
     def _codes(self, column, theta):
         np.add.at(self.strips, column, 1)
         return self.codes_at(column, theta)
@@ -199,12 +280,16 @@ class _Work:
     def _split_at_transitions(self, panels: _Panels, codes, values, n) -> _Panels:
         """Locate every transition between neighbouring nodes that disagree; panels end there."""
         t = interior_nodes(n)
-        theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * np.sin(0.5 * np.pi * t) ** 2
+        theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * mapped(t)
+        if n == _FIRST:
+            theta, codes = self._with_ends(panels, theta, codes)
         row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
         spread = (values.max(axis=1) - values.min(axis=1))[row]
-        goal = 0.02 * self._tolerance(panels.column[row])
-        width = np.min(np.divide(goal, spread, out=np.full_like(goal, np.pi), where=spread > goal / np.pi), axis=1)
-        width = np.maximum(width, 4 * _EPS * theta[row, node + 1])
+        # the size of the result is known by what is summed up, and by these panels' own share
+        total = self.values + np.pi * self.floor
+        np.add.at(total, panels.column, (panels.high - panels.low)[:, None] * np.abs(values).mean(axis=1))
+        line = panels.column[row]
+        width = self._bracket(self.rtol[line, None] * np.abs(total)[line], spread, theta[row, node + 1])
         found = locate(
             lambda line, x: self._codes(panels.column[line], x),
             row,
@@ -214,11 +299,8 @@ class _Work:
             codes[row, node + 1],
             width,
         )
-        # the sliver of a bracket is left out: what it could hold is its value and its error
         column, sliver = panels.column[found.line], (found.high - found.low)[:, None]
-        low_side, high_side = values.min(axis=1)[found.line], values.max(axis=1)[found.line]
-        np.add.at(self.values, column, sliver * 0.5 * (low_side + high_side))
-        np.add.at(self.errors, column, sliver * 0.5 * (high_side - low_side))
+        self._leave_out(column, sliver, values.min(axis=1)[found.line], values.max(axis=1)[found.line])
         first = np.concatenate(([True], found.line[1:] != found.line[:-1]))
         last = np.concatenate((found.line[1:] != found.line[:-1], [True]))
         starts = panels.low[found.line]
@@ -229,21 +311,3 @@ class _Work:
             np.concatenate((starts, found.high[last])),
             np.concatenate((found.low, panels.high[tail])),
         )
-
-
-@lru_cache
-def interior_nodes(n: int) -> np.ndarray:
-    """Interior Clenshaw-Curtis nodes on (0, 1)."""
-    j = np.arange(1, n)
-    return np.sin(0.5 * np.pi * j / n) ** 2
-
-
-@lru_cache
-def mapped_weights(n: int) -> np.ndarray:
-    """Clenshaw-Curtis weights at the interior nodes, times the derivative of the substitution (zero at both ends)."""
-    j = np.arange(1, n)
-    m = np.arange(1, n // 2 + 1)
-    b = np.where(m == n / 2, 1.0, 2.0)
-    angle = 2 * np.outer(j, m) * np.pi / n
-    weights = (2 / n) * (1 - (b * np.cos(angle) / (4 * m**2 - 1)).sum(axis=1)) / 2
-    return weights * 0.5 * np.pi * np.sin(np.pi * interior_nodes(n))

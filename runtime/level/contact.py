@@ -1,0 +1,120 @@
+"""Pressure in the contact of strips: its extremes, and where it passes a given value."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hystrip.strip.crossing import crossing
+from hystrip.strip.problem import snaps_in
+from hystrip.strip.regimes import CODE
+
+from .strips import SolvedStrips
+
+
+def contact_of(kernel, strips: SolvedStrips, index):
+    """Contact of the strips ``index``, for a foundation with one time or several."""
+    if hasattr(kernel, "MODES"):
+        from hystrip.modes.contact import ModeContact
+
+        return ModeContact(kernel, strips, index)
+    return Contact(kernel, strips, index)
+
+
+class Contact:
+    """Contact intervals of strips in phase, with the pressure in Pa inside them."""
+
+    def __init__(self, kernel, strips: SolvedStrips, index):
+        self.kernel = kernel
+        self.s = strips.strips.take(index)
+        solved = strips.solved
+        self.unit = strips.scales["p"][index]
+        self.flat = strips.scales["flat"][index]
+        self.full = solved.code[index] == CODE["c"]
+        s = self.s
+        self.mean = np.where(self.flat, solved.p_mean[index], s.D - 1)
+        storage, loss = kernel.storage(s.alpha, s.beta), kernel.loss(s.alpha, s.beta, s.L)
+        self.amplitude = np.where(self.flat, 0.0, np.hypot(storage, loss))
+        self.centre = -np.arctan2(loss, storage)  # phase of the saturated field's maximum
+        self.b = np.where(self.full, self.centre - np.pi, solved.b[index])
+        self.a = np.where(self.full, self.centre + np.pi, solved.a[index])
+        snap = snaps_in(s) & (solved.code[index] == CODE["afc"])
+        reach = np.divide(s.delta_0, s.J, out=np.zeros_like(s.J), where=snap)
+        self.q_b = np.where(snap, s.p_0 - reach, 0.0)
+        self.p_peak = self._peak()
+        self.p_least = self._least()
+
+    def pressure(self, rows, phase):
+        """Pressure, Pa, of strip ``rows`` at ``phase`` in its contact."""
+        s = self.s
+        p = np.empty(rows.size)
+        full = self.full[rows]
+        i = rows[full]
+        p[full] = self.mean[i] + self.amplitude[i] * np.cos(phase[full] - self.centre[i])
+        i, rest = rows[~full], ~full
+        q = self.kernel.excess_after(self.b[i], phase[rest], self.q_b[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
+        p[rest] = q - s.p_0[i]
+        return p * self.unit[rows]
+
+    def _peak(self):
+        """Greatest pressure in contact, Pa: where ``p = H``."""
+        self.top = self.centre.copy()
+        i = np.flatnonzero(~self.full)
+        s = self.s.take(i)
+        # p - H falls through zero once: from entry, where p is below H, to exit, where it is above
+        b, a, q_b = self.b[i], self.a[i], self.q_b[i]
+
+        def lag(phase, sub):
+            q = self.kernel.excess_after(b[sub], phase, q_b[sub], s.p_0[sub], s.D[sub], s.alpha[sub], s.beta[sub], s.L[sub])
+            H = self.kernel.forcing(phase, s.D[sub], s.beta[sub])
+            return H + s.p_0[sub] - q, np.zeros(sub.size)
+
+        self.top[i], _ = crossing(lag, b, a)
+        return self.pressure(np.arange(self.b.size), self.top)
+
+    def _least(self):
+        """Pressure, Pa, just after entry (without T_sigma it steps there); in saturated contact the least."""
+        entered = self.b + 1e-12 * (self.a - self.b)
+        return self.pressure(np.arange(self.b.size), np.where(self.full, self.centre - np.pi, entered))
+
+    def slope(self, rows, phase):
+        """Derivative of the pressure by phase, in the strip's own unit, of strip ``rows`` at ``phase`` in its contact."""
+        s = self.s
+        out = -self.amplitude[rows] * np.sin(phase - self.centre[rows])
+        part = np.flatnonzero(~self.full[rows])
+        i = rows[part]
+        args = (self.b[i], phase[part], self.q_b[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
+        out[part] = self.kernel.excess_after_slope(*args)
+        return out
+
+    def passes(self, p, above):
+        """Phases at which the pressure passes ``p`` (Pa) upward and downward; where it does not, both are the peak's."""
+        up, down = self.top.copy(), self.top.copy()
+        level = p / self.unit
+        full = np.flatnonzero(above & self.full)
+        cosine = np.divide(
+            level[full] - self.mean[full], self.amplitude[full], out=np.full(full.size, -1.0), where=self.amplitude[full] > 0
+        )
+        half = np.arccos(np.clip(cosine, -1, 1))
+        up[full], down[full] = self.centre[full] - half, self.centre[full] + half
+        part = np.flatnonzero(above & ~self.full)
+        if part.size:
+            s = self.s.take(part)
+            b, a, top = self.b[part], self.a[part], self.top[part]
+            q_b, goal = self.q_b[part], level[part] + s.p_0
+
+            def excess(phase, sub, sign):
+                args = (b[sub], phase, q_b[sub], s.p_0[sub], s.D[sub], s.alpha[sub], s.beta[sub], s.L[sub])
+                value = self.kernel.excess_after(*args) - goal[sub]
+                return sign * value, sign * self.kernel.excess_after_slope(*args)
+
+            starts = q_b < goal
+            first = b.copy()
+            rising = np.flatnonzero(starts)
+            first[rising], _ = crossing(lambda x, sub: excess(x, rising[sub], -1.0), b[rising], top[rising])
+            up[part] = first
+            ends = goal > 0
+            last = a.copy()
+            falling = np.flatnonzero(ends)
+            last[falling], _ = crossing(lambda x, sub: excess(x, falling[sub], 1.0), top[falling], a[falling])
+            down[part] = last
+        return up, down

@@ -1,0 +1,62 @@
+"""Where transitions along y are to be expected at one penetration, from where they lie at others."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .panels import Hints
+
+#: brackets narrower or wider than this are no use
+_NARROWEST, _WIDEST = 1e-10, 0.03
+
+
+def boundaries(zones: np.ndarray) -> np.ndarray:
+    """Thetas between neighbouring zones (rows code, low, high) of ``Averages.zones``."""
+    return 0.5 * (zones[:-1, 2] + zones[1:, 1])
+
+
+def expect(x: np.ndarray, zones: list[np.ndarray], x_new: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    """Sequence of codes (k + 1,), thetas of its transitions and half widths of their brackets (points, k) at ``x_new``; None if unknown.
+
+    ``x``: ascending parameters at which ``zones`` are known; those with the sequence met most often count.
+    """
+    sequences = [tuple(z[:, 0].astype(int)) for z in zones]
+    common = max(set(sequences), key=sequences.count)
+    pick = [i for i, s in enumerate(sequences) if s == common]
+    if len(common) < 2 or len(pick) < 3:
+        return None
+    x, theta = x[pick], np.array([boundaries(zones[i]) for i in pick])
+    at = _lagrange(x, x_new) @ theta
+    other = _lagrange(x[::2], x_new) @ theta[::2] if len(pick) > 4 else _lagrange(x[1:], x_new) @ theta[1:]
+    # leaving out every other point costs digits: with all of them there are more
+    miss = np.abs(at - other)
+    width = np.maximum(np.where(miss < 1, 3 * miss ** (1.3 if len(pick) > 4 else 1.0), np.inf), _NARROWEST)
+    return np.array(common), at, width
+
+
+def _lagrange(x, x_new):
+    """Matrix from values at ``x`` to values at ``x_new`` of the polynomial through them."""
+    out = np.ones((x_new.size, x.size))
+    for j in range(x.size):
+        for i in range(x.size):
+            if i != j:
+                out[:, j] *= (x_new - x[i]) / (x[j] - x[i])
+    return out
+
+
+def hints(columns: np.ndarray, expected: list, size: np.ndarray) -> Hints | None:
+    """``panels.Hints`` for ``columns[i]`` (points of one interval each) from what ``expect`` said of each; ``size`` (all columns, q)."""
+    rows = [[], [], [], [], []]
+    for column, e in zip(columns, expected, strict=True):
+        if e is None:
+            continue
+        codes, theta, width = e
+        at, where = np.nonzero((width < _WIDEST) & (theta - width > 0) & (theta + width < np.pi))
+        rows[0].append(column[at])
+        rows[1].append((theta - width)[at, where])
+        rows[2].append((theta + width)[at, where])
+        rows[3].append(codes[where])
+        rows[4].append(codes[where + 1])
+    if not rows[0]:
+        return None
+    return Hints(*(np.concatenate(r) for r in rows), size)

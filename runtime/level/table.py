@@ -1,0 +1,86 @@
+"""Friction laws of several velocities as one table, evaluated for any mixture of them at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .law import Law
+
+_CHUNK = 8192
+
+
+class LawTable:
+    """Laws stacked by group; ``breaks`` (groups, B), padded with inf, ``p_sat`` (groups,), ``saturated`` (groups, q).
+
+    ``jumps`` (groups, B): change of friction, its own and what it carries, at each break; ``break_error`` (groups, B): how well the
+    break's pressure is known, Pa. ``frictions``: where those frictions stand among the quantities after pressure.
+    """
+
+    def __init__(self, laws: Sequence[Law]):
+        self.p_sat = np.array([law.p_sat for law in laws])
+        self.pull_off = np.array([law.pull_off for law in laws])
+        self.saturated = np.array([law.saturated for law in laws])
+        self.frictions = laws[0].friction_columns
+        self.breaks = _padded([law.breaks for law in laws], np.inf)
+        sides = [law.at_breaks() for law in laws]
+        self.jumps = _padded([jumps for jumps, _ in sides], 0.0)
+        self.break_error = _padded([errors for _, errors in sides], 0.0)
+        counts = [len(law.branches) for law in laws]
+        self._start = np.concatenate(([0], np.cumsum(counts)[:-1]))
+        self._last = np.maximum(np.array(counts) - 1, 0)
+        self._upper = _padded([np.array([b.p_high for b in law.branches]) for law in laws], np.inf)
+        every = [b for law in laws for b in law.branches]
+        self._low, self._high = np.array([b.p_low for b in every]), np.array([b.p_high for b in every])
+        error = np.array([b.piece.error for b in every]).reshape(len(every), -1)
+        self._error = np.stack((error[:, 1 + self.frictions].sum(axis=1), error[:, 0]), axis=1) if every else np.zeros((0, 2))
+        self._stack(every)
+
+    def _stack(self, branches):
+        """Coefficients by degree: branches of one degree lie in one array."""
+        degree = np.array([b.direct.shape[0] for b in branches], int)
+        self._size = degree
+        self._place = np.zeros(degree.size, int)
+        self._coefficients = {}
+        for n in np.unique(degree):
+            index = np.flatnonzero(degree == n)
+            self._place[index] = np.arange(index.size)
+            self._coefficients[int(n)] = np.array([branches[i].direct[:, 1:] for i in index])
+
+    def __call__(self, group: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Quantities after pressure (m, q - 1) at pressures ``p`` (m,) of the laws ``group`` (m,), and errors of friction and pressure (m, 2)."""
+        out, errors = np.zeros((p.size, self.saturated.shape[1] - 1)), np.zeros((p.size, 2))
+        high = p >= self.p_sat[group]
+        out[high] = self.saturated[group[high], 1:]
+        rest = np.flatnonzero(~high & (p >= self.pull_off[group]))
+        if not rest.size or not self._size.size:
+            return out, errors
+        g, p = group[rest], p[rest]
+        which = self._start[g] + np.minimum(np.count_nonzero(self._upper[g] < p[:, None], axis=1), self._last[g])
+        errors[rest] = self._error[which]
+        share = np.clip((p - self._low[which]) / (self._high[which] - self._low[which]), 0.0, 1.0)
+        # cos(arccos) of the parameter 2/pi arcsin(sqrt(share)), as on the branch
+        x = 4 / np.pi * np.arcsin(np.sqrt(share)) - 1
+        for n, table in self._coefficients.items():
+            mine = np.flatnonzero(self._size[which] == n)
+            for start in range(0, mine.size, _CHUNK):
+                some = mine[start : start + _CHUNK]
+                out[rest[some]] = _clenshaw(table, self._place[which[some]], x[some])
+        return out, errors
+
+
+def _clenshaw(table, index, x):
+    twice = 2 * x[:, None]
+    one = two = 0.0
+    for k in range(table.shape[1] - 1, 0, -1):
+        one, two = table[index, k] + twice * one - two, one
+    return table[index, 0] + x[:, None] * one - two
+
+
+def _padded(rows, value):
+    width = max((row.size for row in rows), default=0)
+    out = np.full((len(rows), max(width, 1)), value)
+    for row, values in zip(out, rows, strict=True):
+        row[: values.size] = values
+    return out

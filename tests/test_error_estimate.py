@@ -1,0 +1,86 @@
+"""The error estimate bounds the error and is not wildly larger; the rules that it is made of, on functions whose integrals are known."""
+
+import importlib.util
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hystrip.level.chebyshev import coefficients, evaluate, interpolation_errors, lobatto
+from hystrip.level.quadrature import interior_nodes, mapped, mapped_weights, sum_errors
+
+TOOLS = Path(__file__).resolve().parents[1] / "tools"
+
+#: functions on [0, 1] with their integrals: smooth, ends like square roots, nearly singular, kinks and jumps that nobody marked
+FUNCTIONS = {
+    "smooth": (np.exp, np.e - 1),
+    "square root": (lambda x: np.sqrt(1 - x), 2 / 3),
+    "square roots": (lambda x: np.sqrt(x * (1 - x)), np.pi / 8),
+    "pole": (lambda x: 1 / (0.05 + (x - 0.3) ** 2), (np.arctan(0.7 / 0.05**0.5) + np.arctan(0.3 / 0.05**0.5)) / 0.05**0.5),
+    "near square root": (lambda x: np.sqrt(1.01 - x), (1.01**1.5 - 0.01**1.5) * 2 / 3),
+    "layer": (lambda x: np.exp(-x / 0.01), 0.01 * (1 - np.exp(-100))),
+    "kink": (lambda x: np.abs(x - 0.37), 0.37**2 / 2 + 0.63**2 / 2),
+    "jump": (lambda x: (x > 0.61).astype(float), 0.39),
+}
+
+
+@pytest.mark.parametrize("n", [8, 16, 32, 64])
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_sum_errors_bound_the_error(name, n):
+    function, exact = FUNCTIONS[name]
+    values = function(mapped(interior_nodes(n)))
+    error = abs(mapped_weights(n) @ values - exact)
+    estimate = sum_errors(values[None, :, None], np.zeros((1, 1)))[0, 0]
+    assert error <= estimate + 1e-15 * max(exact, 1) * n
+
+
+def test_constants_and_lines_are_summed_without_error():
+    for values in (np.ones(7), mapped(interior_nodes(8))):
+        assert sum_errors(values[None, :, None], np.zeros((1, 1)))[0, 0] < 1e-15
+
+
+def test_rounding_of_one_quantity_does_not_spoil_another():
+    """A fraction that is one but for rounding says nothing of how smooth the friction is."""
+    t = interior_nodes(32)
+    constant = 1 + 1e-16 * np.random.default_rng(1).integers(-1, 2, t.size)
+    both = np.stack((np.exp(mapped(t)), constant), axis=1)[None]
+    assert sum_errors(both, np.zeros((1, 2)))[0, 0] < 1e-14
+
+
+def _interpolated(function, n):
+    """Largest error of the interpolant on n + 1 nodes, and the estimate of it."""
+    c = coefficients(function(lobatto(n))[:, None])
+    t = np.linspace(0, 1, 1001)
+    return np.abs(evaluate(c, t)[:, 0] - function(t)).max(), interpolation_errors(c[None], np.zeros((1, 1)))[0, 0]
+
+
+@pytest.mark.parametrize("n", [8, 16, 32])
+@pytest.mark.parametrize("function", [np.exp, lambda t: 1 / (1.2 - t), lambda t: np.sqrt(1.02 - t), lambda t: np.sqrt(1.1 - t)])
+def test_interpolation_errors_bound_the_error(function, n):
+    error, estimate = _interpolated(function, n)
+    assert error <= estimate + 1e-14
+
+
+@pytest.mark.parametrize("n", [8, 16, 32])
+@pytest.mark.parametrize("power", [1.0, 1.5])
+def test_interpolation_errors_do_not_miss_a_kink_that_nobody_marked(power, n):
+    """Its coefficients come and go: the estimate holds wherever it lies but for a small factor, and nearly always without."""
+    places = np.linspace(0.05, 0.95, 91)
+    ratios = [np.divide(*_interpolated(lambda t, x=x: np.maximum(t - x, 0.0) ** power, n)) for x in places]
+    assert np.median(ratios) < 0.5 and np.max(ratios) < 5
+
+
+def test_estimates_hold_on_random_surfaces():
+    """A short run of tools/benchmark_errors.py."""
+    sys.path.insert(0, str(TOOLS))
+    try:
+        spec = importlib.util.spec_from_file_location("benchmark_errors", TOOLS / "benchmark_errors.py")
+        tool = importlib.util.module_from_spec(spec)
+        sys.modules[spec.name] = tool
+        spec.loader.exec_module(tool)
+    finally:
+        sys.path.remove(str(TOOLS))
+    out = tool.survey(scenes=3, seed=1, tolerances=[1e-3], tighter=1e-2, levels=1, first=4)
+    assert not out.refused and len(out.points) >= 4
+    assert out.bounded == 1 and out.met == 1

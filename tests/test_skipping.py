@@ -1,0 +1,61 @@
+"""What a scene does not need is left out, is counted, and leaves the result as it is."""
+
+import numpy as np
+import pytest
+
+import hystrip
+from hystrip.level.inverse import cut_penetration
+from hystrip.level.strips import Columns
+
+MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+WEAK = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+LEVELS = [hystrip.Level(l=10e-6, h=1e-6), hystrip.Level(l=500e-9, h=100e-9)]
+
+
+def test_saturated_points_solve_no_strip():
+    V = np.geomspace(1e-5, 1e-1, 50)
+    r = hystrip.solve(MATERIAL, WEAK, LEVELS, pressure=1e6, velocity=V)
+    assert r.closed_form.all() and r.counts["strips_solved"] == 0 and r.counts["points_in_closed_form"] == V.size
+
+
+def test_below_pull_off_nothing_is_carried():
+    r = hystrip.solve(MATERIAL, WEAK, LEVELS, pressure=-2e3, velocity=[1e-3], rtol=1e-3)
+    assert r.pulled_off.all() and r.mu[0] == 0 and r.counts["points_below_pull_off"] == 1
+
+
+@pytest.mark.parametrize("levels", [LEVELS[:1], LEVELS])
+def test_the_closed_form_is_what_solving_gives(levels):
+    """With skipping off every strip is solved: the same but for rounding of the sum over strips."""
+    given = {"pressure": 1e4, "velocity": [1e-3], "rtol": 1e-6}
+    on, off = (hystrip.solve(MATERIAL, WEAK, levels, skip=skip, **given) for skip in (True, False))
+    assert on.counts["points_in_closed_form"] == 1 and off.counts["points_in_closed_form"] == 0
+    scale = (MATERIAL.K * levels[0].h + WEAK.p_0) * levels[0].h / levels[0].l
+    assert np.abs(on.tau_by_level - off.tau_by_level).max() <= 1e-13 * scale
+
+
+def test_partial_contact_is_bit_identical_without_skipping():
+    given = {"pressure": 100.0, "velocity": [5e-3], "rtol": 1e-3}
+    on, off = (hystrip.solve(MATERIAL, WEAK, LEVELS[:1], skip=skip, **given) for skip in (True, False))
+    for name in ("mu", "tau_by_level", "penetration", "contact_by_level", "error_estimate"):
+        assert np.array_equal(getattr(on, name), getattr(off, name)), name
+    assert on.counts == off.counts and on.counts["strips_decided_by_threshold"] > 0
+
+
+@pytest.mark.parametrize("branch", ["unloading", "loading"])
+@pytest.mark.parametrize("edge", ["continuous", "constitutive"])
+def test_no_penetration_above_the_cut_carries_less(edge, branch):
+    """Averaged over a period the foundation is elastic: p_mean = K w_mean >= K (D - 3 h/4)."""
+    level = LEVELS[0]
+    D = np.linspace(-0.1, 3, 25) * level.h
+    v = hystrip.solve_level(MATERIAL, WEAK, level, V=2e-3, D=D, edge=edge, branch=branch, rtol=1e-4)
+    assert (v.p_mean >= MATERIAL.K * (D - 0.75 * level.h) * (1 - 1e-12) - 1e-9).all()
+    columns = Columns(MATERIAL, WEAK, level, edge, branch, np.full(D.size, 2e-3), D)
+    assert (cut_penetration(columns, v.p_mean, np.full(D.size, np.inf)) >= D).all()
+
+
+def test_fewer_digits_take_fewer_strips():
+    counts = [
+        hystrip.solve(MATERIAL, WEAK, LEVELS[:1], pressure=100.0, velocity=[1e-3, 2e-2], rtol=rtol).counts["strips_solved"]
+        for rtol in (1e-3, 1e-5, 1e-7, 1e-9)
+    ]
+    assert counts == sorted(counts) and counts[-1] > counts[0]

@@ -1,0 +1,119 @@
+"""What the error estimate is worth: random surfaces solved at a tolerance, against the same at a far tighter one.
+
+    python tools/benchmark_errors.py [--scenes 100] [--seed 1] [--tolerances 1e-3 1e-4 1e-5] [--tighter 1e-3] [--first 0]
+
+Prints how many points meet the tolerance, at how many the estimate bounds the error, and the median of estimate over error; then every point at
+which it does not hold, with the scene's seed to draw it again. Points in closed form and below pull-off are exact and are not counted, nor are errors that rounding
+hides. Exit status 1 if the estimate bounds the error in fewer than 99 of 100 points, or its median exceeds 100 times the error.
+"""
+
+import argparse
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
+
+import surfaces
+
+import hystrip
+
+#: errors below this, relative to the friction and its floor, are rounding
+ROUNDING = 1e-13
+NEEDED, PESSIMISTIC = 0.99, 100
+
+
+@dataclass
+class Survey:
+    """``points``: rows (scene, index, tolerance, error, estimate), error and estimate relative to friction plus floor; ``refused``: (scene, error)."""
+
+    points: list = field(default_factory=list)
+    refused: list = field(default_factory=list)
+    exact: int = 0
+
+    @property
+    def table(self):
+        """The points as an array (n, 5)."""
+        return np.array(self.points, float).reshape(-1, 5)
+
+    @property
+    def bounded(self):
+        """Share of the points whose error the estimate bounds."""
+        error, estimate = self.table[:, 3], self.table[:, 4]
+        return float(np.mean(error <= np.maximum(estimate, ROUNDING))) if error.size else 1.0
+
+    @property
+    def met(self):
+        """Share of the points that meet the tolerance."""
+        return float(np.mean(self.table[:, 3] <= self.table[:, 2])) if self.points else 1.0
+
+    @property
+    def largest(self):
+        """The largest error over estimate."""
+        error, estimate = self.table[:, 3], self.table[:, 4]
+        counted = error > ROUNDING
+        return float(np.max(error[counted] / estimate[counted], initial=0.0))
+
+    @property
+    def pessimism(self):
+        """Median of estimate over error, where the error is more than rounding."""
+        rows = self.table[self.table[:, 3] > ROUNDING]
+        return float(np.median(rows[:, 4] / rows[:, 3])) if rows.size else 1.0
+
+
+def survey(scenes, seed, tolerances, tighter, levels=None, report=None, first=0):
+    """Draw ``scenes`` surfaces from number ``first`` on, solve each at one of the tolerances in turn, and ``tighter`` times that."""
+    out = Survey()
+    for number in range(first, first + scenes):
+        surface = surfaces.draw(np.random.default_rng((seed, number)), levels=levels)
+        rtol = tolerances[number % len(tolerances)]
+        try:
+            coarse, fine = surface.solve(rtol), surface.solve(max(tighter * rtol, 1e-12))
+        except (hystrip.SolverError, ArithmeticError) as error:
+            out.refused.append((number, error))
+            continue
+        size = np.abs(fine.tau) + surface.floor
+        counted = ~(fine.closed_form | (fine.pulled_off & coarse.pulled_off))
+        out.exact += int(np.count_nonzero(~counted))
+        for i in np.flatnonzero(counted):
+            error = max(abs(coarse.tau[i] - fine.tau[i]) - fine.tau_error[i], 0.0)
+            out.points.append((number, i, rtol, error / size[i], coarse.tau_error[i] / size[i]))
+        if report:
+            report(number + 1 - first, out)
+    return out
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--scenes", type=int, default=100)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--tolerances", type=float, nargs="+", default=[1e-3, 1e-4, 1e-5])
+    parser.add_argument("--tighter", type=float, default=1e-3, help="tolerance of the reference, relative")
+    parser.add_argument("--first", type=int, default=0, help="number of the first scene")
+    parser.add_argument("--levels", type=int, choices=(1, 2, 3), help="levels of every scene, instead of one to three")
+    options = parser.parse_args()
+    start = time.perf_counter()
+
+    def report(done, out):
+        print(f"\r{done} scenes, {len(out.points)} points, {100 * out.bounded:.1f} % bounded, median {out.pessimism:.3g}", end="", file=sys.stderr, flush=True)
+
+    out = survey(options.scenes, options.seed, options.tolerances, options.tighter, options.levels, report, options.first)
+    print(file=sys.stderr)
+    print(f"{options.scenes} scenes, {len(out.points)} points, {out.exact} more exact; {time.perf_counter() - start:.0f} s")
+    print(f"tolerance met:                {100 * out.met:.2f} %")
+    print(f"estimate bounds the error:    {100 * out.bounded:.2f} %")
+    print(f"largest error over estimate   {out.largest:.3g}")
+    print(f"median of estimate over error {out.pessimism:.3g}")
+    for number, i, rtol, error, estimate in out.points:
+        if error > max(estimate, ROUNDING) or error > rtol:
+            print(f"  scene {number}, point {i}, rtol {rtol:g}: error {error:.1e}, estimate {estimate:.1e}")
+    for number, error in out.refused:
+        print(f"  scene {number} refused: {error}")
+    return 1 if out.bounded < NEEDED or out.pessimism > PESSIMISTIC or out.refused else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
