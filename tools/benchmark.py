@@ -130,7 +130,7 @@ def scenes(short: bool) -> list[Scene]:
             [_equal(100, 1), *[_tamaas(n, 1) for n in grids[-1:]]],
         ),
         Scene(
-            "adhesive, multivalued", MATERIAL, (WEAK,), (SMALL,), np.linspace(-400, 1500, few), one(few) * 1e-4,
+            "adhesive, multivalued", MATERIAL, (WEAK,), (SMALL,), np.linspace(-650, 1500, few), one(few) * 7e-4,
             tolerances, 1e-11, adhesive,
         ),
         Scene("Fig. 6, two levels", MATERIAL, (WEAK, STRONG), (LARGE, SMALL), one(curve.size) * 100, curve, two, 1e-7 if short else 1e-8, double),

@@ -46,7 +46,8 @@ class Script:
             if found.success and all(e[i] <= e[i + 1] + 1e-12 for i in range(len(e) - 1)) and e[-1] - e[0] <= TWO_PI + 1e-12:
                 self.start[kind] = e
                 return e
-        self.failures += kind == "acaf"
+        # without adhesion a strip above the undeformed surface has to touch it; with adhesion the next regime may still be right
+        self.failures += kind == "acaf" or self.p_0 == 0
         return None
 
     def _saturated(self, g, A):
