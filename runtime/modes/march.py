@@ -39,7 +39,8 @@ class Period:
 
     ``onset``, ``entry``, ``exit``, ``release``: phase of the last of each event, NaN where none; ``onsets``, ``contacts``, ``releases``: how
     many. ``z_onset``, ``z_release``: state there. ``slope_onset``, ``slope_release``: of the gap just before.
-    ``from_onset``, ``from_release``: where the zone began that the event ends, ``z_from_onset``, ``z_from_release``: state there. ``lost``: not followed to the end.
+    ``from_onset``, ``from_release``: where the zone began that the event ends, ``z_from_onset``, ``z_from_release``: state there;
+    ``until_onset``, ``until_release``: where the zone ends that the event begins, ``smooth_onset``, ``smooth_release``: that is a gap zone, too. ``lost``: not followed to the end.
     """
 
     engaged_before: np.ndarray
@@ -60,6 +61,10 @@ class Period:
     from_release: np.ndarray
     z_from_onset: np.ndarray
     z_from_release: np.ndarray
+    until_onset: np.ndarray
+    until_release: np.ndarray
+    smooth_onset: np.ndarray
+    smooth_release: np.ndarray
     lost: np.ndarray
     evaluations: np.ndarray
     zones: list[Zone] = field(default_factory=list)
@@ -94,7 +99,7 @@ def march(kernel, s: ModeStrips, engaged, z, start) -> Period:
     out = Period(
         np.array(now_engaged), np.array(now_engaged), np.zeros((n, N)), nan(), nan(), nan(), nan(),
         *(np.zeros(N, int) for _ in range(3)), np.zeros((n, N)), np.zeros((n, N)), nan(), nan(), nan(), nan(),
-        np.zeros((n, N)), np.zeros((n, N)), np.zeros(N, bool), np.zeros(N),
+        np.zeros((n, N)), np.zeros((n, N)), nan(), nan(), *(np.zeros(N, bool) for _ in range(3)), np.zeros(N),
     )  # fmt: skip
     index, here, phase, end = np.arange(N), s, np.array(start, float), start + TWO_PI
     where, limit = phase.copy(), end
@@ -179,6 +184,9 @@ def _note(out: Period, zone: Zone, z_end):
             count[i[which]] += 1
     out.slope_onset[i[onset]], out.slope_release[i[release]] = zone.slope[onset], zone.slope[release]
     out.z_onset[:, i[onset]], out.z_release[:, i[release]] = z_end[:, onset], z_end[:, release]
+    begun = zone.start == out.onset[i], zone.start == out.release[i]  # by the event before this zone
+    for which, until, smooth in zip(begun, (out.until_onset, out.until_release), (out.smooth_onset, out.smooth_release), strict=True):
+        until[i[which]], smooth[i[which]] = zone.end[which], letter[which] != CONTACT
     out.from_onset[i[onset]], out.from_release[i[release]] = zone.start[onset], zone.start[release]
     out.z_from_onset[:, i[onset]], out.z_from_release[:, i[release]] = zone.z[:, onset], zone.z[:, release]
     out.engaged[i[onset]], out.engaged[i[release]] = True, False

@@ -143,9 +143,7 @@ def _step(kernel, st: _State, i, near: Period, sign: float, out: Approach):
     out.evaluations[sub.index] += far.evaluations
     lower, upper = (near, far) if sign > 0 else (far, near)
     alike = (near.engaged == far.engaged) & (lower.onsets == 1) & (upper.onsets == 1) & (lower.releases == 1) & (upper.releases == 1)
-    gains = least_gains(s, order, lower, upper)
-    gains.onset, gains.release = np.where(alike, gains.onset, 0.0), np.where(alike, gains.release, 0.0)
-    bound = propagation(s, order, lower, gains)
+    bound = propagation(s, order, lower, least_gains(s, order, lower, upper, alike))
     inner = _valid(solve_order(bound, r))
     wanted = np.max(np.divide(inner, window, out=np.zeros_like(inner), where=window > 0), axis=0)
     inner = inner / np.maximum(wanted, 1.0)
@@ -216,6 +214,7 @@ def _of(p: Period, i) -> Period:
             zones.append(type(zone)(where[zone.index[keep]], zone.letter[keep], zone.start[keep], zone.end[keep], zone.z[:, keep],
                                     zone.slope[keep], zone.following[keep]))  # fmt: skip
     plain = ("engaged_before", "engaged", "onset", "entry", "exit", "release", "onsets", "contacts", "releases", "slope_onset",
-             "slope_release", "from_onset", "from_release", "lost", "evaluations")  # fmt: skip
+             "slope_release", "from_onset", "from_release",
+             "until_onset", "until_release", "smooth_onset", "smooth_release", "lost", "evaluations")  # fmt: skip
     values = {name: getattr(p, name)[i] for name in plain} | {name: getattr(p, name)[:, i] for name in _STATES}
     return Period(**values, zones=zones)

@@ -57,7 +57,10 @@ class Order:
 
 @dataclass(slots=True)
 class Gains:
-    """Rank-one terms at the onset and the release, each ``gain (column . rate) (row . g)^T``: gain (N,), column and row (n, N) or 1."""
+    """Rank-one terms at the onset and the release, each ``gain (column . rate) (row . g)^T``: gain (N,), column and row (n, N) or 1.
+
+    ``by_modes``: terms of ``across`` in place of these, where those hold; ``between``: lower bound of how the first of the two acts through the second.
+    """
 
     onset: np.ndarray
     onset_column: np.ndarray
@@ -65,6 +68,20 @@ class Gains:
     release: np.ndarray
     release_column: np.ndarray
     release_row: np.ndarray
+    by_modes: tuple[Across, Across] | None = None
+    between: np.ndarray | None = None
+
+
+@dataclass(slots=True)
+class Across:
+    """A gain that acts on the state at the start of the gap zone that its event ends, and is felt at the end of the one it begins.
+
+    ``gain`` (N,), 0 where it does not hold; ``row``, ``column`` (n, N): lower bounds over all phases that the event may have.
+    """
+
+    gain: np.ndarray
+    row: np.ndarray
+    column: np.ndarray
 
 
 def exact_gains(s: ModeStrips, period: Period) -> Gains:
@@ -75,8 +92,8 @@ def exact_gains(s: ModeStrips, period: Period) -> Gains:
     return Gains(onset, one, one, release, one, one)
 
 
-def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period) -> Gains:
-    """Lower bounds of the gains of every state between those of two marches that meet each event once.
+def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period, alike: np.ndarray) -> Gains:
+    """Lower bounds of the gains of every state between those of two marches; 0 but where these are ``alike`` and meet each event once.
 
     Onsets lie between those of the two, releases too (the other way round). Placed where ``lower`` meets them: moving an event by ``delta``
     multiplies its terms by no less than ``exp(-delta rate)`` componentwise or, against the flow, ``exp(-delta gamma)``.
@@ -87,7 +104,36 @@ def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period) -> Ga
     shrink = lambda width: np.exp(-width * gamma)[None]  # noqa: E731
     steep_on = np.fmin(_steepest_onset(s, order, lower, upper), _steepest_by_modes(s, order, lower, upper, True))
     steep_off = np.fmin(_steepest_release(s, order, lower, upper), _steepest_by_modes(s, order, lower, upper, False))
-    return Gains(_ratio(s.jump_on, steep_on), shrink(late), fading(late), _ratio(s.step, steep_off), fading(early), shrink(early))
+    onset, release = (np.where(alike, gain, 0.0) for gain in (_ratio(s.jump_on, steep_on), _ratio(s.step, steep_off)))
+    pair = _across(s, order, lower, upper, onset, True), _across(s, order, lower, upper, release, False)
+    taken = [each.gain > 0 for each in pair]
+    events = np.sort(np.stack([lower.onset, upper.onset]), axis=0), np.sort(np.stack([lower.release, upper.release]), axis=0)
+    gaps = [np.maximum(one[0] - other[1], 0.0) for one, other in (events, events[::-1])]
+    later = events[0][0] > events[1][1]
+    span = np.where(later, events[0][1] - events[1][0], events[1][1] - events[0][0])
+    kicked = order.to_z(np.broadcast_to(order.rate, (s.modes, s.size)))
+    between = np.maximum(_least_sum(kicked, s, np.where(later, gaps[0], gaps[1]), np.nan_to_num(span)), 0.0)
+    return Gains(np.where(taken[0], 0.0, onset), shrink(late), fading(late), np.where(taken[1], 0.0, release), fading(early), shrink(early),
+                 pair, between)  # fmt: skip
+
+
+def _across(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, onset: bool) -> Across:
+    name = "onset" if onset else "release"
+    event = np.sort(np.stack([getattr(lower, name), getattr(upper, name)]), axis=0)
+    start, end, smooth = getattr(lower, f"from_{name}"), getattr(lower, f"until_{name}"), getattr(lower, f"smooth_{name}")
+    holds = smooth & (event[0] >= start) & (event[1] <= end) & (gain > 0)
+    before = np.where(holds, event - start, 0.0)
+    after = np.where(holds, end - event[::-1], 0.0)
+    kicked = order.to_z(np.broadcast_to(order.rate, (s.modes, s.size)))
+    row = np.stack([_least_sum(np.broadcast_to(order.share[:, k], kicked.shape), s, *before) for k in range(s.modes)])
+    column = np.stack([_least_sum(order.back[i] * kicked, s, *after) for i in range(s.modes)])
+    return Across(np.where(holds, gain, 0.0), np.maximum(row, 0.0), np.maximum(column, 0.0))
+
+
+def _least_sum(amplitudes, s: ModeStrips, short, long):
+    """Lower bound of ``sum_j amplitude_j exp(-t/beta_j)`` for t from ``short`` to ``long``."""
+    rate = np.minimum(np.divide(1.0, s.m.beta, out=np.full(s.m.beta.shape, _FASTEST), where=s.m.beta > 1 / _FASTEST), _FASTEST)
+    return (amplitudes * np.where(amplitudes > 0, np.exp(-long * rate), np.exp(-short * rate))).sum(axis=0)
 
 
 def propagation(s: ModeStrips, order: Order, period: Period, gains: Gains | None) -> np.ndarray:
@@ -96,9 +142,12 @@ def propagation(s: ModeStrips, order: Order, period: Period, gains: Gains | None
     change = np.zeros((N, n, n))
     eye = np.eye(n)
     share, back = np.moveaxis(order.share, -1, 0), np.moveaxis(order.back, -1, 0)
+    pending = [np.zeros((N, n)), np.zeros((N, n))]  # rows of the gains by modes whose second zone has not ended
+    waiting = [np.zeros(N, bool), np.zeros(N, bool)]
     for zone in period.zones:
         i, length = zone.index, zone.end - zone.start
         X = eye + change[i]
+        ripe = [each[i] for each in waiting]
         contact = zone.letter == CONTACT
         times = np.where(contact, _pick(s.m.alpha, i), _pick(s.m.beta, i))
         loss = np.expm1(-np.divide(length, times, out=np.full((n, i.size), 800.0), where=times > 0)).T
@@ -109,6 +158,20 @@ def propagation(s: ModeStrips, order: Order, period: Period, gains: Gains | None
             S, B = (a if a.shape[0] == 1 else a[here] for a in (share, back))
             step[gap] = B @ (loss[gap][:, :, None] * (S @ X[gap]))
         change[i] += step
+        if gains is not None and gains.by_modes is not None:
+            ends = (zone.letter == FREE) & (zone.following >= 0), (zone.letter == ADHESION) & (zone.following == FREE)
+            for k, across in enumerate(gains.by_modes):
+                new = np.flatnonzero(ends[k] & (across.gain[i] > 0))
+                at = i[new]
+                row = (across.row[:, at].T[:, None, :] @ X[new])[:, 0]
+                other = gains.by_modes[1 - k]
+                through = np.where(ripe[1 - k][new], other.gain[at] * gains.between[at], 0.0)
+                row += through[:, None] * pending[1 - k][at]
+                pending[k][at], waiting[k][at] = row, True
+            for k, across in enumerate(gains.by_modes):
+                at = i[ripe[k]]
+                change[at] += (across.gain[at] * across.column[:, at]).T[:, :, None] * pending[k][at][:, None, :]
+                waiting[k][at] = False
         if gains is not None:
             onset = np.flatnonzero((zone.letter == FREE) & (zone.following >= 0))
             release = np.flatnonzero((zone.letter == ADHESION) & (zone.following == FREE))
