@@ -20,15 +20,15 @@ RUNTIME: dict[str, tuple[tuple[str, str, str], ...]] = {
     "strip.adhesion_law": (("inputs/adhesion.py", "Dugdale.__init__", "p * delta"),),
     "strip.dimensionless_groups": (("strip/solution.py", "solve_si", "alpha, beta ="),),
     "jumps.closures": (("strip/problem.py", "adhesive_cycle", "jump ="),),
-    "saturated.threshold": (("strip/engine.py", "_engaged", "modulus_ratio"),),
+    "saturated.threshold": (("strip/engine.py", "_saturates", "return s.D - 1 + s.p_0 >="),),
     "multilevel.means_over_a_level": (
         ("level/means.py", "level_means", "return average("),
         ("level/means.py", "equal_strips", "mean = values.mean"),
     ),
     "multilevel.local_shear": (("level/strips.py", "integrand", "np.concatenate((values, carried)"),),
     "multilevel.carried_friction": (
-        ("level/carried.py", "_one_law", "total[rows] += value"),
-        ("level/carried.py", "_part", "best = width"),
+        ("level/carried.py", "_contributions", "total[saturated, :-1] +="),
+        ("level/carried.py", "_attempt", "best = width"),
     ),
     "multilevel.friction_coefficient": (("solve.py", "_result", "mu = np.divide"),),
     "stack.least_pressure": (("multilevel.py", "saturated", "needed = "),),

@@ -84,6 +84,7 @@ class KelvinVoigt(StandardLinearSolid):
 
     Scalars or arrays that broadcast. Raises ``InputError`` for a value outside these ranges.
 
+    >>> import hystrip
     >>> hystrip.KelvinVoigt(K=1e9, T_eps=1e-2)
     KelvinVoigt(K=1000000000.0, T_eps=0.01)
     """

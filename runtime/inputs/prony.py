@@ -31,6 +31,7 @@ class Prony:
     ``moduli`` and ``times``: sequences of n numbers, or of n arrays that broadcast (for ``solve_strip``; then all moduli have to be > 0 and the
     times of a branch apart from those of the others). Raises ``InputError`` for values outside these ranges.
 
+    >>> import hystrip
     >>> hystrip.Prony(K=1e9, moduli=[2e9, 0, 5e9], times=[1e-3, 1, 1e-3])
     Prony(K=1000000000.0, moduli=(7000000000.0,), times=(0.001,))
     """

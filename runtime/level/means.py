@@ -31,4 +31,6 @@ def equal_strips(columns: Columns, strips: int) -> Averages:
     mean = values.mean(axis=1)
     # a jump of the integrand shifts the sum by up to one strip's share of it; a kink by less
     errors = np.abs(np.diff(values, axis=1)).max(axis=1, initial=0.0) / strips
-    return Averages(mean, errors, np.full(columns.size, strips))
+    # no transitions are looked for: one zone for all that is known
+    zones = [np.array([[0.0, 0.0, np.pi]])] * columns.size
+    return Averages(mean, errors, np.full(columns.size, strips), zones=zones)

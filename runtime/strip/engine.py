@@ -31,6 +31,7 @@ from .sought import sought
 #: Strips solved at a time: their working arrays stay in the cache, and memory stays bounded.
 CHUNK = 16384
 _EPS = np.finfo(float).eps
+_ROUNDINGS = 4
 #: distances in roundings of D at which a strip on the end of a branch is settled
 _SHIFTS = (8, 64, 512)
 
@@ -82,6 +83,12 @@ def _settle(kernel, strips: Strips, solved: Solved, unloading: bool) -> None:
         solved.put(index[good], again.take(good))
 
 
+def _saturates(kernel, s: Strips) -> np.ndarray:
+    """Where saturated contact exists, ``D - 1 + p_0 >= R``, or fails to by less than the terms are rounded to: a gap of that size is none."""
+    R = kernel.modulus_ratio(s.alpha, s.beta)
+    return s.D - 1 + s.p_0 >= R - _ROUNDINGS * _EPS * (1 + np.abs(s.D) + s.p_0 + R)
+
+
 class _Batch:
     """One pass over a batch. Without ``known`` what Newton and the thresholds decide, the rest being left ``open``; with it (orbits
     that are known, x NaN where none is) everything else is searched for."""
@@ -118,7 +125,7 @@ class _Batch:
 
     def _engaged(self, index):
         s = self.strips.take(index)
-        full = s.D - 1 + s.p_0 >= self.kernel.modulus_ratio(s.alpha, s.beta)
+        full = _saturates(self.kernel, s)
         self.record.saturated_contact(index[full])
         # the foundation is never above -p_0, so the gap of the valley is at least this
         reaches = ~full & (2 - s.D - s.p_0 <= s.delta_0)
@@ -172,7 +179,7 @@ class _Batch:
         if not index.size:
             return
         s = self.strips.take(index)
-        full = s.D - 1 >= self.kernel.modulus_ratio(s.alpha, s.beta)
+        full = _saturates(self.kernel, s)
         free = ~full & (s.D <= 0)
         self.record.saturated_contact(index[full])
         self.record.constant(index[free], "f", 0.0, 0.0, 0.0, 0.0)
