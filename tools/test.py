@@ -23,11 +23,16 @@ def executed(report):
         return 0
 
 
+def spread(arguments):
+    """Options that use all cores, unless the caller says how many."""
+    return [] if any(a.startswith("-n") for a in arguments) else ["-n", "auto"]
+
+
 def main(arguments):
     exe = _environment.python("test", ["test"])
     with tempfile.TemporaryDirectory() as folder:
         report = os.path.join(folder, "report.xml")
-        status = _environment.run(exe, "-m", "pytest", "--junitxml=" + report, *arguments)
+        status = _environment.run(exe, "-m", "pytest", *spread(arguments), "--junitxml=" + report, *arguments)
         if status == 0 and not executed(report):
             sys.stderr.write("no test ran\n")
             return 5

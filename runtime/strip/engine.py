@@ -31,7 +31,7 @@ from .sought import sought
 #: Strips solved at a time: their working arrays stay in the cache, and memory stays bounded.
 CHUNK = 16384
 _EPS = np.finfo(float).eps
-_ROUNDINGS = 4
+_ROUNDINGS = 1
 #: distances in roundings of D at which a strip on the end of a branch is settled
 _SHIFTS = (8, 64, 512)
 
