@@ -188,10 +188,6 @@ def test_what_is_no_relaxing_solid_is_refused():
         fit_prony(known(7e5, MODULI, TIMES)).foundation(0)
 
 
-SEVERAL = pytest.mark.skipif(not hasattr(hystrip, "Prony"), reason="no material with several times")
-
-
-@SEVERAL
 def test_several_times_are_a_prony_material():
     series = fit_prony(known(1e6, MODULI[2:4], TIMES[2:4]), times=TIMES[2:4])
     material = series.material(2e-3)
@@ -201,7 +197,6 @@ def test_several_times_are_a_prony_material():
     assert isinstance(one, hystrip.StandardLinearSolid)
 
 
-@SEVERAL
 def test_command_writes_a_prony_scene_that_solves(run, tmp_path):
     written(tmp_path / "rubber.csv", known(1e6, MODULI[2:4], TIMES[2:4]))
     status, _, err = run("fit", "rubber.csv", "--terms", 2, "--length", 0.002)

@@ -70,8 +70,7 @@ def test_a_vanishing_relaxation_time_is_kelvin_voigt(sequence: str) -> None:
 @pytest.mark.parametrize("sequence", ["acaf", "afc", "af", "ac"])
 def test_without_moduli_the_strip_is_elastic(sequence: str) -> None:
     orbits = Orbits(sequence, J=1.0)
-    if not len(orbits.rows):
-        pytest.skip(f"no elastic strip of this sample is {sequence}")
+    assert len(orbits.rows)
     nothing = np.zeros((2, len(orbits.rows)))
     _, found = generalised_2.material_modes(1.0, nothing, np.ones_like(nothing))
     assert orbits.held(generalised_2, found) < 1e-12
