@@ -16,6 +16,7 @@ import sympy as sp
 from . import stable
 from .check import BEYOND, REPRODUCED, Check, Derived, derived, zero
 from .functions import Formula, written_out
+from .inequality import Inequality
 from .symbols import PARAMETERS, D, J, L, a, alpha, b, beta, c, p_0
 
 PERIOD = 2 * sp.pi
@@ -84,7 +85,7 @@ class Regime:
     edges: tuple[sp.Symbol, ...]
     equations: tuple[tuple[str, sp.Expr], ...]
     jacobian: tuple[tuple[sp.Expr, ...], ...]
-    admissible: tuple[str, ...]
+    admissible: tuple[Inequality, ...]
     closures: tuple[int, ...]
     derived: Derived
 
@@ -106,7 +107,7 @@ class Regime:
         return Formula(f"jacobian_{self.sequence}", self.args, self.jacobian)
 
 
-def edgeless(by: Callable, sequence: str, kind: str, title: str, admissible: tuple[str, ...]) -> Regime:
+def edgeless(by: Callable, sequence: str, kind: str, title: str, admissible: tuple[Inequality, ...]) -> Regime:
     name = f"regime {sequence}"
     zone = Zone(kind, sp.Symbol("s_0", real=True), sp.Symbol("s_0", real=True) + PERIOD, NOTHING, NOTHING)
     if kind == CONTACT:
@@ -135,7 +136,7 @@ def partial(
     title: str,
     zones: tuple[Zone, ...],
     ratio: sp.Expr,
-    admissible: tuple[str, ...],
+    admissible: tuple[Inequality, ...],
     closures: tuple[int, ...] = (0, 1),
 ) -> Regime:
     name = f"regime {sequence}"

@@ -7,9 +7,13 @@ from __future__ import annotations
 
 import sympy as sp
 
+from . import stable
+from .inequality import Inequality, relation, require
 from .regime import ADHESION, CONTACT, FREE, NOTHING, PERIOD, Regime, Zone, edgeless, partial
-from .symbols import J, a, b, c, chi, d, delta_0, p_0
+from .symbols import D, J, a, alpha, b, beta, c, chi, d, delta_0, p_0, s
 from .zones import Zones
+
+turn = sp.Symbol("e", real=True)  # where the gap is least or greatest
 
 
 def regimes(zones: Zones) -> tuple[Regime, ...]:
@@ -44,11 +48,11 @@ def discrete_adhesion(ratio: sp.Expr) -> Regime:
         ),
         ratio,
         (
-            "forcing(d) + delta_0 >= 0",
-            "forcing(b) + p_0 >= 0",
-            "forcing(a) + p_0 <= 0",
-            "forcing(c) + p_0 + delta_0 <= 0",
-            "d <= b <= a <= c <= d + 2 pi",
+            _falls_into_adhesion(),
+            _falls_into_contact(),
+            _leaves_contact(),
+            _leaves_adhesion(),
+            in_order(d, b, a, c),
         ),
     )
 
@@ -69,11 +73,11 @@ def trailing_adhesion(ratio: sp.Expr) -> Regime:
         ),
         ratio.subs(chi, 1),
         (
-            "chi == 1 and J p_0 >= delta_0",
-            "forcing(d) + delta_0 >= 0",
-            "forcing(a) + p_0 <= 0",
-            "forcing(c) + p_0 + delta_0 <= 0",
-            "d <= a <= c <= d + 2 pi",
+            require(relation("==", chi, 1), relation(">=", J * p_0, delta_0), sentence="{} and {}"),
+            _falls_into_adhesion(),
+            _leaves_contact(),
+            _leaves_adhesion(),
+            in_order(d, a, c),
         ),
         closures=(1,),
     )
@@ -89,10 +93,14 @@ def adhesion_only(ratio: sp.Expr) -> Regime:
         (Zone(ADHESION, d, c, delta_0 - step, delta_0), Zone(FREE, c, d + PERIOD, delta_0 + step, delta_0)),
         ratio,
         (
-            "forcing(d) + delta_0 >= 0",
-            "forcing(c) + p_0 + delta_0 <= 0",
-            "gap_after(d, e, delta_0 - chi J p_0, -p_0) >= 0 at the end e of the arc forcing + p_0 > 0",
-            "d <= c <= d + 2 pi",
+            _falls_into_adhesion(),
+            _leaves_adhesion(),
+            require(
+                relation(">=", stable.GAP_AFTER(d, turn, delta_0 - chi * J * p_0, -p_0, D, beta), 0),
+                relation(">", _load(s) + p_0, 0),
+                sentence="{} at the end e of the arc {}: the gap stays open",
+            ),
+            in_order(d, c),
         ),
     )
 
@@ -109,24 +117,67 @@ def saturated_adhesion(ratio: sp.Expr) -> Regime:
         (Zone(CONTACT, b, a, NOTHING, NOTHING), Zone(ADHESION, a, b + PERIOD, NOTHING, NOTHING)),
         ratio,
         (
-            "forcing(b) + p_0 >= 0",
-            "forcing(a) + p_0 <= 0",
-            "gap_after(a, e, 0, -p_0) <= delta_0 at the end e of the arc forcing + p_0 + delta_0 < 0, unless p_0 = 0",
-            "b <= a <= b + 2 pi",
+            _falls_into_contact(),
+            _leaves_contact(),
+            require(
+                relation("<=", stable.GAP_AFTER(a, turn, NOTHING, -p_0, D, beta), delta_0),
+                relation("<", _load(s) + p_0 + delta_0, 0),
+                relation("==", p_0, 0),
+                sentence="{} at the end e of the arc {}, unless {}: the gap stays within reach",
+            ),
+            in_order(b, a),
         ),
     )
 
 
 def complete_contact() -> Regime:
     r"""No edge: :math:`w = u` everywhere."""
-    return edgeless(complete_contact, "c", CONTACT, "complete contact", ("D - 1 + p_0 >= modulus_ratio",))
+    saturated = require(relation(">=", D - 1 + p_0, stable.MODULUS_RATIO(alpha, beta)))
+    return edgeless(complete_contact, "c", CONTACT, "complete contact", (saturated,))
 
 
 def clinging() -> Regime:
     r"""No edge: the whole gap at :math:`-p_0`, at rest at :math:`w = -p_0`."""
-    return edgeless(clinging, "a", ADHESION, "no contact, saturated adhesion", ("D <= -p_0", "2 - D - p_0 <= delta_0"))
+    return edgeless(clinging, "a", ADHESION, "no contact, saturated adhesion", within_reach())
 
 
 def separated() -> Regime:
     r"""No edge: :math:`w = 0`."""
-    return edgeless(separated, "f", FREE, "no interaction", ("D <= -delta_0 if p_0 > 0, else D <= 0",))
+    return edgeless(separated, "f", FREE, "no interaction", (out_of_reach(),))
+
+
+def in_order(*edges: sp.Symbol) -> Inequality:
+    """The edges follow one another within a period."""
+    return require(relation("<=", *edges, edges[0] + PERIOD))
+
+
+def within_reach() -> tuple[Inequality, Inequality]:
+    """At rest at w = -p_0 the crest does not touch, and the valley stays within delta_0."""
+    return require(relation("<=", D, -p_0)), require(relation("<=", 2 - D - p_0, delta_0))
+
+
+def out_of_reach() -> Inequality:
+    """At rest at w = 0."""
+    near, sticky, bare = relation("<=", D, -delta_0), relation(">", p_0, 0), relation("<=", D, 0)
+    return require(near, sticky, bare, sentence="{} if {}, else {}")
+
+
+def _load(phase: sp.Expr) -> sp.Expr:
+    """Load harmonic: at an event the slope of the event function has the sign of what it exceeds."""
+    return stable.FORCING(phase, D, beta)
+
+
+def _falls_into_adhesion() -> Inequality:
+    return require(relation(">=", _load(d) + delta_0, 0))
+
+
+def _falls_into_contact() -> Inequality:
+    return require(relation(">=", _load(b) + p_0, 0))
+
+
+def _leaves_contact() -> Inequality:
+    return require(relation("<=", _load(a) + p_0, 0))
+
+
+def _leaves_adhesion() -> Inequality:
+    return require(relation("<=", _load(c) + p_0 + delta_0, 0))
