@@ -51,7 +51,8 @@ def zone_conditions(u: sp.Expr) -> Derived:
         name=name,
         statement="Every point of a strip is in contact, where w is given and the pressure must not fall below -p_0, or out of "
         "it, where the pressure is given by the gap and the gap must stay in its range.",
-        latex=r"g = w - (D - f):\quad g = 0,\ p \ge -p_0 \quad 0 < g \le \delta_0,\ p = -p_0 \quad g > \delta_0,\ p = 0",
+        latex=r"g = w - (D - f),\quad \{g = 0,\ p \ge -p_0\},\quad \{0 < g \le \delta_0,\ p = -p_0\},\quad "
+        r"\{g > \delta_0,\ p = 0\}",
         checks=checks,
         status=REPRODUCED,
     )

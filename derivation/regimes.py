@@ -98,7 +98,7 @@ def adhesion_only(ratio: sp.Expr) -> Regime:
             require(
                 relation(">=", stable.GAP_AFTER(d, turn, delta_0 - chi * J * p_0, -p_0, D, beta), 0),
                 relation(">", _load(s) + p_0, 0),
-                sentence="{} at the end e of the arc {}: the gap stays open",
+                sentence="the gap stays open: {} at the end e of the arc {}",
             ),
             in_order(d, c),
         ),
@@ -123,7 +123,7 @@ def saturated_adhesion(ratio: sp.Expr) -> Regime:
                 relation("<=", stable.GAP_AFTER(a, turn, NOTHING, -p_0, D, beta), delta_0),
                 relation("<", _load(s) + p_0 + delta_0, 0),
                 relation("==", p_0, 0),
-                sentence="{} at the end e of the arc {}, unless {}: the gap stays within reach",
+                sentence="the gap stays within reach: {} at the end e of the arc {}, unless {}",
             ),
             in_order(b, a),
         ),
@@ -168,16 +168,16 @@ def _load(phase: sp.Expr) -> sp.Expr:
 
 
 def _falls_into_adhesion() -> Inequality:
-    return require(relation(">=", _load(d) + delta_0, 0))
+    return require(relation(">=", _load(d) + delta_0, 0), sentence="the gap falls at d: {}")
 
 
 def _falls_into_contact() -> Inequality:
-    return require(relation(">=", _load(b) + p_0, 0))
+    return require(relation(">=", _load(b) + p_0, 0), sentence="the gap falls at b: {}")
 
 
 def _leaves_contact() -> Inequality:
-    return require(relation("<=", _load(a) + p_0, 0))
+    return require(relation("<=", _load(a) + p_0, 0), sentence="the pressure falls at a: {}")
 
 
 def _leaves_adhesion() -> Inequality:
-    return require(relation("<=", _load(c) + p_0 + delta_0, 0))
+    return require(relation("<=", _load(c) + p_0 + delta_0, 0), sentence="the gap rises at c: {}")

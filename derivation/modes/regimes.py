@@ -128,7 +128,7 @@ def adhesion_only() -> ModeRegime:
         (NOTHING, delta_0),
         (
             _approached((falls, d), (rises, c)),
-            require(relation(">=", gap_at(s), 0), relation("<=", d, s, c), sentence="{} for {}: it stays open"),
+            require(relation(">=", gap_at(s), 0), relation("<=", d, s, c), sentence="the gap stays open: {} for {}"),
             in_order(d, c),
         ),
     )
@@ -148,7 +148,7 @@ def saturated_adhesion() -> ModeRegime:
                 relation("<=", gap_at(s), delta_0),
                 relation("<=", a, s, b + PERIOD),
                 relation("==", p_0, 0),
-                sentence="{} for {}, unless {}: it stays within reach",
+                sentence="the gap stays within reach: {} for {}, unless {}",
             ),
             _pressure_falls(),
             in_order(b, a),
@@ -184,12 +184,12 @@ def edgeless() -> tuple[ModeRegime, ...]:
 
 def _approached(*edges: tuple[str, sp.Symbol]) -> Inequality:
     """How the gap comes to an edge, in the zone that ends there."""
-    signs = (relation(sign, gap_slope(edge), 0) for sign, edge in edges)
-    return require(*signs, sentence="just before the edge: " + ", ".join(["{}"] * len(edges)))
+    words = (f"the gap {'falls' if sign == falls else 'rises'} just before {edge}: {{}}" for sign, edge in edges)
+    return require(*(relation(sign, gap_slope(edge), 0) for sign, edge in edges), sentence="; ".join(words))
 
 
 def _pressure_falls() -> Inequality:
-    return require(relation(falls, pressure_slope(a), 0), sentence="just before the edge: {}")
+    return require(relation(falls, pressure_slope(a), 0), sentence="the pressure falls just before a: {}")
 
 
 def _partial(by, sequence, title, zones, onset, admissible) -> ModeRegime:

@@ -9,6 +9,7 @@ import sympy as sp
 from ..check import Derived
 from ..modes.derive import ModesDerivation
 from ..modes.regimes import ModeRegime
+from ..modes.symbols import J_0
 from ..regime import CONTACT
 from . import content, paper, sources
 
@@ -105,7 +106,9 @@ def _regime(regime: ModeRegime, computed: dict[str, sources.Source], closures: t
 
 def _conditions(regime: ModeRegime) -> list[list[str]]:
     first = sp.latex(regime.edges[0])
-    onset = rf"J_0\,({sp.latex(regime.onset_pressure)}) + \sum_j z_j({first}) - u({first}) - {sp.latex(regime.onset_gap)} = 0"
+    elastic = sp.latex(J_0 * regime.onset_pressure) + " + " if regime.onset_pressure != 0 else ""
+    gap = f" - {sp.latex(regime.onset_gap)}" if regime.onset_gap != 0 else ""
+    onset = rf"{elastic}\sum_j z_j({first}) - u({first}){gap} = 0"
     changes = []
     for zone in regime.zones[:-1]:
         what = "p" if zone.kind == CONTACT else "g"

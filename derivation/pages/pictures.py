@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import io
 from collections.abc import Iterable
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -33,6 +34,8 @@ UNITS = {
     "p_0": "Pa", "delta_0": "m", "l": "m", "A": "m", "D": "m", "V": "m/s",
 }  # fmt: skip
 SIZE = (6.4, 4.4)  # inches
+UNBROKEN = "\N{NO-BREAK SPACE}"
+LINE = 100  # characters of the parameters that fit across
 CONTACT, ADHESION = "#f3c9a5", "#c7dcf0"
 
 
@@ -137,7 +140,7 @@ def picture(scene: dict[str, Any]) -> dict[str, Any]:
         lower.set_ylabel("pressure / (K A)")
         lower.set_xlabel("x / l")
         lower.set_xlim(-0.75, 0.75)
-        figure.suptitle(_parameters(scene).replace(", l =", ",\nl ="), fontsize=7.5, color="#454c54")
+        figure.suptitle("\n".join(_lines(scene)), fontsize=7.5, color="#454c54")
         stream = io.StringIO()
         figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     return {"caption": _caption(scene, strip), "svg": stream.getvalue(), "width": int(SIZE[0] * 96), "height": int(SIZE[1] * 96)}
@@ -176,7 +179,16 @@ def _shade(axes: Any, regime: str, at: dict[str, float]) -> None:
 
 
 def _parameters(scene: dict[str, Any]) -> str:
-    return ", ".join(f"{name} = {_number(scene[name])} {unit}" for name, unit in UNITS.items() if name in scene)
+    return ", ".join(_each(scene))
+
+
+def _lines(scene: dict[str, Any]) -> list[str]:
+    """The parameters in lines that fit across a picture, broken between two of them."""
+    return wrap(", ".join(each.replace(" ", UNBROKEN) for each in _each(scene)), LINE)
+
+
+def _each(scene: dict[str, Any]) -> list[str]:
+    return [f"{name} = {_number(scene[name])} {unit}" for name, unit in UNITS.items() if name in scene]
 
 
 def _number(value: float | tuple[float, ...]) -> str:
