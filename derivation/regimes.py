@@ -5,26 +5,28 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import sympy as sp
 
 from . import stable
 from .inequality import Inequality, relation, require
 from .regime import ADHESION, CONTACT, FREE, NOTHING, PERIOD, Regime, Zone, edgeless, partial
-from .symbols import D, J, a, alpha, b, beta, c, chi, d, delta_0, p_0, s
+from .symbols import D, J, a, b, c, chi, d, delta_0, p_0, s
 from .zones import Zones
 
 turn = sp.Symbol("e", real=True)  # where the gap is least or greatest
 
 
-def regimes(zones: Zones) -> tuple[Regime, ...]:
-    """Stage 5: every regime of a strip."""
+def regimes(zones: Zones, threshold: sp.Expr) -> tuple[Regime, ...]:
+    """Stage 5: every regime of a strip. ``threshold``: of D for complete contact."""
     ratio = sp.cancel(zones.jumps.closure.value / sp.Symbol("step_p", real=True))  # [w]/[p]
     return (
         discrete_adhesion(ratio),
         trailing_adhesion(ratio),
         adhesion_only(ratio),
         saturated_adhesion(ratio),
-        complete_contact(),
+        complete_contact(threshold),
         clinging(),
         separated(),
     )
@@ -47,13 +49,6 @@ def discrete_adhesion(ratio: sp.Expr) -> Regime:
             Zone(FREE, c, d + PERIOD, delta_0 + step, delta_0),
         ),
         ratio,
-        (
-            _falls_into_adhesion(),
-            _falls_into_contact(),
-            _leaves_contact(),
-            _leaves_adhesion(),
-            in_order(d, b, a, c),
-        ),
     )
 
 
@@ -62,6 +57,7 @@ def trailing_adhesion(ratio: sp.Expr) -> Regime:
 
     .. math:: p(a) = -p_0,\quad g(c) = \delta_0,\quad g(d + 2\pi) = \delta_0
     """
+    step = ratio.subs(chi, 1) * p_0
     return partial(
         trailing_adhesion,
         "afc",
@@ -72,13 +68,7 @@ def trailing_adhesion(ratio: sp.Expr) -> Regime:
             Zone(FREE, c, d + PERIOD, delta_0 + J * p_0, delta_0),
         ),
         ratio.subs(chi, 1),
-        (
-            require(relation("==", chi, 1), relation(">=", J * p_0, delta_0), sentence="{} and {}"),
-            _falls_into_adhesion(),
-            _leaves_contact(),
-            _leaves_adhesion(),
-            in_order(d, a, c),
-        ),
+        (require(relation("==", chi, 1)), require(relation("<=", delta_0 - step, 0), sentence="w steps over the gap: {}")),
         closures=(1,),
     )
 
@@ -86,21 +76,19 @@ def trailing_adhesion(ratio: sp.Expr) -> Regime:
 def adhesion_only(ratio: sp.Expr) -> Regime:
     r"""No contact; adhesion from d to c: :math:`g(c) = \delta_0,\ g(d + 2\pi) = \delta_0`."""
     step = ratio * p_0
+    adhesion = Zone(ADHESION, d, c, delta_0 - step, delta_0)
     return partial(
         adhesion_only,
         "af",
         "no contact, a discrete adhesion zone",
-        (Zone(ADHESION, d, c, delta_0 - step, delta_0), Zone(FREE, c, d + PERIOD, delta_0 + step, delta_0)),
+        (adhesion, Zone(FREE, c, d + PERIOD, delta_0 + step, delta_0)),
         ratio,
         (
-            _falls_into_adhesion(),
-            _leaves_adhesion(),
             require(
-                relation(">=", stable.GAP_AFTER(d, turn, delta_0 - chi * J * p_0, -p_0, D, beta), 0),
-                relation(">", _load(s) + p_0, 0),
+                relation(">=", replace(adhesion, last=turn).after(), 0),
+                relation("<", adhesion.drive(s), 0),
                 sentence="the gap stays open: {} at the end e of the arc {}",
             ),
-            in_order(d, c),
         ),
     )
 
@@ -110,30 +98,27 @@ def saturated_adhesion(ratio: sp.Expr) -> Regime:
 
     .. math:: p(a) = -p_0,\quad g(b + 2\pi) = 0
     """
+    adhesion = Zone(ADHESION, a, b + PERIOD, NOTHING, NOTHING)
     return partial(
         saturated_adhesion,
         "ac",
         "partial contact with saturated adhesion, or without adhesion if p_0 = 0",
-        (Zone(CONTACT, b, a, NOTHING, NOTHING), Zone(ADHESION, a, b + PERIOD, NOTHING, NOTHING)),
+        (Zone(CONTACT, b, a, NOTHING, NOTHING), adhesion),
         ratio,
         (
-            _falls_into_contact(),
-            _leaves_contact(),
             require(
-                relation("<=", stable.GAP_AFTER(a, turn, NOTHING, -p_0, D, beta), delta_0),
-                relation("<", _load(s) + p_0 + delta_0, 0),
+                relation("<=", replace(adhesion, last=turn).after(), delta_0),
+                relation(">", adhesion.drive(s), delta_0),
                 relation("==", p_0, 0),
                 sentence="the gap stays within reach: {} at the end e of the arc {}, unless {}",
             ),
-            in_order(b, a),
         ),
     )
 
 
-def complete_contact() -> Regime:
-    r"""No edge: :math:`w = u` everywhere."""
-    saturated = require(relation(">=", D - 1 + p_0, stable.MODULUS_RATIO(alpha, beta)))
-    return edgeless(complete_contact, "c", CONTACT, "complete contact", (saturated,))
+def complete_contact(threshold: sp.Expr) -> Regime:
+    r"""No edge: :math:`w = u` everywhere, from the ``threshold`` of D on."""
+    return edgeless(complete_contact, "c", CONTACT, "complete contact", (require(relation(">=", D, threshold)),))
 
 
 def clinging() -> Regime:
@@ -146,38 +131,17 @@ def separated() -> Regime:
     return edgeless(separated, "f", FREE, "no interaction", (out_of_reach(),))
 
 
-def in_order(*edges: sp.Symbol) -> Inequality:
-    """The edges follow one another within a period."""
-    return require(relation("<=", *edges, edges[0] + PERIOD))
-
-
 def within_reach() -> tuple[Inequality, Inequality]:
-    """At rest at w = -p_0 the crest does not touch, and the valley stays within delta_0."""
-    return require(relation("<=", D, -p_0)), require(relation("<=", 2 - D - p_0, delta_0))
+    """At rest at w = -p_0 the gap is open at the crest, s = 0, and within delta_0 in the valley, s = pi."""
+    crest, valley = (-p_0 - stable.PROFILE(place, D) for place in (sp.Integer(0), sp.pi))
+    return (
+        require(relation(">=", crest, 0), sentence="the gap is open at the crest: {}"),
+        require(relation("<=", valley, delta_0), sentence="and within reach in the valley: {}"),
+    )
 
 
 def out_of_reach() -> Inequality:
-    """At rest at w = 0."""
-    near, sticky, bare = relation("<=", D, -delta_0), relation(">", p_0, 0), relation("<=", D, 0)
-    return require(near, sticky, bare, sentence="{} if {}, else {}")
-
-
-def _load(phase: sp.Expr) -> sp.Expr:
-    """Load harmonic: at an event the slope of the event function has the sign of what it exceeds."""
-    return stable.FORCING(phase, D, beta)
-
-
-def _falls_into_adhesion() -> Inequality:
-    return require(relation(">=", _load(d) + delta_0, 0), sentence="the gap falls at d: {}")
-
-
-def _falls_into_contact() -> Inequality:
-    return require(relation(">=", _load(b) + p_0, 0), sentence="the gap falls at b: {}")
-
-
-def _leaves_contact() -> Inequality:
-    return require(relation("<=", _load(a) + p_0, 0), sentence="the pressure falls at a: {}")
-
-
-def _leaves_adhesion() -> Inequality:
-    return require(relation("<=", _load(c) + p_0 + delta_0, 0), sentence="the gap rises at c: {}")
+    """At rest at w = 0 the gap is at least delta_0 at the crest."""
+    crest = -stable.PROFILE(sp.Integer(0), D)
+    near, sticky, bare = relation(">=", crest, delta_0), relation(">", p_0, 0), relation(">=", crest, 0)
+    return require(near, sticky, bare, sentence="the gap at the crest is out of reach: {} if {}, else {}")

@@ -71,7 +71,7 @@ def derive_modes(model: Model, progress: Progress | None = None) -> ModesDerivat
     complete = complete_contact(flows)
     sections.append(("Complete contact", complete.kernels))
     done("complete contact")
-    regimes = mode_regimes(snaps=model.P[-1] != 0)
+    regimes = mode_regimes(model.P[-1] != 0, complete.threshold.value)
     done("regimes")
     means = strip_means(ground)
     done("means")

@@ -37,8 +37,8 @@ def carried_friction(flows: ModeFlows, regimes: tuple[ModeRegime, ...]) -> Deriv
     checks = [
         zero(
             name,
-            "in complete contact a dashpot follows the profile, alpha e' + e = u; elsewhere w, which is nowhere below u: so its e "
-            "is nowhere below that of complete contact, and f nowhere above",
+            "in complete contact a dashpot follows the profile, alpha e' + e = u; elsewhere w, which is nowhere below u: "
+            "its e is nowhere below that of complete contact, and f nowhere above",
             alpha * sp.diff(creep, s) + creep - u,
         ),
         zero(

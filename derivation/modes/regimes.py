@@ -12,8 +12,8 @@ import sympy as sp
 
 from ..check import BEYOND, REPRODUCED, Check, Derived, derived, zero
 from ..inequality import Inequality, relation, require
-from ..regime import ADHESION, CONTACT, EQUATIONS, FREE, NOTHING, PERIOD
-from ..regimes import in_order, out_of_reach, within_reach
+from ..regime import ADHESION, CONTACT, EQUATIONS, FREE, NOTHING, PERIOD, in_order
+from ..regimes import out_of_reach, within_reach
 from ..symbols import D, a, b, c, d, delta_0, p_0, s
 from .flows import u
 from .symbols import J_0
@@ -70,9 +70,10 @@ class ModeRegime:
         return (first, *(EQUATIONS[zone.last] for zone in self.zones[:-1]))
 
 
-def mode_regimes(snaps: bool) -> tuple[ModeRegime, ...]:
-    """Every regime; without instantaneous compliance no point snaps into contact."""
-    return (discrete_adhesion(), *((trailing_adhesion(),) if snaps else ()), adhesion_only(), saturated_adhesion(), *edgeless())
+def mode_regimes(snaps: bool, threshold: sp.Expr) -> tuple[ModeRegime, ...]:
+    """Every regime; without instantaneous compliance no point snaps into contact. ``threshold``: of D for complete contact."""
+    trailing = (trailing_adhesion(),) if snaps else ()
+    return (discrete_adhesion(), *trailing, adhesion_only(), saturated_adhesion(), *edgeless(threshold))
 
 
 def discrete_adhesion() -> ModeRegime:
@@ -106,7 +107,7 @@ def trailing_adhesion() -> ModeRegime:
         ),
         (NOTHING, delta_0),
         (
-            require(relation(">=", J_0 * p_0, delta_0)),
+            require(relation("<=", delta_0 - J_0 * p_0, 0), sentence="w steps over the gap: {}"),
             _approached((falls, d), (rises, c)),
             _pressure_falls(),
             in_order(d, a, c),
@@ -156,9 +157,9 @@ def saturated_adhesion() -> ModeRegime:
     )
 
 
-def edgeless() -> tuple[ModeRegime, ...]:
+def edgeless(threshold: sp.Expr) -> tuple[ModeRegime, ...]:
     """No edge: complete contact, everything at -p_0, nothing."""
-    saturated = require(relation(">=", D - 1 + p_0, sp.Symbol("R", positive=True)), sentence="{}, where R is modulus_ratio")
+    saturated = require(relation(">=", D, threshold), sentence="{}, where R is modulus_ratio")
     rows = (
         ("c", CONTACT, "complete contact", "w = u", (saturated,)),
         ("a", ADHESION, "no contact, saturated adhesion", "w = p = -p_0", within_reach()),
