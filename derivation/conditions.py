@@ -29,10 +29,10 @@ class Conditions:
 def conditions(strip: Strip, discrete: Regime) -> Conditions:
     """``discrete``: the regime with every kind of edge, partial contact with discrete adhesion zones."""
     problem = strip_problem(strip, discrete) if strip.foundation.model.modes == 1 else None
-    return Conditions(zone_conditions(strip), problem)
+    return Conditions(zone_conditions(strip.u), problem)
 
 
-def zone_conditions(strip: Strip) -> Derived:
+def zone_conditions(u: sp.Expr) -> Derived:
     r"""Between Eq. 6 and 8, with the gap :math:`g = w - (D - f)`:
 
     .. math:: g = 0,\ p \ge -p_0; \qquad 0 < g \le \delta_0,\ p = -p_0; \qquad g > \delta_0,\ p = 0
@@ -40,7 +40,7 @@ def zone_conditions(strip: Strip) -> Derived:
     name = "zone conditions"
     displacement = sp.Function("w")(s)  # in units of A
     gap = AMPLITUDE * displacement - (D_level - HEIGHT)
-    in_strip = AMPLITUDE * (displacement - strip.u.subs({D: PENETRATION / AMPLITUDE, s: -k * x}))
+    in_strip = AMPLITUDE * (displacement - u.subs({D: PENETRATION / AMPLITUDE, s: -k * x}))
     checks = [
         zero(name, "in the strip at y the gap is A (w - u)", sp.simplify(gap - in_strip)),
         zero(name, "it is zero where Eq. 6 holds, w = D - f", gap.subs(displacement, (D_level - HEIGHT) / AMPLITUDE)),
@@ -51,7 +51,8 @@ def zone_conditions(strip: Strip) -> Derived:
         name=name,
         statement="Every point of a strip is in contact, where w is given and the pressure must not fall below -p_0, or out of "
         "it, where the pressure is given by the gap and the gap must stay in its range.",
-        latex=r"g = w - (D - f):\quad g = 0,\ p \ge -p_0 \quad 0 < g \le \delta_0,\ p = -p_0 \quad g > \delta_0,\ p = 0",
+        latex=r"g = w - (D - f),\quad \{g = 0,\ p \ge -p_0\},\quad \{0 < g \le \delta_0,\ p = -p_0\},\quad "
+        r"\{g > \delta_0,\ p = 0\}",
         checks=checks,
         status=REPRODUCED,
     )

@@ -88,7 +88,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     full = saturated(flow)
     whole = level(full)
     done("complete contact")
-    table = regimes(zone)
+    table = regimes(zone, full.threshold.value)
     partial = [regime for regime in table if regime.edges]
     systems = tuple(k for regime in partial for k in system_kernels(regime, zone.kernels))
     done("regimes")

@@ -115,7 +115,7 @@ def _regime_data(regime: Any, emitted: set[str]) -> dict[str, Any]:
         "edges": [str(edge) for edge in regime.edges],
         "closures": regime.closures,
         "equations": [label for label, _ in regime.equations],
-        "admissible": regime.admissible,
+        "admissible": [inequality.code for inequality in regime.admissible],
         **{kind: name(kind) for kind in ("residual", "jacobian", "means", "onset_slope")},
     }
 

@@ -6,13 +6,13 @@ power of sliding, what a strip carries in its contact, and the coefficient, whic
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
 
 from .averages import ZoneIntegrals
-from .check import REPRODUCED, Derived, derived, zero
+from .check import REPRODUCED, Check, Derived, derived, zero
 from .functions import written_out
 from .kernel import Kernel
 from .level import Level, over_strips
@@ -46,7 +46,7 @@ def multilevel(
     exact = {kernel.formula.name: kernel.exact for kernel in (*saturated.kernels, *whole.kernels, *means)}
     return Multilevel(
         means_over_a_level(exact["saturated_pressure"], saturated.means.exact),
-        local_shear(strip),
+        local_shear(strip.u),
         carried_friction(strip, regimes, exact, integrals),
         friction_coefficient(exact["level_saturation_friction"], exact["saturated_stack_friction"]),
     )
@@ -87,7 +87,7 @@ def means_over_a_level(pressure: sp.Expr, means: tuple[sp.Expr, sp.Expr]) -> Der
     )
 
 
-def local_shear(strip: Strip) -> Derived:
+def local_shear(u: sp.Expr) -> Derived:
     r"""Eq. 12: :math:`\tau_{M-1}(x, y) = p\,f_x + \tau_M[p]` in contact."""
     name = "local shear"
     pressure, fixed = sp.symbols("p X", real=True)
@@ -104,7 +104,7 @@ def local_shear(strip: Strip) -> Derived:
         zero(
             name,
             "in a strip f_x is k A u': the first term is the p u' of Eq. 10",
-            slope - k * AMPLITUDE * sp.diff(strip.u, s).subs(s, -k * x),
+            slope - k * AMPLITUDE * sp.diff(u, s).subs(s, -k * x),
         ),
     ]
     return derived(
@@ -144,10 +144,15 @@ def carried_friction(strip: Strip, regimes: Sequence[Regime], means: Mapping[str
             for regime in touching
         ),
     ]
+    return carried_record(carried_friction, checks, ("excess_after", "excess_after_slope"))
+
+
+def carried_record(by: Callable, checks: Sequence[Check], emitted: tuple[str, ...]) -> Derived:
+    """Eq. 13 as derived by ``by``, whose checks say what its foundation answers for."""
     return derived(
-        carried_friction,
+        by,
         sp.Integral(sp.Function("tau_M")(sp.Function("p")(s)), (s, s_0, s_1)) / PERIOD,
-        name=name,
+        name="carried friction",
         statement="What level M carries is averaged over the contact of level M-1 alone; in a strip that is the integral of its "
         "law over the contact zone. The law jumps at pull-off and bends at saturation, so the zone is cut where p passes "
         "these pressures and no quadrature goes across.",
@@ -156,24 +161,24 @@ def carried_friction(strip: Strip, regimes: Sequence[Regime], means: Mapping[str
         checks=checks,
         paper="Eq. 13",
         status=REPRODUCED,
-        emitted=("excess_after", "excess_after_slope"),
+        emitted=emitted,
     )
 
 
-def friction_coefficient(one_level: sp.Expr, stack: sp.Expr) -> Derived:
-    r"""Eq. 14: :math:`\mu = \tau_1/p_1`, with :math:`\tau_1` from the recursion of Eq. 13."""
+def friction_coefficient(one_level: sp.Expr, stack: sp.Expr, own: Sequence[sp.Symbol] = (h, l)) -> Derived:
+    r"""Eq. 14: :math:`\mu = \tau_1/p_1`, with :math:`\tau_1` from the recursion of Eq. 13. ``own``: what differs by level."""
     name = "friction coefficient"
     tau_1 = sp.Symbol("tau_1", real=True)
     coefficient = tau_1 / p_nominal
-    levels = [dict(zip((h, l), sp.symbols(f"h_{i} l_{i}", positive=True), strict=True)) for i in (1, 2, 3)]
+    levels = [{symbol: sp.Symbol(f"{symbol}_{i}", positive=True) for symbol in own} for i in (1, 2, 3)]
     shear = sp.Integer(0)
-    for own in reversed(levels):  # from the smallest up; in complete contact it is carried everywhere
-        shear = one_level.subs(own) + shear
+    for level in reversed(levels):  # from the smallest up; in complete contact it is carried everywhere
+        shear = one_level.subs(level) + shear
     checks = [
         zero(
             name,
             "three levels in complete contact: the recursion gives Eq. 16, corrected",
-            coefficient.subs(tau_1, shear) - sum(stack.subs(own) for own in levels),
+            coefficient.subs(tau_1, shear) - sum(stack.subs(level) for level in levels),
         )
     ]
     return derived(

@@ -9,14 +9,15 @@ because the other way round the last zone would have to be subtracted from itsel
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
 from . import stable
 from .check import BEYOND, REPRODUCED, Check, Derived, derived, zero
 from .functions import Formula, written_out
-from .symbols import PARAMETERS, D, J, L, a, alpha, b, beta, c, p_0
+from .inequality import Inequality, relation, require
+from .symbols import PARAMETERS, D, J, L, a, alpha, b, beta, c, p_0, s_1
 
 PERIOD = 2 * sp.pi
 CONTACT, ADHESION, FREE = "contact", "adhesion", "free"
@@ -63,6 +64,18 @@ class Zone:
             return stable.CONTACT_INCREMENT(self.first, self.last, pressure, NOTHING, D, alpha, beta, J, L)
         return stable.RELAXATION_INCREMENT(self.first, self.last, self.displacement - self.load, beta)
 
+    def drive(self, phase: sp.Expr) -> sp.Expr:
+        """What the state would come to rest at: the gap p - H, in contact the excess pressure H + p_0."""
+        harmonic = stable.FORCING(phase, D, beta)
+        return harmonic + p_0 if self.kind == CONTACT else self.load - harmonic
+
+    def approach(self, edge: sp.Symbol) -> Inequality:
+        """How the state must come to the edge where the zone ends: its slope there has the sign of ``drive - exit``."""
+        rises = self.kind == ADHESION and self.exit != NOTHING
+        what = "the pressure" if self.kind == CONTACT else "the gap"
+        slope = relation(">=" if rises else "<=", self.drive(edge) - self.exit, 0)
+        return require(slope, sentence=f"{what} {'rises' if rises else 'falls'} at {edge}: {{}}")
+
     @property
     def displacement(self) -> sp.Expr:
         """w on entry."""
@@ -84,7 +97,7 @@ class Regime:
     edges: tuple[sp.Symbol, ...]
     equations: tuple[tuple[str, sp.Expr], ...]
     jacobian: tuple[tuple[sp.Expr, ...], ...]
-    admissible: tuple[str, ...]
+    admissible: tuple[Inequality, ...]
     closures: tuple[int, ...]
     derived: Derived
 
@@ -106,7 +119,7 @@ class Regime:
         return Formula(f"jacobian_{self.sequence}", self.args, self.jacobian)
 
 
-def edgeless(by: Callable, sequence: str, kind: str, title: str, admissible: tuple[str, ...]) -> Regime:
+def edgeless(by: Callable, sequence: str, kind: str, title: str, admissible: tuple[Inequality, ...]) -> Regime:
     name = f"regime {sequence}"
     zone = Zone(kind, sp.Symbol("s_0", real=True), sp.Symbol("s_0", real=True) + PERIOD, NOTHING, NOTHING)
     if kind == CONTACT:
@@ -135,11 +148,14 @@ def partial(
     title: str,
     zones: tuple[Zone, ...],
     ratio: sp.Expr,
-    admissible: tuple[str, ...],
+    admissible: tuple[Inequality, ...] = (),
     closures: tuple[int, ...] = (0, 1),
 ) -> Regime:
+    """A regime with unknown edges. ``admissible``: what it must satisfy besides the slopes at its edges and their order."""
     name = f"regime {sequence}"
     edges = tuple(zone.first for zone in zones)
+    ends = (*edges[1:], edges[0])
+    approaches = (zone.approach(edge) for zone, edge in zip(zones, ends, strict=True))
     events = [(EQUATIONS[zone.last][0], zone.misses()) for zone in zones[:-1]]
     equations = (*events, (PERIODIC[0], sp.Add(*(zone.increment() for zone in zones))))
     jacobian = tuple(tuple(sp.diff(term, edge) for edge in edges) for _, term in equations)
@@ -147,6 +163,7 @@ def partial(
         _edge_conditions(name, zones, ratio),
         _closing_is_periodicity(name, zones, events, equations[-1][1], edges),
         _jacobian_is_derivative(name, equations, jacobian, edges),
+        _slopes_have_the_sign_of_what_drives(name, zones),
     ]
     meaning = [EQUATIONS[zone.last][1] for zone in zones[:-1]] + [PERIODIC[1]]
     record = derived(
@@ -159,7 +176,23 @@ def partial(
         status=BEYOND if closures == (1,) else REPRODUCED,
         emitted=(f"residual_{sequence}", f"jacobian_{sequence}"),
     )
-    return Regime(sequence, title, zones, edges, equations, jacobian, admissible, closures, record)
+    required = (*admissible, *approaches, in_order(*edges))
+    return Regime(sequence, title, zones, edges, equations, jacobian, required, closures, record)
+
+
+def in_order(*edges: sp.Symbol) -> Inequality:
+    """The edges follow one another within a period."""
+    return require(relation("<=", *edges, edges[0] + PERIOD))
+
+
+def _slopes_have_the_sign_of_what_drives(name: str, zones: tuple[Zone, ...]) -> Check:
+    residuals = []
+    for zone in zones:
+        state = written_out(replace(zone, last=s_1).after())
+        time = alpha if zone.kind == CONTACT else beta
+        residuals.append(time * sp.diff(state, s_1) + state - written_out(zone.drive(s_1)))
+    firsts = tuple(zone.first for zone in zones)
+    return zero(name, "at an edge the slope times its time is drive - exit: its sign", residuals, phases=(*firsts, s_1))
 
 
 def _edge_conditions(name: str, zones: tuple[Zone, ...], ratio: sp.Expr) -> Check:

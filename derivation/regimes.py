@@ -5,22 +5,28 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import sympy as sp
 
+from . import stable
+from .inequality import Inequality, relation, require
 from .regime import ADHESION, CONTACT, FREE, NOTHING, PERIOD, Regime, Zone, edgeless, partial
-from .symbols import J, a, b, c, chi, d, delta_0, p_0
+from .symbols import D, J, a, b, c, chi, d, delta_0, p_0, s
 from .zones import Zones
 
+turn = sp.Symbol("e", real=True)  # where the gap is least or greatest
 
-def regimes(zones: Zones) -> tuple[Regime, ...]:
-    """Stage 5: every regime of a strip."""
+
+def regimes(zones: Zones, threshold: sp.Expr) -> tuple[Regime, ...]:
+    """Stage 5: every regime of a strip. ``threshold``: of D for complete contact."""
     ratio = sp.cancel(zones.jumps.closure.value / sp.Symbol("step_p", real=True))  # [w]/[p]
     return (
         discrete_adhesion(ratio),
         trailing_adhesion(ratio),
         adhesion_only(ratio),
         saturated_adhesion(ratio),
-        complete_contact(),
+        complete_contact(threshold),
         clinging(),
         separated(),
     )
@@ -43,13 +49,6 @@ def discrete_adhesion(ratio: sp.Expr) -> Regime:
             Zone(FREE, c, d + PERIOD, delta_0 + step, delta_0),
         ),
         ratio,
-        (
-            "forcing(d) + delta_0 >= 0",
-            "forcing(b) + p_0 >= 0",
-            "forcing(a) + p_0 <= 0",
-            "forcing(c) + p_0 + delta_0 <= 0",
-            "d <= b <= a <= c <= d + 2 pi",
-        ),
     )
 
 
@@ -58,6 +57,7 @@ def trailing_adhesion(ratio: sp.Expr) -> Regime:
 
     .. math:: p(a) = -p_0,\quad g(c) = \delta_0,\quad g(d + 2\pi) = \delta_0
     """
+    step = ratio.subs(chi, 1) * p_0
     return partial(
         trailing_adhesion,
         "afc",
@@ -68,13 +68,7 @@ def trailing_adhesion(ratio: sp.Expr) -> Regime:
             Zone(FREE, c, d + PERIOD, delta_0 + J * p_0, delta_0),
         ),
         ratio.subs(chi, 1),
-        (
-            "chi == 1 and J p_0 >= delta_0",
-            "forcing(d) + delta_0 >= 0",
-            "forcing(a) + p_0 <= 0",
-            "forcing(c) + p_0 + delta_0 <= 0",
-            "d <= a <= c <= d + 2 pi",
-        ),
+        (require(relation("==", chi, 1)), require(relation("<=", delta_0 - step, 0), sentence="w steps over the gap: {}")),
         closures=(1,),
     )
 
@@ -82,17 +76,19 @@ def trailing_adhesion(ratio: sp.Expr) -> Regime:
 def adhesion_only(ratio: sp.Expr) -> Regime:
     r"""No contact; adhesion from d to c: :math:`g(c) = \delta_0,\ g(d + 2\pi) = \delta_0`."""
     step = ratio * p_0
+    adhesion = Zone(ADHESION, d, c, delta_0 - step, delta_0)
     return partial(
         adhesion_only,
         "af",
         "no contact, a discrete adhesion zone",
-        (Zone(ADHESION, d, c, delta_0 - step, delta_0), Zone(FREE, c, d + PERIOD, delta_0 + step, delta_0)),
+        (adhesion, Zone(FREE, c, d + PERIOD, delta_0 + step, delta_0)),
         ratio,
         (
-            "forcing(d) + delta_0 >= 0",
-            "forcing(c) + p_0 + delta_0 <= 0",
-            "gap_after(d, e, delta_0 - chi J p_0, -p_0) >= 0 at the end e of the arc forcing + p_0 > 0",
-            "d <= c <= d + 2 pi",
+            require(
+                relation(">=", replace(adhesion, last=turn).after(), 0),
+                relation("<", adhesion.drive(s), 0),
+                sentence="the gap stays open: {} at the end e of the arc {}",
+            ),
         ),
     )
 
@@ -102,31 +98,50 @@ def saturated_adhesion(ratio: sp.Expr) -> Regime:
 
     .. math:: p(a) = -p_0,\quad g(b + 2\pi) = 0
     """
+    adhesion = Zone(ADHESION, a, b + PERIOD, NOTHING, NOTHING)
     return partial(
         saturated_adhesion,
         "ac",
         "partial contact with saturated adhesion, or without adhesion if p_0 = 0",
-        (Zone(CONTACT, b, a, NOTHING, NOTHING), Zone(ADHESION, a, b + PERIOD, NOTHING, NOTHING)),
+        (Zone(CONTACT, b, a, NOTHING, NOTHING), adhesion),
         ratio,
         (
-            "forcing(b) + p_0 >= 0",
-            "forcing(a) + p_0 <= 0",
-            "gap_after(a, e, 0, -p_0) <= delta_0 at the end e of the arc forcing + p_0 + delta_0 < 0, unless p_0 = 0",
-            "b <= a <= b + 2 pi",
+            require(
+                relation("<=", replace(adhesion, last=turn).after(), delta_0),
+                relation(">", adhesion.drive(s), delta_0),
+                relation("==", p_0, 0),
+                sentence="the gap stays within reach: {} at the end e of the arc {}, unless {}",
+            ),
         ),
     )
 
 
-def complete_contact() -> Regime:
-    r"""No edge: :math:`w = u` everywhere."""
-    return edgeless(complete_contact, "c", CONTACT, "complete contact", ("D - 1 + p_0 >= modulus_ratio",))
+def complete_contact(threshold: sp.Expr) -> Regime:
+    r"""No edge: :math:`w = u` everywhere, from the ``threshold`` of D on."""
+    return edgeless(complete_contact, "c", CONTACT, "complete contact", (require(relation(">=", D, threshold)),))
 
 
 def clinging() -> Regime:
     r"""No edge: the whole gap at :math:`-p_0`, at rest at :math:`w = -p_0`."""
-    return edgeless(clinging, "a", ADHESION, "no contact, saturated adhesion", ("D <= -p_0", "2 - D - p_0 <= delta_0"))
+    return edgeless(clinging, "a", ADHESION, "no contact, saturated adhesion", within_reach())
 
 
 def separated() -> Regime:
     r"""No edge: :math:`w = 0`."""
-    return edgeless(separated, "f", FREE, "no interaction", ("D <= -delta_0 if p_0 > 0, else D <= 0",))
+    return edgeless(separated, "f", FREE, "no interaction", (out_of_reach(),))
+
+
+def within_reach() -> tuple[Inequality, Inequality]:
+    """At rest at w = -p_0 the gap is open at the crest, s = 0, and within delta_0 in the valley, s = pi."""
+    crest, valley = (-p_0 - stable.PROFILE(place, D) for place in (sp.Integer(0), sp.pi))
+    return (
+        require(relation(">=", crest, 0), sentence="the gap is open at the crest: {}"),
+        require(relation("<=", valley, delta_0), sentence="and within reach in the valley: {}"),
+    )
+
+
+def out_of_reach() -> Inequality:
+    """At rest at w = 0 the gap is at least delta_0 at the crest."""
+    crest = -stable.PROFILE(sp.Integer(0), D)
+    near, sticky, bare = relation(">=", crest, delta_0), relation(">", p_0, 0), relation(">=", crest, 0)
+    return require(near, sticky, bare, sentence="the gap at the crest is out of reach: {} if {}, else {}")

@@ -140,6 +140,8 @@ def _checked_levels(levels) -> list[Level]:
     for i, level in enumerate(levels):
         if not isinstance(level, Level):
             raise InputError(f"levels[{i}]", level, "a hystrip.Level")
+        if i and level.l > levels[i - 1].l:
+            raise InputError(f"levels[{i}].l", level.l, f"at most levels[{i - 1}].l = {levels[i - 1].l:g} m: the largest wave comes first")
     return levels
 
 

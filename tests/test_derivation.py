@@ -163,6 +163,19 @@ TAMPERED = {
 }
 
 
+INEQUALITIES = {  # of every regime with edges; acaf is the first
+    "contact": ("regime.py", "harmonic + p_0 if self.kind", "harmonic - p_0 if self.kind"),
+    "gap": ("regime.py", "else self.load - harmonic", "else self.load + harmonic"),
+}
+
+
+@pytest.mark.parametrize("where", INEQUALITIES)
+def test_a_changed_sign_in_an_inequality_is_refused_by_name(where: str, tmp_path: Path) -> None:
+    wrong = tampered(tmp_path, *INEQUALITIES[where])
+    with pytest.raises(wrong.DerivationError, match="'regime acaf' failed: at an edge the slope"):
+        wrong.derive(wrong.STANDARD_LINEAR_SOLID)
+
+
 @pytest.mark.parametrize("name", TAMPERED)
 def test_a_changed_sign_is_refused_by_name(name: str, tmp_path: Path) -> None:
     wrong = tampered(tmp_path, *TAMPERED[name])
@@ -176,7 +189,7 @@ LATE = {
     "zone conditions": ("conditions.py", "gap = AMPLITUDE * displacement - (", "gap = AMPLITUDE * displacement + ("),
     "means over a level": ("multilevel.py", "(mean, number) - over_strips", "(mean, number) + over_strips"),
     "local shear": ("multilevel.py", "(D_level - HEIGHT).subs(x, fixed - V * t)", "(D_level - HEIGHT).subs(x, fixed + V * t)"),
-    "friction coefficient": ("multilevel.py", "one_level.subs(own) + shear", "one_level.subs(own) - shear"),
+    "friction coefficient": ("multilevel.py", "one_level.subs(level) + shear", "one_level.subs(level) - shear"),
     "least pressure in complete contact": ("stack.py", "D - threshold.subs", "D + threshold.subs"),
     "levels in complete contact together": ("stack.py", "mean_over_wave(-p * sp.diff", "mean_over_wave(p * sp.diff"),
 }
@@ -189,9 +202,9 @@ def _late(package, name: str):
         importlib.import_module(f"{package.__name__}.{part}") for part in ("conditions", "multilevel", "stack")
     )
     return {
-        "zone conditions": lambda: conditions.zone_conditions(strip),
+        "zone conditions": lambda: conditions.zone_conditions(strip.u),
         "means over a level": lambda: multilevel.means_over_a_level(exact["saturated_pressure"], exact["means_c"]),
-        "local shear": lambda: multilevel.local_shear(strip),
+        "local shear": lambda: multilevel.local_shear(strip.u),
         "friction coefficient": lambda: multilevel.friction_coefficient(one, exact["saturated_stack_friction"]),
         "least pressure in complete contact": lambda: stack.least_pressure(
             step("saturation threshold").value, exact["level_saturation_pressure"]

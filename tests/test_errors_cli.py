@@ -1,4 +1,4 @@
-"""Forty wrong scenes and calls: each ends with one message, a non-zero status, and no file."""
+"""Eighty wrong scenes and calls: each ends with one message, a non-zero status, and no file."""
 
 import sys
 
@@ -63,6 +63,17 @@ SCENES = [  # what is replaced, by what, and what the message says: the field, t
     ("pressure = 100", "pressure = 100\nstrips = 0", ["strips", "0", "from 1 to 1000000"]),
     ("pressure = 100", "pressure = 100\npressure = 100", ["not valid TOML", "line 2"]),
     ("pressure = 100", "pressure 100", ["not valid TOML", "line 1"]),
+    # as people write who have not read the README to its end
+    ("K = 1e9", "K = 1,0e9", ["not valid TOML", "line 4"]),
+    ("[[levels]]", "[[level]]", ["level", "did you mean 'levels'"]),
+    ("[material]", "[Material]", ["Material", "did you mean 'material'"]),
+    ("velocity = 5e-3", 'velocity = "5 mm"', ["velocity", "5 mm", "'mm' is a unit of something else"]),
+    ("velocity = 5e-3", "velocity = {start = 1e-5, stop = 1, num = 1000000000000}", ["velocity.num", "from 2 to 1000000"]),
+    ("pressure = 100", "pressure = 100\nrtol = 1e-15", ["rtol", "1e-15", "1e-12 to 0.1"]),
+    ("T_eps = 0.01", "T_eps = 1e400", ["material.T_eps", "inf", "finite"]),
+    ("[material]", '[material]\nmodel = "kelvin_voigt"', ["material.T_sigma", "another model", "K, T_eps"]),
+    ("T_eps = 0.01\nT_sigma = 1e-4", 'model = "prony"\nmoduli = [1e9, 2e9]\ntimes = [1e-3]', ["moduli", "as many moduli as times"]),
+    ("h = 1e-6\n", "h = 1e-6\n[[levels]]\nl = 1e-4\nh = 1e-5\n", ["levels[1].l", "0.0001", "the largest wave comes first"]),
 ]
 
 CALLS = [
@@ -86,6 +97,14 @@ CALLS = [
     (["init", "nowhere/scene.toml"], ["nowhere/scene.toml", "folder that exists"]),
     (["init", "binary.toml"], ["binary.toml", "--force"]),
     (["regenerate", "--out", "binary.toml"], ["--out", "binary.toml", "a folder"]),
+    (["solve", "paper_fig7", "extra"], ["unexpected extra argument", "extra"]),
+    (["sweep", "paper_fig7", "--workers", "two"], ["--workers", "valid integer"]),
+    (["figures", "3"], ["figures", "'3'", "fig3"]),
+    (["fit", "absent.csv", "--length", "1 mm"], ["absent.csv"]),
+    (["fit", "binary.toml", "--length", "1 mm"], ["binary.toml"]),
+    (["levels", "absent.nc"], ["absent.nc", "a measured surface"]),
+    (["audit", "--out", "binary.toml"], ["--out", "binary.toml", "a folder"]),
+    (["regenerate", "binary.toml", "--out", "solver"], ["binary.toml"]),
 ]
 
 

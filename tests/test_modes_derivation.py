@@ -78,6 +78,9 @@ CHANGED = [
     ("modes/stable.py", "- back(enter, lost)".replace("- ", "-"), "back(enter, lost)", "contact_passage"),
     ("modes/regimes.py", "d + PERIOD, delta_0 + J_0 * p_0, delta_0)", "d + PERIOD, delta_0, delta_0)", "regime afc"),
     ("modes/saturated.py", "harmonic - eq_15", "harmonic + eq_15", "saturated_overstress"),
+    ("modes/levels.py", "u - alpha / eta * harmonic", "u + alpha / eta * harmonic", "carried friction"),
+    ("multilevel.py", "one_level.subs(level) + shear", "one_level.subs(level) - shear", "friction coefficient"),
+    ("conditions.py", "gap = AMPLITUDE * displacement - (", "gap = AMPLITUDE * displacement + (", "zone conditions"),
     ("modes/averages.py", "[p - w - sp.Add(*rates)]", "[p + w - sp.Add(*rates)]", "means of a strip"),
 ]  # fmt: skip
 

@@ -7,20 +7,22 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..check import Derived
+from ..conditions import zone_conditions
 from ..derive import _records as records
 from ..model import Model
 from ..strip import adhesion_law, strip_profile
 from .averages import strip_means
-from .flows import mode_flows
+from .flows import mode_flows, u
 from .jumps import closures, jump_law
 from .kernel import ModeKernel
 from .law import Law, law
+from .levels import mode_levels
 from .regimes import ModeRegime, mode_regimes
 from .saturated import Complete, complete_contact
 from .zones import contact, gap, passages, profile, relaxation, states
 
 Progress = Callable[[str], None]
-STAGES = ("model", "flows", "edge conditions", "zones", "complete contact", "regimes", "means")
+STAGES = ("model", "flows", "edge conditions", "zones", "complete contact", "regimes", "means", "levels")
 
 
 @dataclass(frozen=True)
@@ -69,14 +71,17 @@ def derive_modes(model: Model, progress: Progress | None = None) -> ModesDerivat
     complete = complete_contact(flows)
     sections.append(("Complete contact", complete.kernels))
     done("complete contact")
-    regimes = mode_regimes(snaps=model.P[-1] != 0)
+    regimes = mode_regimes(model.P[-1] != 0, complete.threshold.value)
     done("regimes")
     means = strip_means(ground)
     done("means")
+    upwards = mode_levels(flows, complete, regimes)
+    done("levels")
     stages = (
         ground,
         adhesion_law(),
         strip_profile(),
+        zone_conditions(u),
         flows,
         jump,
         closure,
@@ -84,5 +89,6 @@ def derive_modes(model: Model, progress: Progress | None = None) -> ModesDerivat
         complete,
         regimes,
         means,
+        upwards,
     )
     return ModesDerivation(model, ground, closure, complete, means, regimes, tuple(sections), stages)

@@ -134,7 +134,7 @@ def _regime(regime: ModeRegime) -> dict[str, Any]:
         "onset_gap": "" if regime.onset_gap == NOTHING else f" - {_of_strip(regime.onset_gap)}",
         "touches": touches,
         "raised": "D + p_0" if raised else "D",
-        "admissible": regime.admissible,
+        "admissible": [inequality.code for inequality in regime.admissible],
     }
 
 

@@ -11,11 +11,15 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..check import BEYOND, REPRODUCED, Check, Derived, derived, zero
-from ..regime import ADHESION, CONTACT, EQUATIONS, FREE, NOTHING, PERIOD
+from ..inequality import Inequality, relation, require
+from ..regime import ADHESION, CONTACT, EQUATIONS, FREE, NOTHING, PERIOD, in_order
+from ..regimes import out_of_reach, within_reach
 from ..symbols import D, a, b, c, d, delta_0, p_0, s
 from .flows import u
 from .symbols import J_0
 
+gap_at, gap_slope, pressure_slope = (sp.Function(name) for name in ("g", "g'", "p'"))
+falls, rises = "<=", ">="
 ONSET = ("onset", "the gap falls to delta_0 at d")
 ONSET_OF_CONTACT = ("contact_begins", "the gap closes at b")
 
@@ -56,7 +60,7 @@ class ModeRegime:
     edges: tuple[sp.Symbol, ...]
     onset_pressure: sp.Expr  # p on the side where the state at the first edge is met
     onset_gap: sp.Expr  # the gap there
-    admissible: tuple[str, ...]
+    admissible: tuple[Inequality, ...]
     derived: Derived
 
     @property
@@ -66,9 +70,10 @@ class ModeRegime:
         return (first, *(EQUATIONS[zone.last] for zone in self.zones[:-1]))
 
 
-def mode_regimes(snaps: bool) -> tuple[ModeRegime, ...]:
-    """Every regime; without instantaneous compliance no point snaps into contact."""
-    return (discrete_adhesion(), *((trailing_adhesion(),) if snaps else ()), adhesion_only(), saturated_adhesion(), *edgeless())
+def mode_regimes(snaps: bool, threshold: sp.Expr) -> tuple[ModeRegime, ...]:
+    """Every regime; without instantaneous compliance no point snaps into contact. ``threshold``: of D for complete contact."""
+    trailing = (trailing_adhesion(),) if snaps else ()
+    return (discrete_adhesion(), *trailing, adhesion_only(), saturated_adhesion(), *edgeless(threshold))
 
 
 def discrete_adhesion() -> ModeRegime:
@@ -85,7 +90,7 @@ def discrete_adhesion() -> ModeRegime:
             ModeZone(FREE, c, d + PERIOD, delta_0 + step, delta_0),
         ),
         (NOTHING, delta_0),
-        ("the gap falls at d and b, and rises at c", "the pressure falls at a", "d <= b <= a <= c <= d + 2 pi"),
+        (_approached((falls, d), (falls, b), (rises, c)), _pressure_falls(), in_order(d, b, a, c)),
     )
 
 
@@ -102,10 +107,10 @@ def trailing_adhesion() -> ModeRegime:
         ),
         (NOTHING, delta_0),
         (
-            "J_0 p_0 >= delta_0",
-            "the gap falls at d, and rises at c",
-            "the pressure falls at a",
-            "d <= a <= c <= d + 2 pi",
+            require(relation("<=", delta_0 - J_0 * p_0, 0), sentence="w steps over the gap: {}"),
+            _approached((falls, d), (rises, c)),
+            _pressure_falls(),
+            in_order(d, a, c),
         ),
     )
 
@@ -122,7 +127,11 @@ def adhesion_only() -> ModeRegime:
             ModeZone(FREE, c, d + PERIOD, delta_0 + step, delta_0),
         ),
         (NOTHING, delta_0),
-        ("the gap falls at d, stays open, and rises at c", "d <= c <= d + 2 pi"),
+        (
+            _approached((falls, d), (rises, c)),
+            require(relation(">=", gap_at(s), 0), relation("<=", d, s, c), sentence="the gap stays open: {} for {}"),
+            in_order(d, c),
+        ),
     )
 
 
@@ -134,16 +143,27 @@ def saturated_adhesion() -> ModeRegime:
         "partial contact with saturated adhesion, or without adhesion if p_0 = 0",
         (ModeZone(CONTACT, b, a, NOTHING, NOTHING), ModeZone(ADHESION, a, b + PERIOD, NOTHING, NOTHING)),
         (-p_0, NOTHING),
-        ("the gap falls at b, and stays within delta_0 unless p_0 = 0", "the pressure falls at a", "b <= a <= b + 2 pi"),
+        (
+            _approached((falls, b)),
+            require(
+                relation("<=", gap_at(s), delta_0),
+                relation("<=", a, s, b + PERIOD),
+                relation("==", p_0, 0),
+                sentence="the gap stays within reach: {} for {}, unless {}",
+            ),
+            _pressure_falls(),
+            in_order(b, a),
+        ),
     )
 
 
-def edgeless() -> tuple[ModeRegime, ...]:
+def edgeless(threshold: sp.Expr) -> tuple[ModeRegime, ...]:
     """No edge: complete contact, everything at -p_0, nothing."""
+    saturated = require(relation(">=", D, threshold), sentence="{}, where R is modulus_ratio")
     rows = (
-        ("c", CONTACT, "complete contact", "w = u", ("D - 1 + p_0 >= modulus_ratio",)),
-        ("a", ADHESION, "no contact, saturated adhesion", "w = p = -p_0", ("D <= -p_0", "2 - D - p_0 <= delta_0")),
-        ("f", FREE, "no interaction", "w = p = 0", ("D <= -delta_0 if p_0 > 0, else D <= 0",)),
+        ("c", CONTACT, "complete contact", "w = u", (saturated,)),
+        ("a", ADHESION, "no contact, saturated adhesion", "w = p = -p_0", within_reach()),
+        ("f", FREE, "no interaction", "w = p = 0", (out_of_reach(),)),
     )
     found = []
     for sequence, kind, title, latex, admissible in rows:
@@ -161,6 +181,16 @@ def edgeless() -> tuple[ModeRegime, ...]:
         )
         found.append(ModeRegime(sequence, title, (zone,), (), NOTHING, NOTHING, admissible, record))
     return tuple(found)
+
+
+def _approached(*edges: tuple[str, sp.Symbol]) -> Inequality:
+    """How the gap comes to an edge, in the zone that ends there."""
+    words = (f"the gap {'falls' if sign == falls else 'rises'} just before {edge}: {{}}" for sign, edge in edges)
+    return require(*(relation(sign, gap_slope(edge), 0) for sign, edge in edges), sentence="; ".join(words))
+
+
+def _pressure_falls() -> Inequality:
+    return require(relation(falls, pressure_slope(a), 0), sentence="the pressure falls just before a: {}")
 
 
 def _partial(by, sequence, title, zones, onset, admissible) -> ModeRegime:

@@ -16,6 +16,10 @@ class total(Helper):
 
     nargs = 1
 
+    def _latex(self, printer, exp=None):
+        of_all = rf"\sum \left({printer.doprint(self.args[0])}\right)"
+        return of_all if exp is None else rf"\left({of_all}\right)^{{{exp}}}"
+
     @classmethod
     def meaning(cls, term):
         return cls(term)

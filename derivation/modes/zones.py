@@ -239,8 +239,8 @@ def passages(flows: ModeFlows) -> tuple[ModeKernel, ...]:
             stable.RELAXATION_PASSAGE,
             relaxation_terms,
             f"Passage through a gap zone and its derivatives. {meaning}the gap; its derivatives by z_0, s_0, s_1.",
-            r"\Delta z,\ R,\ \partial_{s_0}\Delta z,\ \partial_{s_1}\Delta z,\ \Delta g,\ \partial_{z_0} \Delta g,\ "
-            r"\partial_{s_0} \Delta g,\ "
+            r"\Delta z,\quad R,\quad \partial_{s_0}\Delta z,\quad \partial_{s_1}\Delta z,\quad \Delta g,\quad "
+            r"\partial_{z_0} \Delta g,\quad \partial_{s_0} \Delta g,\quad "
             r"\partial_{s_1} \Delta g",
         ),
         kernel(
@@ -249,8 +249,8 @@ def passages(flows: ModeFlows) -> tuple[ModeKernel, ...]:
             contact_terms,
             f"Passage through a contact zone, entered at the pressure p_in, and its derivatives. {meaning}the pressure; its "
             "derivatives by z_0, s_0, s_1.",
-            r"\Delta z,\ R,\ \partial_{s_0}\Delta z,\ \partial_{s_1}\Delta z,\ \Delta p,\ \partial_{z_0} \Delta p,\ "
-            r"\partial_{s_0} \Delta p,\ "
+            r"\Delta z,\quad R,\quad \partial_{s_0}\Delta z,\quad \partial_{s_1}\Delta z,\quad \Delta p,\quad "
+            r"\partial_{z_0} \Delta p,\quad \partial_{s_0} \Delta p,\quad "
             r"\partial_{s_1} \Delta p",
         ),
     )

@@ -152,7 +152,7 @@ def _regime(regime: Regime, computed: dict[str, sources.Source]) -> dict[str, An
         "unknowns": [str(edge) for edge in regime.edges],
         "closures": [CLOSURES[closure] for closure in regime.closures],
         "equations": [[MEANINGS[label], f"{_latex(term)} = 0"] for label, term in regime.equations],
-        "admissible": list(regime.admissible),
+        "admissible": [inequality.prose for inequality in regime.admissible],
         "step": regime.derived.name,
         "computed_by": [name for name in names if name in computed],
     }

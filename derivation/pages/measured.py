@@ -11,32 +11,35 @@ from typing import Any
 
 import numpy as np
 
-from .pictures import SCENES, picture, solved
+from ..models import STANDARD_LINEAR_SOLID
+from .pictures import picture, scenes, solved
 from .two_levels import two_levels
 
 TOOLS = ("matplotlib", "mpmath", "numpy", "scipy")
 RATIOS = (1.1, 1.5, 2.0, 10.0, 100.0)  # T_eps/T_sigma
+OWN = STANDARD_LINEAR_SOLID.name  # the paper's
 NODES = 60  # Gauss points in each zone
 
 
-def measured() -> dict[str, Any]:
-    """Pictures by regime, tables by name, and the versions that made them."""
+def measured(model: str) -> dict[str, Any]:
+    """Pictures by regime, tables by name, and the versions that made them. The tables are those of the paper's foundation."""
     pictures: dict[str, list[dict[str, Any]]] = {}
-    for scene in SCENES:
+    for scene in scenes(model):
         pictures.setdefault(scene["of"], []).append(picture(scene))
     return {
         "versions": {"python": platform.python_version(), **{tool: version(tool) for tool in TOOLS}},
         "pictures": pictures,
-        "tables": {"balance": _balance(), "branches": _branches(), "two_levels": two_levels()},
+        "tables": {"balance": _balance(), "branches": _branches(), "two_levels": two_levels()} if model == OWN else {},
     }
 
 
 def _balance() -> dict[str, Any]:
     """By how much ``continuous`` breaks the energy balance, over T_eps/T_sigma."""
     rows = []
+    first = scenes(OWN)[0]
     for ratio in RATIOS:
         for edge in ("continuous", "constitutive"):
-            scene = {**SCENES[0], "T_sigma": SCENES[0]["T_eps"] / ratio, "edge": edge}
+            scene = {**first, "T_sigma": first["T_eps"] / ratio, "edge": edge}
             strip = solved(scene)
             friction, loss = float(strip.tau_mean) * scene["l"], _dashpot_loss(scene, strip)
             left, extra = friction - loss, _extra(scene, strip)
@@ -89,7 +92,7 @@ def _dashpot_loss(scene: dict[str, Any], strip: Any) -> float:
 
 def _branches() -> dict[str, Any]:
     """Both extremal orbits of one strip, over its penetration."""
-    scene = {**SCENES[0], "l": 500e-9, "A": 50e-9, "T_sigma": 1e-4, "p_0": 2500.0, "delta_0": 1e-8, "V": 1e-4}
+    scene = {**scenes(OWN)[0], "l": 500e-9, "A": 50e-9, "T_sigma": 1e-4, "p_0": 2500.0, "delta_0": 1e-8, "V": 1e-4}
     rows = []
     for D in (-40e-9, -20e-9, 0.0, 20e-9):
         row = [f"{D * 1e9:g}"]

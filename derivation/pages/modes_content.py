@@ -6,9 +6,10 @@ from typing import Any
 
 import sympy as sp
 
-from ..check import CORRECTED, Derived
+from ..check import Derived
 from ..modes.derive import ModesDerivation
 from ..modes.regimes import ModeRegime
+from ..modes.symbols import J_0
 from ..regime import CONTACT
 from . import content, paper, sources
 
@@ -57,38 +58,33 @@ def modes_content(derivation: ModesDerivation, files: dict[str, str], certificat
 
 
 def _misprints(steps: tuple[Derived, ...]) -> list[dict[str, Any]]:
-    """What bears on every model; the demonstrations are on the page of the paper's own foundation."""
+    """Misprints and silences that bear on every model; what concerns one relaxation time alone is on the paper's own page."""
     by_name = {step.name: step for step in steps}
-    corrected = [
-        {
-            "equations": paper.numbers(step.paper) if name != "strip profile" else [6],
-            "what": name[0].upper() + name[1:],
-            "printed": "See the page of the standard linear solid, the paper's own foundation.",
-            "here": step.statement,
-            "latex": step.latex,
-            "why": step.correction,
-            "steps": [name],
-            "table": None,
-            "measured": None,
-        }
-        for name, step in by_name.items()
-        if step.status == CORRECTED
-    ]
-    closures = by_name["closures"]
+    closures, stack = by_name["closures"], by_name["saturated_stack_friction"]
+    own = "In numbers for Fig. 7, and with its dimensions: page of the standard linear solid, the paper's own foundation."
     return [
-        *corrected,
-        {
-            "equations": [],
-            "what": "What w does where p steps",
-            "printed": "Nothing is said of the edges d and -c, where the traction begins and ends.",
-            "here": closures.statement,
-            "latex": closures.latex,
-            "why": by_name["jump law"].statement,
-            "steps": ["jump law", "closures"],
-            "table": None,
-            "measured": None,
-        },
+        paper.sign_of_equation_6(by_name["strip profile"]),
+        paper.stiffness(by_name["relaxed stiffness"]),
+        _row([], "What w does where p steps", paper.SILENT, closures, by_name["jump law"].statement, ["jump law", "closures"]),
+        _row([16], "Eq. 16: power of h, factor, upper limit", paper.PRINTED_16, stack, stack.correction, [stack.name], own),
     ]
+
+
+def _row(
+    equations: list[int], what: str, printed: str, step: Derived, why: str, steps: list[str], shown: str = ""
+) -> dict[str, Any]:
+    return {
+        "equations": equations,
+        "what": what,
+        "printed": printed,
+        "here": step.statement,
+        "shown": shown,
+        "latex": step.latex,
+        "why": why,
+        "steps": steps,
+        "table": None,
+        "measured": "",
+    }
 
 
 def _regime(regime: ModeRegime, computed: dict[str, sources.Source], closures: tuple[int, ...]) -> dict[str, Any]:
@@ -102,7 +98,7 @@ def _regime(regime: ModeRegime, computed: dict[str, sources.Source], closures: t
         "unknowns": [str(edge) for edge in regime.edges],
         "closures": [content.CLOSURES[closure] for closure in closures],
         "equations": _conditions(regime) if regime.edges else [],
-        "admissible": list(regime.admissible),
+        "admissible": [inequality.prose for inequality in regime.admissible],
         "step": regime.derived.name,
         "computed_by": [name for name in names if name in computed],
     }
@@ -110,7 +106,9 @@ def _regime(regime: ModeRegime, computed: dict[str, sources.Source], closures: t
 
 def _conditions(regime: ModeRegime) -> list[list[str]]:
     first = sp.latex(regime.edges[0])
-    onset = rf"J_0\,({sp.latex(regime.onset_pressure)}) + \sum_j z_j({first}) - u({first}) - {sp.latex(regime.onset_gap)} = 0"
+    elastic = sp.latex(J_0 * regime.onset_pressure) + " + " if regime.onset_pressure != 0 else ""
+    gap = f" - {sp.latex(regime.onset_gap)}" if regime.onset_gap != 0 else ""
+    onset = rf"{elastic}\sum_j z_j({first}) - u({first}){gap} = 0"
     changes = []
     for zone in regime.zones[:-1]:
         what = "p" if zone.kind == CONTACT else "g"

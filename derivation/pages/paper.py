@@ -33,16 +33,34 @@ SUBJECTS = {
     15: "pressure of complete contact",
     16: "friction coefficient in complete contact on all levels",
 }
-MAIN = {10: "means_acaf", 11: "means over a level", 15: "saturated_pressure"}  # where it is not the first step with the number
-UNREAD = (
-    "Not compared: the printed text of this equation was not at hand. It stands between {before} and {after}; what has to be "
-    "said there for the problem to be complete is stated, verified and computed in the steps named here."
+MAIN = {10: ("means_acaf", "means of a strip"), 11: ("means over a level",), 15: ("saturated_pressure",)}
+"""The step that states an equation, where that is not the first with its number."""
+UNSEEN = (
+    "The printed form of this number was not at hand and is not compared here. By its place, between {before} and {after}, it is "
+    "about {subject}. What is derived for it comes from the statement of the problem that this derivation was made from, which "
+    "was written beside the paper and names every point where the two differ: {differs}. Derived: "
 )
-ON_THE_PAPERS_PAGE = "The same for every foundation: derived on the page of the standard linear solid, the paper's own."
-ELSEWHERE = {
-    7: (UNREAD.format(before="Eq. 6 (displacement in contact)", after="Eq. 8 (strips)"), ("zone conditions", "adhesion law")),
-    9: (UNREAD.format(before="Eq. 8 (strips)", after="Eq. 10 (their means)"), ("strip problem", "regime acaf")),
+PLACES = {
+    7: (
+        {
+            "before": "Eq. 6 (displacement in contact)",
+            "after": "Eq. 8 (strips)",
+            "subject": "what holds in contact and out of it",
+            "differs": "the sign of Eq. 6, and nothing in these conditions",
+        },
+        ("zone conditions", "adhesion law"),
+    ),
+    9: (
+        {
+            "before": "Eq. 8 (strips)",
+            "after": "Eq. 10 (their means)",
+            "subject": "the conditions that determine the edges of a strip",
+            "differs": "of these, what w does where p steps, on which the paper is silent (see the misprints and silences)",
+        },
+        ("strip problem", "regime acaf"),
+    ),
 }
+"""Numbers whose printed form was not seen: the words for the note, and the steps that state what belongs there."""
 
 
 def numbers(paper: str) -> list[int]:
@@ -54,18 +72,27 @@ def numbers(paper: str) -> list[int]:
 
 
 def equations(steps: tuple[Derived, ...], misprinted: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """The contents by equation number; the first of a row's steps is the one that states the equation."""
+    """The contents by equation number; the first of a row's steps is the one that states the equation.
+
+    ``compared``: whether the printed form was seen.
+    """
     wrong = {number for row in misprinted for number in row["equations"]}
-    known = [step.name for step in steps]
+    by_name = {step.name: step for step in steps}
     rows = []
     for number, subject in SUBJECTS.items():
-        note, names = ELSEWHERE.get(number, ("", ()))
+        words, names = PLACES.get(number, ({}, ()))
         cited = [step.name for step in steps if number in numbers(step.paper)]
-        status = "not compared" if note else CORRECTED if number in wrong else REPRODUCED if cited else "no step of its own"
-        first = [MAIN[number]] if number in MAIN else []
-        listed = list(dict.fromkeys(name for name in (*first, *cited, *names) if name in known))
-        note = note if listed else ON_THE_PAPERS_PAGE
-        rows.append({"number": number, "subject": subject, "status": status, "note": note, "steps": listed})
+        listed = list(dict.fromkeys(name for name in (*MAIN.get(number, ()), *names, *cited) if name in by_name))
+        rows.append(
+            {
+                "number": number,
+                "subject": subject,
+                "status": CORRECTED if number in wrong else REPRODUCED,
+                "compared": not words,
+                "note": UNSEEN.format(**words) + by_name[listed[0]].statement if words else "",
+                "steps": listed,
+            }
+        )
     return rows
 
 
@@ -73,15 +100,16 @@ def misprints(steps: tuple[Derived, ...]) -> list[dict[str, Any]]:
     """Misprints and silences, with what follows from each in numbers. ``measured`` names a table of the measured figures."""
     by_name = {step.name: step for step in steps}
     return [
-        _sign_of_equation_6(by_name["strip profile"]),
-        _stiffness(by_name["relaxed stiffness"]),
+        sign_of_equation_6(by_name["strip profile"]),
+        stiffness(by_name["relaxed stiffness"], "instantaneous compliance"),
         _closure(by_name["closures"], by_name["jump law"]),
         _unloading(),
         _equation_16(by_name["Eq. 16 as printed"]),
     ]
 
 
-def _sign_of_equation_6(step: Derived) -> dict[str, Any]:
+def sign_of_equation_6(step: Derived) -> dict[str, Any]:
+    """Depth under crest and valley with either sign."""
     crest, valley = {x: 0, y: 0}, {x: sp.pi / k, y: 0}
     rows = []
     for form, w in (("w = f + D, as printed", HEIGHT + D_level), ("w = D - f", D_level - HEIGHT)):
@@ -100,9 +128,10 @@ def _sign_of_equation_6(step: Derived) -> dict[str, Any]:
     }
 
 
-def _stiffness(step: Derived) -> dict[str, Any]:
-    stiffness, pressure = sp.Integer(10) ** 9, sp.Integer(100)
-    right, wrong = _figure(pressure / stiffness), _figure(pressure * stiffness)
+def stiffness(step: Derived, *others: str) -> dict[str, Any]:
+    """What K read as the one and as the other would mean. ``others``: further steps that show it."""
+    K_number, pressure = sp.Integer(10) ** 9, sp.Integer(100)
+    right, wrong = _figure(pressure / K_number), _figure(pressure * K_number)
     return {
         "equations": [1],
         "what": "K called a compliance",
@@ -111,7 +140,7 @@ def _stiffness(step: Derived) -> dict[str, Any]:
         "shown": f"Under 100 Pa a foundation with K = 1e9 yields {right} m, not {wrong} m.",
         "latex": step.latex,
         "why": "At rest Eq. 1 reads p = K w: K is a stiffness per area, in Pa/m, and the compliance is 1/K.",
-        "steps": [step.name, "instantaneous compliance"],
+        "steps": [step.name, *others],
         "table": {
             "head": ["K = 1e9 read as", "displacement under 100 Pa"],
             "rows": [["stiffness, Pa/m", f"{right} m"], ["compliance, m/Pa", f"{wrong} m"]],
@@ -120,11 +149,14 @@ def _stiffness(step: Derived) -> dict[str, Any]:
     }
 
 
+SILENT = "Nothing is said of the edges d and -c, where the traction begins and ends."
+
+
 def _closure(step: Derived, law: Derived) -> dict[str, Any]:
     return {
         "equations": [],
         "what": "What w does where p steps",
-        "printed": "Nothing is said of the edges d and -c, where the traction begins and ends.",
+        "printed": SILENT,
         "here": step.statement,
         "shown": "",
         "latex": step.latex,
@@ -156,6 +188,7 @@ def _unloading() -> dict[str, Any]:
 
 FIGURE_7 = {"K": "1e9", "T_eps": "1/100", "T_sigma": "1/10000", "p_1": "5e6"}
 FIGURE_7_LEVELS = (("1/100000", "1/1000000"), ("5/10000000", "1/10000000"), ("5/1000000000", "5/1000000000"))
+PRINTED_16 = "Factor pi^2, h_i to the first power, and a sum up to N."
 MICRO = 10**6  # the same lengths in micrometres: the pressures and times stay in Pa and s
 
 
@@ -173,7 +206,7 @@ def _equation_16(step: Derived) -> dict[str, Any]:
     return {
         "equations": [16],
         "what": "Eq. 16: power of h, factor, dimensions, upper limit",
-        "printed": "Factor pi^2, h_i to the first power, and a sum up to N.",
+        "printed": PRINTED_16,
         "here": "Factor 3 pi^2/16, h_i squared, and a sum up to M: M counts the levels, N the strips of one level.",
         "shown": f"Fig. 7: the levels' own peaks are {', '.join(row[4] for row in rows)}; as printed, with lengths in m, "
         f"{', '.join(row[6] for row in rows)}.",

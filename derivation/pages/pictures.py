@@ -2,34 +2,59 @@
 
 from __future__ import annotations
 
+import importlib
 import io
 from collections.abc import Iterable
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
 
-_common = {"K": 1e9, "T_eps": 1e-2, "T_sigma": 2e-3, "l": 1e-5, "A": 5e-7, "edge": "continuous", "branch": "unloading"}
-_sticky = {**_common, "p_0": 400.0, "delta_0": 3e-7, "V": 2e-4}
-SCENES: tuple[dict[str, Any], ...] = (
-    {**_sticky, "of": "acaf", "D": 2e-7},
-    {**_common, "of": "afc", "p_0": 400.0, "delta_0": 6e-8, "V": 4e-4, "D": 5e-7, "edge": "constitutive"},
-    {**_sticky, "of": "af", "D": -2.5e-7},
-    {**_sticky, "of": "ac", "D": 6e-7},
-    {**_common, "of": "ac", "p_0": 0.0, "delta_0": 3e-7, "V": 2e-4, "D": 6e-7},
-    {**_sticky, "of": "c", "D": 1.2e-6},
-    {**_sticky, "of": "a", "delta_0": 1.2e-6, "D": -4.5e-7},
-    {**_sticky, "of": "f", "D": -8e-7},
+# Strips by the regime that they show; every model takes those of its regimes.
+_strip = {"l": 1e-5, "A": 5e-7, "V": 2e-4, "p_0": 400.0, "delta_0": 3e-7, "branch": "unloading"}
+_STRIPS: tuple[dict[str, Any], ...] = (
+    {**_strip, "of": "acaf", "D": 2e-7},
+    {**_strip, "of": "afc", "delta_0": 6e-8, "V": 4e-4, "D": 5e-7, "edge": "constitutive"},
+    {**_strip, "of": "af", "D": -2.5e-7},
+    {**_strip, "of": "ac", "D": 6e-7},
+    {**_strip, "of": "ac", "p_0": 0.0, "D": 6e-7},
+    {**_strip, "of": "c", "D": 1.2e-6},
+    {**_strip, "of": "a", "delta_0": 1.2e-6, "D": -4.5e-7},
+    {**_strip, "of": "f", "D": -8e-7},
 )
-UNITS = {"K": "Pa/m", "T_eps": "s", "T_sigma": "s", "p_0": "Pa", "delta_0": "m", "l": "m", "A": "m", "D": "m", "V": "m/s"}
+# Materials by model; all but Kelvin-Voigt have five times the relaxed stiffness when they are glassy.
+MATERIALS: dict[str, dict[str, Any]] = {
+    "standard_linear_solid": {"K": 1e9, "T_eps": 1e-2, "T_sigma": 2e-3},
+    "kelvin_voigt": {"K": 1e9, "T_eps": 1e-2},
+    "generalised_2": {"K": 1e9, "K_i": (2e9, 2e9), "tau_i": (5e-4, 4e-3)},
+    "generalised_3": {"K": 1e9, "K_i": (1.5e9, 1.5e9, 1e9), "tau_i": (2e-4, 1.5e-3, 6e-3)},
+}
+UNITS = {
+    "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "K_i": "Pa/m", "tau_i": "s",
+    "p_0": "Pa", "delta_0": "m", "l": "m", "A": "m", "D": "m", "V": "m/s",
+}  # fmt: skip
 SIZE = (6.4, 4.4)  # inches
+UNBROKEN = "\N{NO-BREAK SPACE}"
+LINE = 100  # characters of the parameters that fit across
 CONTACT, ADHESION = "#f3c9a5", "#c7dcf0"
+
+
+def scenes(model: str) -> tuple[dict[str, Any], ...]:
+    """The strips that show the regimes of a model; under ``continuous`` where that determines them."""
+    given = MATERIALS[model]
+    edge = "constitutive" if "K_i" in given else "continuous"
+    snaps = model != "kelvin_voigt"  # without instantaneous compliance no point snaps into contact
+    return tuple({"edge": edge, "model": model, **given, **strip} for strip in _STRIPS if snaps or strip["of"] != "afc")
 
 
 def material(scene: dict[str, Any]) -> tuple[Any, Any]:
     import hystrip
 
     adhesion = hystrip.Dugdale(p_0=scene["p_0"], delta_0=scene["delta_0"])
-    return hystrip.StandardLinearSolid(K=scene["K"], T_eps=scene["T_eps"], T_sigma=scene["T_sigma"]), adhesion
+    given = [scene[name] for name in MATERIALS[scene["model"]]]
+    if "K_i" in scene:
+        return hystrip.Prony(*given), adhesion
+    return (hystrip.KelvinVoigt if scene["model"] == "kelvin_voigt" else hystrip.StandardLinearSolid)(*given), adhesion
 
 
 def solved(scene: dict[str, Any]) -> Any:
@@ -40,12 +65,35 @@ def solved(scene: dict[str, Any]) -> Any:
     return hystrip.solve_strip(*material(scene), **wanted)
 
 
+def missed(scene: dict[str, Any], strip: Any) -> float | None:
+    """The most by which the edges of a strip miss the boundary equations that were generated for its model."""
+    solver = importlib.import_module(f"hystrip.generated.{scene['model']}")
+    sequence = {"cf": "ac"}.get(str(strip.regime), str(strip.regime))
+    regime = solver.REGIMES[sequence]
+    if not regime["edges"]:
+        return None
+    k, unit = 2 * np.pi / scene["l"], scene["K"] * scene["A"]
+    at = {"a": strip.a, "b": -strip.b, "c": strip.c, "d": -strip.d if sequence != "afc" else -strip.b}
+    edges = [k * float(at[name]) for name in regime["edges"]]
+    groups = [scene["p_0"] / unit, scene["delta_0"] / scene["A"], scene["D"] / scene["A"]]
+    if "T_sigma" in scene:
+        J = scene["T_sigma"] / scene["T_eps"]
+        turn = k * scene["V"]
+        groups = [turn * scene["T_sigma"], turn * scene["T_eps"], J, 1 - J, *groups, float(scene["edge"] == "constitutive")]
+    else:
+        _, modes = solver.material_modes(**{name: np.asarray(scene[name]) for name in MATERIALS[scene["model"]]})
+        groups = [solver.at_speed(modes, k * scene["V"]), *groups]
+    return float(np.max(np.abs(regime["residual"](*edges, *groups))))
+
+
 def picture(scene: dict[str, Any]) -> dict[str, Any]:
     """SVG of surface, profile and pressure over one period, with its caption."""
     import matplotlib
     from matplotlib.figure import Figure
 
     strip = solved(scene)
+    if str(strip.regime) not in (scene["of"], "cf" if scene["of"] == "ac" and not scene["p_0"] else ""):
+        raise ValueError(f"{scene['model']}: the strip that should show {scene['of']!r} is {str(strip.regime)!r}")
     length, A, unit = scene["l"], scene["A"], scene["K"] * scene["A"]
     style = {"svg.hashsalt": "hystrip", "svg.fonttype": "none", "font.family": ["DejaVu Sans", "sans-serif"], "font.size": 9}
     with matplotlib.rc_context(style):
@@ -92,7 +140,7 @@ def picture(scene: dict[str, Any]) -> dict[str, Any]:
         lower.set_ylabel("pressure / (K A)")
         lower.set_xlabel("x / l")
         lower.set_xlim(-0.75, 0.75)
-        figure.suptitle(_parameters(scene).replace(", l =", ",\nl ="), fontsize=7.5, color="#454c54")
+        figure.suptitle("\n".join(_lines(scene)), fontsize=7.5, color="#454c54")
         stream = io.StringIO()
         figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     return {"caption": _caption(scene, strip), "svg": stream.getvalue(), "width": int(SIZE[0] * 96), "height": int(SIZE[1] * 96)}
@@ -131,12 +179,27 @@ def _shade(axes: Any, regime: str, at: dict[str, float]) -> None:
 
 
 def _parameters(scene: dict[str, Any]) -> str:
-    return ", ".join(f"{name} = {scene[name]:g} {unit}" for name, unit in UNITS.items())
+    return ", ".join(_each(scene))
+
+
+def _lines(scene: dict[str, Any]) -> list[str]:
+    """The parameters in lines that fit across a picture, broken between two of them."""
+    return wrap(", ".join(each.replace(" ", UNBROKEN) for each in _each(scene)), LINE)
+
+
+def _each(scene: dict[str, Any]) -> list[str]:
+    return [f"{name} = {_number(scene[name])} {unit}" for name, unit in UNITS.items() if name in scene]
+
+
+def _number(value: float | tuple[float, ...]) -> str:
+    return f"({', '.join(f'{each:g}' for each in value)})" if isinstance(value, tuple) else f"{value:g}"
 
 
 def _caption(scene: dict[str, Any], strip: Any) -> str:
+    off = missed(scene, strip)
+    met = "" if off is None else f" At these edges the boundary equations, as generated, are off zero by at most {off:.0e}."
     zones = "Orange: contact; blue: adhesion. " if str(strip.regime) != "f" else ""
     return (
         f"{strip.regime_name} ({strip.regime}), {scene['edge']}, {scene['branch']}. {zones}{_parameters(scene)}. "
-        f"Mean pressure {float(strip.p_mean):.4g} Pa, mean friction {float(strip.tau_mean):.4g} Pa."
+        f"Mean pressure {float(strip.p_mean):.4g} Pa, mean friction {float(strip.tau_mean):.4g} Pa.{met}"
     )

@@ -16,6 +16,10 @@ from pathlib import Path
 
 from ..check import DerivationError, Derived
 
+CARRIED = (
+    ("level/carried.py", "_contributions", "total[saturated, :-1] +="),
+    ("level/carried.py", "_attempt", "best = width"),
+)
 RUNTIME: dict[str, tuple[tuple[str, str, str], ...]] = {
     "strip.adhesion_law": (("inputs/adhesion.py", "Dugdale.__init__", "p * delta"),),
     "strip.dimensionless_groups": (("strip/solution.py", "solve_si", "alpha, beta ="),),
@@ -26,10 +30,8 @@ RUNTIME: dict[str, tuple[tuple[str, str, str], ...]] = {
         ("level/means.py", "equal_strips", "mean = values.mean"),
     ),
     "multilevel.local_shear": (("level/strips.py", "integrand", "np.concatenate((values, carried)"),),
-    "multilevel.carried_friction": (
-        ("level/carried.py", "_contributions", "total[saturated, :-1] +="),
-        ("level/carried.py", "_attempt", "best = width"),
-    ),
+    "multilevel.carried_friction": CARRIED,
+    "modes.levels.carried_friction": CARRIED,
     "multilevel.friction_coefficient": (("solve.py", "_result", "mu = np.divide"),),
     "stack.least_pressure": (("multilevel.py", "saturated", "needed = "),),
 }

@@ -10,11 +10,10 @@ from ..dispatch import certified_names, derive_any, stages_of
 from ..drift import AUDIT, CERTIFICATES, MEASURED, certificate_drift, dumped, generated_folder, read_certificates, write_files
 from ..emit import emit
 from ..model import Model
-from ..models import MODELS, STANDARD_LINEAR_SOLID
+from ..models import MODELS
 from .measured import measured
+from .pictures import MATERIALS
 from .render import audit_files
-
-DRAWN = (STANDARD_LINEAR_SOLID.name,)  # models whose strips hystrip.solve_strip can solve
 
 
 class AuditError(Exception):
@@ -50,7 +49,7 @@ def audit(
     stale += [record.path for record in certificate_drift(installed, functions)]
     if stale:
         raise AuditError(f"{', '.join(stale)} in {installed} is not what the derivation emits; run `hystrip regenerate` first")
-    found = {model.name: measured() for model in chosen if model.name in DRAWN}
+    found = {model.name: measured(model.name) for model in chosen if model.name in MATERIALS}
     pages = audit_files(derivations, texts, read_certificates(installed / CERTIFICATES), found)
     pages[Path(MEASURED).name] = dumped(found)
     target.mkdir(parents=True, exist_ok=True)

@@ -19,7 +19,6 @@ from .modes_content import modes_content
 INDEX = "index.html"
 TEMPLATES = Path(__file__).parents[1] / "templates"
 FORMULA = re.compile(r"\$([^$]+)\$")
-NAME = re.compile(r"(\w+)")
 
 
 def audit_files(
@@ -52,7 +51,7 @@ def _render(kind: str, **values: Any) -> str:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    environment.filters.update(mathml=mathml, anchor=anchor, picture=_picture, prose=_prose, linked=_linked)
+    environment.filters.update(mathml=mathml, anchor=anchor, picture=_picture, prose=_prose)
     return environment.get_template(f"audit/{kind}.html.jinja").render(**values)
 
 
@@ -69,10 +68,3 @@ def _prose(text: str) -> Markup:
     """Text in which ``$...$`` is an equation."""
     parts = FORMULA.split(text)
     return Markup("").join(mathml(part) if n % 2 else escape(part) for n, part in enumerate(parts))
-
-
-def _linked(text: str, steps: dict[str, Any]) -> Markup:
-    """Code in which the name of a step leads there."""
-    parts = NAME.split(text)
-    named = (Markup('<a href="#{}">{}</a>').format(anchor(part), part) if part in steps else escape(part) for part in parts)
-    return Markup("<code>{}</code>").format(Markup("").join(named))

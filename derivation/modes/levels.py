@@ -1,0 +1,64 @@
+"""A level that carries another, with n relaxation times (Eq. 11 to 14): what :mod:`..multilevel` derives, from the n modes."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from ..check import Check, Derived, zero
+from ..multilevel import Multilevel, carried_record, friction_coefficient, local_shear, means_over_a_level
+from ..regime import ADHESION, CONTACT, PERIOD
+from ..symbols import D, alpha, h, l, p_0, s, s_0
+from .flows import ModeFlows, u
+from .regimes import ModeRegime
+from .saturated import R_LOSS, Complete
+from .symbols import eta, f_0
+
+
+def mode_levels(flows: ModeFlows, complete: Complete, regimes: tuple[ModeRegime, ...]) -> Multilevel:
+    storage, loss = sp.symbols("storage loss", real=True)
+    pressure = D - 1 + storage * sp.cos(s) - loss * sp.sin(s)  # Eq. 15, as in complete.threshold
+    return Multilevel(
+        means_over_a_level(pressure, complete.means.value),
+        local_shear(u),
+        carried_friction(flows, regimes),
+        friction_coefficient(complete.friction.value, complete.stack.value, (h, l, R_LOSS)),
+    )
+
+
+def carried_friction(flows: ModeFlows, regimes: tuple[ModeRegime, ...]) -> Derived:
+    r"""Eq. 13:
+
+    .. math:: \bar\tau_{M-1} = \frac{1}{l^2}\iint p\,f_x\,dx\,dy + \frac{1}{l^2}\iint_{contact} \tau_M[p]\,dx\,dy
+    """
+    name = "carried friction"
+    flow = flows.contact.value
+    harmonic = flow.replace(sp.exp, lambda exponent: sp.Integer(0))
+    creep = u - alpha / eta * harmonic  # of a dashpot in complete contact: e = w - S f, S = alpha/eta
+    checks = [
+        zero(
+            name,
+            "in complete contact a dashpot follows the profile, alpha e' + e = u; elsewhere w, which is nowhere below u: "
+            "its e is nowhere below that of complete contact, and f nowhere above",
+            alpha * sp.diff(creep, s) + creep - u,
+        ),
+        zero(
+            name,
+            "in contact f falls short of complete contact by a decaying exponential; p is one harmonic less such terms, all "
+            "positive, so p passes any p* at most once up and once down",
+            flow - harmonic - (f_0 - harmonic.subs(s, s_0)) * sp.exp(-(s - s_0) / alpha),
+        ),
+        *(_proportional(name, regime) for regime in regimes if regime.edges and any(z.kind == CONTACT for z in regime.zones)),
+    ]
+    return carried_record(carried_friction, checks, ("excess_event",))
+
+
+def _proportional(name: str, regime: ModeRegime) -> Check:
+    """Pressure summed over contact, against that over the period, which is 2 pi times the mean."""
+    mean = sp.Symbol("p_mean", real=True)
+    outside = sum(zone.pressure * (zone.last - zone.first) for zone in regime.zones if zone.kind != CONTACT)
+    adhesion = sum(zone.last - zone.first for zone in regime.zones if zone.kind == ADHESION)
+    return zero(
+        name,
+        f"a law tau_M = c p below: {regime.sequence} carries c (mean p + p_0 times the part of the period in adhesion)",
+        sp.expand(PERIOD * mean - outside - (PERIOD * mean + p_0 * adhesion)),
+    )
