@@ -8,7 +8,7 @@ from types import ModuleType
 from .certify import Certificate, certify
 from .derive import STAGES, Derivation, derive
 from .model import Model
-from .modes.certify import certify_modes, measured_names
+from .modes.certificates import certify_modes, measured_names
 from .modes.derive import STAGES as STAGES_OF_MODES
 from .modes.derive import ModesDerivation, derive_modes
 

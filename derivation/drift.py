@@ -13,7 +13,7 @@ import json
 import os
 import shutil
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -33,6 +33,7 @@ MEASURED = f"{AUDIT}/measured.json"  # pictures and measured figures of the page
 AIM = 16.0  # ulp of the natural scale
 IGNORED = ("__pycache__",)
 HELPERS = ("stable", "modes")  # what a solver imports
+SHARES = 40  # in which the certificates of a model are reported; a stage of its derivation is one
 Report = Callable[[int, int], None]
 
 
@@ -46,6 +47,16 @@ class _Progress:
         self._done += 1
         if self._report is not None:
             self._report(self._done, self._total)
+
+
+def _counted(certificates: Iterable[Certificate], count: int, say: _Progress) -> Iterator[Certificate]:
+    """The ``count`` certificates of a model, reported in so many shares as they are made."""
+    reported = 0
+    for number, certificate in enumerate(certificates, start=1):
+        yield certificate
+        while reported < number * SHARES // count:
+            say("certificates")
+            reported += 1
 
 
 class CertificateError(Exception):
@@ -85,13 +96,13 @@ def regenerate(
     function that is not accurate enough, and :class:`FileExistsError` for a folder that holds something else. A bound in an
     existing
     ``certificates.json`` grows only for a function in ``accept``, which says why: ``{"module.function": "reason"}``.
-    ``progress`` is called with (stages done, stages in all).
+    ``progress`` is called with (done, in all): stages of the derivation, then shares of the certificates.
     """
     chosen = tuple(models) if models is not None else MODELS
     require_names(chosen)
     target = Path(out_dir) if out_dir is not None else generated_folder()
     require_folder(target)
-    say = _Progress(progress, sum(len(stages_of(model)) + 1 for model in chosen) + 2)
+    say = _Progress(progress, sum(len(stages_of(model)) + SHARES for model in chosen) + 2)
     derivations = tuple(derive_any(model, say) for model in chosen)
     files = emit(derivations)
     say("emission")
@@ -101,9 +112,9 @@ def regenerate(
         certificates = {}
         for derivation in derivations:
             solver = _loaded(folder, derivation.model.name)
-            rows = bounds_of(derivation.model.name, certificates_of(derivation, solver), stored, accept or {})
+            measured = _counted(certificates_of(derivation, solver), len(certified_names(derivation)), say)
+            rows = bounds_of(derivation.model.name, measured, stored, accept or {})
             certificates[derivation.model.name] = {"interface": INTERFACE, "functions": rows}
-            say("certificates")
     files[CERTIFICATES] = _certificates_text(certificates)
     known = read_measured(target) or read_measured(generated_folder())
     measured = {name: known[name] for name in certificates if name in known}

@@ -83,9 +83,44 @@ def test_sweep_of_a_scene(run, tmp_path):
     (tmp_path / "mine.toml").write_text(SCENE.replace("gamma = 2.5e-5", "gamma = [0, 1e-5]"))
     status, out, err = run("sweep", "mine.toml")
     assert (status, err) == (0, "") and out.split("\n")[0] == "4 points"
-    assert len(rows(tmp_path / "hystrip-out/mine.csv")) == 4
+    assert len(rows(tmp_path / "hystrip-out/mine.sweep.csv")) == 4
     status, out, err = run("sweep", "mine.toml", "--netcdf")
-    assert (status, err) == (0, "") and "1 of 1 batches from before" in out and "wrote hystrip-out/mine.nc" in out
+    assert (status, err) == (0, "") and "1 of 1 batches from before" in out and "wrote hystrip-out/mine.sweep.nc" in out
+
+
+def test_solve_and_sweep_leave_each_others_tables_alone(run, tmp_path):
+    (tmp_path / "mine.toml").write_text(SCENE)
+    assert run("solve", "mine.toml", "--no-plot")[0] == 0
+    table = (tmp_path / "hystrip-out/mine.csv").read_bytes()
+    assert run("sweep", "mine.toml", "--over", "adhesion.gamma=[0, 1e-5]")[0] == 0
+    assert (tmp_path / "hystrip-out/mine.csv").read_bytes() == table and len(rows(tmp_path / "hystrip-out/mine.sweep.csv")) == 4
+
+
+def test_quantities_swept_from_the_command_line(run, tmp_path):
+    (tmp_path / "mine.toml").write_text(SCENE)
+    over = ["--over", 'material.K=["1 GPa/m", 2e9]', "--over", "levels[0].h = 1e-6, 5e-7", "--over", "velocity={start = 1e-3, stop = 5e-3, num = 3}"]
+    status, out, err = run("sweep", "mine.toml", *over)
+    assert (status, err) == (0, "") and out.split("\n")[0] == "12 points"
+    table = rows(tmp_path / "hystrip-out/mine.sweep.csv")
+    assert {float(row["K [Pa/m]"]) for row in table} == {1e9, 2e9} and {float(row["h_1 [m]"]) for row in table} == {1e-6, 5e-7}
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ("material.K", "KEY=VALUES"),
+        ("material.colour=3", "dotted key"),
+        ("material.times[0]=1e-3", "one of levels[0].l"),
+        ("material.K=1 GPa/m", "a text with its unit in quotes"),
+        ("material.K=true", "a text with its unit in quotes"),
+        ('material.K="1 s"', "unit of something else"),
+        ("material.K=[]", "one value or more"),
+    ],
+)
+def test_what_cannot_be_swept_is_refused(run, tmp_path, given, says):
+    (tmp_path / "mine.toml").write_text(SCENE)
+    status, _, err = run("sweep", "mine.toml", "--over", given)
+    assert status == 2 and says in " ".join(err.split()) and not (tmp_path / "hystrip-out").exists()
 
 
 def test_solve_without_picture_and_table(run, tmp_path):

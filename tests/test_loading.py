@@ -147,7 +147,7 @@ def test_a_scene_runs_a_solver_only_where_that_is_allowed(folder, monkeypatch, c
         assert status == 2 and "--allow-solver" in said.err and not out.exists()
     assert run("solve", path, "--no-plot", "--allow-solver", "--out", out)[0] == 0
     assert run("sweep", path, "--allow-solver", "--out", out)[0] == 0
-    rows = (out / "scene.csv").read_text().splitlines()
+    rows = (out / "scene.sweep.csv").read_text().splitlines()
     assert len(rows) == 3
 
 
@@ -166,3 +166,58 @@ def test_regenerate_wants_a_folder_for_a_users_model(tmp_path, monkeypatch, caps
             entry.main()
         assert end.value.code == 2 and says in capsys.readouterr().err
         assert not (tmp_path / "out").exists()
+
+
+def test_moduli_and_times_are_swept(folder):
+    path = folder.parent / "scene.toml"
+    path.write_text(SCENE.format(solver=""))
+    over = {"material.times[0]": [1e-3, 1e-2, 3.0], "material.moduli[1]": [2e10, 0.0]}
+    done = hystrip.sweep(path, over=over, out=folder.parent / "out")
+    data = done.to_dataset()
+    assert data.mu.dims[:2] == ("moduli_2", "times_1") and data.moduli_2.units == "Pa/m" and data.times_1.units == "s" and not done.failed
+    base = hystrip.load_scene(path)
+    for modulus in over["material.moduli[1]"]:
+        for time in over["material.times[0]"]:  # the last is longer than the other: branches keep their moduli
+            material = hystrip.Prony(1e9, [MODULI[0], modulus], [time, TIMES[1]])
+            run = {"penetration": base.penetration, "velocity": base.velocity, "edge": base.edge, "rtol": base.rtol}
+            alone = hystrip.solve(material, base.adhesion, base.levels, **run)
+            assert np.array_equal(data.mu.sel(moduli_2=modulus, times_1=time), alone.mu)
+
+
+def test_an_entry_of_moduli_or_times_is_a_list_or_range(folder):
+    path = folder.parent / "scene.toml"
+    swept = 'times = [{ start = "1 ms", stop = 0.01, num = 2, spacing = "log" }, 0.1]'
+    path.write_text(SCENE.format(solver="").replace('times = ["1 ms", 0.1]', swept))
+    with pytest.raises(SceneError, match="for `hystrip sweep`") as error:
+        hystrip.load_scene(path)
+    assert error.value.field == "material.times[0]"
+    done = hystrip.sweep(path, out=folder.parent / "out")
+    assert sorted(set(done.columns["times_1 [s]"])) == [1e-3, 1e-2] and not done.failed
+
+
+@pytest.mark.parametrize(
+    ("over", "says"),
+    [({"material.times[0]": [1e-3, 0.0]}, "> 0"), ({"material.moduli[2]": 1.0}, "did you mean"), ({"material.times": 1.0}, "one of")],
+)
+def test_a_branch_that_cannot_be_swept_is_refused(folder, over, says):
+    path = folder.parent / "scene.toml"
+    path.write_text(SCENE.format(solver=""))
+    with pytest.raises(InputError, match=says):
+        hystrip.sweep(path, over=over, out=folder.parent / "out")
+
+
+def test_levels_put_into_a_scene_with_a_solver(folder):
+    """Its path is seen from the new scene's folder; its code is run only where that is allowed."""
+    from hystrip.scene.edit import with_levels, with_solver_seen_from
+
+    source = folder.parent / "scene.toml"
+    source.write_text(SCENE.format(solver='solver = "my_solver"'))
+    out = folder.parent / "elsewhere" / "out"
+    text = with_solver_seen_from(out, source.read_text(), source)
+    levels = [{"l": 2e-5, "h": 1e-6}]
+    with pytest.raises(SceneError, match="--allow-solver"):
+        with_levels(text, levels, folder=out)
+    out.mkdir(parents=True)
+    (out / "new.toml").write_text(with_levels(text, levels, folder=out, allow_solver=True))
+    scene = hystrip.load_scene(out / "new.toml", allow_solver=True)
+    assert scene.levels == (hystrip.Level(2e-5, 1e-6),) and scene.material.solver is not None

@@ -199,7 +199,7 @@ def test_killed_five_times_the_final_file_is_the_same(tmp_path, workers):
         process.kill()  # the parent alone: its workers have to notice
         process.communicate(timeout=60)
         assert process.returncode == -signal.SIGKILL
-        assert parts_in(tmp_path) >= before and not (tmp_path / "hystrip-out/many.csv").exists()
+        assert parts_in(tmp_path) >= before and not (tmp_path / "hystrip-out/many.sweep.csv").exists()
         before = parts_in(tmp_path)
     assert 5 <= before < 1000
     stamps = {path: path.stat().st_mtime_ns for path in (tmp_path / "hystrip-out/many.parts").glob("part-*.json")}
@@ -207,7 +207,7 @@ def test_killed_five_times_the_final_file_is_the_same(tmp_path, workers):
     out, err = last.communicate(timeout=300)
     assert last.returncode == 0 and f"{before} of 1000 batches from before" in out, err
     assert {path: path.stat().st_mtime_ns for path in stamps} == stamps
-    assert (tmp_path / "hystrip-out/many.csv").read_bytes() == (tmp_path / "whole/hystrip-out/many.csv").read_bytes()
+    assert (tmp_path / "hystrip-out/many.sweep.csv").read_bytes() == (tmp_path / "whole/hystrip-out/many.sweep.csv").read_bytes()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
@@ -220,7 +220,7 @@ def test_ctrl_c_ends_cleanly(tmp_path, workers):
     out, err = process.communicate(timeout=60)
     assert process.returncode == 130 and out == ""
     assert err.splitlines() == ["hystrip: finished batches are kept; the same command goes on from there", "hystrip: interrupted"]
-    assert not list(tmp_path.glob("hystrip-out/many.parts/*.tmp")) and not (tmp_path / "hystrip-out/many.csv").exists()
+    assert not list(tmp_path.glob("hystrip-out/many.parts/*.tmp")) and not (tmp_path / "hystrip-out/many.sweep.csv").exists()
 
 
 def test_two_runs_at_once_are_refused(scene, tmp_path):

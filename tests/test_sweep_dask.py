@@ -55,8 +55,8 @@ def test_the_command_line_finds_the_scheduler(cluster, tmp_path):
     (tmp_path / "s.toml").write_text(SCENE.replace("num = 24", "num = 4"))
     command = [sys.executable, "-m", "hystrip", "sweep", "s.toml", "--scheduler", cluster.scheduler_address]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
-    assert done.returncode == 0 and "wrote hystrip-out/s.csv" in done.stdout, done.stderr
-    values = np.genfromtxt(tmp_path / "hystrip-out/s.csv", delimiter=",", names=True, usecols=(0, 1))
+    assert done.returncode == 0 and "wrote hystrip-out/s.sweep.csv" in done.stdout, done.stderr
+    values = np.genfromtxt(tmp_path / "hystrip-out/s.sweep.csv", delimiter=",", names=True, usecols=(0, 1))
     assert values.size == 4 and (values["mu"] > 0).all()
 
 

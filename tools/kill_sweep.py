@@ -33,7 +33,7 @@ delta_0 = 1e-8
 l = 5e-7
 h = 1e-7
 """
-FILES = ("killed.csv", "killed.nc")
+FILES = ("killed.sweep.csv", "killed.sweep.nc")
 
 
 class Run:

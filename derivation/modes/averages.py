@@ -5,7 +5,8 @@ from __future__ import annotations
 import sympy as sp
 
 from ..check import REPRODUCED, Derived, derived
-from .law import Law, vanishes
+from .identity import vanishes
+from .law import Law
 from .symbols import J_0, J, numbered, z
 
 

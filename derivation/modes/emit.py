@@ -13,7 +13,7 @@ from ..printing import results, source
 from ..regime import ADHESION, CONTACT, NOTHING
 from .derive import ModesDerivation
 from .kernel import ModeKernel
-from .law import series_of
+from .material import series_of
 from .regimes import ModeRegime, ModeZone
 from .symbols import J_0
 from .symbols import MATERIAL as FIELDS

@@ -12,7 +12,8 @@ from ..check import BEYOND, REPRODUCED, Check, Derived, derived, zero
 from ..flows import _solved as solved
 from ..model import rate
 from ..symbols import D, alpha, beta, p, s, s_0
-from .law import POINTS, SYMBOLIC, Law
+from .identity import POINTS, SYMBOLIC
+from .law import Law
 from .symbols import J_0, J, eta, f_0, z_0
 from .tensor import component
 

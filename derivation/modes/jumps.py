@@ -7,7 +7,8 @@ import sympy as sp
 from ..check import BEYOND, Check, DerivationError, Derived, derived, holds
 from ..model import rate
 from ..symbols import alpha, beta
-from .law import Law, vanishes
+from .identity import vanishes
+from .law import Law
 from .symbols import J_0, J
 
 

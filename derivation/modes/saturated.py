@@ -11,8 +11,8 @@ from ..level import AMPLITUDE, MISPRINT, PENETRATION, over_strips
 from ..symbols import D, K, alpha, beta, h, k, l, p_0, p_nominal, s, y
 from . import stable
 from .flows import ModeFlows, u
+from .identity import vanishes
 from .kernel import ModeKernel, kernel
-from .law import vanishes
 from .symbols import eta, f_0
 from .tensor import total
 

@@ -30,6 +30,7 @@ def command(
     ),
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
     plot: bool = typer.Option(True, help="Draw the spectrum with the levels (PNG)."),
+    allow_solver: bool = typer.Option(False, "--allow-solver", help="Run the code of a solver that the scene names."),
 ) -> None:
     """Make levels from a measured surface.
 
@@ -40,7 +41,7 @@ def command(
     from hystrip.extras import require
     from hystrip.files import Outputs, refuse_unwritable
     from hystrip.roughness import levels_of, read_surface
-    from hystrip.scene.edit import with_levels
+    from hystrip.scene.edit import with_levels, with_solver_seen_from
     from hystrip.scene.load import located, scene_text
 
     if plot:
@@ -52,7 +53,9 @@ def command(
     ends = f"{found.bands.max():.4g} to {found.bands.min():.4g} m"
     comment = f"Made from {surface.name}, wavelengths {ends}: rms height and gradient of each band."
     with located(scene):
-        text = with_levels(scene_text(scene)[0], [{"l": each.l, "h": each.h} for each in found.levels], comment)
+        text = with_solver_seen_from(out, scene_text(scene)[0], scene)
+        levels = [{"l": each.l, "h": each.h} for each in found.levels]
+        text = with_levels(text, levels, comment, folder=out, allow_solver=allow_solver)
     with Outputs(out) as files:
         names = [f"{surface.stem}.levels.toml"]
         files.path(names[0]).write_text(text, encoding="utf-8", newline="\n")

@@ -9,6 +9,9 @@ import typer
 
 def command(
     scene: str = typer.Argument(help="A scene file (TOML) in which any quantity may be a list or a range."),
+    over: list[str] = typer.Option(
+        None, "--over", help="KEY=VALUES swept too, values as in a scene: --over 'material.times[0]=[1e-3, \"2 ms\"]'; may be repeated."
+    ),
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results; run again with the same to go on."),
     workers: int = typer.Option(1, "--workers", help="Local processes."),
     scheduler: str = typer.Option(None, "--scheduler", help="Address of a Dask scheduler, such as tcp://host:8786."),
@@ -26,6 +29,7 @@ def command(
     from hystrip.extras import require
     from hystrip.files import Outputs
     from hystrip.sweeps import sweep
+    from hystrip.sweeps.over import over_of
 
     if netcdf:
         require("xarray", "dataset", "writing netCDF")
@@ -33,7 +37,7 @@ def command(
     try:
         with progress("sweeping", rate=True) as report:
             done = sweep(
-                scene, out=out, workers=workers, scheduler=scheduler, batch=batch, restart=restart, allow_solver=allow_solver,
+                scene, over=over_of(over or []), out=out, workers=workers, scheduler=scheduler, batch=batch, restart=restart, allow_solver=allow_solver,
                 progress=report,
             )  # fmt: skip
     except KeyboardInterrupt:
@@ -42,8 +46,9 @@ def command(
     written = [done.path]
     if netcdf:
         with Outputs(out) as files:
-            done.to_dataset().to_netcdf(files.path(f"{done.plan.name}.nc"), engine="h5netcdf")
-        written.append(out / f"{done.plan.name}.nc")
+            name = done.path.with_suffix(".nc").name
+            done.to_dataset().to_netcdf(files.path(name), engine="h5netcdf")
+        written.append(out / name)
     again = f", {done.kept} of {done.plan.batches} batches from before" if done.kept else ""
     typer.echo(f"{done.plan.size} points{again}")
     if done.failed:

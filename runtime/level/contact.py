@@ -8,6 +8,7 @@ from hystrip.strip.crossing import crossing
 from hystrip.strip.problem import snaps_in
 from hystrip.strip.regimes import CODE
 
+from .harmonic import passages
 from .strips import SolvedStrips
 
 
@@ -91,11 +92,7 @@ class Contact:
         up, down = self.top.copy(), self.top.copy()
         level = p / self.unit
         full = np.flatnonzero(above & self.full)
-        cosine = np.divide(
-            level[full] - self.mean[full], self.amplitude[full], out=np.full(full.size, -1.0), where=self.amplitude[full] > 0
-        )
-        half = np.arccos(np.clip(cosine, -1, 1))
-        up[full], down[full] = self.centre[full] - half, self.centre[full] + half
+        up[full], down[full] = passages(level[full], self.mean[full], self.amplitude[full], self.centre[full])
         part = np.flatnonzero(above & ~self.full)
         if part.size:
             s = self.s.take(part)

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from hystrip.level.harmonic import passages
 from hystrip.strip.crossing import crossing
 from hystrip.strip.regimes import CODE
 
-from .fields import passages
+from .fields import zones_of
 
 
 class ModeContact:
@@ -42,7 +43,7 @@ class ModeContact:
             if i.size:
                 names = {"acaf": "dbac", "afc": "bac"}.get(sequence, "ba")
                 edges = [getattr(solved, name)[index[i]] for name in names]
-                for zone, _, overstress in passages(kernel, sequence, s.take(i), edges):
+                for zone, _, overstress in zones_of(kernel, sequence, s.take(i), edges):
                     if zone == "c":
                         self.entry[:, i] = overstress
                         break
@@ -92,11 +93,7 @@ class ModeContact:
         up, down = self.top.copy(), self.top.copy()
         level = p / self.unit
         full = np.flatnonzero(above & self.full)
-        cosine = np.divide(
-            level[full] - self.mean[full], self.amplitude[full], out=np.full(full.size, -1.0), where=self.amplitude[full] > 0
-        )
-        half = np.arccos(np.clip(cosine, -1, 1))
-        up[full], down[full] = self.centre[full] - half, self.centre[full] + half
+        up[full], down[full] = passages(level[full], self.mean[full], self.amplitude[full], self.centre[full])
         part = np.flatnonzero(above & ~self.full)
         for out, sign, ends in ((up, -1.0, (self.b, self.top)), (down, 1.0, (self.top, self.a))):
             out[part] = self._passage(part, level, sign, *ends)

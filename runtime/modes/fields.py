@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from hystrip.strip.fields import by_regime
 from hystrip.strip.solved import Solved
-from hystrip.strip.regimes import CODE
 
 from .march import TWO_PI
 from .polish import arguments
@@ -20,25 +20,19 @@ def fields(kernel, strips: ModeStrips, solved: Solved, phase: np.ndarray) -> tup
 
     At an edge the value is that of the zone which begins there.
     """
-    p, gap = np.empty(strips.size), np.empty(strips.size)
-    for sequence, code in CODE.items():
-        index = np.flatnonzero(solved.code == code)
-        if index.size:
-            p[index], gap[index] = _one_regime(kernel, sequence, strips.take(index), solved, index, phase[index])
-    return p, gap
+
+    def saturated(s, phase):
+        return kernel.saturated_pressure(phase, s.D, s.m)
+
+    return by_regime(kernel, strips, solved, phase, saturated, _with_edges)
 
 
-def _one_regime(kernel, sequence, s: ModeStrips, solved: Solved, index, phase):
-    if sequence == "c":
-        return kernel.saturated_pressure(phase, s.D, s.m), np.zeros(index.size)
-    if sequence in ("a", "f"):
-        p = np.zeros(index.size) if sequence == "f" else -s.p_0
-        return p, p - kernel.profile(phase, s.D)
+def _with_edges(kernel, sequence, s: ModeStrips, solved: Solved, index, phase):
     zones, names = ZONES[sequence]
     edges = [getattr(solved, name)[index] for name in names]
     phase = edges[0] + np.mod(phase - edges[0], TWO_PI)
     p, gap = np.zeros(index.size), np.zeros(index.size)
-    for zone, start, entry in passages(kernel, sequence, s, edges):
+    for zone, start, entry in zones_of(kernel, sequence, s, edges):
         inside = phase >= start
         later = np.maximum(phase, start)
         if zone == "c":
@@ -50,7 +44,7 @@ def _one_regime(kernel, sequence, s: ModeStrips, solved: Solved, index, phase):
     return p, gap
 
 
-def passages(kernel, sequence, s: ModeStrips, edges):
+def zones_of(kernel, sequence, s: ModeStrips, edges):
     """Zones of an orbit in the order met: letter, start, and the overstress (contact) or the state z (elsewhere) there, (n, N)."""
     zones, _ = ZONES[sequence]
     z = getattr(kernel, f"state_{'ac' if sequence == 'cf' else sequence}")(*edges, *arguments(s))

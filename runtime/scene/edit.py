@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -17,10 +18,29 @@ def with_material(text: str, table: Mapping[str, Any], comment: str = "") -> str
     return _checked(text, _replaced(text, "material", [_table("[material]", table, comment)]), "material")
 
 
-def with_levels(text: str, levels: Sequence[Mapping[str, Any]], comment: str = "") -> str:
-    """The scene with other ``[[levels]]``. Raises SceneError if what comes out is no scene."""
+def with_levels(
+    text: str, levels: Sequence[Mapping[str, Any]], comment: str = "", *, folder: Any = "", allow_solver: bool = False
+) -> str:
+    """The scene with other ``[[levels]]``, to stand in ``folder``. Raises SceneError if what comes out is no scene, and for a solver
+    that the scene names unless it may be run."""
     tables = [_table("[[levels]]", level, comment if number == 0 else "") for number, level in enumerate(levels)]
-    return _checked(text, _replaced(text, "levels", tables), "levels")
+    new = _replaced(text, "levels", tables)
+    return _checked(text, new, "levels", source=os.path.join(folder, "scene"), allow_solver=allow_solver)
+
+
+def with_solver_seen_from(folder: Any, text: str, source: Any) -> str:
+    """The scene ``text`` of the file ``source`` with its solver's path, given from that file on, as seen from ``folder``."""
+    material = parse_toml(text).get("material")
+    solver = material.get("solver") if isinstance(material, dict) else None
+    if not isinstance(solver, str) or os.path.isabs(solver):
+        return text
+    lines = text.splitlines()
+    written = [number for number, line in enumerate(lines) if re.match(r"\s*solver\s*=", line)]
+    if len(written) != 1:
+        raise SceneError("material.solver", solver, "on a line of its own, so that its path can be replaced")
+    seen = os.path.relpath(os.path.join(os.path.dirname(os.fspath(source)), solver), folder)
+    lines[written[0]] = f"solver = {_value(seen)}"
+    return "\n".join(lines) + "\n"
 
 
 def with_setting(text: str, key: str, value: str) -> str:
@@ -72,7 +92,7 @@ def _replaced(text: str, name: str, tables: list[str]) -> str:
     return "\n\n".join(part for part in (before, *tables, after) if part) + "\n"
 
 
-def _checked(old: str, new: str, name: str) -> str:
+def _checked(old: str, new: str, name: str, **options: Any) -> str:
     """The new text, if it is a scene and differs from the old one in the table alone."""
     was = parse_toml(old)
     try:
@@ -83,5 +103,5 @@ def _checked(old: str, new: str, name: str) -> str:
         key: each for key, each in now.items() if key != name
     }:
         raise SceneError(name, was.get(name), "a table under its own header, so that it can be replaced")
-    parse_scene(new)
+    parse_scene(new, **options)
     return new

@@ -149,8 +149,10 @@ def quantities(values: dict[str, Any]) -> Iterator[tuple[str, np.ndarray]]:
     tables += [("material", values["material"]), ("adhesion", values["adhesion"] or {})]
     for path, table in tables:
         for key, each in table.items():
-            if isinstance(each, np.ndarray) and key not in ("moduli", "times"):  # a list of these is one material
+            if isinstance(each, np.ndarray):
                 yield f"{path}.{key}", each
+            elif isinstance(each, list):  # moduli and times: every entry is a quantity
+                yield from ((f"{path}.{key}[{index}]", entry) for index, entry in enumerate(each))
     for key in ("pressure", "penetration", "velocity"):
         if values[key] is not None:
             yield key, values[key]
@@ -173,8 +175,12 @@ _MODELS = {"standard_linear_solid": "StandardLinearSolid", "kelvin_voigt": "Kelv
 
 def _parameters(material: dict[str, Any]) -> dict[str, Any]:
     """Arguments of the material's class."""
-    given = {key: each for key, each in material.items() if isinstance(each, np.ndarray)}
-    arguments: dict[str, Any] = {key: each.tolist() if each.ndim else float(each) for key, each in given.items()}
+    arguments: dict[str, Any] = {}
+    for key, each in material.items():
+        if isinstance(each, np.ndarray):
+            arguments[key] = float(each)
+        elif isinstance(each, list):
+            arguments[key] = [float(entry) for entry in each]
     if material["solver"] is not None:
         from hystrip.loading import load_solver
 

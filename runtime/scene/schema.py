@@ -33,8 +33,9 @@ def _range_meta(description: str, unit: str) -> Any:
 
 def _list_meta(description: str, unit: str) -> Any:
     return Meta(
-        description=f"{description}: a list of numbers in {unit} or texts with a unit such as {EXAMPLES[unit]!r}",
-        extra={"unit": unit},
+        description=f"{description}: a list of numbers in {unit} or texts with a unit such as {EXAMPLES[unit]!r} "
+        "(for `hystrip sweep` any of them a list or a range itself)",
+        extra={"unit": unit, "each": True},
     )
 
 
@@ -66,8 +67,8 @@ class Material(Struct, forbid_unknown_fields=True, kw_only=True):
     K: Annotated[Values, _swept_meta("relaxed stiffness per area, > 0", "Pa/m")]
     T_eps: Annotated[Values | None, _swept_meta("retardation time, >= T_sigma", "s")] = None
     T_sigma: Annotated[Values | None, _swept_meta("relaxation time, from 0 to T_eps", "s")] = None
-    moduli: Annotated[list[Number] | None, _list_meta("branch moduli K_i, one for each relaxation time, >= 0", "Pa/m")] = None
-    times: Annotated[list[Number] | None, _list_meta("relaxation times tau_i, > 0", "s")] = None
+    moduli: Annotated[list[Values] | None, _list_meta("branch moduli K_i, one for each relaxation time, >= 0", "Pa/m")] = None
+    times: Annotated[list[Values] | None, _list_meta("relaxation times tau_i, > 0", "s")] = None
     solver: Annotated[
         str | None,
         Meta(

@@ -29,7 +29,7 @@ def validated(raw: dict[str, Any]) -> dict[str, Any]:
     Returns
     -------
     dict with the keys of :class:`hystrip.scene.schema.SceneFile`; a quantity is an array of shape (), a list or range of
-    them one of shape (n,); absent optional keys are None or their default
+    them one of shape (n,); moduli and times are lists of such arrays; absent optional keys are None or their default
 
     Raises
     ------
@@ -145,7 +145,7 @@ def _resolved(struct: Any, path: str) -> dict[str, Any]:
         value, field = getattr(struct, name), _join(path, name)
         unit = (meta.extra or {}).get("unit")
         if value is not None and unit is not None:
-            value = _values(value, unit, field)
+            value = _each(value, unit, field) if (meta.extra or {}).get("each") else values_in_si(value, unit, field)
         elif isinstance(value, schema.Struct):
             value = _resolved(value, field)
         elif isinstance(value, list):
@@ -154,7 +154,14 @@ def _resolved(struct: Any, path: str) -> dict[str, Any]:
     return out
 
 
-def _values(value: Any, unit: str, field: str) -> np.ndarray:
+def _each(values: list[Any], unit: str, field: str) -> list[np.ndarray]:
+    """A list whose entries are quantities of their own, each with its values."""
+    if not values:
+        raise InputError(field, values, "one value or more")
+    return [values_in_si(value, unit, f"{field}[{index}]") for index, value in enumerate(values)]
+
+
+def values_in_si(value: Any, unit: str, field: str) -> np.ndarray:
     """Shape () for a single value, (n,) for a list or a range."""
     if isinstance(value, schema.Range):
         return _spread(value, unit, field)

@@ -15,21 +15,34 @@ def fields(kernel, strips: Strips, solved: Solved, phase: np.ndarray) -> tuple[n
 
     At an edge the value is that of the zone which begins there.
     """
-    p, gap = np.empty(strips.size), np.empty(strips.size)
+
+    def saturated(s, phase):
+        return kernel.saturated_pressure(phase, s.D, s.alpha, s.beta, s.L)
+
+    return by_regime(kernel, strips, solved, phase, saturated, _with_edges)
+
+
+def by_regime(kernel, strips, solved: Solved, phase: np.ndarray, saturated, with_edges) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure and gap, regime by regime: ``saturated(strips, phase)`` is the pressure of saturated contact, ``with_edges(kernel, sequence,
+    strips, solved, index, phase)`` both of the strips ``index`` in a regime with edges; strips of whatever foundation."""
+    p, gap = np.zeros(strips.size), np.zeros(strips.size)
     for sequence, code in CODE.items():
         index = np.flatnonzero(solved.code == code)
-        if index.size:
-            p[index], gap[index] = _one_regime(kernel, sequence, strips.take(index), solved, index, phase[index])
+        if not index.size:
+            continue
+        s = strips.take(index)
+        if sequence == "c":
+            p[index] = saturated(s, phase[index])
+        elif sequence in ("a", "f"):
+            p[index] = 0.0 if sequence == "f" else -s.p_0
+            gap[index] = p[index] - kernel.profile(phase[index], s.D)
+        else:
+            p[index], gap[index] = with_edges(kernel, sequence, s, solved, index, phase[index])
     return p, gap
 
 
-def _one_regime(kernel, sequence, s: Strips, solved: Solved, index, phase):
+def _with_edges(kernel, sequence, s: Strips, solved: Solved, index, phase):
     zero = np.zeros(index.size)
-    if sequence == "c":
-        return kernel.saturated_pressure(phase, s.D, s.alpha, s.beta, s.L), zero
-    if sequence in ("a", "f"):
-        p = zero if sequence == "f" else -s.p_0
-        return p, p - kernel.profile(phase, s.D)
     b, a, c, d = (getattr(solved, e)[index] for e in "bacd")
     # for each zone: where it starts, the gap and the excess pressure there; in the order met
     if sequence in ("ac", "cf"):

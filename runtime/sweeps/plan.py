@@ -19,8 +19,8 @@ from hystrip.scene.errors import SceneError, nearest
 from hystrip.scene.load import build_objects, quantities, refuse_ambiguous
 
 _LOADS = ("pressure", "penetration")
-_UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "gamma": "J/m^2", "p_0": "Pa", "delta_0": "m",
-          "pressure": "Pa", "penetration": "m", "velocity": "m/s"}  # fmt: skip
+_UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "moduli": "Pa/m", "times": "s", "gamma": "J/m^2", "p_0": "Pa",
+          "delta_0": "m", "pressure": "Pa", "penetration": "m", "velocity": "m/s"}  # fmt: skip
 
 #: batches of a sweep that does not say: so many, of at least and at most so many points; one level alone is so quick that
 #: smaller batches take longer than the solution
@@ -36,12 +36,12 @@ class Axis:
 
     @property
     def name(self) -> str:
-        """Short name: ``gamma``, ``h_2`` (level 2's h), ``velocity``."""
+        """Short name: ``gamma``, ``h_2`` (level 2's h), ``times_1`` (the first relaxation time), ``velocity``."""
         return short_name(self.key)
 
     @property
     def unit(self) -> str:
-        return _UNITS[self.key.rsplit(".", 1)[-1]]
+        return unit_of(self.key)
 
 
 @dataclass(frozen=True)
@@ -102,9 +102,25 @@ def _listed(value: Any) -> Any:
 
 
 def short_name(key: str) -> str:
-    """``levels[1].h`` -> ``h_2``, ``material.K`` -> ``K``."""
-    level = re.fullmatch(r"levels\[(\d+)\]\.(\w+)", key)
-    return f"{level[2]}_{int(level[1]) + 1}" if level else key.rsplit(".", 1)[-1]
+    """``levels[1].h`` -> ``h_2``, ``material.times[0]`` -> ``times_1``, ``material.K`` -> ``K``."""
+    numbered = re.search(r"\[(\d+)\]", key)
+    name = _last(key)
+    return f"{name}_{int(numbered[1]) + 1}" if numbered else name
+
+
+def unit_of(key: str) -> str:
+    """SI unit of a quantity of the scene; the key must be one."""
+    return _UNITS[_last(key)]
+
+
+def has_unit(key: str) -> bool:
+    """Whether the key ends in the name of a quantity."""
+    return _last(key) in _UNITS
+
+
+def _last(key: str) -> str:
+    """Name of the quantity at the end of a dotted key."""
+    return key.rsplit(".", 1)[-1].partition("[")[0]
 
 
 def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], combine: str | None, batch: int | None) -> Plan:
@@ -124,7 +140,7 @@ def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], 
     for axis in axes:
         # what no combination can mend is refused before any work; what a combination spoils is recorded point by point
         if axis.key not in _LOADS:
-            numbers(axis.key, axis.values, axis.unit, 0, strict=axis.key.endswith((".K", ".l")))
+            numbers(axis.key, axis.values, axis.unit, 0, strict=_last(axis.key) in ("K", "l", "times"))
     sizes = {axis.key: axis.values.size for axis in axes}
     if combine == "list" and len(set(sizes.values())) > 1:
         raise SceneError(
@@ -147,14 +163,17 @@ def _put(values: dict[str, Any], key: str, given: Any) -> None:
     if key not in known:
         near = nearest(key, known)
         raise InputError("over", key, f"one of {', '.join(known)}" + (f" (did you mean {near!r}?)" if near else ""))
-    array = numbers(key, given, _UNITS[key.rsplit(".", 1)[-1]])
+    array = numbers(key, given, unit_of(key))
     if array.ndim > 1 or not array.size:
         raise InputError(key, given, "a number or a one-dimensional list of numbers, at least one")
     if key in _LOADS:
         values["pressure"] = values["penetration"] = None
     level = re.fullmatch(r"levels\[(\d+)\]\.(\w+)", key)
+    branch = re.fullmatch(r"material\.(\w+)\[(\d+)\]", key)
     if level:
         values["levels"][int(level[1])][level[2]] = array
+    elif branch:
+        values["material"][branch[1]][int(branch[2])] = array
     elif "." in key:
         table, field = key.split(".")
         if table == "adhesion":
@@ -169,7 +188,9 @@ def _put(values: dict[str, Any], key: str, given: Any) -> None:
 def keys_of(values: dict[str, Any]) -> list[str]:
     """Dotted keys of everything that can be swept in a validated scene."""
     keys = [f"levels[{i}].{field}" for i in range(len(values["levels"])) for field in ("l", "h")]
-    times = [f"material.{key}" for key in ("T_eps", "T_sigma") if values["material"][key] is not None]
+    material = values["material"]
+    times = [f"material.{key}" for key in ("T_eps", "T_sigma") if material[key] is not None]
+    times += [f"material.{key}[{i}]" for key in ("moduli", "times") for i in range(len(material[key] or ()))]
     keys += ["material.K", *times, "adhesion.gamma", "adhesion.p_0", "adhesion.delta_0"]
     return [*keys, "pressure", "penetration", "velocity"]
 

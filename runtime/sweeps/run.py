@@ -71,8 +71,8 @@ def sweep(
     ----------
     scene : path of a scene file or name of a built-in scene; any quantity in it may be a list or a range
     over : further swept quantities, dotted key of the scene -> values in SI, such as
-        ``{"adhesion.gamma": [0, 1e-5], "levels[1].h": [5e-8, 1e-7]}``
-    out : folder for ``<name>.csv`` and the finished batches (``<name>.parts/``)
+        ``{"adhesion.gamma": [0, 1e-5], "levels[1].h": [5e-8, 1e-7], "material.times[0]": [1e-3, 1e-2]}``
+    out : folder for ``<name>.sweep.csv`` and the finished batches (``<name>.parts/``)
     combine : ``"grid"`` (every combination) or ``"list"`` (all of one length, taken together); the scene's ``[sweep]`` if None
     batch : points solved and stored together; the scene's ``[sweep]`` if None, and if it does not say a
         16th of all, from 128 (with one level 512) to 2048
@@ -116,8 +116,8 @@ def sweep(
         _run(plan, store, missing, runs_on, in_flight, progress)
         columns = _collected(plan, store)
         with Outputs(out) as files:
-            write_csv(files.path(f"{name}.csv"), columns)
-    return Sweep(columns, out / f"{name}.csv", plan, len(missing), plan.batches - len(missing))
+            write_csv(files.path(f"{name}.sweep.csv"), columns)
+    return Sweep(columns, out / f"{name}.sweep.csv", plan, len(missing), plan.batches - len(missing))
 
 
 def _run(plan: Plan, store: Store, missing: list[int], executor: Executor, in_flight: int, progress: Any) -> None:

@@ -1,0 +1,286 @@
+"""A regime at one point: the derived zones put together, every value with its natural scale carried along.
+
+The derivatives of a regime are put together here in the same way as by the emitted functions, for their scales. Their exact
+values do not come from there: they are differences of the state, the boundary equations and one turn of a material point, so
+small that they agree with the derivative to more than 50 digits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import cache
+from typing import Any
+
+import mpmath
+import numpy as np
+import sympy as sp
+
+from ...certify import FLOOR
+from ...check import DerivationError
+from ...regime import CONTACT
+from ...symbols import p, p_in, s, s_0, s_1
+from ..regimes import ModeRegime, ModeZone
+from ..symbols import f_0, numbered, z, z_0
+from .reference import Point, Reference
+from .scaled import Scaled, inverted
+
+BLOCKS = (
+    "displacement",
+    "overstress",
+    "relaxation_increment",
+    "relaxation_integral",
+    "relaxation_map",
+    "relaxation_passage",
+    "gap_change",
+    "contact_increment",
+    "contact_work",
+    "contact_map",
+    "contact_passage",
+    "excess_change",
+    "profile",
+    "profile_rise",
+    "profile_slope",
+    "profile_integral",
+)
+STEP = mpmath.mpf(10) ** -60  # of a difference; an error of its square remains
+AGREED = mpmath.mpf(10) ** -50  # of its scale, between a difference and the derivative put together
+
+
+class Composition:
+    """The functions of a regime at one point. Without ``sized`` the scales are left out, which is much less work."""
+
+    def __init__(self, regime: ModeRegime, blocks: dict[str, Reference], point: Point, n: int, sized: bool = True):
+        self.regime, self.blocks, self.point, self.n, self.sized = regime, blocks, point, n, sized
+        self.onset = point[regime.edges[0]] if regime.edges else None
+
+    def functions(self) -> dict[str, Scaled]:
+        """Exact values and natural scales of every emitted function of the regime, flattened as it returns them."""
+        state = self.state()
+        passages = self.passages(state)
+        return {
+            "state": state,
+            "passages": _joined([part for passage in passages for part in passage]),
+            "residual": self.residual(state),
+            "jacobian": self._agreed("jacobian", self.jacobian(passages), self.jacobian_by_differences()),
+            "return_map": self._agreed("return map", self.return_map(passages), self.return_map_by_differences(state)),
+            "means": self.means(state),
+        }
+
+    def _agreed(self, what: str, composed: Scaled, exact: np.ndarray) -> Scaled:
+        for one, other, size in zip(composed.value.flat, exact.flat, composed.size.flat, strict=True):
+            if abs(one - other) > AGREED * max(size, FLOOR):
+                name = f"regime {self.regime.sequence}"
+                raise DerivationError(name, f"the {what} is the derivative of what the derived zones do", one - other)
+        return Scaled(exact, composed.size)
+
+    # -- what a zone does ---------------------------------------------------------------------------------------------
+
+    def _block(self, name: str, at: dict[sp.Symbol, Any], state: tuple[sp.Symbol, Scaled] | None = None) -> Scaled:
+        point = {**self.point, **{symbol: self._value(value) for symbol, value in at.items()}}
+        scales: Point = {}
+        if state is not None:
+            symbol, given = state
+            for mode in range(self.n):
+                point[numbered(symbol, mode)] = given.value[mode]
+                scales[numbered(symbol, mode)] = given.size[mode]
+        return self.blocks[name](point, scales) if self.sized else self.blocks[name].value(point)
+
+    def _value(self, expression: Any) -> mpmath.mpf:
+        if isinstance(expression, mpmath.mpf):
+            return expression
+        symbols, evaluate = _evaluator(sp.sympify(expression))
+        return mpmath.mpf(evaluate(*(self.point[symbol] for symbol in symbols)))
+
+    def _edges(self, zone: ModeZone) -> dict[sp.Symbol, Any]:
+        return {s_0: zone.first, s_1: zone.last}
+
+    def _overstress(self, zone: ModeZone, state: Scaled) -> Scaled:
+        return self._block("overstress", {p: zone.pressure}, (z, state))
+
+    def _increment(self, zone: ModeZone, state: Scaled) -> Scaled:
+        if zone.kind == CONTACT:
+            return self._block("contact_increment", self._edges(zone), (f_0, self._overstress(zone, state)))
+        return self._block("relaxation_increment", {**self._edges(zone), p: zone.pressure}, (z_0, state))
+
+    def _change(self, zone: ModeZone, state: Scaled) -> Scaled:
+        if zone.kind == CONTACT:
+            return self._block("excess_change", self._edges(zone), (f_0, self._overstress(zone, state)))
+        return self._block("gap_change", {**self._edges(zone), p: zone.pressure}, (z_0, state))
+
+    def _gap(self, state: Scaled, pressure: sp.Expr) -> Scaled:
+        """w - u at the first edge."""
+        return self._block("displacement", {p: pressure}, (z, state)) - self._block("profile", {s: self.regime.edges[0]})
+
+    # -- what the zones of a period do --------------------------------------------------------------------------------
+
+    def state(self) -> Scaled:
+        """The state that returns after a period, at the first edge."""
+        maps = []
+        for zone in self.regime.zones:
+            name, entry = ("contact_map", p_in) if zone.kind == CONTACT else ("relaxation_map", p)
+            found = self._block(name, {**self._edges(zone), entry: zone.pressure})
+            maps.append((found[: self.n**2].reshape((self.n, self.n)), found[self.n**2 :]))
+        forget, drive = maps[0]
+        for lost, driven in maps[1:]:
+            drive = drive + driven - lost @ drive
+            forget = forget + lost - lost @ forget
+        return forget.solved(drive)
+
+    def _along(self, state: Scaled) -> Iterator[tuple[ModeZone, Scaled]]:
+        """Every zone and the state in which it is entered."""
+        for number, zone in enumerate(self.regime.zones):
+            yield zone, state
+            if number + 1 < len(self.regime.zones):
+                state = state + self._increment(zone, state)
+
+    def residual(self, state: Scaled) -> Scaled:
+        regime = self.regime
+        parts = [self._gap(state, regime.onset_pressure) - self._constant(regime.onset_gap)]
+        for zone, entered in self._along(state):
+            if zone is not regime.zones[-1]:
+                parts.append(self._constant(zone.missing) + self._change(zone, entered))
+        return _joined(parts)
+
+    def _constant(self, expression: sp.Expr) -> Scaled:
+        terms = [Scaled.of([self._value(term)]) for term in sp.Add.make_args(sp.sympify(expression))]
+        return sum(terms[1:], terms[0])
+
+    def means(self, state: Scaled) -> Scaled:
+        touches = any(zone.kind == CONTACT for zone in self.regime.zones)
+        height = work = Scaled.of([mpmath.mpf(0)])
+        for zone, entered in self._along(state):
+            edges = self._edges(zone)
+            if zone.kind == CONTACT:
+                w = self._block("profile_integral", edges)
+                q = self._block("contact_work", edges, (f_0, self._overstress(zone, entered)))
+            else:
+                load = self._value(zone.pressure)
+                q = self._block("profile_rise", edges) * Scaled.of([load])
+                if touches:
+                    w = self._block("relaxation_integral", {**edges, p: zone.pressure}, (z_0, entered))
+                else:
+                    w = Scaled.of([load * self._value(zone.last - zone.first)])
+            height, work = height + w, work + q
+        return _joined([height, work]) / Scaled.of([2 * mpmath.pi])
+
+    # -- derivatives --------------------------------------------------------------------------------------------------
+
+    def passages(self, state: Scaled) -> list[list[Scaled]]:
+        """Of every zone: change of z, what of it is forgotten, its derivatives by both edges; the same of the gap or pressure."""
+        n, found = self.n, []
+        for zone, entered in self._along(state):
+            name, entry = ("contact_passage", p_in) if zone.kind == CONTACT else ("relaxation_passage", p)
+            flat = self._block(name, {**self._edges(zone), entry: zone.pressure}, (z_0, entered))
+            parts = []
+            for shape in ((n,), (n, n), (n,), (n,), (), (n,), (), ()):
+                count = n ** len(shape)
+                parts.append(flat[:count].reshape(shape))
+                flat = flat[count:]
+            found.append(parts)
+        return found
+
+    def jacobian(self, passages: list[list[Scaled]]) -> Scaled:
+        """Derivatives of the boundary equations by the edges, the periodic state moving along."""
+        count = len(passages)
+        nothing = Scaled.of(np.full((self.n, count), mpmath.mpf(0)))
+        forget, moved = Scaled.of(np.full((self.n, self.n), mpmath.mpf(0))), nothing
+        for k, passage in enumerate(passages):
+            lost = passage[1]
+            forget = forget + lost - lost @ forget
+            moved = self._carried(passage, k, count, moved)
+        state = forget.solved(moved)
+        slope = self._block("profile_slope", {s: self.regime.edges[0]})
+        rows = [_with(state.sum(), 0, -slope[0])]
+        for k, passage in enumerate(passages[:-1]):
+            *_, by_state, by_start, by_end = passage
+            rows.append(_with(_with(by_state @ state, k, by_start), k + 1, by_end))
+            state = self._carried(passage, k, count, state)
+        return Scaled.stacked(rows)
+
+    def _carried(self, passage: list[Scaled], k: int, count: int, state: Scaled) -> Scaled:
+        """Derivatives of the state by the edges, carried through a zone."""
+        _, forget, by_start, by_end, *_ = passage
+        after = (state - forget @ state).transposed
+        return _with(_with(after, k, by_start), (k + 1) % count, by_end).transposed
+
+    def return_map(self, passages: list[list[Scaled]]) -> Scaled:
+        """Derivative of the state before the first edge, one period later, by the same; every event moves along."""
+        *_, last_end, _, _, _, last_slope = passages[-1]
+        state = Scaled.of(np.array([[mpmath.mpf(i == j) for j in range(self.n)] for i in range(self.n)], object))
+        shift = -state.sum() / last_slope
+        state = state + _outer(last_end, shift)
+        for _, forget, by_start, by_end, _, by_state, change_start, change_end in passages:
+            through = state - forget @ state + _outer(by_start, shift)
+            shift = -(by_state @ state + change_start * shift) / change_end
+            state = through + _outer(by_end, shift)
+        return through
+
+    # -- the same by differences --------------------------------------------------------------------------------------
+
+    def _moved(self, edge: sp.Symbol, by: mpmath.mpf) -> Composition:
+        return Composition(self.regime, self.blocks, {**self.point, edge: self.point[edge] + by}, self.n, sized=False)
+
+    def jacobian_by_differences(self) -> np.ndarray:
+        columns = []
+        for edge in self.regime.edges:
+            ahead, back = (moved.residual(moved.state()).value for moved in (self._moved(edge, STEP), self._moved(edge, -STEP)))
+            columns.append((ahead - back) / (2 * STEP))
+        return np.stack(columns, axis=1)
+
+    def return_map_by_differences(self, state: Scaled) -> np.ndarray:
+        """One turn as a function of the state before the first edge and of the edges, which follow it by their events."""
+        still = Composition(self.regime, self.blocks, self.point, self.n, sized=False)
+        start = Scaled(state.value, 0 * state.value)
+        by_state, events_by_state = [], []
+        for mode in range(self.n):
+            ends = []
+            for step in (STEP, -STEP):
+                value = start.value.copy()
+                value[mode] += step
+                ends.append(still.turn(Scaled(value, start.size), self.onset))
+            by_state.append((ends[0][0] - ends[1][0]) / (2 * STEP))
+            events_by_state.append((ends[0][1] - ends[1][1]) / (2 * STEP))
+        by_edge, events_by_edge = [], []
+        for edge in self.regime.edges:
+            ends = [self._moved(edge, step).turn(start, self.onset) for step in (STEP, -STEP)]
+            by_edge.append((ends[0][0] - ends[1][0]) / (2 * STEP))
+            events_by_edge.append((ends[0][1] - ends[1][1]) / (2 * STEP))
+        columns = (np.stack(rows, axis=1) for rows in (by_state, events_by_state, by_edge, events_by_edge))
+        direct, events, through_edges, events_of_edges = columns
+        return direct - through_edges @ inverted(events_of_edges) @ events
+
+    def turn(self, state: Scaled, onset: mpmath.mpf) -> tuple[np.ndarray, np.ndarray]:
+        """State one period after the phase ``onset`` and what every event's function comes to at its edge."""
+        *zones, last = self.regime.zones
+        first = self._value(self.regime.edges[0])
+        state = state + self._block("relaxation_increment", {s_0: onset, s_1: first, p: last.pressure}, (z_0, state))
+        events = [self._gap(state, last.pressure)]
+        for zone in zones:
+            events.append(self._change(zone, state))
+            state = state + self._increment(zone, state)
+        back = {s_0: last.first, s_1: onset + 2 * mpmath.pi, p: last.pressure}
+        state = state + self._block("relaxation_increment", back, (z_0, state))
+        return state.value, _joined(events).value
+
+
+@cache
+def _evaluator(expression: sp.Expr) -> tuple[list[sp.Symbol], Callable[..., Any]]:
+    symbols = sorted(expression.free_symbols, key=str)
+    return symbols, sp.lambdify(symbols, expression, modules="mpmath")
+
+
+def _joined(parts: list[Scaled]) -> Scaled:
+    flat = [part.reshape(-1) for part in parts]
+    return Scaled(np.concatenate([part.value for part in flat]), np.concatenate([part.size for part in flat]))
+
+
+def _with(rows: Scaled, index: int, more: Scaled) -> Scaled:
+    """``rows`` with ``more`` added to the one at ``index``."""
+    value, size = rows.value.copy(), rows.size.copy()
+    value[index] = value[index] + more.value
+    size[index] = size[index] + more.size
+    return Scaled(value, size)
+
+
+def _outer(column: Scaled, row: Scaled) -> Scaled:
+    return column.reshape((-1, 1)) * row.reshape((1, -1))

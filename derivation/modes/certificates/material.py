@@ -1,0 +1,133 @@
+"""The modes of a material from its parameters: retardation times as roots, everything else rational in the times."""
+
+from __future__ import annotations
+
+import random
+from typing import Any
+
+import mpmath
+import numpy as np
+import sympy as sp
+
+from ...certify import STEP, Certificate
+from ...symbols import alpha, beta
+from ..derive import ModesDerivation
+from ..law import Law
+from ..symbols import J_0, MATERIAL, MATRICES
+from .reference import DIGITS
+from .scaled import Scaled
+from .worst import Worst
+
+RANGE = 160  # of the logarithm of a distance
+ROUGH = mpmath.mpf(10) ** -40  # to which it is bisected
+NEWTON = 4  # steps from there, or from a neighbouring point: each squares what is left
+
+
+def measure_material(name: str, derivation: ModesDerivation, solver: Any, points: int) -> Certificate:
+    """Measure ``material_modes`` of a model that states its Prony series."""
+    material, worst = Material(derivation), Worst(name)
+    with mpmath.workdps(DIGITS):
+        for index in range(points):
+            given = material.drawn(index)
+            arguments = {key: np.array(value) if isinstance(value, list) else value for key, value in given.items()}
+            with np.errstate(all="raise", under="ignore"):
+                K, modes = solver.material_modes(**arguments)
+            shown = {f"{key} {k}": v for key, value in given.items() for k, v in enumerate(np.ravel(value).tolist())}
+            worst.see((K, modes), material.scaled(given), shown)
+    return worst.certificate()
+
+
+class Material:
+    """Exact modes of a material with given parameters, and their natural scales."""
+
+    def __init__(self, derivation: ModesDerivation):
+        self.law, self.n, self.model = derivation.law, derivation.law.modes, derivation.model
+        self.series = derivation.model.series
+        symbols = [parameter.symbol for parameter in self.model.parameters]
+        stated = (self.series.K, self.series.viscosity, self.series.time)
+        self.branch = sp.lambdify(symbols, stated, modules="mpmath")
+        self.evaluate = _every_entry(self.law)
+
+    def drawn(self, index: int) -> dict[str, float | list[float]]:
+        """Parameters: times over many decades, near-equal ones among them, each with its modulus."""
+        draw = random.Random(f"{self.model.parameters} {index}")
+        spread = draw.choice((1.0, 3.0, 6.0))
+        given: dict[str, float | list[float]] = {}
+        for parameter in self.model.parameters:
+            if parameter.symbol not in self.series.arrays:
+                given[parameter.name] = 10.0 ** draw.uniform(-3.0, 9.0)
+                continue
+            values = [10.0 ** draw.uniform(-spread, spread) for _ in range(self.n)]
+            if self.n > 1 and draw.random() < 0.25:
+                values[1] = values[0] * (1.0 + 10.0 ** draw.uniform(-12.0, -6.0))
+            given[parameter.name] = values
+        return given
+
+    def scaled(self, given: dict[str, float | list[float]]) -> Scaled:
+        exact = {name: np.array([mpmath.mpf(v) for v in np.ravel(value).tolist()], object) for name, value in given.items()}
+        distances = [self._bisected(mode, *self._branches(exact)) for mode in range(self.n)]
+        values = self._exact(exact, distances)
+        sizes = abs(values)
+        for name, numbers in exact.items():
+            for k in range(len(numbers)):
+                moved = numbers.copy()
+                moved[k] *= 1 + STEP
+                sizes = sizes + abs(self._exact({**exact, name: moved}, distances) - values) / STEP
+        return Scaled(values, sizes)
+
+    def _exact(self, given: dict[str, np.ndarray], near: list[mpmath.mpf]) -> np.ndarray:
+        """K and every entry of the modes, in the order of the fields; ``near``: distances of the roots, roughly."""
+        times, viscosities = self._branches(given)
+        roots = [times[mode] + self._polished(mode, times, viscosities, near[mode]) for mode in range(self.n)]
+        ordered = [time for pair in zip(times, roots, strict=True) for time in pair]
+        return np.array([self._of_branch(given, 0)[0], *map(mpmath.mpf, self.evaluate(*ordered))], object)
+
+    def _branches(self, given: dict[str, np.ndarray]) -> tuple[list[mpmath.mpf], list[mpmath.mpf]]:
+        """Relaxation times, ascending, and viscosities."""
+        found = sorted(self._of_branch(given, mode)[:0:-1] for mode in range(self.n))
+        return [time for time, _ in found], [viscosity for _, viscosity in found]
+
+    def _of_branch(self, given: dict[str, np.ndarray], mode: int) -> tuple[mpmath.mpf, ...]:
+        """(K, viscosity, time)."""
+        return self.branch(*(values[mode if len(values) > 1 else 0] for values in given.values()))
+
+    # Q vanishes where sum eta_i/(lambda - tau_i) = 1: once above each relaxation time and below the next. Unknown is the
+    # distance from the relaxation time below.
+
+    def _bisected(self, mode: int, times: list[mpmath.mpf], viscosities: list[mpmath.mpf]) -> mpmath.mpf:
+        high = mpmath.log(sum(viscosities) if mode + 1 == self.n else times[mode + 1] - times[mode])
+        low = high - RANGE
+        while high - low > ROUGH:
+            middle = (low + high) / 2
+            pull, _ = _pull(mode, times, viscosities, mpmath.exp(middle))
+            low, high = (middle, high) if pull > 1 else (low, middle)
+        return mpmath.exp(high)
+
+    def _polished(self, mode: int, times: list[mpmath.mpf], viscosities: list[mpmath.mpf], distance: mpmath.mpf) -> mpmath.mpf:
+        for _ in range(NEWTON):
+            pull, slope = _pull(mode, times, viscosities, distance)
+            distance = distance - (pull - 1) / slope
+        return distance
+
+
+def _pull(
+    mode: int, times: list[mpmath.mpf], viscosities: list[mpmath.mpf], distance: mpmath.mpf
+) -> tuple[mpmath.mpf, mpmath.mpf]:
+    """sum eta_i/(lambda - tau_i), and its derivative by lambda."""
+    terms = [(v, distance + (times[mode] - time)) for v, time in zip(viscosities, times, strict=True)]
+    return sum(v / x for v, x in terms), -sum(v / x**2 for v, x in terms)
+
+
+def _every_entry(law: Law) -> Any:
+    """Every entry of the modes as a function of alpha_1, beta_1, alpha_2, ...: at the times in seconds."""
+    n = law.modes
+    ordered = [law.values[(symbol, mode)] for mode in range(n) for symbol in (alpha, beta)]
+    entries: list[sp.Expr] = []
+    for field in MATERIAL:
+        if field == J_0:
+            entries.append(law.values[J_0])
+        elif field in MATRICES:
+            entries += [law.values[(field, row, column)] for row in range(n) for column in range(n)]
+        else:
+            entries += [law.values[(field, mode)] for mode in range(n)]
+    return sp.lambdify(ordered, entries, modules="mpmath", cse=True)

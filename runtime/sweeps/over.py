@@ -1,0 +1,40 @@
+"""Swept quantities given as text on the command line."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Sequence
+
+import numpy as np
+
+from hystrip.errors import InputError
+from hystrip.scene.schema import Values, msgspec
+from hystrip.scene.validate import values_in_si
+from hystrip.sweeps.plan import has_unit, unit_of
+
+
+def over_of(texts: Sequence[str]) -> dict[str, np.ndarray]:
+    """``KEY=VALUES`` -> values in SI by dotted key; values are written as in a scene, the brackets of a list may be left out.
+
+    Raises :class:`InputError` for what is neither. Whether the scene has the key is checked by the sweep.
+    """
+    found = {}
+    for text in texts:
+        key, equals, written = (part.strip() for part in text.partition("="))
+        if not (key and equals and written):
+            raise InputError("--over", text, "KEY=VALUES, such as levels[0].h=[1e-6, 2e-6] or velocity=1e-3")
+        if not has_unit(key):
+            raise InputError("--over", key, "the dotted key of a quantity of the scene, such as material.times[0]")
+        found[key] = values_in_si(_read(key, written), unit_of(key), key)
+    return found
+
+
+def _read(key: str, written: str):
+    for attempt in (written, f"[{written}]"):
+        try:
+            return msgspec.convert(tomllib.loads(f"values = {attempt}")["values"], Values)
+        except (tomllib.TOMLDecodeError, KeyError):
+            continue
+        except msgspec.ValidationError:
+            break
+    raise InputError(key, written, 'a number, a text with its unit in quotes ("2 ms"), a list of these, or {start = ..., stop = ..., num = ...}')
