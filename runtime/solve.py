@@ -107,7 +107,6 @@ def _result(points, surface: Surface, shape, V, load: str) -> Result:
         adhesion_by_level=many(points.adhesion),
         pulled_off=one(points.pulled_off),
         pull_off=one(points.pull_off),
-        p_sat=one(points.p_sat),
         closed_form=one(points.closed_form),
         error_estimate=one(error),
         tau_error=one(points.error),
