@@ -13,7 +13,7 @@ from hystrip.level.build import build_laws
 from hystrip.level.carried import CarriedByLaws, peak_pressure
 from hystrip.level.inverse import cut_penetration, invert
 from hystrip.level.means import level_means
-from hystrip.level.saturated import SaturatedLevel, saturated_level
+from hystrip.level.saturated import SaturatedLevel, saturated_friction, saturated_level
 from hystrip.level.strips import QUANTITIES, Columns, Tally
 from hystrip.level.table import LawTable
 from hystrip.solver import Material
@@ -130,7 +130,7 @@ class _Solve:
     def run(self, progress) -> Points:
         out = self.out
         full = self.surface.full(self.V, self.load, self.by_pressure) if self.surface.skip else np.zeros(self.V.size, bool)
-        self._closed_form(slice(None) if full.all() else np.flatnonzero(full))
+        self._closed_form(full)
         if progress:
             progress(int(full.sum()), self.V.size)
         rest = np.flatnonzero(~full)
@@ -146,15 +146,19 @@ class _Solve:
                 progress(int(full.sum() + np.count_nonzero(group < start + block)), self.V.size)
         return out
 
-    def _closed_form(self, i):
-        """Points ``i`` are in saturated contact on every level."""
+    def _closed_form(self, full):
+        """Points ``full`` (n,) are in saturated contact on every level."""
+        i = slice(None) if full.all() else np.flatnonzero(full)
         out, load, K, h = self.out, self.load[i], self.surface.material.K, self.surface.levels[0].h
         out.p[i] = load if self.by_pressure else K * (load - 0.75 * h)
         out.D[i] = load / K + 0.75 * h if self.by_pressure else load
-        V = self.V[i]
-        for tau, contact, level in zip(out.tau, out.contact, self.surface.levels, strict=True):
-            tau[i] = self.surface.alone(level, V).tau_sat
-            contact[i] = 1.0
+        tau = saturated_friction(self.surface.material, self.surface.levels, self.V[i])
+        if full.all():
+            out.tau = tau
+        else:
+            out.tau[:, i] = tau
+        # one number stands for all of them where that is all there is: read only
+        out.contact = np.broadcast_to(1.0, out.contact.shape) if full.all() else np.where(full, 1.0, out.contact)
         out.closed_form[i] = True
 
     def _block(self, V, index, group):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,6 +11,9 @@ import numpy as np
 from hystrip.inputs.adhesion import Dugdale
 from hystrip.inputs.surface import Level
 from hystrip.solver import Foundation, Material, foundation_of
+
+#: velocities of a block of the closed form: its temporaries stay in the cache
+_BLOCK = 4096
 
 
 @dataclass(frozen=True)
@@ -63,3 +67,14 @@ def saturated_level(
     form; the threshold given for it is one above which nothing else can be.
     """
     return SaturatedLevel(foundation_of(material), adhesion.p_0, level, V, branch)
+
+
+def saturated_friction(material: Material, levels: Sequence[Level], V: np.ndarray) -> np.ndarray:
+    """Friction of every level in saturated contact (Eq. 16) at velocities ``V`` (m/s), shape (n,): (levels, n), Pa."""
+    foundation = foundation_of(material)
+    l, h = (np.array([getattr(level, name) for level in levels])[:, None] for name in ("l", "h"))  # noqa: E741
+    tau = np.empty((len(levels), V.size))
+    for start in range(0, V.size, _BLOCK):
+        block = slice(start, start + _BLOCK)
+        tau[:, block] = foundation.saturation_friction(l, h, V[block])
+    return tau

@@ -104,7 +104,9 @@ class ManyTimes:
         return self.kernel.level_saturation_penetration(self.K, self.modes, p_0, l, h, np.atleast_1d(V))
 
     def saturation_friction(self, l, h, V):  # noqa: E741
-        return self.kernel.level_saturation_friction(self.K, self.modes, l, h, np.atleast_1d(V))
+        shape = np.broadcast_shapes(np.shape(l), np.shape(V), (1,))
+        l, h, V = (np.broadcast_to(v, shape).ravel() for v in (l, h, V))  # noqa: E741
+        return self.kernel.level_saturation_friction(self.K, self.modes, l, h, V).reshape(shape)
 
     def surely_saturated(self, p_0, l, h, V):  # noqa: E741
         """Contact pressure is at least ``K u - sum K_i (e_i - u)`` with no e_i above D: positive excess all along whatever the state."""
