@@ -17,8 +17,8 @@ from .surface import AMPLITUDE, PENETRATION, mean_over_wave
 from .symbols import A, D, D_j, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, y
 
 _si = (K, T_eps, T_sigma)
-ratio, pulsation, creep, spread, slender = sp.symbols("ratio pulsation creep spread slender", positive=True)
-_SLENDER = ((creep, V * (T_eps - T_sigma)), (spread, hypot(l, 2 * sp.pi * V * T_sigma)), (slender, h / spread))
+ratio, pulsation, creep, slender = sp.symbols("ratio pulsation creep slender", positive=True)
+_SLENDER = ((creep, V * (T_eps - T_sigma)), (slender, h / l), (alpha, 2 * sp.pi * V * T_sigma / l))
 _RATIO = ((pulsation, 2 * sp.pi * V / l), (ratio, hypot(1, pulsation * T_eps) / hypot(1, pulsation * T_sigma)))
 TIMES = {alpha: k * V * T_sigma, beta: k * V * T_eps, L: 1 - T_sigma / T_eps}
 WAVE = {k: 2 * sp.pi / l}
@@ -113,7 +113,7 @@ def saturation_friction(mean_tau: sp.Expr) -> Kernel:
     formula = Formula(
         name,
         (*_si, l, h, V),
-        3 * sp.pi**2 / 16 * K * creep * slender**2,
+        3 * sp.pi**2 / 16 * K * creep * slender**2 / (1 + alpha**2),
         _SLENDER,
     )
     checks = [zero(name, "it is 3 pi^2/16 K V (T_eps - T_sigma) h^2/(l^2 + 4 pi^2 V^2 T_sigma^2)", exact - stated)]
@@ -135,7 +135,7 @@ def stack_friction(one_level: sp.Expr) -> Kernel:
     formula = Formula(
         name,
         (*_si, l, h, V, p_nominal),
-        3 * sp.pi**2 / 16 * stack_sum(K * creep * slender**2) / p_nominal,
+        3 * sp.pi**2 / 16 * stack_sum(K * creep * slender**2 / (1 + alpha**2)) / p_nominal,
         _SLENDER,
     )
     checks = [

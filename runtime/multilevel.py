@@ -13,7 +13,7 @@ from hystrip.level.build import build_laws
 from hystrip.level.carried import CarriedByLaws, peak_pressure
 from hystrip.level.inverse import cut_penetration, invert
 from hystrip.level.means import level_means
-from hystrip.level.saturated import SaturatedLevel, saturated_level
+from hystrip.level.saturated import SaturatedLevel, saturated_friction, saturated_level
 from hystrip.level.strips import QUANTITIES, Columns, Tally
 from hystrip.level.table import LawTable
 from hystrip.solver import Material
@@ -36,7 +36,6 @@ class Points:
     adhesion: np.ndarray
     error: np.ndarray
     pull_off: np.ndarray
-    p_sat: np.ndarray
     closed_form: np.ndarray
     pulled_off: np.ndarray
 
@@ -64,9 +63,13 @@ class Surface:
             self.material, self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, strips, self.tally
         )
 
+    def alone(self, level: Level, V) -> SaturatedLevel:
+        """Saturation of a level by itself."""
+        return saturated_level(self.material, self.adhesion, level, V, self.branch)
+
     def saturated(self, V) -> Stack:
         """Saturation of every level, and of each level with all below it."""
-        own = [saturated_level(self.material, self.adhesion, level, V, self.branch) for level in self.levels]
+        own = [self.alone(level, V) for level in self.levels]
         p_full, D_full = [own[-1].p_sat], [own[-1].D_sat]
         for level, s in zip(self.levels[-2::-1], own[-2::-1], strict=True):
             # the least local pressure, at the crest, has to saturate everything below; and -p_0 keeps the level's own contact
@@ -74,6 +77,13 @@ class Surface:
             p_full.insert(0, needed)
             D_full.insert(0, needed / self.material.K + 0.75 * level.h)
         return Stack(own, p_full, D_full)
+
+    def full(self, V, load, by_pressure: bool) -> np.ndarray:
+        """Whether all levels are saturated at ``load``, (n,). Thresholds grow with V: what is beyond that of the fastest is beyond all."""
+        of = lambda stack: (stack.p_full if by_pressure else stack.D_full)[0]  # noqa: E731
+        if load.size and load.min() >= of(self.saturated(V.max(keepdims=True))):
+            return np.ones(load.size, bool)
+        return load >= of(self.saturated(V))
 
     def solve(self, V, load, by_pressure: bool, progress: Callable[[int, int], None] | None = None) -> Points:
         """Solve points; ``V`` (m/s) and ``load`` (Pa or m) of shape (n,)."""
@@ -113,27 +123,19 @@ class _Solve:
             per_level(),
             np.zeros(n),
             np.full(n, np.nan),
-            np.zeros(n),
             np.zeros(n, bool),
             np.zeros(n, bool),
         )
 
     def run(self, progress) -> Points:
-        stack = self.surface.saturated(self.V)
-        out, K, h = self.out, self.surface.material.K, self.surface.levels[0].h
-        out.p_sat[:] = stack.own[0].p_sat
-        full = self.load >= (stack.p_full[0] if self.by_pressure else stack.D_full[0])
-        if not self.surface.skip:
-            full[:] = False
-        i = np.flatnonzero(full)
-        out.p[i] = self.load[i] if self.by_pressure else K * (self.load[i] - 0.75 * h)
-        out.D[i] = self.load[i] / K + 0.75 * h if self.by_pressure else self.load[i]
-        out.tau[:, i] = np.array([s.tau_sat for s in stack.own])[:, i]
-        out.contact[:, i] = 1.0
-        out.closed_form[i] = True
+        out = self.out
+        full = self.surface.full(self.V, self.load, self.by_pressure) if self.surface.skip else np.zeros(self.V.size, bool)
+        self._closed_form(full)
         if progress:
             progress(int(full.sum()), self.V.size)
         rest = np.flatnonzero(~full)
+        if not rest.size:
+            return out
         velocities, group = np.unique(self.V[rest], return_inverse=True)
         # a block of velocities at a time: large enough for the batch to pay, small enough to show progress
         block = 64
@@ -143,6 +145,21 @@ class _Solve:
             if progress:
                 progress(int(full.sum() + np.count_nonzero(group < start + block)), self.V.size)
         return out
+
+    def _closed_form(self, full):
+        """Points ``full`` (n,) are in saturated contact on every level."""
+        i = slice(None) if full.all() else np.flatnonzero(full)
+        out, load, K, h = self.out, self.load[i], self.surface.material.K, self.surface.levels[0].h
+        out.p[i] = load if self.by_pressure else K * (load - 0.75 * h)
+        out.D[i] = load / K + 0.75 * h if self.by_pressure else load
+        tau = saturated_friction(self.surface.material, self.surface.levels, self.V[i])
+        if full.all():
+            out.tau = tau
+        else:
+            out.tau[:, i] = tau
+        # one number stands for all of them where that is all there is: read only
+        out.contact = np.broadcast_to(1.0, out.contact.shape) if full.all() else np.where(full, 1.0, out.contact)
+        out.closed_form[i] = True
 
     def _block(self, V, index, group):
         """Points ``index`` whose velocities are ``V[group]``."""

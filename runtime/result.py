@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,7 +27,6 @@ class Result:
     contact_by_level, adhesion_by_level : fractions of the nominal area in contact and in adhesion on each level, (levels, ...)
     pulled_off : the pressure lies below pull-off: no contact, mu = 0
     pull_off : least nominal pressure that level 1 can carry, Pa (NaN where it did not have to be found)
-    p_sat : nominal pressure from which level 1 is in saturated contact, Pa; on the loading branch one that suffices
     closed_form : the point was solved by the closed form of saturated contact on all levels
     error_estimate : estimated absolute error of mu (of tau over the pressure); NaN at zero pressure
     tau_error : estimated absolute error of tau, Pa
@@ -46,7 +46,6 @@ class Result:
     adhesion_by_level: np.ndarray
     pulled_off: np.ndarray
     pull_off: np.ndarray
-    p_sat: np.ndarray
     closed_form: np.ndarray
     error_estimate: np.ndarray
     tau_error: np.ndarray
@@ -60,6 +59,14 @@ class Result:
     strips: int | None = None
     load: str = "pressure"
     scene: str = field(default="", repr=False)
+
+    @cached_property
+    def p_sat(self) -> np.ndarray:
+        """Nominal pressure from which level 1 is in saturated contact, Pa; on the loading branch one that suffices. Shape of ``mu``."""
+        from hystrip.level.saturated import saturated_level
+
+        V = self.velocity.ravel()
+        return saturated_level(self.material, self.adhesion, self.levels[0], V, self.branch).p_sat.reshape(self.velocity.shape)
 
     def to_dataset(self) -> Any:
         """The result as an xarray Dataset: labelled dimensions, units, long names, inputs and versions in the attributes.

@@ -79,7 +79,7 @@ def solve(
     name, load = ("pressure", pressure) if penetration is None else ("penetration", penetration)
     load = numbers(name, load, "Pa" if name == "pressure" else "m")
     shape = broadcast(**{name: load, "velocity": velocity})
-    V, L = (np.broadcast_to(v, shape).ravel() for v in (velocity, load))
+    V, L = (np.broadcast_to(v, shape).reshape(-1) for v in (velocity, load))
     tally = Tally()
     surface = Surface(material, adhesion, levels, edge, branch, rtol, skip, tally, check_strips(strips))
     points = surface.solve(V, L, name == "pressure", progress)
@@ -107,7 +107,6 @@ def _result(points, surface: Surface, shape, V, load: str) -> Result:
         adhesion_by_level=many(points.adhesion),
         pulled_off=one(points.pulled_off),
         pull_off=one(points.pull_off),
-        p_sat=one(points.p_sat),
         closed_form=one(points.closed_form),
         error_estimate=one(error),
         tau_error=one(points.error),

@@ -48,8 +48,14 @@ class Foundation(Protocol):
     def modulus_ratio(self, rate) -> np.ndarray:
         """``|K*(i rate)|/K``."""
 
-    def saturation(self, p_0, l, h, V) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # noqa: E741
-        """Nominal pressure, friction and penetration from which a level is in saturated contact when unloading."""
+    def saturation_pressure(self, p_0, l, h, V) -> np.ndarray:  # noqa: E741
+        """Nominal pressure from which a level is in saturated contact when unloading, Pa."""
+
+    def saturation_penetration(self, p_0, l, h, V) -> np.ndarray:  # noqa: E741
+        """Penetration at that pressure, m."""
+
+    def saturation_friction(self, l, h, V) -> np.ndarray:  # noqa: E741
+        """Friction of a level in saturated contact, Pa."""
 
     def surely_saturated(self, p_0, l, h, V) -> np.ndarray:  # noqa: E741
         """A penetration above which every strip of a level has no orbit but saturated contact, m."""

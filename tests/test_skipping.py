@@ -5,7 +5,8 @@ import pytest
 
 import hystrip
 from hystrip.level.inverse import cut_penetration
-from hystrip.level.strips import Columns
+from hystrip.level.strips import Columns, Tally
+from hystrip.multilevel import Surface
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 WEAK = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
@@ -31,6 +32,31 @@ def test_the_closed_form_is_what_solving_gives(levels):
     assert on.counts["points_in_closed_form"] == 1 and off.counts["points_in_closed_form"] == 0
     scale = (MATERIAL.K * levels[0].h + WEAK.p_0) * levels[0].h / levels[0].l
     assert np.abs(on.tau_by_level - off.tau_by_level).max() <= 1e-13 * scale
+
+
+@pytest.mark.parametrize("branch", ["unloading", "loading"])
+@pytest.mark.parametrize(
+    "material", [MATERIAL, hystrip.Prony(K=1e9, moduli=[3e9, 9e10], times=[1e-3, 1e-4])], ids=["one time", "two times"]
+)
+def test_the_fastest_velocity_decides_for_all(material, branch):
+    """Thresholds grow with V: the short way over the fastest velocity, and the threshold of every point, say the same."""
+    V, p = np.geomspace(1e-7, 10, 40), np.geomspace(10, 1e9, 30)[:, None]
+    surface = Surface(material, WEAK, LEVELS, "constitutive", branch, 1e-6, True, Tally())
+    each = np.array([[surface.full(V[j : j + 1], row, True)[0] for j in range(V.size)] for row in p])
+    assert np.array_equal(each, [surface.full(V, np.broadcast_to(row, V.shape), True) for row in p])
+    assert each.any() and not each.all() and (np.diff(each.astype(int), axis=1) <= 0).all()
+
+
+def test_saturated_points_among_others_are_bit_identical():
+    V = np.array([1e-5, 2e-3, 3e-5])
+    given = {"pressure": 1e3, "rtol": 1e-3}
+    together, alone = (
+        hystrip.solve(MATERIAL, WEAK, LEVELS[:1], velocity=V, **given),
+        hystrip.solve(MATERIAL, WEAK, LEVELS[:1], velocity=V[::2], **given),
+    )
+    assert together.closed_form.tolist() == [True, False, True] and alone.closed_form.all()
+    for name in ("mu", "tau_by_level", "penetration", "contact_by_level", "adhesion_by_level", "p_sat", "error_estimate"):
+        assert np.array_equal(getattr(together, name)[..., ::2], getattr(alone, name)), name
 
 
 def test_partial_contact_is_bit_identical_without_skipping():

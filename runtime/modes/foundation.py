@@ -97,13 +97,16 @@ class ManyTimes:
         rate = np.atleast_1d(np.asarray(rate, float))
         return self.kernel.modulus_ratio(self.kernel.at_speed(self.modes, rate))
 
-    def saturation(self, p_0, l, h, V):  # noqa: E741
-        k, K, V = self.kernel, self.K, np.atleast_1d(np.asarray(V, float))
-        return (
-            k.level_saturation_pressure(K, self.modes, p_0, l, h, V),
-            k.level_saturation_friction(K, self.modes, l, h, V),
-            k.level_saturation_penetration(K, self.modes, p_0, l, h, V),
-        )
+    def saturation_pressure(self, p_0, l, h, V):  # noqa: E741
+        return self.kernel.level_saturation_pressure(self.K, self.modes, p_0, l, h, np.atleast_1d(V))
+
+    def saturation_penetration(self, p_0, l, h, V):  # noqa: E741
+        return self.kernel.level_saturation_penetration(self.K, self.modes, p_0, l, h, np.atleast_1d(V))
+
+    def saturation_friction(self, l, h, V):  # noqa: E741
+        shape = np.broadcast_shapes(np.shape(l), np.shape(V), (1,))
+        l, h, V = (np.broadcast_to(v, shape).ravel() for v in (l, h, V))  # noqa: E741
+        return self.kernel.level_saturation_friction(self.K, self.modes, l, h, V).reshape(shape)
 
     def surely_saturated(self, p_0, l, h, V):  # noqa: E741
         """Contact pressure is at least ``K u - sum K_i (e_i - u)`` with no e_i above D: positive excess all along whatever the state."""

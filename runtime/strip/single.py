@@ -47,14 +47,17 @@ class SingleTime:
     def modulus_ratio(self, rate):
         return self.kernel.modulus_ratio(rate * self.material.T_sigma, rate * self.material.T_eps)
 
-    def saturation(self, p_0, l, h, V):  # noqa: E741
-        k, m = self.kernel, self.material
-        times = (m.T_eps, m.T_sigma)
-        return (
-            k.level_saturation_pressure(m.K, *times, p_0, l, h, V),
-            k.level_saturation_friction(m.K, *times, l, h, V),
-            k.level_saturation_penetration(m.K, *times, p_0, l, h, V),
-        )
+    def saturation_pressure(self, p_0, l, h, V):  # noqa: E741
+        m = self.material
+        return self.kernel.level_saturation_pressure(m.K, m.T_eps, m.T_sigma, p_0, l, h, V)
+
+    def saturation_penetration(self, p_0, l, h, V):  # noqa: E741
+        m = self.material
+        return self.kernel.level_saturation_penetration(m.K, m.T_eps, m.T_sigma, p_0, l, h, V)
+
+    def saturation_friction(self, l, h, V):  # noqa: E741
+        m = self.material
+        return self.kernel.level_saturation_friction(m.K, m.T_eps, m.T_sigma, l, h, V)
 
     def surely_saturated(self, p_0, l, h, V):  # noqa: E741
         """The forcing ``H + p_0`` is positive all along every strip, so contact once made is never left, and no strip is out of reach."""
