@@ -17,6 +17,8 @@ _ACROSS, _AT_ONCE = 15, 7
 _ROUNDS = 12
 #: a break this close to an end of its piece, as a share of it, is left to halving
 _CLOSE = 0.02
+#: a zone narrower than this many brackets of a transition may hide in one
+_UNSEEN = 4.0
 
 
 @dataclass
@@ -47,8 +49,18 @@ def island(column: int, D: np.ndarray, zones: list[np.ndarray]) -> Island | None
         while same < len(two) and one[same, 0] == two[same, 0]:
             same += 1
         code, low, high = one[min(same, len(one) - 1)]
+        if high - low <= _UNSEEN * _blind(two, same):
+            continue
         return Island(column, int(code), low, high, *ends)
     return None
+
+
+def _blind(zones: np.ndarray, place: int) -> float:
+    """Width of what lies between the zones before and after ``place``: a transition is bracketed no closer than the means need, so a zone of
+    that width may be seen at one penetration and not at the next."""
+    if 0 < place < len(zones):
+        return zones[place, 1] - zones[place - 1, 2]
+    return 0.0
 
 
 def vanishing(columns: Columns, islands: list[Island], strips: np.ndarray) -> np.ndarray:

@@ -15,13 +15,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .quadrature import interior_nodes, mapped, mapped_weights, sum_errors
-from .transitions import locate
+from .transitions import Guide, Probe, locate
 
 #: (column, theta) -> (regime code, values): arrays (m,), (m,) -> (m,), (m, q)
 Integrand = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
-
-#: (column, theta) -> the integrand's codes alone
-Codes = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 _FIRST, _LAST = 8, 64
 _ROUNDS = 60
@@ -73,7 +70,8 @@ class _Panels:
 
 def average(
     integrand: Integrand,
-    codes_at: Codes,
+    probe: Probe,
+    guide: Guide,
     starts: list[np.ndarray],
     floor: np.ndarray,
     rtol: np.ndarray,
@@ -82,11 +80,12 @@ def average(
 ) -> Averages:
     """Means ``(1/pi) int_0^pi values d(theta)`` of every column to ``rtol (|value| + floor)``.
 
+    ``probe``: (column, theta) -> the integrand's codes, and margins for the ``guide`` to where they change.
     ``starts``: for each column the interior thetas known to be transitions, sorted. ``floor`` and ``rtol`` have shape
     (columns, q) and (columns,). ``hints``: what is expected, but not certain.
     """
     n = len(starts)
-    work = _Work(integrand, codes_at, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int), [])
+    work = _Work(integrand, probe, guide, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int), [])
     column = np.repeat(np.arange(n), [s.size for s in starts])
     cuts = [column, *[np.concatenate([*starts, np.empty(0)])] * 2]
     if hints is not None and hints.column.size:
@@ -118,7 +117,8 @@ def _between(n: int, column, low, high) -> _Panels:
 @dataclass(slots=True)
 class _Work:
     integrand: Integrand
-    codes_at: Codes
+    probe: Probe
+    guide: Guide
     floor: np.ndarray
     rtol: np.ndarray
     values: np.ndarray
@@ -193,8 +193,8 @@ class _Work:
         line = hints.column[index]
         size = np.pi * (hints.size[line] + self.floor[line])
         width = self._bracket(self.rtol[line, None] * size, spread, hints.high[index])
-        codes_at = lambda i, x: self._codes(hints.column[i], x)  # noqa: E731
-        found = locate(codes_at, index, hints.low[index], hints.high[index], codes[index], codes[m + index], width)
+        probe = lambda i, x: self._probe(hints.column[i], x)  # noqa: E731
+        found = locate(probe, self.guide, index, hints.low[index], hints.high[index], codes[index], codes[m + index], width)
         end = {int(i): j for j, i in enumerate(index)}
         which = np.array([end[int(i)] for i in found.line], int)
         sliver = (found.high - found.low)[:, None]
@@ -273,9 +273,9 @@ class _Work:
         """Theta next to the flat edge of each column: what lies beyond does not matter at its accuracy."""
         return np.pi * (1 - 0.01 * self.rtol)
 
-    def _codes(self, column, theta):
+    def _probe(self, column, theta):
         np.add.at(self.strips, column, 1)
-        return self.codes_at(column, theta)
+        return self.probe(column, theta)
 
     def _split_at_transitions(self, panels: _Panels, codes, values, n) -> _Panels:
         """Locate every transition between neighbouring nodes that disagree; panels end there."""
@@ -291,7 +291,8 @@ class _Work:
         line = panels.column[row]
         width = self._bracket(self.rtol[line, None] * np.abs(total)[line], spread, theta[row, node + 1])
         found = locate(
-            lambda line, x: self._codes(panels.column[line], x),
+            lambda line, x: self._probe(panels.column[line], x),
+            self.guide,
             row,
             theta[row, node],
             theta[row, node + 1],
