@@ -1,7 +1,7 @@
 """Where a code changes along a line: all changes between points whose codes differ.
 
-Brackets shrink by multisection, or, where a margin is known that vanishes at the change, around the place it foretells. A margin only says where
-to look: a bracket is what lies between two points with different codes.
+Brackets shrink by multisection, or, where a margin is known that vanishes at the change, around the place it foretells. Two points with different
+codes enclose a change; where inside it lies is taken from the margin once it tells that well enough: points next to a fold are dear.
 """
 
 from __future__ import annotations
@@ -18,6 +18,8 @@ _KEPT = 3
 _DOUBT, _WIDER = 0.2, 16.0
 #: a look is worth it if it is this much narrower than the bracket
 _WORTH = 0.2
+#: a margin that foretold wrongly this often in a row is not believed
+_TRUSTED = 2
 _AROUND = np.array((-1.0, 0.0, 1.0))
 
 #: (line, x) -> codes (m,) and margins (m, k) of each point, NaN where unknown
@@ -43,20 +45,20 @@ class Transitions:
 
 
 def locate(probe: Probe, guide: Guide, line, low, high, code_low, code_high, width) -> Transitions:
-    """Narrow every bracket [low, high] of the ``line`` it lies on to ``width``, all (m,); where a third code shows up in between, its
+    """Narrow every bracket [low, high] of the ``line`` it lies on to ``width`` or less, all (m,); where a third code shows up in between, its
     transitions are found too. ``code_low``, ``code_high`` are the codes at the ends."""
     found = []
     brackets = _Brackets.between(line, low, high, code_low, code_high, width, guide.powers.size)
     for _ in range(80):
-        narrow = brackets.high - brackets.low <= brackets.width
-        found.append(brackets.take(narrow))
-        brackets = brackets.take(~narrow)
+        ends, done = brackets.settled(guide)
+        found.append((brackets.line[done], *ends[:, done]))
+        brackets = brackets.take(~done)
         if not brackets.line.size:
             break
         brackets = brackets.narrowed(probe, guide)
     else:
-        found.append(brackets)
-    line, low, high = (np.concatenate([getattr(part, name) for part in found]) for name in ("line", "low", "high"))
+        found.append((brackets.line, brackets.low, brackets.high))
+    line, low, high = (np.concatenate(parts) for parts in zip(*found, strict=True))
     order = np.lexsort((low, line))
     return Transitions(line[order], low[order], high[order])
 
@@ -90,6 +92,15 @@ class _Brackets:
 
     def take(self, index) -> _Brackets:
         return _Brackets(*(getattr(self, name)[index] for name in ("line", "width", "codes", "x", "margins", "misses")))
+
+    def settled(self, guide: Guide) -> tuple[np.ndarray, np.ndarray]:
+        """Ends (2, n) of brackets that are narrow enough, or of what the margins leave of them, and which are either."""
+        ends = np.stack((self.low, self.high))
+        narrow = ends[1] - ends[0] <= self.width
+        place, doubt = self._foretold(guide)
+        known = ~narrow & (place - doubt > ends[0]) & (place + doubt < ends[1]) & (2 * doubt <= self.width) & (self.misses < _TRUSTED)
+        ends[:, known] = place[known] + np.multiply.outer((-1.0, 1.0), np.maximum(doubt[known], 0.0))
+        return ends, narrow | known
 
     def narrowed(self, probe: Probe, guide: Guide) -> _Brackets:
         """The brackets of all changes inside, after a look at some points of each: around the foretold place, or all along."""
