@@ -1,7 +1,8 @@
 """How far a strip is from the end of its regime: quantities that vanish there, from which the place of a transition is foretold.
 
-An orbit with a free part ends at a fold, where ``log T'`` vanishes like the square root of the distance; its contact ends at no length, which
-vanishes likewise. A gap that adheres throughout ends where it comes to exceed delta_0, a gap without contact where it closes, and thresholds are
+An orbit with a free part ends at a fold, where ``1 - T'`` vanishes like the square root of the distance; its contact ends at no length, which
+vanishes likewise. A foundation with little memory folds next to where onset or release grazes: T' is small until F or M (``sensitivity``) all but
+vanishes, so ``F M (1 - T')`` tells it in either case. A gap that adheres throughout ends where it comes to exceed delta_0, a gap without contact where it closes, and thresholds are
 passed: all in proportion to the distance. None of this decides anything: where a transition lies is told by codes alone (``transitions``).
 """
 
@@ -14,7 +15,7 @@ import numpy as np
 from hystrip.strip.march import TWO_PI, Orbit
 from hystrip.strip.problem import adhesive_cycle
 from hystrip.strip.regimes import CODE
-from hystrip.strip.sensitivity import slope_excess
+from hystrip.strip.sensitivity import onset_margin, slope_excess
 
 
 if TYPE_CHECKING:
@@ -55,7 +56,9 @@ def margins(kernel, strips: SolvedStrips) -> np.ndarray:
         x = np.where(direct, solved.b[onsets], solved.d[onsets])
         none = np.zeros(onsets.size)
         orbit = Orbit(x, solved.b[onsets], solved.a[onsets], solved.c[onsets], none.astype(bool), none, none)
-        out[onsets, FOLD] = -slope_excess(kernel, cycle, orbit)[0]
+        slope = np.expm1(np.minimum(slope_excess(kernel, cycle, orbit)[0], 1.0))
+        release = kernel.forcing(orbit.c, s.D, s.beta) + s.delta_0 + s.p_0
+        out[onsets, FOLD] = onset_margin(kernel, cycle, x) * release * slope
         end = cycle.centre + cycle.half_b
         waiting = np.isnan(orbit.b) & (end > x)
         closest = kernel.gap_after(x, np.maximum(end, x), cycle.gap_on, -s.p_0, s.D, s.beta)

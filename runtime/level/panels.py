@@ -31,7 +31,10 @@ _SHARE, _SLIVER = 0.4, 0.03
 
 @dataclass(frozen=True, slots=True)
 class Hints:
-    """Where transitions are expected, arrays (m,): ``column``, bracket in theta, codes at its ends; ``size`` (columns, q): of the values."""
+    """Where transitions are expected, arrays (m,): ``column``, bracket in theta, codes at its ends; ``size`` (columns, q): of the values.
+
+    ``witness_column``, ``witness`` (w,): thetas in the middle of narrow zones that are expected.
+    """
 
     column: np.ndarray
     low: np.ndarray
@@ -39,6 +42,8 @@ class Hints:
     code_low: np.ndarray
     code_high: np.ndarray
     size: np.ndarray
+    witness_column: np.ndarray
+    witness: np.ndarray
 
 
 @dataclass(slots=True)
@@ -101,7 +106,7 @@ def average(
     work = _Work(integrand, probe, guide, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int), [])
     column, known = np.repeat(np.arange(n), [s.size for s in starts]), np.concatenate([*starts, np.empty(0)])
     cuts = _Panels.unknown(column, known, known, q)
-    if hints is not None and hints.column.size:
+    if hints is not None:
         cuts = _Panels.joined((cuts, work.expected(hints, column, known)))
     panels = _between(n, cuts)
     for _ in range(_ROUNDS):
@@ -196,10 +201,11 @@ class _Work:
     def expected(self, hints: Hints, column, known) -> _Panels:
         """Brackets of the transitions that are where they were expected, narrowed; away from those ``known``."""
         m = hints.column.size
-        both = np.concatenate((hints.column, hints.column))
-        np.add.at(self.strips, both, 1)
-        codes, values = self.integrand(both, np.concatenate((hints.low, hints.high)))
-        holds = (codes[:m] == hints.code_low) & (codes[m:] == hints.code_high)
+        asked = np.concatenate((hints.column, hints.column, hints.witness_column))
+        np.add.at(self.strips, asked, 1)
+        codes, values = self.integrand(asked, np.concatenate((hints.low, hints.high, hints.witness)))
+        seen, values, witnessed = codes[2 * m :], values[: 2 * m], values[2 * m :]
+        holds = (codes[:m] == hints.code_low) & (codes[m : 2 * m] == hints.code_high)
         for c, theta in zip(column, known, strict=True):
             holds &= ~((hints.column == c) & (hints.low <= theta) & (hints.high >= theta))
         index = np.flatnonzero(holds)
@@ -222,7 +228,15 @@ class _Work:
         # where a third code showed up in between, the codes of the two ends belong to the outermost
         codes[1:][found.line[1:] == found.line[:-1], 0] = np.nan
         codes[:-1][found.line[1:] == found.line[:-1], 1] = np.nan
-        return _Panels(hints.column[found.line], found.low, found.high, codes, np.stack((first, last), axis=1))
+        found = _Panels(hints.column[found.line], found.low, found.high, codes, np.stack((first, last), axis=1))
+        # a witness that stands apart from the transitions found is the end of two panels
+        apart = np.ones(seen.size, bool)
+        for c, low, high in zip(found.column, found.low, found.high, strict=True):
+            apart &= ~((hints.witness_column == c) & (hints.witness >= low) & (hints.witness <= high))
+        alone = np.flatnonzero(apart)
+        witness, code = hints.witness[alone], np.repeat(seen[alone, None], 2, axis=1).astype(float)
+        values = np.repeat(witnessed[alone, None], 2, axis=1)
+        return _Panels.joined((found, _Panels(hints.witness_column[alone], witness, witness, code, values)))
 
     def _bracket(self, goal, spread, theta):
         """How narrow to bracket a transition at which the values change by ``spread``."""
