@@ -1,13 +1,20 @@
 """What the error estimate is worth: random surfaces solved at a tolerance, against the same at a far tighter one.
 
-    python tools/benchmark_errors.py [--scenes 100] [--seed 1] [--tolerances 1e-3 1e-4 1e-5] [--tighter 1e-3] [--first 0]
+    python tools/benchmark_errors.py [--scenes 100] [--seed 1] [--tolerances 1e-3 1e-4 1e-5 1e-6 1e-8] [--tighter 1e-2] [--first 0]
+                                     [--levels 1|2|3] [--velocities 1] [--limit 600] [--out errors.csv]
 
-Prints how many points meet the tolerance, at how many the estimate bounds the error, and the median of estimate over error; then every point at
-which it does not hold, with the scene's seed to draw it again. Points in closed form and below pull-off are exact and are not counted, nor are errors that rounding
-hides. Exit status 1 if the estimate bounds the error in fewer than 99 of 100 points, or its median exceeds 100 times the error.
+Scenes are drawn by ``tests/surfaces.py``: one to three levels, both closures and branches, with and without adhesion, loads from hardly touching to
+nearly saturated; the tolerances are taken in turn, 1e-8 for one-level surfaces only. Prints how many points meet the tolerance, at how many the estimate
+bounds the error, and the median of estimate over error; then every point at which it does not hold, with the scene's number to draw it again. The table
+goes to the CSV as it grows. Points in closed form and below pull-off are exact and are not counted, nor are errors that rounding hides. A scene that takes
+more than ``--limit`` seconds of processor time counts as refused. Exit status 1 if the estimate bounds the error in fewer than 99 of 100 points, its
+median exceeds 100 times the error, or a scene was refused.
 """
 
 import argparse
+import contextlib
+import csv
+import signal
 import sys
 import time
 from dataclasses import dataclass, field
@@ -24,6 +31,9 @@ import hystrip
 #: errors below this, relative to the friction and its floor, are rounding
 ROUNDING = 1e-13
 NEEDED, PESSIMISTIC = 0.99, 100
+#: tolerances finer than this are for surfaces of one level
+_FINEST_OF_MANY = 1e-7
+COLUMNS = ("scene", "levels", "edge", "branch", "point", "rtol", "error", "estimate", "seconds", "seconds_tighter")
 
 
 @dataclass
@@ -64,45 +74,87 @@ class Survey:
         return float(np.median(rows[:, 4] / rows[:, 3])) if rows.size else 1.0
 
 
-def survey(scenes, seed, tolerances, tighter, levels=None, report=None, first=0):
-    """Draw ``scenes`` surfaces from number ``first`` on, solve each at one of the tolerances in turn, and ``tighter`` times that."""
+def survey(scenes, seed, tolerances, tighter, levels=None, report=None, first=0, velocities=3, limit=None):
+    """Draw ``scenes`` surfaces from number ``first`` on, solve each at one of the tolerances in turn, and ``tighter`` times that.
+
+    ``report(rows)``: called with the rows (``COLUMNS``) of each scene. ``limit``: seconds of processor time after which a scene is refused.
+    """
     out = Survey()
     for number in range(first, first + scenes):
-        surface = surfaces.draw(np.random.default_rng((seed, number)), levels=levels)
-        rtol = tolerances[number % len(tolerances)]
+        surface = surfaces.draw(np.random.default_rng((seed, number)), velocities=velocities, levels=levels)
+        usable = [t for t in tolerances if t > _FINEST_OF_MANY or len(surface.levels) == 1]
+        rtol = usable[number % len(usable)]
         try:
-            coarse, fine = surface.solve(rtol), surface.solve(max(tighter * rtol, 1e-12))
-        except (hystrip.SolverError, ArithmeticError) as error:
+            with _limited(limit):
+                start = time.process_time()
+                coarse = surface.solve(rtol)
+                middle = time.process_time()
+                fine = surface.solve(max(tighter * rtol, 1e-12))
+                end = time.process_time()
+        except (hystrip.SolverError, ArithmeticError, TimeoutError) as error:
             out.refused.append((number, error))
             continue
         size = np.abs(fine.tau) + surface.floor
         counted = ~(fine.closed_form | (fine.pulled_off & coarse.pulled_off))
         out.exact += int(np.count_nonzero(~counted))
+        rows = []
         for i in np.flatnonzero(counted):
             error = max(abs(coarse.tau[i] - fine.tau[i]) - fine.tau_error[i], 0.0)
             out.points.append((number, i, rtol, error / size[i], coarse.tau_error[i] / size[i]))
+            about = (number, len(surface.levels), surface.edge, surface.branch)
+            rows.append((*about, i, *out.points[-1][2:], middle - start, end - middle))
         if report:
-            report(number + 1 - first, out)
+            report(rows, out)
     return out
+
+
+@contextlib.contextmanager
+def _limited(seconds):
+    """``TimeoutError`` after so many seconds of processor time."""
+
+    def stop(*_):
+        raise TimeoutError(f"not done after {seconds:g} s of processor time")
+
+    if seconds is None:
+        yield
+        return
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--scenes", type=int, default=100)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--tolerances", type=float, nargs="+", default=[1e-3, 1e-4, 1e-5])
-    parser.add_argument("--tighter", type=float, default=1e-3, help="tolerance of the reference, relative")
+    parser.add_argument("--tolerances", type=float, nargs="+", default=[1e-3, 1e-4, 1e-5, 1e-6, 1e-8])
+    parser.add_argument("--tighter", type=float, default=1e-2, help="tolerance of the reference, relative")
     parser.add_argument("--first", type=int, default=0, help="number of the first scene")
     parser.add_argument("--levels", type=int, choices=(1, 2, 3), help="levels of every scene, instead of one to three")
+    parser.add_argument("--velocities", type=int, default=1, help="of each scene")
+    parser.add_argument("--limit", type=float, default=600, help="seconds of processor time allowed to a scene")
+    parser.add_argument("--out", type=Path, default=Path("errors.csv"))
     options = parser.parse_args()
-    start = time.perf_counter()
+    start = time.process_time()
+    with options.out.open("w", newline="") as file:
+        table = csv.writer(file)
+        table.writerow(COLUMNS)
 
-    def report(done, out):
-        print(f"\r{done} scenes, {len(out.points)} points, {100 * out.bounded:.1f} % bounded, median {out.pessimism:.3g}", end="", file=sys.stderr, flush=True)
+        def report(rows, out):
+            table.writerows([[f"{v:.3g}" if isinstance(v, float) else v for v in row] for row in rows])
+            file.flush()
+            print(f"\r{len(out.points)} points, {100 * out.bounded:.1f} % bounded, median {out.pessimism:.3g}", end="", file=sys.stderr, flush=True)
 
-    out = survey(options.scenes, options.seed, options.tolerances, options.tighter, options.levels, report, options.first)
+        out = survey(
+            options.scenes, options.seed, options.tolerances, options.tighter, options.levels, report, options.first, options.velocities,
+            options.limit,
+        )
     print(file=sys.stderr)
-    print(f"{options.scenes} scenes, {len(out.points)} points, {out.exact} more exact; {time.perf_counter() - start:.0f} s")
+    print(f"{options.scenes} scenes, {len(out.points)} points, {out.exact} more exact; {time.process_time() - start:.0f} s of processor time")
     print(f"tolerance met:                {100 * out.met:.2f} %")
     print(f"estimate bounds the error:    {100 * out.bounded:.2f} %")
     print(f"largest error over estimate   {out.largest:.3g}")

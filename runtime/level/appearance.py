@@ -11,12 +11,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from .strips import Columns
+from .transitions import locate
 
-#: points across an island, and penetrations tried at once
-_ACROSS, _AT_ONCE = 15, 7
-_ROUNDS = 12
+#: points across an island, and how often they are drawn closer to where it vanishes
+_ACROSS, _ROUNDS = 9, 5
+#: how closely the ends of strips are located, as a share of the way on which the island vanishes, and how much more so from round to round
+_FIRST_WIDTH, _SHARPER = 1e-3, 1 / 64
+_EPS = np.finfo(float).eps
 #: a break this close to an end of its piece, as a share of it, is left to halving
 _CLOSE = 0.02
+#: a zone narrower than this many brackets of a transition may hide in one
+_UNSEEN = 4.0
 
 
 @dataclass
@@ -31,10 +36,10 @@ class Island:
     absent: float
 
 
-def island(column: int, D: np.ndarray, zones: list[np.ndarray]) -> Island | None:
+def island(column: int, D: np.ndarray, zones: list[np.ndarray], negligible: float) -> Island | None:
     """The first change in the sequence of codes along y between two of the nodes ``D``; None if there is none.
 
-    ``zones``: ``Averages.zones`` at the nodes. The end nodes are breaks already: what they show may belong to either side.
+    ``zones``: ``Averages.zones`` at the nodes; those no wider than ``negligible`` don't count. The end nodes are breaks already: what they show may belong to either side.
     """
     for i in range(1, D.size - 2):
         one, two = zones[i], zones[i + 1]
@@ -47,38 +52,80 @@ def island(column: int, D: np.ndarray, zones: list[np.ndarray]) -> Island | None
         while same < len(two) and one[same, 0] == two[same, 0]:
             same += 1
         code, low, high = one[min(same, len(one) - 1)]
+        if high - low <= max(_UNSEEN * _blind(two, same), negligible):
+            continue
         return Island(column, int(code), low, high, *ends)
     return None
 
 
-def vanishing(columns: Columns, islands: list[Island], strips: np.ndarray) -> np.ndarray:
-    """Penetrations at which the islands have shrunk to nothing, all at once; ``strips`` (per column) counts the work."""
-    share = np.arange(1, _AT_ONCE + 1) / (_AT_ONCE + 1)
-    across = np.arange(_ACROSS + 2) / (_ACROSS + 1)
-    for _ in range(_ROUNDS):
-        D = np.array([i.present + (i.absent - i.present) * share for i in islands])
-        theta = np.array([i.low + (i.high - i.low) * across for i in islands])
-        shape = (len(islands), _AT_ONCE, across.size)
-        column = np.array([i.column for i in islands])
-        every = np.broadcast_to(column[:, None, None], shape).ravel()
-        np.add.at(strips, every, 1)
-        at = columns.at(every, np.broadcast_to(D[:, :, None], shape).ravel())
-        codes = at.codes(np.arange(every.size), np.broadcast_to(theta[:, None, :], shape).ravel()).reshape(shape)
-        for k, this in enumerate(islands):
-            _narrow(this, D[k], theta[k], codes[k] == this.code)
-    return np.array([0.5 * (i.present + i.absent) for i in islands])
+def _blind(zones: np.ndarray, place: int) -> float:
+    """Width of what lies between the zones before and after ``place``: a transition is bracketed no closer than the means need, so a zone of
+    that width may be seen at one penetration and not at the next."""
+    if 0 < place < len(zones):
+        return zones[place, 1] - zones[place - 1, 2]
+    return 0.0
 
 
-def _narrow(this: Island, D, theta, there) -> None:
-    """Keep the last penetration at which the island is seen, and its extent there."""
-    seen = there.any(axis=1)
-    gone = int(np.argmin(seen)) if not seen.all() else seen.size
-    if gone < seen.size:
-        this.absent = D[gone]
-    if gone > 0:
-        this.present = D[gone - 1]
-        inside = np.flatnonzero(there[gone - 1])
-        this.low, this.high = theta[max(inside[0] - 1, 0)], theta[min(inside[-1] + 1, theta.size - 1)]
+def vanishing(columns: Columns, islands: list[Island], strips: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Penetrations and thetas at which the islands have shrunk to nothing, all at once; ``strips`` (per column) counts the work. NaN: it is not
+    absent at all.
+
+    At a fixed theta the island's code ends at some penetration, located like any transition; the island vanishes at the extreme of these over theta,
+    where they lie on a parabola: at its vertex they tell it to second order.
+    """
+    here = np.arange(len(islands))
+    column = np.array([i.column for i in islands])
+    code, present, absent, low, high = (np.array([getattr(i, name) for i in islands]) for name in ("code", "present", "absent", "low", "high"))
+    way = absent - present
+    top, vertex, lasting = np.zeros(here.size), np.zeros(here.size), np.zeros(here.size, bool)
+    for attempt in range(_ROUNDS):
+        theta = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, _ACROSS)
+        width = np.maximum(np.abs(way) * _FIRST_WIDTH * _SHARPER**attempt, 16 * _EPS * np.maximum(np.abs(absent), columns.level.h))
+        ends, still = _ends(columns, column, code, theta, present, absent, width, strips)
+        lasting |= still.any(axis=1)
+        share = (ends - present[:, None]) / way[:, None]
+        share = np.where(np.isnan(share), 0.0, share)
+        best = np.clip(np.argmax(share, axis=1), 1, _ACROSS - 2)
+        left, centre, right = (share[here, best + k] for k in (-1, 0, 1))
+        bend = left - 2 * centre + right
+        at = np.divide(0.5 * (left - right), bend, out=np.zeros(here.size), where=bend < 0)
+        top = np.where(bend < 0, centre + 0.25 * (right - left) * at, share.max(axis=1))
+        vertex = theta[here, best] + 0.5 * (theta[here, best + 1] - theta[here, best - 1]) * np.clip(at, -1, 1)
+        # where the code lasts longest there is the vertex, or it is at an end
+        low, high = theta[here, best - 1], theta[here, best + 1]
+        if lasting.all():
+            break
+    return np.where(lasting, np.nan, present + top * way), vertex
+
+
+def _ends(columns: Columns, column, code, theta, present, absent, width, strips) -> tuple[np.ndarray, np.ndarray]:
+    """Penetration between ``present`` and ``absent`` at which each strip (islands, across) loses the island's code, NaN where it has not got it
+    or keeps it; and which keep it."""
+    shape = theta.shape
+    line = np.arange(theta.size)
+    row, theta = line // shape[1], theta.ravel()
+    start, stop = present[row], absent[row]
+
+    def probe(line, D):
+        np.add.at(strips, column[row[line]], 1)
+        return columns.at(column[row[line]], D).probe(np.arange(D.size), theta[line])
+
+    codes = probe(np.tile(line, 2), np.concatenate((start, stop)))[0].reshape(2, -1)
+    bound = (codes[0] == code[row]) & (codes[1] != code[row])
+    at = np.flatnonzero(bound)
+    out = np.full(theta.size, np.nan)
+    still = (codes[1] == code[row]).reshape(shape)
+    if not at.size:
+        return out.reshape(shape), still
+    falls = (stop < start)[at]
+    ends, codes = np.sort((start[at], stop[at]), axis=0), codes[:, at]
+    low, high = np.where(falls, codes[::-1], codes)
+    found = locate(probe, columns.guide, at, *ends, low, high, width[row[at]])
+    # of several transitions the one next to where the island is present
+    order = np.argsort(found.low) if not falls.any() else np.argsort(np.where((stop < start)[found.line], -found.low, found.low))
+    for i in order[::-1]:
+        out[found.line[i]] = found.low[i] if stop[found.line[i]] > start[found.line[i]] else found.high[i]
+    return out.reshape(shape), still
 
 
 def is_inside(D_break: float, low: float, high: float) -> bool:

@@ -52,15 +52,23 @@ def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list
     # what levels below carry may change at the flat edge too
     ends = np.array((0.0, np.pi) if columns.carry else (0.0,))
 
+    def crest_or_edge(line, x):
+        return columns.at(column[line % m], x), np.arange(x.size), ends[line // m]
+
     def codes_at(line, x):
-        return columns.at(column[line % m], x).codes(np.arange(x.size), ends[line // m])
+        at, *where = crest_or_edge(line, x)
+        return at.codes(*where)
+
+    def probe(line, x):
+        at, *where = crest_or_edge(line, x)
+        return at.probe(*where)
 
     D = np.tile(D, (ends.size, 1))
     codes = codes_at(np.repeat(np.arange(m * ends.size), D.shape[1]), D.ravel()).reshape(D.shape)
     line, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
     low, high = D[line, node], D[line, node + 1]
     width = 16 * _EPS * np.maximum(np.maximum(np.abs(low), np.abs(high)), h)
-    changes = locate(codes_at, line, low, high, codes[line, node], codes[line, node + 1], width)
+    changes = locate(probe, columns.guide, line, low, high, codes[line, node], codes[line, node + 1], width)
     if columns.branch == "unloading" and a.p_0 > 0:
         edge = [h - a.p_0 / K, h - a.p_0 / K - a.delta_0]
     else:

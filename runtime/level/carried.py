@@ -47,6 +47,28 @@ class CarriedByLaws:
             crossed[index] = 1 + top + (breaks.shape[1] + 1) * least
         return crossed
 
+    @property
+    def passes(self) -> int:
+        """See ``strips.Carry``: the greatest and the least pressure over each break."""
+        return 2 * self.table.breaks.shape[1]
+
+    def heights(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
+        """See ``strips.Carry``."""
+        out = np.full((group.size, self.passes), np.nan)
+        index = np.flatnonzero(strips.solved.contact_fraction > 0)
+        if index.size:
+            contact = contact_of(kernel, strips, index)
+            breaks = self.table.breaks[group[index]]
+            out[index] = np.concatenate([p[:, None] - breaks for p in (contact.p_peak, contact.p_least)], axis=1)
+        return out
+
+    def passing(self, crossed: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """See ``strips.Carry``: the lowest break that one of the two passes and the other does not, by its greatest pressure or else its least."""
+        size = self.table.breaks.shape[1]
+        (least, top), (other_least, other_top) = (np.divmod(v - 1, size + 1) for v in (crossed, other))
+        lower = np.where(top != other_top, np.minimum(top, other_top), size + np.minimum(least, other_least))
+        return np.where((crossed > 0) & (other > 0) & (crossed != other), lower, -1)
+
     def over_contact(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """See ``strips.Carry``. The contributions are the law's quantities from friction on, then their error."""
         carried = np.zeros((group.size, self.scales.size))

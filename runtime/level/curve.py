@@ -23,6 +23,8 @@ _ROUNDS = 40
 _INTERPOLATION, _MEAN = 0.6, 0.4
 #: an interval's pressure is known at least this well
 _COARSEST = 1e-3
+#: width in theta of a zone that may be passed over, over the accuracy asked for
+_NEGLIGIBLE = 0.3
 #: a piece narrower than this, relative to D, is taken as it is
 _NARROWEST = 1e-11
 
@@ -38,19 +40,22 @@ class Curve:
 
 @dataclass(frozen=True)
 class Interval:
-    """An interval of D of one column; ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end."""
+    """An interval of D of one column; ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end. ``witnesses``: thetas at which some
+    regime is met in next to no strips towards an end."""
 
     column: int
     low: float
     high: float
     soft_low: bool = False
     soft_high: bool = False
+    witnesses: tuple[float, ...] = ()
 
-    def split(self, D: float, soft: bool) -> list[Interval]:
-        """The two parts below and above D."""
+    def split(self, D: float, soft: bool, *witnesses: float) -> list[Interval]:
+        """The two parts below and above D; what is new about their strips in ``witnesses``."""
+        every = self.witnesses + witnesses
         return [
-            Interval(self.column, self.low, D, self.soft_low, soft),
-            Interval(self.column, D, self.high, soft, self.soft_high),
+            Interval(self.column, self.low, D, self.soft_low, soft, every),
+            Interval(self.column, D, self.high, soft, self.soft_high, every),
         ]
 
     def penetrations(self, t):
@@ -129,8 +134,8 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, fr
             i, bound = batch.intervals[k], error[k] + batch.errors[k].max(axis=0)
             pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.soft_low, i.soft_high))
         split = _islands(columns, batch, n, ~done, strips) if n > 2 * _FIRST else {}
-        for k, D_break in split.items():
-            parts += batch.intervals[k].split(D_break, soft=False)
+        for k, (D_break, theta) in split.items():
+            parts += batch.intervals[k].split(D_break, False, theta)
             done[k] = True
         batch.keep(np.flatnonzero(~done))
     for i in batch.intervals:
@@ -145,18 +150,19 @@ def _pressure_goal(values, goal):
     return np.maximum(goal[:, 0], pressure * np.minimum(share, _COARSEST))
 
 
-def _islands(columns: Columns, batch: _Batch, n: int, which, strips) -> dict[int, float]:
-    """Breaks inside intervals: what appears or vanishes between two nodes, away from the crest."""
+def _islands(columns: Columns, batch: _Batch, n: int, which, strips) -> dict[int, tuple[float, float]]:
+    """Breaks inside intervals: penetrations and thetas at which something appears or vanishes between two nodes, away from the crest."""
     seen = {}
     for k in np.flatnonzero(which):
         i = batch.intervals[k]
-        found = island(i.column, i.penetrations(lobatto(n)), batch.zones[k])
+        found = island(i.column, i.penetrations(lobatto(n)), batch.zones[k], _NEGLIGIBLE * batch.rtol[i.column])
         if found is not None:
             seen[int(k)] = found
     if not seen:
         return {}
-    breaks = dict(zip(seen, vanishing(columns, list(seen.values()), strips), strict=True))
-    return {k: D for k, D in breaks.items() if is_inside(D, batch.intervals[k].low, batch.intervals[k].high)}
+    where = zip(*(v.tolist() for v in vanishing(columns, list(seen.values()), strips)), strict=True)
+    breaks = dict(zip(seen, where, strict=True))
+    return {k: at for k, at in breaks.items() if is_inside(at[0], batch.intervals[k].low, batch.intervals[k].high)}
 
 
 def coefficients_of(n: int) -> np.ndarray:
@@ -184,11 +190,10 @@ class _Batch:
         t = nodes if first else nodes[1::2]
         D = np.concatenate([i.penetrations(t) for i in self.intervals])
         rows = np.repeat(self.column, t.size)
-        hint = None
-        if not first:
-            expected = [expect(nodes[::2], zones, t) for zones in self.zones]
-            where = np.arange(rows.size).reshape(-1, t.size)
-            hint = hints(where, expected, np.repeat(np.abs(self.values).min(axis=1), t.size, axis=0))
+        expected = [None if first else expect(nodes[::2], zones, t) for zones in self.zones]
+        size = np.zeros((len(self.intervals), self.columns.scales.size)) if first else np.abs(self.values).min(axis=1)
+        where = np.arange(rows.size).reshape(-1, t.size)
+        hint = hints(where, expected, [i.witnesses for i in self.intervals], np.repeat(size, t.size, axis=0))
         means = level_means(self.columns.at(rows, D), _MEAN * self.rtol[rows], hint)
         np.add.at(self.strips, rows, means.strips)
         shape = (len(self.intervals), t.size, -1)

@@ -8,6 +8,8 @@ from .panels import Hints
 
 #: brackets narrower or wider than this are no use
 _NARROWEST, _WIDEST = 1e-10, 0.03
+#: a zone narrower than this might be passed over between two nodes: a strip in its middle is looked at
+_NARROW = 0.1
 
 
 def boundaries(zones: np.ndarray) -> np.ndarray:
@@ -44,19 +46,25 @@ def _lagrange(x, x_new):
     return out
 
 
-def hints(columns: np.ndarray, expected: list, size: np.ndarray) -> Hints | None:
-    """``panels.Hints`` for ``columns[i]`` (points of one interval each) from what ``expect`` said of each; ``size`` (all columns, q)."""
-    rows = [[], [], [], [], []]
-    for column, e in zip(columns, expected, strict=True):
+def hints(columns: np.ndarray, expected: list, witnesses: list[tuple[float, ...]], size: np.ndarray) -> Hints | None:
+    """``panels.Hints`` for ``columns[i]`` (points of one interval each) from what ``expect`` said of each and the thetas ``witnesses[i]``; ``size``
+    (all columns, q)."""
+    transitions, looks = [[np.empty(0)] * 5], [[np.empty(0)] * 2]
+    for column, e, known in zip(columns, expected, witnesses, strict=True):
+        looks.append([np.repeat(column, len(known)), np.tile(known, column.size)])
         if e is None:
             continue
         codes, theta, width = e
         at, where = np.nonzero((width < _WIDEST) & (theta - width > 0) & (theta + width < np.pi))
-        rows[0].append(column[at])
-        rows[1].append((theta - width)[at, where])
-        rows[2].append((theta + width)[at, where])
-        rows[3].append(codes[where])
-        rows[4].append(codes[where + 1])
-    if not rows[0]:
+        ends = (theta - width)[at, where], (theta + width)[at, where]
+        transitions.append([column[at], *ends, codes[where], codes[where + 1]])
+        middle, extent = 0.5 * (theta[:, 1:] + theta[:, :-1]), np.diff(theta, axis=1)
+        at, where = np.nonzero((extent > 0) & (extent < _NARROW))
+        looks.append([column[at], middle[at, where]])
+    column, low, high, code_low, code_high = (np.concatenate(v) for v in zip(*transitions, strict=True))
+    look_column, theta = (np.concatenate(v) for v in zip(*looks, strict=True))
+    if not column.size and not theta.size:
         return None
-    return Hints(*(np.concatenate(r) for r in rows), size)
+    whole = (v.astype(int) for v in (column, code_low, code_high, look_column))
+    column, code_low, code_high, look_column = whole
+    return Hints(column, low, high, code_low, code_high, size, look_column, theta)

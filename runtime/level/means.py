@@ -15,7 +15,7 @@ def level_means(columns: Columns, rtol: np.ndarray, hints: Hints | None = None) 
     if columns.strips is not None:
         return equal_strips(columns, columns.strips)
     floor = np.broadcast_to(1e-3 * columns.scales, (columns.size, columns.scales.size))
-    return average(columns.integrand, columns.codes, columns.transitions(), floor, rtol, columns.scales.size, hints)
+    return average(columns.integrand, columns.probe, columns.guide, columns.transitions(), floor, rtol, columns.scales.size, hints)
 
 
 def equal_strips(columns: Columns, strips: int) -> Averages:

@@ -15,13 +15,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .quadrature import interior_nodes, mapped, mapped_weights, sum_errors
-from .transitions import locate
+from .transitions import Guide, Probe, locate
 
 #: (column, theta) -> (regime code, values): arrays (m,), (m,) -> (m,), (m, q)
 Integrand = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
-
-#: (column, theta) -> the integrand's codes alone
-Codes = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 _FIRST, _LAST = 8, 64
 _ROUNDS = 60
@@ -34,7 +31,10 @@ _SHARE, _SLIVER = 0.4, 0.03
 
 @dataclass(frozen=True, slots=True)
 class Hints:
-    """Where transitions are expected, arrays (m,): ``column``, bracket in theta, codes at its ends; ``size`` (columns, q): of the values."""
+    """Where transitions are expected, arrays (m,): ``column``, bracket in theta, codes at its ends; ``size`` (columns, q): of the values.
+
+    ``witness_column``, ``witness`` (w,): thetas in the middle of narrow zones that are expected.
+    """
 
     column: np.ndarray
     low: np.ndarray
@@ -42,6 +42,8 @@ class Hints:
     code_low: np.ndarray
     code_high: np.ndarray
     size: np.ndarray
+    witness_column: np.ndarray
+    witness: np.ndarray
 
 
 @dataclass(slots=True)
@@ -59,12 +61,25 @@ class Averages:
 
 @dataclass(slots=True)
 class _Panels:
+    """Panels [low, high] of columns, arrays (m,), with the ``codes`` (m, 2) and ``values`` (m, 2, q) at their ends where these are known (NaN: not)."""
+
     column: np.ndarray
     low: np.ndarray
     high: np.ndarray
+    codes: np.ndarray
+    values: np.ndarray
+
+    @classmethod
+    def unknown(cls, column, low, high, q: int):
+        """Panels of whose ends nothing is known."""
+        return cls(column, low, high, np.full((column.size, 2), np.nan), np.full((column.size, 2, q), np.nan))
+
+    @classmethod
+    def joined(cls, parts):
+        return cls(*(np.concatenate([getattr(p, f) for p in parts]) for f in ("column", "low", "high", "codes", "values")))
 
     def take(self, index):
-        return _Panels(self.column[index], self.low[index], self.high[index])
+        return _Panels(self.column[index], self.low[index], self.high[index], self.codes[index], self.values[index])
 
     @property
     def size(self):
@@ -73,7 +88,8 @@ class _Panels:
 
 def average(
     integrand: Integrand,
-    codes_at: Codes,
+    probe: Probe,
+    guide: Guide,
     starts: list[np.ndarray],
     floor: np.ndarray,
     rtol: np.ndarray,
@@ -82,16 +98,17 @@ def average(
 ) -> Averages:
     """Means ``(1/pi) int_0^pi values d(theta)`` of every column to ``rtol (|value| + floor)``.
 
+    ``probe``: (column, theta) -> the integrand's codes, and margins for the ``guide`` to where they change.
     ``starts``: for each column the interior thetas known to be transitions, sorted. ``floor`` and ``rtol`` have shape
     (columns, q) and (columns,). ``hints``: what is expected, but not certain.
     """
     n = len(starts)
-    work = _Work(integrand, codes_at, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int), [])
-    column = np.repeat(np.arange(n), [s.size for s in starts])
-    cuts = [column, *[np.concatenate([*starts, np.empty(0)])] * 2]
-    if hints is not None and hints.column.size:
-        cuts = [np.concatenate(pair) for pair in zip(cuts, work.expected(hints, column, cuts[1]), strict=True)]
-    panels = _between(n, *cuts)
+    work = _Work(integrand, probe, guide, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int), [])
+    column, known = np.repeat(np.arange(n), [s.size for s in starts]), np.concatenate([*starts, np.empty(0)])
+    cuts = _Panels.unknown(column, known, known, q)
+    if hints is not None:
+        cuts = _Panels.joined((cuts, work.expected(hints, column, known)))
+    panels = _between(n, cuts)
     for _ in range(_ROUNDS):
         panels = work.refine(panels.take(np.flatnonzero(panels.high > panels.low)))
         # at a penetration where strips sit on a threshold all along y, rounding decides each: no use in splitting further
@@ -106,27 +123,34 @@ def average(
     return Averages(work.values / np.pi, work.errors / np.pi, work.strips, work.zones())
 
 
-def _between(n: int, column, low, high) -> _Panels:
-    """The panels that the cuts [low, high] leave of every column."""
-    order = np.lexsort((low, column))
-    every = np.concatenate((np.arange(n), column[order]))
-    starts, ends = np.concatenate((np.zeros(n), high[order])), np.concatenate((low[order], np.full(n, np.pi)))
-    last = np.concatenate((column[order], np.arange(n)))
-    return _Panels(np.sort(every, kind="stable"), starts[np.argsort(every, kind="stable")], ends[np.argsort(last, kind="stable")])
+def _between(n: int, cuts: _Panels) -> _Panels:
+    """The panels that the cuts leave of every column."""
+    cuts = cuts.take(np.lexsort((cuts.low, cuts.column)))
+    q = cuts.values.shape[2]
+    every, nothing = np.arange(n), (np.full(n, np.nan), np.full((n, q), np.nan))
+    after = (np.concatenate(v) for v in zip((every, np.zeros(n), *nothing), (cuts.column, cuts.high, cuts.codes[:, 1], cuts.values[:, 1])))
+    before = (np.concatenate(v) for v in zip((cuts.column, cuts.low, cuts.codes[:, 0], cuts.values[:, 0]), (every, np.full(n, np.pi), *nothing)))
+    (column, *starts), (last, *ends) = after, before
+    starts = [v[np.argsort(column, kind="stable")] for v in starts]
+    ends = [v[np.argsort(last, kind="stable")] for v in ends]
+    codes, values = (np.stack(pair, axis=1) for pair in zip(starts[1:], ends[1:], strict=True))
+    return _Panels(np.sort(column, kind="stable"), starts[0], ends[0], codes, values)
 
 
 @dataclass(slots=True)
 class _Work:
     integrand: Integrand
-    codes_at: Codes
+    probe: Probe
+    guide: Guide
     floor: np.ndarray
     rtol: np.ndarray
     values: np.ndarray
     errors: np.ndarray
     strips: np.ndarray
     accepted: list[tuple]
-    #: codes at the crest and next to the flat edge: what is narrower than a panel's first step shows up there
+    #: codes (columns, 2) and values (columns, 2, q) at the crest and next to the flat edge: what is narrower than a panel's first step shows up there
     ends: np.ndarray | None = None
+    end_values: np.ndarray | None = None
 
     def zones(self) -> list[np.ndarray]:
         """See ``Averages.zones``."""
@@ -152,8 +176,9 @@ class _Work:
             codes, values = self._sample(panels, n, nodes)
             mixed = (codes != codes[:, :1]).any(axis=1)
             if n == _FIRST:
-                mixed |= (panels.low == 0) & (codes[:, 0] != self.ends[panels.column, 0])
-                mixed |= (panels.high == np.pi) & (codes[:, -1] != self.ends[panels.column, 1])
+                self._learn_ends(panels)
+                # what is narrower than the first step shows up at an end that is known
+                mixed |= (~np.isnan(panels.codes) & (panels.codes != codes[:, [0, -1]])).any(axis=1)
             if mixed.any():
                 later.append(self._split_at_transitions(panels.take(mixed), codes[mixed], values[mixed], n))
             keep = ~mixed
@@ -168,20 +193,19 @@ class _Work:
             panels, nodes = panels.take(rest), (codes[rest], values[rest])
             n *= 2
         if panels.size:
-            middle = 0.5 * (panels.low + panels.high)
-            later.append(_Panels(panels.column, panels.low, middle))
-            later.append(_Panels(panels.column, middle, panels.high))
-        if not later:
-            return panels
-        return _Panels(*(np.concatenate([getattr(p, f) for p in later]) for f in ("column", "low", "high")))
+            middle, q = 0.5 * (panels.low + panels.high), panels.values.shape[2]
+            later.append(_Panels.unknown(panels.column, panels.low, middle, q))
+            later.append(_Panels.unknown(panels.column, middle, panels.high, q))
+        return _Panels.joined(later) if later else panels
 
-    def expected(self, hints: Hints, column, known):
-        """Brackets (column, low, high) of the transitions that are where they were expected, narrowed; away from those ``known``."""
+    def expected(self, hints: Hints, column, known) -> _Panels:
+        """Brackets of the transitions that are where they were expected, narrowed; away from those ``known``."""
         m = hints.column.size
-        both = np.concatenate((hints.column, hints.column))
-        np.add.at(self.strips, both, 1)
-        codes, values = self.integrand(both, np.concatenate((hints.low, hints.high)))
-        holds = (codes[:m] == hints.code_low) & (codes[m:] == hints.code_high)
+        asked = np.concatenate((hints.column, hints.column, hints.witness_column))
+        np.add.at(self.strips, asked, 1)
+        codes, values = self.integrand(asked, np.concatenate((hints.low, hints.high, hints.witness)))
+        seen, values, witnessed = codes[2 * m :], values[: 2 * m], values[2 * m :]
+        holds = (codes[:m] == hints.code_low) & (codes[m : 2 * m] == hints.code_high)
         for c, theta in zip(column, known, strict=True):
             holds &= ~((hints.column == c) & (hints.low <= theta) & (hints.high >= theta))
         index = np.flatnonzero(holds)
@@ -193,14 +217,26 @@ class _Work:
         line = hints.column[index]
         size = np.pi * (hints.size[line] + self.floor[line])
         width = self._bracket(self.rtol[line, None] * size, spread, hints.high[index])
-        codes_at = lambda i, x: self._codes(hints.column[i], x)  # noqa: E731
-        found = locate(codes_at, index, hints.low[index], hints.high[index], codes[index], codes[m + index], width)
+        probe = lambda i, x: self._probe(hints.column[i], x)  # noqa: E731
+        found = locate(probe, self.guide, index, hints.low[index], hints.high[index], codes[index], codes[m + index], width)
         end = {int(i): j for j, i in enumerate(index)}
         which = np.array([end[int(i)] for i in found.line], int)
         sliver = (found.high - found.low)[:, None]
         first, last = values[index][which], values[m + index][which]
         self._leave_out(hints.column[found.line], sliver, np.minimum(first, last), np.maximum(first, last))
-        return hints.column[found.line], found.low, found.high
+        codes = np.stack((hints.code_low[found.line], hints.code_high[found.line]), axis=1).astype(float)
+        # where a third code showed up in between, the codes of the two ends belong to the outermost
+        codes[1:][found.line[1:] == found.line[:-1], 0] = np.nan
+        codes[:-1][found.line[1:] == found.line[:-1], 1] = np.nan
+        found = _Panels(hints.column[found.line], found.low, found.high, codes, np.stack((first, last), axis=1))
+        # a witness that stands apart from the transitions found is the end of two panels
+        apart = np.ones(seen.size, bool)
+        for c, low, high in zip(found.column, found.low, found.high, strict=True):
+            apart &= ~((hints.witness_column == c) & (hints.witness >= low) & (hints.witness <= high))
+        alone = np.flatnonzero(apart)
+        witness, code = hints.witness[alone], np.repeat(seen[alone, None], 2, axis=1).astype(float)
+        values = np.repeat(witnessed[alone, None], 2, axis=1)
+        return _Panels.joined((found, _Panels(hints.witness_column[alone], witness, witness, code, values)))
 
     def _bracket(self, goal, spread, theta):
         """How narrow to bracket a transition at which the values change by ``spread``."""
@@ -248,6 +284,7 @@ class _Work:
         codes, values = self.integrand(column, theta_flat)
         if self.ends is None:
             self.ends = codes[theta.size :].reshape(2, -1).T
+            self.end_values = values[theta.size :].reshape(2, every.size, -1).swapaxes(0, 1)
             codes, values = codes[: theta.size], values[: theta.size]
         codes, values = codes.reshape(theta.shape), values.reshape(*theta.shape, -1)
         if known is None:
@@ -258,31 +295,36 @@ class _Work:
         all_values[:, 0::2], all_values[:, 1::2] = values, known[1]
         return all_codes, all_values
 
-    def _with_ends(self, panels: _Panels, theta, codes):
-        """Nodes and codes with the crest and the flat edge added to the panels that end there (the end nodes twice elsewhere)."""
-        first, last = panels.low == 0, panels.high == np.pi
-        low = np.where(first, 0.0, theta[:, 0]), np.where(first, self.ends[panels.column, 0], codes[:, 0])
-        edge = np.maximum(self._edge()[panels.column], theta[:, -1])
-        high = np.where(last, edge, theta[:, -1]), np.where(last, self.ends[panels.column, 1], codes[:, -1])
-        return tuple(
-            np.concatenate((start[:, None], inner, end[:, None]), axis=1)
-            for start, inner, end in zip(low, (theta, codes), high, strict=True)
-        )
+    def _learn_ends(self, panels: _Panels) -> None:
+        """Fill in what is known of the crest and the flat edge."""
+        for side, there in enumerate((panels.low == 0, panels.high == np.pi)):
+            panels.codes[there, side] = self.ends[panels.column[there], side]
+            panels.values[there, side] = self.end_values[panels.column[there], side]
+
+    def _with_ends(self, panels: _Panels, theta, codes, values):
+        """Nodes, codes and values with the panels' ends added where these are known (the end nodes twice elsewhere)."""
+        places = np.stack((panels.low, np.where(panels.high == np.pi, self._edge()[panels.column], panels.high)), axis=1)
+        known = ~np.isnan(panels.codes)
+        out = []
+        for ends, inner in ((places, theta), (panels.codes, codes), (panels.values, values)):
+            outer = np.where(known.reshape(known.shape + (1,) * (inner.ndim - 2)), ends, inner[:, [0, -1]]).astype(inner.dtype)
+            out.append(np.concatenate((outer[:, :1], inner, outer[:, 1:]), axis=1))
+        return out
 
     def _edge(self):
         """Theta next to the flat edge of each column: what lies beyond does not matter at its accuracy."""
         return np.pi * (1 - 0.01 * self.rtol)
 
-    def _codes(self, column, theta):
+    def _probe(self, column, theta):
         np.add.at(self.strips, column, 1)
-        return self.codes_at(column, theta)
+        return self.probe(column, theta)
 
     def _split_at_transitions(self, panels: _Panels, codes, values, n) -> _Panels:
         """Locate every transition between neighbouring nodes that disagree; panels end there."""
         t = interior_nodes(n)
         theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * mapped(t)
         if n == _FIRST:
-            theta, codes = self._with_ends(panels, theta, codes)
+            theta, codes, values = self._with_ends(panels, theta, codes, values)
         row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
         spread = (values.max(axis=1) - values.min(axis=1))[row]
         # the size of the result is known by what is summed up, and by these panels' own share
@@ -291,7 +333,8 @@ class _Work:
         line = panels.column[row]
         width = self._bracket(self.rtol[line, None] * np.abs(total)[line], spread, theta[row, node + 1])
         found = locate(
-            lambda line, x: self._codes(panels.column[line], x),
+            lambda line, x: self._probe(panels.column[line], x),
+            self.guide,
             row,
             theta[row, node],
             theta[row, node + 1],
@@ -306,8 +349,6 @@ class _Work:
         starts = panels.low[found.line]
         starts[~first] = found.high[np.flatnonzero(~first) - 1]
         tail = found.line[last]
-        return _Panels(
-            np.concatenate((column, panels.column[tail])),
-            np.concatenate((starts, found.high[last])),
-            np.concatenate((found.low, panels.high[tail])),
-        )
+        every = np.concatenate((column, panels.column[tail]))
+        starts, ends = np.concatenate((starts, found.high[last])), np.concatenate((found.low, panels.high[tail]))
+        return _Panels.unknown(every, starts, ends, values.shape[2])

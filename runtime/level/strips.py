@@ -13,7 +13,9 @@ from hystrip.solver import Material, foundation_of, kernel_of
 from hystrip.strip.regimes import CODE
 from hystrip.strip.solved import Solved
 
+from .margins import POWERS, decisive, margins
 from .saturated import saturated_level
+from .transitions import Guide
 
 #: What is averaged over the strips of a level, in this order; what lower levels carry in its contact follows.
 QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
@@ -33,12 +35,19 @@ class Tally:
 
 
 class Carry(Protocol):
-    """What the levels below contribute in the contact of a strip."""
+    """What the levels below contribute in the contact of a strip. ``passes``: how many ``heights`` there are."""
 
     scales: np.ndarray
+    passes: int
 
     def crossed(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """Number of law breaks that each strip's pressure exceeds, (m,)."""
+        """Codes (m,) of the law breaks that each strip's pressure passes."""
+
+    def heights(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
+        """Margins (m, k) of each strip's pressures over the law's breaks, Pa; NaN without contact."""
+
+    def passing(self, crossed: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """Which of the ``heights`` vanishes where one code of ``crossed`` becomes another, -1 for none."""
 
     def over_contact(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Contributions averaged over the period, (m, q)."""
@@ -93,6 +102,27 @@ class Columns:
     def codes(self, column: np.ndarray, theta: np.ndarray) -> np.ndarray:
         """Codes that change wherever the integrand may not be smooth, (m,): the regime, and the breaks of the law below that are passed."""
         return self._codes(self.solve(column, theta), column)
+
+    def probe(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Codes (m,), and margins (m, k) that vanish where they change, as the ``guide`` says."""
+        strips, kernel = self.solve(column, theta), kernel_of(self.material)
+        own = margins(kernel, strips)
+        if self.carry is not None:
+            own = np.concatenate((own, self.carry.heights(kernel, strips, self.group[column])), axis=1)
+        return self._codes(strips, column), own
+
+    @property
+    def guide(self) -> Guide:
+        """What the margins of ``probe`` mean."""
+        if self.carry is None:
+            return Guide(decisive, POWERS)
+        n, carry = len(CODE), self.carry
+
+        def foretells(code, other):
+            passing = carry.passing(code // n, other // n)
+            return np.where(code % n == other % n, np.where(passing < 0, -1, POWERS.size + passing), decisive(code % n, other % n))
+
+        return Guide(foretells, np.concatenate((POWERS, np.ones(carry.passes, int))))
 
     def integrand(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Codes (m,) and the values to average (m, q)."""

@@ -1,4 +1,8 @@
-"""Where a code changes along a line: all changes between points whose codes differ, by multisection."""
+"""Where a code changes along a line: all changes between points whose codes differ.
+
+Brackets shrink by multisection, or, where a margin is known that vanishes at the change, around the place it foretells. Two points with different
+codes enclose a change; where inside it lies is taken from the margin once it tells that well enough: points next to a fold are dear.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +12,27 @@ from dataclasses import dataclass
 import numpy as np
 
 _POINTS = 1024
+#: points remembered on either side of a bracket
+_KEPT = 3
+#: half width of the look around a foretold place, as a share of what the last point remembered changed of it, and its growth after a miss
+_DOUBT, _WIDER = 0.2, 16.0
+#: a look is worth it if it is this much narrower than the bracket
+_WORTH = 0.2
+#: a margin that foretold wrongly this often in a row is not believed
+_TRUSTED = 2
+_AROUND = np.array((-1.0, 0.0, 1.0))
+
+#: (line, x) -> codes (m,) and margins (m, k) of each point, NaN where unknown
+Probe = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+@dataclass(frozen=True)
+class Guide:
+    """``foretells(code, other)``: which margin of a point with ``code`` vanishes where that becomes ``other``, -1 for none; ``powers`` (k,):
+    the distance to there is like that power of the margin."""
+
+    foretells: Callable[[np.ndarray, np.ndarray], np.ndarray]
+    powers: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -19,38 +44,131 @@ class Transitions:
     high: np.ndarray
 
 
-def locate(
-    codes_at: Callable[[np.ndarray, np.ndarray], np.ndarray],
-    line: np.ndarray,
-    low: np.ndarray,
-    high: np.ndarray,
-    code_low: np.ndarray,
-    code_high: np.ndarray,
-    width: np.ndarray,
-) -> Transitions:
-    """Narrow every bracket to ``width`` (m,); where a third code shows up in between, its transitions are found too.
-
-    ``codes_at(line, x)`` gives the codes at points; ``code_low``, ``code_high`` those at the ends of the brackets.
-    """
+def locate(probe: Probe, guide: Guide, line, low, high, code_low, code_high, width) -> Transitions:
+    """Narrow every bracket [low, high] of the ``line`` it lies on to ``width`` or less, all (m,); where a third code shows up in between, its
+    transitions are found too. ``code_low``, ``code_high`` are the codes at the ends."""
     found = []
-    state = [line, low, high, code_low, code_high, width]
+    brackets = _Brackets.between(line, low, high, code_low, code_high, width, guide.powers.size)
     for _ in range(80):
-        narrow = state[2] - state[1] <= state[5]
-        found.append([v[narrow] for v in state[:3]])
-        state = [v[~narrow] for v in state]
-        line, low, high, code_low, code_high, width = state
-        if not line.size:
+        ends, done = brackets.settled(guide)
+        found.append((brackets.line[done], *ends[:, done]))
+        brackets = brackets.take(~done)
+        if not brackets.line.size:
             break
-        # many points at once where there are few brackets: rounds, not strips, are what costs then
-        m = int(np.clip(_POINTS // line.size, 1, 15))
-        x = low[:, None] + (high - low)[:, None] * np.arange(1, m + 1) / (m + 1)
-        codes = codes_at(np.repeat(line, m), x.ravel()).reshape(x.shape)
-        points = np.concatenate((low[:, None], x, high[:, None]), axis=1)
-        codes = np.concatenate((code_low[:, None], codes, code_high[:, None]), axis=1)
-        row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
-        state = [line[row], points[row, node], points[row, node + 1], codes[row, node], codes[row, node + 1], width[row]]
+        brackets = brackets.narrowed(probe, guide)
     else:
-        found.append(state[:3])
+        found.append((brackets.line, brackets.low, brackets.high))
     line, low, high = (np.concatenate(parts) for parts in zip(*found, strict=True))
     order = np.lexsort((low, line))
     return Transitions(line[order], low[order], high[order])
+
+
+@dataclass(frozen=True)
+class _Brackets:
+    """Brackets, arrays (n,), with the points remembered below and above each, the nearest first: ``x`` (n, 2, kept), NaN where there is none,
+    ``margins`` (n, 2, kept, k), ``codes`` (n, 2). ``misses``: looks in a row that found it elsewhere than foretold."""
+
+    line: np.ndarray
+    width: np.ndarray
+    codes: np.ndarray
+    x: np.ndarray
+    margins: np.ndarray
+    misses: np.ndarray
+
+    @classmethod
+    def between(cls, line, low, high, code_low, code_high, width, k: int) -> _Brackets:
+        x = np.full((line.size, 2, _KEPT), np.nan)
+        x[:, 0, 0], x[:, 1, 0] = low, high
+        codes = np.stack((code_low, code_high), axis=1)
+        return cls(line, width, codes, x, np.full((*x.shape, k), np.nan), np.zeros(line.size, int))
+
+    @property
+    def low(self):
+        return self.x[:, 0, 0]
+
+    @property
+    def high(self):
+        return self.x[:, 1, 0]
+
+    def take(self, index) -> _Brackets:
+        return _Brackets(*(getattr(self, name)[index] for name in ("line", "width", "codes", "x", "margins", "misses")))
+
+    def settled(self, guide: Guide) -> tuple[np.ndarray, np.ndarray]:
+        """Ends (2, n) of brackets that are narrow enough, or of what the margins leave of them, and which are either."""
+        ends = np.stack((self.low, self.high))
+        narrow = ends[1] - ends[0] <= self.width
+        place, doubt = self._foretold(guide)
+        known = ~narrow & (place - doubt > ends[0]) & (place + doubt < ends[1]) & (2 * doubt <= self.width) & (self.misses < _TRUSTED)
+        ends[:, known] = place[known] + np.multiply.outer((-1.0, 1.0), np.maximum(doubt[known], 0.0))
+        return ends, narrow | known
+
+    def narrowed(self, probe: Probe, guide: Guide) -> _Brackets:
+        """The brackets of all changes inside, after a look at some points of each: around the foretold place, or all along."""
+        low, high = self.low, self.high
+        place, doubt = self._foretold(guide)
+        doubt = np.maximum(doubt * _WIDER**self.misses, 0.4 * self.width)
+        guided = (place > low) & (place < high) & (doubt < _WORTH * (high - low))
+        aimed, others = np.flatnonzero(guided), np.flatnonzero(~guided)
+        # many points at once where there are few brackets: rounds, not strips, are what costs then
+        m = int(np.clip(_POINTS // self.line.size, 3, 15))
+        rows = np.concatenate((np.repeat(aimed, _AROUND.size), np.repeat(others, m)))
+        spread = low[others, None] + (high - low)[others, None] * np.arange(1, m + 1) / (m + 1)
+        x = np.concatenate(((place[aimed, None] + doubt[aimed, None] * _AROUND).ravel(), spread.ravel()))
+        inside = (x > low[rows]) & (x < high[rows])
+        rows, x = rows[inside], x[inside]
+        changes, parents = self._changes(rows, x, *probe(self.line[rows], x))
+        missed = guided[parents] & (changes.high - changes.low > 2.1 * doubt[parents])
+        changes.misses[:] = np.where(missed, self.misses[parents] + 1, 0)
+        return changes
+
+    def _foretold(self, guide: Guide) -> tuple[np.ndarray, np.ndarray]:
+        """Where the change should be by the margins of the surer side, and how far off that may be; NaN where nothing is known."""
+        place, doubt = np.full(self.line.size, np.nan), np.full(self.line.size, np.inf)
+        for side in (0, 1):
+            which = guide.foretells(self.codes[:, side], self.codes[:, 1 - side])
+            told = np.flatnonzero(which >= 0)
+            if told.size:
+                margin = np.take_along_axis(self.margins[told, side], which[told, None, None], axis=2)[:, :, 0]
+                where, off = _vanishing(self.x[told, side], margin, guide.powers[which[told]])
+                better = off < doubt[told]
+                place[told[better]], doubt[told[better]] = where[better], off[better]
+        return place, doubt
+
+    def _changes(self, rows, x, codes, margins) -> tuple[_Brackets, np.ndarray]:
+        """The brackets between neighbours that differ among the points remembered and the new ones ``x`` of the brackets ``rows``; their parents."""
+        own, side, place = np.nonzero(np.isfinite(self.x))
+        owner = np.concatenate((own, rows))
+        x = np.concatenate((self.x[own, side, place], x))
+        codes = np.concatenate((self.codes[own, side], codes))
+        margins = np.concatenate((self.margins[own, side, place], margins))
+        order = np.lexsort((x, owner))
+        owner, x, codes, margins = owner[order], x[order], codes[order], margins[order]
+        within = (owner[1:] == owner[:-1]) & (x[:-1] >= self.low[owner[:-1]]) & (x[1:] <= self.high[owner[1:]])
+        last = np.flatnonzero(within & (codes[1:] != codes[:-1]))
+        parents = owner[last]
+        near_x = np.full((last.size, 2, _KEPT), np.nan)
+        near_margins = np.full((*near_x.shape, margins.shape[1]), np.nan)
+        for side, (nearest, step) in enumerate(((last, -1), (last + 1, 1))):
+            alike = np.ones(last.size, bool)
+            for k in range(_KEPT):
+                at = np.clip(nearest + step * k, 0, x.size - 1)
+                alike &= (nearest + step * k == at) & (owner[at] == parents) & (codes[at] == codes[nearest])
+                near_x[alike, side, k], near_margins[alike, side, k] = x[at[alike]], margins[at[alike]]
+        ends = np.stack((codes[last], codes[last + 1]), axis=1)
+        found = _Brackets(self.line[parents], self.width[parents], ends, near_x, near_margins, np.zeros(last.size, int))
+        return found, parents
+
+
+def _vanishing(x, margin, power) -> tuple[np.ndarray, np.ndarray]:
+    """Where ``margin`` (n, 3) at ``x`` vanishes, ``x = place + c margin^p + d margin^(p + 1)``, and how far off that may be."""
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        u = margin ** power[:, None]
+        v = u * margin
+        dx, du, dv = (w[:, 1:] - w[:, :1] for w in (x, u, v))
+        two = x[:, 0] - u[:, 0] * dx[:, 0] / du[:, 0]
+        determinant = du[:, 0] * dv[:, 1] - du[:, 1] * dv[:, 0]
+        c = (dx[:, 0] * dv[:, 1] - dx[:, 1] * dv[:, 0]) / determinant
+        d = (du[:, 0] * dx[:, 1] - du[:, 1] * dx[:, 0]) / determinant
+        three = x[:, 0] - u[:, 0] * c - v[:, 0] * d
+        off = np.where(np.isfinite(three), _DOUBT * np.abs(three - two), 0.5 * np.abs(two - x[:, 0]))
+    return np.where(np.isfinite(three), three, two), np.where(np.isfinite(off), off, np.inf)
