@@ -23,6 +23,7 @@ from .certificate import always_adhering
 from .direct import certified, extremal
 from .exclusion import empty
 from .march import Orbit
+from .outermost import FAST, Outermost, outermost
 from .problem import Cycle, Strips, adhesive_cycle, bare_cycle
 from .regimes import CODE
 from .solved import Record, Solved
@@ -98,6 +99,7 @@ class _Batch:
         self.searching = known is not None
         self.known = known or Orbit.blank(strips.size)
         self.record = Record(kernel, strips)
+        self.bounds = Outermost.blank(strips.size)
         self._open: list[np.ndarray] = []
 
     @property
@@ -109,8 +111,8 @@ class _Batch:
         adhesive = self.strips.p_0 > 0
         self._without_adhesion(np.flatnonzero(~adhesive))
         index = np.flatnonzero(adhesive)
-        stages = (self._engaged, self._onset, self._free)
-        for stage in stages if self.unloading else reversed(stages):
+        stages = (self._engaged, self._onset, self._free) if self.unloading else (self._free, self._onset, self._engaged)
+        for stage in stages:
             if index.size:
                 index = stage(index)
         return self.record.solved
@@ -133,10 +135,24 @@ class _Batch:
         hold = reaches & clinging
         self.record.constant(index[hold], "a", -s.p_0[hold], 0.0, 0.0, 1.0)
         done = full | hold
-        partial = np.flatnonzero(reaches & ~clinging)
+        partial = reaches & ~clinging
+        if self.unloading and not self.searching:
+            partial &= ~self._bounded(index, s, ~done)
+        partial = np.flatnonzero(partial)
         if partial.size:
             done[partial] = self._contact_with_saturated_adhesion(index[partial])
         return index[~done]
+
+    def _bounded(self, index, s: Strips, ask) -> np.ndarray:
+        """Bound all orbits of the strips ``index`` of which to ``ask``; returns of which none is always engaged."""
+        ask = np.flatnonzero(ask & (s.beta <= FAST))
+        released = np.zeros(index.size, bool)
+        if ask.size:
+            bounds = outermost(self.kernel, adhesive_cycle(self.kernel, s.take(ask)))
+            released[ask] = bounds.released
+            self.bounds.put(index[ask], bounds)
+            self.record.solved.evaluations[index[ask]] += bounds.evaluations
+        return released
 
     def _onset(self, index):
         """Orbits that are free once per period."""
@@ -144,7 +160,7 @@ class _Batch:
         return (self._onset_searched if self.searching else self._onset_direct)(index, cycle)
 
     def _onset_direct(self, index, cycle: Cycle):
-        orbit, sequences, proven, none, spent = extremal(self.kernel, cycle, last=not self.unloading)
+        orbit, sequences, proven, none, spent = extremal(self.kernel, cycle, last=not self.unloading, bounds=self.bounds.take(index))
         self.record.solved.evaluations[index] += spent
         for sequence in ("acaf", "afc", "af"):
             pick = np.flatnonzero(proven & (sequences == sequence))
