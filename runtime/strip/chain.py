@@ -13,9 +13,9 @@ import numpy as np
 from .problem import Cycle
 
 TWO_PI = 2 * np.pi
-_ITERATIONS = 24
+_ITERATIONS = 14
 #: iterations before strips that are done are set aside
-_TOGETHER = 4
+_TOGETHER = 3
 _TIGHTENING = 5
 #: a step this small leaves an error of its square
 _SMALL = 1e-7
