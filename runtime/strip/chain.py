@@ -13,6 +13,7 @@ import numpy as np
 from .problem import Cycle
 
 TWO_PI = 2 * np.pi
+#: where there is an orbit Newton mostly needs half of these; next to complete contact, where two edges all but coincide, twice as many
 _ITERATIONS = 14
 #: iterations before strips that are done are set aside
 _TOGETHER = 3
@@ -49,7 +50,7 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
     active, part = np.arange(n), cycle
     # where a link is lost to rounding or overflows the step is no number, and the strip is left to the search
     with np.errstate(all="ignore"):
-        for iteration in range(_ITERATIONS):
+        for iteration in range(_ITERATIONS * (2 if sequence in ("ac", "cf") else 1)):
             here = edges[:, active]
             values, before, after = _links(kernel, part, sequence, here)
             move, steep = _step(values, before, after)
