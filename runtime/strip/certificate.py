@@ -16,8 +16,6 @@ _EPS = np.finfo(float).eps
 _SLACK = 64 * _EPS
 #: Near a fold the slope of the onset map approaches one like the square root of the distance; rounding blurs it.
 STABLE = 1e-6
-#: largest difference between the slope of the onset map in closed form and by elimination along the edges
-_AGREE = 1e-4
 
 
 def edges_admissible(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
@@ -50,14 +48,10 @@ def stable(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     return (log_slope <= STABLE) | (N - F <= _SLACK * (1 + np.abs(cycle.strips.D) + cycle.strips.delta_0))
 
 
-def attracting(kernel, cycle: Cycle, orbit: Orbit, slope: np.ndarray) -> np.ndarray:
-    """Slope of the onset map below one by more than rounding blurs, however slow the foundation is.
-
-    ``slope``: the same as the chain of edges has it, edge by edge. Where an edge is all but grazed the two differ, and its place is not known well.
-    """
+def attracting(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
+    """Slope of the onset map below one by more than rounding blurs, however slow the foundation is."""
     log_slope, _ = slope_excess(kernel, cycle, orbit)
-    agree = np.abs(slope - np.exp(np.minimum(log_slope, 0.0))) <= _AGREE
-    return agree & (log_slope < -STABLE * np.minimum(1.0, TWO_PI / np.maximum(cycle.strips.beta, 1.0)))
+    return log_slope < -STABLE * np.minimum(1.0, TWO_PI / np.maximum(cycle.strips.beta, 1.0))
 
 
 def always_adhering(kernel, strips: Strips, cycle: Cycle, orbit: Orbit) -> np.ndarray:

@@ -36,7 +36,9 @@ def certified(kernel, cycle: Cycle, sequence: str, bounds: Outermost | None = No
         good[coarse] = converged
     here = np.flatnonzero(good)
     part, there = cycle.take(here), orbit.take(here)
-    good[here] = edges_admissible(kernel, part, there) & attracting(kernel, part, there, chain.slope[here])
+    good[here] = edges_admissible(kernel, part, there)
+    if sequence not in ("ac", "cf"):  # where p does not step the onset map contracts everywhere
+        good[here] &= attracting(kernel, part, there)
     return orbit, good, spent
 
 
