@@ -6,22 +6,26 @@ more extremal one exists; all else is left to ``search``.
 
 import numpy as np
 
-from .certificate import STABLE, edges_admissible, stable
+from .certificate import attracting, edges_admissible
 from .chain import follow
 from .exclusion import alone
 from .march import Orbit
+from .outermost import Outermost
 from .problem import Cycle
 from .refine import CONVERGED, refined
 from .solved import orbit_of
 from .start import start
 
 
-def certified(kernel, cycle: Cycle, sequence: str) -> tuple[Orbit, np.ndarray, np.ndarray]:
-    """Orbits of ``sequence`` that Newton finds, which of them are certified, and the evaluations spent on each."""
-    chain = follow(kernel, cycle, sequence, start(kernel, cycle, sequence))
+def certified(kernel, cycle: Cycle, sequence: str, bounds: Outermost | None = None) -> tuple[Orbit, np.ndarray, np.ndarray]:
+    """Orbits of ``sequence`` that Newton finds, which of them are certified, and the evaluations spent on each.
+
+    ``bounds`` on all orbits, where there are any, are what Newton starts from.
+    """
+    chain = follow(kernel, cycle, sequence, start(kernel, cycle, sequence, bounds))
     spent = chain.evaluations
     orbit = orbit_of(sequence, chain.edges)
-    good = chain.converged & (chain.slope < 1 - STABLE)
+    good = chain.converged
     coarse = np.flatnonzero(good & (chain.correction > CONVERGED))
     if coarse.size:
         # next to a fold or a graze the search knows better; a strip without adhesion has neither
@@ -32,15 +36,17 @@ def certified(kernel, cycle: Cycle, sequence: str) -> tuple[Orbit, np.ndarray, n
         good[coarse] = converged
     here = np.flatnonzero(good)
     part, there = cycle.take(here), orbit.take(here)
-    good[here] = edges_admissible(kernel, part, there) & stable(kernel, part, there)
+    good[here] = edges_admissible(kernel, part, there)
+    if sequence not in ("ac", "cf"):  # where p does not step the onset map contracts everywhere
+        good[here] &= attracting(kernel, part, there)
     return orbit, good, spent
 
 
-def extremal(kernel, cycle: Cycle, last: bool):
+def extremal(kernel, cycle: Cycle, last: bool, bounds: Outermost):
     """Extremal orbits with a free part, where they can be had without a search.
 
     Returns, for n cycles: a certified orbit of each (x NaN where there is none), its sequence (``""`` if none), which are proven extremal,
-    which cycles are proven to have no such orbit at all, and the evaluations spent.
+    which cycles are proven to have no such orbit at all, and the evaluations spent. ``bounds`` on all orbits hold for ``last=False`` only.
     """
     n = cycle.size
     found = Orbit.blank(n)
@@ -51,7 +57,7 @@ def extremal(kernel, cycle: Cycle, last: bool):
         # next to saturated contact a less engaged orbit is rare: ask the search, which sees that first
         possible = arc & (s.D - 1 + s.p_0 < kernel.modulus_ratio(s.alpha, s.beta))
     else:
-        possible = arc
+        possible = arc & ~bounds.missed
     attempts = [("acaf", possible & ~cycle.direct), ("afc", possible & cycle.direct)]
     if last:
         attempts.append(("af", possible & ~cycle.direct))
@@ -59,13 +65,13 @@ def extremal(kernel, cycle: Cycle, last: bool):
         pick = np.flatnonzero(kind & ~proven)
         if not pick.size:
             continue
-        part = cycle.take(pick)
-        orbit, good, used = certified(kernel, part, sequence)
+        part, limits = cycle.take(pick), bounds.take(pick)
+        orbit, good, used = certified(kernel, part, sequence, limits)
         spent[pick] += used
         here = np.flatnonzero(good)
         if not here.size:
             continue
-        sure, used = alone(kernel, part.take(here), orbit.take(here), last)
+        sure, used = alone(kernel, part.take(here), orbit.take(here), last, limits.take(here))
         pick = pick[here]
         spent[pick] += used
         # of two orbits that are known the more extremal one is worth keeping
@@ -74,4 +80,4 @@ def extremal(kernel, cycle: Cycle, last: bool):
         found.put(pick[keep], orbit.take(here[keep]))
         sequences[pick[keep]] = sequence
         proven[pick] |= sure
-    return found, sequences, proven, ~arc, spent
+    return found, sequences, proven, ~arc | bounds.missed, spent

@@ -21,9 +21,10 @@ import numpy as np
 
 from .certificate import always_adhering
 from .direct import certified, extremal
-from .exclusion import empty
 from .march import Orbit
+from .outermost import FAST, Outermost, outermost
 from .problem import Cycle, Strips, adhesive_cycle, bare_cycle
+from .reach import may_cling, out_of_reach
 from .regimes import CODE
 from .solved import Record, Solved
 from .sought import sought
@@ -98,6 +99,7 @@ class _Batch:
         self.searching = known is not None
         self.known = known or Orbit.blank(strips.size)
         self.record = Record(kernel, strips)
+        self.bounds = Outermost.blank(strips.size)
         self._open: list[np.ndarray] = []
 
     @property
@@ -109,8 +111,8 @@ class _Batch:
         adhesive = self.strips.p_0 > 0
         self._without_adhesion(np.flatnonzero(~adhesive))
         index = np.flatnonzero(adhesive)
-        stages = (self._engaged, self._onset, self._free)
-        for stage in stages if self.unloading else reversed(stages):
+        stages = (self._engaged, self._onset, self._free) if self.unloading else (self._free, self._onset, self._engaged)
+        for stage in stages:
             if index.size:
                 index = stage(index)
         return self.record.solved
@@ -127,16 +129,35 @@ class _Batch:
         s = self.strips.take(index)
         full = _saturates(self.kernel, s)
         self.record.saturated_contact(index[full])
-        # the foundation is never above -p_0, so the gap of the valley is at least this
-        reaches = ~full & (2 - s.D - s.p_0 <= s.delta_0)
+        reaches = ~full & may_cling(self.kernel, s)
         clinging = s.D <= -s.p_0
         hold = reaches & clinging
         self.record.constant(index[hold], "a", -s.p_0[hold], 0.0, 0.0, 1.0)
         done = full | hold
-        partial = np.flatnonzero(reaches & ~clinging)
+        partial = reaches & ~clinging
+        if self.unloading and not self.searching:
+            partial &= ~self._bounded(index, s, ~done, reaches)
+        partial = np.flatnonzero(partial)
         if partial.size:
             done[partial] = self._contact_with_saturated_adhesion(index[partial])
         return index[~done]
+
+    def _bounded(self, index, s: Strips, ask, reaches) -> np.ndarray:
+        """Bound all orbits of the strips ``index`` of which to ``ask``; returns of which none is always engaged."""
+        released = np.zeros(index.size, bool)
+        hanging = np.flatnonzero(ask & (s.D <= -s.delta_0))
+        missed = np.zeros(index.size, bool)
+        if hanging.size:
+            missed[hanging] = out_of_reach(self.kernel, s.take(hanging))
+            ask &= reaches | ~missed
+        ask = np.flatnonzero(ask & (s.beta <= FAST))
+        if ask.size:
+            bounds = outermost(self.kernel, adhesive_cycle(self.kernel, s.take(ask)))
+            released[ask] = bounds.released
+            self.bounds.put(index[ask], bounds)
+            self.record.solved.evaluations[index[ask]] += bounds.evaluations
+        self.bounds.missed[index[missed]] = True
+        return released
 
     def _onset(self, index):
         """Orbits that are free once per period."""
@@ -144,7 +165,7 @@ class _Batch:
         return (self._onset_searched if self.searching else self._onset_direct)(index, cycle)
 
     def _onset_direct(self, index, cycle: Cycle):
-        orbit, sequences, proven, none, spent = extremal(self.kernel, cycle, last=not self.unloading)
+        orbit, sequences, proven, none, spent = extremal(self.kernel, cycle, last=not self.unloading, bounds=self.bounds.take(index))
         self.record.solved.evaluations[index] += spent
         for sequence in ("acaf", "afc", "af"):
             pick = np.flatnonzero(proven & (sequences == sequence))
@@ -154,15 +175,7 @@ class _Batch:
         return index[none]
 
     def _onset_searched(self, index, cycle: Cycle):
-        none = np.zeros(index.size, bool)
-        if self.unloading:
-            # a surface out of reach of the undeformed foundation is mostly not met at all
-            ask = np.flatnonzero(np.isnan(self.known.x[index]) & (self.strips.D[index] <= -self.strips.delta_0[index]))
-            if ask.size:
-                none[ask], spent = empty(self.kernel, cycle.take(ask))
-                self.record.solved.evaluations[index[ask]] += spent
-        rest = np.flatnonzero(~none)
-        return np.concatenate([index[none], self._sought(index[rest], cycle.take(rest))])
+        return self._sought(index, cycle)
 
     def _sought(self, index, cycle: Cycle):
         result = sought(self.kernel, cycle, last=not self.unloading, known=self.known.take(index))

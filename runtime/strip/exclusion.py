@@ -15,63 +15,84 @@ What is not proven here is left to ``search``; nothing is ever accepted for lack
 
 import numpy as np
 
+from .bound import bound, close_enough
 from .march import TWO_PI, Orbit, march
+from .outermost import Outermost
 from .problem import Cycle
 from .search import excluded
-from .sensitivity import slope_bounds
+from .sensitivity import slope_bounds, steep_margin
 
 _EPS = np.finfo(float).eps
-#: bounds are sought this far beyond the linear estimate
-_BEYOND = 1.3
-_TRIES = 9
-#: a bound is good enough when this many tries have been beyond the zero, the later ones closer to it
-_LOOSE, _CLOSER = 2, 3
+#: least relaxation time that is divided by
+_LEAST = 1e-290
 #: probes tried; the first half way to the end of the arc, the next ones after longer steps from what is proven, or shorter ones after a failure
 _PROBES, _FIRST, _BOLDER, _WARIER = 24, 0.5, 3.0, 0.2
-#: where there is no orbit, the ends of the arc tell at once or not at all
-_PROBES_OF_NONE = 4
 
 
-def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Which orbits are proven to be the first (``last``: last) of their onset arc, and the event evaluations spent on each."""
-    s = cycle.strips
-    w_end = kernel.profile(orbit.x, s.D) + s.delta_0
-    known = Orbit(orbit.x, orbit.b, orbit.a, orbit.c, np.zeros(cycle.size, bool), np.zeros(cycle.size), w_end)
-    return _cleared(kernel, cycle, known, -1.0 if last else 1.0, _PROBES)
+def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
+    """Which orbits are proven to be the first (``last``: last) of their onset arc, and the event evaluations spent on each.
 
-
-def empty(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
-    """Which onset arcs are proven to hold no orbit because every onset is followed by a later one, or by none.
-
-    Where the latest onset keeps the strip engaged through the period, every onset does.
+    ``bounds`` on all orbits: no onset lies before them, so it is enough that R falls from there on.
     """
-    latest, spent = march(kernel, cycle, cycle.centre + cycle.half_d)
-    proven = latest.engaged.copy()
-    missed = ~latest.engaged & (latest.r > 64 * _EPS * (1 + np.abs(cycle.strips.D) + cycle.strips.delta_0))
-    contact = ~np.isnan(latest.b)
-    for kind in (contact, ~contact):
-        ask = np.flatnonzero(missed & kind)
-        if ask.size:
-            proven[ask], used = _cleared(kernel, cycle.take(ask), latest.take(ask), 1.0, _PROBES_OF_NONE)
-            spent[ask] += used
+    proven, spent = np.zeros(cycle.size, bool), np.zeros(cycle.size)
+    if not last:
+        known = np.flatnonzero(np.isfinite(bounds.x))
+        part, within = orbit.take(known), bounds.take(known)
+        proven[known] = _falls_between(kernel, cycle.take(known), part, within.x, within.x * np.nan, np.maximum(within.c, part.c))
+    rest = np.flatnonzero(~proven)
+    if rest.size:
+        proven[rest], spent[rest] = _alone(kernel, cycle.take(rest), orbit.take(rest), last, bounds.x[rest])
     return proven, spent
 
 
-def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, probes: int) -> tuple[np.ndarray, np.ndarray]:
-    """Where no zero of r lies between the end of the onset arc (``sign`` > 0: its start) and the onsets of ``known``."""
+def _falls_between(kernel, cycle: Cycle, orbit: Orbit, x, r, c) -> np.ndarray:
+    """Which orbits are the first because of one earlier onset x, before which there is none, whose adhesion ends before c.
+
+    R falls strictly from where F exceeds ``steep_margin`` to the known onset, and up to there r is positive: it is at x, at least ``r``, and falls no
+    faster than that margin lets it. With r NaN x has to be where R falls already.
+    """
+    s = cycle.strips
+    noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
+    margin = steep_margin(kernel, cycle, orbit, c)
+    margin += noise
+    known = np.isfinite(margin)
+    half = kernel.forcing_arc(s.delta_0 - np.where(known, margin, 0.0), s.D, s.beta)[1]
+    steep = known & (orbit.x > cycle.centre - half) & (orbit.x < cycle.centre + half)
+    way = np.maximum(cycle.centre - half - x, 0.0)
+    kept = r - noise > margin * np.expm1(np.minimum(way / np.maximum(s.beta, _LEAST), 700.0))
+    return steep & ((way == 0) | kept)
+
+
+def _alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, least) -> tuple[np.ndarray, np.ndarray]:
+    s = cycle.strips
+    w_end = kernel.profile(orbit.x, s.D) + s.delta_0
+    known = Orbit(orbit.x, orbit.b, orbit.a, orbit.c, np.zeros(cycle.size, bool), np.zeros(cycle.size), w_end)
+    sign = -1.0 if last else 1.0
+    end = cycle.centre - sign * cycle.half_d
+    return _cleared(kernel, cycle, known, sign, end if last else np.fmax(end, least))
+
+
+def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.ndarray, np.ndarray]:
+    """Where no zero of r lies between ``end``, of the onset arc or of what is left of it (``sign`` > 0: its start), and the onsets of ``known``."""
     n = cycle.size
     proven, spent = np.zeros(n, bool), np.zeros(n)
     active, part, here = np.arange(n), cycle, known
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        outer, used = enclose(kernel, cycle, cycle.centre - sign * cycle.half_d, known, sign)
+        outer, used = enclose(kernel, cycle, end, known, sign)
         spent += used
         stuck = np.flatnonzero(outer.engaged)
         if stuck.size:
             closer, used = _released(kernel, cycle.take(stuck), known.take(stuck), outer.x[stuck], sign)
             outer.put(stuck, closer)
             spent[stuck] += used
-        frontier, step = known.take(active), _FIRST * (outer.x - known.x)
-        for _ in range(probes):
+        if sign > 0:
+            proven = ~outer.engaged & _falls_between(kernel, cycle, known, outer.x, outer.r, outer.c)
+            active = np.flatnonzero(~proven)
+            if not active.size:
+                return proven, spent
+            part, here, outer = cycle.take(active), known.take(active), outer.take(active)
+        frontier, step = here.take(np.arange(active.size)), _FIRST * (outer.x - here.x)
+        for _ in range(_PROBES):
             x = frontier.x + np.where(np.abs(step) < 0.9 * np.abs(outer.x - frontier.x), step, _FIRST * (outer.x - frontier.x))
             probe, used = enclose(kernel, part, x, here, sign)
             spent[active] += used
@@ -101,7 +122,7 @@ def _released(kernel, cycle: Cycle, known: Orbit, x, sign) -> tuple[Orbit, np.nd
     noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
     spent = np.zeros(x.shape)
     start, far = known.x + TWO_PI, np.maximum(x + TWO_PI, latest)
-    next_onset, found = _bound(kernel.gap_event, entry, s.delta_0, 1.0, np.maximum(start, far), far, -sign, noise, spent)
+    next_onset, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, np.maximum(start, far), far, -sign, noise, close_enough(s.beta), spent)
     closer, used = enclose(kernel, cycle, np.where(found, next_onset - TWO_PI, x), known, sign)
     spent += used
     # bounds may miss an adhesion that ends just before its arc does: then the edges themselves
@@ -163,7 +184,7 @@ def enclose(kernel, cycle: Cycle, x, known: Orbit, sign) -> tuple[Orbit, np.ndar
     # contact begins: an event that falls; its bound lies on the outer side of the known edge
     entry = kernel.gap_entry(x, cycle.gap_on, -s.p_0, s.D, s.beta)
     far = np.maximum(x, centre - cycle.half_b) if sign > 0 else centre + cycle.half_b
-    b, found = _bound(kernel.gap_event, entry, 0.0, 1.0, np.maximum(known.b, x), far, -sign, noise, spent)
+    b, found = bound(kernel.gap_event, entry, 0.0, 1.0, np.maximum(known.b, x), far, -sign, noise, close_enough(s.beta), spent)
     lost = failed = np.zeros(x.shape, bool)
     if sign < 0:
         # a gap that is still open at the end of the arc does not close
@@ -181,7 +202,7 @@ def _detachment(kernel, cycle: Cycle, b, start, sign, noise, spent):
     entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
     first, last = np.maximum(b, cycle.centre + cycle.half_b), cycle.centre + TWO_PI - cycle.half_b
     far = last if sign > 0 else first
-    a, found = _bound(kernel.excess_event, entry, 0.0, 1.0, np.maximum(start, first), far, sign, noise + 64 * _EPS * entry[4], spent)
+    a, found = bound(kernel.excess_event, entry, 0.0, 1.0, np.maximum(start, first), far, sign, noise + 64 * _EPS * entry[4], close_enough(s.beta), spent)
     return np.where(found, a, far), ~found & (sign > 0)
 
 
@@ -191,46 +212,9 @@ def _release(kernel, cycle: Cycle, x, b, a, lost, failed, start, sign, noise, sp
     entry = kernel.gap_entry(a, np.where(lost, cycle.gap_on, 0.0), -s.p_0, s.D, s.beta)
     start = np.maximum(start, a)
     far = cycle.centre + TWO_PI - cycle.half_c if sign > 0 else np.maximum(a, cycle.centre + cycle.half_c)
-    c, found = _bound(kernel.gap_event, entry, s.delta_0, -1.0, start, far, sign, noise, spent)
+    c, found = bound(kernel.gap_event, entry, s.delta_0, -1.0, start, far, sign, noise, close_enough(s.beta), spent)
     failed = failed | (~found & (sign > 0))
     c = np.where(found, c, far)
     r = np.where(failed, -np.inf, _gap_at(kernel, cycle, c, x))
     w_end = (kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(x + TWO_PI - c, s.beta)
     return Orbit(x, b, a, c, failed, r, w_end)
-
-
-def _bound(event, entry, offset, rising, start, far, side, noise, spent):
-    """A phase between ``start`` and ``far`` that is beyond the event's zero, and whether one was found.
-
-    The event function, ``rising`` times (value - offset), is positive before its zero and negative after. ``side`` > 0 seeks a phase
-    after it (``start`` lies before), ``side`` < 0 a phase before it.
-    """
-    result, found, since = start.copy(), np.zeros(start.shape, bool), np.zeros(start.shape, int)
-    low, high = np.minimum(start, far), np.maximum(start, far)
-    constants = np.stack(np.broadcast_arrays(offset, noise, *entry))
-    x, index = start, np.arange(start.size)
-    for attempt in range(_TRIES):
-        level, blur, *rest = constants
-        value, slope = event(x, *rest)
-        value, slope = rising * (value - level), rising * slope
-        good = side * value < -blur
-        better = good & (~found[index] | (side * (result[index] - x) > 0))
-        result[index] = np.where(better, x, result[index])
-        found[index] |= good
-        since[index] += found[index]
-        spent[index] += 1
-        if attempt >= _LOOSE:
-            going = np.flatnonzero(since[index] < _CLOSER)
-            if not going.size:
-                break
-            if going.size < index.size:
-                index = index[going]
-                x, value, slope, good, blur, constants = (v[..., going] for v in (x, value, slope, good, blur, constants))
-        ahead = np.where(slope < 0, -value / slope, np.nan)
-        # from the inner side step beyond the estimate and beyond what rounding blurs (where nothing is remembered the bound is the
-        # known edge itself), from the outer side not quite back to it
-        step = np.where(good, 0.9 * ahead, _BEYOND * ahead - side * 4 * blur / slope)
-        halfway = 0.5 * (far[index] - x)
-        x = x + np.where((np.abs(step) <= np.abs(halfway)) | good, step, halfway)
-        x = np.where(np.isfinite(x), np.clip(x, low[index], high[index]), far[index])
-    return result, found

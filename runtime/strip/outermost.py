@@ -1,0 +1,113 @@
+"""What no orbit of a strip can exceed: bounds from the most engaged state that it can be in without being in contact all the time.
+
+Contact is left where ``H + p_0 <= 0`` and, but for a snap into contact, made where ``H + p_0 >= 0``. So every orbit but
+saturated contact is in a gap at the phase where ``H + p_0`` turns positive, and there nothing is more engaged than a gap that has just closed:
+engaged, with the least ``z = w - J_0 p``. (A free state has ``z = w > u + delta_0``, more than the ``u + J_0 p_0`` of that one where it does
+not snap.) The order of states is kept in time. Hence, if from that state contact ends at a, adhesion ends at c and the next onset is met at
+x, then in every orbit contact and adhesion end before a and c, so that
+
+* no orbit is always engaged,
+* every onset lies after x, and
+* there is no onset, hence no orbit with one, if x does not exist.
+
+The three phases are not solved for. Each is replaced by a later a, a later c, an earlier x, verified by the sign of an event: contact that
+is held longer, and adhesion that is held longer, only leave the state more engaged than it is.
+"""
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from .bound import bound, close_enough
+from .march import TWO_PI
+from .problem import Cycle
+from .start import onset_guess
+
+_EPS = np.finfo(float).eps
+#: beta above which a foundation remembers too much of the most engaged state for bounds from it to say anything
+FAST = 300.0
+#: contact and adhesion are taken to end after this share of the arc in which they can
+_SOON = 0.1
+
+
+@dataclass(slots=True)
+class Outermost:
+    """Bounds on all orbits of n cycles, arrays (n,): contact ends before ``a``, adhesion before ``c`` and begins after ``x`` (NaN: no bound).
+
+    ``released``: no orbit is always engaged. ``missed``: none has an onset. ``evaluations``: of events.
+    """
+
+    x: np.ndarray
+    a: np.ndarray
+    c: np.ndarray
+    released: np.ndarray
+    missed: np.ndarray
+    evaluations: np.ndarray
+
+    @classmethod
+    def blank(cls, n: int) -> "Outermost":
+        """No bounds."""
+        return cls(*(np.full(n, np.nan) for _ in range(3)), np.zeros(n, bool), np.zeros(n, bool), np.zeros(n))
+
+    def put(self, index: np.ndarray, other: "Outermost") -> None:
+        for f in fields(self):
+            getattr(self, f.name)[index] = getattr(other, f.name)
+
+    def take(self, index: np.ndarray) -> "Outermost":
+        return Outermost(*(getattr(self, f.name)[index] for f in fields(self)))
+
+
+def outermost(kernel, cycle: Cycle) -> Outermost:
+    """Bounds for cycles of strips that are not in saturated contact; none for those that snap into contact."""
+    n = cycle.size
+    out = Outermost.blank(n)
+    index = np.flatnonzero(~cycle.direct & (cycle.half_b > 0) & (cycle.half_b < np.pi))
+    if not index.size:
+        return out
+    part = cycle.take(index) if index.size < n else cycle
+    near = [part.centre + half for half in (part.half_b, part.half_c)]
+    start = [low + _SOON * (part.centre + TWO_PI - half - low) for low, half in zip(near, (part.half_b, part.half_c), strict=True)]
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        a, c, released, spent = _release(kernel, part, part.centre - part.half_b, *start)
+        out.a[index], out.c[index], out.released[index] = a, c, released
+        out.evaluations[index] += spent
+        go = np.flatnonzero(released)
+        if go.size:
+            index, part = index[go], part.take(go) if go.size < index.size else part
+            out.x[index], out.missed[index], spent = _onset(kernel, part, c[go], onset_guess(part))
+            out.evaluations[index] += spent
+    return out
+
+
+def _noise(cycle: Cycle):
+    s = cycle.strips
+    return 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
+
+
+def _release(kernel, cycle: Cycle, b, a, c):
+    """Later ends of contact begun at b and of adhesion, sought from a and c, where both were found, and the evaluations spent."""
+    s, noise = cycle.strips, _noise(cycle)
+    spent, turned = np.zeros(cycle.size), cycle.centre + TWO_PI
+    entry = kernel.excess_entry(b, 0.0, s.p_0, s.D, s.alpha, s.beta, s.L)
+    near, far = np.maximum(b, cycle.centre + cycle.half_b), turned - cycle.half_b
+    a, ends = bound(kernel.excess_event, entry, 0.0, 1.0, np.clip(a, near, far), far, 1.0, noise + 64 * _EPS * entry[4], close_enough(s.beta), spent, near)
+    entry = kernel.gap_entry(a, 0.0, -s.p_0, s.D, s.beta)
+    near, far = np.maximum(a, cycle.centre + cycle.half_c), turned - cycle.half_c
+    ends &= near < far
+    c, opens = bound(kernel.gap_event, entry, s.delta_0, -1.0, np.clip(c, near, np.maximum(near, far)), far, 1.0, noise, close_enough(s.beta), spent, near)
+    return a, c, ends & opens, spent
+
+
+def _onset(kernel, cycle: Cycle, c, x):
+    """Onsets (less 2 pi), sought from x, before the next one of cycles released at c, NaN where none was found; which miss it; the evaluations spent."""
+    s, noise = cycle.strips, _noise(cycle)
+    spent = np.ones(cycle.size)
+    entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
+    far = np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
+    near = np.maximum(cycle.centre + TWO_PI + cycle.half_d, far)
+    missed = kernel.gap_event(near, *entry)[0] - s.delta_0 > noise
+    # a surface out of reach of the undeformed foundation is not met if nothing is left of w that would change its gap
+    left = np.abs(kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(far - c, s.beta)
+    missed |= (s.D <= -s.delta_0) & (left < 0.25 * _EPS * s.delta_0)
+    x, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, np.clip(x + TWO_PI, far, near), far, -1.0, noise, close_enough(s.beta), spent, near)
+    return np.where(found & ~missed, x - TWO_PI, np.nan), missed, spent
