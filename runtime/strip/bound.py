@@ -2,47 +2,50 @@
 
 import numpy as np
 
-#: bounds are sought this far beyond the linear estimate
-_BEYOND, _BACK = 1.3, 0.9
-_TRIES = 9
-#: a bound is good enough when this many tries have been beyond the zero, the later ones closer to it
-_LOOSE, _CLOSER = 2, 3
+#: a slow foundation changes little over a period: bounds are to be that much closer; distance to the zero, as estimated there
+_CLOSE, _SLOW = 0.02, 6.0
+#: bounds are sought beyond the linear estimate by this share of the way to it, or its square where that is less
+_BEYOND = 0.3
+_TRIES = 12
 
 
-def bound(event, entry, offset, rising, start, far, side, noise, spent, near=None):
-    """A phase between ``start`` and ``far`` that is beyond the event's zero, and whether one was found.
+def close_enough(beta):
+    """Distance from the zero at which bounds for strips of these beta are good enough."""
+    return _CLOSE * _SLOW / np.maximum(beta, _SLOW)
+
+
+def bound(event, entry, offset, rising, start, far, side, noise, close, spent, near=None):
+    """A phase between ``start`` and ``far`` that is beyond the event's zero, if possible no further than ``close``; and whether one was found.
 
     The event function, ``rising`` times (value - offset), is positive before its zero and negative after. ``side`` > 0 seeks a phase
     after it (``start`` lies before), ``side`` < 0 a phase before it. With ``near``, the end of the arc opposite to ``far``, ``start`` may be
     anywhere in between.
     """
     near = start if near is None else near
-    result, found, since = start.copy(), np.zeros(start.shape, bool), np.zeros(start.shape, int)
-    low, high = np.minimum(near, far), np.maximum(near, far)
-    constants = np.stack(np.broadcast_arrays(offset, noise, *entry))
-    x, index = start, np.arange(start.size)
-    for attempt in range(_TRIES):
-        level, blur, *rest = constants
+    result, found = start.copy(), np.zeros(start.shape, bool)
+    state = np.stack(np.broadcast_arrays(start, near, far, close, offset, noise, *entry))
+    index, tries = np.arange(start.size), 0
+    while True:
+        x, near, far, close, level, blur, *rest = state
         value, slope = event(x, *rest)
         value, slope = rising * (value - level), rising * slope
-        good = side * value < -blur
-        better = good & (~found[index] | (side * (result[index] - x) > 0))
-        result[index] = np.where(better, x, result[index])
-        found[index] |= good
-        since[index] += found[index]
+        tries += 1
         spent[index] += 1
-        if attempt >= _LOOSE:
-            going = np.flatnonzero(since[index] < _CLOSER)
-            if not going.size:
-                break
-            if going.size < index.size:
-                index = index[going]
-                x, value, slope, good, blur, constants = (v[..., going] for v in (x, value, slope, good, blur, constants))
+        good = side * value < -blur
         ahead = np.where(slope < 0, -value / slope, np.nan)
-        # from the inner side step beyond the estimate and beyond what rounding blurs (where nothing is remembered the bound is the
-        # known edge itself), from the outer side not quite back to it
-        step = np.where(good, _BACK * ahead, _BEYOND * ahead - side * 4 * blur / slope)
-        halfway = 0.5 * (far[index] - x)
-        x = x + np.where((np.abs(step) <= np.abs(halfway)) | good, step, halfway)
-        x = np.where(np.isfinite(x), np.clip(x, low[index], high[index]), far[index])
-    return result, found
+        size = np.abs(ahead)
+        # what is verified later is closer: what was verified before is where the way back to the zero begins
+        here = np.flatnonzero(good)
+        result[index[here]], found[index[here]] = x[here], True
+        state[1] = np.where(good, near, x)
+        state[2] = np.where(good, x, far)
+        going = np.flatnonzero(~(good & (size <= close)) & (state[1] != state[2]))
+        if not going.size or tries == _TRIES:
+            return result, found
+        # beyond the estimate, and beyond what rounding blurs (where nothing is remembered the bound is the known edge itself)
+        x = x + ahead + side * (np.minimum(_BEYOND * size, size * size + 0.5 * close) - 4 * blur / slope)
+        inside = (x > np.minimum(state[1], state[2])) & (x < np.maximum(state[1], state[2]))
+        state[0] = np.where(inside, x, 0.5 * (state[1] + state[2]))
+        state[0] = np.where(good | inside | (tries < 3), state[0], state[2])
+        if going.size < index.size:
+            index, state = index[going], state[:, going]

@@ -48,6 +48,12 @@ def stable(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     return (log_slope <= STABLE) | (N - F <= _SLACK * (1 + np.abs(cycle.strips.D) + cycle.strips.delta_0))
 
 
+def attracting(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
+    """Slope of the onset map below one by more than rounding blurs, however slow the foundation is."""
+    log_slope, _ = slope_excess(kernel, cycle, orbit)
+    return log_slope < -STABLE * np.minimum(1.0, TWO_PI / np.maximum(cycle.strips.beta, 1.0))
+
+
 def always_adhering(kernel, strips: Strips, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     """The gap of a strip in contact that adheres everywhere else never exceeds delta_0.
 

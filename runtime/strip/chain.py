@@ -13,9 +13,10 @@ import numpy as np
 from .problem import Cycle
 
 TWO_PI = 2 * np.pi
-_ITERATIONS = 24
-#: iterations before strips that are done are set aside
-_TOGETHER = 4
+#: iterations at most, and before strips that are done are set aside. Where there is an orbit with a free part Newton needs half of them; next
+#: to complete contact, where two edges all but coincide, more
+_ITERATIONS, _TOGETHER = 14, 3
+_ITERATIONS_BARE, _TOGETHER_BARE = 24, 4
 _TIGHTENING = 5
 #: a step this small leaves an error of its square
 _SMALL = 1e-7
@@ -44,12 +45,13 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
     n = cycle.size
     edges = edges.copy()
     low, high = _arcs(cycle, sequence)
+    iterations, together = (_ITERATIONS_BARE, _TOGETHER_BARE) if sequence in ("ac", "cf") else (_ITERATIONS, _TOGETHER)
     spent, step_size, slope = np.zeros(n), np.full(n, np.inf), np.full(n, np.nan)
     step = np.full(edges.shape, np.nan)
     active, part = np.arange(n), cycle
     # where a link is lost to rounding or overflows the step is no number, and the strip is left to the search
     with np.errstate(all="ignore"):
-        for iteration in range(_ITERATIONS):
+        for iteration in range(iterations):
             here = edges[:, active]
             values, before, after = _links(kernel, part, sequence, here)
             move, steep = _step(values, before, after)
@@ -59,7 +61,7 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
             new = np.where(np.isnan(new), here, np.maximum.accumulate(new, axis=0))
             edges[:, active], step_size[active], slope[active] = new, size, steep
             spent[active] += 1
-            if iteration + 1 >= _TOGETHER:
+            if iteration + 1 >= together:
                 going = np.flatnonzero(~(size <= _SMALL) & np.isfinite(size))
                 if not going.size:
                     break

@@ -6,7 +6,7 @@ more extremal one exists; all else is left to ``search``.
 
 import numpy as np
 
-from .certificate import STABLE, edges_admissible, stable
+from .certificate import attracting, edges_admissible
 from .chain import follow
 from .exclusion import alone
 from .march import Orbit
@@ -25,7 +25,7 @@ def certified(kernel, cycle: Cycle, sequence: str, bounds: Outermost | None = No
     chain = follow(kernel, cycle, sequence, start(kernel, cycle, sequence, bounds))
     spent = chain.evaluations
     orbit = orbit_of(sequence, chain.edges)
-    good = chain.converged & (chain.slope < 1 - STABLE)
+    good = chain.converged
     coarse = np.flatnonzero(good & (chain.correction > CONVERGED))
     if coarse.size:
         # next to a fold or a graze the search knows better; a strip without adhesion has neither
@@ -36,7 +36,9 @@ def certified(kernel, cycle: Cycle, sequence: str, bounds: Outermost | None = No
         good[coarse] = converged
     here = np.flatnonzero(good)
     part, there = cycle.take(here), orbit.take(here)
-    good[here] = edges_admissible(kernel, part, there) & stable(kernel, part, there)
+    good[here] = edges_admissible(kernel, part, there)
+    if sequence not in ("ac", "cf"):  # where p does not step the onset map contracts everywhere
+        good[here] &= attracting(kernel, part, there)
     return orbit, good, spent
 
 

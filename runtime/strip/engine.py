@@ -23,7 +23,7 @@ from .certificate import always_adhering
 from .direct import certified, extremal
 from .exclusion import empty
 from .march import Orbit
-from .outermost import FAST, Outermost, outermost
+from .outermost import FAST, Outermost, outermost, receding
 from .problem import Cycle, Strips, adhesive_cycle, bare_cycle
 from .regimes import CODE
 from .solved import Record, Solved
@@ -174,9 +174,11 @@ class _Batch:
         if self.unloading:
             # a surface out of reach of the undeformed foundation is mostly not met at all
             ask = np.flatnonzero(np.isnan(self.known.x[index]) & (self.strips.D[index] <= -self.strips.delta_0[index]))
-            if ask.size:
-                none[ask], spent = empty(self.kernel, cycle.take(ask))
-                self.record.solved.evaluations[index[ask]] += spent
+            for proof in (receding, empty):
+                if ask.size:
+                    none[ask], spent = proof(self.kernel, cycle.take(ask))
+                    self.record.solved.evaluations[index[ask]] += spent
+                    ask = ask[~none[ask]]
         rest = np.flatnonzero(~none)
         return np.concatenate([index[none], self._sought(index[rest], cycle.take(rest))])
 

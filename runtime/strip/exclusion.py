@@ -15,7 +15,7 @@ What is not proven here is left to ``search``; nothing is ever accepted for lack
 
 import numpy as np
 
-from .bound import bound
+from .bound import bound, close_enough
 from .march import TWO_PI, Orbit, march
 from .outermost import Outermost
 from .problem import Cycle
@@ -122,7 +122,7 @@ def _released(kernel, cycle: Cycle, known: Orbit, x, sign) -> tuple[Orbit, np.nd
     noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
     spent = np.zeros(x.shape)
     start, far = known.x + TWO_PI, np.maximum(x + TWO_PI, latest)
-    next_onset, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, np.maximum(start, far), far, -sign, noise, spent)
+    next_onset, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, np.maximum(start, far), far, -sign, noise, close_enough(s.beta), spent)
     closer, used = enclose(kernel, cycle, np.where(found, next_onset - TWO_PI, x), known, sign)
     spent += used
     # bounds may miss an adhesion that ends just before its arc does: then the edges themselves
@@ -184,7 +184,7 @@ def enclose(kernel, cycle: Cycle, x, known: Orbit, sign) -> tuple[Orbit, np.ndar
     # contact begins: an event that falls; its bound lies on the outer side of the known edge
     entry = kernel.gap_entry(x, cycle.gap_on, -s.p_0, s.D, s.beta)
     far = np.maximum(x, centre - cycle.half_b) if sign > 0 else centre + cycle.half_b
-    b, found = bound(kernel.gap_event, entry, 0.0, 1.0, np.maximum(known.b, x), far, -sign, noise, spent)
+    b, found = bound(kernel.gap_event, entry, 0.0, 1.0, np.maximum(known.b, x), far, -sign, noise, close_enough(s.beta), spent)
     lost = failed = np.zeros(x.shape, bool)
     if sign < 0:
         # a gap that is still open at the end of the arc does not close
@@ -202,7 +202,7 @@ def _detachment(kernel, cycle: Cycle, b, start, sign, noise, spent):
     entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
     first, last = np.maximum(b, cycle.centre + cycle.half_b), cycle.centre + TWO_PI - cycle.half_b
     far = last if sign > 0 else first
-    a, found = bound(kernel.excess_event, entry, 0.0, 1.0, np.maximum(start, first), far, sign, noise + 64 * _EPS * entry[4], spent)
+    a, found = bound(kernel.excess_event, entry, 0.0, 1.0, np.maximum(start, first), far, sign, noise + 64 * _EPS * entry[4], close_enough(s.beta), spent)
     return np.where(found, a, far), ~found & (sign > 0)
 
 
@@ -212,7 +212,7 @@ def _release(kernel, cycle: Cycle, x, b, a, lost, failed, start, sign, noise, sp
     entry = kernel.gap_entry(a, np.where(lost, cycle.gap_on, 0.0), -s.p_0, s.D, s.beta)
     start = np.maximum(start, a)
     far = cycle.centre + TWO_PI - cycle.half_c if sign > 0 else np.maximum(a, cycle.centre + cycle.half_c)
-    c, found = bound(kernel.gap_event, entry, s.delta_0, -1.0, start, far, sign, noise, spent)
+    c, found = bound(kernel.gap_event, entry, s.delta_0, -1.0, start, far, sign, noise, close_enough(s.beta), spent)
     failed = failed | (~found & (sign > 0))
     c = np.where(found, c, far)
     r = np.where(failed, -np.inf, _gap_at(kernel, cycle, c, x))

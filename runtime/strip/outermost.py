@@ -18,7 +18,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from .bound import bound
+from .bound import bound, close_enough
 from .march import TWO_PI
 from .problem import Cycle
 from .start import onset_guess
@@ -26,6 +26,10 @@ from .start import onset_guess
 _EPS = np.finfo(float).eps
 #: beta above which a foundation remembers too much of the most engaged state for bounds from it to say anything
 FAST = 300.0
+#: contact and adhesion are taken to end after this share of the arc in which they can
+_SOON = 0.1
+#: marches that follow one another at most, each of which has to move the onset by this share of its arc
+_ROUNDS, _STALLED = 24, 0.01
 
 
 @dataclass(slots=True)
@@ -62,18 +66,45 @@ def outermost(kernel, cycle: Cycle) -> Outermost:
     index = np.flatnonzero(~cycle.direct & (cycle.half_b > 0) & (cycle.half_b < np.pi))
     if not index.size:
         return out
+    part = cycle.take(index) if index.size < n else cycle
+    near = [part.centre + half for half in (part.half_b, part.half_c)]
+    start = [low + _SOON * (part.centre + TWO_PI - half - low) for low, half in zip(near, (part.half_b, part.half_c), strict=True)]
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        part = cycle.take(index) if index.size < n else cycle
-        a, c, released, spent = _release(kernel, part)
+        a, c, released, spent = _release(kernel, part, part.centre - part.half_b, *start)
         out.a[index], out.c[index], out.released[index] = a, c, released
         out.evaluations[index] += spent
         go = np.flatnonzero(released)
         if go.size:
-            x, missed, spent = _onset(kernel, part.take(go) if go.size < index.size else part, c[go])
-            index = index[go]
-            out.x[index], out.missed[index] = x, missed
+            index, part = index[go], part.take(go) if go.size < index.size else part
+            out.x[index], out.missed[index], spent = _onset(kernel, part, c[go], onset_guess(part))
             out.evaluations[index] += spent
     return out
+
+
+def receding(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
+    """Which cycles have no orbit with an onset, because marches that follow one another from the least onset that one can have end by missing
+    the next, and the evaluations spent on each."""
+    missed, spent = np.zeros(cycle.size, bool), np.zeros(cycle.size)
+    index = np.flatnonzero(cycle.strips.beta <= FAST)
+    part = cycle.take(index)
+    here = outermost(kernel, part)
+    spent[index] = here.evaluations
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        for _ in range(_ROUNDS):
+            missed[index[here.missed]] = True
+            going = np.flatnonzero(np.isfinite(here.x))
+            if not going.size:
+                break
+            index, part, here = index[going], part.take(going), here.take(going)
+            before = here.x
+            b, used = _contact(kernel, part, before)
+            here.a, here.c, here.released, more = _release(kernel, part, b, here.a, here.c)
+            here.x, here.missed, further = _onset(kernel, part, here.c, before)
+            here.missed &= here.released
+            here.x[~here.released | ~(here.x - before > _STALLED * part.half_d)] = np.nan
+            spent[index] += used + more + further
+    missed[index[here.missed]] = True
+    return missed, spent
 
 
 def _noise(cycle: Cycle):
@@ -81,27 +112,39 @@ def _noise(cycle: Cycle):
     return 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
 
 
-def _release(kernel, cycle: Cycle):
-    """Later ends of contact and adhesion, where both were found, and the evaluations spent."""
+def _contact(kernel, cycle: Cycle, x):
+    """Phases from the onset x on, before any contact begins, and the evaluations spent."""
+    s, spent = cycle.strips, np.zeros(cycle.size)
+    entry = kernel.gap_entry(x, cycle.gap_on, -s.p_0, s.D, s.beta)
+    near, far = np.maximum(cycle.centre + cycle.half_b, x), np.maximum(x, cycle.centre - cycle.half_b)
+    b, found = bound(kernel.gap_event, entry, 0.0, 1.0, 0.5 * (near + far), far, -1.0, _noise(cycle), close_enough(s.beta), spent, near)
+    return np.where(found, b, far), spent
+
+
+def _release(kernel, cycle: Cycle, b, a, c):
+    """Later ends of contact begun at b and of adhesion, sought from a and c, where both were found, and the evaluations spent."""
     s, noise = cycle.strips, _noise(cycle)
-    spent = np.zeros(cycle.size)
-    begins, turned = cycle.centre - cycle.half_b, cycle.centre + TWO_PI
-    entry = kernel.excess_entry(begins, 0.0, s.p_0, s.D, s.alpha, s.beta, s.L)
-    near, far = cycle.centre + cycle.half_b, turned - cycle.half_b
-    a, ends = bound(kernel.excess_event, entry, 0.0, 1.0, near + 0.1 * (far - near), far, 1.0, noise + 64 * _EPS * entry[4], spent, near)
+    spent, turned = np.zeros(cycle.size), cycle.centre + TWO_PI
+    entry = kernel.excess_entry(b, 0.0, s.p_0, s.D, s.alpha, s.beta, s.L)
+    near, far = np.maximum(b, cycle.centre + cycle.half_b), turned - cycle.half_b
+    a, ends = bound(kernel.excess_event, entry, 0.0, 1.0, np.clip(a, near, far), far, 1.0, noise + 64 * _EPS * entry[4], close_enough(s.beta), spent, near)
     entry = kernel.gap_entry(a, 0.0, -s.p_0, s.D, s.beta)
     near, far = np.maximum(a, cycle.centre + cycle.half_c), turned - cycle.half_c
     ends &= near < far
-    c, opens = bound(kernel.gap_event, entry, s.delta_0, -1.0, near + 0.1 * (far - near), far, 1.0, noise, spent, near)
+    c, opens = bound(kernel.gap_event, entry, s.delta_0, -1.0, np.clip(c, near, np.maximum(near, far)), far, 1.0, noise, close_enough(s.beta), spent, near)
     return a, c, ends & opens, spent
 
 
-def _onset(kernel, cycle: Cycle, c):
-    """Onsets before the next one (less 2 pi) of cycles released at c, NaN where none was found; which miss it; the evaluations spent."""
+def _onset(kernel, cycle: Cycle, c, x):
+    """Onsets (less 2 pi), sought from x, before the next one of cycles released at c, NaN where none was found; which miss it; the evaluations spent."""
     s, noise = cycle.strips, _noise(cycle)
     spent = np.ones(cycle.size)
     entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
-    near, far = cycle.centre + TWO_PI + cycle.half_d, np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
-    missed = kernel.gap_event(np.maximum(near, far), *entry)[0] - s.delta_0 > noise
-    x, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, np.clip(onset_guess(cycle) + TWO_PI, far, near), far, -1.0, noise, spent, near)
+    far = np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
+    near = np.maximum(cycle.centre + TWO_PI + cycle.half_d, far)
+    missed = kernel.gap_event(near, *entry)[0] - s.delta_0 > noise
+    # a surface out of reach of the undeformed foundation is not met if nothing is left of w that would change its gap
+    left = np.abs(kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(far - c, s.beta)
+    missed |= (s.D <= -s.delta_0) & (left < 0.25 * _EPS * s.delta_0)
+    x, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, np.clip(x + TWO_PI, far, near), far, -1.0, noise, close_enough(s.beta), spent, near)
     return np.where(found & ~missed, x - TWO_PI, np.nan), missed, spent
