@@ -10,9 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .problem import Cycle
+from .problem import TWO_PI, Cycle
 
-TWO_PI = 2 * np.pi
 #: iterations at most, and before strips that are done are set aside. Where there is an orbit with a free part Newton needs half of them; next
 #: to complete contact, where two edges all but coincide, more
 _ITERATIONS, _TOGETHER = 14, 3

@@ -25,6 +25,7 @@ from .exclusion import empty
 from .march import Orbit
 from .outermost import FAST, Outermost, outermost, receding
 from .problem import Cycle, Strips, adhesive_cycle, bare_cycle
+from .reach import out_of_reach
 from .regimes import CODE
 from .solved import Record, Solved
 from .sought import sought
@@ -137,16 +138,21 @@ class _Batch:
         done = full | hold
         partial = reaches & ~clinging
         if self.unloading and not self.searching:
-            partial &= ~self._bounded(index, s, ~done)
+            partial &= ~self._bounded(index, s, ~done, reaches)
         partial = np.flatnonzero(partial)
         if partial.size:
             done[partial] = self._contact_with_saturated_adhesion(index[partial])
         return index[~done]
 
-    def _bounded(self, index, s: Strips, ask) -> np.ndarray:
+    def _bounded(self, index, s: Strips, ask, reaches) -> np.ndarray:
         """Bound all orbits of the strips ``index`` of which to ``ask``; returns of which none is always engaged."""
-        ask = np.flatnonzero(ask & (s.beta <= FAST))
         released = np.zeros(index.size, bool)
+        hanging = np.flatnonzero(ask & ~reaches & (s.D <= -s.delta_0))
+        if hanging.size:
+            hanging = hanging[out_of_reach(self.kernel, s.take(hanging))]
+            self.bounds.missed[index[hanging]] = True
+            ask[hanging] = False
+        ask = np.flatnonzero(ask & (s.beta <= FAST))
         if ask.size:
             bounds = outermost(self.kernel, adhesive_cycle(self.kernel, s.take(ask)))
             released[ask] = bounds.released

@@ -9,9 +9,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from .crossing import crossing
-from .problem import Cycle
+from .problem import TWO_PI, Cycle
 
-TWO_PI = 2 * np.pi
 _EPS = np.finfo(float).eps
 
 

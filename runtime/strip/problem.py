@@ -4,6 +4,8 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+TWO_PI = 2 * np.pi
+
 
 @dataclass(frozen=True, slots=True)
 class Strips:
