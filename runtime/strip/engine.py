@@ -21,11 +21,10 @@ import numpy as np
 
 from .certificate import always_adhering
 from .direct import certified, extremal
-from .exclusion import empty
 from .march import Orbit
-from .outermost import FAST, Outermost, outermost, receding
+from .outermost import FAST, Outermost, outermost
 from .problem import Cycle, Strips, adhesive_cycle, bare_cycle
-from .reach import out_of_reach
+from .reach import may_cling, out_of_reach
 from .regimes import CODE
 from .solved import Record, Solved
 from .sought import sought
@@ -130,8 +129,7 @@ class _Batch:
         s = self.strips.take(index)
         full = _saturates(self.kernel, s)
         self.record.saturated_contact(index[full])
-        # the foundation is never above -p_0, so the gap of the valley is at least this
-        reaches = ~full & (2 - s.D - s.p_0 <= s.delta_0)
+        reaches = ~full & may_cling(self.kernel, s)
         clinging = s.D <= -s.p_0
         hold = reaches & clinging
         self.record.constant(index[hold], "a", -s.p_0[hold], 0.0, 0.0, 1.0)
@@ -147,17 +145,18 @@ class _Batch:
     def _bounded(self, index, s: Strips, ask, reaches) -> np.ndarray:
         """Bound all orbits of the strips ``index`` of which to ``ask``; returns of which none is always engaged."""
         released = np.zeros(index.size, bool)
-        hanging = np.flatnonzero(ask & ~reaches & (s.D <= -s.delta_0))
+        hanging = np.flatnonzero(ask & (s.D <= -s.delta_0))
+        missed = np.zeros(index.size, bool)
         if hanging.size:
-            hanging = hanging[out_of_reach(self.kernel, s.take(hanging))]
-            self.bounds.missed[index[hanging]] = True
-            ask[hanging] = False
+            missed[hanging] = out_of_reach(self.kernel, s.take(hanging))
+            ask &= reaches | ~missed
         ask = np.flatnonzero(ask & (s.beta <= FAST))
         if ask.size:
             bounds = outermost(self.kernel, adhesive_cycle(self.kernel, s.take(ask)))
             released[ask] = bounds.released
             self.bounds.put(index[ask], bounds)
             self.record.solved.evaluations[index[ask]] += bounds.evaluations
+        self.bounds.missed[index[missed]] = True
         return released
 
     def _onset(self, index):
@@ -176,17 +175,7 @@ class _Batch:
         return index[none]
 
     def _onset_searched(self, index, cycle: Cycle):
-        none = np.zeros(index.size, bool)
-        if self.unloading:
-            # a surface out of reach of the undeformed foundation is mostly not met at all
-            ask = np.flatnonzero(np.isnan(self.known.x[index]) & (self.strips.D[index] <= -self.strips.delta_0[index]))
-            for proof in (receding, empty):
-                if ask.size:
-                    none[ask], spent = proof(self.kernel, cycle.take(ask))
-                    self.record.solved.evaluations[index[ask]] += spent
-                    ask = ask[~none[ask]]
-        rest = np.flatnonzero(~none)
-        return np.concatenate([index[none], self._sought(index[rest], cycle.take(rest))])
+        return self._sought(index, cycle)
 
     def _sought(self, index, cycle: Cycle):
         result = sought(self.kernel, cycle, last=not self.unloading, known=self.known.take(index))

@@ -25,8 +25,6 @@ from .sensitivity import slope_bounds
 _EPS = np.finfo(float).eps
 #: probes tried; the first half way to the end of the arc, the next ones after longer steps from what is proven, or shorter ones after a failure
 _PROBES, _FIRST, _BOLDER, _WARIER = 24, 0.5, 3.0, 0.2
-#: where there is no orbit, the ends of the arc tell at once or not at all
-_PROBES_OF_NONE = 4
 
 
 def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
@@ -57,28 +55,10 @@ def _alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, least) -> tuple[np.nd
     known = Orbit(orbit.x, orbit.b, orbit.a, orbit.c, np.zeros(cycle.size, bool), np.zeros(cycle.size), w_end)
     sign = -1.0 if last else 1.0
     end = cycle.centre - sign * cycle.half_d
-    return _cleared(kernel, cycle, known, sign, _PROBES, end if last else np.fmax(end, least))
+    return _cleared(kernel, cycle, known, sign, end if last else np.fmax(end, least))
 
 
-def empty(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
-    """Which onset arcs are proven to hold no orbit because every onset is followed by a later one, or by none.
-
-    Where the latest onset keeps the strip engaged through the period, every onset does.
-    """
-    latest, spent = march(kernel, cycle, cycle.centre + cycle.half_d)
-    proven = latest.engaged.copy()
-    missed = ~latest.engaged & (latest.r > 64 * _EPS * (1 + np.abs(cycle.strips.D) + cycle.strips.delta_0))
-    contact = ~np.isnan(latest.b)
-    for kind in (contact, ~contact):
-        ask = np.flatnonzero(missed & kind)
-        if ask.size:
-            part = cycle.take(ask)
-            proven[ask], used = _cleared(kernel, part, latest.take(ask), 1.0, _PROBES_OF_NONE, part.centre - part.half_d)
-            spent[ask] += used
-    return proven, spent
-
-
-def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, probes: int, end) -> tuple[np.ndarray, np.ndarray]:
+def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.ndarray, np.ndarray]:
     """Where no zero of r lies between ``end``, of the onset arc or of what is left of it (``sign`` > 0: its start), and the onsets of ``known``."""
     n = cycle.size
     proven, spent = np.zeros(n, bool), np.zeros(n)
@@ -92,7 +72,7 @@ def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, probes: int, end) 
             outer.put(stuck, closer)
             spent[stuck] += used
         frontier, step = known.take(active), _FIRST * (outer.x - known.x)
-        for _ in range(probes):
+        for _ in range(_PROBES):
             x = frontier.x + np.where(np.abs(step) < 0.9 * np.abs(outer.x - frontier.x), step, _FIRST * (outer.x - frontier.x))
             probe, used = enclose(kernel, part, x, here, sign)
             spent[active] += used

@@ -28,8 +28,6 @@ _EPS = np.finfo(float).eps
 FAST = 300.0
 #: contact and adhesion are taken to end after this share of the arc in which they can
 _SOON = 0.1
-#: marches that follow one another at most, each of which has to move the onset by this share of its arc
-_ROUNDS, _STALLED = 24, 0.01
 
 
 @dataclass(slots=True)
@@ -81,44 +79,9 @@ def outermost(kernel, cycle: Cycle) -> Outermost:
     return out
 
 
-def receding(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
-    """Which cycles have no orbit with an onset, because marches that follow one another from the least onset that one can have end by missing
-    the next, and the evaluations spent on each."""
-    missed, spent = np.zeros(cycle.size, bool), np.zeros(cycle.size)
-    index = np.flatnonzero(cycle.strips.beta <= FAST)
-    part = cycle.take(index)
-    here = outermost(kernel, part)
-    spent[index] = here.evaluations
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        for _ in range(_ROUNDS):
-            missed[index[here.missed]] = True
-            going = np.flatnonzero(np.isfinite(here.x))
-            if not going.size:
-                break
-            index, part, here = index[going], part.take(going), here.take(going)
-            before = here.x
-            b, used = _contact(kernel, part, before)
-            here.a, here.c, here.released, more = _release(kernel, part, b, here.a, here.c)
-            here.x, here.missed, further = _onset(kernel, part, here.c, before)
-            here.missed &= here.released
-            here.x[~here.released | ~(here.x - before > _STALLED * part.half_d)] = np.nan
-            spent[index] += used + more + further
-    missed[index[here.missed]] = True
-    return missed, spent
-
-
 def _noise(cycle: Cycle):
     s = cycle.strips
     return 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
-
-
-def _contact(kernel, cycle: Cycle, x):
-    """Phases from the onset x on, before any contact begins, and the evaluations spent."""
-    s, spent = cycle.strips, np.zeros(cycle.size)
-    entry = kernel.gap_entry(x, cycle.gap_on, -s.p_0, s.D, s.beta)
-    near, far = np.maximum(cycle.centre + cycle.half_b, x), np.maximum(x, cycle.centre - cycle.half_b)
-    b, found = bound(kernel.gap_event, entry, 0.0, 1.0, 0.5 * (near + far), far, -1.0, _noise(cycle), close_enough(s.beta), spent, near)
-    return np.where(found, b, far), spent
 
 
 def _release(kernel, cycle: Cycle, b, a, c):
