@@ -20,9 +20,11 @@ from .march import TWO_PI, Orbit, march
 from .outermost import Outermost
 from .problem import Cycle
 from .search import excluded
-from .sensitivity import slope_bounds
+from .sensitivity import slope_bounds, steep_margin
 
 _EPS = np.finfo(float).eps
+#: least relaxation time that is divided by
+_LEAST = 1e-290
 #: probes tried; the first half way to the end of the arc, the next ones after longer steps from what is proven, or shorter ones after a failure
 _PROBES, _FIRST, _BOLDER, _WARIER = 24, 0.5, 3.0, 0.2
 
@@ -35,18 +37,30 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> 
     proven, spent = np.zeros(cycle.size, bool), np.zeros(cycle.size)
     if not last:
         known = np.flatnonzero(np.isfinite(bounds.x))
-        proven[known] = _alone_within(kernel, cycle.take(known), orbit.take(known), bounds.take(known))
+        part, within = orbit.take(known), bounds.take(known)
+        proven[known] = _falls_between(kernel, cycle.take(known), part, within.x, within.x * np.nan, np.maximum(within.c, part.c))
     rest = np.flatnonzero(~proven)
     if rest.size:
         proven[rest], spent[rest] = _alone(kernel, cycle.take(rest), orbit.take(rest), last, bounds.x[rest])
     return proven, spent
 
 
-def _alone_within(kernel, cycle: Cycle, orbit: Orbit, bounds: Outermost) -> np.ndarray:
-    """Which orbits are the first because all onsets lie after ``bounds.x``, and R falls from there to the known onset."""
-    x = np.minimum(bounds.x, orbit.x)
-    outer = Orbit(x, orbit.b, np.maximum(bounds.a, orbit.a), np.maximum(bounds.c, orbit.c), orbit.engaged, orbit.r, orbit.w_end)
-    return slope_bounds(kernel, cycle, outer, orbit).falls
+def _falls_between(kernel, cycle: Cycle, orbit: Orbit, x, r, c) -> np.ndarray:
+    """Which orbits are the first because of one earlier onset x, before which there is none, whose adhesion ends before c.
+
+    R falls strictly from where F exceeds ``steep_margin`` to the known onset, and up to there r is positive: it is at x, at least ``r``, and falls no
+    faster than that margin lets it. With r NaN x has to be where R falls already.
+    """
+    s = cycle.strips
+    noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
+    margin = steep_margin(kernel, cycle, orbit, c)
+    margin += noise
+    known = np.isfinite(margin)
+    half = kernel.forcing_arc(s.delta_0 - np.where(known, margin, 0.0), s.D, s.beta)[1]
+    steep = known & (orbit.x > cycle.centre - half) & (orbit.x < cycle.centre + half)
+    way = np.maximum(cycle.centre - half - x, 0.0)
+    kept = r - noise > margin * np.expm1(np.minimum(way / np.maximum(s.beta, _LEAST), 700.0))
+    return steep & ((way == 0) | kept)
 
 
 def _alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, least) -> tuple[np.ndarray, np.ndarray]:
@@ -71,7 +85,13 @@ def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.n
             closer, used = _released(kernel, cycle.take(stuck), known.take(stuck), outer.x[stuck], sign)
             outer.put(stuck, closer)
             spent[stuck] += used
-        frontier, step = known.take(active), _FIRST * (outer.x - known.x)
+        if sign > 0:
+            proven = ~outer.engaged & _falls_between(kernel, cycle, known, outer.x, outer.r, outer.c)
+            active = np.flatnonzero(~proven)
+            if not active.size:
+                return proven, spent
+            part, here, outer = cycle.take(active), known.take(active), outer.take(active)
+        frontier, step = here.take(np.arange(active.size)), _FIRST * (outer.x - here.x)
         for _ in range(_PROBES):
             x = frontier.x + np.where(np.abs(step) < 0.9 * np.abs(outer.x - frontier.x), step, _FIRST * (outer.x - frontier.x))
             probe, used = enclose(kernel, part, x, here, sign)

@@ -18,6 +18,10 @@ import numpy as np
 from .march import TWO_PI, Orbit
 from .problem import Cycle
 
+_EPS = np.finfo(float).eps
+#: least relaxation time that is divided by
+_LEAST = 1e-290
+
 
 @dataclass(frozen=True, slots=True)
 class SlopeBounds:
@@ -76,6 +80,23 @@ def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds
         np.multiply(F_max, growth, out=np.zeros_like(F_max), where=(growth > 0) & (F_max > 0)), np.maximum(N_max - F_min, 0.0)
     )
     return SlopeBounds(fall, rise, (log_max < 0) | (N_max < F_min), N_min)
+
+
+def steep_margin(kernel, cycle: Cycle, orbit: Orbit, c_last: np.ndarray) -> np.ndarray:
+    """The F beyond which R falls strictly at every onset before that of ``orbit`` whose adhesion ends before ``c_last``; inf if that is unknown.
+
+    There contact is longer than in the orbit and adhesion ends between its c and ``c_last``, where M is least at one of the two: ``log T' <=
+    log B + log(1 + s_x/F)`` with a B that does not depend on the onset, negative where ``F > s_x/(1/B - 1)``.
+    """
+    s = cycle.strips
+    M = -(np.maximum(*(kernel.forcing(c, s.D, s.beta) for c in (orbit.c, c_last))) + s.delta_0 + s.p_0)
+    length = _length(orbit.b, orbit.a)
+    onset, release = _gains(cycle)
+    fading = TWO_PI / np.maximum(s.beta, _LEAST) + np.where(length > 0, length * s.L / np.maximum(s.alpha, _LEAST), 0.0)
+    log_B = np.log1p(_over(release, M)) - fading
+    # the rounding of the terms of log B, which may cancel
+    log_B += 64 * _EPS * fading
+    return np.divide(onset, np.expm1(np.minimum(-log_B, 700.0)), out=np.full(onset.shape, np.inf), where=log_B < 0)
 
 
 def _length(b, a):
