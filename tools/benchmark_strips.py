@@ -1,12 +1,17 @@
-"""Time per strip: the batched solver against a strip-by-strip script, in one run.
+"""Time per strip: the batched solver against strip-by-strip scripts, in one run.
 
     python tools/benchmark_strips.py [--strips 100000] [--levels 40] [--repeat 3] [--memory]
 
 The batch is mixed: levels of the paper's material and two wavelengths at random velocity, penetration and energy of adhesion, cut into
-100 strips each as in the paper. The script is what a user would write for the same strips: the boundary equations in scalar ``math``,
-``scipy.optimize.root`` (hybr, analytic Jacobian), each strip started from its neighbour's solution. It is spared what the batch has to
-decide: it is told the regime of every strip, and given the solution as a start where the regime changes. Times are CPU seconds; medians over the repeats.
-``--memory`` solves 1e7 strips and reports the peak of the process instead.
+100 strips each as in the paper. The scripts are what a user would write for the same strips: the boundary equations in scalar ``math``,
+``scipy.optimize.root`` (hybr, analytic Jacobian), each strip started from its neighbour's solution, strips in complete contact by their threshold.
+
+* ``told``: is told the regime of every strip, and given the solution as a start where the regime changes: it never has to find anything.
+* ``finding``: finds the regime as well. It takes the neighbour's zones and edges, solves, checks the inequalities, and where they fail tries the
+  other regimes from rough starts, the elastic strip's edges as such and turned by the foundation's lag. Outwards of a free strip that is out
+  of reach it takes the strips to be free. It proves nothing: what it finds may be another orbit than the one asked for.
+
+Times are CPU seconds; medians over the repeats. ``--memory`` solves 1e7 strips and reports the peak of the process instead.
 """
 
 import argparse
@@ -106,76 +111,175 @@ class Script:
     def c(self):
         return self.D - 1, self.loss / 2
 
+    def saturated(self):
+        return self.D - 1 + self.p_0 >= math.hypot(self.storage, self.loss)
+
+    def admissible(self, sequence, edges):
+        """Edges in order within a period, each where its event can happen, and gaps within their bounds at the ends of the arcs."""
+        H = lambda s: self.u(s) - self.beta * math.sin(s)  # noqa: E731
+        order = [*edges, edges[0] + TWO_PI]
+        if any(later < earlier for earlier, later in zip(order, order[1:], strict=False)):
+            return False
+        p, reach, named = self.p_0, self.delta_0, dict(zip(EDGES[sequence], edges, strict=True))
+        if "d" in named and (H(named["d"]) + reach < 0 or H(named["c"]) + reach + p > 0):
+            return False
+        if "b" in named and (H(named["b"]) + p < 0 or H(named["a"]) + p > 0):
+            return False
+        if sequence == "acaf":
+            return True
+        centre, amplitude = -math.atan(self.beta), math.hypot(1, self.beta)
+        level = self.D - 1 + p + (reach if sequence == "ac" else 0.0)
+        if level <= -amplitude:
+            return sequence == "af"
+        half = math.acos(max(-level / amplitude, -1.0))
+        if sequence == "af":
+            end = max(centre + half, named["d"])
+            return self.gap(named["d"], end, self.u(named["d"]) + reach + p, -p)[0] >= 0
+        end = max(centre + TWO_PI - half, named["a"])
+        return self.gap(named["a"], end, self.u(named["a"]) + p, -p)[0] <= reach
+
+    def starts(self, sequence):
+        """Edges of the elastic strip in these zones, about the crest and turned back by the lag of the foundation."""
+        half = lambda level: math.acos(min(max(1 - level, -0.99), 0.99))  # noqa: E731
+        near, far = half(self.D + self.p_0), half(self.D + self.p_0 + self.delta_0)
+        rough = {"d": -half(self.D + self.delta_0), "b": -near, "a": near, "c": max(far, near)}
+        rough["d"] = min(rough["d"], rough["b"] if sequence == "acaf" else 0.0)
+        for share in (0.0, 0.5, 1.0):
+            turn = share * math.atan(self.beta)
+            yield [rough[e] - turn for e in EDGES[sequence]]
+
 
 EDGES = {"acaf": "dbac", "af": "dc", "ac": "ba"}
 
 
-def script(inputs, p_0, solution):
-    """CPU seconds per strip and share of failures, over the strips of these levels one by one."""
-    from scipy.optimize import root
+class Outcome:
+    """Regimes (n levels of 100), number of solves by hybr, and of those that failed."""
 
+    def __init__(self):
+        self.regimes, self.solves, self.failures = [], 0, 0
+
+    def root(self, strip, sequence, guess):
+        """Edges in these zones from a guess, None where hybr finds none."""
+        from scipy.optimize import root
+
+        self.solves += 1
+        try:
+            found = root(getattr(strip, sequence), guess, jac=True, method="hybr")
+        except OverflowError:  # edges far out of order
+            found = None
+        if found is None or not found.success:
+            self.failures += 1
+            return None
+        return found.x.tolist()
+
+
+def groups(inputs, p_0):
+    """Dimensionless groups of every strip, nested lists."""
     k = 2 * np.pi / inputs["l"]
     scale = MATERIAL.K * inputs["A"]
     columns = (k * inputs["V"] * MATERIAL.T_sigma, k * inputs["V"] * MATERIAL.T_eps, p_0 / scale, DELTA_0 / inputs["A"], inputs["D"] / inputs["A"])
-    groups = np.stack([np.broadcast_to(v, scale.shape) for v in columns], -1).tolist()
-    phase = {"d": -solution.d * k, "b": -solution.b * k, "a": solution.a * k, "c": solution.c * k}
-    given = {r: np.stack([phase[e] for e in names], -1).tolist() for r, names in EDGES.items()}
-    regimes = solution.regime.tolist()
-    failures = solved = 0
-    start = time.process_time()
+    return np.stack([np.broadcast_to(v, scale.shape) for v in columns], -1).tolist()
+
+
+def told(strips, given, regimes):
+    """The script that knows the regimes and has ``given`` edges (by sequence) where they change."""
+    outcome = Outcome()
     for i, row in enumerate(regimes):
         before = edges = None
         for j, regime in enumerate(row):
-            strip = Script(*groups[i][j])
+            strip = Script(*strips[i][j])
             if regime in EDGES:
-                guess = edges if regime == before else given[regime][i][j]
-                found = root(getattr(strip, regime), guess, jac=True, method="hybr")
-                solved += 1
-                failures += not found.success
-                edges = found.x if found.success else given[regime][i][j]
+                edges = outcome.root(strip, regime, edges if regime == before else given[regime][i][j]) or given[regime][i][j]
             elif regime == "c":
                 strip.c()
             before = regime
-    return (time.process_time() - start) / scale.size, failures / max(solved, 1)
+    return outcome
+
+
+def finding(strips):
+    """The script that finds the regimes."""
+    outcome = Outcome()
+    for row in strips:
+        before, edges, found = None, None, []
+        for numbers in row:
+            before, edges = _found(Script(*numbers), before, edges, outcome)
+            found.append(before)
+        outcome.regimes.append(found)
+    return outcome
+
+
+def _found(strip, before, edges, outcome):
+    """Regime and edges of one strip, from those of its neighbour; "?" where nothing was found."""
+    if strip.saturated():
+        strip.c()
+        return "c", None
+    out_of_reach = strip.D <= -strip.delta_0
+    if before == "f" and out_of_reach:
+        return "f", None
+    if edges is not None:
+        closer = outcome.root(strip, before, edges)
+        if closer and strip.admissible(before, closer):
+            return before, closer
+    if strip.D <= -strip.p_0 and 2 - strip.D - strip.p_0 <= strip.delta_0:
+        return "a", None
+    for sequence in ("ac", "acaf", "af"):
+        # nothing adheres all along that cannot reach the valley
+        if sequence == "ac" and 2 - strip.D - strip.p_0 > strip.delta_0:
+            continue
+        for guess in strip.starts(sequence):
+            closer = outcome.root(strip, sequence, guess)
+            if closer and strip.admissible(sequence, closer):
+                return sequence, closer
+    return ("f" if out_of_reach else "?"), None
+
+
+def timed(run, *given):
+    """CPU seconds and outcome."""
+    start = time.process_time()
+    outcome = run(*given)
+    return time.process_time() - start, outcome
 
 
 def compare(options, rng):
     inputs, p_0 = levels(options.strips // PER_LEVEL, rng)
+    some = slice(0, options.levels)
+    few = {n: v[some] for n, v in inputs.items()}
     batch({n: v[:5] for n, v in inputs.items()}, p_0[:5])  # imports
-    rows, work = [], None
+    strips, number = groups(few, p_0[some]), options.levels * PER_LEVEL
+    rows = []
     for _ in range(options.repeat):
         batched, solution = batch(inputs, p_0)
-        some = slice(0, options.levels)
-        scripted, failed = script({n: v[some] for n, v in inputs.items()}, p_0[some], _Part(solution, some))
+        regimes, k = solution.regime[some], 2 * np.pi / few["l"]
+        phase = {e: sign * getattr(solution, e)[some] * k for e, sign in (("d", -1), ("b", -1), ("a", 1), ("c", 1))}
+        given = {r: np.stack([phase[e] for e in names], -1).tolist() for r, names in EDGES.items()}
+        seconds, known = timed(told, strips, given, regimes.tolist())
+        longer, found = timed(finding, strips)
         lone = np.median([batch({n: v[i, :1] for n, v in inputs.items()}, p_0[i, :1])[0] for i in range(30)])
-        rows.append((batched, scripted, scripted / batched, lone, failed))
-        work = solution._solved.evaluations
-    batched, scripted, ratio, lone, failed = np.median(rows, axis=0)
+        rows.append((batched, seconds / number, longer / number, seconds / number / batched, longer / number / batched, lone))
+    batched, seconds, longer, ratio, ratio_finding, lone = np.median(rows, axis=0)
     share = {r: float(np.mean(solution.regime == r)) for r in SEQUENCES if np.any(solution.regime == r)}
-    partial = np.isin(solution.regime.ravel(), list(EDGES))
+    work, partial = solution._solved.evaluations, np.isin(solution.regime.ravel(), list(EDGES))
+    other = np.mean(np.array(found.regimes) != regimes)
     print(f"{options.strips} strips: " + ", ".join(f"{r} {100 * v:.0f} %" for r, v in share.items()))
-    print(f"medians of {options.repeat} runs, CPU microseconds per strip: batch {batched * 1e6:.2f}, script {scripted * 1e6:.1f} "
-          f"({100 * failed:.1f} % of its solves fail); a lone strip {lone * 1e6:.0f}")  # fmt: skip
-    print(f"ratio: {ratio:.1f}")
+    print(f"medians of {options.repeat} runs, CPU microseconds per strip: batch {batched * 1e6:.2f}, a lone strip {lone * 1e6:.0f}")
+    print(f"  script, told the regimes: {seconds * 1e6:.1f} ({100 * known.failures / known.solves:.1f} % of {known.solves} solves fail): ratio {ratio:.1f}")
+    print(f"  script, finding them: {longer * 1e6:.1f} ({100 * found.failures / found.solves:.1f} % of {found.solves} solves fail, "
+          f"{100 * other:.1f} % of the strips come out in another regime): ratio {ratio_finding:.1f}")  # fmt: skip
     print("evaluations of residuals, Jacobians and events of map segments per strip: median %g, 99th percentile %g; strips with edges: median %g, 99th "
           "percentile %g" % (*np.percentile(work, (50, 99)), *np.percentile(work[partial], (50, 99))))  # fmt: skip
 
 
-class _Part:
-    """Regimes and edges of some rows of a solution."""
-
-    def __init__(self, solution, rows):
-        self.regime = solution.regime[rows]
-        self.a, self.b, self.c, self.d = (getattr(solution, e)[rows] for e in "abcd")
-
-
 def flatness(options, rng):
-    """Time per strip over alpha, beta = 100 alpha."""
-    print("alpha: microseconds per strip")
+    """Time per strip over alpha, beta = 100 alpha: of mixed levels, whose mix of regimes depends on alpha, and of as many strips with edges alone."""
+    print("alpha: microseconds per strip of mixed levels, of strips with edges")
     for exponent in range(-6, 7, 2):
         inputs, p_0 = levels(options.strips // PER_LEVEL, rng, alpha=10.0**exponent)
-        times = [batch(inputs, p_0)[0] for _ in range(options.repeat)]
-        print(f"  1e{exponent:+d}: {np.median(times) * 1e6:.2f}")
+        mixed = [batch(inputs, p_0) for _ in range(options.repeat)]
+        partial = np.isin(mixed[0][1].regime, list(EDGES))
+        pick = np.resize(np.flatnonzero(partial), options.strips // 4)
+        edged = {n: v.ravel()[pick] for n, v in inputs.items()}, p_0.ravel()[pick]
+        times = [batch(*edged)[0] for _ in range(options.repeat)]
+        print(f"  1e{exponent:+d}: {np.median([t for t, _ in mixed]) * 1e6:.2f}, {np.median(times) * 1e6:.2f} ({100 * partial.mean():.0f} % have edges)")
 
 
 def memory(rng):
