@@ -22,6 +22,7 @@ import numpy as np
 
 import hystrip
 from hystrip.strip.solution import SEQUENCES
+from hystrip.strip.start import CONTACT_END, DECADES, ONSET, RELEASE, SLOW
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 DELTA_0 = 1e-8
@@ -139,14 +140,23 @@ class Script:
         return self.gap(named["a"], end, self.u(named["a"]) + p, -p)[0] <= reach
 
     def starts(self, sequence):
-        """Edges of the elastic strip in these zones, about the crest and turned back by the lag of the foundation."""
-        half = lambda level: math.acos(min(max(1 - level, -0.99), 0.99))  # noqa: E731
-        near, far = half(self.D + self.p_0), half(self.D + self.p_0 + self.delta_0)
-        rough = {"d": -half(self.D + self.delta_0), "b": -near, "a": near, "c": max(far, near)}
-        rough["d"] = min(rough["d"], rough["b"] if sequence == "acaf" else 0.0)
-        for share in (0.0, 0.5, 1.0):
-            turn = share * math.atan(self.beta)
-            yield [rough[e] - turn for e in EDGES[sequence]]
+        """Rough edges in these zones: where they mostly lie in the arcs of their events, those of the library's own start; then the elastic strip's."""
+        p, reach, lag = self.p_0, self.delta_0, math.atan(self.beta)
+        amplitude = math.hypot(1, self.beta)
+        arc = lambda excess: math.acos(min(max((1 - self.D - excess) / amplitude, -1.0), 1.0))  # noqa: E731
+        kind = "af" if sequence == "af" else "bare" if sequence == "ac" else "adhesive"
+        x = -lag + float(np.interp(math.log10(self.beta), DECADES, ONSET[kind])) * arc(p if sequence == "ac" else reach)
+        half = arc(p)
+        a = half - lag + CONTACT_END * self.beta / (self.beta + SLOW) * (TWO_PI - 2 * half)
+        low = max(a if sequence == "acaf" else x, arc(p + reach) - lag)
+        c = low + RELEASE * max(TWO_PI - lag - arc(p + reach) - low, 0.0)
+        b = min(x + reach, 0.5 * (x + half - lag)) if sequence == "acaf" else x
+        yield [{"d": x, "b": b, "a": max(a, b), "c": c}[e] for e in EDGES[sequence]]
+        elastic = lambda level: math.acos(min(max(1 - level, -0.99), 0.99))  # noqa: E731
+        near, far = elastic(self.D + p), elastic(self.D + p + reach)
+        edges = {"d": -elastic(self.D + reach), "b": -near, "a": near, "c": max(far, near)}
+        edges["d"] = min(edges["d"], edges["b"] if sequence == "acaf" else 0.0)
+        yield [edges[e] for e in EDGES[sequence]]
 
 
 EDGES = {"acaf": "dbac", "af": "dc", "ac": "ba"}

@@ -16,12 +16,12 @@ if TYPE_CHECKING:
     from .outermost import Outermost
 
 #: log10 of beta
-_DECADES = (-2.0, -1.0, 0.0, 1.0, 2.0, 3.0)
+DECADES = (-2.0, -1.0, 0.0, 1.0, 2.0, 3.0)
 #: place of the onset in its arc, -1 to 1: with adhesion, without, and where adhesion never leads to contact
-_ONSET = {"adhesive": (-0.99, -0.9, -0.4, -0.05, -0.1, -0.15), "bare": (-0.99, -0.95, -0.7, -0.4, -0.25, -0.15), "af": (0.9,) * 6}
+ONSET = {"adhesive": (-0.99, -0.9, -0.4, -0.05, -0.1, -0.15), "bare": (-0.99, -0.95, -0.7, -0.4, -0.25, -0.15), "af": (0.9,) * 6}
 #: share of its arc that the end of contact lies behind the start of it, long after the forcing turned
-_CONTACT_END, _SLOW = 0.45, 60.0
-_RELEASE = 0.1
+CONTACT_END, SLOW = 0.45, 60.0
+RELEASE = 0.1
 #: contact all but complete, in parts of the pressure's amplitude, and the width of its gap over the half width where the saturated field pulls
 _NEARLY, _GAP = 0.3, 3.0
 _LEAST = 1e-9
@@ -29,7 +29,7 @@ _LEAST = 1e-9
 
 def onset_guess(cycle: Cycle, kind: str = "adhesive") -> np.ndarray:
     """Onset phases, (n,)."""
-    return cycle.centre + np.interp(np.log10(np.maximum(cycle.strips.beta, _LEAST)), _DECADES, _ONSET[kind]) * cycle.half_d
+    return cycle.centre + np.interp(np.log10(np.maximum(cycle.strips.beta, _LEAST)), DECADES, ONSET[kind]) * cycle.half_d
 
 
 def start(kernel, cycle: Cycle, sequence: str, bounds: Outermost | None = None) -> np.ndarray:
@@ -46,7 +46,7 @@ def start(kernel, cycle: Cycle, sequence: str, bounds: Outermost | None = None) 
         closing = np.maximum(kernel.forcing(x, s.D, s.beta) + s.p_0 + cycle.gap_on, _LEAST)
         edges["b"] = last = x + np.minimum(cycle.gap_on * np.maximum(s.beta, _LEAST) / closing, 0.5 * (end - x))
     if "a" in EDGES[sequence]:
-        share = _CONTACT_END * s.beta / (s.beta + _SLOW) + 1e-3
+        share = CONTACT_END * s.beta / (s.beta + SLOW) + 1e-3
         edges["a"] = last = np.maximum(centre + cycle.half_b + share * (TWO_PI - 2 * cycle.half_b), last)
         if bounds is not None:
             edges["a"] = last = np.where(np.isnan(bounds.x), last, np.maximum(bounds.a, last))
@@ -54,7 +54,7 @@ def start(kernel, cycle: Cycle, sequence: str, bounds: Outermost | None = None) 
         _nearly_complete(kernel, cycle, edges)
     if "c" in EDGES[sequence]:
         low = np.maximum(last, centre + cycle.half_c)
-        edges["c"] = low + _RELEASE * np.maximum(turned - cycle.half_c - low, 0.0)
+        edges["c"] = low + RELEASE * np.maximum(turned - cycle.half_c - low, 0.0)
         if bounds is not None:
             edges["c"] = np.where(np.isnan(bounds.x), edges["c"], np.maximum(bounds.c, last))
     return np.array([edges[edge] for edge in EDGES[sequence]])
