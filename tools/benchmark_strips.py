@@ -1,6 +1,6 @@
 """Time per strip: the batched solver against strip-by-strip scripts, in one run.
 
-    python tools/benchmark_strips.py [--strips 100000] [--levels 40] [--repeat 3] [--memory]
+    python tools/benchmark_strips.py [--strips 100000] [--levels 250] [--repeat 3] [--memory]
 
 The batch is mixed: levels of the paper's material and two wavelengths at random velocity, penetration and energy of adhesion, cut into
 100 strips each as in the paper. The scripts are what a user would write for the same strips: the boundary equations in scalar ``math``,
@@ -308,7 +308,7 @@ def memory(rng):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--strips", type=int, default=100_000)
-    parser.add_argument("--levels", type=int, default=40, help="levels that the script solves")
+    parser.add_argument("--levels", type=int, default=250, help="levels that the script solves")
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--memory", action="store_true", help="1e7 strips: peak memory")

@@ -29,11 +29,10 @@ EDGES = {"acaf": "xbac", "afc": "xac", "af": "xc", "ac": "xa", "cf": "xa"}
 
 @dataclass(slots=True)
 class Chain:
-    """Edges (k, n) of orbits; ``slope`` (n,) of the onset map there; which ``converged``; ``correction`` (n,): the last step,
-    taken from boundary equations that do not cancel; ``evaluations`` (n,) of the links of a period."""
+    """Edges (k, n) of orbits; which ``converged``; ``correction`` (n,): the last step, taken from boundary equations that do not cancel;
+    ``evaluations`` (n,) of the links of a period."""
 
     edges: np.ndarray
-    slope: np.ndarray
     converged: np.ndarray
     correction: np.ndarray
     evaluations: np.ndarray
@@ -42,37 +41,40 @@ class Chain:
 def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
     """Newton from ``edges`` (k, n) for cycles that are all taken to follow ``sequence``."""
     n = cycle.size
-    edges = edges.copy()
+    edges, result = edges.copy(), edges.copy()
     low, high = _arcs(cycle, sequence)
     iterations, together = (_ITERATIONS_BARE, _TOGETHER_BARE) if sequence in ("ac", "cf") else (_ITERATIONS, _TOGETHER)
-    spent, step_size, slope = np.zeros(n), np.full(n, np.inf), np.full(n, np.nan)
-    step = np.full(edges.shape, np.nan)
-    active, part = np.arange(n), cycle
+    spent, step_size = np.zeros(n), np.full(n, np.inf)
+    index, part = np.arange(n), cycle
     # where a link is lost to rounding or overflows the step is no number, and the strip is left to the search
     with np.errstate(all="ignore"):
-        for iteration in range(iterations):
-            here = edges[:, active]
-            values, before, after = _links(kernel, part, sequence, here)
-            move, steep = _step(values, before, after)
+        for iteration in range(1, iterations + 1):
+            move = _step(*_links(kernel, part, sequence, edges))
             size = np.abs(move).max(axis=0)
-            lo, hi = low[:, active], high[:, active]
-            new = np.clip(here + move, here + _BOLD * (lo - here), here + _BOLD * (hi - here))
-            new = np.where(np.isnan(new), here, np.maximum.accumulate(new, axis=0))
-            edges[:, active], step_size[active], slope[active] = new, size, steep
-            spent[active] += 1
-            if iteration + 1 >= together:
-                going = np.flatnonzero(~(size <= _SMALL) & np.isfinite(size))
+            edges = _moved(edges, move, low, high, size)
+            if iteration < together:
+                continue
+            going = np.flatnonzero(~(size <= _SMALL) & np.isfinite(size)) if iteration < iterations else index[:0]
+            if going.size < index.size:
+                result[:, index], step_size[index], spent[index] = edges, size, iteration
                 if not going.size:
                     break
-                if going.size < active.size:
-                    active = active[going]
-                    part = cycle.take(active)
-        step, sense = _refined(kernel, cycle, sequence, edges)
-    spent += 1
+                index, part = index[going], part.take(going)
+                edges, low, high = edges[:, going], low[:, going], high[:, going]
+        step, sense = _refined(kernel, cycle, sequence, result)
     correction = np.abs(step).max(axis=0)
     converged = sense & (step_size <= _SMALL) & (correction <= 1e3 * _SMALL)
-    edges = np.where(converged, edges + step, edges)
-    return Chain(edges, slope, converged, np.where(converged, correction, np.inf), spent)
+    return Chain(np.where(converged, result + step, result), converged, np.where(converged, correction, np.inf), spent + 1)
+
+
+def _moved(edges, move, low, high, size):
+    """Edges after a step, kept inside their arcs and in order; where the step (of this ``size``) is no number, the edges before it."""
+    new = np.minimum(np.maximum(edges + move, edges + _BOLD * (low - edges)), edges + _BOLD * (high - edges))
+    for before, after in zip(new[:-1], new[1:], strict=True):
+        np.maximum(before, after, out=after)
+    lost = np.flatnonzero(np.isnan(size))
+    new[:, lost] = edges[:, lost]
+    return new
 
 
 def tighten(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -85,7 +87,7 @@ def tighten(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.
     with np.errstate(all="ignore"):
         for _ in range(_TIGHTENING):
             values, before, after = _links(kernel, cycle, sequence, edges)
-            move, _ = _step(values, before, after)
+            move = _step(values, before, after)
             edges = edges + move
             size = np.abs(move).max(axis=0)
     return edges, np.where(np.isfinite(size), size, np.inf)
@@ -131,14 +133,14 @@ def _links(kernel, cycle: Cycle, sequence: str, edges):
 
 
 def _step(values, before, after):
-    """Newton step of the edges (k, n), and the slope of the onset map."""
+    """Newton step of the edges (k, n)."""
     constant, linear = [np.zeros_like(values[0])], [np.ones_like(values[0])]
     for value, back, on in zip(values[:-1], before[:-1], after[:-1], strict=True):
         constant.append(-(value + back * constant[-1]) / on)
         linear.append(-back * linear[-1] / on)
     slope = -before[-1] * linear[-1] / after[-1]
     first = (values[-1] + before[-1] * constant[-1]) / (after[-1] * (slope - 1))
-    return np.array([k + m * first for k, m in zip(constant, linear, strict=True)]), slope
+    return np.array([k + m * first for k, m in zip(constant, linear, strict=True)])
 
 
 def _refined(kernel, cycle: Cycle, sequence: str, edges):
@@ -154,4 +156,4 @@ def _refined(kernel, cycle: Cycle, sequence: str, edges):
     contact = {"acaf": 1, "af": None}.get(sequence, 0)
     balance = closing - sum(value * (-s.J if i == contact else 1.0) for i, value in enumerate(values))
     sense = np.all([sign * slope > 0 for sign, slope in zip(_SENSE[sequence], after, strict=True)], axis=0)
-    return _step((*values, balance), before, after)[0], sense
+    return _step((*values, balance), before, after), sense
