@@ -302,7 +302,7 @@ def memory(rng):
     solution = hystrip.solve_strip(MATERIAL, hystrip.Dugdale(p_0=float(p_0[0, 0]), delta_0=DELTA_0), **one)
     seconds = time.process_time() - start
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
-    print(f"{solution.contact_fraction.size} strips in {seconds:.0f} s, peak memory {peak:.2f} GiB")
+    print(f"{solution.p_mean.size} strips in {seconds:.0f} s, peak memory {peak:.2f} GiB")
 
 
 def main():

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
-from dataclasses import fields as dataclass_fields
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -28,7 +29,7 @@ _GROUP_LIMIT = 1e150
 
 @dataclass(frozen=True, eq=False)
 class StripSolution:
-    """Steady sliding of strips; arrays have the broadcast shape of the inputs.
+    """Steady sliding of strips; arrays have the broadcast shape of the inputs and are made when first asked for.
 
     Attributes
     ----------
@@ -39,21 +40,54 @@ class StripSolution:
     edge, branch : the edge closure and the branch that was asked for
     """
 
-    p_mean: np.ndarray
-    tau_mean: np.ndarray
-    contact_fraction: np.ndarray
-    adhesion_fraction: np.ndarray
-    regime: np.ndarray
-    a: np.ndarray
-    b: np.ndarray
-    c: np.ndarray
-    d: np.ndarray
     edge: str
     branch: str
     _strips: Any = field(repr=False)
     _solved: Solved = field(repr=False)
-    _scales: tuple = field(repr=False)
+    _scales: dict = field(repr=False)
     _foundation: Foundation = field(repr=False)
+
+    @cached_property
+    def p_mean(self) -> np.ndarray:
+        return self._out(self._solved.p_mean) * self._scales["p"]
+
+    @cached_property
+    def tau_mean(self) -> np.ndarray:
+        return self._out(self._solved.tau_mean) * self._scales["p"] * self._scales["k"] * self._scales["A"]
+
+    @cached_property
+    def contact_fraction(self) -> np.ndarray:
+        return self._out(self._solved.contact_fraction)
+
+    @cached_property
+    def adhesion_fraction(self) -> np.ndarray:
+        return self._out(self._solved.adhesion_fraction)
+
+    @cached_property
+    def regime(self) -> np.ndarray:
+        return self._out(SEQUENCES[self._solved.code])
+
+    @cached_property
+    def a(self) -> np.ndarray:
+        return self._edge(self._solved.a)
+
+    @cached_property
+    def b(self) -> np.ndarray:
+        return self._edge(-self._solved.b)
+
+    @cached_property
+    def c(self) -> np.ndarray:
+        return self._edge(self._solved.c)
+
+    @cached_property
+    def d(self) -> np.ndarray:
+        return self._edge(-self._solved.d)
+
+    def _out(self, flat: np.ndarray) -> np.ndarray:
+        return flat.reshape(self._scales["k"].shape)
+
+    def _edge(self, phase: np.ndarray) -> np.ndarray:
+        return self._out(phase) * (1 / self._scales["k"])
 
     @property
     def regime_name(self) -> np.ndarray:
@@ -93,8 +127,7 @@ class StripSolution:
         p, gap = np.empty(index.size), np.empty(index.size)
         wavy = np.flatnonzero(~flat)
         which = index[wavy]
-        picked = Solved(*(getattr(self._solved, f.name)[which] for f in dataclass_fields(Solved)))
-        p[wavy], gap[wavy] = self._foundation.fields(self._strips.take(which), picked, phase[wavy])
+        p[wavy], gap[wavy] = self._foundation.fields(self._strips.take(which), self._solved.take(which), phase[wavy])
         level = np.flatnonzero(flat)
         p[level] = self._solved.p_mean[index[level]]
         contact = self._solved.code[index[level]] == CODE["c"]
@@ -160,28 +193,25 @@ def solve_strip(
         delta_0=adhesion.delta_0,
         **parameters(material),
     )
-    flat_in = [np.broadcast_to(np.asarray(v, float), shape).ravel() for v in (wavelength, A, D, V, adhesion.p_0, adhesion.delta_0)]
+    flat_in = [_flat(v, shape) for v in (wavelength, A, D, V, adhesion.p_0, adhesion.delta_0)]
     foundation = foundation_of(material).flat(shape)
     solved, strips, scales = foundation.solve(*flat_in, edge, branch)
-    out = lambda v: v.reshape(shape)  # noqa: E731
-    per_k = 1 / scales["k"]
-    return StripSolution(
-        p_mean=out(solved.p_mean * scales["p"]),
-        tau_mean=out(solved.tau_mean * scales["p"] * scales["k"] * scales["A"]),
-        contact_fraction=out(solved.contact_fraction),
-        adhesion_fraction=out(solved.adhesion_fraction),
-        regime=out(SEQUENCES[solved.code]),
-        a=out(solved.a * per_k),
-        b=out(-solved.b * per_k),
-        c=out(solved.c * per_k),
-        d=out(-solved.d * per_k),
-        edge=edge,
-        branch=branch,
-        _strips=strips,
-        _solved=solved,
-        _scales={n: out(v) for n, v in scales.items()},
-        _foundation=foundation,
-    )
+    return StripSolution(edge, branch, strips, solved, {n: v.reshape(shape) for n, v in scales.items()}, foundation)
+
+
+def _flat(values, shape) -> np.ndarray:
+    """Flat array of the broadcast ``values``, a view where they are a single number."""
+    values = np.asarray(values, float)
+    if values.size == 1:
+        return np.broadcast_to(values.reshape(()), (math.prod(shape),))
+    return np.broadcast_to(values, shape).ravel()
+
+
+def _each(function, *arrays) -> np.ndarray:
+    """``function`` of flat arrays, once for all where they are views of single numbers."""
+    if all(array.strides == (0,) for array in arrays):
+        return np.broadcast_to(function(*(array[:1] for array in arrays)), arrays[0].shape)
+    return function(*arrays)
 
 
 def solve_si(kernel, l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge, branch):  # noqa: E741
@@ -189,26 +219,30 @@ def solve_si(kernel, l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge, br
 
     A strip whose wave is negligible is solved as flat, in units of K alone. Nothing is refused here but groups that overflow.
     """
-    k = 2 * np.pi / l
     with np.errstate(over="ignore"):  # refused below, by name
-        alpha, beta = k * V * T_sigma, k * V * T_eps
+        k = _each(lambda l: 2 * np.pi / l, l)  # noqa: E741
+        alpha, beta = (_each(lambda k, V, T: k * V * T, k, V, T) for T in (T_sigma, T_eps))
     if np.any(beta > _GROUP_LIMIT):
         raise InputError("V", float(V[beta > _GROUP_LIMIT][0]), f"k V T_eps at most {_GROUP_LIMIT:g}")
-    flat = is_flat(A, beta, D, p_0 / K, delta_0)
-    unit = np.where(flat, 1.0, A)
-    strips = Strips(alpha, beta, J, L, p_0 / K / unit, delta_0 / unit, D / unit, np.full(D.size, float(edge == "constitutive")))
-    solved = Solved.empty(D.size)
+    traction = _each(np.divide, p_0, K)
+    flat = is_flat(A, beta, D, traction, delta_0)
+    unit = np.where(flat, 1.0, A) if flat.any() else A
+    chi = np.broadcast_to(float(edge == "constitutive"), D.shape)
+    strips = Strips(alpha, beta, J, L, _each(np.divide, traction, unit), _each(np.divide, delta_0, unit), _each(np.divide, D, unit), chi)
+    scales = {"k": k, "A": A, "D": D, "p": _each(np.multiply, K, unit), "length": unit, "flat": flat}
     unloading = branch == "unloading"
+    if not flat.any():
+        return solve_strips(kernel, strips, unloading), strips, scales
+    solved = Solved.empty(D.size)
     wavy = np.flatnonzero(~flat)
     solved.put(wavy, solve_strips(kernel, strips.take(wavy), unloading))
     level = np.flatnonzero(flat)
-    if level.size:
-        code, p = solve_flat(D[level], (p_0 / K)[level], delta_0[level], unloading)
-        solved.code[level], solved.p_mean[level], solved.tau_mean[level] = code, p, 0.0
-        solved.contact_fraction[level] = code == CODE["c"]
-        solved.adhesion_fraction[level] = code == CODE["a"]
-        solved.certified[level] = True
-    return solved, strips, {"k": k, "A": A, "D": D, "p": K * unit, "length": unit, "flat": flat}
+    code, p = solve_flat(D[level], traction[level], delta_0[level], unloading)
+    solved.code[level], solved.p_mean[level], solved.tau_mean[level] = code, p, 0.0
+    solved.contact_fraction[level] = code == CODE["c"]
+    solved.adhesion_fraction[level] = code == CODE["a"]
+    solved.certified[level] = True
+    return solved, strips, scales
 
 
 def refuse_uncertified(solved: Solved, inputs: dict[str, np.ndarray], edge: str, branch: str) -> None:
