@@ -37,29 +37,31 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> 
     proven, spent = np.zeros(cycle.size, bool), np.zeros(cycle.size)
     if not last:
         known = np.flatnonzero(np.isfinite(bounds.x))
-        part, within = orbit.take(known), bounds.take(known)
-        proven[known] = _falls_between(kernel, cycle.take(known), part, within.x, within.x * np.nan, np.maximum(within.c, part.c))
+        part, limits = orbit.take(known), bounds.take(known)
+        unknown = np.full(known.size, np.nan)
+        outer = Orbit(limits.x, unknown, unknown, np.maximum(limits.c, part.c), np.zeros(known.size, bool), unknown, unknown)
+        proven[known] = _falls_between(kernel, cycle.take(known), part, outer, 1.0)
     rest = np.flatnonzero(~proven)
     if rest.size:
         proven[rest], spent[rest] = _alone(kernel, cycle.take(rest), orbit.take(rest), last, bounds.x[rest])
     return proven, spent
 
 
-def _falls_between(kernel, cycle: Cycle, orbit: Orbit, x, r, c) -> np.ndarray:
-    """Which orbits are the first because of one earlier onset x, before which there is none, whose adhesion ends before c.
+def _falls_between(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float) -> np.ndarray:
+    """Where no zero of r lies between the onsets of ``outer``, bounds beyond which there is none, and of the known orbit.
 
-    R falls strictly from where F exceeds ``steep_margin`` to the known onset, and up to there r is positive: it is at x, at least ``r``, and falls no
-    faster than that margin lets it. With r NaN x has to be where R falls already.
+    R falls strictly wherever F exceeds ``steep_margin``, an arc in which the known onset lies. From where it begins (``sign`` < 0: ends) to the
+    outer onset r has the sign of that side: it has there, by at least ``outer.r``, and R falls no faster than that margin lets it. With
+    ``outer.r`` NaN the arc has to reach the outer onset.
     """
     s = cycle.strips
     noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
-    margin = steep_margin(kernel, cycle, orbit, c)
-    margin += noise
-    known = np.isfinite(margin)
-    half = kernel.forcing_arc(s.delta_0 - np.where(known, margin, 0.0), s.D, s.beta)[1]
-    steep = known & (orbit.x > cycle.centre - half) & (orbit.x < cycle.centre + half)
-    way = np.maximum(cycle.centre - half - x, 0.0)
-    kept = r - noise > margin * np.expm1(np.minimum(way / np.maximum(s.beta, _LEAST), 700.0))
+    margin = noise + (steep_margin(kernel, cycle, outer, known) if sign > 0 else steep_margin(kernel, cycle, known, outer))
+    sure = np.isfinite(margin)
+    half = kernel.forcing_arc(s.delta_0 - np.where(sure, margin, 0.0), s.D, s.beta)[1]
+    steep = sure & (np.abs(known.x - cycle.centre) < half)
+    way = np.minimum(np.maximum(sign * (cycle.centre - outer.x) - half, 0.0) / np.maximum(s.beta, _LEAST), 700.0)
+    kept = sign * outer.r - noise > margin * (np.expm1(way) if sign > 0 else -np.expm1(-way))
     return steep & ((way == 0) | kept)
 
 
@@ -85,12 +87,11 @@ def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.n
             closer, used = _released(kernel, cycle.take(stuck), known.take(stuck), outer.x[stuck], sign)
             outer.put(stuck, closer)
             spent[stuck] += used
-        if sign > 0:
-            proven = ~outer.engaged & _falls_between(kernel, cycle, known, outer.x, outer.r, outer.c)
-            active = np.flatnonzero(~proven)
-            if not active.size:
-                return proven, spent
-            part, here, outer = cycle.take(active), known.take(active), outer.take(active)
+        proven = ~outer.engaged & _falls_between(kernel, cycle, known, outer, sign)
+        active = np.flatnonzero(~proven)
+        if not active.size:
+            return proven, spent
+        part, here, outer = cycle.take(active), known.take(active), outer.take(active)
         frontier, step = here.take(np.arange(active.size)), _FIRST * (outer.x - here.x)
         for _ in range(_PROBES):
             x = frontier.x + np.where(np.abs(step) < 0.9 * np.abs(outer.x - frontier.x), step, _FIRST * (outer.x - frontier.x))

@@ -4,7 +4,7 @@ The march is the return map of the strip on the phase x of its onset. It is not 
 slope, drive the search for the extremal orbit (``search``).
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -42,15 +42,15 @@ class Orbit:
     @classmethod
     def joined(cls, parts: list["Orbit"]) -> "Orbit":
         """The orbits of all ``parts``, one after another."""
-        return cls(*(np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(cls)))
+        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in cls.__slots__))
 
     def take(self, index: np.ndarray) -> "Orbit":
-        return Orbit(*(getattr(self, f.name)[index] for f in fields(self)))
+        return Orbit(*[getattr(self, name)[index] for name in self.__slots__])
 
     def put(self, index: np.ndarray, other: "Orbit") -> None:
         """Overwrite the elements ``index`` with ``other``."""
-        for f in fields(self):
-            getattr(self, f.name)[index] = getattr(other, f.name)
+        for name in self.__slots__:
+            getattr(self, name)[index] = getattr(other, name)
 
 
 def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, later: Orbit | None = None):

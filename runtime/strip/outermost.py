@@ -14,7 +14,7 @@ The three phases are not solved for. Each is replaced by a later a, a later c, a
 is held longer, and adhesion that is held longer, only leave the state more engaged than it is.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -50,11 +50,11 @@ class Outermost:
         return cls(*(np.full(n, np.nan) for _ in range(3)), np.zeros(n, bool), np.zeros(n, bool), np.zeros(n))
 
     def put(self, index: np.ndarray, other: "Outermost") -> None:
-        for f in fields(self):
-            getattr(self, f.name)[index] = getattr(other, f.name)
+        for name in self.__slots__:
+            getattr(self, name)[index] = getattr(other, name)
 
     def take(self, index: np.ndarray) -> "Outermost":
-        return Outermost(*(getattr(self, f.name)[index] for f in fields(self)))
+        return Outermost(*[getattr(self, name)[index] for name in self.__slots__])
 
 
 def outermost(kernel, cycle: Cycle) -> Outermost:
