@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .bound import rows
 from .crossing import crossing
 from .problem import TWO_PI, Cycle
 
@@ -165,7 +166,7 @@ class _Event:
 
     def __init__(self, function, constants, offset=0.0, sign=1.0):
         self.function, self.sign = function, sign
-        self.constants = np.stack(np.broadcast_arrays(offset, *constants))
+        self.constants = rows(constants[1].size, offset, *constants)
 
     def take(self, index) -> "_Event":
         other = object.__new__(_Event)

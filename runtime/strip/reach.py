@@ -1,4 +1,4 @@
-"""Proofs in closed form that a strip has no orbit of some kind: none that is always engaged, or none that meets an onset.
+"""What is known of a strip in closed form: whether it saturates, and proofs that it has no orbit that is always engaged, or none that meets an onset.
 
 Always engaged. Let ``y = w + p_0`` and ``q = p + p_0``, both never negative then, and ``z = y - J q``, so that ``beta z' + z = L q >= 0``:
 z falls no faster than it fades. In the valley ``z <= y <= S - 2 + delta_0``, ``S = D + p_0``, if the gap is to stay within reach, which bounds
@@ -30,8 +30,15 @@ import numpy as np
 from .problem import TWO_PI, Strips
 
 _EPS = np.finfo(float).eps
+_ROUNDINGS = 1
 #: evaluations; few strips that have no orbit need more
 _ROUNDS = 16
+
+
+def saturates(kernel, s: Strips) -> np.ndarray:
+    """Where saturated contact exists, ``D - 1 + p_0 >= R``, or fails to by less than the terms are rounded to: a gap of that size is none."""
+    R = kernel.modulus_ratio(s.alpha, s.beta)
+    return s.D - 1 + s.p_0 >= R - _ROUNDINGS * _EPS * (1 + np.abs(s.D) + s.p_0 + R)
 
 
 def may_cling(kernel, s: Strips) -> np.ndarray:
