@@ -7,6 +7,7 @@ iterates from infinitely far fall to the least engaged one, and there is no long
 
 * Always engaged states contract onto one candidate: saturated contact, saturated adhesion, or contact with saturated
   adhesion. If its inequalities hold it is the most engaged orbit; nothing more engaged exists.
+  Where it is not, closed forms (``reach``) or bounds on all orbits (``outermost``) mostly tell without solving for it.
 * Every other orbit but the free one has an onset phase and is a zero of the onset map's defect ``r``. The first (or last) of
   them is had from Newton with a proof that it is alone on its side (``direct``), or else from a search that passes over none
   (``sought``).
@@ -158,7 +159,9 @@ class _Batch:
         return (self._onset_searched if self.searching else self._onset_direct)(index, cycle)
 
     def _onset_direct(self, index, cycle: Cycle):
-        orbit, sequences, proven, none, spent = extremal(self.kernel, cycle, last=not self.unloading, bounds=self.bounds.take(index))
+        orbit, sequences, proven, none, spent = extremal(
+            self.kernel, cycle, last=not self.unloading, bounds=self.bounds.take(index)
+        )
         self.record.solved.evaluations[index] += spent
         for sequence in ("acaf", "afc", "af"):
             pick = np.flatnonzero(proven & (sequences == sequence))

@@ -5,7 +5,9 @@ the onset arc and x*, the loading orbit by excluding them between x* and the end
 earlier onset contact begins earlier, contact and adhesion end later. One-sided bounds of the edges are enough for every
 inequality used, and a bound is verified by the sign of one event, so nothing is solved for.
 
-With a probe x1 between the end of the arc x0 and x*,
+Mostly bounds at one onset x0 are enough, at the end of the arc or where ``outermost`` has moved it: R falls strictly wherever F is not
+too small (``sensitivity.steep_margin``), and between there and x0 too little to use up the r of x0. Otherwise, with a probe x1 between x0
+and x*,
 
 * [x1, x*] holds no second zero where R falls strictly on it (``sensitivity.slope_bounds``);
 * [x0, x1] holds none where the onset map already takes x0 beyond x1 (it is monotone), or by the bounds of ``search``.
@@ -123,7 +125,9 @@ def _released(kernel, cycle: Cycle, known: Orbit, x, sign) -> tuple[Orbit, np.nd
     noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
     spent = np.zeros(x.shape)
     start, far = known.x + TWO_PI, np.maximum(x + TWO_PI, latest)
-    next_onset, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, np.maximum(start, far), far, -sign, noise, close_enough(s.beta), spent)
+    next_onset, found = bound(
+        kernel.gap_event, entry, s.delta_0, 1.0, np.maximum(start, far), far, -sign, noise, close_enough(s.beta), spent
+    )
     closer, used = enclose(kernel, cycle, np.where(found, next_onset - TWO_PI, x), known, sign)
     spent += used
     # bounds may miss an adhesion that ends just before its arc does: then the edges themselves
@@ -169,7 +173,7 @@ def enclose(kernel, cycle: Cycle, x, known: Orbit, sign) -> tuple[Orbit, np.ndar
     marks where no bound was found. Contact that is lost on the way to a later onset counts as contact of no length.
     """
     s = cycle.strips
-    centre, turned = cycle.centre, cycle.centre + TWO_PI
+    centre = cycle.centre
     noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
     spent = np.ones(x.shape)
     if np.isnan(known.b).all():
@@ -180,7 +184,9 @@ def enclose(kernel, cycle: Cycle, x, known: Orbit, sign) -> tuple[Orbit, np.ndar
         # an earlier onset may lead to contact, at once at the earliest; either way the later end of adhesion bounds both
         b = np.maximum(x, centre - cycle.half_b)
         a, failed = _detachment(kernel, cycle, b, b, sign, noise, spent)
-        either = _release(kernel, cycle, x, b, a, no, failed | clinging.engaged, np.maximum(known.c, clinging.c), sign, noise, spent)
+        either = _release(
+            kernel, cycle, x, b, a, no, failed | clinging.engaged, np.maximum(known.c, clinging.c), sign, noise, spent
+        )
         return either, spent
     # contact begins: an event that falls; its bound lies on the outer side of the known edge
     entry = kernel.gap_entry(x, cycle.gap_on, -s.p_0, s.D, s.beta)
@@ -203,7 +209,9 @@ def _detachment(kernel, cycle: Cycle, b, start, sign, noise, spent):
     entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
     first, last = np.maximum(b, cycle.centre + cycle.half_b), cycle.centre + TWO_PI - cycle.half_b
     far = last if sign > 0 else first
-    a, found = bound(kernel.excess_event, entry, 0.0, 1.0, np.maximum(start, first), far, sign, noise + 64 * _EPS * entry[4], close_enough(s.beta), spent)
+    noise = noise + 64 * _EPS * entry[4]
+    start = np.maximum(start, first)
+    a, found = bound(kernel.excess_event, entry, 0.0, 1.0, start, far, sign, noise, close_enough(s.beta), spent)
     return np.where(found, a, far), ~found & (sign > 0)
 
 

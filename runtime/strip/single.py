@@ -32,7 +32,9 @@ class SingleTime:
         m = self.material
         if not any(np.ndim(v) for v in (m.K, m.T_eps, m.T_sigma)):
             return self
-        return SingleTime(self.kernel, StandardLinearSolid(*(np.broadcast_to(v, shape).ravel() for v in (m.K, m.T_eps, m.T_sigma))))
+        return SingleTime(
+            self.kernel, StandardLinearSolid(*(np.broadcast_to(v, shape).ravel() for v in (m.K, m.T_eps, m.T_sigma)))
+        )
 
     def solve(self, l, A, D, V, p_0, delta_0, edge, branch):  # noqa: E741
         inputs = self._inputs(l, A, D, V, p_0, delta_0)
@@ -49,7 +51,9 @@ class SingleTime:
 
     def _inputs(self, l, A, D, V, p_0, delta_0):  # noqa: E741
         m = self.material
-        return [np.broadcast_to(np.asarray(v, float), l.shape) for v in (l, A, D, V, m.K, m.T_eps, m.T_sigma, p_0, delta_0, m.J, m.L)]
+        return [
+            np.broadcast_to(np.asarray(v, float), l.shape) for v in (l, A, D, V, m.K, m.T_eps, m.T_sigma, p_0, delta_0, m.J, m.L)
+        ]
 
     def fields(self, strips, solved, phase):
         return fields(self.kernel, strips, solved, phase)

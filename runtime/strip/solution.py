@@ -232,7 +232,9 @@ def dimensionless(l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge) -> tu
     flat = is_flat(A, beta, D, traction, delta_0)
     unit = np.where(flat, 1.0, A) if flat.any() else A
     chi = np.broadcast_to(float(edge == "constitutive"), D.shape)
-    strips = Strips(alpha, beta, J, L, _each(np.divide, traction, unit), _each(np.divide, delta_0, unit), _each(np.divide, D, unit), chi)
+    strips = Strips(
+        alpha, beta, J, L, _each(np.divide, traction, unit), _each(np.divide, delta_0, unit), _each(np.divide, D, unit), chi
+    )
     scales = {"k": k, "A": A, "D": D, "p": _each(np.multiply, K, unit), "length": unit, "flat": flat}
     return strips, scales
 
