@@ -8,8 +8,8 @@ The batch is mixed: levels of the paper's material and two wavelengths at random
 
 * ``told``: is told the regime of every strip, and given the solution as a start where the regime changes: it never has to find anything.
 * ``finding``: finds the regime as well. It takes the neighbour's zones and edges, solves, checks the inequalities, and where they fail tries the
-  other regimes from rough starts, the elastic strip's edges as such and turned by the foundation's lag. Outwards of a free strip that is out
-  of reach it takes the strips to be free. It proves nothing: what it finds may be another orbit than the one asked for.
+  other regimes from rough starts, the library's own and the elastic strip's. Outwards of a free strip that is out of reach it takes the strips
+  to be free. It proves nothing: what it finds may be another orbit than the one asked for.
 
 Times are CPU seconds; medians over the repeats. ``--memory`` solves 1e7 strips and reports the peak of the process instead.
 """
@@ -140,7 +140,7 @@ class Script:
         return self.gap(named["a"], end, self.u(named["a"]) + p, -p)[0] <= reach
 
     def starts(self, sequence):
-        """Rough edges in these zones: where they mostly lie in the arcs of their events, those of the library's own start; then the elastic strip's."""
+        """Rough edges in these zones: where they mostly lie in the arcs of their events (as the library starts), then the elastic strip's."""
         p, reach, lag = self.p_0, self.delta_0, math.atan(self.beta)
         amplitude = math.hypot(1, self.beta)
         arc = lambda excess: math.acos(min(max((1 - self.D - excess) / amplitude, -1.0), 1.0))  # noqa: E731
@@ -187,7 +187,13 @@ def groups(inputs, p_0):
     """Dimensionless groups of every strip, nested lists."""
     k = 2 * np.pi / inputs["l"]
     scale = MATERIAL.K * inputs["A"]
-    columns = (k * inputs["V"] * MATERIAL.T_sigma, k * inputs["V"] * MATERIAL.T_eps, p_0 / scale, DELTA_0 / inputs["A"], inputs["D"] / inputs["A"])
+    columns = (
+        k * inputs["V"] * MATERIAL.T_sigma,
+        k * inputs["V"] * MATERIAL.T_eps,
+        p_0 / scale,
+        DELTA_0 / inputs["A"],
+        inputs["D"] / inputs["A"],
+    )
     return np.stack([np.broadcast_to(v, scale.shape) for v in columns], -1).tolist()
 
 
@@ -271,8 +277,11 @@ def compare(options, rng):
     work, partial = solution._solved.evaluations, np.isin(solution.regime.ravel(), list(EDGES))
     other = np.mean(np.array(found.regimes) != regimes)
     print(f"{options.strips} strips: " + ", ".join(f"{r} {100 * v:.0f} %" for r, v in share.items()))
-    print(f"medians of {options.repeat} runs, CPU microseconds per strip: batch {batched * 1e6:.2f}, a lone strip {lone * 1e6:.0f}")
-    print(f"  script, told the regimes: {seconds * 1e6:.1f} ({100 * known.failures / known.solves:.1f} % of {known.solves} solves fail): ratio {ratio:.1f}")
+    print(
+        f"medians of {options.repeat} runs, CPU microseconds per strip: batch {batched * 1e6:.2f}, a lone strip {lone * 1e6:.0f}"
+    )
+    print(f"  script, told the regimes: {seconds * 1e6:.1f} ({100 * known.failures / known.solves:.1f} % of {known.solves} solves fail): "
+          f"ratio {ratio:.1f}")  # fmt: skip
     print(f"  script, finding them: {longer * 1e6:.1f} ({100 * found.failures / found.solves:.1f} % of {found.solves} solves fail, "
           f"{100 * other:.1f} % of the strips come out in another regime): ratio {ratio_finding:.1f}")  # fmt: skip
     print("evaluations of residuals, Jacobians and events of map segments per strip: median %g, 99th percentile %g; strips with edges: median %g, 99th "
@@ -289,7 +298,8 @@ def flatness(options, rng):
         pick = np.resize(np.flatnonzero(partial), options.strips // 4)
         edged = {n: v.ravel()[pick] for n, v in inputs.items()}, p_0.ravel()[pick]
         times = [batch(*edged)[0] for _ in range(options.repeat)]
-        print(f"  1e{exponent:+d}: {np.median([t for t, _ in mixed]) * 1e6:.2f}, {np.median(times) * 1e6:.2f} ({100 * partial.mean():.0f} % have edges)")
+        alone, together = np.median(times) * 1e6, np.median([t for t, _ in mixed]) * 1e6
+        print(f"  1e{exponent:+d}: {together:.2f}, {alone:.2f} ({100 * partial.mean():.0f} % have edges)")
 
 
 def memory(rng):

@@ -3,7 +3,7 @@
 import numpy as np
 
 #: a slow foundation changes little over a period: bounds are to be that much closer; distance to the zero, as estimated there
-_CLOSE, _SLOW = 0.02, 6.0
+_CLOSE, _SLOW = 0.05, 6.0
 #: bounds are sought beyond the linear estimate by this share of the way to it, or its square where that is less
 _BEYOND = 0.3
 _TRIES = 12
@@ -12,6 +12,14 @@ _TRIES = 12
 def close_enough(beta):
     """Distance from the zero at which bounds for strips of these beta are good enough."""
     return _CLOSE * _SLOW / np.maximum(beta, _SLOW)
+
+
+def rows(size: int, *values) -> np.ndarray:
+    """Arrays (size,) and numbers as the rows of one array."""
+    out = np.empty((len(values), size))
+    for row, value in zip(out, values, strict=True):
+        row[:] = value
+    return out
 
 
 def bound(event, entry, offset, rising, start, far, side, noise, close, spent, near=None):
@@ -23,7 +31,7 @@ def bound(event, entry, offset, rising, start, far, side, noise, close, spent, n
     """
     near = start if near is None else near
     result, found = start.copy(), np.zeros(start.shape, bool)
-    state = np.stack(np.broadcast_arrays(start, near, far, close, offset, noise, *entry))
+    state = rows(start.size, start, near, far, close, offset, noise, *entry)
     index, tries = np.arange(start.size), 0
     while True:
         x, near, far, close, level, blur, *rest = state

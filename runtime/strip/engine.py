@@ -7,6 +7,7 @@ iterates from infinitely far fall to the least engaged one, and there is no long
 
 * Always engaged states contract onto one candidate: saturated contact, saturated adhesion, or contact with saturated
   adhesion. If its inequalities hold it is the most engaged orbit; nothing more engaged exists.
+  Where it is not, closed forms (``reach``) or bounds on all orbits (``outermost``) mostly tell without solving for it.
 * Every other orbit but the free one has an onset phase and is a zero of the onset map's defect ``r``. The first (or last) of
   them is had from Newton with a proof that it is alone on its side (``direct``), or else from a search that passes over none
   (``sought``).
@@ -19,12 +20,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from .certificate import always_adhering
+from .certificate import greatest_gap
 from .direct import certified, extremal
 from .march import Orbit
 from .outermost import FAST, Outermost, outermost
 from .problem import Cycle, Strips, adhesive_cycle, bare_cycle
-from .reach import may_cling, out_of_reach
+from .reach import may_cling, out_of_reach, saturates
 from .regimes import CODE
 from .solved import Record, Solved
 from .sought import sought
@@ -32,7 +33,6 @@ from .sought import sought
 #: Strips solved at a time: their working arrays stay in the cache, and memory stays bounded.
 CHUNK = 16384
 _EPS = np.finfo(float).eps
-_ROUNDINGS = 1
 #: distances in roundings of D at which a strip on the end of a branch is settled
 _SHIFTS = (8, 64, 512)
 
@@ -84,12 +84,6 @@ def _settle(kernel, strips: Strips, solved: Solved, unloading: bool) -> None:
         solved.put(index[good], again.take(good))
 
 
-def _saturates(kernel, s: Strips) -> np.ndarray:
-    """Where saturated contact exists, ``D - 1 + p_0 >= R``, or fails to by less than the terms are rounded to: a gap of that size is none."""
-    R = kernel.modulus_ratio(s.alpha, s.beta)
-    return s.D - 1 + s.p_0 >= R - _ROUNDINGS * _EPS * (1 + np.abs(s.D) + s.p_0 + R)
-
-
 class _Batch:
     """One pass over a batch. Without ``known`` what Newton and the thresholds decide, the rest being left ``open``; with it (orbits
     that are known, x NaN where none is) everything else is searched for."""
@@ -127,7 +121,7 @@ class _Batch:
 
     def _engaged(self, index):
         s = self.strips.take(index)
-        full = _saturates(self.kernel, s)
+        full = saturates(self.kernel, s)
         self.record.saturated_contact(index[full])
         reaches = ~full & may_cling(self.kernel, s)
         clinging = s.D <= -s.p_0
@@ -165,7 +159,9 @@ class _Batch:
         return (self._onset_searched if self.searching else self._onset_direct)(index, cycle)
 
     def _onset_direct(self, index, cycle: Cycle):
-        orbit, sequences, proven, none, spent = extremal(self.kernel, cycle, last=not self.unloading, bounds=self.bounds.take(index))
+        orbit, sequences, proven, none, spent = extremal(
+            self.kernel, cycle, last=not self.unloading, bounds=self.bounds.take(index)
+        )
         self.record.solved.evaluations[index] += spent
         for sequence in ("acaf", "afc", "af"):
             pick = np.flatnonzero(proven & (sequences == sequence))
@@ -192,7 +188,7 @@ class _Batch:
         if not index.size:
             return
         s = self.strips.take(index)
-        full = _saturates(self.kernel, s)
+        full = saturates(self.kernel, s)
         free = ~full & (s.D <= 0)
         self.record.saturated_contact(index[full])
         self.record.constant(index[free], "f", 0.0, 0.0, 0.0, 0.0)
@@ -209,7 +205,7 @@ class _Batch:
         cycle = bare_cycle(self.kernel, strips)
         orbit, found = self._bare(index, "ac", cycle)
         pick = np.flatnonzero(found)
-        pick = pick[always_adhering(self.kernel, strips.take(pick), cycle.take(pick), orbit.take(pick))]
+        pick = pick[greatest_gap(self.kernel, strips.take(pick), orbit.take(pick)) <= strips.delta_0[pick]]
         self.record.orbits(index[pick], "ac", orbit.take(pick))
         done = ~found & ~np.full(index.size, self.searching)
         done[pick] = True

@@ -5,7 +5,9 @@ the onset arc and x*, the loading orbit by excluding them between x* and the end
 earlier onset contact begins earlier, contact and adhesion end later. One-sided bounds of the edges are enough for every
 inequality used, and a bound is verified by the sign of one event, so nothing is solved for.
 
-With a probe x1 between the end of the arc x0 and x*,
+Mostly bounds at one onset x0 are enough, at the end of the arc or where ``outermost`` has moved it: R falls strictly wherever F is not
+too small (``sensitivity.steep_margin``), and between there and x0 too little to use up the r of x0. Otherwise, with a probe x1 between x0
+and x*,
 
 * [x1, x*] holds no second zero where R falls strictly on it (``sensitivity.slope_bounds``);
 * [x0, x1] holds none where the onset map already takes x0 beyond x1 (it is monotone), or by the bounds of ``search``.
@@ -37,29 +39,31 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> 
     proven, spent = np.zeros(cycle.size, bool), np.zeros(cycle.size)
     if not last:
         known = np.flatnonzero(np.isfinite(bounds.x))
-        part, within = orbit.take(known), bounds.take(known)
-        proven[known] = _falls_between(kernel, cycle.take(known), part, within.x, within.x * np.nan, np.maximum(within.c, part.c))
+        part, limits = orbit.take(known), bounds.take(known)
+        unknown = np.full(known.size, np.nan)
+        outer = Orbit(limits.x, unknown, unknown, np.maximum(limits.c, part.c), np.zeros(known.size, bool), unknown, unknown)
+        proven[known] = _falls_between(kernel, cycle.take(known), part, outer, 1.0)
     rest = np.flatnonzero(~proven)
     if rest.size:
         proven[rest], spent[rest] = _alone(kernel, cycle.take(rest), orbit.take(rest), last, bounds.x[rest])
     return proven, spent
 
 
-def _falls_between(kernel, cycle: Cycle, orbit: Orbit, x, r, c) -> np.ndarray:
-    """Which orbits are the first because of one earlier onset x, before which there is none, whose adhesion ends before c.
+def _falls_between(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float) -> np.ndarray:
+    """Where no zero of r lies between the onsets of ``outer``, bounds beyond which there is none, and of the known orbit.
 
-    R falls strictly from where F exceeds ``steep_margin`` to the known onset, and up to there r is positive: it is at x, at least ``r``, and falls no
-    faster than that margin lets it. With r NaN x has to be where R falls already.
+    R falls strictly wherever F exceeds ``steep_margin``, an arc in which the known onset lies. From where it begins (``sign`` < 0: ends) to the
+    outer onset r has the sign of that side: it has there, by at least ``outer.r``, and R falls no faster than that margin lets it. With
+    ``outer.r`` NaN the arc has to reach the outer onset.
     """
     s = cycle.strips
     noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
-    margin = steep_margin(kernel, cycle, orbit, c)
-    margin += noise
-    known = np.isfinite(margin)
-    half = kernel.forcing_arc(s.delta_0 - np.where(known, margin, 0.0), s.D, s.beta)[1]
-    steep = known & (orbit.x > cycle.centre - half) & (orbit.x < cycle.centre + half)
-    way = np.maximum(cycle.centre - half - x, 0.0)
-    kept = r - noise > margin * np.expm1(np.minimum(way / np.maximum(s.beta, _LEAST), 700.0))
+    margin = noise + (steep_margin(kernel, cycle, outer, known) if sign > 0 else steep_margin(kernel, cycle, known, outer))
+    sure = np.isfinite(margin)
+    half = kernel.forcing_arc(s.delta_0 - np.where(sure, margin, 0.0), s.D, s.beta)[1]
+    steep = sure & (np.abs(known.x - cycle.centre) < half)
+    way = np.minimum(np.maximum(sign * (cycle.centre - outer.x) - half, 0.0) / np.maximum(s.beta, _LEAST), 700.0)
+    kept = sign * outer.r - noise > margin * (np.expm1(way) if sign > 0 else -np.expm1(-way))
     return steep & ((way == 0) | kept)
 
 
@@ -85,12 +89,11 @@ def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.n
             closer, used = _released(kernel, cycle.take(stuck), known.take(stuck), outer.x[stuck], sign)
             outer.put(stuck, closer)
             spent[stuck] += used
-        if sign > 0:
-            proven = ~outer.engaged & _falls_between(kernel, cycle, known, outer.x, outer.r, outer.c)
-            active = np.flatnonzero(~proven)
-            if not active.size:
-                return proven, spent
-            part, here, outer = cycle.take(active), known.take(active), outer.take(active)
+        proven = ~outer.engaged & _falls_between(kernel, cycle, known, outer, sign)
+        active = np.flatnonzero(~proven)
+        if not active.size:
+            return proven, spent
+        part, here, outer = cycle.take(active), known.take(active), outer.take(active)
         frontier, step = here.take(np.arange(active.size)), _FIRST * (outer.x - here.x)
         for _ in range(_PROBES):
             x = frontier.x + np.where(np.abs(step) < 0.9 * np.abs(outer.x - frontier.x), step, _FIRST * (outer.x - frontier.x))
@@ -122,7 +125,9 @@ def _released(kernel, cycle: Cycle, known: Orbit, x, sign) -> tuple[Orbit, np.nd
     noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
     spent = np.zeros(x.shape)
     start, far = known.x + TWO_PI, np.maximum(x + TWO_PI, latest)
-    next_onset, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, np.maximum(start, far), far, -sign, noise, close_enough(s.beta), spent)
+    next_onset, found = bound(
+        kernel.gap_event, entry, s.delta_0, 1.0, np.maximum(start, far), far, -sign, noise, close_enough(s.beta), spent
+    )
     closer, used = enclose(kernel, cycle, np.where(found, next_onset - TWO_PI, x), known, sign)
     spent += used
     # bounds may miss an adhesion that ends just before its arc does: then the edges themselves
@@ -168,7 +173,7 @@ def enclose(kernel, cycle: Cycle, x, known: Orbit, sign) -> tuple[Orbit, np.ndar
     marks where no bound was found. Contact that is lost on the way to a later onset counts as contact of no length.
     """
     s = cycle.strips
-    centre, turned = cycle.centre, cycle.centre + TWO_PI
+    centre = cycle.centre
     noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
     spent = np.ones(x.shape)
     if np.isnan(known.b).all():
@@ -179,7 +184,9 @@ def enclose(kernel, cycle: Cycle, x, known: Orbit, sign) -> tuple[Orbit, np.ndar
         # an earlier onset may lead to contact, at once at the earliest; either way the later end of adhesion bounds both
         b = np.maximum(x, centre - cycle.half_b)
         a, failed = _detachment(kernel, cycle, b, b, sign, noise, spent)
-        either = _release(kernel, cycle, x, b, a, no, failed | clinging.engaged, np.maximum(known.c, clinging.c), sign, noise, spent)
+        either = _release(
+            kernel, cycle, x, b, a, no, failed | clinging.engaged, np.maximum(known.c, clinging.c), sign, noise, spent
+        )
         return either, spent
     # contact begins: an event that falls; its bound lies on the outer side of the known edge
     entry = kernel.gap_entry(x, cycle.gap_on, -s.p_0, s.D, s.beta)
@@ -202,7 +209,9 @@ def _detachment(kernel, cycle: Cycle, b, start, sign, noise, spent):
     entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
     first, last = np.maximum(b, cycle.centre + cycle.half_b), cycle.centre + TWO_PI - cycle.half_b
     far = last if sign > 0 else first
-    a, found = bound(kernel.excess_event, entry, 0.0, 1.0, np.maximum(start, first), far, sign, noise + 64 * _EPS * entry[4], close_enough(s.beta), spent)
+    noise = noise + 64 * _EPS * entry[4]
+    start = np.maximum(start, first)
+    a, found = bound(kernel.excess_event, entry, 0.0, 1.0, start, far, sign, noise, close_enough(s.beta), spent)
     return np.where(found, a, far), ~found & (sign > 0)
 
 

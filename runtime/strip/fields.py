@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from .solved import Solved
-from .march import TWO_PI
-from .problem import Strips, adhesive_cycle, bare_cycle
+from .problem import TWO_PI, Strips, adhesive_cycle, bare_cycle
 from .regimes import CODE
+from .solved import Solved
 
 _ZONES = {"c": "c", "ac": "ca", "acaf": "acaf", "afc": "caf", "cf": "cf", "af": "af", "a": "a", "f": "f"}
 

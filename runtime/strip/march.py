@@ -4,10 +4,11 @@ The march is the return map of the strip on the phase x of its onset. It is not 
 slope, drive the search for the extremal orbit (``search``).
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
+from .bound import rows
 from .crossing import crossing
 from .problem import TWO_PI, Cycle
 
@@ -42,15 +43,15 @@ class Orbit:
     @classmethod
     def joined(cls, parts: list["Orbit"]) -> "Orbit":
         """The orbits of all ``parts``, one after another."""
-        return cls(*(np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(cls)))
+        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in cls.__slots__))
 
     def take(self, index: np.ndarray) -> "Orbit":
-        return Orbit(*(getattr(self, f.name)[index] for f in fields(self)))
+        return Orbit(*[getattr(self, name)[index] for name in self.__slots__])
 
     def put(self, index: np.ndarray, other: "Orbit") -> None:
         """Overwrite the elements ``index`` with ``other``."""
-        for f in fields(self):
-            getattr(self, f.name)[index] = getattr(other, f.name)
+        for name in self.__slots__:
+            getattr(self, name)[index] = getattr(other, name)
 
 
 def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, later: Orbit | None = None):
@@ -165,7 +166,7 @@ class _Event:
 
     def __init__(self, function, constants, offset=0.0, sign=1.0):
         self.function, self.sign = function, sign
-        self.constants = np.stack(np.broadcast_arrays(offset, *constants))
+        self.constants = rows(constants[1].size, offset, *constants)
 
     def take(self, index) -> "_Event":
         other = object.__new__(_Event)

@@ -14,7 +14,7 @@ The three phases are not solved for. Each is replaced by a later a, a later c, a
 is held longer, and adhesion that is held longer, only leave the state more engaged than it is.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -50,11 +50,11 @@ class Outermost:
         return cls(*(np.full(n, np.nan) for _ in range(3)), np.zeros(n, bool), np.zeros(n, bool), np.zeros(n))
 
     def put(self, index: np.ndarray, other: "Outermost") -> None:
-        for f in fields(self):
-            getattr(self, f.name)[index] = getattr(other, f.name)
+        for name in self.__slots__:
+            getattr(self, name)[index] = getattr(other, name)
 
     def take(self, index: np.ndarray) -> "Outermost":
-        return Outermost(*(getattr(self, f.name)[index] for f in fields(self)))
+        return Outermost(*[getattr(self, name)[index] for name in self.__slots__])
 
 
 def outermost(kernel, cycle: Cycle) -> Outermost:
@@ -66,7 +66,9 @@ def outermost(kernel, cycle: Cycle) -> Outermost:
         return out
     part = cycle.take(index) if index.size < n else cycle
     near = [part.centre + half for half in (part.half_b, part.half_c)]
-    start = [low + _SOON * (part.centre + TWO_PI - half - low) for low, half in zip(near, (part.half_b, part.half_c), strict=True)]
+    start = [
+        low + _SOON * (part.centre + TWO_PI - half - low) for low, half in zip(near, (part.half_b, part.half_c), strict=True)
+    ]
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         a, c, released, spent = _release(kernel, part, part.centre - part.half_b, *start)
         out.a[index], out.c[index], out.released[index] = a, c, released
@@ -88,18 +90,24 @@ def _release(kernel, cycle: Cycle, b, a, c):
     """Later ends of contact begun at b and of adhesion, sought from a and c, where both were found, and the evaluations spent."""
     s, noise = cycle.strips, _noise(cycle)
     spent, turned = np.zeros(cycle.size), cycle.centre + TWO_PI
+    close = close_enough(s.beta)
     entry = kernel.excess_entry(b, 0.0, s.p_0, s.D, s.alpha, s.beta, s.L)
     near, far = np.maximum(b, cycle.centre + cycle.half_b), turned - cycle.half_b
-    a, ends = bound(kernel.excess_event, entry, 0.0, 1.0, np.clip(a, near, far), far, 1.0, noise + 64 * _EPS * entry[4], close_enough(s.beta), spent, near)
+    blur, start = noise + 64 * _EPS * entry[4], np.clip(a, near, far)
+    a, ends = bound(kernel.excess_event, entry, 0.0, 1.0, start, far, 1.0, blur, close, spent, near)
     entry = kernel.gap_entry(a, 0.0, -s.p_0, s.D, s.beta)
     near, far = np.maximum(a, cycle.centre + cycle.half_c), turned - cycle.half_c
     ends &= near < far
-    c, opens = bound(kernel.gap_event, entry, s.delta_0, -1.0, np.clip(c, near, np.maximum(near, far)), far, 1.0, noise, close_enough(s.beta), spent, near)
+    start = np.clip(c, near, np.maximum(near, far))
+    c, opens = bound(kernel.gap_event, entry, s.delta_0, -1.0, start, far, 1.0, noise, close, spent, near)
     return a, c, ends & opens, spent
 
 
 def _onset(kernel, cycle: Cycle, c, x):
-    """Onsets (less 2 pi), sought from x, before the next one of cycles released at c, NaN where none was found; which miss it; the evaluations spent."""
+    """Onsets (less 2 pi) before the next one of cycles released at c, sought from x, NaN where none was found.
+
+    Also which cycles miss it, and the evaluations spent.
+    """
     s, noise = cycle.strips, _noise(cycle)
     spent = np.ones(cycle.size)
     entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
@@ -109,5 +117,6 @@ def _onset(kernel, cycle: Cycle, c, x):
     # a surface out of reach of the undeformed foundation is not met if nothing is left of w that would change its gap
     left = np.abs(kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(far - c, s.beta)
     missed |= (s.D <= -s.delta_0) & (left < 0.25 * _EPS * s.delta_0)
-    x, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, np.clip(x + TWO_PI, far, near), far, -1.0, noise, close_enough(s.beta), spent, near)
+    start, close = np.clip(x + TWO_PI, far, near), close_enough(s.beta)
+    x, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, start, far, -1.0, noise, close, spent, near)
     return np.where(found & ~missed, x - TWO_PI, np.nan), missed, spent

@@ -1,6 +1,6 @@
 """A batch of strips in dimensionless form: everything that a period of sliding needs, and nothing else."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -27,7 +27,7 @@ class Strips:
 
     def take(self, index: np.ndarray) -> "Strips":
         """The strips at ``index``."""
-        return type(self)(*(getattr(self, f.name)[index] for f in fields(self)))
+        return type(self)(*[getattr(self, name)[index] for name in self.__slots__])
 
     @property
     def size(self) -> int:
@@ -63,7 +63,7 @@ class Cycle:
 
     def take(self, index: np.ndarray) -> "Cycle":
         """The cycles at ``index``."""
-        return type(self)(self.strips.take(index), *(getattr(self, f.name)[index] for f in fields(self) if f.name != "strips"))
+        return type(self)(self.strips.take(index), *[getattr(self, name)[index] for name in self.__slots__[1:]])
 
     @property
     def size(self) -> int:

@@ -1,12 +1,13 @@
-"""Proofs in closed form that a strip has no orbit of some kind: none that is always engaged, or none that meets an onset.
+"""What is known of a strip in closed form: whether it saturates, and proofs that it has no orbit of some kind.
 
-Always engaged. Let ``y = w + p_0`` and ``q = p + p_0``, both never negative then, and ``z = y - J q``, so that ``beta z' + z = L q >= 0``:
+None that is always engaged. Let ``y = w + p_0`` and ``q = p + p_0``, both never negative then, and ``z = y - J q``, so that ``beta z' + z = L q >= 0``:
 z falls no faster than it fades. In the valley ``z <= y <= S - 2 + delta_0``, ``S = D + p_0``, if the gap is to stay within reach, which bounds
 z all along the period before and the mean of it. That mean is ``L`` times the mean of y, which is at least that of the profile, ``S - 1``. So
 
     L (S - 1) <= (S - 2 + delta_0) beta (exp(2 pi/beta) - 1)/(2 pi)   and   S - 2 + delta_0 >= 0.
 
-An onset, where the strip hangs too high for adhesion to draw the foundation up to it. Let the crest hang ``eta = -(D + delta_0) >= 0`` out of reach of the undeformed foundation. Suppose an orbit with an onset x and an end of
+None that meets an onset, where the strip hangs too high for adhesion to draw the foundation up to it. Let the crest hang
+``eta = -(D + delta_0) >= 0`` out of reach of the undeformed foundation. Suppose an orbit with an onset x and an end of
 adhesion c, engaged over ``E = c - x`` and then free. Let ``v = w`` under the continuous closure, where w is continuous and ``p = -p_0`` at
 both ends of contact, and ``v = z = w - J p`` under the constitutive one, where z is. While the strip is engaged ``p >= -p_0``, so that v is at
 least what it would be in adhesion all along; while it is free v fades. With ``P = p_0``, or ``L p_0`` for z, one period gives
@@ -30,8 +31,15 @@ import numpy as np
 from .problem import TWO_PI, Strips
 
 _EPS = np.finfo(float).eps
+_ROUNDINGS = 1
 #: evaluations; few strips that have no orbit need more
 _ROUNDS = 16
+
+
+def saturates(kernel, s: Strips) -> np.ndarray:
+    """Where saturated contact exists, ``D - 1 + p_0 >= R``, or fails to by less than the terms are rounded to: a gap of that size is none."""
+    R = kernel.modulus_ratio(s.alpha, s.beta)
+    return s.D - 1 + s.p_0 >= R - _ROUNDINGS * _EPS * (1 + np.abs(s.D) + s.p_0 + R)
 
 
 def may_cling(kernel, s: Strips) -> np.ndarray:

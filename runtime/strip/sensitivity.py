@@ -82,15 +82,16 @@ def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds
     return SlopeBounds(fall, rise, (log_max < 0) | (N_max < F_min), N_min)
 
 
-def steep_margin(kernel, cycle: Cycle, orbit: Orbit, c_last: np.ndarray) -> np.ndarray:
-    """The F beyond which R falls strictly at every onset before that of ``orbit`` whose adhesion ends before ``c_last``; inf if that is unknown.
+def steep_margin(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> np.ndarray:
+    """The F beyond which R falls strictly at every onset between those of ``left`` and ``right``; inf if that is unknown.
 
-    There contact is longer than in the orbit and adhesion ends between its c and ``c_last``, where M is least at one of the two: ``log T' <=
-    log B + log(1 + s_x/F)`` with a B that does not depend on the onset, negative where ``F > s_x/(1/B - 1)``.
+    Of the edges of ``left`` only the end of adhesion counts. In between contact is longer than in ``right`` and adhesion ends between the two c,
+    where M is least at one of them: ``log T' <= log B + log(1 + s_x/F)`` with a B that does not depend on the onset, negative where
+    ``F > s_x/(1/B - 1)``.
     """
     s = cycle.strips
-    M = -(np.maximum(*(kernel.forcing(c, s.D, s.beta) for c in (orbit.c, c_last))) + s.delta_0 + s.p_0)
-    length = _length(orbit.b, orbit.a)
+    M = -(np.maximum(*(kernel.forcing(orbit.c, s.D, s.beta) for orbit in (left, right))) + s.delta_0 + s.p_0)
+    length = _length(right.b, right.a)
     onset, release = _gains(cycle)
     fading = TWO_PI / np.maximum(s.beta, _LEAST) + np.where(length > 0, length * s.L / np.maximum(s.alpha, _LEAST), 0.0)
     log_B = np.log1p(_over(release, M)) - fading

@@ -9,7 +9,8 @@ import numpy as np
 from hystrip.inputs.material import StandardLinearSolid
 
 from .fields import fields
-from .solution import refuse_uncertified, solve_si
+from .margin import cling_margin
+from .solution import dimensionless, refuse_uncertified, solve_si
 
 
 class SingleTime:
@@ -31,15 +32,28 @@ class SingleTime:
         m = self.material
         if not any(np.ndim(v) for v in (m.K, m.T_eps, m.T_sigma)):
             return self
-        return SingleTime(self.kernel, StandardLinearSolid(*(np.broadcast_to(v, shape).ravel() for v in (m.K, m.T_eps, m.T_sigma))))
+        return SingleTime(
+            self.kernel, StandardLinearSolid(*(np.broadcast_to(v, shape).ravel() for v in (m.K, m.T_eps, m.T_sigma)))
+        )
 
     def solve(self, l, A, D, V, p_0, delta_0, edge, branch):  # noqa: E741
-        m = self.material
-        inputs = [np.broadcast_to(np.asarray(v, float), l.shape) for v in (l, A, D, V, m.K, m.T_eps, m.T_sigma, p_0, delta_0, m.J, m.L)]
-        solved, strips, scales = solve_si(self.kernel, *inputs, edge, branch)
+        inputs = self._inputs(l, A, D, V, p_0, delta_0)
+        solved, strips, scales = solve_si(self.kernel, *inputs, edge=edge, branch=branch)
         names = ("l", "A", "D", "V", "K", "T_eps", "T_sigma", "p_0", "delta_0")
         refuse_uncertified(solved, dict(zip(names, inputs, strict=False)), edge, branch)
         return solved, strips, scales
+
+    def cling_margin(self, l, A, D, V, p_0, delta_0):  # noqa: E741
+        """Reach of adhesion less the greatest gap of an always engaged strip, m: see ``margin.cling_margin``. Of flat arrays, like ``solve``."""
+        strips, scales = dimensionless(*self._inputs(l, A, D, V, p_0, delta_0), "continuous")  # p never steps: any closure
+        margin = cling_margin(self.kernel, strips) * scales["length"]
+        return np.where(scales["flat"] & (np.asarray(p_0) > 0), delta_0 + p_0 / self.K + D, margin)
+
+    def _inputs(self, l, A, D, V, p_0, delta_0):  # noqa: E741
+        m = self.material
+        return [
+            np.broadcast_to(np.asarray(v, float), l.shape) for v in (l, A, D, V, m.K, m.T_eps, m.T_sigma, p_0, delta_0, m.J, m.L)
+        ]
 
     def fields(self, strips, solved, phase):
         return fields(self.kernel, strips, solved, phase)

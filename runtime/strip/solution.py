@@ -214,30 +214,43 @@ def _each(function, *arrays) -> np.ndarray:
     return function(*arrays)
 
 
-def solve_si(kernel, l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge, branch):  # noqa: E741
-    """Solve flat SI arrays of shape (n,); returns ``Solved``, the dimensionless ``Strips`` and the scales back to SI.
+def _product(k, V, T):
+    return k * V * T
 
-    A strip whose wave is negligible is solved as flat, in units of K alone. Nothing is refused here but groups that overflow.
+
+def dimensionless(l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge) -> tuple[Strips, dict]:  # noqa: E741
+    """Groups of flat SI arrays of shape (n,), and the scales back to SI.
+
+    A strip whose wave is negligible, ``scales["flat"]``, is in units of K alone. Nothing is refused here but groups that overflow.
     """
     with np.errstate(over="ignore"):  # refused below, by name
         k = _each(lambda l: 2 * np.pi / l, l)  # noqa: E741
-        alpha, beta = (_each(lambda k, V, T: k * V * T, k, V, T) for T in (T_sigma, T_eps))
+        alpha, beta = _each(_product, k, V, T_sigma), _each(_product, k, V, T_eps)
     if np.any(beta > _GROUP_LIMIT):
         raise InputError("V", float(V[beta > _GROUP_LIMIT][0]), f"k V T_eps at most {_GROUP_LIMIT:g}")
     traction = _each(np.divide, p_0, K)
     flat = is_flat(A, beta, D, traction, delta_0)
     unit = np.where(flat, 1.0, A) if flat.any() else A
     chi = np.broadcast_to(float(edge == "constitutive"), D.shape)
-    strips = Strips(alpha, beta, J, L, _each(np.divide, traction, unit), _each(np.divide, delta_0, unit), _each(np.divide, D, unit), chi)
+    strips = Strips(
+        alpha, beta, J, L, _each(np.divide, traction, unit), _each(np.divide, delta_0, unit), _each(np.divide, D, unit), chi
+    )
     scales = {"k": k, "A": A, "D": D, "p": _each(np.multiply, K, unit), "length": unit, "flat": flat}
+    return strips, scales
+
+
+def solve_si(kernel, *inputs, edge, branch) -> tuple[Solved, Strips, dict]:
+    """Solve flat SI arrays, in the order of ``dimensionless``; returns the solutions, the groups and the scales back to SI."""
+    strips, scales = dimensionless(*inputs, edge)
+    flat = scales["flat"]
     unloading = branch == "unloading"
     if not flat.any():
         return solve_strips(kernel, strips, unloading), strips, scales
-    solved = Solved.empty(D.size)
+    solved = Solved.empty(strips.size)
     wavy = np.flatnonzero(~flat)
     solved.put(wavy, solve_strips(kernel, strips.take(wavy), unloading))
     level = np.flatnonzero(flat)
-    code, p = solve_flat(D[level], traction[level], delta_0[level], unloading)
+    code, p = solve_flat(strips.D[level], strips.p_0[level], strips.delta_0[level], unloading)
     solved.code[level], solved.p_mean[level], solved.tau_mean[level] = code, p, 0.0
     solved.contact_fraction[level] = code == CODE["c"]
     solved.adhesion_fraction[level] = code == CODE["a"]

@@ -1,6 +1,6 @@
 """Solutions of a batch, and how certified orbits are written into them."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -34,11 +34,11 @@ class Solved:
         return cls(np.full(n, UNDECIDED, np.int8), *nan, np.zeros(n, bool), np.zeros(n))
 
     def take(self, index) -> "Solved":
-        return Solved(*(getattr(self, f.name)[index] for f in fields(self)))
+        return Solved(*[getattr(self, name)[index] for name in self.__slots__])
 
     def put(self, index, other: "Solved") -> None:
-        for f in fields(self):
-            getattr(self, f.name)[index] = getattr(other, f.name)
+        for name in self.__slots__:
+            getattr(self, name)[index] = getattr(other, name)
 
 
 class Record:
