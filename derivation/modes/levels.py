@@ -1,4 +1,7 @@
-"""A level that carries another, with n relaxation times (Eq. 11 to 14): what :mod:`..multilevel` derives, from the n modes."""
+"""A level that carries another, on a foundation with n relaxation times (Eq. 11 to 14).
+
+As in :mod:`..multilevel`; what differs is why the pressure passes a value at most once either way.
+"""
 
 from __future__ import annotations
 
