@@ -28,7 +28,9 @@ class Solver:
         return f"Solver({str(self.folder)!r}, models={sorted(self.models)})"
 
     def material(self, model: str | None = None, /, **parameters: Any):
-        """Material of one of the models (of the only one by default) with its parameters in SI, as ``kernel.MATERIAL`` names them.
+        """Material of one of the models (of the only one by default) with its parameters in SI.
+
+        They have the names of ``kernel.MATERIAL``.
 
         Raises ``InputError`` for an unknown model or a parameter that is missing, unknown or inadmissible.
         """
@@ -47,7 +49,8 @@ class Solver:
         fits = [m for m in self.models.values() if m.MODES == times and set(m.MATERIAL) == {"K", "K_i", "tau_i"}]
         if not fits:
             has = ", ".join(f"{m.MODEL} ({m.MODES})" for m in self.models.values())
-            raise InputError("material.solver", str(self.folder), f"a solver for a Prony series of {times} different times; this one has {has}")
+            wanted = f"a solver for a Prony series of {times} different times; this one has {has}"
+            raise InputError("material.solver", str(self.folder), wanted)
         return fits[0]
 
 
@@ -72,10 +75,12 @@ def load_solver(folder: str | os.PathLike[str]) -> Solver:
     for model, module in list(models.items()):
         version = getattr(module, "INTERFACE", None)
         if version != INTERFACE:
-            raise InputError("solver", str(folder), f"a solver for interface {INTERFACE} of this hystrip; {model} was emitted for {version}: {again}")
+            wanted = f"a solver for interface {INTERFACE} of this hystrip; {model} was emitted for {version}: {again}"
+            raise InputError("solver", str(folder), wanted)
     usable = {model: module for model, module in models.items() if hasattr(module, "MODES")}
     if not usable:
-        raise InputError("solver", str(folder), f"a solver of a model with relaxation times; it has {', '.join(models) or 'none'}")
+        has = ", ".join(models) or "none"
+        raise InputError("solver", str(folder), f"a solver of a model with relaxation times; it has {has}")
     return Solver(path, usable)
 
 

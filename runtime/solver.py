@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 EDGES = ("continuous", "constitutive")
 _WHY = (
-    "'constitutive' for a foundation with several relaxation times: where the pressure steps, a continuous displacement leaves all but one "
-    "of the internal displacements open, so 'continuous' is not determined"
+    "'constitutive' for a foundation with several relaxation times: where the pressure steps, a continuous "
+    "displacement leaves all but one of the internal displacements open, so 'continuous' is not determined"
 )
 #: what may be given as a material
 MATERIALS = (StandardLinearSolid, Prony, ModelMaterial)

@@ -18,13 +18,13 @@ def summary(result: Any) -> str:
 
 
 def deborah(result: Any) -> np.ndarray:
-    """Deborah number ``k V T_eps`` of every level, shape (levels, ...): longest retardation time over the time to slide ``l/(2 pi)``."""
+    """Deborah number ``k V T_eps`` of every level, (levels, ...): longest retardation time over that of a slide by ``1/k``."""
     k = np.array([level.k for level in result.levels])
     return np.multiply.outer(k, np.asarray(result.velocity)) * foundation_of(result.material).longest_time
 
 
 def peak_velocities(result: Any) -> np.ndarray:
-    """Velocity at which each level would rub most in saturated contact: where ``Im K*(kV)`` is greatest (m/s); inf for ``T_sigma = 0``."""
+    """Velocity, m/s, at which each level rubs most in saturated contact: ``Im K*(kV)`` is greatest; inf for ``T_sigma = 0``."""
     return np.array([level.l for level in result.levels]) / (2 * np.pi) * foundation_of(result.material).lossiest_rate
 
 

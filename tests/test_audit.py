@@ -162,8 +162,10 @@ def test_a_drawn_strip_is_of_its_regime_and_meets_the_equations_of_its_page(mode
 
 
 def test_zones_of_a_picture_are_shaded_and_their_edges_labelled() -> None:
-    for stored in read_measured(generated_folder()).values():
-        for picture in (picture for drawn in stored["pictures"].values() for picture in drawn):
+    for model, stored in read_measured(generated_folder()).items():
+        drawn = {sequence: iter(pictures) for sequence, pictures in stored["pictures"].items()}
+        for scene in scenes(model):
+            picture = next(drawn[scene["of"]])
             sequence = re.search(r"\((\w+)\)", picture["caption"])[1]
             for zone, colour in (("c", CONTACT), ("a", ADHESION)):
                 assert (colour in picture["svg"]) == (zone in sequence), (sequence, zone)
@@ -176,7 +178,7 @@ def test_zones_of_a_picture_are_shaded_and_their_edges_labelled() -> None:
             }
             assert all(f">{label}</text>" in picture["svg"] for label in labels.get(sequence, ())), sequence
             words = "".join(re.findall(r">([^<]+)</text>", picture["svg"])).replace("\N{NO-BREAK SPACE}", " ")
-            assert all(given in words for given in re.findall(r"\w+ = [^,]+? [A-Z]\S*(?=[,.])", picture["caption"])), words
+            assert all(f"{name} = {value:g} " in words for name, value in scene.items() if isinstance(value, float)), words
 
 
 def test_figure_7_is_demonstrated() -> None:

@@ -72,7 +72,7 @@ SCENES = [  # what is replaced, by what, and what the message says: the field, t
     ("pressure = 100", "pressure = 100\nrtol = 1e-15", ["rtol", "1e-15", "1e-12 to 0.1"]),
     ("T_eps = 0.01", "T_eps = 1e400", ["material.T_eps", "inf", "finite"]),
     ("[material]", '[material]\nmodel = "kelvin_voigt"', ["material.T_sigma", "another model", "K, T_eps"]),
-    ("T_eps = 0.01\nT_sigma = 1e-4", 'model = "prony"\nmoduli = [1e9, 2e9]\ntimes = [1e-3]', ["moduli", "as many moduli as times"]),
+    ("T_eps = 0.01\nT_sigma = 1e-4", 'model = "prony"\nmoduli = [1e9, 2e9]\ntimes = [1e-3]', ["as many moduli as times"]),
     ("h = 1e-6\n", "h = 1e-6\n[[levels]]\nl = 1e-4\nh = 1e-5\n", ["levels[1].l", "0.0001", "the largest wave comes first"]),
 ]
 

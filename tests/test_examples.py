@@ -41,7 +41,8 @@ def test_docstrings():
     assert failed == 0 and attempted
 
 
-CALLED = ("Dugdale", "Level", "StandardLinearSolid", "friction_law", "load_scene", "solve", "solve_level", "solve_strip", "sweep")
+MATERIALS = ("KelvinVoigt", "Prony", "StandardLinearSolid")
+CALLED = ("Dugdale", "Level", *MATERIALS, "friction_law", "load_scene", "solve", "solve_level", "solve_strip", "sweep")
 
 
 @pytest.mark.parametrize("name", CALLED)

@@ -1,4 +1,7 @@
-"""A level that carries another, with n relaxation times (Eq. 11 to 14): what :mod:`..multilevel` derives, from the n modes."""
+"""A level that carries another, on a foundation with n relaxation times (Eq. 11 to 14).
+
+As in :mod:`..multilevel`; what differs is why the pressure passes a value at most once either way.
+"""
 
 from __future__ import annotations
 
@@ -15,6 +18,7 @@ from .symbols import eta, f_0
 
 
 def mode_levels(flows: ModeFlows, complete: Complete, regimes: tuple[ModeRegime, ...]) -> Multilevel:
+    """Eq. 11 to 14 for a foundation with n relaxation times."""
     storage, loss = sp.symbols("storage loss", real=True)
     pressure = D - 1 + storage * sp.cos(s) - loss * sp.sin(s)  # Eq. 15, as in complete.threshold
     return Multilevel(

@@ -12,7 +12,8 @@ def command(
 ) -> None:
     """Derive, verify, and write the audit pages.
 
-    Pages for a browser, and JSON. Exits with 1, and names the step, if one does not verify. Needs the extras `regenerate` and `plot`.
+    Pages for a browser, and JSON. Exits with 1, and names the step, if one does not verify. Needs the
+    extras `regenerate` and `plot`.
     """
     from hystrip.commands.derivation import needed
     from hystrip.commands.progress import progress

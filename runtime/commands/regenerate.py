@@ -8,8 +8,8 @@ import typer
 
 
 def command(
-    model: Path = typer.Argument(None, help="A Python file that declares MODEL (its code is run); without it, the models of hystrip."),
-    out: Path = typer.Option(None, "--out", help="Folder to write into; without it (and without MODEL), the installed package's own."),
+    model: Path = typer.Argument(None, help="A file that declares MODEL (its code is run); without it, the models of hystrip."),
+    out: Path = typer.Option(None, "--out", help="Folder to write into; without it (and MODEL), the installed package's own."),
 ) -> None:
     """Derive a solver with SymPy, certify and emit it.
 

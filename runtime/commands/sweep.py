@@ -22,8 +22,8 @@ def command(
 ) -> None:
     """Solve a scene over all its lists and ranges.
 
-    Every combination of them is solved. Results go to disk as they come: after Ctrl-C, a crash or a kill the same command goes on where it was. A point that
-    cannot be solved is recorded with its reason.
+    Every combination of them is solved. Results go to disk as they come: after Ctrl-C, a crash or a kill the same
+    command goes on where it was. A point that cannot be solved is recorded with its reason.
     """
     from hystrip.commands.progress import progress
     from hystrip.extras import require

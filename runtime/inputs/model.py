@@ -15,8 +15,8 @@ from .checks import numbers
 class ModelMaterial:
     """Foundation whose model is that of a loaded solver; made by ``Solver.material``. Immutable.
 
-    ``kernel``: the generated module; ``given``: its parameters; ``K``: relaxed stiffness, Pa/m; ``modes``: the kernel's ``Modes`` in seconds with a
-    trailing axis of length one (single values only).
+    ``kernel``: the generated module; ``given``: its parameters; ``K``: relaxed stiffness, Pa/m; ``modes``: the
+    kernel's ``Modes`` in seconds with a trailing axis of length one (single values only).
     """
 
     __slots__ = ("kernel", "given", "K", "modes")
@@ -29,7 +29,8 @@ class ModelMaterial:
         values = {}
         for name, (unit, _) in known.items():
             if name not in given:
-                raise InputError(f"material.{name}", None, f"a value ({unit}) for every parameter of {kernel.MODEL}: {', '.join(known)}")
+                wanted = f"a value ({unit}) for every parameter of {kernel.MODEL}: {', '.join(known)}"
+                raise InputError(f"material.{name}", None, wanted)
             array = numbers(f"material.{name}", given[name], unit)
             shape = (kernel.MODES,) if name in kernel.MODE_PARAMETERS else ()
             if array.shape != shape:

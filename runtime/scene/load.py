@@ -71,7 +71,7 @@ def parse_scene(text: str, name: str = "scene", source: str = "", *, allow_solve
 
 
 def resolve_solver(values: dict[str, Any], source: str, allowed: bool) -> None:
-    """Make the solver's folder in a validated scene absolute (it is given from the scene's on); SceneError unless it may be run."""
+    """Make the solver's folder in a validated scene absolute (given from the scene's on); SceneError unless it may be run."""
     folder = values["material"]["solver"]
     if folder is None:
         return

@@ -72,8 +72,8 @@ class Material(Struct, forbid_unknown_fields=True, kw_only=True):
     solver: Annotated[
         str | None,
         Meta(
-            description="folder of a solver from `hystrip regenerate`, for a prony series of so many times (from the scene's folder on); its "
-            "code is run, which has to be allowed"
+            description="folder of a solver from `hystrip regenerate`, for a prony series of so many times "
+            "(from the scene's folder on); its code is run, which has to be allowed"
         ),
     ] = None
 
