@@ -88,7 +88,7 @@ def kernel_of(material) -> ModuleType:
 
 
 def foundation_of(material) -> Foundation:
-    """The material with its solver; a Prony series of one time is the standard linear solid."""
+    """The material with its solver; with one time it is the standard linear solid, however it was written down."""
     material = _reduced(material)
     if isinstance(material, StandardLinearSolid):
         from hystrip.strip.single import SingleTime
@@ -125,4 +125,4 @@ def parameters(material) -> dict[str, Any]:
 
 
 def _reduced(material):
-    return (material.single or material) if isinstance(material, Prony) else material
+    return (material.single or material) if isinstance(material, (Prony, ModelMaterial)) else material

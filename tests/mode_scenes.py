@@ -4,7 +4,8 @@ A scene is a dictionary: ``m`` (relative moduli), ``theta`` (times by k V), ``P0
 """
 
 import numpy as np
-from oracle import modes
+from oracle import march, modes
+from oracle.flow import CONSTITUTIVE
 from oracle.orbits import Unresolved
 
 import hystrip
@@ -53,8 +54,17 @@ def solve(scenes, branch, solver=None):
     return hystrip.solve_strip(material, adhesion, l=2 * np.pi, A=1.0, D=delta, V=1.0, edge="constitutive", branch=branch)
 
 
+def viscous(scenes, branch):
+    """The library's solution of scenes with one time as if that were the retardation time of a Kelvin-Voigt foundation."""
+    beta, P0, Delta, delta = (np.array([np.ravel(s[name])[0] for s in scenes]) for name in ("theta", "P0", "Delta", "delta"))
+    adhesion = hystrip.Dugdale(p_0=P0, delta_0=Delta)
+    return hystrip.solve_strip(hystrip.KelvinVoigt(1.0, beta), adhesion, l=2 * np.pi, A=1.0, D=delta, V=1.0, edge="constitutive", branch=branch)
+
+
 def exact(scene, branch, digits=modes.DIGITS):
-    """The reference march's solution."""
+    """The reference march's solution; that of a Kelvin-Voigt foundation for a scene that says ``viscous``."""
+    if scene.get("viscous"):
+        return march.solve(0, scene["theta"][0], scene["P0"], scene["Delta"], scene["delta"], CONSTITUTIVE, branch, digits)
     return modes.solve(scene["theta"].tolist(), scene["m"].tolist(), scene["P0"], scene["Delta"], scene["delta"], branch, digits)
 
 

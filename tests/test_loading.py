@@ -221,3 +221,25 @@ def test_levels_put_into_a_scene_with_a_solver(folder):
     (out / "new.toml").write_text(with_levels(text, levels, folder=out, allow_solver=True))
     scene = hystrip.load_scene(out / "new.toml", allow_solver=True)
     assert scene.levels == (hystrip.Level(2e-5, 1e-6),) and scene.material.solver is not None
+
+
+@pytest.mark.parametrize("edge", ["continuous", "constitutive"])
+def test_a_generated_kelvin_voigt_solves_as_the_package_does(folder, edge):
+    material = hystrip.load_solver(folder).material("kelvin_voigt", K=1e9, T_eps=1e-3)
+    strips = {"l": 1e-5, "A": 1e-6, "D": np.linspace(-1e-6, 2e-6, 23), "V": 1e-3, "edge": edge}
+    ours, theirs = (hystrip.solve_strip(m, ADHESION, **strips) for m in (hystrip.KelvinVoigt(1e9, 1e-3), material))
+    assert np.array_equal(ours.p_mean, theirs.p_mean) and np.array_equal(ours.tau_mean, theirs.tau_mean) and np.any(ours.tau_mean > 0)
+
+
+def test_several_times_without_instantaneous_compliance_are_refused(folder):
+    from types import SimpleNamespace
+
+    from hystrip.generated import modes
+    from hystrip.inputs.model import ModelMaterial
+
+    def material_modes(c):
+        return modes.of_operators((1.0, c, c), (1.0, 0.5 * c, 0.0))
+
+    kernel = SimpleNamespace(MODEL="viscous", MODES=2, MATERIAL={"c": ("s", "time")}, MODE_PARAMETERS=(), material_modes=material_modes)
+    with pytest.raises(InputError, match="a spring in every branch"):
+        ModelMaterial(kernel, {"c": 5.0})

@@ -24,6 +24,20 @@ def test_random_strips(n, wide):
     assert len(sequences) >= 4
 
 
+def test_random_strips_without_instantaneous_compliance():
+    """Kelvin-Voigt, whose two closures are one."""
+    rng = np.random.default_rng(9)
+    scenes = [ms.draw(rng, 1, wide) | {"viscous": True} for wide in (False, True) for _ in range(25)]
+    sequences = set()
+    for branch in ms.BRANCHES:
+        found = ms.viscous(scenes, branch)
+        for i, scene in enumerate(scenes):
+            error, allowed, sequence = ms.compare(scene, branch, found, i)
+            assert error <= allowed, (scene, branch)
+            sequences.add(sequence)
+    assert len(sequences) >= 6
+
+
 def test_fields_are_those_of_the_march():
     """Pressure and gap over the period: at the section of the march and across every zone, by its own flows."""
     from mpmath import mp

@@ -1,6 +1,8 @@
 """Solve random strips on foundations with several relaxation times and compare each with the 50-digit march of tests/oracle.
 
-    python tools/modes.py [--seed 1] [--scenes 300] [--times 2 3] [--solver FOLDER]
+    python tools/modes.py [--seed 1] [--scenes 300] [--times 0 2 3] [--solver FOLDER]
+
+0 times stands for Kelvin-Voigt, with a retardation time and no relaxation time.
 
 Prints how many strips could be certified, the errors in units of the natural scales (``|p| + K A + p_0`` and so on) and every strip that
 misses its tolerance. Exits with 1 if one does. With ``--solver`` the solver of a generated folder, for its number of times.
@@ -25,7 +27,7 @@ import hystrip
 def attempt(scenes, branch, solver):
     """Solutions scene by scene, None where one could not be certified."""
     try:
-        found = ms.solve(scenes, branch, solver)
+        found = ms.viscous(scenes, branch) if scenes[0].get("viscous") else ms.solve(scenes, branch, solver)
         return [(found, i) for i in range(len(scenes))]
     except hystrip.SolverError:
         if len(scenes) == 1:
@@ -37,7 +39,7 @@ def attempt(scenes, branch, solver):
 def survey(seed, count, n, wide, solver=None, report=None):
     """Errors, tolerances missed, and counts of a run of ``count`` scenes with n times."""
     rng = np.random.default_rng((seed, n, wide))
-    scenes = [ms.draw(rng, n, wide) for _ in range(count)]
+    scenes = [ms.draw(rng, n or 1, wide) | {"viscous": not n} for _ in range(count)]
     errors, bad, counts = [], [], Counter()
     for branch in ms.BRANCHES:
         for k, (scene, found) in enumerate(zip(scenes, attempt(scenes, branch, solver), strict=True)):
@@ -65,7 +67,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--scenes", type=int, default=300, help="scenes for each number of times; half of them over wide ranges")
-    parser.add_argument("--times", type=int, nargs="+", default=[2, 3])
+    parser.add_argument("--times", type=int, nargs="+", default=[0, 2, 3])
     parser.add_argument("--solver", help="folder of a generated solver to use instead of the package's")
     options = parser.parse_args()
     solver = hystrip.load_solver(options.solver) if options.solver else None

@@ -35,7 +35,7 @@ def command(
     except hystrip.derivation.DerivationError as error:
         raise InputError("MODEL", str(model), f"a file that declares an admissible model: {error}") from None
     try:
-        with progress("deriving") as report:
+        with progress("deriving and certifying") as report:
             hystrip.derivation.regenerate(folder, models=models, progress=report)
     except hystrip.derivation.DerivationError as error:
         failure = InputError("MODEL", str(model), f"an admissible model: {error}") if model else HystripError(str(error))
