@@ -1,0 +1,99 @@
+"""The table, the picture, and the README's section."""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+
+from . import scenes as s
+from .claims import claims
+from .scene import Row
+
+BEGIN, END = "<!-- benchmark: begin -->", "<!-- benchmark: end -->"
+_COLOURS = {
+    s.HERE: "#0072b2",
+    s.EQUAL: "#e69f00",
+    s.SCRIPT: "#d55e00",
+    s.MARCH: "#009e73",
+    s.TAMAAS: "#cc79a7",
+    s.NUMPY: "#000000",
+}
+
+
+def table(rows: list[Row]) -> str:
+    """Markdown: a row for every setting."""
+    lines = ["| scene | method | setting | solved | ms a point | error | failures |", "|---|---|---|---|---|---|---|"]
+    scene = None
+    for row in rows:
+        if row.scene.startswith("cost over"):
+            continue
+        name, scene = (row.scene if row.scene != scene else ""), row.scene
+        solved = f"{row.solved} of {row.points}" if row.solved != row.points else f"{row.points}"
+        measured = f"{solved} | {row.per_point:.2g}" if math.isfinite(row.seconds) else "- | not done in time"
+        error = f"{row.error:.0e}" if math.isfinite(row.error) else "-"
+        lines.append(f"| {name} | {row.method} | {row.setting} | {measured} | {error} | {row.failures or ''} |")
+    return "\n".join(lines)
+
+
+def text(rows: list[Row]) -> str:
+    """The table with what it says."""
+    return "\n".join([*(f"- {claim}" for claim in claims(rows)), "", table(rows)]) + "\n"
+
+
+def put(body: str, readme: Path) -> None:
+    """Replace what stands between the two marks in ``readme``."""
+    old = readme.read_text()
+    if BEGIN not in old or END not in old:
+        raise SystemExit(f"{readme}: the lines {BEGIN} and {END} are missing")
+    head, tail = old[: old.index(BEGIN) + len(BEGIN)], old[old.index(END) :]
+    _replace(readme, f"{head}\n{body}{tail}")
+
+
+def save(rows: list[Row], out: Path) -> None:
+    """``out.md`` and ``out.png``."""
+    _replace(out.with_suffix(".md"), text(rows))
+    draw(rows, out.with_suffix(".png"))
+
+
+def _replace(path: Path, content: str) -> None:
+    part = path.with_name(path.name + ".part")
+    part.write_text(content)
+    os.replace(part, path)
+
+
+def draw(rows: list[Row], path: Path) -> None:
+    """Error over time per point, a panel for each scene with errors."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    rows = [row for row in rows if math.isfinite(row.seconds) and math.isfinite(row.error)]
+    names = list(dict.fromkeys(row.scene for row in rows))
+    if not names:
+        return
+    across = min(3, len(names))
+    down = -(-len(names) // across)
+    figure, axes = plt.subplots(
+        down, across, figsize=(3.4 * across, 3.0 * down + 0.5), sharey=True, squeeze=False, layout="constrained"
+    )
+    for axis, name in zip(axes.flat, names, strict=False):
+        for method, colour in _COLOURS.items():
+            mine = [row for row in rows if row.scene == name and row.method == method]
+            # Tamaas has two settings, so its points do not lie on one line
+            style = "o" if method == s.TAMAAS else "o-"
+            x, y = [row.per_point for row in mine], [max(row.error, 1e-16) for row in mine]
+            axis.loglog(x, y, style, color=colour, label=method if mine else None, lw=1, ms=4)
+        axis.set_title(name, fontsize=9)
+        axis.grid(alpha=0.3)
+    for axis in list(axes.flat)[len(names) :]:
+        axis.set_axis_off()
+    figure.supxlabel("processor time per point [ms]", fontsize=9)
+    figure.supylabel("largest relative error of friction", fontsize=9)
+    labels = {label: handle for axis in axes.flat for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}
+    figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=len(labels), fontsize=8)
+    part = path.with_name(path.name + ".part")
+    figure.savefig(part, format="png", dpi=150)
+    plt.close(figure)
+    os.replace(part, path)
