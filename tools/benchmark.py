@@ -2,8 +2,8 @@
 
     python tools/benchmark.py [--quick] [--resume] [--only fig] [--out benchmark] [--readme README.md]
 
-Writes OUT.csv (every measurement, as it comes), OUT.png (error over time, a panel for each scene) and OUT.md (what the measurements say, and
-the table), and puts the latter between the two marks in the README if one is given. ``--resume`` goes on with an OUT.csv of the same code.
+Writes OUT.csv (every measurement, as it comes), OUT.png (error over time, a panel for each scene) and OUT.md (a table of time by error, what
+the measurements say, and every setting), and puts table and findings between the two marks in the README if one is given. ``--resume`` goes on with an OUT.csv of the same code.
 
 Times are processor time of one thread, medians where a run is short. Errors are of the friction, the largest over the points looked at,
 relative to ``|tau| + 1e-3 (K h + p_0) h/l`` of level 1, against this solver far below the tolerances compared. Methods that are too slow

@@ -4,8 +4,8 @@ import numpy as np
 
 import hystrip
 
-#: penetrations of a table that brackets the nominal pressure, and rounds of it
-_ZOOM, _ROUNDS = 30, 3
+#: penetrations among which that of the nominal pressure is looked for: few would step over a narrow minimum of p_mean; then closer and closer
+_ROUNDS = (100, 30, 30)
 
 
 def friction(material, adhesion, levels, pressure, V, strips, depths=None):
@@ -25,8 +25,8 @@ class _Surface:
 
     def friction(self, pressure):
         low, high = self._range(0, pressure)
-        for _ in range(_ROUNDS):
-            D, p, tau = self._table(0, np.linspace(low, high, _ZOOM))
+        for depths in _ROUNDS:
+            D, p, tau = self._table(0, np.linspace(low, high, depths))
             below = np.flatnonzero(p[:-1] < pressure)
             if not below.size:
                 return 0.0

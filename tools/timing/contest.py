@@ -57,7 +57,8 @@ def _timed(work: Callable):
 def run(scenes: list[Scene], out: Path, options: list[str], limit: float, report: Callable[[str], None]) -> list[Row]:
     """All rows: those that ``out`` (CSV) has, and the others measured in child processes with ``options`` and added to it one by one.
 
-    A row that takes more than ``limit`` seconds of processor time has NaN for its time and error; without a reference its scene has no errors.
+    A row that takes more than ``limit`` seconds of processor time has NaN for its time and error, and so have the settings of that method that
+    follow, dearer ones; a scene whose reference takes more has no errors.
     """
     rows = read(out)
     for scene in scenes:
@@ -66,14 +67,21 @@ def run(scenes: list[Scene], out: Path, options: list[str], limit: float, report
         exact = out.with_name(f"{out.stem}-reference-{''.join(c if c.isalnum() else '-' for c in scene.name)}.npy")
         if missing and scene.reference is not None and not exact.exists():
             report(f"{scene.name}: reference")
-            _child(["--scene", scene.name, "--reference", str(exact), *options], 2 * limit)
+            _child(["--scene", scene.name, "--reference", str(exact), *options], limit)
         for c in missing:
+            if any(row.scene == scene.name and row.method == c.method and not np.isfinite(row.seconds) for row in rows):
+                rows.append(_given_up(scene, c))
+                continue
             report(f"{scene.name}: {c.method}, {c.setting}")
             known = ["--reference", str(exact)] if exact.exists() else []
             text = _child(["--scene", scene.name, "--row", f"{c.method}, {c.setting}", *known, *options], limit)
-            rows.append(_row(text.split("\t")) if text else Row(scene.name, c.method, c.setting, scene.points, 0, np.nan, np.nan))
+            rows.append(_row(text.split("\t")) if text else _given_up(scene, c))
             write(rows, out)
     return rows
+
+
+def _given_up(scene: Scene, c: Contestant) -> Row:
+    return Row(scene.name, c.method, c.setting, scene.points, 0, np.nan, np.nan)
 
 
 def _child(arguments: list[str], limit: float) -> str | None:

@@ -11,6 +11,8 @@ from .claims import claims
 from .scene import Row
 
 BEGIN, END = "<!-- benchmark: begin -->", "<!-- benchmark: end -->"
+#: the columns of the table
+ERRORS = (1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10)
 _COLOURS = {
     s.HERE: "#0072b2",
     s.EQUAL: "#e69f00",
@@ -22,23 +24,49 @@ _COLOURS = {
 
 
 def table(rows: list[Row]) -> str:
+    """Markdown: milliseconds a point to get to an error, by scene and method; the cheapest setting that gets there."""
+    lines = [
+        "| scene (points) | method | solved | " + " | ".join(f"{error:.0e}" for error in ERRORS) + " | best error | failures |",
+        "|---|---|---|" + "---|" * (len(ERRORS) + 2),
+    ]
+    scene = None
+    for name, method in dict.fromkeys((row.scene, row.method) for row in rows if not row.scene.startswith("cost over")):
+        mine = [row for row in rows if (row.scene, row.method) == (name, method)]
+        shown, scene = (f"{name} ({mine[0].points})" if name != scene else ""), name
+        done = [row for row in mine if math.isfinite(row.error)]
+        solved = sorted({row.solved for row in mine if math.isfinite(row.seconds)})
+        if solved and not done:
+            continue  # a scene without errors: the findings tell its times
+        cells = [min((row.per_point for row in done if row.error <= error), default=None) for error in ERRORS]
+        best = f"{min(row.error for row in done):.0e}" if done else "none done in time"
+        span = "-".join(str(n) for n in (solved[:1] + solved[1:][-1:]))
+        failures = sum(row.failures for row in mine) or ""
+        times = " | ".join("" if cell is None else f"{cell:.2g}" for cell in cells)
+        lines.append(f"| {shown} | {method} | {span} | {times} | {best} | {failures} |")
+    return "\n".join(lines)
+
+
+def settings(rows: list[Row]) -> str:
     """Markdown: a row for every setting."""
-    lines = ["| scene | method | setting | solved | ms a point | error | failures |", "|---|---|---|---|---|---|---|"]
+    lines = [
+        "| scene | method | setting | solved | ms a point | error | strips | failures |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
     scene = None
     for row in rows:
-        if row.scene.startswith("cost over"):
-            continue
         name, scene = (row.scene if row.scene != scene else ""), row.scene
         solved = f"{row.solved} of {row.points}" if row.solved != row.points else f"{row.points}"
         measured = f"{solved} | {row.per_point:.2g}" if math.isfinite(row.seconds) else "- | not done in time"
         error = f"{row.error:.0e}" if math.isfinite(row.error) else "-"
-        lines.append(f"| {name} | {row.method} | {row.setting} | {measured} | {error} | {row.failures or ''} |")
+        lines.append(
+            f"| {name} | {row.method} | {row.setting} | {measured} | {error} | {row.strips or ''} | {row.failures or ''} |"
+        )
     return "\n".join(lines)
 
 
 def text(rows: list[Row]) -> str:
-    """The table with what it says."""
-    return "\n".join([*(f"- {claim}" for claim in claims(rows)), "", table(rows)]) + "\n"
+    """The findings and the table."""
+    return "\n".join([table(rows), "", *(f"- {claim}" for claim in claims(rows))]) + "\n"
 
 
 def put(body: str, readme: Path) -> None:
@@ -52,7 +80,7 @@ def put(body: str, readme: Path) -> None:
 
 def save(rows: list[Row], out: Path) -> None:
     """``out.md`` and ``out.png``."""
-    _replace(out.with_suffix(".md"), text(rows))
+    _replace(out.with_suffix(".md"), f"{text(rows)}\n{settings(rows)}\n")
     draw(rows, out.with_suffix(".png"))
 
 

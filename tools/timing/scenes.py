@@ -38,7 +38,7 @@ def scenes(quick: bool) -> list[Scene]:
     speeds = np.geomspace(1e-5, 1e-2, 100 if quick else 1000)
     pressures = np.linspace(-650, 1500, 4 if quick else 20)
     few = 1 if quick else 4
-    fig_6 = [_here(1e-6, 2 if quick else None), *(_here(r, 10) for r in (() if quick else (1e-3, 1e-4, 1e-5, 1e-8)))]
+    fig_6 = [_here(1e-6, 2)] if quick else [*(_here(r, 10) for r in (1e-3, 1e-4, 1e-5)), _here(1e-6, 100), _here(1e-8, 10)]
     return [
         Scene(
             POINT, SOFT, (NONE,), (LARGE,), one(1) * 100, one(1) * 3e-4, 1e-12,
