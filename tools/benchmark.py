@@ -50,6 +50,8 @@ def main():
     limit = options.limit or (60.0 if options.quick else 300.0)
     tell = lambda text: print(text, file=sys.stderr, flush=True)  # noqa: E731
     rows = contest.run(chosen, out, ["--quick"] if options.quick else [], limit, tell)
+    order = {(scene.name, c.method, c.setting): k for k, (scene, c) in enumerate((s, c) for s in every for c in s.contestants)}
+    rows.sort(key=lambda row: order.get((row.scene, row.method, row.setting), len(order)))
     report.save(rows, options.out)
     if options.readme:
         report.put(report.text(rows), options.readme)
