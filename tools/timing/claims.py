@@ -57,8 +57,8 @@ def _fig_6(rows):
     for scripted in of(rows, s.FIG_6, s.SCRIPT)[:1]:
         if here:
             yield (
-                f"Fig. 6 (400 points): {here.seconds:.0f} s at rtol 1e-6 (error {here.error:.0e}); the script takes {scripted.seconds / here.seconds:.2g} "
-                f"times that at {scripted.error / here.error:.0e} times the error ({scripted.failures} failures)."
+                f"Fig. 6 (400 points, {here.solved} of them solved): {here.seconds:.0f} s at rtol 1e-6 (error {here.error:.0e}); the script takes {scripted.seconds / here.seconds:.2g} "
+                f"times that ({scripted.solved} points solved) at {scripted.error / here.error:.0e} times the error ({scripted.failures} failures)."
             )
     for method, error in ((s.SCRIPT, here.error if here else 0.0), (s.EQUAL, 1e-5)):
         there, mine = time_at(of(rows, s.FIG_6, method), error) if error > 0 else None, cheapest(rows, s.FIG_6, error)

@@ -41,9 +41,14 @@ def table(rows: list[Row]) -> str:
         best = f"{min(row.error for row in done):.0e}" if done else "none done in time"
         span = "-".join(str(n) for n in (solved[:1] + solved[1:][-1:]))
         failures = sum(row.failures for row in mine) or ""
-        times = " | ".join("" if cell is None else f"{cell:.2g}" for cell in cells)
+        times = " | ".join("" if cell is None else _short(cell) for cell in cells)
         lines.append(f"| {shown} | {method} | {span} | {times} | {best} | {failures} |")
     return "\n".join(lines)
+
+
+def _short(value: float) -> str:
+    """Two digits, without an exponent where that is readable."""
+    return f"{float(f'{value:.2g}'):.7g}"
 
 
 def settings(rows: list[Row]) -> str:
@@ -56,7 +61,7 @@ def settings(rows: list[Row]) -> str:
     for row in rows:
         name, scene = (row.scene if row.scene != scene else ""), row.scene
         solved = f"{row.solved} of {row.points}" if row.solved != row.points else f"{row.points}"
-        measured = f"{solved} | {row.per_point:.2g}" if math.isfinite(row.seconds) else "- | not done in time"
+        measured = f"{solved} | {_short(row.per_point)}" if math.isfinite(row.seconds) else "- | not done in time"
         error = f"{row.error:.0e}" if math.isfinite(row.error) else "-"
         lines.append(
             f"| {name} | {row.method} | {row.setting} | {measured} | {error} | {row.strips or ''} | {row.failures or ''} |"
@@ -96,6 +101,7 @@ def draw(rows: list[Row], path: Path) -> None:
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+    from matplotlib.ticker import NullFormatter
 
     rows = [row for row in rows if math.isfinite(row.seconds) and math.isfinite(row.error)]
     names = list(dict.fromkeys(row.scene for row in rows))
@@ -114,10 +120,14 @@ def draw(rows: list[Row], path: Path) -> None:
             x, y = [row.per_point for row in mine], [max(row.error, 1e-16) for row in mine]
             axis.loglog(x, y, style, color=colour, label=method if mine else None, lw=1, ms=4)
         axis.set_title(name, fontsize=9)
+        axis.set_xlabel("processor time per point [ms]", fontsize=8)
+        # a panel of less than a decade would be labelled at every tick
+        low, high = axis.get_xlim()
+        axis.set_xlim(10 ** math.floor(math.log10(low)), 10 ** math.ceil(math.log10(high)))
+        axis.xaxis.set_minor_formatter(NullFormatter())
         axis.grid(alpha=0.3)
     for axis in list(axes.flat)[len(names) :]:
         axis.set_axis_off()
-    figure.supxlabel("processor time per point [ms]", fontsize=9)
     figure.supylabel("largest relative error of friction", fontsize=9)
     labels = {label: handle for axis in axes.flat for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}
     figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=len(labels), fontsize=8)

@@ -47,7 +47,7 @@ def scenes(quick: bool) -> list[Scene]:
         ),
         Scene(
             SWEEP, SOFT, (NONE,), (LARGE,), one(speeds.size) * 100, speeds, 1e-9,
-            (_here(1e-3), _here(1e-6), _equal(100, 10), _script(100, few), *(_tamaas(*grid, 2) for grid in _grids(quick)[-2:])),
+            (_here(1e-3), _here(1e-6), _equal(100, 10), _script(100, few), *(_tamaas(*grid, 2) for grid in _grids(quick)[:6][-2:])),
         ),
         Scene(
             ADHESIVE, MATERIAL, (WEAK,), (SMALL,), pressures, one(pressures.size) * 7e-4, 1e-12,
@@ -140,5 +140,5 @@ def _grids(quick):
 
 
 def _tamaas(grid, steps, points=None):
-    one = lambda s, a, p, V: (half_space.friction(s.material, s.levels[0], p, V, grid, steps, periods=2), 0, 0)  # noqa: E731
+    one = lambda s, a, p, V: (half_space.friction(s.material, s.levels[0], p, V, grid, steps), 0, 0)  # noqa: E731
     return _each(TAMAAS, f"{grid} x {grid}, {steps} steps", one, points)
