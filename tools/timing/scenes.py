@@ -16,6 +16,7 @@ MARCH = "solve_ivp march"
 TAMAAS = "Tamaas 2.9"
 NUMPY = "NumPy"
 
+COMPLETE = "non-adhesive, complete contact"
 POINT, SWEEP, ADHESIVE, FIG_6 = "non-adhesive, one point", "non-adhesive, a sweep", "adhesive, multivalued", "Fig. 6, two levels"
 THREE, EIGHT, FULL = "three levels", "eight levels", "eight levels, saturated"
 VELOCITIES, PRESSURES, LEVELS = "cost over velocities", "cost over pressures", "cost over levels"
@@ -39,7 +40,10 @@ def scenes(quick: bool) -> list[Scene]:
     pressures = np.linspace(-650, 1500, 4 if quick else 20)
     few = 1 if quick else 4
     fig_6 = [_here(1e-6, 2)] if quick else [*(_here(r, 10) for r in (1e-3, 1e-4, 1e-5)), _here(1e-6, 100), _here(1e-8, 10)]
+    # the friction of complete contact is known: does Tamaas, treated like this, get there?
+    known = [_tamaas(16, steps) for steps in (64, 256, 1024)] if half_space.available() else []
     return [
+        Scene(COMPLETE, SOFT, (NONE,), (LARGE,), one(1) * 1e5, one(1) * 3e-4, 1e-12, (_here(1e-6), *known)),
         Scene(
             POINT, SOFT, (NONE,), (LARGE,), one(1) * 100, one(1) * 3e-4, 1e-12,
             (*map(_here, tight), *(_equal(n) for n in strips), *(_script(n) for n in strips[1:4:2]),
