@@ -25,6 +25,8 @@ import numpy as np  # noqa: E402
 from timing import contest, report  # noqa: E402
 from timing.scenes import scenes  # noqa: E402
 
+from hystrip.files import Outputs  # noqa: E402
+
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -62,10 +64,8 @@ def child(scene, row, reference, limit):
     """The reference of a scene into a file, or one row printed; killed after ``limit`` seconds of processor time."""
     resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(limit), math.ceil(limit) + 10))
     if row is None:
-        part = reference.with_suffix(".part")
-        with open(part, "wb") as file:
-            np.save(file, scene.exact())
-        os.replace(part, reference)
+        with Outputs(reference.parent) as outputs:
+            np.save(outputs.path(reference.name), scene.exact())
         return
     contestant = next(c for c in scene.contestants if f"{c.method}, {c.setting}" == row)
     print(contest.line(contest.measure(scene, contestant, np.load(reference) if reference else None)))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import os
 import signal
 import subprocess
 import sys
@@ -13,6 +12,8 @@ from dataclasses import astuple, fields
 from pathlib import Path
 
 import numpy as np
+
+from hystrip.files import Outputs
 
 from .scene import Contestant, Row, Scene
 
@@ -117,7 +118,5 @@ def read(path: Path) -> list[Row]:
 
 def write(rows: list[Row], path: Path) -> None:
     """All rows as CSV, in one stroke."""
-    part = path.with_name(path.name + ".part")
-    with open(part, "w", newline="") as file:
+    with Outputs(path.parent) as outputs, open(outputs.path(path.name), "w", newline="") as file:
         csv.writer(file).writerows([COLUMNS, *map(astuple, rows)])
-    os.replace(part, path)

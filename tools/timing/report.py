@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-import os
 from pathlib import Path
+
+from hystrip.files import Outputs, write_text
 
 from . import scenes as s
 from .claims import claims
@@ -80,19 +81,13 @@ def put(body: str, readme: Path) -> None:
     if BEGIN not in old or END not in old:
         raise SystemExit(f"{readme}: the lines {BEGIN} and {END} are missing")
     head, tail = old[: old.index(BEGIN) + len(BEGIN)], old[old.index(END) :]
-    _replace(readme, f"{head}\n{body}{tail}")
+    write_text(readme, f"{head}\n{body}{tail}")
 
 
 def save(rows: list[Row], out: Path) -> None:
     """``out.md`` and ``out.png``."""
-    _replace(out.with_suffix(".md"), f"{text(rows)}\n{settings(rows)}\n")
+    write_text(out.with_suffix(".md"), f"{text(rows)}\n{settings(rows)}\n")
     draw(rows, out.with_suffix(".png"))
-
-
-def _replace(path: Path, content: str) -> None:
-    part = path.with_name(path.name + ".part")
-    part.write_text(content)
-    os.replace(part, path)
 
 
 def draw(rows: list[Row], path: Path) -> None:
@@ -131,7 +126,6 @@ def draw(rows: list[Row], path: Path) -> None:
     figure.supylabel("largest relative error of friction", fontsize=9)
     labels = {label: handle for axis in axes.flat for handle, label in zip(*axis.get_legend_handles_labels(), strict=True)}
     figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=len(labels), fontsize=8)
-    part = path.with_name(path.name + ".part")
-    figure.savefig(part, format="png", dpi=150)
+    with Outputs(path.parent) as outputs:
+        figure.savefig(outputs.path(path.name), dpi=150)
     plt.close(figure)
-    os.replace(part, path)
