@@ -1,5 +1,7 @@
 """Tamaas, its generalised Maxwell solver with the half-space replaced by independent springs: one level without adhesion at a given pressure."""
 
+import math
+
 import numpy as np
 
 
@@ -12,11 +14,11 @@ def available():
     return True
 
 
-def friction(material, level, pressure, V, points, steps, periods=3, tolerance=1e-10):
-    """Friction stress, Pa: a surface of ``points`` squared, drawn along in ``steps`` steps a wavelength over ``periods`` wavelengths.
+def friction(material, level, pressure, V, points, steps, tolerance=1e-10):
+    """Friction stress, Pa: a surface of ``points`` squared, drawn along in ``steps`` steps a wavelength.
 
-    The mean over the last wavelength. Errors are of first order in the step and fall with ``points`` where contact is partial. In units of
-    K, h and l; the shear modulus has to be one, or the relaxation comes out wrong.
+    The mean over a wavelength after as many as take five retardation times. Errors are of first order in the step, and fall with ``points``
+    where contact is partial. In units of K, h and l; the shear modulus has to be one, or the relaxation comes out wrong.
     """
     import tamaas
 
@@ -38,6 +40,7 @@ def friction(material, level, pressure, V, points, steps, periods=3, tolerance=1
     model.operators["westergaard_neumann"]["influence"][...] = 1.0
     surface = np.reshape(solver.surface, (points, points))
     taus = np.zeros(steps)
+    periods = 1 + math.ceil(5 * material.T_eps * V / level.l)
     for step in range(periods * steps):
         phase = 2 * np.pi * (x - step / steps)
         surface[...] = np.multiply.outer(np.cos(phase) + 1, across)

@@ -174,15 +174,13 @@ def means(kind, edges, g):
 
 
 def friction(material, adhesion, levels, pressure_, V, strips=100, depths=100):
-    """Friction stress of one or two levels at one velocity; with it the strips solved and the failures."""
+    """Friction stress of a surface at one velocity; with it the strips solved and the failures. Along x, too, ``strips`` points."""
     theta = np.pi * (np.arange(strips) + 0.5) / strips
     scripts = [Script(material, adhesion, level, V) for level in levels]
     depth, total = _at_pressure(scripts[0], theta, pressure_, depths)
     if depth is not None and len(levels) > 1:
         contacts = _contacts(scripts[0], theta, depth, strips)
-        p_max = max((float(q.max()) for _, q in contacts), default=0.0)
-        law = _law(scripts[1], theta, p_max, depths)
-        total += sum(np.trapezoid(law(q), s) for s, q in contacts) / TWO_PI / strips
+        total += _carried(contacts, _law(scripts[1:], theta, _peak(contacts), depths), strips)
     return total, sum(s.solved for s in scripts), sum(s.failures for s in scripts)
 
 
@@ -238,9 +236,23 @@ def _contacts(script, theta, depth, points):
     return found
 
 
-def _law(script, theta, p_max, depths):
-    """Friction over pressure along the unloading path, by linear interpolation; nothing below pull-off."""
-    rows = np.array([_level(script, theta, depth) for depth in _depths(script, p_max, depths)])
+def _peak(contacts):
+    return max((float(p.max()) for _, p in contacts), default=0.0)
+
+
+def _carried(contacts, law, strips):
+    """Second term of Eq. 13: a trapezoid along every contact."""
+    return sum(np.trapezoid(law(p), s) for s, p in contacts) / TWO_PI / strips
+
+
+def _law(scripts, theta, p_max, depths):
+    """Friction of a level and all below it over pressure, along the unloading path, by linear interpolation; nothing below pull-off."""
+    script, D = scripts[0], _depths(scripts[0], p_max, depths)
+    rows = np.array([_level(script, theta, depth) for depth in D])
+    if len(scripts) > 1:
+        contacts = [_contacts(script, theta, depth, theta.size) for depth in D]
+        below = _law(scripts[1:], theta, max(map(_peak, contacts)), depths)
+        rows[:, 1] += [_carried(each, below, theta.size) for each in contacts]
     p, tau = rows[::-1].T
     on_path = (p == np.minimum.accumulate(p[::-1])[::-1]) & (tau != 0)
-    return lambda q: np.interp(q, p[on_path], tau[on_path], left=0.0)
+    return lambda q: np.interp(q, p[on_path], tau[on_path], left=0.0) if on_path.any() else np.zeros_like(q)

@@ -1,0 +1,1 @@
+"""Scenes, contestants and claims of the benchmark of run time against error."""
