@@ -6,13 +6,13 @@ regime. All velocities advance together.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from .appearance import is_inside, island, vanishing
 from .breaks import breakpoints, threshold_width
-from .chebyshev import Piece, coefficients, graded, interpolation_errors, lobatto
+from .chebyshev import Piece, coefficients, graded, interpolation_errors, lobatto, parameter
 from .expected import expect, hints
 from .means import level_means
 from .strips import Columns, saturation_depth
@@ -39,6 +39,21 @@ class Curve:
 
 
 @dataclass(frozen=True)
+class Seen:
+    """Zones (``Averages.zones``) at the parameters ``t`` of an interval of D, and the least size of the means there, (q,)."""
+
+    low: float
+    high: float
+    t: np.ndarray
+    zones: list[np.ndarray]
+    size: np.ndarray
+
+    def expected(self, D: np.ndarray):
+        """``expected.expect`` at penetrations inside."""
+        return expect(self.t, self.zones, parameter((D - self.low) / (self.high - self.low)))
+
+
+@dataclass(frozen=True)
 class Interval:
     """An interval of D of one column; ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end. ``witnesses``: thetas at which some
     regime is met in next to no strips towards an end."""
@@ -49,14 +64,21 @@ class Interval:
     soft_low: bool = False
     soft_high: bool = False
     witnesses: tuple[float, ...] = ()
+    #: what was seen on the interval that this one is a part of
+    seen: Seen | None = field(default=None, compare=False, repr=False)
 
     def split(self, D: float, soft: bool, *witnesses: float) -> list[Interval]:
         """The two parts below and above D; what is new about their strips in ``witnesses``."""
         every = self.witnesses + witnesses
         return [
-            Interval(self.column, self.low, D, self.soft_low, soft, every),
-            Interval(self.column, D, self.high, soft, self.soft_high, every),
+            Interval(self.column, self.low, D, self.soft_low, soft, every, self.seen),
+            Interval(self.column, D, self.high, soft, self.soft_high, every, self.seen),
         ]
+
+    @property
+    def halves(self) -> list[Interval]:
+        """The two halves; the curve goes on smoothly between them."""
+        return self.split(0.5 * (self.low + self.high), soft=True)
 
     def penetrations(self, t):
         """D at the parameters ``t`` of a piece."""
@@ -116,7 +138,7 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, fr
     batch.sample(_FIRST)
     floor = 1e-3 * columns.scales
     parts: list[Interval] = []
-    n = _FIRST
+    n, before = _FIRST, None
     while batch.intervals and n < _LAST:
         n *= 2
         batch.sample(n)
@@ -133,13 +155,19 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, fr
         for k in np.flatnonzero(done):
             i, bound = batch.intervals[k], error[k] + batch.errors[k].max(axis=0)
             pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.soft_low, i.soft_high))
+        # coefficients fall geometrically: where twice the nodes would not do, halves are better
+        hopeless = ~done & (error > goal * (before / error) ** 2).any(axis=1) if before is not None else np.zeros(done.size, bool)
         split = _islands(columns, batch, n, ~done, strips) if n > 2 * _FIRST else {}
         for k, (D_break, theta) in split.items():
-            parts += batch.intervals[k].split(D_break, False, theta)
-            done[k] = True
-        batch.keep(np.flatnonzero(~done))
-    for i in batch.intervals:
-        parts += i.split(0.5 * (i.low + i.high), soft=True)
+            parts += batch.known(k, n).split(D_break, False, theta)
+        done[list(split)] = True
+        for k in np.flatnonzero(hopeless & ~done):
+            parts += batch.known(k, n).halves
+        keep = np.flatnonzero(~done & ~hopeless)
+        batch.keep(keep)
+        before = error[keep]
+    for k in range(len(batch.intervals)):
+        parts += batch.known(k, n).halves
     return parts
 
 
@@ -190,8 +218,13 @@ class _Batch:
         t = nodes if first else nodes[1::2]
         D = np.concatenate([i.penetrations(t) for i in self.intervals])
         rows = np.repeat(self.column, t.size)
-        expected = [None if first else expect(nodes[::2], zones, t) for zones in self.zones]
-        size = np.zeros((len(self.intervals), self.columns.scales.size)) if first else np.abs(self.values).min(axis=1)
+        if first:
+            inherited = [i.seen for i in self.intervals]
+            expected = [None if seen is None else seen.expected(i.penetrations(t)) for i, seen in zip(self.intervals, inherited, strict=True)]
+            size = np.array([np.zeros(self.columns.scales.size) if seen is None else seen.size for seen in inherited])
+        else:
+            expected = [expect(nodes[::2], zones, t) for zones in self.zones]
+            size = np.abs(self.values).min(axis=1)
         where = np.arange(rows.size).reshape(-1, t.size)
         hint = hints(where, expected, [i.witnesses for i in self.intervals], np.repeat(size, t.size, axis=0))
         means = level_means(self.columns.at(rows, D), _MEAN * self.rtol[rows], hint)
@@ -204,6 +237,11 @@ class _Batch:
             return
         self.values, self.errors = _merged(self.values, values), _merged(self.errors, errors)
         self.zones = [_alternating(old, new) for old, new in zip(self.zones, zones, strict=True)]
+
+    def known(self, k: int, n: int) -> Interval:
+        """Interval ``k`` with what was seen of it at ``lobatto(n)``."""
+        i = self.intervals[k]
+        return replace(i, seen=Seen(i.low, i.high, lobatto(n), self.zones[k], np.abs(self.values[k]).min(axis=0)))
 
     def keep(self, index) -> None:
         """Go on with the intervals ``index`` alone."""
