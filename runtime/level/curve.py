@@ -21,6 +21,10 @@ _FIRST, _LAST = 4, 32
 _ROUNDS = 40
 #: share of the error allowed that interpolating may have, and that of each mean
 _INTERPOLATION, _MEAN = 0.6, 0.4
+#: coefficients below this share of what the means may err say nothing of how smooth they are
+_BLUR = 0.1
+#: no error grows faster than this from round to round
+_PACE = 1e3
 #: an interval's pressure is known at least this well
 _COARSEST = 1e-3
 #: width in theta of a zone that may be passed over, over the accuracy asked for
@@ -85,16 +89,15 @@ class Interval:
         return self.low + (self.high - self.low) * graded(t)
 
 
-def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None, frictional: bool = False) -> list[Curve]:
-    """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``.
-
-    ``frictional``: pressure need only be known as well as it takes for friction over pressure to be.
+def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None) -> list[Curve]:
+    """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``; of ``frictional`` columns pressure
+    only as well as it takes for friction over pressure to be known to that.
     """
     n = columns.size
     top = saturation_depth(columns) if top is None else top
     strips = np.zeros(n, int)
     intervals = [i for row in smooth_intervals(columns, top) for i in row]
-    pieces = interpolate(columns, rtol, intervals, strips, frictional)
+    pieces = interpolate(columns, rtol, intervals, strips)
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
 
 
@@ -117,38 +120,37 @@ def interpolate(
     rtol: np.ndarray,
     intervals: list[Interval],
     strips: np.ndarray,
-    frictional: bool = False,
     pressure_goal: np.ndarray | None = None,
 ) -> list[list[Piece]]:
     """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work.
 
-    ``frictional``: see ``trace``. ``pressure_goal`` (Pa, per column): nothing but pressure counts, to that absolute error.
+    ``pressure_goal`` (Pa, per column): nothing but pressure counts, to that absolute error.
     """
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
     for _ in range(_ROUNDS):
         if not intervals:
             return pieces
-        intervals = _round(columns, rtol, intervals, pieces, strips, frictional, pressure_goal)
+        intervals = _round(columns, rtol, intervals, pieces, strips, pressure_goal)
     raise ArithmeticError("the curve over penetration did not converge")
 
 
-def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, frictional, pressure_goal) -> list[Interval]:
+def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, pressure_goal) -> list[Interval]:
     """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not."""
     batch = _Batch(columns, rtol, intervals, strips)
     batch.sample(_FIRST)
-    floor = 1e-3 * columns.scales
+    floor = columns.floors
     parts: list[Interval] = []
-    n, before = _FIRST, None
+    n, before = _FIRST, np.inf
     while batch.intervals and n < _LAST:
         n *= 2
         batch.sample(n)
         c = np.einsum("ij,pjq->piq", coefficients_of(n), batch.values)
         goal = rtol[batch.column][:, None] * (np.abs(batch.values).min(axis=1) + floor)
-        error = interpolation_errors(c, 0.1 * goal)
+        error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1))
         if pressure_goal is not None:
             goal = np.full_like(goal, np.inf)
             goal[:, 0] = pressure_goal[batch.column]
-        elif frictional:
+        elif columns.frictional:
             goal[:, 0] = _pressure_goal(batch.values, goal)
         done = (error <= _INTERPOLATION * goal).all(axis=1)
         done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in batch.intervals]
@@ -156,7 +158,8 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, fr
             i, bound = batch.intervals[k], error[k] + batch.errors[k].max(axis=0)
             pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.soft_low, i.soft_high))
         # coefficients fall geometrically: where twice the nodes would not do, halves are better
-        hopeless = ~done & (error > goal * (before / error) ** 2).any(axis=1) if before is not None else np.zeros(done.size, bool)
+        missed = error / goal
+        hopeless = ~done & (missed * np.minimum(missed / before, _PACE) ** 2 > 1).any(axis=1)
         split = _islands(columns, batch, n, ~done, strips) if n > 2 * _FIRST else {}
         for k, (D_break, theta) in split.items():
             parts += batch.known(k, n).split(D_break, False, theta)
@@ -165,7 +168,7 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, fr
             parts += batch.known(k, n).halves
         keep = np.flatnonzero(~done & ~hopeless)
         batch.keep(keep)
-        before = error[keep]
+        before = np.maximum(missed[keep], np.finfo(float).tiny)
     for k in range(len(batch.intervals)):
         parts += batch.known(k, n).halves
     return parts

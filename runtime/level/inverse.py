@@ -55,6 +55,7 @@ def invert(columns: Columns, p: np.ndarray, full: np.ndarray, rtol: float) -> In
     ``full`` (n,): penetration of saturated contact. The root is refined with averages to ``rtol``.
     """
     D, slope = np.full(p.size, np.nan), np.zeros(p.size)
+    columns = replace(columns, frictional=True)
     if not columns.adhesion.p_0 > 0:
         loaded = np.flatnonzero(p > 0)
         if loaded.size:
