@@ -23,6 +23,8 @@ _ROUNDS = 40
 _INTERPOLATION, _MEAN = 0.6, 0.4
 #: coefficients below this share of what the means may err say nothing of how smooth they are
 _BLUR = 0.1
+#: error of a curve that keeps away from a pressure, over its distance
+_CLEAR = 0.25
 #: no error grows faster than this from round to round
 _PACE = 1e3
 #: an interval's pressure is known at least this well
@@ -55,6 +57,19 @@ class Seen:
     def expected(self, D: np.ndarray):
         """``expected.expect`` at penetrations inside."""
         return expect(self.t, self.zones, parameter((D - self.low) / (self.high - self.low)))
+
+
+@dataclass(frozen=True)
+class Sought:
+    """Pressures ``p`` (Pa, per column) of which it is asked where the curve passes them, to an error ``goal`` (Pa) of the pressure there."""
+
+    p: np.ndarray
+    goal: np.ndarray
+
+    def goals(self, column: np.ndarray, pressures: np.ndarray) -> np.ndarray:
+        """Error allowed on intervals of the columns ``column``, with ``pressures`` (m, nodes): what keeps away from p need not be known to better than
+        to tell that it does."""
+        return np.maximum(self.goal[column], _CLEAR * np.abs(pressures - self.p[column, None]).min(axis=1))
 
 
 @dataclass(frozen=True)
@@ -120,21 +135,21 @@ def interpolate(
     rtol: np.ndarray,
     intervals: list[Interval],
     strips: np.ndarray,
-    pressure_goal: np.ndarray | None = None,
+    sought: Sought | None = None,
 ) -> list[list[Piece]]:
     """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work.
 
-    ``pressure_goal`` (Pa, per column): nothing but pressure counts, to that absolute error.
+    ``sought``: nothing counts but where the pressure passes a given one.
     """
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
     for _ in range(_ROUNDS):
         if not intervals:
             return pieces
-        intervals = _round(columns, rtol, intervals, pieces, strips, pressure_goal)
+        intervals = _round(columns, rtol, intervals, pieces, strips, sought)
     raise ArithmeticError("the curve over penetration did not converge")
 
 
-def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, pressure_goal) -> list[Interval]:
+def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, sought: Sought | None) -> list[Interval]:
     """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not."""
     batch = _Batch(columns, rtol, intervals, strips)
     batch.sample(_FIRST)
@@ -147,9 +162,9 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, pr
         c = np.einsum("ij,pjq->piq", coefficients_of(n), batch.values)
         goal = rtol[batch.column][:, None] * (np.abs(batch.values).min(axis=1) + floor)
         error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1))
-        if pressure_goal is not None:
+        if sought is not None:
             goal = np.full_like(goal, np.inf)
-            goal[:, 0] = pressure_goal[batch.column]
+            goal[:, 0] = sought.goals(batch.column, batch.values[:, :, 0])
         elif columns.frictional:
             goal[:, 0] = _pressure_goal(batch.values, goal)
         done = (error <= _INTERPOLATION * goal).all(axis=1)
@@ -160,7 +175,7 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, pr
         # coefficients fall geometrically: where twice the nodes would not do, halves are better
         missed = error / goal
         hopeless = ~done & (missed * np.minimum(missed / before, _PACE) ** 2 > 1).any(axis=1)
-        split = _islands(columns, batch, n, ~done, strips) if n > 2 * _FIRST else {}
+        split = _islands(columns, batch, n, ~done, strips, sought is not None) if n > 2 * _FIRST else {}
         for k, (D_break, theta) in split.items():
             parts += batch.known(k, n).split(D_break, False, theta)
         done[list(split)] = True
@@ -181,7 +196,7 @@ def _pressure_goal(values, goal):
     return np.maximum(goal[:, 0], pressure * np.minimum(share, _COARSEST))
 
 
-def _islands(columns: Columns, batch: _Batch, n: int, which, strips) -> dict[int, tuple[float, float]]:
+def _islands(columns: Columns, batch: _Batch, n: int, which, strips, roughly: bool) -> dict[int, tuple[float, float]]:
     """Breaks inside intervals: penetrations and thetas at which something appears or vanishes between two nodes, away from the crest."""
     seen = {}
     for k in np.flatnonzero(which):
@@ -191,7 +206,7 @@ def _islands(columns: Columns, batch: _Batch, n: int, which, strips) -> dict[int
             seen[int(k)] = found
     if not seen:
         return {}
-    where = zip(*(v.tolist() for v in vanishing(columns, list(seen.values()), strips)), strict=True)
+    where = zip(*(v.tolist() for v in vanishing(columns, list(seen.values()), strips, roughly)), strict=True)
     breaks = dict(zip(seen, where, strict=True))
     return {k: at for k, at in breaks.items() if is_inside(at[0], batch.intervals[k].low, batch.intervals[k].high)}
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .breaks import breaks_on, first_contact, threshold_width
-from .curve import Interval, interpolate
+from .curve import Interval, Sought, interpolate
 from .law import Branch, rising
 from .means import level_means
 from .monotone import enclosed
@@ -113,7 +113,7 @@ class _Descent:
             now = self._next()
             if not now:
                 return roots
-            pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), now, strips, pressure_goal=goal)
+            pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), now, strips, Sought(self.p, goal))
             for interval in now:
                 i = interval.column
                 row = sorted(pieces[i], key=lambda piece: -piece.low if self.unloading else piece.low)
