@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -60,7 +60,7 @@ class Surface:
         # the curves behind the laws of lower levels are interpolated over D: equal strips would make steps of them
         strips = self.strips if i == 0 else None
         return Columns(
-            self.material, self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, strips, self.tally
+            self.material, self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, strips, tally=self.tally
         )
 
     def alone(self, level: Level, V) -> SaturatedLevel:
@@ -211,7 +211,7 @@ class _Solve:
         carry = None
         groups = np.arange(V.size)
         for i in range(self.M - 1, 0, -1):
-            level_columns = surface.columns(i, V, None, carry, groups if carry else None)
+            level_columns = replace(surface.columns(i, V, None, carry, groups if carry else None), frictional=True)
             saturated = stack.means(i)
             laws = build_laws(
                 level_columns,

@@ -14,7 +14,7 @@ from .strips import Columns
 from .transitions import locate
 
 #: points across an island, and how often they are drawn closer to where it vanishes
-_ACROSS, _ROUNDS = 9, 5
+_ACROSS, _ROUNDS, _FEW = 9, 5, 2
 #: how closely the ends of strips are located, as a share of the way on which the island vanishes, and how much more so from round to round
 _FIRST_WIDTH, _SHARPER = 1e-3, 1 / 64
 _EPS = np.finfo(float).eps
@@ -66,19 +66,19 @@ def _blind(zones: np.ndarray, place: int) -> float:
     return 0.0
 
 
-def vanishing(columns: Columns, islands: list[Island], strips: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def vanishing(columns: Columns, islands: list[Island], strips: np.ndarray, roughly: bool) -> tuple[np.ndarray, np.ndarray]:
     """Penetrations and thetas at which the islands have shrunk to nothing, all at once; ``strips`` (per column) counts the work. NaN: it is not
     absent at all.
 
     At a fixed theta the island's code ends at some penetration, located like any transition; the island vanishes at the extreme of these over theta,
-    where they lie on a parabola: at its vertex they tell it to second order.
+    where they lie on a parabola: at its vertex they tell it to second order. ``roughly``: to a few digits only.
     """
     here = np.arange(len(islands))
     column = np.array([i.column for i in islands])
     code, present, absent, low, high = (np.array([getattr(i, name) for i in islands]) for name in ("code", "present", "absent", "low", "high"))
     way = absent - present
     top, vertex, lasting = np.zeros(here.size), np.zeros(here.size), np.zeros(here.size, bool)
-    for attempt in range(_ROUNDS):
+    for attempt in range(_FEW if roughly else _ROUNDS):
         theta = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, _ACROSS)
         width = np.maximum(np.abs(way) * _FIRST_WIDTH * _SHARPER**attempt, 16 * _EPS * np.maximum(np.abs(absent), columns.level.h))
         ends, still = _ends(columns, column, code, theta, present, absent, width, strips)

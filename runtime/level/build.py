@@ -17,16 +17,15 @@ def build_laws(
     D_full: np.ndarray,
     saturated: np.ndarray,
     p_max: np.ndarray | None,
-    frictional: bool = True,
 ) -> list[Law]:
     """One law per column (its ``D`` is not used).
 
     ``p_full``, ``D_full`` (n,): where the level, and all it carries, is saturated; ``saturated`` (n, q): means there. ``p_max`` (n,):
-    greatest pressure that will be asked for, or None for the whole law. ``frictional``: see ``curve.trace``.
+    greatest pressure that will be asked for, or None for the whole law.
     """
     top = (
         D_full if p_max is None else np.where(p_max < p_full, cut_penetration(columns, np.minimum(p_max, p_full), D_full), D_full)
     )
-    curves = trace(columns, rtol, top, frictional)
+    curves = trace(columns, rtol, top)
     unloading = columns.branch == "unloading"
     return [law_of(curve, unloading, float(p_full[i]), saturated[i], bool(top[i] < D_full[i])) for i, curve in enumerate(curves)]

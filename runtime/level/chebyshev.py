@@ -45,8 +45,9 @@ def _transform(n: int) -> np.ndarray:
     return matrix
 
 
-def interpolation_errors(c: np.ndarray, noise: np.ndarray) -> np.ndarray:
-    """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q); ``noise`` (p, q): changes that don't matter.
+def interpolation_errors(c: np.ndarray, noise: np.ndarray, blur: np.ndarray | float = 0.0) -> np.ndarray:
+    """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q); ``noise`` (p, q): changes that don't matter; ``blur`` (p, q):
+    how uncertain the coefficients are themselves.
 
     What is left is extrapolated from the last coefficients, at the pace they fell at since the middle: that of the slowest quantity, and no
     quantity is taken to be much smoother than the roughest, for they share their singularities.
@@ -56,7 +57,8 @@ def interpolation_errors(c: np.ndarray, noise: np.ndarray) -> np.ndarray:
     # what is rounding says nothing of the singularities
     c = np.maximum(c - 16 * _EPS * c.max(axis=1)[:, None], 0.0)
     amplitude = c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny
-    shape = (c / amplitude[:, None]).max(axis=2)
+    blur = np.broadcast_to(blur, amplitude.shape)[:, None]
+    shape = (np.maximum(c - blur, 0.0) / amplitude[:, None]).max(axis=2)
     # a run long enough that a kink's coefficients, which come and go, are not all small in it
     few = max(3, n // 5)
     last, middle = shape[:, n - few :].max(axis=1), shape[:, n // 2 - 2 : n // 2 + 1].max(axis=1)

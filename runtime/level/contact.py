@@ -11,6 +11,9 @@ from hystrip.strip.regimes import CODE
 from .harmonic import passages
 from .strips import SolvedStrips
 
+#: contact this much faster than the wave forgets: pressure is local
+_MEMORY = 1e-6
+
 
 def contact_of(kernel, strips: SolvedStrips, index):
     """Contact of the strips ``index``, for a foundation with one time or several."""
@@ -61,13 +64,17 @@ class Contact:
         self.top = self.centre.copy()
         i = np.flatnonzero(~self.full)
         s = self.s.take(i)
-        # p - H falls through zero once: from entry, where p is below H, to exit, where it is above
         b, a, q_b = self.b[i], self.a[i], self.q_b[i]
+        amplitude, centre, remembers = self.amplitude[i], self.centre[i], s.alpha > _MEMORY
 
         def lag(phase, sub):
-            q = self.kernel.excess_after(b[sub], phase, q_b[sub], s.p_0[sub], s.D[sub], s.alpha[sub], s.beta[sub], s.L[sub])
-            H = self.kernel.forcing(phase, s.D[sub], s.beta[sub])
-            return H + s.p_0[sub] - q, np.zeros(sub.size)
+            args = (b[sub], phase, q_b[sub], s.p_0[sub], s.D[sub], s.alpha[sub], s.beta[sub], s.L[sub])
+            H, rise = self.kernel.forcing(phase, s.D[sub], s.beta[sub]), self.kernel.excess_after_slope(*args)
+            # alpha p' = H - p falls through zero once: from entry, where p is below H, to exit; without memory rounding is all of it
+            behind = H + s.p_0[sub] - self.kernel.excess_after(*args)
+            steepens = self.kernel.profile_slope(phase) - s.beta[sub] * np.cos(phase) - rise
+            bend = -amplitude[sub] * np.cos(phase - centre[sub])
+            return np.where(remembers[sub], behind, rise), np.where(remembers[sub], steepens, bend)
 
         self.top[i], _ = crossing(lag, b, a)
         return self.pressure(np.arange(self.b.size), self.top)

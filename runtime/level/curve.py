@@ -6,13 +6,13 @@ regime. All velocities advance together.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from .appearance import is_inside, island, vanishing
 from .breaks import breakpoints, threshold_width
-from .chebyshev import Piece, coefficients, graded, interpolation_errors, lobatto
+from .chebyshev import Piece, coefficients, graded, interpolation_errors, lobatto, parameter
 from .expected import expect, hints
 from .means import level_means
 from .strips import Columns, saturation_depth
@@ -21,6 +21,12 @@ _FIRST, _LAST = 4, 32
 _ROUNDS = 40
 #: share of the error allowed that interpolating may have, and that of each mean
 _INTERPOLATION, _MEAN = 0.6, 0.4
+#: coefficients below this share of what the means may err say nothing of how smooth they are
+_BLUR = 0.1
+#: error of a curve that keeps away from a pressure, over its distance
+_CLEAR = 0.25
+#: no error grows faster than this from round to round
+_PACE = 1e3
 #: an interval's pressure is known at least this well
 _COARSEST = 1e-3
 #: width in theta of a zone that may be passed over, over the accuracy asked for
@@ -39,6 +45,34 @@ class Curve:
 
 
 @dataclass(frozen=True)
+class Seen:
+    """Zones (``Averages.zones``) at the parameters ``t`` of an interval of D, and the least size of the means there, (q,)."""
+
+    low: float
+    high: float
+    t: np.ndarray
+    zones: list[np.ndarray]
+    size: np.ndarray
+
+    def expected(self, D: np.ndarray):
+        """``expected.expect`` at penetrations inside."""
+        return expect(self.t, self.zones, parameter((D - self.low) / (self.high - self.low)))
+
+
+@dataclass(frozen=True)
+class Sought:
+    """Pressures ``p`` (Pa, per column) of which it is asked where the curve passes them, to an error ``goal`` (Pa) of the pressure there."""
+
+    p: np.ndarray
+    goal: np.ndarray
+
+    def goals(self, column: np.ndarray, pressures: np.ndarray) -> np.ndarray:
+        """Error allowed on intervals of the columns ``column``, with ``pressures`` (m, nodes): what keeps away from p need not be known to better than
+        to tell that it does."""
+        return np.maximum(self.goal[column], _CLEAR * np.abs(pressures - self.p[column, None]).min(axis=1))
+
+
+@dataclass(frozen=True)
 class Interval:
     """An interval of D of one column; ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end. ``witnesses``: thetas at which some
     regime is met in next to no strips towards an end."""
@@ -49,30 +83,36 @@ class Interval:
     soft_low: bool = False
     soft_high: bool = False
     witnesses: tuple[float, ...] = ()
+    #: what was seen on the interval that this one is a part of
+    seen: Seen | None = field(default=None, compare=False, repr=False)
 
     def split(self, D: float, soft: bool, *witnesses: float) -> list[Interval]:
         """The two parts below and above D; what is new about their strips in ``witnesses``."""
         every = self.witnesses + witnesses
         return [
-            Interval(self.column, self.low, D, self.soft_low, soft, every),
-            Interval(self.column, D, self.high, soft, self.soft_high, every),
+            Interval(self.column, self.low, D, self.soft_low, soft, every, self.seen),
+            Interval(self.column, D, self.high, soft, self.soft_high, every, self.seen),
         ]
+
+    @property
+    def halves(self) -> list[Interval]:
+        """The two halves; the curve goes on smoothly between them."""
+        return self.split(0.5 * (self.low + self.high), soft=True)
 
     def penetrations(self, t):
         """D at the parameters ``t`` of a piece."""
         return self.low + (self.high - self.low) * graded(t)
 
 
-def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None, frictional: bool = False) -> list[Curve]:
-    """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``.
-
-    ``frictional``: pressure need only be known as well as it takes for friction over pressure to be.
+def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None) -> list[Curve]:
+    """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``; of ``frictional`` columns pressure
+    only as well as it takes for friction over pressure to be known to that.
     """
     n = columns.size
     top = saturation_depth(columns) if top is None else top
     strips = np.zeros(n, int)
     intervals = [i for row in smooth_intervals(columns, top) for i in row]
-    pieces = interpolate(columns, rtol, intervals, strips, frictional)
+    pieces = interpolate(columns, rtol, intervals, strips)
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
 
 
@@ -95,51 +135,57 @@ def interpolate(
     rtol: np.ndarray,
     intervals: list[Interval],
     strips: np.ndarray,
-    frictional: bool = False,
-    pressure_goal: np.ndarray | None = None,
+    sought: Sought | None = None,
 ) -> list[list[Piece]]:
     """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work.
 
-    ``frictional``: see ``trace``. ``pressure_goal`` (Pa, per column): nothing but pressure counts, to that absolute error.
+    ``sought``: nothing counts but where the pressure passes a given one.
     """
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
     for _ in range(_ROUNDS):
         if not intervals:
             return pieces
-        intervals = _round(columns, rtol, intervals, pieces, strips, frictional, pressure_goal)
+        intervals = _round(columns, rtol, intervals, pieces, strips, sought)
     raise ArithmeticError("the curve over penetration did not converge")
 
 
-def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, frictional, pressure_goal) -> list[Interval]:
+def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, sought: Sought | None) -> list[Interval]:
     """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not."""
     batch = _Batch(columns, rtol, intervals, strips)
     batch.sample(_FIRST)
-    floor = 1e-3 * columns.scales
+    floor = columns.floors
     parts: list[Interval] = []
-    n = _FIRST
+    n, before = _FIRST, np.inf
     while batch.intervals and n < _LAST:
         n *= 2
         batch.sample(n)
         c = np.einsum("ij,pjq->piq", coefficients_of(n), batch.values)
         goal = rtol[batch.column][:, None] * (np.abs(batch.values).min(axis=1) + floor)
-        error = interpolation_errors(c, 0.1 * goal)
-        if pressure_goal is not None:
+        error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1))
+        if sought is not None:
             goal = np.full_like(goal, np.inf)
-            goal[:, 0] = pressure_goal[batch.column]
-        elif frictional:
+            goal[:, 0] = sought.goals(batch.column, batch.values[:, :, 0])
+        elif columns.frictional:
             goal[:, 0] = _pressure_goal(batch.values, goal)
         done = (error <= _INTERPOLATION * goal).all(axis=1)
         done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in batch.intervals]
         for k in np.flatnonzero(done):
             i, bound = batch.intervals[k], error[k] + batch.errors[k].max(axis=0)
             pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.soft_low, i.soft_high))
-        split = _islands(columns, batch, n, ~done, strips) if n > 2 * _FIRST else {}
+        # coefficients fall geometrically: where twice the nodes would not do, halves are better
+        missed = error / goal
+        hopeless = ~done & (missed * np.minimum(missed / before, _PACE) ** 2 > 1).any(axis=1)
+        split = _islands(columns, batch, n, ~done, strips, sought is not None) if n > 2 * _FIRST else {}
         for k, (D_break, theta) in split.items():
-            parts += batch.intervals[k].split(D_break, False, theta)
-            done[k] = True
-        batch.keep(np.flatnonzero(~done))
-    for i in batch.intervals:
-        parts += i.split(0.5 * (i.low + i.high), soft=True)
+            parts += batch.known(k, n).split(D_break, False, theta)
+        done[list(split)] = True
+        for k in np.flatnonzero(hopeless & ~done):
+            parts += batch.known(k, n).halves
+        keep = np.flatnonzero(~done & ~hopeless)
+        batch.keep(keep)
+        before = np.maximum(missed[keep], np.finfo(float).tiny)
+    for k in range(len(batch.intervals)):
+        parts += batch.known(k, n).halves
     return parts
 
 
@@ -150,7 +196,7 @@ def _pressure_goal(values, goal):
     return np.maximum(goal[:, 0], pressure * np.minimum(share, _COARSEST))
 
 
-def _islands(columns: Columns, batch: _Batch, n: int, which, strips) -> dict[int, tuple[float, float]]:
+def _islands(columns: Columns, batch: _Batch, n: int, which, strips, roughly: bool) -> dict[int, tuple[float, float]]:
     """Breaks inside intervals: penetrations and thetas at which something appears or vanishes between two nodes, away from the crest."""
     seen = {}
     for k in np.flatnonzero(which):
@@ -160,7 +206,7 @@ def _islands(columns: Columns, batch: _Batch, n: int, which, strips) -> dict[int
             seen[int(k)] = found
     if not seen:
         return {}
-    where = zip(*(v.tolist() for v in vanishing(columns, list(seen.values()), strips)), strict=True)
+    where = zip(*(v.tolist() for v in vanishing(columns, list(seen.values()), strips, roughly)), strict=True)
     breaks = dict(zip(seen, where, strict=True))
     return {k: at for k, at in breaks.items() if is_inside(at[0], batch.intervals[k].low, batch.intervals[k].high)}
 
@@ -190,8 +236,13 @@ class _Batch:
         t = nodes if first else nodes[1::2]
         D = np.concatenate([i.penetrations(t) for i in self.intervals])
         rows = np.repeat(self.column, t.size)
-        expected = [None if first else expect(nodes[::2], zones, t) for zones in self.zones]
-        size = np.zeros((len(self.intervals), self.columns.scales.size)) if first else np.abs(self.values).min(axis=1)
+        if first:
+            inherited = [i.seen for i in self.intervals]
+            expected = [None if seen is None else seen.expected(i.penetrations(t)) for i, seen in zip(self.intervals, inherited, strict=True)]
+            size = np.array([np.zeros(self.columns.scales.size) if seen is None else seen.size for seen in inherited])
+        else:
+            expected = [expect(nodes[::2], zones, t) for zones in self.zones]
+            size = np.abs(self.values).min(axis=1)
         where = np.arange(rows.size).reshape(-1, t.size)
         hint = hints(where, expected, [i.witnesses for i in self.intervals], np.repeat(size, t.size, axis=0))
         means = level_means(self.columns.at(rows, D), _MEAN * self.rtol[rows], hint)
@@ -204,6 +255,11 @@ class _Batch:
             return
         self.values, self.errors = _merged(self.values, values), _merged(self.errors, errors)
         self.zones = [_alternating(old, new) for old, new in zip(self.zones, zones, strict=True)]
+
+    def known(self, k: int, n: int) -> Interval:
+        """Interval ``k`` with what was seen of it at ``lobatto(n)``."""
+        i = self.intervals[k]
+        return replace(i, seen=Seen(i.low, i.high, lobatto(n), self.zones[k], np.abs(self.values[k]).min(axis=0)))
 
     def keep(self, index) -> None:
         """Go on with the intervals ``index`` alone."""

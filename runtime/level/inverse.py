@@ -11,9 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .breaks import breaks_on, first_contact, threshold_width
-from .curve import Interval, interpolate
+from .curve import Interval, Sought, interpolate
 from .law import Branch, rising
 from .means import level_means
+from .monotone import enclosed
 from .strips import Columns
 
 #: accuracy of the first look, of the pressure's scale, and how much finer each further one is
@@ -54,10 +55,18 @@ def invert(columns: Columns, p: np.ndarray, full: np.ndarray, rtol: float) -> In
     ``full`` (n,): penetration of saturated contact. The root is refined with averages to ``rtol``.
     """
     D, slope = np.full(p.size, np.nan), np.zeros(p.size)
+    columns = replace(columns, frictional=True)
+    if not columns.adhesion.p_0 > 0:
+        loaded = np.flatnonzero(p > 0)
+        if loaded.size:
+            some = columns.at(loaded, D[loaded])
+            D[loaded], slope[loaded] = _refine(some, p[loaded], enclosed(some, p[loaded]), rtol)
+        return Inverse(D, slope)
     roots = _Descent(columns, p, cut_penetration(columns, p, full), rtol).run()
     found = np.array([i for i, root in enumerate(roots) if root is not None], int)
     if found.size:
-        D[found], slope[found] = _refine(columns.at(found, D[found]), p[found], [roots[i] for i in found], rtol)
+        near = [np.array([getattr(roots[i], name) for i in found]) for name in ("D", "slope", "friction_slope", "low", "high")]
+        D[found], slope[found] = _refine(columns.at(found, D[found]), p[found], near, rtol)
     return Inverse(D, slope)
 
 
@@ -104,7 +113,7 @@ class _Descent:
             now = self._next()
             if not now:
                 return roots
-            pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), now, strips, pressure_goal=goal)
+            pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), now, strips, Sought(self.p, goal))
             for interval in now:
                 i = interval.column
                 row = sorted(pieces[i], key=lambda piece: -piece.low if self.unloading else piece.low)
@@ -175,11 +184,10 @@ class _Descent:
         return None
 
 
-def _refine(columns: Columns, p, roots: list[_Root], rtol):
-    """Penetrations and d(tau)/dp of the roots: Newton with the slope of the coarse curve, then of the last two averages."""
-    D, slope, friction_slope, low, high = (
-        np.array([getattr(root, name) for root in roots]) for name in ("D", "slope", "friction_slope", "low", "high")
-    )
+def _refine(columns: Columns, p, near, rtol):
+    """Penetrations and d(tau)/dp of the roots ``near`` these (arrays of the fields of ``_Root``): Newton with the slope of the coarse curve, then of
+    the last two averages."""
+    D, slope, friction_slope, low, high = near
     goal = _CLOSE * rtol * (np.abs(p) + 1e-3 * columns.scales[0])
     active = np.flatnonzero((slope > 0) & (high > low))
     known = None

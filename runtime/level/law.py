@@ -143,7 +143,8 @@ def _below(part: Branch, least: float) -> Branch | None:
     if part.p_high <= least:
         return part
     t = float(part.parameter(np.array([least]))[0])
-    return replace(part, t_high=t, p_high=least, soft_high=False) if t > part.t_low else None
+    soft = part.soft_high and _meets(part, part.p_high - least)
+    return replace(part, t_high=t, p_high=least, soft_high=soft) if t > part.t_low else None
 
 
 def _above(part: Branch, most: float) -> Branch | None:
@@ -152,7 +153,13 @@ def _above(part: Branch, most: float) -> Branch | None:
     if part.p_low >= most:
         return part
     t = float(part.parameter(np.array([most]))[0])
-    return replace(part, t_low=t, p_low=most, soft_low=False) if part.t_high > t else None
+    soft = part.soft_low and _meets(part, most - part.p_low)
+    return replace(part, t_low=t, p_low=most, soft_low=soft) if part.t_high > t else None
+
+
+def _meets(part: Branch, overlap: float) -> bool:
+    """Whether a part overlaps its neighbour by no more than the curve is uncertain: then they are one."""
+    return overlap <= 2 * part.piece.error[0] + 64 * _EPS * (abs(part.p_low) + abs(part.p_high))
 
 
 @dataclass(frozen=True)

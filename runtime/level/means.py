@@ -9,13 +9,14 @@ from .strips import Columns
 
 
 def level_means(columns: Columns, rtol: np.ndarray, hints: Hints | None = None) -> Averages:
-    """Means of ``strips.QUANTITIES`` for every column, to ``rtol (|value| + 1e-3 scale)`` each; ``rtol`` of shape (n,).
+    """Means of ``strips.QUANTITIES`` for every column, to ``rtol (|value| + floor)`` each; ``rtol`` of shape (n,).
 
     ``hints``: where transitions are expected."""
     if columns.strips is not None:
         return equal_strips(columns, columns.strips)
-    floor = np.broadcast_to(1e-3 * columns.scales, (columns.size, columns.scales.size))
-    return average(columns.integrand, columns.probe, columns.guide, columns.transitions(), floor, rtol, columns.scales.size, hints)
+    q = columns.scales.size
+    floor = np.broadcast_to(columns.floors, (columns.size, q))
+    return average(columns.integrand, columns.probe, columns.guide, columns.transitions(), floor, rtol, q, hints)
 
 
 def equal_strips(columns: Columns, strips: int) -> Averages:

@@ -195,7 +195,7 @@ def _laws(columns: Columns, rtol: float, top) -> list[Law]:
     n = columns.size
     s = saturated_level(columns.material, columns.adhesion, columns.level, columns.V, columns.branch)
     saturated = np.stack([s.p_sat, s.tau_sat, np.ones(n), np.zeros(n)], axis=1)
-    return build_laws(columns, np.full(n, rtol), s.p_sat, s.D_sat, saturated, top, frictional=False)
+    return build_laws(columns, np.full(n, rtol), s.p_sat, s.D_sat, saturated, top)
 
 
 def _checked(material, adhesion, level, V, edge, branch, rtol):

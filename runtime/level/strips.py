@@ -58,7 +58,8 @@ class Columns:
     """Pairs of velocity and penetration at which one level is averaged; ``V`` and ``D`` of shape (n,).
 
     ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
-    laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels.
+    laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels. ``frictional``: it is for pressure and
+    friction that the averages are made; fractions need be accurate against 1 only.
     """
 
     material: Material
@@ -71,6 +72,7 @@ class Columns:
     carry: Carry | None = None
     group: np.ndarray | None = None
     strips: int | None = None
+    frictional: bool = False
     tally: Tally = field(default_factory=Tally, compare=False)
 
     def at(self, index, D) -> Columns:
@@ -88,6 +90,16 @@ class Columns:
         p = self.material.K * self.level.h + self.adhesion.p_0
         own = np.array([p, p * self.level.h / self.level.l, 1.0, 1.0])
         return own if self.carry is None else np.concatenate((own, self.carry.scales))
+
+    @property
+    def floors(self) -> np.ndarray:
+        """What is added to the size of each quantity where an accuracy is relative."""
+        floors = 1e-3 * self.scales
+        if self.frictional:
+            own, carried = len(QUANTITIES), floors.size - 1
+            fractions = [2, 3, *(i for i in range(own, carried) if (i - own) % 3)]
+            floors[fractions] = 1.0
+        return floors
 
     def solve(self, column: np.ndarray, theta: np.ndarray) -> SolvedStrips:
         """Strips at ``theta = k y`` of the given columns, both of shape (m,). Raises ``SolverError`` for one not certified."""
