@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import io
+import re
 from collections.abc import Iterable
 from textwrap import wrap
 from typing import Any
@@ -34,6 +35,8 @@ UNITS = {
     "p_0": "Pa", "delta_0": "m", "l": "m", "A": "m", "D": "m", "V": "m/s",
 }  # fmt: skip
 SIZE = (6.4, 4.4)  # inches
+PATH = re.compile(r' d="[^"]*"')
+FINER = re.compile(r"(\.\d\d)\d+")  # digits below a hundredth of a point
 UNBROKEN = "\N{NO-BREAK SPACE}"
 LINE = 100  # characters of the parameters that fit across
 CONTACT, ADHESION = "#f3c9a5", "#c7dcf0"
@@ -143,13 +146,15 @@ def picture(scene: dict[str, Any]) -> dict[str, Any]:
         figure.suptitle("\n".join(_lines(scene)), fontsize=7.5, color="#454c54")
         stream = io.StringIO()
         figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
-    return {"caption": _caption(scene, strip), "svg": stream.getvalue(), "width": int(SIZE[0] * 96), "height": int(SIZE[1] * 96)}
+    lines = (line.strip() for line in stream.getvalue().splitlines() if not line.lstrip().startswith("<!-- "))
+    drawn = PATH.sub(lambda path: FINER.sub(r"\1", path[0]), "\n".join(lines))
+    return {"caption": _caption(scene, strip), "svg": drawn, "width": int(SIZE[0] * 96), "height": int(SIZE[1] * 96)}
 
 
 def _points(edges: Iterable[float]) -> np.ndarray:
     """Where to draw, in units of l: evenly, and on both sides of every edge."""
     near = [edge + shift + side for edge in edges if np.isfinite(edge) for shift in (-1, 0, 1) for side in (-1e-7, 1e-7)]
-    return np.unique([x for x in (*np.linspace(-0.75, 0.75, 241), *near) if abs(x) <= 0.75])
+    return np.unique([x for x in (*np.linspace(-0.75, 0.75, 181), *near) if abs(x) <= 0.75])
 
 
 def _range(*curves: np.ndarray) -> tuple[float, float]:
