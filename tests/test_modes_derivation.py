@@ -24,11 +24,12 @@ from hystrip.derivation import (
     regenerate,
     stored_bounds,
 )
-from hystrip.derivation.drift import AIM
+from hystrip.derivation.drift import AIM, SHARES
 from hystrip.derivation.modes.certificates import measured_names
 from hystrip.derivation.modes.certificates.kernels import measure
 from hystrip.derivation.modes.certificates.regimes import measure_regimes
 from hystrip.derivation.modes.certificates.whole import measure_whole
+from hystrip.derivation.modes.derive import STAGES
 from hystrip.derivation.modes.flows import mode_flows
 from hystrip.derivation.modes.jumps import closures, jump_law
 from hystrip.derivation.modes.law import law
@@ -233,6 +234,7 @@ def test_a_model_file_becomes_a_solver_folder(tmp_path: Path) -> None:
     folder = tmp_path / "my_solver"
     written = regenerate(folder, load_model(file), progress=lambda done, total: seen.append((done, total)))
     assert [done for done, _ in seen] == list(range(1, seen[-1][1] + 1))
+    assert seen[-1][1] == len(STAGES) + SHARES + 2  # certificates are shown as they are made, too
     names = {path.relative_to(folder).as_posix() for path in written}
     assert names >= {
         "__init__.py",

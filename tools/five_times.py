@@ -8,10 +8,10 @@ solid, which has no five times); five times a decade and a half apart are fitted
 with and without adhesion. It fails if a strip misses its tolerance, or if a curve has not exactly one peak.
 
 One broad peak is not a matter of course. A series of discrete times is a staircase: each adds a step of its own to the modulus and a maximum
-of its own to the loss tangent, 2 ln(ratio of the times) wide, and friction in partial contact follows the loss tangent. Times a decade and a
-half apart (ratio 32) overlap only if the next branch is so much stiffer that its loss already counts where its neighbour's fades. On the level
-below, branches each 4 times as stiff as the next slower one give three maxima on one hump (the dips 10 % deep), 8 times two (2 to 8 %), those
-of the fit, 8 to 13 times, one. That is physics of the series, not of the solver: closer times, or another strength, take it away.
+of its own to the loss tangent, little more than a decade wide, and friction in partial contact follows the loss tangent. Times a decade and a
+half apart run together only if the next branch is so much stiffer that its loss already counts where its neighbour's fades. On the level below,
+branches each 4 times as stiff as the next slower one give three maxima on one hump (the dips up to 10 % deep), 8 times two (3 to 8 %), those of
+the fit, 8 to 13 times, one with shoulders. That is physics of the series, not of the solver: closer times, or another strength, take it away.
 """
 
 import argparse

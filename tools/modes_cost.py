@@ -1,0 +1,73 @@
+"""What a strip costs by the number of relaxation times: the n-mode solver with 1, 2 and 3 times, and those of generated solvers.
+
+    python tools/modes_cost.py [--strips 4000] [--solver FOLDER ...]
+
+Random strips in one batch, as `tools/modes.py` draws them, over the same forty materials for each number of times; CPU microseconds a strip, the
+median of three. Linear growth is n times the cost with one time; exits with 1 where it is exceeded, or a strip could not be certified.
+"""
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
+
+import mode_scenes as ms
+from mode_solvers import one_mode
+
+import hystrip
+from hystrip.generated import generalised_2, generalised_3
+from hystrip.inputs.model import modes_of
+from hystrip.modes.engine import solve_modes
+from hystrip.modes.problem import ModeStrips
+
+
+def strips(kernel, wide, count, materials=40):
+    """Strips of random materials at one speed: ``wide`` or near 1, where several orbits coexist."""
+    rng = np.random.default_rng((3, wide))
+    drawn = [ms.draw(rng, kernel.MODES, wide) for _ in range(count)]
+    few = drawn[:materials]
+    columns = {"K": np.ones(materials), "K_i": np.array([s["m"] for s in few]).T, "tau_i": np.array([s["theta"] for s in few]).T}
+    _, modes = modes_of(kernel, columns)
+    pick = np.arange(count) % materials
+    m = kernel.at_speed(type(modes)(*(each[..., pick] for each in modes)), np.ones(count))
+    P0, Delta, delta = (np.array([s[name] for s in drawn]) for name in ("P0", "Delta", "delta"))
+    return ModeStrips(m, P0, Delta, delta)
+
+
+def cost(kernel, wide, count):
+    """(microseconds, evaluations) a strip of both branches together, and how many are not certified."""
+    batch = strips(kernel, wide, count)
+    seconds, evaluations, lost = [], 0.0, 0
+    for _ in range(3):
+        start = time.process_time()
+        found = [solve_modes(kernel, batch, unloading) for unloading in (True, False)]
+        seconds.append(time.process_time() - start)
+    evaluations = sum(float(each.evaluations.sum()) for each in found)
+    lost = sum(int((~each.certified).sum()) for each in found)
+    return np.median(seconds) / (2 * count) * 1e6, evaluations / (2 * count), lost
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--strips", type=int, default=4000)
+    parser.add_argument("--solver", nargs="*", default=[], help="folders of generated solvers to measure, too")
+    options = parser.parse_args()
+    kernels = [one_mode(), generalised_2, generalised_3, *(hystrip.load_solver(folder).kernel() for folder in options.solver)]
+    failed = False
+    for wide in (False, True):
+        base = None
+        for kernel in kernels:
+            micro, evaluations, lost = cost(kernel, wide, options.strips)
+            base = base or micro
+            print(f"{'wide' if wide else 'near 1'}, n = {kernel.MODES}: {micro:.0f} microseconds, {evaluations:.0f} evaluations a strip, "
+                  f"{micro / base:.2f} times n = 1; {lost} uncertified", flush=True)  # fmt: skip
+            failed |= lost > 0 or micro > kernel.MODES * base
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
