@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tools"))
 from peers import equal_strips, march, scripted  # noqa: E402
 from timing import report  # noqa: E402
 from timing.claims import time_at  # noqa: E402
-from timing.scene import Row  # noqa: E402
+from timing.scene import Row, Scene  # noqa: E402
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 WEAK, NONE = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8), hystrip.Dugdale(gamma=0)
@@ -54,6 +54,15 @@ def test_script_and_kernels_make_the_same_of_the_same_strips():
 
 def _row(seconds, error):
     return Row("scene", "method", "setting", 1, 1, seconds, error)
+
+
+@pytest.mark.parametrize("points", [1, 4, 5, 10, 100, 200, None])
+def test_every_sample_has_points_at_which_errors_are_looked_at(points):
+    scene = Scene("scene", MATERIAL, (WEAK,), (SMALL,), np.zeros(200), np.arange(200.0), 1e-6, (), looked_at=5)
+    index, looked_at = scene.spread(points), scene.spread(scene.looked_at)
+    assert np.isin(looked_at, index).sum() == min(points or 5, 5) and np.unique(index).size == index.size >= min(
+        points or 200, 200
+    )
 
 
 def test_time_at_an_error():

@@ -16,6 +16,11 @@ def claims(rows: list[Row]) -> list[str]:
     return [*_saturated(rows), *_fig_6(rows), *_tamaas(rows), *_digits(rows), *_growth(rows)]
 
 
+def short(value: float) -> str:
+    """Two digits, without an exponent where that is readable."""
+    return f"{float(f'{value:.2g}'):.7g}"
+
+
 def of(rows: list[Row], scene: str, method: str) -> list[Row]:
     return [row for row in rows if row.scene == scene and row.method == method]
 
@@ -57,14 +62,14 @@ def _fig_6(rows):
     for scripted in of(rows, s.FIG_6, s.SCRIPT)[:1]:
         if here:
             yield (
-                f"Fig. 6 (400 points, {here.solved} of them solved): {here.seconds:.0f} s at rtol 1e-6 (error {here.error:.0e}); the script takes {scripted.seconds / here.seconds:.2g} "
+                f"Fig. 6 (400 points, {here.solved} of them solved): {here.seconds:.0f} s at rtol 1e-6 (error {here.error:.0e}); the script takes {short(scripted.seconds / here.seconds)} "
                 f"times that ({scripted.solved} points solved) at {scripted.error / here.error:.0e} times the error ({scripted.failures} failures)."
             )
     for method, error in ((s.SCRIPT, here.error if here else 0.0), (s.EQUAL, 1e-5)):
         there, mine = time_at(of(rows, s.FIG_6, method), error) if error > 0 else None, cheapest(rows, s.FIG_6, error)
         if there and mine:
             how = "extrapolated by a power law" if there[1] else "interpolated"
-            yield f"Fig. 6 at an error of {error:.0e}: {method} takes {there[0] / mine.seconds:.2g} times as long ({how})."
+            yield f"Fig. 6 at an error of {error:.0e}: {method} takes {short(there[0] / mine.seconds)} times as long ({how})."
 
 
 def _tamaas(rows):
@@ -73,7 +78,9 @@ def _tamaas(rows):
         for row in of(rows, scene, s.TAMAAS):
             mine = cheapest(rows, scene, row.error)
             if mine:
-                ratios.append(f"{row.seconds / mine.seconds:.2g} ({row.setting}: error {row.error:.0e}, here {mine.error:.0e})")
+                ratios.append(
+                    f"{short(row.seconds / mine.seconds)} ({row.setting}: error {row.error:.0e}, here {mine.error:.0e})"
+                )
         if ratios:
             yield f"{what}: time of Tamaas over ours at an error no larger than its: " + "; ".join(ratios) + "."
 

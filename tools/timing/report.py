@@ -8,7 +8,7 @@ from pathlib import Path
 from hystrip.files import Outputs, write_text
 
 from . import scenes as s
-from .claims import claims
+from .claims import claims, short
 from .scene import Row
 
 BEGIN, END = "<!-- benchmark: begin -->", "<!-- benchmark: end -->"
@@ -42,14 +42,9 @@ def table(rows: list[Row]) -> str:
         best = f"{min(row.error for row in done):.0e}" if done else "none done in time"
         span = "-".join(str(n) for n in (solved[:1] + solved[1:][-1:]))
         failures = sum(row.failures for row in mine) or ""
-        times = " | ".join("" if cell is None else _short(cell) for cell in cells)
+        times = " | ".join("" if cell is None else short(cell) for cell in cells)
         lines.append(f"| {shown} | {method} | {span} | {times} | {best} | {failures} |")
     return "\n".join(lines)
-
-
-def _short(value: float) -> str:
-    """Two digits, without an exponent where that is readable."""
-    return f"{float(f'{value:.2g}'):.7g}"
 
 
 def settings(rows: list[Row]) -> str:
@@ -62,7 +57,7 @@ def settings(rows: list[Row]) -> str:
     for row in rows:
         name, scene = (row.scene if row.scene != scene else ""), row.scene
         solved = f"{row.solved} of {row.points}" if row.solved != row.points else f"{row.points}"
-        measured = f"{solved} | {_short(row.per_point)}" if math.isfinite(row.seconds) else "- | not done in time"
+        measured = f"{solved} | {short(row.per_point)}" if math.isfinite(row.seconds) else "- | not done in time"
         error = f"{row.error:.0e}" if math.isfinite(row.error) else "-"
         lines.append(
             f"| {name} | {row.method} | {row.setting} | {measured} | {error} | {row.strips or ''} | {row.failures or ''} |"

@@ -23,6 +23,10 @@ class Contestant:
     points: int | None = None
 
 
+def _evenly(of: np.ndarray, count: int) -> np.ndarray:
+    return of[((np.arange(count) + 0.5) / count * of.size).astype(int)]
+
+
 @dataclass(frozen=True)
 class Scene:
     """Points (pressure, velocity) on a surface, for one or several adhesions. ``reference``: rtol of the reference, None for no errors;
@@ -43,12 +47,12 @@ class Scene:
         return len(self.adhesions) * self.velocity.size
 
     def spread(self, points: int | None) -> np.ndarray:
-        """Indices of so many points, evenly spread and the same ones as far as ``looked_at`` allows."""
+        """Indices of so many points, evenly spread: some of those looked at, or, if more are wanted, all of those and others."""
         every = np.arange(self.velocity.size)
         if points is None or points >= every.size:
             return every
-        looked_at = self.spread(self.looked_at) if points < self.looked_at < every.size else every
-        return looked_at[((np.arange(points) + 0.5) / points * looked_at.size).astype(int)]
+        looked_at = _evenly(every, min(self.looked_at, every.size))
+        return _evenly(looked_at, points) if points <= looked_at.size else np.union1d(looked_at, _evenly(every, points))
 
     def scale(self) -> np.ndarray:
         """Of friction, Pa, that counts beside its own size: (adhesions, 1)."""

@@ -59,7 +59,7 @@ def scenes(quick: bool) -> list[Scene]:
         ),
         Scene(
             FIG_6, MATERIAL, (WEAK, STRONG), (LARGE, SMALL), one(curve.size) * 100, curve, 1e-7 if quick else 1e-9,
-            (*fig_6, *(_equal(n, few) for n in strips), _script(100, few), *(() if quick else (_script(300, 2),))), 2 if quick else 10,
+            (*fig_6, *(_equal(n, few) for n in strips), _script(100, few), *(() if quick else (_script(300, 2),))), 2 if quick else 5,
         ),
         Scene(
             THREE, MATERIAL, (WEAK,), (LARGE, SMALL, SMALLEST), one(2) * 100, np.array([1e-3, 1e-2]), 1e-4 if quick else 1e-6,
