@@ -204,8 +204,9 @@ def _refine(columns: Columns, p, near, rtol):
             friction_slope[active[better]] = rub[better] / rise[better]
         going = np.abs(miss) > goal[active]
         known = tuple(v[going] for v in (active, D[active], values[:, 0], values[:, 1]))
-        active, miss = active[going], miss[going]
+        # what is close enough takes the step too: the average made there afterwards is next to the pressure
         D[active] = np.clip(D[active] - miss / slope[active], low[active], high[active])
+        active = active[going]
     if active.size:
         D[active], friction_slope[active] = _bracketed(columns, p, active, low[active], high[active], rtol)
     return D, friction_slope

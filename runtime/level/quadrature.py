@@ -10,9 +10,11 @@ import numpy as np
 
 _EPS = np.finfo(float).eps
 #: share of the roughest quantity's relative error that every other one is taken to have at least
-_COMMON = 0.3
+_COMMON = 0.1
 #: slowest decay that a sum of the rest may be extrapolated with
 _SLOWEST = 6.0
+#: from so many nodes on the pace of coefficients is plain, and below this ratio of the last to the middle ones it is geometric
+_PLAIN, _GEOMETRIC = 16, 0.05
 
 
 def mapped(t):
@@ -61,5 +63,10 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     last, middle = shape[:, n - 4 :].max(axis=1), shape[:, n // 2 - 3 : n // 2].max(axis=1)
     decay = (np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0)) ** (1 / (n // 2 - 1))
     # the rule integrates polynomials of degree n exactly, and nearly so for half of that beyond
-    rest = (np.minimum(1 / np.maximum(1 - decay, 1e-3), _SLOWEST) * decay ** (1 + n / 4))[:, None]
+    beyond = decay ** (1 + n / 4)
+    if n >= _PLAIN:
+        # coefficients that fall geometrically without doubt: those up to 3 n/2 count with weights like 1/n^2, the later ones are that much smaller
+        ratio = decay ** (n // 2 - 1)
+        beyond = np.where(ratio < _GEOMETRIC, np.minimum(beyond, np.maximum(ratio, 2 * decay / n**2)), beyond)
+    rest = (np.minimum(1 / np.maximum(1 - decay, 1e-3), _SLOWEST) * beyond)[:, None]
     return np.maximum(c[:, n - 4 :].max(axis=1), _COMMON * last[:, None] * amplitude) * rest

@@ -15,12 +15,13 @@ _POINTS = 1024
 #: points remembered on either side of a bracket
 _KEPT = 3
 #: half width of the look around a foretold place, as a share of what the last point remembered changed of it, and its growth after a miss
-_DOUBT, _WIDER = 0.2, 16.0
+_DOUBT, _WIDER = 0.5, 16.0
 #: a look is worth it if it is this much narrower than the bracket
 _WORTH = 0.2
 #: a margin that foretold wrongly this often in a row is not believed
 _TRUSTED = 2
-_AROUND = np.array((-1.0, 0.0, 1.0))
+#: points of a look in parts of its half width, towards the side that does not foretell: one well on the other for the next one to build on
+_AROUND = np.array((-4.0, -1.0, 1.0))
 
 #: (line, x) -> codes (m,) and margins (m, k) of each point, NaN where unknown
 Probe = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
@@ -97,7 +98,7 @@ class _Brackets:
         """Ends (2, n) of brackets that are narrow enough, or of what the margins leave of them, and which are either."""
         ends = np.stack((self.low, self.high))
         narrow = ends[1] - ends[0] <= self.width
-        place, doubt = self._foretold(guide)
+        place, doubt, _ = self._foretold(guide)
         known = ~narrow & (place - doubt > ends[0]) & (place + doubt < ends[1]) & (2 * doubt <= self.width) & (self.misses < _TRUSTED)
         ends[:, known] = place[known] + np.multiply.outer((-1.0, 1.0), np.maximum(doubt[known], 0.0))
         return ends, narrow | known
@@ -105,7 +106,7 @@ class _Brackets:
     def narrowed(self, probe: Probe, guide: Guide) -> _Brackets:
         """The brackets of all changes inside, after a look at some points of each: around the foretold place, or all along."""
         low, high = self.low, self.high
-        place, doubt = self._foretold(guide)
+        place, doubt, away = self._foretold(guide)
         doubt = np.maximum(doubt * _WIDER**self.misses, 0.4 * self.width)
         guided = (place > low) & (place < high) & (doubt < _WORTH * (high - low))
         aimed, others = np.flatnonzero(guided), np.flatnonzero(~guided)
@@ -113,7 +114,7 @@ class _Brackets:
         m = int(np.clip(_POINTS // self.line.size, 3, 15))
         rows = np.concatenate((np.repeat(aimed, _AROUND.size), np.repeat(others, m)))
         spread = low[others, None] + (high - low)[others, None] * np.arange(1, m + 1) / (m + 1)
-        x = np.concatenate(((place[aimed, None] + doubt[aimed, None] * _AROUND).ravel(), spread.ravel()))
+        x = np.concatenate(((place[aimed, None] + (away * doubt)[aimed, None] * _AROUND).ravel(), spread.ravel()))
         inside = (x > low[rows]) & (x < high[rows])
         rows, x = rows[inside], x[inside]
         changes, parents = self._changes(rows, x, *probe(self.line[rows], x))
@@ -121,9 +122,10 @@ class _Brackets:
         changes.misses[:] = np.where(missed, self.misses[parents] + 1, 0)
         return changes
 
-    def _foretold(self, guide: Guide) -> tuple[np.ndarray, np.ndarray]:
-        """Where the change should be by the margins of the surer side, and how far off that may be; NaN where nothing is known."""
-        place, doubt = np.full(self.line.size, np.nan), np.full(self.line.size, np.inf)
+    def _foretold(self, guide: Guide) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Where the change should be by the margins of the surer side, and how far off that may be, NaN and inf where nothing is known; and the
+        direction away from that side."""
+        place, doubt, away = np.full(self.line.size, np.nan), np.full(self.line.size, np.inf), np.ones(self.line.size)
         for side in (0, 1):
             which = guide.foretells(self.codes[:, side], self.codes[:, 1 - side])
             told = np.flatnonzero(which >= 0)
@@ -131,8 +133,8 @@ class _Brackets:
                 margin = np.take_along_axis(self.margins[told, side], which[told, None, None], axis=2)[:, :, 0]
                 where, off = _vanishing(self.x[told, side], margin, guide.powers[which[told]])
                 better = off < doubt[told]
-                place[told[better]], doubt[told[better]] = where[better], off[better]
-        return place, doubt
+                place[told[better]], doubt[told[better]], away[told[better]] = where[better], off[better], 1 - 2 * side
+        return place, doubt, away
 
     def _changes(self, rows, x, codes, margins) -> tuple[_Brackets, np.ndarray]:
         """The brackets between neighbours that differ among the points remembered and the new ones ``x`` of the brackets ``rows``; their parents."""
