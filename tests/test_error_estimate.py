@@ -71,16 +71,32 @@ def test_interpolation_errors_do_not_miss_a_kink_that_nobody_marked(power, n):
     assert np.median(ratios) < 0.5 and np.max(ratios) < 5
 
 
-def test_estimates_hold_on_random_surfaces():
-    """A short run of tools/benchmark_errors.py."""
+@pytest.fixture(scope="module")
+def tool():
     sys.path.insert(0, str(TOOLS))
     try:
         spec = importlib.util.spec_from_file_location("benchmark_errors", TOOLS / "benchmark_errors.py")
-        tool = importlib.util.module_from_spec(spec)
-        sys.modules[spec.name] = tool
-        spec.loader.exec_module(tool)
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[spec.name] = module
+        spec.loader.exec_module(module)
     finally:
         sys.path.remove(str(TOOLS))
-    out = tool.survey(scenes=3, seed=1, tolerances=[1e-3], tighter=1e-2, levels=1, first=4)
+    return module
+
+
+def test_estimates_hold_on_random_surfaces(tool):
+    """A short run of tools/benchmark_errors.py."""
+    out = tool.survey(scenes=7, seed=1, tolerances=[1e-3, 1e-5], tighter=1e-2, levels=1, first=4, velocities=1)
     assert not out.refused and len(out.points) >= 4
     assert out.bounded == 1 and out.met == 1
+
+
+def test_a_survey_tells_what_does_not_hold(tool):
+    rows = [(0, 0, 1e-3, 1e-6, 1e-5), (1, 0, 1e-3, 2e-5, 1e-5), (2, 0, 1e-3, 2e-3, 3e-3), (3, 0, 1e-3, 1e-14, 0.0)]
+    out = tool.Survey(points=rows)
+    assert out.bounded == 0.75 and out.met == 0.75 and out.largest == pytest.approx(2) and out.pessimism == pytest.approx(1.5)
+
+
+def test_a_scene_that_takes_too_long_is_refused(tool):
+    out = tool.survey(scenes=1, seed=1, tolerances=[1e-3], tighter=1e-2, levels=1, first=15, velocities=1, limit=0.05)
+    assert [number for number, _ in out.refused] == [15] and not out.points

@@ -17,7 +17,6 @@ from hystrip.strip.problem import adhesive_cycle
 from hystrip.strip.regimes import CODE
 from hystrip.strip.sensitivity import onset_margin, slope_excess
 
-
 if TYPE_CHECKING:
     from .strips import SolvedStrips
 

@@ -3,7 +3,7 @@
 Inside a panel every strip is in the same regime and the integrand is smooth, but for its ends, where a strip may detach
 like a square root at a fold. The substitution ``theta = low + width (3 t^2 - 2 t^3)`` turns such an end into a smooth one, and
 Clenshaw-Curtis sums in t, doubled on nested nodes, converge geometrically. Where nodes of one panel disagree about the
-regime, the transition between them is located by multisection and the panel is split there; where neighbouring columns have
+regime, the transition between them is located and the panel is split there; where neighbouring columns have
 told about where it lies, that bracket is tried first.
 
 All panels of all columns (a column is one velocity and one penetration) advance together: one batch of strips per round.
@@ -128,8 +128,8 @@ def _between(n: int, cuts: _Panels) -> _Panels:
     cuts = cuts.take(np.lexsort((cuts.low, cuts.column)))
     q = cuts.values.shape[2]
     every, nothing = np.arange(n), (np.full(n, np.nan), np.full((n, q), np.nan))
-    after = (np.concatenate(v) for v in zip((every, np.zeros(n), *nothing), (cuts.column, cuts.high, cuts.codes[:, 1], cuts.values[:, 1])))
-    before = (np.concatenate(v) for v in zip((cuts.column, cuts.low, cuts.codes[:, 0], cuts.values[:, 0]), (every, np.full(n, np.pi), *nothing)))
+    after = (np.concatenate(v) for v in zip((every, np.zeros(n), *nothing), (cuts.column, cuts.high, cuts.codes[:, 1], cuts.values[:, 1]), strict=True))
+    before = (np.concatenate(v) for v in zip((cuts.column, cuts.low, cuts.codes[:, 0], cuts.values[:, 0]), (every, np.full(n, np.pi), *nothing), strict=True))
     (column, *starts), (last, *ends) = after, before
     starts = [v[np.argsort(column, kind="stable")] for v in starts]
     ends = [v[np.argsort(last, kind="stable")] for v in ends]
