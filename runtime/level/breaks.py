@@ -25,6 +25,17 @@ def first_contact(columns: Columns) -> float:
     return -(2 * a.p_0 / columns.material.K + reach) * (1 + 1e-9)
 
 
+def let_go(columns: Columns) -> float:
+    """Penetration down to which strips cling by adhesion all along when unloading, +inf if none ever does.
+
+    A strip at rest at ``w = -p_0/K`` reaches over its valley while ``D_j - 2 A >= -p_0/K - delta_0``; ``D_j - 2 A = D - h`` on all of them.
+    """
+    a = columns.adhesion
+    if columns.branch == "loading" or a.p_0 == 0:
+        return np.inf
+    return columns.level.h - a.p_0 / columns.material.K - a.delta_0
+
+
 def threshold_width(columns: Columns, top):
     """Distance in D from a threshold below which rounding may decide it the other way."""
     a = columns.adhesion
@@ -34,9 +45,10 @@ def threshold_width(columns: Columns, top):
 def breakpoints(columns: Columns, top: np.ndarray) -> list[np.ndarray]:
     """Penetrations between first contact and ``top`` (n,) where the curve may not be smooth, ascending, ends included."""
     inside, touched = breaks_on(columns, np.arange(columns.size), _scan(columns, top))
+    last = let_go(columns)
     out = []
     for r, points in enumerate(inside):
-        start = touched[r] if np.isfinite(touched[r]) else first_contact(columns)
+        start = min(touched[r], last) if np.isfinite(touched[r]) else first_contact(columns)
         points = np.unique([*points, top[r]])
         out.append(points[(points >= start) & (points <= top[r])])
     return out

@@ -26,6 +26,6 @@ def build_laws(
     top = (
         D_full if p_max is None else np.where(p_max < p_full, cut_penetration(columns, np.minimum(p_max, p_full), D_full), D_full)
     )
-    curves = trace(columns, rtol, top)
+    curves = trace(columns, rtol, top, follow=True)
     unloading = columns.branch == "unloading"
     return [law_of(curve, unloading, float(p_full[i]), saturated[i], bool(top[i] < D_full[i])) for i, curve in enumerate(curves)]

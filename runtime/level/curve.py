@@ -33,6 +33,8 @@ _COARSEST = 1e-3
 _NEGLIGIBLE = 0.3
 #: a piece narrower than this, relative to D, is taken as it is
 _NARROWEST = 1e-11
+#: how much more than the estimated error of the pressure a part that is passed over has to keep away from what was met before
+_DOUBT = 2.0
 
 
 @dataclass(frozen=True)
@@ -72,6 +74,28 @@ class Sought:
         return np.maximum(self.goal[column], _CLEAR * np.abs(pressures - self.p[column, None]).min(axis=1))
 
 
+class Followed:
+    """Which intervals a branch of loading passes over, because it has met their pressures before it comes there.
+
+    Unloading comes from large D and goes on where the pressure lies below everything above; loading comes from small D (see ``law``).
+    """
+
+    def __init__(self, columns: Columns):
+        self.sign = 1.0 if columns.branch == "unloading" else -1.0
+        self.met: list[list[tuple[np.ndarray, np.ndarray]]] = [[] for _ in range(columns.size)]
+
+    def meet(self, interval: Interval, n: int, pressures: np.ndarray, errors: np.ndarray) -> None:
+        """Note the pressures, known to ``errors``, at the nodes ``lobatto(n)`` of an interval."""
+        D = interval.penetrations(lobatto(n))
+        self.met[interval.column].append((self.sign * D, self.sign * pressures + errors))
+
+    def passes_over(self, interval: Interval, pressures: np.ndarray, error: float) -> bool:
+        """Whether an interval with these pressures at its nodes, known to ``error`` in between, plays no part."""
+        end = self.sign * (interval.high if self.sign > 0 else interval.low)
+        before = min((p[D >= end].min(initial=np.inf) for D, p in self.met[interval.column]), default=np.inf)
+        return (self.sign * pressures).min() - _DOUBT * error > before
+
+
 @dataclass(frozen=True)
 class Interval:
     """An interval of D of one column; ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end. ``witnesses``: thetas at which some
@@ -104,15 +128,17 @@ class Interval:
         return self.low + (self.high - self.low) * graded(t)
 
 
-def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None) -> list[Curve]:
+def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None, follow: bool = False) -> list[Curve]:
     """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``; of ``frictional`` columns pressure
     only as well as it takes for friction over pressure to be known to that.
+
+    ``follow``: leave out what the columns' branch of loading passes over.
     """
     n = columns.size
     top = saturation_depth(columns) if top is None else top
     strips = np.zeros(n, int)
     intervals = [i for row in smooth_intervals(columns, top) for i in row]
-    pieces = interpolate(columns, rtol, intervals, strips)
+    pieces = interpolate(columns, rtol, intervals, strips, followed=Followed(columns) if follow else None)
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
 
 
@@ -136,20 +162,21 @@ def interpolate(
     intervals: list[Interval],
     strips: np.ndarray,
     sought: Sought | None = None,
+    followed: Followed | None = None,
 ) -> list[list[Piece]]:
     """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work.
 
-    ``sought``: nothing counts but where the pressure passes a given one.
+    ``sought``: nothing counts but where the pressure passes a given one. ``followed``: nor what a branch of loading passes over.
     """
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
     for _ in range(_ROUNDS):
         if not intervals:
             return pieces
-        intervals = _round(columns, rtol, intervals, pieces, strips, sought)
+        intervals = _round(columns, rtol, intervals, pieces, strips, sought, followed)
     raise ArithmeticError("the curve over penetration did not converge")
 
 
-def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, sought: Sought | None) -> list[Interval]:
+def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, sought: Sought | None, followed: Followed | None) -> list[Interval]:
     """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not."""
     batch = _Batch(columns, rtol, intervals, strips)
     batch.sample(_FIRST)
@@ -174,6 +201,8 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
         for k in np.flatnonzero(done):
             i, bound = batch.intervals[k], error[k] + batch.errors[k].max(axis=0)
             pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.soft_low, i.soft_high))
+        if followed is not None:
+            done |= _passed_over(followed, batch, n, error[:, 0])
         # coefficients fall geometrically: where twice the nodes would not do, halves are better
         missed = error / goal
         hopeless = ~done & (missed * np.minimum(missed / before, _PACE) ** 2 > 1).any(axis=1)
@@ -189,6 +218,15 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
     for k in range(len(batch.intervals)):
         parts += batch.known(k, n).halves
     return parts
+
+
+def _passed_over(followed: Followed, batch: _Batch, n: int, error) -> np.ndarray:
+    """Which intervals of a batch the branch of loading passes over, with interpolation errors ``error`` (intervals,) of the pressure."""
+    for i, values, errors in zip(batch.intervals, batch.values, batch.errors, strict=True):
+        followed.meet(i, n, values[:, 0], errors[:, 0])
+    known = error + batch.errors[:, :, 0].max(axis=1)
+    rows = zip(batch.intervals, batch.values, known, strict=True)
+    return np.array([followed.passes_over(i, values[:, 0], e) for i, values, e in rows])
 
 
 def _pressure_goal(values, goal):

@@ -59,7 +59,8 @@ def hints(columns: np.ndarray, expected: list, witnesses: list[tuple[float, ...]
         ends = (theta - width)[at, where], (theta + width)[at, where]
         transitions.append([column[at], *ends, codes[where], codes[where + 1]])
         middle, extent = 0.5 * (theta[:, 1:] + theta[:, :-1]), np.diff(theta, axis=1)
-        at, where = np.nonzero((extent > 0) & (extent < _NARROW))
+        # interpolation may put a zone next to the crest or the flat edge beyond it
+        at, where = np.nonzero((extent > 0) & (extent < _NARROW) & (middle > 0) & (middle < np.pi))
         looks.append([column[at], middle[at, where]])
     column, low, high, code_low, code_high = (np.concatenate(v) for v in zip(*transitions, strict=True))
     look_column, theta = (np.concatenate(v) for v in zip(*looks, strict=True))

@@ -145,8 +145,9 @@ def _at_pressure(material, adhesion, level, V, p, edge, branch, rtol, shape, tal
     q = len(QUANTITIES)
     values, errors = np.zeros((p.size, q)), np.zeros((p.size, q))
     values[off, 0] = p[off]
-    means = level_means(columns.at(on, D[on]), np.full(on.size, rtol))
-    values[on], errors[on] = means.values, means.errors
+    if on.size:
+        means = level_means(columns.at(on, D[on]), np.full(on.size, rtol))
+        values[on], errors[on] = means.values, means.errors
     miss = np.abs(values[on, 0] - p[on])
     errors[on, 0] += miss
     errors[on, 1] += np.abs(slopes[on]) * errors[on, 0]

@@ -20,6 +20,8 @@ _DOUBT, _WIDER = 0.5, 16.0
 _WORTH = 0.2
 #: a margin that foretold wrongly this often in a row is not believed
 _TRUSTED = 2
+#: a place that is taken from the margins alone is held to be off by so much more than they say
+_SURE = 64.0
 #: points of a look in parts of its half width, towards the side that does not foretell: one well on the other for the next one to build on
 _AROUND = np.array((-4.0, -1.0, 1.0))
 
@@ -99,6 +101,7 @@ class _Brackets:
         ends = np.stack((self.low, self.high))
         narrow = ends[1] - ends[0] <= self.width
         place, doubt, _ = self._foretold(guide)
+        doubt = _SURE * doubt
         known = ~narrow & (place - doubt > ends[0]) & (place + doubt < ends[1]) & (2 * doubt <= self.width) & (self.misses < _TRUSTED)
         ends[:, known] = place[known] + np.multiply.outer((-1.0, 1.0), np.maximum(doubt[known], 0.0))
         return ends, narrow | known

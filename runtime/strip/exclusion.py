@@ -60,7 +60,8 @@ def _falls_between(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float
     noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
     margin = noise + (steep_margin(kernel, cycle, outer, known) if sign > 0 else steep_margin(kernel, cycle, known, outer))
     sure = np.isfinite(margin)
-    half = kernel.forcing_arc(s.delta_0 - np.where(sure, margin, 0.0), s.D, s.beta)[1]
+    margin = np.where(sure, margin, 0.0)
+    half = kernel.forcing_arc(s.delta_0 - margin, s.D, s.beta)[1]
     steep = sure & (np.abs(known.x - cycle.centre) < half)
     way = np.minimum(np.maximum(sign * (cycle.centre - outer.x) - half, 0.0) / np.maximum(s.beta, _LEAST), 700.0)
     kept = sign * outer.r - noise > margin * (np.expm1(way) if sign > 0 else -np.expm1(-way))
