@@ -35,6 +35,8 @@ _NEGLIGIBLE = 0.3
 _NARROWEST = 1e-11
 #: how much more than the estimated error of the pressure a part that is passed over has to keep away from what was met before
 _DOUBT = 2.0
+#: such a part is cut off if it is at least this share of an interval
+_WORTH = 0.1
 
 
 @dataclass(frozen=True)
@@ -91,9 +93,33 @@ class Followed:
 
     def passes_over(self, interval: Interval, pressures: np.ndarray, error: float) -> bool:
         """Whether an interval with these pressures at its nodes, known to ``error`` in between, plays no part."""
+        return (self.sign * pressures).min() - _DOUBT * error > self._before(interval)
+
+    def plays(self, interval: Interval, pressures: np.ndarray) -> bool:
+        """Whether one of the pressures at an interval's nodes goes beyond what was met before, by more than next to nothing."""
+        before = self._before(interval)
+        return bool((self.sign * pressures).min() < before - (_COARSEST * abs(before) if np.isfinite(before) else 0.0))
+
+    def cuts(self, interval: Interval, n: int, pressures: np.ndarray) -> list[float]:
+        """Penetrations that part what may play a part, by the pressures at the nodes ``lobatto(n)``, from what is likely to be passed over."""
+        p = self.sign * pressures
+        coming = p[::-1] if self.sign > 0 else p
+        met = np.minimum.accumulate(np.concatenate(([self._before(interval)], coming)))[:-1]
+        plays = np.flatnonzero(coming < met)
+        if not plays.size:
+            return []
+        ends = np.array((plays[0] - 1, plays[-1] + 1))
+        if self.sign > 0:
+            ends = n - ends[::-1]
+        D = interval.penetrations(lobatto(n))
+        left, right = D[np.clip(ends, 0, n)]
+        least = _WORTH * (interval.high - interval.low)
+        return [float(cut) for cut, off in ((left, left - interval.low), (right, interval.high - right)) if off > least]
+
+    def _before(self, interval: Interval) -> float:
+        """Least pressure met before the branch comes to an interval (least of its negative, when loading)."""
         end = self.sign * (interval.high if self.sign > 0 else interval.low)
-        before = min((p[D >= end].min(initial=np.inf) for D, p in self.met[interval.column]), default=np.inf)
-        return (self.sign * pressures).min() - _DOUBT * error > before
+        return min((p[D >= end].min(initial=np.inf) for D, p in self.met[interval.column]), default=np.inf)
 
 
 @dataclass(frozen=True)
@@ -117,6 +143,14 @@ class Interval:
             Interval(self.column, self.low, D, self.soft_low, soft, every, self.seen),
             Interval(self.column, D, self.high, soft, self.soft_high, every, self.seen),
         ]
+
+    def cut(self, places: list[float]) -> list[Interval]:
+        """The parts between these penetrations, ascending; the curve goes on smoothly between them."""
+        parts, rest = [], self
+        for D in places:
+            part, rest = rest.split(D, soft=True)
+            parts.append(part)
+        return [*parts, rest]
 
     @property
     def halves(self) -> list[Interval]:
@@ -203,10 +237,17 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
             pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.soft_low, i.soft_high))
         if followed is not None:
             done |= _passed_over(followed, batch, n, error[:, 0])
+        if followed is not None and n == 2 * _FIRST:
+            for k in np.flatnonzero(~done):
+                cuts = followed.cuts(batch.intervals[k], n, batch.values[k, :, 0])
+                if cuts:
+                    parts += batch.known(k, n).cut(cuts)
+                    done[k] = True
         # coefficients fall geometrically: where twice the nodes would not do, halves are better
         missed = error / goal
         hopeless = ~done & (missed * np.minimum(missed / before, _PACE) ** 2 > 1).any(axis=1)
-        split = _islands(columns, batch, n, ~done, strips, sought is not None) if n > 2 * _FIRST else {}
+        matters = ~done if followed is None else ~done & [followed.plays(i, v[:, 0]) for i, v in zip(batch.intervals, batch.values, strict=True)]
+        split = _islands(columns, batch, n, matters, strips, sought is not None) if n > 2 * _FIRST else {}
         for k, (D_break, theta) in split.items():
             parts += batch.known(k, n).split(D_break, False, theta)
         done[list(split)] = True
