@@ -43,15 +43,3 @@ def test_an_unknown_figure_is_refused_before_any_work(tmp_path):
     with pytest.raises(hystrip.InputError, match="figures: got 'fig8'"):
         draw(["fig7", "fig8"], tmp_path / "out")
     assert not (tmp_path / "out").exists() and len(FIGURES) == 5
-
-
-def test_fig3_goes_on_where_only_the_rims_of_the_cells_cling(monkeypatch):
-    """At 1 mm/s the crest lets go at -675 Pa; the flat rims hold on to -707 Pa, which load control reaches by a jump."""
-    monkeypatch.setattr(fig3, "_BELOW", 40)
-    known = np.array([[-6.11e-7, -674.61, 77.4, 0.694, 0.052]])
-    rows = fig3._below(load_scene("paper_fig3"), 1e-3, known)
-    kinds, pressure = np.array([row[1] for row in rows]), np.array([row[3] for row in rows])
-    reached = pressure[(kinds == "unloading, reachable") & np.isfinite(pressure)]
-    assert reached.size and reached.max() < known[0, 1] and reached.min() == np.nanmin(pressure)
-    assert reached.min() == pytest.approx(-707.3, abs=0.5)
-    assert pressure[(kinds == "unloading, not reachable") & np.isfinite(pressure)].max() > -600

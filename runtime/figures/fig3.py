@@ -10,7 +10,6 @@ from hystrip.plots.style import COLUMN, OKABE_ITO, axes, styled
 
 _RTOL = 1e-3
 _POINTS = 40
-_BELOW = 160  # penetrations looked at below the last break of the crest
 _BEYOND = 700.0  # Pa drawn above the highest saturation pressure
 _QUANTITIES = ("pressure [Pa]", "friction stress [Pa]", "contact fraction", "adhesion fraction")
 _KINDS = ("unloading, reachable", "unloading, not reachable", "loading")
@@ -50,38 +49,10 @@ def data() -> dict[str, Any]:
                         rows.append((v, kind, D, *values[:4]))
                     rows.append((v, kind, *[np.nan] * 5))
             rows += _above(scene, columns, v, D_top, _KINDS[0] if branch == "unloading" else _KINDS[2])
-            if branch == "unloading":
-                rows += _below(scene, v, np.array([row[2:] for row in rows if row[0] == v and np.isfinite(row[2])]))
     names = ("velocity [m/s]", "part", "penetration [m]", *_QUANTITIES)
     return {
         name: [row[i] for row in rows] if name == "part" else np.array([row[i] for row in rows]) for i, name in enumerate(names)
     }
-
-
-def _below(scene: Any, v: float, known: np.ndarray) -> list[tuple]:
-    """Unloading orbits at penetrations below those ``known`` (rows of D and the quantities), as long as a part of the surface
-    clings: the crest has let go there, the flat rims of the cells have not. Reachable where the pressure was never so low before.
-    """
-    import hystrip
-    from hystrip.level.breaks import first_contact
-    from hystrip.level.strips import Columns
-
-    level, load = scene.levels[0], dict(V=float(v), edge=scene.edge, branch="unloading", rtol=_RTOL)
-    columns = Columns(scene.material, scene.adhesion, level, scene.edge, "unloading", np.array([v]), np.zeros(1))
-    lowest = known[:, 0].min()
-    D = lowest + (first_contact(columns) - lowest) * np.linspace(0, 1, _BELOW + 1)[1:] ** 2  # it may fall off like a root
-    found = hystrip.solve_level(scene.material, scene.adhesion, level, D=D, **load)
-    least = np.minimum.accumulate(np.concatenate(([known[:, 1].min()], found.p_mean)))[:-1]
-    rows: list[tuple] = []
-    kind = _KINDS[1]
-    for i in np.flatnonzero(found.contact_fraction > 0):
-        now = _KINDS[0] if found.p_mean[i] < least[i] else _KINDS[1]
-        values = (D[i], found.p_mean[i], found.tau_mean[i], found.contact_fraction[i], found.adhesion_fraction[i])
-        if now != kind and rows:  # the parts meet in one point
-            rows += [(v, kind, *values), (v, kind, *[np.nan] * 5)]
-        kind = now
-        rows.append((v, kind, *values))
-    return [*rows, (v, kind, *[np.nan] * 5)] if rows else []
 
 
 def _above(scene: Any, columns: Any, v: float, D_top: float, kind: str) -> list[tuple]:

@@ -1,0 +1,45 @@
+"""Pull-off of a level whose crest lets go first: with adhesion and V > 0 the flat rims of the cells hold on longer."""
+
+import numpy as np
+import pytest
+
+import hystrip
+from hystrip.level.expected import hints
+
+MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+LEVEL = hystrip.Level(l=5e-7, h=1e-7)
+V = 1e-3
+
+
+@pytest.fixture(scope="module")
+def law():
+    return hystrip.friction_law(MATERIAL, ADHESION, LEVEL, V=V, rtol=1e-3, below=-500.0)
+
+
+def test_pull_off_is_the_least_mean_pressure_of_all_penetrations(law):
+    """The crest lets go at -675 Pa; the rims reach -707 Pa."""
+    D = np.linspace(-2.42e-6, -5e-7, 120)
+    p = hystrip.solve_level(MATERIAL, ADHESION, LEVEL, V=V, D=D, rtol=1e-4).p_mean
+    assert p.min() == pytest.approx(-707.3, abs=0.1)
+    assert law.pull_off == pytest.approx(p.min(), rel=1e-3) and law.pull_off <= p.min() * (1 - 1e-4)
+
+
+def test_law_and_level_agree_where_only_the_rims_hold(law):
+    p = np.array([-690.0, -680.0, -660.0])
+    found = hystrip.solve_level(MATERIAL, ADHESION, LEVEL, V=V, pressure=p, rtol=1e-4)
+    assert found.tau_mean == pytest.approx(law(p), rel=2e-3)
+    assert found.tau_mean[0] == pytest.approx(9.03, abs=0.02)
+
+
+def test_below_pull_off_there_is_no_contact():
+    found = hystrip.solve_level(MATERIAL, ADHESION, LEVEL, V=1e-2, pressure=-690.0, rtol=1e-3)
+    assert bool(found.pulled_off) and np.isnan(found.D) and found.tau_mean == 0
+
+
+def test_a_zone_expected_beyond_the_crest_is_not_looked_for():
+    """Interpolation over D may put a narrow zone at a negative theta; means must not know of it."""
+    codes, width = np.array([0, 1, 2]), np.full((2, 2), 1e-3)
+    theta = np.array([[-0.04, -0.01], [0.01, 0.04]])
+    looks = hints(np.array([0, 1]), [(codes, theta, width)], [()], np.ones((2, 4)))
+    assert looks.witness_column.tolist() == [1] and looks.witness == pytest.approx([0.025])
