@@ -41,5 +41,5 @@ def test_a_zone_expected_beyond_the_crest_is_not_looked_for():
     """Interpolation over D may put a narrow zone at a negative theta; means must not know of it."""
     codes, width = np.array([0, 1, 2]), np.full((2, 2), 1e-3)
     theta = np.array([[-0.04, -0.01], [0.01, 0.04]])
-    looks = hints(np.array([0, 1]), [(codes, theta, width)], [()], np.ones((2, 4)))
+    looks = hints([np.array([0, 1])], [(codes, theta, width)], [()], np.ones((2, 4)))
     assert looks.witness_column.tolist() == [1] and looks.witness == pytest.approx([0.025])
