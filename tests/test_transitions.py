@@ -63,7 +63,7 @@ def test_a_margin_that_misleads_costs_points_but_no_change_is_lost():
 def test_breaks_are_where_the_crest_changes(edge, branch):
     columns = _columns([1e-5, 1e-3, 1e-2], edge, branch)
     top = saturation_depth(columns)
-    for i, points in enumerate(breakpoints(columns, top)):
+    for i, points in enumerate(breakpoints(columns, top)[0]):
         inner = points[(points > first_contact(columns)) & (points < top[i] * (1 - 1e-9))]
         step = 1e-12 * SMALL.h
         sides = np.stack((inner - step, inner + step))

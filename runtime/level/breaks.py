@@ -1,7 +1,7 @@
 """Penetrations at which a level's means over penetration are not smooth.
 
-The crest strip (y = 0) has everywhere the highest profile, so by the order of orbits it is the most engaged of its level: it is the
-last to let go, and the means lose smoothness at the penetrations where it changes regime, and where the flat edge does.
+The crest strip (y = 0) has everywhere the highest profile: the means lose smoothness at the penetrations where it changes regime, and where the
+flat edge does. Unloading with adhesion it need not be the last to let go: what is pressed in less is drawn out of reach later.
 """
 
 from __future__ import annotations
@@ -42,8 +42,9 @@ def threshold_width(columns: Columns, top):
     return 64 * _EPS * (columns.level.h + np.abs(top) + 2 * a.p_0 / columns.material.K + a.delta_0)
 
 
-def breakpoints(columns: Columns, top: np.ndarray) -> list[np.ndarray]:
-    """Penetrations between first contact and ``top`` (n,) where the curve may not be smooth, ascending, ends included."""
+def breakpoints(columns: Columns, top: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:
+    """Penetrations between first contact and ``top`` (n,) where the curve may not be smooth, ascending, ends included, of every column; and the
+    lowest at which its crest changes regime (inf: none), (n,)."""
     inside, touched = breaks_on(columns, np.arange(columns.size), _scan(columns, top))
     last = let_go(columns)
     out = []
@@ -51,7 +52,7 @@ def breakpoints(columns: Columns, top: np.ndarray) -> list[np.ndarray]:
         start = min(touched[r], last) if np.isfinite(touched[r]) else first_contact(columns)
         points = np.unique([*points, top[r]])
         out.append(points[(points >= start) & (points <= top[r])])
-    return out
+    return out, touched
 
 
 def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:

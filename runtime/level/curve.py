@@ -33,10 +33,10 @@ _COARSEST = 1e-3
 _NEGLIGIBLE = 0.3
 #: a piece narrower than this, relative to D, is taken as it is
 _NARROWEST = 1e-11
-#: how much more than the estimated error of the pressure a part that is passed over has to keep away from what was met before
-_DOUBT = 2.0
-#: such a part is cut off if it is at least this share of an interval
-_WORTH = 0.1
+#: accuracy of a rough look at the pressure, and how much more than its error decides
+_ROUGH, _DOUBT = 2e-3, 2.0
+#: parameters at which a piece is looked at
+_GRID = np.linspace(0, 1, 65)
 
 
 @dataclass(frozen=True)
@@ -76,52 +76,6 @@ class Sought:
         return np.maximum(self.goal[column], _CLEAR * np.abs(pressures - self.p[column, None]).min(axis=1))
 
 
-class Followed:
-    """Which intervals a branch of loading passes over, because it has met their pressures before it comes there.
-
-    Unloading comes from large D and goes on where the pressure lies below everything above; loading comes from small D (see ``law``).
-    """
-
-    def __init__(self, columns: Columns):
-        self.sign = 1.0 if columns.branch == "unloading" else -1.0
-        self.met: list[list[tuple[np.ndarray, np.ndarray]]] = [[] for _ in range(columns.size)]
-
-    def meet(self, interval: Interval, n: int, pressures: np.ndarray, errors: np.ndarray) -> None:
-        """Note the pressures, known to ``errors``, at the nodes ``lobatto(n)`` of an interval."""
-        D = interval.penetrations(lobatto(n))
-        self.met[interval.column].append((self.sign * D, self.sign * pressures + errors))
-
-    def passes_over(self, interval: Interval, pressures: np.ndarray, error: float) -> bool:
-        """Whether an interval with these pressures at its nodes, known to ``error`` in between, plays no part."""
-        return (self.sign * pressures).min() - _DOUBT * error > self._before(interval)
-
-    def plays(self, interval: Interval, pressures: np.ndarray) -> bool:
-        """Whether one of the pressures at an interval's nodes goes beyond what was met before, by more than next to nothing."""
-        before = self._before(interval)
-        return bool((self.sign * pressures).min() < before - (_COARSEST * abs(before) if np.isfinite(before) else 0.0))
-
-    def cuts(self, interval: Interval, n: int, pressures: np.ndarray) -> list[float]:
-        """Penetrations that part what may play a part, by the pressures at the nodes ``lobatto(n)``, from what is likely to be passed over."""
-        p = self.sign * pressures
-        coming = p[::-1] if self.sign > 0 else p
-        met = np.minimum.accumulate(np.concatenate(([self._before(interval)], coming)))[:-1]
-        plays = np.flatnonzero(coming < met)
-        if not plays.size:
-            return []
-        ends = np.array((plays[0] - 1, plays[-1] + 1))
-        if self.sign > 0:
-            ends = n - ends[::-1]
-        D = interval.penetrations(lobatto(n))
-        left, right = D[np.clip(ends, 0, n)]
-        least = _WORTH * (interval.high - interval.low)
-        return [float(cut) for cut, off in ((left, left - interval.low), (right, interval.high - right)) if off > least]
-
-    def _before(self, interval: Interval) -> float:
-        """Least pressure met before the branch comes to an interval (least of its negative, when loading)."""
-        end = self.sign * (interval.high if self.sign > 0 else interval.low)
-        return min((p[D >= end].min(initial=np.inf) for D, p in self.met[interval.column]), default=np.inf)
-
-
 @dataclass(frozen=True)
 class Interval:
     """An interval of D of one column; ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end. ``witnesses``: thetas at which some
@@ -144,14 +98,6 @@ class Interval:
             Interval(self.column, D, self.high, soft, self.soft_high, every, self.seen),
         ]
 
-    def cut(self, places: list[float]) -> list[Interval]:
-        """The parts between these penetrations, ascending; the curve goes on smoothly between them."""
-        parts, rest = [], self
-        for D in places:
-            part, rest = rest.split(D, soft=True)
-            parts.append(part)
-        return [*parts, rest]
-
     @property
     def halves(self) -> list[Interval]:
         """The two halves; the curve goes on smoothly between them."""
@@ -166,28 +112,56 @@ def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None, fol
     """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``; of ``frictional`` columns pressure
     only as well as it takes for friction over pressure to be known to that.
 
-    ``follow``: leave out what the columns' branch of loading passes over.
+    ``follow``: below the penetration at which the crest lets go, only what unloading at a falling pressure comes to.
     """
     n = columns.size
     top = saturation_depth(columns) if top is None else top
     strips = np.zeros(n, int)
-    intervals = [i for row in smooth_intervals(columns, top) for i in row]
-    pieces = interpolate(columns, rtol, intervals, strips, followed=Followed(columns) if follow else None)
+    rows, crest = smooth_intervals(columns, top)
+    intervals = [i for row in rows for i in row]
+    below = [i for i in intervals if follow and i.high < crest[i.column]]
+    pieces = interpolate(columns, rtol, [i for i in intervals if i not in below], strips)
+    if below:
+        for row, more in zip(pieces, _where_rims_hold(columns, rtol, below, pieces, strips), strict=True):
+            row += more
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
 
 
-def smooth_intervals(columns: Columns, top: np.ndarray) -> list[list[Interval]]:
-    """For every column the intervals between the breaks of its curve, ascending."""
+def _where_rims_hold(columns: Columns, rtol, intervals: list[Interval], pieces: list[list[Piece]], strips) -> list[list[Piece]]:
+    """Pieces of what unloading comes to in the intervals below all ``pieces``: a rough look tells where the pressure falls below what it was before."""
+    least = np.array([min((piece.first(_GRID)[0].min() for piece in row), default=np.inf) for row in pieces])
+    scale = columns.scales[0] + np.where(np.isfinite(least), np.abs(least), 0.0)
+    rough = interpolate(columns, np.full(columns.size, _ROUGH), intervals, strips, Sought(least, _ROUGH * scale))
+    wanted = []
+    for column, row in enumerate(rough):
+        met = least[column]
+        for piece in sorted(row, key=lambda piece: -piece.low):
+            p, error = piece.first(_GRID)[0], piece.error[0]
+            before = np.minimum(met, np.minimum.accumulate(np.append(p[::-1] + error, np.inf))[:-1])[::-1]
+            comes = np.flatnonzero(p - _DOUBT * error < np.append(before[1:], met))
+            met = min(met, (p + error).min())
+            for run in np.split(comes, np.flatnonzero(np.diff(comes) > 2) + 1) if comes.size else ():
+                first, last = max(run[0] - 1, 0), min(run[-1] + 1, _GRID.size - 1)
+                low, high = piece.penetration(_GRID[[first, last]])
+                soft = piece.soft_low or first > 0, piece.soft_high or last < _GRID.size - 1
+                wanted.append(Interval(column, float(low), float(high), *soft))
+    return interpolate(columns, rtol, wanted, strips)
+
+
+def smooth_intervals(columns: Columns, top: np.ndarray) -> tuple[list[list[Interval]], np.ndarray]:
+    """For every column the intervals between the breaks of its curve, ascending; and where the crest lets go (inf: never seen), (n,)."""
     # just inside its breaks a piece does not see strips that sit on a threshold but for rounding
     inside = threshold_width(columns, top)
-    return [
+    breaks, crest = breakpoints(columns, top)
+    rows = [
         [
             Interval(i, low + inside[i], high - inside[i])
             for low, high in zip(points[:-1], points[1:], strict=True)
             if high - low > 2 * inside[i]
         ]
-        for i, points in enumerate(breakpoints(columns, top))
+        for i, points in enumerate(breaks)
     ]
+    return rows, crest
 
 
 def interpolate(
@@ -196,21 +170,20 @@ def interpolate(
     intervals: list[Interval],
     strips: np.ndarray,
     sought: Sought | None = None,
-    followed: Followed | None = None,
 ) -> list[list[Piece]]:
     """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work.
 
-    ``sought``: nothing counts but where the pressure passes a given one. ``followed``: nor what a branch of loading passes over.
+    ``sought``: nothing counts but where the pressure passes a given one.
     """
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
     for _ in range(_ROUNDS):
         if not intervals:
             return pieces
-        intervals = _round(columns, rtol, intervals, pieces, strips, sought, followed)
+        intervals = _round(columns, rtol, intervals, pieces, strips, sought)
     raise ArithmeticError("the curve over penetration did not converge")
 
 
-def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, sought: Sought | None, followed: Followed | None) -> list[Interval]:
+def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, sought: Sought | None) -> list[Interval]:
     """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not."""
     batch = _Batch(columns, rtol, intervals, strips)
     batch.sample(_FIRST)
@@ -235,19 +208,10 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
         for k in np.flatnonzero(done):
             i, bound = batch.intervals[k], error[k] + batch.errors[k].max(axis=0)
             pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.soft_low, i.soft_high))
-        if followed is not None:
-            done |= _passed_over(followed, batch, n, error[:, 0])
-        if followed is not None and n == 2 * _FIRST:
-            for k in np.flatnonzero(~done):
-                cuts = followed.cuts(batch.intervals[k], n, batch.values[k, :, 0])
-                if cuts:
-                    parts += batch.known(k, n).cut(cuts)
-                    done[k] = True
         # coefficients fall geometrically: where twice the nodes would not do, halves are better
         missed = error / goal
         hopeless = ~done & (missed * np.minimum(missed / before, _PACE) ** 2 > 1).any(axis=1)
-        matters = ~done if followed is None else ~done & [followed.plays(i, v[:, 0]) for i, v in zip(batch.intervals, batch.values, strict=True)]
-        split = _islands(columns, batch, n, matters, strips, sought is not None) if n > 2 * _FIRST else {}
+        split = _islands(columns, batch, n, ~done, strips, sought is not None) if n > 2 * _FIRST else {}
         for k, (D_break, theta) in split.items():
             parts += batch.known(k, n).split(D_break, False, theta)
         done[list(split)] = True
@@ -259,15 +223,6 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
     for k in range(len(batch.intervals)):
         parts += batch.known(k, n).halves
     return parts
-
-
-def _passed_over(followed: Followed, batch: _Batch, n: int, error) -> np.ndarray:
-    """Which intervals of a batch the branch of loading passes over, with interpolation errors ``error`` (intervals,) of the pressure."""
-    for i, values, errors in zip(batch.intervals, batch.values, batch.errors, strict=True):
-        followed.meet(i, n, values[:, 0], errors[:, 0])
-    known = error + batch.errors[:, :, 0].max(axis=1)
-    rows = zip(batch.intervals, batch.values, known, strict=True)
-    return np.array([followed.passes_over(i, values[:, 0], e) for i, values, e in rows])
 
 
 def _pressure_goal(values, goal):
