@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from pathlib import Path
 
 import typer
@@ -34,6 +35,8 @@ def command(
         raise InputError("MODEL", str(model), "a Python file that declares MODEL") from None
     except hystrip.derivation.DerivationError as error:
         raise InputError("MODEL", str(model), f"a file that declares an admissible model: {error}") from None
+    # a short-lived process that makes millions of small expressions: looking for cycles among them is a good part of its time
+    gc.set_threshold(500_000, 20, 20)
     try:
         with progress("deriving and certifying") as report:
             hystrip.derivation.regenerate(folder, models=models, progress=report)
