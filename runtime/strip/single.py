@@ -9,8 +9,7 @@ import numpy as np
 from hystrip.inputs.material import StandardLinearSolid
 
 from .fields import fields
-from .margin import cling_margin
-from .solution import dimensionless, refuse_uncertified, solve_si
+from .solution import refuse_uncertified, solve_si
 
 
 class SingleTime:
@@ -42,12 +41,6 @@ class SingleTime:
         names = ("l", "A", "D", "V", "K", "T_eps", "T_sigma", "p_0", "delta_0")
         refuse_uncertified(solved, dict(zip(names, inputs, strict=False)), edge, branch)
         return solved, strips, scales
-
-    def cling_margin(self, l, A, D, V, p_0, delta_0):  # noqa: E741
-        """Reach of adhesion less the greatest gap of an always engaged strip, m: see ``margin.cling_margin``. Of flat arrays, like ``solve``."""
-        strips, scales = dimensionless(*self._inputs(l, A, D, V, p_0, delta_0), "continuous")  # p never steps: any closure
-        margin = cling_margin(self.kernel, strips) * scales["length"]
-        return np.where(scales["flat"] & (np.asarray(p_0) > 0), delta_0 + p_0 / self.K + D, margin)
 
     def _inputs(self, l, A, D, V, p_0, delta_0):  # noqa: E741
         m = self.material
