@@ -12,7 +12,7 @@ import numpy as np
 
 from .appearance import is_inside, island, vanishing
 from .breaks import breakpoints, threshold_width
-from .chebyshev import Piece, coefficients, graded, interpolation_errors, lobatto, parameter
+from .chebyshev import Piece, flat_ended, graded, interpolation_errors, lobatto, parameter
 from .expected import expect, hints
 from .means import level_means
 from .strips import Columns, saturation_depth
@@ -119,7 +119,7 @@ def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None, fol
     strips = np.zeros(n, int)
     rows, crest = smooth_intervals(columns, top)
     intervals = [i for row in rows for i in row]
-    below = [i for i in intervals if follow and i.high < crest[i.column]]
+    below = [i for i in intervals if follow and i.high <= crest[i.column]]
     pieces = interpolate(columns, rtol, [i for i in intervals if i not in below], strips)
     if below:
         for row, more in zip(pieces, _where_rims_hold(columns, rtol, below, pieces, strips), strict=True):
@@ -150,15 +150,10 @@ def _where_rims_hold(columns: Columns, rtol, intervals: list[Interval], pieces: 
 
 def smooth_intervals(columns: Columns, top: np.ndarray) -> tuple[list[list[Interval]], np.ndarray]:
     """For every column the intervals between the breaks of its curve, ascending; and where the crest lets go (inf: never seen), (n,)."""
-    # just inside its breaks a piece does not see strips that sit on a threshold but for rounding
     inside = threshold_width(columns, top)
     breaks, crest = breakpoints(columns, top)
     rows = [
-        [
-            Interval(i, low + inside[i], high - inside[i])
-            for low, high in zip(points[:-1], points[1:], strict=True)
-            if high - low > 2 * inside[i]
-        ]
+        [Interval(i, low, high) for low, high in zip(points[:-1], points[1:], strict=True) if high - low > 2 * inside[i]]
         for i, points in enumerate(breaks)
     ]
     return rows, crest
@@ -193,7 +188,7 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
     while batch.intervals and n < _LAST:
         n *= 2
         batch.sample(n)
-        c = np.einsum("ij,pjq->piq", coefficients_of(n), batch.values)
+        c = np.einsum("ij,pjq->piq", flat_ended(n), batch.values)
         goal = rtol[batch.column][:, None] * (np.abs(batch.values).min(axis=1) + floor)
         error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1))
         # where next to nothing changes there is little to miss, whatever nobody marked there
@@ -237,7 +232,7 @@ def _islands(columns: Columns, batch: _Batch, n: int, which, strips, roughly: bo
     seen = {}
     for k in np.flatnonzero(which):
         i = batch.intervals[k]
-        found = island(i.column, i.penetrations(lobatto(n)), batch.zones[k], _NEGLIGIBLE * batch.rtol[i.column])
+        found = island(i.column, i.penetrations(lobatto(n)[1:-1]), batch.zones[k], _NEGLIGIBLE * batch.rtol[i.column])
         if found is not None:
             seen[int(k)] = found
     if not seen:
@@ -245,11 +240,6 @@ def _islands(columns: Columns, batch: _Batch, n: int, which, strips, roughly: bo
     where = zip(*(v.tolist() for v in vanishing(columns, list(seen.values()), strips, roughly)), strict=True)
     breaks = dict(zip(seen, where, strict=True))
     return {k: at for k, at in breaks.items() if is_inside(at[0], batch.intervals[k].low, batch.intervals[k].high)}
-
-
-def coefficients_of(n: int) -> np.ndarray:
-    """Matrix from values at ``lobatto(n)`` to coefficients."""
-    return coefficients(np.eye(n + 1))
 
 
 class _Batch:
@@ -266,10 +256,10 @@ class _Batch:
         return np.array([i.column for i in self.intervals], int)
 
     def sample(self, n: int) -> None:
-        """Go on to the nodes ``lobatto(n)``, of which every other one is known, unless they are the first."""
+        """Go on to the interior nodes of ``lobatto(n)``, of which every other one is known, unless they are the first."""
         first = self.values is None
-        nodes = lobatto(n)
-        t = nodes if first else nodes[1::2]
+        nodes = lobatto(n)[1:-1]
+        t = nodes if first else nodes[::2]
         D = np.concatenate([i.penetrations(t) for i in self.intervals])
         rows = np.repeat(self.column, t.size)
         if first:
@@ -277,7 +267,7 @@ class _Batch:
             expected = [None if seen is None else seen.expected(i.penetrations(t)) for i, seen in zip(self.intervals, inherited, strict=True)]
             size = np.array([np.zeros(self.columns.scales.size) if seen is None else seen.size for seen in inherited])
         else:
-            expected = [expect(nodes[::2], zones, t) for zones in self.zones]
+            expected = [expect(nodes[1::2], zones, t) for zones in self.zones]
             size = np.abs(self.values).min(axis=1)
         where = np.arange(rows.size).reshape(-1, t.size)
         hint = hints(where, expected, [i.witnesses for i in self.intervals], np.repeat(size, t.size, axis=0))
@@ -293,9 +283,9 @@ class _Batch:
         self.zones = [_alternating(old, new) for old, new in zip(self.zones, zones, strict=True)]
 
     def known(self, k: int, n: int) -> Interval:
-        """Interval ``k`` with what was seen of it at ``lobatto(n)``."""
+        """Interval ``k`` with what was seen of it at the interior nodes of ``lobatto(n)``."""
         i = self.intervals[k]
-        return replace(i, seen=Seen(i.low, i.high, lobatto(n), self.zones[k], np.abs(self.values[k]).min(axis=0)))
+        return replace(i, seen=Seen(i.low, i.high, lobatto(n)[1:-1], self.zones[k], np.abs(self.values[k]).min(axis=0)))
 
     def keep(self, index) -> None:
         """Go on with the intervals ``index`` alone."""
@@ -305,11 +295,11 @@ class _Batch:
 
 def _merged(old, fresh):
     out = np.empty((old.shape[0], old.shape[1] + fresh.shape[1], old.shape[2]))
-    out[:, 0::2], out[:, 1::2] = old, fresh
+    out[:, 0::2], out[:, 1::2] = fresh, old
     return out
 
 
 def _alternating(old, fresh):
     out = old + fresh
-    out[0::2], out[1::2] = old, fresh
+    out[0::2], out[1::2] = fresh, old
     return out
