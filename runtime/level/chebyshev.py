@@ -49,9 +49,9 @@ def flat_ended(n: int) -> np.ndarray:
     return every[:, 1:-1] + every[:, [0, -1]] @ ends
 
 
-def interpolation_errors(c: np.ndarray, noise: np.ndarray, blur: np.ndarray | float = 0.0) -> np.ndarray:
+def interpolation_errors(c: np.ndarray, noise: np.ndarray, blur: np.ndarray | float = 0.0, rounding: np.ndarray | float = 0.0) -> np.ndarray:
     """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q); ``noise`` (p, q): changes that don't matter; ``blur`` (p, q):
-    how uncertain the coefficients are themselves.
+    how uncertain the coefficients are themselves; ``rounding`` (p, q): what of each is rounding and not counted.
 
     What is left is extrapolated from the last coefficients, at the pace they fell at since the middle: that of the slowest quantity, and no
     quantity is taken to be much smoother than the roughest, for they share their singularities.
@@ -59,7 +59,7 @@ def interpolation_errors(c: np.ndarray, noise: np.ndarray, blur: np.ndarray | fl
     n = c.shape[1] - 1
     c = np.abs(c)
     # what is rounding says nothing of the singularities
-    c = np.maximum(c - 16 * _EPS * c.max(axis=1)[:, None], 0.0)
+    c = np.maximum(c - (16 * _EPS * c.max(axis=1) + rounding)[:, None], 0.0)
     amplitude = c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny
     blur = np.broadcast_to(blur, amplitude.shape)[:, None]
     shape = (np.maximum(c - blur, 0.0) / amplitude[:, None]).max(axis=2)

@@ -17,7 +17,7 @@ from .expected import expect, hints
 from .means import level_means
 from .strips import Columns, saturation_depth
 
-_FIRST, _LAST = 4, 32
+_FIRST, _LAST = 4, 64
 _ROUNDS = 40
 #: share of the error allowed that interpolating may have, and that of each mean
 _INTERPOLATION, _MEAN = 0.6, 0.4
@@ -37,6 +37,9 @@ _NARROWEST = 1e-11
 _ROUGH, _DOUBT = 2e-3, 2.0
 #: parameters at which a piece is looked at
 _GRID = np.linspace(0, 1, 65)
+_EPS = np.finfo(float).eps
+#: error of a piece by what rounding may make of each of its coefficients
+_ROUNDED = 8.0
 
 
 @dataclass(frozen=True)
@@ -190,7 +193,8 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
         batch.sample(n)
         c = np.einsum("ij,pjq->piq", flat_ended(n), batch.values)
         goal = rtol[batch.column][:, None] * (np.abs(batch.values).min(axis=1) + floor)
-        error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1))
+        rounding = _rounding(columns, batch, n, c)
+        error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1), rounding)
         # where next to nothing changes there is little to miss, whatever nobody marked there
         error = np.minimum(error, 2 * np.ptp(batch.values, axis=1))
         if sought is not None:
@@ -201,7 +205,7 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
         done = (error <= _INTERPOLATION * goal).all(axis=1)
         done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in batch.intervals]
         for k in np.flatnonzero(done):
-            i, bound = batch.intervals[k], error[k] + batch.errors[k].max(axis=0)
+            i, bound = batch.intervals[k], error[k] + _ROUNDED * rounding[k] + batch.errors[k].max(axis=0)
             pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.soft_low, i.soft_high))
         # coefficients fall geometrically: where twice the nodes would not do, halves are better
         missed = error / goal
@@ -218,6 +222,16 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
     for k in range(len(batch.intervals)):
         parts += batch.known(k, n).halves
     return parts
+
+
+def _rounding(columns: Columns, batch: _Batch, n: int, c) -> np.ndarray:
+    """What the rounding of D makes of the coefficients ``c``, (intervals, q): next to a break where the means are like square roots it tells."""
+    ends = np.stack((np.einsum("k,pkq->pq", (-1.0) ** np.arange(n + 1), c), c.sum(axis=1)), axis=1)
+    values = np.concatenate((ends[:, :1], batch.values, ends[:, 1:]), axis=1)
+    D = np.array([i.penetrations(lobatto(n)) for i in batch.intervals])
+    digit = _EPS * np.maximum(np.abs(D).max(axis=1), columns.level.h)
+    steps = np.abs(np.diff(values, axis=1)) * np.minimum(np.divide(digit[:, None], np.diff(D), out=np.ones_like(D[:, 1:]), where=np.diff(D) > 0), 1.0)[:, :, None]
+    return np.einsum("kj,pjq->pkq", np.abs(flat_ended(n)), np.maximum(steps[:, 1:], steps[:, :-1])).max(axis=1)
 
 
 def _pressure_goal(values, goal):
