@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .breaks import breaks_on, first_contact, threshold_width
-from .curve import Interval, Sought, interpolate
+from .curve import Sought, interpolate
+from .interval import Interval
 from .law import Branch, rising
 from .means import level_means
 from .monotone import enclosed
