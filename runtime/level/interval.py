@@ -9,26 +9,29 @@ import numpy as np
 from .chebyshev import graded, parameter
 from .expected import expect
 
+#: how far from the ends of an interval a look stays, as a share of it: on a threshold all strips are dear
+_ASIDE = 1e-3
+
 
 @dataclass(frozen=True)
 class Seen:
-    """Zones (``Averages.zones``) at the parameters ``t`` of an interval of D, and the least size of the means there, (q,)."""
+    """Zones (``Averages.zones``) at the parameters ``t`` of an interval, and the least size of the means there, (q,)."""
 
-    low: float
-    high: float
+    interval: Interval
     t: np.ndarray
     zones: list[np.ndarray]
     size: np.ndarray
 
     def expected(self, D: np.ndarray):
         """``expected.expect`` at penetrations inside."""
-        return expect(self.t, self.zones, parameter((D - self.low) / (self.high - self.low)))
+        return expect(self.t, self.zones, self.interval.parameter(D))
 
 
 @dataclass(frozen=True)
 class Interval:
     """An interval of D of one column; ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end. ``witnesses``: thetas at which some
-    regime is met in next to no strips towards an end. ``ease``: how much coarser than what is asked of the column it may be."""
+    regime is met in next to no strips towards an end. ``ease``: how much coarser than what is asked of the column it may be. ``even``: its parameters
+    are shares of it, not graded towards its ends, which are left out: enough for a look."""
 
     column: int
     low: float
@@ -37,6 +40,7 @@ class Interval:
     soft_high: bool = False
     witnesses: tuple[float, ...] = ()
     ease: float = 1.0
+    even: bool = False
     #: what was seen on the interval that this one is a part of
     seen: Seen | None = field(default=None, compare=False, repr=False)
 
@@ -55,4 +59,9 @@ class Interval:
 
     def penetrations(self, t):
         """D at the parameters ``t`` of a piece."""
-        return self.low + (self.high - self.low) * graded(t)
+        return self.low + (self.high - self.low) * (_ASIDE + (1 - 2 * _ASIDE) * t if self.even else graded(t))
+
+    def parameter(self, D):
+        """Parameters of the penetrations ``D`` inside."""
+        share = (D - self.low) / (self.high - self.low)
+        return (share - _ASIDE) / (1 - 2 * _ASIDE) if self.even else parameter(share)

@@ -171,6 +171,7 @@ class Law:
         p_sat: pressure of saturated contact; ``saturated`` are the means there (from there on constant, but for pressure).
         p_top: largest pressure the law was built for (``p_sat``, unless it was cut below that).
         error: bound of the interpolation error of each quantity, (q,).
+        unloading: the branch of loading it follows.
     """
 
     branches: list[Branch]
@@ -180,6 +181,7 @@ class Law:
     p_top: float
     error: np.ndarray
     strips: int
+    unloading: bool
 
     @property
     def friction_columns(self) -> np.ndarray:
@@ -210,8 +212,11 @@ class Law:
         aside = 1e-9 * (np.abs(p) + np.abs(p).max(initial=0.0))
         jumps = np.abs(self(p + aside)[:, columns] - self(p - aside)[:, columns]).sum(axis=1)
         for b in self.branches:
-            near = (p >= b.p_low - aside) & (p <= b.p_high + aside)
-            errors[near] = np.maximum(errors[near], b.piece.error[0])
+            # a branch is left at one of its ends, and that tells where the law goes over to the next one
+            left, entered = (b.p_low, b.p_high) if self.unloading else (b.p_high, b.p_low)
+            errors[np.abs(p - left) <= aside] = b.piece.error[0]
+            outermost = (np.abs(p - entered) <= aside) & (errors == 0)
+            errors[outermost] = b.piece.error[0]
         return jumps, errors
 
     def __call__(self, p: np.ndarray) -> np.ndarray:
@@ -238,4 +243,4 @@ def law_of(curve: Curve, unloading: bool, p_sat: float, saturated: np.ndarray, c
     pull_off = kept[0].p_low if kept else p_sat
     error = np.max([b.piece.error for b in kept], axis=0) if kept else np.zeros(saturated.size)
     kept = [b.resampled(np.maximum(b.piece.error, 1e-15 * np.abs(saturated))) for b in kept]
-    return Law(kept, pull_off, p_sat, saturated, kept[-1].p_high if cut and kept else p_sat, 1.5 * error, curve.strips)
+    return Law(kept, pull_off, p_sat, saturated, kept[-1].p_high if cut and kept else p_sat, 1.5 * error, curve.strips, unloading)
