@@ -39,9 +39,9 @@ class Island:
 def island(column: int, D: np.ndarray, zones: list[np.ndarray], negligible: float) -> Island | None:
     """The first change in the sequence of codes along y between two of the nodes ``D``; None if there is none.
 
-    ``zones``: ``Averages.zones`` at the nodes; those no wider than ``negligible`` don't count. The end nodes are breaks already: what they show may belong to either side.
+    ``zones``: ``Averages.zones`` at the nodes; those no wider than ``negligible`` don't count.
     """
-    for i in range(1, D.size - 2):
+    for i in range(D.size - 1):
         one, two = zones[i], zones[i + 1]
         if len(one) == len(two) and np.all(one[:, 0] == two[:, 0]):
             continue

@@ -1,7 +1,8 @@
 """Chebyshev interpolation of several quantities at once on a piece ``low <= D <= high``.
 
 ``D = low + width graded(t)``: the grading is flat like t^4 at both ends. A quantity that ends like a square root in D is smooth in t, and one
-that ends like ``D log D`` nearly so (a level does where its crest lets go while its neighbours still hold).
+that ends like ``D log D`` nearly so (a level does where its crest lets go while its neighbours still hold). Either way it is flat in t at the end,
+which says what it is there: the ends are no nodes. They are breaks, and next to one rounding decides which side of it a strip is on.
 """
 
 from dataclasses import dataclass
@@ -22,13 +23,6 @@ def lobatto(n: int) -> np.ndarray:
     return np.sin(0.5 * np.pi * np.arange(n + 1) / n) ** 2
 
 
-@lru_cache
-def _barycentric(n: int) -> np.ndarray:
-    weights = (-1.0) ** np.arange(n + 1)
-    weights[[0, -1]] *= 0.5
-    return weights
-
-
 def coefficients(values: np.ndarray) -> np.ndarray:
     """Chebyshev coefficients (n + 1, q) of the interpolant through ``values`` (n + 1, q) at ``lobatto(n)``."""
     n = values.shape[0] - 1
@@ -45,9 +39,19 @@ def _transform(n: int) -> np.ndarray:
     return matrix
 
 
-def interpolation_errors(c: np.ndarray, noise: np.ndarray, blur: np.ndarray | float = 0.0) -> np.ndarray:
+@lru_cache
+def flat_ended(n: int) -> np.ndarray:
+    """Matrix (n + 1, n - 1) from values at the interior nodes of ``lobatto(n)`` to coefficients of the interpolant whose slope vanishes at both ends."""
+    every, degree = _transform(n), np.arange(n + 1)
+    # slopes of the Chebyshev polynomials are k^2 at one end and (-1)^(k + 1) k^2 at the other
+    slopes = np.stack((degree**2, (-1.0) ** degree * degree**2)) @ every
+    ends = np.linalg.solve(slopes[:, [0, -1]], -slopes[:, 1:-1])
+    return every[:, 1:-1] + every[:, [0, -1]] @ ends
+
+
+def interpolation_errors(c: np.ndarray, noise: np.ndarray, blur: np.ndarray | float = 0.0, rounding: np.ndarray | float = 0.0) -> np.ndarray:
     """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q); ``noise`` (p, q): changes that don't matter; ``blur`` (p, q):
-    how uncertain the coefficients are themselves.
+    how uncertain the coefficients are themselves; ``rounding`` (p, q): what of each is rounding and not counted.
 
     What is left is extrapolated from the last coefficients, at the pace they fell at since the middle: that of the slowest quantity, and no
     quantity is taken to be much smoother than the roughest, for they share their singularities.
@@ -55,7 +59,7 @@ def interpolation_errors(c: np.ndarray, noise: np.ndarray, blur: np.ndarray | fl
     n = c.shape[1] - 1
     c = np.abs(c)
     # what is rounding says nothing of the singularities
-    c = np.maximum(c - 16 * _EPS * c.max(axis=1)[:, None], 0.0)
+    c = np.maximum(c - (16 * _EPS * c.max(axis=1) + rounding)[:, None], 0.0)
     amplitude = c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny
     blur = np.broadcast_to(blur, amplitude.shape)[:, None]
     shape = (np.maximum(c - blur, 0.0) / amplitude[:, None]).max(axis=2)
@@ -65,14 +69,6 @@ def interpolation_errors(c: np.ndarray, noise: np.ndarray, blur: np.ndarray | fl
     pace = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0) ** (1 / (n / 2 + 1 - few / 2))
     rest = np.minimum(4 * pace / np.maximum(1 - pace, 1e-3), _SLOWEST)[:, None]
     return np.maximum(c[:, n - few :].max(axis=1), _COMMON * last[:, None] * amplitude) * rest
-
-
-@lru_cache
-def refinement(n: int) -> np.ndarray:
-    """Matrix that takes values at ``lobatto(n/2)`` to the nodes of ``lobatto(n)`` that are new, (n/2, n/2 + 1)."""
-    x, new, w = lobatto(n // 2), lobatto(n)[1::2], _barycentric(n // 2)
-    terms = w / (new[:, None] - x)
-    return terms / terms.sum(axis=1, keepdims=True)
 
 
 def graded(t):

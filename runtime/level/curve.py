@@ -12,14 +12,14 @@ import numpy as np
 
 from .appearance import is_inside, island, vanishing
 from .breaks import breakpoints, threshold_width
-from .chebyshev import Piece, interpolation_errors, lobatto
+from .chebyshev import Piece, flat_ended, interpolation_errors, lobatto
 from .demand import Demand
 from .interval import Interval
 from .rims import where_rims_hold
 from .sampling import MEAN, Batch
 from .strips import Columns, saturation_depth
 
-_FIRST, _LAST = 4, 32
+_FIRST, _LAST = 4, 64
 _ROUNDS = 40
 #: share of the error allowed that interpolating may have: the means have the rest
 _INTERPOLATION = 1 - MEAN
@@ -37,6 +37,9 @@ _NEGLIGIBLE = 0.3
 _NARROWEST = 1e-11
 #: parameters at which a piece is looked at
 _GRID = np.linspace(0, 1, 65)
+_EPS = np.finfo(float).eps
+#: error of a piece by what rounding may make of each of its coefficients
+_ROUNDED = 8.0
 
 
 @dataclass(frozen=True)
@@ -75,7 +78,7 @@ def trace(
     strips = np.zeros(n, int)
     rows, crest = smooth_intervals(columns, top)
     intervals = [i for row in rows for i in row]
-    below = [i for i in intervals if follow and i.high < crest[i.column]]
+    below = [i for i in intervals if follow and i.high <= crest[i.column]]
     pieces = interpolate(columns, rtol, [i for i in intervals if i not in below], strips, demand=demand)
     if below:
         least = np.array([min((piece.first(_GRID)[0].min() for piece in row), default=np.inf) for row in pieces])
@@ -87,15 +90,10 @@ def trace(
 
 def smooth_intervals(columns: Columns, top: np.ndarray) -> tuple[list[list[Interval]], np.ndarray]:
     """For every column the intervals between the breaks of its curve, ascending; and where the crest lets go (inf: never seen), (n,)."""
-    # just inside its breaks a piece does not see strips that sit on a threshold but for rounding
     inside = threshold_width(columns, top)
     breaks, crest = breakpoints(columns, top)
     rows = [
-        [
-            Interval(i, low + inside[i], high - inside[i])
-            for low, high in zip(points[:-1], points[1:], strict=True)
-            if high - low > 2 * inside[i]
-        ]
+        [Interval(i, low, high) for low, high in zip(points[:-1], points[1:], strict=True) if high - low > 2 * inside[i]]
         for i, points in enumerate(breaks)
     ]
     return rows, crest
@@ -137,7 +135,8 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
         batch.sample(n)
         c = batch.coefficients
         goal = batch.accuracy[:, None] * (np.abs(batch.values).min(axis=1) + floor)
-        error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1))
+        rounding = _rounding(columns, batch, n, c)
+        error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1), rounding)
         # where next to nothing changes there is little to miss, whatever nobody marked there
         error = np.minimum(error, 2 * np.ptp(batch.values, axis=1))
         if sought is not None:
@@ -148,7 +147,7 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
         done = (error <= _INTERPOLATION * goal).all(axis=1)
         done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in batch.intervals]
         for k in np.flatnonzero(done):
-            i, bound = batch.intervals[k], error[k] + batch.errors[k].max(axis=0)
+            i, bound = batch.intervals[k], error[k] + _ROUNDED * rounding[k] + batch.errors[k].max(axis=0)
             pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.soft_low, i.soft_high))
         # coefficients fall geometrically: where twice the nodes would not do, halves are better
         missed = error / goal
@@ -167,6 +166,16 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
     return parts
 
 
+def _rounding(columns: Columns, batch: Batch, n: int, c) -> np.ndarray:
+    """What the rounding of D makes of the coefficients ``c``, (intervals, q): next to a break where the means are like square roots it tells."""
+    ends = np.stack((np.einsum("k,pkq->pq", (-1.0) ** np.arange(n + 1), c), c.sum(axis=1)), axis=1)
+    values = np.concatenate((ends[:, :1], batch.values, ends[:, 1:]), axis=1)
+    D = np.array([i.penetrations(lobatto(n)) for i in batch.intervals])
+    digit = _EPS * np.maximum(np.abs(D).max(axis=1), columns.level.h)
+    steps = np.abs(np.diff(values, axis=1)) * np.minimum(np.divide(digit[:, None], np.diff(D), out=np.ones_like(D[:, 1:]), where=np.diff(D) > 0), 1.0)[:, :, None]
+    return np.einsum("kj,pjq->pkq", np.abs(flat_ended(n)), np.maximum(steps[:, 1:], steps[:, :-1])).max(axis=1)
+
+
 def _pressure_goal(values, goal):
     """Error of pressure that moves friction by no more than is allowed for it, where friction rises steadily with pressure."""
     pressure, friction = np.ptp(values[:, :, 0], axis=1), np.ptp(values[:, :, 1], axis=1)
@@ -179,7 +188,7 @@ def _islands(columns: Columns, batch: Batch, n: int, which, strips, roughly: boo
     seen = {}
     for k in np.flatnonzero(which):
         i = batch.intervals[k]
-        found = island(i.column, i.penetrations(lobatto(n)), batch.zones[k], _NEGLIGIBLE * batch.accuracy[k])
+        found = island(i.column, i.penetrations(lobatto(n)[1:-1]), batch.zones[k], _NEGLIGIBLE * batch.accuracy[k])
         if found is not None:
             seen[int(k)] = found
     if not seen:

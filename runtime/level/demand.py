@@ -46,7 +46,8 @@ class Demand:
             below, above = np.interp((low, high), self.p[i], self.share[i])
             part = _PARTS * max(above - below, _FINEST) * friction
             least = min(least, self.friction[i] / part) if part > 0 else least
-        return max(least * min(1.0, (high - low) / max(abs(low), abs(high))), 1.0)
+        width = (high - low) / max(abs(low), abs(high)) if np.isfinite(high) else 1.0
+        return max(least * min(width, 1.0), 1.0)
 
 
 def demand_of(columns: Columns, group: np.ndarray) -> Demand:

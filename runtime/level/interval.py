@@ -9,9 +9,6 @@ import numpy as np
 from .chebyshev import graded, parameter
 from .expected import expect
 
-#: how far from the ends of an interval a look stays, as a share of it: on a threshold all strips are dear
-_ASIDE = 1e-3
-
 
 @dataclass(frozen=True)
 class Seen:
@@ -31,7 +28,7 @@ class Seen:
 class Interval:
     """An interval of D of one column; ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end. ``witnesses``: thetas at which some
     regime is met in next to no strips towards an end. ``ease``: how much coarser than what is asked of the column it may be. ``even``: its parameters
-    are shares of it, not graded towards its ends, which are left out: enough for a look."""
+    are shares of it, not graded towards its ends: enough for a look."""
 
     column: int
     low: float
@@ -59,9 +56,9 @@ class Interval:
 
     def penetrations(self, t):
         """D at the parameters ``t`` of a piece."""
-        return self.low + (self.high - self.low) * (_ASIDE + (1 - 2 * _ASIDE) * t if self.even else graded(t))
+        return self.low + (self.high - self.low) * (t if self.even else graded(t))
 
     def parameter(self, D):
         """Parameters of the penetrations ``D`` inside."""
         share = (D - self.low) / (self.high - self.low)
-        return (share - _ASIDE) / (1 - 2 * _ASIDE) if self.even else parameter(share)
+        return share if self.even else parameter(share)

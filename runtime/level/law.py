@@ -162,6 +162,12 @@ def _meets(part: Branch, overlap: float) -> bool:
     return overlap <= 2 * part.piece.error[0] + 64 * _EPS * (abs(part.p_low) + abs(part.p_high))
 
 
+def _joined(kept: list[Branch], p_sat: float) -> list[Branch]:
+    """The branches, those stretched that end next to where another begins, or at saturation, but for their errors: there is one break of the law, not two."""
+    ends = [*(b.p_low for b in kept[1:]), p_sat]
+    return [replace(b, p_high=end) if _meets(b, abs(end - b.p_high)) else b for b, end in zip(kept, ends, strict=True)] if kept else []
+
+
 @dataclass(frozen=True)
 class Law:
     """Means of a level over nominal pressure at one velocity.
@@ -198,7 +204,7 @@ class Law:
     def breaks(self) -> np.ndarray:
         """Pressures at which the law jumps or is not smooth, ascending, from pull-off to saturation."""
         ends = [b.p_low for b in self.branches if not b.soft_low] + [b.p_high for b in self.branches if not b.soft_high]
-        ends = np.unique([e for e in [*ends, self.pull_off, self.p_sat] if np.isfinite(e)])
+        ends = np.unique([e for e in [*ends, self.pull_off, self.p_sat] if -np.inf < e <= self.p_sat])
         # branches that follow one another meet to rounding
         apart = np.diff(ends, append=np.inf) > 1e-12 * np.abs(ends).max(initial=0.0)
         return ends[apart]
@@ -242,5 +248,5 @@ def law_of(curve: Curve, unloading: bool, p_sat: float, saturated: np.ndarray, c
     kept = branches(curve, unloading)
     pull_off = kept[0].p_low if kept else p_sat
     error = np.max([b.piece.error for b in kept], axis=0) if kept else np.zeros(saturated.size)
-    kept = [b.resampled(np.maximum(b.piece.error, 1e-15 * np.abs(saturated))) for b in kept]
+    kept = _joined([b.resampled(np.maximum(b.piece.error, 1e-15 * np.abs(saturated))) for b in kept], p_sat)
     return Law(kept, pull_off, p_sat, saturated, kept[-1].p_high if cut and kept else p_sat, 1.5 * error, curve.strips, unloading)

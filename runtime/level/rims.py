@@ -16,7 +16,7 @@ from .sampling import Batch
 from .strips import Columns
 
 #: accuracy of the look, and its last nodes; narrower intervals, as a share of the column's, are left at the first
-_ROUGH, _FIRST, _LAST, _NARROW = 5e-3, 2, 16, 0.05
+_ROUGH, _FIRST, _LAST, _NARROW = 5e-3, 4, 16, 0.05
 #: how much more than its error, and than what it bends between two nodes, a pressure has to keep above what was before
 _DOUBT, _BEND = 2.0, 0.5
 
@@ -61,7 +61,7 @@ def _looks(columns: Columns, intervals: list[Interval], strips) -> list[tuple[In
         done = np.array([n == _LAST or i.high - i.low < _NARROW * whole[i.column] for i in batch.intervals])
         for k in np.flatnonzero(done):
             look = batch.known(k, n)
-            out.append((look, look.penetrations(lobatto(n)), batch.values[k], batch.errors[k, :, 0]))
+            out.append((look, look.penetrations(lobatto(n)[1:-1]), batch.values[k], batch.errors[k, :, 0]))
         batch.keep(np.flatnonzero(~done))
         if batch.intervals:
             n *= 2

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .chebyshev import coefficients, lobatto
+from .chebyshev import flat_ended, lobatto
 from .demand import Demand
 from .expected import expect, hints
 from .interval import Interval, Seen
@@ -38,7 +38,7 @@ class Batch:
     @property
     def coefficients(self) -> np.ndarray:
         """Of the interpolants through the values, (intervals, nodes, q)."""
-        return np.einsum("ij,pjq->piq", coefficients(np.eye(self.values.shape[1])), self.values)
+        return np.einsum("ij,pjq->piq", flat_ended(self.values.shape[1] + 1), self.values)
 
     def weigh(self, demand: Demand, ceiling: np.ndarray | None) -> None:
         """Let intervals be as coarse as what is asked of their pressures allows."""
@@ -48,10 +48,10 @@ class Batch:
         self.intervals = [replace(i, ease=max(i.ease, demand.ease(i.column, *of))) for i, *of in ranges]
 
     def sample(self, n: int) -> None:
-        """Go on to the nodes ``lobatto(n)``, of which every other one is known, unless they are the first."""
+        """Go on to the interior nodes of ``lobatto(n)``, of which every other one is known, unless they are the first."""
         first = self.values is None
-        nodes = lobatto(n)
-        t = nodes if first else nodes[1::2]
+        nodes = lobatto(n)[1:-1]
+        t = nodes if first else nodes[::2]
         D = np.concatenate([i.penetrations(t) for i in self.intervals])
         rows = np.repeat(self.column, t.size)
         if first:
@@ -59,7 +59,7 @@ class Batch:
             expected = [None if seen is None else seen.expected(i.penetrations(t)) for i, seen in zip(self.intervals, inherited, strict=True)]
             size = np.array([np.zeros(self.columns.scales.size) if seen is None else seen.size for seen in inherited])
         else:
-            expected = [expect(nodes[::2], zones, t) for zones in self.zones]
+            expected = [expect(nodes[1::2], zones, t) for zones in self.zones]
             size = np.abs(self.values).min(axis=1)
         where = np.arange(rows.size).reshape(-1, t.size)
         hint = hints(where, expected, [i.witnesses for i in self.intervals], np.repeat(size, t.size, axis=0))
@@ -75,9 +75,9 @@ class Batch:
         self.zones = [_alternating(old, new) for old, new in zip(self.zones, zones, strict=True)]
 
     def known(self, k: int, n: int) -> Interval:
-        """Interval ``k`` with what was seen of it at ``lobatto(n)``."""
+        """Interval ``k`` with what was seen of it at the interior nodes of ``lobatto(n)``."""
         i = self.intervals[k]
-        return replace(i, seen=Seen(i, lobatto(n), self.zones[k], np.abs(self.values[k]).min(axis=0)))
+        return replace(i, seen=Seen(i, lobatto(n)[1:-1], self.zones[k], np.abs(self.values[k]).min(axis=0)))
 
     def keep(self, index) -> None:
         """Go on with the intervals ``index`` alone."""
@@ -87,11 +87,11 @@ class Batch:
 
 def _merged(old, fresh):
     out = np.empty((old.shape[0], old.shape[1] + fresh.shape[1], old.shape[2]))
-    out[:, 0::2], out[:, 1::2] = old, fresh
+    out[:, 0::2], out[:, 1::2] = fresh, old
     return out
 
 
 def _alternating(old, fresh):
     out = old + fresh
-    out[0::2], out[1::2] = old, fresh
+    out[0::2], out[1::2] = fresh, old
     return out
