@@ -7,12 +7,12 @@ more extremal one exists; all else is left to ``search``.
 import numpy as np
 
 from .certificate import attracting, edges_admissible
-from .chain import follow
+from .chain import CONVERGED, follow
 from .exclusion import alone
 from .march import Orbit
 from .outermost import Outermost
 from .problem import Cycle
-from .refine import CONVERGED, refined
+from .refine import refined
 from .solved import orbit_of
 from .start import start
 
