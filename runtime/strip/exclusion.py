@@ -48,15 +48,19 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> 
         proven[known] = _falls_between(kernel, cycle.take(known), part, outer, 1.0)
         rest = np.flatnonzero(~proven & (cycle.strips.beta > SLOW))
         if rest.size:
-            part, here = cycle.take(rest), _zero(kernel, cycle, orbit, rest)
-            start = np.fmax(part.centre - part.half_d, bounds.x[rest])
-            end = np.fmin(part.centre + TWO_PI - part.half_c, bounds.c[rest])
-            proven[rest], spent[rest] = balance.first(kernel, part, here, start, end)
+            part = cycle.take(rest)
+            here = _zero(kernel, cycle, orbit, rest)
+            proven[rest], spent[rest] = balance.first(kernel, part, here, *onsets_within(part, bounds.take(rest)))
     rest = np.flatnonzero(~proven)
     if rest.size:
         proven[rest], used = _alone(kernel, cycle.take(rest), orbit.take(rest), last, bounds.x[rest])
         spent[rest] += used
     return proven, spent
+
+
+def onsets_within(cycle: Cycle, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
+    """Phases before which no orbit has its onset, and after which its adhesion does not end."""
+    return np.fmax(cycle.centre - cycle.half_d, bounds.x), np.fmin(cycle.centre + TWO_PI - cycle.half_c, bounds.c)
 
 
 def _falls_between(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float) -> np.ndarray:
@@ -89,10 +93,10 @@ def _alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, least) -> tuple[np.nd
     known = _zero(kernel, cycle, orbit, slice(None))
     sign = -1.0 if last else 1.0
     end = cycle.centre - sign * cycle.half_d
-    return _cleared(kernel, cycle, known, sign, end if last else np.fmax(end, least))
+    return cleared(kernel, cycle, known, sign, end if last else np.fmax(end, least))
 
 
-def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.ndarray, np.ndarray]:
+def cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.ndarray, np.ndarray]:
     """Where no zero of r lies between ``end``, of the onset arc or of what is left of it (``sign`` > 0: its start), and the onsets of ``known``."""
     n = cycle.size
     proven, spent = np.zeros(n, bool), np.zeros(n)
