@@ -17,6 +17,7 @@ What is not proven here is left to ``search``; nothing is ever accepted for lack
 
 import numpy as np
 
+from . import balance
 from .bound import bound, close_enough
 from .march import TWO_PI, Orbit, march
 from .outermost import Outermost
@@ -27,8 +28,10 @@ from .sensitivity import slope_bounds, steep_margin
 _EPS = np.finfo(float).eps
 #: least relaxation time that is divided by
 _LEAST = 1e-290
+#: beta above which the balance of a period is asked first: a faster foundation is judged better by its bounds
+SLOW = 30.0
 #: probes tried; the first half way to the end of the arc, the next ones after longer steps from what is proven, or shorter ones after a failure
-_PROBES, _FIRST, _BOLDER, _WARIER = 24, 0.5, 3.0, 0.2
+_PROBES, _FIRST, _BOLDER, _WARIER = 8, 0.5, 3.0, 0.2
 
 
 def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
@@ -43,10 +46,21 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> 
         unknown = np.full(known.size, np.nan)
         outer = Orbit(limits.x, unknown, unknown, np.maximum(limits.c, part.c), np.zeros(known.size, bool), unknown, unknown)
         proven[known] = _falls_between(kernel, cycle.take(known), part, outer, 1.0)
+        rest = np.flatnonzero(~proven & (cycle.strips.beta > SLOW))
+        if rest.size:
+            part = cycle.take(rest)
+            here = _zero(kernel, cycle, orbit, rest)
+            proven[rest], spent[rest] = balance.first(kernel, part, here, *onsets_within(part, bounds.take(rest)))
     rest = np.flatnonzero(~proven)
     if rest.size:
-        proven[rest], spent[rest] = _alone(kernel, cycle.take(rest), orbit.take(rest), last, bounds.x[rest])
+        proven[rest], used = _alone(kernel, cycle.take(rest), orbit.take(rest), last, bounds.x[rest])
+        spent[rest] += used
     return proven, spent
+
+
+def onsets_within(cycle: Cycle, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
+    """Phases before which no orbit has its onset, and after which its adhesion does not end."""
+    return np.fmax(cycle.centre - cycle.half_d, bounds.x), np.fmin(cycle.centre + TWO_PI - cycle.half_c, bounds.c)
 
 
 def _falls_between(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float) -> np.ndarray:
@@ -68,16 +82,21 @@ def _falls_between(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float
     return steep & ((way == 0) | kept)
 
 
+def _zero(kernel, cycle: Cycle, orbit: Orbit, index) -> Orbit:
+    """The known orbits ``index`` as marches that end where they begin."""
+    x, s = orbit.x[index], cycle.strips
+    w_end = kernel.profile(x, s.D[index]) + s.delta_0[index]
+    return Orbit(x, orbit.b[index], orbit.a[index], orbit.c[index], np.zeros(x.size, bool), np.zeros(x.size), w_end)
+
+
 def _alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, least) -> tuple[np.ndarray, np.ndarray]:
-    s = cycle.strips
-    w_end = kernel.profile(orbit.x, s.D) + s.delta_0
-    known = Orbit(orbit.x, orbit.b, orbit.a, orbit.c, np.zeros(cycle.size, bool), np.zeros(cycle.size), w_end)
+    known = _zero(kernel, cycle, orbit, slice(None))
     sign = -1.0 if last else 1.0
     end = cycle.centre - sign * cycle.half_d
-    return _cleared(kernel, cycle, known, sign, end if last else np.fmax(end, least))
+    return cleared(kernel, cycle, known, sign, end if last else np.fmax(end, least))
 
 
-def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.ndarray, np.ndarray]:
+def cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.ndarray, np.ndarray]:
     """Where no zero of r lies between ``end``, of the onset arc or of what is left of it (``sign`` > 0: its start), and the onsets of ``known``."""
     n = cycle.size
     proven, spent = np.zeros(n, bool), np.zeros(n)
