@@ -139,7 +139,7 @@ class _Solve:
             return out
         velocities, group = np.unique(self.V[rest], return_inverse=True)
         # a block of velocities at a time: large enough for the batch to pay, small enough to show progress
-        block = 64
+        block = 128
         for start in range(0, velocities.size, block):
             chosen = (group >= start) & (group < start + block)
             self._block(velocities[start : start + block], rest[chosen], group[chosen] - start)

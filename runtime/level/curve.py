@@ -19,7 +19,7 @@ from .rims import where_rims_hold
 from .sampling import MEAN, Batch
 from .strips import Columns, saturation_depth
 
-_FIRST, _LAST = 4, 64
+_FIRST, _LAST = 6, 96
 _ROUNDS = 40
 #: share of the error allowed that interpolating may have: the means have the rest
 _INTERPOLATION = 1 - MEAN
