@@ -47,6 +47,8 @@ class Prony:
         times = _each("material.times", self.times, "s", strict=True)
         if len(moduli) != len(times):
             raise InputError("material.moduli, material.times", (len(moduli), len(times)), "as many moduli as times")
+        if self.solver is not None and not hasattr(self.solver, "prony_kernel"):
+            raise InputError("material.solver", self.solver, "None, or what hystrip.load_solver returns")
         names = [*(f"material.moduli[{i}]" for i in range(len(moduli))), *(f"material.times[{i}]" for i in range(len(times)))]
         shape = broadcast(**{"material.K": K}, **dict(zip(names, moduli + times, strict=True)))
         if shape:
