@@ -116,6 +116,8 @@ def _labelled(name: str, dims: tuple[str, ...], values: Any) -> tuple[tuple[str,
 
 
 def _constant(values: np.ndarray, axis: int) -> bool:
+    if not values.size:  # an axis without points stays an axis
+        return values.shape[axis] > 0
     first = np.take(values, [0], axis=axis)
     return bool(np.all((values == first) | (np.isnan(values) & np.isnan(first))))
 

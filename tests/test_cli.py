@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -77,6 +78,26 @@ def test_solve_writes_netcdf_and_a_summary(run, tmp_path):
     assert status == 0 and "share of mu" in out and "wrote hystrip-out/mine.nc" in out
     with xarray.open_dataset(tmp_path / "hystrip-out/mine.nc", engine="h5netcdf") as data:
         assert data.mu.dims == ("velocity",) and data.attrs["scene"] == text
+
+
+def test_a_title_is_text_whatever_stands_in_it(run, tmp_path):
+    (tmp_path / "mine.toml").write_text(SCENE.replace("two velocities", "[K=1] of [bold]x[/red] in µ"), encoding="utf-8")
+    status, out, err = run("solve", "mine.toml", "--no-plot")
+    assert (status, err) == (0, "") and "[K=1] of [bold]x[/red] in µ" in out
+
+
+def test_a_terminal_that_lacks_a_letter(tmp_path):
+    (tmp_path / "mine.toml").write_text(SCENE.replace("two velocities", "in µ"), encoding="utf-8")
+    command = [sys.executable, "-m", "hystrip", "solve", "mine.toml", "--no-plot"]
+    ascii_only = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, env=ascii_only)
+    assert done.returncode == 0 and "in ?" in done.stdout, done.stderr
+
+
+def test_a_sweep_in_which_every_point_fails_has_a_status(run, tmp_path):
+    (tmp_path / "mine.toml").write_text(SCENE.replace("gamma = 2.5e-5", "gamma = 0"))
+    status, out, err = run("sweep", "mine.toml", "--over", "material.T_sigma=[1.0, 2.0]")
+    assert status == 1 and "4 points failed" in err and "wrote" in out
 
 
 def test_sweep_of_a_scene(run, tmp_path):

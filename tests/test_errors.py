@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import hystrip
+from hystrip.multilevel import Surface
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
@@ -125,6 +126,8 @@ CASES = [  # the call, what is wrong, the field, and words on the value and on w
     (surface, {"pressure": None, "penetration": "1 nm"}, "penetration", "'1 nm'", "finite number (m)"),
     (surface, {"velocity": [1e-3, -1e-3]}, "velocity", "-0.001", ">= 0 (m/s)"),
     (surface, {"velocity": [1e-3, 2e-3], "pressure": [1.0, 2.0, 3.0]}, "pressure, velocity", "(3,), (2,)", "broadcast"),
+    (surface, {"pressure": 5e-324}, "pressure", "5e-324", "0, or a magnitude from 1e-40 Pa on"),
+    (surface, {"pressure": 1e-50, "adhesion": hystrip.Dugdale(gamma=0)}, "pressure", "1e-50", "from 1e-20 Pa on"),
     (surface, {"velocity": 1e300}, "velocity", "1e+300", "magnitude up to 1e+40"),
     (surface, {"velocity": np.longdouble("1e400")}, "velocity", "got", "a finite number >= 0"),
     (surface, {"velocity": np.ma.array([1e-3, 1e20], mask=[0, 1])}, "velocity", "masked_array", "none of them masked"),
@@ -158,6 +161,24 @@ def test_refusal(call, wrong, field, value, allowed):
 
 def test_nothing_is_wrong_with_the_calls_themselves():
     assert np.isfinite([strip().p_mean, one_level(rtol=1e-2).p_mean, surface(rtol=1e-2).mu]).all()
+
+
+def test_the_faintest_pressure_still_gives_a_friction():
+    with np.errstate(all="raise", under="ignore"):
+        mu = surface(pressure=[1e-20, 1e-18], velocity=1e-3, adhesion=hystrip.Dugdale(gamma=0)).mu
+    assert mu[1] / mu[0] == pytest.approx(10, rel=1e-3)  # contact, and with it mu, grows like the root of a small pressure
+
+
+def test_friction_that_is_no_number_is_an_error(monkeypatch):
+    def spoiled(self, V, load, by_pressure, progress=None):
+        points = solved(self, V, load, by_pressure, progress)
+        points.tau[0, 1] = np.nan
+        return points
+
+    solved = Surface.solve
+    monkeypatch.setattr(Surface, "solve", spoiled)
+    with pytest.raises(hystrip.SolverError, match="1 of 3 points have no finite friction; the first: pressure 2e.06, velocity 0.005"):
+        surface(pressure=[1e6, 2e6, 3e6])
 
 
 def test_an_argument_that_does_not_exist():

@@ -3,13 +3,14 @@
 import subprocess
 import sys
 import time
+from types import SimpleNamespace
 
 import distributed
 import numpy as np
 import pytest
 
 import hystrip
-from hystrip.sweeps.batch import solve_batch
+from hystrip.sweeps.executors import dask
 
 SCENE = """
 pressure = 100
@@ -66,4 +67,20 @@ def test_no_scheduler_is_one_sentence(tmp_path):
     command = [sys.executable, "-m", "hystrip", "sweep", "s.toml", "--scheduler", "tcp://127.0.0.1:9"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
     assert done.returncode == 1 and "no Dask scheduler answers" in done.stderr and "Traceback" not in done.stderr, done.stderr
-    assert time.monotonic() - start < 60 and solve_batch
+    assert time.monotonic() - start < 60
+
+
+def test_a_batch_that_kills_every_worker_is_one_sentence(monkeypatch):
+    class Client:
+        def __init__(self, *address, **options): ...
+
+        def nthreads(self):
+            return {}
+
+        def get_executor(self, retries): ...
+
+        def close(self, timeout): ...
+
+    monkeypatch.setattr(distributed, "Client", Client)
+    with pytest.raises(hystrip.HystripError, match="tcp://there: .*finished batches are kept"), dask("tcp://there"):
+        raise distributed.KilledWorker("solve_batch-1", SimpleNamespace(address="tcp://gone"), 3)

@@ -58,3 +58,5 @@ def command(
         )
     for path in written:
         typer.echo(f"wrote {path}")
+    if len(done.failed) == done.plan.size:
+        raise typer.Exit(1)

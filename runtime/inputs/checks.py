@@ -78,7 +78,7 @@ def broadcast(**arrays: np.ndarray) -> tuple[int, ...]:
 
 def _first(value: Any, array: np.ndarray, bad: np.ndarray) -> Any:
     """What is wrong: the value as given, or the first bad entry of an array."""
-    return value if array.ndim == 0 else float(array[bad][0])
+    return float(array[bad][0]) if array.ndim or isinstance(value, np.ndarray) else value
 
 
 def _allowed(unit: str, minimum: float, strict: bool) -> str:

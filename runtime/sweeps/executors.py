@@ -61,8 +61,15 @@ def dask(address: str) -> Iterator[tuple[Executor, int]]:
     try:
         threads = sum(client.nthreads().values())
         yield client.get_executor(retries=3), max(2 * threads, 8)
+    except distributed.KilledWorker as error:
+        raise HystripError(lost(f"--scheduler {address}: {error}")) from None
     finally:
         client.close(timeout=5)
+
+
+def lost(what: str) -> str:
+    """What to say when the workers are gone."""
+    return f"{what}; finished batches are kept: run the sweep again to go on"
 
 
 def _start_worker() -> None:
