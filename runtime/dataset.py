@@ -42,8 +42,8 @@ _PLAIN = (
 def to_dataset(result: Any) -> Any:
     """Dataset of a :class:`hystrip.Result`.
 
-    Dimensions: ``level``, and for every axis of the result what changes along it, ``velocity``, ``pressure`` or ``penetration``;
-    ``point`` where several change together. Needs the extra ``dataset``.
+    Dimensions: ``level``, and for every axis of the result what changes along it, ``velocity``, ``pressure`` or
+    ``penetration``; ``point`` where several change together. Needs the extra ``dataset``.
     """
     xarray = require("xarray", "dataset", "a labelled dataset")
     names = axis_names(result)

@@ -15,7 +15,8 @@ class Outputs:
     """A set of files in one folder that appear together, or not at all.
 
     Each is written aside under a hidden name; on leaving the ``with`` block without an error all are renamed into
-    place. On an error nothing is left, not even a folder that was made for them (unless somebody else put something there).
+    place. On an error nothing is left, not even a folder that was made for them (unless somebody else put something
+    there).
 
     Parameters
     ----------

@@ -62,7 +62,8 @@ class Result:
 
     @cached_property
     def p_sat(self) -> np.ndarray:
-        """Nominal pressure from which level 1 is in saturated contact, Pa; on the loading branch one that suffices. Shape of ``mu``."""
+        """Nominal pressure from which level 1 is in saturated contact, Pa; on the loading branch one that suffices.
+        Shape of ``mu``."""
         from hystrip.level.saturated import saturated_level
 
         V = self.velocity.ravel()

@@ -47,9 +47,9 @@ def solve(
     velocity : sliding velocity, m/s, >= 0; broadcasts with the load. No input may exceed 1e40 in magnitude
     edge, branch : edge closure and branch of loading, as in ``solve_strip``
     rtol : accuracy asked for, relative to ``|tau| + 1e-3 (K h + p_0) h/l`` of level 1, 1e-12 to 0.1
-    strips : average level 1 over the paper's so many equal strips of half a cell (midpoints) instead of adaptive panels:
-        to compare with the paper. The laws of the levels below stay adaptive, ``rtol`` holds for them alone, and the error
-        estimate says the rest
+    strips : average level 1 over the paper's so many equal strips of half a cell (midpoints) instead of adaptive
+        panels: to compare with the paper. The laws of the levels below stay adaptive, ``rtol`` holds for them alone,
+        and the error estimate says the rest
     skip : use the closed form where every level is saturated (off: every point is solved)
     progress : called with the number of points done and the total
 

@@ -119,7 +119,14 @@ def test_solve_and_sweep_leave_each_others_tables_alone(run, tmp_path):
 
 def test_quantities_swept_from_the_command_line(run, tmp_path):
     (tmp_path / "mine.toml").write_text(SCENE)
-    over = ["--over", 'material.K=["1 GPa/m", 2e9]', "--over", "levels[0].h = 1e-6, 5e-7", "--over", "velocity={start = 1e-3, stop = 5e-3, num = 3}"]
+    over = [
+        "--over",
+        'material.K=["1 GPa/m", 2e9]',
+        "--over",
+        "levels[0].h = 1e-6, 5e-7",
+        "--over",
+        "velocity={start = 1e-3, stop = 5e-3, num = 3}",
+    ]
     status, out, err = run("sweep", "mine.toml", *over)
     assert (status, err) == (0, "") and out.split("\n")[0] == "12 points"
     table = rows(tmp_path / "hystrip-out/mine.sweep.csv")
@@ -206,12 +213,21 @@ def test_a_reader_that_stops_reading_is_no_traceback(tmp_path):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
 def test_ctrl_c_is_one_line_and_leaves_no_file(tmp_path):
-    (tmp_path / "big.toml").write_text(SCENE.replace("pressure = 5e6", "pressure = 100").replace(
-        "[1e-3, 5e-3]", '{ start = 1e-4, stop = 1e-2, num = 5000, spacing = "log" }'))
+    (tmp_path / "big.toml").write_text(
+        SCENE.replace("pressure = 5e6", "pressure = 100").replace(
+            "[1e-3, 5e-3]", '{ start = 1e-4, stop = 1e-2, num = 5000, spacing = "log" }'
+        )
+    )
     command = [sys.executable, "-m", "hystrip", "solve", "big.toml"]
     # A session of its own: a shell that runs tests in the background would have it ignore SIGINT.
-    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+    process = subprocess.Popen(
+        command,
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
     time.sleep(2.0)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=60)

@@ -132,7 +132,13 @@ CASES = [  # the call, what is wrong, the field, and words on the value and on w
     (surface, {"velocity": np.longdouble("1e400")}, "velocity", "got", "a finite number >= 0"),
     (surface, {"velocity": np.ma.array([1e-3, 1e20], mask=[0, 1])}, "velocity", "masked_array", "none of them masked"),
     (surface, {"material": UNSOLVED, "edge": "constitutive"}, "material.times", "[0.001, 0.01, 0.1, 1.0]", "prony_model"),
-    (hystrip.Prony, {"K": 1e9, "moduli": [1e9], "times": [1e-3], "solver": "folder"}, "material.solver", "'folder'", "load_solver"),
+    (
+        hystrip.Prony,
+        {"K": 1e9, "moduli": [1e9], "times": [1e-3], "solver": "folder"},
+        "material.solver",
+        "'folder'",
+        "load_solver",
+    ),
     (hystrip.load_solver, {"folder": "a\0b"}, "solver", "'a\\x00b'", "hystrip regenerate"),
     (surface, {"adhesion": hystrip.Dugdale(p_0=[1e3, 2e3], delta_0=1e-8)}, "adhesion.p_0", "2000.", "single number"),
     (surface, {"rtol": [1e-3, 1e-4]}, "rtol", "0.001", "single number"),
@@ -177,7 +183,9 @@ def test_friction_that_is_no_number_is_an_error(monkeypatch):
 
     solved = Surface.solve
     monkeypatch.setattr(Surface, "solve", spoiled)
-    with pytest.raises(hystrip.SolverError, match="1 of 3 points have no finite friction; the first: pressure 2e.06, velocity 0.005"):
+    with pytest.raises(
+        hystrip.SolverError, match="1 of 3 points have no finite friction; the first: pressure 2e.06, velocity 0.005"
+    ):
         surface(pressure=[1e6, 2e6, 3e6])
 
 

@@ -74,7 +74,13 @@ def test_parameters_of_a_loaded_model_are_checked(folder):
         solver.material("no_such", **given)
     with pytest.raises(InputError, match="a Prony series of 5 different times"):
         hystrip.solve_strip(
-            hystrip.Prony(1e9, [1e9] * 5, [1, 2, 3, 4, 5], solver=solver), ADHESION, l=1.0, A=1.0, D=0.0, V=1.0, edge="constitutive"
+            hystrip.Prony(1e9, [1e9] * 5, [1, 2, 3, 4, 5], solver=solver),
+            ADHESION,
+            l=1.0,
+            A=1.0,
+            D=0.0,
+            V=1.0,
+            edge="constitutive",
         )
 
 
@@ -174,7 +180,12 @@ def test_moduli_and_times_are_swept(folder):
     over = {"material.times[0]": [1e-3, 1e-2, 3.0], "material.moduli[1]": [2e10, 0.0]}
     done = hystrip.sweep(path, over=over, out=folder.parent / "out")
     data = done.to_dataset()
-    assert data.mu.dims[:2] == ("moduli_2", "times_1") and data.moduli_2.units == "Pa/m" and data.times_1.units == "s" and not done.failed
+    assert (
+        data.mu.dims[:2] == ("moduli_2", "times_1")
+        and data.moduli_2.units == "Pa/m"
+        and data.times_1.units == "s"
+        and not done.failed
+    )
     base = hystrip.load_scene(path)
     for modulus in over["material.moduli[1]"]:
         for time in over["material.times[0]"]:  # the last is longer than the other: branches keep their moduli
@@ -197,7 +208,11 @@ def test_an_entry_of_moduli_or_times_is_a_list_or_range(folder):
 
 @pytest.mark.parametrize(
     ("over", "says"),
-    [({"material.times[0]": [1e-3, 0.0]}, "> 0"), ({"material.moduli[2]": 1.0}, "did you mean"), ({"material.times": 1.0}, "one of")],
+    [
+        ({"material.times[0]": [1e-3, 0.0]}, "> 0"),
+        ({"material.moduli[2]": 1.0}, "did you mean"),
+        ({"material.times": 1.0}, "one of"),
+    ],
 )
 def test_a_branch_that_cannot_be_swept_is_refused(folder, over, says):
     path = folder.parent / "scene.toml"
@@ -228,7 +243,11 @@ def test_a_generated_kelvin_voigt_solves_as_the_package_does(folder, edge):
     material = hystrip.load_solver(folder).material("kelvin_voigt", K=1e9, T_eps=1e-3)
     strips = {"l": 1e-5, "A": 1e-6, "D": np.linspace(-1e-6, 2e-6, 23), "V": 1e-3, "edge": edge}
     ours, theirs = (hystrip.solve_strip(m, ADHESION, **strips) for m in (hystrip.KelvinVoigt(1e9, 1e-3), material))
-    assert np.array_equal(ours.p_mean, theirs.p_mean) and np.array_equal(ours.tau_mean, theirs.tau_mean) and np.any(ours.tau_mean > 0)
+    assert (
+        np.array_equal(ours.p_mean, theirs.p_mean)
+        and np.array_equal(ours.tau_mean, theirs.tau_mean)
+        and np.any(ours.tau_mean > 0)
+    )
 
 
 def test_several_times_without_instantaneous_compliance_are_refused(folder):
@@ -240,6 +259,8 @@ def test_several_times_without_instantaneous_compliance_are_refused(folder):
     def material_modes(c):
         return modes.of_operators((1.0, c, c), (1.0, 0.5 * c, 0.0))
 
-    kernel = SimpleNamespace(MODEL="viscous", MODES=2, MATERIAL={"c": ("s", "time")}, MODE_PARAMETERS=(), material_modes=material_modes)
+    kernel = SimpleNamespace(
+        MODEL="viscous", MODES=2, MATERIAL={"c": ("s", "time")}, MODE_PARAMETERS=(), material_modes=material_modes
+    )
     with pytest.raises(InputError, match="a spring in every branch"):
         ModelMaterial(kernel, {"c": 5.0})

@@ -1,7 +1,7 @@
 """Fig. 5: tangential stress along strips of level 1: its own, and what level 2 adds in its contact.
 
-The paper shows strips 0 and 63 and calls the latter saturated. With the energy of adhesion that its text gives the first
-saturated strip is a later one, so that one is drawn too.
+The paper shows strips 0 and 63 and calls the latter saturated. With the energy of adhesion that its text gives the
+first saturated strip is a later one, so that one is drawn too.
 """
 
 from __future__ import annotations

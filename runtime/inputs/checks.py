@@ -10,7 +10,6 @@ import numpy as np
 
 from hystrip.errors import InputError
 
-
 #: greatest magnitude of an input, and the least of one that must not be zero: far beyond anything physical in SI, and
 #: near enough that no product or quotient of a few of them leaves the range of a double
 LARGEST, SMALLEST = 1e40, 1e-40

@@ -22,7 +22,8 @@ _MAX_ZONES = 24
 
 @dataclass(slots=True)
 class Zone:
-    """A zone of the strips ``index``: its letter's code, start, end (m,), state at the start ``z`` (n, m), and the next letter (-1: period over)."""
+    """A zone of the strips ``index``: its letter's code, start, end (m,), state at the start ``z`` (n, m), and the next
+    letter (-1: period over)."""
 
     index: np.ndarray
     letter: np.ndarray
@@ -37,10 +38,11 @@ class Zone:
 class Period:
     """A period of N points. ``dz``: change of the state (accurate also where it is small), (n, N).
 
-    ``onset``, ``entry``, ``exit``, ``release``: phase of the last of each event, NaN where none; ``onsets``, ``contacts``, ``releases``: how
-    many. ``z_onset``, ``z_release``: state there. ``slope_onset``, ``slope_release``: of the gap just before.
-    ``from_onset``, ``from_release``: where the zone began that the event ends, ``z_from_onset``, ``z_from_release``: state there;
-    ``until_onset``, ``until_release``: where the zone ends that the event begins, ``smooth_onset``, ``smooth_release``: that is a gap zone, too. ``lost``: not followed to the end.
+    ``onset``, ``entry``, ``exit``, ``release``: phase of the last of each event, NaN where none; ``onsets``,
+    ``contacts``, ``releases``: how many. ``z_onset``, ``z_release``: state there. ``slope_onset``, ``slope_release``:
+    of the gap just before. ``from_onset``, ``from_release``: where the zone began that the event ends,
+    ``z_from_onset``, ``z_from_release``: state there; ``until_onset``, ``until_release``: where the zone ends that the
+    event begins, ``smooth_onset``, ``smooth_release``: that is a gap zone, too. ``lost``: not followed to the end.
     """
 
     engaged_before: np.ndarray
@@ -155,7 +157,9 @@ def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, o
         t, i = s.take(apart), apart
         out.dz[:, index[i]] += kernel.relaxation_increment(start[i], end[i], z[:, i], p[i], t.m)
     snaps = s.step >= s.delta_0
-    met = np.where(contact, ADHESION, np.where(letter == FREE, np.where(snaps, CONTACT, ADHESION), np.where(which == LOWER, CONTACT, FREE)))
+    met = np.where(
+        contact, ADHESION, np.where(letter == FREE, np.where(snaps, CONTACT, ADHESION), np.where(which == LOWER, CONTACT, FREE))
+    )
     following = np.where((which == NONE) | (which == LOST), -1, met)
     snapped = (letter == FREE) & (following == CONTACT)
     reach = np.divide(s.delta_0, s.m.J_0, out=np.zeros(m), where=snapped)
@@ -185,9 +189,10 @@ def _note(out: Period, zone: Zone, z_end):
     out.slope_onset[i[onset]], out.slope_release[i[release]] = zone.slope[onset], zone.slope[release]
     out.z_onset[:, i[onset]], out.z_release[:, i[release]] = z_end[:, onset], z_end[:, release]
     begun = zone.start == out.onset[i], zone.start == out.release[i]  # by the event before this zone
-    for which, until, smooth in zip(begun, (out.until_onset, out.until_release), (out.smooth_onset, out.smooth_release), strict=True):
+    for which, until, smooth in zip(
+        begun, (out.until_onset, out.until_release), (out.smooth_onset, out.smooth_release), strict=True
+    ):
         until[i[which]], smooth[i[which]] = zone.end[which], letter[which] != CONTACT
     out.from_onset[i[onset]], out.from_release[i[release]] = zone.start[onset], zone.start[release]
     out.z_from_onset[:, i[onset]], out.z_from_release[:, i[release]] = zone.z[:, onset], zone.z[:, release]
     out.engaged[i[onset]], out.engaged[i[release]] = True, False
-

@@ -11,8 +11,8 @@ import numpy as np
 class ModeStrips:
     """Dimensionless groups of N strips: lengths in A, pressures in K A, times in 1/(k V).
 
-    ``m``: the kernel's ``Modes`` at the strips' speeds, per-mode arrays (n, N) or, where all strips share one material, (n, 1) and
-    matrices (n, n, 1). ``p_0``, ``delta_0``, ``D``: shape (N,). ``bare``: nothing is ever released.
+    ``m``: the kernel's ``Modes`` at the strips' speeds, per-mode arrays (n, N) or, where all strips share one material,
+    (n, 1) and matrices (n, n, 1). ``p_0``, ``delta_0``, ``D``: shape (N,). ``bare``: nothing is ever released.
     """
 
     m: tuple
@@ -49,7 +49,8 @@ class ModeStrips:
         return ModeStrips(take_modes(self.m, index), self.p_0[index], self.delta_0[index], self.D[index], self.bare)
 
     def raised(self) -> ModeStrips:
-        """The strips that are never released, seen from ``-p_0``: adding ``p_0`` to w, p and every e leaves the foundation's law unchanged."""
+        """The strips that are never released, seen from ``-p_0``: adding ``p_0`` to w, p and every e leaves the
+        foundation's law unchanged."""
         return ModeStrips(self.m, np.zeros(self.size), np.zeros(self.size), self.D + self.p_0, bare=True)
 
 

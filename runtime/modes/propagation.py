@@ -1,11 +1,13 @@
 """Derivative of the period map along a march, in the coordinates of the order (dashpot displacements e), and lower bounds of it.
 
-Between events a deviation of e is carried by ``diag exp(-length/alpha_i)`` in contact and by the relaxation of the gap elsewhere, which
-is the larger of the two in every entry. At an onset and at a release w steps, and an event met earlier or later adds
+Between events a deviation of e is carried by ``diag exp(-length/alpha_i)`` in contact and by the relaxation of the gap
+elsewhere, which is the larger of the two in every entry. At an onset and at a release w steps, and an event met earlier
+or later adds
 
     gain (1/alpha_i) g^T,    gain = step of w/|slope of the gap|,    z = g^T e,
 
-a matrix without negative entries. So the longest contact and the least gains of a range of states bound the derivative from below.
+a matrix without negative entries. So the longest contact and the least gains of a range of states bound the derivative
+from below.
 """
 
 from __future__ import annotations
@@ -22,7 +24,8 @@ _FASTEST = 1e13
 
 @dataclass(slots=True)
 class Order:
-    """Coordinates of the order for a batch: ``z = share e``, ``e = back z`` (n, n, N or 1), ``g`` (n, N or 1): ``sum_j z_j = g . e``.
+    """Coordinates of the order for a batch: ``z = share e``, ``e = back z`` (n, n, N or 1), ``g`` (n, N or 1):
+    ``sum_j z_j = g . e``.
 
     ``rate``: ``1/alpha_i``, capped. ``gamma = sum g_i/alpha_i``.
     """
@@ -57,9 +60,11 @@ class Order:
 
 @dataclass(slots=True)
 class Gains:
-    """Rank-one terms at the onset and the release, each ``gain (column . rate) (row . g)^T``: gain (N,), column and row (n, N) or 1.
+    """Rank-one terms at the onset and the release, each ``gain (column . rate) (row . g)^T``: gain (N,), column and row
+    (n, N) or 1.
 
-    ``by_modes``: terms of ``across`` in place of these, where those hold; ``between``: lower bound of how the first of the two acts through the second.
+    ``by_modes``: terms of ``across`` in place of these, where those hold; ``between``: lower bound of how the first of
+    the two acts through the second.
     """
 
     onset: np.ndarray
@@ -74,7 +79,8 @@ class Gains:
 
 @dataclass(slots=True)
 class Across:
-    """A gain that acts on the state at the start of the gap zone that its event ends, and is felt at the end of the one it begins.
+    """A gain that acts on the state at the start of the gap zone that its event ends, and is felt at the end of the one
+    it begins.
 
     ``gain`` (N,), 0 where it does not hold; ``row``, ``column`` (n, N): lower bounds over all phases that the event may have.
     """
@@ -93,10 +99,12 @@ def exact_gains(s: ModeStrips, period: Period) -> Gains:
 
 
 def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period, alike: np.ndarray) -> Gains:
-    """Lower bounds of the gains of every state between those of two marches; 0 but where these are ``alike`` and meet each event once.
+    """Lower bounds of the gains of every state between those of two marches; 0 but where these are ``alike`` and meet
+    each event once.
 
-    Onsets lie between those of the two, releases too (the other way round). Placed where ``lower`` meets them: moving an event by ``delta``
-    multiplies its terms by no less than ``exp(-delta rate)`` componentwise or, against the flow, ``exp(-delta gamma)``.
+    Onsets lie between those of the two, releases too (the other way round). Placed where ``lower`` meets them: moving
+    an event by ``delta`` multiplies its terms by no less than ``exp(-delta rate)`` componentwise or, against the flow,
+    ``exp(-delta gamma)``.
     """
     late, early = _width(lower.onset, upper.onset), _width(upper.release, lower.release)
     gamma = np.broadcast_to(order.gamma, late.shape)
@@ -113,8 +121,8 @@ def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period, alike
     span = np.where(later, events[0][1] - events[1][0], events[1][1] - events[0][0])
     kicked = order.to_z(np.broadcast_to(order.rate, (s.modes, s.size)))
     between = np.maximum(_least_sum(kicked, s, np.where(later, gaps[0], gaps[1]), np.nan_to_num(span)), 0.0)
-    return Gains(np.where(taken[0], 0.0, onset), shrink(late), fading(late), np.where(taken[1], 0.0, release), fading(early), shrink(early),
-                 pair, between)  # fmt: skip
+    return Gains(np.where(taken[0], 0.0, onset), shrink(late), fading(late),
+                 np.where(taken[1], 0.0, release), fading(early), shrink(early), pair, between)  # fmt: skip
 
 
 def _across(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, onset: bool) -> Across:
@@ -213,7 +221,9 @@ def _pick(a, index):
 
 def _ratio(step, slope):
     """``step/slope`` for a slope that bounds from above; 0 where that says nothing."""
-    return np.divide(step, slope, out=np.zeros(np.shape(step)), where=np.isfinite(slope) & (slope > 1e-290 + 1e-290 * np.abs(step)))
+    return np.divide(
+        step, slope, out=np.zeros(np.shape(step)), where=np.isfinite(slope) & (slope > 1e-290 + 1e-290 * np.abs(step))
+    )
 
 
 def _width(first, second):
@@ -222,7 +232,8 @@ def _width(first, second):
 
 
 def _steepest_onset(s: ModeStrips, order: Order, lower: Period, upper: Period):
-    """Upper bound of the rate at which the gap falls to the onset: ``-sin d - gamma (u + delta_0) + sum (g_i/alpha_i) e_i(d)``."""
+    """Upper bound of the rate at which the gap falls to the onset:
+    ``-sin d - gamma (u + delta_0) + sum (g_i/alpha_i) e_i(d)``."""
     weight = order.g * order.rate
     low, high = lower.onset, np.maximum(upper.onset, lower.onset)
     last = order.to_e(upper.z_onset)
@@ -235,7 +246,8 @@ def _steepest_onset(s: ModeStrips, order: Order, lower: Period, upper: Period):
 
 
 def _steepest_release(s: ModeStrips, order: Order, lower: Period, upper: Period):
-    """Upper bound of the rate at which the gap grows to the release: ``sin c + gamma (u + delta_0) - sum (g_i/alpha_i) e_i(c)``."""
+    """Upper bound of the rate at which the gap grows to the release:
+    ``sin c + gamma (u + delta_0) - sum (g_i/alpha_i) e_i(c)``."""
     weight = order.g * order.rate
     low, high = np.minimum(upper.release, lower.release), lower.release
     last = order.to_e(lower.z_release)
@@ -250,7 +262,8 @@ def _steepest_release(s: ModeStrips, order: Order, lower: Period, upper: Period)
 def _steepest_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period, onset: bool):
     """The same upper bounds from the modes of the gap zone that the event ends: fast ones have died out since it began.
 
-    The state there lies between those of the two marches, whatever the phase at which the zone began, and between the bounds of all orbits.
+    The state there lies between those of the two marches, whatever the phase at which the zone began, and between the
+    bounds of all orbits.
     """
     name = "onset" if onset else "release"
     (z_low, from_low), (z_up, from_up) = ((getattr(p, f"z_from_{name}"), getattr(p, f"from_{name}")) for p in (lower, upper))
@@ -275,7 +288,8 @@ def _steepest_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period
 def _extreme(e, floor, ceiling, kept, at_end, sign):
     """Largest (``sign`` 1) or least (-1) value over a range of phases of displacements known at its end or at its start.
 
-    They tend to w, which lies between ``floor`` and ``ceiling`` like themselves; ``kept``: what is left of a deviation after the range.
+    They tend to w, which lies between ``floor`` and ``ceiling`` like themselves; ``kept``: what is left of a deviation
+    after the range.
     """
     toward, away = (ceiling, floor) if sign > 0 else (floor, ceiling)
     after = np.where(sign * (toward - e) > 0, e + (toward - e) * (1 - kept), e)

@@ -16,8 +16,8 @@ LOAD_LABELS = {"pressure": "nominal pressure $p$ (Pa)", "penetration": "penetrat
 
 @styled
 def friction(result: Any) -> Any:
-    """Draw mu with every level's part: over log velocity, one panel for each of at most six loads; over the load where there is
-    a single velocity.
+    """Draw mu with every level's part: over log velocity, one panel for each of at most six loads; over the load where
+    there is a single velocity.
 
     Parameters
     ----------

@@ -37,4 +37,8 @@ def _read(key: str, written: str):
             continue
         except msgspec.ValidationError:
             break
-    raise InputError(key, written, 'a number, a text with its unit in quotes ("2 ms"), a list of these, or {start = ..., stop = ..., num = ...}')
+    raise InputError(
+        key,
+        written,
+        'a number, a text with its unit in quotes ("2 ms"), a list of these, or {start = ..., stop = ..., num = ...}',
+    )

@@ -28,8 +28,9 @@ from hystrip.solve import check_levels
 from hystrip.solver import check_edge, kernel_of
 
 _LOADS = ("pressure", "penetration")
-_UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "moduli": "Pa/m", "times": "s", "gamma": "J/m^2", "p_0": "Pa",
-          "delta_0": "m", "pressure": "Pa", "penetration": "m", "velocity": "m/s"}  # fmt: skip
+_UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "moduli": "Pa/m", "times": "s",
+          "gamma": "J/m^2", "p_0": "Pa", "delta_0": "m",
+          "pressure": "Pa", "penetration": "m", "velocity": "m/s"}  # fmt: skip
 
 #: batches of a sweep that does not say: so many, of at least and at most so many points; one level alone is so quick that
 #: smaller batches take longer than the solution

@@ -27,8 +27,8 @@ class Sweep:
 
     Attributes
     ----------
-    columns : column name (with its unit) -> values, one for every point in the order of the scene; ``failed`` holds the reason of
-        a point that could not be solved, and its numbers are NaN
+    columns : column name (with its unit) -> values, one for every point in the order of the scene; ``failed`` holds the
+        reason of a point that could not be solved, and its numbers are NaN
     path : the CSV file; plan : what was swept
     solved, kept : batches solved now, and found finished on disk
     """
