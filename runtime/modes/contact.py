@@ -16,6 +16,7 @@ from hystrip.strip.crossing import crossing
 from hystrip.strip.regimes import CODE
 
 from .fields import zones_of
+from .problem import pick
 
 
 class ModeContact:
@@ -68,7 +69,7 @@ class ModeContact:
         part = np.flatnonzero(~self.full[rows])
         if part.size:
             i = rows[part]
-            q, dq = self.kernel.excess_event(phase[part], *(_pick(c, i) for c in self.constants))
+            q, dq = self.kernel.excess_event(phase[part], *(pick(c, i) for c in self.constants))
             p[part], slope[part] = q - self.s.p_0[i], dq
         return p, slope
 
@@ -114,7 +115,3 @@ class ModeContact:
         inside = np.isin(part, i)
         found[inside], _ = crossing(excess, first[i], last[i])
         return found
-
-
-def _pick(value, index):
-    return value if np.ndim(value) == 0 or value.shape[-1] == 1 else value[..., index]

@@ -19,6 +19,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .problem import pick
+
 NONE, LOWER, UPPER, LOST = 0, 1, 2, -1
 #: a step this small is below what the phase can be known to
 _TOLERANCE = 2e-15
@@ -39,8 +41,8 @@ class Field:
     r: np.ndarray
 
     def take(self, index) -> Field:
-        r = self.r if self.r.shape[-1] == 1 else self.r[:, index]
-        return Field(self.start[index], self.constant[index], self.a[index], self.b[index], self.c[:, index], r)
+        one = self.start[index], self.constant[index], self.a[index], self.b[index]
+        return Field(*one, self.c[:, index], pick(self.r, index))
 
 
 def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):

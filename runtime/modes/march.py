@@ -10,13 +10,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .crossing import LOST, LOWER, NONE, Field, first_crossing
-from .problem import ModeStrips
+from .problem import ModeStrips, rates
 
 TWO_PI = 2 * np.pi
 CONTACT, ADHESION, FREE = 0, 1, 2
 LETTERS = "caf"
-#: rates are capped here: an exponential is gone before the next double precision phase
-_FASTEST = 1e13
 _MAX_ZONES = 24
 
 
@@ -137,14 +135,14 @@ def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, o
         f.constant[touching] = t.p_0 + (t.D - 1)
         f.a[touching], f.b[touching] = kernel.storage(t.m), -kernel.loss(t.m)
         f.c[:, touching] = entry - kernel.saturated_overstress(start[touching], t.m)
-        f.r[:, touching] = _rates(t.m.alpha)
+        f.r[:, touching] = rates(t.m.alpha)
     if apart.size:
         t = s.take(apart)
         level = np.where(letter[apart] == FREE, t.delta_0, 0.0)
         f.constant[apart] = p[apart] - (t.D - 1) - level
         f.a[apart] = -1.0
         f.c[:, apart] = z[:, apart] - t.m.J * p[apart]
-        f.r[:, apart] = _rates(t.m.beta)
+        f.r[:, apart] = rates(t.m.beta)
     releasable = (letter == ADHESION) & (not s.bare)
     height = np.where(releasable, s.delta_0, np.inf)
     end, which, slope, spent = first_crossing(f, limit, height)
@@ -165,10 +163,6 @@ def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, o
     reach = np.divide(s.delta_0, s.m.J_0, out=np.zeros(m), where=snapped)
     pressure = np.where(snapped, -reach, -s.p_0)
     return Zone(index, letter, start, end, z, slope, following), pressure
-
-
-def _rates(times):
-    return np.minimum(np.divide(1.0, times, out=np.full(times.shape, _FASTEST), where=times > 1 / _FASTEST), _FASTEST)
 
 
 def _note(out: Period, zone: Zone, z_end):

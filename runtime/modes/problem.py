@@ -6,6 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+#: the greatest rate of decay
+_FASTEST = 1e13
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ModeStrips:
@@ -54,6 +57,16 @@ class ModeStrips:
         return ModeStrips(self.m, np.zeros(self.size), np.zeros(self.size), self.D + self.p_0, bare=True)
 
 
+def pick(value, index):
+    """What belongs to the strips ``index`` of the last axis; a value or an axis of length one is shared and stays."""
+    return value if np.ndim(value) == 0 or value.shape[-1] == 1 else value[..., index]
+
+
 def take_modes(m, index):
-    """``Modes`` at ``index`` of the last axis; an axis of length one is shared by all strips and stays."""
-    return type(m)(*(a if a.shape[-1] == 1 else a[..., index] for a in m))
+    """``Modes`` at ``index`` of the last axis."""
+    return type(m)(*(pick(a, index) for a in m))
+
+
+def rates(times):
+    """Rates of decay ``1/times``, capped: beyond, an exponential is gone before the next double precision phase."""
+    return np.minimum(np.divide(1.0, times, out=np.full(times.shape, _FASTEST), where=times > 1 / _FASTEST), _FASTEST)

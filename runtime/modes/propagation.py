@@ -17,9 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .march import ADHESION, CONTACT, FREE, TWO_PI, Period
-from .problem import ModeStrips
-
-_FASTEST = 1e13
+from .problem import ModeStrips, pick, rates
 
 
 @dataclass(slots=True)
@@ -41,11 +39,10 @@ class Order:
         n = s.modes
         unit = np.eye(n)[:, :, None]
         back = np.stack([kernel.dashpots(unit[:, j], 0.0, m) for j in range(n)], axis=1)
-        rate = np.minimum(np.divide(1.0, m.alpha, out=np.full(m.alpha.shape, _FASTEST), where=m.alpha > 1 / _FASTEST), _FASTEST)
-        return cls(m.share, back, m.share.sum(axis=0), rate)
+        return cls(m.share, back, m.share.sum(axis=0), rates(m.alpha))
 
     def take(self, index) -> Order:
-        return Order(*(a if a.shape[-1] == 1 else a[..., index] for a in (self.share, self.back, self.g, self.rate)))
+        return Order(*(pick(a, index) for a in (self.share, self.back, self.g, self.rate)))
 
     @property
     def gamma(self) -> np.ndarray:
@@ -140,7 +137,7 @@ def _across(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, ons
 
 def _least_sum(amplitudes, s: ModeStrips, short, long):
     """Lower bound of ``sum_j amplitude_j exp(-t/beta_j)`` for t from ``short`` to ``long``."""
-    rate = np.minimum(np.divide(1.0, s.m.beta, out=np.full(s.m.beta.shape, _FASTEST), where=s.m.beta > 1 / _FASTEST), _FASTEST)
+    rate = rates(s.m.beta)
     return (amplitudes * np.where(amplitudes > 0, np.exp(-long * rate), np.exp(-short * rate))).sum(axis=0)
 
 
@@ -157,7 +154,7 @@ def propagation(s: ModeStrips, order: Order, period: Period, gains: Gains | None
         X = eye + change[i]
         ripe = [each[i] for each in waiting]
         contact = zone.letter == CONTACT
-        times = np.where(contact, _pick(s.m.alpha, i), _pick(s.m.beta, i))
+        times = np.where(contact, pick(s.m.alpha, i), pick(s.m.beta, i))
         loss = np.expm1(-np.divide(length, times, out=np.full((n, i.size), 800.0), where=times > 0)).T
         step = loss[:, :, None] * X
         gap = np.flatnonzero(~contact)
@@ -191,8 +188,8 @@ def propagation(s: ModeStrips, order: Order, period: Period, gains: Gains | None
 def _gain(change, eye, order: Order, i, gain, column, row):
     if not i.size:
         return
-    left = (gain[i] * _pick(column, i) * _pick(order.rate, i)).T
-    right = (_pick(row, i) * _pick(order.g, i)).T
+    left = (gain[i] * pick(column, i) * pick(order.rate, i)).T
+    right = (pick(row, i) * pick(order.g, i)).T
     change[i] += left[:, :, None] * (right[:, None, :] @ (eye + change[i]))
 
 
@@ -213,10 +210,6 @@ def solve_order(change: np.ndarray, r: np.ndarray) -> np.ndarray:
                 v[:, k] = np.linalg.solve(rows[k], r[:, k] / scale[k])
     v[:, bad] = np.nan
     return v
-
-
-def _pick(a, index):
-    return a if a.shape[-1] == 1 else a[..., index]
 
 
 def _ratio(step, slope):
@@ -278,7 +271,7 @@ def _steepest_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period
     least, most = times(rising, low) + times(falling, high) - rest, times(rising, high) + times(falling, low) - rest
     event = np.sort(np.stack([getattr(lower, name), getattr(upper, name)]), axis=0)
     short, long = np.maximum(event[0] - last, 0.0), event[1] - first
-    rate = np.minimum(np.divide(1.0, s.m.beta, out=np.full(s.m.beta.shape, _FASTEST), where=s.m.beta > 1 / _FASTEST), _FASTEST)
+    rate = rates(s.m.beta)
     little, much = rate * np.exp(-long * rate), rate * np.exp(-short * rate)
     if onset:
         return _harmonic_max(0.0, -1.0, event[0], event[1]) + (most * np.where(most > 0, much, little)).sum(axis=0)
