@@ -10,44 +10,12 @@ import time
 
 import numpy as np
 import pytest
+from scene_text import ONE_LEVEL
 
-from hystrip.commands import entry
 from hystrip.scene import load_scene
 
-SCENE = """
-title = "two velocities"
-pressure = 5e6
-velocity = [1e-3, 5e-3]
-rtol = 1e-2
-[material]
-K = 1e9
-T_eps = 0.01
-T_sigma = 1e-4
-[adhesion]
-gamma = 2.5e-5
-delta_0 = 1e-8
-[[levels]]
-l = 1e-5
-h = 1e-6
-[[levels]]
-l = 5e-7
-h = 1e-7
-"""
-
-
-@pytest.fixture
-def run(monkeypatch, tmp_path, capsys):
-    """Run a command line in an empty folder; gives (status, standard output, standard error)."""
-    monkeypatch.chdir(tmp_path)
-
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["hystrip", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            entry.main()
-        out, err = capsys.readouterr()
-        return end.value.code, out, err
-
-    return call
+TWO_LEVELS = ONE_LEVEL + "[[levels]]\nl = 5e-7\nh = 1e-7\n"
+SCENE = 'title = "two velocities"\nrtol = 1e-2\n' + TWO_LEVELS.replace("= 100", "= 5e6").replace("= 5e-3", "= [1e-3, 5e-3]")
 
 
 def rows(path):

@@ -1,12 +1,10 @@
 """DMA data: what is read, and that a known spectrum comes back."""
 
-import sys
 
 import numpy as np
 import pytest
 
 import hystrip
-from hystrip.commands import entry
 from hystrip.dma import DynamicModulus, fit_prony, read_dma
 from hystrip.scene import load_scene
 
@@ -219,19 +217,6 @@ def test_command_writes_a_prony_scene_that_solves(run, tmp_path):
 def series_loss(rate, moduli, times):
     x = np.multiply.outer(rate, times)
     return x / (1 + x**2) @ moduli
-
-
-@pytest.fixture
-def run(monkeypatch, tmp_path, capsys):
-    monkeypatch.chdir(tmp_path)
-
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["hystrip", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            entry.main()
-        return end.value.code, *capsys.readouterr()
-
-    return call
 
 
 def test_command_writes_a_scene_that_loads(run, tmp_path):

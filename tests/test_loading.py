@@ -1,7 +1,6 @@
 """Solvers outside the package: loading, versions, permission, scenes and the command line."""
 
 import shutil
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +9,6 @@ import pytest
 import hystrip
 import hystrip.generated
 from hystrip import InputError
-from hystrip.commands import entry
 from hystrip.scene import parse_scene
 from hystrip.scene.errors import SceneError
 
@@ -131,7 +129,7 @@ def test_scene_errors_name_the_key(old, new, field, says):
     assert error.value.field.startswith(field) and says in str(error.value)
 
 
-def test_a_scene_runs_a_solver_only_where_that_is_allowed(folder, monkeypatch, capsys):
+def test_a_scene_runs_a_solver_only_where_that_is_allowed(folder, run):
     path = folder.parent / "scene.toml"
     path.write_text(SCENE.format(solver='solver = "my_solver"'))
     with pytest.raises(SceneError, match="allow_solver=True") as error:
@@ -141,23 +139,17 @@ def test_a_scene_runs_a_solver_only_where_that_is_allowed(folder, monkeypatch, c
     ours = parse_scene(SCENE.format(solver="")).solve()
     assert np.array_equal(allowed.mu, ours.mu)
 
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["hystrip", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            entry.main()
-        return end.value.code, capsys.readouterr()
-
     out = folder.parent / "out"
     for command in (["solve", path, "--no-plot"], ["sweep", path]):
-        status, said = run(*command, "--out", out)
-        assert status == 2 and "--allow-solver" in said.err and not out.exists()
+        status, _, err = run(*command, "--out", out)
+        assert status == 2 and "--allow-solver" in err and not out.exists()
     assert run("solve", path, "--no-plot", "--allow-solver", "--out", out)[0] == 0
     assert run("sweep", path, "--allow-solver", "--out", out)[0] == 0
     rows = (out / "scene.sweep.csv").read_text().splitlines()
     assert len(rows) == 3
 
 
-def test_regenerate_wants_a_folder_for_a_users_model(tmp_path, monkeypatch, capsys):
+def test_regenerate_wants_a_folder_for_a_users_model(tmp_path, run):
     model = tmp_path / "my_model.py"
     for text, arguments, says in (
         ("", [model], "--out"),
@@ -167,10 +159,8 @@ def test_regenerate_wants_a_folder_for_a_users_model(tmp_path, monkeypatch, caps
         model.unlink(missing_ok=True)
         if text is not None:
             model.write_text(text)
-        monkeypatch.setattr(sys, "argv", ["hystrip", "regenerate", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            entry.main()
-        assert end.value.code == 2 and says in capsys.readouterr().err
+        status, _, err = run("regenerate", *arguments)
+        assert status == 2 and says in err
         assert not (tmp_path / "out").exists()
 
 
