@@ -24,7 +24,6 @@ LABELS = {
     "contact_by_level": ("1", "fraction of the nominal area in contact on each level"),
     "adhesion_by_level": ("1", "fraction of the nominal area in the adhesion zone of each level"),
     "pulled_off": ("1", "the pressure lies below pull-off: no contact"),
-    "pull_off": ("Pa", "least nominal pressure that level 1 can carry"),
     "p_sat": ("Pa", "nominal pressure from which level 1 is in saturated contact"),
     "closed_form": ("1", "solved by the closed form of saturated contact on all levels"),
     "error_estimate": ("1", "estimated absolute error of the friction coefficient"),
@@ -35,7 +34,7 @@ LABELS = {
 }
 _BY_LEVEL = ("tau_by_level", "mu_by_level", "contact_by_level", "adhesion_by_level")
 _PLAIN = (
-    "mu", "tau", "contact_fraction", "pulled_off", "pull_off", "p_sat", "closed_form", "error_estimate", "tau_error",
+    "mu", "tau", "contact_fraction", "pulled_off", "p_sat", "closed_form", "error_estimate", "tau_error",
 )  # fmt: skip
 
 

@@ -116,7 +116,6 @@ def _result(points, surface: Surface, shape, V, load: str) -> Result:
         contact_by_level=many(points.contact),
         adhesion_by_level=many(points.adhesion),
         pulled_off=one(points.pulled_off),
-        pull_off=one(points.pull_off),
         closed_form=one(points.closed_form),
         error_estimate=one(error),
         tau_error=one(points.error),

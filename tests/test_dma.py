@@ -139,6 +139,7 @@ BAD_FILES = [
     ("f,E_stor,E_loss\n", "a row of units"),
     ("t,E_relax\ns,MPa\n1,2\n", "'f' \\(Hz\\) or 'omega'"),
     ("f,E_stor\nHz,MPa\n1,2\n", "'E_stor' and 'E_loss'"),
+    ("f,E_stor,E_loss,E_stor\nHz,MPa,MPa,MPa\n1,2,3,4\n2,3,4,5\n", "row 1: got .*; allowed: one column named 'E_stor'"),
     (HEAD.replace("Hz", "kHz") + "1,2,3\n", "row 2, f: got 'kHz'; allowed: Hz"),
     (HEAD.replace("MPa,MPa", "MPa,psi") + "1,2,3\n", "row 2, E_loss: got 'psi'; allowed: one of Pa"),
     (HEAD + "1,2,3\n", "1 rows of numbers"),

@@ -41,6 +41,8 @@ SCENES = [  # what is replaced, by what, and what the message says: the field, t
     ("velocity = 5e-3", "velocity = {start = 1, end = 2, num = 3}", ["velocity.end", "unknown key"]),
     ("pressure = 100", 'pressure = 100\nedge = "sharp"', ["edge", "sharp", '"constitutive"']),
     ("pressure = 100", 'pressure = 100\nbranch = "both"', ["branch", "both", '"loading"']),
+    ("pressure = 100", f'title = "{"x" * 201}"\npressure = 100', ["title", "xxx", "at most 200 characters"]),
+    ("velocity = 5e-3", "velocity = {start = -1e308, stop = 1e308, num = 3}", ["velocity.start", "-1e+308", "up to 1e+40"]),
     ("pressure = 100", "pressure = 100\nrtol = 0", ["rtol", "0", "1e-12 to 0.1"]),
     ("pressure = 100", "pressure = 100\nstrip = 8", ["strip", "unknown key", "did you mean 'strips'"]),
     ("pressure = 100", "pressure = 100\nstrips = 0", ["strips", "0", "from 1 to 1000000"]),

@@ -143,7 +143,7 @@ def _run(plan: Plan, store: Store, missing: list[int], executor: Executor, in_fl
                 if progress:
                     progress(done, plan.size)
     except (BrokenExecutor, CancelledError) as error:
-        raise HystripError(lost(f"a worker died ({error or type(error).__name__})")) from None
+        raise HystripError(lost(f"the workers are gone ({str(error) or type(error).__name__})")) from None
     finally:
         for future in running:
             future.cancel()
