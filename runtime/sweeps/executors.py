@@ -59,7 +59,7 @@ def dask(address: str) -> Iterator[tuple[Executor, int]]:
         client = distributed.Client(address, timeout=10, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
         raise HystripError(f"--scheduler {address}: no Dask scheduler answers ({str(error) or type(error).__name__})") from None
-    with _quiet("distributed", "distributed.client"):
+    with _quiet("distributed", "distributed.client", "tornado.application"):
         try:
             threads = sum(client.nthreads().values())
             yield client.get_executor(retries=3), max(2 * threads, 8)
