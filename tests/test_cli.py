@@ -111,6 +111,7 @@ def test_quantities_swept_from_the_command_line(run, tmp_path):
         ("material.K=true", "a text with its unit in quotes"),
         ('material.K="1 s"', "unit of something else"),
         ("material.K=[]", "one value or more"),
+        ("material.K=1e9\nvelocity=3", "a text with its unit in quotes"),
     ],
 )
 def test_what_cannot_be_swept_is_refused(run, tmp_path, given, says):
