@@ -30,6 +30,8 @@ _EPS = np.finfo(float).eps
 _LEAST = 1e-290
 #: beta above which the balance of a period is asked first: a faster foundation is judged better by its bounds
 SLOW = 30.0
+#: ends of the intervals from a known onset to the start of the arc
+_SHARES = np.array([1e-5, 1e-3, 0.02, 0.15, 0.4, 0.55, 0.7, 0.85, 1.0])
 #: probes tried; the first half way to the end of the arc, the next ones after longer steps from what is proven, or shorter ones after a failure
 _PROBES, _FIRST, _BOLDER, _WARIER = 8, 0.5, 3.0, 0.2
 
@@ -49,8 +51,12 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> 
         rest = np.flatnonzero(~proven & (cycle.strips.beta > SLOW))
         if rest.size:
             part = cycle.take(rest)
-            here = _zero(kernel, cycle, orbit, rest)
-            proven[rest], spent[rest] = balance.first(kernel, part, here, *onsets_within(part, bounds.take(rest)))
+            here, within = _zero(kernel, cycle, orbit, rest), onsets_within(part, bounds.take(rest))
+            proven[rest], spent[rest] = balance.first(kernel, part, here, *within)
+            left = np.flatnonzero(~proven[rest])
+            if left.size:
+                proven[rest[left]], used = none_before(kernel, part.take(left), here.take(left), within[0][left])
+                spent[rest[left]] += used
     rest = np.flatnonzero(~proven)
     if rest.size:
         proven[rest], used = _alone(kernel, cycle.take(rest), orbit.take(rest), last, bounds.x[rest])
@@ -80,6 +86,23 @@ def _falls_between(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float
     way = np.minimum(np.maximum(sign * (cycle.centre - outer.x) - half, 0.0) / np.maximum(s.beta, _LEAST), 700.0)
     kept = sign * outer.r - noise > margin * (np.expm1(way) if sign > 0 else -np.expm1(-way))
     return steep & ((way == 0) | kept)
+
+
+def none_before(kernel, cycle: Cycle, known: Orbit, start) -> tuple[np.ndarray, np.ndarray]:
+    """Where no zero of r lies between ``start`` and the onsets of ``known`` orbits or marches, r >= 0, shown by marches at the ends of a few
+    intervals; and the event evaluations spent.
+
+    From the known onset back: an interval on which R falls strictly leaves r positive, one that is excluded does so from both ends.
+    """
+    n, many = cycle.size, _SHARES.size
+    nodes = (known.x + _SHARES[:, None] * (start - known.x)).ravel()
+    marches, spent = march(kernel, cycle.take(np.tile(np.arange(n), many)), nodes)
+    pieces = cycle.take(np.tile(np.arange(n), many))
+    left, right = marches, Orbit.joined([known, marches.take(np.arange((many - 1) * n))])
+    bounds = slope_bounds(kernel, pieces, left, right)
+    apart = (left.r > 0) & (right.r > 0) & excluded(kernel, pieces, left, right, bounds, False)
+    falls = ~left.engaged & bounds.falls
+    return (falls | apart).reshape(many, n).all(axis=0), spent.reshape(many, n).sum(axis=0)
 
 
 def _zero(kernel, cycle: Cycle, orbit: Orbit, index) -> Orbit:

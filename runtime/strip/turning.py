@@ -22,7 +22,7 @@ import numpy as np
 
 from . import balance
 from .chain import arcs, links, moved
-from .exclusion import cleared
+from .exclusion import none_before
 from .march import closing, march
 from .polish import newton
 from .problem import Cycle
@@ -30,7 +30,7 @@ from .search import SearchResult, excluded
 from .sensitivity import contact_length, fading, gains, onset_margin, release_margin, slope_bounds, slope_excess
 
 _EPS = np.finfo(float).eps
-_ITERATIONS = 16
+_ITERATIONS = 9
 #: a step this small leaves an error of its square
 _SMALL = 1e-7
 #: rounds of the start on a foundation that does not move in a gap
@@ -41,7 +41,7 @@ _WAY, _FURTHEST = 0.6, 0.3
 _OUTER, _INNER = 1.4, 0.6
 #: ends of the intervals on which T' > 1 is shown one by one, from where r is least, and from the start of the onset arc, if need be on more of
 #: them; and where in that arc the last of them ends at the latest
-_TOWARDS = np.linspace(0.0, 1.0, 6) ** 2
+_TOWARDS = np.array([0.0, 1e-4, 0.02, 0.2, 1.0])
 _ALL_ALONG = np.linspace(0.0, 1.0, 7), np.linspace(0.0, 1.0, 21)
 _TOP = 0.9
 
@@ -98,7 +98,7 @@ def _settle(kernel, cycle: Cycle, index, before, after, start, end, result: Turn
     first, used = balance.first(kernel, part, ends, start[index[go]], end[index[go]])
     rest = np.flatnonzero(~first)
     if rest.size:
-        first[rest], more = cleared(kernel, part.take(rest), ends.take(rest), 1.0, start[index[go[rest]]])
+        first[rest], more = none_before(kernel, part.take(rest), ends.take(rest), start[index[go[rest]]])
         used[rest] += more
     isolated.evaluations[index[go]] += used
     go = go[first]
