@@ -30,7 +30,7 @@ _EPS = np.finfo(float).eps
 #: bounds this close to an edge are good enough
 _CLOSE = 0.05
 #: rounds, and the least by which each has to get on
-_TIERS, _PROGRESS = 2, 1e-3
+_TIERS, _PROGRESS = 3, 1e-3
 #: share of the engagement that is allowed by the balance by which the end of adhesion is moved; the onset moves alike
 _SHARE = 0.45
 #: contact is sought later than the gap would close at its first rate

@@ -33,7 +33,7 @@ SLOW = 30.0
 #: ends of the intervals from a known onset to the start of the arc
 _SHARES = np.array([1e-5, 1e-3, 0.02, 0.15, 0.4, 0.55, 0.7, 0.85, 1.0])
 #: probes tried; the first half way to the end of the arc, the next ones after longer steps from what is proven, or shorter ones after a failure
-_PROBES, _FIRST, _BOLDER, _WARIER = 8, 0.5, 3.0, 0.2
+_PROBES, _FIRST, _BOLDER, _WARIER = 2, 0.5, 3.0, 0.2
 
 
 def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
@@ -51,17 +51,29 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> 
         rest = np.flatnonzero(~proven & (cycle.strips.beta > SLOW))
         if rest.size:
             part = cycle.take(rest)
-            here, within = _zero(kernel, cycle, orbit, rest), onsets_within(part, bounds.take(rest))
-            proven[rest], spent[rest] = balance.first(kernel, part, here, *within)
-            left = np.flatnonzero(~proven[rest])
-            if left.size:
-                proven[rest[left]], used = none_before(kernel, part.take(left), here.take(left), within[0][left])
-                spent[rest[left]] += used
-    rest = np.flatnonzero(~proven)
-    if rest.size:
-        proven[rest], used = _alone(kernel, cycle.take(rest), orbit.take(rest), last, bounds.x[rest])
-        spent[rest] += used
+            here = _zero(kernel, part, orbit.take(rest))
+            proven[rest], spent[rest] = balance.first(kernel, part, here, *onsets_within(part, bounds.take(rest)))
+    # marches take a strip that hangs next to its fold further than bounds at a few probes do, and cost more
+    hanging = cycle.strips.D <= -cycle.strips.delta_0
+    everywhere = np.ones(cycle.size, bool)
+    ways = ((_by_probes, everywhere),) if last else ((_by_probes, ~hanging), (_by_marches, everywhere), (_by_probes, hanging))
+    for way, kind in ways:
+        rest = np.flatnonzero(kind & ~proven)
+        if rest.size:
+            proven[rest], used = way(kernel, cycle.take(rest), orbit.take(rest), last, bounds.take(rest))
+            spent[rest] += used
     return proven, spent
+
+
+def _by_probes(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost):
+    sign = -1.0 if last else 1.0
+    end = cycle.centre - sign * cycle.half_d
+    return _cleared(kernel, cycle, _zero(kernel, cycle, orbit), sign, end if last else np.fmax(end, bounds.x))
+
+
+def _by_marches(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost):
+    start, _ = onsets_within(cycle, bounds)
+    return none_before(kernel, cycle, _zero(kernel, cycle, orbit), start)
 
 
 def onsets_within(cycle: Cycle, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
@@ -99,27 +111,23 @@ def none_before(kernel, cycle: Cycle, known: Orbit, start) -> tuple[np.ndarray, 
     marches, spent = march(kernel, cycle.take(np.tile(np.arange(n), many)), nodes)
     pieces = cycle.take(np.tile(np.arange(n), many))
     left, right = marches, Orbit.joined([known, marches.take(np.arange((many - 1) * n))])
+    empty = np.zeros(n * many, bool)
+    ask = np.flatnonzero(~right.engaged)
+    pieces, left, right = pieces.take(ask), left.take(ask), right.take(ask)
     bounds = slope_bounds(kernel, pieces, left, right)
     apart = (left.r > 0) & (right.r > 0) & excluded(kernel, pieces, left, right, bounds, False)
-    falls = ~left.engaged & bounds.falls
-    return (falls | apart).reshape(many, n).all(axis=0), spent.reshape(many, n).sum(axis=0)
+    empty[ask] = apart | (~left.engaged & bounds.falls)
+    return empty.reshape(many, n).all(axis=0), spent.reshape(many, n).sum(axis=0)
 
 
-def _zero(kernel, cycle: Cycle, orbit: Orbit, index) -> Orbit:
-    """The known orbits ``index`` as marches that end where they begin."""
-    x, s = orbit.x[index], cycle.strips
-    w_end = kernel.profile(x, s.D[index]) + s.delta_0[index]
-    return Orbit(x, orbit.b[index], orbit.a[index], orbit.c[index], np.zeros(x.size, bool), np.zeros(x.size), w_end)
+def _zero(kernel, cycle: Cycle, orbit: Orbit) -> Orbit:
+    """Known orbits as marches that end where they begin."""
+    s = cycle.strips
+    w_end = kernel.profile(orbit.x, s.D) + s.delta_0
+    return Orbit(orbit.x, orbit.b, orbit.a, orbit.c, np.zeros(cycle.size, bool), np.zeros(cycle.size), w_end)
 
 
-def _alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, least) -> tuple[np.ndarray, np.ndarray]:
-    known = _zero(kernel, cycle, orbit, slice(None))
-    sign = -1.0 if last else 1.0
-    end = cycle.centre - sign * cycle.half_d
-    return cleared(kernel, cycle, known, sign, end if last else np.fmax(end, least))
-
-
-def cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.ndarray, np.ndarray]:
+def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.ndarray, np.ndarray]:
     """Where no zero of r lies between ``end``, of the onset arc or of what is left of it (``sign`` > 0: its start), and the onsets of ``known``."""
     n = cycle.size
     proven, spent = np.zeros(n, bool), np.zeros(n)
