@@ -33,8 +33,8 @@ _CLOSE = 0.05
 _TIERS, _PROGRESS = 3, 1e-3
 #: share of the engagement that is allowed by the balance by which the end of adhesion is moved; the onset moves alike
 _SHARE = 0.45
-#: contact is sought later than the gap would close at its first rate
-_BEYOND = 1.1
+#: contact is sought by so much later than it is thought to begin, and earlier than to end
+_SURELY = 0.03
 
 
 def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, np.ndarray]:
@@ -144,14 +144,14 @@ def _gain(kernel, cycle: Cycle, known: Orbit, x, noise):
     x = np.minimum(x, known.x)
     near = np.minimum(np.maximum(x, cycle.centre - cycle.half_b), known.b)
     entry = kernel.gap_entry(x, cycle.gap_on, -s.p_0, s.D, s.beta)
-    closing = np.maximum(kernel.forcing(x, s.D, s.beta) + s.p_0 + cycle.gap_on, _EPS)
-    guess = np.clip(x + _BEYOND * cycle.gap_on * s.beta / closing, near, 0.5 * (near + known.b))
+    # on a slow foundation w stays, and the gap closes where the profile has risen by as much
+    guess = np.clip(_SURELY - np.arccos(np.minimum(np.cos(x) + cycle.gap_on, 1.0)), near, known.b)
     b, found = bound(kernel.gap_event, entry, 0.0, 1.0, guess, known.b, 1.0, noise, _CLOSE + 0 * x, spent, near)
     b = np.where(cycle.direct, x, np.where(found, b, known.b))
     entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
     blur = noise + 64 * _EPS * entry[4]
     far = np.maximum(cycle.centre + TWO_PI - cycle.half_b, known.a)
-    guess = np.clip(known.a + known.b - b, known.a, far)
+    guess = np.clip(known.a + known.b - b - _SURELY, known.a, far)
     a, found = bound(kernel.excess_event, entry, 0.0, 1.0, guess, known.a, -1.0, blur, _CLOSE + 0 * x, spent, far)
     a = np.where(found, a, known.a)
     left = kernel.excess_event(a, *entry)[0]
