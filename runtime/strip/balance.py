@@ -30,11 +30,11 @@ _EPS = np.finfo(float).eps
 #: bounds this close to an edge are good enough
 _CLOSE = 0.05
 #: rounds, and the least by which each has to get on
-_TIERS, _PROGRESS = 8, 1e-3
+_TIERS, _PROGRESS = 3, 1e-3
 #: share of the engagement that is allowed by the balance by which the end of adhesion is moved; the onset moves alike
 _SHARE = 0.45
-#: contact is sought later than the gap would close at its first rate
-_BEYOND = 1.1
+#: contact is sought by so much later than it is thought to begin, and earlier than to end
+_SURELY = 0.03
 
 
 def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, np.ndarray]:
@@ -44,7 +44,7 @@ def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, n
     """
     s = cycle.strips
     noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
-    longest = np.maximum(known.x - start, 0.0) + np.maximum(end - known.c, 0.0)
+    longest = _longer(known, start, end)
     kept = s.beta * (known.r - noise)
     proven, spent = np.zeros(cycle.size, bool), np.zeros(cycle.size)
     index = np.flatnonzero(~np.isnan(known.b))
@@ -52,7 +52,7 @@ def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, n
     surplus, length = kept[index], here.a - here.b
     reached = here.x, here.c
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        for _ in range(_TIERS):
+        for tier in range(_TIERS):
             x, c, used = _next(kernel, part, here, reached, surplus, length, noise[index])
             spent[index] += used
             closer = np.flatnonzero(x < reached[0] - _PROGRESS)
@@ -69,6 +69,10 @@ def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, n
                 break
             index, part, here, reached = index[going], part.take(going), here.take(going), (reached[0][going], reached[1][going])
             surplus, length = surplus[going], length[going]
+            if tier == 0:
+                first, used = _onset_before(kernel, part, end[index], start[index], here.x, noise[index])
+                longest[index] = _longer(here, first, end[index])
+                spent[index] += used
     return proven, spent
 
 
@@ -88,7 +92,7 @@ def _next(kernel, cycle: Cycle, known: Orbit, reached, surplus, length, noise):
 
 def _longer(known: Orbit, x, c):
     """By how much the engagement from x to c is longer than the known one."""
-    return known.x - x + c - known.c
+    return np.maximum(known.x - x, 0.0) + np.maximum(c - known.c, 0.0)
 
 
 def _suspects(kernel, cycle: Cycle, known: Orbit, length):
@@ -106,6 +110,17 @@ def _suspects(kernel, cycle: Cycle, known: Orbit, length):
     arc = cycle.centre - kernel.forcing_arc(s.delta_0 - F, s.D, s.beta)[1]
     last = cycle.centre + TWO_PI - kernel.forcing_arc(s.p_0 + s.delta_0 + M, s.D, s.beta)[1]
     return arc, last
+
+
+def _onset_before(kernel, cycle: Cycle, c, start, x, noise):
+    """The start, or a later phase before the onset that free flow from c leads to: no orbit whose adhesion ends before c begins there earlier."""
+    s = cycle.strips
+    entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
+    spent = np.zeros(c.shape)
+    far, near = np.maximum(start + TWO_PI, c), x + TWO_PI
+    guess = np.clip(TWO_PI - c, far, near)
+    phase, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, guess, far, -1.0, noise, _CLOSE + 0 * c, spent, near)
+    return np.where(found, phase - TWO_PI, start), spent
 
 
 def onset_after(kernel, cycle: Cycle, c, x, noise):
@@ -129,14 +144,14 @@ def _gain(kernel, cycle: Cycle, known: Orbit, x, noise):
     x = np.minimum(x, known.x)
     near = np.minimum(np.maximum(x, cycle.centre - cycle.half_b), known.b)
     entry = kernel.gap_entry(x, cycle.gap_on, -s.p_0, s.D, s.beta)
-    closing = np.maximum(kernel.forcing(x, s.D, s.beta) + s.p_0 + cycle.gap_on, _EPS)
-    guess = np.clip(x + _BEYOND * cycle.gap_on * s.beta / closing, near, 0.5 * (near + known.b))
+    # on a slow foundation w stays, and the gap closes where the profile has risen by as much
+    guess = np.clip(_SURELY - np.arccos(np.minimum(np.cos(x) + cycle.gap_on, 1.0)), near, known.b)
     b, found = bound(kernel.gap_event, entry, 0.0, 1.0, guess, known.b, 1.0, noise, _CLOSE + 0 * x, spent, near)
     b = np.where(cycle.direct, x, np.where(found, b, known.b))
     entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
     blur = noise + 64 * _EPS * entry[4]
     far = np.maximum(cycle.centre + TWO_PI - cycle.half_b, known.a)
-    guess = np.clip(known.a + known.b - b, known.a, far)
+    guess = np.clip(known.a + known.b - b - _SURELY, known.a, far)
     a, found = bound(kernel.excess_event, entry, 0.0, 1.0, guess, known.a, -1.0, blur, _CLOSE + 0 * x, spent, far)
     a = np.where(found, a, known.a)
     left = kernel.excess_event(a, *entry)[0]

@@ -18,6 +18,9 @@ from .sought import at_zeros
 from .start import start
 from .turning import turning
 
+#: traction that lifts the foundation less than the wave is high: then the most engaged orbit may not reach contact
+_LOW = 1.0
+
 
 def certified(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[Orbit, np.ndarray, np.ndarray]:
     """Orbits of ``sequence`` that Newton finds from ``edges`` (k, n), which of them are certified, and the evaluations spent on each."""
@@ -58,9 +61,9 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: Outermost):
     found.attempt("acaf", np.flatnonzero(possible & ~cycle.direct))
     found.attempt("afc", np.flatnonzero(possible & cycle.direct))
     none = ~arc | bounds.missed
-    if last:
-        found.attempt("af", np.flatnonzero(possible & ~cycle.direct & ~found.proven))
-    else:
+    low = possible & ~cycle.direct & (last | (s.p_0 < _LOW))
+    found.attempt("af", np.flatnonzero(low & ~found.proven))
+    if not last:
         none |= found.at_a_fold(np.flatnonzero(possible & ~cycle.direct & ~found.proven))
     return found.orbit, found.sequence, found.proven, none, found.evaluations
 

@@ -30,8 +30,10 @@ _EPS = np.finfo(float).eps
 _LEAST = 1e-290
 #: beta above which the balance of a period is asked first: a faster foundation is judged better by its bounds
 SLOW = 30.0
+#: ends of the intervals from a known onset to the start of the arc
+_SHARES = np.array([1e-5, 1e-3, 0.02, 0.15, 0.4, 0.55, 0.7, 0.85, 1.0])
 #: probes tried; the first half way to the end of the arc, the next ones after longer steps from what is proven, or shorter ones after a failure
-_PROBES, _FIRST, _BOLDER, _WARIER = 8, 0.5, 3.0, 0.2
+_PROBES, _FIRST, _BOLDER, _WARIER = 2, 0.5, 3.0, 0.2
 
 
 def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
@@ -49,13 +51,29 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> 
         rest = np.flatnonzero(~proven & (cycle.strips.beta > SLOW))
         if rest.size:
             part = cycle.take(rest)
-            here = _zero(kernel, cycle, orbit, rest)
+            here = _zero(kernel, part, orbit.take(rest))
             proven[rest], spent[rest] = balance.first(kernel, part, here, *onsets_within(part, bounds.take(rest)))
-    rest = np.flatnonzero(~proven)
-    if rest.size:
-        proven[rest], used = _alone(kernel, cycle.take(rest), orbit.take(rest), last, bounds.x[rest])
-        spent[rest] += used
+    # marches take a strip that hangs next to its fold further than bounds at a few probes do, and cost more
+    hanging = cycle.strips.D <= -cycle.strips.delta_0
+    everywhere = np.ones(cycle.size, bool)
+    ways = ((_by_probes, everywhere),) if last else ((_by_probes, ~hanging), (_by_marches, everywhere), (_by_probes, hanging))
+    for way, kind in ways:
+        rest = np.flatnonzero(kind & ~proven)
+        if rest.size:
+            proven[rest], used = way(kernel, cycle.take(rest), orbit.take(rest), last, bounds.take(rest))
+            spent[rest] += used
     return proven, spent
+
+
+def _by_probes(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost):
+    sign = -1.0 if last else 1.0
+    end = cycle.centre - sign * cycle.half_d
+    return _cleared(kernel, cycle, _zero(kernel, cycle, orbit), sign, end if last else np.fmax(end, bounds.x))
+
+
+def _by_marches(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost):
+    start, _ = onsets_within(cycle, bounds)
+    return none_before(kernel, cycle, _zero(kernel, cycle, orbit), start)
 
 
 def onsets_within(cycle: Cycle, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
@@ -82,21 +100,34 @@ def _falls_between(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float
     return steep & ((way == 0) | kept)
 
 
-def _zero(kernel, cycle: Cycle, orbit: Orbit, index) -> Orbit:
-    """The known orbits ``index`` as marches that end where they begin."""
-    x, s = orbit.x[index], cycle.strips
-    w_end = kernel.profile(x, s.D[index]) + s.delta_0[index]
-    return Orbit(x, orbit.b[index], orbit.a[index], orbit.c[index], np.zeros(x.size, bool), np.zeros(x.size), w_end)
+def none_before(kernel, cycle: Cycle, known: Orbit, start) -> tuple[np.ndarray, np.ndarray]:
+    """Where no zero of r lies between ``start`` and the onsets of ``known`` orbits or marches, r >= 0, shown by marches at the ends of a few
+    intervals; and the event evaluations spent.
+
+    From the known onset back: an interval on which R falls strictly leaves r positive, one that is excluded does so from both ends.
+    """
+    n, many = cycle.size, _SHARES.size
+    nodes = (known.x + _SHARES[:, None] * (start - known.x)).ravel()
+    marches, spent = march(kernel, cycle.take(np.tile(np.arange(n), many)), nodes)
+    pieces = cycle.take(np.tile(np.arange(n), many))
+    left, right = marches, Orbit.joined([known, marches.take(np.arange((many - 1) * n))])
+    empty = np.zeros(n * many, bool)
+    ask = np.flatnonzero(~right.engaged)
+    pieces, left, right = pieces.take(ask), left.take(ask), right.take(ask)
+    bounds = slope_bounds(kernel, pieces, left, right)
+    apart = (left.r > 0) & (right.r > 0) & excluded(kernel, pieces, left, right, bounds, False)
+    empty[ask] = apart | (~left.engaged & bounds.falls)
+    return empty.reshape(many, n).all(axis=0), spent.reshape(many, n).sum(axis=0)
 
 
-def _alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, least) -> tuple[np.ndarray, np.ndarray]:
-    known = _zero(kernel, cycle, orbit, slice(None))
-    sign = -1.0 if last else 1.0
-    end = cycle.centre - sign * cycle.half_d
-    return cleared(kernel, cycle, known, sign, end if last else np.fmax(end, least))
+def _zero(kernel, cycle: Cycle, orbit: Orbit) -> Orbit:
+    """Known orbits as marches that end where they begin."""
+    s = cycle.strips
+    w_end = kernel.profile(orbit.x, s.D) + s.delta_0
+    return Orbit(orbit.x, orbit.b, orbit.a, orbit.c, np.zeros(cycle.size, bool), np.zeros(cycle.size), w_end)
 
 
-def cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.ndarray, np.ndarray]:
+def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.ndarray, np.ndarray]:
     """Where no zero of r lies between ``end``, of the onset arc or of what is left of it (``sign`` > 0: its start), and the onsets of ``known``."""
     n = cycle.size
     proven, spent = np.zeros(n, bool), np.zeros(n)

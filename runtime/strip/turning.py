@@ -22,15 +22,15 @@ import numpy as np
 
 from . import balance
 from .chain import arcs, links, moved
-from .exclusion import cleared
-from .march import closing, march
+from .exclusion import none_before
+from .march import Orbit, closing, march
 from .polish import newton
 from .problem import Cycle
 from .search import SearchResult, excluded
 from .sensitivity import contact_length, fading, gains, onset_margin, release_margin, slope_bounds, slope_excess
 
 _EPS = np.finfo(float).eps
-_ITERATIONS = 16
+_ITERATIONS = 9
 #: a step this small leaves an error of its square
 _SMALL = 1e-7
 #: rounds of the start on a foundation that does not move in a gap
@@ -41,7 +41,7 @@ _WAY, _FURTHEST = 0.6, 0.3
 _OUTER, _INNER = 1.4, 0.6
 #: ends of the intervals on which T' > 1 is shown one by one, from where r is least, and from the start of the onset arc, if need be on more of
 #: them; and where in that arc the last of them ends at the latest
-_TOWARDS = np.linspace(0.0, 1.0, 6) ** 2
+_TOWARDS = np.array([0.0, 1e-4, 0.02, 0.2, 1.0])
 _ALL_ALONG = np.linspace(0.0, 1.0, 7), np.linspace(0.0, 1.0, 21)
 _TOP = 0.9
 
@@ -83,10 +83,13 @@ def _settle(kernel, cycle: Cycle, index, before, after, start, end, result: Turn
     left, right = marches.take(np.arange(n)), marches.take(np.arange(n, 2 * n))
     isolated.evaluations[index] += used[:n] + used[n:]
     part = cycle.take(index)
-    bounds = slope_bounds(kernel, part, left, right)
-    one = (left.r > 0) & (right.r <= 0) & ~right.engaged & bounds.falls
-    rises = slope_excess(kernel, part, right)[0] > 64 * _EPS * fading(part, contact_length(left.b, left.a))
-    none = rises & (left.r > 0) & (right.r > 0) & excluded(kernel, part, left, right, bounds, False)
+    one, none = np.zeros(n, bool), np.zeros(n, bool)
+    ask = np.flatnonzero((left.r > 0) & ~right.engaged)
+    ends, there, here = part.take(ask), left.take(ask), right.take(ask)
+    bounds = slope_bounds(kernel, ends, there, here)
+    one[ask] = (here.r <= 0) & bounds.falls
+    none[ask] = (here.r > 0) & excluded(kernel, ends, there, here, bounds, False)
+    none &= _rises(kernel, part, right)
     ask = np.flatnonzero(none)
     if ask.size:
         none[ask], used = _unstable_after(kernel, part.take(ask), right.x[ask], _TOWARDS)
@@ -98,7 +101,7 @@ def _settle(kernel, cycle: Cycle, index, before, after, start, end, result: Turn
     first, used = balance.first(kernel, part, ends, start[index[go]], end[index[go]])
     rest = np.flatnonzero(~first)
     if rest.size:
-        first[rest], more = cleared(kernel, part.take(rest), ends.take(rest), 1.0, start[index[go[rest]]])
+        first[rest], more = none_before(kernel, part.take(rest), ends.take(rest), start[index[go[rest]]])
         used[rest] += more
     isolated.evaluations[index[go]] += used
     go = go[first]
@@ -127,13 +130,24 @@ def _unstable_after(kernel, cycle: Cycle, x, shares) -> tuple[np.ndarray, np.nda
     last = marches.take(np.arange((many - 1) * n, many * n))
     # from here on M is at most what it is where adhesion ends now, or in the middle of the arc
     last.c = np.minimum(last.c, middle)
-    blur = 64 * _EPS * fading(cycle, contact_length(last.b, last.a))
-    rises = ~last.engaged & (slope_excess(kernel, cycle, last)[0] > blur)
-    pieces = cycle.take(np.tile(np.arange(n), many - 1))
+    proven = _rises(kernel, cycle, last)
+    unstable = np.tile(top <= x, many - 1)
+    ask = np.flatnonzero(~unstable & ~right.engaged)
+    pieces, left, right = cycle.take(np.tile(np.arange(n), many - 1)[ask]), left.take(ask), right.take(ask)
     bounds = slope_bounds(kernel, pieces, left, right)
     none = (left.r > 0) & (right.r > 0) & excluded(kernel, pieces, left, right, bounds, False)
-    narrow = np.tile(top <= x, many - 1)
-    return rises & (narrow | none | (bounds.fall <= 0)).reshape(many - 1, n).all(axis=0), spent
+    unstable[ask] = none | (bounds.fall <= 0)
+    return proven & unstable.reshape(many - 1, n).all(axis=0), spent
+
+
+def _rises(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
+    """Where ``T' > 1`` by more than rounding; not where the strip stays engaged."""
+    rises = np.zeros(cycle.size, bool)
+    index = np.flatnonzero(~orbit.engaged)
+    part, orbit = cycle.take(index), orbit.take(index)
+    blur = 64 * _EPS * fading(part, contact_length(orbit.b, orbit.a))
+    rises[index] = slope_excess(kernel, part, orbit)[0] > blur
+    return rises
 
 
 def _least(kernel, cycle: Cycle):
