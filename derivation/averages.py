@@ -11,7 +11,8 @@ from .check import REPRODUCED, Check, Derived, derived, zero
 from .flows import Flows
 from .functions import Formula, written_out
 from .kernel import Kernel
-from .regime import CONTACT, FREE, NOTHING, PERIOD, Regime
+from .regime import Regime
+from .sequences import CONTACT, FREE, NOTHING, PERIOD
 from .symbols import PARAMETERS, D, L, alpha, beta, p, p_0, q_0, s, s_0, s_1, w_0
 
 

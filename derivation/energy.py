@@ -12,7 +12,8 @@ import sympy as sp
 
 from .check import Derived, derived, holds, zero
 from .flows import Flows
-from .regime import ADHESION, CONTACT, Regime
+from .regime import Regime
+from .sequences import ADHESION, CONTACT
 from .symbols import J, L, beta, chi, delta_0, p, p_0, s, s_0
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import sympy as sp
 
@@ -116,17 +118,8 @@ def foundation_law(model: Model) -> Derived:
     mode = sp.exp(rate * time)
     substituted = law.subs({w: mode, p: model.transfer() * mode}).doit()
     checks = [zero(name, "w = exp(rate t), p = (Q/P) w solves the law for any rate", sp.simplify(substituted))]
-    return derived(
-        foundation_law,
-        sp.Eq(_applied(model.Q, w, time), _applied(model.P, p, time)),
-        name=name,
-        statement="The foundation is local: at each material point its displacement w and pressure p obey one linear "
-        "equation in time.",
-        latex=sp.latex(sp.Eq(_applied(model.Q, w, time), _applied(model.P, p, time))),
-        checks=checks,
-        paper="Eq. 1",
-        status=REPRODUCED,
-    )
+    equation = sp.Eq(_applied(model.Q, w, time), _applied(model.P, p, time))
+    return law_record(foundation_law, equation, sp.latex(equation), checks)
 
 
 def relaxed_stiffness(model: Model) -> Derived:
@@ -140,12 +133,33 @@ def relaxed_stiffness(model: Model) -> Derived:
         zero(name, "w = p/K is at rest under the constant pressure p", at_rest),
         holds(name, "a larger K deforms less: K is a stiffness", softer.is_negative),
     ]
+    latex = rf"K = \lim_{{\omega\to 0}} K^*(i\omega) = {sp.latex(stiffness)}"
+    return stiffness_record(relaxed_stiffness, stiffness, latex, checks)
+
+
+def law_record(by: Callable[..., Any], law: Any, latex: str, checks: list[Check], order: str = "") -> Derived:
+    """The record of Eq. 1; ``order``: what is said of the order of the law."""
     return derived(
-        relaxed_stiffness,
+        by,
+        law,
+        name="foundation law",
+        statement="The foundation is local: at each material point its displacement w and pressure p obey one linear "
+        f"equation in time{order}.",
+        latex=latex,
+        checks=checks,
+        paper="Eq. 1",
+        status=REPRODUCED,
+    )
+
+
+def stiffness_record(by: Callable[..., Any], stiffness: sp.Expr, latex: str, checks: list[Check]) -> Derived:
+    """The record of K, which the paper calls a compliance."""
+    return derived(
+        by,
         stiffness,
-        name=name,
+        name="relaxed stiffness",
         statement="At rest p = K w, so K is a stiffness per area (Pa/m).",
-        latex=rf"K = \lim_{{\omega\to 0}} K^*(i\omega) = {sp.latex(stiffness)}",
+        latex=latex,
         checks=checks,
         paper="Eq. 1",
         status=CORRECTED,

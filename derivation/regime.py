@@ -1,9 +1,9 @@
 """The regimes of a strip: zones and edge conditions in, boundary equations and Jacobians out.
 
 A regime is written down as the zones that a material point meets, each with the state in which it is entered and the
-state in which it is left. Everything else follows. A state is the gap where p is given, and the excess pressure
-``q = p + p_0`` in contact. The closing condition is taken as a balance, "the changes of z over a period sum to zero",
-because the other way round the last zone would have to be subtracted from itself when the foundation is slow.
+state in which it is left (:mod:`.sequences`). Everything else follows. The closing condition is taken as a balance,
+"the changes of z over a period sum to zero", because the other way round the last zone would have to be subtracted from
+itself when the foundation is slow.
 """
 
 from __future__ import annotations
@@ -17,33 +17,26 @@ from . import stable
 from .check import BEYOND, REPRODUCED, Check, Derived, derived, zero
 from .functions import Formula, written_out
 from .inequality import Inequality, relation, require
-from .symbols import PARAMETERS, D, J, L, a, alpha, b, beta, c, p_0, s_1
+from .sequences import (
+    ADHESION,
+    CONTACT,
+    EQUATIONS,
+    NOTHING,
+    PERIOD,
+    TITLES,
+    Span,
+    edgeless_record,
+    obeys_jump_law,
+    with_edges,
+)
+from .symbols import PARAMETERS, D, J, L, alpha, beta, p_0, s_1
 
-PERIOD = 2 * sp.pi
-CONTACT, ADHESION, FREE = "contact", "adhesion", "free"
-NOTHING = sp.Integer(0)
-EQUATIONS = {  # by the edge at which a zone ends
-    b: ("contact_begins", "the gap closes at b"),
-    a: ("contact_ends", "the pressure falls to -p_0 at a"),
-    c: ("adhesion_ends", "the gap reaches delta_0 at c from below"),
-}
 PERIODIC = ("period", "the changes of z over the period sum to zero, so that the gap falls to delta_0 again at d + 2 pi")
 
 
 @dataclass(frozen=True)
-class Zone:
-    """From ``first`` to ``last``; entered and left with a gap (adhesion, free) or an excess pressure (contact)."""
-
-    kind: str
-    first: sp.Symbol
-    last: sp.Expr
-    entry: sp.Expr
-    exit: sp.Expr
-
-    @property
-    def load(self) -> sp.Expr:
-        """The constant pressure of an adhesion or free zone."""
-        return -p_0 if self.kind == ADHESION else NOTHING
+class Zone(Span):
+    """A zone with its flow, which takes the state at its beginning to that at its end."""
 
     def after(self) -> sp.Expr:
         """The state at the end of the zone by its flow."""
@@ -81,11 +74,6 @@ class Zone:
         """w on entry."""
         return stable.PROFILE(self.first, D) + (NOTHING if self.kind == CONTACT else self.entry)
 
-    def fields(self, edge: sp.Expr, state: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-        """(w, p) at an edge, from the state of this zone there."""
-        height = stable.PROFILE(edge, D)
-        return (height, state - p_0) if self.kind == CONTACT else (height + state, self.load)
-
 
 @dataclass(frozen=True)
 class Regime:
@@ -119,33 +107,21 @@ class Regime:
         return Formula(f"jacobian_{self.sequence}", self.args, self.jacobian)
 
 
-def edgeless(by: Callable, sequence: str, kind: str, title: str, admissible: tuple[Inequality, ...]) -> Regime:
-    name = f"regime {sequence}"
+def edgeless(by: Callable, sequence: str, kind: str, admissible: tuple[Inequality, ...]) -> Regime:
+    """A regime without edges: the same zone all along."""
     zone = Zone(kind, sp.Symbol("s_0", real=True), sp.Symbol("s_0", real=True) + PERIOD, NOTHING, NOTHING)
     if kind == CONTACT:
-        residual, latex = zone.displacement - stable.PROFILE(zone.first, D), "w = u"
+        change, latex = zone.displacement - stable.PROFILE(zone.first, D), "w = u"
     else:  # a constant w at rest under its load does not change
-        residual, latex = (
-            stable.RELAXATION_INCREMENT(zone.first, zone.last, zone.load - zone.load, beta),
-            f"w = p = {sp.latex(zone.load)}",
-        )
-    record = derived(
-        by,
-        sequence,
-        name=name,
-        statement=f"{title}: no unknown edge.",
-        latex=latex,
-        checks=[zero(name, "the field is steady", residual)],
-        status=REPRODUCED,
-        emitted=(f"means_{sequence}",),
-    )
-    return Regime(sequence, title, (zone,), (), (), (), admissible, (0, 1), record)
+        change = stable.RELAXATION_INCREMENT(zone.first, zone.last, zone.load - zone.load, beta)
+        latex = f"w = p = {sp.latex(zone.load)}"
+    record = edgeless_record(by, sequence, latex, change)
+    return Regime(sequence, TITLES[sequence], (zone,), (), (), (), admissible, (0, 1), record)
 
 
 def partial(
     by: Callable,
     sequence: str,
-    title: str,
     zones: tuple[Zone, ...],
     ratio: sp.Expr,
     admissible: tuple[Inequality, ...] = (),
@@ -160,7 +136,7 @@ def partial(
     equations = (*events, (PERIODIC[0], sp.Add(*(zone.increment() for zone in zones))))
     jacobian = tuple(tuple(sp.diff(term, edge) for edge in edges) for _, term in equations)
     checks = [
-        _edge_conditions(name, zones, ratio),
+        obeys_jump_law(name, zones, ratio, "[w] = chi J [p]"),
         _closing_is_periodicity(name, zones, events, equations[-1][1], edges),
         _jacobian_is_derivative(name, equations, jacobian, edges),
         _slopes_have_the_sign_of_what_drives(name, zones),
@@ -170,14 +146,14 @@ def partial(
         by,
         tuple(term for _, term in equations),
         name=name,
-        statement=f"{title[0].upper()}{title[1:]}: unknown edges {', '.join(map(str, edges))}; {'; '.join(meaning)}.",
+        statement=f"{with_edges(sequence, edges)}; {'; '.join(meaning)}.",
         latex=r"\\ ".join(f"{sp.latex(written_out(term))} = 0" for _, term in equations),
         checks=checks,
         status=BEYOND if closures == (1,) else REPRODUCED,
         emitted=(f"residual_{sequence}", f"jacobian_{sequence}"),
     )
     required = (*admissible, *approaches, in_order(*edges))
-    return Regime(sequence, title, zones, edges, equations, jacobian, required, closures, record)
+    return Regime(sequence, TITLES[sequence], zones, edges, equations, jacobian, required, closures, record)
 
 
 def in_order(*edges: sp.Symbol) -> Inequality:
@@ -193,16 +169,6 @@ def _slopes_have_the_sign_of_what_drives(name: str, zones: tuple[Zone, ...]) -> 
         residuals.append(time * sp.diff(state, s_1) + state - written_out(zone.drive(s_1)))
     firsts = tuple(zone.first for zone in zones)
     return zero(name, "at an edge the slope times its time is drive - exit: its sign", residuals, phases=(*firsts, s_1))
-
-
-def _edge_conditions(name: str, zones: tuple[Zone, ...], ratio: sp.Expr) -> Check:
-    """At every edge, from the exit of one zone to the entry of the next: ``[w] = chi J [p]``."""
-    residuals = []
-    for before, after in zip(zones, (*zones[1:], zones[0]), strict=True):
-        w_before, p_before = before.fields(before.last, before.exit)
-        w_after, p_after = after.fields(after.first, after.entry)
-        residuals.append(w_after - w_before - ratio * (p_after - p_before))
-    return zero(name, "every edge obeys the jump law, [w] = chi J [p]", residuals)
 
 
 def _closing_is_periodicity(name, zones, events, closing, edges) -> Check:

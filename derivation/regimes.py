@@ -1,4 +1,4 @@
-"""The table of regimes of a strip: each is the list of its zones, with the states between them.
+"""The table of regimes of a strip with one relaxation time, each with its zones and its inequalities.
 
 :func:`.regime.partial` makes the boundary equations of a regime from its zones and checks them.
 """
@@ -11,8 +11,9 @@ import sympy as sp
 
 from . import stable
 from .inequality import Inequality, relation, require
-from .regime import ADHESION, CONTACT, FREE, NOTHING, PERIOD, Regime, Zone, edgeless, partial
-from .symbols import D, J, a, b, c, chi, d, delta_0, p_0, s
+from .regime import Regime, Zone, edgeless, partial
+from .sequences import ADHESION, CONTACT, FREE, zones_of
+from .symbols import D, J, chi, delta_0, p_0, s
 from .zones import Zones
 
 turn = sp.Symbol("e", real=True)  # where the gap is least or greatest
@@ -37,19 +38,7 @@ def discrete_adhesion(ratio: sp.Expr) -> Regime:
 
     .. math:: g(b) = 0,\quad p(a) = -p_0,\quad g(c) = \delta_0,\quad g(d + 2\pi) = \delta_0
     """
-    step = ratio * p_0
-    return partial(
-        discrete_adhesion,
-        "acaf",
-        "partial contact with discrete adhesion zones",
-        (
-            Zone(ADHESION, d, b, delta_0 - step, NOTHING),
-            Zone(CONTACT, b, a, NOTHING, NOTHING),
-            Zone(ADHESION, a, c, NOTHING, delta_0),
-            Zone(FREE, c, d + PERIOD, delta_0 + step, delta_0),
-        ),
-        ratio,
-    )
+    return partial(discrete_adhesion, "acaf", zones_of("acaf", Zone, ratio * p_0, J), ratio)
 
 
 def trailing_adhesion(ratio: sp.Expr) -> Regime:
@@ -57,17 +46,13 @@ def trailing_adhesion(ratio: sp.Expr) -> Regime:
 
     .. math:: p(a) = -p_0,\quad g(c) = \delta_0,\quad g(d + 2\pi) = \delta_0
     """
-    step = ratio.subs(chi, 1) * p_0
+    ratio = ratio.subs(chi, 1)
+    step = ratio * p_0
     return partial(
         trailing_adhesion,
         "afc",
-        "partial contact with trailing adhesion only, after a snap into contact",
-        (
-            Zone(CONTACT, d, a, p_0 - delta_0 / J, NOTHING),
-            Zone(ADHESION, a, c, NOTHING, delta_0),
-            Zone(FREE, c, d + PERIOD, delta_0 + J * p_0, delta_0),
-        ),
-        ratio.subs(chi, 1),
+        zones_of("afc", Zone, step, J),
+        ratio,
         (require(relation("==", chi, 1)), require(relation("<=", delta_0 - step, 0), sentence="w steps over the gap: {}")),
         closures=(1,),
     )
@@ -75,13 +60,11 @@ def trailing_adhesion(ratio: sp.Expr) -> Regime:
 
 def adhesion_only(ratio: sp.Expr) -> Regime:
     r"""No contact; adhesion from d to c: :math:`g(c) = \delta_0,\ g(d + 2\pi) = \delta_0`."""
-    step = ratio * p_0
-    adhesion = Zone(ADHESION, d, c, delta_0 - step, delta_0)
+    adhesion, free = zones_of("af", Zone, ratio * p_0, J)
     return partial(
         adhesion_only,
         "af",
-        "no contact, a discrete adhesion zone",
-        (adhesion, Zone(FREE, c, d + PERIOD, delta_0 + step, delta_0)),
+        (adhesion, free),
         ratio,
         (
             require(
@@ -98,12 +81,11 @@ def saturated_adhesion(ratio: sp.Expr) -> Regime:
 
     .. math:: p(a) = -p_0,\quad g(b + 2\pi) = 0
     """
-    adhesion = Zone(ADHESION, a, b + PERIOD, NOTHING, NOTHING)
+    contact, adhesion = zones_of("ac", Zone, ratio * p_0, J)
     return partial(
         saturated_adhesion,
         "ac",
-        "partial contact with saturated adhesion, or without adhesion if p_0 = 0",
-        (Zone(CONTACT, b, a, NOTHING, NOTHING), adhesion),
+        (contact, adhesion),
         ratio,
         (
             require(
@@ -118,17 +100,17 @@ def saturated_adhesion(ratio: sp.Expr) -> Regime:
 
 def complete_contact(threshold: sp.Expr) -> Regime:
     r"""No edge: :math:`w = u` everywhere, from the ``threshold`` of D on."""
-    return edgeless(complete_contact, "c", CONTACT, "complete contact", (require(relation(">=", D, threshold)),))
+    return edgeless(complete_contact, "c", CONTACT, (require(relation(">=", D, threshold)),))
 
 
 def clinging() -> Regime:
     r"""No edge: the whole gap at :math:`-p_0`, at rest at :math:`w = -p_0`."""
-    return edgeless(clinging, "a", ADHESION, "no contact, saturated adhesion", within_reach())
+    return edgeless(clinging, "a", ADHESION, within_reach())
 
 
 def separated() -> Regime:
     r"""No edge: :math:`w = 0`."""
-    return edgeless(separated, "f", FREE, "no interaction", (out_of_reach(),))
+    return edgeless(separated, "f", FREE, (out_of_reach(),))
 
 
 def within_reach() -> tuple[Inequality, Inequality]:

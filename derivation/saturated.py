@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import sympy as sp
 
@@ -167,20 +169,29 @@ def threshold(pressure: sp.Expr, modulus: tuple[sp.Expr, sp.Expr]) -> Derived:
     # p_sat = D - 1 + R cos(s + lag) with (cos lag, sin lag) = (storage, loss)/R.
     lag = sp.Symbol("lag", real=True)
     harmonic = sp.expand_trig(R * sp.cos(s + lag)).subs({sp.cos(lag): storage / R, sp.sin(lag): loss / R})
-    least = D - 1 - R
-    solution = sp.solve(least + p_0, D)[0]
     checks: list[Check] = [
         zero(name, "p_sat = D - 1 + R cos(s + arg K*)", pressure - (D - 1) - harmonic, phases=(s,)),
         zero(name, "(storage, loss)/R is a unit vector, so that the least value is D - 1 - R", (storage**2 + loss**2) / R**2 - 1),
+    ]
+    return threshold_record(threshold, R, "R", checks)
+
+
+def threshold_record(by: Callable[..., Any], R: sp.Expr, ratio: str, checks: list[Check]) -> Derived:
+    """The record of the threshold, once the least pressure is shown to be ``D - 1 - R``; ``ratio``: R in LaTeX."""
+    name = "saturation threshold"
+    least = D - 1 - R
+    solution = sp.solve(least + p_0, D)[0]
+    checks = [
+        *checks,
         zero(name, "at the threshold the least pressure is -p_0", least.subs(D, solution) + p_0),
         holds(name, "and it grows with D", sp.diff(least, D).is_positive),
     ]
     return derived(
-        threshold,
+        by,
         solution,
         name=name,
         statement="A strip is in complete contact when the least pressure of Eq. 15 is not below -p_0.",
-        latex=r"D_j \ge A(1 + R) - p_0/K",
+        latex=rf"D_j \ge A(1 + {ratio}) - p_0/K",
         checks=checks,
         status=BEYOND,
     )

@@ -8,7 +8,8 @@ from . import stable
 from .check import Derived, derived, zero
 from .functions import Formula, decay, quotient, written_out
 from .kernel import Kernel
-from .regime import CONTACT, Regime
+from .regime import Regime
+from .sequences import CONTACT
 from .symbols import D, L, alpha, beta, gap_0, p, p_0, q_0, s_0, s_1
 
 

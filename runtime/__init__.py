@@ -1,8 +1,8 @@
 """Hysteretic sliding friction of multiscale wavy surfaces by the strip method.
 
-A rigid surface of nested waves slides over a viscoelastic foundation with Dugdale adhesion. ``solve_strip`` solves single strips,
-``solve_level`` and ``friction_law`` one level, ``solve`` the whole surface, ``sweep`` a scene over its parameters. The strip
-solver's formulas are generated: see ``hystrip.derivation``.
+A rigid surface of nested waves slides over a viscoelastic foundation with Dugdale adhesion. ``solve_strip`` solves
+single strips, ``solve_level`` and ``friction_law`` one level, ``solve`` the whole surface, ``sweep`` a scene over its
+parameters. The strip solver's formulas are generated: see ``hystrip.derivation``.
 """
 
 from typing import TYPE_CHECKING

@@ -24,7 +24,6 @@ LABELS = {
     "contact_by_level": ("1", "fraction of the nominal area in contact on each level"),
     "adhesion_by_level": ("1", "fraction of the nominal area in the adhesion zone of each level"),
     "pulled_off": ("1", "the pressure lies below pull-off: no contact"),
-    "pull_off": ("Pa", "least nominal pressure that level 1 can carry"),
     "p_sat": ("Pa", "nominal pressure from which level 1 is in saturated contact"),
     "closed_form": ("1", "solved by the closed form of saturated contact on all levels"),
     "error_estimate": ("1", "estimated absolute error of the friction coefficient"),
@@ -35,15 +34,15 @@ LABELS = {
 }
 _BY_LEVEL = ("tau_by_level", "mu_by_level", "contact_by_level", "adhesion_by_level")
 _PLAIN = (
-    "mu", "tau", "contact_fraction", "pulled_off", "pull_off", "p_sat", "closed_form", "error_estimate", "tau_error",
+    "mu", "tau", "contact_fraction", "pulled_off", "p_sat", "closed_form", "error_estimate", "tau_error",
 )  # fmt: skip
 
 
 def to_dataset(result: Any) -> Any:
     """Dataset of a :class:`hystrip.Result`.
 
-    Dimensions: ``level``, and for every axis of the result what changes along it, ``velocity``, ``pressure`` or ``penetration``;
-    ``point`` where several change together. Needs the extra ``dataset``.
+    Dimensions: ``level``, and for every axis of the result what changes along it, ``velocity``, ``pressure`` or
+    ``penetration``; ``point`` where several change together. Needs the extra ``dataset``.
     """
     xarray = require("xarray", "dataset", "a labelled dataset")
     names = axis_names(result)
@@ -116,6 +115,8 @@ def _labelled(name: str, dims: tuple[str, ...], values: Any) -> tuple[tuple[str,
 
 
 def _constant(values: np.ndarray, axis: int) -> bool:
+    if not values.size:  # an axis without points stays an axis
+        return values.shape[axis] > 0
     first = np.take(values, [0], axis=axis)
     return bool(np.all((values == first) | (np.isnan(values) & np.isnan(first))))
 

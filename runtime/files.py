@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
+import errno
 import os
-import shutil
 from pathlib import Path
 from types import TracebackType
 
@@ -14,7 +15,8 @@ class Outputs:
     """A set of files in one folder that appear together, or not at all.
 
     Each is written aside under a hidden name; on leaving the ``with`` block without an error all are renamed into
-    place. On an error nothing is left, not even a folder that was made for them.
+    place. On an error nothing is left, not even a folder that was made for them (unless somebody else put something
+    there).
 
     Parameters
     ----------
@@ -24,7 +26,7 @@ class Outputs:
     def __init__(self, folder: str | os.PathLike[str]):
         self.folder = Path(folder)
         self._parts: dict[Path, Path] = {}
-        self._made: Path | None = None
+        self._made: list[Path] = []
 
     def path(self, name: str) -> Path:
         """Where to write the file that will be called `name`. The name keeps its suffix."""
@@ -33,21 +35,27 @@ class Outputs:
         return part
 
     def __enter__(self) -> Outputs:
-        missing = [each for each in (self.folder, *self.folder.parents) if not each.exists()]
+        self._made = [each for each in (self.folder, *self.folder.parents) if not each.exists()]
         self.folder.mkdir(parents=True, exist_ok=True)
-        self._made = missing[-1] if missing else None
         return self
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        placed = False
         try:
             if kind is None:
+                for final in self._parts:  # the one thing that would stop the renaming half-way
+                    if final.is_dir():
+                        raise IsADirectoryError(errno.EISDIR, "a folder stands where the file would go", str(final))
                 for final, part in self._parts.items():
                     os.replace(part, final)
+                placed = True
         finally:
             for part in self._parts.values():
                 part.unlink(missing_ok=True)
-            if kind is not None and self._made is not None:
-                shutil.rmtree(self._made, ignore_errors=True)
+            if not placed:
+                with contextlib.suppress(OSError):  # not empty: another run writes there too
+                    for folder in self._made:
+                        folder.rmdir()
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:

@@ -59,10 +59,15 @@ def load_solver(folder: str | os.PathLike[str]) -> Solver:
 
     Raises ``InputError`` if the folder holds no solver, or one for another version of the interface; it says how to regenerate.
     """
-    path = Path(folder).resolve()
-    init = path / "__init__.py"
-    if not init.is_file():
-        raise InputError("solver", str(folder), "a folder that `hystrip regenerate my_model.py --out FOLDER` has written")
+    written = "a folder that `hystrip regenerate my_model.py --out FOLDER` has written"
+    try:
+        path = Path(folder).resolve()
+        init = path / "__init__.py"
+        found = init.is_file()
+    except (OSError, ValueError):  # no path that the system can have
+        found = False
+    if not found:
+        raise InputError("solver", str(folder), written)
     again = "run `hystrip regenerate my_model.py --out FOLDER` again"
     name = f"_hystrip_solver_{solver_key(path)[:16]}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
     try:

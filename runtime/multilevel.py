@@ -11,6 +11,7 @@ from hystrip.inputs.adhesion import Dugdale
 from hystrip.inputs.surface import Level
 from hystrip.level.build import build_laws
 from hystrip.level.carried import CarriedByLaws, peak_pressure
+from hystrip.level.demand import demand_of
 from hystrip.level.inverse import cut_penetration, invert
 from hystrip.level.means import level_means
 from hystrip.level.saturated import SaturatedLevel, saturated_friction, saturated_level
@@ -138,7 +139,7 @@ class _Solve:
             return out
         velocities, group = np.unique(self.V[rest], return_inverse=True)
         # a block of velocities at a time: large enough for the batch to pay, small enough to show progress
-        block = 64
+        block = 128
         for start in range(0, velocities.size, block):
             chosen = (group >= start) & (group < start + block)
             self._block(velocities[start : start + block], rest[chosen], group[chosen] - start)
@@ -201,13 +202,14 @@ class _Solve:
         surface = self.surface
         p_max = np.full(V.size, -np.inf)
         np.maximum.at(p_max, group, peak_pressure(columns))
-        ceilings = []
+        ceilings, demands = [], [demand_of(columns, group)]
         for i in range(1, self.M):
             ceilings.append(p_max)
             if i + 1 < self.M:
                 plain = surface.columns(i, V)
                 D = cut_penetration(plain, p_max, stack.D_full[i])
                 p_max = peak_pressure(surface.columns(i, V, D))
+                demands.append(None)
         carry = None
         groups = np.arange(V.size)
         for i in range(self.M - 1, 0, -1):
@@ -220,6 +222,7 @@ class _Solve:
                 stack.D_full[i],
                 saturated,
                 ceilings[i - 1],
+                demands[i - 1],
             )
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error
             scales = np.concatenate((level_columns.scales[1:], [_NO_SCALE]))

@@ -26,7 +26,6 @@ class Result:
     contact_fraction : fraction of the nominal area in contact on every level: the real contact
     contact_by_level, adhesion_by_level : fractions of the nominal area in contact and in adhesion on each level, (levels, ...)
     pulled_off : the pressure lies below pull-off: no contact, mu = 0
-    pull_off : least nominal pressure that level 1 can carry, Pa (NaN where it did not have to be found)
     closed_form : the point was solved by the closed form of saturated contact on all levels
     error_estimate : estimated absolute error of mu (of tau over the pressure); NaN at zero pressure
     tau_error : estimated absolute error of tau, Pa
@@ -45,7 +44,6 @@ class Result:
     contact_by_level: np.ndarray
     adhesion_by_level: np.ndarray
     pulled_off: np.ndarray
-    pull_off: np.ndarray
     closed_form: np.ndarray
     error_estimate: np.ndarray
     tau_error: np.ndarray
@@ -62,7 +60,8 @@ class Result:
 
     @cached_property
     def p_sat(self) -> np.ndarray:
-        """Nominal pressure from which level 1 is in saturated contact, Pa; on the loading branch one that suffices. Shape of ``mu``."""
+        """Nominal pressure from which level 1 is in saturated contact, Pa; on the loading branch one that suffices.
+        Shape of ``mu``."""
         from hystrip.level.saturated import saturated_level
 
         V = self.velocity.ravel()

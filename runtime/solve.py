@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hystrip.errors import InputError
+from hystrip.errors import InputError, SolverError
 from hystrip.inputs.adhesion import Dugdale
-from hystrip.inputs.checks import broadcast, choice, number, numbers
+from hystrip.inputs.checks import SMALLEST, broadcast, choice, number, numbers
 from hystrip.inputs.surface import Level
 from hystrip.solver import check_edge, check_material, parameters
 
@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from hystrip.multilevel import Surface
     from hystrip.result import Result
     from hystrip.solver import Material
+
+#: least pressure over ``K h`` without adhesion: the contact under a smaller one is lost in rounding
+_FAINTEST = 1e-22
 
 
 def solve(
@@ -41,12 +44,12 @@ def solve(
     material, adhesion : the foundation and the adhesion, single values
     levels : from the largest to the smallest, at least one
     pressure : nominal pressure, Pa; or penetration : D of level 1, m. Exactly one of them
-    velocity : sliding velocity, m/s, >= 0; broadcasts with the load
+    velocity : sliding velocity, m/s, >= 0; broadcasts with the load. No input may exceed 1e40 in magnitude
     edge, branch : edge closure and branch of loading, as in ``solve_strip``
     rtol : accuracy asked for, relative to ``|tau| + 1e-3 (K h + p_0) h/l`` of level 1, 1e-12 to 0.1
-    strips : average level 1 over the paper's so many equal strips of half a cell (midpoints) instead of adaptive panels:
-        to compare with the paper. The laws of the levels below stay adaptive, ``rtol`` holds for them alone, and the error
-        estimate says the rest
+    strips : average level 1 over the paper's so many equal strips of half a cell (midpoints) instead of adaptive
+        panels: to compare with the paper. The laws of the levels below stay adaptive, ``rtol`` holds for them alone,
+        and the error estimate says the rest
     skip : use the closed form where every level is saturated (off: every point is solved)
     progress : called with the number of points done and the total
 
@@ -69,7 +72,7 @@ def solve(
     from hystrip.multilevel import Surface
     from hystrip.strip.solution import BRANCHES
 
-    levels = tuple(_checked_levels(levels))
+    levels = check_levels(levels)
     check_single(material, adhesion)
     edge, branch = check_edge(material, edge), choice("branch", branch, BRANCHES)
     rtol = check_rtol(rtol)
@@ -79,11 +82,17 @@ def solve(
         raise InputError("pressure, penetration", given, "exactly one of the two")
     name, load = ("pressure", pressure) if penetration is None else ("penetration", penetration)
     load = numbers(name, load, "Pa" if name == "pressure" else "m")
+    if name == "pressure":
+        _refuse_faint(load, 0.0 if adhesion.p_0 > 0 else _FAINTEST * material.K * levels[0].h)
     shape = broadcast(**{name: load, "velocity": velocity})
     V, L = (np.broadcast_to(v, shape).reshape(-1) for v in (velocity, load))
     tally = Tally()
     surface = Surface(material, adhesion, levels, edge, branch, rtol, skip, tally, check_strips(strips))
     points = surface.solve(V, L, name == "pressure", progress)
+    if not (np.isfinite(points.tau).all() and np.isfinite(points.error).all()):
+        lost = np.flatnonzero(~(np.isfinite(points.tau).all(axis=0) & np.isfinite(points.error)))
+        first = f"{name} {L[lost[0]]:g}, velocity {V[lost[0]]:g}"
+        raise SolverError(f"{lost.size} of {L.size} points have no finite friction; the first: {first}")
     return _result(points, surface, shape, V, name)
 
 
@@ -107,7 +116,6 @@ def _result(points, surface: Surface, shape, V, load: str) -> Result:
         contact_by_level=many(points.contact),
         adhesion_by_level=many(points.adhesion),
         pulled_off=one(points.pulled_off),
-        pull_off=one(points.pull_off),
         closed_form=one(points.closed_form),
         error_estimate=one(error),
         tau_error=one(points.error),
@@ -128,15 +136,24 @@ def _result(points, surface: Surface, shape, V, load: str) -> Result:
     )
 
 
-def _checked_levels(levels) -> list[Level]:
+def _refuse_faint(pressure: np.ndarray, faintest: float) -> None:
+    """Refuse pressures, Pa, that are not zero but too near it for a friction coefficient or for the contact they make."""
+    faint = (pressure != 0) & (np.abs(pressure) < SMALLEST) | (pressure > 0) & (pressure < faintest)
+    if faint.any():
+        allowed = f"0, or a magnitude from {max(SMALLEST, faintest):g} Pa on"
+        raise InputError("pressure", float(pressure[faint].flat[0]), allowed)
+
+
+def check_levels(levels) -> tuple[Level, ...]:
+    """``levels`` as a tuple of at least one, the largest first."""
     if isinstance(levels, Level):
-        return [levels]
+        return (levels,)
     try:
-        levels = list(levels)
+        given, levels = levels, tuple(levels)
     except TypeError:
         raise InputError("levels", levels, "a sequence of hystrip.Level, the largest first") from None
     if not levels:
-        raise InputError("levels", levels, "at least one hystrip.Level")
+        raise InputError("levels", given, "at least one hystrip.Level")
     for i, level in enumerate(levels):
         if not isinstance(level, Level):
             raise InputError(f"levels[{i}]", level, "a hystrip.Level")

@@ -88,7 +88,7 @@ def _friction(result: Any) -> list[str]:
     out.append(
         f"error      of mu at most {np.nanmax(error):.1e} (estimate)"
         if np.isfinite(error).any()
-        else "error      undefined: zero pressure"
+        else "error      undefined: " + ("zero pressure" if mu.size else "no points")
     )
     return out
 
@@ -108,6 +108,8 @@ def _closer(result: Any) -> list[str]:
     from hystrip.regimes_by_level import regimes_by_level
 
     mu = np.abs(np.ravel(result.mu))
+    if not mu.size:
+        return []
     at = int(np.nanargmax(mu)) if np.isfinite(mu).any() else 0
     V, p = float(np.ravel(result.velocity)[at]), float(np.ravel(result.pressure)[at])
     how = {"edge": result.edge, "branch": result.branch}

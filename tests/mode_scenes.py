@@ -1,6 +1,7 @@
 """Random strips on foundations with several relaxation times, and the agreement of the library with the reference march.
 
-A scene is a dictionary: ``m`` (relative moduli), ``theta`` (times by k V), ``P0``, ``Delta``, ``delta``, in the units of A and K A.
+A scene is a dictionary: ``m`` (relative moduli), ``theta`` (times by k V), ``P0``, ``Delta``, ``delta``, in the units
+of A and K A.
 """
 
 import numpy as np
@@ -58,7 +59,9 @@ def viscous(scenes, branch):
     """The library's solution of scenes with one time as if that were the retardation time of a Kelvin-Voigt foundation."""
     beta, P0, Delta, delta = (np.array([np.ravel(s[name])[0] for s in scenes]) for name in ("theta", "P0", "Delta", "delta"))
     adhesion = hystrip.Dugdale(p_0=P0, delta_0=Delta)
-    return hystrip.solve_strip(hystrip.KelvinVoigt(1.0, beta), adhesion, l=2 * np.pi, A=1.0, D=delta, V=1.0, edge="constitutive", branch=branch)
+    return hystrip.solve_strip(
+        hystrip.KelvinVoigt(1.0, beta), adhesion, l=2 * np.pi, A=1.0, D=delta, V=1.0, edge="constitutive", branch=branch
+    )
 
 
 def exact(scene, branch, digits=modes.DIGITS):
@@ -81,7 +84,8 @@ def misfit(scene, found, i, true):
 
 
 def spread(scene, branch, true):
-    """How far the exact solution moves when a group is off by its rounding, in the units of ``misfit``; inf where its sequence changes."""
+    """How far the exact solution moves when a group is off by its rounding, in the units of ``misfit``; inf where its
+    sequence changes."""
     worst = 0.0
     for name in ("theta", "m", "P0", "Delta", "delta"):
         for sign in (1, -1):
@@ -101,7 +105,8 @@ MEANS = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
 
 
 def compare(scene, branch, found, i):
-    """(error, allowed, sequence of the march) of strip ``i``; allowed is more than the tolerance only where rounding of the inputs demands it."""
+    """(error, allowed, sequence of the march) of strip ``i``; allowed is more than the tolerance only where rounding of
+    the inputs demands it."""
     true = exact(scene, branch)
     error = misfit(scene, found, i, true)
     same = found.regime.reshape(-1)[i] == true.sequence

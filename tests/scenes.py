@@ -1,7 +1,7 @@
 """Random strips over the whole space of parameters, in SI, degenerate ones among them; and their one-line text form.
 
-A scene is a dictionary of arrays, one entry for each strip: the inputs of ``hystrip.solve_strip`` with the fields of its
-material and adhesion.
+A scene is a dictionary of arrays, one entry for each strip: the inputs of ``hystrip.solve_strip`` with the fields of
+its material and adhesion.
 """
 
 import numpy as np
@@ -79,7 +79,8 @@ def si(rng, alpha, beta, P0, Delta, D):
     T_eps = beta / rate
     # a difference of the times that is zero has to stay zero
     T_sigma = np.where(alpha == beta, T_eps, np.minimum(alpha / rate, T_eps))
-    return {"l": l, "A": A, "D": D * A, "V": V, "K": K, "T_eps": T_eps, "T_sigma": T_sigma, "p_0": P0 * (K * A), "delta_0": Delta * A}
+    times = {"T_eps": T_eps, "T_sigma": T_sigma}
+    return {"l": l, "A": A, "D": D * A, "V": V, "K": K, **times, "p_0": P0 * (K * A), "delta_0": Delta * A}
 
 
 def solve(scene, edge, branch):

@@ -1,4 +1,4 @@
-"""Random surfaces: one to three levels, both closures and branches, from hardly touching to nearly saturated, some without adhesion."""
+"""Random surfaces of one to three levels: both closures and branches, hardly touching to nearly saturated."""
 
 from dataclasses import dataclass
 

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -9,44 +10,12 @@ import time
 
 import numpy as np
 import pytest
+from scene_text import ONE_LEVEL
 
-from hystrip.commands import entry
 from hystrip.scene import load_scene
 
-SCENE = """
-title = "two velocities"
-pressure = 5e6
-velocity = [1e-3, 5e-3]
-rtol = 1e-2
-[material]
-K = 1e9
-T_eps = 0.01
-T_sigma = 1e-4
-[adhesion]
-gamma = 2.5e-5
-delta_0 = 1e-8
-[[levels]]
-l = 1e-5
-h = 1e-6
-[[levels]]
-l = 5e-7
-h = 1e-7
-"""
-
-
-@pytest.fixture
-def run(monkeypatch, tmp_path, capsys):
-    """Run a command line in an empty folder; gives (status, standard output, standard error)."""
-    monkeypatch.chdir(tmp_path)
-
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["hystrip", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            entry.main()
-        out, err = capsys.readouterr()
-        return end.value.code, out, err
-
-    return call
+TWO_LEVELS = ONE_LEVEL + "[[levels]]\nl = 5e-7\nh = 1e-7\n"
+SCENE = 'title = "two velocities"\nrtol = 1e-2\n' + TWO_LEVELS.replace("= 100", "= 5e6").replace("= 5e-3", "= [1e-3, 5e-3]")
 
 
 def rows(path):
@@ -79,6 +48,26 @@ def test_solve_writes_netcdf_and_a_summary(run, tmp_path):
         assert data.mu.dims == ("velocity",) and data.attrs["scene"] == text
 
 
+def test_a_title_is_text_whatever_stands_in_it(run, tmp_path):
+    (tmp_path / "mine.toml").write_text(SCENE.replace("two velocities", "[K=1] of [bold]x[/red] in µ"), encoding="utf-8")
+    status, out, err = run("solve", "mine.toml", "--no-plot")
+    assert (status, err) == (0, "") and "[K=1] of [bold]x[/red] in µ" in out
+
+
+def test_a_terminal_that_lacks_a_letter(tmp_path):
+    (tmp_path / "mine.toml").write_text(SCENE.replace("two velocities", "in µ"), encoding="utf-8")
+    command = [sys.executable, "-m", "hystrip", "solve", "mine.toml", "--no-plot"]
+    ascii_only = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, env=ascii_only)
+    assert done.returncode == 0 and "in ?" in done.stdout, done.stderr
+
+
+def test_a_sweep_in_which_every_point_fails_has_a_status(run, tmp_path):
+    (tmp_path / "mine.toml").write_text(SCENE.replace("gamma = 2.5e-5", "gamma = 0"))
+    status, out, err = run("sweep", "mine.toml", "--over", "material.T_sigma=[1.0, 2.0]")
+    assert status == 1 and "4 points failed" in err and "wrote" in out
+
+
 def test_sweep_of_a_scene(run, tmp_path):
     (tmp_path / "mine.toml").write_text(SCENE.replace("gamma = 2.5e-5", "gamma = [0, 1e-5]"))
     status, out, err = run("sweep", "mine.toml")
@@ -98,7 +87,14 @@ def test_solve_and_sweep_leave_each_others_tables_alone(run, tmp_path):
 
 def test_quantities_swept_from_the_command_line(run, tmp_path):
     (tmp_path / "mine.toml").write_text(SCENE)
-    over = ["--over", 'material.K=["1 GPa/m", 2e9]', "--over", "levels[0].h = 1e-6, 5e-7", "--over", "velocity={start = 1e-3, stop = 5e-3, num = 3}"]
+    over = [
+        "--over",
+        'material.K=["1 GPa/m", 2e9]',
+        "--over",
+        "levels[0].h = 1e-6, 5e-7",
+        "--over",
+        "velocity={start = 1e-3, stop = 5e-3, num = 3}",
+    ]
     status, out, err = run("sweep", "mine.toml", *over)
     assert (status, err) == (0, "") and out.split("\n")[0] == "12 points"
     table = rows(tmp_path / "hystrip-out/mine.sweep.csv")
@@ -115,6 +111,7 @@ def test_quantities_swept_from_the_command_line(run, tmp_path):
         ("material.K=true", "a text with its unit in quotes"),
         ('material.K="1 s"', "unit of something else"),
         ("material.K=[]", "one value or more"),
+        ("material.K=1e9\nvelocity=3", "a text with its unit in quotes"),
     ],
 )
 def test_what_cannot_be_swept_is_refused(run, tmp_path, given, says):
@@ -185,12 +182,21 @@ def test_a_reader_that_stops_reading_is_no_traceback(tmp_path):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
 def test_ctrl_c_is_one_line_and_leaves_no_file(tmp_path):
-    (tmp_path / "big.toml").write_text(SCENE.replace("pressure = 5e6", "pressure = 100").replace(
-        "[1e-3, 5e-3]", '{ start = 1e-4, stop = 1e-2, num = 5000, spacing = "log" }'))
+    (tmp_path / "big.toml").write_text(
+        SCENE.replace("pressure = 5e6", "pressure = 100").replace(
+            "[1e-3, 5e-3]", '{ start = 1e-4, stop = 1e-2, num = 5000, spacing = "log" }'
+        )
+    )
     command = [sys.executable, "-m", "hystrip", "solve", "big.toml"]
     # A session of its own: a shell that runs tests in the background would have it ignore SIGINT.
-    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+    process = subprocess.Popen(
+        command,
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
     time.sleep(2.0)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=60)

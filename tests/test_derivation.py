@@ -154,7 +154,7 @@ TAMPERED = {
     "contact_work": ("stable.py", "rise**2 / 2", "-(rise**2) / 2"),
     "complex modulus": ("saturated.py", "sp.I**n for n, q", "(-sp.I) ** n for n, q"),
     "level_saturation_pressure": ("level.py", "(2 * ratio - 1) - p_0", "(2 * ratio - 1) + p_0"),
-    "regime acaf": ("regimes.py", "Zone(ADHESION, d, b, delta_0 - step", "Zone(ADHESION, d, b, delta_0 + step"),
+    "regime acaf": ("sequences.py", "zone(ADHESION, d, b, delta_0 - step", "zone(ADHESION, d, b, delta_0 + step"),
     "means_acaf": ("averages.py", "sum_p) / PERIOD, sum_tau / PERIOD)", "sum_p) / PERIOD, -sum_tau / PERIOD)"),
     "power balance": ("energy.py", "sp.diff(w, s) - beta / L", "sp.diff(w, s) + beta / L"),
     "strip problem": ("conditions.py", "gap_at(onset - 2 * sp.pi / k", "gap_at(onset + 2 * sp.pi / k"),

@@ -1,12 +1,10 @@
 """DMA data: what is read, and that a known spectrum comes back."""
 
-import sys
 
 import numpy as np
 import pytest
 
 import hystrip
-from hystrip.commands import entry
 from hystrip.dma import DynamicModulus, fit_prony, read_dma
 from hystrip.scene import load_scene
 
@@ -141,6 +139,7 @@ BAD_FILES = [
     ("f,E_stor,E_loss\n", "a row of units"),
     ("t,E_relax\ns,MPa\n1,2\n", "'f' \\(Hz\\) or 'omega'"),
     ("f,E_stor\nHz,MPa\n1,2\n", "'E_stor' and 'E_loss'"),
+    ("f,E_stor,E_loss,E_stor\nHz,MPa,MPa,MPa\n1,2,3,4\n2,3,4,5\n", "row 1: got .*; allowed: one column named 'E_stor'"),
     (HEAD.replace("Hz", "kHz") + "1,2,3\n", "row 2, f: got 'kHz'; allowed: Hz"),
     (HEAD.replace("MPa,MPa", "MPa,psi") + "1,2,3\n", "row 2, E_loss: got 'psi'; allowed: one of Pa"),
     (HEAD + "1,2,3\n", "1 rows of numbers"),
@@ -219,19 +218,6 @@ def test_command_writes_a_prony_scene_that_solves(run, tmp_path):
 def series_loss(rate, moduli, times):
     x = np.multiply.outer(rate, times)
     return x / (1 + x**2) @ moduli
-
-
-@pytest.fixture
-def run(monkeypatch, tmp_path, capsys):
-    monkeypatch.chdir(tmp_path)
-
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["hystrip", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            entry.main()
-        return end.value.code, *capsys.readouterr()
-
-    return call
 
 
 def test_command_writes_a_scene_that_loads(run, tmp_path):

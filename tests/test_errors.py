@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 import hystrip
+from hystrip.multilevel import Surface
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
 LEVEL = hystrip.Level(l=500e-9, h=100e-9)
+UNSOLVED = hystrip.Prony(K=1e9, moduli=[1e9] * 4, times=[1e-3, 1e-2, 1e-1, 1.0])
 ARRAYS = hystrip.StandardLinearSolid(K=[1e9, 2e9], T_eps=1e-2, T_sigma=1e-4)
 
 
@@ -35,6 +37,24 @@ def law(**changed):
 def surface(**changed):
     given = {"material": MATERIAL, "adhesion": ADHESION, "levels": [LEVEL], "pressure": 1e6, "velocity": 5e-3, **changed}
     return hystrip.solve(given.pop("material"), given.pop("adhesion"), given.pop("levels"), **given)
+
+
+class WithUnit:
+    """Like a quantity of Pint or Astropy: an array to NumPy, which drops the unit."""
+
+    units = "um"
+
+    def __init__(self, value):
+        self.value = value
+
+    def __array__(self, dtype=None, copy=None):
+        return np.array(self.value, dtype)
+
+    def __repr__(self):
+        return f"{self.value} {self.units}"
+
+    def to(self, units):
+        raise NotImplementedError
 
 
 CASES = [  # the call, what is wrong, the field, and words on the value and on what is allowed
@@ -63,9 +83,13 @@ CASES = [  # the call, what is wrong, the field, and words on the value and on w
     (hystrip.Dugdale, {"p_0": 1e3, "delta_0": 0.0}, "adhesion.delta_0", "0.0", "> 0 (m)"),
     (hystrip.Dugdale, {"p_0": 1e3, "delta_0": -1e-8}, "adhesion.delta_0", "-1e-08", ">= 0 (m)"),
     (hystrip.Dugdale, {"p_0": [1.0, np.nan], "delta_0": 1e-8}, "adhesion.p_0", "nan", "finite"),
-    (hystrip.Dugdale, {"gamma": 1e300, "delta_0": 1e-300}, "adhesion.gamma", "1e+300", "finite traction"),
+    (hystrip.Dugdale, {"gamma": 1e30, "delta_0": 1e-30}, "adhesion.gamma", "1e+30", "a traction up to 1e+40 Pa"),
+    (hystrip.Dugdale, {"p_0": 1e200, "delta_0": 1e200}, "adhesion.p_0", "1e+200", "magnitude up to 1e+40"),
     (hystrip.Level, {"l": 0.0, "h": 1e-7}, "level.l", "0.0", "> 0 (m)"),
     (hystrip.Level, {"l": 1e-6, "h": -1e-7}, "level.h", "-1e-07", ">= 0 (m)"),
+    (hystrip.Level, {"l": 1e-6, "h": 1e300}, "level.h", "1e+300", ">= 0 (m) of magnitude up to 1e+40"),
+    (hystrip.Level, {"l": 1e-320, "h": 1e-7}, "level.l", "1e-320", "> 0 (m), from 1e-40"),
+    (hystrip.Level, {"l": WithUnit(10), "h": 1e-7}, "level.l", "10 um", "without a unit of its own"),
     (hystrip.Level, {"l": [1e-6, 2e-6], "h": 1e-7}, "level.l", "[1e-06, 2e-06]", "single number"),
     (strip, {"material": 1e9}, "material", "1000000000.0", "StandardLinearSolid"),
     (strip, {"adhesion": None}, "adhesion", "None", "gamma=0: no adhesion"),
@@ -73,7 +97,7 @@ CASES = [  # the call, what is wrong, the field, and words on the value and on w
     (strip, {"A": -1e-9}, "A", "-1e-09", ">= 0 (m)"),
     (strip, {"D": np.nan}, "D", "nan", "finite number (m)"),
     (strip, {"V": -5e-3}, "V", "-0.005", ">= 0 (m/s)"),
-    (strip, {"V": 1e300, "l": 1e-30}, "V", "1e+300", "k V T_eps at most"),
+    (strip, {"V": 1e300, "l": 1e-30}, "V", "1e+300", ">= 0 (m/s) of magnitude up to 1e+40"),
     (strip, {"V": [1e-3, 2e-3], "D": [1e-8, 2e-8, 3e-8]}, "D, V", "(3,), (2,)", "broadcast"),
     (strip, {"edge": "sharp"}, "edge", "'sharp'", "'continuous', 'constitutive'"),
     (strip, {"edge": None}, "edge", "None", "'continuous', 'constitutive'"),
@@ -89,6 +113,7 @@ CASES = [  # the call, what is wrong, the field, and words on the value and on w
     (one_level, {"rtol": 0.0}, "rtol", "0.0", ">= 1e-12"),
     (one_level, {"rtol": 0.2}, "rtol", "0.2", "1e-12 to 0.1"),
     (law, {"V": [1e-3, 2e-3]}, "V", "0.001", "single number"),
+    (law, {"V": 1e300}, "V", "1e+300", "magnitude up to 1e+40"),
     (law, {"V": np.inf}, "V", "inf", ">= 0 (m/s)"),
     (law, {"below": np.nan}, "below", "nan", "finite number (Pa)"),
     (law, {"level": "500 nm"}, "level", "'500 nm'", "a hystrip.Level"),
@@ -101,6 +126,20 @@ CASES = [  # the call, what is wrong, the field, and words on the value and on w
     (surface, {"pressure": None, "penetration": "1 nm"}, "penetration", "'1 nm'", "finite number (m)"),
     (surface, {"velocity": [1e-3, -1e-3]}, "velocity", "-0.001", ">= 0 (m/s)"),
     (surface, {"velocity": [1e-3, 2e-3], "pressure": [1.0, 2.0, 3.0]}, "pressure, velocity", "(3,), (2,)", "broadcast"),
+    (surface, {"pressure": 5e-324}, "pressure", "5e-324", "0, or a magnitude from 1e-40 Pa on"),
+    (surface, {"pressure": 1e-50, "adhesion": hystrip.Dugdale(gamma=0)}, "pressure", "1e-50", "from 1e-20 Pa on"),
+    (surface, {"velocity": 1e300}, "velocity", "1e+300", "magnitude up to 1e+40"),
+    (surface, {"velocity": np.longdouble("1e400")}, "velocity", "got", "a finite number >= 0"),
+    (surface, {"velocity": np.ma.array([1e-3, 1e20], mask=[0, 1])}, "velocity", "masked_array", "none of them masked"),
+    (surface, {"material": UNSOLVED, "edge": "constitutive"}, "material.times", "[0.001, 0.01, 0.1, 1.0]", "prony_model"),
+    (
+        hystrip.Prony,
+        {"K": 1e9, "moduli": [1e9], "times": [1e-3], "solver": "folder"},
+        "material.solver",
+        "'folder'",
+        "load_solver",
+    ),
+    (hystrip.load_solver, {"folder": "a\0b"}, "solver", "'a\\x00b'", "hystrip regenerate"),
     (surface, {"adhesion": hystrip.Dugdale(p_0=[1e3, 2e3], delta_0=1e-8)}, "adhesion.p_0", "2000.", "single number"),
     (surface, {"rtol": [1e-3, 1e-4]}, "rtol", "0.001", "single number"),
     (surface, {"rtol": np.nan}, "rtol", "nan", ">= 1e-12"),
@@ -114,6 +153,7 @@ CASES = [  # the call, what is wrong, the field, and words on the value and on w
 IDS = [f"{call.__name__}-{wrong}"[:60] for call, wrong, *_ in CASES]
 
 
+@pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize(("call", "wrong", "field", "value", "allowed"), CASES, ids=IDS)
 def test_refusal(call, wrong, field, value, allowed):
     with pytest.raises(hystrip.InputError) as refused:
@@ -127,6 +167,26 @@ def test_refusal(call, wrong, field, value, allowed):
 
 def test_nothing_is_wrong_with_the_calls_themselves():
     assert np.isfinite([strip().p_mean, one_level(rtol=1e-2).p_mean, surface(rtol=1e-2).mu]).all()
+
+
+def test_the_faintest_pressure_still_gives_a_friction():
+    with np.errstate(all="raise", under="ignore"):
+        mu = surface(pressure=[1e-20, 1e-18], velocity=1e-3, adhesion=hystrip.Dugdale(gamma=0)).mu
+    assert mu[1] / mu[0] == pytest.approx(10, rel=1e-3)  # contact, and with it mu, grows like the root of a small pressure
+
+
+def test_friction_that_is_no_number_is_an_error(monkeypatch):
+    def spoiled(self, V, load, by_pressure, progress=None):
+        points = solved(self, V, load, by_pressure, progress)
+        points.tau[0, 1] = np.nan
+        return points
+
+    solved = Surface.solve
+    monkeypatch.setattr(Surface, "solve", spoiled)
+    with pytest.raises(
+        hystrip.SolverError, match="1 of 3 points have no finite friction; the first: pressure 2e.06, velocity 0.005"
+    ):
+        surface(pressure=[1e6, 2e6, 3e6])
 
 
 def test_an_argument_that_does_not_exist():

@@ -1,24 +1,7 @@
 """Eighty wrong scenes and calls: each ends with one message, a non-zero status, and no file."""
 
-import sys
-
 import pytest
-
-from hystrip.commands import entry
-
-SCENE = """pressure = 100
-velocity = 5e-3
-[material]
-K = 1e9
-T_eps = 0.01
-T_sigma = 1e-4
-[adhesion]
-gamma = 2.5e-5
-delta_0 = 1e-8
-[[levels]]
-l = 1e-5
-h = 1e-6
-"""
+from scene_text import ONE_LEVEL
 
 SCENES = [  # what is replaced, by what, and what the message says: the field, the value, what is allowed
     ("K = 1e9", "K = -1", ["material.K", "-1", "> 0"]),
@@ -58,6 +41,8 @@ SCENES = [  # what is replaced, by what, and what the message says: the field, t
     ("velocity = 5e-3", "velocity = {start = 1, end = 2, num = 3}", ["velocity.end", "unknown key"]),
     ("pressure = 100", 'pressure = 100\nedge = "sharp"', ["edge", "sharp", '"constitutive"']),
     ("pressure = 100", 'pressure = 100\nbranch = "both"', ["branch", "both", '"loading"']),
+    ("pressure = 100", f'title = "{"x" * 201}"\npressure = 100', ["title", "xxx", "at most 200 characters"]),
+    ("velocity = 5e-3", "velocity = {start = -1e308, stop = 1e308, num = 3}", ["velocity.start", "-1e+308", "up to 1e+40"]),
     ("pressure = 100", "pressure = 100\nrtol = 0", ["rtol", "0", "1e-12 to 0.1"]),
     ("pressure = 100", "pressure = 100\nstrip = 8", ["strip", "unknown key", "did you mean 'strips'"]),
     ("pressure = 100", "pressure = 100\nstrips = 0", ["strips", "0", "from 1 to 1000000"]),
@@ -108,33 +93,33 @@ CALLS = [
 ]
 
 
-def fails(monkeypatch, capsys, folder, arguments):
-    monkeypatch.chdir(folder)
-    monkeypatch.setattr(sys, "argv", ["hystrip", *arguments])
-    before = {path: path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
-    with pytest.raises(SystemExit) as end:
-        entry.main()
-    out, err = capsys.readouterr()
-    assert end.value.code not in (0, None)
+def files_in(folder):
+    return {path: path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
+
+
+def fails(run, folder, arguments):
+    before = files_in(folder)
+    status, out, err = run(*arguments)
+    assert status not in (0, None)
     assert out == "" and "Traceback" not in err and err.strip()
-    assert {path: path.read_bytes() if path.is_file() else None for path in folder.rglob("*")} == before
+    assert files_in(folder) == before
     return err
 
 
 @pytest.mark.parametrize(("old", "new", "said"), SCENES, ids=[f"{new}"[:40] for _, new, _ in SCENES])
-def test_wrong_scene(monkeypatch, capsys, tmp_path, old, new, said):
-    assert SCENE.count(old) == 1
-    (tmp_path / "mine.toml").write_text(SCENE.replace(old, new), encoding="utf-8")
-    message = fails(monkeypatch, capsys, tmp_path, ["solve", "mine.toml"])
+def test_wrong_scene(run, tmp_path, old, new, said):
+    assert ONE_LEVEL.count(old) == 1
+    (tmp_path / "mine.toml").write_text(ONE_LEVEL.replace(old, new), encoding="utf-8")
+    message = fails(run, tmp_path, ["solve", "mine.toml"])
     assert message.startswith("hystrip: mine.toml: ") and message.count("\n") == 1
     for part in said:
         assert part in message
 
 
 @pytest.mark.parametrize(("arguments", "said"), CALLS, ids=[" ".join(arguments) for arguments, _ in CALLS])
-def test_wrong_call(monkeypatch, capsys, tmp_path, arguments, said):
+def test_wrong_call(run, tmp_path, arguments, said):
     (tmp_path / "folder").mkdir()
     (tmp_path / "binary.toml").write_bytes(b"\xff\xfe\x00")
-    message = fails(monkeypatch, capsys, tmp_path, arguments)
+    message = fails(run, tmp_path, arguments)
     for part in said:
         assert part in message

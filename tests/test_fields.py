@@ -106,8 +106,8 @@ class Case:
     def loss(self):
         """Energy that the dashpot takes in one period, per area.
 
-        The solid as a spring ``1/J_0`` in series with a Kelvin-Voigt part of strain ``z = w - J_0 p/K``, stiffness ``K_1`` and
-        viscosity ``K_1 T_eps``: the loss is that of the viscosity, ``V K_1 T_eps z_x**2``.
+        The solid as a spring ``1/J_0`` in series with a Kelvin-Voigt part of strain ``z = w - J_0 p/K``, stiffness
+        ``K_1`` and viscosity ``K_1 T_eps``: the loss is that of the viscosity, ``V K_1 T_eps z_x**2``.
         """
         if self.J == 1:
             return 0.0

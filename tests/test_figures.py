@@ -1,6 +1,7 @@
 """The figures of the paper: they are drawn, with their data, and say what the paper says where the text does."""
 
 import csv
+import dataclasses
 
 import numpy as np
 import pytest
@@ -27,6 +28,22 @@ def test_files_of_fig5_and_fig7(tmp_path):
     assert regimes["75.0"] == "saturated contact"
     # level 2 adds only where level 1 is in contact; both are drawn with their sign
     assert max(float(row["tangential stress of level 2 [Pa]"]) for row in rows if row["strip"] == "0.0") > 0
+
+
+def test_fig3_tells_what_load_control_reaches(monkeypatch):
+    """At 1 mm/s the crest lets go at -675 Pa; the flat rims hold on to -707 Pa, which load control reaches by a jump."""
+    scene = dataclasses.replace(load_scene("paper_fig3"), velocity=np.array(1e-3))
+    monkeypatch.setattr("hystrip.scene.load_scene", lambda name: scene)
+    monkeypatch.setattr(fig3, "_RTOL", 1e-2)
+    table = fig3.data()
+    part, p = np.array(table["part"]), table["pressure [Pa]"]
+    reached = p[(part == "unloading, reachable") & np.isfinite(p)]
+    assert reached.min() == pytest.approx(-707.3, abs=0.5)
+    held = p[(part == "unloading, not reachable") & np.isfinite(p)]
+    assert held.min() >= reached.min() - 0.5 and held.max() < -500
+    # coming from no contact nothing holds: hardly any tension, and the same saturated end
+    loading = p[(part == "loading") & np.isfinite(p)]
+    assert -20 < loading.min() < 0 and loading.max() > reached.max()
 
 
 def test_fig7_peaks_where_eq_16_corrected_says():

@@ -4,8 +4,21 @@ import statistics
 import subprocess
 import sys
 
-HEAVY = ("sympy", "matplotlib", "xarray", "pandas", "scipy.optimize", "scipy.special", "jinja2", "typer", "msgspec", "pint", "rich", "distributed",
-         "SurfaceTopography")
+HEAVY = (
+    "sympy",
+    "matplotlib",
+    "xarray",
+    "pandas",
+    "scipy.optimize",
+    "scipy.special",
+    "jinja2",
+    "typer",
+    "msgspec",
+    "pint",
+    "rich",
+    "distributed",
+    "SurfaceTopography",
+)
 LIMIT = 0.030  # seconds over numpy's own import
 
 

@@ -1,7 +1,7 @@
 """Identities and limits of single strips that need no other solver: full contact, elastic, fast, slow, flat, without adhesion.
 
-Natural scales: lengths in ``1/k``, ``K = A = 1``, so that ``V T_sigma`` and ``V T_eps`` are alpha and beta; pressure and friction
-in ``K A + p_0``, which is near 1 unless said otherwise.
+Natural scales: lengths in ``1/k``, ``K = A = 1``, so that ``V T_sigma`` and ``V T_eps`` are alpha and beta; pressure
+and friction in ``K A + p_0``, which is near 1 unless said otherwise.
 """
 
 from itertools import product

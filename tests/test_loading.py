@@ -1,7 +1,6 @@
 """Solvers outside the package: loading, versions, permission, scenes and the command line."""
 
 import shutil
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +9,6 @@ import pytest
 import hystrip
 import hystrip.generated
 from hystrip import InputError
-from hystrip.commands import entry
 from hystrip.scene import parse_scene
 from hystrip.scene.errors import SceneError
 
@@ -74,7 +72,13 @@ def test_parameters_of_a_loaded_model_are_checked(folder):
         solver.material("no_such", **given)
     with pytest.raises(InputError, match="a Prony series of 5 different times"):
         hystrip.solve_strip(
-            hystrip.Prony(1e9, [1e9] * 5, [1, 2, 3, 4, 5], solver=solver), ADHESION, l=1.0, A=1.0, D=0.0, V=1.0, edge="constitutive"
+            hystrip.Prony(1e9, [1e9] * 5, [1, 2, 3, 4, 5], solver=solver),
+            ADHESION,
+            l=1.0,
+            A=1.0,
+            D=0.0,
+            V=1.0,
+            edge="constitutive",
         )
 
 
@@ -125,7 +129,7 @@ def test_scene_errors_name_the_key(old, new, field, says):
     assert error.value.field.startswith(field) and says in str(error.value)
 
 
-def test_a_scene_runs_a_solver_only_where_that_is_allowed(folder, monkeypatch, capsys):
+def test_a_scene_runs_a_solver_only_where_that_is_allowed(folder, run):
     path = folder.parent / "scene.toml"
     path.write_text(SCENE.format(solver='solver = "my_solver"'))
     with pytest.raises(SceneError, match="allow_solver=True") as error:
@@ -135,23 +139,17 @@ def test_a_scene_runs_a_solver_only_where_that_is_allowed(folder, monkeypatch, c
     ours = parse_scene(SCENE.format(solver="")).solve()
     assert np.array_equal(allowed.mu, ours.mu)
 
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["hystrip", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            entry.main()
-        return end.value.code, capsys.readouterr()
-
     out = folder.parent / "out"
     for command in (["solve", path, "--no-plot"], ["sweep", path]):
-        status, said = run(*command, "--out", out)
-        assert status == 2 and "--allow-solver" in said.err and not out.exists()
+        status, _, err = run(*command, "--out", out)
+        assert status == 2 and "--allow-solver" in err and not out.exists()
     assert run("solve", path, "--no-plot", "--allow-solver", "--out", out)[0] == 0
     assert run("sweep", path, "--allow-solver", "--out", out)[0] == 0
     rows = (out / "scene.sweep.csv").read_text().splitlines()
     assert len(rows) == 3
 
 
-def test_regenerate_wants_a_folder_for_a_users_model(tmp_path, monkeypatch, capsys):
+def test_regenerate_wants_a_folder_for_a_users_model(tmp_path, run):
     model = tmp_path / "my_model.py"
     for text, arguments, says in (
         ("", [model], "--out"),
@@ -161,10 +159,8 @@ def test_regenerate_wants_a_folder_for_a_users_model(tmp_path, monkeypatch, caps
         model.unlink(missing_ok=True)
         if text is not None:
             model.write_text(text)
-        monkeypatch.setattr(sys, "argv", ["hystrip", "regenerate", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            entry.main()
-        assert end.value.code == 2 and says in capsys.readouterr().err
+        status, _, err = run("regenerate", *arguments)
+        assert status == 2 and says in err
         assert not (tmp_path / "out").exists()
 
 
@@ -174,7 +170,12 @@ def test_moduli_and_times_are_swept(folder):
     over = {"material.times[0]": [1e-3, 1e-2, 3.0], "material.moduli[1]": [2e10, 0.0]}
     done = hystrip.sweep(path, over=over, out=folder.parent / "out")
     data = done.to_dataset()
-    assert data.mu.dims[:2] == ("moduli_2", "times_1") and data.moduli_2.units == "Pa/m" and data.times_1.units == "s" and not done.failed
+    assert (
+        data.mu.dims[:2] == ("moduli_2", "times_1")
+        and data.moduli_2.units == "Pa/m"
+        and data.times_1.units == "s"
+        and not done.failed
+    )
     base = hystrip.load_scene(path)
     for modulus in over["material.moduli[1]"]:
         for time in over["material.times[0]"]:  # the last is longer than the other: branches keep their moduli
@@ -197,7 +198,11 @@ def test_an_entry_of_moduli_or_times_is_a_list_or_range(folder):
 
 @pytest.mark.parametrize(
     ("over", "says"),
-    [({"material.times[0]": [1e-3, 0.0]}, "> 0"), ({"material.moduli[2]": 1.0}, "did you mean"), ({"material.times": 1.0}, "one of")],
+    [
+        ({"material.times[0]": [1e-3, 0.0]}, "> 0"),
+        ({"material.moduli[2]": 1.0}, "did you mean"),
+        ({"material.times": 1.0}, "one of"),
+    ],
 )
 def test_a_branch_that_cannot_be_swept_is_refused(folder, over, says):
     path = folder.parent / "scene.toml"
@@ -228,7 +233,11 @@ def test_a_generated_kelvin_voigt_solves_as_the_package_does(folder, edge):
     material = hystrip.load_solver(folder).material("kelvin_voigt", K=1e9, T_eps=1e-3)
     strips = {"l": 1e-5, "A": 1e-6, "D": np.linspace(-1e-6, 2e-6, 23), "V": 1e-3, "edge": edge}
     ours, theirs = (hystrip.solve_strip(m, ADHESION, **strips) for m in (hystrip.KelvinVoigt(1e9, 1e-3), material))
-    assert np.array_equal(ours.p_mean, theirs.p_mean) and np.array_equal(ours.tau_mean, theirs.tau_mean) and np.any(ours.tau_mean > 0)
+    assert (
+        np.array_equal(ours.p_mean, theirs.p_mean)
+        and np.array_equal(ours.tau_mean, theirs.tau_mean)
+        and np.any(ours.tau_mean > 0)
+    )
 
 
 def test_several_times_without_instantaneous_compliance_are_refused(folder):
@@ -240,6 +249,8 @@ def test_several_times_without_instantaneous_compliance_are_refused(folder):
     def material_modes(c):
         return modes.of_operators((1.0, c, c), (1.0, 0.5 * c, 0.0))
 
-    kernel = SimpleNamespace(MODEL="viscous", MODES=2, MATERIAL={"c": ("s", "time")}, MODE_PARAMETERS=(), material_modes=material_modes)
+    kernel = SimpleNamespace(
+        MODEL="viscous", MODES=2, MATERIAL={"c": ("s", "time")}, MODE_PARAMETERS=(), material_modes=material_modes
+    )
     with pytest.raises(InputError, match="a spring in every branch"):
         ModelMaterial(kernel, {"c": 5.0})

@@ -23,7 +23,9 @@ def test_the_second_solver_reduces_to_the_first():
 @pytest.mark.parametrize("branch", ["unloading", "loading"])
 def test_a_level_at_penetrations(branch):
     D = [-5e-8, 1e-7, 6e-7, 5e-6]
-    one, two = (hystrip.solve_level(m, ADHESION, LEVELS[0], V=[[1e-4], [1e-2]], D=D, branch=branch, rtol=1e-7, **HOW) for m in (ONE, TWO))
+    one, two = (
+        hystrip.solve_level(m, ADHESION, LEVELS[0], V=[[1e-4], [1e-2]], D=D, branch=branch, rtol=1e-7, **HOW) for m in (ONE, TWO)
+    )
     for name, scale in (("p_mean", K * 1e-6), ("tau_mean", K * 1e-7), ("contact_fraction", 1.0), ("adhesion_fraction", 1.0)):
         assert np.abs(getattr(one, name) - getattr(two, name)).max() < 1e-9 * scale, name
 

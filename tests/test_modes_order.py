@@ -1,4 +1,5 @@
-"""The claims that the choice of the extremal orbit rests on (``runtime/modes/order.py``), on random states, and the orbits it leads to."""
+"""The claims that the choice of the extremal orbit rests on (``runtime/modes/order.py``), on random states, and the
+orbits it leads to."""
 
 import numpy as np
 import pytest
@@ -19,7 +20,9 @@ def strips(rng, n, size=N):
     """Strips that are often engaged and often not, a third of them snapping into contact."""
     log = lambda low, high, *shape: 10 ** rng.uniform(np.log10(low), np.log10(high), shape)  # noqa: E731
     kernel = KERNELS[n]
-    _, modes = modes_of(kernel, {"K": np.ones(size), "K_i": log(0.05, 30, n, size), "tau_i": np.sort(log(0.01, 30, n, size), axis=0)})
+    _, modes = modes_of(
+        kernel, {"K": np.ones(size), "K_i": log(0.05, 30, n, size), "tau_i": np.sort(log(0.01, 30, n, size), axis=0)}
+    )
     P0, Delta = log(0.05, 5, size), log(0.03, 2, size)
     return kernel, ModeStrips(kernel.at_speed(modes, np.ones(size)), P0, Delta, rng.uniform(-1 - Delta, 3))
 
@@ -64,7 +67,8 @@ def test_order_fails_where_a_free_state_lies_below_an_engaged_one():
 
 @pytest.mark.parametrize("n", KERNELS)
 def test_bounds_of_the_derivative(n):
-    """Between two ordered states the map grows at least as the lower bound of its derivative says, and the exact one is its slope.
+    """Between two ordered states the map grows at least as the lower bound of its derivative says, and the exact one is
+    its slope.
 
     States lie where all orbits do, between -p_0 and max(D, 0)."""
     rng = np.random.default_rng(10 + n)
@@ -77,7 +81,13 @@ def test_bounds_of_the_derivative(n):
     step = np.minimum(10 ** rng.uniform(-5, -1, (n, N)), np.maximum(s.D, 0.0) - e)
     start = np.full(N, np.pi)
     lower, upper = (march(kernel, s, h, order.to_z(state), start) for state in (e, e + step))
-    once = (lower.onsets == 1) & (upper.onsets == 1) & (lower.releases == 1) & (upper.releases == 1) & (lower.engaged == upper.engaged)
+    once = (
+        (lower.onsets == 1)
+        & (upper.onsets == 1)
+        & (lower.releases == 1)
+        & (upper.releases == 1)
+        & (lower.engaged == upper.engaged)
+    )
     bound = propagation(s, order, lower, least_gains(s, order, lower, upper, once))
     grown = order.to_e(upper.dz - lower.dz)
     assert np.all(grown >= np.einsum("Nij,jN->iN", bound, step) - 1e-11 * (1 + np.abs(e).max(axis=0)))

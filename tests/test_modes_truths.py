@@ -54,7 +54,7 @@ def test_fields_are_those_of_the_march():
             for share in (0.1, 0.5, 0.9):
                 s = zone.start + share * (zone.end - zone.start)
                 e = modes.advance(strip, zone.letter, zone.start, zone.e, s)
-                z = strip.J * mp.fsum(mp.mpf(a) * b for a, b in zip(m, e))
+                z = strip.J * mp.fsum(mp.mpf(a) * b for a, b in zip(m, e, strict=True))
                 p = {"c": (strip.u(s) - z) / strip.J, "a": -strip.P0, "f": mp.zero}[zone.letter]
                 gap = mp.zero if zone.letter == "c" else strip.J * p + z - strip.u(s)
                 x = float(-s)

@@ -79,8 +79,9 @@ def installed(wheel, tmp_path_factory):
         start = f"import sys; sys.path.insert(0, {str(site)!r})\n"
         start += f"sys.modules.update(dict.fromkeys({list(hide)!r}))\n"
         start += f"import hystrip; assert hystrip.__file__.startswith({str(site)!r}), hystrip.__file__\n"
-        result = subprocess.run([sys.executable, "-c", start + code], cwd=work, capture_output=True, text=True,
-                                env={**os.environ, "PYTHONPATH": ""})
+        result = subprocess.run(
+            [sys.executable, "-c", start + code], cwd=work, capture_output=True, text=True, env={**os.environ, "PYTHONPATH": ""}
+        )
         assert result.returncode == 0, result.stdout + result.stderr
         return result.stdout, work
 
@@ -104,8 +105,20 @@ def test_wheel_solves_the_demo_scene(installed):
     assert "mu" in out
 
 
-OPTIONAL = ("sympy", "jinja2", "matplotlib", "xarray", "pandas", "typer", "rich", "msgspec", "pint", "mpmath", "distributed",
-            "SurfaceTopography")
+OPTIONAL = (
+    "sympy",
+    "jinja2",
+    "matplotlib",
+    "xarray",
+    "pandas",
+    "typer",
+    "rich",
+    "msgspec",
+    "pint",
+    "mpmath",
+    "distributed",
+    "SurfaceTopography",
+)
 
 
 def test_core_solves_without_any_extra(installed):

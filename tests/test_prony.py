@@ -19,7 +19,12 @@ def solve(material, branch="unloading", edge="constitutive", adhesion=ADHESION, 
 
 def largest_difference(one, two):
     """Over all numbers, relative to their natural scales; NaN with NaN."""
-    scales = dict.fromkeys(NUMBERS[4:], STRIPS["l"]) | {"p_mean": 3e3, "tau_mean": 2e3, "contact_fraction": 1.0, "adhesion_fraction": 1.0}
+    scales = dict.fromkeys(NUMBERS[4:], STRIPS["l"]) | {
+        "p_mean": 3e3,
+        "tau_mean": 2e3,
+        "contact_fraction": 1.0,
+        "adhesion_fraction": 1.0,
+    }
     worst = 0.0
     for name in NUMBERS:
         x, y = getattr(one, name), getattr(two, name)
@@ -40,7 +45,8 @@ def test_one_time_is_the_standard_linear_solid(branch):
 
 @pytest.mark.parametrize("branch", ["unloading", "loading"])
 def test_the_solver_for_two_times_agrees_with_that_for_one(branch):
-    """Two nearly equal times, and one modulus next to nothing, do not reduce: the solver with two modes has to find what the one with one mode does."""
+    """Two nearly equal times, and one modulus next to nothing, do not reduce: the solver with two modes has to find
+    what the one with one mode does."""
     K, K_1, tau = 1e9, 7e9, 1e-3
     one = solve(hystrip.StandardLinearSolid(K, tau * (1 + K_1 / K), tau), branch)
     near = solve(Prony(K, [3e9, 4e9], [tau, tau * (1 + 1e-14)]), branch)

@@ -106,6 +106,12 @@ def test_summary_of_zero_pressure_and_of_no_contact():
     assert "below pull-off" in solved(-1e5, 5e-3, level).summary()
 
 
+def test_a_result_without_points():
+    none = solved([], [[1e-3], [2e-3]])
+    assert none.mu.shape == (2, 0) and none.to_dataset().mu.shape == (2, 0)
+    assert "points     0" in none.summary() and "no points" in none.summary()
+
+
 def test_pictures(grid, tmp_path):
     save(grid.plot(), tmp_path / "velocity.svg")
     save(solved([5e6, 1e7], 1e-3).plot(), tmp_path / "pressure.png")

@@ -1,12 +1,10 @@
 """Measured roughness: known levels come back from their surface, and what cannot be read is named."""
 
-import sys
 
 import numpy as np
 import pytest
 
 import hystrip
-from hystrip.commands import entry
 from hystrip.roughness import Scan, levels_of, read_surface
 from hystrip.scene import load_scene
 
@@ -175,19 +173,6 @@ def test_gaps_and_uneven_steps_are_filled():
     line = topography.NonuniformLineScan(x, np.sin(20 * x), unit="mm")
     even, sizes, _ = _even(line, "x")
     assert even.shape == (200,) and sizes[0] == pytest.approx(1e-3, rel=0.01)
-
-
-@pytest.fixture
-def run(monkeypatch, tmp_path, capsys):
-    monkeypatch.chdir(tmp_path)
-
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["hystrip", *map(str, arguments)])
-        with pytest.raises(SystemExit) as end:
-            entry.main()
-        return end.value.code, *capsys.readouterr()
-
-    return call
 
 
 def test_command_writes_a_scene_that_loads(run, files, tmp_path):

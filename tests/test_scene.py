@@ -6,6 +6,7 @@ import tomllib
 
 import numpy as np
 import pytest
+from scene_text import ONE_LEVEL
 
 from hystrip.errors import InputError
 from hystrip.scene import BUILTIN, load_scene, parse_scene
@@ -13,21 +14,6 @@ from hystrip.scene.errors import SceneError, nearest
 from hystrip.scene.quantity import to_si
 from hystrip.scene.schema import SceneFile, json_schema
 from hystrip.scene.validate import validated
-
-PLAIN = """
-pressure = 100
-velocity = 5e-3
-[material]
-K = 1e9
-T_eps = 0.01
-T_sigma = 1e-4
-[adhesion]
-gamma = 2.5e-5
-delta_0 = 1e-8
-[[levels]]
-l = 1e-5
-h = 1e-6
-"""
 
 
 def test_units_and_plain_numbers_give_the_same_scene():
@@ -45,7 +31,7 @@ delta_0 = "10 nm"
 l = "10 um"
 h = "1 μm"
 """
-    assert validated(tomllib.loads(text)) == validated(tomllib.loads(PLAIN))
+    assert validated(tomllib.loads(text)) == validated(tomllib.loads(ONE_LEVEL))
 
 
 @pytest.mark.parametrize(
@@ -86,7 +72,7 @@ def test_quantity_that_is_none(text):
     ],
 )
 def test_values(written, values):
-    given = validated(tomllib.loads(PLAIN.replace("pressure = 100", f"pressure = {written}")))["pressure"]
+    given = validated(tomllib.loads(ONE_LEVEL.replace("pressure = 100", f"pressure = {written}")))["pressure"]
     assert given.shape == values.shape
     assert np.array_equal(given, values)
 
@@ -110,13 +96,13 @@ def test_fig6_is_the_paper_s():
 
 
 def test_no_adhesion_table_is_no_adhesion():
-    text = PLAIN[: PLAIN.index("[adhesion]")] + PLAIN[PLAIN.index("[[levels]]") :]
+    text = ONE_LEVEL[: ONE_LEVEL.index("[adhesion]")] + ONE_LEVEL[ONE_LEVEL.index("[[levels]]") :]
     assert parse_scene(text).adhesion.gamma == 0
 
 
 def test_the_nearest_valid_name_is_offered():
     with pytest.raises(SceneError) as caught:
-        parse_scene(PLAIN.replace("T_sigma", "Tsigma"), source="mine.toml")
+        parse_scene(ONE_LEVEL.replace("T_sigma", "Tsigma"), source="mine.toml")
     assert "mine.toml: material.Tsigma: unknown key (did you mean 'T_sigma'?)" in str(caught.value)
     assert nearest("KPA", ["kPa", "Pa"]) == "kPa"
     assert nearest("zzz", ["kPa", "Pa"]) is None
@@ -124,7 +110,7 @@ def test_the_nearest_valid_name_is_offered():
 
 def test_a_key_below_a_table_is_told_its_place():
     with pytest.raises(SceneError, match=r"levels\[0\].edge: .*has to stand above the first \[table\]"):
-        parse_scene(PLAIN + 'edge = "constitutive"\n')
+        parse_scene(ONE_LEVEL + 'edge = "constitutive"\n')
 
 
 def test_errors_survive_pickling():

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import time
 import tomllib
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +20,7 @@ import kill_sweep
 
 import hystrip
 from hystrip.scene.validate import validated
+from hystrip.sweeps.executors import InProcess
 from hystrip.sweeps.plan import plan_of, short_name
 
 SATURATED = """
@@ -91,11 +92,32 @@ def test_list_takes_values_together(scene, tmp_path):
         ({"material.K": [0.0, 1.0]}, "material.K: got 0.0"),
         ({"pressure": [[1.0]]}, "pressure: got .*one-dimensional"),
         ({"adhesion.gamma": []}, "adhesion.gamma: got"),
+        ({"adhesion.delta_0": 0.0}, "adhesion.delta_0: got 0.0; allowed: .* > 0"),
+        ({"material.K": -1.0}, "material.K: got -1.0"),
+        ({"material.K": 1e9, "material.T_sigma": 0.02}, "material.T_sigma: got 0.02"),
+        ({"levels[0].h": 1e-6, "levels[1].l": 1.0}, "levels\\[1\\].l: got 1.0; .* the largest wave comes first"),
+        ({"velocity": -1.0}, "velocity: got -1.0"),
     ],
 )
 def test_wrong_sweeps_are_refused_before_any_work(scene, tmp_path, over, said):
     with pytest.raises(hystrip.InputError, match=said):
         hystrip.sweep(scene, over=over, out=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("model", "said"),
+    [
+        ('model = "prony"\nmoduli = [1e9, 2e9]\ntimes = [1e-3, 1e-2]', "edge: got 'continuous'"),
+        ('model = "prony"\nmoduli = [1e9, 1e9, 1e9, 1e9]\ntimes = [1, 2, 3, 4]', "edge: got 'continuous'"),
+        ('model = "prony"\nmoduli = [1e9, 1e9, 1e9, 1e9]\ntimes = [1, 2, 3, 4]\n#constitutive', "material.times: got"),
+    ],
+)
+def test_a_material_without_a_solver_is_refused_before_any_work(scene, tmp_path, model, said):
+    text = SATURATED.replace("K = [1e9, 1.1e9]", "K = 1e9").replace("T_eps = 0.01\nT_sigma = 1e-4", model)
+    scene.write_text(('edge = "constitutive"\n' if "#" in model else "") + text)
+    with pytest.raises(hystrip.InputError, match=said):
+        hystrip.sweep(scene, out=tmp_path / "out")
     assert not (tmp_path / "out").exists()
 
 
@@ -125,6 +147,36 @@ def test_a_failed_point_is_recorded_and_the_rest_goes_on(scene, tmp_path):
     assert np.array_equal(np.isnan(done.columns["mu"]), bad) and len(done.failed) == bad.sum() == 80
     assert all("material.T_sigma: got 0.02" in reason for reason in done.failed.values())
     assert "T_sigma: got 0.02" in done.path.read_text()
+
+
+def test_an_error_nobody_thought_of_costs_its_point_alone(scene, tmp_path, monkeypatch):
+    def fragile(*inputs, velocity, **options):
+        if np.any(velocity == 1e-2):
+            raise ValueError("nobody thought of this")
+        return solve(*inputs, velocity=velocity, **options)
+
+    solve = hystrip.solve
+    monkeypatch.setattr(hystrip, "solve", fragile)
+    done = hystrip.sweep(scene, out=tmp_path / "out")
+    assert set(done.failed.values()) == {"ValueError: nobody thought of this"} and len(done.failed) == 16
+    assert np.array_equal(np.isnan(done.columns["mu"]), done.columns["velocity [m/s]"] == 1e-2)
+
+
+def test_lost_workers_are_one_sentence_and_finished_batches_are_kept(scene, tmp_path, monkeypatch):
+    class Dying(InProcess):
+        def submit(self, function, task):
+            if task.number < 3:
+                return super().submit(function, task)
+            future = Future()
+            future.cancel()
+            future.set_running_or_notify_cancel()
+            return future
+
+    with pytest.raises(hystrip.HystripError, match="finished batches are kept: run the sweep again"):
+        hystrip.sweep(scene, out=tmp_path / "out", executor=Dying())
+    assert hystrip.sweep(scene, out=tmp_path / "out").kept == 3
+    with pytest.raises(hystrip.InputError, match="executor: got 4; allowed: .*concurrent.futures"):
+        hystrip.sweep(scene, out=tmp_path / "out", executor=4)
 
 
 def test_batches_and_executors_give_the_same_bytes(scene, tmp_path):

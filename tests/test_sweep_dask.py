@@ -1,15 +1,17 @@
 """A sweep on a Dask cluster of two workers, one of which is killed in mid-sweep."""
 
+import json
 import subprocess
 import sys
 import time
+from types import SimpleNamespace
 
 import distributed
 import numpy as np
 import pytest
 
 import hystrip
-from hystrip.sweeps.batch import solve_batch
+from hystrip.sweeps.executors import dask
 
 SCENE = """
 pressure = 100
@@ -66,4 +68,53 @@ def test_no_scheduler_is_one_sentence(tmp_path):
     command = [sys.executable, "-m", "hystrip", "sweep", "s.toml", "--scheduler", "tcp://127.0.0.1:9"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
     assert done.returncode == 1 and "no Dask scheduler answers" in done.stderr and "Traceback" not in done.stderr, done.stderr
-    assert time.monotonic() - start < 60 and solve_batch
+    assert time.monotonic() - start < 60
+
+
+def test_a_batch_that_kills_every_worker_is_one_sentence(monkeypatch):
+    class Client:
+        def __init__(self, *address, **options): ...
+
+        def nthreads(self):
+            return {}
+
+        def get_executor(self, retries): ...
+
+        def close(self, timeout): ...
+
+    monkeypatch.setattr(distributed, "Client", Client)
+    with pytest.raises(hystrip.HystripError, match="tcp://there: .*finished batches are kept"), dask("tcp://there"):
+        raise distributed.KilledWorker("solve_batch-1", SimpleNamespace(address="tcp://gone"), 3)
+
+
+def test_a_lost_scheduler_is_one_sentence(tmp_path):
+    (tmp_path / "s.toml").write_text(SCENE.replace("num = 24", "num = 2000"))
+    place = tmp_path / "scheduler.json"
+    started = []
+
+    def start(*command):
+        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        started.append(subprocess.Popen([sys.executable, "-m", *command], cwd=tmp_path, **quiet))
+
+    try:
+        both = "--no-dashboard", "--host", "127.0.0.1", "--scheduler-file", str(place)
+        start("distributed.cli.dask_scheduler", "--port", "0", *both)
+        start("distributed.cli.dask_worker", "--nthreads", "1", "--no-nanny", *both)
+        until(lambda: place.exists() and place.read_text().endswith("}"))
+        command = [sys.executable, "-m", "hystrip", "sweep", "s.toml", "--scheduler", json.loads(place.read_text())["address"]]
+        sweep = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        until(lambda: len(list(tmp_path.glob("hystrip-out/s.parts/part-*"))) > 2)
+        started[0].kill()
+        _, err = sweep.communicate(timeout=60)
+    finally:
+        for process in started:
+            process.kill()
+            process.wait()
+    assert sweep.returncode == 1 and err.startswith("hystrip: the workers are gone") and err.count("\n") == 1, err
+
+
+def until(true, seconds=60):
+    start = time.monotonic()
+    while not true():
+        assert time.monotonic() - start < seconds
+        time.sleep(0.05)

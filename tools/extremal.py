@@ -2,13 +2,15 @@
 
     python tools/extremal.py [--seed 1] [--scenes 10000] [--chunk 2000] [--longest 300] [--periods 4000]
 
-A scene is one strip and one closure, iterated twice: from deep contact (unloading) and from far below (loading). beta is at most
-``--longest``. A fifth of the scenes are moved next to the end of a branch, by fold or by grazing, on the side where it exists. An orbit agrees if the
-sequence of zones, both fractions (1e-6) and the mean pressure (1e-6 of ``|p_mean| + K A + p_0``) do. A strip that has not settled is
-next to a fold; its iterates are then compared to what the time of settling allows.
+A scene is one strip and one closure, iterated twice: from deep contact (unloading) and from far below (loading). beta
+is at most ``--longest``. A fifth of the scenes are moved next to the end of a branch, by fold or by grazing, on the
+side where it exists. An orbit agrees if the sequence of zones, both fractions (1e-6) and the mean pressure (1e-6 of
+``|p_mean| + K A + p_0``) do. A strip that has not settled is next to a fold; its iterates are then compared to what the
+time of settling allows.
 
-Iteration in doubles can itself settle on the wrong side of a contact that is only just grazed. Each strip that differs is therefore put
-before the 50-digit march (tests/oracle/march.py). Exit status 1 if that does not side with the solver, to 1e-9, on any of them.
+Iteration in doubles can itself settle on the wrong side of a contact that is only just grazed. Each strip that differs
+is therefore put before the 50-digit march (tests/oracle/march.py). Exit status 1 if that does not side with the solver,
+to 1e-9, on any of them.
 """
 
 import argparse
@@ -33,7 +35,8 @@ CONFIRMED = 1e-9
 
 @dataclass
 class Outcome:
-    """Counts of scenes, and the strips that differ: (what, line). ``worst``: largest difference of a fraction that was let pass, with its line."""
+    """Counts of scenes, and the strips that differ: (what, line). ``worst``: largest difference of a fraction that was
+    let pass, with its line."""
 
     scenes: int = 0
     coexisting: int = 0
@@ -48,7 +51,13 @@ class Outcome:
 def groups(scene):
     """alpha, beta, P0, Delta, delta of a scene."""
     rate, unit = 2 * np.pi / scene["l"] * scene["V"], scene["A"]
-    return rate * scene["T_sigma"], rate * scene["T_eps"], scene["p_0"] / (scene["K"] * unit), scene["delta_0"] / unit, scene["D"] / unit
+    return (
+        rate * scene["T_sigma"],
+        rate * scene["T_eps"],
+        scene["p_0"] / (scene["K"] * unit),
+        scene["delta_0"] / unit,
+        scene["D"] / unit,
+    )
 
 
 def compare(scene, edge, outcome, periods):
@@ -70,7 +79,9 @@ def compare(scene, edge, outcome, periods):
         for i in np.flatnonzero(settled & differs):
             outcome.differ.append((f"{r.sequence[i]}, not {s.regime[i]}", scenes.line(scene, i, edge, branch)))
         i = np.argmax(np.where(settled & ~differs, fractions, 0.0))
-        outcome.worst = max(outcome.worst, (float(fractions[i] if settled[i] and not differs[i] else 0.0), scenes.line(scene, i, edge, branch)))
+        outcome.worst = max(
+            outcome.worst, (float(fractions[i] if settled[i] and not differs[i] else 0.0), scenes.line(scene, i, edge, branch))
+        )
     one, two = found.values()
     apart = np.abs(one.contact_fraction - two.contact_fraction) + np.abs(one.adhesion_fraction - two.adhesion_fraction)
     outcome.scenes += n
@@ -79,8 +90,9 @@ def compare(scene, edge, outcome, periods):
 
 
 def next_to_an_end(rng, scene, edge, branch):
-    """Strips moved to within 1e-9..1e-2 of the penetration where the sequence of their branch changes, found by bisection, on either side; and how it ends."""
-    size = np.abs(groups(scene)[4]).max() * 0 + scene["A"]
+    """Strips moved to within 1e-9..1e-2 of the penetration where the sequence of their branch changes, found by
+    bisection, on either side; and how it ends."""
+    size = scene["A"]
     span = size + scene["delta_0"] + scene["p_0"] / scene["K"]
     low, high = -span - size, scene["D"].copy()
     at = lambda D: scenes.solve(scene | {"D": D}, edge, branch).regime  # noqa: E731
@@ -126,7 +138,8 @@ def survey(count, seed, chunk=2000, longest=300.0, periods=4000, report=None, cl
 
 
 def confirmed(text):
-    """Whether the 50-digit march finds the solver's orbit for the strip of a line: its sequence, fractions and mean pressure to ``CONFIRMED``."""
+    """Whether the 50-digit march finds the solver's orbit for the strip of a line: its sequence, fractions and mean
+    pressure to ``CONFIRMED``."""
     scene, edge, branch = scenes.parse(text)
     s = scenes.solve(scene, edge, branch)
     orbit = march.solve_si(**{name: float(scene[name][0]) for name in scenes.FIELDS}, edge=edge, branch=branch)
@@ -141,7 +154,10 @@ def confirmed(text):
 
 def show(outcome, seconds):
     """Print an outcome; returns the number of strips on which the 50-digit march does not side with the solver."""
-    print(f"{outcome.scenes} scenes in {seconds:.0f} s, {outcome.coexisting} with coexisting orbits; ends of branches looked at: {dict(outcome.ends)}")
+    print(
+        f"{outcome.scenes} scenes in {seconds:.0f} s, {outcome.coexisting} with coexisting orbits; "
+        f"ends of branches looked at: {dict(outcome.ends)}"
+    )
     print(f"{outcome.strips} orbits, {outcome.settled} settled, the slowest contracting by {outcome.slowest:.6f} per period")
     print(f"largest difference of a fraction among those that agree: {outcome.worst[0]:.2g}\n  {outcome.worst[1]}")
     print(f"orbits that differ: {len(outcome.differ)}")

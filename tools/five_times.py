@@ -1,17 +1,20 @@
-"""A model that nobody prepared: five relaxation times over six decades, from a master curve to friction over twelve decades of velocity.
+"""Five relaxation times over six decades: from a master curve to friction over twelve decades of velocity.
 
     python tools/five_times.py [--solver FOLDER] [--out tools/five_times.png] [--strips 40]
 
-The master curve is that of a rubber whose modulus rises by a factor of 3000 through the glass transition, as omega^0.7 (a fractional Zener
-solid, which has no five times); five times a decade and a half apart are fitted to it. The tool writes the model's file, derives and emits its solver
-(two minutes; or give a folder that has it), compares random strips of this very material with the 50-digit march, and draws mu over velocity
-with and without adhesion. It fails if a strip misses its tolerance, or if a curve has not exactly one peak.
+A model that nobody prepared. The master curve is that of a rubber whose modulus rises by a factor of 3000 through the
+glass transition, as omega^0.7 (a fractional Zener solid, which has no five times); five times a decade and a half apart
+are fitted to it. The tool writes the model's file, derives and emits its solver (two minutes; or give a folder that has
+it), compares random strips of this very material with the 50-digit march, and draws mu over velocity with and without
+adhesion. It fails if a strip misses its tolerance, or if a curve has not exactly one peak.
 
-One broad peak is not a matter of course. A series of discrete times is a staircase: each adds a step of its own to the modulus and a maximum
-of its own to the loss tangent, little more than a decade wide, and friction in partial contact follows the loss tangent. Times a decade and a
-half apart run together only if the next branch is so much stiffer that its loss already counts where its neighbour's fades. On the level below,
-branches each 4 times as stiff as the next slower one give three maxima on one hump (the dips up to 10 % deep), 8 times two (3 to 8 %), those of
-the fit, 8 to 13 times, one with shoulders. That is physics of the series, not of the solver: closer times, or another strength, take it away.
+One broad peak is not a matter of course. A series of discrete times is a staircase: each adds a step of its own to the
+modulus and a maximum of its own to the loss tangent, little more than a decade wide, and friction in partial contact
+follows the loss tangent. Times a decade and a half apart run together only if the next branch is so much stiffer that
+its loss already counts where its neighbour's fades. On the level below, branches each 4 times as stiff as the next
+slower one give three maxima on one hump (the dips up to 10 % deep), 8 times two (3 to 8 %), those of the fit, 8 to 13
+times, one with shoulders. That is physics of the series, not of the solver: closer times, or another strength, take it
+away.
 """
 
 import argparse
@@ -51,12 +54,14 @@ def master_curve():
 def regenerated(folder):
     """Path of the solver, emitted into ``folder``."""
     (folder / "rubber.py").write_text(MODEL)
-    subprocess.run(["hystrip", "regenerate", folder / "rubber.py", "--out", folder / "solver"], check=True)
+    command = [sys.executable, "-m", "hystrip", "regenerate", folder / "rubber.py", "--out", folder / "solver"]
+    subprocess.run(command, check=True)
     return folder / "solver"
 
 
 def against_the_march(material, solver, count):
-    """Largest error of random strips of the material at random speeds, in units of the natural scales; and what misses its tolerance."""
+    """Largest error of random strips of the material at random speeds, in units of the natural scales; and what misses
+    its tolerance."""
     rng = np.random.default_rng(2)
     worst, bad = 0.0, []
     for _ in range(count):
@@ -93,9 +98,12 @@ def draw(measured, series, curves, path):
     for time in TIMES:
         below.axvline(LEVEL.l / (2 * np.pi * time), color="0.8", linewidth=0.8, zorder=0)
     below.set(
-        xlabel=r"sliding velocity V, m/s (lines: $V = l/2\pi\tau_i$)", ylabel=r"friction coefficient $\mu$", ylim=(0, None),
-        xlim=(VELOCITIES[0], VELOCITIES[-1]), title=f"One level, {LEVEL.l * 1e6:g} µm long and {LEVEL.h * 1e6:g} µm high, at {PRESSURE:g} Pa",
-    )  # fmt: skip
+        xlabel=r"sliding velocity V, m/s (lines: $V = l/2\pi\tau_i$)",
+        ylabel=r"friction coefficient $\mu$",
+        xlim=(VELOCITIES[0], VELOCITIES[-1]),
+        ylim=(0, None),
+        title=f"One level, {LEVEL.l * 1e6:g} µm long and {LEVEL.h * 1e6:g} µm high, at {PRESSURE:g} Pa",
+    )
     below.legend(frameon=False)
     figure.savefig(path, dpi=120)
 
@@ -118,7 +126,10 @@ def main():
         foundation = series.foundation(THICKNESS)
         material = hystrip.Prony(foundation.K, foundation.moduli, foundation.times, solver=solver)
         worst, bad = against_the_march(material, solver, options.strips)
-        print(f"{options.strips} strips, both branches: largest error {worst:.1e} of the natural scale, {len(bad)} miss their tolerance")
+        print(
+            f"{options.strips} strips, both branches: largest error {worst:.1e} of the natural scale, "
+            f"{len(bad)} miss their tolerance"
+        )
         for each in bad:
             print(" ", each)
         curves = friction(material)

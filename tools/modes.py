@@ -4,8 +4,9 @@
 
 0 times stands for Kelvin-Voigt, with a retardation time and no relaxation time.
 
-Prints how many strips could be certified, the errors in units of the natural scales (``|p| + K A + p_0`` and so on) and every strip that
-misses its tolerance. Exits with 1 if one does. With ``--solver`` the solver of a generated folder, for its number of times.
+Prints how many strips could be certified, the errors in units of the natural scales (``|p| + K A + p_0`` and so on) and
+every strip that misses its tolerance. Exits with 1 if one does. With ``--solver`` the solver of a generated folder, for
+its number of times.
 """
 
 import argparse
@@ -80,7 +81,10 @@ def main():
             print(file=sys.stderr)
             seconds = time.perf_counter() - start
             print(f"n = {n}, {'wide' if wide else 'near 1'}: {errors.size} orbits compared in {seconds:.0f} s, {dict(counts)}")
-            print(f"  error: median {np.median(errors):.1e}, 99 % {np.quantile(errors, 0.99):.1e}, largest {errors.max():.1e}; bad: {len(bad)}")
+            print(
+                f"  error: median {np.median(errors):.1e}, 99 % {np.quantile(errors, 0.99):.1e}, "
+                f"largest {errors.max():.1e}; bad: {len(bad)}"
+            )
             for what, branch, scene in bad:
                 print(f"  {what}: {branch} {scene}")
             failed += len(bad)

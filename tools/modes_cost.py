@@ -2,8 +2,9 @@
 
     python tools/modes_cost.py [--strips 4000] [--solver FOLDER ...]
 
-Random strips in one batch, as `tools/modes.py` draws them, over the same forty materials for each number of times; CPU microseconds a strip, the
-median of three. Linear growth is n times the cost with one time; exits with 1 where it is exceeded, or a strip could not be certified.
+Random strips in one batch, as `tools/modes.py` draws them, over the same forty materials for each number of times; CPU
+microseconds a strip, the median of three. Linear growth is n times the cost with one time; exits with 1 where it is
+exceeded, or a strip could not be certified.
 """
 
 import argparse
@@ -63,8 +64,9 @@ def main():
         for kernel in kernels:
             micro, evaluations, lost = cost(kernel, wide, options.strips)
             base = base or micro
-            print(f"{'wide' if wide else 'near 1'}, n = {kernel.MODES}: {micro:.0f} microseconds, {evaluations:.0f} evaluations a strip, "
-                  f"{micro / base:.2f} times n = 1; {lost} uncertified", flush=True)  # fmt: skip
+            print(f"{'wide' if wide else 'near 1'}, n = {kernel.MODES}: {micro:.0f} microseconds, "
+                  f"{evaluations:.0f} evaluations a strip, {micro / base:.2f} times n = 1; {lost} uncertified",
+                  flush=True)  # fmt: skip
             failed |= lost > 0 or micro > kernel.MODES * base
     return 1 if failed else 0
 

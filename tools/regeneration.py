@@ -2,9 +2,9 @@
 
     python tools/regeneration.py [--times 1 3 6]
 
-A fresh process each, as `hystrip regenerate model.py --out folder` does it. CPU seconds are what counts on a busy machine; on a quiet one the
-work is on one core, and the wall clock agrees. Exits with 1 if a solver does not solve, or takes more CPU than asked: 60 s for the standard linear
-solid, 600 s for three times.
+A fresh process each, as `hystrip regenerate model.py --out folder` does it. CPU seconds are what counts on a busy
+machine; on a quiet one the work is on one core, and the wall clock agrees. Exits with 1 if a solver does not solve, or
+takes more CPU than asked: 60 s for the standard linear solid, 600 s for three times.
 """
 
 import argparse

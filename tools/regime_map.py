@@ -1,8 +1,9 @@
-"""Draw the regime of a strip over penetration and speed, for both branches of a closure, with the thresholds known in closed form.
+"""Draw the regime of a strip over penetration and speed, for both branches of a closure, with the known thresholds.
 
     python tools/regime_map.py [--edge continuous] [--out tools/regimes-continuous.png] [--points 500]
 
-The strip has p_0 = 5 K A, delta_0 = A/25 (under the constitutive closure it snaps into contact) and T_eps = 100 T_sigma. Speed enters as alpha = k V T_sigma.
+The strip has p_0 = 5 K A, delta_0 = A/25 (under the constitutive closure it snaps into contact) and T_eps = 100
+T_sigma. Speed enters as alpha = k V T_sigma.
 """
 
 import argparse

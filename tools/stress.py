@@ -3,9 +3,10 @@
     python tools/stress.py [--seed 1] [--size 1000000] [--chunk 20000] [--worst 5]
     python tools/stress.py --replay 'edge=continuous branch=loading l=... A=... D=... V=... K=... T_eps=... ...'
 
-Runs under ``numpy.errstate(over="raise", divide="raise", invalid="raise")``. A strip fails if it raises, is refused as uncertified,
-has a NaN where a number belongs (or a number where NaN does), or breaks a bound that every solution obeys. Every failure and the
-strips that took the most work, or have the largest last correction, are printed as lines to replay. Exit status 1 if any strip failed.
+Runs under ``numpy.errstate(over="raise", divide="raise", invalid="raise")``. A strip fails if it raises, is refused as
+uncertified, has a NaN where a number belongs (or a number where NaN does), or breaks a bound that every solution obeys.
+Every failure and the strips that took the most work, or have the largest last correction, are printed as lines to
+replay. Exit status 1 if any strip failed.
 """
 
 import argparse
@@ -125,7 +126,8 @@ def _disordered(s, wavelength):
 
 
 def corrections(s):
-    """Newton step that the boundary equations would still take from the returned edges, in units of what rounding leaves uncertain."""
+    """Newton step that the boundary equations would still take from the returned edges, in units of what rounding
+    leaves uncertain."""
     strips, solved, out = s._strips, s._solved, np.zeros(s.p_mean.size)
     for regime, names in UNKNOWNS.items():
         index = np.flatnonzero((s.regime == regime) & (strips.beta > 0))

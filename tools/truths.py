@@ -35,8 +35,18 @@ from oracle.orbits import Unresolved
 
 INPUTS = ("T_eps", "T_sigma", "V", "l", "D", "p_0", "delta_0", "edge", "branch")
 MEANS = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
-COLUMNS = ("kind", *INPUTS, "sequence", "coexisting", *MEANS, *"abcd", "one_minus_slope",
-           "p_spread", "tau_spread", "fraction_spread")
+COLUMNS = (
+    "kind",
+    *INPUTS,
+    "sequence",
+    "coexisting",
+    *MEANS,
+    *"abcd",
+    "one_minus_slope",
+    "p_spread",
+    "tau_spread",
+    "fraction_spread",
+)
 EDGES, BRANCHES = ("continuous", "constitutive"), ("unloading", "loading")
 CHUNK = 20
 
@@ -88,13 +98,22 @@ def draw_penetration(rng, groups):
 def scene(rng, groups, delta):
     """SI inputs (K = A = 1) of the groups, as plain floats, at some wavelength and speed."""
     alpha, beta, P0, Delta = groups
-    V, l = log_uniform(rng, 1e-3, 1e3), log_uniform(rng, 1e-3, 1e3)
+    V, l = log_uniform(rng, 1e-3, 1e3), log_uniform(rng, 1e-3, 1e3)  # noqa: E741
     rate = 2 * math.pi / l * V
     # A zero difference of the times must stay zero.
     T_eps = beta / rate
     T_sigma = T_eps if alpha == beta else min(alpha / rate, T_eps)
-    return {"T_eps": T_eps, "T_sigma": T_sigma, "V": V, "l": l, "D": delta, "p_0": P0, "delta_0": Delta,
-            "edge": rng.choice(EDGES), "branch": rng.choice(BRANCHES)}
+    return {
+        "T_eps": T_eps,
+        "T_sigma": T_sigma,
+        "V": V,
+        "l": l,
+        "D": delta,
+        "p_0": P0,
+        "delta_0": Delta,
+        "edge": rng.choice(EDGES),
+        "branch": rng.choice(BRANCHES),
+    }
 
 
 def draw(rng, kind):
@@ -104,6 +123,7 @@ def draw(rng, kind):
 
 def draw_threshold(rng):
     """A scene at an exact equality. Few bits in each number keep sums and products exact."""
+
     def short(low, high):
         return math.ldexp(rng.randrange(1 << 12, 1 << 13), rng.randint(low, high) - 12)
 
@@ -133,10 +153,15 @@ def answer(kind, item):
     """Row of a scene, without the spread."""
     found = march.solve_si(K=1, A=1, **item)
     orbits = march.coexisting(**groups_of(item), closure=item["edge"])
-    return {"kind": kind, **item, "sequence": found.sequence, "coexisting": " ".join(orbit.sequence for orbit in orbits),
-            **{name: float(getattr(found, name)) for name in MEANS},
-            **{name: float(found.edges[name]) if name in found.edges else None for name in "abcd"},
-            "one_minus_slope": float(f"{float(1 - found.slope):.2e}")}
+    return {
+        "kind": kind,
+        **item,
+        "sequence": found.sequence,
+        "coexisting": " ".join(orbit.sequence for orbit in orbits),
+        **{name: float(getattr(found, name)) for name in MEANS},
+        **{name: float(found.edges[name]) if name in found.edges else None for name in "abcd"},
+        "one_minus_slope": float(f"{float(1 - found.slope):.2e}"),
+    }
 
 
 def spread(row):
@@ -152,7 +177,7 @@ def spread(row):
             break
         change = [float(abs(getattr(found, name) - getattr(exact, name))) for name in MEANS]
         change = [change[0], change[1], max(change[2:])]
-        largest = {name: max(old, new) for (name, old), new in zip(largest.items(), change)}
+        largest = {name: max(old, new) for (name, old), new in zip(largest.items(), change, strict=True)}
     return row | {name: float(f"{value:.1e}") if value < math.inf else None for name, value in largest.items()}
 
 

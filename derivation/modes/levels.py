@@ -9,7 +9,7 @@ import sympy as sp
 
 from ..check import Check, Derived, zero
 from ..multilevel import Multilevel, carried_record, friction_coefficient, local_shear, means_over_a_level
-from ..regime import ADHESION, CONTACT, PERIOD
+from ..sequences import ADHESION, CONTACT, PERIOD
 from ..symbols import D, alpha, h, l, p_0, s, s_0
 from .flows import ModeFlows, u
 from .regimes import ModeRegime

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..check import CORRECTED, REPRODUCED, DerivationError, Derived, derived, holds
-from ..model import Model, Roots, Series, rate
+from ..check import DerivationError, Derived, derived, holds
+from ..model import Model, Roots, Series, law_record, rate, stiffness_record
 from .identity import vanishes
 from .times import strip_times
 
@@ -22,17 +22,8 @@ def foundation_law(model: Model) -> Derived:
             model.modes,
         )
     ]
-    return derived(
-        foundation_law,
-        (model.Q, model.P),
-        name=name,
-        statement="The foundation is local: at each material point its displacement w and pressure p obey one linear equation in "
-        f"time, here of order {model.modes}.",
-        latex=r"\sum_{k=0}^{n} Q_k\,\frac{d^k w}{dt^k} = \sum_{k=0}^{n} P_k\,\frac{d^k p}{dt^k}",
-        checks=checks,
-        paper="Eq. 1",
-        status=REPRODUCED,
-    )
+    latex = r"\sum_{k=0}^{n} Q_k\,\frac{d^k w}{dt^k} = \sum_{k=0}^{n} P_k\,\frac{d^k p}{dt^k}"
+    return law_record(foundation_law, (model.Q, model.P), latex, checks, f", here of order {model.modes}")
 
 
 def relaxed_stiffness(model: Model) -> Derived:
@@ -49,18 +40,7 @@ def relaxed_stiffness(model: Model) -> Derived:
         ),
         holds(name, "a larger K deforms less: K is a stiffness", sp.diff(load / any_stiffness, any_stiffness).is_negative),
     ]
-    return derived(
-        relaxed_stiffness,
-        stiffness,
-        name=name,
-        statement="At rest p = K w, so K is a stiffness per area (Pa/m).",
-        latex=rf"K = Q_0/P_0 = {sp.latex(stiffness)}",
-        checks=checks,
-        paper="Eq. 1",
-        status=CORRECTED,
-        correction="The paper calls K the elastic compliance of the foundation. Its own law gives p = K w at rest: K is a "
-        "stiffness. Read as a compliance it would invert every pressure.",
-    )
+    return stiffness_record(relaxed_stiffness, stiffness, rf"K = Q_0/P_0 = {sp.latex(stiffness)}", checks)
 
 
 def series_of(model: Model) -> Series | Roots:

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..check import BEYOND, CORRECTED, REPRODUCED, Check, Derived, derived, holds, zero
+from ..check import CORRECTED, REPRODUCED, Check, Derived, derived, holds, zero
 from ..level import AMPLITUDE, MISPRINT, PENETRATION, over_strips
+from ..saturated import threshold_record
 from ..symbols import D, K, alpha, beta, h, k, l, p_0, p_nominal, s, y
 from . import stable
 from .flows import ModeFlows, u
@@ -128,22 +129,10 @@ def threshold() -> Derived:
     lag = sp.Symbol("lag", real=True)
     storage, loss = R * sp.cos(lag), R * sp.sin(lag)
     field = D - 1 + storage * sp.cos(s) - loss * sp.sin(s)
-    least = D - 1 - R
-    solution = sp.solve(least + p_0, D)[0]
     checks = [
         zero(name, "p_sat = D - 1 + R cos(s + arg K*)", sp.expand_trig(D - 1 + R * sp.cos(s + lag)) - field, phases=(s,)),
-        zero(name, "at the threshold the least pressure is -p_0", least.subs(D, solution) + p_0),
-        holds(name, "and it grows with D", sp.diff(least, D).is_positive),
     ]
-    return derived(
-        threshold,
-        solution,
-        name=name,
-        statement="A strip is in complete contact when the least pressure of Eq. 15 is not below -p_0.",
-        latex=r"D_j \ge A(1 + |K^*|/K) - p_0/K",
-        checks=checks,
-        status=BEYOND,
-    )
+    return threshold_record(threshold, R, "|K^*|/K", checks)
 
 
 def saturated_means() -> Derived:

@@ -142,16 +142,28 @@ def _flat(value: Any) -> list[Any]:
 
 
 def _regime(regime: Regime, computed: dict[str, sources.Source]) -> dict[str, Any]:
+    equations = [[MEANINGS[label], f"{_latex(term)} = 0"] for label, term in regime.equations]
+    return regime_entry(regime, regime.closures, equations, ("residual", "jacobian", "means", "onset_slope"), computed)
+
+
+def regime_entry(
+    regime: Any,
+    closures: tuple[int, ...],
+    equations: list[list[str]],
+    kinds: tuple[str, ...],
+    computed: dict[str, sources.Source],
+) -> dict[str, Any]:
+    """A row of a table of regimes. ``kinds``: of functions that may compute something of it."""
     zones = [] if not regime.edges else [[z.kind, sp.latex(z.first), sp.latex(z.last)] for z in regime.zones]
-    names = [f"{kind}_{regime.sequence}" for kind in ("residual", "jacobian", "means", "onset_slope")]
+    names = [f"{kind}_{regime.sequence}" for kind in kinds]
     return {
         "sequence": regime.sequence,
         "title": regime.title,
         "zones": zones,
         "kind": regime.zones[0].kind,
         "unknowns": [str(edge) for edge in regime.edges],
-        "closures": [CLOSURES[closure] for closure in regime.closures],
-        "equations": [[MEANINGS[label], f"{_latex(term)} = 0"] for label, term in regime.equations],
+        "closures": [CLOSURES[closure] for closure in closures],
+        "equations": equations,
         "admissible": [inequality.prose for inequality in regime.admissible],
         "step": regime.derived.name,
         "computed_by": [name for name in names if name in computed],

@@ -10,7 +10,7 @@ from ..check import Derived
 from ..modes.derive import ModesDerivation
 from ..modes.regimes import ModeRegime
 from ..modes.symbols import J_0
-from ..regime import CONTACT
+from ..sequences import CONTACT
 from . import content, paper, sources
 
 FIELDS = (
@@ -88,20 +88,9 @@ def _row(
 
 
 def _regime(regime: ModeRegime, computed: dict[str, sources.Source], closures: tuple[int, ...]) -> dict[str, Any]:
-    zones = [] if not regime.edges else [[z.kind, sp.latex(z.first), sp.latex(z.last)] for z in regime.zones]
-    names = [f"{kind}_{regime.sequence}" for kind in ("state", "residual", "jacobian", "means", "return_map")]
-    return {
-        "sequence": regime.sequence,
-        "title": regime.title,
-        "zones": zones,
-        "kind": regime.zones[0].kind,
-        "unknowns": [str(edge) for edge in regime.edges],
-        "closures": [content.CLOSURES[closure] for closure in closures],
-        "equations": _conditions(regime) if regime.edges else [],
-        "admissible": [inequality.prose for inequality in regime.admissible],
-        "step": regime.derived.name,
-        "computed_by": [name for name in names if name in computed],
-    }
+    equations = _conditions(regime) if regime.edges else []
+    kinds = ("state", "residual", "jacobian", "means", "return_map")
+    return content.regime_entry(regime, closures, equations, kinds, computed)
 
 
 def _conditions(regime: ModeRegime) -> list[list[str]]:

@@ -17,6 +17,8 @@ def main() -> None:
 
 
 def _status() -> int:
+    if hasattr(sys.stdout, "reconfigure"):  # a title may hold what the terminal's encoding lacks
+        sys.stdout.reconfigure(errors="replace")
     try:
         require("typer", "cli", "the command line")
         from hystrip.commands.app import build

@@ -22,7 +22,8 @@ def progress(title: str, rate: bool = False) -> Iterator[Report | None]:
 
     console = require("rich.console", "cli", "the progress bar").Console(stderr=True)
     bars = require("rich.progress", "cli", "the progress bar")
-    columns = (bars.TextColumn("{task.description}"), bars.BarColumn(), bars.MofNCompleteColumn(), bars.TimeRemainingColumn())
+    name = bars.TextColumn("{task.description}", markup=False)
+    columns = (name, bars.BarColumn(), bars.MofNCompleteColumn(), bars.TimeRemainingColumn())
     if rate:
         columns = (*columns[:-1], _rate_column(bars), columns[-1])
     with bars.Progress(*columns, console=console, transient=True) as bar:

@@ -13,10 +13,12 @@ def show_friction(scene: Scene, columns: dict[str, np.ndarray]) -> None:
     """Print load (if it varies), velocity, mu, and every level's part of mu with its share in per cent."""
     from rich.console import Console
     from rich.table import Table
+    from rich.text import Text
 
     load_name, load = scene.load
     levels = range(1, len(scene.levels) + 1)
-    table = Table(title=scene.title or scene.name, title_justify="left", title_style="bold")
+    # the title is text, whatever stands in brackets in it
+    table = Table(title=Text(scene.title or scene.name), title_justify="left", title_style="bold")
     load_column = next(iter(columns))
     if load.ndim:
         table.add_column(load_column, justify="right")

@@ -10,7 +10,9 @@ import typer
 def command(
     scene: str = typer.Argument(help="A scene file (TOML) in which any quantity may be a list or a range."),
     over: list[str] = typer.Option(
-        None, "--over", help="KEY=VALUES swept too, values as in a scene: --over 'material.times[0]=[1e-3, \"2 ms\"]'; may be repeated."
+        None,
+        "--over",
+        help="KEY=VALUES swept too, values as in a scene: --over 'material.times[0]=[1e-3, \"2 ms\"]'; may be repeated.",
     ),
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results; run again with the same to go on."),
     workers: int = typer.Option(1, "--workers", help="Local processes."),
@@ -37,8 +39,8 @@ def command(
     try:
         with progress("sweeping", rate=True) as report:
             done = sweep(
-                scene, over=over_of(over or []), out=out, workers=workers, scheduler=scheduler, batch=batch, restart=restart, allow_solver=allow_solver,
-                progress=report,
+                scene, over=over_of(over or []), out=out, workers=workers, scheduler=scheduler, batch=batch,
+                restart=restart, allow_solver=allow_solver, progress=report,
             )  # fmt: skip
     except KeyboardInterrupt:
         typer.echo("hystrip: finished batches are kept; the same command goes on from there", err=True)
@@ -58,3 +60,5 @@ def command(
         )
     for path in written:
         typer.echo(f"wrote {path}")
+    if len(done.failed) == done.plan.size:
+        raise typer.Exit(1)

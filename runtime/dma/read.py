@@ -101,6 +101,9 @@ def read_dma(path: str | os.PathLike[str], temperature_set: str | None = None) -
     kind = next((letter for letter in "EG" if f"{letter}_stor" in at), None)
     if kind is None or f"{kind}_loss" not in at:
         raise InputError(f"{where}, row 1", names, "columns 'E_stor' and 'E_loss', or 'G_stor' and 'G_loss'")
+    for name in (frequency, f"{kind}_stor", f"{kind}_loss"):
+        if names.count(name) > 1:
+            raise InputError(f"{where}, row 1", names, f"one column named {name!r}")
     factors = {frequency: _frequency_factor(where, frequency, _cell(units, at[frequency]))}
     for name in (f"{kind}_stor", f"{kind}_loss"):
         unit = _cell(units, at[name])

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.plots.style import COLUMN, OKABE_ITO, axes, styled
+from hystrip.plots.style import COLUMN, OKABE_ITO, stacked, styled
 
 _RTOL = 1e-3
 _POINTS = 40
@@ -70,10 +70,7 @@ def _above(scene: Any, columns: Any, v: float, D_top: float, kind: str) -> list[
 @styled
 def paint(table: dict[str, Any]) -> Any:
     """Area above, friction below; solid: reachable under load control, dashed: not, dotted: loading, dot: pull-off."""
-    first = axes(COLUMN, 1.55 * COLUMN)
-    figure = first.figure
-    first.remove()
-    panels = figure.subplots(2, 1, sharex=True)
+    panels = stacked(2, COLUMN, 1.55 * COLUMN)
     kinds = np.array(table["part"])
     p = table["pressure [Pa]"] / 1e3
     styles = dict(zip(_KINDS, (("-", 1.3), ((0, (3, 1.5)), 0.9), ((0, (1, 1.3)), 0.9)), strict=True))
@@ -110,4 +107,4 @@ def paint(table: dict[str, Any]) -> Any:
     # coming from no contact, saturation is certain only far beyond where unloading leaves it: nothing happens there any more
     panels[1].set_xlim(np.nanmin(p) - 0.15, np.nanmax(p[kinds != _KINDS[2]]))
     panels[1].legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncols=2, fontsize=6.5)
-    return figure
+    return panels[0].figure

@@ -1,7 +1,7 @@
 """Fig. 5: tangential stress along strips of level 1: its own, and what level 2 adds in its contact.
 
-The paper shows strips 0 and 63 and calls the latter saturated. With the energy of adhesion that its text gives the first
-saturated strip is a later one, so that one is drawn too.
+The paper shows strips 0 and 63 and calls the latter saturated. With the energy of adhesion that its text gives the
+first saturated strip is a later one, so that one is drawn too.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from hystrip.figures.fig4 import state, strips_at
-from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, axes, styled
+from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, stacked, styled
 
 _STRIPS = (0, 63)  # the paper's
 _N = 100  # the paper's strips in half a cell
@@ -51,10 +51,7 @@ def data() -> dict[str, Any]:
 def paint(table: dict[str, Any]) -> Any:
     """One panel for each strip."""
     shown = np.unique(table["strip"])
-    first = axes(COLUMN, 0.6 * shown.size * COLUMN)
-    figure = first.figure
-    first.remove()
-    panels = figure.subplots(shown.size, 1, sharex=True)
+    panels = stacked(shown.size, COLUMN, 0.6 * shown.size * COLUMN)
     l = np.ptp(table["x [m]"])  # noqa: E741 - the paper's symbol
     for panel, strip in zip(panels, shown, strict=True):
         here = np.flatnonzero(table["strip"] == strip)
@@ -73,4 +70,4 @@ def paint(table: dict[str, Any]) -> Any:
     panels[0].legend(loc="best")
     panels[-1].set_xlabel("$x/l_1$ (sliding towards $+x$)")
     panels[-1].set_xlim(-0.5, 0.5)
-    return figure
+    return panels[0].figure

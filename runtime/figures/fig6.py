@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, axes, styled
+from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, stacked, styled
 
 #: The paper's text gives the smaller energy; the larger is not given, and taken as twice that (N/m).
 ENERGIES = (2.5e-5, 5e-5)
@@ -37,10 +37,7 @@ def data() -> dict[str, Any]:
 @styled
 def paint(table: dict[str, Any]) -> Any:
     """Total and level parts for each energy, over log velocity, in one pair of panels with the same scale."""
-    first = axes(COLUMN, 1.3 * COLUMN)
-    figure = first.figure
-    first.remove()
-    panels = figure.subplots(2, 1, sharex=True, sharey=True)
+    panels = stacked(2, COLUMN, 1.3 * COLUMN, sharey=True)
     for panel, gamma in zip(panels, ENERGIES, strict=True):
         here = table["gamma [J/m^2]"] == gamma
         V = table["velocity [m/s]"][here]
@@ -55,4 +52,4 @@ def paint(table: dict[str, Any]) -> Any:
     panels[1].set_xscale("log")
     panels[1].set_xlim(table["velocity [m/s]"].min(), table["velocity [m/s]"].max())
     panels[1].set_xlabel("sliding velocity $V$ (m/s)")
-    return figure
+    return panels[0].figure

@@ -6,7 +6,7 @@ import numpy as np
 
 from hystrip.errors import InputError
 
-from .checks import broadcast, numbers
+from .checks import LARGEST, broadcast, numbers
 
 
 class Dugdale:
@@ -49,10 +49,10 @@ class Dugdale:
             raise InputError("adhesion.delta_0", 0.0, "a finite number > 0 (m), since there is adhesion")
         with np.errstate(over="ignore"):  # refused below, by name
             p = np.divide(value, delta, out=np.zeros(value.shape), where=delta > 0) if name == "gamma" else value
-        if not np.isfinite(p).all():
-            raise InputError(
-                "adhesion.gamma", float(value[~np.isfinite(p)].flat[0]), "gamma/delta_0 must be a finite traction (Pa)"
-            )
+        beyond = p > LARGEST
+        if beyond.any():
+            allowed = f"gamma/delta_0 must be a traction up to {LARGEST:g} Pa"
+            raise InputError("adhesion.gamma", float(value[beyond].flat[0]), allowed)
         self._set("p_0", p)
         self._set("delta_0", delta)
         self._set("gamma", value if name == "gamma" else p * delta)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from typing import Any
 
@@ -9,28 +10,44 @@ import numpy as np
 
 from hystrip.errors import InputError
 
+#: greatest magnitude of an input, and the least of one that must not be zero: far beyond anything physical in SI, and
+#: near enough that no product or quotient of a few of them leaves the range of a double
+LARGEST, SMALLEST = 1e40, 1e-40
+
 
 def numbers(field: str, value: Any, unit: str, minimum: float = -np.inf, strict: bool = False) -> np.ndarray:
     """``value`` as a float64 array (0-d for a scalar), finite and within its range.
 
     Raises
     ------
-    InputError : not numeric, not finite, or below ``minimum`` (or equal to it, if ``strict``)
+    InputError : not numeric, not finite, below ``minimum`` (or equal to it, if ``strict``), or of a magnitude above
+        ``LARGEST`` (or below ``SMALLEST``, where zero is excluded); a quantity with a unit of its own, which would be
+        dropped; an array with masked entries
     """
     allowed = _allowed(unit, minimum, strict)
     if isinstance(value, (str, bytes, bool)) or value is None:
         raise InputError(field, value, allowed)
+    if hasattr(value, "to") and (hasattr(value, "units") or hasattr(value, "unit")):
+        raise InputError(field, value, f"{allowed}, without a unit of its own: convert it first")
+    if "numpy.ma" in sys.modules and np.ma.is_masked(value):  # loading it takes longer than most calls
+        raise InputError(field, value, f"{allowed}, none of them masked")
     try:
         raw = np.asarray(value)
         if raw.dtype.kind not in "iuf":
             raise InputError(field, value, allowed)
-        array = raw.astype(np.float64)
+        with np.errstate(over="ignore"):  # a longer float: refused below, by name
+            array = raw.astype(np.float64)
     except (TypeError, ValueError):
         raise InputError(field, value, allowed) from None
     bad = ~np.isfinite(array) | ((array <= minimum) if strict else (array < minimum))
     if bad.any():
-        first = value if array.ndim == 0 else float(array[bad][0])
-        raise InputError(field, first, allowed)
+        raise InputError(field, _first(value, array, bad), allowed)
+    bad = np.abs(array) > LARGEST
+    if bad.any():
+        raise InputError(field, _first(value, array, bad), f"{allowed} of magnitude up to {LARGEST:g}")
+    bad = array < minimum + SMALLEST
+    if strict and bad.any():
+        raise InputError(field, _first(value, array, bad), f"{allowed}, from {SMALLEST:g}")
     return array
 
 
@@ -56,6 +73,11 @@ def broadcast(**arrays: np.ndarray) -> tuple[int, ...]:
     except ValueError:
         shapes = {name: np.shape(a) for name, a in arrays.items() if np.ndim(a)}
         raise InputError(", ".join(shapes), list(shapes.values()), "shapes that broadcast together") from None
+
+
+def _first(value: Any, array: np.ndarray, bad: np.ndarray) -> Any:
+    """What is wrong: the value as given, or the first bad entry of an array."""
+    return float(array[bad][0]) if array.ndim or isinstance(value, np.ndarray) else value
 
 
 def _allowed(unit: str, minimum: float, strict: bool) -> str:

@@ -41,14 +41,18 @@ class ModelMaterial:
         K, modes = modes_of(kernel, {name: v[..., None] for name, v in values.items()})
         shown = {name: tuple(map(float, v)) if v.ndim else float(v) for name, v in values.items()}
         if modes.J_0[0] == 0 and np.count_nonzero(modes.eta) > 1:
-            allowed = "several relaxation times with a spring in every branch: an instantaneous compliance above 0 (with one time it may be 0)"
+            allowed = (
+                "several relaxation times with a spring in every branch: an instantaneous compliance above 0 "
+                "(with one time it may be 0)"
+            )
             raise InputError("material", shown, allowed)
         for name, value in (("kernel", kernel), ("given", shown), ("K", float(np.ravel(K)[0])), ("modes", modes)):
             object.__setattr__(self, name, value)
 
     @property
     def single(self) -> StandardLinearSolid | None:
-        """The standard linear solid that this is with at most one branch at work: Kelvin-Voigt where that has no spring; else None."""
+        """The standard linear solid that this is with at most one branch at work: Kelvin-Voigt where that has no
+        spring; else None."""
         at_work = np.flatnonzero(self.modes.eta[:, 0])
         if at_work.size > 1:
             return None

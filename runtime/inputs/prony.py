@@ -17,9 +17,9 @@ from .material import StandardLinearSolid
 class Prony:
     """Foundation with n relaxation times: ``p = K w + sum_i K_i (w - e_i)``, ``tau_i e_i' + e_i = w`` (Prony series).
 
-    A pressure held at a constant displacement w relaxes as ``(K + sum_i K_i exp(-t/tau_i)) w``. One time is the standard
-    linear solid with ``T_sigma = tau``, ``T_eps = tau (1 + K_1/K)``. Branches of modulus zero are dropped and equal times
-    merged, so that a series that is really one of fewer times is solved as that.
+    A pressure held at a constant displacement w relaxes as ``(K + sum_i K_i exp(-t/tau_i)) w``. One time is the
+    standard linear solid with ``T_sigma = tau``, ``T_eps = tau (1 + K_1/K)``. Branches of modulus zero are dropped and
+    equal times merged, so that a series that is really one of fewer times is solved as that.
 
     Parameters
     ----------
@@ -28,8 +28,9 @@ class Prony:
     times : tau_i, relaxation time of each branch, s, > 0
     solver : from ``hystrip.load_solver``, for a number of times that no solver in the package has
 
-    ``moduli`` and ``times``: sequences of n numbers, or of n arrays that broadcast (for ``solve_strip``; then all moduli have
-    to be > 0 and the times of a branch apart from those of the others). Raises ``InputError`` for values outside these ranges.
+    ``moduli`` and ``times``: sequences of n numbers, or of n arrays that broadcast (for ``solve_strip``; then all
+    moduli have to be > 0 and the times of a branch apart from those of the others). Raises ``InputError`` for values
+    outside these ranges.
 
     >>> import hystrip
     >>> hystrip.Prony(K=1e9, moduli=[2e9, 0, 5e9], times=[1e-3, 1, 1e-3])
@@ -47,6 +48,8 @@ class Prony:
         times = _each("material.times", self.times, "s", strict=True)
         if len(moduli) != len(times):
             raise InputError("material.moduli, material.times", (len(moduli), len(times)), "as many moduli as times")
+        if self.solver is not None and not hasattr(self.solver, "prony_kernel"):
+            raise InputError("material.solver", self.solver, "None, or what hystrip.load_solver returns")
         names = [*(f"material.moduli[{i}]" for i in range(len(moduli))), *(f"material.times[{i}]" for i in range(len(times)))]
         shape = broadcast(**{"material.K": K}, **dict(zip(names, moduli + times, strict=True)))
         if shape:
@@ -169,8 +172,8 @@ def _merged(weights, times) -> tuple[list, list]:
 def _interlaced(base: float, weights: np.ndarray, poles: np.ndarray) -> np.ndarray:
     """Zeros of ``f(x) = base + sum weights_i poles_i/(x - poles_i)``: one above each pole and below the next, in their order.
 
-    With ``base > 0``, ``weights < 0`` f rises from -inf to +inf between poles (to ``base`` after the last). It is written in the
-    distance from the pole below, which keeps a zero next to its pole to full relative precision.
+    With ``base > 0``, ``weights < 0`` f rises from -inf to +inf between poles (to ``base`` after the last). It is
+    written in the distance from the pole below, which keeps a zero next to its pole to full relative precision.
     """
     order = np.argsort(poles)
     p, q = poles[order], -weights[order] * poles[order]

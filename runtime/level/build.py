@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .curve import trace
+from .demand import Demand
 from .inverse import cut_penetration
 from .law import Law, law_of
 from .strips import Columns
@@ -17,15 +18,16 @@ def build_laws(
     D_full: np.ndarray,
     saturated: np.ndarray,
     p_max: np.ndarray | None,
+    demand: Demand | None = None,
 ) -> list[Law]:
     """One law per column (its ``D`` is not used).
 
     ``p_full``, ``D_full`` (n,): where the level, and all it carries, is saturated; ``saturated`` (n, q): means there. ``p_max`` (n,):
-    greatest pressure that will be asked for, or None for the whole law.
+    greatest pressure that will be asked for, or None for the whole law. ``demand``: how much its pressures count.
     """
     top = (
         D_full if p_max is None else np.where(p_max < p_full, cut_penetration(columns, np.minimum(p_max, p_full), D_full), D_full)
     )
-    curves = trace(columns, rtol, top, follow=True)
+    curves = trace(columns, rtol, top, follow=True, demand=demand)
     unloading = columns.branch == "unloading"
     return [law_of(curve, unloading, float(p_full[i]), saturated[i], bool(top[i] < D_full[i])) for i, curve in enumerate(curves)]

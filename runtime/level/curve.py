@@ -6,21 +6,23 @@ regime. All velocities advance together.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from .appearance import is_inside, island, vanishing
 from .breaks import breakpoints, threshold_width
-from .chebyshev import Piece, flat_ended, graded, interpolation_errors, lobatto, parameter
-from .expected import expect, hints
-from .means import level_means
+from .chebyshev import Piece, flat_ended, interpolation_errors, lobatto
+from .demand import Demand
+from .interval import Interval
+from .rims import where_rims_hold
+from .sampling import MEAN, Batch
 from .strips import Columns, saturation_depth
 
-_FIRST, _LAST = 4, 64
+_FIRST, _LAST = 6, 96
 _ROUNDS = 40
-#: share of the error allowed that interpolating may have, and that of each mean
-_INTERPOLATION, _MEAN = 0.6, 0.4
+#: share of the error allowed that interpolating may have: the means have the rest
+_INTERPOLATION = 1 - MEAN
 #: coefficients below this share of what the means may err say nothing of how smooth they are
 _BLUR = 0.1
 #: error of a curve that keeps away from a pressure, over its distance
@@ -33,8 +35,6 @@ _COARSEST = 1e-3
 _NEGLIGIBLE = 0.3
 #: a piece narrower than this, relative to D, is taken as it is
 _NARROWEST = 1e-11
-#: accuracy of a rough look at the pressure, and how much more than its error decides
-_ROUGH, _DOUBT = 2e-3, 2.0
 #: parameters at which a piece is looked at
 _GRID = np.linspace(0, 1, 65)
 _EPS = np.finfo(float).eps
@@ -52,21 +52,6 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Seen:
-    """Zones (``Averages.zones``) at the parameters ``t`` of an interval of D, and the least size of the means there, (q,)."""
-
-    low: float
-    high: float
-    t: np.ndarray
-    zones: list[np.ndarray]
-    size: np.ndarray
-
-    def expected(self, D: np.ndarray):
-        """``expected.expect`` at penetrations inside."""
-        return expect(self.t, self.zones, parameter((D - self.low) / (self.high - self.low)))
-
-
-@dataclass(frozen=True)
 class Sought:
     """Pressures ``p`` (Pa, per column) of which it is asked where the curve passes them, to an error ``goal`` (Pa) of the pressure there."""
 
@@ -79,43 +64,14 @@ class Sought:
         return np.maximum(self.goal[column], _CLEAR * np.abs(pressures - self.p[column, None]).min(axis=1))
 
 
-@dataclass(frozen=True)
-class Interval:
-    """An interval of D of one column; ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end. ``witnesses``: thetas at which some
-    regime is met in next to no strips towards an end."""
-
-    column: int
-    low: float
-    high: float
-    soft_low: bool = False
-    soft_high: bool = False
-    witnesses: tuple[float, ...] = ()
-    #: what was seen on the interval that this one is a part of
-    seen: Seen | None = field(default=None, compare=False, repr=False)
-
-    def split(self, D: float, soft: bool, *witnesses: float) -> list[Interval]:
-        """The two parts below and above D; what is new about their strips in ``witnesses``."""
-        every = self.witnesses + witnesses
-        return [
-            Interval(self.column, self.low, D, self.soft_low, soft, every, self.seen),
-            Interval(self.column, D, self.high, soft, self.soft_high, every, self.seen),
-        ]
-
-    @property
-    def halves(self) -> list[Interval]:
-        """The two halves; the curve goes on smoothly between them."""
-        return self.split(0.5 * (self.low + self.high), soft=True)
-
-    def penetrations(self, t):
-        """D at the parameters ``t`` of a piece."""
-        return self.low + (self.high - self.low) * graded(t)
-
-
-def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None, follow: bool = False) -> list[Curve]:
+def trace(
+    columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None, follow: bool = False, demand: Demand | None = None
+) -> list[Curve]:
     """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``; of ``frictional`` columns pressure
     only as well as it takes for friction over pressure to be known to that.
 
-    ``follow``: below the penetration at which the crest lets go, only what unloading at a falling pressure comes to.
+    ``follow``: below the penetration at which the crest lets go, only what unloading at a falling pressure comes to. ``demand``: what is asked of
+    every column's law; what hardly counts there is made coarser.
     """
     n = columns.size
     top = saturation_depth(columns) if top is None else top
@@ -123,32 +79,13 @@ def trace(columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None, fol
     rows, crest = smooth_intervals(columns, top)
     intervals = [i for row in rows for i in row]
     below = [i for i in intervals if follow and i.high <= crest[i.column]]
-    pieces = interpolate(columns, rtol, [i for i in intervals if i not in below], strips)
+    pieces = interpolate(columns, rtol, [i for i in intervals if i not in below], strips, demand=demand)
     if below:
-        for row, more in zip(pieces, _where_rims_hold(columns, rtol, below, pieces, strips), strict=True):
+        least = np.array([min((piece.first(_GRID)[0].min() for piece in row), default=np.inf) for row in pieces])
+        comes = where_rims_hold(columns, rtol, below, least, strips, demand)
+        for row, more in zip(pieces, interpolate(columns, rtol, comes, strips, demand=demand, ceiling=least), strict=True):
             row += more
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
-
-
-def _where_rims_hold(columns: Columns, rtol, intervals: list[Interval], pieces: list[list[Piece]], strips) -> list[list[Piece]]:
-    """Pieces of what unloading comes to in the intervals below all ``pieces``: a rough look tells where the pressure falls below what it was before."""
-    least = np.array([min((piece.first(_GRID)[0].min() for piece in row), default=np.inf) for row in pieces])
-    scale = columns.scales[0] + np.where(np.isfinite(least), np.abs(least), 0.0)
-    rough = interpolate(columns, np.full(columns.size, _ROUGH), intervals, strips, Sought(least, _ROUGH * scale))
-    wanted = []
-    for column, row in enumerate(rough):
-        met = least[column]
-        for piece in sorted(row, key=lambda piece: -piece.low):
-            p, error = piece.first(_GRID)[0], piece.error[0]
-            before = np.minimum(met, np.minimum.accumulate(np.append(p[::-1] + error, np.inf))[:-1])[::-1]
-            comes = np.flatnonzero(p - _DOUBT * error < np.append(before[1:], met))
-            met = min(met, (p + error).min())
-            for run in np.split(comes, np.flatnonzero(np.diff(comes) > 2) + 1) if comes.size else ():
-                first, last = max(run[0] - 1, 0), min(run[-1] + 1, _GRID.size - 1)
-                low, high = piece.penetration(_GRID[[first, last]])
-                soft = piece.soft_low or first > 0, piece.soft_high or last < _GRID.size - 1
-                wanted.append(Interval(column, float(low), float(high), *soft))
-    return interpolate(columns, rtol, wanted, strips)
 
 
 def smooth_intervals(columns: Columns, top: np.ndarray) -> tuple[list[list[Interval]], np.ndarray]:
@@ -168,31 +105,36 @@ def interpolate(
     intervals: list[Interval],
     strips: np.ndarray,
     sought: Sought | None = None,
+    demand: Demand | None = None,
+    ceiling: np.ndarray | None = None,
 ) -> list[list[Piece]]:
     """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work.
 
-    ``sought``: nothing counts but where the pressure passes a given one.
+    ``sought``: nothing counts but where the pressure passes a given one. ``demand``: how much the pressures of an interval count, those
+    above the ``ceiling`` (Pa, per column) not at all.
     """
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
     for _ in range(_ROUNDS):
         if not intervals:
             return pieces
-        intervals = _round(columns, rtol, intervals, pieces, strips, sought)
+        intervals = _round(columns, rtol, intervals, pieces, strips, sought, demand, ceiling)
     raise ArithmeticError("the curve over penetration did not converge")
 
 
-def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, sought: Sought | None) -> list[Interval]:
+def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, sought, demand, ceiling) -> list[Interval]:
     """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not."""
-    batch = _Batch(columns, rtol, intervals, strips)
+    batch = Batch(columns, rtol, intervals, strips)
     batch.sample(_FIRST)
+    if demand is not None:
+        batch.weigh(demand, ceiling)
     floor = columns.floors
     parts: list[Interval] = []
     n, before = _FIRST, np.inf
     while batch.intervals and n < _LAST:
         n *= 2
         batch.sample(n)
-        c = np.einsum("ij,pjq->piq", flat_ended(n), batch.values)
-        goal = rtol[batch.column][:, None] * (np.abs(batch.values).min(axis=1) + floor)
+        c = batch.coefficients
+        goal = batch.accuracy[:, None] * (np.abs(batch.values).min(axis=1) + floor)
         rounding = _rounding(columns, batch, n, c)
         error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1), rounding)
         # where next to nothing changes there is little to miss, whatever nobody marked there
@@ -224,7 +166,7 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
     return parts
 
 
-def _rounding(columns: Columns, batch: _Batch, n: int, c) -> np.ndarray:
+def _rounding(columns: Columns, batch: Batch, n: int, c) -> np.ndarray:
     """What the rounding of D makes of the coefficients ``c``, (intervals, q): next to a break where the means are like square roots it tells."""
     ends = np.stack((np.einsum("k,pkq->pq", (-1.0) ** np.arange(n + 1), c), c.sum(axis=1)), axis=1)
     values = np.concatenate((ends[:, :1], batch.values, ends[:, 1:]), axis=1)
@@ -241,12 +183,12 @@ def _pressure_goal(values, goal):
     return np.maximum(goal[:, 0], pressure * np.minimum(share, _COARSEST))
 
 
-def _islands(columns: Columns, batch: _Batch, n: int, which, strips, roughly: bool) -> dict[int, tuple[float, float]]:
+def _islands(columns: Columns, batch: Batch, n: int, which, strips, roughly: bool) -> dict[int, tuple[float, float]]:
     """Breaks inside intervals: penetrations and thetas at which something appears or vanishes between two nodes, away from the crest."""
     seen = {}
     for k in np.flatnonzero(which):
         i = batch.intervals[k]
-        found = island(i.column, i.penetrations(lobatto(n)[1:-1]), batch.zones[k], _NEGLIGIBLE * batch.rtol[i.column])
+        found = island(i.column, i.penetrations(lobatto(n)[1:-1]), batch.zones[k], _NEGLIGIBLE * batch.accuracy[k])
         if found is not None:
             seen[int(k)] = found
     if not seen:
@@ -254,66 +196,3 @@ def _islands(columns: Columns, batch: _Batch, n: int, which, strips, roughly: bo
     where = zip(*(v.tolist() for v in vanishing(columns, list(seen.values()), strips, roughly)), strict=True)
     breaks = dict(zip(seen, where, strict=True))
     return {k: at for k, at in breaks.items() if is_inside(at[0], batch.intervals[k].low, batch.intervals[k].high)}
-
-
-class _Batch:
-    """Intervals that are sampled together on nested nodes: means and errors (intervals, nodes, q), and the zones met at each."""
-
-    def __init__(self, columns: Columns, rtol, intervals: list[Interval], strips):
-        self.columns, self.rtol, self.strips = columns, rtol, strips
-        self.intervals = intervals
-        self.values = self.errors = None
-        self.zones: list[list] = [[] for _ in intervals]
-
-    @property
-    def column(self) -> np.ndarray:
-        return np.array([i.column for i in self.intervals], int)
-
-    def sample(self, n: int) -> None:
-        """Go on to the interior nodes of ``lobatto(n)``, of which every other one is known, unless they are the first."""
-        first = self.values is None
-        nodes = lobatto(n)[1:-1]
-        t = nodes if first else nodes[::2]
-        D = np.concatenate([i.penetrations(t) for i in self.intervals])
-        rows = np.repeat(self.column, t.size)
-        if first:
-            inherited = [i.seen for i in self.intervals]
-            expected = [None if seen is None else seen.expected(i.penetrations(t)) for i, seen in zip(self.intervals, inherited, strict=True)]
-            size = np.array([np.zeros(self.columns.scales.size) if seen is None else seen.size for seen in inherited])
-        else:
-            expected = [expect(nodes[1::2], zones, t) for zones in self.zones]
-            size = np.abs(self.values).min(axis=1)
-        where = np.arange(rows.size).reshape(-1, t.size)
-        hint = hints(where, expected, [i.witnesses for i in self.intervals], np.repeat(size, t.size, axis=0))
-        means = level_means(self.columns.at(rows, D), _MEAN * self.rtol[rows], hint)
-        np.add.at(self.strips, rows, means.strips)
-        shape = (len(self.intervals), t.size, -1)
-        values, errors = means.values.reshape(shape), means.errors.reshape(shape)
-        zones = [means.zones[i : i + t.size] for i in range(0, rows.size, t.size)]
-        if first:
-            self.values, self.errors, self.zones = values, errors, zones
-            return
-        self.values, self.errors = _merged(self.values, values), _merged(self.errors, errors)
-        self.zones = [_alternating(old, new) for old, new in zip(self.zones, zones, strict=True)]
-
-    def known(self, k: int, n: int) -> Interval:
-        """Interval ``k`` with what was seen of it at the interior nodes of ``lobatto(n)``."""
-        i = self.intervals[k]
-        return replace(i, seen=Seen(i.low, i.high, lobatto(n)[1:-1], self.zones[k], np.abs(self.values[k]).min(axis=0)))
-
-    def keep(self, index) -> None:
-        """Go on with the intervals ``index`` alone."""
-        self.intervals, self.zones = [self.intervals[i] for i in index], [self.zones[i] for i in index]
-        self.values, self.errors = self.values[index], self.errors[index]
-
-
-def _merged(old, fresh):
-    out = np.empty((old.shape[0], old.shape[1] + fresh.shape[1], old.shape[2]))
-    out[:, 0::2], out[:, 1::2] = fresh, old
-    return out
-
-
-def _alternating(old, fresh):
-    out = old + fresh
-    out[0::2], out[1::2] = fresh, old
-    return out

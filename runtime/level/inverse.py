@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .breaks import breaks_on, first_contact, threshold_width
-from .curve import Interval, Sought, interpolate
+from .curve import Sought, interpolate
+from .interval import Interval
 from .law import Branch, rising
 from .means import level_means
 from .monotone import enclosed
@@ -20,7 +21,7 @@ from .strips import Columns
 #: accuracy of the first look, of the pressure's scale, and how much finer each further one is
 _COARSE, _FINER = 2e-3, 0.03
 #: width of the first part of the curve to be looked at, in heights; each further one is twice as wide
-_NEXT = 0.1
+_NEXT = 0.3
 #: penetrations in each of them at which the crest is looked at
 _LOOKS = 12
 #: how much more than the estimated error of the interpolation a turn has to keep away from the pressure

@@ -12,19 +12,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .chebyshev import Piece, coefficients, evaluate, lobatto
+from .cells import Cells, cells_of
+from .chebyshev import Piece, graded, parameter
 from .curve import Curve
 
 _GRID = np.linspace(0, 1, 65)
 _EPS = np.finfo(float).eps
-_FINEST = 256
 
 
 @dataclass(frozen=True, slots=True)
 class Branch:
     """A monotone part of a curve: piece and parameters between which pressure rises from ``p_low`` to ``p_high``.
 
-    ``direct``: coefficients of its quantities over ``p = p_low + (p_high - p_low) sin^2(pi u/2)``, which is smooth where the curve turns.
+    ``cells``: its quantities over u, ``p = p_low + (p_high - p_low) graded(u)``, in which they are smooth where they are over the piece's own parameter,
+    and where the curve turns.
     ``soft_low``, ``soft_high``: the law goes on smoothly beyond that end, in another branch.
     """
 
@@ -33,50 +34,49 @@ class Branch:
     t_high: float
     p_low: float
     p_high: float
-    direct: np.ndarray | None = None
+    cells: Cells | None = None
     soft_low: bool = False
     soft_high: bool = False
 
     def values(self, p: np.ndarray) -> np.ndarray:
         """Quantities at the pressures ``p`` (m,), shape (m, q)."""
-        if self.direct is None:
+        if self.cells is None:
             return self.piece.values(self.parameter(p))
         share = np.clip((p - self.p_low) / (self.p_high - self.p_low), 0.0, 1.0)
-        return evaluate(self.direct, 2 / np.pi * np.arcsin(np.sqrt(share)))
+        return self.cells(parameter(share))
 
     def resampled(self, tolerance: np.ndarray) -> Branch:
         """The same branch interpolated over pressure, to ``tolerance`` (q,), so that it need not be inverted again."""
-        n = 2 * (self.piece.coefficients.shape[0] - 1)
-        while True:
-            direct = coefficients(self._at(lobatto(n)))
-            significant = np.flatnonzero((np.abs(direct) > 0.02 * tolerance).any(axis=1))
-            size = int(significant[-1]) + 1 if significant.size else 1
-            if size <= 0.8 * n or n >= _FINEST:
-                # sizes in steps: branches of one size are evaluated together
-                return replace(self, direct=direct[: min(n + 1, 4 * -(-size // 4))])
-            n *= 2
+        return replace(self, cells=cells_of(self._at, tolerance))
 
     def _at(self, u):
-        p = self.p_low + (self.p_high - self.p_low) * np.sin(0.5 * np.pi * u) ** 2
+        p = self.p_low + (self.p_high - self.p_low) * graded(u)
         return self.piece.values(self.parameter(p))
 
     def parameter(self, p: np.ndarray) -> np.ndarray:
         """t at which the pressure is ``p`` (clipped to the branch); safeguarded Newton, all at once."""
-        low, high = np.full(p.shape, self.t_low), np.full(p.shape, self.t_high)
         span = self.p_high - self.p_low
-        share = np.clip((p - self.p_low) / span, 0, 1) if span > 0 else np.zeros(p.shape)
+        low, high = np.full(p.shape, self.t_low), np.full(p.shape, self.t_high)
+        if not span > 0:
+            return low
+        share = lambda value: parameter(np.clip((value - self.p_low) / span, 0.0, 1.0))  # noqa: E731
+        # over this share t is all but linear, also where the curve turns
         grid = self.t_low + (self.t_high - self.t_low) * _GRID
-        t = np.interp(p, np.maximum.accumulate(self.piece.first(grid)[0]), grid) if p.size > 1 else low + (high - low) * share
+        t = np.interp(share(p), np.maximum.accumulate(share(self.piece.first(grid)[0])), grid)
+        blur = 8 * _EPS * max(abs(self.p_low), abs(self.p_high), np.abs(self.piece.coefficients[:, 0]).sum())
+        left = np.arange(p.size)
         for _ in range(80):
-            value, slope = self.piece.first(t)
-            below = value < p
-            low, high = np.where(below, t, low), np.where(below, high, t)
-            step = np.divide(p - value, slope, out=np.full(t.shape, np.inf), where=slope > 0)
-            new = t + step
-            new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
-            moved = np.abs(new - t)
-            t = new
-            if np.all((moved <= 16 * _EPS) | (high - low <= 16 * _EPS)):
+            here = t[left]
+            value, slope = self.piece.first(here)
+            miss = p[left] - value
+            below = miss > 0
+            low[left[below]], high[left[~below]] = here[below], here[~below]
+            step = np.divide(miss, slope, out=np.full(here.shape, np.inf), where=slope > 0)
+            new = here + step
+            t[left] = np.where((new >= low[left]) & (new <= high[left]), new, 0.5 * (low[left] + high[left]))
+            going = (np.abs(miss) > blur) & (np.abs(t[left] - here) > 16 * _EPS) & ((high - low)[left] > 16 * _EPS)
+            left = left[going]
+            if not left.size:
                 break
         return t
 
@@ -177,6 +177,7 @@ class Law:
         p_sat: pressure of saturated contact; ``saturated`` are the means there (from there on constant, but for pressure).
         p_top: largest pressure the law was built for (``p_sat``, unless it was cut below that).
         error: bound of the interpolation error of each quantity, (q,).
+        unloading: the branch of loading it follows.
     """
 
     branches: list[Branch]
@@ -186,6 +187,7 @@ class Law:
     p_top: float
     error: np.ndarray
     strips: int
+    unloading: bool
 
     @property
     def friction_columns(self) -> np.ndarray:
@@ -216,8 +218,11 @@ class Law:
         aside = 1e-9 * (np.abs(p) + np.abs(p).max(initial=0.0))
         jumps = np.abs(self(p + aside)[:, columns] - self(p - aside)[:, columns]).sum(axis=1)
         for b in self.branches:
-            near = (p >= b.p_low - aside) & (p <= b.p_high + aside)
-            errors[near] = np.maximum(errors[near], b.piece.error[0])
+            # a branch is left at one of its ends, and that tells where the law goes over to the next one
+            left, entered = (b.p_low, b.p_high) if self.unloading else (b.p_high, b.p_low)
+            errors[np.abs(p - left) <= aside] = b.piece.error[0]
+            outermost = (np.abs(p - entered) <= aside) & (errors == 0)
+            errors[outermost] = b.piece.error[0]
         return jumps, errors
 
     def __call__(self, p: np.ndarray) -> np.ndarray:
@@ -244,4 +249,4 @@ def law_of(curve: Curve, unloading: bool, p_sat: float, saturated: np.ndarray, c
     pull_off = kept[0].p_low if kept else p_sat
     error = np.max([b.piece.error for b in kept], axis=0) if kept else np.zeros(saturated.size)
     kept = _joined([b.resampled(np.maximum(b.piece.error, 1e-15 * np.abs(saturated))) for b in kept], p_sat)
-    return Law(kept, pull_off, p_sat, saturated, kept[-1].p_high if cut and kept else p_sat, 1.5 * error, curve.strips)
+    return Law(kept, pull_off, p_sat, saturated, kept[-1].p_high if cut and kept else p_sat, 1.5 * error, curve.strips, unloading)

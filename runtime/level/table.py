@@ -6,9 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from .cells import SLOTS, clenshaw, slot, within
+from .chebyshev import parameter
 from .law import Law
 
-_CHUNK = 8192
+_CHUNK = 4096
 
 
 class LawTable:
@@ -35,18 +37,12 @@ class LawTable:
         self._low, self._high = np.array([b.p_low for b in every]), np.array([b.p_high for b in every])
         error = np.array([b.piece.error for b in every]).reshape(len(every), -1)
         self._error = np.stack((error[:, 1 + self.frictions].sum(axis=1), error[:, 0]), axis=1) if every else np.zeros((0, 2))
-        self._stack(every)
-
-    def _stack(self, branches):
-        """Coefficients by degree: branches of one degree lie in one array."""
-        degree = np.array([b.direct.shape[0] for b in branches], int)
-        self._size = degree
-        self._place = np.zeros(degree.size, int)
-        self._coefficients = {}
-        for n in np.unique(degree):
-            index = np.flatnonzero(degree == n)
-            self._place[index] = np.arange(index.size)
-            self._coefficients[int(n)] = np.array([branches[i].direct[:, 1:] for i in index])
+        cells = [b.cells for b in every]
+        first = np.cumsum([0, *(c.start.size for c in cells)])
+        joined = lambda values, width: np.concatenate(values) if cells else np.zeros((0, *width))  # noqa: E731
+        self._coefficients = joined([c.coefficients[:, :, 1:] for c in cells], (1, 0))
+        self._from, self._size = joined([c.start for c in cells], ()), joined([c.size for c in cells], ())
+        self._cell = np.array([c.of + at for c, at in zip(cells, first[:-1], strict=True)]).reshape(-1, SLOTS)
 
     def __call__(self, group: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Quantities after pressure (m, q - 1) at pressures ``p`` (m,) of the laws ``group`` (m,), and errors of friction and pressure (m, 2)."""
@@ -54,28 +50,20 @@ class LawTable:
         high = p >= self.p_sat[group]
         out[high] = self.saturated[group[high], 1:]
         rest = np.flatnonzero(~high & (p >= self.pull_off[group]))
-        if not rest.size or not self._size.size:
+        if not self._low.size:
             return out, errors
-        g, p = group[rest], p[rest]
-        which = self._start[g] + np.minimum(np.count_nonzero(self._upper[g] < p[:, None], axis=1), self._last[g])
-        errors[rest] = self._error[which]
-        share = np.clip((p - self._low[which]) / (self._high[which] - self._low[which]), 0.0, 1.0)
-        # cos(arccos) of the parameter 2/pi arcsin(sqrt(share)), as on the branch
-        x = 4 / np.pi * np.arcsin(np.sqrt(share)) - 1
-        for n, table in self._coefficients.items():
-            mine = np.flatnonzero(self._size[which] == n)
-            for start in range(0, mine.size, _CHUNK):
-                some = mine[start : start + _CHUNK]
-                out[rest[some]] = _clenshaw(table, self._place[which[some]], x[some])
+        # few at a time: their coefficients stay in the cache
+        for start in range(0, rest.size, _CHUNK):
+            some = rest[start : start + _CHUNK]
+            out[some], errors[some] = self._between(group[some], p[some])
         return out, errors
 
-
-def _clenshaw(table, index, x):
-    twice = 2 * x[:, None]
-    one = two = 0.0
-    for k in range(table.shape[1] - 1, 0, -1):
-        one, two = table[index, k] + twice * one - two, one
-    return table[index, 0] + x[:, None] * one - two
+    def _between(self, g, p):
+        which = self._start[g] + np.minimum(np.count_nonzero(self._upper[g] < p[:, None], axis=1), self._last[g])
+        share = np.clip((p - self._low[which]) / (self._high[which] - self._low[which]), 0.0, 1.0)
+        u = parameter(share)
+        cell = self._cell[which, slot(u)]
+        return clenshaw(self._coefficients[cell], within(u, self._from[cell], self._size[cell])), self._error[which]
 
 
 def _padded(rows, value):

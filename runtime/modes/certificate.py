@@ -1,8 +1,9 @@
 """What a strip with several times must satisfy before it is returned.
 
-The ordered iteration has enclosed the extremal orbit between two states; the boundary equations have been solved to rounding. What is left to
-show is that the solved edges are an orbit of the strip, are enclosed, and are stable. The first is shown by marching one turn from the
-orbit's own state: every event must be met first, in order, where the edges say.
+The ordered iteration has enclosed the extremal orbit between two states; the boundary equations have been solved to
+rounding. What is left to show is that the solved edges are an orbit of the strip, are enclosed, and are stable. The
+first is shown by marching one turn from the orbit's own state: every event must be met first, in order, where the edges
+say.
 """
 
 from __future__ import annotations
@@ -20,7 +21,8 @@ _STABLE = 1e-6
 
 
 def marched(kernel, sequence: str, s: ModeStrips, edges: np.ndarray, allowed: np.ndarray) -> np.ndarray:
-    """Whether a turn from the first edge meets just the other edges, in order, within ``allowed``; edges (k, N) in the order met."""
+    """Whether a turn from the first edge meets just the other edges, in order, within ``allowed``; edges (k, N) in the
+    order met."""
     z = getattr(kernel, f"state_{sequence}")(*edges, *arguments(s))
     first = edges[0]
     period = march(kernel, s, np.ones(s.size, bool), z, first)

@@ -1,9 +1,10 @@
 """Pressure in the contact of strips with several times: its extremes, and where it passes a given value.
 
-In contact ``p = saturated field - C`` where C sums decaying exponentials. On a periodic orbit w is nowhere below the profile, so every dashpot
-displacement is at or above its value in saturated contact, and the terms of C are all positive. Then ``p' = (harmonic) + |C'|``, and where the
-harmonic falls it is ``-sin``, log-concave, against a log-convex ``|C'|``: p falls on one interval of a period at most. A contact ends while p
-falls, so p rises to its peak and falls from there: each value is passed once either way, as with one time.
+In contact ``p = saturated field - C`` where C sums decaying exponentials. On a periodic orbit w is nowhere below the
+profile, so every dashpot displacement is at or above its value in saturated contact, and the terms of C are all
+positive. Then ``p' = (harmonic) + |C'|``, and where the harmonic falls it is ``-sin``, log-concave, against a
+log-convex ``|C'|``: p falls on one interval of a period at most. A contact ends while p falls, so p rises to its peak
+and falls from there: each value is passed once either way, as with one time.
 """
 
 from __future__ import annotations
@@ -15,13 +16,14 @@ from hystrip.strip.crossing import crossing
 from hystrip.strip.regimes import CODE
 
 from .fields import zones_of
+from .problem import pick
 
 
 class ModeContact:
     """Contact intervals of the strips ``index`` in phase, with the pressure in Pa inside them; as ``level`` asks for it.
 
-    ``b``, ``a``: first and last phase (of saturated contact: a period around its peak), ``top``: phase of the peak ``p_peak``; ``p_least``: pressure
-    at ``b``.
+    ``b``, ``a``: first and last phase (of saturated contact: a period around its peak), ``top``: phase of the peak
+    ``p_peak``; ``p_least``: pressure at ``b``.
     """
 
     def __init__(self, kernel, strips, index):
@@ -67,12 +69,13 @@ class ModeContact:
         part = np.flatnonzero(~self.full[rows])
         if part.size:
             i = rows[part]
-            q, dq = self.kernel.excess_event(phase[part], *(_pick(c, i) for c in self.constants))
+            q, dq = self.kernel.excess_event(phase[part], *(pick(c, i) for c in self.constants))
             p[part], slope[part] = q - self.s.p_0[i], dq
         return p, slope
 
     def _top(self):
-        """Phase of the greatest pressure: the slope falls through zero once between entry and exit, where it is not negative from the start."""
+        """Phase of the greatest pressure: the slope falls through zero once between entry and exit, where it is not
+        negative from the start."""
         top = self.centre.copy()
         i = np.flatnonzero(~self.full)
         if not i.size:
@@ -112,7 +115,3 @@ class ModeContact:
         inside = np.isin(part, i)
         found[inside], _ = crossing(excess, first[i], last[i])
         return found
-
-
-def _pick(value, index):
-    return value if np.ndim(value) == 0 or value.shape[-1] == 1 else value[..., index]

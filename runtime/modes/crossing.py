@@ -1,14 +1,16 @@
 """First crossings of sums of exponentials and one harmonic, for a whole batch at once, approached from one side.
 
-Every event of a strip is a zero of ``G(s) = constant + a cos s + b sin s + sum_i c_i exp(-(s - start) r_i)``. With several times its
-zeros lie in no closed-form arcs. But where G > 0 two parabolas bound it from below at all later phases:
+Every event of a strip is a zero of ``G(s) = constant + a cos s + b sin s + sum_i c_i exp(-(s - start) r_i)``. With
+several times its zeros lie in no closed-form arcs. But where G > 0 two parabolas bound it from below at all later
+phases:
 
-* a decaying term with ``c > 0`` is convex: its tangent lies below it; one with ``c < 0`` only rises. So with the slopes of the harmonic and of
-  the positive terms alone G lies above ``G + slope t - hypot(a, b) t^2/2``;
-* with the slopes of all terms it lies above the parabola whose curvature also takes in ``|c| r^2`` of the negative terms, which only falls.
+* a decaying term with ``c > 0`` is convex: its tangent lies below it; one with ``c < 0`` only rises. So with the slopes
+  of the harmonic and of the positive terms alone G lies above ``G + slope t - hypot(a, b) t^2/2``;
+* with the slopes of all terms it lies above the parabola whose curvature also takes in ``|c| r^2`` of the negative
+  terms, which only falls.
 
-Stepping to the farther of their zeros approaches the first zero of G, cannot pass it, and converges like Newton's method where it is simple.
-No sign of any coefficient is assumed, and nothing is sampled.
+Stepping to the farther of their zeros approaches the first zero of G, cannot pass it, and converges like Newton's
+method where it is simple. No sign of any coefficient is assumed, and nothing is sampled.
 """
 
 from __future__ import annotations
@@ -16,6 +18,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+
+from .problem import pick
 
 NONE, LOWER, UPPER, LOST = 0, 1, 2, -1
 #: a step this small is below what the phase can be known to
@@ -26,7 +30,8 @@ _MAX_STEPS = 600
 
 @dataclass(slots=True)
 class Field:
-    """``value = constant + a cos s + b sin s + sum_i c_i exp(-(s - start) r_i)`` of N strips: (N,), and (n, N) for ``c`` and ``r``."""
+    """``value = constant + a cos s + b sin s + sum_i c_i exp(-(s - start) r_i)`` of N strips: (N,), and (n, N) for
+    ``c`` and ``r``."""
 
     start: np.ndarray
     constant: np.ndarray
@@ -36,15 +41,15 @@ class Field:
     r: np.ndarray
 
     def take(self, index) -> Field:
-        r = self.r if self.r.shape[-1] == 1 else self.r[:, index]
-        return Field(self.start[index], self.constant[index], self.a[index], self.b[index], self.c[:, index], r)
+        one = self.start[index], self.constant[index], self.a[index], self.b[index]
+        return Field(*one, self.c[:, index], pick(self.r, index))
 
 
 def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
     """Where ``field``, in between at its start, first leaves the range from 0 to ``height`` (inf: no upper limit) before ``end``.
 
-    Returns phases (``end`` where it stays inside), which limit was met (``NONE``, ``LOWER``, ``UPPER``; ``LOST`` where the search did not
-    end), the slope of the field there, and the evaluations each took; all of shape (N,).
+    Returns phases (``end`` where it stays inside), which limit was met (``NONE``, ``LOWER``, ``UPPER``; ``LOST`` where
+    the search did not end), the slope of the field there, and the evaluations each took; all of shape (N,).
     """
     n = end.size
     s, which, slope_there, spent = field.start.copy(), np.full(n, LOST), np.zeros(n), np.zeros(n)
@@ -73,7 +78,8 @@ def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
 
 
 def _safe_step(f: Field, s, height, size):
-    """A step over which the field stays in its range, whether the lower limit bounds it, the field's slope at ``s`` and its distance from that limit."""
+    """A step over which the field stays in its range, whether the lower limit bounds it, the field's slope at ``s`` and
+    its distance from that limit."""
     cosine, sine = np.cos(s), np.sin(s)
     lag = s - f.start
     term = f.c * np.exp(-lag * f.r)
@@ -101,7 +107,8 @@ def _safe_step(f: Field, s, height, size):
 
 
 def _reach(value, slope, curvature):
-    """Zero of ``value + slope t - curvature t^2/2`` that follows t = 0; 0 where the value is not positive but for a rise from zero."""
+    """Zero of ``value + slope t - curvature t^2/2`` that follows t = 0; 0 where the value is not positive but for a
+    rise from zero."""
     safe = np.maximum(value, 0.0)
     root = np.sqrt(slope * slope + 2 * curvature * safe)
     rising = slope > 0

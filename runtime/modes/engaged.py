@@ -1,7 +1,8 @@
 """The one orbit of a strip that is never released, by Newton's method on its period map.
 
-Without release ``w = u + max(z - u - J_0 p_0, 0)`` is a convex function of the state, so the period map is convex and monotone: each Newton step
-from below lands below the fixed point again, higher up. It cannot miss, and near the orbit it converges quadratically.
+Without release ``w = u + max(z - u - J_0 p_0, 0)`` is a convex function of the state, so the period map is convex and
+monotone: each Newton step from below lands below the fixed point again, higher up. It cannot miss, and near the orbit
+it converges quadratically.
 """
 
 from __future__ import annotations
@@ -40,7 +41,9 @@ def engaged_orbit(kernel, strips: ModeStrips, start) -> tuple[np.ndarray, Period
         size = np.abs(step).max(axis=0)
         usable = np.isfinite(size)
         z[:, active[usable]] += here.to_z(step)[:, usable]
-        done = usable & ((size <= 64 * _EPS * sub.size_of_lengths) | ((size < 1e-10 * sub.size_of_lengths) & (size >= 0.5 * last[active])))
+        done = usable & (
+            (size <= 64 * _EPS * sub.size_of_lengths) | ((size < 1e-10 * sub.size_of_lengths) & (size >= 0.5 * last[active]))
+        )
         last[active] = size
         active = active[~done & usable]
         if not active.size:

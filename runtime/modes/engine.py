@@ -1,7 +1,9 @@
-"""The extremal periodic orbit of every strip of a batch with several relaxation times; the same answers as ``strip.engine`` gives for one.
+"""The extremal periodic orbit of every strip of a batch with several relaxation times; the same answers as
+``strip.engine`` gives for one.
 
-Why the orbits are extremal is shown in ``order``. ``unloading`` takes the always engaged orbit where it is admissible, else the first orbit above
-it; ``loading`` the free orbit where it is admissible, else the first orbit below ``max(D, 0)``.
+Why the orbits are extremal is shown in ``order``. ``unloading`` takes the always engaged orbit where it is admissible,
+else the first orbit above it; ``loading`` the free orbit where it is admissible, else the first orbit below
+``max(D, 0)``.
 """
 
 from __future__ import annotations
@@ -10,8 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from hystrip.strip.solved import Solved
 from hystrip.strip.regimes import CODE
+from hystrip.strip.solved import Solved
 
 from .certificate import enclosed, marched, stable
 from .engaged import engaged_orbit
@@ -38,7 +40,8 @@ def solve_modes(kernel, strips: ModeStrips, unloading: bool) -> Solved:
         index = np.flatnonzero(~solved.certified)
         if not index.size:
             break
-        # which side of a branch's end these are on is below the rounding of the inputs: they get the solution of the side it is followed to
+        # which side of a branch's end these are on is below the rounding of the inputs: they get the solution of the
+        # side it is followed to
         these = strips.take(index)
         shift = roundings * _EPS * these.size_of_lengths
         again = _Batch(kernel, replace(these, D=these.D + (shift if unloading else -shift)), unloading).solve()
@@ -162,7 +165,12 @@ class _Batch:
         limit = _CONVERGED + _ROUNDINGS * np.minimum(refined.attainable, _COARSEST)
         allowed = 1e-7 + limit
         e = refined.edges
-        ok = good & (refined.correction <= limit) & np.all(np.diff(e, axis=0) >= -64 * _EPS, axis=0) & (e[-1] - e[0] <= TWO_PI + 64 * _EPS)
+        ok = (
+            good
+            & (refined.correction <= limit)
+            & np.all(np.diff(e, axis=0) >= -64 * _EPS, axis=0)
+            & (e[-1] - e[0] <= TWO_PI + 64 * _EPS)
+        )
         ok &= enclosed(e, lower, upper, slack + allowed)
         i = np.flatnonzero(ok)
         ok[i] = marched(self.kernel, equations, s.take(i), e[:, i], allowed[i])

@@ -45,7 +45,8 @@ def _with_edges(kernel, sequence, s: ModeStrips, solved: Solved, index, phase):
 
 
 def zones_of(kernel, sequence, s: ModeStrips, edges):
-    """Zones of an orbit in the order met: letter, start, and the overstress (contact) or the state z (elsewhere) there, (n, N)."""
+    """Zones of an orbit in the order met: letter, start, and the overstress (contact) or the state z (elsewhere) there,
+    (n, N)."""
     zones, _ = ZONES[sequence]
     z = getattr(kernel, f"state_{'ac' if sequence == 'cf' else sequence}")(*edges, *arguments(s))
     for i, (zone, start) in enumerate(zip(zones, edges, strict=True)):

@@ -8,10 +8,10 @@ import numpy as np
 
 from hystrip.errors import InputError
 from hystrip.inputs.model import ModelMaterial, modes_of
-from hystrip.strip.solved import Solved
 from hystrip.strip.flat import is_flat, solve_flat
 from hystrip.strip.regimes import CODE
 from hystrip.strip.solution import refuse_uncertified
+from hystrip.strip.solved import Solved
 
 from .engine import solve_modes
 from .fields import fields
@@ -63,7 +63,9 @@ class ManyTimes:
             m = self.kernel.at_speed(self.modes, k * V)
             longest = np.broadcast_to(m.beta.max(axis=0), l.shape)
         if np.any(longest > _GROUP_LIMIT):
-            raise InputError("V", float(V[longest > _GROUP_LIMIT][0]), f"k V times the longest retardation time at most {_GROUP_LIMIT:g}")
+            raise InputError(
+                "V", float(V[longest > _GROUP_LIMIT][0]), f"k V times the longest retardation time at most {_GROUP_LIMIT:g}"
+            )
         flat = is_flat(A, longest, D, p_0 / K, delta_0)
         unit = np.where(flat, 1.0, A)
         strips = ModeStrips(m, p_0 / K / unit, delta_0 / unit, D / unit)
@@ -109,7 +111,8 @@ class ManyTimes:
         return self.kernel.level_saturation_friction(self.K, self.modes, l, h, V).reshape(shape)
 
     def surely_saturated(self, p_0, l, h, V):  # noqa: E741
-        """Contact pressure is at least ``K u - sum K_i (e_i - u)`` with no e_i above D: positive excess all along whatever the state."""
+        """Contact pressure is at least ``K u - sum K_i (e_i - u)`` with no e_i above D: positive excess all along
+        whatever the state."""
         worst = 0.5 * h * 2 / float(self.modes.J_0[0]) - p_0 / self.K
         return np.maximum(np.full(np.shape(V), worst), h)
 
@@ -120,4 +123,3 @@ def _of_prony(kernel, material):
         return modes_of(kernel, {"K": np.ravel(material.K), "K_i": column(material.moduli), "tau_i": column(material.times)})
     column = lambda v: np.array(v, float)[:, None]  # noqa: E731
     return modes_of(kernel, {"K": np.array([material.K]), "K_i": column(material.moduli), "tau_i": column(material.times)})
-

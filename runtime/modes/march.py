@@ -10,19 +10,18 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .crossing import LOST, LOWER, NONE, Field, first_crossing
-from .problem import ModeStrips
+from .problem import ModeStrips, rates
 
 TWO_PI = 2 * np.pi
 CONTACT, ADHESION, FREE = 0, 1, 2
 LETTERS = "caf"
-#: rates are capped here: an exponential is gone before the next double precision phase
-_FASTEST = 1e13
 _MAX_ZONES = 24
 
 
 @dataclass(slots=True)
 class Zone:
-    """A zone of the strips ``index``: its letter's code, start, end (m,), state at the start ``z`` (n, m), and the next letter (-1: period over)."""
+    """A zone of the strips ``index``: its letter's code, start, end (m,), state at the start ``z`` (n, m), and the next
+    letter (-1: period over)."""
 
     index: np.ndarray
     letter: np.ndarray
@@ -37,10 +36,11 @@ class Zone:
 class Period:
     """A period of N points. ``dz``: change of the state (accurate also where it is small), (n, N).
 
-    ``onset``, ``entry``, ``exit``, ``release``: phase of the last of each event, NaN where none; ``onsets``, ``contacts``, ``releases``: how
-    many. ``z_onset``, ``z_release``: state there. ``slope_onset``, ``slope_release``: of the gap just before.
-    ``from_onset``, ``from_release``: where the zone began that the event ends, ``z_from_onset``, ``z_from_release``: state there;
-    ``until_onset``, ``until_release``: where the zone ends that the event begins, ``smooth_onset``, ``smooth_release``: that is a gap zone, too. ``lost``: not followed to the end.
+    ``onset``, ``entry``, ``exit``, ``release``: phase of the last of each event, NaN where none; ``onsets``,
+    ``contacts``, ``releases``: how many. ``z_onset``, ``z_release``: state there. ``slope_onset``, ``slope_release``:
+    of the gap just before. ``from_onset``, ``from_release``: where the zone began that the event ends,
+    ``z_from_onset``, ``z_from_release``: state there; ``until_onset``, ``until_release``: where the zone ends that the
+    event begins, ``smooth_onset``, ``smooth_release``: that is a gap zone, too. ``lost``: not followed to the end.
     """
 
     engaged_before: np.ndarray
@@ -135,14 +135,14 @@ def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, o
         f.constant[touching] = t.p_0 + (t.D - 1)
         f.a[touching], f.b[touching] = kernel.storage(t.m), -kernel.loss(t.m)
         f.c[:, touching] = entry - kernel.saturated_overstress(start[touching], t.m)
-        f.r[:, touching] = _rates(t.m.alpha)
+        f.r[:, touching] = rates(t.m.alpha)
     if apart.size:
         t = s.take(apart)
         level = np.where(letter[apart] == FREE, t.delta_0, 0.0)
         f.constant[apart] = p[apart] - (t.D - 1) - level
         f.a[apart] = -1.0
         f.c[:, apart] = z[:, apart] - t.m.J * p[apart]
-        f.r[:, apart] = _rates(t.m.beta)
+        f.r[:, apart] = rates(t.m.beta)
     releasable = (letter == ADHESION) & (not s.bare)
     height = np.where(releasable, s.delta_0, np.inf)
     end, which, slope, spent = first_crossing(f, limit, height)
@@ -155,16 +155,14 @@ def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, o
         t, i = s.take(apart), apart
         out.dz[:, index[i]] += kernel.relaxation_increment(start[i], end[i], z[:, i], p[i], t.m)
     snaps = s.step >= s.delta_0
-    met = np.where(contact, ADHESION, np.where(letter == FREE, np.where(snaps, CONTACT, ADHESION), np.where(which == LOWER, CONTACT, FREE)))
+    met = np.where(
+        contact, ADHESION, np.where(letter == FREE, np.where(snaps, CONTACT, ADHESION), np.where(which == LOWER, CONTACT, FREE))
+    )
     following = np.where((which == NONE) | (which == LOST), -1, met)
     snapped = (letter == FREE) & (following == CONTACT)
     reach = np.divide(s.delta_0, s.m.J_0, out=np.zeros(m), where=snapped)
     pressure = np.where(snapped, -reach, -s.p_0)
     return Zone(index, letter, start, end, z, slope, following), pressure
-
-
-def _rates(times):
-    return np.minimum(np.divide(1.0, times, out=np.full(times.shape, _FASTEST), where=times > 1 / _FASTEST), _FASTEST)
 
 
 def _note(out: Period, zone: Zone, z_end):
@@ -185,9 +183,10 @@ def _note(out: Period, zone: Zone, z_end):
     out.slope_onset[i[onset]], out.slope_release[i[release]] = zone.slope[onset], zone.slope[release]
     out.z_onset[:, i[onset]], out.z_release[:, i[release]] = z_end[:, onset], z_end[:, release]
     begun = zone.start == out.onset[i], zone.start == out.release[i]  # by the event before this zone
-    for which, until, smooth in zip(begun, (out.until_onset, out.until_release), (out.smooth_onset, out.smooth_release), strict=True):
+    for which, until, smooth in zip(
+        begun, (out.until_onset, out.until_release), (out.smooth_onset, out.smooth_release), strict=True
+    ):
         until[i[which]], smooth[i[which]] = zone.end[which], letter[which] != CONTACT
     out.from_onset[i[onset]], out.from_release[i[release]] = zone.start[onset], zone.start[release]
     out.z_from_onset[:, i[onset]], out.z_from_release[:, i[release]] = zone.z[:, onset], zone.z[:, release]
     out.engaged[i[onset]], out.engaged[i[release]] = True, False
-

@@ -1,35 +1,43 @@
 r"""What is extremal with an n-dimensional state, and the ordered iteration that finds it.
 
-Claim. Under ``constitutive`` the motion of a material point preserves the order "engaged before free, then every dashpot displacement
-ascending": ``(h, e) <= (h', e')`` if ``e_i <= e_i'`` for all i and ``h`` is engaged or ``h'`` free.
+Claim. Under ``constitutive`` the motion of a material point preserves the order "engaged before free, then every
+dashpot displacement ascending": ``(h, e) <= (h', e')`` if ``e_i <= e_i'`` for all i and ``h`` is engaged or ``h'``
+free.
 
-Proof. Let ``z = J_0 sum K_i e_i`` (in units of K), ``y = z - u``. The dashpots obey ``alpha_i e_i' = w - e_i``, ``w = z + J_0 p``.
+Proof. Let ``z = J_0 sum K_i e_i`` (in units of K), ``y = z - u``. The dashpots obey ``alpha_i e_i' = w - e_i``,
+``w = z + J_0 p``.
 
-1. *The traction is a relay in y.* Free means p = 0, gap = y, and lasts until the gap falls to delta_0: ``y = delta_0``. Engaged means contact
-   (``w = u``, p = -y/J_0 >= -p_0, that is ``y <= J_0 p_0``) or adhesion (``p = -p_0``, gap ``y - J_0 p_0`` from 0 to delta_0): it lasts until
-   ``y = delta_0 + J_0 p_0``. Contact begins and ends, without hysteresis, at ``y = J_0 p_0``; at an onset that lies at or above delta_0 (the
-   snap-in) the point is in contact at once. No other memory: the state is (h, e), and e is continuous.
-2. *w is nondecreasing in every e_i and in h.* Engaged ``w = u + max(y - J_0 p_0, 0)``, free ``w = u + y``, both nondecreasing in y, and y in each
-   e_i. For an engaged state below a free one, ``y <= y'`` and ``y' >= delta_0 >= 0`` (or y' would have been engaged), so
-   ``u + max(y - J_0 p_0, 0) <= u + y'``. Nothing of this holds for ``continuous``, which leaves n - 1 conditions open where p steps.
-3. *The flow is cooperative.* Hence the right-hand sides ``w - e_i`` do not fall when another ``e_j`` rises: between events ordered states stay
-   ordered (Kamke). At an event: the lower state's y reaches delta_0 no later and ``delta_0 + J_0 p_0`` no earlier than the upper's, so it is
-   engaged whenever the upper is. Events are finitely many, since the two thresholds are ``J_0 p_0 > 0`` apart and y is Lipschitz.
+1. *The traction is a relay in y.* Free means p = 0, gap = y, and lasts until the gap falls to delta_0: ``y = delta_0``.
+   Engaged means contact (``w = u``, p = -y/J_0 >= -p_0, that is ``y <= J_0 p_0``) or adhesion (``p = -p_0``, gap
+   ``y - J_0 p_0`` from 0 to delta_0): it lasts until ``y = delta_0 + J_0 p_0``. Contact begins and ends, without
+   hysteresis, at ``y = J_0 p_0``; at an onset that lies at or above delta_0 (the snap-in) the point is in contact at
+   once. No other memory: the state is (h, e), and e is continuous.
+2. *w is nondecreasing in every e_i and in h.* Engaged ``w = u + max(y - J_0 p_0, 0)``, free ``w = u + y``, both
+   nondecreasing in y, and y in each e_i. For an engaged state below a free one, ``y <= y'`` and ``y' >= delta_0 >= 0``
+   (or y' would have been engaged), so ``u + max(y - J_0 p_0, 0) <= u + y'``. Nothing of this holds for ``continuous``,
+   which leaves n - 1 conditions open where p steps.
+3. *The flow is cooperative.* Hence the right-hand sides ``w - e_i`` do not fall when another ``e_j`` rises: between
+   events ordered states stay ordered (Kamke). At an event: the lower state's y reaches delta_0 no later and
+   ``delta_0 + J_0 p_0`` no earlier than the upper's, so it is engaged whenever the upper is. Events are finitely many,
+   since the two thresholds are ``J_0 p_0 > 0`` apart and y is Lipschitz.
 
 Consequences. The period map P is monotone, in D too (in the coordinates e - D). Below and above all orbits lie
 
 * the always engaged orbit E of the strip in which release is put out of action: its map never exceeds P, and contracts
-  (``w - w'`` is at most ``sum K_i/K_g`` of the largest ``e_i - e_i'``), so E is unique. If its gap stays within delta_0 it is the most engaged orbit;
+  (``w - w'`` is at most ``sum K_i/K_g`` of the largest ``e_i - e_i'``), so E is unique. If its gap stays within delta_0
+  it is the most engaged orbit;
 * ``e_i = max(D, 0)``, free: no w can exceed ``max(D, (1 - J_0) max e)``.
 
-So iterates from E rise to the most engaged orbit and those from above fall to the least engaged one. For n >= 2 unordered orbits, even of
-longer periods, are not excluded by monotony alone; all lie between these two. With n = 1 this is the order of ``strip.engine``.
+So iterates from E rise to the most engaged orbit and those from above fall to the least engaged one. For n >= 2
+unordered orbits, even of longer periods, are not excluded by monotony alone; all lie between these two. With n = 1 this
+is the order of ``strip.engine``.
 
-Acceleration. Let M be a lower bound of the derivative of P between x and every orbit above it, ``r = P(x) - x >= 0``. Then every orbit
-``e* >= x`` obeys ``e* - x = P(e*) - x >= r + M (e* - x)``, so ``e* >= x + (I - M)^-1 r``, which again is mapped upwards. Jumps of P are upwards and
-only add. Such M: the contacts of x itself are the longest there are, and the gains at onset and release are not negative. Where M holds in a
-window ``[x, x + Delta]`` only, the step is cut to stay inside; if ``r + M Delta >= Delta`` the whole window holds no orbit. From above all is
-mirrored. A window whose far end is mapped inwards holds the extremal orbit: it is left to ``polish`` when it is narrow.
+Acceleration. Let M be a lower bound of the derivative of P between x and every orbit above it, ``r = P(x) - x >= 0``.
+Then every orbit ``e* >= x`` obeys ``e* - x = P(e*) - x >= r + M (e* - x)``, so ``e* >= x + (I - M)^-1 r``, which again
+is mapped upwards. Jumps of P are upwards and only add. Such M: the contacts of x itself are the longest there are, and
+the gains at onset and release are not negative. Where M holds in a window ``[x, x + Delta]`` only, the step is cut to
+stay inside; if ``r + M Delta >= Delta`` the whole window holds no orbit. From above all is mirrored. A window whose far
+end is mapped inwards holds the extremal orbit: it is left to ``polish`` when it is narrow.
 """
 
 from __future__ import annotations
@@ -55,8 +63,8 @@ _STATES = ("dz", "z_onset", "z_release", "z_from_onset", "z_from_release")
 
 @dataclass(slots=True)
 class Approach:
-    """How the ordered iteration ended for N strips: ``kind`` (ENGAGED, FREE, ORBIT between ``lower`` and ``upper``, UNRESOLVED); edges of both
-    ends, (4, N) in the order d, b, a, c; and the work spent."""
+    """How the ordered iteration ended for N strips: ``kind`` (ENGAGED, FREE, ORBIT between ``lower`` and ``upper``,
+    UNRESOLVED); edges of both ends, (4, N) in the order d, b, a, c; and the work spent."""
 
     kind: np.ndarray
     lower: np.ndarray
@@ -68,16 +76,17 @@ class Approach:
 def approach(kernel, s: ModeStrips, lowest: np.ndarray, start, rising: bool, floor: np.ndarray | None) -> Approach:
     """Iterate from below (``rising``) or above every orbit to the first one.
 
-    ``lowest``: state z of the always engaged orbit, (n, N) at the phases ``start``. ``floor``: for falling iterates, a lower bound of the map's
-    derivative less the identity, (N, n, n): that of the always engaged orbit, which has the longest contact.
+    ``lowest``: state z of the always engaged orbit, (n, N) at the phases ``start``. ``floor``: for falling iterates, a
+    lower bound of the map's derivative less the identity, (N, n, n): that of the always engaged orbit, which has the
+    longest contact.
     """
     N = s.size
     out = Approach(np.full(N, UNRESOLVED), np.full((4, N), np.nan), np.full((4, N), np.nan), np.zeros(N), np.zeros(N, int))
     order = Order.of(kernel, s)
     low, high = order.to_e(lowest), np.broadcast_to(np.maximum(s.D, 0.0), lowest.shape)
     z, other = (lowest.copy(), high) if rising else (order.to_z(high), low)
-    state = _State(np.arange(N), s, order, np.full(N, rising), z, np.array(start, float), floor, np.full(N, 8.0), np.full(N, _LEAST),
-                   np.maximum(high - low, 0.0), other)  # fmt: skip
+    state = _State(np.arange(N), s, order, np.full(N, rising), z, np.array(start, float), floor, np.full(N, 8.0),
+                   np.full(N, _LEAST), np.maximum(high - low, 0.0), other)  # fmt: skip
     for _ in range(_STEPS):
         if not state.index.size:
             break
@@ -87,8 +96,9 @@ def approach(kernel, s: ModeStrips, lowest: np.ndarray, start, rising: bool, flo
 
 @dataclass(slots=True)
 class _State:
-    """Strips still on their way. ``reach``: factor by which a window may exceed the plain step; ``least``: its least width; ``room``: distance to
-    a state known to lie beyond the orbit, in e; ``other``: the one known from the start."""
+    """Strips still on their way. ``reach``: factor by which a window may exceed the plain step; ``least``: its least
+    width; ``room``: distance to a state known to lie beyond the orbit, in e; ``other``: the one known from the
+    start."""
 
     index: np.ndarray
     s: ModeStrips
@@ -142,7 +152,9 @@ def _step(kernel, st: _State, i, near: Period, sign: float, out: Approach):
     far = march(kernel, s, sub.engaged, sub.z + sign * order.to_z(window), sub.start)
     out.evaluations[sub.index] += far.evaluations
     lower, upper = (near, far) if sign > 0 else (far, near)
-    alike = (near.engaged == far.engaged) & (lower.onsets == 1) & (upper.onsets == 1) & (lower.releases == 1) & (upper.releases == 1)
+    alike = (
+        (near.engaged == far.engaged) & (lower.onsets == 1) & (upper.onsets == 1) & (lower.releases == 1) & (upper.releases == 1)
+    )
     bound = propagation(s, order, lower, least_gains(s, order, lower, upper, alike))
     inner = _valid(solve_order(bound, r))
     wanted = np.max(np.divide(inner, window, out=np.zeros_like(inner), where=window > 0), axis=0)
@@ -171,7 +183,8 @@ def _step(kernel, st: _State, i, near: Period, sign: float, out: Approach):
 
 
 def _window(sure, newton, reach):
-    """Width of the window to look at: a little more than Newton's step where that makes sense, at most ``reach`` times the sure step."""
+    """Width of the window to look at: a little more than Newton's step where that makes sense, at most ``reach`` times
+    the sure step."""
     widest = reach * sure
     good = np.all(np.isfinite(newton) & (newton >= sure * (1 - 1e-6)), axis=0)
     ratio = np.divide(widest, newton, out=np.full(sure.shape, np.inf), where=(newton > 0) & good)
@@ -180,7 +193,8 @@ def _window(sure, newton, reach):
 
 
 def _inward(change):
-    """A direction, of largest component one, in which the linearised map shortens every component alike compared with what is forgotten anyway."""
+    """A direction, of largest component one, in which the linearised map shortens every component alike compared with
+    what is forgotten anyway."""
     forgotten = -np.minimum(np.diagonal(change, axis1=1, axis2=2), 0.0).T
     v = solve_order(change, np.maximum(forgotten, 1e-300))
     good = np.all(np.isfinite(v) & (v > 0), axis=0)

@@ -16,7 +16,8 @@ _EPS = np.finfo(float).eps
 
 @dataclass(slots=True)
 class Polished:
-    """Edges (k, N); ``correction`` (N,): the last step; ``attainable`` (N,): how well rounding lets the edges be known; ``evaluations`` (N,)."""
+    """Edges (k, N); ``correction`` (N,): the last step; ``attainable`` (N,): how well rounding lets the edges be known;
+    ``evaluations`` (N,)."""
 
     edges: np.ndarray
     correction: np.ndarray
@@ -30,7 +31,8 @@ def arguments(s: ModeStrips):
 
 
 def polish(kernel, sequence: str, strips: ModeStrips, edges: np.ndarray, low: np.ndarray, high: np.ndarray) -> Polished:
-    """Refine ``edges`` (k, N) of strips that all are in the regime ``sequence``, kept between ``low`` and ``high`` and in order."""
+    """Refine ``edges`` (k, N) of strips that all are in the regime ``sequence``, kept between ``low`` and ``high`` and
+    in order."""
     residual, jacobian = (getattr(kernel, f"{what}_{sequence}") for what in ("residual", "jacobian"))
     edges = edges.copy()
     N = strips.size
@@ -72,7 +74,9 @@ def _inverse(matrix):
     """Inverses, NaN where there is none."""
     scale = np.abs(matrix).max(axis=2, keepdims=True)
     good = (np.isfinite(scale) & (scale > 0)).all(axis=(1, 2))
-    safe = np.where(good[:, None, None], np.divide(matrix, scale, out=np.zeros_like(matrix), where=scale > 0), np.eye(matrix.shape[1]))
+    safe = np.where(
+        good[:, None, None], np.divide(matrix, scale, out=np.zeros_like(matrix), where=scale > 0), np.eye(matrix.shape[1])
+    )
     singular = np.abs(np.linalg.det(safe)) < 1e-250
     safe[singular] = np.eye(matrix.shape[1])
     inverse = np.linalg.inv(safe) / np.where(good[:, None, None], np.swapaxes(scale, 1, 2), 1.0)

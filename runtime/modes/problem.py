@@ -6,13 +6,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+#: the greatest rate of decay
+_FASTEST = 1e13
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ModeStrips:
     """Dimensionless groups of N strips: lengths in A, pressures in K A, times in 1/(k V).
 
-    ``m``: the kernel's ``Modes`` at the strips' speeds, per-mode arrays (n, N) or, where all strips share one material, (n, 1) and
-    matrices (n, n, 1). ``p_0``, ``delta_0``, ``D``: shape (N,). ``bare``: nothing is ever released.
+    ``m``: the kernel's ``Modes`` at the strips' speeds, per-mode arrays (n, N) or, where all strips share one material,
+    (n, 1) and matrices (n, n, 1). ``p_0``, ``delta_0``, ``D``: shape (N,). ``bare``: nothing is ever released.
     """
 
     m: tuple
@@ -49,10 +52,21 @@ class ModeStrips:
         return ModeStrips(take_modes(self.m, index), self.p_0[index], self.delta_0[index], self.D[index], self.bare)
 
     def raised(self) -> ModeStrips:
-        """The strips that are never released, seen from ``-p_0``: adding ``p_0`` to w, p and every e leaves the foundation's law unchanged."""
+        """The strips that are never released, seen from ``-p_0``: adding ``p_0`` to w, p and every e leaves the
+        foundation's law unchanged."""
         return ModeStrips(self.m, np.zeros(self.size), np.zeros(self.size), self.D + self.p_0, bare=True)
 
 
+def pick(value, index):
+    """What belongs to the strips ``index`` of the last axis; a value or an axis of length one is shared and stays."""
+    return value if np.ndim(value) == 0 or value.shape[-1] == 1 else value[..., index]
+
+
 def take_modes(m, index):
-    """``Modes`` at ``index`` of the last axis; an axis of length one is shared by all strips and stays."""
-    return type(m)(*(a if a.shape[-1] == 1 else a[..., index] for a in m))
+    """``Modes`` at ``index`` of the last axis."""
+    return type(m)(*(pick(a, index) for a in m))
+
+
+def rates(times):
+    """Rates of decay ``1/times``, capped: beyond, an exponential is gone before the next double precision phase."""
+    return np.minimum(np.divide(1.0, times, out=np.full(times.shape, _FASTEST), where=times > 1 / _FASTEST), _FASTEST)

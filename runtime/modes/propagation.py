@@ -1,11 +1,13 @@
 """Derivative of the period map along a march, in the coordinates of the order (dashpot displacements e), and lower bounds of it.
 
-Between events a deviation of e is carried by ``diag exp(-length/alpha_i)`` in contact and by the relaxation of the gap elsewhere, which
-is the larger of the two in every entry. At an onset and at a release w steps, and an event met earlier or later adds
+Between events a deviation of e is carried by ``diag exp(-length/alpha_i)`` in contact and by the relaxation of the gap
+elsewhere, which is the larger of the two in every entry. At an onset and at a release w steps, and an event met earlier
+or later adds
 
     gain (1/alpha_i) g^T,    gain = step of w/|slope of the gap|,    z = g^T e,
 
-a matrix without negative entries. So the longest contact and the least gains of a range of states bound the derivative from below.
+a matrix without negative entries. So the longest contact and the least gains of a range of states bound the derivative
+from below.
 """
 
 from __future__ import annotations
@@ -15,14 +17,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from .march import ADHESION, CONTACT, FREE, TWO_PI, Period
-from .problem import ModeStrips
-
-_FASTEST = 1e13
+from .problem import ModeStrips, pick, rates
 
 
 @dataclass(slots=True)
 class Order:
-    """Coordinates of the order for a batch: ``z = share e``, ``e = back z`` (n, n, N or 1), ``g`` (n, N or 1): ``sum_j z_j = g . e``.
+    """Coordinates of the order for a batch: ``z = share e``, ``e = back z`` (n, n, N or 1), ``g`` (n, N or 1):
+    ``sum_j z_j = g . e``.
 
     ``rate``: ``1/alpha_i``, capped. ``gamma = sum g_i/alpha_i``.
     """
@@ -38,11 +39,10 @@ class Order:
         n = s.modes
         unit = np.eye(n)[:, :, None]
         back = np.stack([kernel.dashpots(unit[:, j], 0.0, m) for j in range(n)], axis=1)
-        rate = np.minimum(np.divide(1.0, m.alpha, out=np.full(m.alpha.shape, _FASTEST), where=m.alpha > 1 / _FASTEST), _FASTEST)
-        return cls(m.share, back, m.share.sum(axis=0), rate)
+        return cls(m.share, back, m.share.sum(axis=0), rates(m.alpha))
 
     def take(self, index) -> Order:
-        return Order(*(a if a.shape[-1] == 1 else a[..., index] for a in (self.share, self.back, self.g, self.rate)))
+        return Order(*(pick(a, index) for a in (self.share, self.back, self.g, self.rate)))
 
     @property
     def gamma(self) -> np.ndarray:
@@ -57,9 +57,11 @@ class Order:
 
 @dataclass(slots=True)
 class Gains:
-    """Rank-one terms at the onset and the release, each ``gain (column . rate) (row . g)^T``: gain (N,), column and row (n, N) or 1.
+    """Rank-one terms at the onset and the release, each ``gain (column . rate) (row . g)^T``: gain (N,), column and row
+    (n, N) or 1.
 
-    ``by_modes``: terms of ``across`` in place of these, where those hold; ``between``: lower bound of how the first of the two acts through the second.
+    ``by_modes``: terms of ``across`` in place of these, where those hold; ``between``: lower bound of how the first of
+    the two acts through the second.
     """
 
     onset: np.ndarray
@@ -74,7 +76,8 @@ class Gains:
 
 @dataclass(slots=True)
 class Across:
-    """A gain that acts on the state at the start of the gap zone that its event ends, and is felt at the end of the one it begins.
+    """A gain that acts on the state at the start of the gap zone that its event ends, and is felt at the end of the one
+    it begins.
 
     ``gain`` (N,), 0 where it does not hold; ``row``, ``column`` (n, N): lower bounds over all phases that the event may have.
     """
@@ -93,10 +96,12 @@ def exact_gains(s: ModeStrips, period: Period) -> Gains:
 
 
 def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period, alike: np.ndarray) -> Gains:
-    """Lower bounds of the gains of every state between those of two marches; 0 but where these are ``alike`` and meet each event once.
+    """Lower bounds of the gains of every state between those of two marches; 0 but where these are ``alike`` and meet
+    each event once.
 
-    Onsets lie between those of the two, releases too (the other way round). Placed where ``lower`` meets them: moving an event by ``delta``
-    multiplies its terms by no less than ``exp(-delta rate)`` componentwise or, against the flow, ``exp(-delta gamma)``.
+    Onsets lie between those of the two, releases too (the other way round). Placed where ``lower`` meets them: moving
+    an event by ``delta`` multiplies its terms by no less than ``exp(-delta rate)`` componentwise or, against the flow,
+    ``exp(-delta gamma)``.
     """
     late, early = _width(lower.onset, upper.onset), _width(upper.release, lower.release)
     gamma = np.broadcast_to(order.gamma, late.shape)
@@ -113,8 +118,8 @@ def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period, alike
     span = np.where(later, events[0][1] - events[1][0], events[1][1] - events[0][0])
     kicked = order.to_z(np.broadcast_to(order.rate, (s.modes, s.size)))
     between = np.maximum(_least_sum(kicked, s, np.where(later, gaps[0], gaps[1]), np.nan_to_num(span)), 0.0)
-    return Gains(np.where(taken[0], 0.0, onset), shrink(late), fading(late), np.where(taken[1], 0.0, release), fading(early), shrink(early),
-                 pair, between)  # fmt: skip
+    return Gains(np.where(taken[0], 0.0, onset), shrink(late), fading(late),
+                 np.where(taken[1], 0.0, release), fading(early), shrink(early), pair, between)  # fmt: skip
 
 
 def _across(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, onset: bool) -> Across:
@@ -132,7 +137,7 @@ def _across(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, ons
 
 def _least_sum(amplitudes, s: ModeStrips, short, long):
     """Lower bound of ``sum_j amplitude_j exp(-t/beta_j)`` for t from ``short`` to ``long``."""
-    rate = np.minimum(np.divide(1.0, s.m.beta, out=np.full(s.m.beta.shape, _FASTEST), where=s.m.beta > 1 / _FASTEST), _FASTEST)
+    rate = rates(s.m.beta)
     return (amplitudes * np.where(amplitudes > 0, np.exp(-long * rate), np.exp(-short * rate))).sum(axis=0)
 
 
@@ -149,7 +154,7 @@ def propagation(s: ModeStrips, order: Order, period: Period, gains: Gains | None
         X = eye + change[i]
         ripe = [each[i] for each in waiting]
         contact = zone.letter == CONTACT
-        times = np.where(contact, _pick(s.m.alpha, i), _pick(s.m.beta, i))
+        times = np.where(contact, pick(s.m.alpha, i), pick(s.m.beta, i))
         loss = np.expm1(-np.divide(length, times, out=np.full((n, i.size), 800.0), where=times > 0)).T
         step = loss[:, :, None] * X
         gap = np.flatnonzero(~contact)
@@ -183,8 +188,8 @@ def propagation(s: ModeStrips, order: Order, period: Period, gains: Gains | None
 def _gain(change, eye, order: Order, i, gain, column, row):
     if not i.size:
         return
-    left = (gain[i] * _pick(column, i) * _pick(order.rate, i)).T
-    right = (_pick(row, i) * _pick(order.g, i)).T
+    left = (gain[i] * pick(column, i) * pick(order.rate, i)).T
+    right = (pick(row, i) * pick(order.g, i)).T
     change[i] += left[:, :, None] * (right[:, None, :] @ (eye + change[i]))
 
 
@@ -207,13 +212,11 @@ def solve_order(change: np.ndarray, r: np.ndarray) -> np.ndarray:
     return v
 
 
-def _pick(a, index):
-    return a if a.shape[-1] == 1 else a[..., index]
-
-
 def _ratio(step, slope):
     """``step/slope`` for a slope that bounds from above; 0 where that says nothing."""
-    return np.divide(step, slope, out=np.zeros(np.shape(step)), where=np.isfinite(slope) & (slope > 1e-290 + 1e-290 * np.abs(step)))
+    return np.divide(
+        step, slope, out=np.zeros(np.shape(step)), where=np.isfinite(slope) & (slope > 1e-290 + 1e-290 * np.abs(step))
+    )
 
 
 def _width(first, second):
@@ -222,7 +225,8 @@ def _width(first, second):
 
 
 def _steepest_onset(s: ModeStrips, order: Order, lower: Period, upper: Period):
-    """Upper bound of the rate at which the gap falls to the onset: ``-sin d - gamma (u + delta_0) + sum (g_i/alpha_i) e_i(d)``."""
+    """Upper bound of the rate at which the gap falls to the onset:
+    ``-sin d - gamma (u + delta_0) + sum (g_i/alpha_i) e_i(d)``."""
     weight = order.g * order.rate
     low, high = lower.onset, np.maximum(upper.onset, lower.onset)
     last = order.to_e(upper.z_onset)
@@ -235,7 +239,8 @@ def _steepest_onset(s: ModeStrips, order: Order, lower: Period, upper: Period):
 
 
 def _steepest_release(s: ModeStrips, order: Order, lower: Period, upper: Period):
-    """Upper bound of the rate at which the gap grows to the release: ``sin c + gamma (u + delta_0) - sum (g_i/alpha_i) e_i(c)``."""
+    """Upper bound of the rate at which the gap grows to the release:
+    ``sin c + gamma (u + delta_0) - sum (g_i/alpha_i) e_i(c)``."""
     weight = order.g * order.rate
     low, high = np.minimum(upper.release, lower.release), lower.release
     last = order.to_e(lower.z_release)
@@ -250,7 +255,8 @@ def _steepest_release(s: ModeStrips, order: Order, lower: Period, upper: Period)
 def _steepest_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period, onset: bool):
     """The same upper bounds from the modes of the gap zone that the event ends: fast ones have died out since it began.
 
-    The state there lies between those of the two marches, whatever the phase at which the zone began, and between the bounds of all orbits.
+    The state there lies between those of the two marches, whatever the phase at which the zone began, and between the
+    bounds of all orbits.
     """
     name = "onset" if onset else "release"
     (z_low, from_low), (z_up, from_up) = ((getattr(p, f"z_from_{name}"), getattr(p, f"from_{name}")) for p in (lower, upper))
@@ -265,7 +271,7 @@ def _steepest_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period
     least, most = times(rising, low) + times(falling, high) - rest, times(rising, high) + times(falling, low) - rest
     event = np.sort(np.stack([getattr(lower, name), getattr(upper, name)]), axis=0)
     short, long = np.maximum(event[0] - last, 0.0), event[1] - first
-    rate = np.minimum(np.divide(1.0, s.m.beta, out=np.full(s.m.beta.shape, _FASTEST), where=s.m.beta > 1 / _FASTEST), _FASTEST)
+    rate = rates(s.m.beta)
     little, much = rate * np.exp(-long * rate), rate * np.exp(-short * rate)
     if onset:
         return _harmonic_max(0.0, -1.0, event[0], event[1]) + (most * np.where(most > 0, much, little)).sum(axis=0)
@@ -275,7 +281,8 @@ def _steepest_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period
 def _extreme(e, floor, ceiling, kept, at_end, sign):
     """Largest (``sign`` 1) or least (-1) value over a range of phases of displacements known at its end or at its start.
 
-    They tend to w, which lies between ``floor`` and ``ceiling`` like themselves; ``kept``: what is left of a deviation after the range.
+    They tend to w, which lies between ``floor`` and ``ceiling`` like themselves; ``kept``: what is left of a deviation
+    after the range.
     """
     toward, away = (ceiling, floor) if sign > 0 else (floor, ceiling)
     after = np.where(sign * (toward - e) > 0, e + (toward - e) * (1 - kept), e)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.plots.style import COLUMN, OKABE_ITO, axes, styled
+from hystrip.plots.style import COLUMN, OKABE_ITO, stacked, styled
 
 
 @styled
@@ -20,10 +20,7 @@ def law_over_pressure(law: Any, points: int = 400) -> Any:
     reach = law.p_sat if law.below >= law.p_sat else law.below
     span = max(reach - law.pull_off, np.finfo(float).tiny)
     end = reach + 0.1 * span if law.below >= law.p_sat else reach
-    first = axes(COLUMN, 1.2 * COLUMN)
-    figure = first.figure
-    first.remove()
-    upper, lower = figure.subplots(2, 1, sharex=True)
+    upper, lower = stacked(2, COLUMN, 1.2 * COLUMN)
     inner = [b for b in law.breaks if law.pull_off < b < end]
     start = law.pull_off - 0.1 * span
     ends = [law.pull_off, *inner, end]
@@ -40,4 +37,4 @@ def law_over_pressure(law: Any, points: int = 400) -> Any:
     lower.set_xlabel("nominal pressure $p$ (Pa)")
     lower.set_xlim(start, end)
     lower.set_ylim(-0.03, 1.05)
-    return figure
+    return upper.figure

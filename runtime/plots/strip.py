@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from hystrip.errors import InputError
-from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, axes, styled
+from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, stacked, styled
 
 
 @styled
@@ -23,10 +23,7 @@ def strip_fields(strip: Any, points: int = 1001) -> Any:
     period = 2 * np.pi / float(np.ravel(strip._scales["k"])[0])
     x = np.linspace(-0.5, 0.5, points) * period
     p, w, gap = (np.ravel(each(x)) for each in (strip.pressure, strip.displacement, strip.gap))
-    first = axes(COLUMN, 1.2 * COLUMN)
-    figure = first.figure
-    first.remove()
-    upper, lower = figure.subplots(2, 1, sharex=True)
+    upper, lower = stacked(2, COLUMN, 1.2 * COLUMN)
     share = x / period
     upper.plot(share, p, color="black")
     upper.axhline(0, color="0.6", linewidth=0.5, zorder=0)
@@ -42,4 +39,4 @@ def strip_fields(strip: Any, points: int = 1001) -> Any:
     lower.set_xlabel("$x/l$ (sliding towards $+x$)")
     lower.set_xlim(-0.5, 0.5)
     lower.legend(loc="best")
-    return figure
+    return upper.figure

@@ -48,8 +48,13 @@ def styled(draw: Any) -> Any:
 
 def axes(width: float = COLUMN, height: float = 0.75 * COLUMN) -> Any:
     """A new figure's only axes; sizes in inches. No window system is touched."""
+    return stacked(1, width, height)[0]
+
+
+def stacked(count: int, width: float, height: float, **options: Any) -> Any:
+    """A new figure's panels, one above the other over the same x, as an array; ``options`` of matplotlib's subplots."""
     figure = require("matplotlib.figure", "plot", "drawing").Figure(figsize=(width, height), layout="constrained")
-    return figure.subplots()
+    return figure.subplots(count, 1, sharex=True, squeeze=False, **options)[:, 0]
 
 
 def length(metres: float) -> str:

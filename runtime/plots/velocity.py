@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from hystrip.errors import InputError
-from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, axes, length, styled
+from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, length, stacked, styled
 from hystrip.tables import LOAD_UNITS, parts_of_mu
 
 _PANELS = 6
@@ -16,8 +16,8 @@ LOAD_LABELS = {"pressure": "nominal pressure $p$ (Pa)", "penetration": "penetrat
 
 @styled
 def friction(result: Any) -> Any:
-    """Draw mu with every level's part: over log velocity, one panel for each of at most six loads; over the load where there is
-    a single velocity.
+    """Draw mu with every level's part: over log velocity, one panel for each of at most six loads; over the load where
+    there is a single velocity.
 
     Parameters
     ----------
@@ -37,10 +37,8 @@ def friction(result: Any) -> Any:
     velocity, load, mu = flat(result.velocity), flat(load), flat(result.mu)
     parts = [flat(part) for part in parts_of_mu(result)]
     rows = np.unique(np.linspace(0, len(mu) - 1, min(len(mu), _PANELS)).round().astype(int))
-    first = axes(COLUMN, (0.68 * rows.size + 0.1) * COLUMN)
-    figure = first.figure
-    first.remove()
-    panels = figure.subplots(rows.size, 1, sharex=True, squeeze=False)[:, 0]
+    panels = stacked(rows.size, COLUMN, (0.68 * rows.size + 0.1) * COLUMN)
+    figure = panels[0].figure
     for panel, row in zip(panels, rows, strict=True):
         x = velocity[row] if over_velocity else load[row]
         _panel(panel, result.levels, x, mu[row], [part[row] for part in parts])

@@ -21,8 +21,8 @@ def with_material(text: str, table: Mapping[str, Any], comment: str = "") -> str
 def with_levels(
     text: str, levels: Sequence[Mapping[str, Any]], comment: str = "", *, folder: Any = "", allow_solver: bool = False
 ) -> str:
-    """The scene with other ``[[levels]]``, to stand in ``folder``. Raises SceneError if what comes out is no scene, and for a solver
-    that the scene names unless it may be run."""
+    """The scene with other ``[[levels]]``, to stand in ``folder``. Raises SceneError if what comes out is no scene, and
+    for a solver that the scene names unless it may be run."""
     tables = [_table("[[levels]]", level, comment if number == 0 else "") for number, level in enumerate(levels)]
     new = _replaced(text, "levels", tables)
     return _checked(text, new, "levels", source=os.path.join(folder, "scene"), allow_solver=allow_solver)

@@ -125,7 +125,6 @@ def _read(path: str) -> str:
 
 def _assembled(values: dict[str, Any], text: str, name: str, source: str) -> Scene:
     """The library's own objects check signs, orders and bounds; their errors get the place in the file added."""
-
     refuse_ambiguous(values)
     for field, each in quantities(values):
         if each.ndim and field not in ("pressure", "penetration", "velocity"):
@@ -160,14 +159,24 @@ def quantities(values: dict[str, Any]) -> Iterator[tuple[str, np.ndarray]]:
 
 def build_objects(values: dict[str, Any]) -> dict[str, Any]:
     """Material, adhesion and levels of a validated scene whose quantities there are single values."""
-    material = _parameters(values["material"])
-    adhesion = {key: float(each) for key, each in (values["adhesion"] or {"gamma": 0.0}).items() if each is not None}
-    levels = [{key: float(each) for key, each in level.items()} for level in values["levels"]]
-    return {
-        "material": _made(_MODELS[values["material"]["model"]], material, "material"),
-        "adhesion": _made("Dugdale", adhesion, "adhesion"),
-        "levels": tuple(_made("Level", level, f"levels[{index}]") for index, level in enumerate(levels)),
-    }
+    levels = tuple(build_level(values, index) for index in range(len(values["levels"])))
+    return {"material": build_material(values), "adhesion": build_adhesion(values), "levels": levels}
+
+
+def build_material(values: dict[str, Any]) -> Any:
+    """The material of a validated scene, its quantities single values."""
+    return _made(_MODELS[values["material"]["model"]], _parameters(values["material"]), "material")
+
+
+def build_adhesion(values: dict[str, Any]) -> Any:
+    """The adhesion of a validated scene, its quantities single values; none without a table."""
+    given = values["adhesion"] or {"gamma": 0.0}
+    return _made("Dugdale", {key: float(each) for key, each in given.items() if each is not None}, "adhesion")
+
+
+def build_level(values: dict[str, Any], index: int) -> Any:
+    """A level of a validated scene, its quantities single values."""
+    return _made("Level", {key: float(each) for key, each in values["levels"][index].items()}, f"levels[{index}]")
 
 
 _MODELS = {"standard_linear_solid": "StandardLinearSolid", "kelvin_voigt": "KelvinVoigt", "prony": "Prony"}

@@ -10,6 +10,7 @@ from typing import Any
 
 from hystrip.errors import InputError
 from hystrip.extras import require
+from hystrip.inputs.checks import LARGEST
 
 _TEXT = re.compile(r"\s*(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?)\s*(?P<unit>[^\W\d_].*?)?\s*")
 _UNIT = re.compile(r"[\w\s*/^().\-²³⁻¹]+")
@@ -26,12 +27,14 @@ def to_si(value: float | str, unit: str, field: str) -> float:
 
     Raises
     ------
-    InputError : not finite, no unit, a unit that is unknown or of another dimension
+    InputError : not finite, of a magnitude beyond that of any input, no unit, a unit that is unknown or of another dimension
     MissingExtra : a unit is written and Pint is not installed
     """
     number = _converted(value, unit, field) if isinstance(value, str) else float(value)
     if not math.isfinite(number):
         raise InputError(field, value, _allowed(unit))
+    if abs(number) > LARGEST:
+        raise InputError(field, value, f"{_allowed(unit)}, of magnitude up to {LARGEST:g}")
     return number
 
 

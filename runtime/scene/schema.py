@@ -118,7 +118,7 @@ class Sweep(Struct, forbid_unknown_fields=True, kw_only=True):
 class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):
     """A hystrip scene. Keys of the scene itself stand above the first [table] of the file."""
 
-    title: Annotated[str, Meta(description="text, one line that names the scene", max_length=200)] = ""
+    title: Annotated[str, Meta(description="text of at most 200 characters that names the scene", max_length=200)] = ""
     description: Annotated[str, Meta(description="text, anything worth saying about the scene")] = ""
     pressure: Annotated[Values | None, _range_meta("nominal pressure (negative pulls); or give penetration", "Pa")] = None
     penetration: Annotated[Values | None, _range_meta("penetration of level 1, in place of pressure", "m")] = None

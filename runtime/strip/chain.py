@@ -19,6 +19,8 @@ _ITERATIONS_BARE, _TOGETHER_BARE = 24, 4
 _TIGHTENING = 5
 #: a step this small leaves an error of its square
 _SMALL = 1e-7
+#: largest correction that an orbit may still ask for
+CONVERGED = 1e-13
 #: share of the way to the end of its arc that an edge may move at once
 _BOLD = 0.9
 #: sign of the slope with which the event of each link is met: gap and pressure fall, the gap opens where adhesion ends
@@ -42,16 +44,16 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
     """Newton from ``edges`` (k, n) for cycles that are all taken to follow ``sequence``."""
     n = cycle.size
     edges, result = edges.copy(), edges.copy()
-    low, high = _arcs(cycle, sequence)
+    low, high = arcs(cycle, sequence)
     iterations, together = (_ITERATIONS_BARE, _TOGETHER_BARE) if sequence in ("ac", "cf") else (_ITERATIONS, _TOGETHER)
     spent, step_size = np.zeros(n), np.full(n, np.inf)
     index, part = np.arange(n), cycle
     # where a link is lost to rounding or overflows the step is no number, and the strip is left to the search
     with np.errstate(all="ignore"):
         for iteration in range(1, iterations + 1):
-            move = _step(*_links(kernel, part, sequence, edges))
+            move = _step(*links(kernel, part, sequence, edges))
             size = np.abs(move).max(axis=0)
-            edges = _moved(edges, move, low, high, size)
+            edges = moved(edges, move, low, high, size)
             if iteration < together:
                 continue
             going = np.flatnonzero(~(size <= _SMALL) & np.isfinite(size)) if iteration < iterations else index[:0]
@@ -62,12 +64,23 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
                 index, part = index[going], part.take(going)
                 edges, low, high = edges[:, going], low[:, going], high[:, going]
         step, sense = _refined(kernel, cycle, sequence, result)
-    correction = np.abs(step).max(axis=0)
-    converged = sense & (step_size <= _SMALL) & (correction <= 1e3 * _SMALL)
-    return Chain(np.where(converged, result + step, result), converged, np.where(converged, correction, np.inf), spent + 1)
+        spent += 1
+        correction = np.abs(step).max(axis=0)
+        converged = sense & (step_size <= _SMALL) & (correction <= 1e3 * _SMALL)
+        result = np.where(converged, result + step, result)
+        # a closing link that cancels, on a slow foundation, left more to correct than the square of a step
+        once_more = np.flatnonzero(converged & (correction > CONVERGED))
+        if once_more.size:
+            step, sense = _refined(kernel, cycle.take(once_more), sequence, result[:, once_more])
+            spent[once_more] += 1
+            size = np.abs(step).max(axis=0)
+            closer = np.flatnonzero(sense & (size < correction[once_more]))
+            result[:, once_more[closer]] += step[:, closer]
+            correction[once_more[closer]] = size[closer]
+    return Chain(result, converged, np.where(converged, correction, np.inf), spent)
 
 
-def _moved(edges, move, low, high, size):
+def moved(edges, move, low, high, size):
     """Edges after a step, kept inside their arcs and in order; where the step (of this ``size``) is no number, the edges before it."""
     new = np.minimum(np.maximum(edges + move, edges + _BOLD * (low - edges)), edges + _BOLD * (high - edges))
     for before, after in zip(new[:-1], new[1:], strict=True):
@@ -86,50 +99,50 @@ def tighten(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.
     size = np.full(cycle.size, np.inf)
     with np.errstate(all="ignore"):
         for _ in range(_TIGHTENING):
-            values, before, after = _links(kernel, cycle, sequence, edges)
+            values, before, after = links(kernel, cycle, sequence, edges)
             move = _step(values, before, after)
             edges = edges + move
             size = np.abs(move).max(axis=0)
     return edges, np.where(np.isfinite(size), size, np.inf)
 
 
-def _arcs(cycle: Cycle, sequence: str) -> tuple[np.ndarray, np.ndarray]:
+def arcs(cycle: Cycle, sequence: str) -> tuple[np.ndarray, np.ndarray]:
     """Ends of the arcs in which each edge can lie, (k, n)."""
     centre, turned = cycle.centre, cycle.centre + TWO_PI
-    arcs = {
+    ends = {
         "x": (centre - cycle.half_d, centre + cycle.half_d),
         "b": (centre - cycle.half_b, centre + cycle.half_b),
         "a": (centre + cycle.half_b, turned - cycle.half_b),
         "c": (centre + cycle.half_c, turned - cycle.half_c),
     }
-    ends = [arcs[edge] for edge in EDGES[sequence]]
-    return np.array([low for low, _ in ends]), np.array([high for _, high in ends])
+    low, high = zip(*(ends[edge] for edge in EDGES[sequence]), strict=True)
+    return np.array(low), np.array(high)
 
 
-def _links(kernel, cycle: Cycle, sequence: str, edges):
+def links(kernel, cycle: Cycle, sequence: str, edges):
     """Values of the links along the chain and their derivatives by the edge before and the edge after, k of each."""
     s = cycle.strips
-    links, first = [], edges[0]
+    found, first = [], edges[0]
     rest = iter(edges[1:])
     here = first
     if sequence == "acaf":
         b = next(rest)
-        links.append(kernel.gap_link(here, b, cycle.gap_on, -s.p_0, s.D, s.beta))
+        found.append(kernel.gap_link(here, b, cycle.gap_on, -s.p_0, s.D, s.beta))
         here = b
     if sequence != "af":
         a = next(rest)
-        links.append(kernel.excess_link(here, a, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L))
+        found.append(kernel.excess_link(here, a, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L))
         here = a
     if sequence in ("ac", "cf"):
-        links.append(kernel.gap_link(here, first + TWO_PI, 0.0, 0.0, s.D, s.beta))
+        found.append(kernel.gap_link(here, first + TWO_PI, 0.0, 0.0, s.D, s.beta))
     else:
         c = next(rest)
         gap = cycle.gap_on if sequence == "af" else 0.0
         value, before, after = kernel.gap_link(here, c, gap, -s.p_0, s.D, s.beta)
-        links.append((value - s.delta_0, before, after))
+        found.append((value - s.delta_0, before, after))
         value, before, after = kernel.gap_link(c, first + TWO_PI, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
-        links.append((value - s.delta_0, before, after))
-    return zip(*links, strict=True)
+        found.append((value - s.delta_0, before, after))
+    return zip(*found, strict=True)
 
 
 def _step(values, before, after):
@@ -150,7 +163,7 @@ def _refined(kernel, cycle: Cycle, sequence: str, edges):
     That balance is the sum of the changes of z: of the closing link, of those before it, and of the contact's times -J.
     """
     s = cycle.strips
-    _, before, after = _links(kernel, cycle, sequence, edges)
+    _, before, after = links(kernel, cycle, sequence, edges)
     residual = getattr(kernel, f"residual_{'ac' if sequence == 'cf' else sequence}")
     *values, closing = residual(*edges, s.alpha, s.beta, s.J, s.L, s.p_0, s.delta_0, s.D, s.chi)
     contact = {"acaf": 1, "af": None}.get(sequence, 0)

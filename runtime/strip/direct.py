@@ -7,22 +7,24 @@ more extremal one exists; all else is left to ``search``.
 import numpy as np
 
 from .certificate import attracting, edges_admissible
-from .chain import follow
-from .exclusion import alone
+from .chain import CONVERGED, follow
+from .exclusion import alone, onsets_within
 from .march import Orbit
 from .outermost import Outermost
 from .problem import Cycle
-from .refine import CONVERGED, refined
+from .refine import refined
 from .solved import orbit_of
+from .sought import at_zeros
 from .start import start
+from .turning import turning
+
+#: traction that lifts the foundation less than the wave is high: then the most engaged orbit may not reach contact
+_LOW = 1.0
 
 
-def certified(kernel, cycle: Cycle, sequence: str, bounds: Outermost | None = None) -> tuple[Orbit, np.ndarray, np.ndarray]:
-    """Orbits of ``sequence`` that Newton finds, which of them are certified, and the evaluations spent on each.
-
-    ``bounds`` on all orbits, where there are any, are what Newton starts from.
-    """
-    chain = follow(kernel, cycle, sequence, start(kernel, cycle, sequence, bounds))
+def certified(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[Orbit, np.ndarray, np.ndarray]:
+    """Orbits of ``sequence`` that Newton finds from ``edges`` (k, n), which of them are certified, and the evaluations spent on each."""
+    chain = follow(kernel, cycle, sequence, edges)
     spent = chain.evaluations
     orbit = orbit_of(sequence, chain.edges)
     good = chain.converged
@@ -48,9 +50,6 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: Outermost):
     Returns, for n cycles: a certified orbit of each (x NaN where there is none), its sequence (``""`` if none), which are proven extremal,
     which cycles are proven to have no such orbit at all, and the evaluations spent. ``bounds`` on all orbits hold for ``last=False`` only.
     """
-    n = cycle.size
-    found = Orbit.blank(n)
-    sequences, proven, spent = np.full(n, "", dtype="<U4"), np.zeros(n, bool), np.zeros(n)
     s = cycle.strips
     arc = cycle.half_d > 0
     if last:
@@ -58,26 +57,58 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: Outermost):
         possible = arc & (s.D - 1 + s.p_0 < kernel.modulus_ratio(s.alpha, s.beta))
     else:
         possible = arc & ~bounds.missed
-    attempts = [("acaf", possible & ~cycle.direct), ("afc", possible & cycle.direct)]
-    if last:
-        attempts.append(("af", possible & ~cycle.direct))
-    for sequence, kind in attempts:
-        pick = np.flatnonzero(kind & ~proven)
+    found = _Found(kernel, cycle, last, bounds)
+    found.attempt("acaf", np.flatnonzero(possible & ~cycle.direct))
+    found.attempt("afc", np.flatnonzero(possible & cycle.direct))
+    none = ~arc | bounds.missed
+    low = possible & ~cycle.direct & (last | (s.p_0 < _LOW))
+    found.attempt("af", np.flatnonzero(low & ~found.proven))
+    if not last:
+        none |= found.at_a_fold(np.flatnonzero(possible & ~cycle.direct & ~found.proven))
+    return found.orbit, found.sequence, found.proven, none, found.evaluations
+
+
+class _Found:
+    """Orbits found so far: the most extremal one of each cycle, its sequence, whether it is proven to be extremal, work."""
+
+    def __init__(self, kernel, cycle: Cycle, last: bool, bounds: Outermost):
+        self.kernel, self.cycle, self.last, self.bounds = kernel, cycle, last, bounds
+        self.orbit = Orbit.blank(cycle.size)
+        self.sequence = np.full(cycle.size, "", dtype="<U4")
+        self.proven, self.evaluations = np.zeros(cycle.size, bool), np.zeros(cycle.size)
+
+    def attempt(self, sequence: str, pick) -> None:
+        """Newton for the cycles ``pick``, and the proof that what it finds is extremal."""
         if not pick.size:
-            continue
-        part, limits = cycle.take(pick), bounds.take(pick)
-        orbit, good, used = certified(kernel, part, sequence, limits)
-        spent[pick] += used
+            return
+        part, limits = self.cycle.take(pick), self.bounds.take(pick)
+        orbit, good, used = certified(self.kernel, part, sequence, start(self.kernel, part, sequence, limits))
+        self.evaluations[pick] += used
         here = np.flatnonzero(good)
         if not here.size:
-            continue
-        sure, used = alone(kernel, part.take(here), orbit.take(here), last, limits.take(here))
+            return
+        sure, used = alone(self.kernel, part.take(here), orbit.take(here), self.last, limits.take(here))
         pick = pick[here]
-        spent[pick] += used
+        self.evaluations[pick] += used
         # of two orbits that are known the more extremal one is worth keeping
-        nearer = ~(found.x[pick] >= orbit.x[here]) if last else ~(found.x[pick] <= orbit.x[here])
+        found = self.orbit.x[pick]
+        nearer = ~(found >= orbit.x[here]) if self.last else ~(found <= orbit.x[here])
         keep = np.flatnonzero(sure | nearer)
-        found.put(pick[keep], orbit.take(here[keep]))
-        sequences[pick[keep]] = sequence
-        proven[pick] |= sure
-    return found, sequences, proven, ~arc | bounds.missed, spent
+        self.orbit.put(pick[keep], orbit.take(here[keep]))
+        self.sequence[pick[keep]] = sequence
+        self.proven[pick] |= sure
+
+    def at_a_fold(self, pick) -> np.ndarray:
+        """Next to a fold Newton may be lost, beyond it there is nothing to find: which of the cycles ``pick`` are proven to have no orbit."""
+        none = np.zeros(self.cycle.size, bool)
+        if not pick.size:
+            return none
+        part = self.cycle.take(pick)
+        result = turning(self.kernel, part, *onsets_within(part, self.bounds.take(pick)))
+        none[pick] = result.none
+        located = at_zeros(self.kernel, part, result.isolated)
+        self.evaluations[pick] += located.evaluations
+        here = np.flatnonzero(located.certified)
+        self.orbit.put(pick[here], located.orbit.take(here))
+        self.sequence[pick[here]], self.proven[pick[here]] = "acaf", True
+        return none

@@ -29,6 +29,7 @@ from .reach import may_cling, out_of_reach, saturates
 from .regimes import CODE
 from .solved import Record, Solved
 from .sought import sought
+from .start import start
 
 #: Strips solved at a time: their working arrays stay in the cache, and memory stays bounded.
 CHUNK = 16384
@@ -216,7 +217,7 @@ class _Batch:
 
         Where p does not step the onset map contracts everywhere (``sensitivity``): an orbit that is found is the only one.
         """
-        orbit, found, spent = certified(self.kernel, cycle, sequence)
+        orbit, found, spent = certified(self.kernel, cycle, sequence, start(self.kernel, cycle, sequence))
         self.record.solved.evaluations[index] += spent
         rest = np.flatnonzero(~found)
         if rest.size and not self.searching:

@@ -17,6 +17,7 @@ What is not proven here is left to ``search``; nothing is ever accepted for lack
 
 import numpy as np
 
+from . import balance
 from .bound import bound, close_enough
 from .march import TWO_PI, Orbit, march
 from .outermost import Outermost
@@ -27,8 +28,12 @@ from .sensitivity import slope_bounds, steep_margin
 _EPS = np.finfo(float).eps
 #: least relaxation time that is divided by
 _LEAST = 1e-290
+#: beta above which the balance of a period is asked first: a faster foundation is judged better by its bounds
+SLOW = 30.0
+#: ends of the intervals from a known onset to the start of the arc
+_SHARES = np.array([1e-5, 1e-3, 0.02, 0.15, 0.4, 0.55, 0.7, 0.85, 1.0])
 #: probes tried; the first half way to the end of the arc, the next ones after longer steps from what is proven, or shorter ones after a failure
-_PROBES, _FIRST, _BOLDER, _WARIER = 24, 0.5, 3.0, 0.2
+_PROBES, _FIRST, _BOLDER, _WARIER = 2, 0.5, 3.0, 0.2
 
 
 def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
@@ -43,10 +48,37 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> 
         unknown = np.full(known.size, np.nan)
         outer = Orbit(limits.x, unknown, unknown, np.maximum(limits.c, part.c), np.zeros(known.size, bool), unknown, unknown)
         proven[known] = _falls_between(kernel, cycle.take(known), part, outer, 1.0)
-    rest = np.flatnonzero(~proven)
-    if rest.size:
-        proven[rest], spent[rest] = _alone(kernel, cycle.take(rest), orbit.take(rest), last, bounds.x[rest])
+        rest = np.flatnonzero(~proven & (cycle.strips.beta > SLOW))
+        if rest.size:
+            part = cycle.take(rest)
+            here = _zero(kernel, part, orbit.take(rest))
+            proven[rest], spent[rest] = balance.first(kernel, part, here, *onsets_within(part, bounds.take(rest)))
+    # marches take a strip that hangs next to its fold further than bounds at a few probes do, and cost more
+    hanging = cycle.strips.D <= -cycle.strips.delta_0
+    everywhere = np.ones(cycle.size, bool)
+    ways = ((_by_probes, everywhere),) if last else ((_by_probes, ~hanging), (_by_marches, everywhere), (_by_probes, hanging))
+    for way, kind in ways:
+        rest = np.flatnonzero(kind & ~proven)
+        if rest.size:
+            proven[rest], used = way(kernel, cycle.take(rest), orbit.take(rest), last, bounds.take(rest))
+            spent[rest] += used
     return proven, spent
+
+
+def _by_probes(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost):
+    sign = -1.0 if last else 1.0
+    end = cycle.centre - sign * cycle.half_d
+    return _cleared(kernel, cycle, _zero(kernel, cycle, orbit), sign, end if last else np.fmax(end, bounds.x))
+
+
+def _by_marches(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost):
+    start, _ = onsets_within(cycle, bounds)
+    return none_before(kernel, cycle, _zero(kernel, cycle, orbit), start)
+
+
+def onsets_within(cycle: Cycle, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
+    """Phases before which no orbit has its onset, and after which its adhesion does not end."""
+    return np.fmax(cycle.centre - cycle.half_d, bounds.x), np.fmin(cycle.centre + TWO_PI - cycle.half_c, bounds.c)
 
 
 def _falls_between(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float) -> np.ndarray:
@@ -68,13 +100,31 @@ def _falls_between(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float
     return steep & ((way == 0) | kept)
 
 
-def _alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, least) -> tuple[np.ndarray, np.ndarray]:
+def none_before(kernel, cycle: Cycle, known: Orbit, start) -> tuple[np.ndarray, np.ndarray]:
+    """Where no zero of r lies between ``start`` and the onsets of ``known`` orbits or marches, r >= 0, shown by marches at the ends of a few
+    intervals; and the event evaluations spent.
+
+    From the known onset back: an interval on which R falls strictly leaves r positive, one that is excluded does so from both ends.
+    """
+    n, many = cycle.size, _SHARES.size
+    nodes = (known.x + _SHARES[:, None] * (start - known.x)).ravel()
+    marches, spent = march(kernel, cycle.take(np.tile(np.arange(n), many)), nodes)
+    pieces = cycle.take(np.tile(np.arange(n), many))
+    left, right = marches, Orbit.joined([known, marches.take(np.arange((many - 1) * n))])
+    empty = np.zeros(n * many, bool)
+    ask = np.flatnonzero(~right.engaged)
+    pieces, left, right = pieces.take(ask), left.take(ask), right.take(ask)
+    bounds = slope_bounds(kernel, pieces, left, right)
+    apart = (left.r > 0) & (right.r > 0) & excluded(kernel, pieces, left, right, bounds, False)
+    empty[ask] = apart | (~left.engaged & bounds.falls)
+    return empty.reshape(many, n).all(axis=0), spent.reshape(many, n).sum(axis=0)
+
+
+def _zero(kernel, cycle: Cycle, orbit: Orbit) -> Orbit:
+    """Known orbits as marches that end where they begin."""
     s = cycle.strips
     w_end = kernel.profile(orbit.x, s.D) + s.delta_0
-    known = Orbit(orbit.x, orbit.b, orbit.a, orbit.c, np.zeros(cycle.size, bool), np.zeros(cycle.size), w_end)
-    sign = -1.0 if last else 1.0
-    end = cycle.centre - sign * cycle.half_d
-    return _cleared(kernel, cycle, known, sign, end if last else np.fmax(end, least))
+    return Orbit(orbit.x, orbit.b, orbit.a, orbit.c, np.zeros(cycle.size, bool), np.zeros(cycle.size), w_end)
 
 
 def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.ndarray, np.ndarray]:

@@ -68,7 +68,7 @@ def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, lat
     r, w_end = np.full(x.shape, -np.inf), np.full(x.shape, np.nan)
     free = np.flatnonzero(~engaged)
     if free.size:
-        r[free], w_end[free] = _closing(kernel, cycle.take(free), x[free], b[free], a[free], c[free])
+        r[free], w_end[free] = closing(kernel, cycle.take(free), x[free], b[free], a[free], c[free])
     return Orbit(x.copy(), b, a, c, engaged, r, w_end), spent
 
 
@@ -243,7 +243,7 @@ def _adhesion_ends(kernel, cycle: Cycle, x, b, a, spent, known: _Known):
     return c
 
 
-def _closing(kernel, cycle: Cycle, x, b, a, c):
+def closing(kernel, cycle: Cycle, x, b, a, c):
     """Sum of the increments of z over the period (small when beta is large, and then still exact), and w at its end."""
     s = cycle.strips
     r = np.zeros(x.shape)

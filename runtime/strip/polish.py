@@ -48,7 +48,7 @@ def polish(kernel, sequence: str, strips: Strips, edges: np.ndarray, bounds=(-np
         here = tuple(v[active] for v in arguments)
         current = edges[:, active]
         matrix = jacobian(*current, *here)
-        step = _newton(residual(*current, *here), matrix)
+        step, _ = newton(residual(*current, *here), matrix)
         evaluations[active] += 1
         size = np.max(np.abs(step), axis=0)
         # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction. Once may be chance
@@ -69,8 +69,8 @@ def _rows(matrix, pick):
     return [[entry if np.ndim(entry) == 0 else entry[pick] for entry in row] for row in matrix]
 
 
-def _newton(residual, jacobian):
-    """Newton step by elimination along the chain of edges."""
+def newton(residual, jacobian):
+    """Newton step (k, n) by elimination along the chain of edges, and the slope of the last equation when they all move with the first."""
     k = len(residual)
     constant, linear = [np.zeros_like(residual[0])], _linear(jacobian, residual[0])
     for i in range(k - 1):
@@ -78,7 +78,7 @@ def _newton(residual, jacobian):
     known = residual[-1] + sum(jacobian[-1][j] * constant[j] for j in range(k))
     slope = sum(jacobian[-1][j] * linear[j] for j in range(k))
     first = -_ratio(known, slope)
-    return np.array([constant[j] + linear[j] * first for j in range(k)])
+    return np.array([constant[j] + linear[j] * first for j in range(k)]), slope
 
 
 def _propagated(noise, jacobian):

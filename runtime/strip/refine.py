@@ -2,15 +2,14 @@
 
 import numpy as np
 
-from .chain import tighten
+from .chain import CONVERGED, tighten
 from .march import Orbit
 from .polish import polish
 from .problem import Cycle
 from .solved import edges_of, orbit_of
 
-#: Largest correction that an orbit may still ask for: this much, or this many times what rounding leaves uncertain, which
-#: itself must not be worse than near a fold.
-CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 32, 1e-6
+#: Corrections may be this many times what rounding leaves uncertain, which itself must not be worse than near a fold.
+_ROUNDINGS, _COARSEST = 32, 1e-6
 _EPS = np.finfo(float).eps
 
 

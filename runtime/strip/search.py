@@ -23,6 +23,8 @@ from .sensitivity import SlopeBounds, onset_margin, slope_bounds, slope_excess
 
 _EPS = np.finfo(float).eps
 _MAX_STEPS = 4000
+#: marches in a round that cost hardly more than one, and shorter steps probed with them
+_TOGETHER, _SHORTER = 256, 8
 #: retardation times after which a displacement is gone, to the smallest number
 _FORGOTTEN = 750
 
@@ -61,8 +63,8 @@ class _Search:
 
     def march(self, index, x, earlier=None, later=None):
         orbit, spent = march(self.kernel, self.cycle.take(index), x, earlier, later)
-        self.result.marches[index] += 1
-        self.result.evaluations[index] += spent
+        np.add.at(self.result.marches, index, 1)
+        np.add.at(self.result.evaluations, index, spent)
         return orbit
 
     def run(self) -> SearchResult:
@@ -144,7 +146,42 @@ class _Search:
         return result
 
     def _advance(self, index, frontier, step, stop, beyond):
-        """Probe one step ahead of each frontier, then exclude, bracket or halve."""
+        """Probe ahead of each frontier, then exclude, bracket or take a shorter step.
+
+        A round over few cycles costs little more than one over a single one: then several shorter steps are probed as well, and the longest
+        that tells something is kept.
+        """
+        n = index.size
+        many = int(np.clip(_TOGETHER // n, 1, _SHORTER))
+        again = np.tile(np.arange(n), many)
+        step = (step * 0.5 ** np.arange(many)[:, None]).ravel()
+        final, target, probe, excluded, unique = self._probed(
+            index[again], frontier.take(again), step, stop.take(again), beyond.take(again)
+        )
+        told = (excluded | unique).reshape(many, n)
+        kept = np.where(told.any(axis=0), told.argmax(axis=0), many - 1) * n + np.arange(n)
+        final, target, step, excluded, unique = (values[kept] for values in (final, target, step, excluded, unique))
+        probe = probe.take(kept)
+        bracketed = np.flatnonzero(unique)
+        inner, outer = probe.take(bracketed), frontier.take(bracketed)
+        left, right = (inner, outer) if self.last else (outer, inner)
+        # an orbit at the last bit before the strip stays engaged: the nearest one that is released stands for it
+        squeezed = np.flatnonzero(left.engaged)
+        left.put(squeezed, right.take(squeezed))
+        self._isolated(index[bracketed], left, right)
+        ended = excluded & final
+        step = np.where(excluded, 2 * step, 0.5 * np.abs(target - frontier.x))
+        closer = np.flatnonzero(~excluded)
+        beyond.put(closer, probe.take(closer))
+        moved = np.flatnonzero(excluded)
+        beyond.put(moved, stop.take(moved))
+        frontier.put(moved, probe.take(moved))
+        keep = np.flatnonzero(~unique & ~ended)
+        return index[keep], frontier.take(keep), step[keep], stop.take(keep), beyond.take(keep)
+
+    def _probed(self, index, frontier, step, stop, beyond):
+        """One step ahead of each frontier: whether it ends at the stop, where it leads, the march from there, whether the interval is excluded,
+        and whether it holds exactly one zero."""
         span = self.sign * (stop.x - frontier.x)
         final = step >= span
         target = np.where(final, stop.x, frontier.x + self.sign * step)
@@ -162,21 +199,7 @@ class _Search:
         proof = self._weigh(index[open_], left.take(open_), right.take(open_), changes[open_])
         excluded[open_[proof & ~changes[open_]]] = True
         unique[open_[proof & changes[open_]]] = True
-        bracketed = np.flatnonzero(unique)
-        left, right = left.take(bracketed), right.take(bracketed)
-        # an orbit at the last bit before the strip stays engaged: the nearest one that is released stands for it
-        squeezed = np.flatnonzero(left.engaged)
-        left.put(squeezed, right.take(squeezed))
-        self._isolated(index[bracketed], left, right)
-        ended = excluded & final
-        step = np.where(excluded, 2 * step, 0.5 * np.abs(target - frontier.x))
-        closer = np.flatnonzero(~excluded)
-        beyond.put(closer, probe.take(closer))
-        moved = np.flatnonzero(excluded)
-        beyond.put(moved, stop.take(moved))
-        frontier.put(moved, probe.take(moved))
-        keep = np.flatnonzero(~unique & ~ended)
-        return index[keep], frontier.take(keep), step[keep], stop.take(keep), beyond.take(keep)
+        return final, target, probe, excluded, unique
 
     def _weigh(self, index, left: Orbit, right: Orbit, changes) -> np.ndarray:
         """Proof that an interval holds exactly one zero (where the sign of r changes) or none (where it does not)."""

@@ -36,16 +36,21 @@ class SlopeBounds:
 
 def slope_excess(kernel, cycle: Cycle, orbit: Orbit) -> tuple[np.ndarray, np.ndarray]:
     """``log T'`` and N at each orbit (not engaged)."""
-    s = cycle.strips
     F = onset_margin(kernel, cycle, orbit.x)
-    M = -(kernel.forcing(orbit.c, s.D, s.beta) + s.delta_0 + s.p_0)
-    return _log_slope(cycle, _length(orbit.b, orbit.a), F, M), _numerator(kernel, cycle, _length(orbit.b, orbit.a), F, M)
+    M = release_margin(kernel, cycle, orbit.c)
+    return _log_slope(cycle, contact_length(orbit.b, orbit.a), F, M), _numerator(kernel, cycle, contact_length(orbit.b, orbit.a), F, M)
 
 
 def onset_margin(kernel, cycle: Cycle, x: np.ndarray) -> np.ndarray:
     """``F = H(x) + delta_0``: positive in the onset arc."""
     s = cycle.strips
     return kernel.forcing(x, s.D, s.beta) + s.delta_0
+
+
+def release_margin(kernel, cycle: Cycle, c: np.ndarray) -> np.ndarray:
+    """``M = -(H(c) + delta_0 + p_0)``: positive in the arc where adhesion ends."""
+    s = cycle.strips
+    return -(kernel.forcing(c, s.D, s.beta) + s.delta_0 + s.p_0)
 
 
 def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds:
@@ -56,14 +61,14 @@ def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds
     b_left = np.where(np.isnan(left.b) & ~np.isnan(right.b), right.b, left.b)
     a_left = np.where(left.engaged, last_a, left.a)
     c_left = np.where(left.engaged, last_c, left.c)
-    longest = np.where(left.engaged & np.isnan(left.b) & np.isnan(right.b), 0.0, _length(b_left, a_left))
-    shortest = _length(right.b, right.a)
+    longest = np.where(left.engaged & np.isnan(left.b) & np.isnan(right.b), 0.0, contact_length(b_left, a_left))
+    shortest = contact_length(right.b, right.a)
     F_left, F_right = onset_margin(kernel, cycle, left.x), onset_margin(kernel, cycle, right.x)
     top = s.D - 1 + np.hypot(1, s.beta) + s.delta_0
     F_min = np.minimum(F_left, F_right)
     F_max = np.where((left.x < cycle.centre) & (right.x > cycle.centre), top, np.maximum(F_left, F_right))
-    M_left = np.where(left.engaged, 0.0, -(kernel.forcing(c_left, s.D, s.beta) + s.delta_0 + s.p_0))
-    M_right = -(kernel.forcing(right.c, s.D, s.beta) + s.delta_0 + s.p_0)
+    M_left = np.where(left.engaged, 0.0, release_margin(kernel, cycle, c_left))
+    M_right = release_margin(kernel, cycle, right.c)
     deepest = -(s.D - 1 - np.hypot(1, s.beta) + s.delta_0 + s.p_0)
     middle = cycle.centre + np.pi
     M_max = np.where((right.c < middle) & (c_left > middle), deepest, np.maximum(M_left, M_right))
@@ -90,21 +95,25 @@ def steep_margin(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> np.ndarray:
     ``F > s_x/(1/B - 1)``.
     """
     s = cycle.strips
-    M = -(np.maximum(*(kernel.forcing(orbit.c, s.D, s.beta) for orbit in (left, right))) + s.delta_0 + s.p_0)
-    length = _length(right.b, right.a)
-    onset, release = _gains(cycle)
-    fading = TWO_PI / np.maximum(s.beta, _LEAST) + np.where(length > 0, length * s.L / np.maximum(s.alpha, _LEAST), 0.0)
-    log_B = np.log1p(_over(release, M)) - fading
+    M = np.minimum(*(release_margin(kernel, cycle, orbit.c) for orbit in (left, right)))
+    onset, release = gains(cycle)
     # the rounding of the terms of log B, which may cancel
-    log_B += 64 * _EPS * fading
+    log_B = np.log1p(_over(release, M)) - (1 - 64 * _EPS) * fading(cycle, contact_length(right.b, right.a))
     return np.divide(onset, np.expm1(np.minimum(-log_B, 700.0)), out=np.full(onset.shape, np.inf), where=log_B < 0)
 
 
-def _length(b, a):
+def contact_length(b, a):
+    """Length of contact, 0 where there is none."""
     return np.where(np.isnan(b), 0.0, np.maximum(a - b, 0.0))
 
 
-def _gains(cycle: Cycle):
+def fading(cycle: Cycle, length) -> np.ndarray:
+    """``2 pi/beta + (a - b) L/alpha``, what a period with a contact of this ``length`` forgets."""
+    s = cycle.strips
+    return TWO_PI / np.maximum(s.beta, _LEAST) + np.where(length > 0, length * s.L / np.maximum(s.alpha, _LEAST), 0.0)
+
+
+def gains(cycle: Cycle):
     """The constants ``s_x = slope_on - delta_0`` and ``s_c = p_0 - jump``."""
     s = cycle.strips
     return cycle.slope_on - s.delta_0, np.where(cycle.bare, 0.0, s.p_0 - cycle.jump)
@@ -114,7 +123,7 @@ def _log_slope(cycle: Cycle, length, F, M):
     """``log T'``: -inf where nothing of the onset is remembered, +inf where the onset or the end of adhesion grazes."""
     s = cycle.strips
     memory = _over(TWO_PI + 0 * length, s.beta) + _over(length * s.L, s.alpha)
-    onset, release = _gains(cycle)
+    onset, release = gains(cycle)
     gain = np.log1p(_over(onset, F)) + np.log1p(_over(release, M))
     return np.where(np.isinf(memory), -np.inf, gain - np.where(np.isinf(memory), 0.0, memory))
 
@@ -122,7 +131,7 @@ def _log_slope(cycle: Cycle, length, F, M):
 def _numerator(kernel, cycle: Cycle, length, F, M):
     """``N = F T'`` with F multiplied in, so that it stays finite where the onset grazes."""
     s = cycle.strips
-    onset, release = _gains(cycle)
+    onset, release = gains(cycle)
     damping = kernel.decay(TWO_PI, s.beta) * kernel.decay(length * s.L, s.alpha)
     factor = damping * np.maximum(F + onset, 0.0)
     return np.multiply(factor, 1 + _over(release, M), out=np.zeros_like(factor), where=factor > 0)

@@ -31,7 +31,11 @@ class Sought:
 
 def sought(kernel, cycle: Cycle, last: bool, known: Orbit | None = None) -> Sought:
     """The first (``last``: last) orbit on the onset arc of every cycle. ``known``: see ``search.isolate``."""
-    result = isolate(kernel, cycle, last, known)
+    return at_zeros(kernel, cycle, isolate(kernel, cycle, last, known))
+
+
+def at_zeros(kernel, cycle: Cycle, result: SearchResult) -> Sought:
+    """The orbits that are isolated, located and certified."""
     orbit, failed, spent = _located(kernel, cycle, result)
     certified = result.found & ~failed & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
     return Sought(orbit, result.found, certified, ~result.unresolved, result.evaluations + spent)

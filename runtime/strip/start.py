@@ -1,6 +1,10 @@
-"""Rough edges to start Newton from: where they typically lie in their arcs, by how slow the foundation is.
+"""Rough edges to start Newton from. A start that leads astray costs a search, never a wrong orbit.
 
-Medians over random strips, nothing more. A start that leads astray costs a search, never a wrong orbit.
+Mostly they are where the edges typically lie in their arcs, by how slow the foundation is: medians over random strips, nothing more. If
+nothing relaxes within a period, the foundation stands still at w = W in every gap and contact is glassy: the edges lie alike about the crest,
+``cos a = 1 - D + W``, ``cos c = cos a - delta_0``, and the means of p and w are the same where
+
+    -pi (D - 1 + cos a) - p_0 c + (beta - alpha)/alpha (sin a - a cos a) = 0.
 """
 
 from __future__ import annotations
@@ -10,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .chain import EDGES, TWO_PI
-from .problem import Cycle
+from .problem import Cycle, Strips
 
 if TYPE_CHECKING:
     from .outermost import Outermost
@@ -25,6 +29,8 @@ RELEASE = 0.1
 #: contact all but complete, in parts of the pressure's amplitude, and the width of its gap over the half width where the saturated field pulls
 _NEARLY, _GAP = 0.3, 3.0
 _LEAST = 1e-9
+#: alpha above which the edges are those of a foundation that stands still; rounds of Newton for them, from a long contact, and the shortest
+_SLOWLY, _ROUNDS, _LONG, _SHORT = 3.0, 4, 2.0, 0.02
 
 
 def onset_guess(cycle: Cycle, kind: str = "adhesive") -> np.ndarray:
@@ -57,7 +63,28 @@ def start(kernel, cycle: Cycle, sequence: str, bounds: Outermost | None = None) 
         edges["c"] = low + RELEASE * np.maximum(turned - cycle.half_c - low, 0.0)
         if bounds is not None:
             edges["c"] = np.where(np.isnan(bounds.x), edges["c"], np.maximum(bounds.c, last))
-    return np.array([edges[edge] for edge in EDGES[sequence]])
+    starts = np.array([edges[edge] for edge in EDGES[sequence]])
+    slow = np.flatnonzero(s.alpha > _SLOWLY) if sequence == "acaf" else ()
+    if len(slow):
+        starts[:, slow] = _standing_still(s.take(slow))
+    return starts
+
+
+def _standing_still(s: Strips) -> np.ndarray:
+    """Edges (4, n) of strips in which nothing relaxes within a period."""
+    glassy = s.L * s.beta / s.alpha
+    longest = np.arccos(np.clip(s.delta_0 - 1, -1.0, 1.0))
+    a = np.minimum(_LONG, 0.9 * longest)
+    for _ in range(_ROUNDS):
+        cosine, sine = np.cos(a), np.sin(a)
+        c = np.arccos(np.maximum(cosine - s.delta_0, -1.0))
+        balance = glassy * (sine - a * cosine) - np.pi * (s.D - 1 + cosine) - s.p_0 * c
+        slope = sine * (np.pi + glassy * a - s.p_0 / np.maximum(np.sin(c), _LEAST))
+        rising = slope > 0
+        step = np.divide(balance, slope, out=np.zeros_like(a), where=rising)
+        a = np.clip(np.where(rising, a - step, 0.5 * (a + longest)), _SHORT, 0.98 * longest)
+    c = np.arccos(np.maximum(np.cos(a) - s.delta_0, -1.0))
+    return np.array([-c, -a, a, c])
 
 
 def _nearly_complete(kernel, cycle: Cycle, edges: dict[str, np.ndarray]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 import os
 import signal
 import threading
@@ -57,12 +58,34 @@ def dask(address: str) -> Iterator[tuple[Executor, int]]:
     try:
         client = distributed.Client(address, timeout=10, set_as_default=False)
     except (OSError, ValueError, TimeoutError) as error:
-        raise HystripError(f"--scheduler {address}: no Dask scheduler answers ({error or type(error).__name__})") from None
+        raise HystripError(f"--scheduler {address}: no Dask scheduler answers ({str(error) or type(error).__name__})") from None
+    with _quiet("distributed", "distributed.client", "tornado.application"):
+        try:
+            threads = sum(client.nthreads().values())
+            yield client.get_executor(retries=3), max(2 * threads, 8)
+        except distributed.KilledWorker as error:
+            raise HystripError(lost(f"--scheduler {address}: {error}")) from None
+        finally:
+            client.close(timeout=5)
+
+
+@contextlib.contextmanager
+def _quiet(*loggers: str) -> Iterator[None]:
+    """Keep tracebacks of a lost connection off the terminal: what was lost is said in one sentence."""
+    found = [logging.getLogger(name) for name in loggers]
+    levels = [logger.level for logger in found]
+    for logger in found:
+        logger.setLevel(logging.CRITICAL)
     try:
-        threads = sum(client.nthreads().values())
-        yield client.get_executor(retries=3), max(2 * threads, 8)
+        yield
     finally:
-        client.close(timeout=5)
+        for logger, level in zip(found, levels, strict=True):
+            logger.setLevel(level)
+
+
+def lost(what: str) -> str:
+    """What to say when the workers are gone."""
+    return f"{what}; finished batches are kept: run the sweep again to go on"
 
 
 def _start_worker() -> None:

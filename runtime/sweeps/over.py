@@ -32,9 +32,16 @@ def over_of(texts: Sequence[str]) -> dict[str, np.ndarray]:
 def _read(key: str, written: str):
     for attempt in (written, f"[{written}]"):
         try:
-            return msgspec.convert(tomllib.loads(f"values = {attempt}")["values"], Values)
-        except (tomllib.TOMLDecodeError, KeyError):
+            read = tomllib.loads(f"values = {attempt}")
+            if len(read) > 1:  # more lines than one
+                break
+            return msgspec.convert(read["values"], Values)
+        except tomllib.TOMLDecodeError:
             continue
         except msgspec.ValidationError:
             break
-    raise InputError(key, written, 'a number, a text with its unit in quotes ("2 ms"), a list of these, or {start = ..., stop = ..., num = ...}')
+    raise InputError(
+        key,
+        written,
+        'a number, a text with its unit in quotes ("2 ms"), a list of these, or {start = ..., stop = ..., num = ...}',
+    )

@@ -16,11 +16,21 @@ from hystrip.errors import InputError
 from hystrip.inputs.checks import numbers
 from hystrip.loading import solver_key
 from hystrip.scene.errors import SceneError, nearest
-from hystrip.scene.load import build_objects, quantities, refuse_ambiguous
+from hystrip.scene.load import (
+    build_adhesion,
+    build_level,
+    build_material,
+    build_objects,
+    quantities,
+    refuse_ambiguous,
+)
+from hystrip.solve import check_levels
+from hystrip.solver import check_edge, kernel_of
 
 _LOADS = ("pressure", "penetration")
-_UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "moduli": "Pa/m", "times": "s", "gamma": "J/m^2", "p_0": "Pa",
-          "delta_0": "m", "pressure": "Pa", "penetration": "m", "velocity": "m/s"}  # fmt: skip
+_UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "moduli": "Pa/m", "times": "s",
+          "gamma": "J/m^2", "p_0": "Pa", "delta_0": "m",
+          "pressure": "Pa", "penetration": "m", "velocity": "m/s"}  # fmt: skip
 
 #: batches of a sweep that does not say: so many, of at least and at most so many points; one level alone is so quick that
 #: smaller batches take longer than the solution
@@ -137,10 +147,7 @@ def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], 
     if batch is not None and (isinstance(batch, bool) or not isinstance(batch, int) or batch < 1):
         raise InputError("batch", batch, "an integer >= 1, points that are solved and stored together")
     axes = tuple(Axis(key, each) for key, each in quantities(values) if each.ndim)
-    for axis in axes:
-        # what no combination can mend is refused before any work; what a combination spoils is recorded point by point
-        if axis.key not in _LOADS:
-            numbers(axis.key, axis.values, axis.unit, 0, strict=_last(axis.key) in ("K", "l", "times"))
+    _refuse_hopeless(values, {axis.key for axis in axes})
     sizes = {axis.key: axis.values.size for axis in axes}
     if combine == "list" and len(set(sizes.values())) > 1:
         raise SceneError(
@@ -156,6 +163,23 @@ def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], 
     # large batches use the vectorised solver well, many share out among workers and lose little to a kill
     least = _LEAST if plan.levels > 1 else _LEAST_OF_ONE_LEVEL
     return plan if batch else dataclasses.replace(plan, batch=min(max(-(-plan.size // _SHARES), least), _MOST))
+
+
+def _refuse_hopeless(values: dict[str, Any], swept: set[str]) -> None:
+    """Refuse before any work what no combination can mend; what a combination spoils is recorded point by point."""
+    for key, each in quantities(values):
+        if key not in _LOADS:
+            numbers(key, each, unit_of(key), 0, strict=_last(key) in ("K", "l", "times"))
+    fixed = lambda path: not any(key.startswith(path) for key in swept)  # noqa: E731
+    if fixed("material"):
+        material = build_material(values)
+        check_edge(material, values["edge"])
+        kernel_of(material)
+    if fixed("levels"):
+        check_levels([build_level(values, index) for index in range(len(values["levels"]))])
+    if values["adhesion"] is not None and fixed("adhesion.delta_0"):
+        strongest = {key: each.max() for key, each in values["adhesion"].items() if each is not None}
+        build_adhesion({"adhesion": strongest})
 
 
 def _put(values: dict[str, Any], key: str, given: Any) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ import numpy as np
 from hystrip.errors import HystripError, InputError
 from hystrip.files import Outputs, refuse_unwritable
 from hystrip.sweeps.batch import Task, outputs, solve_batch
-from hystrip.sweeps.executors import dask, local
+from hystrip.sweeps.executors import dask, local, lost
 from hystrip.sweeps.plan import Plan, plan_of
 from hystrip.sweeps.store import Store
 from hystrip.tables import write_csv
@@ -27,8 +27,8 @@ class Sweep:
 
     Attributes
     ----------
-    columns : column name (with its unit) -> values, one for every point in the order of the scene; ``failed`` holds the reason of
-        a point that could not be solved, and its numbers are NaN
+    columns : column name (with its unit) -> values, one for every point in the order of the scene; ``failed`` holds the
+        reason of a point that could not be solved, and its numbers are NaN
     path : the CSV file; plan : what was swept
     solved, kept : batches solved now, and found finished on disk
     """
@@ -85,6 +85,7 @@ def sweep(
     Raises
     ------
     InputError : the scene or an argument; a single point that fails is recorded, it raises nothing
+    HystripError : another run is at work in the folder, or the workers were lost; finished batches are kept
 
     Examples
     --------
@@ -106,6 +107,8 @@ def sweep(
         plan = plan_of(values, name, text, over or {}, combine, batch)
     out = Path(out)
     refuse_unwritable(out, "--out")
+    if executor is not None and not hasattr(executor, "submit"):
+        raise InputError("executor", executor, "anything with the concurrent.futures interface")
     if sum((workers != 1, executor is not None, scheduler is not None)) > 1:
         raise InputError("workers, executor, scheduler", (workers, executor, scheduler), "one of them")
     where = contextlib.nullcontext((executor, 64)) if executor is not None else dask(scheduler) if scheduler else local(workers)
@@ -132,17 +135,22 @@ def _run(plan: Plan, store: Store, missing: list[int], executor: Executor, in_fl
                 running[executor.submit(solve_batch, task)] = task.number
             if not running:
                 return
-            for future in wait(running, return_when=FIRST_COMPLETED).done:
+            # what is finished goes to disk before another batch's failure ends the run
+            for future in sorted(wait(running, return_when=FIRST_COMPLETED).done, key=_failed):
                 number = running.pop(future)
                 store.write(number, *future.result())
                 done += plan.points_of(number).size
                 if progress:
                     progress(done, plan.size)
-    except BrokenExecutor as error:
-        raise HystripError(f"a worker process died ({error}); finished batches are kept: run the sweep again to go on") from None
+    except (BrokenExecutor, CancelledError) as error:
+        raise HystripError(lost(f"the workers are gone ({str(error) or type(error).__name__})")) from None
     finally:
         for future in running:
             future.cancel()
+
+
+def _failed(future: Future) -> bool:
+    return future.cancelled() or future.exception() is not None
 
 
 def _tasks(plan: Plan, missing: list[int]) -> Iterator[Task]:

@@ -18,8 +18,8 @@ from hystrip.errors import HystripError, InputError
 class Store:
     """The folder ``<out>/<name>.parts`` of a sweep.
 
-    ``plan.json`` says whose parts these are. A part is written aside, flushed to the disk and renamed, and carries a checksum:
-    after a kill or a power cut it is whole, absent, or known to be damaged and solved again.
+    ``plan.json`` says whose parts these are. A part is written aside, flushed to the disk and renamed, and carries a
+    checksum: after a kill or a power cut it is whole, absent, or known to be damaged and solved again.
     """
 
     def __init__(self, folder: Path, fingerprint: str, about: dict[str, Any]):

@@ -5,8 +5,8 @@ amplitude ``A``, pressures in units of ``K A``. A prime is ``d/ds``. The foundat
 ``w + beta w' = p + alpha p'``; with ``z = w - J p`` and ``J = alpha/beta`` this is ``beta z' = p - w``.
 
 The load harmonic ``H = u + beta u'`` decides every event. Each event function ``F`` (the gap less a constant, or the
-contact pressure less a constant) obeys ``F + T F' = const -+ H`` within its zone, so at a zero of ``F`` the sign of
-its slope is that of the right-hand side: falling and rising zeros lie in arcs known in closed form, at most one in each.
+contact pressure less a constant) obeys ``F + T F' = const -+ H`` within its zone, so at a zero of ``F`` the sign of its
+slope is that of the right-hand side: falling and rising zeros lie in arcs known in closed form, at most one in each.
 """
 
 from mpmath import mp
@@ -143,8 +143,8 @@ def crossing(event, start, arc, rising):
 def bracketed_root(event, low, high, sign):
     """Zero of ``event`` (which gives value and slope), known to have sign ``-sign`` at low and ``sign`` at high.
 
-    Newton steps that leave the bracket or shrink too slowly give way to bisection. ``None`` as a value counts as the sign
-    of the low end, ``None`` as a slope calls for bisection.
+    Newton steps that leave the bracket or shrink too slowly give way to bisection. ``None`` as a value counts as the
+    sign of the low end, ``None`` as a slope calls for bisection.
     """
     tolerance = mp.mpf(10) ** (12 - mp.dps)
     point, last = (low + high) / 2, high - low

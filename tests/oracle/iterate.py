@@ -1,8 +1,9 @@
 """Plain iteration of the period map, many strips at once: where a material point ends that starts in deep contact, or far below.
 
-It follows every point from event to event through its zones, period after period, until a period repeats. It knows the flows and the order
-of events, nothing of onset maps, boundary equations, candidates or exclusion: a check of *which* orbit is extremal, for strips whose map
-contracts fast enough to wait for. Dimensionless as in ``flow.py``, in double precision.
+It follows every point from event to event through its zones, period after period, until a period repeats. It knows the
+flows and the order of events, nothing of onset maps, boundary equations, candidates or exclusion: a check of *which*
+orbit is extremal, for strips whose map contracts fast enough to wait for. Dimensionless as in ``flow.py``, in double
+precision.
 """
 
 from dataclasses import dataclass
@@ -18,9 +19,9 @@ TURN = 2 * np.pi
 class Settled:
     """Where the iteration ended, arrays of shape (n,).
 
-    ``sequence``, ``contact``, ``adhesion``, ``pressure``: of the last period followed. ``remaining``: estimate of how far the state at the period's
-    start (a displacement in units of A, or in contact a pressure in K A) still was from its limit; inf where the periods did not suffice.
-    ``contraction``: ratio of the last two changes of that state.
+    ``sequence``, ``contact``, ``adhesion``, ``pressure``: of the last period followed. ``remaining``: estimate of how
+    far the state at the period's start (a displacement in units of A, or in contact a pressure in K A) still was from
+    its limit; inf where the periods did not suffice. ``contraction``: ratio of the last two changes of that state.
     """
 
     sequence: np.ndarray
@@ -157,7 +158,8 @@ class Points:
         return best, where
 
     def _crossing(self, i, target, end):
-        """First phase up to ``end`` at which the zone is left for ``target``. Within its arc the event function rises through zero at most once."""
+        """First phase up to ``end`` at which the zone is left for ``target``. Within its arc the event function rises
+        through zero at most once."""
         centre, half = self.arc(i, target)
         start = self.s[i]
         found, happens = end.copy(), np.zeros(i.size, bool)
@@ -180,7 +182,8 @@ class Points:
         return found, happens
 
     def _root(self, i, target, low, high):
-        """Bisection with secant steps (Illinois) between ``low``, where the event function is not positive, and ``high``, where it is."""
+        """Bisection with secant steps (Illinois) between ``low``, where the event function is not positive, and
+        ``high``, where it is."""
         f_low, f_high = self.exit(i, low, target), self.exit(i, high, target)
         result = np.where(f_low >= 0, low, high)
         active = np.flatnonzero(f_low < 0)
@@ -205,7 +208,9 @@ class Points:
         zone, length = self.zone[i], phase - start
         # integral of p: the law p + alpha p' = H integrated, or the constant traction
         load = (self.delta[i] - 1) * length + np.sin(phase) - np.sin(start) + self.beta[i] * (np.cos(phase) - np.cos(start))
-        force = np.where(zone == CONTACT, load - self.alpha[i] * (after - before), np.where(zone == ADHESION, -self.P0[i] * length, 0.0))
+        force = np.where(
+            zone == CONTACT, load - self.alpha[i] * (after - before), np.where(zone == ADHESION, -self.P0[i] * length, 0.0)
+        )
         self.force[i] += force
         np.add.at(self.length, (i, zone), length)
         self.s[i], self.value[i] = phase, after
@@ -214,7 +219,11 @@ class Points:
         zone, profile = self.zone[i], self.profile(i, self.s[i])
         contact = following == CONTACT
         snap = (zone == FREE) & (following == ADHESION) & self.snaps[i]
-        w = np.where(zone == CONTACT, profile, np.where(following == FREE, profile + self.Delta[i] + self.step[i], profile + self.Delta[i] - self.step[i]))
+        w = np.where(
+            zone == CONTACT,
+            profile,
+            np.where(following == FREE, profile + self.Delta[i] + self.step[i], profile + self.Delta[i] - self.step[i]),
+        )
         p = np.where(zone == ADHESION, -self.P0[i], 0.0)
         reach = np.divide(-self.Delta[i], self.J[i], out=np.zeros(i.size), where=snap)
         self.value[i] = np.where(snap, reach, np.where(contact, p, w))
@@ -227,7 +236,9 @@ def iterate(alpha, beta, P0, Delta, delta, constitutive, deep, periods=2000, tol
     points = Points(*arrays, np.asarray(constitutive, bool))
     points.start(deep)
     n = points.zone.size
-    out = Settled(np.empty(n, object), *(np.full(n, np.nan) for _ in range(3)), np.full(n, np.inf), np.full(n, np.nan), np.full(n, periods))
+    out = Settled(
+        np.empty(n, object), *(np.full(n, np.nan) for _ in range(3)), np.full(n, np.inf), np.full(n, np.nan), np.full(n, periods)
+    )
     index = np.arange(n)
     zone, value, change = points.zone.copy(), points.value.copy(), np.full(n, np.inf)
     for number in range(1, periods + 1):

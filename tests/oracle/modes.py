@@ -1,18 +1,19 @@
 """High-precision reference solution of one strip on a foundation with n relaxation times, closure ``constitutive``.
 
-It follows one material point from event to event. The state are the displacements ``e_i`` of the dashpots: with relative moduli
-``m_i = K_i/K``, times ``theta_i = k V tau_i`` and ``J = 1/(1 + sum m_i)``
+It follows one material point from event to event. The state are the displacements ``e_i`` of the dashpots: with
+relative moduli ``m_i = K_i/K``, times ``theta_i = k V tau_i`` and ``J = 1/(1 + sum m_i)``
 
     w = J p + z,   z = J sum m_i e_i,   theta_i e_i' = w - e_i
 
-in units of A and K A, a prime being d/ds with ``s = -k x``. Nothing is taken from the library: no boundary equations, no generated
-code; the modes of a gap come from a symmetric eigenvalue problem at the working precision.
+in units of A and K A, a prime being d/ds with ``s = -k x``. Nothing is taken from the library: no boundary equations,
+no generated code; the modes of a gap come from a symmetric eigenvalue problem at the working precision.
 
-Which orbit is extremal. With ``y = z - u`` the traction is a relay in y: engagement begins where y falls to Delta and ends where it rises
-to ``Delta + J P0``; engaged, ``w = u + max(y - J P0, 0)``, free, ``w = z``. Both are nondecreasing in every ``e_i`` and the relay in its input,
-so the period map preserves the order "engaged before free, then every e_i ascending". Hence from a state below every orbit the iterates
-rise to the most engaged orbit, from one above every orbit they fall to the least engaged one. They are accelerated without passing it:
-if M is a lower bound of the map's derivative, then ``x + (I - M)^-1 (P(x) - x)`` is still below (above) the orbit.
+Which orbit is extremal. With ``y = z - u`` the traction is a relay in y: engagement begins where y falls to Delta and
+ends where it rises to ``Delta + J P0``; engaged, ``w = u + max(y - J P0, 0)``, free, ``w = z``. Both are nondecreasing
+in every ``e_i`` and the relay in its input, so the period map preserves the order "engaged before free, then every e_i
+ascending". Hence from a state below every orbit the iterates rise to the most engaged orbit, from one above every orbit
+they fall to the least engaged one. They are accelerated without passing it: if M is a lower bound of the map's
+derivative, then ``x + (I - M)^-1 (P(x) - x)`` is still below (above) the orbit.
 """
 
 from dataclasses import dataclass
@@ -20,6 +21,7 @@ from typing import Any
 
 from mpmath import mp
 
+from .march import edges_of
 from .orbits import LOADING, UNLOADING, Unresolved
 
 DIGITS = 50
@@ -45,7 +47,8 @@ class ModesSolution:
 
 
 class Foundation:
-    """Relative moduli and times, and the modes of the gap: times ``lambdas``, ``z = sum weight_j v_j``, ``v = S e``, ``e = back v``."""
+    """Relative moduli and times, and the modes of the gap: times ``lambdas``, ``z = sum weight_j v_j``, ``v = S e``,
+    ``e = back v``."""
 
     def __init__(self, theta, m):
         self.theta, self.m = [mp.mpf(t) for t in theta], [mp.mpf(v) for v in m]
@@ -54,13 +57,13 @@ class Foundation:
         n = self.n = len(self.theta)
         self.J = 1 / (1 + mp.fsum(self.m))
         # W A W^-1 is symmetric for W = diag sqrt(m theta)
-        q = [mp.sqrt(m / t) for m, t in zip(self.m, self.theta)]
+        q = [mp.sqrt(m / t) for m, t in zip(self.m, self.theta, strict=True)]
         symmetric = mp.matrix(n, n)
         for i in range(n):
             for j in range(n):
                 symmetric[i, j] = (1 / self.theta[i] if i == j else 0) - self.J * q[i] * q[j]
         rates, Q = mp.eigsy(symmetric)
-        scale = [mp.sqrt(m * t) for m, t in zip(self.m, self.theta)]
+        scale = [mp.sqrt(m * t) for m, t in zip(self.m, self.theta, strict=True)]
         self.lambdas = [1 / rate for rate in rates]
         self.weight = [self.J * mp.fsum(self.m[i] / scale[i] * Q[i, j] for i in range(n)) for j in range(n)]
         self.S = mp.matrix(n, n)
@@ -106,7 +109,8 @@ class Event:
         return self._parts(s)[2]
 
     def _parts(self, s):
-        """Value, a lower bound of the slope at all later phases but for curvature ``amplitude``, the slope, its curvature bound."""
+        """Value, a lower bound of the slope at all later phases but for curvature ``amplitude``, the slope, its
+        curvature bound."""
         cosine, sine = mp.cos_sin(s)
         value = self.constant + self.a * cosine + self.b * sine
         base = -self.a * sine + self.b * cosine
@@ -124,7 +128,8 @@ class Event:
     def first_zero(self, end):
         """First phase after ``start`` and before ``end`` at which G falls through zero, or None.
 
-        From a point where G > 0 it steps as far as lower bounds of G stay positive: it approaches the first zero and cannot pass it.
+        From a point where G > 0 it steps as far as lower bounds of G stay positive: it approaches the first zero and
+        cannot pass it.
         """
         s, tolerance = self.start, mp.mpf(10) ** (14 - mp.dps)
         for _ in range(20000):
@@ -166,7 +171,7 @@ class Zone:
 def zone_of(strip, engaged, e, s):
     """Zone of a point with this memory at phase s, and whether it is engaged there."""
     f = strip.foundation
-    y = f.J * mp.fsum(m * each for m, each in zip(f.m, e)) - strip.u(s)
+    y = f.J * mp.fsum(m * each for m, each in zip(f.m, e, strict=True)) - strip.u(s)
     if strip.P0 == 0:
         return ("c" if y < 0 else "f"), True
     engaged = y <= strip.Delta + strip.step if engaged else y <= strip.Delta
@@ -177,14 +182,14 @@ def zone_of(strip, engaged, e, s):
 
 def advance(strip, letter, start, e, end):
     """Dashpot displacements at ``end`` within one zone, and the event functions of the zone: (event, next zone)."""
-    f, u = strip.foundation, strip.u
+    f = strip.foundation
     if letter == "c":
         rest = lambda i, s: strip.mean + (mp.cos(s) + f.theta[i] * mp.sin(s)) / (1 + f.theta[i] ** 2)  # noqa: E731
         off = [e[i] - rest(i, start) for i in range(f.n)]
         if end is None:
-            in_phase = 1 + mp.fsum(m * t * t / (1 + t * t) for m, t in zip(f.m, f.theta))
-            out = mp.fsum(m * t / (1 + t * t) for m, t in zip(f.m, f.theta))
-            terms = [(-m * c, t) for m, c, t in zip(f.m, off, f.theta)]
+            in_phase = 1 + mp.fsum(m * t * t / (1 + t * t) for m, t in zip(f.m, f.theta, strict=True))
+            out = mp.fsum(m * t / (1 + t * t) for m, t in zip(f.m, f.theta, strict=True))
+            terms = [(-m * c, t) for m, c, t in zip(f.m, off, f.theta, strict=True)]
             # p = mean + in_phase cos - out sin - sum m off exp
             excess = Event(start, strip.mean + strip.P0, in_phase, -out, terms)
             return [(excess, "f" if strip.P0 == 0 else "a")]
@@ -194,7 +199,7 @@ def advance(strip, letter, start, e, end):
     off = [v[j] - f.j[j] * p for j in range(f.n)]
     if end is None:
         # gap = w - u, w = p + sum weight off exp (J + sum weight j = 1)
-        terms = [(weight * c, t) for weight, c, t in zip(f.weight, off, f.lambdas)]
+        terms = [(weight * c, t) for weight, c, t in zip(f.weight, off, f.lambdas, strict=True)]
         level = lambda L, sign: Event(  # noqa: E731
             start, sign * (p - strip.mean - L), -sign, mp.zero, [(sign * c, t) for c, t in terms]
         )
@@ -215,8 +220,8 @@ def propagator(strip, letter, length):
 
 
 def period(strip, engaged, e, start):
-    """Follow a point for one turn: zones met, engaged at the end, displacements at the end, derivative of the map with and without the gains at
-    release and onset (the latter bounds the former from below)."""
+    """Follow a point for one turn: zones met, engaged at the end, displacements at the end, derivative of the map with
+    and without the gains at release and onset (the latter bounds the former from below)."""
     f = strip.foundation
     n = f.n
     end = start + 2 * mp.pi
@@ -411,8 +416,16 @@ def _solution(strip, zones, e, exact):
             friction -= strip.P0 * (mp.cos(zone.end) - mp.cos(zone.start))
     cyclic = _joined(zones)
     sequence = "".join(letter for letter, _, _ in cyclic)
-    return ModesSolution(min(sequence[i:] + sequence[:i] for i in range(len(sequence))), _edges(cyclic), pressure / turn,
-                         friction / turn, lengths["c"] / turn, lengths["a"] / turn, radius(exact), tuple(e))
+    return ModesSolution(
+        min(sequence[i:] + sequence[:i] for i in range(len(sequence))),
+        edges_of(cyclic),
+        pressure / turn,
+        friction / turn,
+        lengths["c"] / turn,
+        lengths["a"] / turn,
+        radius(exact),
+        tuple(e),
+    )
 
 
 def _contact(strip, zone):
@@ -422,8 +435,7 @@ def _contact(strip, zone):
     (c_0, n_0), (c_1, n_1) = mp.cos_sin(s_0), mp.cos_sin(s_1)
     constant, length = event.constant - strip.P0, s_1 - s_0
     force = constant * length + event.a * (n_1 - n_0) - event.b * (c_1 - c_0)
-    work = (constant * (c_1 - c_0) + event.a * (c_1**2 - c_0**2) / 2
-            - event.b * (length - n_1 * c_1 + n_0 * c_0) / 2)
+    work = constant * (c_1 - c_0) + event.a * (c_1**2 - c_0**2) / 2 - event.b * (length - n_1 * c_1 + n_0 * c_0) / 2
     for c, T in event.terms:
         left = mp.exp(-length / T)
         force += c * T * (1 - left)
@@ -438,19 +450,3 @@ def _joined(zones):
         letter, start, _ = cyclic.pop()
         cyclic[0] = (letter, start - 2 * mp.pi, cyclic[0][2])
     return cyclic
-
-
-def _edges(zones):
-    """Edges as phases ``theta = k x``, named as in ``march``; each modulo one period."""
-    edges = {}
-    if len(zones) > 1:
-        for (letter, start, _), (before, _, _) in zip(zones, zones[-1:] + zones[:-1]):
-            if letter == "c":
-                edges["b"] = -start
-            elif before == "c":
-                edges["a"] = +start
-            elif letter == "a":
-                edges["d"] = -start
-            if letter == "f" and before == "a":
-                edges["c"] = +start
-    return edges

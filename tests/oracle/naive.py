@@ -1,5 +1,5 @@
-"""Plain marching in double precision, for checking the oracle on easy scenes: sample each zone's exact flow on a fine grid,
-stop at the first sign change of an exit event, and go on until two periods agree.
+"""Plain marching in double precision, for checking the oracle on easy scenes: sample each zone's exact flow on a fine
+grid, stop at the first sign change of an exit event, and go on until two periods agree.
 
 It knows nothing of arcs, return maps or order; it is slow and takes excursions shorter than its grid for none.
 """
@@ -32,6 +32,7 @@ class Naive:
 
     def events(self, zone, start, value):
         """(event function, direction, zone to enter) for each way out of a zone."""
+
         def field(s):
             return self.field(zone, start, value, s)
 
@@ -94,8 +95,16 @@ class Naive:
             history.append((zone, s, following[0], value))
             s, zone, value = following
             previous = None
-            size = next((n for n in range(1, 5) if len(history) > 2 * n and history[-1][0] == history[-1 - n][0]
-                         and abs(history[-1][2] - history[-1 - n][2] - 2 * np.pi) < 1e-12 * s + 1e-13), None)
+            size = next(
+                (
+                    n
+                    for n in range(1, 5)
+                    if len(history) > 2 * n
+                    and history[-1][0] == history[-1 - n][0]
+                    and abs(history[-1][2] - history[-1 - n][2] - 2 * np.pi) < 1e-12 * s + 1e-13
+                ),
+                None,
+            )
             if size:
                 return history[-size:]
             history = history[-12:]

@@ -1,9 +1,9 @@
 """The extremal periodic orbits of a strip.
 
 The motion over one period preserves the order "engaged before free, then z ascending". The most engaged orbit is
-therefore the always engaged one if it is admissible, else the least fixed point of the onset-to-onset map, else the free
-one; the least engaged orbit is the free one if admissible, else the greatest fixed point, else the always engaged one.
-Fixed points are found by exclusion, never by iteration, so slow contraction and neighbouring folds cost little.
+therefore the always engaged one if it is admissible, else the least fixed point of the onset-to-onset map, else the
+free one; the least engaged orbit is the free one if admissible, else the greatest fixed point, else the always engaged
+one. Fixed points are found by exclusion, never by iteration, so slow contraction and neighbouring folds cost little.
 """
 
 from dataclasses import dataclass
@@ -62,8 +62,8 @@ def free_orbit(strip):
 def engaged_orbit(strip):
     """The orbit that is never free, or None.
 
-    If release is put out of action, ``p + P0`` and ``w + P0`` follow the rules of a strip without adhesion, raised by P0:
-    exactly one orbit. It is admissible if its gap never rises through ``Delta``.
+    If release is put out of action, ``p + P0`` and ``w + P0`` follow the rules of a strip without adhesion, raised by
+    P0: exactly one orbit. It is admissible if its gap never rises through ``Delta``.
     """
     if strip.P0 == 0:
         return _without_adhesion(strip) if strip.delta >= 1 + strip.ratio else None
@@ -122,8 +122,8 @@ def returning_orbits(strip, descending=False):
 def _finite_range(returns):
     """Passages at the ends of the interval of onsets that return, or None.
 
-    Early onsets stay engaged and late ones miss the next onset; the margins of release and return, monotone in the onset,
-    mark the limits.
+    Early onsets stay engaged and late ones miss the next onset; the margins of release and return, monotone in the
+    onset, mark the limits.
     """
     low, high = (returns.passage(d) for d in returns.onset)
     if low.outcome == MISSED or high.outcome == ENGAGED:
@@ -155,8 +155,8 @@ def _limit(returns, margin, outcome):
 def _isolated(returns, first, second, descending):
     """Intervals of onsets that hold exactly one fixed point each, in order: (first, second, falling).
 
-    Bounds of Y' bound Y between two passages. An interval where Y has one sign holds none; where Y is monotone, the signs at
-    the ends tell; any other is halved.
+    Bounds of Y' bound Y between two passages. An interval where Y has one sign holds none; where Y is monotone, the
+    signs at the ends tell; any other is halved.
     """
     advance, bounds = returns.advance, returns.advance_slope_bounds
     stack = [(first, advance(first), second, advance(second))]

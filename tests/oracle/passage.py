@@ -1,9 +1,9 @@
 """The passage of a material point from one onset of engagement to the next, and how it depends on the onset phase.
 
-At an onset ``d`` the free gap falls to ``Delta``, so ``w = u(d) + Delta``: the phase alone is the state. The onset-to-onset
-map ``T`` is increasing where it is finite, because a point that engages later has the larger ``z = w - J p`` from then
-on, hence enters contact later, leaves it earlier and is released earlier. With ``P0 = 0`` an onset is the entry into
-contact at zero pressure, and the release is the exit from it.
+At an onset ``d`` the free gap falls to ``Delta``, so ``w = u(d) + Delta``: the phase alone is the state. The
+onset-to-onset map ``T`` is increasing where it is finite, because a point that engages later has the larger
+``z = w - J p`` from then on, hence enters contact later, leaves it earlier and is released earlier. With ``P0 = 0`` an
+onset is the entry into contact at zero pressure, and the release is the exit from it.
 
 ``T`` is followed through ``Y(d) = m(T(d) - 2 pi) - m(d)`` with ``m' = Delta + H``. It has the sign of
 ``T(d) - d - 2 pi``, because ``m`` increases over the onset arc, but its slope
@@ -11,8 +11,8 @@ contact at zero pressure, and the release is the exit from it.
     Y' = X (rho E - 1) + Q rho E,     X = Delta + H(d),   rho = 1 + P' / -(P0 + Delta + H(c)),
     E = exp(-(T - d - L)/beta - L/alpha),  L = contact length,
 
-holds no difference of large terms (X ~ beta) when the foundation is slow, and does not blow up where T grazes. ``Q`` and ``P'``
-are the jumps that the rate of ``z`` makes at onset and release.
+holds no difference of large terms (X ~ beta) when the foundation is slow, and does not blow up where T grazes. ``Q``
+and ``P'`` are the jumps that the rate of ``z`` makes at onset and release.
 """
 
 from dataclasses import dataclass
@@ -30,9 +30,9 @@ class Passage:
     """Event phases: onset d, contact b to a (None without contact), release c, next onset. ``outcome`` says whether
     the point stays engaged (no c), misses the next onset (no next), or returns.
 
-    Margins are (value, derivative by d): how far the gap, continued to the end of the release arc without release, passes
-    ``Delta``; how far the free gap stays above ``Delta`` at the end of the next onset arc. They change sign where ``T``
-    ceases to be finite.
+    Margins are (value, derivative by d): how far the gap, continued to the end of the release arc without release,
+    passes ``Delta``; how far the free gap stays above ``Delta`` at the end of the next onset arc. They change sign
+    where ``T`` ceases to be finite.
     """
 
     outcome: str

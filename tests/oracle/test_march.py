@@ -1,5 +1,6 @@
 """The oracle against plain marching, quadrature, energy balances and closed forms."""
 
+import itertools
 import math
 import random
 
@@ -127,7 +128,7 @@ def test_passages_are_monotone_and_their_slopes_bounded(seed):
         low, high = returns.onset
         onsets = sorted(low + (high - low) * rng.random() for _ in range(6))
         items = [item for item in map(returns.passage, onsets) if item.outcome == RETURNED]
-        for first, second in zip(items, items[1:]):
+        for first, second in itertools.pairwise(items):
             assert first.length >= second.length and first.c >= second.c and first.next <= second.next
             below, above = returns.advance_slope_bounds(first, second)
             for item in (first, second):

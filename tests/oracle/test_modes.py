@@ -43,18 +43,19 @@ def test_one_time_is_the_single_time(seed, split):
 def fields(strip, zones):
     """(start, end, p, w, e) of each zone, functions of the phase."""
     for zone in zones:
+
         def e(s, zone=zone):
             return modes.advance(strip, zone.letter, zone.start, zone.e, s)
 
         def p(s, zone=zone, e=e):
             if zone.letter == "c":
                 f = strip.foundation
-                return strip.u(s) + mp.fsum(m * (strip.u(s) - each) for m, each in zip(f.m, e(s)))
+                return strip.u(s) + mp.fsum(m * (strip.u(s) - each) for m, each in zip(f.m, e(s), strict=True))
             return -strip.P0 if zone.letter == "a" else mp.zero
 
         def w(s, p=p, e=e):
             f = strip.foundation
-            return f.J * (p(s) + mp.fsum(m * each for m, each in zip(f.m, e(s))))
+            return f.J * (p(s) + mp.fsum(m * each for m, each in zip(f.m, e(s), strict=True)))
 
         yield zone.start, zone.end, p, w, e
 
@@ -71,7 +72,7 @@ def test_means_by_quadrature_and_energy_balance(scene):
         for start, end, p, w, e in fields(strip, zones):
             pressure += mp.quad(p, [start, end])
             friction += mp.quad(lambda s, p=p: -p(s) * mp.sin(s), [start, end])
-            for i, (modulus, time) in enumerate(zip(strip.foundation.m, strip.foundation.theta)):
+            for i, (modulus, time) in enumerate(zip(strip.foundation.m, strip.foundation.theta, strict=True)):
                 lag = lambda s, w=w, e=e, i=i: (w(s) - e(s)[i]) ** 2  # noqa: E731
                 loss += modulus / time * mp.quad(lag, [start, end])
         assert abs(found.p_mean - pressure / (2 * mp.pi)) < 1e-25

@@ -4,14 +4,16 @@ import numpy as np
 
 import hystrip
 
-#: penetrations among which that of the nominal pressure is looked for: few would step over a narrow minimum of p_mean; then closer and closer
+#: penetrations among which that of the nominal pressure is looked for: few would step over a narrow minimum of p_mean;
+#: then closer and closer
 _ROUNDS = (100, 30, 30)
 
 
 def friction(material, adhesion, levels, pressure, V, strips, depths=None):
     """Friction stress at a nominal pressure (Pa) and velocity (m/s), by ``strips`` equal strips and as many points along x.
 
-    The laws of the lower levels are interpolated linearly over ``depths`` penetrations: as many as strips, but for 30 to 300, if not given.
+    The laws of the lower levels are interpolated linearly over ``depths`` penetrations: as many as strips, but for 30
+    to 300, if not given.
     """
     surface = _Surface(material, adhesion, tuple(levels), V, strips, depths or int(np.clip(strips, 30, 300)))
     return surface.friction(pressure)

@@ -1,4 +1,5 @@
-"""Tamaas, its generalised Maxwell solver with the half-space replaced by independent springs: one level without adhesion at a given pressure."""
+"""Tamaas, its generalised Maxwell solver with the half-space replaced by independent springs: one level without
+adhesion at a given pressure."""
 
 import math
 
@@ -17,8 +18,9 @@ def available():
 def friction(material, level, pressure, V, points, steps, tolerance=1e-10):
     """Friction stress, Pa: a surface of ``points`` squared, drawn along in ``steps`` steps a wavelength.
 
-    The mean over a wavelength after as many as take five retardation times. Errors are of first order in the step, and fall with ``points``
-    where contact is partial. In units of K, h and l; the shear modulus has to be one, or the relaxation comes out wrong.
+    The mean over a wavelength after as many as take five retardation times. Errors are of first order in the step, and
+    fall with ``points`` where contact is partial. In units of K, h and l; the shear modulus has to be one, or the
+    relaxation comes out wrong.
     """
     import tamaas
 

@@ -1,4 +1,5 @@
-"""An event-driven march of material points with ``scipy.integrate.solve_ivp``: a level at a given penetration, strip by strip, period after period.
+"""An event-driven march of material points with ``scipy.integrate.solve_ivp``: a level at a given penetration, strip by
+strip, period after period.
 
 Continuous closure. Every strip starts deeply pressed and is marched until its means repeat: the unloading branch.
 """

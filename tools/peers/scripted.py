@@ -1,8 +1,10 @@
-"""The paper's method as a user would script it: scalar ``math``, one strip at a time with ``scipy.optimize.root``, the strip before as start.
+"""The paper's method as a user would script it: scalar ``math``, one strip at a time with ``scipy.optimize.root``, the
+strip before as start.
 
-A root of the boundary equations is taken for a solution only if it keeps the inequalities: contact presses (no less than ``-p_0``), gaps are
-open, adhesion stays within its reach. Without that look the strips of a level slide, each started from the one before, onto a second root
-whose contact lies in the valley and pulls. Continuous closure, unloading branch: the most engaged regimes are tried first.
+A root of the boundary equations is taken for a solution only if it keeps the inequalities: contact presses (no less
+than ``-p_0``), gaps are open, adhesion stays within its reach. Without that look the strips of a level slide, each
+started from the one before, onto a second root whose contact lies in the valley and pulls. Continuous closure,
+unloading branch: the most engaged regimes are tried first.
 """
 
 import math
@@ -174,7 +176,8 @@ def means(kind, edges, g):
 
 
 def friction(material, adhesion, levels, pressure_, V, strips=100, depths=100):
-    """Friction stress of a surface at one velocity; with it the strips solved and the failures. Along x, too, ``strips`` points."""
+    """Friction stress of a surface at one velocity; with it the strips solved and the failures. Along x, too,
+    ``strips`` points."""
     theta = np.pi * (np.arange(strips) + 0.5) / strips
     scripts = [Script(material, adhesion, level, V) for level in levels]
     depth, total = _at_pressure(scripts[0], theta, pressure_, depths)
@@ -192,7 +195,8 @@ def _depths(script, p_max, depths):
 
 
 def _level(script, theta, D):
-    """Mean pressure and friction over the strips at ``theta``, ascending: all beyond the first that is out of reach lie further off."""
+    """Mean pressure and friction over the strips at ``theta``, ascending: all beyond the first that is out of reach lie
+    further off."""
     rows = np.zeros((theta.size, 2))
     for row, t in zip(rows, theta, strict=True):
         p_mean, tau, _, reached = script.strip(t, D)
@@ -246,7 +250,8 @@ def _carried(contacts, law, strips):
 
 
 def _law(scripts, theta, p_max, depths):
-    """Friction of a level and all below it over pressure, along the unloading path, by linear interpolation; nothing below pull-off."""
+    """Friction of a level and all below it over pressure, along the unloading path, by linear interpolation; nothing
+    below pull-off."""
     script, D = scripts[0], _depths(scripts[0], p_max, depths)
     rows = np.array([_level(script, theta, depth) for depth in D])
     if len(scripts) > 1:

@@ -17,7 +17,7 @@ import sympy as sp
 
 from ...certify import FLOOR
 from ...check import DerivationError
-from ...regime import CONTACT
+from ...sequences import CONTACT
 from ...symbols import p, p_in, s, s_0, s_1
 from ..regimes import ModeRegime, ModeZone
 from ..symbols import f_0, numbered, z, z_0

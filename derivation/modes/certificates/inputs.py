@@ -11,7 +11,7 @@ import mpmath
 import numpy as np
 import sympy as sp
 
-from ...regime import CONTACT
+from ...sequences import CONTACT
 from ...symbols import D, alpha, beta, delta_0, p_0
 from ..law import Law
 from ..regimes import ModeRegime

@@ -1,0 +1,109 @@
+"""What a material point meets in a period, on any foundation: the zones of each regime, and the states at their ends.
+
+A state is the gap where p is given, and the excess pressure ``q = p + p_0`` in contact. What changes it over a zone is
+the foundation's: :mod:`.regime` for one relaxation time, :mod:`.modes.regimes` for several.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+import sympy as sp
+
+from . import stable
+from .check import REPRODUCED, Check, Derived, derived, zero
+from .symbols import D, a, b, c, d, delta_0, p_0
+
+PERIOD = 2 * sp.pi
+CONTACT, ADHESION, FREE = "contact", "adhesion", "free"
+NOTHING = sp.Integer(0)
+EQUATIONS = {  # by the edge at which a zone ends
+    b: ("contact_begins", "the gap closes at b"),
+    a: ("contact_ends", "the pressure falls to -p_0 at a"),
+    c: ("adhesion_ends", "the gap reaches delta_0 at c from below"),
+}
+TITLES = {  # by the zones in order: f free, a adhesion, c contact
+    "acaf": "partial contact with discrete adhesion zones",
+    "afc": "partial contact with trailing adhesion only, after a snap into contact",
+    "af": "no contact, a discrete adhesion zone",
+    "ac": "partial contact with saturated adhesion, or without adhesion if p_0 = 0",
+    "a": "no contact, saturated adhesion",
+    "c": "complete contact",
+    "f": "no interaction",
+}
+
+
+@dataclass(frozen=True)
+class Span:
+    """From ``first`` to ``last``; entered and left with a gap (adhesion, free) or an excess pressure (contact)."""
+
+    kind: str
+    first: sp.Symbol
+    last: sp.Expr
+    entry: sp.Expr
+    exit: sp.Expr
+
+    @property
+    def load(self) -> sp.Expr:
+        """The constant pressure of an adhesion or free zone."""
+        return -p_0 if self.kind == ADHESION else NOTHING
+
+    def fields(self, edge: sp.Expr, state: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+        """(w, p) at an edge, from the state of this zone there."""
+        height = stable.PROFILE(edge, D)
+        return (height, state - p_0) if self.kind == CONTACT else (height + state, self.load)
+
+
+Zone = TypeVar("Zone", bound=Span)
+
+
+def zones_of(sequence: str, zone: Callable[..., Zone], step: sp.Expr, compliance: sp.Expr) -> tuple[Zone, ...]:
+    r"""The zones of a regime with edges, in order. w falls by ``step`` at d and rises by it at c.
+
+    A snap into contact at d leaves z as it is: contact is entered at :math:`-\delta_0/J_0`, J_0 the ``compliance``.
+    """
+    trailing = zone(ADHESION, a, c, NOTHING, delta_0)
+    free = zone(FREE, c, d + PERIOD, delta_0 + step, delta_0)
+    return {
+        "acaf": (zone(ADHESION, d, b, delta_0 - step, NOTHING), zone(CONTACT, b, a, NOTHING, NOTHING), trailing, free),
+        "afc": (zone(CONTACT, d, a, p_0 - delta_0 / compliance, NOTHING), trailing, free),
+        "af": (zone(ADHESION, d, c, delta_0 - step, delta_0), free),
+        "ac": (zone(CONTACT, b, a, NOTHING, NOTHING), zone(ADHESION, a, b + PERIOD, NOTHING, NOTHING)),
+    }[sequence]
+
+
+def with_edges(sequence: str, edges: Iterable[sp.Symbol]) -> str:
+    """The beginning of what is said of a regime with edges."""
+    return f"{_capitalised(sequence)}: unknown edges {', '.join(map(str, edges))}"
+
+
+def edgeless_record(by: Callable[..., Any], sequence: str, latex: str, change: sp.Expr) -> Derived:
+    """The record of a regime without edges, whose field is steady: its ``change`` vanishes."""
+    name = f"regime {sequence}"
+    return derived(
+        by,
+        sequence,
+        name=name,
+        statement=f"{_capitalised(sequence)}: no unknown edge.",
+        latex=latex,
+        checks=[zero(name, "the field is steady", change)],
+        status=REPRODUCED,
+        emitted=(f"means_{sequence}",),
+    )
+
+
+def obeys_jump_law(name: str, zones: Sequence[Span], ratio: sp.Expr, law: str) -> Check:
+    """At every edge, from the exit of one zone to the entry of the next: ``[w] = ratio [p]``, as ``law`` says."""
+    residuals = []
+    for before, after in zip(zones, (*zones[1:], zones[0]), strict=True):
+        w_before, p_before = before.fields(before.last, before.exit)
+        w_after, p_after = after.fields(after.first, after.entry)
+        residuals.append(w_after - w_before - ratio * (p_after - p_before))
+    return zero(name, f"every edge obeys the jump law, {law}", residuals)
+
+
+def _capitalised(sequence: str) -> str:
+    title = TITLES[sequence]
+    return f"{title[0].upper()}{title[1:]}"

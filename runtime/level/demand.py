@@ -1,0 +1,72 @@
+"""Which pressures a level asks of the level below it, and how much hangs on each: where next to nothing does, a law may be coarser.
+
+A law's error counts as much as the share of the surface on which it is asked for. The strips of the level above are looked at by a plain sum: it is
+accuracy that is dealt out here, no result; what a law lacks shows in the error of what it carries (``carried``).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hystrip.solver import kernel_of
+
+from .contact import contact_of
+from .quadrature import interior_nodes, mapped, mapped_weights
+from .strips import Columns
+
+#: strips across the cell and points along each contact
+_STRIPS, _POINTS = 24, 32
+#: a share is not known any better than this
+_FINEST = 1e-6
+#: parts of a law that may each err by what the whole is allowed
+_PARTS = 3
+#: no law is coarser than this, times what is asked
+_EASIEST = 1e6
+
+
+@dataclass(frozen=True)
+class Demand:
+    """Pressures of points of the level above. ``group`` (n,): the law that a point asks; ``p`` (n, m), Pa, ascending in every row, with the ``share`` (n, m)
+    of the surface on which the pressure is at most that; ``friction`` (n,): Pa of friction that an error is held against."""
+
+    group: np.ndarray
+    p: np.ndarray
+    share: np.ndarray
+    friction: np.ndarray
+
+    def ease(self, group: int, low: float, high: float, friction: float) -> float:
+        """How much coarser than what is asked of the whole a law may be between the pressures ``low`` and ``high`` (Pa), where its friction is up to
+        ``friction`` (Pa): by an error of that, and by one of the pressure at which it ends."""
+        if not high > low:
+            return _EASIEST
+        least = _EASIEST
+        for i in np.flatnonzero(self.group == group):
+            below, above = np.interp((low, high), self.p[i], self.share[i])
+            part = _PARTS * max(above - below, _FINEST) * friction
+            least = min(least, self.friction[i] / part) if part > 0 else least
+        width = (high - low) / max(abs(low), abs(high)) if np.isfinite(high) else 1.0
+        return max(least * min(width, 1.0), 1.0)
+
+
+def demand_of(columns: Columns, group: np.ndarray) -> Demand:
+    """What ``columns`` ask of the laws ``group`` (n,)."""
+    n = columns.size
+    theta = np.pi * (np.arange(_STRIPS) + 0.5) / _STRIPS
+    strips = columns.solve(np.repeat(np.arange(n), _STRIPS), np.tile(theta, n))
+    touching = np.flatnonzero(strips.solved.contact_fraction > 0)
+    t, weights = mapped(interior_nodes(_POINTS)), mapped_weights(_POINTS)
+    # no contact is pulled at harder than this
+    p, share = np.full((n * _STRIPS, t.size), -columns.adhesion.p_0), np.zeros((n * _STRIPS, t.size))
+    if touching.size:
+        contact = contact_of(kernel_of(columns.material), strips, touching)
+        rows, width = np.arange(touching.size), contact.a - contact.b
+        phase = contact.b[:, None] + width[:, None] * t
+        p[touching] = contact.pressure(np.repeat(rows, t.size), phase.ravel()).reshape(phase.shape)
+        share[touching] = width[:, None] * weights / (2 * np.pi * _STRIPS)
+    p, share = p.reshape(n, -1), share.reshape(n, -1)
+    order = np.argsort(p, axis=1)
+    p, share = (np.take_along_axis(v, order, axis=1) for v in (p, share))
+    friction = np.abs(strips.tau_mean.reshape(n, _STRIPS).mean(axis=1))
+    return Demand(group, p, np.cumsum(share, axis=1), friction + columns.floors[1])

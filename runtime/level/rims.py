@@ -1,0 +1,69 @@
+"""Where the curve below the end of the crest falls under all it was before: there the rims of the cells hold on, and unloading jumps to them.
+
+A look at a few penetrations tells it to a few digits; what that leaves open is taken for coming, and only this has to be interpolated.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from .chebyshev import lobatto
+from .demand import Demand
+from .interval import Interval
+from .sampling import Batch
+from .strips import Columns
+
+#: accuracy of the look, and its last nodes; narrower intervals, as a share of the column's, are left at the first
+_ROUGH, _FIRST, _LAST, _NARROW = 5e-3, 4, 16, 0.05
+#: how much more than its error, and than what it bends between two nodes, a pressure has to keep above what was before
+_DOUBT, _BEND = 2.0, 0.5
+
+
+def where_rims_hold(columns: Columns, rtol, intervals: list[Interval], least: np.ndarray, strips, demand: Demand | None) -> list[Interval]:
+    """The parts of the ``intervals`` that unloading may come to after the pressures ``least`` (Pa, per column), as far as they count for the ``demand``."""
+    met, out = least.copy(), []
+    for look, D, values, error in sorted(_looks(columns, intervals, strips), key=lambda look: -look[0].high):
+        column, p = look.column, values[:, 0]
+        bend = np.pad(np.abs(p[:-2] - 2 * p[1:-1] + p[2:]), 1)
+        slack = _DOUBT * np.maximum(error[:-1], error[1:]) + _BEND * np.maximum(bend[:-1], bend[1:])
+        floor = np.minimum(p[:-1], p[1:]) - slack
+        # the least that was before, above the upper end of each part
+        before = np.minimum(np.minimum.accumulate((p + error)[:0:-1])[::-1], met[column])
+        comes = np.flatnonzero(floor < before)
+        for run in np.split(comes, np.flatnonzero(np.diff(comes) > 1) + 1) if comes.size else ():
+            first, last = run[0], run[-1] + 1
+            nodes = slice(first, last + 1)
+            if last == p.size - 1 and (p - _DOUBT * error)[first:last].min() > met[column]:
+                # the curve goes on from what was met, and rises
+                continue
+            ease = 1.0
+            if demand is not None:
+                ease = demand.ease(column, floor[run].min(), before[run].max(), np.abs(values[nodes, 1]).max())
+            if ease * rtol[column] < 1.0:
+                soft = look.soft_low or first > 0, look.soft_high or last < p.size - 1
+                low, high = D[first] if first > 0 else look.low, D[last] if last < p.size - 1 else look.high
+                out.append(replace(look, low=float(low), high=float(high), soft_low=soft[0], soft_high=soft[1], ease=ease, even=False))
+        met[column] = min(met[column], (p + error).min())
+    return out
+
+
+def _looks(columns: Columns, intervals: list[Interval], strips) -> list[tuple[Interval, np.ndarray, np.ndarray, np.ndarray]]:
+    """The intervals, as they were seen, with penetrations, means (nodes, q), and how far the pressures may be off (nodes)."""
+    whole = np.zeros(columns.size)
+    for i in intervals:
+        whole[i.column] += i.high - i.low
+    batch = Batch(columns, np.full(columns.size, _ROUGH), [replace(i, even=True) for i in intervals], strips)
+    n, out = _FIRST, []
+    batch.sample(n)
+    while batch.intervals:
+        done = np.array([n == _LAST or i.high - i.low < _NARROW * whole[i.column] for i in batch.intervals])
+        for k in np.flatnonzero(done):
+            look = batch.known(k, n)
+            out.append((look, look.penetrations(lobatto(n)[1:-1]), batch.values[k], batch.errors[k, :, 0]))
+        batch.keep(np.flatnonzero(~done))
+        if batch.intervals:
+            n *= 2
+            batch.sample(n)
+    return out

@@ -1,0 +1,97 @@
+"""Means of a level over intervals of penetration, on nested nodes that are doubled together."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from .chebyshev import flat_ended, lobatto
+from .demand import Demand
+from .expected import expect, hints
+from .interval import Interval, Seen
+from .means import level_means
+from .strips import Columns
+
+#: share of the error allowed that each mean may have
+MEAN = 0.4
+
+
+class Batch:
+    """Intervals that are sampled together on nested nodes: means and errors (intervals, nodes, q), and the zones met at each."""
+
+    def __init__(self, columns: Columns, rtol, intervals: list[Interval], strips):
+        self.columns, self.rtol, self.strips = columns, rtol, strips
+        self.intervals = intervals
+        self.values = self.errors = None
+        self.zones: list[list] = [[] for _ in intervals]
+
+    @property
+    def column(self) -> np.ndarray:
+        return np.array([i.column for i in self.intervals], int)
+
+    @property
+    def accuracy(self) -> np.ndarray:
+        """What is asked of each interval."""
+        return self.rtol[self.column] * np.array([i.ease for i in self.intervals])
+
+    @property
+    def coefficients(self) -> np.ndarray:
+        """Of the interpolants through the values, (intervals, nodes, q)."""
+        return np.einsum("ij,pjq->piq", flat_ended(self.values.shape[1] + 1), self.values)
+
+    def weigh(self, demand: Demand, ceiling: np.ndarray | None) -> None:
+        """Let intervals be as coarse as what is asked of their pressures allows."""
+        p, friction = self.values[:, :, 0], np.abs(self.values[:, :, 1]).max(axis=1)
+        high = p.max(axis=1) if ceiling is None else np.minimum(p.max(axis=1), ceiling[self.column])
+        ranges = zip(self.intervals, p.min(axis=1), high, friction, strict=True)
+        self.intervals = [replace(i, ease=max(i.ease, demand.ease(i.column, *of))) for i, *of in ranges]
+
+    def sample(self, n: int) -> None:
+        """Go on to the interior nodes of ``lobatto(n)``, of which every other one is known, unless they are the first."""
+        first = self.values is None
+        nodes = lobatto(n)[1:-1]
+        t = nodes if first else nodes[::2]
+        D = np.concatenate([i.penetrations(t) for i in self.intervals])
+        rows = np.repeat(self.column, t.size)
+        if first:
+            inherited = [i.seen for i in self.intervals]
+            expected = [None if seen is None else seen.expected(i.penetrations(t)) for i, seen in zip(self.intervals, inherited, strict=True)]
+            size = np.array([np.zeros(self.columns.scales.size) if seen is None else seen.size for seen in inherited])
+        else:
+            expected = [expect(nodes[1::2], zones, t) for zones in self.zones]
+            size = np.abs(self.values).min(axis=1)
+        where = np.arange(rows.size).reshape(-1, t.size)
+        hint = hints(where, expected, [i.witnesses for i in self.intervals], np.repeat(size, t.size, axis=0))
+        means = level_means(self.columns.at(rows, D), MEAN * np.repeat(self.accuracy, t.size), hint)
+        np.add.at(self.strips, rows, means.strips)
+        shape = (len(self.intervals), t.size, -1)
+        values, errors = means.values.reshape(shape), means.errors.reshape(shape)
+        zones = [means.zones[i : i + t.size] for i in range(0, rows.size, t.size)]
+        if first:
+            self.values, self.errors, self.zones = values, errors, zones
+            return
+        self.values, self.errors = _merged(self.values, values), _merged(self.errors, errors)
+        self.zones = [_alternating(old, new) for old, new in zip(self.zones, zones, strict=True)]
+
+    def known(self, k: int, n: int) -> Interval:
+        """Interval ``k`` with what was seen of it at the interior nodes of ``lobatto(n)``."""
+        i = self.intervals[k]
+        return replace(i, seen=Seen(i, lobatto(n)[1:-1], self.zones[k], np.abs(self.values[k]).min(axis=0)))
+
+    def keep(self, index) -> None:
+        """Go on with the intervals ``index`` alone."""
+        self.intervals, self.zones = [self.intervals[i] for i in index], [self.zones[i] for i in index]
+        self.values, self.errors = self.values[index], self.errors[index]
+
+
+def _merged(old, fresh):
+    out = np.empty((old.shape[0], old.shape[1] + fresh.shape[1], old.shape[2]))
+    out[:, 0::2], out[:, 1::2] = fresh, old
+    return out
+
+
+def _alternating(old, fresh):
+    out = old + fresh
+    out[0::2], out[1::2] = fresh, old
+    return out
