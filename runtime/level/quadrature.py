@@ -72,9 +72,11 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     c = np.maximum(c - 16 * _EPS * np.abs(values).max(axis=1)[:, None], 0.0)
     amplitude = c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny
     shape = (c / amplitude[:, None]).max(axis=2)
-    last, middle = shape[:, n - 4 :].max(axis=1), shape[:, n // 2 - 3 : n // 2].max(axis=1)
+    # a run long enough that coefficients which change their sign in it are not all small
+    few = max(3, n // 5)
+    last, middle = shape[:, -few:].max(axis=1), shape[:, n // 2 - 3 : n // 2].max(axis=1)
     ratio = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0)
-    decay = ratio ** (1 / (n // 2 - 1))
+    decay = ratio ** (1 / (0.5 * (n + 1 - few)))
     many = int(n >= _MANY)
     # what the rule makes of a tail that goes on geometrically, from the last coefficient on
     believed = np.maximum(decay, _FASTEST[many])
@@ -83,4 +85,4 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     # where coefficients may fall by a power only: as if nothing cancelled
     slow = np.minimum(1 / np.maximum(1 - decay, 1e-3), _SLOWEST) * decay ** (1 + n / 4)
     rest = np.where(ratio < _GEOMETRIC[many], beyond, np.maximum(beyond, slow))[:, None]
-    return np.maximum(c[:, n - 4 :].max(axis=1), _COMMON * last[:, None] * amplitude) * rest
+    return np.maximum(c[:, -few:].max(axis=1), _COMMON * last[:, None] * amplitude) * rest
