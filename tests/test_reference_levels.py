@@ -47,12 +47,14 @@ def test_level(case):
 @pytest.mark.parametrize("case", LEVELS, ids=NAMES)
 @pytest.mark.parametrize("given", ["D", "p_mean"])
 def test_ten_digits(case, given):
-    """At 1e-10 means are what they are at 1e-12 but for that; at the pressure of the penetration they are those at the penetration."""
-    load = {"D": case["D"]} if given == "D" else {"D": None, "pressure": float(solved(case, rtol=1e-12).p_mean)}
-    coarse, fine, at = solved(case, rtol=1e-10, **load), solved(case, rtol=1e-12, **load), solved(case, rtol=1e-12)
+    """At 1e-10 means are what they are at 1e-12. Unloading, those at the pressure of a penetration are those at the penetration."""
+    at = solved(case, rtol=1e-12)
+    load = {"D": case["D"]} if given == "D" else {"D": None, "pressure": float(at.p_mean)}
+    coarse, fine = solved(case, rtol=1e-10, **load), at if given == "D" else solved(case, rtol=1e-12, **load)
     for name, size in zip(QUANTITIES, sizes(case), strict=True):
         assert abs(getattr(coarse, name) - getattr(fine, name)) <= 1e-10 * size
-        assert abs(getattr(fine, name) - getattr(at, name)) <= 1e-10 * size
+        # loading comes to a pressure below zero somewhere else
+        assert case["branch"] == "loading" or abs(getattr(fine, name) - getattr(at, name)) <= 1e-10 * size
     assert np.all(np.ravel(coarse.error_estimate)[:2] <= 1e-10 * sizes(case)[:2])
 
 

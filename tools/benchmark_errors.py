@@ -116,8 +116,9 @@ def survey(scenes, seed, tolerances, tighter, levels=None, report=None, first=0,
     return out
 
 
-def marched(scenes, seed, tolerances, report=None, first=0, limit=None):
-    """Pressure and friction (points 0 and 1) of one-level surfaces with adhesion at given penetration, against marched strips; as ``survey``."""
+def marched(scenes, seed, tolerances, report=None, first=0, limit=None, accuracy=_MARCHED):
+    """Pressure and friction (points 0 and 1) of one-level surfaces with adhesion at given penetration, against strips marched to ``accuracy``;
+    as ``survey``."""
     out = Survey()
     for number in range(first, first + scenes):
         surface = surfaces.draw(np.random.default_rng((seed, number)), velocities=1, levels=1)
@@ -131,7 +132,7 @@ def marched(scenes, seed, tolerances, report=None, first=0, limit=None):
         try:
             with _limited(limit):
                 start = time.process_time()
-                true = level_means(m.K, m.T_eps, m.T_sigma, V, level.l, level.h, D, a.p_0, a.delta_0, surface.edge, surface.branch, _MARCHED)
+                true = level_means(m.K, m.T_eps, m.T_sigma, V, level.l, level.h, D, a.p_0, a.delta_0, surface.edge, surface.branch, accuracy)
                 end = time.process_time()
         except (ArithmeticError, TimeoutError) as error:
             out.refused.append((number, error))

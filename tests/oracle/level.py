@@ -12,7 +12,6 @@ from .march import solve_si
 
 #: strips at which sequences are looked at first, and digits that they are marched with
 _LOOKS, DIGITS = 48, 30
-_BISECTIONS = 46
 #: nodes of each part, doubled until its sum stays the same to the accuracy asked
 _NODES = (12, 24, 48, 96)
 
@@ -42,7 +41,8 @@ def level_means(K, T_eps, T_sigma, V, l, h, D, p_0, delta_0, edge, branch, rtol)
     pressure = K * h + p_0
     floor = 1e-3 * np.array((pressure, pressure * h / l, 1.0, 1.0))
     total, change = np.zeros(4), np.zeros(4)
-    for low, high in _parts(strip):
+    # so close that what lies between a transition and its bracket does not tell
+    for low, high in _parts(strip, int(np.ceil(np.log2(1 / rtol))) + 4):
         last = None
         for n in _NODES:
             x, weights = np.polynomial.legendre.leggauss(n)
@@ -60,12 +60,12 @@ def level_means(K, T_eps, T_sigma, V, l, h, D, p_0, delta_0, edge, branch, rtol)
     return LevelMeans(total, change, len(solved))
 
 
-def _parts(strip):
-    """Intervals of theta in which all strips seen have one sequence of zones."""
+def _parts(strip, halvings):
+    """Intervals of theta in which all strips seen have one sequence of zones; transitions are bracketed by so many halvings."""
     looks = [float(v) for v in np.pi * (np.arange(_LOOKS) + 0.5) / _LOOKS]
     ends = [0.0]
     for low, high in zip(looks[:-1], looks[1:], strict=True):
-        ends += _transitions(strip, low, high, _BISECTIONS)
+        ends += _transitions(strip, low, high, halvings)
     return list(zip(ends, [*ends[1:], float(np.pi)], strict=True))
 
 
@@ -73,6 +73,6 @@ def _transitions(strip, low, high, halvings):
     if strip(low)[0] == strip(high)[0]:
         return []
     middle = 0.5 * (low + high)
-    if halvings == 0 or not low < middle < high:
+    if halvings == 0:
         return [middle]
     return _transitions(strip, low, middle, halvings - 1) + _transitions(strip, middle, high, halvings - 1)
