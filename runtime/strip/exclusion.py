@@ -12,6 +12,9 @@ and x*,
 * [x1, x*] holds no second zero where R falls strictly on it (``sensitivity.slope_bounds``);
 * [x0, x1] holds none where the onset map already takes x0 beyond x1 (it is monotone), or by the bounds of ``search``.
 
+On a slow foundation the map takes an onset hardly any further, and bounds would have to be as close as that to tell: there the balance of a
+period is asked first (``balance``). Strips that hang next to their fold are left by both; a few marches back to the start of the arc prove most.
+
 What is not proven here is left to ``search``; nothing is ever accepted for lack of a counterexample.
 """
 

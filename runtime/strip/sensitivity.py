@@ -38,7 +38,9 @@ def slope_excess(kernel, cycle: Cycle, orbit: Orbit) -> tuple[np.ndarray, np.nda
     """``log T'`` and N at each orbit (not engaged)."""
     F = onset_margin(kernel, cycle, orbit.x)
     M = release_margin(kernel, cycle, orbit.c)
-    return _log_slope(cycle, contact_length(orbit.b, orbit.a), F, M), _numerator(kernel, cycle, contact_length(orbit.b, orbit.a), F, M)
+    return _log_slope(cycle, contact_length(orbit.b, orbit.a), F, M), _numerator(
+        kernel, cycle, contact_length(orbit.b, orbit.a), F, M
+    )
 
 
 def onset_margin(kernel, cycle: Cycle, x: np.ndarray) -> np.ndarray:

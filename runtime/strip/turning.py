@@ -72,7 +72,9 @@ def turning(kernel, cycle: Cycle, start, end) -> Turning:
         below, way = r[index] < 0, way[index]
         apart = np.where(below, way, np.minimum(_WAY * way, _FURTHEST))
         inner = np.where(below, -_INNER, 1.0)
-        _settle(kernel, cycle, index, x[index] - np.where(below, _OUTER, 1.0) * apart, x[index] + inner * apart, start, end, result)
+        _settle(
+            kernel, cycle, index, x[index] - np.where(below, _OUTER, 1.0) * apart, x[index] + inner * apart, start, end, result
+        )
     return result
 
 
