@@ -96,7 +96,6 @@ def steep_margin(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> np.ndarray:
     where M is least at one of them: ``log T' <= log B + log(1 + s_x/F)`` with a B that does not depend on the onset, negative where
     ``F > s_x/(1/B - 1)``.
     """
-    s = cycle.strips
     M = np.minimum(*(release_margin(kernel, cycle, orbit.c) for orbit in (left, right)))
     onset, release = gains(cycle)
     # the rounding of the terms of log B, which may cancel
