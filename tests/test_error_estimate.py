@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hystrip.level.chebyshev import coefficients, evaluate, interpolation_errors, lobatto
+from hystrip.level.chebyshev import coefficients, evaluate, flat_ended, graded, interpolation_errors, lobatto
 from hystrip.level.quadrature import interior_nodes, mapped, mapped_weights, sum_errors
 
 TOOLS = Path(__file__).resolve().parents[1] / "tools"
@@ -71,6 +71,27 @@ def test_interpolation_errors_do_not_miss_a_kink_that_nobody_marked(power, n):
     assert np.median(ratios) < 0.5 and np.max(ratios) < 5
 
 
+def _ends(s):
+    """Breaks at both ends: a square root at 0, ``s log s`` at 1."""
+    left = np.maximum(1 - s, 1e-300)
+    return np.sqrt(s) * np.exp(-s) + left * np.log(left)
+
+
+@pytest.mark.parametrize(("n", "allowed"), [(16, 1e-3), (32, 1e-7), (64, 1e-10)])
+def test_what_ends_like_a_square_root_is_interpolated_without_its_ends(n, allowed):
+    c = flat_ended(n) @ _ends(graded(lobatto(n)[1:-1]))[:, None]
+    t = np.linspace(0, 1, 1001)
+    assert np.abs(evaluate(c, t)[:, 0] - _ends(graded(t))).max() < allowed
+
+
+def test_an_interpolant_without_ends_takes_no_notice_of_what_is_on_them():
+    """A jump right at the end, as next to a break, belongs to the other side."""
+    t = lobatto(32)
+    values = np.cos(graded(t))
+    ends = evaluate(flat_ended(32) @ values[1:-1, None], np.array([0.0, 1.0]))[:, 0]
+    assert ends == pytest.approx([1.0, np.cos(1.0)], abs=1e-6)
+
+
 @pytest.fixture(scope="module")
 def tool():
     sys.path.insert(0, str(TOOLS))
@@ -100,3 +121,10 @@ def test_a_survey_tells_what_does_not_hold(tool):
 def test_a_scene_that_takes_too_long_is_refused(tool):
     out = tool.survey(scenes=1, seed=1, tolerances=[1e-3], tighter=1e-2, levels=1, first=15, velocities=1, limit=0.05)
     assert [number for number, _ in out.refused] == [15] and not out.points
+
+
+def test_marched_strips_bear_the_estimates_out(tool):
+    """A short run with ``--march``: the truth has nothing in common with the library."""
+    out = tool.marched(scenes=1, seed=1, tolerances=[1e-3, 1e-6, 1e-8], first=10)
+    assert not out.refused and len(out.points) == 6
+    assert out.bounded == 1 and out.met == 1

@@ -21,7 +21,7 @@ def solved(case, **options):
     material = hystrip.StandardLinearSolid(case["K"], case["T_eps"], case["T_sigma"])
     adhesion = hystrip.Dugdale(p_0=case["p_0"], delta_0=case["delta_0"])
     inputs = {name: case[name] for name in ("V", "D", "edge", "branch")}
-    return hystrip.solve_level(material, adhesion, hystrip.Level(case["l"], case["h"]), **inputs, **options)
+    return hystrip.solve_level(material, adhesion, hystrip.Level(case["l"], case["h"]), **inputs | options)
 
 
 def sizes(case):
@@ -42,6 +42,18 @@ def test_level(case):
     assert np.all(differences(case, s) <= allowed)
     # what the solver says of itself has to cover what it differs by, as far as the reference can tell
     assert np.all(differences(case, s) <= np.ravel(s.error_estimate) + 3 * case["uncertainty"] * sizes(case))
+
+
+@pytest.mark.parametrize("case", LEVELS, ids=NAMES)
+@pytest.mark.parametrize("given", ["D", "p_mean"])
+def test_ten_digits(case, given):
+    """At 1e-10 means are what they are at 1e-12, to a tenth of that; at the pressure of the penetration they are those at the penetration."""
+    load = {"D": case["D"]} if given == "D" else {"D": None, "pressure": float(solved(case, rtol=1e-12).p_mean)}
+    coarse, fine, at = solved(case, rtol=1e-10, **load), solved(case, rtol=1e-12, **load), solved(case, rtol=1e-12)
+    for name, size in zip(QUANTITIES, sizes(case), strict=True):
+        assert abs(getattr(coarse, name) - getattr(fine, name)) <= 1e-11 * size
+        assert abs(getattr(fine, name) - getattr(at, name)) <= 1e-11 * size
+    assert np.all(np.ravel(coarse.error_estimate)[:2] <= 1e-10 * sizes(case)[:2])
 
 
 @pytest.mark.parametrize("case", LEVELS, ids=NAMES)

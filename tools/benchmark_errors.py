@@ -1,10 +1,13 @@
 """What the error estimate is worth: random surfaces solved at a tolerance, against the same at a far tighter one.
 
-    python tools/benchmark_errors.py [--scenes 100] [--seed 1] [--tolerances 1e-3 1e-4 1e-5 1e-6 1e-8] [--tighter 1e-2] [--first 0]
+    python tools/benchmark_errors.py [--scenes 100] [--seed 1] [--tolerances 1e-3 1e-4 1e-5 1e-6 1e-8] [--tighter 1e-4] [--first 0]
                                      [--levels 1|2|3] [--velocities 1] [--limit 600] [--out errors.csv]
+    python tools/benchmark_errors.py --march [--scenes 12] ...
 
 Scenes are drawn by ``tests/surfaces.py``: one to three levels, both closures and branches, with and without adhesion, loads from hardly touching to
-nearly saturated; the tolerances are taken in turn, 1e-8 for one-level surfaces only. Prints how many points meet the tolerance, at how many the estimate
+nearly saturated; the tolerances are taken in turn, 1e-8 for one-level surfaces only. The reference is never tighter than 1e-12, 1e-8 for several levels.
+``--march``: one-level surfaces with adhesion at the penetration that their pressure takes, every one at all tolerances, against strips that are marched
+event by event with 30 digits and summed over y by a rule of its own (``tests/oracle/level.py``): nothing of the library. Prints how many points meet the tolerance, at how many the estimate
 bounds the error, and the median of estimate over error; then every point at which it does not hold, with the scene's number to draw it again. The table
 goes to the CSV as it grows. Points in closed form and below pull-off are exact and are not counted, nor are errors that rounding hides. A scene that takes
 more than ``--limit`` seconds of processor time counts as refused. Exit status 1 if the estimate bounds the error in fewer than 99 of 100 points, its
@@ -25,6 +28,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 
 import surfaces
+from oracle.level import level_means
 
 import hystrip
 
@@ -33,6 +37,10 @@ ROUNDING = 1e-13
 NEEDED, PESSIMISTIC = 0.99, 100
 #: tolerances finer than this are for surfaces of one level
 _FINEST_OF_MANY = 1e-7
+#: the tightest references, of one level and of several
+_TIGHTEST, _TIGHTEST_OF_MANY = 1e-12, 1e-8
+#: accuracy of marched levels
+_MARCHED = 1e-9
 COLUMNS = ("scene", "levels", "edge", "branch", "point", "rtol", "error", "estimate", "seconds", "seconds_tighter")
 
 
@@ -89,7 +97,7 @@ def survey(scenes, seed, tolerances, tighter, levels=None, report=None, first=0,
                 start = time.process_time()
                 coarse = surface.solve(rtol)
                 middle = time.process_time()
-                fine = surface.solve(max(tighter * rtol, 1e-12))
+                fine = surface.solve(max(tighter * rtol, _TIGHTEST if len(surface.levels) == 1 else _TIGHTEST_OF_MANY))
                 end = time.process_time()
         except (hystrip.SolverError, ArithmeticError, TimeoutError) as error:
             out.refused.append((number, error))
@@ -99,10 +107,45 @@ def survey(scenes, seed, tolerances, tighter, levels=None, report=None, first=0,
         out.exact += int(np.count_nonzero(~counted))
         rows = []
         for i in np.flatnonzero(counted):
-            error = max(abs(coarse.tau[i] - fine.tau[i]) - fine.tau_error[i], 0.0)
+            error = abs(coarse.tau[i] - fine.tau[i])
             out.points.append((number, i, rtol, error / size[i], coarse.tau_error[i] / size[i]))
             about = (number, len(surface.levels), surface.edge, surface.branch)
             rows.append((*about, i, *out.points[-1][2:], middle - start, end - middle))
+        if report:
+            report(rows, out)
+    return out
+
+
+def marched(scenes, seed, tolerances, report=None, first=0, limit=None):
+    """Pressure and friction (points 0 and 1) of one-level surfaces with adhesion at given penetration, against marched strips; as ``survey``."""
+    out = Survey()
+    for number in range(first, first + scenes):
+        surface = surfaces.draw(np.random.default_rng((seed, number)), velocities=1, levels=1)
+        (level,), V = surface.levels, surface.velocity[0]
+        given = {"V": V, "edge": surface.edge, "branch": surface.branch}
+        at = hystrip.solve_level(surface.material, surface.adhesion, level, pressure=surface.pressure, rtol=1e-4, **given)
+        if surface.adhesion.p_0 == 0 or at.pulled_off or surface.solve(1e-3).closed_form.all():
+            out.exact += 1
+            continue
+        m, a, D = surface.material, surface.adhesion, float(at.D)
+        try:
+            with _limited(limit):
+                start = time.process_time()
+                true = level_means(m.K, m.T_eps, m.T_sigma, V, level.l, level.h, D, a.p_0, a.delta_0, surface.edge, surface.branch, _MARCHED)
+                end = time.process_time()
+        except (ArithmeticError, TimeoutError) as error:
+            out.refused.append((number, error))
+            continue
+        size = np.abs(true.values[:2]) + [surface.floor * level.l / level.h, surface.floor]
+        rows = []
+        for rtol in tolerances:
+            before = time.process_time()
+            found = hystrip.solve_level(m, a, level, D=D, rtol=rtol, **given)
+            seconds = time.process_time() - before
+            for i, value in enumerate((found.p_mean, found.tau_mean)):
+                error = max(abs(float(value) - true.values[i]) - true.change[i], 0.0)
+                out.points.append((number, i, rtol, error / size[i], float(found.error_estimate[i]) / size[i]))
+                rows.append((number, 1, surface.edge, surface.branch, i, *out.points[-1][2:], seconds, end - start))
         if report:
             report(rows, out)
     return out
@@ -132,11 +175,12 @@ def main():
     parser.add_argument("--scenes", type=int, default=100)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--tolerances", type=float, nargs="+", default=[1e-3, 1e-4, 1e-5, 1e-6, 1e-8])
-    parser.add_argument("--tighter", type=float, default=1e-2, help="tolerance of the reference, relative")
+    parser.add_argument("--tighter", type=float, default=1e-4, help="tolerance of the reference, relative")
     parser.add_argument("--first", type=int, default=0, help="number of the first scene")
     parser.add_argument("--levels", type=int, choices=(1, 2, 3), help="levels of every scene, instead of one to three")
     parser.add_argument("--velocities", type=int, default=1, help="of each scene")
     parser.add_argument("--limit", type=float, default=600, help="seconds of processor time allowed to a scene")
+    parser.add_argument("--march", action="store_true", help="one level with adhesion against marched strips")
     parser.add_argument("--out", type=Path, default=Path("errors.csv"))
     options = parser.parse_args()
     start = time.process_time()
@@ -149,10 +193,13 @@ def main():
             file.flush()
             print(f"\r{len(out.points)} points, {100 * out.bounded:.1f} % bounded, median {out.pessimism:.3g}", end="", file=sys.stderr, flush=True)
 
-        out = survey(
-            options.scenes, options.seed, options.tolerances, options.tighter, options.levels, report, options.first, options.velocities,
-            options.limit,
-        )
+        if options.march:
+            out = marched(options.scenes, options.seed, options.tolerances, report, options.first, options.limit)
+        else:
+            out = survey(
+                options.scenes, options.seed, options.tolerances, options.tighter, options.levels, report, options.first, options.velocities,
+                options.limit,
+            )
     print(file=sys.stderr)
     print(f"{options.scenes} scenes, {len(out.points)} points, {out.exact} more exact; {time.process_time() - start:.0f} s of processor time")
     print(f"tolerance met:                {100 * out.met:.2f} %")

@@ -120,6 +120,7 @@ def average(
             break
     else:
         work.give_up(panels)
+    work.close_slivers()
     return Averages(work.values / np.pi, work.errors / np.pi, work.strips, work.zones())
 
 
@@ -137,6 +138,15 @@ def _between(n: int, cuts: _Panels) -> _Panels:
     return _Panels(np.sort(column, kind="stable"), starts[0], ends[0], codes, values)
 
 
+def _beside(column, place, owner, ends) -> np.ndarray:
+    """Which of the ``owner``s' ``ends`` lies at each ``place`` of a column, -1 for none."""
+    keys = owner + 1j * ends
+    order = np.argsort(keys)
+    at = np.minimum(np.searchsorted(keys[order], column + 1j * place), order.size - 1)
+    found = order[at]
+    return np.where((owner[found] == column) & (ends[found] == place), found, -1)
+
+
 @dataclass(slots=True)
 class _Work:
     integrand: Integrand
@@ -148,13 +158,15 @@ class _Work:
     errors: np.ndarray
     strips: np.ndarray
     accepted: list[tuple]
+    #: brackets of transitions (column, low, high) with what was left out for each, and how far off that may be
+    slivers: list[tuple] = field(default_factory=list)
     #: codes (columns, 2) and values (columns, 2, q) at the crest and next to the flat edge: what is narrower than a panel's first step shows up there
     ends: np.ndarray | None = None
     end_values: np.ndarray | None = None
 
     def zones(self) -> list[np.ndarray]:
         """See ``Averages.zones``."""
-        column, code, low, high = (np.concatenate(v) for v in zip(*self.accepted, strict=True))
+        column, code, low, high, *_ = (np.concatenate(v) for v in zip(*self.accepted, strict=True))
         order = np.lexsort((low, column))
         column, code, low, high = column[order], code[order], low[order], high[order]
         rows = np.stack((code, low, high), axis=1)
@@ -188,7 +200,7 @@ class _Work:
             rounding = 4 * _EPS * width * np.max(np.abs(values), axis=1, initial=0.0)
             noise = 0.1 * self.rtol[panels.column, None] * self.floor[panels.column]
             error = width * sum_errors(values, noise) + rounding
-            done = self._accept(panels, codes[:, 0], fine, error, rounding)
+            done = self._accept(panels, codes[:, 0], values, fine, error, rounding)
             rest = ~done
             panels, nodes = panels.take(rest), (codes[rest], values[rest])
             n *= 2
@@ -221,9 +233,8 @@ class _Work:
         found = locate(probe, self.guide, index, hints.low[index], hints.high[index], codes[index], codes[m + index], width)
         end = {int(i): j for j, i in enumerate(index)}
         which = np.array([end[int(i)] for i in found.line], int)
-        sliver = (found.high - found.low)[:, None]
         first, last = values[index][which], values[m + index][which]
-        self._leave_out(hints.column[found.line], sliver, np.minimum(first, last), np.maximum(first, last))
+        self._leave_out(hints.column[found.line], found.low, found.high, np.minimum(first, last), np.maximum(first, last))
         codes = np.stack((hints.code_low[found.line], hints.code_high[found.line]), axis=1).astype(float)
         # where a third code showed up in between, the codes of the two ends belong to the outermost
         codes[1:][found.line[1:] == found.line[:-1], 0] = np.nan
@@ -244,10 +255,29 @@ class _Work:
         width = np.min(np.divide(goal, spread, out=np.full_like(goal, np.pi), where=spread > goal / np.pi), axis=1)
         return np.maximum(width, 4 * _EPS * theta)
 
-    def _leave_out(self, column, sliver, low_side, high_side):
-        """The sliver of a bracket is left out: what it could hold is its value and its error."""
-        np.add.at(self.values, column, sliver * 0.5 * (low_side + high_side))
-        np.add.at(self.errors, column, sliver * 0.5 * (high_side - low_side))
+    def _leave_out(self, column, low, high, low_side, high_side):
+        """The sliver of a bracket is left out: for now what it could hold by these values is its value and its error."""
+        sliver = (high - low)[:, None]
+        value = sliver * 0.5 * (low_side + high_side)
+        np.add.at(self.values, column, value)
+        self.slivers.append((column, low, high, value, sliver * np.abs(high_side - low_side)))
+
+    def close_slivers(self) -> None:
+        """What the slivers hold, by the panels next to them: to either side of the transition values are as at the ends of these."""
+        if not self.slivers:
+            return
+        column, low, high, value, error = (np.concatenate(v) for v in zip(*self.slivers, strict=True))
+        owner, _, starts, ends, first, last = (np.concatenate(v) for v in zip(*self.accepted, strict=True))
+        before, after = _beside(column, low, owner, ends), _beside(column, high, owner, starts)
+        known = np.flatnonzero((before >= 0) & (after >= 0))
+        sides = np.stack((last[before[known]], first[after[known]]), axis=1)
+        # nodes lie like 1 and 4 next to an end: from these to the end, which lies a third further
+        places, off = (4 * sides[..., 0, :] - sides[..., 1, :]) / 3, np.abs(sides[..., 1, :] - sides[..., 0, :]).sum(axis=1) / 3
+        sliver = (high - low)[known, None]
+        better = sliver * 0.5 * places.sum(axis=1)
+        np.add.at(self.values, column[known], better - value[known])
+        error[known] = sliver * (0.5 * np.abs(places[:, 1] - places[:, 0]) + off)
+        np.add.at(self.errors, column, error)
 
     def give_up(self, panels: _Panels) -> None:
         """Take panels that do not converge as they are, with the spread of their values as error."""
@@ -255,9 +285,13 @@ class _Work:
         width = (panels.high - panels.low)[:, None]
         np.add.at(self.values, panels.column, width * np.einsum("j,pjq->pq", mapped_weights(_FIRST), values))
         np.add.at(self.errors, panels.column, width * (values.max(axis=1) - values.min(axis=1)))
-        self.accepted.append((panels.column, codes[:, 0], panels.low, panels.high))
+        self._keep(panels, codes[:, 0], values)
 
-    def _accept(self, panels, codes, fine, error, rounding):
+    def _keep(self, panels, codes, values):
+        """Panels that are summed up, with their values at the two nodes next to either end, the outer one first."""
+        self.accepted.append((panels.column, codes, panels.low, panels.high, values[:, :2], values[:, -1:-3:-1]))
+
+    def _accept(self, panels, codes, values, fine, error, rounding):
         # what is not accepted yet counts for the size of the result, not for the result
         total = self.values.copy()
         np.add.at(total, panels.column, fine)
@@ -265,7 +299,7 @@ class _Work:
         done = (error <= _SHARE * goal[panels.column] + 2 * rounding).all(axis=1)
         np.add.at(self.values, panels.column[done], fine[done])
         np.add.at(self.errors, panels.column[done], error[done])
-        self.accepted.append((panels.column[done], codes[done], panels.low[done], panels.high[done]))
+        self._keep(panels.take(done), codes[done], values[done])
         return done
 
     def _sample(self, panels: _Panels, n: int, known):
@@ -342,8 +376,8 @@ class _Work:
             codes[row, node + 1],
             width,
         )
-        column, sliver = panels.column[found.line], (found.high - found.low)[:, None]
-        self._leave_out(column, sliver, values.min(axis=1)[found.line], values.max(axis=1)[found.line])
+        column = panels.column[found.line]
+        self._leave_out(column, found.low, found.high, values.min(axis=1)[found.line], values.max(axis=1)[found.line])
         first = np.concatenate(([True], found.line[1:] != found.line[:-1]))
         last = np.concatenate((found.line[1:] != found.line[:-1], [True]))
         starts = panels.low[found.line]

@@ -10,11 +10,12 @@ import numpy as np
 
 _EPS = np.finfo(float).eps
 #: share of the roughest quantity's relative error that every other one is taken to have at least
-_COMMON = 0.1
+_COMMON = 0.3
 #: slowest decay that a sum of the rest may be extrapolated with
 _SLOWEST = 6.0
-#: from so many nodes on the pace of coefficients is plain, and below this ratio of the last to the middle ones it is geometric
-_PLAIN, _GEOMETRIC = 16, 0.05
+#: number of nodes from which on coefficients are many; up to it and from it on: the fastest decay believed, and the ratio of the last coefficients to the
+#: middle ones below which they surely fall geometrically
+_MANY, _FASTEST, _GEOMETRIC = 16, (0.43, 0.35), (0.15, 0.05)
 
 
 def mapped(t):
@@ -48,6 +49,17 @@ def _second_kind(n: int) -> np.ndarray:
     return (2 / n) * np.sin(np.outer(np.arange(1, n), angle)) * np.sin(angle)
 
 
+@lru_cache
+def _missed(n: int) -> tuple[np.ndarray, np.ndarray]:
+    """Orders ``j = n + 1, n + 3 ... 2 n - 1`` of the polynomials ``sin(j phi)/sin(phi)`` that the sum does not integrate exactly, and how far it is off.
+
+    Their integrals are ``m(j) = -3/(j (j^2 - 4))``, zero for even j, and at the nodes order ``2 n - j`` looks like j.
+    """
+    j = np.arange(n + 1, 2 * n, 2)
+    integral = lambda j: 3 / np.abs(j * (j**2.0 - 4))  # noqa: E731
+    return j, integral(j) + integral(2 * n - j)
+
+
 def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     """Error of the sum over nodes of each interval, per width, (p, q); ``values`` (p, n - 1, q), ``noise`` (p, q): changes that don't matter.
 
@@ -61,12 +73,14 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     amplitude = c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny
     shape = (c / amplitude[:, None]).max(axis=2)
     last, middle = shape[:, n - 4 :].max(axis=1), shape[:, n // 2 - 3 : n // 2].max(axis=1)
-    decay = (np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0)) ** (1 / (n // 2 - 1))
-    # the rule integrates polynomials of degree n exactly, and nearly so for half of that beyond
-    beyond = decay ** (1 + n / 4)
-    if n >= _PLAIN:
-        # coefficients that fall geometrically without doubt: those up to 3 n/2 count with weights like 1/n^2, the later ones are that much smaller
-        ratio = decay ** (n // 2 - 1)
-        beyond = np.where(ratio < _GEOMETRIC, np.minimum(beyond, np.maximum(ratio, 2 * decay / n**2)), beyond)
-    rest = (np.minimum(1 / np.maximum(1 - decay, 1e-3), _SLOWEST) * beyond)[:, None]
+    ratio = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0)
+    decay = ratio ** (1 / (n // 2 - 1))
+    many = int(n >= _MANY)
+    # what the rule makes of a tail that goes on geometrically, from the last coefficient on
+    believed = np.maximum(decay, _FASTEST[many])
+    orders, off = _missed(n)
+    beyond = believed[:, None] ** (orders - (n - 1)) @ off + believed ** (n + 1) / (1 - np.minimum(believed, 0.999) ** 2)
+    # where coefficients may fall by a power only: as if nothing cancelled
+    slow = np.minimum(1 / np.maximum(1 - decay, 1e-3), _SLOWEST) * decay ** (1 + n / 4)
+    rest = np.where(ratio < _GEOMETRIC[many], beyond, np.maximum(beyond, slow))[:, None]
     return np.maximum(c[:, n - 4 :].max(axis=1), _COMMON * last[:, None] * amplitude) * rest

@@ -102,7 +102,7 @@ class _Brackets:
         narrow = ends[1] - ends[0] <= self.width
         place, doubt, _ = self._foretold(guide)
         doubt = _SURE * doubt
-        known = ~narrow & (place - doubt > ends[0]) & (place + doubt < ends[1]) & (2 * doubt <= self.width) & (self.misses < _TRUSTED)
+        known = (place - doubt > ends[0]) & (place + doubt < ends[1]) & (2 * doubt <= self.width) & (self.misses < _TRUSTED)
         ends[:, known] = place[known] + np.multiply.outer((-1.0, 1.0), np.maximum(doubt[known], 0.0))
         return ends, narrow | known
 

@@ -1,0 +1,45 @@
+"""Friction laws at few and many digits: what a digit costs, and that all of them are right; breaks that several pieces share."""
+
+import numpy as np
+import pytest
+
+import hystrip
+
+MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+LEVEL = hystrip.Level(l=500e-9, h=100e-9)
+
+
+def law(V, rtol):
+    return hystrip.friction_law(MATERIAL, ADHESION, LEVEL, V=V, rtol=rtol)
+
+
+@pytest.fixture(scope="module")
+def laws():
+    """The crest lets go at a square root, with its neighbours still holding, and the level is drawn down to its rims."""
+    return {rtol: law(1e-4, rtol) for rtol in (1e-4, 1e-6, 1e-8, 1e-10)}
+
+
+def test_more_digits_take_more_strips_but_not_many(laws):
+    strips = [one.strips for one in laws.values()]
+    assert sorted(strips) == strips
+    # the square of the digits: 1, 2.25, 4, 6.25
+    assert strips[3] <= 6.25 * strips[0] * 1.5
+
+
+def test_digits_are_right(laws):
+    finest = laws[1e-10]
+    p = np.linspace(finest.pull_off, finest.p_sat, 402)[1:-1]
+    size = np.abs(finest(p)) + 1e-3 * (MATERIAL.K * LEVEL.h + ADHESION.p_0) * LEVEL.h / LEVEL.l
+    for rtol in (1e-4, 1e-6, 1e-8):
+        error = np.abs(laws[rtol](p) - finest(p))
+        assert (error <= rtol * size).all()
+        assert abs(laws[rtol].pull_off - finest.pull_off) <= rtol * MATERIAL.K * LEVEL.h
+
+
+def test_pieces_that_share_a_break_have_one_pressure_there():
+    """Curves on both sides of the break know its pressure to within their errors only: two breaks a hair apart once put a third on top of the friction."""
+    coarse, fine = law(1e-3, 1e-3), law(1e-3, 1e-6)
+    assert coarse.breaks.size == fine.breaks.size
+    assert np.allclose(coarse.breaks, fine.breaks, rtol=0, atol=1e-3 * 1e-3 * MATERIAL.K * LEVEL.h)
+    assert coarse.breaks[-1] == coarse.p_sat and (coarse.breaks <= coarse.p_sat).all()
