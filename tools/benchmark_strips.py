@@ -8,7 +8,7 @@ The batch is mixed: levels of the paper's material and two wavelengths at random
 
 * ``told``: is told the regime of every strip, and given the solution as a start where the regime changes: it never has to find anything.
 * ``finding``: finds the regime as well. It takes the neighbour's zones and edges, solves, checks the inequalities, and where they fail tries the
-  other regimes from rough starts, the library's own and the elastic strip's. Outwards of a free strip that is out of reach it takes the strips
+  other regimes from rough starts, the library's medians and the elastic strip's. Outwards of a free strip that is out of reach it takes the strips
   to be free. It proves nothing: what it finds may be another orbit than the one asked for.
 
 Times are CPU seconds; medians over the repeats. ``--memory`` solves 1e7 strips and reports the peak of the process instead.
@@ -288,18 +288,34 @@ def compare(options, rng):
           "percentile %g" % (*np.percentile(work, (50, 99)), *np.percentile(work[partial], (50, 99))))  # fmt: skip
 
 
+#: shares of the regimes in a mix that is held over alpha, about those of the strips in the middle of the range
+HELD = {"acaf": 0.35, "ac": 0.05, "c": 0.3, "f": 0.3}
+
+
 def flatness(options, rng):
-    """Time per strip over alpha, beta = 100 alpha: of mixed levels, whose mix of regimes depends on alpha, and of as many strips with edges alone."""
-    print("alpha: microseconds per strip of mixed levels, of strips with edges")
+    """Time per strip over alpha, beta = 100 alpha.
+
+    Three measures of the same random levels: all their strips, whose mix of regimes depends on alpha; strips with edges alone; and a mix that is
+    held (``HELD``), of strips drawn from each regime with replacement. The batches of the last two are of the same size at every alpha.
+    """
+    print("alpha: microseconds per strip of mixed levels, of strips with edges, of a mix that is held")
+    measured = []
     for exponent in range(-6, 7, 2):
         inputs, p_0 = levels(options.strips // PER_LEVEL, rng, alpha=10.0**exponent)
         mixed = [batch(inputs, p_0) for _ in range(options.repeat)]
-        partial = np.isin(mixed[0][1].regime, list(EDGES))
-        pick = np.resize(np.flatnonzero(partial), options.strips // 4)
-        edged = {n: v.ravel()[pick] for n, v in inputs.items()}, p_0.ravel()[pick]
-        times = [batch(*edged)[0] for _ in range(options.repeat)]
-        alone, together = np.median(times) * 1e6, np.median([t for t, _ in mixed]) * 1e6
-        print(f"  1e{exponent:+d}: {together:.2f}, {alone:.2f} ({100 * partial.mean():.0f} % have edges)")
+        regime = mixed[0][1].regime.ravel()
+        partial, size = np.isin(regime, list(EDGES)), options.strips // 4
+        edged = np.resize(np.flatnonzero(partial), size)
+        held = np.concatenate([rng.choice(np.flatnonzero(regime == r), round(share * size)) for r, share in HELD.items()])
+        times = [np.median([t for t, _ in mixed])]
+        for pick in (edged, rng.permutation(held)):
+            drawn = {n: v.ravel()[pick] for n, v in inputs.items()}, p_0.ravel()[pick]
+            times.append(np.median([batch(*drawn)[0] for _ in range(options.repeat)]))
+        measured.append(np.array(times) * 1e6)
+        print(
+            f"  1e{exponent:+d}: " + ", ".join(f"{t:.2f}" for t in measured[-1]) + f" ({100 * partial.mean():.0f} % have edges)"
+        )
+    print("largest over smallest: " + ", ".join(f"{ratio:.2f}" for ratio in np.max(measured, axis=0) / np.min(measured, axis=0)))
 
 
 def memory(rng):

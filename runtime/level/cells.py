@@ -11,7 +11,7 @@ from .chebyshev import coefficients, lobatto
 
 _DEGREE = 8
 #: the smallest cells are one over this
-SLOTS = 64
+SLOTS = 1024
 #: the last coefficients have to fall below this share of what the function may err
 _NEGLIGIBLE = 0.1
 
@@ -19,12 +19,13 @@ _NEGLIGIBLE = 0.1
 @dataclass(frozen=True)
 class Cells:
     """Chebyshev ``coefficients`` (cells, degree + 1, q) on cells that begin at slot ``start`` (cells,) and are ``size`` (cells,) slots wide; ``of``
-    (SLOTS,): the cell that a slot belongs to."""
+    (SLOTS,): the cell that a slot belongs to. ``error`` (q,): what the smallest cells still miss."""
 
     coefficients: np.ndarray
     start: np.ndarray
     size: np.ndarray
     of: np.ndarray
+    error: np.ndarray
 
     def __call__(self, x: np.ndarray) -> np.ndarray:
         """Values (m, q) at ``x`` (m,) in [0, 1]."""
@@ -35,12 +36,16 @@ class Cells:
 def cells_of(function: Callable[[np.ndarray], np.ndarray], tolerance: np.ndarray) -> Cells:
     """``function``, [0, 1] (m,) -> (m, q), to ``tolerance`` (q,)."""
     transform, nodes = coefficients(np.eye(_DEGREE + 1)), lobatto(_DEGREE)
-    start, size = np.array([0, SLOTS // 2]), SLOTS // 2
+    start, size, error = np.array([0, SLOTS // 2]), SLOTS // 2, np.zeros(tolerance.size)
     found: list[tuple] = []
     while start.size:
         x = (start[:, None] + size * nodes) / SLOTS
         c = np.einsum("ij,njq->niq", transform, function(x.ravel()).reshape(*x.shape, -1))
-        done = (np.abs(c[:, -2:]).max(axis=1) <= _NEGLIGIBLE * tolerance).all(axis=1) | (size == 1)
+        last = np.abs(c[:, -2:]).max(axis=1)
+        done = (last <= _NEGLIGIBLE * tolerance).all(axis=1)
+        if size == 1:
+            error = last[~done].max(axis=0, initial=0.0) / _NEGLIGIBLE
+            done[:] = True
         found.append((c[done], start[done], np.full(np.count_nonzero(done), size)))
         size //= 2
         start = (start[~done, None] + size * np.arange(2)).ravel()
@@ -48,7 +53,7 @@ def cells_of(function: Callable[[np.ndarray], np.ndarray], tolerance: np.ndarray
     of = np.empty(SLOTS, int)
     for k, (first, wide) in enumerate(zip(start, sizes, strict=True)):
         of[first : first + wide] = k
-    return Cells(c, start, sizes, of)
+    return Cells(c, start, sizes, of, error)
 
 
 def slot(x: np.ndarray) -> np.ndarray:

@@ -47,7 +47,8 @@ class Branch:
 
     def resampled(self, tolerance: np.ndarray) -> Branch:
         """The same branch interpolated over pressure, to ``tolerance`` (q,), so that it need not be inverted again."""
-        return replace(self, cells=cells_of(self._at, tolerance))
+        cells = cells_of(self._at, tolerance)
+        return replace(self, cells=cells, piece=replace(self.piece, error=self.piece.error + cells.error))
 
     def _at(self, u):
         p = self.p_low + (self.p_high - self.p_low) * graded(u)
@@ -69,13 +70,14 @@ class Branch:
             here = t[left]
             value, slope = self.piece.first(here)
             miss = p[left] - value
+            # next to a flat end rounding would send what is there already anywhere
+            off = np.abs(miss) > blur
+            left, here, miss, slope = left[off], here[off], miss[off], slope[off]
             below = miss > 0
             low[left[below]], high[left[~below]] = here[below], here[~below]
-            step = np.divide(miss, slope, out=np.full(here.shape, np.inf), where=slope > 0)
-            new = here + step
+            new = here + np.divide(miss, slope, out=np.full(here.shape, np.inf), where=slope > 0)
             t[left] = np.where((new >= low[left]) & (new <= high[left]), new, 0.5 * (low[left] + high[left]))
-            going = (np.abs(miss) > blur) & (np.abs(t[left] - here) > 16 * _EPS) & ((high - low)[left] > 16 * _EPS)
-            left = left[going]
+            left = left[(np.abs(t[left] - here) > 16 * _EPS) & ((high - low)[left] > 16 * _EPS)]
             if not left.size:
                 break
         return t

@@ -1,20 +1,28 @@
-"""Proof by the balance of one period that no more engaged orbit exists beside one that is known: what a slow foundation needs.
+"""Proof by the balance of one period that no more engaged orbit exists beside one that is known.
 
-Let l be a periodic orbit, or the march of one period from its onset, that meets contact, with ``r >= 0`` and a slope of the onset map below
-one. Suppose that there is an orbit with an earlier onset.
+Let l be a periodic orbit with a slope of the onset map below one, or the march of one period with ``r > 0``, that meets
+contact. Suppose that there is an orbit with an earlier onset.
 
-* From there to l every onset leads to contact and to the end of adhesion, as it does for both, so r is continuous. It is positive just
-  before l. Where it last vanishes before l it does not fall: there is an orbit y before l at which the slope of the map is not below one.
-* Contact is longer in y than in l, adhesion ends later, and it ends where free flow leads on to y itself:
-  ``(u(c) + delta_0 + [w]) exp(c/beta) = (u(y) + delta_0) exp((y + 2 pi)/beta)``, whose left side falls in the arc of c and whose right side
-  grows in the arc of y. So ``log T'(y) <= log(1 + s_x/F(y)) + log(1 + s_c/M(c)) - 2 pi/beta - (a - b)_l L/alpha`` (``sensitivity``) is
-  negative unless F or M is smaller at y than some number each, that is unless y lies before a phase x_1 known in closed form.
-  What is known of an orbit before x_1 lets its contact be longer than that of l: the same again leads to an earlier phase.
-* An orbit before x_1 is more engaged than the march from x_1: its contact covers that one's, under no less pressure. Every orbit obeys
-  ``beta z' = p - w``, so that p and w have the same mean. Compared with l it has no larger w anywhere, a traction of ``-p_0`` for as
-  much longer as it is engaged (at most from the start of the onset arc to the end of the arc of c), and the gain in pressure of that
-  contact. If the gain is more than the traction takes, with ``beta r`` of l, the means differ: y does not exist, nor the orbit supposed.
-  If it is not, it is for all y after some earlier phase, and that phase takes the place of x_1.
+* From there to l every onset leads to contact and to the end of adhesion, as it does for both, so r is continuous. It
+  is positive just before l. Where it last vanishes before l it does not fall: there is an orbit y before l at which
+  the slope of the map is not below one.
+* Contact is longer in y than in l, adhesion ends later, and it ends where free flow leads on to y itself,
+
+      (u(c) + delta_0 + [w]) exp(c/beta) = (u(y) + delta_0) exp((y + 2 pi)/beta),
+
+  whose left side falls in the arc of c and whose right side grows in the arc of y. So (``sensitivity``)
+
+      log T'(y) <= log(1 + s_x/F(y)) + log(1 + s_c/M(c)) - 2 pi/beta - (a - b) L/alpha,
+
+  a and b those of l, which is negative unless F or M is smaller at y than some number each, that is unless y lies
+  before a phase x_1 known in closed form. Contact in an orbit before x_1 is known to be longer than in l: with that
+  the same leads to an earlier phase.
+* An orbit before x_1 is more engaged than the march from x_1: its contact covers that one's, under no less pressure.
+  Every orbit obeys ``beta z' = p - w``, so that p and w have the same mean. Compared with l it has no larger w
+  anywhere, a traction of ``-p_0`` for as much longer as it is engaged (at most from the start of the onset arc to the
+  end of the arc of c), and the gain in pressure of that contact. If the gain is more than the traction takes, with
+  ``beta r`` of l, the means differ: y does not exist, nor the orbit supposed. If it is not, it is for all y after
+  some earlier phase, and that phase takes the place of x_1.
 
 The pressure over ``-p_0``, q, summed over contact is closed form: ``alpha p' + p = u + beta u'`` there.
 """
@@ -24,7 +32,7 @@ import numpy as np
 from .bound import bound
 from .march import TWO_PI, Orbit
 from .problem import Cycle
-from .sensitivity import contact_length, fading, gains, onset_margin, release_margin
+from .sensitivity import fading, gains, onset_margin, release_margin
 
 _EPS = np.finfo(float).eps
 #: bounds this close to an edge are good enough
@@ -38,7 +46,7 @@ _SURELY = 0.03
 
 
 def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, np.ndarray]:
-    """Which of the ``known`` orbits or marches, r >= 0, have no orbit before them; and the event evaluations spent on each.
+    """Which of the ``known`` orbits or marches, r >= 0, have no orbit before them; and the evaluations spent on each.
 
     ``start``, ``end``: no onset lies before, and adhesion does not end after.
     """
@@ -77,8 +85,10 @@ def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, n
 
 
 def _next(kernel, cycle: Cycle, known: Orbit, reached, surplus, length, noise):
-    """A phase before which the orbit y must lie, whose contact is at least of this ``length`` and gains this ``surplus``, the end of adhesion
-    that leads there, and the evaluations. ``reached``: the same from the round before."""
+    """A phase before which the orbit y must lie, the end of adhesion that leads there, and the evaluations.
+
+    ``reached``: the same from the round before, which tells of y a ``surplus`` and a contact of at least this ``length``.
+    """
     arc, release = _suspects(kernel, cycle, known, length)
     # an orbit after the phase x is engaged no longer than from x on, and until the end of adhesion that leads to x
     allowed = surplus / cycle.strips.p_0
@@ -96,7 +106,7 @@ def _longer(known: Orbit, x, c):
 
 
 def _suspects(kernel, cycle: Cycle, known: Orbit, length):
-    """Where an orbit y must lie: its onset before the first phase, or its end of adhesion after the second; NaN where that is unknown."""
+    """Where an orbit y must lie: its onset before the first phase or its end of adhesion after the second; NaN: unknown."""
     s = cycle.strips
     F, M = onset_margin(kernel, cycle, known.x), release_margin(kernel, cycle, known.c)
     onset, release = gains(cycle)
@@ -113,7 +123,10 @@ def _suspects(kernel, cycle: Cycle, known: Orbit, length):
 
 
 def _onset_before(kernel, cycle: Cycle, c, start, x, noise):
-    """The start, or a later phase before the onset that free flow from c leads to: no orbit whose adhesion ends before c begins there earlier."""
+    """The start, or a later phase before the onset that free flow from c leads to.
+
+    No orbit whose adhesion ends before c has an earlier onset.
+    """
     s = cycle.strips
     entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
     spent = np.zeros(c.shape)
@@ -137,8 +150,8 @@ def onset_after(kernel, cycle: Cycle, c, x, noise):
 
 
 def _gain(kernel, cycle: Cycle, known: Orbit, x, noise):
-    """Least sum of the pressure over -p_0 in the contact of an orbit with an onset before x, less that of ``known``, and the least length of
-    that contact; and the evaluations."""
+    """Of an orbit with an onset before x: the least sum of the pressure over -p_0 in contact, less that of ``known``, and the
+    least length of that contact; and the evaluations."""
     s = cycle.strips
     spent = np.ones(x.shape)
     x = np.minimum(x, known.x)

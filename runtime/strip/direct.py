@@ -23,7 +23,7 @@ _LOW = 1.0
 
 
 def certified(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[Orbit, np.ndarray, np.ndarray]:
-    """Orbits of ``sequence`` that Newton finds from ``edges`` (k, n), which of them are certified, and the evaluations spent on each."""
+    """Orbits of ``sequence`` that Newton finds from ``edges`` (k, n), which are certified, and the evaluations of each."""
     chain = follow(kernel, cycle, sequence, edges)
     spent = chain.evaluations
     orbit = orbit_of(sequence, chain.edges)
@@ -99,7 +99,7 @@ class _Found:
         self.proven[pick] |= sure
 
     def at_a_fold(self, pick) -> np.ndarray:
-        """Next to a fold Newton may be lost, beyond it there is nothing to find: which of the cycles ``pick`` are proven to have no orbit."""
+        """Which of the cycles ``pick`` are proven to have no orbit: Newton may be lost next to a fold, and finds none beyond."""
         none = np.zeros(self.cycle.size, bool)
         if not pick.size:
             return none

@@ -1,16 +1,21 @@
 """Proof that no more extremal orbit exists beside one that is known, from a few evaluations of its neighbours' events.
 
-A more engaged orbit has an earlier onset, so the unloading orbit at x* is proven by excluding zeros of r between the start of
-the onset arc and x*, the loading orbit by excluding them between x* and the end of the arc. Edges of orbits are ordered: from an
-earlier onset contact begins earlier, contact and adhesion end later. One-sided bounds of the edges are enough for every
-inequality used, and a bound is verified by the sign of one event, so nothing is solved for.
+A more engaged orbit has an earlier onset, so the unloading orbit at x* is proven by excluding zeros of r between the
+start of the onset arc and x*, the loading orbit by excluding them between x* and the end of the arc. Edges of orbits
+are ordered: from an earlier onset contact begins earlier, contact and adhesion end later. One-sided bounds of the
+edges are enough for every inequality used, and a bound is verified by the sign of one event, so nothing is solved
+for.
 
-Mostly bounds at one onset x0 are enough, at the end of the arc or where ``outermost`` has moved it: R falls strictly wherever F is not
-too small (``sensitivity.steep_margin``), and between there and x0 too little to use up the r of x0. Otherwise, with a probe x1 between x0
-and x*,
+Mostly bounds at one onset x0 are enough, at the end of the arc or where ``outermost`` has moved it: R falls strictly
+wherever F is not too small (``sensitivity.steep_margin``), and between there and x0 too little to use up the r of x0.
+Otherwise, with a probe x1 between x0 and x*,
 
 * [x1, x*] holds no second zero where R falls strictly on it (``sensitivity.slope_bounds``);
 * [x0, x1] holds none where the onset map already takes x0 beyond x1 (it is monotone), or by the bounds of ``search``.
+
+On a slow foundation the map takes an onset hardly any further, and bounds would have to be as close as that to tell:
+there the balance of a period is asked first (``balance``). Strips that hang next to their fold are left by both; a
+few marches back to the start of the arc prove most.
 
 What is not proven here is left to ``search``; nothing is ever accepted for lack of a counterexample.
 """
@@ -101,10 +106,9 @@ def _falls_between(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float
 
 
 def none_before(kernel, cycle: Cycle, known: Orbit, start) -> tuple[np.ndarray, np.ndarray]:
-    """Where no zero of r lies between ``start`` and the onsets of ``known`` orbits or marches, r >= 0, shown by marches at the ends of a few
-    intervals; and the event evaluations spent.
+    """Where no zero of r lies between ``start`` and the onsets of ``known`` orbits or marches, r >= 0; and the evaluations.
 
-    From the known onset back: an interval on which R falls strictly leaves r positive, one that is excluded does so from both ends.
+    It is shown by marches at the ends of a few intervals. From the known onset back: an interval on which R falls strictly leaves r positive, one that is excluded does so from both ends.
     """
     n, many = cycle.size, _SHARES.size
     nodes = (known.x + _SHARES[:, None] * (start - known.x)).ravel()

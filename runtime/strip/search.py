@@ -148,8 +148,8 @@ class _Search:
     def _advance(self, index, frontier, step, stop, beyond):
         """Probe ahead of each frontier, then exclude, bracket or take a shorter step.
 
-        A round over few cycles costs little more than one over a single one: then several shorter steps are probed as well, and the longest
-        that tells something is kept.
+        A round over few cycles costs little more than one over a single one: then several shorter steps are probed as well,
+        and the longest that tells something is kept.
         """
         n = index.size
         many = int(np.clip(_TOGETHER // n, 1, _SHORTER))
@@ -180,8 +180,8 @@ class _Search:
         return index[keep], frontier.take(keep), step[keep], stop.take(keep), beyond.take(keep)
 
     def _probed(self, index, frontier, step, stop, beyond):
-        """One step ahead of each frontier: whether it ends at the stop, where it leads, the march from there, whether the interval is excluded,
-        and whether it holds exactly one zero."""
+        """One step ahead of each frontier: whether it ends at the stop, where it leads, the march from there, whether the
+        interval is excluded, and whether it holds exactly one zero."""
         span = self.sign * (stop.x - frontier.x)
         final = step >= span
         target = np.where(final, stop.x, frontier.x + self.sign * step)

@@ -38,7 +38,9 @@ def slope_excess(kernel, cycle: Cycle, orbit: Orbit) -> tuple[np.ndarray, np.nda
     """``log T'`` and N at each orbit (not engaged)."""
     F = onset_margin(kernel, cycle, orbit.x)
     M = release_margin(kernel, cycle, orbit.c)
-    return _log_slope(cycle, contact_length(orbit.b, orbit.a), F, M), _numerator(kernel, cycle, contact_length(orbit.b, orbit.a), F, M)
+    return _log_slope(cycle, contact_length(orbit.b, orbit.a), F, M), _numerator(
+        kernel, cycle, contact_length(orbit.b, orbit.a), F, M
+    )
 
 
 def onset_margin(kernel, cycle: Cycle, x: np.ndarray) -> np.ndarray:
@@ -94,7 +96,6 @@ def steep_margin(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> np.ndarray:
     where M is least at one of them: ``log T' <= log B + log(1 + s_x/F)`` with a B that does not depend on the onset, negative where
     ``F > s_x/(1/B - 1)``.
     """
-    s = cycle.strips
     M = np.minimum(*(release_margin(kernel, cycle, orbit.c) for orbit in (left, right)))
     onset, release = gains(cycle)
     # the rounding of the terms of log B, which may cancel

@@ -1,8 +1,9 @@
 """Rough edges to start Newton from. A start that leads astray costs a search, never a wrong orbit.
 
-Mostly they are where the edges typically lie in their arcs, by how slow the foundation is: medians over random strips, nothing more. If
-nothing relaxes within a period, the foundation stands still at w = W in every gap and contact is glassy: the edges lie alike about the crest,
-``cos a = 1 - D + W``, ``cos c = cos a - delta_0``, and the means of p and w are the same where
+Mostly they are where the edges typically lie in their arcs, by how slow the foundation is: medians over random
+strips, nothing more. If nothing relaxes within a period, the foundation stands still at w = W in every gap and
+contact is glassy: the edges lie alike about the crest, ``cos a = 1 - D + W``, ``cos c = cos a - delta_0``, and the
+means of p and w are the same where
 
     -pi (D - 1 + cos a) - p_0 c + (beta - alpha)/alpha (sin a - a cos a) = 0.
 """
@@ -29,7 +30,8 @@ RELEASE = 0.1
 #: contact all but complete, in parts of the pressure's amplitude, and the width of its gap over the half width where the saturated field pulls
 _NEARLY, _GAP = 0.3, 3.0
 _LEAST = 1e-9
-#: alpha above which the edges are those of a foundation that stands still; rounds of Newton for them, from a long contact, and the shortest
+#: alpha above which the edges are those of a foundation that stands still; rounds of Newton for them, from a long contact,
+#: and the shortest
 _SLOWLY, _ROUNDS, _LONG, _SHORT = 3.0, 4, 2.0, 0.02
 
 

@@ -1,19 +1,23 @@
 """Strips near the end of a branch by fold: where r is least, and what that tells.
 
-``beta R' = exp(x/beta) F (T' - 1)`` (``sensitivity``): r is least about where the slope of the onset map is one, which is one equation for the
-march from an onset in place of the one that closes a period. Where r is negative there a stable orbit lies before it, about as far as a
-parabola says; marches from onsets on both sides of it isolate it, where R falls strictly between them, and ``balance`` proves it to be the first.
+``beta R' = exp(x/beta) F (T' - 1)`` (``sensitivity``): r is least about where the slope of the onset map is one,
+which is one equation for the march from an onset in place of the one that closes a period. Where r is negative there
+a stable orbit lies before it, about as far as a parabola says; marches from onsets on both sides of it isolate it,
+where R falls strictly between them, and ``balance`` proves it to be the first.
 
-Where r is positive there is none: let l and m be marches from onsets shortly before and after, r > 0 in both, ``T' > 1`` at m. Then
+Where r is positive there is none: let l and m be marches from onsets shortly before and after, r > 0 in both, and
+``T' > 1`` at m. Then
 
 * no orbit lies before l (``balance``, or ``exclusion``),
 * none lies between them, by bounds on the slope of r (``search.excluded``),
-* and none after m can be the most engaged one, if ``T' > 1`` at every orbit after m, while the most engaged orbit with an onset has ``T' <= 1``.
+* and none after m can be the most engaged one, if ``T' > 1`` at every orbit after m, while the most engaged orbit
+  with an onset has ``T' <= 1``.
 
-If no orbit with an onset is the most engaged one and none is always engaged, the most engaged orbit is free. That needs no least r: where
-``T' > 1`` at all orbits there is none to look for. It is shown by bounds on the slope on a few intervals. After the last of them, past the
-middle of the onset arc, later onsets have a shorter contact and a smaller F, and M is no larger than where adhesion ends after the last of
-them, if that is before the middle of its arc, or else than in that middle.
+If no orbit with an onset is the most engaged one and none is always engaged, the most engaged orbit is free. That
+needs no least r: where ``T' > 1`` at all orbits there is none to look for. It is shown by bounds on the slope on a
+few intervals. After the last of them, past the middle of the onset arc, later onsets have a shorter contact and a
+smaller F, and M is no larger than where adhesion ends after the last of them, if that is before the middle of its
+arc, or else than in that middle.
 """
 
 from dataclasses import dataclass
@@ -35,12 +39,13 @@ _ITERATIONS = 9
 _SMALL = 1e-7
 #: rounds of the start on a foundation that does not move in a gap
 _ROUNDS = 3
-#: how far from the least r the marches on both sides begin if it is positive: of the distance at which a parabola has twice that r, and at most
+#: how far from the least r the marches on both sides begin if it is positive: of the distance at which a parabola has twice
+#: that r, and at most
 _WAY, _FURTHEST = 0.6, 0.3
 #: and where they begin if it is negative, of the distance at which a parabola vanishes
 _OUTER, _INNER = 1.4, 0.6
-#: ends of the intervals on which T' > 1 is shown one by one, from where r is least, and from the start of the onset arc, if need be on more of
-#: them; and where in that arc the last of them ends at the latest
+#: ends of the intervals on which T' > 1 is shown one by one, from where r is least, and from the start of the onset arc, if
+#: need be on more of them; and where in that arc the last of them ends at the latest
 _TOWARDS = np.array([0.0, 1e-4, 0.02, 0.2, 1.0])
 _ALL_ALONG = np.linspace(0.0, 1.0, 7), np.linspace(0.0, 1.0, 21)
 _TOP = 0.9
@@ -48,8 +53,8 @@ _TOP = 0.9
 
 @dataclass(slots=True)
 class Turning:
-    """What is told of n cycles: which are proven to have ``none`` that is the most engaged one with an onset, of which the first orbit is
-    isolated (``found``) between the marches ``left`` and ``right``, and the evaluations spent."""
+    """What is told of n cycles: which are proven to have ``none`` with an onset that is the most engaged orbit, and the first
+    orbits that are ``isolated``, with all evaluations spent."""
 
     none: np.ndarray
     isolated: SearchResult
@@ -72,7 +77,9 @@ def turning(kernel, cycle: Cycle, start, end) -> Turning:
         below, way = r[index] < 0, way[index]
         apart = np.where(below, way, np.minimum(_WAY * way, _FURTHEST))
         inner = np.where(below, -_INNER, 1.0)
-        _settle(kernel, cycle, index, x[index] - np.where(below, _OUTER, 1.0) * apart, x[index] + inner * apart, start, end, result)
+        _settle(
+            kernel, cycle, index, x[index] - np.where(below, _OUTER, 1.0) * apart, x[index] + inner * apart, start, end, result
+        )
     return result
 
 
@@ -113,8 +120,10 @@ def _settle(kernel, cycle: Cycle, index, before, after, start, end, result: Turn
 
 
 def _unstable_after(kernel, cycle: Cycle, x, shares) -> tuple[np.ndarray, np.ndarray]:
-    """Where every orbit with an onset after x has ``T' > 1``, shown on intervals that end at these ``shares`` of the way, and the event
-    evaluations spent."""
+    """Where every orbit with an onset after x has ``T' > 1``, and the evaluations spent.
+
+    It is shown on intervals that end at these ``shares`` of the way to the middle of the onset arc, or beyond.
+    """
     s = cycle.strips
     noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
     middle = cycle.centre + np.pi
@@ -151,7 +160,7 @@ def _rises(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
 
 
 def _least(kernel, cycle: Cycle):
-    """Onset of the march that ends with the least r, NaN where it was not found, the curvature of r there, that r, and the evaluations spent."""
+    """Onset of the march that ends with the least r (NaN: not found), the curvature of r there, that r, and the evaluations."""
     edges = _start(cycle)
     low, high = arcs(cycle, "acaf")
     slope, size = np.full(cycle.size, np.nan), np.full(cycle.size, np.inf)

@@ -1,0 +1,102 @@
+"""A law is as accurate as what is asked of it; rims that hold on after the crest are found; laws on cells; whose error a break has."""
+
+import numpy as np
+import pytest
+
+import hystrip
+from hystrip import multilevel
+from hystrip.level.cells import cells_of
+from hystrip.level.chebyshev import Piece
+from hystrip.level.demand import Demand
+from hystrip.level.law import Law, rising
+
+MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+LEVELS = (hystrip.Level(l=10e-6, h=1e-6), hystrip.Level(l=500e-9, h=100e-9))
+PRESSURE, V, RTOL = 100.0, np.array([5e-4, 2e-2]), 1e-5
+
+
+def demand(share, friction=1.0):
+    """One point that asks pressures from -1 to 1 Pa evenly on a ``share`` of the surface."""
+    return Demand(np.array([0]), np.array([[-1.0, 1.0]]), np.array([[0.0, share]]), np.array([friction]))
+
+
+def test_what_is_asked_everywhere_is_not_coarser():
+    assert demand(1.0).ease(0, -1.0, 1.0, friction=1.0) == 1.0
+
+
+def test_what_is_asked_on_less_may_be_coarser_by_as_much():
+    one, tenth = (demand(share).ease(0, -1.0, 1.0, friction=0.01) for share in (0.1, 0.01))
+    assert tenth == pytest.approx(10 * one) and one > 1
+
+
+def test_a_narrow_range_has_to_be_found_in_pressure():
+    """Half the range is asked half as often, but an error of pressure shifts twice as much of it: at the same size of pressure it is no easier."""
+    wide, narrow = demand(0.01).ease(0, -1.0, 1.0, 1e-3), demand(0.01).ease(0, 0.9, 1.0, 1e-3)
+    assert narrow == pytest.approx(wide * 20 * 0.1)
+
+
+def test_the_most_demanding_point_of_a_group_counts():
+    both = Demand(np.array([0, 0, 1]), np.tile([-1.0, 1.0], (3, 1)), np.array([[0, 1e-4], [0, 1.0], [0, 1e-4]]), np.ones(3))
+    assert both.ease(0, -1, 1, 0.1) < both.ease(1, -1, 1, 0.1)
+
+
+def test_pressures_nobody_asks_for_are_easiest():
+    assert demand(0.5).ease(0, 2.0, 1.0, 1.0) > 1e5 and demand(0.5).ease(0, 5.0, 6.0, 1e-9) > 1e4
+
+
+def _friction(monkeypatch=None):
+    if monkeypatch is not None:
+        # every pressure asked for everywhere: no law is coarser than the result
+        monkeypatch.setattr(multilevel, "demand_of", lambda columns, group: None)
+    return hystrip.solve(MATERIAL, ADHESION, LEVELS, pressure=PRESSURE, velocity=V, rtol=RTOL)
+
+
+def test_coarser_laws_give_the_same_friction_for_less(monkeypatch):
+    weighted, even = _friction(), _friction(monkeypatch)
+    floor = 1e-3 * (MATERIAL.K * LEVELS[0].h + ADHESION.p_0) * LEVELS[0].h / LEVELS[0].l
+    assert (np.abs(weighted.tau - even.tau) <= RTOL * (np.abs(even.tau) + floor)).all()
+    assert (weighted.tau_error <= RTOL * (np.abs(even.tau) + floor)).all()
+    assert weighted.counts["strips_solved"] < 0.9 * even.counts["strips_solved"]
+
+
+@pytest.mark.parametrize(("V", "edge"), [(3e-4, "continuous"), (3e-4, "constitutive"), (5e-3, "continuous")])
+def test_unloading_ends_where_no_penetration_carries_less(V, edge):
+    """Pull-off against a scan of equal strips over all penetrations, where the crest and where the rims hold longest."""
+    level = LEVELS[1]
+    law = hystrip.friction_law(MATERIAL, ADHESION, level, V=V, edge=edge, rtol=1e-3, below=-500.0)
+    D = np.linspace(-2.42e-6, -2e-7, 300)
+    p = hystrip.solve_level(MATERIAL, ADHESION, level, V=V, D=D, edge=edge, strips=400).p_mean
+    # a jump in y costs equal strips one part in 400 of what jumps
+    assert law.pull_off == pytest.approx(p.min(), abs=ADHESION.p_0 / 400)
+
+
+def test_cells_follow_a_function_as_closely_as_asked():
+    def function(x):
+        return np.stack((np.sqrt(x + 1e-3), np.exp(-x) * np.cos(9 * x)), axis=1)
+
+    tolerance = np.array([1e-7, 1e-9])
+    cells = cells_of(function, tolerance)
+    x = np.random.default_rng(1).random(2000)
+    assert (np.abs(cells(x) - function(x)).max(axis=0) <= tolerance).all()
+    assert cells.size.min() < cells.size.max() and not cells.error.any()
+
+
+def test_cells_say_what_they_miss():
+    step = cells_of(lambda x: np.where(x < 0.3, 0.0, 1.0)[:, None], np.array([1e-9]))
+    assert step.error[0] > 0.1
+
+
+def _branch(p_low, p_high, error):
+    """A branch along which pressure and three other quantities rise evenly."""
+    middle, half = 0.5 * (p_high + p_low), 0.5 * (p_high - p_low)
+    return rising(Piece(p_low, p_high, np.array([[middle] * 4, [half] * 4]), np.full(4, error)))[0]
+
+
+@pytest.mark.parametrize("unloading", [True, False])
+def test_a_break_is_known_as_well_as_the_branch_that_ends_there(unloading):
+    lower, upper = _branch(-1.0, 1.0, 1e-2), _branch(1.0, 2.0, 1e-6)
+    law = Law([lower, upper], -1.0, 2.0, np.zeros(4), 2.0, np.zeros(4), 0, unloading)
+    errors = dict(zip(law.breaks, law.at_breaks()[1], strict=True))
+    assert errors[1.0] == (1e-6 if unloading else 1e-2)
+    assert errors[-1.0] == 1e-2 and errors[2.0] == 1e-6

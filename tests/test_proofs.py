@@ -1,0 +1,91 @@
+"""What the fast proofs claim about orbits, against a dense scan of the onset map and against the search, on hanging and slow strips."""
+
+import numpy as np
+import pytest
+
+from hystrip.generated import standard_linear_solid as kernel
+from hystrip.strip import balance, exclusion, turning
+from hystrip.strip.engine import solve_strips
+from hystrip.strip.march import Orbit, march
+from hystrip.strip.outermost import Outermost
+from hystrip.strip.problem import Strips, adhesive_cycle
+from hystrip.strip.reach import may_cling, saturates
+from hystrip.strip.regimes import CODE
+from hystrip.strip.search import isolate
+
+SCANNED = 300
+
+
+def strips(seed: int, n: int, where: str) -> Strips:
+    """Random strips out of reach of the undeformed foundation (``hanging``), within it (``pressed``) or just able to stay in contact all along."""
+    rng = np.random.default_rng(seed)
+    beta = 10 ** rng.uniform(0, 6, n)
+    alpha = beta / 10 ** rng.uniform(0.1, 4, n)
+    ratio = np.hypot(1, beta) / np.hypot(1, alpha)
+    delta_0, deep = 10 ** rng.uniform(-2.5, 1, n), rng.random(n) ** 2
+    p_0 = ratio * 10 ** rng.uniform(-1, 0.5, n) if where == "saturated" else 10 ** rng.uniform(-1, 3, n)
+    D = {
+        "hanging": -delta_0 - deep * np.maximum(p_0 - delta_0, 0),
+        "pressed": -delta_0 + deep * (1.1 * (1 + ratio) + delta_0),
+        "saturated": 1 + ratio * (1 + 0.2 * deep) - p_0,
+    }[where]
+    J = alpha / beta
+    return Strips(alpha, beta, J, 1 - J, p_0, delta_0, D, (rng.random(n) < 0.5).astype(float))
+
+
+def known_orbits(s: Strips, unloading: bool):
+    """Stable orbits with contact and discrete adhesion, the most engaged ones of their strips or not, with their cycles."""
+    solved = solve_strips(kernel, s, unloading)
+    index = np.flatnonzero(solved.code == CODE["acaf"])
+    cycle = adhesive_cycle(kernel, s.take(index))
+    zero, x = np.zeros(index.size), solved.d[index]
+    w_end = kernel.profile(x, cycle.strips.D) + cycle.strips.delta_0
+    return cycle, Orbit(x, solved.b[index], solved.a[index], solved.c[index], zero > 0, zero, w_end)
+
+
+def crossed_before(cycle, x):
+    """Where the onset map goes back from some onset before x: an orbit lies before that one or, engaged all along, beyond the arc."""
+    low = cycle.centre - cycle.half_d
+    shares = (np.arange(SCANNED) + 0.5) / SCANNED
+    onsets = low + 0.999 * shares[:, None] * (x - low)
+    orbit, _ = march(kernel, cycle.take(np.tile(np.arange(cycle.size), SCANNED)), onsets.ravel())
+    back = ~orbit.engaged & (orbit.r < -1e-12 * (1 + np.abs(orbit.w_end)))
+    return back.reshape(SCANNED, -1).any(axis=0)
+
+
+def proofs(cycle, orbit):
+    start, end = exclusion.onsets_within(cycle, Outermost.blank(cycle.size))
+    return balance.first(kernel, cycle, orbit, start, end)[0], exclusion.none_before(kernel, cycle, orbit, start)[0]
+
+
+@pytest.mark.parametrize("where", ["hanging", "pressed"])
+def test_the_first_orbit_is_proven_to_be_the_first(where):
+    cycle, orbit = known_orbits(strips(1, 4000, where), unloading=True)
+    assert not crossed_before(cycle, orbit.x).any()
+    by_balance, by_marches = proofs(cycle, orbit)
+    assert by_balance.mean() > 0.9 and by_marches.mean() > 0.85 and (by_balance | by_marches).mean() > 0.97
+
+
+def test_what_has_an_orbit_before_it_is_not_proven_to_have_none():
+    """Strips that may be in saturated contact, and the orbits that let go in spite of it: unstable ones lie before them."""
+    cycle, orbit = known_orbits(strips(3, 10_000, "saturated"), unloading=False)
+    before = crossed_before(cycle, orbit.x)
+    assert before.sum() > 40
+    by_balance, by_marches = proofs(cycle, orbit)
+    assert not (by_balance & before).any() and not (by_marches & before).any()
+
+
+def test_beyond_a_fold_there_is_no_orbit_and_next_to_it_the_first_is_isolated():
+    s = strips(2, 12_000, "hanging")
+    cycle = adhesive_cycle(kernel, s)
+    # none of them can stay engaged all along
+    let_go = ~saturates(kernel, s) & ~may_cling(kernel, s)
+    cycle = cycle.take(np.flatnonzero(let_go & ~cycle.direct & (cycle.half_d > 0)))
+    result = turning.turning(kernel, cycle, *exclusion.onsets_within(cycle, Outermost.blank(cycle.size)))
+    searched = isolate(kernel, cycle, last=False)
+    assert not searched.unresolved.any()
+    none, found = result.none, result.isolated.found
+    assert none.sum() > 300 and found.sum() > 100
+    assert not (none & searched.found).any() and not (found & ~searched.found).any()
+    first, last = result.isolated.left.x, result.isolated.right.x
+    assert np.all((first <= searched.right.x + 1e-9)[found]) and np.all((searched.left.x <= last + 1e-9)[found])
