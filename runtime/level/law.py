@@ -17,6 +17,9 @@ from .chebyshev import Piece, graded, parameter
 from .curve import Curve
 
 _GRID = np.linspace(0, 1, 65)
+#: parameters at which turns are looked for: one may hide next to an end, where every piece is flat
+_NEAR = 0.5 ** np.arange(10, 6, -1)
+_TURNS = np.concatenate(([0.0], _NEAR, _GRID[1:-1], 1 - _NEAR[::-1], [1.0]))
 _EPS = np.finfo(float).eps
 
 
@@ -106,8 +109,14 @@ def branches(curve: Curve, unloading: bool) -> list[Branch]:
 
 def rising(piece: Piece) -> list[Branch]:
     """Maximal parts of a piece in which pressure rises with D, from high to low D."""
-    value, slope = piece.first(_GRID)
-    rising = value[1:] > value[:-1]
+    value = piece.first(_TURNS)[0]
+    steps, last = np.diff(value), _TURNS.size - 1
+    rising = steps > 0
+    # next to the ends rounding tells nothing: there it goes on as before
+    rounded = np.abs(steps) <= 16 * _EPS * np.abs(value).max()
+    for inner in range(_NEAR.size, 0, -1):
+        for outer, k in ((inner - 1, inner), (last - inner, last - inner - 1)):
+            rising[outer] = rising[k] if rounded[outer] else rising[outer]
     parts = []
     i = len(rising)
     while i > 0:
@@ -117,8 +126,8 @@ def rising(piece: Piece) -> list[Branch]:
         j = i
         while i > 0 and rising[i - 1]:
             i -= 1
-        t_low = _turn(piece, max(i - 1, 0), min(i + 1, 64)) if i > 0 else 0.0
-        t_high = _turn(piece, max(j - 1, 0), min(j + 1, 64)) if j < 64 else 1.0
+        t_low = _turn(piece, max(i - 1, 0), min(i + 1, last), falls_first=True) if i > 0 else 0.0
+        t_high = _turn(piece, max(j - 1, 0), min(j + 1, last), falls_first=False) if j < last else 1.0
         ends = piece.first(np.array([t_low, t_high]))[0]
         if t_high > t_low and ends[1] > ends[0]:
             soft = piece.soft_low and t_low == 0.0, piece.soft_high and t_high == 1.0
@@ -126,13 +135,12 @@ def rising(piece: Piece) -> list[Branch]:
     return parts
 
 
-def _turn(piece: Piece, i: int, j: int) -> float:
-    """Zero of dp/dt between grid points i and j."""
-    low, high = _GRID[i], _GRID[j]
-    sign = piece.first(np.array([low]))[1][0]
+def _turn(piece: Piece, i: int, j: int, falls_first: bool) -> float:
+    """Zero of dp/dt between points i and j of ``_TURNS``, before which pressure falls or rises: at an end its slope says nothing."""
+    low, high = _TURNS[i], _TURNS[j]
     for _ in range(60):
         middle = 0.5 * (low + high)
-        if piece.first(np.array([middle]))[1][0] * sign > 0:
+        if (piece.first(np.array([middle]))[1][0] < 0) == falls_first:
             low = middle
         else:
             high = middle
