@@ -7,9 +7,10 @@
 Scenes are drawn by ``tests/surfaces.py``: one to three levels, both closures and branches, with and without adhesion, loads from hardly touching to
 nearly saturated; the tolerances are taken in turn, 1e-8 for one-level surfaces only. The reference is never tighter than 1e-12, 1e-8 for several levels.
 ``--march``: one-level surfaces with adhesion at the penetration that their pressure takes, every one at all tolerances, against strips that are marched
-event by event with 30 digits and summed over y by a rule of its own (``tests/oracle/level.py``): nothing of the library. Prints how many points meet the tolerance, at how many the estimate
-bounds the error, and the median of estimate over error; then every point at which it does not hold, with the scene's number to draw it again. The table
-goes to the CSV as it grows. Points in closed form and below pull-off are exact and are not counted, nor are errors that rounding hides. A scene that takes
+event by event with 30 digits and summed over y by a rule of its own (``tests/oracle/level.py``): nothing of the library.
+
+Prints how many points meet the tolerance, at how many the estimate bounds the error, and the median of estimate over error; then every point at which
+it does not hold, with the scene's number to draw it again. The table goes to the CSV as it grows. Points in closed form and below pull-off are exact and are not counted, nor are errors that rounding hides. A scene that takes
 more than ``--limit`` seconds of processor time counts as refused. Exit status 1 if the estimate bounds the error in fewer than 99 of 100 points, its
 median exceeds 100 times the error, or a scene was refused.
 """

@@ -172,7 +172,9 @@ def _rounding(columns: Columns, batch: Batch, n: int, c) -> np.ndarray:
     values = np.concatenate((ends[:, :1], batch.values, ends[:, 1:]), axis=1)
     D = np.array([i.penetrations(lobatto(n)) for i in batch.intervals])
     digit = _EPS * np.maximum(np.abs(D).max(axis=1), columns.level.h)
-    steps = np.abs(np.diff(values, axis=1)) * np.minimum(np.divide(digit[:, None], np.diff(D), out=np.ones_like(D[:, 1:]), where=np.diff(D) > 0), 1.0)[:, :, None]
+    apart = np.diff(D)
+    share = np.minimum(np.divide(digit[:, None], apart, out=np.ones_like(apart), where=apart > 0), 1.0)
+    steps = np.abs(np.diff(values, axis=1)) * share[:, :, None]
     return np.einsum("kj,pjq->pkq", np.abs(flat_ended(n)), np.maximum(steps[:, 1:], steps[:, :-1])).max(axis=1)
 
 

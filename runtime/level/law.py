@@ -173,9 +173,10 @@ def _meets(part: Branch, overlap: float) -> bool:
 
 
 def _joined(kept: list[Branch], p_sat: float) -> list[Branch]:
-    """The branches, those stretched that end next to where another begins, or at saturation, but for their errors: there is one break of the law, not two."""
+    """The branches, those stretched that end next to where another begins, or at saturation, but for their errors: there is one break of the
+    law, not two."""
     ends = [*(b.p_low for b in kept[1:]), p_sat]
-    return [replace(b, p_high=end) if _meets(b, abs(end - b.p_high)) else b for b, end in zip(kept, ends, strict=True)] if kept else []
+    return [replace(b, p_high=end) if _meets(b, abs(end - b.p_high)) else b for b, end in zip(kept, ends[: len(kept)], strict=True)]
 
 
 @dataclass(frozen=True)
