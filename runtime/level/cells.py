@@ -19,7 +19,7 @@ _NEGLIGIBLE = 0.1
 @dataclass(frozen=True)
 class Cells:
     """Chebyshev ``coefficients`` (cells, degree + 1, q) on cells that begin at slot ``start`` (cells,) and are ``size`` (cells,) slots wide; ``of``
-    (SLOTS,): the cell that a slot belongs to. ``error`` (q,): what the smallest cells still miss."""
+    (SLOTS,): the cell that a slot belongs to. ``error`` (q,): what the smallest cells still miss, on average."""
 
     coefficients: np.ndarray
     start: np.ndarray
@@ -33,8 +33,8 @@ class Cells:
         return clenshaw(self.coefficients[cell], within(x, self.start[cell], self.size[cell]))
 
 
-def cells_of(function: Callable[[np.ndarray], np.ndarray], tolerance: np.ndarray) -> Cells:
-    """``function``, [0, 1] (m,) -> (m, q), to ``tolerance`` (q,)."""
+def cells_of(function: Callable[[np.ndarray], np.ndarray], tolerance: np.ndarray, measure: Callable[[np.ndarray], np.ndarray]) -> Cells:
+    """``function``, [0, 1] (m,) -> (m, q), to ``tolerance`` (q,). ``measure``: how much of what is averaged over lies below an x, 0 to 1."""
     transform, nodes = coefficients(np.eye(_DEGREE + 1)), lobatto(_DEGREE)
     start, size, error = np.array([0, SLOTS // 2]), SLOTS // 2, np.zeros(tolerance.size)
     found: list[tuple] = []
@@ -44,7 +44,8 @@ def cells_of(function: Callable[[np.ndarray], np.ndarray], tolerance: np.ndarray
         last = np.abs(c[:, -2:]).max(axis=1)
         done = (last <= _NEGLIGIBLE * tolerance).all(axis=1)
         if size == 1:
-            error = last[~done].max(axis=0, initial=0.0) / _NEGLIGIBLE
+            share = measure((start + 1) / SLOTS) - measure(start / SLOTS)
+            error = share[~done] @ last[~done] / _NEGLIGIBLE
             done[:] = True
         found.append((c[done], start[done], np.full(np.count_nonzero(done), size)))
         size //= 2

@@ -50,7 +50,7 @@ class Branch:
 
     def resampled(self, tolerance: np.ndarray) -> Branch:
         """The same branch interpolated over pressure, to ``tolerance`` (q,), so that it need not be inverted again."""
-        cells = cells_of(self._at, tolerance)
+        cells = cells_of(self._at, tolerance, graded)
         return replace(self, cells=cells, piece=replace(self.piece, error=self.piece.error + cells.error))
 
     def _at(self, u):

@@ -16,6 +16,8 @@ _SLOWEST = 6.0
 #: number of nodes from which on coefficients are many; up to it and from it on: the fastest decay believed, and the ratio of the last coefficients to the
 #: middle ones below which they surely fall geometrically
 _MANY, _FASTEST, _GEOMETRIC = 16, (0.43, 0.35), (0.15, 0.05)
+#: so many coefficients in a row are not small by chance where a pair of singularities makes them come and go
+_RUN = 5
 
 
 def mapped(t):
@@ -73,7 +75,7 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     amplitude = c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny
     shape = (c / amplitude[:, None]).max(axis=2)
     # a run long enough that coefficients which change their sign in it are not all small
-    few = max(3, n // 5)
+    few = max(_RUN, n // 5) if n > 8 else 3
     last, middle = shape[:, -few:].max(axis=1), shape[:, n // 2 - 3 : n // 2].max(axis=1)
     ratio = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0)
     decay = ratio ** (1 / (0.5 * (n + 1 - few)))

@@ -97,7 +97,8 @@ def _settle(kernel, cycle: Cycle, index, before, after, start, end, result: Turn
     one[ask] = (here.r <= 0) & bounds.falls
     none[ask] = (here.r > 0) & excluded(kernel, ends, there, here, bounds, False)
     none &= _rises(kernel, part, right)
-    ask = np.flatnonzero(none)
+    # past the middle of both arcs T' only grows
+    ask = np.flatnonzero(none & ((right.x < part.centre) | (right.c > part.centre + np.pi)))
     if ask.size:
         none[ask], used = _unstable_after(kernel, part.take(ask), right.x[ask], _TOWARDS)
         isolated.evaluations[index[ask]] += used
