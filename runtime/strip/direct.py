@@ -8,7 +8,7 @@ import numpy as np
 
 from .certificate import attracting, edges_admissible
 from .chain import CONVERGED, follow
-from .exclusion import alone, onsets_within
+from .exclusion import alone, closed, none_before, onsets_within
 from .march import Orbit
 from .outermost import Outermost
 from .problem import Cycle
@@ -63,8 +63,6 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: Outermost):
     none = ~arc | bounds.missed
     low = possible & ~cycle.direct & (last | (s.p_0 < _LOW))
     found.attempt("af", np.flatnonzero(low & ~found.proven))
-    if not last:
-        none |= found.at_a_fold(np.flatnonzero(possible & ~cycle.direct & ~found.proven))
     return found.orbit, found.sequence, found.proven, none, found.evaluations
 
 
@@ -98,17 +96,28 @@ class _Found:
         self.sequence[pick[keep]] = sequence
         self.proven[pick] |= sure
 
-    def at_a_fold(self, pick) -> np.ndarray:
-        """Which of the cycles ``pick`` are proven to have no orbit: Newton may be lost next to a fold, and finds none beyond."""
-        none = np.zeros(self.cycle.size, bool)
-        if not pick.size:
-            return none
-        part = self.cycle.take(pick)
-        result = turning(self.kernel, part, *onsets_within(part, self.bounds.take(pick)))
-        none[pick] = result.none
-        located = at_zeros(self.kernel, part, result.isolated)
-        self.evaluations[pick] += located.evaluations
+
+def first_by_marches(kernel, cycle: Cycle, known: Orbit, bounds: Outermost):
+    """First orbits of cycles that ``extremal`` leaves open: of the ``known`` orbits (x NaN where there is none) and next to a fold.
+
+    Returns those orbits, which are proven to be the first, which cycles are proven to have none, and the evaluations spent.
+    """
+    orbit = known.take(np.arange(cycle.size))
+    start, end = onsets_within(cycle, bounds)
+    proven, none, spent = np.zeros(cycle.size, bool), np.zeros(cycle.size, bool), np.zeros(cycle.size)
+    here = np.flatnonzero(~np.isnan(known.x))
+    if here.size:
+        part = cycle.take(here)
+        proven[here], spent[here] = none_before(kernel, part, closed(kernel, part, known.take(here)), start[here])
+    # Newton may be lost next to a fold, and finds nothing beyond it
+    rest = np.flatnonzero(~proven & ~cycle.direct & (cycle.half_d > 0))
+    if rest.size:
+        part = cycle.take(rest)
+        result = turning(kernel, part, start[rest], end[rest])
+        none[rest] = result.none
+        located = at_zeros(kernel, part, result.isolated)
+        spent[rest] += located.evaluations
         here = np.flatnonzero(located.certified)
-        self.orbit.put(pick[here], located.orbit.take(here))
-        self.sequence[pick[here]], self.proven[pick[here]] = "acaf", True
-        return none
+        orbit.put(rest[here], located.orbit.take(here))
+        proven[rest[here]] = True
+    return orbit, proven, none, spent

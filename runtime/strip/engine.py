@@ -21,7 +21,7 @@ from dataclasses import replace
 import numpy as np
 
 from .certificate import greatest_gap
-from .direct import certified, extremal
+from .direct import certified, extremal, first_by_marches
 from .march import Orbit
 from .outermost import FAST, Outermost, outermost
 from .problem import Cycle, Strips, adhesive_cycle, bare_cycle
@@ -41,27 +41,27 @@ _SHIFTS = (8, 64, 512)
 def solve_strips(kernel, strips: Strips, unloading: bool) -> Solved:
     """Solve a batch with the generated ``kernel``; ``certified`` is false for every strip that must not be used."""
     solved = Solved.empty(strips.size)
-    left: list[tuple[np.ndarray, Orbit]] = []
+    left: list[tuple[np.ndarray, Orbit, Outermost]] = []
     for first in range(0, strips.size, CHUNK):
         part = np.arange(first, min(first + CHUNK, strips.size))
         batch = _Batch(kernel, strips.take(part), unloading)
         solved.put(part, batch.solve())
         if batch.open.size:
-            left.append((part[batch.open], batch.known.take(batch.open)))
-        if sum(index.size for index, _ in left) >= CHUNK:
+            left.append((part[batch.open], batch.known.take(batch.open), batch.bounds.take(batch.open)))
+        if sum(index.size for index, *_ in left) >= CHUNK:
             _search(kernel, strips, solved, unloading, left)
     _search(kernel, strips, solved, unloading, left)
     _settle(kernel, strips, solved, unloading)
     return solved
 
 
-def _search(kernel, strips: Strips, solved: Solved, unloading: bool, left: list[tuple[np.ndarray, Orbit]]) -> None:
-    """Solve the strips that are ``left`` by the search, and empty that list."""
+def _search(kernel, strips: Strips, solved: Solved, unloading: bool, left: list[tuple[np.ndarray, Orbit, Outermost]]) -> None:
+    """Solve the strips that are ``left`` by marches and by the search, and empty that list."""
     if left:
-        index = np.concatenate([part for part, _ in left])
-        known = Orbit.joined([orbit for _, orbit in left])
+        index, known, bounds = zip(*left, strict=True)
+        index = np.concatenate(index)
         left.clear()
-        found = _Batch(kernel, strips.take(index), unloading, known).solve()
+        found = _Batch(kernel, strips.take(index), unloading, Orbit.joined(known), Outermost.joined(bounds)).solve()
         found.evaluations += solved.evaluations[index]
         solved.put(index, found)
 
@@ -89,12 +89,12 @@ class _Batch:
     """One pass over a batch. Without ``known`` what Newton and the thresholds decide, the rest being left ``open``; with it (orbits
     that are known, x NaN where none is) everything else is searched for."""
 
-    def __init__(self, kernel, strips: Strips, unloading: bool, known: Orbit | None = None):
+    def __init__(self, kernel, strips: Strips, unloading: bool, known: Orbit | None = None, bounds: Outermost | None = None):
         self.kernel, self.strips, self.unloading = kernel, strips, unloading
         self.searching = known is not None
         self.known = known or Orbit.blank(strips.size)
         self.record = Record(kernel, strips)
-        self.bounds = Outermost.blank(strips.size)
+        self.bounds = bounds or Outermost.blank(strips.size)
         self._open: list[np.ndarray] = []
 
     @property
@@ -172,7 +172,17 @@ class _Batch:
         return index[none]
 
     def _onset_searched(self, index, cycle: Cycle):
-        return self._sought(index, cycle)
+        if not self.unloading:
+            return self._sought(index, cycle)
+        orbit, proven, none, spent = first_by_marches(self.kernel, cycle, self.known.take(index), self.bounds.take(index))
+        self.record.solved.evaluations[index] += spent
+        contact = ~np.isnan(orbit.b)
+        for sequence, kind in {"acaf": contact & ~cycle.direct, "afc": contact & cycle.direct, "af": ~contact}.items():
+            pick = np.flatnonzero(proven & kind)
+            self.record.orbits(index[pick], sequence, orbit.take(pick))
+        rest = np.flatnonzero(~proven & ~none)
+        none = index[none]
+        return np.concatenate((none, self._sought(index[rest], cycle.take(rest)))) if rest.size else none
 
     def _sought(self, index, cycle: Cycle):
         result = sought(self.kernel, cycle, last=not self.unloading, known=self.known.take(index))

@@ -15,7 +15,7 @@ Otherwise, with a probe x1 between x0 and x*,
 
 On a slow foundation the map takes an onset hardly any further, and bounds would have to be as close as that to tell:
 there the balance of a period is asked first (``balance``). Strips that hang next to their fold are left by both; a
-few marches back to the start of the arc prove most.
+few marches back to the start of the arc prove most (``none_before``).
 
 What is not proven here is left to ``search``; nothing is ever accepted for lack of a counterexample.
 """
@@ -56,29 +56,18 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> 
         rest = np.flatnonzero(~proven & (cycle.strips.beta > SLOW))
         if rest.size:
             part = cycle.take(rest)
-            here = _zero(kernel, part, orbit.take(rest))
+            here = closed(kernel, part, orbit.take(rest))
             proven[rest], spent[rest] = balance.first(kernel, part, here, *onsets_within(part, bounds.take(rest)))
-    # marches take a strip that hangs next to its fold further than bounds at a few probes do, and cost more
+    # next to its fold a strip that hangs is too much for bounds at a few probes
     hanging = cycle.strips.D <= -cycle.strips.delta_0
-    everywhere = np.ones(cycle.size, bool)
-    ways = ((_by_probes, everywhere),) if last else ((_by_probes, ~hanging), (_by_marches, everywhere), (_by_probes, hanging))
-    for way, kind in ways:
-        rest = np.flatnonzero(kind & ~proven)
-        if rest.size:
-            proven[rest], used = way(kernel, cycle.take(rest), orbit.take(rest), last, bounds.take(rest))
-            spent[rest] += used
+    rest = np.flatnonzero(~proven & (last | ~hanging))
+    if rest.size:
+        part, sign = cycle.take(rest), -1.0 if last else 1.0
+        end = part.centre - sign * part.half_d
+        end = end if last else np.fmax(end, bounds.x[rest])
+        proven[rest], used = _cleared(kernel, part, closed(kernel, part, orbit.take(rest)), sign, end)
+        spent[rest] += used
     return proven, spent
-
-
-def _by_probes(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost):
-    sign = -1.0 if last else 1.0
-    end = cycle.centre - sign * cycle.half_d
-    return _cleared(kernel, cycle, _zero(kernel, cycle, orbit), sign, end if last else np.fmax(end, bounds.x))
-
-
-def _by_marches(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost):
-    start, _ = onsets_within(cycle, bounds)
-    return none_before(kernel, cycle, _zero(kernel, cycle, orbit), start)
 
 
 def onsets_within(cycle: Cycle, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
@@ -124,7 +113,7 @@ def none_before(kernel, cycle: Cycle, known: Orbit, start) -> tuple[np.ndarray, 
     return empty.reshape(many, n).all(axis=0), spent.reshape(many, n).sum(axis=0)
 
 
-def _zero(kernel, cycle: Cycle, orbit: Orbit) -> Orbit:
+def closed(kernel, cycle: Cycle, orbit: Orbit) -> Orbit:
     """Known orbits as marches that end where they begin."""
     s = cycle.strips
     w_end = kernel.profile(orbit.x, s.D) + s.delta_0

@@ -4,6 +4,7 @@ The march is the return map of the strip on the phase x of its onset. It is not 
 slope, drive the search for the extremal orbit (``search``).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,7 +42,7 @@ class Orbit:
         return cls(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), *(np.full(n, np.nan) for _ in range(2)))
 
     @classmethod
-    def joined(cls, parts: list["Orbit"]) -> "Orbit":
+    def joined(cls, parts: Sequence["Orbit"]) -> "Orbit":
         """The orbits of all ``parts``, one after another."""
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in cls.__slots__))
 

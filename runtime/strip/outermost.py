@@ -14,6 +14,7 @@ The three phases are not solved for. Each is replaced by a later a, a later c, a
 is held longer, and adhesion that is held longer, only leave the state more engaged than it is.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,6 +49,11 @@ class Outermost:
     def blank(cls, n: int) -> "Outermost":
         """No bounds."""
         return cls(*(np.full(n, np.nan) for _ in range(3)), np.zeros(n, bool), np.zeros(n, bool), np.zeros(n))
+
+    @classmethod
+    def joined(cls, parts: Sequence["Outermost"]) -> "Outermost":
+        """The bounds of all ``parts``, one after another."""
+        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in cls.__slots__))
 
     def put(self, index: np.ndarray, other: "Outermost") -> None:
         for name in self.__slots__:

@@ -32,7 +32,7 @@ _NEARLY, _GAP = 0.3, 3.0
 _LEAST = 1e-9
 #: alpha above which the edges are those of a foundation that stands still; rounds of Newton for them, from a long contact,
 #: and the shortest
-_SLOWLY, _ROUNDS, _LONG, _SHORT = 3.0, 4, 2.0, 0.02
+_SLOWLY, _ROUNDS, _LONG, _SHORT = 1.4, 4, 2.0, 0.02
 
 
 def onset_guess(cycle: Cycle, kind: str = "adhesive") -> np.ndarray:

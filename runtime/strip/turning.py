@@ -38,7 +38,7 @@ _ITERATIONS = 9
 #: a step this small leaves an error of its square
 _SMALL = 1e-7
 #: rounds of the start on a foundation that does not move in a gap
-_ROUNDS = 3
+_ROUNDS = 8
 #: how far from the least r the marches on both sides begin if it is positive: of the distance at which a parabola has twice
 #: that r, and at most
 _WAY, _FURTHEST = 0.6, 0.3
