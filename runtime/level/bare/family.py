@@ -8,6 +8,7 @@ over the width of their contact, where they are in closed form and smooth as wel
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -22,6 +23,8 @@ _FIRST, _LAST = 8, 512
 #: a family is sampled this far beyond the penetration that is asked for, at most
 _BEYOND = 4.0
 _STEPS = 12
+#: nothing is sampled finer than this many roundings; and the share of what is allowed that is cut off a series
+_FINEST, _TRIMMED = 256, 0.03
 #: slope of the width of contact over s, averaged over a level, in parts of its mean slope
 _ROOT = 4.0
 _EPS = np.finfo(float).eps
@@ -62,8 +65,14 @@ class Family:
         return out
 
 
+@lru_cache
+def _differentiation(n: int) -> np.ndarray:
+    """Matrix from n Chebyshev coefficients to those of the derivative, the last one zero."""
+    return np.concatenate([np.polynomial.chebyshev.chebder(np.eye(n)), np.zeros((1, n))]) if n > 1 else np.zeros((1, 1))
+
+
 def _derivatives(table):
-    return np.concatenate([np.polynomial.chebyshev.chebder(table, axis=1), np.zeros_like(table[:, :1])], axis=1)
+    return _differentiation(table.shape[1]) @ table
 
 
 def evaluated(table: np.ndarray, x: np.ndarray) -> np.ndarray:
@@ -95,17 +104,18 @@ def family(foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, size: np
         s, values = samples[:, :, 0], samples[:, :, 1:]
         over = _resampled(s, values, s_sat[left])
         greatest = np.abs(values).max(axis=1)
-        goal = rtol[left, None] * (floor + size[left, None] * greatest)
+        goal = np.maximum(rtol[left, None] * (floor + size[left, None] * greatest), _FINEST * _EPS * greatest)
         # what is not known of a strip's penetration moves all along their slopes
         slopes = np.abs(np.diff(values, axis=1) / np.diff(s, axis=1)[:, :, None]).max(axis=1)
         # that of the width grows like a root towards s = 0, where few strips are
         slopes[:, 2] = _ROOT * values[:, -1, 2] / s[:, -1]
         sampled = _errors(coefficients_over(samples), np.concatenate((goal.min(axis=1, keepdims=True), goal), axis=1))
-        error = _errors(over, goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 32 * _EPS * greatest
+        error = _errors(over, goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 16 * _EPS * greatest
         done = (error <= goal).all(axis=1) | (n == _LAST)
         for k in np.flatnonzero(done):
             g = left[k]
-            out.series[g], out.errors[g] = _trimmed(over[k], 0.02 * goal[k]), error[k]
+            out.series[g], lost = _trimmed(over[k], _TRIMMED * goal[k])
+            out.errors[g] = error[k] + lost
             out.top[g] = _xi(s[k, -1], s_sat[g])
         keep = np.flatnonzero(~done)
         left, phi, samples = left[keep], phi[keep], samples[keep]
@@ -128,10 +138,11 @@ def _xi(s, s_sat):
 
 
 def _trimmed(c, goal):
-    """Coefficients without a tail that doesn't matter; sizes in steps, so that series of one size are evaluated together."""
+    """Coefficients without a tail that doesn't matter, and what is lost with it; sizes in steps, so that series of one size are evaluated together."""
     tail = np.cumsum(np.abs(c[::-1]), axis=0)[::-1]
     n = int(np.count_nonzero((tail > goal).any(axis=1)))
-    return c[: min(4 * -(-max(n, 1) // 4), c.shape[0])]
+    n = min(4 * -(-max(n, 1) // 4), c.shape[0])
+    return c[:n], tail[n] if n < c.shape[0] else np.zeros(c.shape[1])
 
 
 def _full_friction(foundation, rate):
@@ -186,7 +197,12 @@ class _Sampling:
 
 def coefficients_over(samples):
     """Chebyshev coefficients (m, n + 1, q) of samples at ``lobatto(n)``."""
-    return np.einsum("ij,mjq->miq", coefficients(np.eye(samples.shape[1])), samples)
+    return _transform(samples.shape[1]) @ samples
+
+
+@lru_cache
+def _transform(nodes: int) -> np.ndarray:
+    return coefficients(np.eye(nodes))
 
 
 def _resampled(s, values, s_sat):

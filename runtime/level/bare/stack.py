@@ -22,7 +22,7 @@ from .pressure import ContactPressure
 #: nodes of a piece of a law, tried in turn
 _NODES = (8, 16, 32, 64, 128)
 #: of what is allowed: what interpolating a law may err, what its values may, and what a strip's means may
-_INTERPOLATION, _VALUES, _STRIPS = 0.3, 0.1, 0.03
+_INTERPOLATION, _VALUES, _STRIPS = 0.3, 0.1, 2.0
 #: contact fractions are interpolated no finer than this
 _CONTACT = 1e-5
 #: greatest pressure in a contact by samples of it, with what may be between them
@@ -77,7 +77,7 @@ class BareStack:
         s_top = np.where(crest < 1, 2 * np.maximum(crest, _EPS), np.inf)
         # what is not known of pressures counts by the slope of the friction, hardly above k h
         share = _STRIPS * self.wanted.friction / self._friction_unit(i)
-        fam = family(self.foundation, rate, s_top, np.zeros(rate.size), np.array((1.0, 1.0, 1e30)), np.minimum(share, 1e-3))
+        fam = family(self.foundation, rate, s_top, np.zeros(rate.size), np.array((1.0, 1.0, 1e30)), np.minimum(share, 1e-2))
         self.tally.solved += int(fam.strips.sum())
         return Level(fam)
 

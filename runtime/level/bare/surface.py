@@ -15,6 +15,8 @@ from .stack import BareStack, Wanted
 
 #: how much finer each further attempt is, and how many there are
 _FINER, _ATTEMPTS = 0.03, 3
+#: friction is at first taken to be this many times what counts beside it
+_GUESS = 30.0
 #: beyond this k V times the longest retardation time the general path says what is wrong
 _FASTEST = 1e100
 
@@ -50,8 +52,8 @@ class BareSurface:
         """Points at ``load`` > 0 (Pa, or m) and velocities ``V[group]``, (n,)."""
         n, levels = load.size, len(self.levels)
         out = BarePoints(np.zeros(n), np.zeros(n), np.zeros((levels, n)), np.zeros((levels, n)), np.full(n, np.inf), np.zeros(n, bool))
-        # the friction of level 1 alone says how well all of it has to be known
-        size = self._attempt(out, np.arange(n), group, load, by_pressure, np.full(n, self.floor), 1)
+        # the friction of level 1 alone says how well all of it has to be known; where there is only that level it may do
+        size = self._attempt(out, np.arange(n), group, load, by_pressure, np.full(n, _GUESS * self.floor), 1)
         finer = 1.0
         for _ in range(_ATTEMPTS):
             left = np.flatnonzero(~out.certain)
