@@ -7,13 +7,16 @@ import numpy as np
 from hystrip.solver import Foundation
 
 from .law import BareLaws
-from .means import Level, cells, gauss
+from .means import Changes, Level, cells, gauss
 from .orbit import Wave
 from .pressure import ContactPressure
 
 #: nodes over the strips and over each contact, tried in turn
-RULES = ((8, 8), (12, 12), (18, 18), (27, 27), (40, 40), (60, 60))
-_QUADRATURE, _FASTEST = 0.2, 0.1
+RULES = ((8, 6), (12, 8), (18, 10), (27, 14), (40, 18), (60, 24))
+_QUADRATURE = 0.2
+#: looks at a contact's pressure for where it passes the breaks of the law, and steps towards each
+_LOOKS, _STEPS = 17, 5
+_EPS = np.finfo(float).eps
 
 
 class Carrier:
@@ -26,19 +29,16 @@ class Carrier:
     def carried(self, group: np.ndarray, d: np.ndarray, goal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """What columns at ``d = D/h`` carry (m, q), to ``goal`` (m, q), and the errors of the sums (m, q)."""
         out, errors = np.zeros((d.size, self.laws.full.shape[1])), np.zeros((d.size, self.laws.full.shape[1]))
-        left, before, last = np.flatnonzero(d > 0), None, None
+        left, changes = np.flatnonzero(d > 0), Changes()
         for rule in RULES:
             new = self._sums(group[left], d[left], *rule)
-            if before is not None:
-                change = np.abs(new - before)
-                pace = 1.0 if last is None else np.clip(np.divide(change, last, out=np.ones_like(change), where=last > 0), _FASTEST, 1.0)
-                miss = change * pace
-                done = (miss <= _QUADRATURE * goal[left]).all(axis=1) | (rule == RULES[-1])
-                out[left[done]], errors[left[done]] = new[done], miss[done]
-                left, new, last = left[~done], new[~done], change[~done]
-                if not left.size:
-                    break
-            before = new
+            miss = changes.after(new)
+            done = (miss <= _QUADRATURE * goal[left]).all(axis=1) | (rule == RULES[-1])
+            out[left[done]], errors[left[done]] = new[done], miss[done]
+            left = left[~done]
+            if not left.size:
+                break
+            changes.keep(~done)
         return out, errors
 
     def _sums(self, group, d, strips: int, nodes: int):
@@ -60,26 +60,124 @@ class Carrier:
         wave = Wave(self.foundation, np.repeat(self.rate[group], strips))
         orbits = wave.orbits(width)
         self.strips += width.size
-        t, w = gauss(nodes)
-        share = np.broadcast_to(t * t * (3 - 2 * t), (width.size, nodes))
-        p = ContactPressure(wave, orbits).at(share) * (0.5 * self.pressure * at.u.ravel())[:, None]
-        weight = (at.weight.ravel() * width / (2 * np.pi))[:, None] * (w * 6 * t * (1 - t))
-        return self.laws.averages(group, p.reshape(d.size, -1), weight.reshape(d.size, -1))
+        unit = 0.5 * self.pressure * at.u.ravel()
+        column = np.repeat(np.arange(d.size), strips)
+        breaks = self.laws.breaks[group[column]] / unit[:, None]
+        contact = ContactPressure(wave, orbits)
+        edges, top = _passages(contact, breaks)
+        weight = at.weight.ravel() * width / (2 * np.pi)
+        parts = _Parts.between(edges, top & np.isfinite(self.laws.p_full[group[column]]))
+        t, w = parts.nodes(nodes)
+        p = contact.at(_mapped(t), parts.row) * unit[parts.row, None]
+        total = self.laws.averages(group, np.repeat(column[parts.row], nodes), p.ravel(), (weight[parts.row, None] * w * _mapped_slope(t)).ravel())
+        # where the pressure saturates all below there is nothing to sum
+        sure = np.bincount(column, weight * parts.saturated(_mapped), minlength=d.size)
+        return total + sure[:, None] * self.laws.full[group]
 
     def _complete(self, group, d, strips, nodes):
         """Strips in complete contact: one harmonic of the phase about the mean."""
         f = self.level.family
-        start = _starts(d, f.s_sat[group])
-        first = 2 * np.arccos(np.sqrt(start))
+        first = 2 * np.arccos(np.sqrt(_starts(d, f.s_sat[group])))
         y, v = gauss(strips)
-        # the strip that just becomes so is at the start of the interval, others are smooth
+        # the strip that just becomes so is at the start of the interval
         theta = first[:, None] + (np.pi - first)[:, None] * y * y
-        u = np.cos(0.5 * theta) ** 2
-        t, w = gauss(nodes)
-        half = np.cos(np.pi * (1 - (1 - t) ** 2))
-        p = (d - 1)[:, None, None] + 0.5 * u[:, :, None] * (1 + (f.s_sat[group] - 1)[:, None, None] * half)
-        weight = ((np.pi - first) / np.pi)[:, None, None] * (v * 2 * y)[None, :, None] * (w * 2 * (1 - t))
-        return self.laws.averages(group, self.pressure * np.maximum(p, 0.0).reshape(d.size, -1), weight.reshape(d.size, -1))
+        u = np.cos(0.5 * theta).ravel() ** 2
+        column = np.repeat(np.arange(d.size), strips)
+        mean, swing = d[column] - 1 + 0.5 * u, 0.5 * u * (f.s_sat[group[column]] - 1)
+        breaks = self.laws.breaks[group[column]] / self.pressure
+        with np.errstate(invalid="ignore"):
+            cosine = np.divide(breaks - mean[:, None], swing[:, None], out=np.sign(breaks - mean[:, None]), where=swing[:, None] > 0)
+        passed = np.arccos(np.clip(cosine, -1.0, 1.0)) / np.pi
+        # from the peak down: above the highest break first
+        edges = np.concatenate((np.zeros((u.size, 1)), passed[:, ::-1], np.ones((u.size, 1))), axis=1)
+        weight = ((np.pi - first) / np.pi)[column] * np.tile(v * 2 * y, d.size)
+        parts = _Parts.between(edges, np.isfinite(self.laws.p_full[group[column]]), 0)
+        t, w = parts.nodes(nodes)
+        p = np.maximum(mean[parts.row, None] + swing[parts.row, None] * np.cos(np.pi * t), 0.0)
+        total = self.laws.averages(group, np.repeat(column[parts.row], nodes), self.pressure * p.ravel(), (weight[parts.row, None] * w).ravel())
+        sure = np.bincount(column, weight * parts.saturated(lambda x: x), minlength=d.size)
+        return total + sure[:, None] * self.laws.full[group]
+
+
+class _Parts:
+    """Parts of contacts between the breaks of the law: ``row`` (k,) of the contact and ends ``low``, ``high``; ``above`` (N, 2): the part of each contact in
+    which everything below is saturated, not among the others."""
+
+    def __init__(self, row, low, high, above):
+        self.row, self.low, self.high, self.above = row, low, high, above
+
+    @classmethod
+    def between(cls, edges, saturates, which=None) -> _Parts:
+        """``edges`` (N, e), ascending; part ``which`` (the middle one) is saturated where ``saturates`` (N,)."""
+        which = (edges.shape[1] - 1) // 2 if which is None else which
+        wide = np.diff(edges, axis=1) > 4 * _EPS
+        above = np.where(saturates[:, None], edges[:, which : which + 2], 0.0)
+        wide[:, which] &= ~saturates
+        row, part = np.nonzero(wide)
+        return cls(row, edges[row, part], edges[row, part + 1], above)
+
+    def nodes(self, n):
+        """Nodes and weights, (k, n), of a rule that takes roots at either end."""
+        t, w = gauss(n)
+        width = (self.high - self.low)[:, None]
+        return self.low[:, None] + width * _mapped(t), width * w * _mapped_slope(t)
+
+    def saturated(self, place):
+        """Share of each contact in which all below is saturated, (N,)."""
+        return place(self.above[:, 1]) - place(self.above[:, 0])
+
+
+def _mapped(t):
+    return t * t * (3 - 2 * t)
+
+
+def _mapped_slope(t):
+    return 6 * t * (1 - t)
+
+
+def _passages(contact: ContactPressure, breaks) -> tuple[np.ndarray, np.ndarray]:
+    """Parameters of contacts, ``_mapped`` to shares, between which the pressure exceeds each of ``breaks`` (N, B), and the ends 0 and 1, (N, 2 B + 2); and where
+    it exceeds the last one. A pressure rises to its peak and falls from there; what it does between the looks is not needed to the last digit: the passages only
+    part smooth pieces from one another."""
+    N, B = breaks.shape
+    t = np.linspace(0, 1, _LOOKS)
+    looks = contact.at(np.broadcast_to(_mapped(t), (N, _LOOKS)))
+    looks[:, -1] = 0.0
+    peak = looks[:, :-1].argmax(axis=1)
+    edges = np.empty((N, 2 * B + 2))
+    edges[:, 0], edges[:, -1] = 0.0, 1.0
+    every = np.arange(N)
+    index = np.arange(_LOOKS)
+    for j in range(B):
+        p = breaks[:, j]
+        over = looks[every, peak] > p
+        up = down = t[peak]
+        above = looks > p[:, None]
+        # the last look below on the way up, and the first one on the way down
+        before = np.where(~above & (index < peak[:, None]), index, -1).max(axis=1)
+        after = np.where(~above & (index > peak[:, None]), index, _LOOKS).min(axis=1)
+        up, down = up.copy(), down.copy()
+        rows = np.flatnonzero(over)
+        up[rows] = 0.0
+        rising = np.flatnonzero(over & (before >= 0))
+        up[rising] = _passage(contact, looks, p, rising, before[rising], before[rising] + 1, t)
+        falling = np.flatnonzero(over & (after < _LOOKS))
+        down[falling] = _passage(contact, looks, p, falling, after[falling], after[falling] - 1, t)
+        edges[:, 1 + j], edges[:, 2 * B - j] = up, down
+    return np.maximum.accumulate(edges, axis=1), edges[:, B + 1] > edges[:, B]
+
+
+def _passage(contact, looks, p, rows, below, above, t):
+    """By false position with halving of stale ends, between the looks ``below`` and ``above`` of the contacts ``rows``."""
+    low, high = t[below], t[above]
+    f_low, f_high = looks[rows, below] - p[rows], looks[rows, above] - p[rows]
+    for _ in range(_STEPS):
+        middle = (low * f_high - high * f_low) / np.where(f_high > f_low, f_high - f_low, 1.0)
+        f = contact.at(_mapped(middle)[:, None], rows)[:, 0] - p[rows]
+        less = f <= 0
+        f_high, f_low = np.where(less, 0.5 * f_high, f), np.where(less, f, 0.5 * f_low)
+        low, high = np.where(less, middle, low), np.where(less, high, middle)
+    return middle
 
 
 def _starts(d, s_sat):

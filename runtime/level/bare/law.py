@@ -49,36 +49,40 @@ class BareLaws:
     error: np.ndarray
     steepest: np.ndarray
 
-    def averages(self, group: np.ndarray, p: np.ndarray, weight: np.ndarray) -> np.ndarray:
-        """Sums of the law at pressures ``p`` (m, nodes) by ``weight`` (m, nodes), of the law ``group[i]`` in row i: (m, q)."""
-        m, nodes = p.shape
-        out = np.zeros((m, self.full.shape[1]))
-        rows = max(1, _CHUNK // nodes)
-        for start in range(0, m, rows):
-            some = slice(start, start + rows)
-            out[some] = self._averages(group[some], p[some], weight[some])
+    @property
+    def breaks(self) -> np.ndarray:
+        """Pressures above 0 at which a law is not smooth, ascending, (G, pieces); inf beyond what it was built for."""
+        ends = [np.where(piece.high > piece.low, piece.high, np.inf) for piece in self.pieces]
+        return np.sort(np.where(np.isinf(self.p_full)[:, None] & (np.array(ends).T >= self.top[:, None]), np.inf, np.array(ends).T), axis=1)
+
+    @property
+    def top(self) -> np.ndarray:
+        """Greatest pressure that the laws were built for, (G,)."""
+        return np.max([piece.high for piece in self.pieces], axis=0)
+
+    def averages(self, group: np.ndarray, owner: np.ndarray, p: np.ndarray, weight: np.ndarray) -> np.ndarray:
+        """Sums (m, q) over the nodes of each column, ``group`` (m,) its law, of the law at ``p`` by ``weight`` (nodes,); ``owner`` (nodes,), ascending:
+        the column of each node."""
+        out = np.zeros((group.size, self.full.shape[1]))
+        for start in range(0, p.size, _CHUNK):
+            some = slice(start, start + _CHUNK)
+            self._add(out, group, owner[some], p[some], weight[some])
         return out
 
-    def _averages(self, group, p, weight):
-        owner, p, weight = np.repeat(np.arange(group.size), p.shape[1]), p.ravel(), weight.ravel()
-        saturated = p >= self.p_full[group[owner]]
+    def _add(self, out, group, owner, p, weight):
+        g = group[owner]
+        saturated = p >= self.p_full[g]
         share = np.bincount(owner[saturated], weight[saturated], minlength=group.size)
-        out = share[:, None] * self.full[group]
-        for j, piece in enumerate(self.pieces):
-            inside = ~saturated & (p > 0) & (piece.high > piece.low)[group[owner]]
-            if j:
-                inside &= p > piece.low[group[owner]]
-            if j + 1 < len(self.pieces):
-                last = self.pieces[j + 1]
-                inside &= (p <= piece.high[group[owner]]) | (last.high <= last.low)[group[owner]]
-            index = np.flatnonzero(inside)
+        out += share[:, None] * self.full[group]
+        todo = ~saturated & (p > 0)
+        for piece in reversed(self.pieces):
+            index = np.flatnonzero(todo & (piece.high > piece.low)[g] & (p >= piece.low[g]))
+            todo[index] = False
             if index.size:
                 mine = owner[index]
-                x = piece.parameter(group[mine], p[index])
                 which, start = np.unique(mine, return_index=True)
-                moments = _moments(x, weight[index], start, piece.coefficients.shape[1])
+                moments = _moments(piece.parameter(g[index], p[index]), weight[index], start, piece.coefficients.shape[1])
                 out[which] += np.einsum("km,mkq->mq", moments, piece.coefficients[group[which]])
-        return out
 
 
 def _moments(x, weight, start, count):

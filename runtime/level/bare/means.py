@@ -17,9 +17,11 @@ from .family import Family
 #: nodes of the rules tried in turn; the second is what penetrations are looked for with
 _RULES = (8, 12, 18, 27, 40, 60, 90)
 #: share of what is allowed that a sum over nodes may miss, and the fastest that its changes are believed to fall
-_QUADRATURE, _FASTEST = 0.2, 0.05
+_QUADRATURE, _FASTEST = 0.2, 0.1
 #: penetrations are looked for to this, what is left being taken up by slopes; and steps
 _CLOSE, _STEPS = 1e-7, 60
+#: what is left in a level's mean of the greatest error of its strips
+_CANCELLED = 0.25
 _EPS = np.finfo(float).eps
 
 
@@ -28,6 +30,32 @@ def gauss(n: int) -> tuple[np.ndarray, np.ndarray]:
     """Nodes and weights of Gauss and Legendre on [0, 1]."""
     x, w = np.polynomial.legendre.leggauss(n)
     return 0.5 * (x + 1), 0.5 * w
+
+
+class Changes:
+    """What sums by finer and finer rules change, and so what the last one may miss: one more change, at the pace of the last two. A change that is small by
+    chance is not believed."""
+
+    def __init__(self):
+        self.sums = self.change = None
+
+    def after(self, sums: np.ndarray) -> np.ndarray:
+        """Error of the ``sums`` (m, q) by the next rule."""
+        if self.sums is None:
+            self.sums = sums
+            return np.full_like(sums, np.inf)
+        change = np.abs(sums - self.sums)
+        pace = 1.0
+        if self.change is not None:
+            change = np.maximum(change, _FASTEST * self.change)
+            pace = np.clip(np.divide(change, self.change, out=np.ones_like(change), where=self.change > 0), _FASTEST, 1.0)
+        self.sums, self.change = sums, change
+        return change * pace
+
+    def keep(self, which) -> None:
+        """Go on with the rows ``which``."""
+        self.sums = self.sums[which]
+        self.change = None if self.change is None else self.change[which]
 
 
 @dataclass(frozen=True)
@@ -104,27 +132,22 @@ class Level:
     def sure_means(self, group: np.ndarray, d: np.ndarray, goal: np.ndarray, slopes: bool = False) -> tuple[np.ndarray, np.ndarray]:
         """Means with as many nodes as it takes for ``goal`` (m, 3), and their errors (m, 3), all told."""
         out, errors = np.zeros((d.size, 5 if slopes else 3)), np.zeros((d.size, 3))
-        left, before, last = np.arange(d.size), None, None
+        left, changes = np.arange(d.size), Changes()
         for n in _RULES:
             new = self.means(group[left], d[left], n, slopes)
-            if before is not None:
-                change = np.abs(new - before)[:, :3]
-                # geometric, as far as the last two changes tell
-                pace = 1.0 if last is None else np.clip(np.divide(change, last, out=np.ones_like(change), where=last > 0), _FASTEST, 1.0)
-                miss = change * pace
-                done = (miss <= _QUADRATURE * goal[left]).all(axis=1) | (n == _RULES[-1])
-                out[left[done]], errors[left[done]] = new[done], miss[done]
-                left, new, change = left[~done], new[~done], change[~done]
-                last = change
-                if not left.size:
-                    break
-            before = new
+            miss = changes.after(new[:, :3])
+            done = (miss <= _QUADRATURE * goal[left]).all(axis=1) | (n == _RULES[-1])
+            out[left[done]], errors[left[done]] = new[done], miss[done]
+            left = left[~done]
+            if not left.size:
+                break
+            changes.keep(~done)
         return out, errors + self.errors(group) + 16 * _EPS * np.abs(out[:, :3])
 
     def errors(self, group) -> np.ndarray:
         """What the errors of the strips' means can make of the level's, (m, 3)."""
-        # means of u/2 and of its square are at most 1/4 and 3/32
-        return self.family.errors[group] * np.array((0.25, 0.09375, 1.0))
+        # means of u/2 and of its square are at most 1/4 and 3/32; errors of either sign, one after the other, mostly cancel
+        return _CANCELLED * self.family.errors[group] * np.array((0.25, 0.09375, 1.0))
 
     def penetrations(self, group: np.ndarray, p: np.ndarray) -> np.ndarray:
         """d at which the mean pressure (K h) is ``p`` (m,), between 0 and that of saturation: Newton on the root of the pressure, which is nearly linear."""

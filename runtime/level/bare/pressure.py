@@ -20,12 +20,12 @@ class ContactPressure:
             state = wave.kernel.state_ac(orbits.b, orbits.a, wave.m, none, none, orbits.D)
             self.entry = wave.kernel.overstress(state, 0.0, wave.m)
 
-    def at(self, share: np.ndarray) -> np.ndarray:
-        """At these shares (N, nodes) of each contact, between entry and exit."""
-        o, kernel, nodes = self.orbits, self.wave.kernel, share.shape[1]
-        row = np.repeat(np.arange(o.D.size), nodes)
+    def at(self, share: np.ndarray, rows: np.ndarray | None = None) -> np.ndarray:
+        """At these shares (k, nodes), between entry and exit, of the contacts ``rows`` (k,), or of all."""
+        o, kernel = self.orbits, self.wave.kernel
+        row = np.repeat(np.arange(o.D.size) if rows is None else rows, share.shape[1])
         b, D = o.b[row], o.D[row]
-        phase = b + ((o.a - o.b)[:, None] * share).ravel()
+        phase = b + (o.a - o.b)[row] * share.ravel()
         if self.wave.many:
             m = take_modes(self.wave.m, row)
             p = kernel.contact_pressure(phase, kernel.overstress_after(b, phase, self.entry[:, row], m), D)
