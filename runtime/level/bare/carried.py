@@ -12,8 +12,8 @@ from .orbit import Wave
 from .pressure import ContactPressure
 
 #: nodes over the strips and over each contact, tried in turn
-RULES = ((8, 6), (12, 8), (18, 10), (27, 14), (40, 18), (60, 24))
-_QUADRATURE = 0.2
+RULES = ((6, 5), (9, 7), (14, 9), (21, 12), (32, 16), (48, 22), (72, 30))
+_QUADRATURE = 0.5
 #: looks at a contact's pressure for where it passes the breaks of the law, and steps towards each
 _LOOKS, _STEPS = 17, 5
 _EPS = np.finfo(float).eps

@@ -40,25 +40,16 @@ def pressures(low, high, omega, quartic: bool):
 
 @dataclass(frozen=True)
 class BareLaws:
-    """Laws of a level at velocities (G,): ``pieces`` that follow one another; from ``p_full`` (G,) on everything below is saturated, with the means
+    """Laws of a level at velocities (G,): ``pieces`` that follow one another; ``breaks`` (G, k): the pressures that part the sharpest of them, ascending, inf for
+    none; from ``p_full`` (G,) on everything below is saturated, with the means
     ``full`` (G, q). ``error`` (G,) bounds the friction, own and carried, Pa; ``steepest`` (G,): its greatest slope over pressure. Quantities: friction, contact, adhesion of the level, then of each below."""
 
     pieces: list[Piece]
+    breaks: np.ndarray
     p_full: np.ndarray
     full: np.ndarray
     error: np.ndarray
     steepest: np.ndarray
-
-    @property
-    def breaks(self) -> np.ndarray:
-        """Pressures above 0 at which a law is not smooth, ascending, (G, pieces); inf beyond what it was built for."""
-        ends = [np.where(piece.high > piece.low, piece.high, np.inf) for piece in self.pieces]
-        return np.sort(np.where(np.isinf(self.p_full)[:, None] & (np.array(ends).T >= self.top[:, None]), np.inf, np.array(ends).T), axis=1)
-
-    @property
-    def top(self) -> np.ndarray:
-        """Greatest pressure that the laws were built for, (G,)."""
-        return np.max([piece.high for piece in self.pieces], axis=0)
 
     def averages(self, group: np.ndarray, owner: np.ndarray, p: np.ndarray, weight: np.ndarray) -> np.ndarray:
         """Sums (m, q) over the nodes of each column, ``group`` (m,) its law, of the law at ``p`` by ``weight`` (nodes,); ``owner`` (nodes,), ascending:

@@ -22,11 +22,15 @@ from .pressure import ContactPressure
 #: nodes of a piece of a law, tried in turn
 _NODES = (8, 16, 32, 64, 128)
 #: of what is allowed: what interpolating a law may err, what its values may, and what a strip's means may
-_INTERPOLATION, _VALUES, _STRIPS = 0.3, 0.1, 2.0
-#: contact fractions are interpolated no finer than this
-_CONTACT = 1e-5
+_INTERPOLATION, _VALUES, _STRIPS = 0.3, 0.3, 2.0
+#: contact fractions are interpolated no finer than this, and on no more nodes
+_CONTACT, _FOR_CONTACT = 1e-5, 16
+#: slopes of a law are looked at over steps of at least this share of the pressure
+_STEP = 1e-3
 #: greatest pressure in a contact by samples of it, with what may be between them
 _SAMPLES, _BETWEEN = 48, 1.02
+#: steps towards the penetration at which it passes a break of the law below
+_BISECTIONS = 16
 _EPS = np.finfo(float).eps
 
 
@@ -83,19 +87,8 @@ class BareStack:
 
     def _greatest(self, i, d):
         """Greatest local pressure that level i passes on at ``d`` (G,), Pa."""
-        at, unit = self.levels[i], self.units[i]
-        s_sat = at.family.s_sat
-        bound = np.where(d > 0, d - 1 + 0.5 * s_sat, 0.0)
-        part = np.flatnonzero((d > 0) & (d < 0.5 * s_sat))
-        if part.size:
-            width = 2 * np.pi * np.clip(at.family.values(part, 2 * d[part, None])[:, 0, 2], 1e-9, 1 - 1e-9)
-            wave = Wave(self.foundation, self.waves[i].k * self.V[part])
-            t = np.linspace(0, 1, _SAMPLES + 2)[1:-1]
-            share = np.broadcast_to(t * t * (3 - 2 * t), (part.size, _SAMPLES))
-            peak = ContactPressure(wave, wave.orbits(width)).at(share).max(axis=1)
-            self.tally.solved += part.size
-            bound[part] = np.minimum(bound[part], 0.5 * _BETWEEN * peak)
-        return unit * bound
+        bound = d - 1 + 0.5 * self.levels[i].family.s_sat
+        return self.units[i] * np.minimum(np.maximum(bound, 0.0), _BETWEEN * self._peak(i, self.groups, d))
 
     def _penetrations(self, i, group, p):
         """d of level i at pressures ``p`` (m,), Pa."""
@@ -158,18 +151,69 @@ class BareStack:
     def _law(self, i, below: BareLaws | None) -> BareLaws:
         unit, top = self.units[i], self.ceilings[i]
         edge = np.minimum(self._at_height(i), self.p_sat[i])
-        ends = [np.zeros(self.V.size), edge, self.p_sat[i], self.p_full[i]]
-        ends = [np.minimum(end, top) for end in ends]
-        full = self._saturated(i)
-        pieces, error, steepest = [], np.zeros(self.V.size), np.zeros(self.V.size)
-        for j, (low, high) in enumerate(zip(ends[:-1], ends[1:], strict=True)):
-            wide = np.flatnonzero(high - low > 1e-12 * unit)
-            high = np.where(high - low > 1e-12 * unit, high, low)
-            table, wrong, steep = self._piece(i, wide, low, high, j == 0, below)
-            pieces.append(Piece(low, high, table, j == 0))
-            error, steepest = np.maximum(error, wrong), np.maximum(steepest, steep)
+        own = np.minimum([edge, self.p_sat[i], self.p_full[i]], top).T
+        ends = own if below is None else np.concatenate((own, np.minimum(self._met(i, below), own[:, 2:])), axis=1)
+        ends = np.sort(np.concatenate((np.zeros((self.V.size, 1)), ends), axis=1), axis=1)
+        # ends that are next to one another are one
+        near = np.diff(ends, axis=1) <= 1e-6 * np.minimum(ends[:, 1:], unit)
+        for j in np.flatnonzero(near.any(axis=0)):
+            ends[near[:, j], j + 1] = ends[near[:, j], j]
+        pieces, error, steepest = self._pieces(i, ends, below)
         p_full = np.where(top >= self.p_full[i], self.p_full[i], np.inf)
-        return BareLaws(pieces, p_full, full, error, steepest)
+        breaks = np.where(own < np.where(np.isinf(p_full), top, np.inf)[:, None], own, np.inf)
+        return BareLaws(pieces, breaks, p_full, self._saturated(i), error, steepest)
+
+    def _met(self, i, below: BareLaws):
+        """Pressures at which the greatest local pressure of level i, the least one of its crests, or that at the edges of its cells passes a break of the
+        law below, (G, k)."""
+        at, unit = self.levels[i], self.units[i]
+        local = np.where(np.isfinite(below.breaks), below.breaks, np.nan) / unit
+        s_sat = at.family.s_sat[:, None]
+        d = [0.5 * s_sat + local, 1 + local, self._peaking(i, local)]
+        out = np.concatenate(d, axis=1)
+        row, column = np.nonzero(np.isfinite(out) & (out > 0))
+        p = np.full(out.shape, np.inf)
+        x, part = out[row, column], out[row, column] < 0.5 * at.family.s_sat[row]
+        pressure = x - 0.75
+        if part.any():
+            pressure[part] = at.means(row[part], x[part], 18)[:, 0]
+        p[row, column] = pressure * unit
+        return p
+
+    def _peaking(self, i, local):
+        """d at which the greatest local pressure of level i is ``local`` (K h, (G, k)); nan for what is not met."""
+        top = self._crest_penetration(i)
+        low, high = np.zeros(local.shape), np.broadcast_to(top[:, None], local.shape).copy()
+        group = np.broadcast_to(self.groups[:, None], local.shape)
+        met = np.isfinite(local) & (local < self._peak(i, group.ravel(), high.ravel()).reshape(local.shape))
+        row, column = np.nonzero(met)
+        goal, low, high = local[met], low[met], high[met]
+        for _ in range(_BISECTIONS):
+            middle = 0.5 * (low + high)
+            less = self._peak(i, row, middle) < goal
+            low, high = np.where(less, middle, low), np.where(less, high, middle)
+        out = np.full(local.shape, np.nan)
+        out[row, column] = 0.5 * (low + high)
+        return out
+
+    def _crest_penetration(self, i):
+        return self._penetrations(i, self.groups, self.ceilings[i])
+
+    def _peak(self, i, group, d):
+        """Greatest local pressure of level i at ``d`` (m,), K h, from samples of its crest."""
+        at = self.levels[i]
+        s_sat = at.family.s_sat[group]
+        out = np.where(d > 0, d - 1 + 0.5 * s_sat, 0.0)
+        part = np.flatnonzero((d > 0) & (d < 0.5 * s_sat))
+        if part.size:
+            g = group[part]
+            width = 2 * np.pi * np.clip(at.family.values(g, 2 * d[part, None])[:, 0, 2], 1e-9, 1 - 1e-9)
+            wave = Wave(self.foundation, self.waves[i].k * self.V[g])
+            t = np.linspace(0, 1, _SAMPLES + 2)[1:-1]
+            share = np.broadcast_to(t * t * (3 - 2 * t), (part.size, _SAMPLES))
+            out[part] = np.minimum(out[part], 0.5 * ContactPressure(wave, wave.orbits(width)).at(share).max(axis=1))
+            self.tally.solved += part.size
+        return out
 
     def _at_height(self, i):
         """Pressure at D = h."""
@@ -190,44 +234,49 @@ class BareStack:
             columns += [0.09375 * self.levels[j].family.full[:, 1] * self._friction_unit(j), one, none]
         return np.stack(columns, axis=1)
 
-    def _piece(self, i, groups, low, high, quartic, below):
-        q = 3 * (len(self.waves) - i)
-        G = self.V.size
-        tables: list[tuple[int, np.ndarray]] = []
+    def _pieces(self, i, ends, below):
+        """Pieces between the ``ends`` (G, pieces + 1) of each law, all together; and of each law the error of friction, Pa, and its greatest slope, (G,)."""
+        G, J, q = self.V.size, ends.shape[1] - 1, 3 * (len(self.waves) - i)
+        group, piece = np.nonzero(np.diff(ends, axis=1) > 0)
+        low, high, wanted = ends[group, piece], ends[group, piece + 1], self.wanted.friction[group]
+        series: list[np.ndarray] = [np.zeros((1, q))] * group.size
         wrong, steep = np.zeros(G), np.zeros(G)
-        values = np.zeros((0, 0, q))
-        left = groups
+        left, values, worst = np.arange(group.size), None, np.zeros(group.size)
         for n in _NODES:
-            if not left.size:
-                break
-            omega = lobatto(n)
-            fresh = omega if not values.size else omega[1::2]
-            p = pressures(low[left], high[left], fresh, quartic)
-            found = self.at(i, np.repeat(left, fresh.size), p.ravel(), below)
-            new, errors = found.values.reshape(left.size, fresh.size, q), found.error.reshape(left.size, -1)
-            values = new if not values.size else _merged(values, new)
-            worst = errors.max(axis=1) if n == _NODES[0] else np.maximum(worst, errors.max(axis=1))
+            omega = lobatto(n) if values is None else lobatto(n)[1::2]
+            p = np.where((piece[left] == 0)[:, None], pressures(low[left], high[left], omega, True), pressures(low[left], high[left], omega, False))
+            found = self.at(i, np.repeat(group[left], omega.size), p.ravel(), below)
+            new = found.values.reshape(left.size, omega.size, q)
+            values = new if values is None else _merged(values, new)
+            worst[left] = np.maximum(worst[left], found.error.reshape(left.size, -1).max(axis=1))
             total = np.concatenate((values[:, :, ::3].sum(axis=2, keepdims=True), values), axis=2)
-            goal = np.empty((left.size, 1 + q))
-            goal[:] = max(self.wanted.rtol, _CONTACT)
-            goal[:, 0] = goal[:, 1] = _INTERPOLATION * self.wanted.friction[left]
+            goal = np.full((left.size, 1 + q), max(self.wanted.rtol, _CONTACT))
+            goal[:, 0] = _INTERPOLATION * wanted[left]
             goal[:, 1::3] = goal[:, :1]
             c = coefficients_over(total)
             alone = np.swapaxes(c, 1, 2).reshape(-1, n + 1, 1)
             miss = interpolation_errors(alone, 0.1 * goal.reshape(-1, 1)).reshape(left.size, -1)
-            done = (miss <= goal).all(axis=1) | (n == _NODES[-1])
+            # between values that hardly differ there is little to miss
+            miss = np.minimum(miss, 2 * np.ptp(total, axis=1))
+            friction = (miss[:, :1] <= goal[:, :1]).all(axis=1) & (miss[:, 1::3] <= goal[:, 1::3]).all(axis=1)
+            done = (miss <= goal).all(axis=1) | (n == _NODES[-1]) | (friction & (n >= _FOR_CONTACT))
+            nodes = pressures(np.zeros(1), np.ones(1), lobatto(n), False)[0]
             for k in np.flatnonzero(done):
-                tables.append((left[k], c[k, :, 1:]))
-                wrong[left[k]] = miss[k, 0] + worst[k]
-                nodes = pressures(low[left[k : k + 1]], high[left[k : k + 1]], omega, quartic)[0]
-                steep[left[k]] = np.abs(np.diff(total[k, :, 0])[1:] / np.diff(nodes)[1:]).max()
+                j, g = left[k], group[left[k]]
+                series[j] = c[k, :, 1:]
+                wrong[g] = max(wrong[g], miss[k, 0] + worst[j])
+                share = nodes**2 if piece[j] == 0 else nodes
+                rise, step = np.abs(np.diff(total[k, :, 0])), np.diff((high[j] - low[j]) * share)
+                # differences of pressures that rounding or quadrature would make slopes of are none
+                steep[g] = max(steep[g], (rise[step > _STEP * high[j]] / step[step > _STEP * high[j]]).max(initial=0.0))
             keep = ~done
-            left, values, worst = left[keep], values[keep], worst[keep]
-        size = max((c.shape[0] for _, c in tables), default=1)
-        table = np.zeros((G, size, q))
-        for g, c in tables:
-            table[g, : c.shape[0]] = c
-        return table, wrong, steep
+            left, values = left[keep], values[keep]
+            if not left.size:
+                break
+        table = np.zeros((G, J, max((s.shape[0] for s in series), default=1), q))
+        for g, j, s in zip(group, piece, series, strict=True):
+            table[g, j, : s.shape[0]] = s
+        return [Piece(ends[:, j], ends[:, j + 1], table[:, j], j == 0) for j in range(J)], wrong, steep
 
 
 def _merged(old, fresh):
