@@ -58,7 +58,7 @@ class Carrier:
         at = cells(d, f.s_sat[group], strips)
         width = 2 * np.pi * np.clip(f.values(group, at.s)[:, :, 2], 1e-9, 1 - 1e-9).ravel()
         wave = Wave(self.foundation, np.repeat(self.rate[group], strips))
-        orbits = wave.orbits(width)
+        orbits = wave.orbits(width, means=False)
         self.strips += width.size
         unit = 0.5 * self.pressure * at.u.ravel()
         column = np.repeat(np.arange(d.size), strips)
@@ -148,32 +148,32 @@ def _passages(contact: ContactPressure, breaks) -> tuple[np.ndarray, np.ndarray]
     edges[:, 0], edges[:, -1] = 0.0, 1.0
     every = np.arange(N)
     index = np.arange(_LOOKS)
-    for j in range(B):
-        p = breaks[:, j]
-        over = looks[every, peak] > p
-        up = down = t[peak]
-        above = looks > p[:, None]
-        # the last look below on the way up, and the first one on the way down
-        before = np.where(~above & (index < peak[:, None]), index, -1).max(axis=1)
-        after = np.where(~above & (index > peak[:, None]), index, _LOOKS).min(axis=1)
-        up, down = up.copy(), down.copy()
-        rows = np.flatnonzero(over)
-        up[rows] = 0.0
-        rising = np.flatnonzero(over & (before >= 0))
-        up[rising] = _passage(contact, looks, p, rising, before[rising], before[rising] + 1, t)
-        falling = np.flatnonzero(over & (after < _LOOKS))
-        down[falling] = _passage(contact, looks, p, falling, after[falling], after[falling] - 1, t)
-        edges[:, 1 + j], edges[:, 2 * B - j] = up, down
+    contact_of, order = np.repeat(every, B), np.tile(np.arange(B), N)
+    p, crest, all_looks = breaks.ravel(), peak[contact_of], looks[contact_of]
+    over = all_looks[np.arange(p.size), crest] > p
+    below = all_looks <= p[:, None]
+    # the last look below on the way up, and the first one on the way down
+    before = np.where(below & (index < crest[:, None]), index, -1).max(axis=1)
+    after = np.where(below & (index > crest[:, None]), index, _LOOKS).min(axis=1)
+    up, down = t[crest], t[crest]
+    up[over] = 0.0
+    rising, falling = np.flatnonzero(over & (before >= 0)), np.flatnonzero(over & (after < _LOOKS))
+    both = np.concatenate((rising, falling))
+    lower, upper = np.concatenate((before[rising], after[falling])), np.concatenate((before[rising] + 1, after[falling] - 1))
+    found = _passage(contact, contact_of[both], p[both], all_looks[both, lower], all_looks[both, upper], t[lower], t[upper])
+    up[rising], down[falling] = found[: rising.size], found[rising.size :]
+    edges[contact_of, 1 + order], edges[contact_of, 2 * B - order] = up, down
     return np.maximum.accumulate(edges, axis=1), edges[:, B + 1] > edges[:, B]
 
 
-def _passage(contact, looks, p, rows, below, above, t):
-    """By false position with halving of stale ends, between the looks ``below`` and ``above`` of the contacts ``rows``."""
-    low, high = t[below], t[above]
-    f_low, f_high = looks[rows, below] - p[rows], looks[rows, above] - p[rows]
-    for _ in range(_STEPS):
+def _passage(contact, rows, p, low_pressure, high_pressure, low, high):
+    """Where the pressures of the contacts ``rows`` pass ``p`` between parameters ``low`` and ``high`` of these pressures: false position with halving of stale
+    ends."""
+    f_low, f_high = low_pressure - p, high_pressure - p
+    middle = low
+    for _ in range(_STEPS if rows.size else 0):
         middle = (low * f_high - high * f_low) / np.where(f_high > f_low, f_high - f_low, 1.0)
-        f = contact.at(_mapped(middle)[:, None], rows)[:, 0] - p[rows]
+        f = contact.at(_mapped(middle)[:, None], rows)[:, 0] - p
         less = f <= 0
         f_high, f_low = np.where(less, 0.5 * f_high, f), np.where(less, f, 0.5 * f_low)
         low, high = np.where(less, middle, low), np.where(less, high, middle)

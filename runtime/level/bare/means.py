@@ -16,12 +16,12 @@ from .family import Family
 
 #: nodes of the rules tried in turn; the second is what penetrations are looked for with
 _RULES = (8, 12, 18, 27, 40, 60, 90)
-#: share of what is allowed that a sum over nodes may miss, and the fastest that its changes are believed to fall
-_QUADRATURE, _FASTEST = 0.2, 0.1
+#: share of what is allowed that a sum over nodes may miss, the fastest that its changes are believed to fall, and how much more than a change is feared
+_QUADRATURE, _FASTEST, _SURE = 0.2, 0.1, 1.5
 #: penetrations are looked for to this, what is left being taken up by slopes; and steps
 _CLOSE, _STEPS = 1e-7, 60
 #: what is left in a level's mean of the greatest error of its strips
-_CANCELLED = 0.25
+_CANCELLED = 0.15
 _EPS = np.finfo(float).eps
 
 
@@ -50,7 +50,7 @@ class Changes:
             change = np.maximum(change, _FASTEST * self.change)
             pace = np.clip(np.divide(change, self.change, out=np.ones_like(change), where=self.change > 0), _FASTEST, 1.0)
         self.sums, self.change = sums, change
-        return change * pace
+        return _SURE * change * pace
 
     def keep(self, which) -> None:
         """Go on with the rows ``which``."""

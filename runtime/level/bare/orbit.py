@@ -70,8 +70,8 @@ class Wave:
         """Means of pressure and friction."""
         return self.kernel.means_ac(b, a, *self._arguments(D))
 
-    def orbits(self, width: np.ndarray) -> Orbits:
-        """The strips whose contact is so wide, radians between 0 and 2 pi, (N,)."""
+    def orbits(self, width: np.ndarray, means: bool = True) -> Orbits:
+        """The strips whose contact is so wide, radians between 0 and 2 pi, (N,); their ``means`` are nan if not wanted."""
         none, up = np.zeros(width.size), np.full(width.size, 0.5 * np.pi)
         penetrate = self.residual(none, width, np.full(width.size, _HUGE)) / _HUGE
         # without D: what multiplies cos m, and sin m
@@ -81,7 +81,7 @@ class Wave:
         left = self.residual(middle, width, none)
         D = -(left * penetrate).sum(axis=0) / (penetrate * penetrate).sum(axis=0)
         b, a = middle - 0.5 * width, middle + 0.5 * width
-        p_mean, tau_mean = self.means(b, a, D)
+        p_mean, tau_mean = self.means(b, a, D) if means else np.full((2, D.size), np.nan)
         missed, size = np.abs(left + penetrate * D), np.abs(penetrate).max(axis=0) * (1 + np.abs(D))
-        met = (missed <= _ROUNDING * size).all(axis=0) & (D > 0) & (p_mean > 0)
+        met = (missed <= _ROUNDING * size).all(axis=0) & (D > 0) & ~(p_mean <= 0)
         return Orbits(D, b, a, p_mean, tau_mean, met)

@@ -29,8 +29,8 @@ _CONTACT, _FOR_CONTACT = 1e-5, 16
 _STEP = 1e-3
 #: greatest pressure in a contact by samples of it, with what may be between them
 _SAMPLES, _BETWEEN = 48, 1.02
-#: steps towards the penetration at which it passes a break of the law below
-_BISECTIONS = 16
+#: looks, and how often they are narrowed, at where it passes a break of the law below
+_LOOKS, _NARROWINGS = 17, 3
 _EPS = np.finfo(float).eps
 
 
@@ -182,22 +182,18 @@ class BareStack:
 
     def _peaking(self, i, local):
         """d at which the greatest local pressure of level i is ``local`` (K h, (G, k)); nan for what is not met."""
-        top = self._crest_penetration(i)
-        low, high = np.zeros(local.shape), np.broadcast_to(top[:, None], local.shape).copy()
-        group = np.broadcast_to(self.groups[:, None], local.shape)
-        met = np.isfinite(local) & (local < self._peak(i, group.ravel(), high.ravel()).reshape(local.shape))
-        row, column = np.nonzero(met)
-        goal, low, high = local[met], low[met], high[met]
-        for _ in range(_BISECTIONS):
-            middle = 0.5 * (low + high)
-            less = self._peak(i, row, middle) < goal
-            low, high = np.where(less, middle, low), np.where(less, high, middle)
-        out = np.full(local.shape, np.nan)
-        out[row, column] = 0.5 * (low + high)
-        return out
-
-    def _crest_penetration(self, i):
-        return self._penetrations(i, self.groups, self.ceilings[i])
+        low = np.zeros(local.shape)
+        high = np.broadcast_to(self._penetrations(i, self.groups, self.ceilings[i])[:, None], local.shape).copy()
+        met = np.isfinite(local) & (local > 0)
+        for _ in range(_NARROWINGS):
+            share = np.linspace(0, 1, _LOOKS)
+            d = low[..., None] + (high - low)[..., None] * share
+            group = np.broadcast_to(self.groups[:, None, None], d.shape)
+            peak = self._peak(i, group.ravel(), d.ravel()).reshape(d.shape)
+            met &= local < peak[..., -1]
+            reached = np.clip((peak < local[..., None]).sum(axis=-1), 1, _LOOKS - 1)[..., None]
+            low, high = (np.take_along_axis(d, reached - side, axis=-1)[..., 0] for side in (1, 0))
+        return np.where(met, 0.5 * (low + high), np.nan)
 
     def _peak(self, i, group, d):
         """Greatest local pressure of level i at ``d`` (m,), K h, from samples of its crest."""
@@ -211,7 +207,7 @@ class BareStack:
             wave = Wave(self.foundation, self.waves[i].k * self.V[g])
             t = np.linspace(0, 1, _SAMPLES + 2)[1:-1]
             share = np.broadcast_to(t * t * (3 - 2 * t), (part.size, _SAMPLES))
-            out[part] = np.minimum(out[part], 0.5 * ContactPressure(wave, wave.orbits(width)).at(share).max(axis=1))
+            out[part] = np.minimum(out[part], 0.5 * ContactPressure(wave, wave.orbits(width, means=False)).at(share).max(axis=1))
             self.tally.solved += part.size
         return out
 
