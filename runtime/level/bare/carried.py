@@ -13,7 +13,8 @@ from .pressure import ContactPressure
 
 #: nodes over the strips and over each contact, tried in turn
 RULES = ((6, 5), (9, 7), (14, 9), (21, 12), (32, 16), (48, 22), (72, 30))
-_QUADRATURE = 0.5
+#: share of what is allowed that these sums may miss, and how much more than their changes is feared: kinks that no part ends at come and go
+_QUADRATURE, _SURE = 0.5, 3.0
 #: looks at a contact's pressure for where it passes the breaks of the law, and steps towards each
 _LOOKS, _STEPS = 17, 5
 _EPS = np.finfo(float).eps
@@ -29,7 +30,7 @@ class Carrier:
     def carried(self, group: np.ndarray, d: np.ndarray, goal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """What columns at ``d = D/h`` carry (m, q), to ``goal`` (m, q), and the errors of the sums (m, q)."""
         out, errors = np.zeros((d.size, self.laws.full.shape[1])), np.zeros((d.size, self.laws.full.shape[1]))
-        left, changes = np.flatnonzero(d > 0), Changes()
+        left, changes = np.flatnonzero(d > 0), Changes(_SURE)
         for rule in RULES:
             new = self._sums(group[left], d[left], *rule)
             miss = changes.after(new)

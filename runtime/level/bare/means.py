@@ -21,7 +21,7 @@ _QUADRATURE, _FASTEST, _SURE = 0.2, 0.1, 1.5
 #: penetrations are looked for to this, what is left being taken up by slopes; and steps
 _CLOSE, _STEPS = 1e-7, 60
 #: what is left in a level's mean of the greatest error of its strips
-_CANCELLED = 0.15
+CANCELLED = 0.15
 _EPS = np.finfo(float).eps
 
 
@@ -34,10 +34,10 @@ def gauss(n: int) -> tuple[np.ndarray, np.ndarray]:
 
 class Changes:
     """What sums by finer and finer rules change, and so what the last one may miss: one more change, at the pace of the last two. A change that is small by
-    chance is not believed."""
+    chance is not believed; ``sure``: how much more than a change is feared."""
 
-    def __init__(self):
-        self.sums = self.change = None
+    def __init__(self, sure: float):
+        self.sure, self.sums, self.change = sure, None, None
 
     def after(self, sums: np.ndarray) -> np.ndarray:
         """Error of the ``sums`` (m, q) by the next rule."""
@@ -50,7 +50,7 @@ class Changes:
             change = np.maximum(change, _FASTEST * self.change)
             pace = np.clip(np.divide(change, self.change, out=np.ones_like(change), where=self.change > 0), _FASTEST, 1.0)
         self.sums, self.change = sums, change
-        return _SURE * change * pace
+        return self.sure * change * pace
 
     def keep(self, which) -> None:
         """Go on with the rows ``which``."""
@@ -132,7 +132,7 @@ class Level:
     def sure_means(self, group: np.ndarray, d: np.ndarray, goal: np.ndarray, slopes: bool = False) -> tuple[np.ndarray, np.ndarray]:
         """Means with as many nodes as it takes for ``goal`` (m, 3), and their errors (m, 3), all told."""
         out, errors = np.zeros((d.size, 5 if slopes else 3)), np.zeros((d.size, 3))
-        left, changes = np.arange(d.size), Changes()
+        left, changes = np.arange(d.size), Changes(_SURE)
         for n in _RULES:
             new = self.means(group[left], d[left], n, slopes)
             miss = changes.after(new[:, :3])
@@ -147,7 +147,7 @@ class Level:
     def errors(self, group) -> np.ndarray:
         """What the errors of the strips' means can make of the level's, (m, 3)."""
         # means of u/2 and of its square are at most 1/4 and 3/32; errors of either sign, one after the other, mostly cancel
-        return _CANCELLED * self.family.errors[group] * np.array((0.25, 0.09375, 1.0))
+        return CANCELLED * self.family.errors[group] * np.array((0.25, 0.09375, 1.0))
 
     def penetrations(self, group: np.ndarray, p: np.ndarray) -> np.ndarray:
         """d at which the mean pressure (K h) is ``p`` (m,), between 0 and that of saturation: Newton on the root of the pressure, which is nearly linear."""

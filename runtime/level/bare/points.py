@@ -8,32 +8,23 @@ import numpy as np
 
 from hystrip.solver import foundation_of
 
-from ..strips import QUANTITIES, Columns
+from ..strips import Columns
 from .family import family
 from .means import Level
 
 #: shares of what is allowed that the strips' means may err, pressure, friction and contact, and how much finer each further attempt is
 _SHARES, _FINER, _ATTEMPTS = np.array((0.3, 0.3, 0.5)), 0.01, 3
-#: beyond this k V times the longest retardation time the general path says what is wrong
-_FASTEST = 1e100
 
 
 @dataclass(frozen=True)
 class BareMeans:
-    """Of columns (m,): penetration ``D``, ``values`` and ``errors`` (m, 4) of ``strips.QUANTITIES``, SI, the slope d(tau)/dp, and which are ``certain``
-    to be as accurate as was asked for."""
+    """Of columns (m,): penetration ``D``, ``values`` and ``errors`` (m, 4) of ``strips.QUANTITIES``, SI, and which are ``certain`` to be as accurate as was
+    asked for."""
 
     D: np.ndarray
     values: np.ndarray
     errors: np.ndarray
-    slope: np.ndarray
     certain: np.ndarray
-
-
-def is_bare(columns: Columns) -> bool:
-    """Whether a level is one whose strips are a family: without adhesion, and wavy."""
-    fastest = columns.level.k * columns.V.max(initial=0.0) * foundation_of(columns.material).longest_time
-    return columns.adhesion.p_0 == 0 and columns.level.h > 0 and columns.strips is None and bool(fastest < _FASTEST)
 
 
 def bare_means(columns: Columns, rtol: np.ndarray, p: np.ndarray | None = None) -> BareMeans:
@@ -45,7 +36,7 @@ def bare_means(columns: Columns, rtol: np.ndarray, p: np.ndarray | None = None) 
     load = columns.D / level.h if p is None else p / unit[0]
     n = load.size
     floors = columns.floors[:3]
-    D, values, errors, slope, certain = load.copy(), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n), np.zeros(n, bool)
+    D, values, errors, certain = load.copy(), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n, bool)
     finer = np.ones(n)
     for _ in range(_ATTEMPTS):
         left = np.flatnonzero(~certain)
@@ -67,14 +58,12 @@ def bare_means(columns: Columns, rtol: np.ndarray, p: np.ndarray | None = None) 
             solved[:, 1] += by_pressure * lift
             solved[:, 0] = load[left]
             missed[:, 1] += np.abs(by_pressure) * missed[:, 0]
-            slope[left] = by_pressure * unit[1] / unit[0]
         D[left], values[left], errors[left] = d, solved[:, :3] * unit, missed * unit
         allowed = rtol[left, None] * (np.abs(values[left]) + floors)
         certain[left] = (errors[left] <= allowed).all(axis=1)
         finer[left] *= _FINER
-    quantities = [values[:, 0], values[:, 1], values[:, 2], np.zeros(n)]
-    assert len(quantities) == len(QUANTITIES)
-    return BareMeans(D * level.h, np.stack(quantities, axis=1), np.column_stack((errors, np.zeros(n))), slope, certain)
+    # there is no adhesion
+    return BareMeans(D * level.h, np.column_stack((values, np.zeros(n))), np.column_stack((errors, np.zeros(n))), certain)
 
 
 def _family(columns, foundation, V, load, row, by_penetration, floors, rtol):

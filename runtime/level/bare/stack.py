@@ -15,7 +15,7 @@ from ..strips import Tally
 from .carried import Carrier
 from .family import coefficients_over, family
 from .law import BareLaws, Piece, pressures
-from .means import Level
+from .means import CANCELLED, Level
 from .orbit import Wave
 from .pressure import ContactPressure
 
@@ -25,6 +25,8 @@ _NODES = (8, 16, 32, 64, 128)
 _INTERPOLATION, _VALUES, _STRIPS = 0.3, 0.3, 2.0
 #: contact fractions are interpolated no finer than this, and on no more nodes
 _CONTACT, _FOR_CONTACT = 1e-5, 16
+#: how much more than the estimated error of a law is feared
+_SURE = 2.0
 #: slopes of a law are looked at over steps of at least this share of the pressure
 _STEP = 1e-3
 #: greatest pressure in a contact by samples of it, with what may be between them
@@ -113,10 +115,10 @@ class BareStack:
     def at(self, i, group, p, laws: BareLaws | None, d=None) -> Found:
         """Level i over the ``laws`` of the next one at pressures ``p`` (m,), Pa, or (None) at penetrations ``d`` (m,) in its height."""
         level, unit, friction = self.levels[i], self.units[i], self._friction_unit(i)
-        d = self._penetrations(i, group, p) if d is None else d
+        d = self._penetrations(i, group, p) if d is None else d.copy()
         own, pressure = np.zeros((d.size, 3)), unit * (d - 0.75) if p is None else p
         s_sat, full = level.family.s_sat[group], level.family.full[group, 1]
-        error = np.zeros(d.size)
+        error, missed = np.zeros(d.size), np.zeros(d.size)
         own[:, 0] = 0.09375 * full * friction
         own[:, 1] = 1.0
         part = np.flatnonzero((d < 0.5 * s_sat) & (d > 0))
@@ -127,15 +129,14 @@ class BareStack:
             g = group[part]
             goal = np.stack((_VALUES * allowed[part] / friction, _VALUES * allowed[part] / friction, np.full(part.size, self.wanted.rtol)), axis=1)
             means, errors = level.sure_means(g, d[part], goal, True)
-            own[part, 0], own[part, 1] = means[:, 1] * friction, means[:, 2]
-            error[part] = friction * errors[:, 1]
-            by_pressure = np.divide(means[:, 4], means[:, 3], out=np.zeros(part.size), where=means[:, 3] > 0) * friction
-            if p is None:
-                pressure[part] = unit * means[:, 0]
-            else:
-                lift = p[part] / unit - means[:, 0]
-                own[part, 0] += by_pressure * lift
-                error[part] += np.abs(by_pressure) * (errors[:, 0] + _EPS)
+            rise = np.where(means[:, 3] > 0, means[:, 3], np.inf)
+            by_pressure = means[:, 4] / rise
+            lift = 0.0 if p is None else p[part] / unit - means[:, 0]
+            d[part] += lift / rise
+            own[part, 0], own[part, 1] = (means[:, 1] + by_pressure * lift) * friction, means[:, 2]
+            pressure[part] = unit * (means[:, 0] + lift)
+            error[part] = friction * (errors[:, 1] + (0.0 if p is None else np.abs(by_pressure) * (errors[:, 0] + _EPS)))
+            missed[part] = 0.0 if p is None else errors[:, 0]
         if laws is None:
             return Found(d, pressure, own, error)
         carrier = self.carrier(i, laws)
@@ -145,7 +146,7 @@ class BareStack:
         self.tally.solved += carrier.strips
         error += errors[:, ::3].sum(axis=1) + laws.error[group]
         # local pressures are as uncertain as a strip's means, and change friction by the law's slope
-        error += level.family.errors[group, 0] * unit * laws.steepest[group]
+        error += (CANCELLED * level.family.errors[group, 0] + missed) * unit * laws.steepest[group]
         return Found(d, pressure, np.concatenate((own, carried), axis=1), error)
 
     def _law(self, i, below: BareLaws | None) -> BareLaws:
@@ -260,7 +261,7 @@ class BareStack:
             for k in np.flatnonzero(done):
                 j, g = left[k], group[left[k]]
                 series[j] = c[k, :, 1:]
-                wrong[g] = max(wrong[g], miss[k, 0] + worst[j])
+                wrong[g] = max(wrong[g], _SURE * miss[k, 0] + worst[j])
                 share = nodes**2 if piece[j] == 0 else nodes
                 rise, step = np.abs(np.diff(total[k, :, 0])), np.diff((high[j] - low[j]) * share)
                 # differences of pressures that rounding or quadrature would make slopes of are none
