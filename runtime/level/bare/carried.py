@@ -14,7 +14,7 @@ from .pressure import ContactPressure
 #: nodes over the strips and over each contact, tried in turn
 RULES = ((6, 5), (9, 7), (14, 9), (21, 12), (32, 16), (48, 22), (72, 30))
 #: share of what is allowed that these sums may miss, and how much more than their changes is feared: kinks that no part ends at come and go
-_QUADRATURE, _SURE = 0.5, 3.0
+_QUADRATURE, _SURE = 0.7, 1.5
 #: looks at a contact's pressure for where it passes the breaks of the law, and steps towards each
 _LOOKS, _STEPS = 17, 5
 _EPS = np.finfo(float).eps
@@ -57,8 +57,12 @@ class Carrier:
         """Strips in partial contact."""
         f = self.level.family
         at = cells(d, f.s_sat[group], strips)
-        width = 2 * np.pi * np.clip(f.values(group, at.s)[:, :, 2], 1e-9, 1 - 1e-9).ravel()
+        known = f.values(group, at.s, slopes=True)
         wave = Wave(self.foundation, np.repeat(self.rate[group], strips))
+        width = _inside(known[:, :, 2].ravel())
+        # families know pressures, not widths, as well as friction needs it: a step of Newton's towards the strip that is meant
+        miss = at.s.ravel() - wave.orbits(width, means=False).D
+        width = _inside(width / (2 * np.pi) + known[:, :, 5].ravel() * miss)
         orbits = wave.orbits(width, means=False)
         self.strips += width.size
         unit = 0.5 * self.pressure * at.u.ravel()
@@ -126,6 +130,11 @@ class _Parts:
     def saturated(self, place):
         """Share of each contact in which all below is saturated, (N,)."""
         return place(self.above[:, 1]) - place(self.above[:, 0])
+
+
+def _inside(share):
+    """Widths of contacts that are these shares of the period, neither none nor all."""
+    return 2 * np.pi * np.clip(share, 1e-9, 1 - 1e-9)
 
 
 def _mapped(t):

@@ -106,11 +106,13 @@ def family(foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, size: np
         greatest = np.abs(values).max(axis=1)
         goal = np.maximum(rtol[left, None] * (floor + size[left, None] * greatest), _FINEST * _EPS * greatest)
         # what is not known of a strip's penetration moves all along their slopes
-        slopes = np.abs(np.diff(values, axis=1) / np.diff(s, axis=1)[:, :, None]).max(axis=1)
+        step = np.diff(s, axis=1)[:, :, None]
+        slopes = np.abs(np.divide(np.diff(values, axis=1), step, out=np.zeros((*step.shape[:2], _Q)), where=step > 0)).max(axis=1)
         # that of the width grows like a root towards s = 0, where few strips are
         slopes[:, 2] = _ROOT * values[:, -1, 2] / s[:, -1]
         sampled = _errors(coefficients_over(samples), np.concatenate((goal.min(axis=1, keepdims=True), goal), axis=1))
         error = _errors(over, goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 16 * _EPS * greatest
+        error += 4 * _EPS * (s_sat[left] * s[:, -1])[:, None]
         done = (error <= goal).all(axis=1) | (n == _LAST)
         for k in np.flatnonzero(done):
             g = left[k]

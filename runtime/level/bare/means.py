@@ -17,9 +17,11 @@ from .family import Family
 #: nodes of the rules tried in turn; the second is what penetrations are looked for with
 _RULES = (8, 12, 18, 27, 40, 60, 90)
 #: share of what is allowed that a sum over nodes may miss, the fastest that its changes are believed to fall, and how much more than a change is feared
-_QUADRATURE, _FASTEST, _SURE = 0.2, 0.1, 1.5
+_QUADRATURE, _FASTEST, _SURE = 0.3, 0.25, 1.0
 #: penetrations are looked for to this, what is left being taken up by slopes; and steps
 _CLOSE, _STEPS = 1e-7, 60
+#: least penetration in heights
+_LEAST = 1e-60
 #: what is left in a level's mean of the greatest error of its strips
 CANCELLED = 0.15
 _EPS = np.finfo(float).eps
@@ -33,8 +35,8 @@ def gauss(n: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 class Changes:
-    """What sums by finer and finer rules change, and so what the last one may miss: one more change, at the pace of the last two. A change that is small by
-    chance is not believed; ``sure``: how much more than a change is feared."""
+    """What sums by finer and finer rules change, and so what the last one may miss. A change that is small by chance, as they are where an integrand has a
+    layer or a kink, is not believed; ``sure``: how much more than a change is feared."""
 
     def __init__(self, sure: float):
         self.sure, self.sums, self.change = sure, None, None
@@ -45,12 +47,10 @@ class Changes:
             self.sums = sums
             return np.full_like(sums, np.inf)
         change = np.abs(sums - self.sums)
-        pace = 1.0
         if self.change is not None:
             change = np.maximum(change, _FASTEST * self.change)
-            pace = np.clip(np.divide(change, self.change, out=np.ones_like(change), where=self.change > 0), _FASTEST, 1.0)
         self.sums, self.change = sums, change
-        return self.sure * change * pace
+        return self.sure * change
 
     def keep(self, which) -> None:
         """Go on with the rows ``which``."""
@@ -74,6 +74,8 @@ def cells(d: np.ndarray, s_sat: np.ndarray, n: int) -> Cells:
     y, w = gauss(n)
     u, s, weight = (np.empty((d.size, n)) for _ in range(3))
     complete = np.full(d.size, np.pi)
+    # squares of what is smaller underflow
+    d = np.maximum(d, _LEAST)
     i = np.flatnonzero(d < 1)
     if i.size:
         end = np.arcsinh(np.sqrt(d[i] / (1 - d[i])))[:, None]
@@ -146,8 +148,9 @@ class Level:
 
     def errors(self, group) -> np.ndarray:
         """What the errors of the strips' means can make of the level's, (m, 3)."""
-        # means of u/2 and of its square are at most 1/4 and 3/32; errors of either sign, one after the other, mostly cancel
-        return CANCELLED * self.family.errors[group] * np.array((0.25, 0.09375, 1.0))
+        # means of u/2 and of its square are at most 1/4 and 3/32; errors of either sign, one after the other, mostly
+        # cancel, but for contact, whose greatest errors all are where it begins
+        return self.family.errors[group] * np.array((0.25 * CANCELLED, 0.09375 * CANCELLED, 0.5))
 
     def penetrations(self, group: np.ndarray, p: np.ndarray) -> np.ndarray:
         """d at which the mean pressure (K h) is ``p`` (m,), between 0 and that of saturation: Newton on the root of the pressure, which is nearly linear."""
