@@ -12,11 +12,13 @@ from .orbit import Wave
 from .pressure import ContactPressure
 
 #: nodes over the strips and over each contact, tried in turn
-RULES = ((6, 5), (9, 7), (14, 9), (21, 12), (32, 16), (48, 22), (72, 30))
+RULES = ((6, 5), (9, 7), (14, 9), (21, 12), (32, 16), (48, 22), (72, 30), (108, 40), (162, 54))
 #: share of what is allowed that these sums may miss, and how much more than their changes is feared: kinks that no part ends at come and go
 _QUADRATURE, _SURE = 0.7, 1.5
 #: looks at a contact's pressure for where it passes the breaks of the law, and steps towards each
 _LOOKS, _STEPS = 17, 5
+#: nodes of all parts together, about, that are summed at a time
+_CHUNK = 60_000
 _EPS = np.finfo(float).eps
 
 
@@ -43,6 +45,15 @@ class Carrier:
         return out, errors
 
     def _sums(self, group, d, strips: int, nodes: int):
+        out = np.zeros((d.size, self.laws.full.shape[1]))
+        # so many columns at a time that memory stays bounded
+        many = max(1, _CHUNK // (strips * nodes))
+        for start in range(0, d.size, many):
+            some = slice(start, start + many)
+            out[some] = self._chunk(group[some], d[some], strips, nodes)
+        return out
+
+    def _chunk(self, group, d, strips, nodes):
         f = self.level.family
         out = np.zeros((d.size, self.laws.full.shape[1]))
         some = np.flatnonzero(d < 0.5 * f.s_sat[group])

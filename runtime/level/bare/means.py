@@ -17,7 +17,7 @@ from .family import Family
 #: nodes of the rules tried in turn; the second is what penetrations are looked for with
 _RULES = (8, 12, 18, 27, 40, 60, 90)
 #: share of what is allowed that a sum over nodes may miss, the fastest that its changes are believed to fall, and how much more than a change is feared
-_QUADRATURE, _FASTEST, _SURE = 0.3, 0.25, 1.0
+_QUADRATURE, _FASTEST, _SURE = 0.5, 0.25, 2.0
 #: penetrations are looked for to this, what is left being taken up by slopes; and steps
 _CLOSE, _STEPS = 1e-7, 60
 #: least penetration in heights
