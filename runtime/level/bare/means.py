@@ -47,10 +47,9 @@ class Changes:
             self.sums = sums
             return np.full_like(sums, np.inf)
         change = np.abs(sums - self.sums)
-        if self.change is not None:
-            change = np.maximum(change, _FASTEST * self.change)
+        feared = change if self.change is None else np.maximum(change, _FASTEST * self.change)
         self.sums, self.change = sums, change
-        return self.sure * change
+        return self.sure * feared
 
     def keep(self, which) -> None:
         """Go on with the rows ``which``."""
