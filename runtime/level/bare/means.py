@@ -41,6 +41,12 @@ class Changes:
     def __init__(self, sure: float):
         self.sure, self.sums, self.change = sure, None, None
 
+    def settled(self, sums: np.ndarray) -> np.ndarray:
+        """The same, but of the first change nothing is concluded."""
+        first = self.change is None
+        error = self.after(sums)
+        return np.full_like(error, np.inf) if first else error
+
     def after(self, sums: np.ndarray) -> np.ndarray:
         """Error of the ``sums`` (m, q) by the next rule."""
         if self.sums is None:
@@ -91,7 +97,8 @@ def cells(d: np.ndarray, s_sat: np.ndarray, n: int) -> Cells:
         excess = d[i, None] - 1
         start = np.minimum(2 * excess / (s_sat[i, None] - 2), 1.0)
         first, end = np.arcsinh(np.sqrt(start / excess)), np.arcsinh(np.sqrt(1 / excess))
-        width = end - first
+        # at saturation nothing but rounding is left of them
+        width = np.maximum(end - first, 4 * _EPS * end)
         rest = width * (1 - y) ** 2 * (1 + 2 * y)
         eta = end - rest
         square = np.sinh(eta) ** 2
@@ -136,7 +143,7 @@ class Level:
         left, changes = np.arange(d.size), Changes(_SURE)
         for n in _RULES:
             new = self.means(group[left], d[left], n, slopes)
-            miss = changes.after(new[:, :3])
+            miss = changes.settled(new[:, :3])
             done = (miss <= _QUADRATURE * goal[left]).all(axis=1) | (n == _RULES[-1])
             out[left[done]], errors[left[done]] = new[done], miss[done]
             left = left[~done]
