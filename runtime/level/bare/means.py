@@ -23,7 +23,7 @@ _CLOSE, _STEPS = 1e-7, 60
 #: least penetration in heights
 _LEAST = 1e-60
 #: what is left in a level's mean of the greatest error of its strips
-CANCELLED = 0.15
+CANCELLED = 0.3
 _EPS = np.finfo(float).eps
 
 
@@ -150,7 +150,7 @@ class Level:
             if not left.size:
                 break
             changes.keep(~done)
-        return out, errors + self.errors(group) + 16 * _EPS * np.abs(out[:, :3])
+        return out, errors + self.errors(group) + _EPS * (1 + 16 * np.abs(out[:, :3]))
 
     def errors(self, group) -> np.ndarray:
         """What the errors of the strips' means can make of the level's, (m, 3)."""
