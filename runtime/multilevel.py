@@ -194,9 +194,9 @@ class _Solve:
             return every
         level = surface.levels[0]
         floor = 1e-3 * surface.material.K * level.h * level.h / level.l
-        bare = BareSurface(
-            foundation_of(surface.material), surface.levels, V, [own.p_sat for own in stack.own], stack.p_full, floor, surface.rtol, surface.tally
-        )
+        p_sat = [own.p_sat for own in stack.own]
+        foundation = foundation_of(surface.material)
+        bare = BareSurface(foundation, surface.levels, V, p_sat, stack.p_full, floor, surface.rtol, surface.tally)
         found = bare.solve(group[mine], load[mine], self.by_pressure)
         sure = found.certain
         at, out = index[mine[sure]], self.out

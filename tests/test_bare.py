@@ -1,4 +1,5 @@
-"""Levels without adhesion: strips in closed form from the width of their contact, level means from one family of them, laws as averages of laws."""
+"""Levels without adhesion: strips in closed form from the width of their contact, level means from one family of them,
+laws as averages of laws."""
 
 import numpy as np
 import pytest
@@ -54,7 +55,8 @@ def test_the_orbit_of_a_width_is_the_strip_that_the_search_finds(name):
 
 @pytest.mark.parametrize("width", [1e-6, 1e-3, 1.0, 3.0, 6.0, 2 * np.pi - 1e-4])
 def test_elastic_strips_are_arcs_of_a_cosine(width):
-    """V = 0: contact where the profile is below the plane, ``D = 1 - cos(w/2)``, mean pressure ``(sin(w/2) - (w/2) cos(w/2))/pi``, no friction."""
+    """V = 0: contact where the profile is below the plane, ``D = 1 - cos(w/2)``, mean pressure ``(sin(w/2) - (w/2)
+    cos(w/2))/pi``, no friction."""
     o = Wave(foundation_of(SOFT), np.zeros(1)).orbits(np.array([width]))
     half = width / 2
     exact = 2 * np.sin(half / 2) ** 2
@@ -79,8 +81,8 @@ def test_the_nodes_of_a_cell_know_its_area_and_its_mean_amplitude(d):
 
 @pytest.mark.parametrize("name", MATERIALS)
 def test_means_are_those_of_panels(name):
-    """At penetrations below and above the height, up to saturation, against panels over searched strips: within what was asked for always, within the
-    estimate in 99 of 100 values."""
+    """At penetrations below and above the height, up to saturation, against panels over searched strips: within what
+    was asked for always, within the estimate in 99 of 100 values."""
     material = MATERIALS[name]
     bounded = []
     for V in (0.0, 3e-4, 1e3):
@@ -157,7 +159,8 @@ def test_two_levels_are_what_panels_give(monkeypatch, i):
 
 
 def test_levels_that_are_saturated_below_carry_the_closed_form():
-    """Level 2 is saturated wherever level 1 is in contact, but for its edges: at large pressures level 1 carries contact times tau_sat."""
+    """Level 2 is saturated wherever level 1 is in contact, but for its edges: at large pressures level 1 carries
+    contact times tau_sat."""
     tiny = hystrip.Level(1e-7, 1e-12)
     r = hystrip.solve(SOFT, NONE, [LEVEL, tiny], pressure=[10.0, 100.0, 300.0], velocity=3e-4, rtol=1e-6)
     saturated = foundation_of(SOFT).saturation_friction(tiny.l, tiny.h, np.array([3e-4]))[0]

@@ -1,9 +1,11 @@
-"""Second term of Eq. 13 for levels without adhesion: the law of the level below averaged over the contact pressures of all strips of a level."""
+"""Second term of Eq. 13 for levels without adhesion: the law of the level below averaged over the contact pressures of
+all strips of a level."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from hystrip.errors import SolverError
 from hystrip.solver import Foundation
 
 from .law import BareLaws
@@ -13,7 +15,8 @@ from .pressure import ContactPressure
 
 #: nodes over the strips and over each contact, tried in turn
 RULES = ((6, 5), (9, 7), (14, 9), (21, 12), (32, 16), (48, 22), (72, 30), (108, 40), (162, 54))
-#: share of what is allowed that these sums may miss, and how much more than their changes is feared: kinks that no part ends at come and go
+#: share of what is allowed that these sums may miss, and how much more than their changes is feared: kinks that no
+#: part ends at come and go
 _QUADRATURE, _SURE = 0.7, 1.5
 #: looks at a contact's pressure for where it passes the breaks of the law, and steps towards each
 _LOOKS, _STEPS = 17, 5
@@ -32,7 +35,7 @@ class Carrier:
     def carried(self, group: np.ndarray, d: np.ndarray, goal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """What columns at ``d = D/h`` carry (m, q), to ``goal`` (m, q), and the errors of the sums (m, q)."""
         out, errors = np.zeros((d.size, self.laws.full.shape[1])), np.zeros((d.size, self.laws.full.shape[1]))
-        left, changes = np.flatnonzero(d > 0), Changes(_SURE)
+        left, changes = np.flatnonzero(d > 0), Changes(_SURE, at_once=True)
         for rule in RULES:
             new = self._sums(group[left], d[left], *rule)
             miss = changes.after(new)
@@ -71,10 +74,13 @@ class Carrier:
         known = f.values(group, at.s, slopes=True)
         wave = Wave(self.foundation, np.repeat(self.rate[group], strips))
         width = _inside(known[:, :, 2].ravel())
-        # families know pressures, not widths, as well as friction needs it: a step of Newton's towards the strip that is meant
+        # families know pressures, not widths, as well as friction needs it: a step of Newton's towards the strip that
+        # is meant
         miss = at.s.ravel() - wave.orbits(width, means=False).D
         width = _inside(width / (2 * np.pi) + known[:, :, 5].ravel() * miss)
         orbits = wave.orbits(width, means=False)
+        if not orbits.certified.all():
+            raise SolverError("a strip without adhesion was not certified")
         self.strips += width.size
         unit = 0.5 * self.pressure * at.u.ravel()
         column = np.repeat(np.arange(d.size), strips)
@@ -85,7 +91,9 @@ class Carrier:
         parts = _Parts.between(edges, top & np.isfinite(self.laws.p_full[group[column]]))
         t, w = parts.nodes(nodes)
         p = contact.at(_mapped(t), parts.row) * unit[parts.row, None]
-        total = self.laws.averages(group, np.repeat(column[parts.row], nodes), p.ravel(), (weight[parts.row, None] * w * _mapped_slope(t)).ravel())
+        total = self.laws.averages(
+            group, np.repeat(column[parts.row], nodes), p.ravel(), (weight[parts.row, None] * w * _mapped_slope(t)).ravel()
+        )
         # where the pressure saturates all below there is nothing to sum
         sure = np.bincount(column, weight * parts.saturated(_mapped), minlength=d.size)
         return total + sure[:, None] * self.laws.full[group]
@@ -102,7 +110,9 @@ class Carrier:
         mean, swing = d[column] - 1 + 0.5 * u, 0.5 * u * (f.s_sat[group[column]] - 1)
         breaks = self.laws.breaks[group[column]] / self.pressure
         with np.errstate(invalid="ignore"):
-            cosine = np.divide(breaks - mean[:, None], swing[:, None], out=np.sign(breaks - mean[:, None]), where=swing[:, None] > 0)
+            cosine = np.divide(
+                breaks - mean[:, None], swing[:, None], out=np.sign(breaks - mean[:, None]), where=swing[:, None] > 0
+            )
         passed = np.arccos(np.clip(cosine, -1.0, 1.0)) / np.pi
         # from the peak down: above the highest break first
         edges = np.concatenate((np.zeros((u.size, 1)), passed[:, ::-1], np.ones((u.size, 1))), axis=1)
@@ -110,14 +120,16 @@ class Carrier:
         parts = _Parts.between(edges, np.isfinite(self.laws.p_full[group[column]]), 0)
         t, w = parts.nodes(nodes)
         p = np.maximum(mean[parts.row, None] + swing[parts.row, None] * np.cos(np.pi * t), 0.0)
-        total = self.laws.averages(group, np.repeat(column[parts.row], nodes), self.pressure * p.ravel(), (weight[parts.row, None] * w).ravel())
+        total = self.laws.averages(
+            group, np.repeat(column[parts.row], nodes), self.pressure * p.ravel(), (weight[parts.row, None] * w).ravel()
+        )
         sure = np.bincount(column, weight * parts.saturated(lambda x: x), minlength=d.size)
         return total + sure[:, None] * self.laws.full[group]
 
 
 class _Parts:
-    """Parts of contacts between the breaks of the law: ``row`` (k,) of the contact and ends ``low``, ``high``; ``above`` (N, 2): the part of each contact in
-    which everything below is saturated, not among the others."""
+    """Parts of contacts between the breaks of the law: ``row`` (k,) of the contact and ends ``low``, ``high``;
+    ``above`` (N, 2): the part of each contact in which everything below is saturated, not among the others."""
 
     def __init__(self, row, low, high, above):
         self.row, self.low, self.high, self.above = row, low, high, above
@@ -157,9 +169,10 @@ def _mapped_slope(t):
 
 
 def _passages(contact: ContactPressure, breaks) -> tuple[np.ndarray, np.ndarray]:
-    """Parameters of contacts, ``_mapped`` to shares, between which the pressure exceeds each of ``breaks`` (N, B), and the ends 0 and 1, (N, 2 B + 2); and where
-    it exceeds the last one. A pressure rises to its peak and falls from there; what it does between the looks is not needed to the last digit: the passages only
-    part smooth pieces from one another."""
+    """Parameters of contacts, ``_mapped`` to shares, between which the pressure exceeds each of ``breaks`` (N, B), and
+    the ends 0 and 1, (N, 2 B + 2); and where it exceeds the last one. A pressure rises to its peak and falls from
+    there; what it does between the looks is not needed to the last digit: the passages only part smooth pieces from
+    one another."""
     N, B = breaks.shape
     t = np.linspace(0, 1, _LOOKS)
     looks = contact.at(np.broadcast_to(_mapped(t), (N, _LOOKS)))
@@ -188,8 +201,8 @@ def _passages(contact: ContactPressure, breaks) -> tuple[np.ndarray, np.ndarray]
 
 
 def _passage(contact, rows, p, low_pressure, high_pressure, low, high):
-    """Where the pressures of the contacts ``rows`` pass ``p`` between parameters ``low`` and ``high`` of these pressures: false position with halving of stale
-    ends."""
+    """Where the pressures of the contacts ``rows`` pass ``p`` between parameters ``low`` and ``high`` of these
+    pressures: false position with halving of stale ends."""
     f_low, f_high = low_pressure - p, high_pressure - p
     middle = low
     for _ in range(_STEPS if rows.size else 0):

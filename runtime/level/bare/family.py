@@ -1,8 +1,9 @@
 """All strips of a level at one velocity: their means as functions of the penetration over the amplitude.
 
-Without adhesion alpha and beta are all that a strip has but for ``s = D/A``, and they are the same on the whole level. Contact begins like a root of s
-and becomes complete like a root of ``s_sat - s``, ``s_sat = 1 + R``: over ``xi``, ``s = s_sat sin^2 xi``, everything is smooth. The orbits are sampled
-over the width of their contact, where they are in closed form and smooth as well, and resampled over xi.
+Without adhesion alpha and beta are all that a strip has but for ``s = D/A``, and they are the same on the whole level.
+Contact begins like a root of s and becomes complete like a root of ``s_sat - s``, ``s_sat = 1 + R``: over ``xi``, ``s
+= s_sat sin^2 xi``, everything is smooth. The orbits are sampled over the width of their contact, where they are in
+closed form and smooth as well, and resampled over xi.
 """
 
 from __future__ import annotations
@@ -34,8 +35,9 @@ _Q = 3
 
 @dataclass(frozen=True)
 class Family:
-    """Strips at velocities (G,): ``s_sat`` (G,), and ``series``, coefficients (n + 1, 3) for each, of mean pressure (K A), mean friction (K A kA) and
-    contact fraction over ``xi/top``; ``errors`` (G, 3) bound each. ``full`` (G, 3): in complete contact, at s_sat."""
+    """Strips at velocities (G,): ``s_sat`` (G,), and ``series``, coefficients (n + 1, 3) for each, of mean pressure (K
+    A), mean friction (K A kA) and contact fraction over ``xi/top``; ``errors`` (G, 3) bound each. ``full`` (G, 3): in
+    complete contact, at s_sat."""
 
     s_sat: np.ndarray
     top: np.ndarray
@@ -45,7 +47,8 @@ class Family:
     strips: np.ndarray
 
     def values(self, group: np.ndarray, s: np.ndarray, slopes: bool = False) -> np.ndarray:
-        """Quantities of the strips ``s`` (m, nodes), all of row i at the velocity ``group[i]``: (m, nodes, 3), or with their ``slopes`` by s (m, nodes, 6)."""
+        """Quantities of the strips ``s`` (m, nodes), all of row i at the velocity ``group[i]``: (m, nodes, 3), or with
+        their ``slopes`` by s (m, nodes, 6)."""
         xi = _xi(s, self.s_sat[group, None])
         out = np.empty((*s.shape, 2 * _Q if slopes else _Q))
         sizes = np.array([self.series[g].shape[0] for g in group])
@@ -84,9 +87,11 @@ def evaluated(table: np.ndarray, x: np.ndarray) -> np.ndarray:
     return table[:, None, 0] + x[:, :, None] * one - two
 
 
-def family(foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, size: np.ndarray, floor: np.ndarray, rtol: np.ndarray) -> Family:
-    """Families at the rates ``k V`` (G,), up to the penetrations ``s_top`` (G,), to ``rtol (floor + size max|f|)`` of each quantity: ``floor`` (3,), the
-    others (G,).
+def family(
+    foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, size: np.ndarray, floor: np.ndarray, rtol: np.ndarray
+) -> Family:
+    """Families at the rates ``k V`` (G,), up to the penetrations ``s_top`` (G,), to ``rtol (floor + size max|f|)`` of
+    each quantity: ``floor`` (3,), the others (G,).
 
     Where that is not reached, the error says so. Raises ``SolverError`` for a strip that is not certified.
     """
@@ -140,7 +145,8 @@ def _xi(s, s_sat):
 
 
 def _trimmed(c, goal):
-    """Coefficients without a tail that doesn't matter, and what is lost with it; sizes in steps, so that series of one size are evaluated together."""
+    """Coefficients without a tail that doesn't matter, and what is lost with it; sizes in steps, so that series of one
+    size are evaluated together."""
     tail = np.cumsum(np.abs(c[::-1]), axis=0)[::-1]
     n = int(np.count_nonzero((tail > goal).any(axis=1)))
     n = min(4 * -(-max(n, 1) // 4), c.shape[0])
@@ -149,7 +155,7 @@ def _trimmed(c, goal):
 
 def _full_friction(foundation, rate):
     """In complete contact, K A kA: half the loss modulus."""
-    # tau_sat of a level of wavelength l and height h is K h^2 k (3/32) loss/2 ... of its strips' K A kA loss/2, with the mean of A^2 = 3 h^2/32
+    # a level of height h averages K A kA loss/2 over its strips, and the mean of A^2 is 3 h^2/32
     l = 2 * np.pi  # noqa: E741
     return foundation.saturation_friction(l, 1.0, rate) * 32 / (3 * foundation.K)
 
@@ -160,7 +166,8 @@ class _Sampling:
         self.strips = np.zeros(rate.size, int)
 
     def at(self, g, phi):
-        """Samples (m, nodes, 4) at shares of the period in contact ``phi`` (m, nodes): s, then the quantities; the ends 0 and 1 are known."""
+        """Samples (m, nodes, 4) at shares of the period in contact ``phi`` (m, nodes): s, then the quantities; the
+        ends 0 and 1 are known."""
         out = np.zeros((*phi.shape, 1 + _Q))
         complete = phi >= 1
         out[complete, 0] = np.broadcast_to(self.s_sat[g][:, None], phi.shape)[complete]
@@ -176,7 +183,8 @@ class _Sampling:
         return out
 
     def narrowed(self, g, phi, s_top, n):
-        """First samples, at ``lobatto(n)`` of [0, phi]; phi is lowered where the strips there are far beyond ``s_top``."""
+        """First samples, at ``lobatto(n)`` of [0, phi]; phi is lowered where the strips there are far beyond
+        ``s_top``."""
         phi = phi.copy()
         samples = np.empty((g.size, n + 1, 1 + _Q))
         again = np.arange(g.size)
@@ -208,7 +216,8 @@ def _transform(nodes: int) -> np.ndarray:
 
 
 def _resampled(s, values, s_sat):
-    """Coefficients over xi/xi_top of what is sampled over the width of contact at ``lobatto(n)``, where the strips are ``s``."""
+    """Coefficients over xi/xi_top of what is sampled over the width of contact at ``lobatto(n)``, where the strips are
+    ``s``."""
     n = s.shape[1] - 1
     both = coefficients_over(np.concatenate((s[:, :, None], values), axis=2))
     place, rise = both[:, :, :1], _derivatives(both[:, :, :1])
@@ -216,7 +225,9 @@ def _resampled(s, values, s_sat):
     goal = s_sat[:, None] * np.sin(top * lobatto(n)) ** 2
     # x in [-1, 1] at which s is the goal; the root of s is nearly linear in it
     nodes = 2 * lobatto(n) - 1
-    x = np.array([np.interp(g, row, nodes) for g, row in zip(np.sqrt(goal), np.sqrt(np.maximum.accumulate(s, axis=1)), strict=True)])
+    x = np.array(
+        [np.interp(g, row, nodes) for g, row in zip(np.sqrt(goal), np.sqrt(np.maximum.accumulate(s, axis=1)), strict=True)]
+    )
     low, high = np.full_like(x, -1.0), np.full_like(x, 1.0)
     for _ in range(_STEPS):
         miss = evaluated(place, x)[:, :, 0] - goal

@@ -1,7 +1,9 @@
-"""Friction laws of levels without adhesion over nominal pressure, as Chebyshev series between the pressures at which they are not smooth.
+"""Friction laws of levels without adhesion over nominal pressure, as Chebyshev series between the pressures at which
+they are not smooth.
 
-A law is not smooth at p = 0, where the crests touch (its powers are those of ``p^(1/4)``); at ``P(h)``, where the strips at the edge of the cell come into
-contact; where the level is in complete contact; and where all below it is. Towards these pressures it has roots of the distance.
+A law is not smooth at p = 0, where the crests touch (its powers are those of ``p^(1/4)``); at ``P(h)``, where the
+strips at the edge of the cell come into contact; where the level is in complete contact; and where all below it is.
+Towards these pressures it has roots of the distance.
 """
 
 from __future__ import annotations
@@ -15,16 +17,13 @@ _CHUNK = 32768
 
 @dataclass(frozen=True)
 class Piece:
-    """A law between pressures ``low`` and ``high`` (G,): coefficients (G, n + 1, q) over ``omega``; ``quartic``: it starts at p = 0."""
+    """A law between pressures ``low`` and ``high`` (G,): coefficients (G, n + 1, q) over ``omega``; ``quartic``: it
+    starts at p = 0."""
 
     low: np.ndarray
     high: np.ndarray
     coefficients: np.ndarray
     quartic: bool
-
-    def pressure(self, omega: np.ndarray) -> np.ndarray:
-        """Pressures (G, n) at the parameters ``omega`` (n,) in [0, 1]."""
-        return pressures(self.low, self.high, omega, self.quartic)
 
     def parameter(self, group, p):
         """x in [-1, 1] of the pressures ``p`` (m,) of the laws ``group`` (m,)."""
@@ -40,9 +39,10 @@ def pressures(low, high, omega, quartic: bool):
 
 @dataclass(frozen=True)
 class BareLaws:
-    """Laws of a level at velocities (G,): ``pieces`` that follow one another; ``breaks`` (G, k): the pressures that part the sharpest of them, ascending, inf for
-    none; from ``p_full`` (G,) on everything below is saturated, with the means
-    ``full`` (G, q). ``error`` (G,) bounds the friction, own and carried, Pa; ``steepest`` (G,): its greatest slope over pressure. Quantities: friction, contact, adhesion of the level, then of each below."""
+    """Laws of a level at velocities (G,): ``pieces`` that follow one another; ``breaks`` (G, k): the pressures that
+    part the sharpest of them, ascending, inf for none; from ``p_full`` (G,) on everything below is saturated, with the
+    means ``full`` (G, q). ``error`` (G,) bounds the friction, own and carried, Pa; ``steepest`` (G,): its greatest
+    slope over pressure. Quantities: friction, contact, adhesion of the level, then of each below."""
 
     pieces: list[Piece]
     breaks: np.ndarray
@@ -52,8 +52,8 @@ class BareLaws:
     steepest: np.ndarray
 
     def averages(self, group: np.ndarray, owner: np.ndarray, p: np.ndarray, weight: np.ndarray) -> np.ndarray:
-        """Sums (m, q) over the nodes of each column, ``group`` (m,) its law, of the law at ``p`` by ``weight`` (nodes,); ``owner`` (nodes,), ascending:
-        the column of each node."""
+        """Sums (m, q) over the nodes of each column, ``group`` (m,) its law, of the law at ``p`` by ``weight``
+        (nodes,); ``owner`` (nodes,), ascending: the column of each node."""
         out = np.zeros((group.size, self.full.shape[1]))
         for start in range(0, p.size, _CHUNK):
             some = slice(start, start + _CHUNK)

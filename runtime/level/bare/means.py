@@ -1,8 +1,9 @@
 """Means of a level without adhesion at any penetration, as integrals over its strips of functions that are known.
 
-With ``u = cos^2(theta/2)`` a strip has the amplitude ``h u/2`` and ``s = 2 - 2 (1 - D/h)/u``. Where the crests of the cell's edge are out of reach,
-D < h, contact ends at u = 1 - D/h; else the strips of small u are in complete contact, from ``s = s_sat`` on. Substituting hyperbolic functions for
-``u/|1 - D/h|`` makes all scales alike however near D is to h, and takes the root out of the integrand at the crest.
+With ``u = cos^2(theta/2)`` a strip has the amplitude ``h u/2`` and ``s = 2 - 2 (1 - D/h)/u``. Where the crests of the
+cell's edge are out of reach, D < h, contact ends at u = 1 - D/h; else the strips of small u are in complete contact,
+from ``s = s_sat`` on. Substituting hyperbolic functions for ``u/|1 - D/h|`` makes all scales alike however near D is
+to h, and takes the root out of the integrand at the crest.
 """
 
 from __future__ import annotations
@@ -16,14 +17,16 @@ from .family import Family
 
 #: nodes of the rules tried in turn; the second is what penetrations are looked for with
 _RULES = (8, 12, 18, 27, 40, 60, 90)
-#: share of what is allowed that a sum over nodes may miss, the fastest that its changes are believed to fall, and how much more than a change is feared
+#: share of what is allowed that a sum over nodes may miss, the fastest that its changes are believed to fall, and how
+#: much more than a change is feared
 _QUADRATURE, _FASTEST, _SURE = 0.5, 0.25, 2.0
 #: penetrations are looked for to this, what is left being taken up by slopes; and steps
 _CLOSE, _STEPS = 1e-7, 60
 #: least penetration in heights
 _LEAST = 1e-60
-#: what is left in a level's mean of the greatest error of its strips
-CANCELLED = 0.3
+#: what is left in a level's mean of the greatest error of its strips, and of errors that change sign from one strip
+#: sampled to the next
+CANCELLED, _WAVES = 0.3, 5.0
 _EPS = np.finfo(float).eps
 
 
@@ -35,27 +38,24 @@ def gauss(n: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 class Changes:
-    """What sums by finer and finer rules change, and so what the last one may miss. A change that is small by chance, as they are where an integrand has a
-    layer or a kink, is not believed; ``sure``: how much more than a change is feared."""
+    """What sums by finer and finer rules change, and so what the last one may miss. A change that is small by chance,
+    as they are where an integrand has a layer or a kink, is not believed; ``sure``: how much more than a change is
+    feared."""
 
-    def __init__(self, sure: float):
-        self.sure, self.sums, self.change = sure, None, None
-
-    def settled(self, sums: np.ndarray) -> np.ndarray:
-        """The same, but of the first change nothing is concluded."""
-        first = self.change is None
-        error = self.after(sums)
-        return np.full_like(error, np.inf) if first else error
+    def __init__(self, sure: float, at_once: bool = False):
+        self.sure, self.at_once, self.sums, self.change = sure, at_once, None, None
 
     def after(self, sums: np.ndarray) -> np.ndarray:
-        """Error of the ``sums`` (m, q) by the next rule."""
+        """Error of the ``sums`` (m, q) by the next rule; of the first change nothing is concluded, unless it is
+        believed ``at_once``."""
         if self.sums is None:
             self.sums = sums
             return np.full_like(sums, np.inf)
-        change = np.abs(sums - self.sums)
-        feared = change if self.change is None else np.maximum(change, _FASTEST * self.change)
+        change, last = np.abs(sums - self.sums), self.change
         self.sums, self.change = sums, change
-        return self.sure * feared
+        if last is None:
+            return self.sure * change if self.at_once else np.full_like(sums, np.inf)
+        return self.sure * np.maximum(change, _FASTEST * last)
 
     def keep(self, which) -> None:
         """Go on with the rows ``which``."""
@@ -65,8 +65,9 @@ class Changes:
 
 @dataclass(frozen=True)
 class Cells:
-    """The strips in partial contact of columns at d = D/h (m,), as nodes (m, n): share ``u`` and penetration ``s`` of each, and its ``weight`` in the
-    mean over the cell; and ``complete`` (m,), the angle theta from which on contact is complete."""
+    """The strips in partial contact of columns at d = D/h (m,), as nodes (m, n): share ``u`` and penetration ``s`` of
+    each, and its ``weight`` in the mean over the cell; and ``complete`` (m,), the angle theta from which on contact is
+    complete."""
 
     u: np.ndarray
     s: np.ndarray
@@ -115,7 +116,8 @@ class Level:
     family: Family
 
     def means(self, group: np.ndarray, d: np.ndarray, n: int, slopes: bool = False) -> np.ndarray:
-        """Mean pressure (K h), friction (K h kh), contact fraction of the columns at ``d`` (m,), and with ``slopes`` those of the first two by d."""
+        """Mean pressure (K h), friction (K h kh), contact fraction of the columns at ``d`` (m,), and with ``slopes``
+        those of the first two by d."""
         f = self.family
         at = cells(d, f.s_sat[group], n)
         values = f.values(group, at.s, slopes)
@@ -137,13 +139,15 @@ class Level:
             out += [rest / np.pi, np.zeros_like(rest)]
         return np.stack(out, axis=1)
 
-    def sure_means(self, group: np.ndarray, d: np.ndarray, goal: np.ndarray, slopes: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    def sure_means(
+        self, group: np.ndarray, d: np.ndarray, goal: np.ndarray, slopes: bool = False
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Means with as many nodes as it takes for ``goal`` (m, 3), and their errors (m, 3), all told."""
         out, errors = np.zeros((d.size, 5 if slopes else 3)), np.zeros((d.size, 3))
         left, changes = np.arange(d.size), Changes(_SURE)
         for n in _RULES:
             new = self.means(group[left], d[left], n, slopes)
-            miss = changes.settled(new[:, :3])
+            miss = changes.after(new[:, :3])
             done = (miss <= _QUADRATURE * goal[left]).all(axis=1) | (n == _RULES[-1])
             out[left[done]], errors[left[done]] = new[done], miss[done]
             left = left[~done]
@@ -156,10 +160,13 @@ class Level:
         """What the errors of the strips' means can make of the level's, (m, 3)."""
         # means of u/2 and of its square are at most 1/4 and 3/32; errors of either sign, one after the other, mostly
         # cancel, but for contact, whose greatest errors all are where it begins
-        return self.family.errors[group] * np.array((0.25 * CANCELLED, 0.09375 * CANCELLED, 0.5))
+        left = np.minimum(CANCELLED, _WAVES / np.maximum(self.family.strips[group], 1))[:, None]
+        share = np.concatenate((0.25 * left, 0.09375 * left, np.full_like(left, 0.5)), axis=1)
+        return self.family.errors[group] * share
 
     def penetrations(self, group: np.ndarray, p: np.ndarray) -> np.ndarray:
-        """d at which the mean pressure (K h) is ``p`` (m,), between 0 and that of saturation: Newton on the root of the pressure, which is nearly linear."""
+        """d at which the mean pressure (K h) is ``p`` (m,), between 0 and that of saturation: Newton on the root of
+        the pressure, which is nearly linear."""
         low, high = p.copy(), np.minimum(p + 0.75, 0.5 * self.family.s_sat[group])
         d = np.clip(np.sqrt(2 * p), low, high)
         left = np.arange(p.size)

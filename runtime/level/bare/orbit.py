@@ -1,9 +1,10 @@
 """Orbits of strips without adhesion in closed form, from the width of their contact.
 
-With the width ``a - b`` of the contact given, the boundary equations (``residual_ac`` at p_0 = 0) are linear and homogeneous in
-``(D - 1, cos m, sin m)``, m the phase in the middle of the contact: two equations that leave one direction, and so m and D without any search.
-Orbits are ordered: at a larger penetration more of the period is in contact. So every strip has one width and every width one strip, and the direction
-is that strip's: of its two senses the one in which the mean pressure is positive.
+With the width ``a - b`` of the contact given, the boundary equations (``residual_ac`` at p_0 = 0) are linear and
+homogeneous in ``(D - 1, cos m, sin m)``, m the phase in the middle of the contact: two equations that leave one
+direction, and so m and D without any search. Orbits are ordered: at a larger penetration more of the period is in
+contact. So every strip has one width and every width one strip, and the direction is that strip's: of its two senses
+the one in which the mean pressure is positive.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Orbits:
-    """Strips in partial contact, arrays (N,), in units of A and K A: penetration ``D``, entry ``b`` and exit ``a``, means of pressure and of
-    friction (times kA). ``certified``: the equations hold, the strip
+    """Strips in partial contact, arrays (N,), in units of A and K A: penetration ``D``, entry ``b`` and exit ``a``,
+    means of pressure and of friction (times kA). ``certified``: the equations hold, the strip
     carries pressure."""
 
     D: np.ndarray
@@ -39,7 +40,8 @@ class Orbits:
 
 
 class Wave:
-    """A foundation under a wave: ``rate`` (N,) is k V of each strip, 1/s. Everything that its orbits ask of the generated solver."""
+    """A foundation under a wave: ``rate`` (N,) is k V of each strip, 1/s. Everything that its orbits ask of the
+    generated solver."""
 
     def __init__(self, foundation: Foundation, rate: np.ndarray):
         self.kernel = foundation.kernel
@@ -71,7 +73,8 @@ class Wave:
         return self.kernel.means_ac(b, a, *self._arguments(D))
 
     def orbits(self, width: np.ndarray, means: bool = True) -> Orbits:
-        """The strips whose contact is so wide, radians between 0 and 2 pi, (N,); their ``means`` are nan if not wanted."""
+        """The strips whose contact is so wide, radians between 0 and 2 pi, (N,); their ``means`` are nan if not
+        wanted."""
         none, up = np.zeros(width.size), np.full(width.size, 0.5 * np.pi)
         penetrate = self.residual(none, width, np.full(width.size, _HUGE)) / _HUGE
         # without D: what multiplies cos m, and sin m

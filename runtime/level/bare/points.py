@@ -6,20 +6,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hystrip.errors import SolverError
 from hystrip.solver import foundation_of
 
 from ..strips import Columns
 from .family import family
 from .means import Level
 
-#: shares of what is allowed that the strips' means may err, pressure, friction and contact, and how much finer each further attempt is
+#: shares of what is allowed that the strips' means may err, pressure, friction and contact, and how much finer each
+#: further attempt is
 _SHARES, _FINER, _ATTEMPTS = np.array((0.3, 0.3, 0.5)), 0.01, 3
 
 
 @dataclass(frozen=True)
 class BareMeans:
-    """Of columns (m,): penetration ``D``, ``values`` and ``errors`` (m, 4) of ``strips.QUANTITIES``, SI, and which are ``certain`` to be as accurate as was
-    asked for."""
+    """Of columns (m,): penetration ``D``, ``values`` and ``errors`` (m, 4) of ``strips.QUANTITIES``, SI, and which are
+    ``certain`` to be as accurate as was asked for."""
 
     D: np.ndarray
     values: np.ndarray
@@ -28,7 +30,8 @@ class BareMeans:
 
 
 def bare_means(columns: Columns, rtol: np.ndarray, p: np.ndarray | None = None) -> BareMeans:
-    """Means of the level alone at the columns' penetrations, or at the pressures ``p`` > 0 (Pa) below saturation, to ``rtol (|value| + floor)``."""
+    """Means of the level alone at the columns' penetrations, or at the pressures ``p`` > 0 (Pa) below saturation, to
+    ``rtol (|value| + floor)``."""
     level, K = columns.level, columns.material.K
     foundation = foundation_of(columns.material)
     unit = np.array((K * level.h, K * level.h * level.k * level.h, 1.0))
@@ -45,7 +48,11 @@ def bare_means(columns: Columns, rtol: np.ndarray, p: np.ndarray | None = None) 
         which, row = np.unique(group[left], return_inverse=True)
         tight = np.full(which.size, np.inf)
         np.minimum.at(tight, row, rtol[left] * finer[left])
-        known = _family(columns, foundation, V[which], load[left], row, p is None, floors / unit, tight)
+        try:
+            known = _family(columns, foundation, V[which], load[left], row, p is None, floors / unit, tight)
+        except SolverError:
+            # the general path solves them, or names the strip that it can't
+            break
         at = Level(known)
         columns.tally.solved += int(known.strips.sum())
         d = load[left] if p is None else at.penetrations(row, load[left])
@@ -82,9 +89,7 @@ def _at(level: Level, group, d, rtol, floors, slopes):
     out, errors = np.zeros((d.size, 5)), np.zeros((d.size, 3))
     s_sat = level.family.s_sat[group]
     full = d >= 0.5 * s_sat
-    out[full] = np.stack(
-        (d - 0.75, level.family.full[group, 1] * 0.09375, *np.ones((2, d.size)), np.zeros(d.size)), axis=1
-    )[full]
+    out[full] = np.stack((d - 0.75, level.family.full[group, 1] * 0.09375, *np.ones((2, d.size)), np.zeros(d.size)), axis=1)[full]
     some = np.flatnonzero((d > 0) & ~full)
     if some.size:
         goal = rtol[some, None] * np.broadcast_to(floors, (some.size, 3))

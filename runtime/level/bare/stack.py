@@ -1,4 +1,5 @@
-"""All levels of a surface without adhesion: laws from the smallest level upwards, each from one family of strips at every velocity."""
+"""All levels of a surface without adhesion: laws from the smallest level upwards, each from one family of strips at
+every velocity."""
 
 from __future__ import annotations
 
@@ -46,8 +47,8 @@ class Wanted:
 
 @dataclass(frozen=True)
 class Found:
-    """Columns (m,) of a level: penetration in its height, pressure (Pa), ``values`` (m, q): friction (Pa), contact, adhesion of the level and of each below,
-    and the error of all friction, Pa."""
+    """Columns (m,) of a level: penetration in its height, pressure (Pa), ``values`` (m, q): friction (Pa), contact,
+    adhesion of the level and of each below, and the error of all friction, Pa."""
 
     d: np.ndarray
     p: np.ndarray
@@ -56,13 +57,16 @@ class Found:
 
 
 class BareStack:
-    """The levels at velocities ``V`` (G,), each with its family as far as pressures up to ``p_max`` (Pa, (G,)) on level 1 need it.
+    """The levels at velocities ``V`` (G,), each with its family as far as pressures up to ``p_max`` (Pa, (G,)) on
+    level 1 need it.
 
-    ``p_sat``, ``p_full`` (levels, G): saturation of each level by itself, and with all below it. ``d_max`` (G,), where that is what is known of level 1:
-    penetrations in its height.
+    ``p_sat``, ``p_full`` (levels, G): saturation of each level by itself, and with all below it. ``d_max`` (G,), where
+    that is what is known of level 1: penetrations in its height.
     """
 
-    def __init__(self, foundation: Foundation, levels: Sequence[Wavy], V, p_max, d_max, p_sat, p_full, wanted: Wanted, tally: Tally):
+    def __init__(
+        self, foundation: Foundation, levels: Sequence[Wavy], V, p_max, d_max, p_sat, p_full, wanted: Wanted, tally: Tally
+    ):
         self.foundation, self.waves, self.V, self.p_full, self.wanted, self.tally = foundation, levels, V, p_full, wanted, tally
         self.p_sat = p_sat
         self.groups = np.arange(V.size)
@@ -113,7 +117,8 @@ class BareStack:
         return Carrier(self.foundation, self.levels[i], self.waves[i].k * self.V, self.units[i], laws)
 
     def at(self, i, group, p, laws: BareLaws | None, d=None) -> Found:
-        """Level i over the ``laws`` of the next one at pressures ``p`` (m,), Pa, or (None) at penetrations ``d`` (m,) in its height."""
+        """Level i over the ``laws`` of the next one at pressures ``p`` (m,), Pa, or (None) at penetrations ``d`` (m,)
+        in its height."""
         level, unit, friction = self.levels[i], self.units[i], self._friction_unit(i)
         d = self._penetrations(i, group, p) if d is None else d.copy()
         own, pressure = np.zeros((d.size, 3)), unit * (d - 0.75) if p is None else p
@@ -127,7 +132,10 @@ class BareStack:
         allowed = self.wanted.friction[group]
         if part.size:
             g = group[part]
-            goal = np.stack((_VALUES * allowed[part] / friction, _VALUES * allowed[part] / friction, np.full(part.size, self.wanted.rtol)), axis=1)
+            goal = np.stack(
+                (_VALUES * allowed[part] / friction, _VALUES * allowed[part] / friction, np.full(part.size, self.wanted.rtol)),
+                axis=1,
+            )
             means, errors = level.sure_means(g, d[part], goal, True)
             rise = np.where(means[:, 3] > 0, means[:, 3], np.inf)
             by_pressure = means[:, 4] / rise
@@ -165,8 +173,8 @@ class BareStack:
         return BareLaws(pieces, breaks, p_full, self._saturated(i), error, steepest)
 
     def _met(self, i, below: BareLaws):
-        """Pressures at which the greatest local pressure of level i, the least one of its crests, or that at the edges of its cells passes a break of the
-        law below, (G, k)."""
+        """Pressures at which the greatest local pressure of level i, the least one of its crests, or that at the edges
+        of its cells passes a break of the law below, (G, k)."""
         at, unit = self.levels[i], self.units[i]
         local = np.where(np.isfinite(below.breaks), below.breaks, np.nan) / unit
         s_sat = at.family.s_sat[:, None]
@@ -232,7 +240,8 @@ class BareStack:
         return np.stack(columns, axis=1)
 
     def _pieces(self, i, ends, below):
-        """Pieces between the ``ends`` (G, pieces + 1) of each law, all together; and of each law the error of friction, Pa, and its greatest slope, (G,)."""
+        """Pieces between the ``ends`` (G, pieces + 1) of each law, all together; and of each law the error of
+        friction, Pa, and its greatest slope, (G,)."""
         G, J, q = self.V.size, ends.shape[1] - 1, 3 * (len(self.waves) - i)
         group, piece = np.nonzero(np.diff(ends, axis=1) > 0)
         low, high, wanted = ends[group, piece], ends[group, piece + 1], self.wanted.friction[group]
@@ -241,7 +250,11 @@ class BareStack:
         left, values, worst = np.arange(group.size), None, np.zeros(group.size)
         for n in _NODES:
             omega = lobatto(n) if values is None else lobatto(n)[1::2]
-            p = np.where((piece[left] == 0)[:, None], pressures(low[left], high[left], omega, True), pressures(low[left], high[left], omega, False))
+            p = np.where(
+                (piece[left] == 0)[:, None],
+                pressures(low[left], high[left], omega, True),
+                pressures(low[left], high[left], omega, False),
+            )
             found = self.at(i, np.repeat(group[left], omega.size), p.ravel(), below)
             new = found.values.reshape(left.size, omega.size, q)
             values = new if values is None else _merged(values, new)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hystrip.errors import SolverError
 from hystrip.inputs.surface import Level as Wavy
 from hystrip.solver import Foundation
 
@@ -23,8 +24,8 @@ _FASTEST = 1e100
 
 @dataclass(frozen=True)
 class BarePoints:
-    """Results at points (n,): penetration, m; pressure, Pa; friction, Pa, contact and adhesion of each level, (levels, n); error of all friction, Pa; and
-    which are ``certain`` to be as accurate as was asked for."""
+    """Results at points (n,): penetration, m; pressure, Pa; friction, Pa, contact and adhesion of each level, (levels,
+    n); error of all friction, Pa; and which are ``certain`` to be as accurate as was asked for."""
 
     D: np.ndarray
     p: np.ndarray
@@ -36,8 +37,8 @@ class BarePoints:
 
 @dataclass(frozen=True)
 class BareSurface:
-    """What points of a surface have in common. ``p_sat``, ``p_full`` (levels, G) at the velocities ``V`` (G,): see ``BareStack``; ``floor``: friction, Pa,
-    that counts beside its own size where ``rtol`` is relative."""
+    """What points of a surface have in common. ``p_sat``, ``p_full`` (levels, G) at the velocities ``V`` (G,): see
+    ``BareStack``; ``floor``: friction, Pa, that counts beside its own size where ``rtol`` is relative."""
 
     foundation: Foundation
     levels: Sequence[Wavy]
@@ -51,17 +52,28 @@ class BareSurface:
     def solve(self, group: np.ndarray, load: np.ndarray, by_pressure: bool) -> BarePoints:
         """Points at ``load`` > 0 (Pa, or m) and velocities ``V[group]``, (n,)."""
         n, levels = load.size, len(self.levels)
-        out = BarePoints(np.zeros(n), np.zeros(n), np.zeros((levels, n)), np.zeros((levels, n)), np.full(n, np.inf), np.zeros(n, bool))
-        # the friction of level 1 alone says how well all of it has to be known; where there is only that level it may do
+        out = BarePoints(
+            np.zeros(n), np.zeros(n), np.zeros((levels, n)), np.zeros((levels, n)), np.full(n, np.inf), np.zeros(n, bool)
+        )
+        try:
+            self._refine(out, group, load, by_pressure)
+        except SolverError:
+            # the general path solves them, or names the strip that it can't
+            out.certain[:] = False
+        return out
+
+    def _refine(self, out: BarePoints, group, load, by_pressure) -> None:
+        n, levels = load.size, len(self.levels)
+        # the friction of level 1 alone says how well all of it has to be known; where there is only that level it may
+        # do
         size = self._attempt(out, np.arange(n), group, load, by_pressure, np.full(n, _GUESS * self.floor), 1)
         finer = 1.0
         for _ in range(_ATTEMPTS):
             left = np.flatnonzero(~out.certain)
             if not left.size:
-                break
+                return
             self._attempt(out, left, group[left], load[left], by_pressure, finer * size[left], levels)
             finer *= _FINER
-        return out
 
     def _attempt(self, out: BarePoints, index, group, load, by_pressure, size, levels):
         """Solve the points ``index`` on so many levels, to ``rtol size``; returns the size of friction, Pa."""
@@ -73,7 +85,15 @@ class BareSurface:
         d_max = None if by_pressure else most / self.levels[0].h
         wanted = Wanted(self.rtol * least, self.rtol)
         stack = BareStack(
-            self.foundation, self.levels[:levels], self.V[which], most, d_max, take(self.p_sat), take(self.p_full), wanted, self.tally
+            self.foundation,
+            self.levels[:levels],
+            self.V[which],
+            most,
+            d_max,
+            take(self.p_sat),
+            take(self.p_full),
+            wanted,
+            self.tally,
         )
         found = stack.at(0, row, load if by_pressure else None, stack.laws(), None if by_pressure else load / self.levels[0].h)
         friction = found.values[:, ::3]
