@@ -22,6 +22,8 @@ _RULES = (8, 12, 18, 27, 40, 60, 90)
 _QUADRATURE, _FASTEST, _SURE = 0.5, 0.25, 2.0
 #: penetrations are looked for to this, what is left being taken up by slopes; and steps
 _CLOSE, _STEPS = 1e-7, 60
+#: share of what is allowed below which no error is claimed to be
+_TOLD = 1e-3
 #: least penetration in heights
 _LEAST = 1e-60
 #: what is left in a level's mean of the greatest error of its strips, and of errors that change sign from one strip
@@ -154,7 +156,7 @@ class Level:
             if not left.size:
                 break
             changes.keep(~done)
-        return out, errors + self.errors(group) + _EPS * (1 + 16 * np.abs(out[:, :3]))
+        return out, errors + self.errors(group) + _TOLD * goal + _EPS * (1 + 16 * np.abs(out[:, :3]))
 
     def errors(self, group) -> np.ndarray:
         """What the errors of the strips' means can make of the level's, (m, 3)."""
