@@ -9,6 +9,7 @@ import numpy as np
 
 from hystrip.inputs.adhesion import Dugdale
 from hystrip.inputs.surface import Level
+from hystrip.level.bare.surface import BareSurface, is_bare
 from hystrip.level.build import build_laws
 from hystrip.level.carried import CarriedByLaws, peak_pressure
 from hystrip.level.demand import demand_of
@@ -17,7 +18,7 @@ from hystrip.level.means import level_means
 from hystrip.level.saturated import SaturatedLevel, saturated_friction, saturated_level
 from hystrip.level.strips import QUANTITIES, Columns, Tally
 from hystrip.level.table import LawTable
-from hystrip.solver import Material
+from hystrip.solver import Material, foundation_of
 
 _OWN = len(QUANTITIES)
 #: the error column of what is carried never asks for refinement
@@ -139,7 +140,7 @@ class _Solve:
             return out
         velocities, group = np.unique(self.V[rest], return_inverse=True)
         # a block of velocities at a time: large enough for the batch to pay, small enough to show progress
-        block = 128
+        block = 128 if self.surface.adhesion.p_0 > 0 else 256
         for start in range(0, velocities.size, block):
             chosen = (group >= start) & (group < start + block)
             self._block(velocities[start : start + block], rest[chosen], group[chosen] - start)
@@ -166,6 +167,10 @@ class _Solve:
         """Points ``index`` whose velocities are ``V[group]``."""
         surface = self.surface
         stack = surface.saturated(V)
+        left = self._bare(stack, V, index, group)
+        index, group = index[left], group[left]
+        if not index.size:
+            return
         D, slopes = self._penetrations(stack, V, index, group)
         touching = np.flatnonzero(np.isfinite(D))
         index, group, D, slopes = index[touching], group[touching], D[touching], slopes[touching]
@@ -176,6 +181,29 @@ class _Solve:
         columns = surface.columns(0, V[group], D, carry, group)
         means = level_means(columns, np.full(index.size, 0.5 * surface.rtol))
         self._write(index, D, slopes, means)
+
+    def _bare(self, stack: Stack, V, index, group) -> np.ndarray:
+        """Solve what can be solved without adhesion; returns what is left, as positions in ``index``."""
+        surface, load = self.surface, self.load[index]
+        every = np.arange(index.size)
+        if surface.strips is not None or not is_bare(foundation_of(surface.material), surface.adhesion.p_0, surface.levels, V):
+            return every
+        # the general path has the closed form of saturation, and says what is out of contact
+        full = (stack.p_full if self.by_pressure else stack.D_full)[0][group]
+        mine = np.flatnonzero((load > 0) & (load < full))
+        if not mine.size:
+            return every
+        level = surface.levels[0]
+        floor = 1e-3 * surface.material.K * level.h * level.h / level.l
+        p_sat = [own.p_sat for own in stack.own]
+        foundation = foundation_of(surface.material)
+        bare = BareSurface(foundation, surface.levels, V, p_sat, stack.p_full, floor, surface.rtol, surface.tally)
+        found = bare.solve(group[mine], load[mine], self.by_pressure)
+        sure = found.certain
+        at, out = index[mine[sure]], self.out
+        out.D[at], out.p[at], out.error[at] = found.D[sure], found.p[sure], found.error[sure]
+        out.tau[:, at], out.contact[:, at] = found.tau[:, sure], found.contact[:, sure]
+        return np.setdiff1d(every, mine[sure])
 
     def _penetrations(self, stack: Stack, V, index, group):
         """Penetration of each point (NaN below pull-off) and the slopes d(tau)/dp of level 1 there."""

@@ -52,6 +52,8 @@ def _root(x, y, goal):
         weight = np.ones(goal.size)
         for j in range(x.shape[1]):
             if j != i:
-                weight *= (goal - y[:, j]) / (y[:, i] - y[:, j])
+                # pressures that underflow are alike: what comes of them is a start only
+                apart = y[:, i] - y[:, j]
+                weight *= np.divide(goal - y[:, j], apart, out=np.zeros_like(apart), where=apart != 0)
         out += weight * x[:, i]
     return np.clip(out, x[:, 0], x[:, -1])

@@ -10,9 +10,11 @@ from hystrip.errors import InputError
 from hystrip.inputs.adhesion import Dugdale
 from hystrip.inputs.checks import broadcast, choice, number, numbers
 from hystrip.inputs.surface import Level
-from hystrip.solver import Material, check_edge
+from hystrip.solver import Material, check_edge, foundation_of
 from hystrip.strip.solution import BRANCHES
 
+from .bare.points import bare_means
+from .bare.surface import is_bare
 from .build import build_laws
 from .inverse import invert
 from .law import Law
@@ -127,8 +129,15 @@ def solve_level(
     if pressure is not None:
         return _at_pressure(material, adhesion, level, V, load, edge, branch, rtol, shape, tally)
     columns = Columns(material, adhesion, level, edge, branch, V, load, strips=strips, tally=tally)
-    means = level_means(columns, np.full(V.size, rtol))
-    return _solution(load, means.values, means.errors, np.zeros(V.size, bool), shape, tally)
+    values, errors = np.zeros((2, V.size, len(QUANTITIES)))
+    rest = np.arange(V.size)
+    if strips is None and is_bare(foundation_of(material), adhesion.p_0, (level,), V):
+        bare = bare_means(columns, np.full(V.size, rtol))
+        values, errors, rest = bare.values, bare.errors, np.flatnonzero(~bare.certain)
+    if rest.size:
+        means = level_means(columns.at(rest, load[rest]), np.full(rest.size, rtol))
+        values[rest], errors[rest] = means.values, means.errors
+    return _solution(load, values, errors, np.zeros(V.size, bool), shape, tally)
 
 
 def _at_pressure(material, adhesion, level, V, p, edge, branch, rtol, shape, tally):
@@ -136,14 +145,20 @@ def _at_pressure(material, adhesion, level, V, p, edge, branch, rtol, shape, tal
     s = saturated_level(material, adhesion, level, V, branch)
     D = np.where(p >= s.p_sat, p / material.K + 0.75 * level.h, np.nan)
     slopes = np.zeros(p.size)
-    rest = np.flatnonzero(p < s.p_sat)
+    q = len(QUANTITIES)
+    values, errors = np.zeros((p.size, q)), np.zeros((p.size, q))
+    known = np.zeros(p.size, bool)
+    part = np.flatnonzero((p > 0) & (p < s.p_sat))
+    if part.size and is_bare(foundation_of(material), adhesion.p_0, (level,), V):
+        bare = bare_means(columns.at(part, D[part]), np.full(part.size, rtol), p[part])
+        sure = part[bare.certain]
+        D[sure], values[sure], errors[sure], known[sure] = (v[bare.certain] for v in (bare.D, bare.values, bare.errors, bare.certain))
+    rest = np.flatnonzero((p < s.p_sat) & ~known)
     if rest.size:
         found = invert(columns.at(rest, D[rest]), p[rest], s.D_sat[rest], 0.3 * rtol)
         D[rest], slopes[rest] = found.D, found.slope
     off = np.isnan(D)
-    on = np.flatnonzero(~off)
-    q = len(QUANTITIES)
-    values, errors = np.zeros((p.size, q)), np.zeros((p.size, q))
+    on = np.flatnonzero(~off & ~known)
     values[off, 0] = p[off]
     if on.size:
         means = level_means(columns.at(on, D[on]), np.full(on.size, rtol))

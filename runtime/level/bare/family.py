@@ -1,0 +1,243 @@
+"""All strips of a level at one velocity: their means as functions of the penetration over the amplitude.
+
+Without adhesion alpha and beta are all that a strip has but for ``s = D/A``, and they are the same on the whole level.
+Contact begins like a root of s and becomes complete like a root of ``s_sat - s``, ``s_sat = 1 + R``: over ``xi``, ``s
+= s_sat sin^2 xi``, everything is smooth. The orbits are sampled over the width of their contact, where they are in
+closed form and smooth as well, and resampled over xi.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from hystrip.errors import SolverError
+from hystrip.solver import Foundation
+
+from ..chebyshev import coefficients, interpolation_errors, lobatto
+from .orbit import Wave
+
+#: nodes of the first attempt and of the last
+_FIRST, _LAST = 8, 512
+#: a family is sampled this far beyond the penetration that is asked for, at most
+_BEYOND = 4.0
+_STEPS = 12
+#: nothing is sampled finer than this many roundings; and the share of what is allowed that is cut off a series
+_FINEST, _TRIMMED = 256, 0.03
+#: slope of the width of contact over s, averaged over a level, in parts of its mean slope
+_ROOT = 4.0
+_EPS = np.finfo(float).eps
+#: quantities of a strip: mean pressure, mean friction, share of the period in contact
+_Q = 3
+
+
+@dataclass(frozen=True)
+class Family:
+    """Strips at velocities (G,): ``s_sat`` (G,), and ``series``, coefficients (n + 1, 3) for each, of mean pressure (K
+    A), mean friction (K A kA) and contact fraction over ``xi/top``; ``errors`` (G, 3) bound each. ``full`` (G, 3): in
+    complete contact, at s_sat."""
+
+    s_sat: np.ndarray
+    top: np.ndarray
+    series: list[np.ndarray]
+    errors: np.ndarray
+    full: np.ndarray
+    strips: np.ndarray
+
+    def values(self, group: np.ndarray, s: np.ndarray, slopes: bool = False) -> np.ndarray:
+        """Quantities of the strips ``s`` (m, nodes), all of row i at the velocity ``group[i]``: (m, nodes, 3), or with
+        their ``slopes`` by s (m, nodes, 6)."""
+        xi = _xi(s, self.s_sat[group, None])
+        out = np.empty((*s.shape, 2 * _Q if slopes else _Q))
+        sizes = np.array([self.series[g].shape[0] for g in group])
+        for n in np.unique(sizes):
+            rows = np.flatnonzero(sizes == n)
+            some = slice(None) if rows.size == group.size else rows
+            which, place = np.unique(group[some], return_inverse=True)
+            table = np.array([self.series[g] for g in which])
+            if slopes:
+                table = np.concatenate((table, _derivatives(table)), axis=2)
+            x = 2 * xi[some] / self.top[group[some], None] - 1
+            out[some] = evaluated(table[place], np.clip(x, -1.0, 1.0))
+        if slopes:
+            # by s: twice the derivative over [0, 1] that was a derivative over [-1, 1]
+            by_s = self.s_sat[group, None] * np.sin(2 * xi) * 0.5 * self.top[group, None]
+            out[..., _Q:] /= np.maximum(by_s, np.finfo(float).tiny)[..., None]
+        return out
+
+
+@lru_cache
+def _differentiation(n: int) -> np.ndarray:
+    """Matrix from n Chebyshev coefficients to those of the derivative, the last one zero."""
+    return np.concatenate([np.polynomial.chebyshev.chebder(np.eye(n)), np.zeros((1, n))]) if n > 1 else np.zeros((1, 1))
+
+
+def _derivatives(table):
+    return _differentiation(table.shape[1]) @ table
+
+
+def evaluated(table: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Chebyshev sums of ``table`` (m, n + 1, q) at ``x`` (m, nodes) in [-1, 1], (m, nodes, q)."""
+    twice = 2 * x[:, :, None]
+    one = two = np.zeros((*x.shape, table.shape[2]))
+    for k in range(table.shape[1] - 1, 0, -1):
+        one, two = table[:, None, k] + twice * one - two, one
+    return table[:, None, 0] + x[:, :, None] * one - two
+
+
+def family(
+    foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, size: np.ndarray, floor: np.ndarray, rtol: np.ndarray
+) -> Family:
+    """Families at the rates ``k V`` (G,), up to the penetrations ``s_top`` (G,), to ``rtol (floor + size max|f|)`` of
+    each quantity: ``floor`` (3,), the others (G,).
+
+    Where that is not reached, the error says so. Raises ``SolverError`` for a strip that is not certified.
+    """
+    G = rate.size
+    R = np.broadcast_to(foundation.modulus_ratio(rate), (G,))
+    s_sat = 1 + R
+    full = np.stack((R, _full_friction(foundation, rate), np.ones(G)), axis=1)
+    work = _Sampling(foundation, rate, s_sat, full)
+    # w is nowhere negative, so contact lies where the profile is below the plane
+    phi = np.where(s_top < 2, np.arccos(1 - np.minimum(s_top, 2.0)) / np.pi, 1.0)
+    out = Family(s_sat, np.zeros(G), [np.empty(0)] * G, np.zeros((G, _Q)), full, np.zeros(G, int))
+    left, n = np.arange(G), _FIRST
+    phi, samples = work.narrowed(left, phi, s_top, n)
+    while left.size:
+        s, values = samples[:, :, 0], samples[:, :, 1:]
+        over = _resampled(s, values, s_sat[left])
+        greatest = np.abs(values).max(axis=1)
+        goal = np.maximum(rtol[left, None] * (floor + size[left, None] * greatest), _FINEST * _EPS * greatest)
+        # what is not known of a strip's penetration moves all along their slopes
+        step = np.diff(s, axis=1)[:, :, None]
+        slopes = np.abs(np.divide(np.diff(values, axis=1), step, out=np.zeros((*step.shape[:2], _Q)), where=step > 0)).max(axis=1)
+        # that of the width grows like a root towards s = 0, where few strips are
+        slopes[:, 2] = _ROOT * values[:, -1, 2] / s[:, -1]
+        sampled = _errors(coefficients_over(samples), np.concatenate((goal.min(axis=1, keepdims=True), goal), axis=1))
+        error = _errors(over, goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 16 * _EPS * greatest
+        error += 4 * _EPS * (s_sat[left] * s[:, -1])[:, None]
+        done = (error <= goal).all(axis=1) | (n == _LAST)
+        for k in np.flatnonzero(done):
+            g = left[k]
+            out.series[g], lost = _trimmed(over[k], _TRIMMED * goal[k])
+            out.errors[g] = error[k] + lost
+            out.top[g] = _xi(s[k, -1], s_sat[g])
+        keep = np.flatnonzero(~done)
+        left, phi, samples = left[keep], phi[keep], samples[keep]
+        n *= 2
+        if left.size:
+            samples = work.doubled(left, phi, samples, n)
+    out.strips[:] = work.strips
+    return out
+
+
+def _errors(c, goal):
+    """Of interpolants with coefficients ``c`` (m, n + 1, q), each quantity by itself, (m, q)."""
+    m, n, q = c.shape
+    alone = np.swapaxes(c, 1, 2).reshape(m * q, n, 1)
+    return interpolation_errors(alone, 0.1 * goal.reshape(-1, 1)).reshape(m, q)
+
+
+def _xi(s, s_sat):
+    return np.arcsin(np.sqrt(np.clip(s / s_sat, 0.0, 1.0)))
+
+
+def _trimmed(c, goal):
+    """Coefficients without a tail that doesn't matter, and what is lost with it; sizes in steps, so that series of one
+    size are evaluated together."""
+    tail = np.cumsum(np.abs(c[::-1]), axis=0)[::-1]
+    n = int(np.count_nonzero((tail > goal).any(axis=1)))
+    n = min(4 * -(-max(n, 1) // 4), c.shape[0])
+    return c[:n], tail[n] if n < c.shape[0] else np.zeros(c.shape[1])
+
+
+def _full_friction(foundation, rate):
+    """In complete contact, K A kA: half the loss modulus."""
+    # a level of height h averages K A kA loss/2 over its strips, and the mean of A^2 is 3 h^2/32
+    l = 2 * np.pi  # noqa: E741
+    return foundation.saturation_friction(l, 1.0, rate) * 32 / (3 * foundation.K)
+
+
+class _Sampling:
+    def __init__(self, foundation, rate, s_sat, full):
+        self.foundation, self.rate, self.s_sat, self.full = foundation, rate, s_sat, full
+        self.strips = np.zeros(rate.size, int)
+
+    def at(self, g, phi):
+        """Samples (m, nodes, 4) at shares of the period in contact ``phi`` (m, nodes): s, then the quantities; the
+        ends 0 and 1 are known."""
+        out = np.zeros((*phi.shape, 1 + _Q))
+        complete = phi >= 1
+        out[complete, 0] = np.broadcast_to(self.s_sat[g][:, None], phi.shape)[complete]
+        out[complete, 1:] = np.broadcast_to(self.full[g][:, None], (*phi.shape, _Q))[complete]
+        row, node = np.nonzero((phi > 0) & ~complete)
+        if row.size:
+            which = g[row]
+            orbits = Wave(self.foundation, self.rate[which]).orbits(2 * np.pi * phi[row, node])
+            if not orbits.certified.all():
+                raise SolverError("a strip without adhesion was not certified")
+            np.add.at(self.strips, which, 1)
+            out[row, node] = np.stack((orbits.D, orbits.p_mean, orbits.tau_mean, phi[row, node]), axis=1)
+        return out
+
+    def narrowed(self, g, phi, s_top, n):
+        """First samples, at ``lobatto(n)`` of [0, phi]; phi is lowered where the strips there are far beyond
+        ``s_top``."""
+        phi = phi.copy()
+        samples = np.empty((g.size, n + 1, 1 + _Q))
+        again = np.arange(g.size)
+        while again.size:
+            nodes = phi[again, None] * lobatto(n)
+            samples[again] = self.at(g[again], nodes)
+            s = samples[again, :, 0]
+            enough = (s >= np.minimum(s_top[again], self.s_sat[g[again]])[:, None] * (1 + 1e-9)).argmax(axis=1)
+            rows = np.arange(again.size)
+            far = (enough > 0) & (enough < n) & (s[:, -1] > _BEYOND * s_top[again]) & (s[:, -1] > _BEYOND * s[rows, enough])
+            phi[again[far]] = nodes[rows, enough][far]
+            again = again[far]
+        return phi, samples
+
+    def doubled(self, g, phi, samples, n):
+        out = np.empty((g.size, n + 1, 1 + _Q))
+        out[:, 0::2], out[:, 1::2] = samples, self.at(g, phi[:, None] * lobatto(n)[1::2])
+        return out
+
+
+def coefficients_over(samples):
+    """Chebyshev coefficients (m, n + 1, q) of samples at ``lobatto(n)``."""
+    return _transform(samples.shape[1]) @ samples
+
+
+@lru_cache
+def _transform(nodes: int) -> np.ndarray:
+    return coefficients(np.eye(nodes))
+
+
+def _resampled(s, values, s_sat):
+    """Coefficients over xi/xi_top of what is sampled over the width of contact at ``lobatto(n)``, where the strips are
+    ``s``."""
+    n = s.shape[1] - 1
+    both = coefficients_over(np.concatenate((s[:, :, None], values), axis=2))
+    place, rise = both[:, :, :1], _derivatives(both[:, :, :1])
+    top = _xi(s[:, -1], s_sat)[:, None]
+    goal = s_sat[:, None] * np.sin(top * lobatto(n)) ** 2
+    # x in [-1, 1] at which s is the goal; the root of s is nearly linear in it
+    nodes = 2 * lobatto(n) - 1
+    x = np.array(
+        [np.interp(g, row, nodes) for g, row in zip(np.sqrt(goal), np.sqrt(np.maximum.accumulate(s, axis=1)), strict=True)]
+    )
+    low, high = np.full_like(x, -1.0), np.full_like(x, 1.0)
+    for _ in range(_STEPS):
+        miss = evaluated(place, x)[:, :, 0] - goal
+        low, high = np.where(miss < 0, x, low), np.where(miss < 0, high, x)
+        slope = evaluated(rise, x)[:, :, 0]
+        new = x - np.divide(miss, slope, out=np.full_like(x, np.inf), where=slope > 0)
+        new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
+        moved = np.abs(new - x).max()
+        x = new
+        if moved <= 8 * _EPS:
+            break
+    x[:, 0], x[:, -1] = -1.0, 1.0
+    return coefficients_over(evaluated(both[:, :, 1:], x))

@@ -1,0 +1,98 @@
+"""One level without adhesion at points of pressure, or penetration, and velocity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hystrip.errors import SolverError
+from hystrip.solver import foundation_of
+
+from ..strips import Columns
+from .family import family
+from .means import Level
+
+#: shares of what is allowed that the strips' means may err, pressure, friction and contact, and how much finer each
+#: further attempt is
+_SHARES, _FINER, _ATTEMPTS = np.array((0.3, 0.3, 0.5)), 0.01, 3
+
+
+@dataclass(frozen=True)
+class BareMeans:
+    """Of columns (m,): penetration ``D``, ``values`` and ``errors`` (m, 4) of ``strips.QUANTITIES``, SI, and which are
+    ``certain`` to be as accurate as was asked for."""
+
+    D: np.ndarray
+    values: np.ndarray
+    errors: np.ndarray
+    certain: np.ndarray
+
+
+def bare_means(columns: Columns, rtol: np.ndarray, p: np.ndarray | None = None) -> BareMeans:
+    """Means of the level alone at the columns' penetrations, or at the pressures ``p`` > 0 (Pa) below saturation, to
+    ``rtol (|value| + floor)``."""
+    level, K = columns.level, columns.material.K
+    foundation = foundation_of(columns.material)
+    unit = np.array((K * level.h, K * level.h * level.k * level.h, 1.0))
+    V, group = np.unique(columns.V, return_inverse=True)
+    load = columns.D / level.h if p is None else p / unit[0]
+    n = load.size
+    floors = columns.floors[:3]
+    D, values, errors, certain = load.copy(), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n, bool)
+    finer = np.ones(n)
+    for _ in range(_ATTEMPTS):
+        left = np.flatnonzero(~certain)
+        if not left.size:
+            break
+        which, row = np.unique(group[left], return_inverse=True)
+        tight = np.full(which.size, np.inf)
+        np.minimum.at(tight, row, rtol[left] * finer[left])
+        try:
+            known = _family(columns, foundation, V[which], load[left], row, p is None, floors / unit, tight)
+        except SolverError:
+            # the general path solves them, or names the strip that it can't
+            break
+        at = Level(known)
+        columns.tally.solved += int(known.strips.sum())
+        d = load[left] if p is None else at.penetrations(row, load[left])
+        solved, missed = _at(at, row, d, rtol[left], floors / unit, p is not None)
+        if p is not None:
+            rise = np.where(solved[:, 3] > 0, solved[:, 3], 1.0)
+            lift = load[left] - solved[:, 0]
+            d = d + np.where(solved[:, 3] > 0, lift / rise, 0.0)
+            by_pressure = solved[:, 4] / rise
+            solved[:, 1] += by_pressure * lift
+            solved[:, 0] = load[left]
+            missed[:, 1] += np.abs(by_pressure) * missed[:, 0]
+        D[left], values[left], errors[left] = d, solved[:, :3] * unit, missed * unit
+        allowed = rtol[left, None] * (np.abs(values[left]) + floors)
+        certain[left] = (errors[left] <= allowed).all(axis=1)
+        finer[left] *= _FINER
+    # there is no adhesion
+    return BareMeans(D * level.h, np.column_stack((values, np.zeros(n))), np.column_stack((errors, np.zeros(n))), certain)
+
+
+def _family(columns, foundation, V, load, row, by_penetration, floors, rtol):
+    """As far and as fine as the loads (in h, or K h) need."""
+    crest = np.full(V.size, -np.inf)
+    np.maximum.at(crest, row, load if by_penetration else load + 0.75)
+    least = np.full(V.size, np.inf)
+    np.minimum.at(least, row, load)
+    size = np.zeros(V.size) if by_penetration else 0.5 * np.minimum(least, 1.0)
+    s_top = np.where(crest < 1, 2 * np.maximum(crest, 0.0), np.inf)
+    return family(foundation, columns.level.k * V, s_top, size, _SHARES * floors / _SHARES[0], _SHARES[0] * rtol)
+
+
+def _at(level: Level, group, d, rtol, floors, slopes):
+    """Means and errors at ``d``, whatever it is."""
+    out, errors = np.zeros((d.size, 5)), np.zeros((d.size, 3))
+    s_sat = level.family.s_sat[group]
+    full = d >= 0.5 * s_sat
+    out[full] = np.stack((d - 0.75, level.family.full[group, 1] * 0.09375, *np.ones((2, d.size)), np.zeros(d.size)), axis=1)[full]
+    some = np.flatnonzero((d > 0) & ~full)
+    if some.size:
+        goal = rtol[some, None] * np.broadcast_to(floors, (some.size, 3))
+        found, errors[some] = level.sure_means(group[some], d[some], goal, slopes)
+        out[some, : found.shape[1]] = found
+    return out, errors

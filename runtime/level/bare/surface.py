@@ -1,0 +1,110 @@
+"""A surface without adhesion at points of load and velocity."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hystrip.errors import SolverError
+from hystrip.inputs.surface import Level as Wavy
+from hystrip.solver import Foundation
+
+from ..strips import Tally
+from .stack import BareStack, Wanted
+
+#: how much finer each further attempt is, and how many there are
+_FINER, _ATTEMPTS = 0.03, 3
+#: friction is at first taken to be this many times what counts beside it
+_GUESS = 30.0
+#: beyond this k V times the longest retardation time the general path says what is wrong
+_FASTEST = 1e100
+
+
+@dataclass(frozen=True)
+class BarePoints:
+    """Results at points (n,): penetration, m; pressure, Pa; friction, Pa, contact and adhesion of each level, (levels,
+    n); error of all friction, Pa; and which are ``certain`` to be as accurate as was asked for."""
+
+    D: np.ndarray
+    p: np.ndarray
+    tau: np.ndarray
+    contact: np.ndarray
+    error: np.ndarray
+    certain: np.ndarray
+
+
+@dataclass(frozen=True)
+class BareSurface:
+    """What points of a surface have in common. ``p_sat``, ``p_full`` (levels, G) at the velocities ``V`` (G,): see
+    ``BareStack``; ``floor``: friction, Pa, that counts beside its own size where ``rtol`` is relative."""
+
+    foundation: Foundation
+    levels: Sequence[Wavy]
+    V: np.ndarray
+    p_sat: Sequence[np.ndarray]
+    p_full: Sequence[np.ndarray]
+    floor: float
+    rtol: float
+    tally: Tally
+
+    def solve(self, group: np.ndarray, load: np.ndarray, by_pressure: bool) -> BarePoints:
+        """Points at ``load`` > 0 (Pa, or m) and velocities ``V[group]``, (n,)."""
+        n, levels = load.size, len(self.levels)
+        out = BarePoints(
+            np.zeros(n), np.zeros(n), np.zeros((levels, n)), np.zeros((levels, n)), np.full(n, np.inf), np.zeros(n, bool)
+        )
+        try:
+            self._refine(out, group, load, by_pressure)
+        except SolverError:
+            # the general path solves them, or names the strip that it can't
+            out.certain[:] = False
+        return out
+
+    def _refine(self, out: BarePoints, group, load, by_pressure) -> None:
+        n, levels = load.size, len(self.levels)
+        # the friction of level 1 alone says how well all of it has to be known; where there is only that level it may
+        # do
+        size = self._attempt(out, np.arange(n), group, load, by_pressure, np.full(n, _GUESS * self.floor), 1)
+        finer = 1.0
+        for _ in range(_ATTEMPTS):
+            left = np.flatnonzero(~out.certain)
+            if not left.size:
+                return
+            self._attempt(out, left, group[left], load[left], by_pressure, finer * size[left], levels)
+            finer *= _FINER
+
+    def _attempt(self, out: BarePoints, index, group, load, by_pressure, size, levels):
+        """Solve the points ``index`` on so many levels, to ``rtol size``; returns the size of friction, Pa."""
+        which, row = np.unique(group, return_inverse=True)
+        least, most = np.full(which.size, np.inf), np.full(which.size, -np.inf)
+        np.minimum.at(least, row, size)
+        np.maximum.at(most, row, load)
+        take = lambda arrays: [a[which] for a in arrays[:levels]]  # noqa: E731
+        d_max = None if by_pressure else most / self.levels[0].h
+        wanted = Wanted(self.rtol * least, self.rtol)
+        stack = BareStack(
+            self.foundation,
+            self.levels[:levels],
+            self.V[which],
+            most,
+            d_max,
+            take(self.p_sat),
+            take(self.p_full),
+            wanted,
+            self.tally,
+        )
+        found = stack.at(0, row, load if by_pressure else None, stack.laws(), None if by_pressure else load / self.levels[0].h)
+        friction = found.values[:, ::3]
+        total = self.floor + friction.sum(axis=1)
+        out.D[index], out.p[index], out.error[index] = found.d * self.levels[0].h, found.p, found.error
+        out.tau[:levels, index], out.contact[:levels, index] = friction.T, found.values[:, 1::3].T
+        out.certain[index] = (found.error <= self.rtol * total) & (levels == len(self.levels))
+        return total
+
+
+def is_bare(foundation: Foundation, p_0: float, levels: Sequence[Wavy], V: np.ndarray) -> bool:
+    """Whether the strips of all these levels are families: without adhesion, and wavy."""
+    fastest = max(level.k for level in levels) * V.max(initial=0.0) * foundation.longest_time
+    return p_0 == 0 and all(level.h > 0 for level in levels) and bool(fastest < _FASTEST)

@@ -1,0 +1,200 @@
+"""Levels without adhesion: strips in closed form from the width of their contact, level means from one family of them,
+laws as averages of laws."""
+
+import numpy as np
+import pytest
+import surfaces
+
+import hystrip
+import hystrip.multilevel
+from hystrip.level.bare.family import family
+from hystrip.level.bare.means import Level as Means
+from hystrip.level.bare.means import cells
+from hystrip.level.bare.orbit import Wave
+from hystrip.level.means import level_means
+from hystrip.level.strips import Columns
+from hystrip.solver import foundation_of
+
+K, T_EPS = 1e9, 1e-2
+NONE = hystrip.Dugdale(gamma=0)
+SOFT = hystrip.StandardLinearSolid(K, T_EPS, 1e-3)
+MATERIALS = {
+    "one time": SOFT,
+    "far apart": hystrip.StandardLinearSolid(K, T_EPS, 1e-6),
+    "elastic": hystrip.StandardLinearSolid(K, T_EPS, T_EPS),
+    "Kelvin-Voigt": hystrip.StandardLinearSolid(K, T_EPS, 0.0),
+    "two times": hystrip.Prony(K=K, moduli=[3e9, 9e10], times=[1e-2, 1e-4]),
+    "three times": hystrip.Prony(K=K, moduli=[3e9, 1e9, 9e10], times=[1e-2, 1e-3, 1e-4]),
+}
+LENGTH, HEIGHT = 1e-5, 1e-6
+LEVEL = hystrip.Level(LENGTH, HEIGHT)
+SIMILAR = tuple(hystrip.Level(LENGTH / 5**i, HEIGHT / 5**i) for i in range(8))
+SPEEDS = np.array([0.0, 1e-7, 1e-5, 1e-4, 1e-3, 1e-1, 1e2])
+
+
+def closure(material):
+    return "constitutive" if isinstance(material, hystrip.Prony) else "continuous"
+
+
+@pytest.mark.parametrize("name", MATERIALS)
+def test_the_orbit_of_a_width_is_the_strip_that_the_search_finds(name):
+    material = MATERIALS[name]
+    phi = np.concatenate((np.linspace(0.02, 0.98, 13), [1e-3, 1 - 1e-3]))
+    V, phi = (v.ravel() for v in np.meshgrid(SPEEDS, phi))
+    orbits = Wave(foundation_of(material), LEVEL.k * V).orbits(2 * np.pi * phi)
+    assert orbits.certified.all()
+    A = 1e-7
+    strips = hystrip.solve_strip(material, NONE, l=LENGTH, A=A, D=orbits.D * A, V=V, edge=closure(material))
+    size = 1 + orbits.D
+    assert np.abs(strips.p_mean / (K * A) - orbits.p_mean).max() <= 1e-11 * size.max()
+    assert (np.abs(strips.p_mean / (K * A) - orbits.p_mean) <= 1e-11 * size).all()
+    assert (np.abs(strips.tau_mean / (K * A * LEVEL.k * A) - orbits.tau_mean) <= 1e-11 * size).all()
+    # an edge is known as well as D is, over the slope of what decides it
+    assert np.abs(strips.contact_fraction - phi).max() <= 1e-9
+
+
+@pytest.mark.parametrize("width", [1e-6, 1e-3, 1.0, 3.0, 6.0, 2 * np.pi - 1e-4])
+def test_elastic_strips_are_arcs_of_a_cosine(width):
+    """V = 0: contact where the profile is below the plane, ``D = 1 - cos(w/2)``, mean pressure ``(sin(w/2) - (w/2)
+    cos(w/2))/pi``, no friction."""
+    o = Wave(foundation_of(SOFT), np.zeros(1)).orbits(np.array([width]))
+    half = width / 2
+    exact = 2 * np.sin(half / 2) ** 2
+    assert abs(o.D[0] - exact) <= 1e-13 * exact
+    assert abs(o.p_mean[0] - (np.sin(half) - half * np.cos(half)) / np.pi) <= 1e-15
+    assert abs(o.tau_mean[0]) <= 1e-30
+
+
+@pytest.mark.parametrize("d", [1e-8, 1e-3, 0.3, 0.999, 1 - 1e-9, 1.0, 1 + 1e-9, 1.2, 3.0, 5.4])
+def test_the_nodes_of_a_cell_know_its_area_and_its_mean_amplitude(d):
+    """With the strips in complete contact, or out of contact, the weights make up the whole cell."""
+    s_sat = np.array([11.0])
+    for n in (40, 60):
+        at = cells(np.array([d]), s_sat, n)
+        end = np.pi if d <= 1 else at.complete[0]
+        outside = 2 * np.arcsin(np.sqrt(d)) if d < 1 else end
+        assert abs(at.weight.sum() - outside / np.pi) <= 1e-11
+        mean = (outside + np.sin(outside)) / (2 * np.pi)
+        assert abs((at.weight * at.u).sum() - mean) <= 1e-11
+        assert (at.s > 0).all() and (at.s <= 11 * (1 + 1e-12)).all() and np.abs(at.u * (2 - at.s) - 2 * (1 - d)).max() <= 1e-12
+
+
+@pytest.mark.parametrize("name", MATERIALS)
+def test_means_are_those_of_panels(name):
+    """At penetrations below and above the height, up to saturation, against panels over searched strips: within what
+    was asked for always, within the estimate in 99 of 100 values."""
+    material = MATERIALS[name]
+    bounded = []
+    for V in (0.0, 3e-4, 1e3):
+        s_sat = 1 + float(foundation_of(material).modulus_ratio(np.array([LEVEL.k * V]))[0])
+        D = HEIGHT * np.array([-0.1, 1e-3, 0.2, 0.97, 1 + 0.05 * (s_sat / 2 - 1), 1 + 0.7 * (s_sat / 2 - 1), s_sat / 2 + 0.1])
+        # where all strips are alike panels see rounding
+        D = D[np.abs(D / HEIGHT - 1) > 1e-12]
+        columns = Columns(material, NONE, LEVEL, closure(material), "unloading", np.full(D.size, V), D)
+        reference = level_means(columns, np.full(D.size, 1e-10))
+        scales = np.abs(reference.values) + columns.floors
+        for rtol in (1e-3, 1e-6, 1e-9):
+            s = hystrip.solve_level(material, NONE, LEVEL, V=V, D=D, edge=closure(material), rtol=rtol)
+            values = np.stack((s.p_mean, s.tau_mean, s.contact_fraction, s.adhesion_fraction), axis=1)
+            miss = np.abs(values - reference.values)
+            assert (miss <= rtol * scales).all()
+            bounded.append(miss <= s.error_estimate.T + reference.errors + 1e-13 * scales)
+    assert np.concatenate(bounded).mean() >= 0.99
+
+
+@pytest.mark.parametrize("name", MATERIALS)
+def test_pressure_and_penetration_agree(name):
+    material = MATERIALS[name]
+    p = K * HEIGHT * np.array([1e-6, 1e-3, 0.1, 0.24, 0.3, 2.0])[:, None]
+    given = {"velocity": np.array([1e-5, 1e-3]), "edge": closure(material), "rtol": 1e-9}
+    by_pressure = hystrip.solve(material, NONE, SIMILAR[:1], pressure=p, **given)
+    again = hystrip.solve(material, NONE, SIMILAR[:1], penetration=by_pressure.penetration, **given)
+    assert np.abs(again.pressure - p).max() <= 1e-9 * K * HEIGHT
+    floor = 1e-3 * K * HEIGHT**2 / LENGTH
+    assert (np.abs(again.tau - by_pressure.tau) <= 2e-9 * (by_pressure.tau + floor)).all()
+    assert not by_pressure.pulled_off.any() and (np.diff(by_pressure.penetration, axis=0) > 0).all()
+
+
+def test_nothing_is_carried_without_pressure():
+    r = hystrip.solve(SOFT, NONE, SIMILAR[:2], pressure=[-1.0, 0.0, 10.0], velocity=1e-3, rtol=1e-3)
+    assert r.pulled_off.tolist() == [True, True, False] and r.tau[2] > 0 and (r.tau[:2] == 0).all()
+    r = hystrip.solve(SOFT, NONE, SIMILAR[:2], penetration=[-1e-7, 0.0, 1e-7], velocity=1e-3, rtol=1e-3)
+    assert (r.tau[:2] == 0).all() and (r.pressure[:2] == 0).all() and r.tau[2] > 0
+
+
+def general(monkeypatch, scene, rtol, **options):
+    """By searched strips and panels alone."""
+    with monkeypatch.context() as patch:
+        patch.setattr(hystrip.multilevel, "is_bare", lambda *_: False)
+        return scene.solve(rtol, **options)
+
+
+def bare_surfaces(seed, count, levels):
+    rng = np.random.default_rng(seed)
+    drawn = (surfaces.draw(rng, velocities=2, levels=levels) for _ in iter(int, 1))
+    bare = (s for s in drawn if s.adhesion.p_0 == 0)
+    return [next(bare) for _ in range(count)]
+
+
+@pytest.mark.parametrize("i", range(6))
+def test_one_level_is_what_panels_give(monkeypatch, i):
+    scene = bare_surfaces(5, i + 1, 1)[i]
+    reference = general(monkeypatch, scene, 1e-11)
+    for rtol in (1e-3, 1e-6, 1e-9):
+        r = scene.solve(rtol)
+        miss, size = np.abs(r.tau - reference.tau), np.abs(reference.tau) + scene.floor
+        assert (miss <= rtol * size).all() and (miss <= r.tau_error + reference.tau_error + 1e-14 * size).all()
+
+
+@pytest.mark.parametrize("i", range(3))
+def test_two_levels_are_what_panels_give(monkeypatch, i):
+    scene = bare_surfaces(6, i + 1, 2)[i]
+    reference = general(monkeypatch, scene, 1e-5)
+    for rtol in (1e-3, 1e-4):
+        r = scene.solve(rtol)
+        miss, size = np.abs(r.tau - reference.tau), np.abs(reference.tau) + scene.floor
+        assert (miss <= rtol * size + reference.tau_error).all()
+        assert (miss <= r.tau_error + reference.tau_error).all()
+        assert np.abs(r.contact_by_level - reference.contact_by_level).max() <= 1e-3
+
+
+def test_levels_that_are_saturated_below_carry_the_closed_form():
+    """Level 2 is saturated wherever level 1 is in contact, but for its edges: at large pressures level 1 carries
+    contact times tau_sat."""
+    tiny = hystrip.Level(1e-7, 1e-12)
+    r = hystrip.solve(SOFT, NONE, [LEVEL, tiny], pressure=[10.0, 100.0, 300.0], velocity=3e-4, rtol=1e-6)
+    saturated = foundation_of(SOFT).saturation_friction(tiny.l, tiny.h, np.array([3e-4]))[0]
+    assert np.allclose(r.tau_by_level[1], r.contact_by_level[0] * saturated, rtol=1e-3)
+    assert np.allclose(r.contact_by_level[1], r.contact_by_level[0], rtol=1e-3)
+
+
+def counted(levels, rtol, V=3e-4):
+    return hystrip.solve(SOFT, NONE, levels, pressure=100.0, velocity=V, rtol=rtol).counts["strips_solved"]
+
+
+def test_strips_of_a_sweep():
+    V = np.geomspace(1e-5, 1e-2, 100)
+    strips = [counted(SIMILAR[:1], rtol, V) / V.size for rtol in 10.0 ** -np.arange(3, 11)]
+    assert strips[0] <= 60 and strips[-1] <= 800
+    assert (np.diff(strips) > 0).all()
+
+
+def test_strips_grow_no_faster_than_levels():
+    """Every level over another one adds as much as the first one that does."""
+    strips = [counted(SIMILAR[:n], 1e-3) for n in (1, 2, 3, 4, 8)]
+    assert (np.diff(strips) > 0).all()
+    third, last = strips[2] - strips[1], (strips[4] - strips[3]) / 4
+    assert last <= 2 * third and strips[4] <= 30_000
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-8])
+def test_a_family_that_goes_further_is_the_same(rtol):
+    """Up to the strips asked for, whatever else is in the batch."""
+    rate = LEVEL.k * np.array([1e-4, 1e-2])
+    floor = np.array([1e-3, 1e-3, 1.0])
+    one, two = np.ones(1), np.ones(2)
+    both = family(foundation_of(SOFT), rate, np.array([1.2, np.inf]), two, floor, rtol * two)
+    d, group = np.array([0.1, 0.4]), np.zeros(2, int)
+    alone = family(foundation_of(SOFT), rate[:1], np.array([np.inf]), one, floor, rtol * one)
+    near, far = Means(both).means(group, d, 27), Means(alone).means(group, d, 27)
+    assert (np.abs(near - far) <= rtol * (np.abs(far) + floor)).all()
