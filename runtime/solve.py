@@ -83,7 +83,7 @@ def solve(
     name, load = ("pressure", pressure) if penetration is None else ("penetration", penetration)
     load = numbers(name, load, "Pa" if name == "pressure" else "m")
     if name == "pressure":
-        _refuse_faint(load, 0.0 if adhesion.p_0 > 0 else _FAINTEST * material.K * levels[0].h)
+        refuse_faint(load, material, adhesion, levels[0])
     shape = broadcast(**{name: load, "velocity": velocity})
     V, L = (np.broadcast_to(v, shape).reshape(-1) for v in (velocity, load))
     tally = Tally()
@@ -136,8 +136,9 @@ def _result(points, surface: Surface, shape, V, load: str) -> Result:
     )
 
 
-def _refuse_faint(pressure: np.ndarray, faintest: float) -> None:
-    """Refuse pressures, Pa, that are not zero but too near it for a friction coefficient or for the contact they make."""
+def refuse_faint(pressure: np.ndarray, material: Material, adhesion: Dugdale, level: Level) -> None:
+    """Refuse pressures, Pa, that are not zero but too near it for a friction coefficient or for the contact they make on ``level``."""
+    faintest = 0.0 if adhesion.p_0 > 0 else _FAINTEST * material.K * level.h
     faint = (pressure != 0) & (np.abs(pressure) < SMALLEST) | (pressure > 0) & (pressure < faintest)
     if faint.any():
         allowed = f"0, or a magnitude from {max(SMALLEST, faintest):g} Pa on"

@@ -32,6 +32,12 @@ def test_law_and_level_agree_where_only_the_rims_hold(law):
     assert found.tau_mean[0] == pytest.approx(9.03, abs=0.02)
 
 
+def test_a_law_that_is_asked_for_nothing_it_carries_knows_its_pull_off():
+    """Built up to a pressure below pull-off it is zero there; the pull-off is the level's."""
+    law = hystrip.friction_law(MATERIAL, ADHESION, LEVEL, V=2e-2, rtol=1e-3, below=-2000.0)
+    assert law.pull_off == pytest.approx(-660.0, abs=1.0) and law(-2100.0) == 0
+
+
 def test_below_pull_off_there_is_no_contact():
     found = hystrip.solve_level(MATERIAL, ADHESION, LEVEL, V=1e-2, pressure=-690.0, rtol=1e-3)
     assert bool(found.pulled_off) and np.isnan(found.D) and found.tau_mean == 0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -45,7 +45,8 @@ class LevelSolution:
 class FrictionLaw:
     """Friction stress of a level over nominal pressure at one velocity: ``law(p)``, Pa, any shape.
 
-    ``p_sat`` is where unloading leaves saturated contact; on the loading branch it is a pressure that suffices for it. Zero below ``pull_off``, ``tau_sat`` from ``p_sat`` on. ``breaks``: pressures at which it jumps or has a kink. ``below``: largest
+    ``p_sat`` is where unloading leaves saturated contact; on the loading branch it is a pressure that suffices for it. Zero
+    below ``pull_off``, ``tau_sat`` from ``p_sat`` on. ``breaks``: pressures at which it jumps or has a kink. ``below``: largest
     pressure it was built for; asking for more is an ``InputError``. ``error_estimate``: absolute error of the friction, Pa.
     """
 
@@ -117,12 +118,14 @@ def solve_level(
     V, level, edge, branch, rtol = _checked(material, adhesion, level, V, edge, branch, rtol)
     if (D is None) == (pressure is None):
         raise InputError("D, pressure", {"D": D, "pressure": pressure}, "exactly one of the two")
-    from hystrip.solve import check_strips
+    from hystrip.solve import check_strips, refuse_faint
 
     strips = check_strips(strips)
     if strips is not None and D is None:
         raise InputError("strips", strips, "None where the pressure is given: equal strips need D")
     name, load = ("D", numbers("D", D, "m")) if pressure is None else ("pressure", numbers("pressure", pressure, "Pa"))
+    if name == "pressure":
+        refuse_faint(load, material, adhesion, level)
     shape = broadcast(**{"V": V, name: load})
     V, load = (np.broadcast_to(v, shape).ravel() for v in (V, load))
     tally = Tally()
@@ -172,7 +175,7 @@ def _at_pressure(material, adhesion, level, V, p, edge, branch, rtol, shape, tal
 def _solution(D, values, errors, off, shape, tally):
     columns = [values[:, i].reshape(shape) for i in range(len(QUANTITIES))]
     return LevelSolution(
-        D.reshape(shape), *columns, errors.T.reshape(-1, *shape), off.reshape(shape), tally.solved + tally.decided
+        D.reshape(shape), *columns, errors.T.reshape(len(QUANTITIES), *shape), off.reshape(shape), tally.solved + tally.decided
     )
 
 
@@ -204,7 +207,14 @@ def friction_law(
     columns = Columns(material, adhesion, level, edge, branch, V.reshape(1), np.zeros(1))
     law = _laws(columns, rtol, top)[0]
     built = law.p_sat if below is None or below >= law.p_top else float(below)
-    return FrictionLaw(law.pull_off, law.p_sat, float(law.saturated[1]), built, law.friction_error, law)
+    if built < law.p_sat and law.pull_off >= built:
+        # nothing is carried up to there: what can be is seen above
+        law = _laws(columns, rtol, None)[0]
+    pull_off = law.pull_off
+    if not adhesion.p_0 > 0:
+        # contact begins at zero pressure, and there is none at it
+        pull_off, law = 0.0, replace(law, pull_off=np.finfo(float).tiny)
+    return FrictionLaw(pull_off, law.p_sat, float(law.saturated[1]), built, law.friction_error, law)
 
 
 def _laws(columns: Columns, rtol: float, top) -> list[Law]:
