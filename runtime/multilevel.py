@@ -81,7 +81,8 @@ class Surface:
         return Stack(own, p_full, D_full)
 
     def full(self, V, load, by_pressure: bool) -> np.ndarray:
-        """Whether all levels are saturated at ``load``, (n,). Thresholds grow with V: what is beyond that of the fastest is beyond all."""
+        """Whether all levels are saturated at ``load``, (n,). Thresholds grow with V: what is beyond that of the fastest is
+        beyond all."""
         of = lambda stack: (stack.p_full if by_pressure else stack.D_full)[0]  # noqa: E731
         if load.size and load.min() >= of(self.saturated(V.max(keepdims=True))):
             return np.ones(load.size, bool)

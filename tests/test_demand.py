@@ -1,4 +1,5 @@
-"""A law is as accurate as what is asked of it; rims that hold on after the crest are found; laws on cells; whose error a break has."""
+"""A law is as accurate as what is asked of it; rims that hold on after the crest are found; laws on cells; whose error a break
+has."""
 
 import numpy as np
 import pytest
@@ -31,7 +32,8 @@ def test_what_is_asked_on_less_may_be_coarser_by_as_much():
 
 
 def test_a_narrow_range_has_to_be_found_in_pressure():
-    """Half the range is asked half as often, but an error of pressure shifts twice as much of it: at the same size of pressure it is no easier."""
+    """Half the range is asked half as often, but an error of pressure shifts twice as much of it: at the same size of pressure it
+    is no easier."""
     wide, narrow = demand(0.01).ease(0, -1.0, 1.0, 1e-3), demand(0.01).ease(0, 0.9, 1.0, 1e-3)
     assert narrow == pytest.approx(wide * 20 * 0.1)
 

@@ -1,6 +1,5 @@
 """DMA data: what is read, and that a known spectrum comes back."""
 
-
 import numpy as np
 import pytest
 
@@ -21,9 +20,7 @@ def known(relaxed, moduli, times, omega=OMEGA):
 
 def written(path, data, head="f, E_stor, E_loss\nHz, MPa, MPa", scale=1e6):
     table = np.column_stack((data.omega / (2 * np.pi), data.storage / scale, data.loss / scale))
-    path.write_text(
-        head + "\n" + "\n".join(",".join(map(repr, row)) for row in table.tolist()) + "\n", encoding="utf-8"
-    )
+    path.write_text(head + "\n" + "\n".join(",".join(map(repr, row)) for row in table.tolist()) + "\n", encoding="utf-8")
     return path
 
 
@@ -37,11 +34,7 @@ def test_spectrum_on_the_grid_is_recovered():
 
 def test_times_that_are_not_there_are_dropped():
     series = fit_prony(known(7e5, MODULI[1::2], TIMES[1::2]))
-    assert (
-        series.offered == 7
-        and np.allclose(series.times, TIMES[1::2])
-        and np.allclose(series.moduli, MODULI[1::2], rtol=1e-10)
-    )
+    assert series.offered == 7 and np.allclose(series.times, TIMES[1::2]) and np.allclose(series.moduli, MODULI[1::2], rtol=1e-10)
 
 
 @pytest.mark.parametrize("terms", [1, 2, 3, 4])
@@ -104,9 +97,7 @@ def test_layout_units_and_order(tmp_path):
     first = read_dma(written(tmp_path / "a.csv", data))
     assert np.allclose(first.omega, data.omega, rtol=1e-14) and np.allclose(first.storage, data.storage, rtol=1e-14)
     again = tmp_path / "b.csv"
-    again.write_text(
-        "\ufeffG_loss,note,omega,G_stor\nkPa,,rad/s,GPa\n3,x,2,1e-6\n\n,y,5,1\n4,z,1,2e-6\n", encoding="utf-8"
-    )
+    again.write_text("\ufeffG_loss,note,omega,G_stor\nkPa,,rad/s,GPa\n3,x,2,1e-6\n\n,y,5,1\n4,z,1,2e-6\n", encoding="utf-8")
     found = read_dma(again)
     assert (
         found.kind == "G"
@@ -203,9 +194,7 @@ def test_command_writes_a_prony_scene_that_solves(run, tmp_path):
     scene = tmp_path / "hystrip-out/rubber.fitted.toml"
     case = load_scene(scene)
     assert case.edge == "constitutive" and case.material.times == pytest.approx(TIMES[2:4])
-    scene.write_text(
-        scene.read_text(encoding="utf-8").replace("pressure = 100\n", "pressure = 1e8\n"), encoding="utf-8"
-    )
+    scene.write_text(scene.read_text(encoding="utf-8").replace("pressure = 100\n", "pressure = 1e8\n"), encoding="utf-8")
     result = load_scene(scene).solve()
     # saturated on all levels: 1/2 sum k A^2 Im K* over the waves of Eq. 4, with the loss modulus that was measured
     tau = 0

@@ -1,4 +1,5 @@
-"""The error estimate bounds the error and is not wildly larger; the rules that it is made of, on functions whose integrals are known."""
+"""The error estimate bounds the error and is not wildly larger; the rules that it is made of, on functions whose integrals are
+known."""
 
 import importlib.util
 import sys

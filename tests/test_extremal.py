@@ -1,4 +1,5 @@
-"""The branch returned is the extremal one: plain iteration of the period map ends at the same orbit (``tools/extremal.py`` is the long version)."""
+"""The branch returned is the extremal one: plain iteration of the period map ends at the same orbit (``tools/extremal.py`` is the
+long version)."""
 
 import sys
 from pathlib import Path
@@ -30,12 +31,15 @@ def test_the_check_tells_branches_apart(monkeypatch):
 #: contact is only just grazed: iteration in doubles settles on its other side
 GRAZED = (
     "edge=continuous branch=unloading l=4.049343149261876e-07 A=5.690813337319057e-12 D=-8.64064699124091e-14 V=33.5861941006712 "
-    "K=281011.7623571056 T_eps=3.016382852932203e-07 T_sigma=9.39880930860048e-09 p_0=5.87598780725461e-07 delta_0=4.7755674500481605e-14"
+    "K=281011.7623571056 T_eps=3.016382852932203e-07 T_sigma=9.39880930860048e-09 "
+    "p_0=5.87598780725461e-07 delta_0=4.7755674500481605e-14"
 )
 
 
 def test_the_march_decides_where_iteration_grazes(monkeypatch):
     assert extremal.confirmed(GRAZED)
     solve = extremal.scenes.solve
-    monkeypatch.setattr(extremal.scenes, "solve", lambda scene, edge, branch: solve(scene | {"D": scene["D"] * 0.99}, edge, branch))
+    monkeypatch.setattr(
+        extremal.scenes, "solve", lambda scene, edge, branch: solve(scene | {"D": scene["D"] * 0.99}, edge, branch)
+    )
     assert not extremal.confirmed(GRAZED)

@@ -40,7 +40,9 @@ def as_input(groups, closure, orbit):
 def residual(groups, closure, orbit):
     alpha, beta, P0, Delta, delta = groups
     edges = [e[0] for e in (orbit.x, orbit.b, orbit.a, orbit.c)]
-    return kernel.residual_acaf(*edges, alpha, beta, alpha / beta, 1 - alpha / beta, P0, Delta, delta, float(closure == "constitutive"))
+    return kernel.residual_acaf(
+        *edges, alpha, beta, alpha / beta, 1 - alpha / beta, P0, Delta, delta, float(closure == "constitutive")
+    )
 
 
 @pytest.mark.parametrize("closure", SCENES)

@@ -38,7 +38,8 @@ def test_digits_are_right(laws):
 
 
 def test_pieces_that_share_a_break_have_one_pressure_there():
-    """Curves on both sides of the break know its pressure to within their errors only: two breaks a hair apart once put a third on top of the friction."""
+    """Curves on both sides of the break know its pressure to within their errors only: two breaks a hair apart once put a third
+    on top of the friction."""
     coarse, fine = law(1e-3, 1e-3), law(1e-3, 1e-6)
     assert coarse.breaks.size == fine.breaks.size
     assert np.allclose(coarse.breaks, fine.breaks, rtol=0, atol=1e-3 * 1e-3 * MATERIAL.K * LEVEL.h)

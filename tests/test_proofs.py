@@ -1,4 +1,5 @@
-"""What the fast proofs claim about orbits, against a dense scan of the onset map and against the search, on hanging and slow strips."""
+"""What the fast proofs claim about orbits, against a dense scan of the onset map and against the search, on hanging and slow
+strips."""
 
 import numpy as np
 import pytest
@@ -17,7 +18,8 @@ SCANNED = 300
 
 
 def strips(seed: int, n: int, where: str) -> Strips:
-    """Random strips out of reach of the undeformed foundation (``hanging``), within it (``pressed``) or just able to stay in contact all along."""
+    """Random strips out of reach of the undeformed foundation (``hanging``), within it (``pressed``) or just able to stay in
+    contact all along."""
     rng = np.random.default_rng(seed)
     beta = 10 ** rng.uniform(0, 6, n)
     alpha = beta / 10 ** rng.uniform(0.1, 4, n)
@@ -44,7 +46,8 @@ def known_orbits(s: Strips, unloading: bool):
 
 
 def crossed_before(cycle, x):
-    """Where the onset map goes back from some onset before x: an orbit lies before that one or, engaged all along, beyond the arc."""
+    """Where the onset map goes back from some onset before x: an orbit lies before that one or, engaged all along, beyond the
+    arc."""
     low = cycle.centre - cycle.half_d
     shares = (np.arange(SCANNED) + 0.5) / SCANNED
     onsets = low + 0.999 * shares[:, None] * (x - low)

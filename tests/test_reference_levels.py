@@ -47,7 +47,8 @@ def test_level(case):
 @pytest.mark.parametrize("case", LEVELS, ids=NAMES)
 @pytest.mark.parametrize("given", ["D", "p_mean"])
 def test_ten_digits(case, given):
-    """At 1e-10 means are what they are at 1e-12. Unloading, those at the pressure of a penetration are those at the penetration."""
+    """At 1e-10 means are what they are at 1e-12. Unloading, those at the pressure of a penetration are those at the
+    penetration."""
     at = solved(case, rtol=1e-12)
     load = {"D": case["D"]} if given == "D" else {"D": None, "pressure": float(at.p_mean)}
     coarse, fine = solved(case, rtol=1e-10, **load), at if given == "D" else solved(case, rtol=1e-12, **load)
@@ -60,7 +61,8 @@ def test_ten_digits(case, given):
 
 @pytest.mark.parametrize("case", LEVELS, ids=NAMES)
 def test_strips_change_regime_where_the_reference_says(case):
-    """Strips on both sides of every transition have the sequences of its neighbours. A transition at a fold is as uncertain as the means."""
+    """Strips on both sides of every transition have the sequences of its neighbours. A transition at a fold is as uncertain as
+    the means."""
     y = np.array(case["transitions_y_over_half_period"])
     away = 1e-6 + 2 * case["uncertainty"]
     sides = np.sort(np.concatenate((y - away, y + away)))
@@ -68,8 +70,14 @@ def test_strips_change_regime_where_the_reference_says(case):
     material = hystrip.StandardLinearSolid(case["K"], case["T_eps"], case["T_sigma"])
     adhesion = hystrip.Dugdale(p_0=case["p_0"], delta_0=case["delta_0"])
     s = hystrip.solve_strip(
-        material, adhesion, l=level.l, A=level.amplitude(np.pi * sides), D=case["D"] - level.drop(np.pi * sides), V=case["V"],
-        edge=case["edge"], branch=case["branch"],
+        material,
+        adhesion,
+        l=level.l,
+        A=level.amplitude(np.pi * sides),
+        D=case["D"] - level.drop(np.pi * sides),
+        V=case["V"],
+        edge=case["edge"],
+        branch=case["branch"],
     )
     expected = np.repeat(case["strip_sequences"], 2)[1:-1]
     assert s.regime.tolist() == expected.tolist()

@@ -1,6 +1,5 @@
 """Measured roughness: known levels come back from their surface, and what cannot be read is named."""
 
-
 import numpy as np
 import pytest
 
@@ -156,9 +155,7 @@ def test_a_file_with_units_is_read(files):
 
 def test_a_file_without_sizes_and_unit_takes_them(files):
     scan = read_surface(files / "plain.txt", sizes=(20.0, 20.0), unit="um")
-    assert scan.sizes == pytest.approx((2e-5, 2e-5)) and np.allclose(
-        scan.heights.std(), surface(LEVELS, 2e-5, 400).std()
-    )
+    assert scan.sizes == pytest.approx((2e-5, 2e-5)) and np.allclose(scan.heights.std(), surface(LEVELS, 2e-5, 400).std())
 
 
 def test_gaps_and_uneven_steps_are_filled():

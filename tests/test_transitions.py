@@ -1,4 +1,5 @@
-"""Transitions along a line: found where the codes change, however few points it takes; islands; narrow zones; the greatest pressure in contact."""
+"""Transitions along a line: found where the codes change, however few points it takes; islands; narrow zones; the greatest
+pressure in contact."""
 
 import numpy as np
 import pytest
@@ -26,7 +27,8 @@ def _columns(V, edge="continuous", branch="unloading", adhesion=WEAK, level=SMAL
 
 
 class Line:
-    """Code 0 below ``place`` and 1 above, with a margin on the lower side that vanishes like the square root; counts what is asked."""
+    """Code 0 below ``place`` and 1 above, with a margin on the lower side that vanishes like the square root; counts what is
+    asked."""
 
     def __init__(self, place, off=0.0):
         self.place, self.off, self.asked = place, off, 0
@@ -69,7 +71,9 @@ def test_breaks_are_where_the_crest_changes(edge, branch):
         sides = np.stack((inner - step, inner + step))
         at = columns.at(np.full(sides.size, i), sides.ravel())
         every = np.arange(sides.size)
-        crest, edge_codes = (at.codes(every, np.full(sides.size, theta)).reshape(sides.shape) for theta in (0.0, np.pi * (1 - 1e-7)))
+        crest, edge_codes = (
+            at.codes(every, np.full(sides.size, theta)).reshape(sides.shape) for theta in (0.0, np.pi * (1 - 1e-7))
+        )
         changed = (crest[0] != crest[1]) | (edge_codes[0] != edge_codes[1])
         known = np.abs(inner - (SMALL.h - WEAK.p_0 / MATERIAL.K)) < 1e-3 * SMALL.h  # the flat edge's own thresholds
         known |= np.abs(inner - (SMALL.h - WEAK.p_0 / MATERIAL.K - WEAK.delta_0)) < 1e-3 * SMALL.h
@@ -83,7 +87,8 @@ def _random(number):
 
 
 def test_a_zone_narrower_than_the_first_step_counts():
-    """Next to first contact only strips around the crest adhere: their part of the mean shrinks with their number, and does not vanish before them."""
+    """Next to first contact only strips around the crest adhere: their part of the mean shrinks with their number, and does not
+    vanish before them."""
     scene = _random(4)
     columns = _columns(scene.velocity[2:], scene.edge, scene.branch, scene.adhesion, scene.levels[1], scene.material)
     D = -scene.adhesion.delta_0 + np.array([0.03, 0.1, 0.3, 1.0, 3.0]) * 1e-11
@@ -95,7 +100,8 @@ def test_a_zone_narrower_than_the_first_step_counts():
 
 @pytest.mark.parametrize(("number", "inside", "allowed"), [(4, 8e-7, 3000), (0, 1.418e-7, 12000)])
 def test_the_curve_of_a_scene_with_narrow_zones_converges(number, inside, allowed):
-    """Zones too narrow to be seen at every penetration, an island of strips that let go: the curve converges all the same (it once took minutes), and holds."""
+    """Zones too narrow to be seen at every penetration, an island of strips that let go: the curve converges all the same (it
+    once took minutes), and holds."""
     scene = _random(number)
     columns = _columns(scene.velocity[2:], scene.edge, scene.branch, scene.adhesion, scene.levels[0], scene.material)
     strips, rtol = np.zeros(1, int), np.full(1, 1e-3)
@@ -136,7 +142,9 @@ def test_a_zone_that_hides_in_a_bracket_is_no_island():
 def test_the_greatest_pressure_of_a_contact(T_sigma):
     """Without T_sigma pressure has no memory, and its peak is the harmonic's."""
     material = hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma)
-    columns = _columns(1e-2, "constitutive", material=material, level=hystrip.Level(l=10e-6, h=1e-6)).at(np.zeros(1, int), np.array([6e-7]))
+    columns = _columns(1e-2, "constitutive", material=material, level=hystrip.Level(l=10e-6, h=1e-6)).at(
+        np.zeros(1, int), np.array([6e-7])
+    )
     theta = np.linspace(0, 2, 20)
     strips, kernel = columns.solve(np.zeros(theta.size, int), theta), kernel_of(material)
     index = np.flatnonzero(strips.solved.contact_fraction > 0)

@@ -1,11 +1,12 @@
 """Every strip of the stored truths to 1e-11 of its natural scale, as far as double precision knows the inputs.
 
-Natural scales: ``|p_mean| + K A + p_0`` for pressure; ``|tau_mean| + k A (K A + p_0)`` for friction; the period for edges and fractions.
+Natural scales: ``|p_mean| + K A + p_0`` for pressure; ``|tau_mean| + k A (K A + p_0)`` for friction; the period for edges and
+fractions.
 
 Conditioning: each row stores how far its exact solution moves when one dimensionless group changes by 1e-15 of itself (5 units of
-rounding). Next to a fold or a graze this is of the order of the square root of epsilon, and where a perturbation crosses the end of a
-branch it is the distance to another orbit. ``CONDITION`` times that is allowed on top. Where the stored sequence is not returned,
-the inputs must be that uncertain: on a threshold, or within rounding of the end of a branch, either side is right.
+rounding). Next to a fold or a graze this is of the order of the square root of epsilon, and where a perturbation crosses the end
+of a branch it is the distance to another orbit. ``CONDITION`` times that is allowed on top. Where the stored sequence is not
+returned, the inputs must be that uncertain: on a threshold, or within rounding of the end of a branch, either side is right.
 """
 
 import numpy as np
@@ -32,7 +33,12 @@ def spreads():
     t = columns()
     fraction = t["fraction_spread"]
     edges = {name: 2 * np.pi * fraction for name in "abcd"}
-    return {"p_mean": t["p_spread"], "tau_mean": t["tau_spread"], "contact_fraction": fraction, "adhesion_fraction": fraction} | edges
+    return {
+        "p_mean": t["p_spread"],
+        "tau_mean": t["tau_spread"],
+        "contact_fraction": fraction,
+        "adhesion_fraction": fraction,
+    } | edges
 
 
 def same():

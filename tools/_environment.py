@@ -34,8 +34,9 @@ def python(name, extras):
     Exits with a message and a non-zero status if that is impossible.
     """
     if sys.version_info < NEEDS:
-        sys.exit("hystrip needs Python %d.%d or newer; this is Python %s (%s)."
-                 % (NEEDS + (sys.version.split()[0], sys.executable)))
+        sys.exit(
+            "hystrip needs Python %d.%d or newer; this is Python %s (%s)." % (NEEDS + (sys.version.split()[0], sys.executable))
+        )
     folder = os.path.join(HOME, name)
     exe = os.path.join(folder, "Scripts", "python.exe") if os.name == "nt" else os.path.join(folder, "bin", "python")
     os.makedirs(HOME, exist_ok=True)
@@ -86,8 +87,10 @@ def _make(folder, exe, name, extras):
     shutil.rmtree(folder, ignore_errors=True)
     _step([sys.executable, "-m", "venv", folder], "making the virtual environment")
     target = "%s[%s]" % (ROOT, ",".join(extras)) if extras else ROOT
-    _step([exe, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-input", "--editable", target],
-          "installing hystrip and what '%s' needs" % name)
+    _step(
+        [exe, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-input", "--editable", target],
+        "installing hystrip and what '%s' needs" % name,
+    )
     part = os.path.join(folder, "complete.part")
     with open(part, "w") as file:
         file.write(_stamp(extras))
@@ -100,12 +103,15 @@ def _variables():
 
 
 def _step(command, purpose):
-    result = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                            env=_variables(), cwd=HOME)
+    result = subprocess.run(
+        command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=_variables(), cwd=HOME
+    )
     if result.returncode:
         say(result.stdout.decode(errors="replace"))
-        sys.exit("Set-up failed while %s (exit status %d). Is the package index reachable? "
-                 "Run the command again to retry." % (purpose, result.returncode))
+        sys.exit(
+            "Set-up failed while %s (exit status %d). Is the package index reachable? "
+            "Run the command again to retry." % (purpose, result.returncode)
+        )
 
 
 class _Lock:

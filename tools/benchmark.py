@@ -2,13 +2,15 @@
 
     python tools/benchmark.py [--quick] [--resume] [--only fig] [--out benchmark] [--readme README.md]
 
-Writes OUT.csv (every measurement, as it comes), OUT.png (error over time, a panel for each scene) and OUT.md (a table of time by error, what
-the measurements say, and every setting), and puts table and findings between the two marks in the README if one is given. ``--resume`` goes on with an OUT.csv of the same code.
+Writes OUT.csv (every measurement, as it comes), OUT.png (error over time, a panel for each scene) and OUT.md (a table of time by
+error, what the measurements say, and every setting), and puts table and findings between the two marks in the README if one is
+given. ``--resume`` goes on with an OUT.csv of the same code.
 
-Times are processor time of one thread, medians where a run is short. Errors are of the friction, the largest over the points looked at,
-relative to ``|tau| + 1e-3 (K h + p_0) h/l`` of level 1, against this solver far below the tolerances compared. Methods that are too slow
-for all points of a scene solve a few of them, spread evenly, and the time is scaled; the table says how many. Every measurement runs in a process of its
-own and is given up after ``--limit`` seconds of processor time (needs a POSIX system). Tamaas is left out where it is not installed (extra ``bench``).
+Times are processor time of one thread, medians where a run is short. Errors are of the friction, the largest over the points
+looked at, relative to ``|tau| + 1e-3 (K h + p_0) h/l`` of level 1, against this solver far below the tolerances compared. Methods
+that are too slow for all points of a scene solve a few of them, spread evenly, and the time is scaled; the table says how many.
+Every measurement runs in a process of its own and is given up after ``--limit`` seconds of processor time (needs a POSIX system).
+Tamaas is left out where it is not installed (extra ``bench``).
 """
 
 import argparse

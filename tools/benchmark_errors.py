@@ -1,18 +1,21 @@
 """What the error estimate is worth: random surfaces solved at a tolerance, against the same at a far tighter one.
 
-    python tools/benchmark_errors.py [--scenes 100] [--seed 1] [--tolerances 1e-3 1e-4 1e-5 1e-6 1e-8] [--tighter 1e-4] [--first 0]
+    python tools/benchmark_errors.py [--scenes 100] [--seed 1] [--tolerances 1e-3 1e-4 1e-5 1e-6 1e-8] [--tighter 1e-4] [--first
+    0]
                                      [--levels 1|2|3] [--velocities 1] [--limit 600] [--out errors.csv]
     python tools/benchmark_errors.py --march [--scenes 12] ...
 
-Scenes are drawn by ``tests/surfaces.py``: one to three levels, both closures and branches, with and without adhesion, loads from hardly touching to
-nearly saturated; the tolerances are taken in turn, 1e-8 for one-level surfaces only. The reference is never tighter than 1e-12, 1e-8 for several levels.
-``--march``: one-level surfaces with adhesion at the penetration that their pressure takes, every one at all tolerances, against strips that are marched
-event by event with 30 digits and summed over y by a rule of its own (``tests/oracle/level.py``): nothing of the library.
+Scenes are drawn by ``tests/surfaces.py``: one to three levels, both closures and branches, with and without adhesion, loads from
+hardly touching to nearly saturated; the tolerances are taken in turn, 1e-8 for one-level surfaces only. The reference is never
+tighter than 1e-12, 1e-8 for several levels. ``--march``: one-level surfaces with adhesion at the penetration that their pressure
+takes, every one at all tolerances, against strips that are marched event by event with 30 digits and summed over y by a rule of
+its own (``tests/oracle/level.py``): nothing of the library.
 
-Prints how many points meet the tolerance, at how many the estimate bounds the error, and the median of estimate over error; then every point at which
-it does not hold, with the scene's number to draw it again. The table goes to the CSV as it grows. Points in closed form and below pull-off are exact and are not counted, nor are errors that rounding hides. A scene that takes
-more than ``--limit`` seconds of processor time counts as refused. Exit status 1 if the estimate bounds the error in fewer than 99 of 100 points, its
-median exceeds 100 times the error, or a scene was refused.
+Prints how many points meet the tolerance, at how many the estimate bounds the error, and the median of estimate over error; then
+every point at which it does not hold, with the scene's number to draw it again. The table goes to the CSV as it grows. Points in
+closed form and below pull-off are exact and are not counted, nor are errors that rounding hides. A scene that takes more than
+``--limit`` seconds of processor time counts as refused. Exit status 1 if the estimate bounds the error in fewer than 99 of 100
+points, its median exceeds 100 times the error, or a scene was refused.
 """
 
 import argparse
@@ -47,7 +50,8 @@ COLUMNS = ("scene", "levels", "edge", "branch", "point", "rtol", "error", "estim
 
 @dataclass
 class Survey:
-    """``points``: rows (scene, index, tolerance, error, estimate), error and estimate relative to friction plus floor; ``refused``: (scene, error)."""
+    """``points``: rows (scene, index, tolerance, error, estimate), error and estimate relative to friction plus floor;
+    ``refused``: (scene, error)."""
 
     points: list = field(default_factory=list)
     refused: list = field(default_factory=list)
@@ -86,7 +90,8 @@ class Survey:
 def survey(scenes, seed, tolerances, tighter, levels=None, report=None, first=0, velocities=3, limit=None):
     """Draw ``scenes`` surfaces from number ``first`` on, solve each at one of the tolerances in turn, and ``tighter`` times that.
 
-    ``report(rows)``: called with the rows (``COLUMNS``) of each scene. ``limit``: seconds of processor time after which a scene is refused.
+    ``report(rows)``: called with the rows (``COLUMNS``) of each scene. ``limit``: seconds of processor time after which a scene
+    is refused.
     """
     out = Survey()
     for number in range(first, first + scenes):
@@ -118,8 +123,8 @@ def survey(scenes, seed, tolerances, tighter, levels=None, report=None, first=0,
 
 
 def marched(scenes, seed, tolerances, report=None, first=0, limit=None, accuracy=_MARCHED):
-    """Pressure and friction (points 0 and 1) of one-level surfaces with adhesion at given penetration, against strips marched to ``accuracy``;
-    as ``survey``."""
+    """Pressure and friction (points 0 and 1) of one-level surfaces with adhesion at given penetration, against strips marched to
+    ``accuracy``; as ``survey``."""
     out = Survey()
     for number in range(first, first + scenes):
         surface = surfaces.draw(np.random.default_rng((seed, number)), velocities=1, levels=1)
@@ -133,7 +138,9 @@ def marched(scenes, seed, tolerances, report=None, first=0, limit=None, accuracy
         try:
             with _limited(limit):
                 start = time.process_time()
-                true = level_means(m.K, m.T_eps, m.T_sigma, V, level.l, level.h, D, a.p_0, a.delta_0, surface.edge, surface.branch, accuracy)
+                true = level_means(
+                    m.K, m.T_eps, m.T_sigma, V, level.l, level.h, D, a.p_0, a.delta_0, surface.edge, surface.branch, accuracy
+                )
                 end = time.process_time()
         except (ArithmeticError, TimeoutError) as error:
             out.refused.append((number, error))
@@ -193,17 +200,32 @@ def main():
         def report(rows, out):
             table.writerows([[f"{v:.3g}" if isinstance(v, float) else v for v in row] for row in rows])
             file.flush()
-            print(f"\r{len(out.points)} points, {100 * out.bounded:.1f} % bounded, median {out.pessimism:.3g}", end="", file=sys.stderr, flush=True)
+            print(
+                f"\r{len(out.points)} points, {100 * out.bounded:.1f} % bounded, median {out.pessimism:.3g}",
+                end="",
+                file=sys.stderr,
+                flush=True,
+            )
 
         if options.march:
             out = marched(options.scenes, options.seed, options.tolerances, report, options.first, options.limit)
         else:
             out = survey(
-                options.scenes, options.seed, options.tolerances, options.tighter, options.levels, report, options.first, options.velocities,
+                options.scenes,
+                options.seed,
+                options.tolerances,
+                options.tighter,
+                options.levels,
+                report,
+                options.first,
+                options.velocities,
                 options.limit,
             )
     print(file=sys.stderr)
-    print(f"{options.scenes} scenes, {len(out.points)} points, {out.exact} more exact; {time.process_time() - start:.0f} s of processor time")
+    print(
+        f"{options.scenes} scenes, {len(out.points)} points, {out.exact} more exact; "
+        f"{time.process_time() - start:.0f} s of processor time"
+    )
     print(f"tolerance met:                {100 * out.met:.2f} %")
     print(f"estimate bounds the error:    {100 * out.bounded:.2f} %")
     print(f"largest error over estimate   {out.largest:.3g}")

@@ -2,14 +2,17 @@
 
     python tools/benchmark_strips.py [--strips 100000] [--levels 250] [--repeat 3] [--memory]
 
-The batch is mixed: levels of the paper's material and two wavelengths at random velocity, penetration and energy of adhesion, cut into
-100 strips each as in the paper. The scripts are what a user would write for the same strips: the boundary equations in scalar ``math``,
-``scipy.optimize.root`` (hybr, analytic Jacobian), each strip started from its neighbour's solution, strips in complete contact by their threshold.
+The batch is mixed: levels of the paper's material and two wavelengths at random velocity, penetration and energy of adhesion, cut
+into 100 strips each as in the paper. The scripts are what a user would write for the same strips: the boundary equations in
+scalar ``math``, ``scipy.optimize.root`` (hybr, analytic Jacobian), each strip started from its neighbour's solution, strips in
+complete contact by their threshold.
 
-* ``told``: is told the regime of every strip, and given the solution as a start where the regime changes: it never has to find anything.
-* ``finding``: finds the regime as well. It takes the neighbour's zones and edges, solves, checks the inequalities, and where they fail tries the
-  other regimes from rough starts, the library's medians and the elastic strip's. Outwards of a free strip that is out of reach it takes the strips
-  to be free. It proves nothing: what it finds may be another orbit than the one asked for.
+* ``told``: is told the regime of every strip, and given the solution as a start where the regime changes: it never has to find
+  anything.
+* ``finding``: finds the regime as well. It takes the neighbour's zones and edges, solves, checks the inequalities, and where they
+  fail tries the
+  other regimes from rough starts, the library's medians and the elastic strip's. Outwards of a free strip that is out of reach it
+  takes the strips to be free. It proves nothing: what it finds may be another orbit than the one asked for.
 
 Times are CPU seconds; medians over the repeats. ``--memory`` solves 1e7 strips and reports the peak of the process instead.
 """
@@ -54,7 +57,8 @@ def batch(inputs, p_0):
 
 
 class Script:
-    """Boundary equations of one strip, continuous closure, dimensionless; edges d, b, a, c as phases in the order they are met."""
+    """Boundary equations of one strip, continuous closure, dimensionless; edges d, b, a, c as phases in the order they are
+    met."""
 
     def __init__(self, alpha, beta, p_0, delta_0, D):
         self.alpha, self.beta, self.p_0, self.delta_0, self.D = alpha, beta, p_0, delta_0, D
@@ -116,7 +120,8 @@ class Script:
         return self.D - 1 + self.p_0 >= math.hypot(self.storage, self.loss)
 
     def admissible(self, sequence, edges):
-        """Edges in order within a period, each where its event can happen, and gaps within their bounds at the ends of the arcs."""
+        """Edges in order within a period, each where its event can happen, and gaps within their bounds at the ends of the
+        arcs."""
         H = lambda s: self.u(s) - self.beta * math.sin(s)  # noqa: E731
         order = [*edges, edges[0] + TWO_PI]
         if any(later < earlier for earlier, later in zip(order, order[1:], strict=False)):
@@ -140,7 +145,8 @@ class Script:
         return self.gap(named["a"], end, self.u(named["a"]) + p, -p)[0] <= reach
 
     def starts(self, sequence):
-        """Rough edges in these zones: where they mostly lie in the arcs of their events (as the library starts), then the elastic strip's."""
+        """Rough edges in these zones: where they mostly lie in the arcs of their events (as the library starts), then the elastic
+        strip's."""
         p, reach, lag = self.p_0, self.delta_0, math.atan(self.beta)
         amplitude = math.hypot(1, self.beta)
         arc = lambda excess: math.acos(min(max((1 - self.D - excess) / amplitude, -1.0), 1.0))  # noqa: E731
@@ -280,12 +286,19 @@ def compare(options, rng):
     print(
         f"medians of {options.repeat} runs, CPU microseconds per strip: batch {batched * 1e6:.2f}, a lone strip {lone * 1e6:.0f}"
     )
-    print(f"  script, told the regimes: {seconds * 1e6:.1f} ({100 * known.failures / known.solves:.1f} % of {known.solves} solves fail): "
-          f"ratio {ratio:.1f}")  # fmt: skip
-    print(f"  script, finding them: {longer * 1e6:.1f} ({100 * found.failures / found.solves:.1f} % of {found.solves} solves fail, "
-          f"{100 * other:.1f} % of the strips come out in another regime): ratio {ratio_finding:.1f}")  # fmt: skip
-    print("evaluations of residuals, Jacobians and events of map segments per strip: median %g, 99th percentile %g; strips with edges: median %g, 99th "
-          "percentile %g" % (*np.percentile(work, (50, 99)), *np.percentile(work[partial], (50, 99))))  # fmt: skip
+    print(
+        f"  script, told the regimes: {seconds * 1e6:.1f} ({100 * known.failures / known.solves:.1f} % of {known.solves} solves "
+        f"fail): ratio {ratio:.1f}"
+    )
+    print(
+        f"  script, finding them: {longer * 1e6:.1f} ({100 * found.failures / found.solves:.1f} % of {found.solves} solves fail, "
+        f"{100 * other:.1f} % of the strips come out in another regime): ratio {ratio_finding:.1f}"
+    )
+    every, edges = (np.percentile(work[which], (50, 99)) for which in (slice(None), partial))
+    print(
+        f"evaluations of residuals, Jacobians and events of map segments per strip: median {every[0]:g}, 99th percentile "
+        f"{every[1]:g}; strips with edges: median {edges[0]:g}, 99th percentile {edges[1]:g}"
+    )
 
 
 #: shares of the regimes in a mix that is held over alpha, about those of the strips in the middle of the range
@@ -295,8 +308,9 @@ HELD = {"acaf": 0.35, "ac": 0.05, "c": 0.3, "f": 0.3}
 def flatness(options, rng):
     """Time per strip over alpha, beta = 100 alpha.
 
-    Three measures of the same random levels: all their strips, whose mix of regimes depends on alpha; strips with edges alone; and a mix that is
-    held (``HELD``), of strips drawn from each regime with replacement. The batches of the last two are of the same size at every alpha.
+    Three measures of the same random levels: all their strips, whose mix of regimes depends on alpha; strips with edges alone;
+    and a mix that is held (``HELD``), of strips drawn from each regime with replacement. The batches of the last two are of the
+    same size at every alpha.
     """
     print("alpha: microseconds per strip of mixed levels, of strips with edges, of a mix that is held")
     measured = []

@@ -15,7 +15,8 @@ from .transitions import locate
 
 #: points across an island, and how often they are drawn closer to where it vanishes
 _ACROSS, _ROUNDS, _FEW = 9, 5, 2
-#: how closely the ends of strips are located, as a share of the way on which the island vanishes, and how much more so from round to round
+#: how closely the ends of strips are located, as a share of the way on which the island vanishes, and how much more so from round
+#: to round
 _FIRST_WIDTH, _SHARPER = 1e-3, 1 / 64
 _EPS = np.finfo(float).eps
 #: a break this close to an end of its piece, as a share of it, is left to halving
@@ -59,28 +60,33 @@ def island(column: int, D: np.ndarray, zones: list[np.ndarray], negligible: floa
 
 
 def _blind(zones: np.ndarray, place: int) -> float:
-    """Width of what lies between the zones before and after ``place``: a transition is bracketed no closer than the means need, so a zone of
-    that width may be seen at one penetration and not at the next."""
+    """Width of what lies between the zones before and after ``place``: a transition is bracketed no closer than the means need,
+    so a zone of that width may be seen at one penetration and not at the next."""
     if 0 < place < len(zones):
         return zones[place, 1] - zones[place - 1, 2]
     return 0.0
 
 
 def vanishing(columns: Columns, islands: list[Island], strips: np.ndarray, roughly: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Penetrations and thetas at which the islands have shrunk to nothing, all at once; ``strips`` (per column) counts the work. NaN: it is not
-    absent at all.
+    """Penetrations and thetas at which the islands have shrunk to nothing, all at once; ``strips`` (per column) counts the work.
+    NaN: it is not absent at all.
 
-    At a fixed theta the island's code ends at some penetration, located like any transition; the island vanishes at the extreme of these over theta,
-    where they lie on a parabola: at its vertex they tell it to second order. ``roughly``: to a few digits only.
+    At a fixed theta the island's code ends at some penetration, located like any transition; the island vanishes at the extreme
+    of these over theta, where they lie on a parabola: at its vertex they tell it to second order. ``roughly``: to a few digits
+    only.
     """
     here = np.arange(len(islands))
     column = np.array([i.column for i in islands])
-    code, present, absent, low, high = (np.array([getattr(i, name) for i in islands]) for name in ("code", "present", "absent", "low", "high"))
+    code, present, absent, low, high = (
+        np.array([getattr(i, name) for i in islands]) for name in ("code", "present", "absent", "low", "high")
+    )
     way = absent - present
     top, vertex, lasting = np.zeros(here.size), np.zeros(here.size), np.zeros(here.size, bool)
     for attempt in range(_FEW if roughly else _ROUNDS):
         theta = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, _ACROSS)
-        width = np.maximum(np.abs(way) * _FIRST_WIDTH * _SHARPER**attempt, 16 * _EPS * np.maximum(np.abs(absent), columns.level.h))
+        width = np.maximum(
+            np.abs(way) * _FIRST_WIDTH * _SHARPER**attempt, 16 * _EPS * np.maximum(np.abs(absent), columns.level.h)
+        )
         ends, still = _ends(columns, column, code, theta, present, absent, width, strips)
         lasting |= still.any(axis=1)
         share = (ends - present[:, None]) / way[:, None]
@@ -99,8 +105,8 @@ def vanishing(columns: Columns, islands: list[Island], strips: np.ndarray, rough
 
 
 def _ends(columns: Columns, column, code, theta, present, absent, width, strips) -> tuple[np.ndarray, np.ndarray]:
-    """Penetration between ``present`` and ``absent`` at which each strip (islands, across) loses the island's code, NaN where it has not got it
-    or keeps it; and which keep it."""
+    """Penetration between ``present`` and ``absent`` at which each strip (islands, across) loses the island's code, NaN where it
+    has not got it or keeps it; and which keep it."""
     shape = theta.shape
     line = np.arange(theta.size)
     row, theta = line // shape[1], theta.ravel()

@@ -1,7 +1,8 @@
 """Penetrations at which a level's means over penetration are not smooth.
 
-The crest strip (y = 0) has everywhere the highest profile: the means lose smoothness at the penetrations where it changes regime, and where the
-flat edge does. Unloading with adhesion it need not be the last to let go: what is pressed in less is drawn out of reach later.
+The crest strip (y = 0) has everywhere the highest profile: the means lose smoothness at the penetrations where it changes regime,
+and where the flat edge does. Unloading with adhesion it need not be the last to let go: what is pressed in less is drawn out of
+reach later.
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ def first_contact(columns: Columns) -> float:
 def let_go(columns: Columns) -> float:
     """Penetration down to which strips cling by adhesion all along when unloading, +inf if none ever does.
 
-    A strip at rest at ``w = -p_0/K`` reaches over its valley while ``D_j - 2 A >= -p_0/K - delta_0``; ``D_j - 2 A = D - h`` on all of them.
+    A strip at rest at ``w = -p_0/K`` reaches over its valley while ``D_j - 2 A >= -p_0/K - delta_0``; ``D_j - 2 A = D - h`` on
+    all of them.
     """
     a = columns.adhesion
     if columns.branch == "loading" or a.p_0 == 0:
@@ -43,8 +45,8 @@ def threshold_width(columns: Columns, top):
 
 
 def breakpoints(columns: Columns, top: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:
-    """Penetrations between first contact and ``top`` (n,) where the curve may not be smooth, ascending, ends included, of every column; and the
-    lowest at which its crest changes regime (inf: none), (n,)."""
+    """Penetrations between first contact and ``top`` (n,) where the curve may not be smooth, ascending, ends included, of every
+    column; and the lowest at which its crest changes regime (inf: none), (n,)."""
     inside, touched = breaks_on(columns, np.arange(columns.size), _scan(columns, top))
     last = let_go(columns)
     out = []
@@ -56,7 +58,8 @@ def breakpoints(columns: Columns, top: np.ndarray) -> tuple[list[np.ndarray], np
 
 
 def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:
-    """Breaks between the first and the last of the penetrations ``D`` (m, points) of each ``column`` (m,), by the changes they show.
+    """Breaks between the first and the last of the penetrations ``D`` (m, points) of each ``column`` (m,), by the changes they
+    show.
 
     Returns them, ascending, for every row, and the lowest that is one of the crest (inf: none), (m,).
     """
@@ -95,7 +98,8 @@ def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list
 
 
 def _scan(columns: Columns, top):
-    """Penetrations at which to look, (n, m): dense where regimes follow one another, geometric above, for saturation may be far up."""
+    """Penetrations at which to look, (n, m): dense where regimes follow one another, geometric above, for saturation may be far
+    up."""
     a = columns.adhesion
     bottom = first_contact(columns)
     reach = 2 * columns.level.h + a.delta_0 + 2 * a.p_0 / columns.material.K

@@ -22,8 +22,8 @@ def build_laws(
 ) -> list[Law]:
     """One law per column (its ``D`` is not used).
 
-    ``p_full``, ``D_full`` (n,): where the level, and all it carries, is saturated; ``saturated`` (n, q): means there. ``p_max`` (n,):
-    greatest pressure that will be asked for, or None for the whole law. ``demand``: how much its pressures count.
+    ``p_full``, ``D_full`` (n,): where the level, and all it carries, is saturated; ``saturated`` (n, q): means there. ``p_max``
+    (n,): greatest pressure that will be asked for, or None for the whole law. ``demand``: how much its pressures count.
     """
     top = (
         D_full if p_max is None else np.where(p_max < p_full, cut_penetration(columns, np.minimum(p_max, p_full), D_full), D_full)

@@ -27,7 +27,8 @@ _SHARE, _CHUNK = 0.1, 8192
 
 @dataclass(frozen=True)
 class CarriedByLaws:
-    """Contributions of the next level down. ``table`` holds its law for each group; the last column is an error estimate of friction.
+    """Contributions of the next level down. ``table`` holds its law for each group; the last column is an error estimate of
+    friction.
 
     ``scales`` (q,): natural scales of the contributions. ``rtol``: accuracy of the averages that they go into.
     """
@@ -37,7 +38,8 @@ class CarriedByLaws:
     scales: np.ndarray
 
     def crossed(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """See ``strips.Carry``: how many breaks the greatest pressure exceeds, and how many the pressure exceeds all along (or at entry)."""
+        """See ``strips.Carry``: how many breaks the greatest pressure exceeds, and how many the pressure exceeds all along (or at
+        entry)."""
         crossed = np.zeros(group.size, int)
         index = np.flatnonzero(strips.solved.contact_fraction > 0)
         if index.size:
@@ -63,7 +65,8 @@ class CarriedByLaws:
         return out
 
     def passing(self, crossed: np.ndarray, other: np.ndarray) -> np.ndarray:
-        """See ``strips.Carry``: the lowest break that one of the two passes and the other does not, by its greatest pressure or else its least."""
+        """See ``strips.Carry``: the lowest break that one of the two passes and the other does not, by its greatest pressure or
+        else its least."""
         size = self.table.breaks.shape[1]
         (least, top), (other_least, other_top) = (np.divmod(v - 1, size + 1) for v in (crossed, other))
         lower = np.where(top != other_top, np.minimum(top, other_top), size + np.minimum(least, other_least))

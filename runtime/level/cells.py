@@ -1,4 +1,5 @@
-"""A function on [0, 1] as polynomials of low degree, each on a cell as large as it may be: made once, cheap wherever it is asked for."""
+"""A function on [0, 1] as polynomials of low degree, each on a cell as large as it may be: made once, cheap wherever it is asked
+for."""
 
 from __future__ import annotations
 
@@ -18,8 +19,9 @@ _NEGLIGIBLE = 0.1
 
 @dataclass(frozen=True)
 class Cells:
-    """Chebyshev ``coefficients`` (cells, degree + 1, q) on cells that begin at slot ``start`` (cells,) and are ``size`` (cells,) slots wide; ``of``
-    (SLOTS,): the cell that a slot belongs to. ``error`` (q,): what the smallest cells still miss, on average."""
+    """Chebyshev ``coefficients`` (cells, degree + 1, q) on cells that begin at slot ``start`` (cells,) and are ``size`` (cells,)
+    slots wide; ``of`` (SLOTS,): the cell that a slot belongs to. ``error`` (q,): what the smallest cells still miss, on
+    average."""
 
     coefficients: np.ndarray
     start: np.ndarray
@@ -33,8 +35,11 @@ class Cells:
         return clenshaw(self.coefficients[cell], within(x, self.start[cell], self.size[cell]))
 
 
-def cells_of(function: Callable[[np.ndarray], np.ndarray], tolerance: np.ndarray, measure: Callable[[np.ndarray], np.ndarray]) -> Cells:
-    """``function``, [0, 1] (m,) -> (m, q), to ``tolerance`` (q,). ``measure``: how much of what is averaged over lies below an x, 0 to 1."""
+def cells_of(
+    function: Callable[[np.ndarray], np.ndarray], tolerance: np.ndarray, measure: Callable[[np.ndarray], np.ndarray]
+) -> Cells:
+    """``function``, [0, 1] (m,) -> (m, q), to ``tolerance`` (q,). ``measure``: how much of what is averaged over lies below an x,
+    0 to 1."""
     transform, nodes = coefficients(np.eye(_DEGREE + 1)), lobatto(_DEGREE)
     start, size, error = np.array([0, SLOTS // 2]), SLOTS // 2, np.zeros(tolerance.size)
     found: list[tuple] = []

@@ -1,8 +1,9 @@
 """Chebyshev interpolation of several quantities at once on a piece ``low <= D <= high``.
 
-``D = low + width graded(t)``: the grading is flat like t^4 at both ends. A quantity that ends like a square root in D is smooth in t, and one
-that ends like ``D log D`` nearly so (a level does where its crest lets go while its neighbours still hold). Either way it is flat in t at the end,
-which says what it is there: the ends are no nodes. They are breaks, and next to one rounding decides which side of it a strip is on.
+``D = low + width graded(t)``: the grading is flat like t^4 at both ends. A quantity that ends like a square root in D is smooth
+in t, and one that ends like ``D log D`` nearly so (a level does where its crest lets go while its neighbours still hold). Either
+way it is flat in t at the end, which says what it is there: the ends are no nodes. They are breaks, and next to one rounding
+decides which side of it a strip is on.
 """
 
 from dataclasses import dataclass
@@ -41,7 +42,8 @@ def _transform(n: int) -> np.ndarray:
 
 @lru_cache
 def flat_ended(n: int) -> np.ndarray:
-    """Matrix (n + 1, n - 1) from values at the interior nodes of ``lobatto(n)`` to coefficients of the interpolant whose slope vanishes at both ends."""
+    """Matrix (n + 1, n - 1) from values at the interior nodes of ``lobatto(n)`` to coefficients of the interpolant whose slope
+    vanishes at both ends."""
     every, degree = _transform(n), np.arange(n + 1)
     # slopes of the Chebyshev polynomials are k^2 at one end and (-1)^(k + 1) k^2 at the other
     slopes = np.stack((degree**2, (-1.0) ** degree * degree**2)) @ every
@@ -49,12 +51,15 @@ def flat_ended(n: int) -> np.ndarray:
     return every[:, 1:-1] + every[:, [0, -1]] @ ends
 
 
-def interpolation_errors(c: np.ndarray, noise: np.ndarray, blur: np.ndarray | float = 0.0, rounding: np.ndarray | float = 0.0) -> np.ndarray:
-    """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q); ``noise`` (p, q): changes that don't matter; ``blur`` (p, q):
-    how uncertain the coefficients are themselves; ``rounding`` (p, q): what of each is rounding and not counted.
+def interpolation_errors(
+    c: np.ndarray, noise: np.ndarray, blur: np.ndarray | float = 0.0, rounding: np.ndarray | float = 0.0
+) -> np.ndarray:
+    """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q); ``noise`` (p, q): changes that don't
+    matter; ``blur`` (p, q): how uncertain the coefficients are themselves; ``rounding`` (p, q): what of each is rounding and not
+    counted.
 
-    What is left is extrapolated from the last coefficients, at the pace they fell at since the middle: that of the slowest quantity, and no
-    quantity is taken to be much smoother than the roughest, for they share their singularities.
+    What is left is extrapolated from the last coefficients, at the pace they fell at since the middle: that of the slowest
+    quantity, and no quantity is taken to be much smoother than the roughest, for they share their singularities.
     """
     n = c.shape[1] - 1
     c = np.abs(c)

@@ -70,7 +70,8 @@ class Contact:
         def lag(phase, sub):
             args = (b[sub], phase, q_b[sub], s.p_0[sub], s.D[sub], s.alpha[sub], s.beta[sub], s.L[sub])
             H, rise = self.kernel.forcing(phase, s.D[sub], s.beta[sub]), self.kernel.excess_after_slope(*args)
-            # alpha p' = H - p falls through zero once: from entry, where p is below H, to exit; without memory rounding is all of it
+            # alpha p' = H - p falls through zero once: from entry, where p is below H, to exit; without memory rounding is all of
+            # it
             behind = H + s.p_0[sub] - self.kernel.excess_after(*args)
             steepens = self.kernel.profile_slope(phase) - s.beta[sub] * np.cos(phase) - rise
             bend = -amplitude[sub] * np.cos(phase - centre[sub])

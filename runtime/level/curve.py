@@ -1,7 +1,7 @@
 """A level's means as a function of penetration, from the first contact to saturation, one curve per velocity.
 
-Between its breaks (``breaks.py``) a curve is interpolated; pieces that do not converge are halved, or split where strips enter a new
-regime. All velocities advance together.
+Between its breaks (``breaks.py``) a curve is interpolated; pieces that do not converge are halved, or split where strips enter a
+new regime. All velocities advance together.
 """
 
 from __future__ import annotations
@@ -53,25 +53,26 @@ class Curve:
 
 @dataclass(frozen=True)
 class Sought:
-    """Pressures ``p`` (Pa, per column) of which it is asked where the curve passes them, to an error ``goal`` (Pa) of the pressure there."""
+    """Pressures ``p`` (Pa, per column) of which it is asked where the curve passes them, to an error ``goal`` (Pa) of the
+    pressure there."""
 
     p: np.ndarray
     goal: np.ndarray
 
     def goals(self, column: np.ndarray, pressures: np.ndarray) -> np.ndarray:
-        """Error allowed on intervals of the columns ``column``, with ``pressures`` (m, nodes): what keeps away from p need not be known to better than
-        to tell that it does."""
+        """Error allowed on intervals of the columns ``column``, with ``pressures`` (m, nodes): what keeps away from p need not be
+        known to better than to tell that it does."""
         return np.maximum(self.goal[column], _CLEAR * np.abs(pressures - self.p[column, None]).min(axis=1))
 
 
 def trace(
     columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None, follow: bool = False, demand: Demand | None = None
 ) -> list[Curve]:
-    """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``; of ``frictional`` columns pressure
-    only as well as it takes for friction over pressure to be known to that.
+    """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``; of
+    ``frictional`` columns pressure only as well as it takes for friction over pressure to be known to that.
 
-    ``follow``: below the penetration at which the crest lets go, only what unloading at a falling pressure comes to. ``demand``: what is asked of
-    every column's law; what hardly counts there is made coarser.
+    ``follow``: below the penetration at which the crest lets go, only what unloading at a falling pressure comes to. ``demand``:
+    what is asked of every column's law; what hardly counts there is made coarser.
     """
     n = columns.size
     top = saturation_depth(columns) if top is None else top
@@ -89,7 +90,8 @@ def trace(
 
 
 def smooth_intervals(columns: Columns, top: np.ndarray) -> tuple[list[list[Interval]], np.ndarray]:
-    """For every column the intervals between the breaks of its curve, ascending; and where the crest lets go (inf: never seen), (n,)."""
+    """For every column the intervals between the breaks of its curve, ascending; and where the crest lets go (inf: never seen),
+    (n,)."""
     inside = threshold_width(columns, top)
     breaks, crest = breakpoints(columns, top)
     rows = [
@@ -110,8 +112,8 @@ def interpolate(
 ) -> list[list[Piece]]:
     """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work.
 
-    ``sought``: nothing counts but where the pressure passes a given one. ``demand``: how much the pressures of an interval count, those
-    above the ``ceiling`` (Pa, per column) not at all.
+    ``sought``: nothing counts but where the pressure passes a given one. ``demand``: how much the pressures of an interval count,
+    those above the ``ceiling`` (Pa, per column) not at all.
     """
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
     for _ in range(_ROUNDS):
@@ -167,7 +169,8 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
 
 
 def _rounding(columns: Columns, batch: Batch, n: int, c) -> np.ndarray:
-    """What the rounding of D makes of the coefficients ``c``, (intervals, q): next to a break where the means are like square roots it tells."""
+    """What the rounding of D makes of the coefficients ``c``, (intervals, q): next to a break where the means are like square
+    roots it tells."""
     ends = np.stack((np.einsum("k,pkq->pq", (-1.0) ** np.arange(n + 1), c), c.sum(axis=1)), axis=1)
     values = np.concatenate((ends[:, :1], batch.values, ends[:, 1:]), axis=1)
     D = np.array([i.penetrations(lobatto(n)) for i in batch.intervals])
@@ -186,7 +189,8 @@ def _pressure_goal(values, goal):
 
 
 def _islands(columns: Columns, batch: Batch, n: int, which, strips, roughly: bool) -> dict[int, tuple[float, float]]:
-    """Breaks inside intervals: penetrations and thetas at which something appears or vanishes between two nodes, away from the crest."""
+    """Breaks inside intervals: penetrations and thetas at which something appears or vanishes between two nodes, away from the
+    crest."""
     seen = {}
     for k in np.flatnonzero(which):
         i = batch.intervals[k]

@@ -1,7 +1,9 @@
-"""Which pressures a level asks of the level below it, and how much hangs on each: where next to nothing does, a law may be coarser.
+"""Which pressures a level asks of the level below it, and how much hangs on each: where next to nothing does, a law may be
+coarser.
 
-A law's error counts as much as the share of the surface on which it is asked for. The strips of the level above are looked at by a plain sum: it is
-accuracy that is dealt out here, no result; what a law lacks shows in the error of what it carries (``carried``).
+A law's error counts as much as the share of the surface on which it is asked for. The strips of the level above are looked at by
+a plain sum: it is accuracy that is dealt out here, no result; what a law lacks shows in the error of what it carries
+(``carried``).
 """
 
 from __future__ import annotations
@@ -28,8 +30,9 @@ _EASIEST = 1e6
 
 @dataclass(frozen=True)
 class Demand:
-    """Pressures of points of the level above. ``group`` (n,): the law that a point asks; ``p`` (n, m), Pa, ascending in every row, with the ``share`` (n, m)
-    of the surface on which the pressure is at most that; ``friction`` (n,): Pa of friction that an error is held against."""
+    """Pressures of points of the level above. ``group`` (n,): the law that a point asks; ``p`` (n, m), Pa, ascending in every
+    row, with the ``share`` (n, m) of the surface on which the pressure is at most that; ``friction`` (n,): Pa of friction that an
+    error is held against."""
 
     group: np.ndarray
     p: np.ndarray
@@ -37,8 +40,8 @@ class Demand:
     friction: np.ndarray
 
     def ease(self, group: int, low: float, high: float, friction: float) -> float:
-        """How much coarser than what is asked of the whole a law may be between the pressures ``low`` and ``high`` (Pa), where its friction is up to
-        ``friction`` (Pa): by an error of that, and by one of the pressure at which it ends."""
+        """How much coarser than what is asked of the whole a law may be between the pressures ``low`` and ``high`` (Pa), where
+        its friction is up to ``friction`` (Pa): by an error of that, and by one of the pressure at which it ends."""
         if not high > low:
             return _EASIEST
         least = _EASIEST

@@ -18,7 +18,8 @@ def boundaries(zones: np.ndarray) -> np.ndarray:
 
 
 def expect(x: np.ndarray, zones: list[np.ndarray], x_new: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
-    """Sequence of codes (k + 1,), thetas of its transitions and half widths of their brackets (points, k) at ``x_new``; None if unknown.
+    """Sequence of codes (k + 1,), thetas of its transitions and half widths of their brackets (points, k) at ``x_new``; None if
+    unknown.
 
     ``x``: ascending parameters at which ``zones`` are known; those with the sequence met most often count.
     """
@@ -47,8 +48,8 @@ def _lagrange(x, x_new):
 
 
 def hints(columns: np.ndarray, expected: list, witnesses: list[tuple[float, ...]], size: np.ndarray) -> Hints | None:
-    """``panels.Hints`` for ``columns[i]`` (points of one interval each) from what ``expect`` said of each and the thetas ``witnesses[i]``; ``size``
-    (all columns, q)."""
+    """``panels.Hints`` for ``columns[i]`` (points of one interval each) from what ``expect`` said of each and the thetas
+    ``witnesses[i]``; ``size`` (all columns, q)."""
     transitions, looks = [[np.empty(0)] * 5], [[np.empty(0)] * 2]
     for column, e, known in zip(columns, expected, witnesses, strict=True):
         looks.append([np.repeat(column, len(known)), np.tile(known, column.size)])

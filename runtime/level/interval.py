@@ -26,9 +26,9 @@ class Seen:
 
 @dataclass(frozen=True)
 class Interval:
-    """An interval of D of one column; ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end. ``witnesses``: thetas at which some
-    regime is met in next to no strips towards an end. ``ease``: how much coarser than what is asked of the column it may be. ``even``: its parameters
-    are shares of it, not graded towards its ends: enough for a look."""
+    """An interval of D of one column; ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end. ``witnesses``:
+    thetas at which some regime is met in next to no strips towards an end. ``ease``: how much coarser than what is asked of the
+    column it may be. ``even``: its parameters are shares of it, not graded towards its ends: enough for a look."""
 
     column: int
     low: float

@@ -1,7 +1,8 @@
 """From nominal pressure to penetration along a branch of loading.
 
-The curve is interpolated piece by piece from the end its branch comes from, down to where it first passes the pressure; what it does between
-samples is bounded by the interpolation's error. Where that leaves open whether a turn reaches the pressure, the piece is interpolated again, finer.
+The curve is interpolated piece by piece from the end its branch comes from, down to where it first passes the pressure; what it
+does between samples is bounded by the interpolation's error. Where that leaves open whether a turn reaches the pressure, the
+piece is interpolated again, finer.
 """
 
 from __future__ import annotations
@@ -33,7 +34,8 @@ _EPS = np.finfo(float).eps
 
 @dataclass(frozen=True)
 class Inverse:
-    """Penetrations that carry given pressures, arrays (n,): ``D`` (NaN below pull-off) and the slope d(tau)/dp of the level there."""
+    """Penetrations that carry given pressures, arrays (n,): ``D`` (NaN below pull-off) and the slope d(tau)/dp of the level
+    there."""
 
     D: np.ndarray
     slope: np.ndarray
@@ -51,7 +53,8 @@ def cut_penetration(columns: Columns, p_max: np.ndarray, full: np.ndarray) -> np
 
 
 def invert(columns: Columns, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
-    """Largest penetration (``unloading``) or smallest (``loading``) at which each column carries ``p`` (Pa, (n,)), below saturation.
+    """Largest penetration (``unloading``) or smallest (``loading``) at which each column carries ``p`` (Pa, (n,)), below
+    saturation.
 
     ``full`` (n,): penetration of saturated contact. The root is refined with averages to ``rtol``.
     """
@@ -186,8 +189,8 @@ class _Descent:
 
 
 def _refine(columns: Columns, p, near, rtol):
-    """Penetrations and d(tau)/dp of the roots ``near`` these (arrays of the fields of ``_Root``): Newton with the slope of the coarse curve, then of
-    the last two averages."""
+    """Penetrations and d(tau)/dp of the roots ``near`` these (arrays of the fields of ``_Root``): Newton with the slope of the
+    coarse curve, then of the last two averages."""
     D, slope, friction_slope, low, high = near
     goal = _CLOSE * rtol * (np.abs(p) + 1e-3 * columns.scales[0])
     active = np.flatnonzero((slope > 0) & (high > low))

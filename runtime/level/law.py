@@ -2,8 +2,8 @@
 
 Unloading follows the largest penetration at which the level carries the pressure: from saturation downwards a part of the curve
 counts only where its pressure lies below everything above it. Loading follows the smallest: from the first contact upwards
-only where the pressure lies above everything below. What remains is a stack of monotone branches in disjoint intervals of pressure; the
-law may jump between them.
+only where the pressure lies above everything below. What remains is a stack of monotone branches in disjoint intervals of
+pressure; the law may jump between them.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ _EPS = np.finfo(float).eps
 class Branch:
     """A monotone part of a curve: piece and parameters between which pressure rises from ``p_low`` to ``p_high``.
 
-    ``cells``: its quantities over u, ``p = p_low + (p_high - p_low) graded(u)``, in which they are smooth where they are over the piece's own parameter,
-    and where the curve turns.
+    ``cells``: its quantities over u, ``p = p_low + (p_high - p_low) graded(u)``, in which they are smooth where they are over the
+    piece's own parameter, and where the curve turns.
     ``soft_low``, ``soft_high``: the law goes on smoothly beyond that end, in another branch.
     """
 
@@ -136,7 +136,8 @@ def rising(piece: Piece) -> list[Branch]:
 
 
 def _turn(piece: Piece, i: int, j: int, falls_first: bool) -> float:
-    """Zero of dp/dt between points i and j of ``_TURNS``, before which pressure falls or rises: at an end its slope says nothing."""
+    """Zero of dp/dt between points i and j of ``_TURNS``, before which pressure falls or rises: at an end its slope says
+    nothing."""
     low, high = _TURNS[i], _TURNS[j]
     for _ in range(60):
         middle = 0.5 * (low + high)
@@ -173,10 +174,12 @@ def _meets(part: Branch, overlap: float) -> bool:
 
 
 def _joined(kept: list[Branch], p_sat: float) -> list[Branch]:
-    """The branches, those stretched that end next to where another begins, or at saturation, but for their errors: there is one break of the
-    law, not two."""
+    """The branches, those stretched that end next to where another begins, or at saturation, but for their errors: there is one
+    break of the law, not two."""
     ends = [*(b.p_low for b in kept[1:]), p_sat]
-    return [replace(b, p_high=end) if _meets(b, abs(end - b.p_high)) else b for b, end in zip(kept, ends[: len(kept)], strict=True)]
+    return [
+        replace(b, p_high=end) if _meets(b, abs(end - b.p_high)) else b for b, end in zip(kept, ends[: len(kept)], strict=True)
+    ]
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,10 @@
 """How far a strip is from the end of its regime: quantities that vanish there, from which the place of a transition is foretold.
 
-An orbit with a free part ends at a fold, where ``1 - T'`` vanishes like the square root of the distance; its contact ends at no length, which
-vanishes likewise. A foundation with little memory folds next to where onset or release grazes: T' is small until F or M (``sensitivity``) all but
-vanishes, so ``F M (1 - T')`` tells it in either case. A gap that adheres throughout ends where it comes to exceed delta_0, a gap without contact where it closes, and thresholds are
-passed: all in proportion to the distance. None of this decides anything: where a transition lies is told by codes alone (``transitions``).
+An orbit with a free part ends at a fold, where ``1 - T'`` vanishes like the square root of the distance; its contact ends at no
+length, which vanishes likewise. A foundation with little memory folds next to where onset or release grazes: T' is small until F
+or M (``sensitivity``) all but vanishes, so ``F M (1 - T')`` tells it in either case. A gap that adheres throughout ends where it
+comes to exceed delta_0, a gap without contact where it closes, and thresholds are passed: all in proportion to the distance. None
+of this decides anything: where a transition lies is told by codes alone (``transitions``).
 """
 
 from __future__ import annotations

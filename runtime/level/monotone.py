@@ -1,8 +1,8 @@
 """From nominal pressure to penetration where there is no adhesion.
 
-Without adhesion the order of orbits is that of w: at a larger penetration w is larger everywhere, and so is ``p_mean = K w_mean`` (Eq. 5 averaged).
-There is one penetration for a pressure, whatever the branch, and no turn to look for. As ``3 h/4`` is the mean depth of the profile under its
-crests and w lies between the profile and its crest, ``K (D - 3 h/4) <= p_mean <= K D``.
+Without adhesion the order of orbits is that of w: at a larger penetration w is larger everywhere, and so is ``p_mean = K w_mean``
+(Eq. 5 averaged). There is one penetration for a pressure, whatever the branch, and no turn to look for. As ``3 h/4`` is the mean
+depth of the profile under its crests and w lies between the profile and its crest, ``K (D - 3 h/4) <= p_mean <= K D``.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ _ROUGH, _FINE, _WINDOW = 0.05, 1e-6, 0.02
 
 
 def enclosed(columns: Columns, p: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Penetrations near those that carry ``p`` > 0 (Pa, (n,)), the slopes d(p)/dD and d(tau)/dp there, and the ends of brackets of the roots."""
+    """Penetrations near those that carry ``p`` > 0 (Pa, (n,)), the slopes d(p)/dD and d(tau)/dp there, and the ends of brackets
+    of the roots."""
     K, h = columns.material.K, columns.level.h
     low, high = p / K, p / K + 0.75 * h
     D = low[:, None] * (high / low)[:, None] ** np.linspace(0, 1, _FIRST)

@@ -31,7 +31,8 @@ _SHARE, _SLIVER = 0.4, 0.03
 
 @dataclass(frozen=True, slots=True)
 class Hints:
-    """Where transitions are expected, arrays (m,): ``column``, bracket in theta, codes at its ends; ``size`` (columns, q): of the values.
+    """Where transitions are expected, arrays (m,): ``column``, bracket in theta, codes at its ends; ``size`` (columns, q): of the
+    values.
 
     ``witness_column``, ``witness`` (w,): thetas in the middle of narrow zones that are expected.
     """
@@ -61,7 +62,8 @@ class Averages:
 
 @dataclass(slots=True)
 class _Panels:
-    """Panels [low, high] of columns, arrays (m,), with the ``codes`` (m, 2) and ``values`` (m, 2, q) at their ends where these are known (NaN: not)."""
+    """Panels [low, high] of columns, arrays (m,), with the ``codes`` (m, 2) and ``values`` (m, 2, q) at their ends where these
+    are known (NaN: not)."""
 
     column: np.ndarray
     low: np.ndarray
@@ -129,8 +131,16 @@ def _between(n: int, cuts: _Panels) -> _Panels:
     cuts = cuts.take(np.lexsort((cuts.low, cuts.column)))
     q = cuts.values.shape[2]
     every, nothing = np.arange(n), (np.full(n, np.nan), np.full((n, q), np.nan))
-    after = (np.concatenate(v) for v in zip((every, np.zeros(n), *nothing), (cuts.column, cuts.high, cuts.codes[:, 1], cuts.values[:, 1]), strict=True))
-    before = (np.concatenate(v) for v in zip((cuts.column, cuts.low, cuts.codes[:, 0], cuts.values[:, 0]), (every, np.full(n, np.pi), *nothing), strict=True))
+    after = (
+        np.concatenate(v)
+        for v in zip((every, np.zeros(n), *nothing), (cuts.column, cuts.high, cuts.codes[:, 1], cuts.values[:, 1]), strict=True)
+    )
+    before = (
+        np.concatenate(v)
+        for v in zip(
+            (cuts.column, cuts.low, cuts.codes[:, 0], cuts.values[:, 0]), (every, np.full(n, np.pi), *nothing), strict=True
+        )
+    )
     (column, *starts), (last, *ends) = after, before
     starts = [v[np.argsort(column, kind="stable")] for v in starts]
     ends = [v[np.argsort(last, kind="stable")] for v in ends]
@@ -160,7 +170,8 @@ class _Work:
     accepted: list[tuple]
     #: brackets of transitions (column, low, high) with what was left out for each, and how far off that may be
     slivers: list[tuple] = field(default_factory=list)
-    #: codes (columns, 2) and values (columns, 2, q) at the crest and next to the flat edge: what is narrower than a panel's first step shows up there
+    #: codes (columns, 2) and values (columns, 2, q) at the crest and next to the flat edge: what is narrower than a panel's first
+    #: step shows up there
     ends: np.ndarray | None = None
     end_values: np.ndarray | None = None
 
@@ -223,7 +234,9 @@ class _Work:
         index = np.flatnonzero(holds)
         order = index[np.lexsort((hints.low[index], hints.column[index]))]
         # brackets of one column must not overlap
-        tight = np.flatnonzero((hints.column[order[1:]] == hints.column[order[:-1]]) & (hints.low[order[1:]] <= hints.high[order[:-1]]))
+        tight = np.flatnonzero(
+            (hints.column[order[1:]] == hints.column[order[:-1]]) & (hints.low[order[1:]] <= hints.high[order[:-1]])
+        )
         index = np.delete(order, np.union1d(tight, tight + 1))
         spread = np.abs(values[m:] - values[:m])[index]
         line = hints.column[index]
@@ -263,7 +276,8 @@ class _Work:
         self.slivers.append((column, low, high, value, sliver * np.abs(high_side - low_side)))
 
     def close_slivers(self) -> None:
-        """What the slivers hold, by the panels next to them: to either side of the transition values are as at the ends of these."""
+        """What the slivers hold, by the panels next to them: to either side of the transition values are as at the ends of
+        these."""
         if not self.slivers:
             return
         column, low, high, value, error = (np.concatenate(v) for v in zip(*self.slivers, strict=True))

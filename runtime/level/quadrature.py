@@ -1,7 +1,8 @@
-"""Clenshaw-Curtis sums on nested nodes of an interval whose ends may be like square roots, with an error from the decay of coefficients.
+"""Clenshaw-Curtis sums on nested nodes of an interval whose ends may be like square roots, with an error from the decay of
+coefficients.
 
-``x = low + width (3 t^2 - 2 t^3)``: what starts or ends like a square root in x is smooth in t, and a polynomial in x stays one in t. The ends
-are no nodes: the weight vanishes there, so that nothing need be known of what happens on them.
+``x = low + width (3 t^2 - 2 t^3)``: what starts or ends like a square root in x is smooth in t, and a polynomial in x stays one
+in t. The ends are no nodes: the weight vanishes there, so that nothing need be known of what happens on them.
 """
 
 from functools import lru_cache
@@ -13,8 +14,8 @@ _EPS = np.finfo(float).eps
 _COMMON = 0.3
 #: slowest decay that a sum of the rest may be extrapolated with
 _SLOWEST = 6.0
-#: number of nodes from which on coefficients are many; up to it and from it on: the fastest decay believed, and the ratio of the last coefficients to the
-#: middle ones below which they surely fall geometrically
+#: number of nodes from which on coefficients are many; up to it and from it on: the fastest decay believed, and the ratio of the
+#: last coefficients to the middle ones below which they surely fall geometrically
 _MANY, _FASTEST, _GEOMETRIC = 16, (0.43, 0.35), (0.15, 0.05)
 #: so many coefficients in a row are not small by chance where a pair of singularities makes them come and go
 _RUN = 5
@@ -53,7 +54,8 @@ def _second_kind(n: int) -> np.ndarray:
 
 @lru_cache
 def _missed(n: int) -> tuple[np.ndarray, np.ndarray]:
-    """Orders ``j = n + 1, n + 3 ... 2 n - 1`` of the polynomials ``sin(j phi)/sin(phi)`` that the sum does not integrate exactly, and how far it is off.
+    """Orders ``j = n + 1, n + 3 ... 2 n - 1`` of the polynomials ``sin(j phi)/sin(phi)`` that the sum does not integrate exactly,
+    and how far it is off.
 
     Their integrals are ``m(j) = -3/(j (j^2 - 4))``, zero for even j, and at the nodes order ``2 n - j`` looks like j.
     """
@@ -63,10 +65,12 @@ def _missed(n: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
-    """Error of the sum over nodes of each interval, per width, (p, q); ``values`` (p, n - 1, q), ``noise`` (p, q): changes that don't matter.
+    """Error of the sum over nodes of each interval, per width, (p, q); ``values`` (p, n - 1, q), ``noise`` (p, q): changes that
+    don't matter.
 
-    The last coefficients say how much is left, and what they have lost against those in the middle how fast it falls. All quantities share their
-    singularities: the slowest decay is taken for all, and none is taken to be much smoother than the roughest.
+    The last coefficients say how much is left, and what they have lost against those in the middle how fast it falls. All
+    quantities share their singularities: the slowest decay is taken for all, and none is taken to be much smoother than the
+    roughest.
     """
     n = values.shape[1] + 1
     c = np.abs(np.einsum("kj,pjq->pkq", _second_kind(n), values))

@@ -1,6 +1,8 @@
-"""Where the curve below the end of the crest falls under all it was before: there the rims of the cells hold on, and unloading jumps to them.
+"""Where the curve below the end of the crest falls under all it was before: there the rims of the cells hold on, and unloading
+jumps to them.
 
-A look at a few penetrations tells it to a few digits; what that leaves open is taken for coming, and only this has to be interpolated.
+A look at a few penetrations tells it to a few digits; what that leaves open is taken for coming, and only this has to be
+interpolated.
 """
 
 from __future__ import annotations
@@ -21,8 +23,11 @@ _ROUGH, _FIRST, _LAST, _NARROW = 5e-3, 4, 16, 0.05
 _DOUBT, _BEND = 2.0, 0.5
 
 
-def where_rims_hold(columns: Columns, rtol, intervals: list[Interval], least: np.ndarray, strips, demand: Demand | None) -> list[Interval]:
-    """The parts of the ``intervals`` that unloading may come to after the pressures ``least`` (Pa, per column), as far as they count for the ``demand``."""
+def where_rims_hold(
+    columns: Columns, rtol, intervals: list[Interval], least: np.ndarray, strips, demand: Demand | None
+) -> list[Interval]:
+    """The parts of the ``intervals`` that unloading may come to after the pressures ``least`` (Pa, per column), as far as they
+    count for the ``demand``."""
     met, out = least.copy(), []
     for look, D, values, error in sorted(_looks(columns, intervals, strips), key=lambda look: -look[0].high):
         column, p = look.column, values[:, 0]
@@ -44,7 +49,9 @@ def where_rims_hold(columns: Columns, rtol, intervals: list[Interval], least: np
             if ease * rtol[column] < 1.0:
                 soft = look.soft_low or first > 0, look.soft_high or last < p.size - 1
                 low, high = D[first] if first > 0 else look.low, D[last] if last < p.size - 1 else look.high
-                out.append(replace(look, low=float(low), high=float(high), soft_low=soft[0], soft_high=soft[1], ease=ease, even=False))
+                out.append(
+                    replace(look, low=float(low), high=float(high), soft_low=soft[0], soft_high=soft[1], ease=ease, even=False)
+                )
         met[column] = min(met[column], (p + error).min())
     return out
 

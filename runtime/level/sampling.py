@@ -56,7 +56,10 @@ class Batch:
         rows = np.repeat(self.column, t.size)
         if first:
             inherited = [i.seen for i in self.intervals]
-            expected = [None if seen is None else seen.expected(i.penetrations(t)) for i, seen in zip(self.intervals, inherited, strict=True)]
+            expected = [
+                None if seen is None else seen.expected(i.penetrations(t))
+                for i, seen in zip(self.intervals, inherited, strict=True)
+            ]
             size = np.array([np.zeros(self.columns.scales.size) if seen is None else seen.size for seen in inherited])
         else:
             expected = [expect(nodes[1::2], zones, t) for zones in self.zones]

@@ -20,10 +20,10 @@ _BLOCK = 4096
 class SaturatedLevel:
     """Saturated contact of one level at velocities V (n,): arrays (n,), SI, evaluated when first asked for.
 
-    ``p_sat``: nominal pressure from which the branch is in saturated contact. ``tau_sat``: its friction. ``D_sat``: penetration at
-    ``p_sat``. ``lift``: nominal pressure over the least local pressure in saturated contact, ``K h (2R - 1)/4``. All but ``tau_sat``
-    grow with V: they follow ``|K*(i omega)|``, a product of factors ``(1 + lambda^2 omega^2)/(1 + tau^2 omega^2)``, the retardation
-    time lambda of each longer than its relaxation time tau.
+    ``p_sat``: nominal pressure from which the branch is in saturated contact. ``tau_sat``: its friction. ``D_sat``: penetration
+    at ``p_sat``. ``lift``: nominal pressure over the least local pressure in saturated contact, ``K h (2R - 1)/4``. All but
+    ``tau_sat`` grow with V: they follow ``|K*(i omega)|``, a product of factors ``(1 + lambda^2 omega^2)/(1 + tau^2 omega^2)``,
+    the retardation time lambda of each longer than its relaxation time tau.
     """
 
     foundation: Foundation
@@ -63,8 +63,8 @@ def saturated_level(
 ) -> SaturatedLevel:
     """Thresholds and friction of a level in saturated contact at velocities ``V`` (m/s), shape (n,).
 
-    Unloading leaves saturated contact exactly at ``p_sat``. Loading may reach it later than unloading leaves it, at a penetration with no closed
-    form; the threshold given for it is one above which nothing else can be.
+    Unloading leaves saturated contact exactly at ``p_sat``. Loading may reach it later than unloading leaves it, at a penetration
+    with no closed form; the threshold given for it is one above which nothing else can be.
     """
     return SaturatedLevel(foundation_of(material), adhesion.p_0, level, V, branch)
 

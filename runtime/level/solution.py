@@ -27,8 +27,8 @@ from .strips import QUANTITIES, Columns, Tally
 class LevelSolution:
     """Means of a level; arrays have the broadcast shape of V and D (or pressure), SI units.
 
-    ``D`` and means are NaN and zero below pull-off (``pulled_off``). ``error_estimate``: of ``p_mean``, ``tau_mean``, ``contact_fraction``,
-    ``adhesion_fraction``, absolute, shape (4, ...). ``strips``: strips evaluated, in all.
+    ``D`` and means are NaN and zero below pull-off (``pulled_off``). ``error_estimate``: of ``p_mean``, ``tau_mean``,
+    ``contact_fraction``, ``adhesion_fraction``, absolute, shape (4, ...). ``strips``: strips evaluated, in all.
     """
 
     D: np.ndarray
@@ -104,7 +104,8 @@ def solve_level(
     """Means of a level over its strips (Eq. 11) at penetration ``D`` (m) or nominal ``pressure`` (Pa) and velocity ``V`` (m/s).
 
     ``strips=N``: the paper's equal strips (midpoints of N strips of half a cell) instead of adaptive panels; with ``D`` only.
-    ``rtol`` is relative to ``|value| + 1e-3 scale``, scale ``K h + p_0`` for pressure, times ``h/l`` for friction, 1 for fractions.
+    ``rtol`` is relative to ``|value| + 1e-3 scale``, scale ``K h + p_0`` for pressure, times ``h/l`` for friction, 1 for
+    fractions.
 
     Raises ``InputError`` for inputs out of range, ``SolverError`` for a strip that could not be certified.
 
@@ -155,7 +156,9 @@ def _at_pressure(material, adhesion, level, V, p, edge, branch, rtol, shape, tal
     if part.size and is_bare(foundation_of(material), adhesion.p_0, (level,), V):
         bare = bare_means(columns.at(part, D[part]), np.full(part.size, rtol), p[part])
         sure = part[bare.certain]
-        D[sure], values[sure], errors[sure], known[sure] = (v[bare.certain] for v in (bare.D, bare.values, bare.errors, bare.certain))
+        D[sure], values[sure], errors[sure], known[sure] = (
+            v[bare.certain] for v in (bare.D, bare.values, bare.errors, bare.certain)
+        )
     rest = np.flatnonzero((p < s.p_sat) & ~known)
     if rest.size:
         found = invert(columns.at(rest, D[rest]), p[rest], s.D_sat[rest], 0.3 * rtol)

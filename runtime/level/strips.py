@@ -58,8 +58,8 @@ class Columns:
     """Pairs of velocity and penetration at which one level is averaged; ``V`` and ``D`` of shape (n,).
 
     ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
-    laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels. ``frictional``: it is for pressure and
-    friction that the averages are made; fractions need be accurate against 1 only.
+    laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels. ``frictional``: it is for
+    pressure and friction that the averages are made; fractions need be accurate against 1 only.
     """
 
     material: Material
@@ -106,13 +106,16 @@ class Columns:
         A = self.level.amplitude(theta)
         D = self.D[column] - self.level.drop(theta)
         l, a = np.full(column.size, self.level.l), self.adhesion  # noqa: E741
-        solved, strips, scales = foundation_of(self.material).solve(l, A, D, self.V[column], a.p_0, a.delta_0, self.edge, self.branch)
+        solved, strips, scales = foundation_of(self.material).solve(
+            l, A, D, self.V[column], a.p_0, a.delta_0, self.edge, self.branch
+        )
         self.tally.count(solved)
         tau = solved.tau_mean * scales["p"] * scales["k"] * scales["A"]
         return SolvedStrips(solved, strips, scales, solved.p_mean * scales["p"], tau)
 
     def codes(self, column: np.ndarray, theta: np.ndarray) -> np.ndarray:
-        """Codes that change wherever the integrand may not be smooth, (m,): the regime, and the breaks of the law below that are passed."""
+        """Codes that change wherever the integrand may not be smooth, (m,): the regime, and the breaks of the law below that are
+        passed."""
         return self._codes(self.solve(column, theta), column)
 
     def probe(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -132,7 +135,9 @@ class Columns:
 
         def foretells(code, other):
             passing = carry.passing(code // n, other // n)
-            return np.where(code % n == other % n, np.where(passing < 0, -1, POWERS.size + passing), decisive(code % n, other % n))
+            return np.where(
+                code % n == other % n, np.where(passing < 0, -1, POWERS.size + passing), decisive(code % n, other % n)
+            )
 
         return Guide(foretells, np.concatenate((POWERS, np.ones(carry.passes, int))))
 
@@ -152,7 +157,8 @@ class Columns:
         return codes + len(CODE) * self.carry.crossed(kernel_of(self.material), strips, self.group[column])
 
     def transitions(self) -> list[np.ndarray]:
-        """Thetas of the transitions known in closed form, for every column: where strips become saturated, where they lose touch."""
+        """Thetas of the transitions known in closed form, for every column: where strips become saturated, where they lose
+        touch."""
         return _known_transitions(self)
 
 

@@ -16,8 +16,8 @@ _CHUNK = 4096
 class LawTable:
     """Laws stacked by group; ``breaks`` (groups, B), padded with inf, ``p_sat`` (groups,), ``saturated`` (groups, q).
 
-    ``jumps`` (groups, B): change of friction, its own and what it carries, at each break; ``break_error`` (groups, B): how well the
-    break's pressure is known, Pa. ``frictions``: where those frictions stand among the quantities after pressure.
+    ``jumps`` (groups, B): change of friction, its own and what it carries, at each break; ``break_error`` (groups, B): how well
+    the break's pressure is known, Pa. ``frictions``: where those frictions stand among the quantities after pressure.
     """
 
     def __init__(self, laws: Sequence[Law]):
@@ -45,7 +45,8 @@ class LawTable:
         self._cell = np.array([c.of + at for c, at in zip(cells, first[:-1], strict=True)]).reshape(-1, SLOTS)
 
     def __call__(self, group: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Quantities after pressure (m, q - 1) at pressures ``p`` (m,) of the laws ``group`` (m,), and errors of friction and pressure (m, 2)."""
+        """Quantities after pressure (m, q - 1) at pressures ``p`` (m,) of the laws ``group`` (m,), and errors of friction and
+        pressure (m, 2)."""
         out, errors = np.zeros((p.size, self.saturated.shape[1] - 1)), np.zeros((p.size, 2))
         high = p >= self.p_sat[group]
         out[high] = self.saturated[group[high], 1:]

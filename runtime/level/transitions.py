@@ -1,7 +1,8 @@
 """Where a code changes along a line: all changes between points whose codes differ.
 
-Brackets shrink by multisection, or, where a margin is known that vanishes at the change, around the place it foretells. Two points with different
-codes enclose a change; where inside it lies is taken from the margin once it tells that well enough: points next to a fold are dear.
+Brackets shrink by multisection, or, where a margin is known that vanishes at the change, around the place it foretells. Two
+points with different codes enclose a change; where inside it lies is taken from the margin once it tells that well enough: points
+next to a fold are dear.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ import numpy as np
 _POINTS = 1024
 #: points remembered on either side of a bracket
 _KEPT = 3
-#: half width of the look around a foretold place, as a share of what the last point remembered changed of it, and its growth after a miss
+#: half width of the look around a foretold place, as a share of what the last point remembered changed of it, and its growth
+#: after a miss
 _DOUBT, _WIDER = 0.5, 16.0
 #: a look is worth it if it is this much narrower than the bracket
 _WORTH = 0.2
@@ -22,7 +24,8 @@ _WORTH = 0.2
 _TRUSTED = 2
 #: a place that is taken from the margins alone is held to be off by so much more than they say
 _SURE = 64.0
-#: points of a look in parts of its half width, towards the side that does not foretell: one well on the other for the next one to build on
+#: points of a look in parts of its half width, towards the side that does not foretell: one well on the other for the next one to
+#: build on
 _AROUND = np.array((-4.0, -1.0, 1.0))
 
 #: (line, x) -> codes (m,) and margins (m, k) of each point, NaN where unknown
@@ -31,8 +34,8 @@ Probe = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 @dataclass(frozen=True)
 class Guide:
-    """``foretells(code, other)``: which margin of a point with ``code`` vanishes where that becomes ``other``, -1 for none; ``powers`` (k,):
-    the distance to there is like that power of the margin."""
+    """``foretells(code, other)``: which margin of a point with ``code`` vanishes where that becomes ``other``, -1 for none;
+    ``powers`` (k,): the distance to there is like that power of the margin."""
 
     foretells: Callable[[np.ndarray, np.ndarray], np.ndarray]
     powers: np.ndarray
@@ -48,8 +51,8 @@ class Transitions:
 
 
 def locate(probe: Probe, guide: Guide, line, low, high, code_low, code_high, width) -> Transitions:
-    """Narrow every bracket [low, high] of the ``line`` it lies on to ``width`` or less, all (m,); where a third code shows up in between, its
-    transitions are found too. ``code_low``, ``code_high`` are the codes at the ends."""
+    """Narrow every bracket [low, high] of the ``line`` it lies on to ``width`` or less, all (m,); where a third code shows up in
+    between, its transitions are found too. ``code_low``, ``code_high`` are the codes at the ends."""
     found = []
     brackets = _Brackets.between(line, low, high, code_low, code_high, width, guide.powers.size)
     for _ in range(80):
@@ -68,8 +71,9 @@ def locate(probe: Probe, guide: Guide, line, low, high, code_low, code_high, wid
 
 @dataclass(frozen=True)
 class _Brackets:
-    """Brackets, arrays (n,), with the points remembered below and above each, the nearest first: ``x`` (n, 2, kept), NaN where there is none,
-    ``margins`` (n, 2, kept, k), ``codes`` (n, 2). ``misses``: looks in a row that found it elsewhere than foretold."""
+    """Brackets, arrays (n,), with the points remembered below and above each, the nearest first: ``x`` (n, 2, kept), NaN where
+    there is none, ``margins`` (n, 2, kept, k), ``codes`` (n, 2). ``misses``: looks in a row that found it elsewhere than
+    foretold."""
 
     line: np.ndarray
     width: np.ndarray
@@ -126,8 +130,8 @@ class _Brackets:
         return changes
 
     def _foretold(self, guide: Guide) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Where the change should be by the margins of the surer side, and how far off that may be, NaN and inf where nothing is known; and the
-        direction away from that side."""
+        """Where the change should be by the margins of the surer side, and how far off that may be, NaN and inf where nothing is
+        known; and the direction away from that side."""
         place, doubt, away = np.full(self.line.size, np.nan), np.full(self.line.size, np.inf), np.ones(self.line.size)
         for side in (0, 1):
             which = guide.foretells(self.codes[:, side], self.codes[:, 1 - side])
@@ -140,7 +144,8 @@ class _Brackets:
         return place, doubt, away
 
     def _changes(self, rows, x, codes, margins) -> tuple[_Brackets, np.ndarray]:
-        """The brackets between neighbours that differ among the points remembered and the new ones ``x`` of the brackets ``rows``; their parents."""
+        """The brackets between neighbours that differ among the points remembered and the new ones ``x`` of the brackets
+        ``rows``; their parents."""
         own, side, place = np.nonzero(np.isfinite(self.x))
         owner = np.concatenate((own, rows))
         x = np.concatenate((self.x[own, side, place], x))

@@ -1,7 +1,7 @@
 """Means of a level from strips that are marched from event to event, summed over y by a rule of its own.
 
-Nothing is shared with the library: transitions of the sequence of zones are bisected, and each part between two of them is summed by Gauss and
-Legendre over ``theta = middle - half cos(pi t)``, which takes the square roots at its ends.
+Nothing is shared with the library: transitions of the sequence of zones are bisected, and each part between two of them is summed
+by Gauss and Legendre over ``theta = middle - half cos(pi t)``, which takes the square roots at its ends.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,8 @@ _NODES = (12, 24, 48, 96)
 
 @dataclass(frozen=True)
 class LevelMeans:
-    """Mean pressure and friction, Pa, contact and adhesion fraction, (4,), and how much they changed when nodes were doubled last."""
+    """Mean pressure and friction, Pa, contact and adhesion fraction, (4,), and how much they changed when nodes were doubled
+    last."""
 
     values: np.ndarray
     change: np.ndarray
@@ -26,8 +27,8 @@ class LevelMeans:
 
 
 def level_means(K, T_eps, T_sigma, V, l, h, D, p_0, delta_0, edge, branch, rtol):  # noqa: E741
-    """Means at the penetration ``D`` (m) of the level's crests, to ``rtol`` of ``|value| + 1e-3 scale`` each. Raises ``ArithmeticError`` if a strip, or
-    the sum over a part, cannot be had."""
+    """Means at the penetration ``D`` (m) of the level's crests, to ``rtol`` of ``|value| + 1e-3 scale`` each. Raises
+    ``ArithmeticError`` if a strip, or the sum over a part, cannot be had."""
     solved = {}
 
     def strip(theta):

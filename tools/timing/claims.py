@@ -32,7 +32,8 @@ def cheapest(rows: list[Row], scene: str, error: float) -> Row | None:
 
 
 def time_at(rows: list[Row], error: float) -> tuple[float, bool] | None:
-    """Seconds a method takes to get to ``error``, and whether that is extrapolated: a power law through its settings that nothing beats."""
+    """Seconds a method takes to get to ``error``, and whether that is extrapolated: a power law through its settings that nothing
+    beats."""
     front: list[Row] = []
     for row in sorted(rows, key=lambda row: row.seconds):
         if row.error > 0 and (not front or row.error < front[-1].error):
@@ -52,7 +53,8 @@ def _saturated(rows):
     if here and plain and checked:
         a = here[0].seconds
         yield (
-            f"Eight saturated levels, 100,000 velocities: {1e3 * a:.1f} ms, {a / plain.seconds:.1f} times the bare formula in NumPy, "
+            f"Eight saturated levels, 100,000 velocities: {1e3 * a:.1f} ms, "
+            f"{a / plain.seconds:.1f} times the bare formula in NumPy, "
             f"{a / checked.seconds:.2f} times the formula with the check that every level is saturated."
         )
 
@@ -62,8 +64,10 @@ def _fig_6(rows):
     for scripted in of(rows, s.FIG_6, s.SCRIPT)[:1]:
         if here:
             yield (
-                f"Fig. 6 (400 points, {here.solved} of them solved): {here.seconds:.0f} s at rtol 1e-6 (error {here.error:.0e}); the script takes {short(scripted.seconds / here.seconds)} "
-                f"times that ({scripted.solved} points solved) at {scripted.error / here.error:.0e} times the error ({scripted.failures} failures)."
+                f"Fig. 6 (400 points, {here.solved} of them solved): {here.seconds:.0f} s at rtol 1e-6 "
+                f"(error {here.error:.0e}); the script takes {short(scripted.seconds / here.seconds)} "
+                f"times that ({scripted.solved} points solved) at {scripted.error / here.error:.0e} times the error "
+                f"({scripted.failures} failures)."
             )
     for method, error in ((s.SCRIPT, here.error if here else 0.0), (s.EQUAL, 1e-5)):
         there, mine = time_at(of(rows, s.FIG_6, method), error) if error > 0 else None, cheapest(rows, s.FIG_6, error)
@@ -93,7 +97,8 @@ def _digits(rows):
             rising = "growing throughout" if strips == sorted(strips) else "NOT growing throughout"
             digits = [-math.log10(float(row.setting.partition("=")[2])) for row in mine]
             yield (
-                f"{scene}: from 1e-{digits[0]:.0f} to 1e-{digits[-1]:.0f} strips grow from {strips[0]} to {strips[-1]}, {rising}; the time by "
+                f"{scene}: from 1e-{digits[0]:.0f} to 1e-{digits[-1]:.0f} strips grow from {strips[0]} to {strips[-1]}, "
+                f"{rising}; the time by "
                 f"{mine[-1].seconds / mine[0].seconds:.2g} (square of the digits: {(digits[-1] / digits[0]) ** 2:.2g})."
             )
 

@@ -44,7 +44,8 @@ def measure(scene: Scene, contestant: Contestant, exact: np.ndarray | None) -> R
 def _timed(work: Callable):
     """Median processor time of repeated runs after the first (of the first, if it is long), and the result.
 
-    Of this thread, the only one that works: under a limit of processor time the clock of the process moves in steps of some milliseconds.
+    Of this thread, the only one that works: under a limit of processor time the clock of the process moves in steps of some
+    milliseconds.
     """
     start = time.thread_time()
     result = work()
@@ -59,10 +60,11 @@ def _timed(work: Callable):
 
 
 def run(scenes: list[Scene], out: Path, options: list[str], limit: float, report: Callable[[str], None]) -> list[Row]:
-    """All rows: those that ``out`` (CSV) has, and the others measured in child processes with ``options`` and added to it one by one.
+    """All rows: those that ``out`` (CSV) has, and the others measured in child processes with ``options`` and added to it one by
+    one.
 
-    A row that takes more than ``limit`` seconds of processor time has NaN for its time and error, and so have the settings of that method that
-    follow, dearer ones; a scene whose reference takes more has no errors.
+    A row that takes more than ``limit`` seconds of processor time has NaN for its time and error, and so have the settings of
+    that method that follow, dearer ones; a scene whose reference takes more has no errors.
     """
     rows = read(out)
     for scene in scenes:
@@ -89,7 +91,8 @@ def _given_up(scene: Scene, c: Contestant) -> Row:
 
 
 def _child(arguments: list[str], limit: float) -> str | None:
-    """Last line that the command prints, or None if it was not done within the processor time. Whatever else goes wrong there is raised."""
+    """Last line that the command prints, or None if it was not done within the processor time. Whatever else goes wrong there is
+    raised."""
     command = [sys.executable, str(Path(__file__).resolve().parent.parent / "benchmark.py"), *arguments, "--limit", str(limit)]
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
     if done.returncode == -signal.SIGXCPU:

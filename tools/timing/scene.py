@@ -12,7 +12,8 @@ import hystrip
 
 @dataclass(frozen=True)
 class Contestant:
-    """``work(scene, adhesion, p, V)`` gives the frictions (Pa) at points p, V (n,), and the strips solved and the failures, as far as it counts them.
+    """``work(scene, adhesion, p, V)`` gives the frictions (Pa) at points p, V (n,), and the strips solved and the failures, as
+    far as it counts them.
 
     ``points``: how many points per adhesion it is given, spread evenly (the time is scaled to all); None for all.
     """
@@ -29,7 +30,8 @@ def _evenly(of: np.ndarray, count: int) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Scene:
-    """Points (pressure, velocity) on a surface, for one or several adhesions. ``reference``: rtol of the reference, None for no errors;
+    """Points (pressure, velocity) on a surface, for one or several adhesions. ``reference``: rtol of the reference, None for no
+    errors;
     ``looked_at``: points per adhesion at which errors are measured, spread evenly."""
 
     name: str
@@ -67,8 +69,8 @@ class Scene:
 
 @dataclass(frozen=True)
 class Row:
-    """A measurement. ``points`` of the scene, ``solved`` of them; ``seconds`` of processor time for all points; ``error``: largest relative
-    error of friction at the points looked at (NaN: no reference); ``strips`` and ``failures`` as counted."""
+    """A measurement. ``points`` of the scene, ``solved`` of them; ``seconds`` of processor time for all points; ``error``:
+    largest relative error of friction at the points looked at (NaN: no reference); ``strips`` and ``failures`` as counted."""
 
     scene: str
     method: str
