@@ -37,7 +37,6 @@ class Points:
     contact: np.ndarray
     adhesion: np.ndarray
     error: np.ndarray
-    pull_off: np.ndarray
     closed_form: np.ndarray
     pulled_off: np.ndarray
 
@@ -125,7 +124,6 @@ class _Solve:
             per_level(),
             per_level(),
             np.zeros(n),
-            np.full(n, np.nan),
             np.zeros(n, bool),
             np.zeros(n, bool),
         )

@@ -19,6 +19,8 @@ _SLOWEST = 6.0
 _MANY, _FASTEST, _GEOMETRIC = 16, (0.43, 0.35), (0.15, 0.05)
 #: so many coefficients in a row are not small by chance where a pair of singularities makes them come and go
 _RUN = 5
+#: how much more than what the run leaves at its end is feared
+_SAFE = 2.0
 
 
 def mapped(t):
@@ -91,4 +93,9 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     # where coefficients may fall by a power only: as if nothing cancelled
     slow = np.minimum(1 / np.maximum(1 - decay, 1e-3), _SLOWEST) * decay ** (1 + n / 4)
     rest = np.where(ratio < _GEOMETRIC[many], beyond, np.maximum(beyond, slow))[:, None]
-    return np.maximum(c[:, -few:].max(axis=1), _COMMON * last[:, None] * amplitude) * rest
+    if n == 8:
+        return np.maximum(c[:, -few:].max(axis=1), _COMMON * last[:, None] * amplitude) * rest
+    # what earlier coefficients of the run leave at its end, at that pace
+    fading = believed[:, None] ** np.arange(few - 1, -1, -1)
+    left, common = (c[:, -few:] * fading[:, :, None]).max(axis=1), (shape[:, -few:] * fading).max(axis=1)
+    return _SAFE * np.maximum(left, _COMMON * common[:, None] * amplitude) * rest

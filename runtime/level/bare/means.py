@@ -20,6 +20,8 @@ _RULES = (8, 12, 18, 27, 40, 60, 90)
 #: share of what is allowed that a sum over nodes may miss, the fastest that its changes are believed to fall, and how
 #: much more than a change is feared
 _QUADRATURE, _FASTEST, _SURE = 0.5, 0.25, 2.0
+#: a level's sum is not believed to gain more than this from rule to rule
+_PACE = 0.1
 #: penetrations are looked for to this, what is left being taken up by slopes; and steps
 _CLOSE, _STEPS = 1e-7, 60
 #: share of what is allowed below which no error is claimed to be
@@ -42,10 +44,10 @@ def gauss(n: int) -> tuple[np.ndarray, np.ndarray]:
 class Changes:
     """What sums by finer and finer rules change, and so what the last one may miss. A change that is small by chance,
     as they are where an integrand has a layer or a kink, is not believed; ``sure``: how much more than a change is
-    feared."""
+    feared; ``pace``: no more than this is believed to be gained from rule to rule."""
 
-    def __init__(self, sure: float, at_once: bool = False):
-        self.sure, self.at_once, self.sums, self.change = sure, at_once, None, None
+    def __init__(self, sure: float, at_once: bool = False, pace: float = 1.0):
+        self.sure, self.at_once, self.pace, self.sums, self.change = sure, at_once, pace, None, None
 
     def after(self, sums: np.ndarray) -> np.ndarray:
         """Error of the ``sums`` (m, q) by the next rule; of the first change nothing is concluded, unless it is
@@ -57,7 +59,8 @@ class Changes:
         self.sums, self.change = sums, change
         if last is None:
             return self.sure * change if self.at_once else np.full_like(sums, np.inf)
-        return self.sure * np.maximum(change, _FASTEST * last)
+        pace = np.divide(change, last, out=np.ones_like(change), where=last > change)
+        return self.sure * np.maximum(change, _FASTEST * last) * np.maximum(pace, self.pace)
 
     def keep(self, which) -> None:
         """Go on with the rows ``which``."""
@@ -146,7 +149,7 @@ class Level:
     ) -> tuple[np.ndarray, np.ndarray]:
         """Means with as many nodes as it takes for ``goal`` (m, 3), and their errors (m, 3), all told."""
         out, errors = np.zeros((d.size, 5 if slopes else 3)), np.zeros((d.size, 3))
-        left, changes = np.arange(d.size), Changes(_SURE)
+        left, changes = np.arange(d.size), Changes(_SURE, pace=_PACE)
         for n in _RULES:
             new = self.means(group[left], d[left], n, slopes)
             miss = changes.after(new[:, :3])
