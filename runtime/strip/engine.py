@@ -218,7 +218,8 @@ class _Batch:
         pick = np.flatnonzero(found)
         pick = pick[greatest_gap(self.kernel, strips.take(pick), orbit.take(pick)) <= strips.delta_0[pick]]
         self.record.orbits(index[pick], "ac", orbit.take(pick))
-        done = ~found & ~np.full(index.size, self.searching)
+        # there is such an orbit without a limit to the gap: one that is not found is not certified, never passed over
+        done = ~found
         done[pick] = True
         return done
 
