@@ -92,9 +92,7 @@ def attributes(result: Any) -> dict[str, Any]:
         "source": f"hystrip {hystrip.__version__}",
         "hystrip_version": hystrip.__version__,
         "numpy_version": np.__version__,
-        "material": json.dumps(
-            {"model": type(material).__name__, **parameters(material)}
-        ),
+        "material": json.dumps({"model": type(material).__name__, **parameters(material)}),
         "adhesion": json.dumps({n: getattr(adhesion, n) for n in ("gamma", "p_0", "delta_0")}),
         "levels": json.dumps([{"l": level.l, "h": level.h} for level in result.levels]),
         "edge": result.edge,

@@ -137,7 +137,7 @@ def _result(points, surface: Surface, shape, V, load: str) -> Result:
 
 
 def refuse_faint(pressure: np.ndarray, material: Material, adhesion: Dugdale, level: Level) -> None:
-    """Refuse pressures, Pa, that are not zero but too near it for a friction coefficient or for the contact they make on ``level``."""
+    """Refuse pressures, Pa, not zero but too near it for a friction coefficient or for the contact they make on ``level``."""
     faintest = 0.0 if adhesion.p_0 > 0 else _FAINTEST * material.K * level.h
     faint = (pressure != 0) & (np.abs(pressure) < SMALLEST) | (pressure > 0) & (pressure < faintest)
     if faint.any():

@@ -96,7 +96,8 @@ def test_beyond_a_fold_there_is_no_orbit_and_next_to_it_the_first_is_isolated():
 
 
 def test_a_contact_too_short_to_be_solved_for_is_not_passed_over():
-    """D + p_0/K is a few roundings: the crest just touches and the gap adheres all along (50-digit march); a less engaged orbit coexists."""
+    """D + p_0/K is a few roundings: the crest just touches and the gap adheres all along (50-digit march); a less engaged orbit
+    coexists."""
     material = hystrip.StandardLinearSolid(K=0.021065902767355846, T_eps=1.8002651076084792, T_sigma=0.0003038996102107568)
     adhesion = hystrip.Dugdale(p_0=1.9953655684318486e-16, delta_0=1.8191057539334315e-08)
     where = {"l": 2.0953111151686212e-06, "A": 1.732077011229234e-09, "D": -9.472015467212293e-15, "V": 52.86112388009897}

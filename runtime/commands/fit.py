@@ -20,12 +20,8 @@ def command(
     per_decade: float = typer.Option(None, "--per-decade", help="Or so many in each decade of the data [1]."),
     low: float = typer.Option(None, "--low", help="Lowest frequency to fit [Hz]."),
     high: float = typer.Option(None, "--high", help="Highest frequency to fit [Hz]."),
-    temperature_set: str = typer.Option(
-        None, "--set", help="Of raw data at several temperatures, the rows of this set."
-    ),
-    scene: str = typer.Option(
-        "starter", "--scene", help="The scene whose material is replaced [that of `hystrip init`]."
-    ),
+    temperature_set: str = typer.Option(None, "--set", help="Of raw data at several temperatures, the rows of this set."),
+    scene: str = typer.Option("starter", "--scene", help="The scene whose material is replaced [that of `hystrip init`]."),
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
     plot: bool = typer.Option(True, help="Draw the fit (PNG)."),
 ) -> None:

@@ -9,9 +9,7 @@ import typer
 
 def command(
     surface: Path = typer.Argument(help="A measured surface, in any format that SurfaceTopography reads."),
-    count: int = typer.Option(
-        None, "--count", help="Number of levels, in bands of equal width on a logarithmic scale [2]."
-    ),
+    count: int = typer.Option(None, "--count", help="Number of levels, in bands of equal width on a logarithmic scale [2]."),
     ratio: float = typer.Option(None, "--ratio", help="Or the ratio of the wavelengths that bound a band."),
     longest: str = typer.Option(
         None, "--longest", help='Longest wavelength, such as "20 um" [half the scan; periodic: all of it].'
@@ -25,9 +23,7 @@ def command(
     size: list[float] = typer.Option(
         None, "--size", help="Length of the scan in that unit, once for each direction, if the file does not say."
     ),
-    scene: str = typer.Option(
-        "starter", "--scene", help="The scene whose levels are replaced [that of `hystrip init`]."
-    ),
+    scene: str = typer.Option("starter", "--scene", help="The scene whose levels are replaced [that of `hystrip init`]."),
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
     plot: bool = typer.Option(True, help="Draw the spectrum with the levels (PNG)."),
     allow_solver: bool = typer.Option(False, "--allow-solver", help="Run the code of a solver that the scene names."),

@@ -50,9 +50,7 @@ def fit_prony(
     """
     given = {"per_decade": per_decade, "terms": terms, "times": times}
     if sum(each is not None for each in given.values()) > 1:
-        raise InputError(
-            "per_decade, terms, times", {k: v for k, v in given.items() if v is not None}, "one of the three"
-        )
+        raise InputError("per_decade, terms, times", {k: v for k, v in given.items() if v is not None}, "one of the three")
     if terms is not None:
         if isinstance(terms, bool) or not isinstance(terms, (int, np.integer)) or not 1 <= terms <= 8:
             raise InputError("terms", terms, "an integer from 1 to 8")
@@ -70,9 +68,7 @@ def fit_prony(
 def _refuse_too_many(count: int, unknowns: int, data: DynamicModulus) -> None:
     if unknowns > 2 * data.omega.size:
         what = f"{count} relaxation times for {data.omega.size} frequencies"
-        raise InputError(
-            "relaxation times", what, "fewer unknowns than moduli measured: give a smaller per_decade, or terms"
-        )
+        raise InputError("relaxation times", what, "fewer unknowns than moduli measured: give a smaller per_decade, or terms")
     if count > _MOST_TIMES:
         raise InputError("relaxation times", count, f"at most {_MOST_TIMES}: give a smaller per_decade")
 
@@ -116,9 +112,7 @@ def _placed(data: DynamicModulus, terms: int) -> np.ndarray:
     for start in _starts(data, terms, span):
         # within a decade of what was measured: beyond, a branch cannot be told from a constant
         bounds = span[0] - np.log(10), span[1] + np.log(10)
-        found = least_squares(
-            lambda s: _solved(data, np.exp(s))[1], start, bounds=bounds, xtol=1e-14, ftol=1e-14, gtol=1e-14
-        )
+        found = least_squares(lambda s: _solved(data, np.exp(s))[1], start, bounds=bounds, xtol=1e-14, ftol=1e-14, gtol=1e-14)
         if best is None or found.cost < best.cost:
             best = found
     return np.unique(np.exp(best.x))
@@ -144,12 +138,8 @@ def _series(data: DynamicModulus, times: np.ndarray) -> PronySeries:
     if not keep.any():
         raise InputError("dma", "no relaxation", "data whose loss modulus is not zero throughout")
     if moduli[0] <= _NOTHING * moduli.sum():
-        problem = (
-            f"no relaxed modulus between {data.omega[0] / (2 * np.pi):.4g} and {data.omega[-1] / (2 * np.pi):.4g} Hz"
-        )
-        raise InputError(
-            "dma", problem, "a solid: frequencies low enough for the storage modulus to level off, or fewer times"
-        )
+        problem = f"no relaxed modulus between {data.omega[0] / (2 * np.pi):.4g} and {data.omega[-1] / (2 * np.pi):.4g} Hz"
+        raise InputError("dma", problem, "a solid: frequencies low enough for the storage modulus to level off, or fewer times")
     n = data.omega.size
     f = data.omega / (2 * np.pi)
     worst = int(np.argmax(np.abs(residuals)))

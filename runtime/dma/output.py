@@ -34,9 +34,7 @@ def material_table(series: PronySeries, length: float, source: str) -> tuple[dic
         return {"model": "standard_linear_solid", "K": solid.K, "T_eps": solid.T_eps, "T_sigma": solid.T_sigma}, comment
     if len(series.times) > 3:
         n = len(series.times)
-        comment += (
-            f"\nhystrip has solvers for 2 and 3 times: for {n}, `hystrip regenerate` a model of so many and name its"
-        )
+        comment += f"\nhystrip has solvers for 2 and 3 times: for {n}, `hystrip regenerate` a model of so many and name its"
         comment += '\nfolder here: solver = "..."'
     each = series.foundation(length)
     return {"model": "prony", "K": each.K, "moduli": each.moduli, "times": each.times}, comment

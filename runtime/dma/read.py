@@ -60,9 +60,7 @@ class DynamicModulus:
         keep = (f >= (low or 0) * (1 - 1e-12)) & (f <= (np.inf if high is None else high * (1 + 1e-12)))
         if keep.sum() < 2:
             span = f"{f[0]:.4g} to {f[-1]:.4g} Hz"
-            raise InputError(
-                "frequencies", (low, high), f"a range with two measured frequencies or more; measured: {span}"
-            )
+            raise InputError("frequencies", (low, high), f"a range with two measured frequencies or more; measured: {span}")
         return DynamicModulus(self.omega[keep], self.storage[keep], self.loss[keep], self.kind)
 
 
@@ -155,9 +153,7 @@ def _frequency_factor(where: str, name: str, unit: str) -> float:
     return factor
 
 
-def _of_one_temperature(
-    where: str, rows: list[list[str]], at: dict[str, int], wanted: str | None
-) -> list[tuple[int, list[str]]]:
+def _of_one_temperature(where: str, rows: list[list[str]], at: dict[str, int], wanted: str | None) -> list[tuple[int, list[str]]]:
     """Numbered rows, of one temperature alone."""
     numbered = [(number, row) for number, row in enumerate(rows, start=3) if any(row)]
     sets = list(dict.fromkeys(_cell(row, at["Set"]) for _, row in numbered)) if "Set" in at else []
@@ -168,9 +164,7 @@ def _of_one_temperature(
             )
         return [(number, row) for number, row in numbered if _cell(row, at["Set"]) == wanted]
     if len(sets) > 1:
-        raise InputError(
-            f"{where}, Set", sets, "one temperature: a master curve, or the rows of one set (temperature_set)"
-        )
+        raise InputError(f"{where}, Set", sets, "one temperature: a master curve, or the rows of one set (temperature_set)")
     return numbered
 
 
@@ -183,9 +177,7 @@ def _numbers(where: str, rows: list[tuple[int, list[str]]], columns: list[int], 
             try:
                 values.append(float(text or "nan"))
             except ValueError:
-                raise InputError(
-                    f"{where}, row {number}, {name}", text, "a number with a decimal point, or nothing"
-                ) from None
+                raise InputError(f"{where}, row {number}, {name}", text, "a number with a decimal point, or nothing") from None
         if np.isinf(values).any():
             raise InputError(f"{where}, row {number}", cells, "finite numbers")
         if not np.isnan(values).any():

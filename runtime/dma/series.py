@@ -121,6 +121,4 @@ class PronySeries:
             "",
             f"{'time [s]':>12}  {self.kind + ' [Pa]':>12}",
         ]
-        return "\n".join(
-            lines + [f"{time:12.4g}  {each:12.4g}" for time, each in zip(self.times, self.moduli, strict=True)]
-        )
+        return "\n".join(lines + [f"{time:12.4g}  {each:12.4g}" for time, each in zip(self.times, self.moduli, strict=True)])

@@ -31,9 +31,7 @@ def roughness_levels(found: Any, scan: Any) -> Any:
         panel.axvline(edge, color="0.6", linestyle=":", linewidth=0.7, zorder=0)
     for number, (level, height) in enumerate(zip(found.levels, found.rms_height, strict=True), start=1):
         panel.plot(level.l, height, "o", color=OKABE_ITO[0], markersize=4, label="levels" if number == 1 else None)
-        panel.annotate(
-            str(number), (level.l, height), xytext=(4, 3), textcoords="offset points", fontsize=7, color=OKABE_ITO[0]
-        )
+        panel.annotate(str(number), (level.l, height), xytext=(4, 3), textcoords="offset points", fontsize=7, color=OKABE_ITO[0])
     for band, height in zip(found.bands, found.rms_height, strict=True):
         panel.plot(band, [height, height], color=OKABE_ITO[0], linewidth=0.8)
     panel.set_xscale("log")

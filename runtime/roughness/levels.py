@@ -121,17 +121,9 @@ def levels_of(
         raise InputError("scan", problem, "bands in which there is some")
     bands = np.stack((bounds[:-1], bounds[1:]), axis=1)[kept]
     height2, gradient2 = height2[kept], gradient2[kept]
-    k = (
-        np.sqrt(gradient2 / (GRADIENT * height2))
-        if wavelength == "gradient"
-        else 2 * np.pi / np.sqrt(bands.prod(axis=1))
-    )
-    levels = tuple(
-        Level(l=2 * np.pi / each, h=np.sqrt(each2 / VARIANCE)) for each, each2 in zip(k, height2, strict=True)
-    )
-    return RoughnessLevels(
-        levels, bands, np.sqrt(height2), np.sqrt(gradient2), float(np.sqrt(max(total - height2.sum(), 0.0)))
-    )
+    k = np.sqrt(gradient2 / (GRADIENT * height2)) if wavelength == "gradient" else 2 * np.pi / np.sqrt(bands.prod(axis=1))
+    levels = tuple(Level(l=2 * np.pi / each, h=np.sqrt(each2 / VARIANCE)) for each, each2 in zip(k, height2, strict=True))
+    return RoughnessLevels(levels, bands, np.sqrt(height2), np.sqrt(gradient2), float(np.sqrt(max(total - height2.sum(), 0.0))))
 
 
 def _listed(edges: Any, longest: Any, shortest: Any) -> np.ndarray:
@@ -150,9 +142,7 @@ def _spread(scan: Scan, count: int | None, ratio: float | None, longest: Any, sh
     for name, value in (("longest", high), ("shortest", low)):
         # as far as rounding of a size goes
         if not ends[0] * (1 - 1e-6) <= value <= ends[1] * (1 + 1e-6):
-            raise InputError(
-                name, value, f"a wavelength from {ends[0]:.4g} to {ends[1]:.4g} m: two points to the whole scan"
-            )
+            raise InputError(name, value, f"a wavelength from {ends[0]:.4g} to {ends[1]:.4g} m: two points to the whole scan")
     if low >= high:
         raise InputError("longest, shortest", (high, low), "a longest wavelength above the shortest (m)")
     if ratio is not None:

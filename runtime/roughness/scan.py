@@ -34,9 +34,7 @@ class Scan:
         heights = numbers("scan.heights", self.heights, "m")
         sizes = np.atleast_1d(numbers("scan.sizes", self.sizes, "m", 0, strict=True))
         if heights.ndim not in (1, 2) or min(heights.shape) < 8:
-            raise InputError(
-                "scan.heights", heights.shape, "shape (n,) or (n, m) with at least 8 points in each direction"
-            )
+            raise InputError("scan.heights", heights.shape, "shape (n,) or (n, m) with at least 8 points in each direction")
         if sizes.shape != (heights.ndim,):
             raise InputError("scan.sizes", self.sizes, f"{heights.ndim} numbers, one for each direction of the heights")
         object.__setattr__(self, "heights", heights)

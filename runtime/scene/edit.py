@@ -69,9 +69,7 @@ def _value(value: Any) -> str:
 def _replaced(text: str, name: str, tables: list[str]) -> str:
     """Cut every table called ``name`` and put ``tables`` where the first stood, or at the end."""
     kept: list[str] = []
-    held: list[
-        str
-    ] = []  # comments and blank lines in a table that is cut: they belong to the next table, if one follows
+    held: list[str] = []  # comments and blank lines in a table that is cut: they belong to the next table, if one follows
     place, cutting = None, False
     for line in text.splitlines():
         header = _HEADER.match(line)
@@ -99,9 +97,7 @@ def _checked(old: str, new: str, name: str, **options: Any) -> str:
         now = parse_toml(new)
     except SceneError:  # written in another way, and now there twice
         now = {}
-    if {key: each for key, each in was.items() if key != name} != {
-        key: each for key, each in now.items() if key != name
-    }:
+    if {key: each for key, each in was.items() if key != name} != {key: each for key, each in now.items() if key != name}:
         raise SceneError(name, was.get(name), "a table under its own header, so that it can be replaced")
     parse_scene(new, **options)
     return new

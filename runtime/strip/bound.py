@@ -23,11 +23,12 @@ def rows(size: int, *values) -> np.ndarray:
 
 
 def bound(event, entry, offset, rising, start, far, side, noise, close, spent, near=None):
-    """A phase between ``start`` and ``far`` that is beyond the event's zero, if possible no further than ``close``; and whether one was found.
+    """A phase between ``start`` and ``far`` that is beyond the event's zero, if possible no further than ``close``; and whether
+    one was found.
 
-    The event function, ``rising`` times (value - offset), is positive before its zero and negative after. ``side`` > 0 seeks a phase
-    after it (``start`` lies before), ``side`` < 0 a phase before it. With ``near``, the end of the arc opposite to ``far``, ``start`` may be
-    anywhere in between.
+    The event function, ``rising`` times (value - offset), is positive before its zero and negative after. ``side`` > 0 seeks a
+    phase after it (``start`` lies before), ``side`` < 0 a phase before it. With ``near``, the end of the arc opposite to ``far``,
+    ``start`` may be anywhere in between.
     """
     near = start if near is None else near
     result, found = start.copy(), np.zeros(start.shape, bool)

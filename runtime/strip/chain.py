@@ -12,8 +12,8 @@ import numpy as np
 
 from .problem import TWO_PI, Cycle
 
-#: iterations at most, and before strips that are done are set aside. Where there is an orbit with a free part Newton needs half of them; next
-#: to complete contact, where two edges all but coincide, more
+#: iterations at most, and before strips that are done are set aside. Where there is an orbit with a free part Newton needs half
+#: of them; next to complete contact, where two edges all but coincide, more
 _ITERATIONS, _TOGETHER = 10, 3
 _ITERATIONS_BARE, _TOGETHER_BARE = 24, 4
 _TIGHTENING = 5
@@ -31,8 +31,8 @@ EDGES = {"acaf": "xbac", "afc": "xac", "af": "xc", "ac": "xa", "cf": "xa"}
 
 @dataclass(slots=True)
 class Chain:
-    """Edges (k, n) of orbits; which ``converged``; ``correction`` (n,): the last step, taken from boundary equations that do not cancel;
-    ``evaluations`` (n,) of the links of a period."""
+    """Edges (k, n) of orbits; which ``converged``; ``correction`` (n,): the last step, taken from boundary equations that do not
+    cancel; ``evaluations`` (n,) of the links of a period."""
 
     edges: np.ndarray
     converged: np.ndarray
@@ -81,7 +81,8 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
 
 
 def moved(edges, move, low, high, size):
-    """Edges after a step, kept inside their arcs and in order; where the step (of this ``size``) is no number, the edges before it."""
+    """Edges after a step, kept inside their arcs and in order; where the step (of this ``size``) is no number, the edges before
+    it."""
     new = np.minimum(np.maximum(edges + move, edges + _BOLD * (low - edges)), edges + _BOLD * (high - edges))
     for before, after in zip(new[:-1], new[1:], strict=True):
         np.maximum(before, after, out=after)
@@ -93,8 +94,8 @@ def moved(edges, move, low, high, size):
 def tighten(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Edges (k, n) after a few steps on the links alone, and the last step (n,).
 
-    The closing link is a difference of phases: it knows a short gap to rounding of the edges, which the balance of z over the long contact
-    does not. On a slow foundation it is the other way round.
+    The closing link is a difference of phases: it knows a short gap to rounding of the edges, which the balance of z over the
+    long contact does not. On a slow foundation it is the other way round.
     """
     size = np.full(cycle.size, np.inf)
     with np.errstate(all="ignore"):

@@ -47,8 +47,9 @@ def certified(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[O
 def extremal(kernel, cycle: Cycle, last: bool, bounds: Outermost):
     """Extremal orbits with a free part, where they can be had without a search.
 
-    Returns, for n cycles: a certified orbit of each (x NaN where there is none), its sequence (``""`` if none), which are proven extremal,
-    which cycles are proven to have no such orbit at all, and the evaluations spent. ``bounds`` on all orbits hold for ``last=False`` only.
+    Returns, for n cycles: a certified orbit of each (x NaN where there is none), its sequence (``""`` if none), which are proven
+    extremal, which cycles are proven to have no such orbit at all, and the evaluations spent. ``bounds`` on all orbits hold for
+    ``last=False`` only.
     """
     s = cycle.strips
     arc = cycle.half_d > 0
@@ -98,7 +99,8 @@ class _Found:
 
 
 def first_by_marches(kernel, cycle: Cycle, known: Orbit, bounds: Outermost):
-    """First orbits of cycles that ``extremal`` leaves open: of the ``known`` orbits (x NaN where there is none) and next to a fold.
+    """First orbits of cycles that ``extremal`` leaves open: of the ``known`` orbits (x NaN where there is none) and next to a
+    fold.
 
     Returns those orbits, which are proven to be the first, which cycles are proven to have none, and the evaluations spent.
     """

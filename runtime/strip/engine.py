@@ -69,8 +69,8 @@ def _search(kernel, strips: Strips, solved: Solved, unloading: bool, left: list[
 def _settle(kernel, strips: Strips, solved: Solved, unloading: bool) -> None:
     """Decide strips that sit on the end of a branch to the last bits, where the tests of its two sides contradict each other.
 
-    Which side they belong to is below the rounding of the inputs. They get the solution a few roundings of D further along the way their
-    branch is followed: the unloading orbit is continuous towards larger D, the loading orbit towards smaller.
+    Which side they belong to is below the rounding of the inputs. They get the solution a few roundings of D further along the
+    way their branch is followed: the unloading orbit is continuous towards larger D, the loading orbit towards smaller.
     """
     for roundings in _SHIFTS:
         index = np.flatnonzero(~solved.certified)
@@ -86,8 +86,8 @@ def _settle(kernel, strips: Strips, solved: Solved, unloading: bool) -> None:
 
 
 class _Batch:
-    """One pass over a batch. Without ``known`` what Newton and the thresholds decide, the rest being left ``open``; with it (orbits
-    that are known, x NaN where none is) everything else is searched for."""
+    """One pass over a batch. Without ``known`` what Newton and the thresholds decide, the rest being left ``open``; with it
+    (orbits that are known, x NaN where none is) everything else is searched for."""
 
     def __init__(self, kernel, strips: Strips, unloading: bool, known: Orbit | None = None, bounds: Outermost | None = None):
         self.kernel, self.strips, self.unloading = kernel, strips, unloading

@@ -37,7 +37,8 @@ _LEAST = 1e-290
 SLOW = 30.0
 #: ends of the intervals from a known onset to the start of the arc
 _SHARES = np.array([1e-5, 1e-3, 0.02, 0.15, 0.4, 0.55, 0.7, 0.85, 1.0])
-#: probes tried; the first half way to the end of the arc, the next ones after longer steps from what is proven, or shorter ones after a failure
+#: probes tried; the first half way to the end of the arc, the next ones after longer steps from what is proven, or shorter ones
+#: after a failure
 _PROBES, _FIRST, _BOLDER, _WARIER = 2, 0.5, 3.0, 0.2
 
 
@@ -78,9 +79,9 @@ def onsets_within(cycle: Cycle, bounds: Outermost) -> tuple[np.ndarray, np.ndarr
 def _falls_between(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float) -> np.ndarray:
     """Where no zero of r lies between the onsets of ``outer``, bounds beyond which there is none, and of the known orbit.
 
-    R falls strictly wherever F exceeds ``steep_margin``, an arc in which the known onset lies. From where it begins (``sign`` < 0: ends) to the
-    outer onset r has the sign of that side: it has there, by at least ``outer.r``, and R falls no faster than that margin lets it. With
-    ``outer.r`` NaN the arc has to reach the outer onset.
+    R falls strictly wherever F exceeds ``steep_margin``, an arc in which the known onset lies. From where it begins (``sign`` <
+    0: ends) to the outer onset r has the sign of that side: it has there, by at least ``outer.r``, and R falls no faster than
+    that margin lets it. With ``outer.r`` NaN the arc has to reach the outer onset.
     """
     s = cycle.strips
     noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
@@ -97,7 +98,8 @@ def _falls_between(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float
 def none_before(kernel, cycle: Cycle, known: Orbit, start) -> tuple[np.ndarray, np.ndarray]:
     """Where no zero of r lies between ``start`` and the onsets of ``known`` orbits or marches, r >= 0; and the evaluations.
 
-    It is shown by marches at the ends of a few intervals. From the known onset back: an interval on which R falls strictly leaves r positive, one that is excluded does so from both ends.
+    It is shown by marches at the ends of a few intervals. From the known onset back: an interval on which R falls strictly leaves
+    r positive, one that is excluded does so from both ends.
     """
     n, many = cycle.size, _SHARES.size
     nodes = (known.x + _SHARES[:, None] * (start - known.x)).ravel()
@@ -121,7 +123,8 @@ def closed(kernel, cycle: Cycle, orbit: Orbit) -> Orbit:
 
 
 def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.ndarray, np.ndarray]:
-    """Where no zero of r lies between ``end``, of the onset arc or of what is left of it (``sign`` > 0: its start), and the onsets of ``known``."""
+    """Where no zero of r lies between ``end``, of the onset arc or of what is left of it (``sign`` > 0: its start), and the
+    onsets of ``known``."""
     n = cycle.size
     proven, spent = np.zeros(n, bool), np.zeros(n)
     active, part, here = np.arange(n), cycle, known
@@ -160,8 +163,8 @@ def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.n
 def _released(kernel, cycle: Cycle, known: Orbit, x, sign) -> tuple[Orbit, np.ndarray]:
     """A closer end for arcs whose end x may keep the strip engaged through the period.
 
-    Whatever the onset, adhesion ends at the end of its own arc at the latest (``sign`` < 0: earliest), if it ends: no onset before the one that
-    follows then belongs to an orbit.
+    Whatever the onset, adhesion ends at the end of its own arc at the latest (``sign`` < 0: earliest), if it ends: no onset
+    before the one that follows then belongs to an orbit.
     """
     s = cycle.strips
     latest = cycle.centre + (TWO_PI - cycle.half_c if sign > 0 else cycle.half_c)
@@ -213,8 +216,8 @@ def _gap_at(kernel, cycle: Cycle, c, x):
 def enclose(kernel, cycle: Cycle, x, known: Orbit, sign) -> tuple[Orbit, np.ndarray]:
     """Bounds on the edges met from the onset x on the outer side of a known orbit, and on r there.
 
-    ``sign`` > 0: x is earlier, b is bounded from below, a, c from above, r from below; ``sign`` < 0: the other way round. ``engaged``
-    marks where no bound was found. Contact that is lost on the way to a later onset counts as contact of no length.
+    ``sign`` > 0: x is earlier, b is bounded from below, a, c from above, r from below; ``sign`` < 0: the other way round.
+    ``engaged`` marks where no bound was found. Contact that is lost on the way to a later onset counts as contact of no length.
     """
     s = cycle.strips
     centre = cycle.centre

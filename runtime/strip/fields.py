@@ -22,8 +22,9 @@ def fields(kernel, strips: Strips, solved: Solved, phase: np.ndarray) -> tuple[n
 
 
 def by_regime(kernel, strips, solved: Solved, phase: np.ndarray, saturated, with_edges) -> tuple[np.ndarray, np.ndarray]:
-    """Pressure and gap, regime by regime: ``saturated(strips, phase)`` is the pressure of saturated contact, ``with_edges(kernel, sequence,
-    strips, solved, index, phase)`` both of the strips ``index`` in a regime with edges; strips of whatever foundation."""
+    """Pressure and gap, regime by regime: ``saturated(strips, phase)`` is the pressure of saturated contact, ``with_edges(kernel,
+    sequence, strips, solved, index, phase)`` both of the strips ``index`` in a regime with edges; strips of whatever
+    foundation."""
     p, gap = np.zeros(strips.size), np.zeros(strips.size)
     for sequence, code in CODE.items():
         index = np.flatnonzero(solved.code == code)

@@ -16,8 +16,8 @@ def is_flat(A, beta, D, p_0_over_K, delta_0):
 def solve_flat(D, p_0_over_K, delta_0, unloading: bool):
     """Regime code and mean pressure over K of a flat strip; arrays of shape (n,).
 
-    Contact carries ``p = K D`` down to ``-p_0``; the gap adheres (``w = -p_0/K``) while it is at most ``delta_0``. Unloading holds on
-    as long as it can; loading stays free until the gap of the undeformed surface is ``delta_0``.
+    Contact carries ``p = K D`` down to ``-p_0``; the gap adheres (``w = -p_0/K``) while it is at most ``delta_0``. Unloading
+    holds on as long as it can; loading stays free until the gap of the undeformed surface is ``delta_0``.
     """
     contact = D >= -p_0_over_K
     clinging = ~contact & (-p_0_over_K - D <= delta_0)

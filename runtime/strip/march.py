@@ -58,8 +58,8 @@ class Orbit:
 def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, later: Orbit | None = None):
     """March every cycle from its onset phase ``x``; returns the orbits and the event evaluations each took, (n,).
 
-    ``earlier`` and ``later``: orbits from an earlier and a later onset, if known. By the order of orbits b lies between theirs, a and c too
-    (the other way round), which leaves narrow brackets; NaN edges bound nothing.
+    ``earlier`` and ``later``: orbits from an earlier and a later onset, if known. By the order of orbits b lies between theirs, a
+    and c too (the other way round), which leaves narrow brackets; NaN edges bound nothing.
     """
     spent = np.ones(x.shape)
     b = _contact_begins(kernel, cycle, x, spent, _Known(x, earlier, later, "b"))
@@ -111,7 +111,8 @@ def between(left: Orbit, right: Orbit) -> Orbit:
 
 
 def lies_between(orbit: Orbit, left: Orbit, right: Orbit, blur) -> np.ndarray:
-    """Every edge lies between those of an earlier and a later onset, as it must by the order of orbits, or within ``blur`` of that."""
+    """Every edge lies between those of an earlier and a later onset, as it must by the order of orbits, or within ``blur`` of
+    that."""
     ok = np.ones(orbit.x.shape, bool)
     for edge in ("x", "b", "a", "c"):
         value, one, two = (getattr(o, edge) for o in (orbit, left, right))
@@ -149,7 +150,8 @@ class _Known:
 def _happens(event, start, end, index, sure, spent):
     """Which of ``index`` meet their event in the arc from ``start`` to ``end``: known, or seen from the sign at its end.
 
-    Where there is next to no memory the event function follows the harmonic and vanishes at the end but for rounding; it is deepest half way.
+    Where there is next to no memory the event function follows the harmonic and vanishes at the end but for rounding; it is
+    deepest half way.
     """
     meets = sure.copy()
     end = np.maximum(start, end)

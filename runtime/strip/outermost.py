@@ -1,17 +1,18 @@
-"""What no orbit of a strip can exceed: bounds from the most engaged state that it can be in without being in contact all the time.
+"""What no orbit of a strip can exceed: bounds from the most engaged state that it can be in without being in contact all the
+time.
 
 Contact is left where ``H + p_0 <= 0`` and, but for a snap into contact, made where ``H + p_0 >= 0``. So every orbit but
-saturated contact is in a gap at the phase where ``H + p_0`` turns positive, and there nothing is more engaged than a gap that has just closed:
-engaged, with the least ``z = w - J_0 p``. (A free state has ``z = w > u + delta_0``, more than the ``u + J_0 p_0`` of that one where it does
-not snap.) The order of states is kept in time. Hence, if from that state contact ends at a, adhesion ends at c and the next onset is met at
-x, then in every orbit contact and adhesion end before a and c, so that
+saturated contact is in a gap at the phase where ``H + p_0`` turns positive, and there nothing is more engaged than a gap that has
+just closed: engaged, with the least ``z = w - J_0 p``. (A free state has ``z = w > u + delta_0``, more than the ``u + J_0 p_0``
+of that one where it does not snap.) The order of states is kept in time. Hence, if from that state contact ends at a, adhesion
+ends at c and the next onset is met at x, then in every orbit contact and adhesion end before a and c, so that
 
 * no orbit is always engaged,
 * every onset lies after x, and
 * there is no onset, hence no orbit with one, if x does not exist.
 
-The three phases are not solved for. Each is replaced by a later a, a later c, an earlier x, verified by the sign of an event: contact that
-is held longer, and adhesion that is held longer, only leave the state more engaged than it is.
+The three phases are not solved for. Each is replaced by a later a, a later c, an earlier x, verified by the sign of an event:
+contact that is held longer, and adhesion that is held longer, only leave the state more engaged than it is.
 """
 
 from collections.abc import Sequence
@@ -33,7 +34,8 @@ _SOON = 0.1
 
 @dataclass(slots=True)
 class Outermost:
-    """Bounds on all orbits of n cycles, arrays (n,): contact ends before ``a``, adhesion before ``c`` and begins after ``x`` (NaN: no bound).
+    """Bounds on all orbits of n cycles, arrays (n,): contact ends before ``a``, adhesion before ``c`` and begins after ``x``
+    (NaN: no bound).
 
     ``released``: no orbit is always engaged. ``missed``: none has an onset. ``evaluations``: of events.
     """

@@ -33,7 +33,8 @@ class Polished:
 
 
 def polish(kernel, sequence: str, strips: Strips, edges: np.ndarray, bounds=(-np.inf, np.inf)) -> Polished:
-    """Refine ``edges``, shape (k, n), of strips that all are in the regime ``sequence``, kept within ``bounds`` (arrays (k, n))."""
+    """Refine ``edges``, shape (k, n), of strips that all are in the regime ``sequence``, kept within ``bounds`` (arrays (k,
+    n))."""
     residual = getattr(kernel, f"residual_{sequence}")
     jacobian = getattr(kernel, f"jacobian_{sequence}")
     arguments = (strips.alpha, strips.beta, strips.J, strips.L, strips.p_0, strips.delta_0, strips.D, strips.chi)
@@ -70,7 +71,8 @@ def _rows(matrix, pick):
 
 
 def newton(residual, jacobian):
-    """Newton step (k, n) by elimination along the chain of edges, and the slope of the last equation when they all move with the first."""
+    """Newton step (k, n) by elimination along the chain of edges, and the slope of the last equation when they all move with the
+    first."""
     k = len(residual)
     constant, linear = [np.zeros_like(residual[0])], _linear(jacobian, residual[0])
     for i in range(k - 1):

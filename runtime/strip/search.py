@@ -32,8 +32,8 @@ _FORGOTTEN = 750
 class SearchResult:
     """Outcome of a search over n cycles.
 
-    ``found``: the arc holds an orbit, isolated between the onsets of ``left`` (r >= 0) and ``right`` (r <= 0); ``unresolved``: the search did
-    not end (such a strip must not be returned). ``marches``, ``evaluations``: work spent on each.
+    ``found``: the arc holds an orbit, isolated between the onsets of ``left`` (r >= 0) and ``right`` (r <= 0); ``unresolved``:
+    the search did not end (such a strip must not be returned). ``marches``, ``evaluations``: work spent on each.
     """
 
     def __init__(self, n: int):
@@ -83,8 +83,8 @@ class _Search:
     def _without_memory(self, index):
         """Settle the cycles in which w decays to nothing before the next onset, whatever the onset was; returns the others.
 
-        The earliest onset is engaged longest. If it forgets, all do: each leads to the phase where the undeformed surface comes within reach,
-        ``u = -delta_0``.
+        The earliest onset is engaged longest. If it forgets, all do: each leads to the phase where the undeformed surface comes
+        within reach, ``u = -delta_0``.
         """
         quick = index[self.cycle.strips.beta[index] < 2 * np.pi / _FORGOTTEN]
         if not quick.size:
@@ -101,7 +101,8 @@ class _Search:
         return np.setdiff1d(index, quick[forgets])
 
     def _start(self, index):
-        """Both ends of the arc, moved inward by the onset map itself: every fixed point of a monotone map lies between the images."""
+        """Both ends of the arc, moved inward by the onset map itself: every fixed point of a monotone map lies between the
+        images."""
         cycle = self.cycle.take(index)
         near = cycle.centre + self.sign * -cycle.half_d
         far = cycle.centre + self.sign * cycle.half_d

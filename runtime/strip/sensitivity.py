@@ -92,9 +92,9 @@ def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds
 def steep_margin(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> np.ndarray:
     """The F beyond which R falls strictly at every onset between those of ``left`` and ``right``; inf if that is unknown.
 
-    Of the edges of ``left`` only the end of adhesion counts. In between contact is longer than in ``right`` and adhesion ends between the two c,
-    where M is least at one of them: ``log T' <= log B + log(1 + s_x/F)`` with a B that does not depend on the onset, negative where
-    ``F > s_x/(1/B - 1)``.
+    Of the edges of ``left`` only the end of adhesion counts. In between contact is longer than in ``right`` and adhesion ends
+    between the two c, where M is least at one of them: ``log T' <= log B + log(1 + s_x/F)`` with a B that does not depend on the
+    onset, negative where ``F > s_x/(1/B - 1)``.
     """
     M = np.minimum(*(release_margin(kernel, cycle, orbit.c) for orbit in (left, right)))
     onset, release = gains(cycle)

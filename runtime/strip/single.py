@@ -67,6 +67,7 @@ class SingleTime:
         return self.kernel.level_saturation_friction(m.K, m.T_eps, m.T_sigma, l, h, V)
 
     def surely_saturated(self, p_0, l, h, V):  # noqa: E741
-        """The forcing ``H + p_0`` is positive all along every strip, so contact once made is never left, and no strip is out of reach."""
+        """The forcing ``H + p_0`` is positive all along every strip, so contact once made is never left, and no strip is out of
+        reach."""
         steepest = np.hypot(1.0, 2 * np.pi / l * V * self.material.T_eps)
         return np.maximum(0.5 * h * (1 + steepest) - p_0 / self.material.K, h)

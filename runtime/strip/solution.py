@@ -36,7 +36,8 @@ class StripSolution:
     p_mean, tau_mean : mean pressure and mean friction stress over a period, Pa
     contact_fraction, adhesion_fraction : parts of the period in contact and in adhesion
     regime : zones in the order a material point meets them (f free, a adhesion, c contact), as in ``"acaf"``
-    a, b, c, d : edges, m: contact from ``x = -a`` to ``b``, adhesion from ``-c`` to ``-a`` and from ``b`` to ``d``; NaN where absent
+    a, b, c, d : edges, m: contact from ``x = -a`` to ``b``, adhesion from ``-c`` to ``-a`` and from ``b`` to ``d``; NaN where
+    absent
     edge, branch : the edge closure and the branch that was asked for
     """
 
@@ -95,7 +96,8 @@ class StripSolution:
         return np.vectorize(REGIMES.__getitem__, otypes=[object])(self.regime)
 
     def pressure(self, x) -> np.ndarray:
-        """Pressure at x, Pa. ``x`` (m) broadcasts against the strips. At an edge: the value on the side a material point meets later."""
+        """Pressure at x, Pa. ``x`` (m) broadcasts against the strips. At an edge: the value on the side a material point meets
+        later."""
         p, _, scales = self._fields(x)
         return p * scales["p"]
 
@@ -221,7 +223,8 @@ def _product(k, V, T):
 def dimensionless(l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge) -> tuple[Strips, dict]:  # noqa: E741
     """Groups of flat SI arrays of shape (n,), and the scales back to SI.
 
-    A strip whose wave is negligible, ``scales["flat"]``, is in units of K alone. Nothing is refused here but groups that overflow.
+    A strip whose wave is negligible, ``scales["flat"]``, is in units of K alone. Nothing is refused here but groups that
+    overflow.
     """
     with np.errstate(over="ignore"):  # refused below, by name
         k = _each(lambda l: 2 * np.pi / l, l)  # noqa: E741

@@ -27,7 +27,8 @@ ONSET = {"adhesive": (-0.99, -0.9, -0.4, -0.05, -0.1, -0.15), "bare": (-0.99, -0
 #: share of its arc that the end of contact lies behind the start of it, long after the forcing turned
 CONTACT_END, SLOW = 0.45, 60.0
 RELEASE = 0.1
-#: contact all but complete, in parts of the pressure's amplitude, and the width of its gap over the half width where the saturated field pulls
+#: contact all but complete, in parts of the pressure's amplitude, and the width of its gap over the half width where the
+#: saturated field pulls
 _NEARLY, _GAP = 0.3, 3.0
 _LEAST = 1e-9
 #: alpha above which the edges are those of a foundation that stands still; rounds of Newton for them, from a long contact,
@@ -41,7 +42,8 @@ def onset_guess(cycle: Cycle, kind: str = "adhesive") -> np.ndarray:
 
 
 def start(kernel, cycle: Cycle, sequence: str, bounds: Outermost | None = None) -> np.ndarray:
-    """Edges (k, n) in the order of ``chain.EDGES`` for cycles taken to follow ``sequence``; the ``bounds`` on all orbits where known."""
+    """Edges (k, n) in the order of ``chain.EDGES`` for cycles taken to follow ``sequence``; the ``bounds`` on all orbits where
+    known."""
     s = cycle.strips
     centre, turned = cycle.centre, cycle.centre + TWO_PI
     x = onset_guess(cycle, "bare" if sequence in ("ac", "cf") else sequence if sequence == "af" else "adhesive")

@@ -61,7 +61,8 @@ class Turning:
 
 
 def turning(kernel, cycle: Cycle, start, end) -> Turning:
-    """For cycles whose adhesion begins before contact. ``start``, ``end``: no onset lies before, and adhesion does not end after."""
+    """For cycles whose adhesion begins before contact. ``start``, ``end``: no onset lies before, and adhesion does not end
+    after."""
     with np.errstate(all="ignore"):
         x, curvature, r, spent = _least(kernel, cycle)
         way = np.sqrt(2 * np.abs(r) / curvature)
