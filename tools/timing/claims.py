@@ -90,7 +90,7 @@ def _tamaas(rows):
 
 
 def _digits(rows):
-    for scene in (s.POINT, s.ADHESIVE):
+    for scene in (s.POINT, s.ADHESIVE, s.FIG_6):
         mine = sorted(of(rows, scene, s.HERE), key=lambda row: -float(row.setting.partition("=")[2]))
         if len(mine) > 1:
             strips = [row.strips for row in mine]

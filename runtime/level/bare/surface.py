@@ -18,6 +18,8 @@ from .stack import BareStack, Wanted
 _FINER, _ATTEMPTS = 0.03, 3
 #: friction is at first taken to be this many times what counts beside it
 _GUESS = 30.0
+#: share of the friction that its error may be at most, whatever counts beside it
+_DIGIT = 0.1
 #: beyond this k V times the longest retardation time the general path says what is wrong
 _FASTEST = 1e100
 
@@ -100,7 +102,9 @@ class BareSurface:
         total = self.floor + friction.sum(axis=1)
         out.D[index], out.p[index], out.error[index] = found.d * self.levels[0].h, found.p, found.error
         out.tau[:levels, index], out.contact[:levels, index] = friction.T, found.values[:, 1::3].T
-        out.certain[index] = (found.error <= self.rtol * total) & (levels == len(self.levels))
+        # a friction that nothing is told of is left to the general path: relative to it, not to the floor, it may be sure
+        told = (found.error <= _DIGIT * (total - self.floor)) | (self.V[group] == 0)
+        out.certain[index] = (found.error <= self.rtol * total) & told & (levels == len(self.levels))
         return total
 
 
