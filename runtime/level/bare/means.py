@@ -21,7 +21,7 @@ _RULES = (8, 12, 18, 27, 40, 60, 90)
 #: much more than a change is feared
 _QUADRATURE, _FASTEST, _SURE = 0.5, 0.25, 2.0
 #: a level's sum is not believed to gain more than this from rule to rule
-_PACE = 0.2
+_PACE = 0.3
 #: penetrations are looked for to this, what is left being taken up by slopes; and steps
 _CLOSE, _STEPS = 1e-7, 60
 #: share of what is allowed below which no error is claimed to be
