@@ -11,8 +11,9 @@ from .chain import CONVERGED, follow
 from .exclusion import alone, closed, none_before, onsets_within
 from .march import Orbit
 from .outermost import Outermost
-from .problem import Cycle
+from .problem import TWO_PI, Cycle
 from .refine import refined
+from .search import FORGOTTEN
 from .solved import orbit_of
 from .sought import at_zeros
 from .start import start
@@ -111,8 +112,10 @@ def first_by_marches(kernel, cycle: Cycle, known: Orbit, bounds: Outermost):
     if here.size:
         part = cycle.take(here)
         proven[here], spent[here] = none_before(kernel, part, closed(kernel, part, known.take(here)), start[here])
-    # Newton may be lost next to a fold, and finds nothing beyond it
-    rest = np.flatnonzero(~proven & ~cycle.direct & (cycle.half_d > 0))
+    # Newton may be lost next to a fold, and finds nothing beyond it; without memory there is none, and the search has a closed
+    # form
+    remembers = cycle.strips.beta >= TWO_PI / FORGOTTEN
+    rest = np.flatnonzero(~proven & ~cycle.direct & (cycle.half_d > 0) & remembers)
     if rest.size:
         part = cycle.take(rest)
         result = turning(kernel, part, start[rest], end[rest])

@@ -26,7 +26,7 @@ _MAX_STEPS = 4000
 #: marches in a round that cost hardly more than one, and shorter steps probed with them
 _TOGETHER, _SHORTER = 256, 8
 #: retardation times after which a displacement is gone, to the smallest number
-_FORGOTTEN = 750
+FORGOTTEN = 750
 
 
 class SearchResult:
@@ -86,12 +86,12 @@ class _Search:
         The earliest onset is engaged longest. If it forgets, all do: each leads to the phase where the undeformed surface comes
         within reach, ``u = -delta_0``.
         """
-        quick = index[self.cycle.strips.beta[index] < 2 * np.pi / _FORGOTTEN]
+        quick = index[self.cycle.strips.beta[index] < 2 * np.pi / FORGOTTEN]
         if not quick.size:
             return index
         first = self.march(quick, (self.cycle.centre - self.cycle.half_d)[quick])
         s = self.cycle.strips.take(quick)
-        forgets = np.flatnonzero(~first.engaged & (first.x + TWO_PI - first.c > _FORGOTTEN * s.beta))
+        forgets = np.flatnonzero(~first.engaged & (first.x + TWO_PI - first.c > FORGOTTEN * s.beta))
         # a surface that stays out of reach has no onset to lead to
         reach = 0.5 * (s.D + s.delta_0)
         meets = forgets[reach[forgets] > 0]

@@ -67,7 +67,7 @@ class Record:
         out.code[index], out.certified[index] = CODE[sequence], True
         means = getattr(self.kernel, "means_ac" if sequence == "cf" else f"means_{sequence}")
         out.p_mean[index], out.tau_mean[index] = means(*edges_of(sequence, orbit), *groups(self.strips.take(index)))
-        contact = np.minimum(np.where(np.isnan(orbit.b), 0.0, orbit.a - orbit.b) / TWO_PI, 1.0)  # a - b is rounded
+        contact = np.clip(np.where(np.isnan(orbit.b), 0.0, orbit.a - orbit.b) / TWO_PI, 0.0, 1.0)  # a - b is rounded
         adhesion = {"cf": 0.0, "ac": 1 - contact}.get(sequence)
         out.contact_fraction[index] = contact
         out.adhesion_fraction[index] = (orbit.c - orbit.x) / TWO_PI - contact if adhesion is None else adhesion
