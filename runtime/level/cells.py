@@ -45,7 +45,7 @@ def cells_of(
     found: list[tuple] = []
     while start.size:
         x = (start[:, None] + size * nodes) / SLOTS
-        c = np.einsum("ij,njq->niq", transform, function(x.ravel()).reshape(*x.shape, -1))
+        c = transform @ function(x.ravel()).reshape(*x.shape, -1)
         last = np.abs(c[:, -2:]).max(axis=1)
         done = (last <= _NEGLIGIBLE * tolerance).all(axis=1)
         if size == 1:

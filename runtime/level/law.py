@@ -21,6 +21,8 @@ _GRID = np.linspace(0, 1, 65)
 _NEAR = 0.5 ** np.arange(10, 6, -1)
 _TURNS = np.concatenate(([0.0], _NEAR, _GRID[1:-1], 1 - _NEAR[::-1], [1.0]))
 _EPS = np.finfo(float).eps
+#: rounds that narrow a turn down, each by as many points as the grid has
+_NARROWINGS = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,12 +141,11 @@ def _turn(piece: Piece, i: int, j: int, falls_first: bool) -> float:
     """Zero of dp/dt between points i and j of ``_TURNS``, before which pressure falls or rises: at an end its slope says
     nothing."""
     low, high = _TURNS[i], _TURNS[j]
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        if (piece.first(np.array([middle]))[1][0] < 0) == falls_first:
-            low = middle
-        else:
-            high = middle
+    for _ in range(_NARROWINGS):
+        inside = low + (high - low) * _GRID[1:-1]
+        before = (piece.first(inside)[1] < 0) == falls_first
+        k = int(np.argmin(before)) if not before.all() else before.size
+        low, high = (low if k == 0 else inside[k - 1]), (high if k == before.size else inside[k])
     return 0.5 * (low + high)
 
 

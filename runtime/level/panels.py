@@ -207,7 +207,7 @@ class _Work:
             keep = ~mixed
             panels, codes, values = panels.take(keep), codes[keep], values[keep]
             width = (panels.high - panels.low)[:, None]
-            fine = width * np.einsum("j,pjq->pq", mapped_weights(n), values)
+            fine = width * (mapped_weights(n) @ values)
             rounding = 4 * _EPS * width * np.max(np.abs(values), axis=1, initial=0.0)
             noise = 0.1 * self.rtol[panels.column, None] * self.floor[panels.column]
             error = width * sum_errors(values, noise) + rounding
@@ -297,7 +297,7 @@ class _Work:
         """Take panels that do not converge as they are, with the spread of their values as error."""
         codes, values = self._sample(panels, _FIRST, None)
         width = (panels.high - panels.low)[:, None]
-        np.add.at(self.values, panels.column, width * np.einsum("j,pjq->pq", mapped_weights(_FIRST), values))
+        np.add.at(self.values, panels.column, width * (mapped_weights(_FIRST) @ values))
         np.add.at(self.errors, panels.column, width * (values.max(axis=1) - values.min(axis=1)))
         self._keep(panels, codes[:, 0], values)
 
