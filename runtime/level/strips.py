@@ -14,6 +14,7 @@ from hystrip.strip.regimes import CODE
 from hystrip.strip.solved import Solved
 
 from .margins import POWERS, decisive, margins
+from .order import FreeBelow
 from .saturated import saturated_level
 from .transitions import Guide
 
@@ -23,10 +24,12 @@ QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
 
 @dataclass
 class Tally:
-    """Work done so far: strips whose orbit was searched for, and strips decided by a closed form alone."""
+    """Work done so far: strips whose orbit was searched for, strips decided by a closed form alone, and strips known by the order
+    of orbits along the penetration."""
 
     solved: int = 0
     decided: int = 0
+    ordered: int = 0
 
     def count(self, solved: Solved) -> None:
         searched = int(np.count_nonzero(solved.evaluations))
@@ -59,7 +62,8 @@ class Columns:
 
     ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
     laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels. ``frictional``: it is for
-    pressure and friction that the averages are made; fractions need be accurate against 1 only.
+    pressure and friction that the averages are made; fractions need be accurate against 1 only. ``free``: what is known of free
+    strips, shared by all that is made of these columns; None: every strip is asked.
     """
 
     material: Material
@@ -74,6 +78,7 @@ class Columns:
     strips: int | None = None
     frictional: bool = False
     tally: Tally = field(default_factory=Tally, compare=False)
+    free: FreeBelow | None = field(default_factory=FreeBelow, compare=False)
 
     def at(self, index, D) -> Columns:
         """The columns ``index`` at other penetrations ``D``."""

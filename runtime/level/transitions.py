@@ -43,11 +43,13 @@ class Guide:
 
 @dataclass(frozen=True)
 class Transitions:
-    """Brackets [low, high] of single changes of code, arrays (m,), with the line each lies on; sorted along every line."""
+    """Brackets [low, high] of single changes of code, arrays (m,), with the line each lies on and the ``codes`` (m, 2) at its
+    ends; sorted along every line."""
 
     line: np.ndarray
     low: np.ndarray
     high: np.ndarray
+    codes: np.ndarray
 
 
 def locate(probe: Probe, guide: Guide, line, low, high, code_low, code_high, width) -> Transitions:
@@ -57,16 +59,16 @@ def locate(probe: Probe, guide: Guide, line, low, high, code_low, code_high, wid
     brackets = _Brackets.between(line, low, high, code_low, code_high, width, guide.powers.size)
     for _ in range(80):
         ends, done = brackets.settled(guide)
-        found.append((brackets.line[done], *ends[:, done]))
+        found.append((brackets.line[done], *ends[:, done], brackets.codes[done]))
         brackets = brackets.take(~done)
         if not brackets.line.size:
             break
         brackets = brackets.narrowed(probe, guide)
     else:
-        found.append((brackets.line, brackets.low, brackets.high))
-    line, low, high = (np.concatenate(parts) for parts in zip(*found, strict=True))
+        found.append((brackets.line, brackets.low, brackets.high, brackets.codes))
+    line, low, high, codes = (np.concatenate(parts) for parts in zip(*found, strict=True))
     order = np.lexsort((low, line))
-    return Transitions(line[order], low[order], high[order])
+    return Transitions(line[order], low[order], high[order], codes[order])
 
 
 @dataclass(frozen=True)
