@@ -33,8 +33,6 @@ from .sensitivity import slope_bounds, steep_margin
 _EPS = np.finfo(float).eps
 #: least relaxation time that is divided by
 _LEAST = 1e-290
-#: beta above which the balance of a period is asked first: a faster foundation is judged better by its bounds
-SLOW = 30.0
 #: ends of the intervals from a known onset to the start of the arc
 _SHARES = np.array([1e-5, 1e-3, 0.02, 0.15, 0.4, 0.55, 0.7, 0.85, 1.0])
 #: probes tried; the first half way to the end of the arc, the next ones after longer steps from what is proven, or shorter ones
@@ -54,7 +52,7 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> 
         unknown = np.full(known.size, np.nan)
         outer = Orbit(limits.x, unknown, unknown, np.maximum(limits.c, part.c), np.zeros(known.size, bool), unknown, unknown)
         proven[known] = _falls_between(kernel, cycle.take(known), part, outer, 1.0)
-        rest = np.flatnonzero(~proven & (cycle.strips.beta > SLOW))
+        rest = np.flatnonzero(~proven & (cycle.strips.beta > balance.SLOW))
         if rest.size:
             part = cycle.take(rest)
             here = closed(kernel, part, orbit.take(rest))
