@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 
 from .panels import Averages, Hints, average
@@ -18,8 +16,7 @@ def level_means(columns: Columns, rtol: np.ndarray, hints: Hints | None = None) 
         return equal_strips(columns, columns.strips)
     q = columns.scales.size
     floor = np.broadcast_to(columns.floors, (columns.size, q))
-    free = None if columns.free is None else partial(columns.free.asked, columns)
-    return average(columns.integrand, columns.probe, columns.guide, columns.transitions(), floor, rtol, q, hints, free)
+    return average(columns, columns.transitions(), floor, rtol, q, hints)
 
 
 def equal_strips(columns: Columns, strips: int) -> Averages:

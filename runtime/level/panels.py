@@ -9,22 +9,25 @@ told about where it lies, that bracket is tried first.
 All panels of all columns (a column is one velocity and one penetration) advance together: one batch of strips per round.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .order import FREE, NARROWEST, Question
 from .quadrature import interior_nodes, mapped, mapped_weights, sum_errors
-from .transitions import Guide, Probe, locate
+from .transitions import Guide, Looks, locate
 
-#: (column, theta) -> (regime code, values): arrays (m,), (m,) -> (m,), (m, q)
-Integrand = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
-#: panels (column, low, high) -> what to solve to tell which are free all along
-Free = Callable[[np.ndarray, np.ndarray, np.ndarray], Question]
+if TYPE_CHECKING:
+    from .strips import Columns
+
 
 _FIRST, _LAST = 8, 64
 _ROUNDS = 60
+#: looks closer to an expected transition than its bracket is wide, as shares of half of it
+_CLOSER = (1 / 4, 1 / 16)
 #: panels a column may have waiting at once
 _CROWD = 150
 _EPS = np.finfo(float).eps
@@ -48,6 +51,22 @@ class Hints:
     size: np.ndarray
     witness_column: np.ndarray
     witness: np.ndarray
+
+    def without(self, column: np.ndarray, known: np.ndarray) -> Hints:
+        """Those away from the transitions ``known`` of the columns ``column``."""
+        # theta is below 4: columns apart
+        keys = np.sort(4.0 * column + known)
+        low, high = (np.searchsorted(keys, 4.0 * self.column + v, side) for v, side in ((self.low, "left"), (self.high, "right")))
+        away = low == high
+        kept = {name: getattr(self, name)[away] for name in ("column", "low", "high", "code_low", "code_high")}
+        return replace(self, **kept)
+
+    def places(self, guide: Guide) -> np.ndarray:
+        """Where to look, (4, m): at both ends of every bracket, the lower first, and closer to where the transition is expected
+        on the side that foretells."""
+        middle, half = 0.5 * (self.low + self.high), 0.5 * (self.high - self.low)
+        side = np.where(guide.foretells(self.code_low, self.code_high) >= 0, -1.0, 1.0)
+        return np.stack((self.low, self.high, *(middle + side * half * share for share in _CLOSER)))
 
 
 @dataclass(slots=True)
@@ -97,25 +116,15 @@ class _Panels:
 
 
 def average(
-    integrand: Integrand,
-    probe: Probe,
-    guide: Guide,
-    starts: list[np.ndarray],
-    floor: np.ndarray,
-    rtol: np.ndarray,
-    q: int,
-    hints: Hints | None = None,
-    free: Free | None = None,
+    columns: Columns, starts: list[np.ndarray], floor: np.ndarray, rtol: np.ndarray, q: int, hints: Hints | None = None
 ) -> Averages:
-    """Means ``(1/pi) int_0^pi values d(theta)`` of every column to ``rtol (|value| + floor)``.
+    """Means ``(1/pi) int_0^pi values d(theta)`` of the ``integrand`` of every column to ``rtol (|value| + floor)``.
 
-    ``probe``: (column, theta) -> the integrand's codes, and margins for the ``guide`` to where they change.
     ``starts``: for each column the interior thetas known to be transitions, sorted. ``floor`` and ``rtol`` have shape
-    (columns, q) and (columns,). ``hints``: what is expected, but not certain. ``free``: tells for less than a panel's nodes
-    which panels with free ends are free all along; their values are zero.
+    (columns, q) and (columns,). ``hints``: what is expected, but not certain.
     """
     n = len(starts)
-    work = _Work(integrand, probe, guide, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int), free)
+    work = _Work(columns, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
     column, known = np.repeat(np.arange(n), [s.size for s in starts]), np.concatenate([*starts, np.empty(0)])
     cuts = _Panels.unknown(column, known, known, q)
     if hints is not None:
@@ -169,15 +178,12 @@ def _beside(column, place, owner, ends) -> np.ndarray:
 
 @dataclass(slots=True)
 class _Work:
-    integrand: Integrand
-    probe: Probe
-    guide: Guide
+    columns: Columns
     floor: np.ndarray
     rtol: np.ndarray
     values: np.ndarray
     errors: np.ndarray
     strips: np.ndarray
-    free: Free | None
     accepted: list[tuple] = field(default_factory=list)
     #: brackets of transitions (column, low, high) with what was left out for each, and how far off that may be
     slivers: list[tuple] = field(default_factory=list)
@@ -205,7 +211,7 @@ class _Work:
         """Accept what converges under doubling; return what has to be split."""
         later = []
         self._learn_ends(panels)
-        empty = (panels.codes == FREE).all(axis=1) & (panels.high - panels.low >= NARROWEST) & (self.free is not None)
+        empty = (panels.codes == FREE).all(axis=1) & (panels.high - panels.low >= NARROWEST) & (self.columns.free is not None)
         empty, panels = panels.take(empty), panels.take(~empty)
         codes, values, doubtful = self._first_look(panels, empty)
         if doubtful.size:
@@ -241,13 +247,13 @@ class _Work:
 
     def expected(self, hints: Hints, column, known) -> _Panels:
         """Brackets of the transitions that are where they were expected, narrowed; away from those ``known``."""
+        hints = hints.without(column, known)
         m = hints.column.size
-        asked = np.concatenate((hints.column, hints.column, hints.witness_column))
-        codes, values = self._evaluated(asked, np.concatenate((hints.low, hints.high, hints.witness)))
-        seen, values, witnessed = codes[2 * m :], values[: 2 * m], values[2 * m :]
+        places = hints.places(self.columns.guide)
+        asked = np.concatenate((np.tile(hints.column, len(places)), hints.witness_column))
+        codes, values, margins = self._evaluated(self.columns.look, asked, np.concatenate((places.ravel(), hints.witness)))
+        seen, witnessed = codes[places.size :], values[places.size :]
         holds = (codes[:m] == hints.code_low) & (codes[m : 2 * m] == hints.code_high)
-        for c, theta in zip(column, known, strict=True):
-            holds &= ~((hints.column == c) & (hints.low <= theta) & (hints.high >= theta))
         index = np.flatnonzero(holds)
         order = index[np.lexsort((hints.low[index], hints.column[index]))]
         # brackets of one column must not overlap
@@ -255,12 +261,15 @@ class _Work:
             (hints.column[order[1:]] == hints.column[order[:-1]]) & (hints.low[order[1:]] <= hints.high[order[:-1]])
         )
         index = np.delete(order, np.union1d(tight, tight + 1))
-        spread = np.abs(values[m:] - values[:m])[index]
+        spread = np.abs(values[m : 2 * m] - values[:m])[index]
         line = hints.column[index]
         size = np.pi * (hints.size[line] + self.floor[line])
         width = self._bracket(self.rtol[line, None] * size, spread, hints.high[index])
         probe = lambda i, x: self._probe(hints.column[i], x)  # noqa: E731
-        found = locate(probe, self.guide, index, hints.low[index], hints.high[index], codes[index], codes[m + index], width)
+        every = (index + m * np.arange(len(places))[:, None]).ravel()
+        looks = Looks(np.tile(np.arange(index.size), len(places)), places.ravel()[every], codes[every], margins[every])
+        ends = hints.low[index], hints.high[index], codes[index], codes[m + index]
+        found = locate(probe, self.columns.guide, index, *ends, width, looks)
         end = {int(i): j for j, i in enumerate(index)}
         which = np.array([end[int(i)] for i in found.line], int)
         first, last = values[index][which], values[m + index][which]
@@ -336,7 +345,7 @@ class _Work:
     def _first_look(self, panels: _Panels, empty: _Panels):
         """Codes and values at the first nodes of ``panels``; and those of the ``empty`` ones that are not seen to be so: the
         others are summed up."""
-        question = self.free(empty.column, empty.low, empty.high) if empty.size else None
+        question = self.columns.free_panels(empty.column, empty.low, empty.high) if empty.size else None
         codes, values, answers = self._at_nodes(panels, interior_nodes(_FIRST), question)
         if question is None:
             return codes, values, empty
@@ -362,23 +371,24 @@ class _Work:
         column, theta = np.repeat(panels.column, t.size), theta.ravel()
         if question is not None:
             column, theta = np.concatenate((column, question.column)), np.concatenate((theta, question.theta))
-        codes, values = self._evaluated(column, theta)
+        codes, values = self._evaluated(self.columns.integrand, column, theta)
         m = panels.size * t.size
         return codes[:m].reshape(shape), values[:m].reshape(*shape, values.shape[1]), codes[m:]
 
-    def _evaluated(self, column, theta):
-        """Codes and values (m,), (m, q) at strips; the first time also those of the ends."""
+    def _evaluated(self, ask, column, theta) -> list[np.ndarray]:
+        """What is asked of strips (m,), codes and values first; the first time also of those at the ends."""
         m = theta.size
         if self.ends is None:
             every = np.arange(self.rtol.size)
             column = np.concatenate((column, every, every))
             theta = np.concatenate((theta, 0.0 * self.rtol, self._edge()))
         np.add.at(self.strips, column, 1)
-        codes, values = self.integrand(column, theta)
+        answers = ask(column, theta)
         if self.ends is None:
+            codes, values = answers[:2]
             self.ends = codes[m:].reshape(2, -1).T
             self.end_values = values[m:].reshape(2, every.size, -1).swapaxes(0, 1)
-        return codes[:m], values[:m]
+        return [answer[:m] for answer in answers]
 
     def _learn_ends(self, panels: _Panels) -> None:
         """Fill in what is known of the crest and the flat edge."""
@@ -403,7 +413,7 @@ class _Work:
 
     def _probe(self, column, theta):
         np.add.at(self.strips, column, 1)
-        return self.probe(column, theta)
+        return self.columns.probe(column, theta)
 
     def _split_at_transitions(self, panels: _Panels, codes, values, n) -> _Panels:
         """Locate every transition between neighbouring nodes that disagree; panels end there."""
@@ -420,7 +430,7 @@ class _Work:
         width = self._bracket(self.rtol[line, None] * np.abs(total)[line], spread, theta[row, node + 1])
         found = locate(
             lambda line, x: self._probe(panels.column[line], x),
-            self.guide,
+            self.columns.guide,
             row,
             theta[row, node],
             theta[row, node + 1],

@@ -14,7 +14,7 @@ from hystrip.strip.regimes import CODE
 from hystrip.strip.solved import Solved
 
 from .margins import POWERS, decisive, margins
-from .order import FreeBelow
+from .order import FreeBelow, Question
 from .saturated import saturated_level
 from .transitions import Guide
 
@@ -125,11 +125,8 @@ class Columns:
 
     def probe(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Codes (m,), and margins (m, k) that vanish where they change, as the ``guide`` says."""
-        strips, kernel = self.solve(column, theta), kernel_of(self.material)
-        own = margins(kernel, strips)
-        if self.carry is not None:
-            own = np.concatenate((own, self.carry.heights(kernel, strips, self.group[column])), axis=1)
-        return self._codes(strips, column), own
+        strips = self.solve(column, theta)
+        return self._codes(strips, column), self._margins(strips, column)
 
     @property
     def guide(self) -> Guide:
@@ -149,11 +146,29 @@ class Columns:
     def integrand(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Codes (m,) and the values to average (m, q)."""
         strips = self.solve(column, theta)
-        codes, values = self._codes(strips, column), strips.values
+        return self._codes(strips, column), self._values(strips, column)
+
+    def look(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Codes and values as of ``integrand``, and margins as of ``probe``."""
+        strips = self.solve(column, theta)
+        return self._codes(strips, column), self._values(strips, column), self._margins(strips, column)
+
+    def free_panels(self, column: np.ndarray, low: np.ndarray, high: np.ndarray) -> Question:
+        """What to solve to tell which panels [low, high], all (m,), are free all along; ``free`` is not None."""
+        return self.free.asked(self, column, low, high)
+
+    def _values(self, strips: SolvedStrips, column):
         if self.carry is None:
-            return codes, values
+            return strips.values
         carried = self.carry.over_contact(kernel_of(self.material), strips, self.group[column])
-        return codes, np.concatenate((values, carried), axis=1)
+        return np.concatenate((strips.values, carried), axis=1)
+
+    def _margins(self, strips: SolvedStrips, column):
+        kernel = kernel_of(self.material)
+        own = margins(kernel, strips)
+        if self.carry is None:
+            return own
+        return np.concatenate((own, self.carry.heights(kernel, strips, self.group[column])), axis=1)
 
     def _codes(self, strips: SolvedStrips, column):
         codes = strips.solved.code.astype(int)
