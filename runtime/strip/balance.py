@@ -19,8 +19,10 @@ negative: a and c lie between 0 and pi.
 * Engagement. Free flow leads from c to the onset: ``cos c = cos xi - jump - W (exp(F/beta) - 1)``, ``-W = u(xi) + delta_0``,
   where F is the length of the free zone: c and with it E are bounded from above at hi and the longest F.
 * Displacement. Nowhere is w_l less than w_y. Where l is free let ``w_l >= omega`` and ``V(s) = omega - u(s) - delta_0``. If y is
-  engaged there ``w_l - w_y >= V(s)``, and by delta_0 more if it is in contact; if it is free the distance is no less than at
-  its onset, ``V(xi)``. So the sum is at least that of the lesser of V(s) and V(lo) over the free zone of l.
+  in contact there ``w_l - w_y = V(s) + delta_0`` at least. If it is free the distance fades towards its onset, to ``V(xi)``.
+  If it adheres before its contact w has fallen since the onset, and before ``-t`` u is no more either: V(xi) again. If it
+  adheres after its contact w falls from where that ended, on or behind the crest; so it is at most u(e) after any phase e up to
+  which contact is certain to last. As V grows towards the valley, V(lo) stands for V(xi).
 
 What is always engaged is bounded alike: in the valley its gap is at most delta_0, as from an onset there.
 
@@ -51,9 +53,11 @@ _EPS = np.finfo(float).eps
 #: beta above which the balance of a period is asked first: a faster foundation is judged better by its bounds
 SLOW = 30.0
 #: parts into which an interval is divided that is not decided, and how often
-_PARTS, _ROUNDS = 3, 4
+_PARTS, _ROUNDS, _FINER = 3, 4, 5
 #: rounds of the guess where an orbit out of reach is held best
 _GUESSES, _EARLIEST, _LATEST = 2, 0.05, 2.3
+#: parts of the phases, or sines, at which the slope of the onset map is thought to be one
+_LOWER = 0.95
 #: least sine that is divided by
 _LEAST = 0.05
 #: onsets before this phase are next to the valley; contact is sought by this much further than is estimated
@@ -129,21 +133,21 @@ def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, n
         with np.errstate(all="ignore"):
             suspects = np.maximum(_suspects(kernel, cycle, known), -known.x)
             reference = beside(kernel, cycle, known, end)
-            proven[index], spent[index] = _excluded(kernel, reference, suspects, np.maximum(-start, suspects))
+            proven[index], spent[index] = _excluded(kernel, reference, suspects, np.maximum(-start, suspects), _ROUNDS)
     return proven, spent
 
 
 def none_hangs(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
-    """Which cycles of strips out of reach, ``D <= -delta_0``, are proven to have no orbit with an onset; and the evaluations."""
+    """Which cycles of strips out of reach, ``D <= -delta_0``, that cannot stay engaged are proven to have no most engaged orbit
+    with an onset; and the evaluations spent on each."""
     none, spent = np.zeros(cycle.size, bool), np.ones(cycle.size)
     with np.errstate(all="ignore"):
-        guess = _held_best(cycle)
-        reference = at_rest(cycle)
+        guess, reference = _held_best(cycle), at_rest(cycle)
         index = np.flatnonzero(surplus(kernel, reference, guess, guess) > 0)
         if index.size:
-            zero = np.zeros(index.size)
-            none[index], used = _excluded(kernel, reference.take(index), zero, zero + np.pi)
-            spent[index] += used
+            lo, hi = _stable_within(kernel, cycle.take(index), guess[index])
+            none[index], used = _excluded(kernel, reference.take(index), lo, np.maximum(lo, hi), _FINER)
+            spent[index] += used + 2
     return none, spent
 
 
@@ -217,6 +221,35 @@ def _held_best(cycle: Cycle):
         slope = np.cos(xi) * weight + glassy * sine**2 / np.maximum(np.sin(a), _LEAST)
         xi = np.clip(np.where(slope > 0, xi - (sine * weight - pull) / slope, _LATEST), _EARLIEST, _LATEST)
     return xi
+
+
+def _stable_within(kernel, cycle: Cycle, guess):
+    """Phases between which lies -x of every orbit with ``T' <= 1`` of a strip out of reach.
+
+    Contact begins where w has fallen from the onset to u, and ends before ``cos a = cos c + delta_0``, since w falls from there.
+    """
+    s = cycle.strips
+    onset, release = gains(cycle)
+    # low onsets: F and M grow with xi and c up to the middle of their arcs
+    lo = np.minimum(_LOWER * guess, np.minimum(-cycle.centre, cycle.centre + np.pi))
+    height = _versine(lo)
+    c = _arc(height + cycle.jump + (height - s.D - s.delta_0) * np.expm1(TWO_PI / s.beta) + _noise(s))
+    begun = np.minimum(_arc(height - cycle.gap_on + lo / s.beta * s.p_0), lo)
+    longest = begun + _arc(_versine(c) - s.delta_0)
+    lo = np.where((c < cycle.centre + np.pi) & _unstable(kernel, cycle, lo, c, longest), lo, 0.0)
+    # high onsets: they fall beyond it, and c is more than xi
+    sine = np.minimum(_LOWER * (onset + release) / (TWO_PI * (1 + s.L * s.beta / s.alpha)), 1.0)
+    hi = np.maximum(np.pi - np.arcsin(sine), np.maximum(-cycle.centre, cycle.centre + np.pi))
+    return lo, np.where(_unstable(kernel, cycle, hi, hi, TWO_PI), hi, np.pi)
+
+
+def _unstable(kernel, cycle: Cycle, xi, c, longest):
+    """Where ``T' > 1`` if F and M are at most what they are for an onset at -xi and an end of adhesion at c, and contact is no
+    longer than ``longest``."""
+    onset, release = gains(cycle)
+    F, M = onset_margin(kernel, cycle, -xi), release_margin(kernel, cycle, c)
+    gain = np.log1p(onset / np.maximum(F, 0.0)) + np.log1p(release / np.maximum(M, 0.0))
+    return gain > (1 + 64 * _EPS) * fading(cycle, longest)
 
 
 def _arc(height):
@@ -309,15 +342,19 @@ def surplus(kernel, reference: _Reference, lo, hi):
     free = np.maximum(TWO_PI - hi - c, 0.0)
     c = np.where(out < 0, np.minimum(_arc(high + r.jump + out * np.expm1(free / r.beta)), c), c)
     longer = np.maximum(hi + r.x, 0.0) + np.maximum(c - r.c, 0.0)
+    free = np.maximum(TWO_PI - hi - c, 0.0)
     # displacement, at least
-    apart = (r.level + 1) * (near + r.x + later - r.c) - (np.sin(near) + np.sin(r.x) + np.sin(later) - np.sin(r.c))
-    apart += (TWO_PI - near - later) * (r.level + low)
-    apart += r.delta_0 * (np.maximum(t + r.x, 0.0) + np.maximum(held - r.c, 0.0))
+    steep, onset = r.level + low, -r.x
+    begun, ended = np.maximum(np.minimum(t, near), onset), np.maximum(np.minimum(held, near), r.c)
+    apart = (r.level + 1 + r.delta_0) * (begun - onset + ended - r.c)
+    apart -= np.sin(begun) - np.sin(onset) + np.sin(ended) - np.sin(r.c)
+    apart += (TWO_PI - begun - later) * steep + (later - ended) * np.minimum(r.level + _versine(held) + r.delta_0, steep)
+    apart += np.maximum(steep, 0.0) * (r.beta * np.expm1(free / r.beta) - free)
     least = r.kept + pressed - r.p_0 * longer + np.maximum(apart, r.least) - TWO_PI * r.noise
     return np.where(possible, least, np.inf)
 
 
-def _excluded(kernel, reference: _Reference, lo, hi, rounds=_ROUNDS) -> tuple[np.ndarray, np.ndarray]:
+def _excluded(kernel, reference: _Reference, lo, hi, rounds) -> tuple[np.ndarray, np.ndarray]:
     """Where no orbit has an onset between -hi and -lo, and the evaluations spent."""
     n = lo.size
     proven, spent = np.ones(n, bool), np.zeros(n)

@@ -126,9 +126,12 @@ def first_by_marches(kernel, cycle: Cycle, known: Orbit, bounds: Outermost):
         part = cycle.take(rest)
         result = turning(kernel, part, start[rest], end[rest])
         none[rest] = result.none
-        located = at_zeros(kernel, part, result.isolated)
-        spent[rest] += located.evaluations
-        here = np.flatnonzero(located.certified)
-        orbit.put(rest[here], located.orbit.take(here))
-        proven[rest[here]] = True
+        used, here = result.isolated.evaluations, np.flatnonzero(result.isolated.found)
+        if here.size:
+            located = at_zeros(kernel, part.take(here), result.isolated.take(here))
+            used[here] = located.evaluations
+            good = np.flatnonzero(located.certified)
+            orbit.put(rest[here[good]], located.orbit.take(good))
+            proven[rest[here[good]]] = True
+        spent[rest] += used
     return orbit, proven, none, spent
