@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from .panels import Hints
@@ -39,12 +41,15 @@ def expect(x: np.ndarray, zones: list[np.ndarray], x_new: np.ndarray) -> tuple[n
 
 def _lagrange(x, x_new):
     """Matrix from values at ``x`` to values at ``x_new`` of the polynomial through them."""
-    out = np.ones((x_new.size, x.size))
-    for j in range(x.size):
-        for i in range(x.size):
-            if i != j:
-                out[:, j] *= (x_new - x[i]) / (x[j] - x[i])
-    return out
+    return _matrix(x.tobytes(), x_new.tobytes())
+
+
+@lru_cache(256)
+def _matrix(x: bytes, x_new: bytes) -> np.ndarray:
+    x, x_new = np.frombuffer(x), np.frombuffer(x_new)
+    apart = x[:, None] - x + np.eye(x.size)
+    factors = np.where(np.eye(x.size, dtype=bool), 1.0, (x_new[:, None, None] - x) / apart)
+    return factors.prod(axis=2)
 
 
 def hints(columns: np.ndarray, expected: list, witnesses: list[tuple[float, ...]], size: np.ndarray) -> Hints | None:

@@ -40,6 +40,12 @@ class Guide:
     foretells: Callable[[np.ndarray, np.ndarray], np.ndarray]
     powers: np.ndarray
 
+    def sureness(self, code, other) -> np.ndarray:
+        """How far the side with ``code`` of a change to ``other`` is to be asked about it: not at all (0), rather not (1: next to
+        a fold, where points are dear, and where the other regime may take over before), or gladly (2)."""
+        which = self.foretells(code, other)
+        return np.where(which < 0, 0, np.where(self.powers[which] > 1, 1, 2))
+
 
 @dataclass(frozen=True)
 class Transitions:
