@@ -69,9 +69,7 @@ class Looks:
     margins: np.ndarray
 
 
-def locate(
-    probe: Probe, guide: Guide, line, low, high, code_low, code_high, width, looks: Looks | None = None
-) -> Transitions:
+def locate(probe: Probe, guide: Guide, line, low, high, code_low, code_high, width, looks: Looks | None = None) -> Transitions:
     """Narrow every bracket [low, high] of the ``line`` it lies on to ``width`` or less, all (m,); where a third code shows up in
     between, its transitions are found too. ``code_low``, ``code_high`` are the codes at the ends. ``looks``: what is known of
     every bracket, its ends included."""
