@@ -65,7 +65,8 @@ class Hints:
         """Where to look, (4, m): at both ends of every bracket, the lower first, and closer to where the transition is expected
         on the side that foretells."""
         middle, half = 0.5 * (self.low + self.high), 0.5 * (self.high - self.low)
-        side = np.where(guide.foretells(self.code_low, self.code_high) >= 0, -1.0, 1.0)
+        lower, upper = guide.sureness(self.code_low, self.code_high), guide.sureness(self.code_high, self.code_low)
+        side = np.where(lower >= upper, -1.0, 1.0)
         return np.stack((self.low, self.high, *(middle + side * half * share for share in _CLOSER)))
 
 
@@ -197,15 +198,11 @@ class _Work:
         column, code, low, high, *_ = (np.concatenate(v) for v in zip(*self.accepted, strict=True))
         order = np.lexsort((low, column))
         column, code, low, high = column[order], code[order], low[order], high[order]
-        rows = np.stack((code, low, high), axis=1)
-        out = []
-        for part in np.split(rows, np.searchsorted(column, np.arange(1, self.strips.size))):
-            first = np.concatenate(([True], part[1:, 0] != part[:-1, 0])) if part.size else np.empty(0, bool)
-            runs = part[first]
-            if runs.size:
-                runs[:, 2] = np.append(part[np.flatnonzero(first)[1:] - 1, 2], part[-1, 2])
-            out.append(runs)
-        return out
+        first = np.flatnonzero(np.append(True, (column[1:] != column[:-1]) | (code[1:] != code[:-1])))
+        last = np.append(first[1:], column.size) - 1
+        runs = np.stack((code[first], low[first], high[last]), axis=1)
+        ends = np.searchsorted(column[first], np.arange(self.strips.size + 1))
+        return [runs[start:stop] for start, stop in zip(ends[:-1], ends[1:], strict=True)]
 
     def refine(self, panels: _Panels) -> _Panels:
         """Accept what converges under doubling; return what has to be split."""

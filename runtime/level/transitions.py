@@ -40,6 +40,12 @@ class Guide:
     foretells: Callable[[np.ndarray, np.ndarray], np.ndarray]
     powers: np.ndarray
 
+    def sureness(self, code, other) -> np.ndarray:
+        """How far the side with ``code`` of a change to ``other`` is to be asked about it: not at all (0), rather not (1: next to
+        a fold, where points are dear, and where the other regime may take over before), or gladly (2)."""
+        which = self.foretells(code, other)
+        return np.where(which < 0, 0, np.where(self.powers[which] > 1, 1, 2))
+
 
 @dataclass(frozen=True)
 class Transitions:
@@ -63,9 +69,7 @@ class Looks:
     margins: np.ndarray
 
 
-def locate(
-    probe: Probe, guide: Guide, line, low, high, code_low, code_high, width, looks: Looks | None = None
-) -> Transitions:
+def locate(probe: Probe, guide: Guide, line, low, high, code_low, code_high, width, looks: Looks | None = None) -> Transitions:
     """Narrow every bracket [low, high] of the ``line`` it lies on to ``width`` or less, all (m,); where a third code shows up in
     between, its transitions are found too. ``code_low``, ``code_high`` are the codes at the ends. ``looks``: what is known of
     every bracket, its ends included."""
