@@ -41,14 +41,13 @@ def pressures(low, high, omega, quartic: bool):
 class BareLaws:
     """Laws of a level at velocities (G,): ``pieces`` that follow one another; ``breaks`` (G, k): the pressures that
     part the sharpest of them, ascending, inf for none; from ``p_full`` (G,) on everything below is saturated, with the
-    means ``full`` (G, q). ``error`` (G,) bounds the friction, own and carried, Pa; ``steepest`` (G,): its greatest
-    slope over pressure. Quantities: friction, contact, adhesion of the level, then of each below."""
+    means ``full`` (G, q). ``steepest`` (G,): the greatest slope of friction, own and carried, over pressure. Quantities:
+    friction, contact, adhesion of the level, then of each below; the last one bounds the error of all friction, Pa."""
 
     pieces: list[Piece]
     breaks: np.ndarray
     p_full: np.ndarray
     full: np.ndarray
-    error: np.ndarray
     steepest: np.ndarray
 
     def averages(self, group: np.ndarray, owner: np.ndarray, p: np.ndarray, weight: np.ndarray) -> np.ndarray:
