@@ -13,9 +13,9 @@ from hystrip.errors import SolverError
 from hystrip.solver import Foundation
 
 from .law import BareLaws
-from .means import Changes, Level, gauss
+from .means import Changes, Level, gauss, mapped, mapped_slope
 from .orbit import Wave
-from .panels import Span, mapped, mapped_slope
+from .panels import Span
 from .peaks import Peaks
 from .pressure import ContactPressure
 

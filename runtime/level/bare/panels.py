@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .family import Family
-from .means import gauss
+from .means import gauss, mapped, mapped_slope
 from .peaks import Peaks
 
 #: looks at where the greatest pressures of strips pass a break, and steps towards it
@@ -22,16 +22,6 @@ _NEAREST = 1e-14
 #: a pressure that no strip has, K h/2
 _BEYOND = 1e200
 _EPS = np.finfo(float).eps
-
-
-def mapped(t):
-    """Place of ``t`` in [0, 1] that takes roots at either end."""
-    return t * t * (3 - 2 * t)
-
-
-def mapped_slope(t):
-    """Slope of ``mapped``."""
-    return 6 * t * (1 - t)
 
 
 @dataclass(frozen=True)

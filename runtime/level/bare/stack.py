@@ -17,7 +17,7 @@ from .carried import Carrier
 from .family import coefficients_over, family
 from .law import BareLaws, Piece, pressures
 from .means import CANCELLED, Level
-from .peaks import Peaks, peaks_of
+from .peaks import Peaks, peak, peaks_of
 
 #: nodes of a piece of a law, tried in turn
 _NODES = (8, 16, 32, 64, 128)
@@ -125,8 +125,15 @@ class BareStack:
 
     def _greatest(self, i, d):
         """Greatest local pressure that level i passes on at ``d`` (G,), Pa."""
-        bound = d - 1 + 0.5 * self.levels[i].family.s_sat
-        return self.units[i] * np.minimum(np.maximum(bound, 0.0), _BETWEEN * self._peak(i, self.groups, d))
+        family = self.levels[i].family
+        out = np.maximum(d - 1 + 0.5 * family.s_sat, 0.0)
+        part = np.flatnonzero((d > 0) & (d < 0.5 * family.s_sat))
+        if part.size:
+            share = np.clip(family.values(part, 2 * d[part, None])[:, 0, 2], _EPS, 1 - 1e-9)
+            found = peak(self.foundation, self.waves[i].k * self.V[part], share)[0]
+            out[part] = np.minimum(out[part], 0.5 * _BETWEEN * found)
+            self.tally.solved += part.size
+        return self.units[i] * out
 
     def _penetrations(self, i, group, p):
         """d of level i at pressures ``p`` (m,), Pa."""
@@ -194,11 +201,9 @@ class BareStack:
         unit, top = self.units[i], self.ceilings[i]
         edge = np.minimum(self._at_height(i), self.p_sat[i])
         own = np.minimum([edge, self.p_sat[i], self.p_full[i]], top).T
-        ends = (
-            own
-            if below is None or not self._sharp(i)
-            else np.concatenate((own, np.minimum(self._met(i, below), own[:, 2:])), axis=1)
-        )
+        ends = own
+        if below is not None and self._sharp(i):
+            ends = np.concatenate((own, np.minimum(self._met(i, below), own[:, 2:])), axis=1)
         ends = np.sort(np.concatenate((np.zeros((self.V.size, 1)), ends), axis=1), axis=1)
         # ends that are next to one another are one
         near = np.diff(ends, axis=1) <= 1e-6 * np.minimum(ends[:, 1:], unit)
@@ -207,7 +212,7 @@ class BareStack:
         pieces, steepest = self._pieces(i, ends, below)
         p_full = np.where(top >= self.p_full[i], self.p_full[i], np.inf)
         breaks = np.where(own < np.where(np.isinf(p_full), top, np.inf)[:, None], own, np.inf)
-        return BareLaws(pieces, breaks, p_full, self._saturated(i), steepest)
+        return BareLaws(pieces, breaks, p_full, self._saturated(i), top, steepest)
 
     def _met(self, i, below: BareLaws):
         """Pressures at which the greatest local pressure of level i, the least one of its crests, or that at the edges
