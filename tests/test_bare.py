@@ -6,6 +6,8 @@ import pytest
 import surfaces
 
 import hystrip
+import hystrip.level.bare.stack
+import hystrip.level.bare.surface
 import hystrip.multilevel
 from hystrip.level.bare.family import family
 from hystrip.level.bare.means import Level as Means
@@ -156,6 +158,31 @@ def test_two_levels_are_what_panels_give(monkeypatch, i):
         assert (miss <= rtol * size + reference.tau_error).all()
         assert (miss <= r.tau_error + reference.tau_error).all()
         assert np.abs(r.contact_by_level - reference.contact_by_level).max() <= 1e-3
+
+
+@pytest.mark.parametrize("name", ["one time", "Kelvin-Voigt"])
+def test_a_law_that_ends_too_soon_is_told(monkeypatch, name):
+    """Local pressures beyond the end of the law below show in the estimate; where laws reach far enough they do not."""
+    given = {"pressure": 1.0, "velocity": 1e-3, "rtol": 1e-5}
+    far = hystrip.solve(MATERIALS[name], NONE, SIMILAR[:2], **given)
+    monkeypatch.setattr(hystrip.level.bare.stack, "_BETWEEN", 1.3)
+    further = hystrip.solve(MATERIALS[name], NONE, SIMILAR[:2], **given)
+    assert abs(far.tau - further.tau) <= far.tau_error + further.tau_error
+    monkeypatch.setattr(hystrip.level.bare.stack, "_BETWEEN", 0.9)
+    monkeypatch.setattr(hystrip.level.bare.surface.BareSurface, "solve", _uncertain(hystrip.level.bare.surface.BareSurface.solve))
+    near = hystrip.solve(MATERIALS[name], NONE, SIMILAR[:2], **given)
+    assert 1e-6 * far.tau < abs(near.tau - far.tau) <= near.tau_error + far.tau_error
+
+
+def _uncertain(solve):
+    """``BareSurface.solve`` whose points are taken as they are."""
+
+    def taken(*given):
+        found = solve(*given)
+        found.certain[:] = True
+        return found
+
+    return taken
 
 
 def test_levels_that_are_saturated_below_carry_the_closed_form():

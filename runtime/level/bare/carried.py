@@ -1,5 +1,9 @@
 """Second term of Eq. 13 for levels without adhesion: the law of the level below averaged over the contact pressures of
-all strips of a level."""
+all strips of a level.
+
+What a strip carries is not smooth where its pressure passes a break of the law, nor is it over the strips where their greatest
+pressure does: both are cut there.
+"""
 
 from __future__ import annotations
 
@@ -9,17 +13,19 @@ from hystrip.errors import SolverError
 from hystrip.solver import Foundation
 
 from .law import BareLaws
-from .means import Changes, Level, cells, gauss
+from .means import Changes, Level, gauss, mapped, mapped_slope
 from .orbit import Wave
+from .panels import Span
+from .peaks import Peaks
 from .pressure import ContactPressure
 
-#: nodes over the strips and over each contact, tried in turn
-RULES = ((6, 5), (9, 7), (14, 9), (21, 12), (32, 16), (48, 22), (72, 30), (108, 40), (162, 54))
+#: nodes over a panel of strips and over each part of a contact, tried in turn
+RULES = ((3, 4), (4, 5), (5, 7), (7, 9), (9, 12), (12, 16), (17, 22), (24, 30), (34, 40), (48, 56), (70, 80))
 #: share of what is allowed that these sums may miss, and how much more than their changes is feared: kinks that no
 #: part ends at come and go
 _QUADRATURE, _SURE = 0.7, 1.5
-#: looks at a contact's pressure for where it passes the breaks of the law, and steps towards each
-_LOOKS, _STEPS = 17, 5
+#: steps towards where a contact's pressure passes the breaks of the law
+_STEPS = 4
 #: nodes of all parts together, about, that are summed at a time
 _CHUNK = 60_000
 _EPS = np.finfo(float).eps
@@ -28,8 +34,9 @@ _EPS = np.finfo(float).eps
 class Carrier:
     """A level that carries the ``laws`` of the next one: its contact pressures."""
 
-    def __init__(self, foundation: Foundation, level: Level, rate: np.ndarray, pressure: float, laws: BareLaws):
-        self.foundation, self.level, self.rate, self.pressure, self.laws = foundation, level, rate, pressure, laws
+    def __init__(self, foundation: Foundation, level: Level, peaks: Peaks, rate: np.ndarray, pressure: float, laws: BareLaws):
+        self.foundation, self.level, self.peaks, self.rate = foundation, level, peaks, rate
+        self.pressure, self.laws = pressure, laws
         self.strips = 0
 
     def carried(self, group: np.ndarray, d: np.ndarray, goal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -50,7 +57,7 @@ class Carrier:
     def _sums(self, group, d, strips: int, nodes: int):
         out = np.zeros((d.size, self.laws.full.shape[1]))
         # so many columns at a time that memory stays bounded
-        many = max(1, _CHUNK // (strips * nodes))
+        many = max(1, _CHUNK // (4 * strips * nodes))
         for start in range(0, d.size, many):
             some = slice(start, start + many)
             out[some] = self._chunk(group[some], d[some], strips, nodes)
@@ -69,10 +76,13 @@ class Carrier:
 
     def _partial(self, group, d, strips, nodes):
         """Strips in partial contact."""
-        f = self.level.family
-        at = cells(d, f.s_sat[group], strips)
-        known = f.values(group, at.s, slopes=True)
-        wave = Wave(self.foundation, np.repeat(self.rate[group], strips))
+        f, peaks = self.level.family, self.peaks
+        span = Span(d, f.s_sat[group])
+        breaks = self.laws.breaks[group] / (0.5 * self.pressure)
+        at = span.panels(span.ends(f, peaks, group, breaks), strips)
+        known = f.values(group[at.column], at.s, slopes=True)
+        column = np.repeat(at.column, strips)
+        wave = Wave(self.foundation, self.rate[group[column]])
         width = _inside(known[:, :, 2].ravel())
         # families know pressures, not widths, as well as friction needs it: a step of Newton's towards the strip that
         # is meant
@@ -82,33 +92,37 @@ class Carrier:
         if not orbits.certified.all():
             raise SolverError("a strip without adhesion was not certified")
         self.strips += width.size
-        unit = 0.5 * self.pressure * at.u.ravel()
-        column = np.repeat(np.arange(d.size), strips)
-        breaks = self.laws.breaks[group[column]] / unit[:, None]
+        u = at.u.ravel()
         contact = ContactPressure(wave, orbits)
-        edges, top = _passages(contact, breaks)
+        crest = peaks.at(group[at.column], width.reshape(at.u.shape) / (2 * np.pi))[1].ravel()
+        edges, top = _passages(contact, crest, breaks[column] / u[:, None])
         weight = at.weight.ravel() * width / (2 * np.pi)
         parts = _Parts.between(edges, top & np.isfinite(self.laws.p_full[group[column]]))
-        t, w = parts.nodes(nodes)
-        p = contact.at(_mapped(t), parts.row) * unit[parts.row, None]
-        total = self.laws.averages(
-            group, np.repeat(column[parts.row], nodes), p.ravel(), (weight[parts.row, None] * w * _mapped_slope(t)).ravel()
-        )
+        x, w = parts.nodes(nodes)
+        p = contact.at(x, parts.row) * (0.5 * self.pressure * u[parts.row, None])
+        total = self.laws.averages(group, np.repeat(column[parts.row], nodes), p.ravel(), (weight[parts.row, None] * w).ravel())
         # where the pressure saturates all below there is nothing to sum
-        sure = np.bincount(column, weight * parts.saturated(_mapped), minlength=d.size)
-        return total + sure[:, None] * self.laws.full[group]
+        return total + np.bincount(column, weight * parts.saturated, minlength=d.size)[:, None] * self.laws.full[group]
 
     def _complete(self, group, d, strips, nodes):
         """Strips in complete contact: one harmonic of the phase about the mean."""
         f = self.level.family
-        first = 2 * np.arccos(np.sqrt(_starts(d, f.s_sat[group])))
+        swings = f.s_sat[group] - 2
+        least = np.minimum(np.divide(2 * (d - 1), swings, out=np.ones_like(d), where=swings > 0), 1.0)
+        breaks = self.laws.breaks[group] / self.pressure
+        # u at which the greatest or the least pressure of a strip is a break
+        over = breaks - (d - 1)[:, None]
+        u = np.where(over > 0, 2 * over / f.s_sat[group, None], -2 * over / np.maximum(swings, _EPS)[:, None])
+        theta = 2 * np.arccos(np.sqrt(np.clip(np.column_stack((np.zeros_like(d), u, least)), 0.0, least[:, None])))
+        theta = np.sort(theta, axis=1)
+        panel, k = np.nonzero(np.diff(theta, axis=1) > 1e-9)
+        low, high = theta[panel, k, None], theta[panel, k + 1, None]
         y, v = gauss(strips)
-        # the strip that just becomes so is at the start of the interval
-        theta = first[:, None] + (np.pi - first)[:, None] * y * y
-        u = np.cos(0.5 * theta).ravel() ** 2
-        column = np.repeat(np.arange(d.size), strips)
+        column = np.repeat(panel, strips)
+        u = np.cos(0.5 * (low + (high - low) * mapped(y))).ravel() ** 2
+        weight = ((high - low) / np.pi * mapped_slope(y) * v).ravel()
         mean, swing = d[column] - 1 + 0.5 * u, 0.5 * u * (f.s_sat[group[column]] - 1)
-        breaks = self.laws.breaks[group[column]] / self.pressure
+        breaks = breaks[column]
         with np.errstate(invalid="ignore"):
             cosine = np.divide(
                 breaks - mean[:, None], swing[:, None], out=np.sign(breaks - mean[:, None]), where=swing[:, None] > 0
@@ -116,43 +130,38 @@ class Carrier:
         passed = np.arccos(np.clip(cosine, -1.0, 1.0)) / np.pi
         # from the peak down: above the highest break first
         edges = np.concatenate((np.zeros((u.size, 1)), passed[:, ::-1], np.ones((u.size, 1))), axis=1)
-        weight = ((np.pi - first) / np.pi)[column] * np.tile(v * 2 * y, d.size)
         parts = _Parts.between(edges, np.isfinite(self.laws.p_full[group[column]]), 0)
-        t, w = parts.nodes(nodes)
-        p = np.maximum(mean[parts.row, None] + swing[parts.row, None] * np.cos(np.pi * t), 0.0)
+        x, w = parts.nodes(nodes)
+        p = np.maximum(mean[parts.row, None] + swing[parts.row, None] * np.cos(np.pi * x), 0.0)
         total = self.laws.averages(
             group, np.repeat(column[parts.row], nodes), self.pressure * p.ravel(), (weight[parts.row, None] * w).ravel()
         )
-        sure = np.bincount(column, weight * parts.saturated(lambda x: x), minlength=d.size)
-        return total + sure[:, None] * self.laws.full[group]
+        return total + np.bincount(column, weight * parts.saturated, minlength=d.size)[:, None] * self.laws.full[group]
 
 
 class _Parts:
     """Parts of contacts between the breaks of the law: ``row`` (k,) of the contact and ends ``low``, ``high``;
-    ``above`` (N, 2): the part of each contact in which everything below is saturated, not among the others."""
+    ``saturated`` (N,): the part of each contact in which everything below is saturated, not among the others."""
 
-    def __init__(self, row, low, high, above):
-        self.row, self.low, self.high, self.above = row, low, high, above
+    def __init__(self, row, low, high, saturated):
+        self.row, self.low, self.high, self.saturated = row, low, high, saturated
 
     @classmethod
     def between(cls, edges, saturates, which=None) -> _Parts:
         """``edges`` (N, e), ascending; part ``which`` (the middle one) is saturated where ``saturates`` (N,)."""
         which = (edges.shape[1] - 1) // 2 if which is None else which
-        wide = np.diff(edges, axis=1) > 4 * _EPS
-        above = np.where(saturates[:, None], edges[:, which : which + 2], 0.0)
+        widths = np.diff(edges, axis=1)
+        saturated = np.where(saturates, widths[:, which], 0.0)
+        wide = widths > 4 * _EPS
         wide[:, which] &= ~saturates
         row, part = np.nonzero(wide)
-        return cls(row, edges[row, part], edges[row, part + 1], above)
+        return cls(row, edges[row, part], edges[row, part + 1], saturated)
 
     def nodes(self, n):
         """Nodes and weights, (k, n), of a rule that takes roots at either end."""
         t, w = gauss(n)
         width = (self.high - self.low)[:, None]
-        return self.low[:, None] + width * _mapped(t), width * w * _mapped_slope(t)
-
-    def saturated(self, place):
-        """Share of each contact in which all below is saturated, (N,)."""
-        return place(self.above[:, 1]) - place(self.above[:, 0])
+        return self.low[:, None] + width * mapped(t), width * w * mapped_slope(t)
 
 
 def _inside(share):
@@ -160,59 +169,31 @@ def _inside(share):
     return 2 * np.pi * np.clip(share, 1e-9, 1 - 1e-9)
 
 
-def _mapped(t):
-    return t * t * (3 - 2 * t)
-
-
-def _mapped_slope(t):
-    return 6 * t * (1 - t)
-
-
-def _passages(contact: ContactPressure, breaks) -> tuple[np.ndarray, np.ndarray]:
-    """Parameters of contacts, ``_mapped`` to shares, between which the pressure exceeds each of ``breaks`` (N, B), and
-    the ends 0 and 1, (N, 2 B + 2); and where it exceeds the last one. A pressure rises to its peak and falls from
-    there; what it does between the looks is not needed to the last digit: the passages only part smooth pieces from
-    one another."""
+def _passages(contact: ContactPressure, crest, breaks) -> tuple[np.ndarray, np.ndarray]:
+    """Shares of contacts between which the pressure exceeds each of ``breaks`` (N, B), and the ends 0 and 1, (N, 2 B + 2); and
+    where it exceeds the last one. A pressure rises to its ``crest`` (N,) and falls from there. The passages only part smooth
+    pieces from one another: they are not needed to the last digit."""
     N, B = breaks.shape
-    t = np.linspace(0, 1, _LOOKS)
-    looks = contact.at(np.broadcast_to(_mapped(t), (N, _LOOKS)))
-    looks[:, -1] = 0.0
-    peak = looks[:, :-1].argmax(axis=1)
-    edges = np.empty((N, 2 * B + 2))
+    entry, top = contact.at(np.column_stack((np.zeros(N), crest))).T
+    edges = np.repeat(crest[:, None], 2 * B + 2, axis=1)
     edges[:, 0], edges[:, -1] = 0.0, 1.0
-    every = np.arange(N)
-    index = np.arange(_LOOKS)
-    contact_of, order = np.repeat(every, B), np.tile(np.arange(B), N)
-    p, crest, all_looks = breaks.ravel(), peak[contact_of], looks[contact_of]
-    over = all_looks[np.arange(p.size), crest] > p
-    below = all_looks <= p[:, None]
-    # the last look below on the way up, and the first one on the way down
-    before = np.where(below & (index < crest[:, None]), index, -1).max(axis=1)
-    after = np.where(below & (index > crest[:, None]), index, _LOOKS).min(axis=1)
-    up, down = t[crest], t[crest]
-    up[over] = 0.0
-    rising, falling = np.flatnonzero(over & (before >= 0)), np.flatnonzero(over & (after < _LOOKS))
-    both = np.concatenate((rising, falling))
-    lower, upper = np.concatenate((before[rising], after[falling])), np.concatenate((before[rising] + 1, after[falling] - 1))
-    found = _passage(contact, contact_of[both], p[both], all_looks[both, lower], all_looks[both, upper], t[lower], t[upper])
-    up[rising], down[falling] = found[: rising.size], found[rising.size :]
-    edges[contact_of, 1 + order], edges[contact_of, 2 * B - order] = up, down
-    return np.maximum.accumulate(edges, axis=1), edges[:, B + 1] > edges[:, B]
-
-
-def _passage(contact, rows, p, low_pressure, high_pressure, low, high):
-    """Where the pressures of the contacts ``rows`` pass ``p`` between parameters ``low`` and ``high`` of these
-    pressures: false position with halving of stale ends."""
-    f_low, f_high = low_pressure - p, high_pressure - p
+    row, which = np.nonzero(breaks < top[:, None])
+    late = entry[row] < breaks[row, which]
+    edges[row[~late], 1 + which[~late]] = 0.0
+    rows, order = np.concatenate((row[late], row)), np.concatenate((which[late], which))
+    far = np.concatenate((np.zeros(np.count_nonzero(late)), np.ones(row.size)))
+    outer = np.concatenate((entry[row[late]], np.zeros(row.size)))
+    # the root of what is missing to the top is nearly linear in the distance from the crest
+    short = lambda p: np.sqrt(np.maximum(1 - p / top[rows], 0.0))  # noqa: E731
+    target, low, high = short(breaks[rows, order]), np.zeros(rows.size), np.ones(rows.size)
+    f_low, f_high = -target, short(outer) - target
     middle = low
     for _ in range(_STEPS if rows.size else 0):
         middle = (low * f_high - high * f_low) / np.where(f_high > f_low, f_high - f_low, 1.0)
-        f = contact.at(_mapped(middle)[:, None], rows)[:, 0] - p
+        f = short(contact.at((crest[rows] + (far - crest[rows]) * middle)[:, None], rows)[:, 0]) - target
         less = f <= 0
         f_high, f_low = np.where(less, 0.5 * f_high, f), np.where(less, f, 0.5 * f_low)
         low, high = np.where(less, middle, low), np.where(less, high, middle)
-    return middle
-
-
-def _starts(d, s_sat):
-    return np.minimum(np.divide(2 * (d - 1), s_sat - 2, out=np.ones_like(d), where=s_sat > 2), 1.0)
+    edges[rows, np.where(far > 0, 2 * B - order, 1 + order)] = crest[rows] + (far - crest[rows]) * middle
+    rising = np.maximum.accumulate(edges, axis=1)
+    return rising, breaks[:, -1] < top

@@ -8,7 +8,7 @@ closed form and smooth as well, and resampled over xi.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import lru_cache
 
 import numpy as np
@@ -45,6 +45,10 @@ class Family:
     errors: np.ndarray
     full: np.ndarray
     strips: np.ndarray
+
+    def part(self, which: slice) -> Family:
+        """The velocities ``which`` alone."""
+        return Family(*(getattr(self, field.name)[which] for field in fields(self)))
 
     def values(self, group: np.ndarray, s: np.ndarray, slopes: bool = False) -> np.ndarray:
         """Quantities of the strips ``s`` (m, nodes), all of row i at the velocity ``group[i]``: (m, nodes, 3), or with

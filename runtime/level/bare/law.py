@@ -13,6 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 _CHUNK = 32768
+#: how much steeper a law is feared to be beyond its end
+_FEARED = 2.0
 
 
 @dataclass(frozen=True)
@@ -41,14 +43,15 @@ def pressures(low, high, omega, quartic: bool):
 class BareLaws:
     """Laws of a level at velocities (G,): ``pieces`` that follow one another; ``breaks`` (G, k): the pressures that
     part the sharpest of them, ascending, inf for none; from ``p_full`` (G,) on everything below is saturated, with the
-    means ``full`` (G, q). ``error`` (G,) bounds the friction, own and carried, Pa; ``steepest`` (G,): its greatest
-    slope over pressure. Quantities: friction, contact, adhesion of the level, then of each below."""
+    means ``full`` (G, q). ``top`` (G,): as far as the law goes, beyond it stays what it is there; ``steepest`` (G,): the
+    greatest slope of friction, own and carried, over pressure. Quantities: friction, contact, adhesion of the level,
+    then of each below; the last one bounds the error of all friction, Pa."""
 
     pieces: list[Piece]
     breaks: np.ndarray
     p_full: np.ndarray
     full: np.ndarray
-    error: np.ndarray
+    top: np.ndarray
     steepest: np.ndarray
 
     def averages(self, group: np.ndarray, owner: np.ndarray, p: np.ndarray, weight: np.ndarray) -> np.ndarray:
@@ -65,6 +68,9 @@ class BareLaws:
         saturated = p >= self.p_full[g]
         share = np.bincount(owner[saturated], weight[saturated], minlength=group.size)
         out += share[:, None] * self.full[group]
+        beyond = np.where(saturated, 0.0, np.maximum(p - self.top[g], 0.0))
+        if beyond.any():
+            out[:, -1] += _FEARED * np.bincount(owner, weight * beyond, minlength=group.size) * self.steepest[group]
         todo = ~saturated & (p > 0)
         for piece in reversed(self.pieces):
             index = np.flatnonzero(todo & (piece.high > piece.low)[g] & (p >= piece.low[g]))

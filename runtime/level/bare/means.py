@@ -41,6 +41,16 @@ def gauss(n: int) -> tuple[np.ndarray, np.ndarray]:
     return 0.5 * (x + 1), 0.5 * w
 
 
+def mapped(t):
+    """Place of ``t`` in [0, 1] that takes roots at either end."""
+    return t * t * (3 - 2 * t)
+
+
+def mapped_slope(t):
+    """Slope of ``mapped``."""
+    return 6 * t * (1 - t)
+
+
 class Changes:
     """What sums by finer and finer rules change, and so what the last one may miss. A change that is small by chance,
     as they are where an integrand has a layer or a kink, is not believed; ``sure``: how much more than a change is

@@ -23,13 +23,14 @@ class ContactPressure:
     def at(self, share: np.ndarray, rows: np.ndarray | None = None) -> np.ndarray:
         """At these shares (k, nodes), between entry and exit, of the contacts ``rows`` (k,), or of all."""
         o, kernel = self.orbits, self.wave.kernel
-        row = np.repeat(np.arange(o.D.size) if rows is None else rows, share.shape[1])
-        b, D = o.b[row], o.D[row]
-        phase = b + (o.a - o.b)[row] * share.ravel()
+        row = np.arange(o.D.size) if rows is None else rows
+        b, D = o.b[row, None], o.D[row, None]
+        phase = b + (o.a - o.b)[row, None] * share
         if self.wave.many:
             m = take_modes(self.wave.m, row)
-            p = kernel.contact_pressure(phase, kernel.overstress_after(b, phase, self.entry[:, row], m), D)
+            m = type(m)(*(v[..., None] if np.ndim(v) else v for v in m))
+            p = kernel.contact_pressure(phase, kernel.overstress_after(b, phase, self.entry[:, row, None], m), D)
         else:
-            alpha, beta, _, L = (v[row] for v in self.wave.times)
+            alpha, beta, _, L = (v[row, None] for v in self.wave.times)
             p = kernel.excess_after(b, phase, 0.0, 0.0, D, alpha, beta, L)
-        return np.maximum(p, 0.0).reshape(share.shape)
+        return np.maximum(p, 0.0)

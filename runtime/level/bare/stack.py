@@ -17,8 +17,7 @@ from .carried import Carrier
 from .family import coefficients_over, family
 from .law import BareLaws, Piece, pressures
 from .means import CANCELLED, Level
-from .orbit import Wave
-from .pressure import ContactPressure
+from .peaks import Peaks, peak, peaks_of
 
 #: nodes of a piece of a law, tried in turn
 _NODES = (8, 16, 32, 64, 128)
@@ -26,12 +25,15 @@ _NODES = (8, 16, 32, 64, 128)
 _INTERPOLATION, _VALUES, _STRIPS = 0.3, 0.3, 2.0
 #: contact fractions are interpolated no finer than this, and on no more nodes
 _CONTACT, _FOR_CONTACT = 1e-5, 16
+_SHARES = 3e-5
+#: an accuracy in parts of the greatest friction from which on a law is only parted where it is least smooth
+_BLUNT = 1e-4
 #: how much more than the estimated error of a law is feared
 _SURE = 2.0
 #: slopes of a law are looked at over steps of at least this share of the pressure
 _STEP = 1e-3
-#: greatest pressure in a contact by samples of it, with what may be between them
-_SAMPLES, _BETWEEN = 48, 1.02
+#: by how much more a greatest pressure is allowed for
+_BETWEEN = 1.02
 #: looks, and how often they are narrowed, at where it passes a break of the law below
 _LOOKS, _NARROWINGS = 17, 3
 _EPS = np.finfo(float).eps
@@ -39,10 +41,16 @@ _EPS = np.finfo(float).eps
 
 @dataclass(frozen=True)
 class Wanted:
-    """Accuracy of friction at each velocity, Pa (G,), and of everything else, relative."""
+    """Accuracy of friction at each velocity, Pa, of level 1 with what it carries and of the laws ``below``, (G,), and of
+    everything else, relative."""
 
     friction: np.ndarray
+    below: np.ndarray
     rtol: float
+
+    def of(self, i: int) -> np.ndarray:
+        """Accuracy of friction on level i, (G,)."""
+        return self.friction if i == 0 else self.below
 
 
 @dataclass(frozen=True)
@@ -53,7 +61,6 @@ class Found:
     d: np.ndarray
     p: np.ndarray
     values: np.ndarray
-    error: np.ndarray
 
 
 class BareStack:
@@ -71,30 +78,62 @@ class BareStack:
         self.p_sat = p_sat
         self.groups = np.arange(V.size)
         self.units = [foundation.K * level.h for level in levels]
-        self.levels, self.ceilings = [], [p_max]
-        for i in range(len(levels)):
-            crest = d_max if i == 0 and d_max is not None else self.ceilings[i] / self.units[i] + 0.75
-            self.levels.append(self._level(i, crest))
-            if i + 1 < len(levels):
-                d = d_max if i == 0 and d_max is not None else self._penetrations(i, self.groups, self.ceilings[i])
-                self.ceilings.append(self._greatest(i, d))
+        self.levels = self._levels(p_max, d_max)
+        self.peaks = self._peaks()
+        self.ceilings = [p_max]
+        for i in range(len(levels) - 1):
+            d = d_max if i == 0 and d_max is not None else self._penetrations(i, self.groups, self.ceilings[i])
+            self.ceilings.append(self._greatest(i, d))
 
     def _friction_unit(self, i):
         return self.units[i] * self.waves[i].k * self.waves[i].h
 
-    def _level(self, i, crest) -> Level:
-        rate = self.waves[i].k * self.V
-        s_top = np.where(crest < 1, 2 * np.maximum(crest, _EPS), np.inf)
-        # what is not known of pressures counts by the slope of the friction, hardly above k h
-        share = _STRIPS * self.wanted.friction / self._friction_unit(i)
-        fam = family(self.foundation, rate, s_top, np.zeros(rate.size), np.array((1.0, 1.0, 1e30)), np.minimum(share, 1e-2))
-        self.tally.solved += int(fam.strips.sum())
-        return Level(fam)
+    def _rates(self, levels: int):
+        return np.concatenate([wave.k * self.V for wave in self.waves[:levels]])
+
+    def _levels(self, p_max, d_max) -> list[Level]:
+        """The families of all levels at once, each as far as pressures can reach at most."""
+        rates, s_top, shares, G = self._rates(len(self.waves)), [], [], self.V.size
+        s_sat = 1 + np.broadcast_to(self.foundation.modulus_ratio(rates), rates.shape)
+        pressure = p_max
+        for i, unit in enumerate(self.units):
+            crest = d_max if i == 0 and d_max is not None else pressure / unit + 0.75
+            s_top.append(np.where(crest < 1, 2 * np.maximum(crest, _EPS), np.inf))
+            pressure = unit * np.maximum(crest - 1 + 0.5 * s_sat[i * G : (i + 1) * G], 0.0)
+            # what is not known of pressures counts by the slope of the friction, hardly above k h
+            shares.append(np.minimum(_STRIPS * self.wanted.of(i) / self._friction_unit(i), 1e-2))
+        known = family(
+            self.foundation,
+            rates,
+            np.concatenate(s_top),
+            np.zeros(rates.size),
+            np.array((1.0, 1.0, 1e30)),
+            np.concatenate(shares),
+        )
+        self.tally.solved += int(known.strips.sum())
+        return [Level(known.part(slice(i * G, (i + 1) * G))) for i in range(len(self.waves))]
+
+    def _peaks(self) -> list[Peaks]:
+        """Of all levels that carry another one."""
+        G, carrying = self.V.size, len(self.waves) - 1
+        if not carrying:
+            return []
+        top = np.array([series[:, 2].sum() for level in self.levels[:-1] for series in level.family.series])
+        known, strips = peaks_of(self.foundation, self._rates(carrying), np.clip(top, _EPS, 1.0))
+        self.tally.solved += strips
+        return [known.part(slice(i * G, (i + 1) * G)) for i in range(carrying)]
 
     def _greatest(self, i, d):
         """Greatest local pressure that level i passes on at ``d`` (G,), Pa."""
-        bound = d - 1 + 0.5 * self.levels[i].family.s_sat
-        return self.units[i] * np.minimum(np.maximum(bound, 0.0), _BETWEEN * self._peak(i, self.groups, d))
+        family = self.levels[i].family
+        out = np.maximum(d - 1 + 0.5 * family.s_sat, 0.0)
+        part = np.flatnonzero((d > 0) & (d < 0.5 * family.s_sat))
+        if part.size:
+            share = np.clip(family.values(part, 2 * d[part, None])[:, 0, 2], _EPS, 1 - 1e-9)
+            found = peak(self.foundation, self.waves[i].k * self.V[part], share)[0]
+            out[part] = np.minimum(out[part], 0.5 * _BETWEEN * found)
+            self.tally.solved += part.size
+        return self.units[i] * out
 
     def _penetrations(self, i, group, p):
         """d of level i at pressures ``p`` (m,), Pa."""
@@ -114,7 +153,7 @@ class BareStack:
 
     def carrier(self, i, laws: BareLaws) -> Carrier:
         """Level i over the ``laws`` of the next one."""
-        return Carrier(self.foundation, self.levels[i], self.waves[i].k * self.V, self.units[i], laws)
+        return Carrier(self.foundation, self.levels[i], self.peaks[i], self.waves[i].k * self.V, self.units[i], laws)
 
     def at(self, i, group, p, laws: BareLaws | None, d=None) -> Found:
         """Level i over the ``laws`` of the next one at pressures ``p`` (m,), Pa, or (None) at penetrations ``d`` (m,)
@@ -129,13 +168,10 @@ class BareStack:
         part = np.flatnonzero((d < 0.5 * s_sat) & (d > 0))
         own[d <= 0] = 0.0
         pressure = np.where(d > 0, pressure, 0.0)
-        allowed = self.wanted.friction[group]
+        allowed = _VALUES * self.wanted.of(i)[group]
         if part.size:
             g = group[part]
-            goal = np.stack(
-                (_VALUES * allowed[part] / friction, _VALUES * allowed[part] / friction, np.full(part.size, self.wanted.rtol)),
-                axis=1,
-            )
+            goal = np.stack((*(2 * [allowed[part] / friction]), np.full(part.size, self.wanted.rtol)), axis=1)
             means, errors = level.sure_means(g, d[part], goal, True)
             rise = np.where(means[:, 3] > 0, means[:, 3], np.inf)
             by_pressure = means[:, 4] / rise
@@ -146,31 +182,37 @@ class BareStack:
             error[part] = friction * (errors[:, 1] + (0.0 if p is None else np.abs(by_pressure) * (errors[:, 0] + _EPS)))
             missed[part] = 0.0 if p is None else errors[:, 0]
         if laws is None:
-            return Found(d, pressure, own, error)
+            return Found(d, pressure, np.column_stack((own, error)))
         carrier = self.carrier(i, laws)
-        goal = np.full((d.size, laws.full.shape[1]), self.wanted.rtol)
-        goal[:, ::3] = _VALUES * allowed[:, None]
+        goal = np.full((d.size, laws.full.shape[1]), max(self.wanted.rtol, _SHARES))
+        goal[:, :-1:3], goal[:, -1] = allowed[:, None], np.inf
         carried, errors = carrier.carried(group, d, goal)
         self.tally.solved += carrier.strips
-        error += errors[:, ::3].sum(axis=1) + laws.error[group]
+        error += errors[:, :-1:3].sum(axis=1) + carried[:, -1]
         # local pressures are as uncertain as a strip's means, and change friction by the law's slope
-        error += (CANCELLED * level.family.errors[group, 0] + missed) * unit * laws.steepest[group]
-        return Found(d, pressure, np.concatenate((own, carried), axis=1), error)
+        error += own[:, 1] * (CANCELLED * level.family.errors[group, 0] + missed) * unit * laws.steepest[group]
+        return Found(d, pressure, np.column_stack((own, carried[:, :-1], error)))
+
+    def _sharp(self, i):
+        """Whether the friction of level i with all that it carries counts enough for its lesser breaks to matter."""
+        return bool((self.wanted.of(i) < _BLUNT * self._saturated(i)[:, ::3].sum(axis=1)).any())
 
     def _law(self, i, below: BareLaws | None) -> BareLaws:
         unit, top = self.units[i], self.ceilings[i]
         edge = np.minimum(self._at_height(i), self.p_sat[i])
         own = np.minimum([edge, self.p_sat[i], self.p_full[i]], top).T
-        ends = own if below is None else np.concatenate((own, np.minimum(self._met(i, below), own[:, 2:])), axis=1)
+        ends = own
+        if below is not None and self._sharp(i):
+            ends = np.concatenate((own, np.minimum(self._met(i, below), own[:, 2:])), axis=1)
         ends = np.sort(np.concatenate((np.zeros((self.V.size, 1)), ends), axis=1), axis=1)
         # ends that are next to one another are one
         near = np.diff(ends, axis=1) <= 1e-6 * np.minimum(ends[:, 1:], unit)
         for j in np.flatnonzero(near.any(axis=0)):
             ends[near[:, j], j + 1] = ends[near[:, j], j]
-        pieces, error, steepest = self._pieces(i, ends, below)
+        pieces, steepest = self._pieces(i, ends, below)
         p_full = np.where(top >= self.p_full[i], self.p_full[i], np.inf)
         breaks = np.where(own < np.where(np.isinf(p_full), top, np.inf)[:, None], own, np.inf)
-        return BareLaws(pieces, breaks, p_full, self._saturated(i), error, steepest)
+        return BareLaws(pieces, breaks, p_full, self._saturated(i), top, steepest)
 
     def _met(self, i, below: BareLaws):
         """Pressures at which the greatest local pressure of level i, the least one of its crests, or that at the edges
@@ -205,19 +247,15 @@ class BareStack:
         return np.where(met, 0.5 * (low + high), np.nan)
 
     def _peak(self, i, group, d):
-        """Greatest local pressure of level i at ``d`` (m,), K h, from samples of its crest."""
+        """Greatest local pressure of level i at ``d`` (m,), K h."""
         at = self.levels[i]
         s_sat = at.family.s_sat[group]
         out = np.where(d > 0, d - 1 + 0.5 * s_sat, 0.0)
         part = np.flatnonzero((d > 0) & (d < 0.5 * s_sat))
         if part.size:
             g = group[part]
-            width = 2 * np.pi * np.clip(at.family.values(g, 2 * d[part, None])[:, 0, 2], 1e-9, 1 - 1e-9)
-            wave = Wave(self.foundation, self.waves[i].k * self.V[g])
-            t = np.linspace(0, 1, _SAMPLES + 2)[1:-1]
-            share = np.broadcast_to(t * t * (3 - 2 * t), (part.size, _SAMPLES))
-            out[part] = np.minimum(out[part], 0.5 * ContactPressure(wave, wave.orbits(width, means=False)).at(share).max(axis=1))
-            self.tally.solved += part.size
+            share = at.family.values(g, 2 * d[part, None])[:, :, 2]
+            out[part] = np.minimum(out[part], 0.5 * self.peaks[i].at(g, share)[0][:, 0])
         return out
 
     def _at_height(self, i):
@@ -237,16 +275,16 @@ class BareStack:
         columns = []
         for j in range(i, len(self.waves)):
             columns += [0.09375 * self.levels[j].family.full[:, 1] * self._friction_unit(j), one, none]
-        return np.stack(columns, axis=1)
+        return np.stack((*columns, none), axis=1)
 
     def _pieces(self, i, ends, below):
-        """Pieces between the ``ends`` (G, pieces + 1) of each law, all together; and of each law the error of
-        friction, Pa, and its greatest slope, (G,)."""
-        G, J, q = self.V.size, ends.shape[1] - 1, 3 * (len(self.waves) - i)
+        """Pieces between the ``ends`` (G, pieces + 1) of each law, all together; and of each law the
+        greatest slope of friction, (G,)."""
+        G, J, q = self.V.size, ends.shape[1] - 1, 3 * (len(self.waves) - i) + 1
         group, piece = np.nonzero(np.diff(ends, axis=1) > 0)
-        low, high, wanted = ends[group, piece], ends[group, piece + 1], self.wanted.friction[group]
+        low, high, wanted = ends[group, piece], ends[group, piece + 1], self.wanted.of(i)[group]
         series: list[np.ndarray] = [np.zeros((1, q))] * group.size
-        wrong, steep = np.zeros(G), np.zeros(G)
+        steep = np.zeros(G)
         left, values, worst = np.arange(group.size), None, np.zeros(group.size)
         for n in _NODES:
             omega = lobatto(n) if values is None else lobatto(n)[1::2]
@@ -258,9 +296,9 @@ class BareStack:
             found = self.at(i, np.repeat(group[left], omega.size), p.ravel(), below)
             new = found.values.reshape(left.size, omega.size, q)
             values = new if values is None else _merged(values, new)
-            worst[left] = np.maximum(worst[left], found.error.reshape(left.size, -1).max(axis=1))
-            total = np.concatenate((values[:, :, ::3].sum(axis=2, keepdims=True), values), axis=2)
-            goal = np.full((left.size, 1 + q), max(self.wanted.rtol, _CONTACT))
+            worst[left] = np.maximum(worst[left], found.values[:, -1].reshape(left.size, -1).max(axis=1))
+            total = np.concatenate((values[:, :, :-1:3].sum(axis=2, keepdims=True), values[:, :, :-1]), axis=2)
+            goal = np.full((left.size, q), max(self.wanted.rtol, _CONTACT))
             goal[:, 0] = _INTERPOLATION * wanted[left]
             goal[:, 1::3] = goal[:, :1]
             c = coefficients_over(total)
@@ -273,8 +311,9 @@ class BareStack:
             nodes = pressures(np.zeros(1), np.ones(1), lobatto(n), False)[0]
             for k in np.flatnonzero(done):
                 j, g = left[k], group[left[k]]
-                series[j] = c[k, :, 1:]
-                wrong[g] = max(wrong[g], _SURE * miss[k, 0] + worst[j])
+                # one bound of the error of friction for all of a piece
+                series[j] = np.pad(c[k, :, 1:], ((0, 0), (0, 1)))
+                series[j][0, -1] = _SURE * miss[k, 0] + worst[j]
                 share = nodes**2 if piece[j] == 0 else nodes
                 rise, step = np.abs(np.diff(total[k, :, 0])), np.diff((high[j] - low[j]) * share)
                 # differences of pressures that rounding or quadrature would make slopes of are none
@@ -286,7 +325,7 @@ class BareStack:
         table = np.zeros((G, J, max((s.shape[0] for s in series), default=1), q))
         for g, j, s in zip(group, piece, series, strict=True):
             table[g, j, : s.shape[0]] = s
-        return [Piece(ends[:, j], ends[:, j + 1], table[:, j], j == 0) for j in range(J)], wrong, steep
+        return [Piece(ends[:, j], ends[:, j + 1], table[:, j], j == 0) for j in range(J)], steep
 
 
 def _merged(old, fresh):

@@ -14,8 +14,10 @@ from hystrip.solver import Foundation
 from ..strips import Tally
 from .stack import BareStack, Wanted
 
-#: how much finer each further attempt is, and how many there are
-_FINER, _ATTEMPTS = 0.03, 3
+#: share of what is allowed that a further attempt aims at, how much finer it is at least and at most, and how many there are
+_SURE, _FINER, _FINEST, _ATTEMPTS = 0.3, 0.3, 1e-3, 4
+#: no less contact is believed in
+_LEAST = 1e-3
 #: friction is at first taken to be this many times what counts beside it
 _GUESS = 30.0
 #: share of the friction that its error may be at most, whatever counts beside it
@@ -66,26 +68,29 @@ class BareSurface:
 
     def _refine(self, out: BarePoints, group, load, by_pressure) -> None:
         n, levels = load.size, len(self.levels)
-        # the friction of level 1 alone says how well all of it has to be known; where there is only that level it may
-        # do
+        # the friction and the contact of level 1 alone say how well all of it has to be known; where there is only that
+        # level it may do
         size = self._attempt(out, np.arange(n), group, load, by_pressure, np.full(n, _GUESS * self.floor), 1)
-        finer = 1.0
+        touching, finer = np.maximum(out.contact[0], _LEAST), np.ones(n)
         for _ in range(_ATTEMPTS):
             left = np.flatnonzero(~out.certain)
             if not left.size:
                 return
-            self._attempt(out, left, group[left], load[left], by_pressure, finer * size[left], levels)
-            finer *= _FINER
+            wanted = finer[left] * size[left]
+            size[left] = self._attempt(out, left, group[left], load[left], by_pressure, wanted, levels, wanted / touching[left])
+            finer *= np.clip(_SURE * self.rtol * size / out.error, _FINEST, _FINER)
 
-    def _attempt(self, out: BarePoints, index, group, load, by_pressure, size, levels):
-        """Solve the points ``index`` on so many levels, to ``rtol size``; returns the size of friction, Pa."""
+    def _attempt(self, out: BarePoints, index, group, load, by_pressure, size, levels, below=None):
+        """Solve the points ``index`` on so many levels, to ``rtol size``, and the laws of lower levels to ``rtol below``;
+        returns the size of friction, Pa."""
         which, row = np.unique(group, return_inverse=True)
-        least, most = np.full(which.size, np.inf), np.full(which.size, -np.inf)
-        np.minimum.at(least, row, size)
+        most, least = np.full(which.size, -np.inf), np.full((2, which.size), np.inf)
         np.maximum.at(most, row, load)
+        np.minimum.at(least[0], row, size)
+        np.minimum.at(least[1], row, size if below is None else below)
         take = lambda arrays: [a[which] for a in arrays[:levels]]  # noqa: E731
         d_max = None if by_pressure else most / self.levels[0].h
-        wanted = Wanted(self.rtol * least, self.rtol)
+        wanted = Wanted(self.rtol * least[0], self.rtol * least[1], self.rtol)
         stack = BareStack(
             self.foundation,
             self.levels[:levels],
@@ -98,13 +103,13 @@ class BareSurface:
             self.tally,
         )
         found = stack.at(0, row, load if by_pressure else None, stack.laws(), None if by_pressure else load / self.levels[0].h)
-        friction = found.values[:, ::3]
+        friction, error = found.values[:, :-1:3], found.values[:, -1]
         total = self.floor + friction.sum(axis=1)
-        out.D[index], out.p[index], out.error[index] = found.d * self.levels[0].h, found.p, found.error
-        out.tau[:levels, index], out.contact[:levels, index] = friction.T, found.values[:, 1::3].T
+        out.D[index], out.p[index], out.error[index] = found.d * self.levels[0].h, found.p, error
+        out.tau[:levels, index], out.contact[:levels, index] = friction.T, found.values[:, 1:-1:3].T
         # a friction that nothing is told of is left to the general path: relative to it, not to the floor, it may be sure
-        told = (found.error <= _DIGIT * (total - self.floor)) | (self.V[group] == 0)
-        out.certain[index] = (found.error <= self.rtol * total) & told & (levels == len(self.levels))
+        told = (error <= _DIGIT * (total - self.floor)) | (self.V[group] == 0)
+        out.certain[index] = (error <= self.rtol * total) & told & (levels == len(self.levels))
         return total
 
 
