@@ -79,8 +79,9 @@ def trace(
     strips = np.zeros(n, int)
     rows, crest = smooth_intervals(columns, top)
     intervals = [i for row in rows for i in row]
-    below = [i for i in intervals if follow and i.high <= crest[i.column]]
-    pieces = interpolate(columns, rtol, [i for i in intervals if i not in below], strips, demand=demand)
+    hangs = lambda i: follow and i.high <= crest[i.column]  # noqa: E731
+    below, above = [i for i in intervals if hangs(i)], [i for i in intervals if not hangs(i)]
+    pieces = interpolate(columns, rtol, above, strips, demand=demand)
     if below:
         least = np.array([min((piece.first(_GRID)[0].min() for piece in row), default=np.inf) for row in pieces])
         comes = where_rims_hold(columns, rtol, below, least, strips, demand)
