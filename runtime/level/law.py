@@ -8,7 +8,7 @@ pressure; the law may jump between them.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,7 +23,7 @@ _GRID = np.linspace(0, 1, 65)
 _NEAR = 0.5 ** np.arange(10, 6, -1)
 _TURNS = np.concatenate(([0.0], _NEAR, _GRID[1:-1], 1 - _NEAR[::-1], [1.0]))
 _EPS = np.finfo(float).eps
-#: points at which a turn is looked for at once, and rounds
+#: points looked at at once where one is narrowed down, and rounds
 _INSIDE, _NARROWINGS = np.linspace(0, 1, 17)[1:-1], 14
 
 
@@ -55,6 +55,14 @@ class Branch:
     def parameter(self, p: np.ndarray) -> np.ndarray:
         """t at which the pressure is ``p`` (m,), clipped to the branch."""
         return Inverse([self]).parameter(np.zeros(p.size, int), p)
+
+    def reaches(self, p: float) -> float:
+        """t at which the one pressure ``p`` is reached, clipped to the branch."""
+        if p <= self.p_low:
+            return self.t_low
+        if p >= self.p_high:
+            return self.t_high
+        return _where_it_ends(lambda t: self.piece.first(t)[0] < p, self.t_low, self.t_high)
 
 
 def branches(curve: Curve, unloading: bool) -> list[Branch]:
@@ -109,13 +117,17 @@ def rising(piece: Piece) -> list[Branch]:
 def _turn(piece: Piece, i: int, j: int, falls_first: bool) -> float:
     """Zero of dp/dt between points i and j of ``_TURNS``, before which pressure falls or rises: at an end its slope says
     nothing."""
-    low, high = _TURNS[i], _TURNS[j]
+    return _where_it_ends(lambda t: (piece.first(t)[1] < 0) == falls_first, _TURNS[i], _TURNS[j])
+
+
+def _where_it_ends(holds: Callable[[np.ndarray], np.ndarray], low: float, high: float) -> float:
+    """Point between two up to which something ``holds`` ((k,) -> (k,))."""
     for _ in range(_NARROWINGS):
         inside = low + (high - low) * _INSIDE
-        before = (piece.first(inside)[1] < 0) == falls_first
+        before = holds(inside)
         k = int(np.argmin(before)) if not before.all() else before.size
         low, high = (low if k == 0 else inside[k - 1]), (high if k == before.size else inside[k])
-    return 0.5 * (low + high)
+    return float(0.5 * (low + high))
 
 
 def _below(part: Branch, least: float) -> Branch | None:
@@ -123,7 +135,7 @@ def _below(part: Branch, least: float) -> Branch | None:
         return None
     if part.p_high <= least:
         return part
-    t = float(part.parameter(np.array([least]))[0])
+    t = part.reaches(least)
     soft = part.soft_high and _meets(part, part.p_high - least)
     return replace(part, t_high=t, p_high=least, soft_high=soft) if t > part.t_low else None
 
@@ -133,7 +145,7 @@ def _above(part: Branch, most: float) -> Branch | None:
         return None
     if part.p_low >= most:
         return part
-    t = float(part.parameter(np.array([most]))[0])
+    t = part.reaches(most)
     soft = part.soft_low and _meets(part, most - part.p_low)
     return replace(part, t_low=t, p_low=most, soft_low=soft) if part.t_high > t else None
 
