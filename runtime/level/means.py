@@ -16,7 +16,8 @@ def level_means(columns: Columns, rtol: np.ndarray, hints: Hints | None = None) 
         return equal_strips(columns, columns.strips)
     q = columns.scales.size
     floor = np.broadcast_to(columns.floors, (columns.size, q))
-    return average(columns.integrand, columns.probe, columns.guide, columns.transitions(), floor, rtol, q, hints)
+    known = columns.transitions()
+    return average(columns.integrand, columns.probe, columns.guide, known, floor, rtol, q, hints, columns.saturated)
 
 
 def equal_strips(columns: Columns, strips: int) -> Averages:

@@ -21,6 +21,8 @@ from .transitions import Guide, Probe, locate
 Integrand = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 _FIRST, _LAST = 8, 64
+#: nodes of a panel whose strips are had without a search: its sum may as well be exact
+_COSTLESS = 32
 _ROUNDS = 60
 #: panels a column may have waiting at once
 _CROWD = 150
@@ -97,15 +99,17 @@ def average(
     rtol: np.ndarray,
     q: int,
     hints: Hints | None = None,
+    costless: Callable[[np.ndarray], np.ndarray] = np.zeros_like,
 ) -> Averages:
     """Means ``(1/pi) int_0^pi values d(theta)`` of every column to ``rtol (|value| + floor)``.
 
     ``probe``: (column, theta) -> the integrand's codes, and margins for the ``guide`` to where they change.
     ``starts``: for each column the interior thetas known to be transitions, sorted. ``floor`` and ``rtol`` have shape
-    (columns, q) and (columns,). ``hints``: what is expected, but not certain.
+    (columns, q) and (columns,). ``hints``: what is expected, but not certain. ``costless``: which codes are of strips that take
+    no search.
     """
     n = len(starts)
-    work = _Work(integrand, probe, guide, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int), [])
+    work = _Work(integrand, probe, guide, costless, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int), [])
     column, known = np.repeat(np.arange(n), [s.size for s in starts]), np.concatenate([*starts, np.empty(0)])
     cuts = _Panels.unknown(column, known, known, q)
     if hints is not None:
@@ -162,6 +166,7 @@ class _Work:
     integrand: Integrand
     probe: Probe
     guide: Guide
+    costless: Callable[[np.ndarray], np.ndarray]
     floor: np.ndarray
     rtol: np.ndarray
     values: np.ndarray
@@ -311,6 +316,8 @@ class _Work:
         np.add.at(total, panels.column, fine)
         goal = self.rtol[:, None] * (np.abs(total) + np.pi * self.floor)
         done = (error <= _SHARE * goal[panels.column] + 2 * rounding).all(axis=1)
+        if values.shape[1] + 1 < _COSTLESS:
+            done &= ~self.costless(codes).astype(bool)
         np.add.at(self.values, panels.column[done], fine[done])
         np.add.at(self.errors, panels.column[done], error[done])
         self._keep(panels.take(done), codes[done], values[done])
