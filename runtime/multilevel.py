@@ -13,7 +13,7 @@ from hystrip.level.bare.surface import BareSurface, is_bare
 from hystrip.level.build import build_laws
 from hystrip.level.carried import CarriedByLaws, peak_pressure
 from hystrip.level.demand import demand_of
-from hystrip.level.inverse import cut_penetration, invert
+from hystrip.level.inverse import Inverse, cut_penetration, invert
 from hystrip.level.means import level_means
 from hystrip.level.saturated import SaturatedLevel, saturated_friction, saturated_level
 from hystrip.level.strips import QUANTITIES, Columns, Tally
@@ -171,16 +171,16 @@ class _Solve:
         index, group = index[left], group[left]
         if not index.size:
             return
-        D, slopes = self._penetrations(stack, V, index, group)
-        touching = np.flatnonzero(np.isfinite(D))
-        index, group, D, slopes = index[touching], group[touching], D[touching], slopes[touching]
+        found = self._penetrations(stack, V, index, group)
+        touching = np.flatnonzero(np.isfinite(found.D))
+        index, group, D = index[touching], group[touching], found.D[touching]
         if not index.size:
             return
         columns = surface.columns(0, V[group], D)
         carry = self._carry(stack, V, group, columns) if self.M > 1 else None
         columns = surface.columns(0, V[group], D, carry, group)
         means = level_means(columns, np.full(index.size, 0.5 * surface.rtol))
-        self._write(index, D, slopes, means)
+        self._write(index, Inverse(D, found.slope[touching], found.doubt[touching]), means)
 
     def _bare(self, stack: Stack, V, index, group) -> np.ndarray:
         """Solve what can be solved without adhesion; returns what is left, as positions in ``index``."""
@@ -205,13 +205,13 @@ class _Solve:
         out.tau[:, at], out.contact[:, at] = found.tau[:, sure], found.contact[:, sure]
         return np.setdiff1d(every, mine[sure])
 
-    def _penetrations(self, stack: Stack, V, index, group):
-        """Penetration of each point (NaN below pull-off) and the slopes d(tau)/dp of level 1 there."""
+    def _penetrations(self, stack: Stack, V, index, group) -> Inverse:
+        """Penetration of each point (NaN below pull-off) and the slope d(tau)/dp of level 1 there."""
         load = self.load[index]
         if not self.by_pressure:
-            return load.copy(), np.zeros(index.size)
+            return Inverse(load.copy(), *np.zeros((2, index.size)))
         surface, own = self.surface, stack.own[0]
-        D, slopes = np.full(index.size, np.nan), np.zeros(index.size)
+        D, (slopes, doubts) = np.full(index.size, np.nan), np.zeros((2, index.size))
         K, h = surface.material.K, surface.levels[0].h
         saturated = load >= own.p_sat[group]
         D[saturated] = load[saturated] / K + 0.75 * h
@@ -219,11 +219,11 @@ class _Solve:
         if rest.size:
             columns = surface.columns(0, V[group[rest]])
             found = invert(columns, load[rest], own.D_sat[group[rest]], 0.5 * surface.rtol)
-            D[rest], slopes[rest] = found.D, found.slope
+            D[rest], slopes[rest], doubts[rest] = found.D, found.slope, found.doubt
         off = np.isnan(D)
         self.out.pulled_off[index[off]] = True
         self.out.p[index[off]] = load[off]
-        return D, slopes
+        return Inverse(D, slopes, doubts)
 
     def _carry(self, stack: Stack, V, group, columns: Columns) -> CarriedByLaws:
         """Laws of level 2, built from the smallest level upwards, each as far as the level above reaches."""
@@ -257,9 +257,9 @@ class _Solve:
             carry = CarriedByLaws(LawTable(laws), surface.rtol, scales)
         return carry
 
-    def _write(self, index, D, slopes, means):
-        out, values, errors = self.out, means.values, means.errors
-        out.D[index] = D
+    def _write(self, index, root: Inverse, means):
+        out, values, errors, slopes = self.out, means.values, means.errors, root.slope
+        out.D[index] = root.D
         p = values[:, 0]
         miss = np.zeros(index.size)
         if self.by_pressure:
@@ -268,7 +268,7 @@ class _Solve:
         out.p[index] = p
         tau, contact, adhesion, error = values[:, 1] + slopes * miss, values[:, 2], values[:, 3], errors[:, 1]
         out.tau[0, index], out.contact[0, index], out.adhesion[0, index] = tau, contact, adhesion
-        error = error + np.abs(slopes) * (errors[:, 0] + np.abs(miss))
+        error = error + np.abs(slopes) * errors[:, 0] + root.doubt * np.abs(miss)
         at = _OWN
         for i in range(1, self.M):
             out.tau[i, index], out.contact[i, index], out.adhesion[i, index] = values[:, at], values[:, at + 1], values[:, at + 2]

@@ -34,11 +34,12 @@ _EPS = np.finfo(float).eps
 
 @dataclass(frozen=True)
 class Inverse:
-    """Penetrations that carry given pressures, arrays (n,): ``D`` (NaN below pull-off) and the slope d(tau)/dp of the level
-    there."""
+    """Penetrations that carry given pressures, arrays (n,): ``D`` (NaN below pull-off), the slope d(tau)/dp of the level there,
+    and how uncertain the slope is."""
 
     D: np.ndarray
     slope: np.ndarray
+    doubt: np.ndarray
 
 
 def cut_penetration(columns: Columns, p_max: np.ndarray, full: np.ndarray) -> np.ndarray:
@@ -58,20 +59,20 @@ def invert(columns: Columns, p: np.ndarray, full: np.ndarray, rtol: float) -> In
 
     ``full`` (n,): penetration of saturated contact. The root is refined with averages to ``rtol``.
     """
-    D, slope = np.full(p.size, np.nan), np.zeros(p.size)
+    D, slope, doubt = np.full(p.size, np.nan), np.zeros(p.size), np.zeros(p.size)
     columns = replace(columns, frictional=True)
     if not columns.adhesion.p_0 > 0:
         loaded = np.flatnonzero(p > 0)
         if loaded.size:
             some = columns.at(loaded, D[loaded])
-            D[loaded], slope[loaded] = _refine(some, p[loaded], enclosed(some, p[loaded]), rtol)
-        return Inverse(D, slope)
+            D[loaded], slope[loaded], doubt[loaded] = _refine(some, p[loaded], enclosed(some, p[loaded]), rtol)
+        return Inverse(D, slope, doubt)
     roots = _Descent(columns, p, cut_penetration(columns, p, full), rtol).run()
     found = np.array([i for i, root in enumerate(roots) if root is not None], int)
     if found.size:
         near = [np.array([getattr(roots[i], name) for i in found]) for name in ("D", "slope", "friction_slope", "low", "high")]
-        D[found], slope[found] = _refine(columns.at(found, D[found]), p[found], near, rtol)
-    return Inverse(D, slope)
+        D[found], slope[found], doubt[found] = _refine(columns.at(found, D[found]), p[found], near, rtol)
+    return Inverse(D, slope, doubt)
 
 
 @dataclass(frozen=True)
@@ -189,15 +190,17 @@ class _Descent:
 
 
 def _refine(columns: Columns, p, near, rtol):
-    """Penetrations and d(tau)/dp of the roots ``near`` these (arrays of the fields of ``_Root``): Newton with the slope of the
-    coarse curve, then of the last two averages."""
+    """Penetrations, d(tau)/dp and how uncertain that is at the roots ``near`` these (arrays of the fields of ``_Root``): Newton
+    with the slope of the coarse curve, then of the last two averages."""
     D, slope, friction_slope, low, high = near
+    # nothing but the coarse curve says what it is
+    doubt = np.abs(friction_slope)
     goal = _CLOSE * rtol * (np.abs(p) + 1e-3 * columns.scales[0])
     active = np.flatnonzero((slope > 0) & (high > low))
     known = None
     for _ in range(_NEWTON):
         if not active.size:
-            return D, friction_slope
+            return D, friction_slope, doubt
         values = level_means(columns.at(active, D[active]), np.full(active.size, rtol)).values
         miss = values[:, 0] - p[active]
         if known is not None:
@@ -205,7 +208,9 @@ def _refine(columns: Columns, p, near, rtol):
             moved, rise, rub = D[active] - known[1][rows], values[:, 0] - known[2][rows], values[:, 1] - known[3][rows]
             better = moved * rise > 0
             slope[active[better]] = (rise[better]) / moved[better]
-            friction_slope[active[better]] = rub[better] / rise[better]
+            secant = rub[better] / rise[better]
+            doubt[active[better]] = np.abs(secant - friction_slope[active[better]])
+            friction_slope[active[better]] = secant
         going = np.abs(miss) > goal[active]
         known = tuple(v[going] for v in (active, D[active], values[:, 0], values[:, 1]))
         # what is close enough takes the step too: the average made there afterwards is next to the pressure
@@ -213,7 +218,8 @@ def _refine(columns: Columns, p, near, rtol):
         active = active[going]
     if active.size:
         D[active], friction_slope[active] = _bracketed(columns, p, active, low[active], high[active], rtol)
-    return D, friction_slope
+        doubt[active] = np.abs(friction_slope[active])
+    return D, friction_slope, doubt
 
 
 def _bracketed(columns: Columns, p, index, low, high, rtol):

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 
 _FIRST, _LAST = 8, 64
+#: nodes of a panel whose strips are had without a search: its sum may as well be exact
+_COSTLESS = 32
 _ROUNDS = 60
 #: looks closer to an expected transition than its bracket is wide, as shares of half of it
 _CLOSER = (1 / 4, 1 / 16)
@@ -334,6 +336,8 @@ class _Work:
         np.add.at(total, panels.column, fine)
         goal = self.rtol[:, None] * (np.abs(total) + np.pi * self.floor)
         done = (error <= _SHARE * goal[panels.column] + 2 * rounding).all(axis=1)
+        if values.shape[1] + 1 < _COSTLESS:
+            done &= ~self.columns.saturated(codes)
         np.add.at(self.values, panels.column[done], fine[done])
         np.add.at(self.errors, panels.column[done], error[done])
         self._keep(panels.take(done), codes[done], values[done])

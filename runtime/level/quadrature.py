@@ -10,17 +10,21 @@ from functools import lru_cache
 import numpy as np
 
 _EPS = np.finfo(float).eps
-#: share of the roughest quantity's relative error that every other one is taken to have at least
-_COMMON = 0.3
-#: slowest decay that a sum of the rest may be extrapolated with
-_SLOWEST = 6.0
-#: number of nodes from which on coefficients are many; up to it and from it on: the fastest decay believed, and the ratio of the
-#: last coefficients to the middle ones below which they surely fall geometrically
-_MANY, _FASTEST, _GEOMETRIC = 16, (0.43, 0.35), (0.15, 0.05)
-#: so many coefficients in a row are not small by chance where a pair of singularities makes them come and go
-_RUN = 5
-#: how much more than what the run leaves at its end is feared
-_SAFE = 2.0
+#: coefficients in the middle of a series that those at its end are held against: one may be small by chance
+_MIDDLE = 3
+#: fastest pace believed of coefficients, by number of nodes, and the slowest that is told apart from a slower one
+_FASTEST, _SLOWEST = {8: 0.54, 16: 0.42, 32: 0.65}, 0.97
+#: number of nodes from which on coefficients are many; up to it and from it on, the ratio of the last coefficients to the middle
+#: ones below which they surely fall geometrically
+_MANY, _GEOMETRIC = 16, (0.15, 0.05)
+#: ratio of them above which they may fall by a power only, and how much more than by that of the last ones the next may count
+_POWER, _TURNS = 0.2, 2.5
+#: how much more is feared than what is left at the pace that coefficients fall at
+_SAFE = 3.0
+#: all quantities share their singularities: power of the roughest one's size, relative to its own, in that of every other one
+_COMMON = 0.2
+#: coefficients below this share of a change that doesn't matter say nothing of a pace
+_QUIET = 0.01
 
 
 def mapped(t):
@@ -54,48 +58,81 @@ def _second_kind(n: int) -> np.ndarray:
     return (2 / n) * np.sin(np.outer(np.arange(1, n), angle)) * np.sin(angle)
 
 
-@lru_cache
-def _missed(n: int) -> tuple[np.ndarray, np.ndarray]:
-    """Orders ``j = n + 1, n + 3 ... 2 n - 1`` of the polynomials ``sin(j phi)/sin(phi)`` that the sum does not integrate exactly,
-    and how far it is off.
+def _runs(n: int) -> tuple[int, int]:
+    """How many of the last coefficients of n nodes are looked at: so many that those of a singularity inside, which come and go,
+    are not all small; and so few that they come of nothing but what falls slowest."""
+    return (max(5, n // 5), 4) if n > 8 else (3, 3)
 
-    Their integrals are ``m(j) = -3/(j (j^2 - 4))``, zero for even j, and at the nodes order ``2 n - j`` looks like j.
+
+@lru_cache
+def _left(n: int, turning: bool) -> tuple[np.ndarray, np.ndarray]:
+    """What the sum misses of a quantity whose coefficients are ``rho^j``, over the largest of the last ones it shows, and the
+    ratios by which it shows how fast they fall: rho itself where the coefficients are told from the middle on, where they may
+    also turn (``turning``) from order to order, ``rho^j exp(i psi j)``, as those of a singularity inside; else that of the last
+    ones to those before.
+
+    Order j has the integral ``m(j) = -3/(j (j^2 - 4))``, zero for even j. At the nodes orders ``2 n - j`` and ``2 n + j`` look
+    like j but for a sign: where coefficients fall slowly and don't turn, as where an end has a layer, most of it cancels.
     """
-    j = np.arange(n + 1, 2 * n, 2)
-    integral = lambda j: 3 / np.abs(j * (j**2.0 - 4))  # noqa: E731
-    return j, integral(j) + integral(2 * n - j)
+    rho = np.linspace(_FASTEST.get(n, 0.8), _SLOWEST, 64)
+    psi = np.linspace(0, np.pi, 33) if turning else np.zeros(1)
+    z = (rho[:, None] * np.exp(1j * psi)).reshape(-1, 1)
+    j = np.arange(1, 1200, 2)
+    exact = (z**j) @ (-3 / (j * (j**2.0 - 4)))
+    values = z / (1 - 2 * z * np.cos(np.arange(1, n) * np.pi / n) + z**2)
+    c = np.abs(values @ _second_kind(n).T)
+    missed = np.abs(values @ mapped_weights(n) - exact) / _last(c, _runs(n)[0 if turning else 1])
+    shown = rho if turning else _last(c, _step(n)) / _last(c, _step(n), _step(n))
+    return shown, np.maximum.accumulate(missed.reshape(rho.size, -1).max(axis=1))
+
+
+def _step(n: int) -> int:
+    """So many of the last coefficients are held against as many before."""
+    return max(2, n // 10)
+
+
+def _last(c: np.ndarray, size: int, skipped: int = 0) -> np.ndarray:
+    """Largest of the last ``size`` coefficients (p, n - 1, ...), but for the ``skipped`` ones behind them."""
+    end = c.shape[1] - skipped
+    return c[:, end - size : end].max(axis=1)
 
 
 def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     """Error of the sum over nodes of each interval, per width, (p, q); ``values`` (p, n - 1, q), ``noise`` (p, q): changes that
     don't matter.
 
-    The last coefficients say how much is left, and what they have lost against those in the middle how fast it falls. All
-    quantities share their singularities: the slowest decay is taken for all, and none is taken to be much smoother than the
-    roughest.
+    The last coefficients say how much is left, and their pace how fast it falls: the one since the middle, or the one among the
+    last, which is slower where a layer next to an end is all that is left. The two are told by different coefficients: where they
+    fall geometrically the geometric mean of both is taken, else the larger.
     """
     n = values.shape[1] + 1
     c = np.abs(_second_kind(n) @ values)
     # what is rounding says nothing of the singularities
     c = np.maximum(c - 16 * _EPS * np.abs(values).max(axis=1)[:, None], 0.0)
     amplitude = c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny
-    shape = (c / amplitude[:, None]).max(axis=2)
-    # a run long enough that coefficients which change their sign in it are not all small
-    few = max(_RUN, n // 5) if n > 8 else 3
-    last, middle = shape[:, -few:].max(axis=1), shape[:, n // 2 - 3 : n // 2].max(axis=1)
-    ratio = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0)
-    decay = ratio ** (1 / (0.5 * (n + 1 - few)))
-    many = int(n >= _MANY)
-    # what the rule makes of a tail that goes on geometrically, from the last coefficient on
-    believed = np.maximum(decay, _FASTEST[many])
-    orders, off = _missed(n)
-    beyond = believed[:, None] ** (orders - (n - 1)) @ off + believed ** (n + 1) / (1 - np.minimum(believed, 0.999) ** 2)
-    # where coefficients may fall by a power only: as if nothing cancelled
-    slow = np.minimum(1 / np.maximum(1 - decay, 1e-3), _SLOWEST) * decay ** (1 + n / 4)
-    rest = np.where(ratio < _GEOMETRIC[many], beyond, np.maximum(beyond, slow))[:, None]
-    if n == 8:
-        return np.maximum(c[:, -few:].max(axis=1), _COMMON * last[:, None] * amplitude) * rest
-    # what earlier coefficients of the run leave at its end, at that pace
-    fading = believed[:, None] ** np.arange(few - 1, -1, -1)
-    left, common = (c[:, -few:] * fading[:, :, None]).max(axis=1), (shape[:, -few:] * fading).max(axis=1)
-    return _SAFE * np.maximum(left, _COMMON * common[:, None] * amplitude) * rest
+    shape = (c / amplitude[:, None]).max(axis=2, keepdims=True)
+    many, few = _runs(n)
+    step = _step(n)
+    ratio = _ratio(_last(shape, many), shape[:, n // 2 - _MIDDLE : n // 2].max(axis=1))
+    since = ratio ** (1 / (0.5 * (n + 1 - many)))
+    recent = np.maximum(
+        _ratio(_last(c, step), _last(c, step, step) + _QUIET * noise), _ratio(_last(shape, step), _last(shape, step, step))
+    )
+    size = _size(_last(c, many), _last(shape, many), amplitude)
+    first = size * np.interp(since, *_left(n, True))
+    second = _size(_last(c, few), _last(shape, few), amplitude) * np.interp(recent, *_left(n, False))
+    sure = ratio < _GEOMETRIC[int(n >= _MANY)]
+    doubtful = _SAFE * np.maximum(first, second)
+    # as those of a kink may fall: by a power, and coming and going; so the next ones by as much as these
+    slow = np.where(ratio > _POWER, np.maximum(doubtful, _TURNS * size * ratio), doubtful)
+    return np.where(sure, _SAFE * np.sqrt(first * second), slow)
+
+
+def _ratio(last, first):
+    """``last`` over ``first``, at most 1."""
+    return np.minimum(np.divide(last, first, out=np.ones_like(last), where=first > last), 1.0)
+
+
+def _size(own, roughest, amplitude):
+    """Size of the last coefficients of each quantity, given that of the ``roughest`` one relative to its ``amplitude``."""
+    return own ** (1 - _COMMON) * (roughest * amplitude) ** _COMMON

@@ -176,6 +176,11 @@ class Columns:
             return codes
         return codes + len(CODE) * self.carry.crossed(kernel_of(self.material), strips, self.group[column])
 
+    @staticmethod
+    def saturated(codes: np.ndarray) -> np.ndarray:
+        """Which ``codes`` are of strips in saturated contact: their means take no search."""
+        return codes % len(CODE) == CODE["c"]
+
     def transitions(self) -> list[np.ndarray]:
         """Thetas of the transitions known in closed form, for every column: where strips become saturated, where they lose
         touch."""
