@@ -15,7 +15,7 @@ from .problem import TWO_PI, Cycle
 #: iterations at most, and before strips that are done are set aside. Where there is an orbit with a free part Newton needs half
 #: of them; next to complete contact, where two edges all but coincide, more
 _ITERATIONS, _TOGETHER = 10, 3
-_ITERATIONS_BARE, _TOGETHER_BARE = 24, 4
+_ITERATIONS_BARE, _TOGETHER_BARE = 24, 2
 _TIGHTENING = 5
 #: a step this small leaves an error of its square
 _SMALL = 1e-7
