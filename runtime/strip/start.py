@@ -27,8 +27,8 @@ ONSET = {"adhesive": (-0.99, -0.9, -0.4, -0.05, -0.1, -0.15), "bare": (-0.99, -0
 #: share of its arc that the end of contact lies behind the start of it, long after the forcing turned
 CONTACT_END, SLOW = 0.45, 60.0
 RELEASE = 0.1
-#: contact all but complete, in parts of the pressure's amplitude; by how much the width of its gap is more than where the saturated
-#: field pulls, in parts of that squared, and on a foundation that relaxes at once
+#: contact all but complete, in parts of the pressure's amplitude; by how much the width of its gap is more than where the
+#: saturated field pulls, in parts of that squared, and on a foundation that relaxes at once
 _NEARLY, _WIDER, _QUICKLY = 0.6, 0.27, 0.8
 _LEAST = 1e-9
 #: alpha above which the edges are those of a foundation that stands still; rounds of Newton for them, from a long contact,
