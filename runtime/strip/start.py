@@ -27,13 +27,15 @@ ONSET = {"adhesive": (-0.99, -0.9, -0.4, -0.05, -0.1, -0.15), "bare": (-0.99, -0
 #: share of its arc that the end of contact lies behind the start of it, long after the forcing turned
 CONTACT_END, SLOW = 0.45, 60.0
 RELEASE = 0.1
-#: contact all but complete, in parts of the pressure's amplitude, and the width of its gap over the half width where the
-#: saturated field pulls
-_NEARLY, _GAP = 0.3, 3.0
+#: contact all but complete, in parts of the pressure's amplitude; by how much the width of its gap is more than where the
+#: saturated field pulls, in parts of that squared, and on a foundation that relaxes at once
+_NEARLY, _WIDER, _QUICKLY = 0.6, 0.27, 0.8
 _LEAST = 1e-9
 #: alpha above which the edges are those of a foundation that stands still; rounds of Newton for them, from a long contact,
 #: and the shortest
 _SLOWLY, _ROUNDS, _LONG, _SHORT = 1.4, 4, 2.0, 0.02
+#: the same where the whole gap adheres, up to where the saturated field hardly pulls; by how much contact is turned, over alpha
+_SLOWER, _HARDLY, _MIDDLE, _TURNED = 8.0, 0.03, 1.9, 0.8
 
 
 def onset_guess(cycle: Cycle, kind: str = "adhesive") -> np.ndarray:
@@ -100,4 +102,19 @@ def _nearly_complete(kernel, cycle: Cycle, edges: dict[str, np.ndarray]) -> None
     half = 2 * np.arcsin(np.sqrt(np.clip(pull / 2, 0.0, 1.0)))
     a = np.pi - np.arctan(s.beta) + np.arctan(s.alpha) - half
     edges["a"] = np.where(near, a, edges["a"])
-    edges["x"] = np.where(near, a - TWO_PI + _GAP * half, edges["x"])
+    edges["x"] = np.where(near, a - TWO_PI + (2 + _WIDER * half + _QUICKLY / (1 + s.alpha) ** 3) * half, edges["x"])
+    slow = np.flatnonzero((s.alpha > _SLOWER) & (pull > _HARDLY))
+    if slow.size:
+        a, turned = _always_adhering(s.take(slow)), _TURNED / s.alpha[slow]
+        edges["x"][slow], edges["a"][slow] = -a - turned, a - turned
+
+
+def _always_adhering(s: Strips) -> np.ndarray:
+    """Where contact ends if nothing relaxes within a period and the whole gap adheres: the balance grows with a."""
+    weight = s.L * s.beta / (np.pi * s.alpha)
+    a = np.full(s.size, _MIDDLE)
+    for _ in range(_ROUNDS):
+        cosine, sine = np.cos(a), np.sin(a)
+        balance = weight * (sine - a * cosine) - (s.D - 1 + cosine)
+        a = np.clip(a - balance / (sine * (1 + weight * a)), 0.5 * a, 0.5 * (a + np.pi))
+    return a
