@@ -28,6 +28,8 @@ _CONTACT, _FOR_CONTACT = 1e-5, 16
 _SHARES = 3e-5
 #: an accuracy in parts of the greatest friction from which on a law is only parted where it is least smooth
 _BLUNT = 1e-4
+#: and one from which on few nodes may do
+_SLIGHT = 0.1
 #: how much more than the estimated error of a law is feared
 _SURE = 2.0
 #: slopes of a law are looked at over steps of at least this share of the pressure
@@ -186,7 +188,7 @@ class BareStack:
         carrier = self.carrier(i, laws)
         goal = np.full((d.size, laws.full.shape[1]), max(self.wanted.rtol, _SHARES))
         goal[:, :-1:3], goal[:, -1] = allowed[:, None], np.inf
-        carried, errors = carrier.carried(group, d, goal)
+        carried, errors = carrier.carried(group, d, goal, at_once=i > 0)
         self.tally.solved += carrier.strips
         error += errors[:, :-1:3].sum(axis=1) + carried[:, -1]
         # local pressures are as uncertain as a strip's means, and change friction by the law's slope
@@ -196,6 +198,10 @@ class BareStack:
     def _sharp(self, i):
         """Whether the friction of level i with all that it carries counts enough for its lesser breaks to matter."""
         return bool((self.wanted.of(i) < _BLUNT * self._saturated(i)[:, ::3].sum(axis=1)).any())
+
+    def _slight(self, i):
+        """Whether the friction of level i with all that it carries hardly counts."""
+        return bool((self.wanted.of(i) > _SLIGHT * self._saturated(i)[:, ::3].sum(axis=1)).all())
 
     def _law(self, i, below: BareLaws | None) -> BareLaws:
         unit, top = self.units[i], self.ceilings[i]
@@ -286,7 +292,7 @@ class BareStack:
         series: list[np.ndarray] = [np.zeros((1, q))] * group.size
         steep = np.zeros(G)
         left, values, worst = np.arange(group.size), None, np.zeros(group.size)
-        for n in _NODES:
+        for n in _NODES if self._slight(i) else _NODES[1:]:
             omega = lobatto(n) if values is None else lobatto(n)[1::2]
             p = np.where(
                 (piece[left] == 0)[:, None],
