@@ -20,16 +20,14 @@ from .means import CANCELLED, Level
 from .peaks import Peaks, peak, peaks_of
 
 #: nodes of a piece of a law, tried in turn
-_NODES = (8, 16, 32, 64, 128)
+_NODES = (16, 32, 64, 128)
 #: of what is allowed: what interpolating a law may err, what its values may, and what a strip's means may
-_INTERPOLATION, _VALUES, _STRIPS = 0.3, 0.3, 2.0
+_INTERPOLATION, _VALUES, _STRIPS = 1.0, 0.6, 2.0
 #: contact fractions are interpolated no finer than this, and on no more nodes
 _CONTACT, _FOR_CONTACT = 1e-5, 16
-_SHARES = 3e-5
+_SHARES = 1e-4
 #: an accuracy in parts of the greatest friction from which on a law is only parted where it is least smooth
 _BLUNT = 1e-4
-#: and one from which on few nodes may do
-_SLIGHT = 0.1
 #: how much more than the estimated error of a law is feared
 _SURE = 2.0
 #: slopes of a law are looked at over steps of at least this share of the pressure
@@ -199,10 +197,6 @@ class BareStack:
         """Whether the friction of level i with all that it carries counts enough for its lesser breaks to matter."""
         return bool((self.wanted.of(i) < _BLUNT * self._saturated(i)[:, ::3].sum(axis=1)).any())
 
-    def _slight(self, i):
-        """Whether the friction of level i with all that it carries hardly counts."""
-        return bool((self.wanted.of(i) > _SLIGHT * self._saturated(i)[:, ::3].sum(axis=1)).all())
-
     def _law(self, i, below: BareLaws | None) -> BareLaws:
         unit, top = self.units[i], self.ceilings[i]
         edge = np.minimum(self._at_height(i), self.p_sat[i])
@@ -292,7 +286,7 @@ class BareStack:
         series: list[np.ndarray] = [np.zeros((1, q))] * group.size
         steep = np.zeros(G)
         left, values, worst = np.arange(group.size), None, np.zeros(group.size)
-        for n in _NODES if self._slight(i) else _NODES[1:]:
+        for n in _NODES:
             omega = lobatto(n) if values is None else lobatto(n)[1::2]
             p = np.where(
                 (piece[left] == 0)[:, None],
