@@ -22,8 +22,9 @@ _RULES = (8, 12, 18, 27, 40, 60, 90)
 _QUADRATURE, _FASTEST, _SURE = 0.5, 0.25, 2.0
 #: a level's sum is not believed to gain more than this from rule to rule
 _PACE = 0.3
-#: penetrations, or roots of pressures, are looked for to this, what is left being taken up by slopes; and steps
-_CLOSE, _MET, _STEPS = 1e-5, 1e-7, 60
+#: penetrations are looked for to this, or pressures to that, or to this share of what is not known of them, what is left
+#: being taken up by slopes; and steps
+_CLOSE, _MET, _BLURRED, _STEPS = 1e-5, 1e-7, 1e-2, 60
 #: penetrations that are looked at first
 _LOOKS = 32
 #: share of what is allowed below which no error is claimed to be
@@ -197,9 +198,12 @@ class Level:
             new = d[left] - np.divide(miss, slope, out=np.full_like(miss, np.inf), where=slope > 0)
             inside = (new >= low[left]) & (new <= high[left])
             new = np.where(inside, new, 0.5 * (low[left] + high[left]))
+            known = _BLURRED * self.family.errors[group[left], 0]
+            off = np.abs(at[:, 0] - p[left]) > np.maximum(_MET * p[left], known)
+            left, new = left[off], new[off]
             moved = np.abs(new - d[left])
             d[left] = new
-            left = left[(moved > _CLOSE * new) & (np.abs(miss) > _MET * np.sqrt(p[left]))]
+            left = left[moved > _CLOSE * new]
             if not left.size:
                 break
         return d

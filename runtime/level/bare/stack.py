@@ -14,7 +14,7 @@ from hystrip.solver import Foundation
 from ..chebyshev import interpolation_errors, lobatto
 from ..strips import Tally
 from .carried import Carrier
-from .family import coefficients_over, family
+from .family import coefficients_over, family, trimmed
 from .law import BareLaws, Piece, pressures
 from .means import CANCELLED, Level
 from .peaks import Peaks, peak, peaks_of
@@ -28,8 +28,12 @@ _CONTACT, _FOR_CONTACT = 1e-5, 16
 _SHARES = 1e-4
 #: an accuracy in parts of the greatest friction from which on a law is only parted where it is least smooth
 _BLUNT = 1e-4
+#: share of what is allowed that is cut off a series
+_TRIMMED = 0.03
 #: how much more than the estimated error of a law is feared
 _SURE = 2.0
+#: slope of friction over pressure, k h, that is never reached
+_STEEPEST = 2.0
 #: slopes of a law are looked at over steps of at least this share of the pressure
 _STEP = 1e-3
 #: by how much more a greatest pressure is allowed for
@@ -174,7 +178,8 @@ class BareStack:
             goal = np.stack((*(2 * [allowed[part] / friction]), np.full(part.size, self.wanted.rtol)), axis=1)
             means, errors = level.sure_means(g, d[part], goal, True)
             rise = np.where(means[:, 3] > 0, means[:, 3], np.inf)
-            by_pressure = means[:, 4] / rise
+            # friction is pressure times slope: where means of next to nothing vary by chance they say nothing else
+            by_pressure = np.clip(means[:, 4] / rise, -_STEEPEST, _STEEPEST)
             lift = 0.0 if p is None else p[part] / unit - means[:, 0]
             d[part] += lift / rise
             own[part, 0], own[part, 1] = (means[:, 1] + by_pressure * lift) * friction, means[:, 2]
@@ -311,9 +316,10 @@ class BareStack:
             nodes = pressures(np.zeros(1), np.ones(1), lobatto(n), False)[0]
             for k in np.flatnonzero(done):
                 j, g = left[k], group[left[k]]
+                kept, lost = trimmed(c[k, :, 1:], _TRIMMED * goal[k, 1:])
                 # one bound of the error of friction for all of a piece
-                series[j] = np.pad(c[k, :, 1:], ((0, 0), (0, 1)))
-                series[j][0, -1] = _SURE * miss[k, 0] + worst[j]
+                series[j] = np.pad(kept, ((0, 0), (0, 1)))
+                series[j][0, -1] = _SURE * miss[k, 0] + worst[j] + lost[::3].sum()
                 share = nodes**2 if piece[j] == 0 else nodes
                 rise, step = np.abs(np.diff(total[k, :, 0])), np.diff((high[j] - low[j]) * share)
                 # differences of pressures that rounding or quadrature would make slopes of are none
