@@ -22,7 +22,10 @@ from .peaks import Peaks
 from .pressure import ContactPressure
 
 #: nodes over a panel of strips and over each part of a contact, tried in turn
-RULES = ((4, 5), (7, 8), (11, 12), (16, 18), (24, 28), (36, 42), (54, 64), (81, 96))
+RULES = ((3, 4), (4, 5), (7, 8), (11, 12), (16, 18), (24, 28), (36, 42), (54, 64), (81, 96))
+#: accuracies in parts of the greatest friction from which on the first of them are left out; and that of contact for
+#: which the second one has to do where friction does not count
+_SHARP, _ROUGH = np.array((3e-3, 1e-5)), 1e-3
 #: share of what is allowed that these sums may miss, how much more than their changes is feared, and the fastest that
 #: these are believed to fall
 _QUADRATURE, _SURE, _FASTEST = 0.7, 1.5, 0.05
@@ -51,7 +54,14 @@ class Carrier:
         if not left.size:
             return out, errors
         columns = self._columns(group[left], d[left], goal[left, :-1:3].min(axis=1))
-        for rule in RULES:
+        most = self.laws.most[columns.group]
+        if (most <= columns.allowed).all():
+            # whatever the sums are, friction that small may be missed
+            out[left] = self._sums(columns, *RULES[1 + int(goal[:, 1].min() < _ROUGH)])
+            errors[left, 0] = most
+            return out, errors
+        finest = (columns.allowed / np.maximum(most, np.finfo(float).tiny)).min()
+        for rule in RULES[np.count_nonzero(finest < _SHARP) if at_once else 0 :]:
             new = self._sums(columns, *rule)
             miss = changes.after(new)
             done = (miss <= _QUADRATURE * goal[left]).all(axis=1) | (rule == RULES[-1])

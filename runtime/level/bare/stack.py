@@ -214,10 +214,10 @@ class BareStack:
         near = np.diff(ends, axis=1) <= 1e-6 * np.minimum(ends[:, 1:], unit)
         for j in np.flatnonzero(near.any(axis=0)):
             ends[near[:, j], j + 1] = ends[near[:, j], j]
-        pieces, steepest = self._pieces(i, ends, below)
+        pieces, steepest, most = self._pieces(i, ends, below)
         p_full = np.where(top >= self.p_full[i], self.p_full[i], np.inf)
         breaks = np.where(own < np.where(np.isinf(p_full), top, np.inf)[:, None], own, np.inf)
-        return BareLaws(pieces, breaks, p_full, self._saturated(i), top, steepest)
+        return BareLaws(pieces, breaks, p_full, self._saturated(i), top, steepest, most)
 
     def _met(self, i, below: BareLaws):
         """Pressures at which the greatest local pressure of level i, the least one of its crests, or that at the edges
@@ -284,12 +284,12 @@ class BareStack:
 
     def _pieces(self, i, ends, below):
         """Pieces between the ``ends`` (G, pieces + 1) of each law, all together; and of each law the
-        greatest slope of friction, (G,)."""
+        greatest slope of friction, and a bound of its size, (G,)."""
         G, J, q = self.V.size, ends.shape[1] - 1, 3 * (len(self.waves) - i) + 1
         group, piece = np.nonzero(np.diff(ends, axis=1) > 0)
         low, high, wanted = ends[group, piece], ends[group, piece + 1], self.wanted.of(i)[group]
         series: list[np.ndarray] = [np.zeros((1, q))] * group.size
-        steep = np.zeros(G)
+        steep, most = np.zeros(G), self._saturated(i)[:, ::3].sum(axis=1)
         left, values, worst = np.arange(group.size), None, np.zeros(group.size)
         for n in _NODES:
             omega = lobatto(n) if values is None else lobatto(n)[1::2]
@@ -317,6 +317,7 @@ class BareStack:
             for k in np.flatnonzero(done):
                 j, g = left[k], group[left[k]]
                 kept, lost = trimmed(c[k, :, 1:], _TRIMMED * goal[k, 1:])
+                most[g] = max(most[g], np.abs(c[k, :, 0]).sum())
                 # one bound of the error of friction for all of a piece
                 series[j] = np.pad(kept, ((0, 0), (0, 1)))
                 series[j][0, -1] = _SURE * miss[k, 0] + worst[j] + lost[::3].sum()
@@ -331,7 +332,7 @@ class BareStack:
         table = np.zeros((G, J, max((s.shape[0] for s in series), default=1), q))
         for g, j, s in zip(group, piece, series, strict=True):
             table[g, j, : s.shape[0]] = s
-        return [Piece(ends[:, j], ends[:, j + 1], table[:, j], j == 0) for j in range(J)], steep
+        return [Piece(ends[:, j], ends[:, j + 1], table[:, j], j == 0) for j in range(J)], steep, most
 
 
 def _merged(old, fresh):
