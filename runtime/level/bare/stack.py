@@ -38,8 +38,6 @@ _STEEPEST = 2.0
 _STEP = 1e-3
 #: by how much more a greatest pressure is allowed for
 _BETWEEN = 1.02
-#: looks, and how often they are narrowed, at where it passes a break of the law below
-_LOOKS, _NARROWINGS = 17, 3
 _EPS = np.finfo(float).eps
 
 
@@ -220,48 +218,17 @@ class BareStack:
         return BareLaws(pieces, breaks, p_full, self._saturated(i), top, steepest, most)
 
     def _met(self, i, below: BareLaws):
-        """Pressures at which the greatest local pressure of level i, the least one of its crests, or that at the edges
-        of its cells passes a break of the law below, (G, k)."""
+        """Pressures at which that at the edges of the cells of level i, all one, passes a break of the law below, (G, k)."""
         at, unit = self.levels[i], self.units[i]
-        local = np.where(np.isfinite(below.breaks), below.breaks, np.nan) / unit
-        s_sat = at.family.s_sat[:, None]
-        d = [0.5 * s_sat + local, 1 + local, self._peaking(i, local)]
-        out = np.concatenate(d, axis=1)
-        row, column = np.nonzero(np.isfinite(out) & (out > 0))
-        p = np.full(out.shape, np.inf)
-        x, part = out[row, column], out[row, column] < 0.5 * at.family.s_sat[row]
-        pressure = x - 0.75
+        d = 1 + below.breaks / unit
+        row, column = np.nonzero(np.isfinite(d))
+        p = np.full(d.shape, np.inf)
+        x = d[row, column]
+        pressure, part = x - 0.75, x < 0.5 * at.family.s_sat[row]
         if part.any():
             pressure[part] = at.means(row[part], x[part], 18)[:, 0]
         p[row, column] = pressure * unit
         return p
-
-    def _peaking(self, i, local):
-        """d at which the greatest local pressure of level i is ``local`` (K h, (G, k)); nan for what is not met."""
-        low = np.zeros(local.shape)
-        high = np.broadcast_to(self._penetrations(i, self.groups, self.ceilings[i])[:, None], local.shape).copy()
-        met = np.isfinite(local) & (local > 0)
-        for _ in range(_NARROWINGS):
-            share = np.linspace(0, 1, _LOOKS)
-            d = low[..., None] + (high - low)[..., None] * share
-            group = np.broadcast_to(self.groups[:, None, None], d.shape)
-            peak = self._peak(i, group.ravel(), d.ravel()).reshape(d.shape)
-            met &= local < peak[..., -1]
-            reached = np.clip((peak < local[..., None]).sum(axis=-1), 1, _LOOKS - 1)[..., None]
-            low, high = (np.take_along_axis(d, reached - side, axis=-1)[..., 0] for side in (1, 0))
-        return np.where(met, 0.5 * (low + high), np.nan)
-
-    def _peak(self, i, group, d):
-        """Greatest local pressure of level i at ``d`` (m,), K h."""
-        at = self.levels[i]
-        s_sat = at.family.s_sat[group]
-        out = np.where(d > 0, d - 1 + 0.5 * s_sat, 0.0)
-        part = np.flatnonzero((d > 0) & (d < 0.5 * s_sat))
-        if part.size:
-            g = group[part]
-            share = at.family.values(g, 2 * d[part, None])[:, :, 2]
-            out[part] = np.minimum(out[part], 0.5 * self.peaks[i].at(g, share)[0][:, 0])
-        return out
 
     def _at_height(self, i):
         """Pressure at D = h."""
