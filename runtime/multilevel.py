@@ -23,6 +23,8 @@ from hystrip.solver import Material, foundation_of
 _OWN = len(QUANTITIES)
 #: the error column of what is carried never asks for refinement
 _NO_SCALE = 1e300
+#: velocities solved at a time: enough of them for the batch to pay, few enough to show progress
+_BLOCK = 256
 #: laws are built this much finer than what is asked of the result
 _FINER = 0.5
 
@@ -60,9 +62,10 @@ class Surface:
         D = np.zeros(V.size) if D is None else D
         # the curves behind the laws of lower levels are interpolated over D: equal strips would make steps of them
         strips = self.strips if i == 0 else None
-        return Columns(
+        columns = Columns(
             self.material, self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, strips, tally=self.tally
         )
+        return columns if self.skip else replace(columns, free=None)
 
     def alone(self, level: Level, V) -> SaturatedLevel:
         """Saturation of a level by itself."""
@@ -138,13 +141,11 @@ class _Solve:
         if not rest.size:
             return out
         velocities, group = np.unique(self.V[rest], return_inverse=True)
-        # a block of velocities at a time: large enough for the batch to pay, small enough to show progress
-        block = 128 if self.surface.adhesion.p_0 > 0 else 256
-        for start in range(0, velocities.size, block):
-            chosen = (group >= start) & (group < start + block)
-            self._block(velocities[start : start + block], rest[chosen], group[chosen] - start)
+        for start in range(0, velocities.size, _BLOCK):
+            chosen = (group >= start) & (group < start + _BLOCK)
+            self._block(velocities[start : start + _BLOCK], rest[chosen], group[chosen] - start)
             if progress:
-                progress(int(full.sum() + np.count_nonzero(group < start + block)), self.V.size)
+                progress(int(full.sum() + np.count_nonzero(group < start + _BLOCK)), self.V.size)
         return out
 
     def _closed_form(self, full):

@@ -31,7 +31,8 @@ class Result:
     tau_error : estimated absolute error of tau, Pa
     strips : equal strips that level 1 was averaged over, None for adaptive panels
     load : which of the two was given, "pressure" or "penetration"; scene : the TOML text it came from, if it did
-    counts : strips solved, strips decided by a threshold, points solved in closed form, points below pull-off
+    counts : strips solved, decided by a threshold, and known to be free because a deeper one is; points solved in closed form,
+        points below pull-off
     """
 
     mu: np.ndarray

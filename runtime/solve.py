@@ -50,7 +50,8 @@ def solve(
     strips : average level 1 over the paper's so many equal strips of half a cell (midpoints) instead of adaptive
         panels: to compare with the paper. The laws of the levels below stay adaptive, ``rtol`` holds for them alone,
         and the error estimate says the rest
-    skip : use the closed form where every level is saturated (off: every point is solved)
+    skip : use the closed form where every level is saturated, and leave out strips that are free because a deeper one is (off:
+        every point is solved, and every strip)
     progress : called with the number of points done and the total
 
     Raises
@@ -122,6 +123,7 @@ def _result(points, surface: Surface, shape, V, load: str) -> Result:
         counts={
             "strips_solved": surface.tally.solved,
             "strips_decided_by_threshold": surface.tally.decided,
+            "strips_decided_by_order": surface.tally.ordered,
             "points_in_closed_form": int(points.closed_form.sum()),
             "points_below_pull_off": int(points.pulled_off.sum()),
         },

@@ -127,9 +127,11 @@ def _closer(result: Any) -> list[str]:
 
 def _work(result: Any) -> list[str]:
     c = result.counts
-    decided, closed, off = (c[name] for name in ("strips_decided_by_threshold", "points_in_closed_form", "points_below_pull_off"))
+    decided, ordered = c["strips_decided_by_threshold"], c["strips_decided_by_order"]
+    closed, off = c["points_in_closed_form"], c["points_below_pull_off"]
     return [
         f"work       {c['strips_solved']} strips solved; skipped: {decided} strips by a threshold (saturated or free),",
+        f"           {ordered} strips that are free as a deeper one is,",
         f"           {closed} points by the closed form (every level saturated), {off} points below pull-off",
     ]
 

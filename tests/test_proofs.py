@@ -70,6 +70,57 @@ def test_the_first_orbit_is_proven_to_be_the_first(where):
     assert by_balance.mean() > 0.9 and by_marches.mean() > 0.85 and (by_balance | by_marches).mean() > 0.97
 
 
+def test_no_orbit_out_of_reach_is_said_to_be_out_of_balance():
+    """Between phases on both sides of its own onset the bounds leave room for every orbit; next to none where nothing moves."""
+    cycle, orbit = known_orbits(strips(4, 40_000, "hanging"), unloading=True)
+    s, onset = cycle.strips, -orbit.x
+    for width in (0.0, 1e-4, 1e-2, 0.3):
+        surplus = balance.surplus(kernel, balance.at_rest(cycle), np.maximum(onset - width, 0), np.minimum(onset + width, np.pi))
+        assert (surplus <= 0).all()
+    room = -balance.surplus(kernel, balance.at_rest(cycle), onset, onset) / (1 + np.abs(s.D) + s.p_0)
+    assert onset.size > 3000 and np.median(room[s.beta > 3e3]) < 0.01
+
+
+def test_no_orbit_is_said_to_be_out_of_balance_beside_a_less_engaged_one():
+    """References are the orbit itself, and marches from later onsets, beyond the unstable orbit that strips have at a fold."""
+    rng = np.random.default_rng(5)
+    cycle, orbit = known_orbits(strips(5, 30_000, "hanging"), unloading=True)
+    many = np.tile(np.arange(cycle.size), 8)
+    cycle, orbit = cycle.take(many), orbit.take(many)
+    x = orbit.x + (np.minimum(0, cycle.centre + cycle.half_d) - orbit.x) * rng.random(cycle.size)
+    marches, _ = march(kernel, cycle, x)
+    end = cycle.centre + 2 * np.pi - cycle.half_c
+    for known, enough in ((exclusion.closed(kernel, cycle, orbit), 5000), (marches, 100)):
+        use = np.flatnonzero(~known.engaged & ~np.isnan(known.b) & (known.r >= 0))
+        assert use.size > enough
+        part, here, onset = cycle.take(use), known.take(use), -orbit.x[use]
+        reference = balance.beside(kernel, part, here, end[use])
+        for width in (0.0, 1e-4, 1e-2, 0.3):
+            surplus = balance.surplus(kernel, reference, np.maximum(onset - width, -here.x), onset + width)
+            assert (surplus <= 0).all()
+        start, _ = exclusion.onsets_within(part, Outermost.blank(use.size))
+        proven, _ = balance.first(kernel, part, here, start, end[use])
+        assert proven.any() == (known is not marches)
+
+
+def test_strips_said_to_hang_or_not_to_cling_have_no_such_orbit():
+    s = strips(6, 30_000, "hanging")
+    cycle = adhesive_cycle(kernel, s)
+    solved = solve_strips(kernel, s, unloading=True)
+    none, _ = balance.none_hangs(kernel, cycle)
+    assert set(solved.code[none]) <= {CODE[code] for code in ("f", "a", "ac", "c")}
+    free = (solved.code == CODE["f"]) & (s.beta > balance.SLOW)
+    assert none[free].mean() > 0.85 and free.sum() > 5000
+    for where in ("hanging", "pressed"):
+        s = strips(7, 30_000, where)
+        solved = solve_strips(kernel, s, unloading=True)
+        not_clinging = balance.none_clings(kernel, adhesive_cycle(kernel, s))
+        clings = np.isin(solved.code, [CODE["a"], CODE["ac"], CODE["c"]])
+        assert clings.sum() > 1000 and not (clings & not_clinging).any()
+        others = ~clings & may_cling(kernel, s) & (s.beta > balance.SLOW)
+        assert not_clinging[others].mean() > 0.5
+
+
 def test_what_has_an_orbit_before_it_is_not_proven_to_have_none():
     """Strips that may be in saturated contact, and the orbits that let go in spite of it: unstable ones lie before them."""
     cycle, orbit = known_orbits(strips(3, 10_000, "saturated"), unloading=False)

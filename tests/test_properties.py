@@ -88,3 +88,17 @@ def test_a_batch_is_the_same_as_its_strips_one_by_one(seed, edge, branch, draw):
             for other in (getattr(together, name)[i], getattr(backwards, name)[24 - i]):
                 same = value == other if name == "regime" else value.tobytes() == other.tobytes()
                 assert same, (name, scenes.line(scene, i, edge, branch))
+
+
+@pytest.mark.parametrize("draw", [scenes.moderate, scenes.extreme])
+@pytest.mark.parametrize("edge", EDGES)
+def test_a_large_batch_is_the_same_as_its_parts(edge, draw):
+    """Strips next to their folds, for which the search has to be asked, are among so many."""
+    n = 1500
+    scene = draw(np.random.default_rng(77), n)
+    for branch in BRANCHES:
+        together = scenes.solve(scene, edge, branch)
+        for part in (slice(0, 700), slice(700, 720), slice(720, n)):
+            alone = scenes.solve(scenes.take(scene, part), edge, branch)
+            for name in ARRAYS:
+                assert getattr(alone, name).tobytes() == getattr(together, name)[part].tobytes(), (name, part)

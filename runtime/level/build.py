@@ -7,7 +7,7 @@ import numpy as np
 from .curve import trace
 from .demand import Demand
 from .inverse import cut_penetration
-from .law import Law, law_of
+from .law import Law, laws_of
 from .strips import Columns
 
 
@@ -29,5 +29,4 @@ def build_laws(
         D_full if p_max is None else np.where(p_max < p_full, cut_penetration(columns, np.minimum(p_max, p_full), D_full), D_full)
     )
     curves = trace(columns, rtol, top, follow=True, demand=demand)
-    unloading = columns.branch == "unloading"
-    return [law_of(curve, unloading, float(p_full[i]), saturated[i], bool(top[i] < D_full[i])) for i, curve in enumerate(curves)]
+    return laws_of(curves, columns.branch == "unloading", p_full, saturated, top < D_full)

@@ -146,7 +146,7 @@ class CarriedByLaws:
             values = new if values is None else _merged(new, values)
             errors = new_errors if errors is None else _merged(new_errors, errors)
             law, w = values[:, :, 1:], mapped_weights(n)
-            best = width[:, None] * np.einsum("j,pjq->pq", w, law)
+            best = width[:, None] * (w @ law)
             noise = _SHARE * self.rtol * (1e-3 * self.scales[:-1] + np.abs(law).max(axis=1))
             miss = width[:, None] * sum_errors(law, noise)
             frictions = self.table.frictions

@@ -19,7 +19,7 @@ _NEGLIGIBLE = 0.1
 
 @dataclass(frozen=True)
 class Cells:
-    """Chebyshev ``coefficients`` (cells, degree + 1, q) on cells that begin at slot ``start`` (cells,) and are ``size`` (cells,)
+    """Chebyshev ``coefficients`` (degree + 1, cells, q) on cells that begin at slot ``start`` (cells,) and are ``size`` (cells,)
     slots wide; ``of`` (SLOTS,): the cell that a slot belongs to. ``error`` (q,): what the smallest cells still miss, on
     average."""
 
@@ -32,34 +32,38 @@ class Cells:
     def __call__(self, x: np.ndarray) -> np.ndarray:
         """Values (m, q) at ``x`` (m,) in [0, 1]."""
         cell = self.of[slot(x)]
-        return clenshaw(self.coefficients[cell], within(x, self.start[cell], self.size[cell]))
+        return clenshaw(self.coefficients[:, cell], within(x, self.start[cell], self.size[cell]))
 
 
 def cells_of(
-    function: Callable[[np.ndarray], np.ndarray], tolerance: np.ndarray, measure: Callable[[np.ndarray], np.ndarray]
-) -> Cells:
-    """``function``, [0, 1] (m,) -> (m, q), to ``tolerance`` (q,). ``measure``: how much of what is averaged over lies below an x,
-    0 to 1."""
-    transform, nodes = coefficients(np.eye(_DEGREE + 1)), lobatto(_DEGREE)
-    start, size, error = np.array([0, SLOTS // 2]), SLOTS // 2, np.zeros(tolerance.size)
+    function: Callable[[np.ndarray, np.ndarray], np.ndarray],
+    tolerance: np.ndarray,
+    measure: Callable[[np.ndarray], np.ndarray],
+) -> list[Cells]:
+    """Several functions of [0, 1], each to its ``tolerance`` (functions, q).
+
+    ``function``: (which (m,), x (m,)) -> (m, q). ``measure``: how much of what is averaged over lies below an x, 0 to 1.
+    """
+    transform, nodes, count = coefficients(np.eye(_DEGREE + 1)), lobatto(_DEGREE), tolerance.shape[0]
+    which, start = np.repeat(np.arange(count), 2), np.tile([0, SLOTS // 2], count)
+    size, error = SLOTS // 2, np.zeros(tolerance.shape)
     found: list[tuple] = []
     while start.size:
         x = (start[:, None] + size * nodes) / SLOTS
-        c = np.einsum("ij,njq->niq", transform, function(x.ravel()).reshape(*x.shape, -1))
+        c = transform @ function(np.repeat(which, nodes.size), x.ravel()).reshape(*x.shape, -1)
         last = np.abs(c[:, -2:]).max(axis=1)
-        done = (last <= _NEGLIGIBLE * tolerance).all(axis=1)
+        done = (last <= _NEGLIGIBLE * tolerance[which]).all(axis=1)
         if size == 1:
             share = measure((start + 1) / SLOTS) - measure(start / SLOTS)
-            error = share[~done] @ last[~done] / _NEGLIGIBLE
+            np.add.at(error, which[~done], share[~done, None] * last[~done] / _NEGLIGIBLE)
             done[:] = True
-        found.append((c[done], start[done], np.full(np.count_nonzero(done), size)))
+        found.append((which[done], c[done], start[done], np.full(np.count_nonzero(done), size)))
         size //= 2
-        start = (start[~done, None] + size * np.arange(2)).ravel()
-    c, start, sizes = (np.concatenate(v) for v in zip(*found, strict=True))
-    of = np.empty(SLOTS, int)
-    for k, (first, wide) in enumerate(zip(start, sizes, strict=True)):
-        of[first : first + wide] = k
-    return Cells(c, start, sizes, of, error)
+        which, start = np.repeat(which[~done], 2), (start[~done, None] + size * np.arange(2)).ravel()
+    which, c, start, sizes = (np.concatenate(v) for v in zip(*found, strict=True))
+    order = np.lexsort((start, which))
+    parts = np.split(order, np.searchsorted(which[order], np.arange(1, count)))
+    return [Cells(np.swapaxes(c[i], 0, 1), start[i], sizes[i], np.repeat(np.arange(i.size), sizes[i]), error[k]) for k, i in enumerate(parts)]
 
 
 def slot(x: np.ndarray) -> np.ndarray:
@@ -73,9 +77,9 @@ def within(x: np.ndarray, start: np.ndarray, size: np.ndarray) -> np.ndarray:
 
 
 def clenshaw(c: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Chebyshev sums (m, q) with coefficients ``c`` (m, degree + 1, q) of their own at every ``x`` (m,)."""
+    """Chebyshev sums (m, q) with coefficients ``c`` (degree + 1, m, q) of their own at every ``x`` (m,)."""
     twice = 2 * x[:, None]
     one = two = 0.0
-    for k in range(c.shape[1] - 1, 0, -1):
-        one, two = c[:, k] + twice * one - two, one
-    return c[:, 0] + x[:, None] * one - two
+    for k in range(c.shape[0] - 1, 0, -1):
+        one, two = c[k] + twice * one - two, one
+    return c[0] + x[:, None] * one - two

@@ -115,14 +115,14 @@ class Piece:
 
     def first(self, t) -> tuple[np.ndarray, np.ndarray]:
         """The first quantity (pressure) and its derivative with respect to t."""
-        both = evaluate(self._first, t)
-        return both[:, 0], 2 * both[:, 1]
+        both = evaluate(self.first_coefficients, t)
+        return both[:, 0], both[:, 1]
 
     @cached_property
-    def _first(self) -> np.ndarray:
-        """Coefficients of the first quantity and of its derivative."""
+    def first_coefficients(self) -> np.ndarray:
+        """Coefficients of the first quantity and of its derivative with respect to t, (n + 1, 2)."""
         c = self.coefficients[:, 0]
-        return np.stack((c, np.append(np.polynomial.chebyshev.chebder(c), 0.0)), axis=1)
+        return np.stack((c, np.append(2 * np.polynomial.chebyshev.chebder(c), 0.0)), axis=1)
 
 
 def evaluate(coefficients: np.ndarray, t) -> np.ndarray:

@@ -79,8 +79,9 @@ def trace(
     strips = np.zeros(n, int)
     rows, crest = smooth_intervals(columns, top)
     intervals = [i for row in rows for i in row]
-    below = [i for i in intervals if follow and i.high <= crest[i.column]]
-    pieces = interpolate(columns, rtol, [i for i in intervals if i not in below], strips, demand=demand)
+    hangs = lambda i: follow and i.high <= crest[i.column]  # noqa: E731
+    below, above = [i for i in intervals if hangs(i)], [i for i in intervals if not hangs(i)]
+    pieces = interpolate(columns, rtol, above, strips, demand=demand)
     if below:
         least = np.array([min((piece.first(_GRID)[0].min() for piece in row), default=np.inf) for row in pieces])
         comes = where_rims_hold(columns, rtol, below, least, strips, demand)
@@ -171,14 +172,14 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
 def _rounding(columns: Columns, batch: Batch, n: int, c) -> np.ndarray:
     """What the rounding of D makes of the coefficients ``c``, (intervals, q): next to a break where the means are like square
     roots it tells."""
-    ends = np.stack((np.einsum("k,pkq->pq", (-1.0) ** np.arange(n + 1), c), c.sum(axis=1)), axis=1)
+    ends = np.stack(((-1.0) ** np.arange(n + 1) @ c, c.sum(axis=1)), axis=1)
     values = np.concatenate((ends[:, :1], batch.values, ends[:, 1:]), axis=1)
     D = np.array([i.penetrations(lobatto(n)) for i in batch.intervals])
     digit = _EPS * np.maximum(np.abs(D).max(axis=1), columns.level.h)
     apart = np.diff(D)
     share = np.minimum(np.divide(digit[:, None], apart, out=np.ones_like(apart), where=apart > 0), 1.0)
     steps = np.abs(np.diff(values, axis=1)) * share[:, :, None]
-    return np.einsum("kj,pjq->pkq", np.abs(flat_ended(n)), np.maximum(steps[:, 1:], steps[:, :-1])).max(axis=1)
+    return (np.abs(flat_ended(n)) @ np.maximum(steps[:, 1:], steps[:, :-1])).max(axis=1)
 
 
 def _pressure_goal(values, goal):

@@ -39,12 +39,12 @@ def expect(x: np.ndarray, zones: list[np.ndarray], x_new: np.ndarray) -> tuple[n
 
 def _lagrange(x, x_new):
     """Matrix from values at ``x`` to values at ``x_new`` of the polynomial through them."""
-    out = np.ones((x_new.size, x.size))
-    for j in range(x.size):
-        for i in range(x.size):
-            if i != j:
-                out[:, j] *= (x_new - x[i]) / (x[j] - x[i])
-    return out
+    apart = x[:, None] - x
+    np.fill_diagonal(apart, 1.0)
+    factors = (x_new[:, None, None] - x) / apart
+    every = np.arange(x.size)
+    factors[:, every, every] = 1.0
+    return factors.prod(axis=2)
 
 
 def hints(columns: np.ndarray, expected: list, witnesses: list[tuple[float, ...]], size: np.ndarray) -> Hints | None:

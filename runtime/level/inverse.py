@@ -170,7 +170,7 @@ class _Descent:
         outside = p > part.p_high if self.unloading else p < part.p_low
         if outside:  # between two pieces the curve jumps over the pressure
             return _Root(float(part.piece.penetration(edge))), False
-        t = float(part.parameter(np.array([p]))[0])
+        t = part.reaches(p)
         step = 1e-4 * (part.t_high - part.t_low)
         ends = np.clip([t - step, t + step], part.t_low, part.t_high)
         values, D = part.piece.values(ends), part.piece.penetration(ends)

@@ -8,19 +8,23 @@ pressure; the law may jump between them.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .cells import Cells, cells_of
-from .chebyshev import Piece, graded, parameter
+from .cells import Cells
+from .chebyshev import Piece, parameter
 from .curve import Curve
+from .resample import Inverse, resampled
 
 _GRID = np.linspace(0, 1, 65)
 #: parameters at which turns are looked for: one may hide next to an end, where every piece is flat
 _NEAR = 0.5 ** np.arange(10, 6, -1)
 _TURNS = np.concatenate(([0.0], _NEAR, _GRID[1:-1], 1 - _NEAR[::-1], [1.0]))
 _EPS = np.finfo(float).eps
+#: points looked at at once where one is narrowed down, and rounds
+_INSIDE, _NARROWINGS = np.linspace(0, 1, 17)[1:-1], 14
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,42 +52,17 @@ class Branch:
         share = np.clip((p - self.p_low) / (self.p_high - self.p_low), 0.0, 1.0)
         return self.cells(parameter(share))
 
-    def resampled(self, tolerance: np.ndarray) -> Branch:
-        """The same branch interpolated over pressure, to ``tolerance`` (q,), so that it need not be inverted again."""
-        cells = cells_of(self._at, tolerance, graded)
-        return replace(self, cells=cells, piece=replace(self.piece, error=self.piece.error + cells.error))
-
-    def _at(self, u):
-        p = self.p_low + (self.p_high - self.p_low) * graded(u)
-        return self.piece.values(self.parameter(p))
-
     def parameter(self, p: np.ndarray) -> np.ndarray:
-        """t at which the pressure is ``p`` (clipped to the branch); safeguarded Newton, all at once."""
-        span = self.p_high - self.p_low
-        low, high = np.full(p.shape, self.t_low), np.full(p.shape, self.t_high)
-        if not span > 0:
-            return low
-        share = lambda value: parameter(np.clip((value - self.p_low) / span, 0.0, 1.0))  # noqa: E731
-        # over this share t is all but linear, also where the curve turns
-        grid = self.t_low + (self.t_high - self.t_low) * _GRID
-        t = np.interp(share(p), np.maximum.accumulate(share(self.piece.first(grid)[0])), grid)
-        blur = 8 * _EPS * max(abs(self.p_low), abs(self.p_high), np.abs(self.piece.coefficients[:, 0]).sum())
-        left = np.arange(p.size)
-        for _ in range(80):
-            here = t[left]
-            value, slope = self.piece.first(here)
-            miss = p[left] - value
-            # next to a flat end rounding would send what is there already anywhere
-            off = np.abs(miss) > blur
-            left, here, miss, slope = left[off], here[off], miss[off], slope[off]
-            below = miss > 0
-            low[left[below]], high[left[~below]] = here[below], here[~below]
-            new = here + np.divide(miss, slope, out=np.full(here.shape, np.inf), where=slope > 0)
-            t[left] = np.where((new >= low[left]) & (new <= high[left]), new, 0.5 * (low[left] + high[left]))
-            left = left[(np.abs(t[left] - here) > 16 * _EPS) & ((high - low)[left] > 16 * _EPS)]
-            if not left.size:
-                break
-        return t
+        """t at which the pressure is ``p`` (m,), clipped to the branch."""
+        return Inverse([self]).parameter(np.zeros(p.size, int), p)
+
+    def reaches(self, p: float) -> float:
+        """t at which the one pressure ``p`` is reached, clipped to the branch."""
+        if p <= self.p_low:
+            return self.t_low
+        if p >= self.p_high:
+            return self.t_high
+        return _where_it_ends(lambda t: self.piece.first(t)[0] < p, self.t_low, self.t_high)
 
 
 def branches(curve: Curve, unloading: bool) -> list[Branch]:
@@ -138,14 +117,17 @@ def rising(piece: Piece) -> list[Branch]:
 def _turn(piece: Piece, i: int, j: int, falls_first: bool) -> float:
     """Zero of dp/dt between points i and j of ``_TURNS``, before which pressure falls or rises: at an end its slope says
     nothing."""
-    low, high = _TURNS[i], _TURNS[j]
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        if (piece.first(np.array([middle]))[1][0] < 0) == falls_first:
-            low = middle
-        else:
-            high = middle
-    return 0.5 * (low + high)
+    return _where_it_ends(lambda t: (piece.first(t)[1] < 0) == falls_first, _TURNS[i], _TURNS[j])
+
+
+def _where_it_ends(holds: Callable[[np.ndarray], np.ndarray], low: float, high: float) -> float:
+    """Point between two up to which something ``holds`` ((k,) -> (k,))."""
+    for _ in range(_NARROWINGS):
+        inside = low + (high - low) * _INSIDE
+        before = holds(inside)
+        k = int(np.argmin(before)) if not before.all() else before.size
+        low, high = (low if k == 0 else inside[k - 1]), (high if k == before.size else inside[k])
+    return float(0.5 * (low + high))
 
 
 def _below(part: Branch, least: float) -> Branch | None:
@@ -153,7 +135,7 @@ def _below(part: Branch, least: float) -> Branch | None:
         return None
     if part.p_high <= least:
         return part
-    t = float(part.parameter(np.array([least]))[0])
+    t = part.reaches(least)
     soft = part.soft_high and _meets(part, part.p_high - least)
     return replace(part, t_high=t, p_high=least, soft_high=soft) if t > part.t_low else None
 
@@ -163,7 +145,7 @@ def _above(part: Branch, most: float) -> Branch | None:
         return None
     if part.p_low >= most:
         return part
-    t = float(part.parameter(np.array([most]))[0])
+    t = part.reaches(most)
     soft = part.soft_low and _meets(part, most - part.p_low)
     return replace(part, t_low=t, p_low=most, soft_low=soft) if part.t_high > t else None
 
@@ -257,10 +239,20 @@ class Law:
         return out
 
 
-def law_of(curve: Curve, unloading: bool, p_sat: float, saturated: np.ndarray, cut: bool) -> Law:
-    """The friction law along one branch of loading of a traced curve."""
-    kept = branches(curve, unloading)
-    pull_off = kept[0].p_low if kept else p_sat
-    error = np.max([b.piece.error for b in kept], axis=0) if kept else np.zeros(saturated.size)
-    kept = _joined([b.resampled(np.maximum(b.piece.error, 1e-15 * np.abs(saturated))) for b in kept], p_sat)
-    return Law(kept, pull_off, p_sat, saturated, kept[-1].p_high if cut and kept else p_sat, 1.5 * error, curve.strips, unloading)
+def laws_of(curves: Sequence[Curve], unloading: bool, p_sat: np.ndarray, saturated: np.ndarray, cut: np.ndarray) -> list[Law]:
+    """The friction laws along one branch of loading of traced curves. ``p_sat``, ``cut`` (n,): pressures of saturation, and
+    whether a curve ends before it; ``saturated`` (n, q): means there."""
+    kept = [branches(curve, unloading) for curve in curves]
+    flat = [b for row in kept for b in row]
+    least = np.repeat(1e-15 * np.abs(saturated), [len(row) for row in kept], axis=0)
+    errors = np.array([b.piece.error for b in flat]).reshape(least.shape)
+    fine = iter(resampled(flat, np.maximum(errors, least)))
+    out = []
+    for i, (curve, row) in enumerate(zip(curves, kept, strict=True)):
+        error = np.max([b.piece.error for b in row], axis=0) if row else np.zeros(saturated.shape[1])
+        joined = _joined([next(fine) for _ in row], p_sat[i])
+        pull_off, p_top = (row[0].p_low if row else p_sat[i]), (joined[-1].p_high if cut[i] and row else p_sat[i])
+        out.append(
+            Law(joined, float(pull_off), float(p_sat[i]), saturated[i], float(p_top), 1.5 * error, curve.strips, unloading)
+        )
+    return out

@@ -16,7 +16,7 @@ def level_means(columns: Columns, rtol: np.ndarray, hints: Hints | None = None) 
         return equal_strips(columns, columns.strips)
     q = columns.scales.size
     floor = np.broadcast_to(columns.floors, (columns.size, q))
-    return average(columns.integrand, columns.probe, columns.guide, columns.transitions(), floor, rtol, q, hints)
+    return average(columns, columns.transitions(), floor, rtol, q, hints)
 
 
 def equal_strips(columns: Columns, strips: int) -> Averages:

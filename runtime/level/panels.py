@@ -9,19 +9,25 @@ told about where it lies, that bracket is tried first.
 All panels of all columns (a column is one velocity and one penetration) advance together: one batch of strips per round.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .order import FREE, NARROWEST, Question
 from .quadrature import interior_nodes, mapped, mapped_weights, sum_errors
-from .transitions import Guide, Probe, locate
+from .transitions import Guide, Looks, locate
 
-#: (column, theta) -> (regime code, values): arrays (m,), (m,) -> (m,), (m, q)
-Integrand = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+if TYPE_CHECKING:
+    from .strips import Columns
+
 
 _FIRST, _LAST = 8, 64
 _ROUNDS = 60
+#: looks closer to an expected transition than its bracket is wide, as shares of half of it
+_CLOSER = (1 / 4, 1 / 16)
 #: panels a column may have waiting at once
 _CROWD = 150
 _EPS = np.finfo(float).eps
@@ -46,6 +52,23 @@ class Hints:
     witness_column: np.ndarray
     witness: np.ndarray
 
+    def without(self, column: np.ndarray, known: np.ndarray) -> Hints:
+        """Those away from the transitions ``known`` of the columns ``column``."""
+        # theta is below 4: columns apart
+        keys = np.sort(4.0 * column + known)
+        low, high = (np.searchsorted(keys, 4.0 * self.column + v, side) for v, side in ((self.low, "left"), (self.high, "right")))
+        away = low == high
+        kept = {name: getattr(self, name)[away] for name in ("column", "low", "high", "code_low", "code_high")}
+        return replace(self, **kept)
+
+    def places(self, guide: Guide) -> np.ndarray:
+        """Where to look, (4, m): at both ends of every bracket, the lower first, and closer to where the transition is expected
+        on the side that foretells."""
+        middle, half = 0.5 * (self.low + self.high), 0.5 * (self.high - self.low)
+        lower, upper = guide.sureness(self.code_low, self.code_high), guide.sureness(self.code_high, self.code_low)
+        side = np.where(lower >= upper, -1.0, 1.0)
+        return np.stack((self.low, self.high, *(middle + side * half * share for share in _CLOSER)))
+
 
 @dataclass(slots=True)
 class Averages:
@@ -63,7 +86,7 @@ class Averages:
 @dataclass(slots=True)
 class _Panels:
     """Panels [low, high] of columns, arrays (m,), with the ``codes`` (m, 2) and ``values`` (m, 2, q) at their ends where these
-    are known (NaN: not)."""
+    are known (NaN: not). Where values are known codes are."""
 
     column: np.ndarray
     low: np.ndarray
@@ -87,25 +110,22 @@ class _Panels:
     def size(self):
         return self.column.size
 
+    @property
+    def known(self):
+        """Which ends (m, 2) are known, (m, 2)."""
+        return ~np.isnan(self.values[:, :, 0])
+
 
 def average(
-    integrand: Integrand,
-    probe: Probe,
-    guide: Guide,
-    starts: list[np.ndarray],
-    floor: np.ndarray,
-    rtol: np.ndarray,
-    q: int,
-    hints: Hints | None = None,
+    columns: Columns, starts: list[np.ndarray], floor: np.ndarray, rtol: np.ndarray, q: int, hints: Hints | None = None
 ) -> Averages:
-    """Means ``(1/pi) int_0^pi values d(theta)`` of every column to ``rtol (|value| + floor)``.
+    """Means ``(1/pi) int_0^pi values d(theta)`` of the ``integrand`` of every column to ``rtol (|value| + floor)``.
 
-    ``probe``: (column, theta) -> the integrand's codes, and margins for the ``guide`` to where they change.
     ``starts``: for each column the interior thetas known to be transitions, sorted. ``floor`` and ``rtol`` have shape
     (columns, q) and (columns,). ``hints``: what is expected, but not certain.
     """
     n = len(starts)
-    work = _Work(integrand, probe, guide, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int), [])
+    work = _Work(columns, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
     column, known = np.repeat(np.arange(n), [s.size for s in starts]), np.concatenate([*starts, np.empty(0)])
     cuts = _Panels.unknown(column, known, known, q)
     if hints is not None:
@@ -159,15 +179,13 @@ def _beside(column, place, owner, ends) -> np.ndarray:
 
 @dataclass(slots=True)
 class _Work:
-    integrand: Integrand
-    probe: Probe
-    guide: Guide
+    columns: Columns
     floor: np.ndarray
     rtol: np.ndarray
     values: np.ndarray
     errors: np.ndarray
     strips: np.ndarray
-    accepted: list[tuple]
+    accepted: list[tuple] = field(default_factory=list)
     #: brackets of transitions (column, low, high) with what was left out for each, and how far off that may be
     slivers: list[tuple] = field(default_factory=list)
     #: codes (columns, 2) and values (columns, 2, q) at the crest and next to the flat edge: what is narrower than a panel's first
@@ -180,41 +198,44 @@ class _Work:
         column, code, low, high, *_ = (np.concatenate(v) for v in zip(*self.accepted, strict=True))
         order = np.lexsort((low, column))
         column, code, low, high = column[order], code[order], low[order], high[order]
-        rows = np.stack((code, low, high), axis=1)
-        out = []
-        for part in np.split(rows, np.searchsorted(column, np.arange(1, self.strips.size))):
-            first = np.concatenate(([True], part[1:, 0] != part[:-1, 0])) if part.size else np.empty(0, bool)
-            runs = part[first]
-            if runs.size:
-                runs[:, 2] = np.append(part[np.flatnonzero(first)[1:] - 1, 2], part[-1, 2])
-            out.append(runs)
-        return out
+        first = np.flatnonzero(np.append(True, (column[1:] != column[:-1]) | (code[1:] != code[:-1])))
+        last = np.append(first[1:], column.size) - 1
+        runs = np.stack((code[first], low[first], high[last]), axis=1)
+        ends = np.searchsorted(column[first], np.arange(self.strips.size + 1))
+        return [runs[start:stop] for start, stop in zip(ends[:-1], ends[1:], strict=True)]
 
     def refine(self, panels: _Panels) -> _Panels:
         """Accept what converges under doubling; return what has to be split."""
         later = []
-        nodes = None
+        self._learn_ends(panels)
+        empty = (panels.codes == FREE).all(axis=1) & (panels.high - panels.low >= NARROWEST) & (self.columns.free is not None)
+        empty, panels = panels.take(empty), panels.take(~empty)
+        codes, values, doubtful = self._first_look(panels, empty)
+        if doubtful.size:
+            later.append(doubtful)
         n = _FIRST
-        while panels.size and n <= _LAST:
-            codes, values = self._sample(panels, n, nodes)
+        while panels.size:
             mixed = (codes != codes[:, :1]).any(axis=1)
             if n == _FIRST:
                 self._learn_ends(panels)
                 # what is narrower than the first step shows up at an end that is known
-                mixed |= (~np.isnan(panels.codes) & (panels.codes != codes[:, [0, -1]])).any(axis=1)
+                mixed |= (panels.known & (panels.codes != codes[:, [0, -1]])).any(axis=1)
             if mixed.any():
                 later.append(self._split_at_transitions(panels.take(mixed), codes[mixed], values[mixed], n))
             keep = ~mixed
             panels, codes, values = panels.take(keep), codes[keep], values[keep]
             width = (panels.high - panels.low)[:, None]
-            fine = width * np.einsum("j,pjq->pq", mapped_weights(n), values)
+            fine = width * (mapped_weights(n) @ values)
             rounding = 4 * _EPS * width * np.max(np.abs(values), axis=1, initial=0.0)
             noise = 0.1 * self.rtol[panels.column, None] * self.floor[panels.column]
             error = width * sum_errors(values, noise) + rounding
             done = self._accept(panels, codes[:, 0], values, fine, error, rounding)
             rest = ~done
-            panels, nodes = panels.take(rest), (codes[rest], values[rest])
+            panels = panels.take(rest)
+            if n == _LAST or not panels.size:
+                break
             n *= 2
+            codes, values = self._doubled(panels, n, codes[rest], values[rest])
         if panels.size:
             middle, q = 0.5 * (panels.low + panels.high), panels.values.shape[2]
             later.append(_Panels.unknown(panels.column, panels.low, middle, q))
@@ -223,14 +244,13 @@ class _Work:
 
     def expected(self, hints: Hints, column, known) -> _Panels:
         """Brackets of the transitions that are where they were expected, narrowed; away from those ``known``."""
+        hints = hints.without(column, known)
         m = hints.column.size
-        asked = np.concatenate((hints.column, hints.column, hints.witness_column))
-        np.add.at(self.strips, asked, 1)
-        codes, values = self.integrand(asked, np.concatenate((hints.low, hints.high, hints.witness)))
-        seen, values, witnessed = codes[2 * m :], values[: 2 * m], values[2 * m :]
+        places = hints.places(self.columns.guide)
+        asked = np.concatenate((np.tile(hints.column, len(places)), hints.witness_column))
+        codes, values, margins = self._evaluated(self.columns.look, asked, np.concatenate((places.ravel(), hints.witness)))
+        seen, witnessed = codes[places.size :], values[places.size :]
         holds = (codes[:m] == hints.code_low) & (codes[m : 2 * m] == hints.code_high)
-        for c, theta in zip(column, known, strict=True):
-            holds &= ~((hints.column == c) & (hints.low <= theta) & (hints.high >= theta))
         index = np.flatnonzero(holds)
         order = index[np.lexsort((hints.low[index], hints.column[index]))]
         # brackets of one column must not overlap
@@ -238,21 +258,24 @@ class _Work:
             (hints.column[order[1:]] == hints.column[order[:-1]]) & (hints.low[order[1:]] <= hints.high[order[:-1]])
         )
         index = np.delete(order, np.union1d(tight, tight + 1))
-        spread = np.abs(values[m:] - values[:m])[index]
+        spread = np.abs(values[m : 2 * m] - values[:m])[index]
         line = hints.column[index]
         size = np.pi * (hints.size[line] + self.floor[line])
         width = self._bracket(self.rtol[line, None] * size, spread, hints.high[index])
         probe = lambda i, x: self._probe(hints.column[i], x)  # noqa: E731
-        found = locate(probe, self.guide, index, hints.low[index], hints.high[index], codes[index], codes[m + index], width)
+        every = (index + m * np.arange(len(places))[:, None]).ravel()
+        looks = Looks(np.tile(np.arange(index.size), len(places)), places.ravel()[every], codes[every], margins[every])
+        ends = hints.low[index], hints.high[index], codes[index], codes[m + index]
+        found = locate(probe, self.columns.guide, index, *ends, width, looks)
         end = {int(i): j for j, i in enumerate(index)}
         which = np.array([end[int(i)] for i in found.line], int)
         first, last = values[index][which], values[m + index][which]
         self._leave_out(hints.column[found.line], found.low, found.high, np.minimum(first, last), np.maximum(first, last))
-        codes = np.stack((hints.code_low[found.line], hints.code_high[found.line]), axis=1).astype(float)
-        # where a third code showed up in between, the codes of the two ends belong to the outermost
-        codes[1:][found.line[1:] == found.line[:-1], 0] = np.nan
-        codes[:-1][found.line[1:] == found.line[:-1], 1] = np.nan
-        found = _Panels(hints.column[found.line], found.low, found.high, codes, np.stack((first, last), axis=1))
+        values = np.stack((first, last), axis=1)
+        # where a third code showed up in between, the values of the two ends belong to the outermost
+        inner = found.line[1:] == found.line[:-1]
+        values[1:][inner, 0] = values[:-1][inner, 1] = np.nan
+        found = _Panels(hints.column[found.line], found.low, found.high, found.codes.astype(float), values)
         # a witness that stands apart from the transitions found is the end of two panels
         apart = np.ones(seen.size, bool)
         for c, low, high in zip(found.column, found.low, found.high, strict=True):
@@ -295,9 +318,9 @@ class _Work:
 
     def give_up(self, panels: _Panels) -> None:
         """Take panels that do not converge as they are, with the spread of their values as error."""
-        codes, values = self._sample(panels, _FIRST, None)
+        codes, values, _ = self._at_nodes(panels, interior_nodes(_FIRST))
         width = (panels.high - panels.low)[:, None]
-        np.add.at(self.values, panels.column, width * np.einsum("j,pjq->pq", mapped_weights(_FIRST), values))
+        np.add.at(self.values, panels.column, width * (mapped_weights(_FIRST) @ values))
         np.add.at(self.errors, panels.column, width * (values.max(axis=1) - values.min(axis=1)))
         self._keep(panels, codes[:, 0], values)
 
@@ -316,35 +339,58 @@ class _Work:
         self._keep(panels.take(done), codes[done], values[done])
         return done
 
-    def _sample(self, panels: _Panels, n: int, known):
-        """Codes (panels, n - 1) and values (panels, n - 1, q) at the interior nodes; ``known`` are those of n/2."""
-        t = interior_nodes(n)
-        if known is not None:
-            t = t[0::2]
+    def _first_look(self, panels: _Panels, empty: _Panels):
+        """Codes and values at the first nodes of ``panels``; and those of the ``empty`` ones that are not seen to be so: the
+        others are summed up."""
+        question = self.columns.free_panels(empty.column, empty.low, empty.high) if empty.size else None
+        codes, values, answers = self._at_nodes(panels, interior_nodes(_FIRST), question)
+        if question is None:
+            return codes, values, empty
+        known = question.answered(answers)
+        done, doubtful = empty.take(known), empty.take(~known)
+        self._keep(done, np.full(done.size, FREE), np.zeros((done.size, *values.shape[1:])))
+        doubtful.codes[:] = np.nan
+        return codes, values, doubtful
+
+    def _doubled(self, panels: _Panels, n: int, codes, values):
+        """Codes (panels, n - 1) and values (panels, n - 1, q) at the interior nodes, from those at the nodes of n/2."""
+        new_codes, new_values, _ = self._at_nodes(panels, interior_nodes(n)[0::2])
+        all_codes = np.empty((panels.size, n - 1), codes.dtype)
+        all_values = np.empty((panels.size, n - 1, values.shape[2]))
+        all_codes[:, 0::2], all_codes[:, 1::2] = new_codes, codes
+        all_values[:, 0::2], all_values[:, 1::2] = new_values, values
+        return all_codes, all_values
+
+    def _at_nodes(self, panels: _Panels, t, question: Question | None = None):
+        """Codes (panels, nodes) and values (panels, nodes, q) at the parameters ``t``; codes of the strips of a ``question``."""
+        shape = panels.size, t.size
         theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * mapped(t)
-        column = np.broadcast_to(panels.column[:, None], theta.shape)
-        column, theta_flat = column.ravel(), theta.ravel()
+        column, theta = np.repeat(panels.column, t.size), theta.ravel()
+        if question is not None:
+            column, theta = np.concatenate((column, question.column)), np.concatenate((theta, question.theta))
+        codes, values = self._evaluated(self.columns.integrand, column, theta)
+        m = panels.size * t.size
+        return codes[:m].reshape(shape), values[:m].reshape(*shape, values.shape[1]), codes[m:]
+
+    def _evaluated(self, ask, column, theta) -> list[np.ndarray]:
+        """What is asked of strips (m,), codes and values first; the first time also of those at the ends."""
+        m = theta.size
         if self.ends is None:
             every = np.arange(self.rtol.size)
             column = np.concatenate((column, every, every))
-            theta_flat = np.concatenate((theta_flat, 0.0 * self.rtol, self._edge()))
+            theta = np.concatenate((theta, 0.0 * self.rtol, self._edge()))
         np.add.at(self.strips, column, 1)
-        codes, values = self.integrand(column, theta_flat)
+        answers = ask(column, theta)
         if self.ends is None:
-            self.ends = codes[theta.size :].reshape(2, -1).T
-            self.end_values = values[theta.size :].reshape(2, every.size, -1).swapaxes(0, 1)
-            codes, values = codes[: theta.size], values[: theta.size]
-        codes, values = codes.reshape(theta.shape), values.reshape(*theta.shape, -1)
-        if known is None:
-            return codes, values
-        all_codes = np.empty((panels.size, n - 1), codes.dtype)
-        all_values = np.empty((panels.size, n - 1, values.shape[2]))
-        all_codes[:, 0::2], all_codes[:, 1::2] = codes, known[0]
-        all_values[:, 0::2], all_values[:, 1::2] = values, known[1]
-        return all_codes, all_values
+            codes, values = answers[:2]
+            self.ends = codes[m:].reshape(2, -1).T
+            self.end_values = values[m:].reshape(2, every.size, -1).swapaxes(0, 1)
+        return [answer[:m] for answer in answers]
 
     def _learn_ends(self, panels: _Panels) -> None:
         """Fill in what is known of the crest and the flat edge."""
+        if self.ends is None:
+            return
         for side, there in enumerate((panels.low == 0, panels.high == np.pi)):
             panels.codes[there, side] = self.ends[panels.column[there], side]
             panels.values[there, side] = self.end_values[panels.column[there], side]
@@ -352,8 +398,7 @@ class _Work:
     def _with_ends(self, panels: _Panels, theta, codes, values):
         """Nodes, codes and values with the panels' ends added where these are known (the end nodes twice elsewhere)."""
         places = np.stack((panels.low, np.where(panels.high == np.pi, self._edge()[panels.column], panels.high)), axis=1)
-        known = ~np.isnan(panels.codes)
-        out = []
+        known, out = panels.known, []
         for ends, inner in ((places, theta), (panels.codes, codes), (panels.values, values)):
             outer = np.where(known.reshape(known.shape + (1,) * (inner.ndim - 2)), ends, inner[:, [0, -1]]).astype(inner.dtype)
             out.append(np.concatenate((outer[:, :1], inner, outer[:, 1:]), axis=1))
@@ -365,7 +410,7 @@ class _Work:
 
     def _probe(self, column, theta):
         np.add.at(self.strips, column, 1)
-        return self.probe(column, theta)
+        return self.columns.probe(column, theta)
 
     def _split_at_transitions(self, panels: _Panels, codes, values, n) -> _Panels:
         """Locate every transition between neighbouring nodes that disagree; panels end there."""
@@ -382,7 +427,7 @@ class _Work:
         width = self._bracket(self.rtol[line, None] * np.abs(total)[line], spread, theta[row, node + 1])
         found = locate(
             lambda line, x: self._probe(panels.column[line], x),
-            self.guide,
+            self.columns.guide,
             row,
             theta[row, node],
             theta[row, node + 1],
@@ -399,4 +444,9 @@ class _Work:
         tail = found.line[last]
         every = np.concatenate((column, panels.column[tail]))
         starts, ends = np.concatenate((starts, found.high[last])), np.concatenate((found.low, panels.high[tail]))
-        return _Panels.unknown(every, starts, ends, values.shape[2])
+        parts = _Panels.unknown(every, starts, ends, values.shape[2])
+        # codes alone: what is known of the ends of other panels is too far off
+        parts.codes[: found.line.size, 1] = found.codes[:, 0]
+        parts.codes[: found.line.size][~first, 0] = found.codes[np.flatnonzero(~first) - 1, 1]
+        parts.codes[found.line.size :, 0] = found.codes[last, 1]
+        return parts

@@ -75,7 +75,7 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     roughest.
     """
     n = values.shape[1] + 1
-    c = np.abs(np.einsum("kj,pjq->pkq", _second_kind(n), values))
+    c = np.abs(_second_kind(n) @ values)
     # what is rounding says nothing of the singularities
     c = np.maximum(c - 16 * _EPS * np.abs(values).max(axis=1)[:, None], 0.0)
     amplitude = c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny

@@ -38,7 +38,7 @@ class Batch:
     @property
     def coefficients(self) -> np.ndarray:
         """Of the interpolants through the values, (intervals, nodes, q)."""
-        return np.einsum("ij,pjq->piq", flat_ended(self.values.shape[1] + 1), self.values)
+        return flat_ended(self.values.shape[1] + 1) @ self.values
 
     def weigh(self, demand: Demand, ceiling: np.ndarray | None) -> None:
         """Let intervals be as coarse as what is asked of their pressures allows."""

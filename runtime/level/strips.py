@@ -14,6 +14,7 @@ from hystrip.strip.regimes import CODE
 from hystrip.strip.solved import Solved
 
 from .margins import POWERS, decisive, margins
+from .order import FreeBelow, Question
 from .saturated import saturated_level
 from .transitions import Guide
 
@@ -23,10 +24,12 @@ QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
 
 @dataclass
 class Tally:
-    """Work done so far: strips whose orbit was searched for, and strips decided by a closed form alone."""
+    """Work done so far: strips whose orbit was searched for, strips decided by a closed form alone, and strips known by the order
+    of orbits along the penetration."""
 
     solved: int = 0
     decided: int = 0
+    ordered: int = 0
 
     def count(self, solved: Solved) -> None:
         searched = int(np.count_nonzero(solved.evaluations))
@@ -59,7 +62,8 @@ class Columns:
 
     ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
     laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels. ``frictional``: it is for
-    pressure and friction that the averages are made; fractions need be accurate against 1 only.
+    pressure and friction that the averages are made; fractions need be accurate against 1 only. ``free``: what is known of free
+    strips, shared by all that is made of these columns; None: every strip is asked.
     """
 
     material: Material
@@ -74,6 +78,7 @@ class Columns:
     strips: int | None = None
     frictional: bool = False
     tally: Tally = field(default_factory=Tally, compare=False)
+    free: FreeBelow | None = field(default_factory=FreeBelow, compare=False)
 
     def at(self, index, D) -> Columns:
         """The columns ``index`` at other penetrations ``D``."""
@@ -120,11 +125,8 @@ class Columns:
 
     def probe(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Codes (m,), and margins (m, k) that vanish where they change, as the ``guide`` says."""
-        strips, kernel = self.solve(column, theta), kernel_of(self.material)
-        own = margins(kernel, strips)
-        if self.carry is not None:
-            own = np.concatenate((own, self.carry.heights(kernel, strips, self.group[column])), axis=1)
-        return self._codes(strips, column), own
+        strips = self.solve(column, theta)
+        return self._codes(strips, column), self._margins(strips, column)
 
     @property
     def guide(self) -> Guide:
@@ -144,11 +146,29 @@ class Columns:
     def integrand(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Codes (m,) and the values to average (m, q)."""
         strips = self.solve(column, theta)
-        codes, values = self._codes(strips, column), strips.values
+        return self._codes(strips, column), self._values(strips, column)
+
+    def look(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Codes and values as of ``integrand``, and margins as of ``probe``."""
+        strips = self.solve(column, theta)
+        return self._codes(strips, column), self._values(strips, column), self._margins(strips, column)
+
+    def free_panels(self, column: np.ndarray, low: np.ndarray, high: np.ndarray) -> Question:
+        """What to solve to tell which panels [low, high], all (m,), are free all along; ``free`` is not None."""
+        return self.free.asked(self, column, low, high)
+
+    def _values(self, strips: SolvedStrips, column):
         if self.carry is None:
-            return codes, values
+            return strips.values
         carried = self.carry.over_contact(kernel_of(self.material), strips, self.group[column])
-        return codes, np.concatenate((values, carried), axis=1)
+        return np.concatenate((strips.values, carried), axis=1)
+
+    def _margins(self, strips: SolvedStrips, column):
+        kernel = kernel_of(self.material)
+        own = margins(kernel, strips)
+        if self.carry is None:
+            return own
+        return np.concatenate((own, self.carry.heights(kernel, strips, self.group[column])), axis=1)
 
     def _codes(self, strips: SolvedStrips, column):
         codes = strips.solved.code.astype(int)

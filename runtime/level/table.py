@@ -39,9 +39,9 @@ class LawTable:
         self._error = np.stack((error[:, 1 + self.frictions].sum(axis=1), error[:, 0]), axis=1) if every else np.zeros((0, 2))
         cells = [b.cells for b in every]
         first = np.cumsum([0, *(c.start.size for c in cells)])
-        joined = lambda values, width: np.concatenate(values) if cells else np.zeros((0, *width))  # noqa: E731
-        self._coefficients = joined([c.coefficients[:, :, 1:] for c in cells], (1, 0))
-        self._from, self._size = joined([c.start for c in cells], ()), joined([c.size for c in cells], ())
+        joined = lambda values: np.concatenate(values) if cells else np.zeros(0)  # noqa: E731
+        self._coefficients = np.concatenate([c.coefficients[:, :, 1:] for c in cells], axis=1) if cells else np.zeros((1, 0, 0))
+        self._from, self._size = joined([c.start for c in cells]), joined([c.size for c in cells])
         self._cell = np.array([c.of + at for c, at in zip(cells, first[:-1], strict=True)]).reshape(-1, SLOTS)
 
     def __call__(self, group: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -64,7 +64,7 @@ class LawTable:
         share = np.clip((p - self._low[which]) / (self._high[which] - self._low[which]), 0.0, 1.0)
         u = parameter(share)
         cell = self._cell[which, slot(u)]
-        return clenshaw(self._coefficients[cell], within(u, self._from[cell], self._size[cell])), self._error[which]
+        return clenshaw(self._coefficients[:, cell], within(u, self._from[cell], self._size[cell])), self._error[which]
 
 
 def _padded(rows, value):

@@ -40,33 +40,56 @@ class Guide:
     foretells: Callable[[np.ndarray, np.ndarray], np.ndarray]
     powers: np.ndarray
 
+    def sureness(self, code, other) -> np.ndarray:
+        """How far the side with ``code`` of a change to ``other`` is to be asked about it: not at all (0), rather not (1: next to
+        a fold, where points are dear, and where the other regime may take over before), or gladly (2)."""
+        which = self.foretells(code, other)
+        return np.where(which < 0, 0, np.where(self.powers[which] > 1, 1, 2))
+
 
 @dataclass(frozen=True)
 class Transitions:
-    """Brackets [low, high] of single changes of code, arrays (m,), with the line each lies on; sorted along every line."""
+    """Brackets [low, high] of single changes of code, arrays (m,), with the line each lies on and the ``codes`` (m, 2) at its
+    ends; sorted along every line."""
 
     line: np.ndarray
     low: np.ndarray
     high: np.ndarray
+    codes: np.ndarray
 
 
-def locate(probe: Probe, guide: Guide, line, low, high, code_low, code_high, width) -> Transitions:
+@dataclass(frozen=True)
+class Looks:
+    """Points that were looked at before: ``bracket`` (k,) that each lies in or at an end of, ``x``, ``codes``, ``margins`` (k,
+    powers)."""
+
+    bracket: np.ndarray
+    x: np.ndarray
+    codes: np.ndarray
+    margins: np.ndarray
+
+
+def locate(probe: Probe, guide: Guide, line, low, high, code_low, code_high, width, looks: Looks | None = None) -> Transitions:
     """Narrow every bracket [low, high] of the ``line`` it lies on to ``width`` or less, all (m,); where a third code shows up in
-    between, its transitions are found too. ``code_low``, ``code_high`` are the codes at the ends."""
+    between, its transitions are found too. ``code_low``, ``code_high`` are the codes at the ends. ``looks``: what is known of
+    every bracket, its ends included."""
     found = []
     brackets = _Brackets.between(line, low, high, code_low, code_high, width, guide.powers.size)
+    if looks is not None:
+        brackets.x[:] = np.nan
+        brackets = brackets.changes(looks.bracket, looks.x, looks.codes, looks.margins)[0]
     for _ in range(80):
         ends, done = brackets.settled(guide)
-        found.append((brackets.line[done], *ends[:, done]))
+        found.append((brackets.line[done], *ends[:, done], brackets.codes[done]))
         brackets = brackets.take(~done)
         if not brackets.line.size:
             break
         brackets = brackets.narrowed(probe, guide)
     else:
-        found.append((brackets.line, brackets.low, brackets.high))
-    line, low, high = (np.concatenate(parts) for parts in zip(*found, strict=True))
+        found.append((brackets.line, brackets.low, brackets.high, brackets.codes))
+    line, low, high, codes = (np.concatenate(parts) for parts in zip(*found, strict=True))
     order = np.lexsort((low, line))
-    return Transitions(line[order], low[order], high[order])
+    return Transitions(line[order], low[order], high[order], codes[order])
 
 
 @dataclass(frozen=True)
@@ -124,7 +147,7 @@ class _Brackets:
         x = np.concatenate(((place[aimed, None] + (away * doubt)[aimed, None] * _AROUND).ravel(), spread.ravel()))
         inside = (x > low[rows]) & (x < high[rows])
         rows, x = rows[inside], x[inside]
-        changes, parents = self._changes(rows, x, *probe(self.line[rows], x))
+        changes, parents = self.changes(rows, x, *probe(self.line[rows], x))
         missed = guided[parents] & (changes.high - changes.low > 2.1 * doubt[parents])
         changes.misses[:] = np.where(missed, self.misses[parents] + 1, 0)
         return changes
@@ -143,7 +166,7 @@ class _Brackets:
                 place[told[better]], doubt[told[better]], away[told[better]] = where[better], off[better], 1 - 2 * side
         return place, doubt, away
 
-    def _changes(self, rows, x, codes, margins) -> tuple[_Brackets, np.ndarray]:
+    def changes(self, rows, x, codes, margins) -> tuple[_Brackets, np.ndarray]:
         """The brackets between neighbours that differ among the points remembered and the new ones ``x`` of the brackets
         ``rows``; their parents."""
         own, side, place = np.nonzero(np.isfinite(self.x))
@@ -153,7 +176,9 @@ class _Brackets:
         margins = np.concatenate((self.margins[own, side, place], margins))
         order = np.lexsort((x, owner))
         owner, x, codes, margins = owner[order], x[order], codes[order], margins[order]
-        within = (owner[1:] == owner[:-1]) & (x[:-1] >= self.low[owner[:-1]]) & (x[1:] <= self.high[owner[1:]])
+        # what was remembered beyond the ends of a bracket is of no change in it
+        low, high = (np.where(np.isnan(v), beyond, v) for v, beyond in ((self.low, -np.inf), (self.high, np.inf)))
+        within = (owner[1:] == owner[:-1]) & (x[:-1] >= low[owner[:-1]]) & (x[1:] <= high[owner[1:]])
         last = np.flatnonzero(within & (codes[1:] != codes[:-1]))
         parents = owner[last]
         near_x = np.full((last.size, 2, _KEPT), np.nan)

@@ -1,48 +1,122 @@
-"""Proof by the balance of one period that no more engaged orbit exists beside one that is known.
+"""Proof by the balance of one period that a strip has no orbit of some kind, in closed form.
 
-Let l be a periodic orbit with a slope of the onset map below one, or the march of one period with ``r > 0``, that meets
-contact. Suppose that there is an orbit with an earlier onset.
+Every orbit obeys ``beta z' = p - w``, so that p and w have the same mean. Let l be a reference: a periodic orbit with a slope of
+the onset map below one, the march of one period with ``r >= 0`` (then ``beta r`` is the sum of its p - w), or the foundation at
+rest, ``w = p = 0``, beneath a strip out of its reach. Let y be an orbit that is more engaged than l. With Q the sum of the
+pressure over -p_0 in contact and E the length of engagement, its balance less that of l is
+
+    0 = beta r + (Q_y - Q_l) - p_0 (E_y - E_l) + sum of (w_l - w_y),
+
+so there is no such orbit where the right side is positive. It is bounded from below for all y with an onset ``-xi`` between two
+phases, ``lo <= xi <= hi``. Along every orbit w is at least ``-p_0``; with that, contact and adhesion end where the sine is not
+negative: a and c lie between 0 and pi.
+
+* Contact. At ``-lo`` the strip y is engaged with a gap of ``gap_on`` at most, or in contact. While it adheres its w falls, so
+  the gap is closed at the latest at ``-t``, where u has risen by ``gap_on``, or by less, if the fall of w until then is taken off
+  that is certain whenever the gap closes. From there on its excess pressure is at least that of a contact that begins at
+  ``-t``, until it ends at a, where the excess pressure falls. The sum of that lesser pressure from ``-t`` to any phase e is
+  closed form and no more than the sum to a: ``alpha p' + p = u + beta u'``.
+* Engagement. Free flow leads from c to the onset: ``cos c = cos xi - jump - W (exp(F/beta) - 1)``, ``-W = u(xi) + delta_0``,
+  where F is the length of the free zone: c and with it E are bounded from above at hi and the longest F.
+* Displacement. Nowhere is w_l less than w_y. Where l is free let ``w_l >= omega`` and ``V(s) = omega - u(s) - delta_0``. If y is
+  in contact there ``w_l - w_y = V(s) + delta_0`` at least. If it is free the distance fades towards its onset, to ``V(xi)``.
+  If it adheres before its contact w has fallen since the onset, and before ``-t`` u is no more either: V(xi) again. If it
+  adheres after its contact w falls from where that ended, on or behind the crest; so it is at most u(e) after any phase e up to
+  which contact is certain to last. As V grows towards the valley, V(lo) stands for V(xi).
+
+What is always engaged is bounded alike: in the valley its gap is at most delta_0, as from an onset there.
+
+If l is an orbit or a march that meets contact, suppose that there is an orbit with an earlier onset.
 
 * From there to l every onset leads to contact and to the end of adhesion, as it does for both, so r is continuous. It
   is positive just before l. Where it last vanishes before l it does not fall: there is an orbit y before l at which
   the slope of the map is not below one.
-* Contact is longer in y than in l, adhesion ends later, and it ends where free flow leads on to y itself,
-
-      (u(c) + delta_0 + [w]) exp(c/beta) = (u(y) + delta_0) exp((y + 2 pi)/beta),
-
-  whose left side falls in the arc of c and whose right side grows in the arc of y. So (``sensitivity``)
+* Contact is longer in y than in l, adhesion ends later, and it ends where free flow leads on to y itself. So (``sensitivity``)
 
       log T'(y) <= log(1 + s_x/F(y)) + log(1 + s_c/M(c)) - 2 pi/beta - (a - b) L/alpha,
 
   a and b those of l, which is negative unless F or M is smaller at y than some number each, that is unless y lies
-  before a phase x_1 known in closed form. Contact in an orbit before x_1 is known to be longer than in l: with that
-  the same leads to an earlier phase.
-* An orbit before x_1 is more engaged than the march from x_1: its contact covers that one's, under no less pressure.
-  Every orbit obeys ``beta z' = p - w``, so that p and w have the same mean. Compared with l it has no larger w
-  anywhere, a traction of ``-p_0`` for as much longer as it is engaged (at most from the start of the onset arc to the
-  end of the arc of c), and the gain in pressure of that contact. If the gain is more than the traction takes, with
-  ``beta r`` of l, the means differ: y does not exist, nor the orbit supposed. If it is not, it is for all y after
-  some earlier phase, and that phase takes the place of x_1.
+  before a phase known in closed form. There the balance decides.
 
-The pressure over ``-p_0``, q, summed over contact is closed form: ``alpha p' + p = u + beta u'`` there.
+Where it does not for a whole interval of xi the interval is divided.
 """
+
+from dataclasses import dataclass
 
 import numpy as np
 
-from .bound import bound
 from .march import TWO_PI, Orbit
-from .problem import Cycle
+from .problem import Cycle, Strips
 from .sensitivity import fading, gains, onset_margin, release_margin
 
 _EPS = np.finfo(float).eps
-#: bounds this close to an edge are good enough
-_CLOSE = 0.05
-#: rounds, and the least by which each has to get on
-_TIERS, _PROGRESS = 3, 1e-3
-#: share of the engagement that is allowed by the balance by which the end of adhesion is moved; the onset moves alike
-_SHARE = 0.45
-#: contact is sought by so much later than it is thought to begin, and earlier than to end
-_SURELY = 0.03
+#: beta above which the balance of a period is asked first: a faster foundation is judged better by its bounds
+SLOW = 30.0
+#: parts into which an interval is divided that is not decided, and how often
+_PARTS, _ROUNDS, _FINER = 3, 4, 5
+#: rounds of the guess where an orbit out of reach is held best
+_GUESSES, _EARLIEST, _LATEST = 2, 0.05, 2.3
+#: parts of the phases, or sines, at which the slope of the onset map is thought to be one
+_LOWER = 0.95
+#: least sine that is divided by
+_LEAST = 0.05
+#: onsets before this phase are next to the valley; contact is sought by this much further than is estimated
+_VALLEY, _BEYOND = 2.5, 1.05
+#: contact is taken to end by so much earlier than is estimated
+_SHY = 0.01
+
+
+@dataclass(slots=True)
+class _Reference:
+    """What the bounds need of n strips and their references, arrays (n,).
+
+    ``turned``: end of the arc where contact ends. ``q_on``: excess pressure as contact begins. ``x``, ``c``: onset and end of
+    adhesion of the reference, 0 for a foundation at rest, as are ``b``, ``a``, its contact, and ``pressed``, its Q. ``turn``: by
+    how much later contact ends if it begins earlier by one. ``level``: omega less ``u + delta_0`` at the crest. ``kept``:
+    ``beta r``. ``least``: of the sum of ``w_l - w_y``. ``end``: adhesion does not end after. ``noise``: of a displacement.
+    """
+
+    alpha: np.ndarray
+    beta: np.ndarray
+    L: np.ndarray
+    p_0: np.ndarray
+    delta_0: np.ndarray
+    D: np.ndarray
+    gap_on: np.ndarray
+    jump: np.ndarray
+    turned: np.ndarray
+    q_on: np.ndarray
+    x: np.ndarray
+    c: np.ndarray
+    level: np.ndarray
+    kept: np.ndarray
+    least: np.ndarray
+    pressed: np.ndarray
+    b: np.ndarray
+    a: np.ndarray
+    turn: np.ndarray
+    end: np.ndarray
+    noise: np.ndarray
+
+    def take(self, index):
+        return type(self)(*[getattr(self, name)[index] for name in _Reference.__slots__])
+
+    def contact_end(self, t):
+        """About where a contact ends that begins at ``-t``."""
+        return self.a + self.turn * (t + self.b)
+
+
+class _Rest(_Reference):
+    """A foundation at rest."""
+
+    __slots__ = ()
+
+    def contact_end(self, t):
+        # adhesion lifts, pressure relaxes
+        sine, cosine = np.sin(t), np.cos(t)
+        relaxed = self.L * self.beta / self.alpha * (sine - t * cosine)
+        lifted = t * (self.p_0 + self.D - 1 + cosine)
+        return t + 2 * (lifted - relaxed) / (self.beta * np.maximum(sine, _LEAST))
 
 
 def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, np.ndarray]:
@@ -50,127 +124,251 @@ def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, n
 
     ``start``, ``end``: no onset lies before, and adhesion does not end after.
     """
-    s = cycle.strips
-    noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
-    longest = _longer(known, start, end)
-    kept = s.beta * (known.r - noise)
     proven, spent = np.zeros(cycle.size, bool), np.zeros(cycle.size)
-    index = np.flatnonzero(~np.isnan(known.b))
-    part, here = cycle.take(index), known.take(index)
-    surplus, length = kept[index], here.a - here.b
-    reached = here.x, here.c
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        for tier in range(_TIERS):
-            x, c, used = _next(kernel, part, here, reached, surplus, length, noise[index])
-            spent[index] += used
-            closer = np.flatnonzero(x < reached[0] - _PROGRESS)
-            if not closer.size:
-                break
-            index, part, here, reached = index[closer], part.take(closer), here.take(closer), (x[closer], c[closer])
-            gain, length, used = _gain(kernel, part, here, reached[0], noise[index])
-            spent[index] += used
-            surplus = gain + kept[index]
-            done = (reached[0] <= start[index]) | (surplus > s.p_0[index] * longest[index])
-            proven[index[done]] = True
-            going = np.flatnonzero(~done)
-            if not going.size:
-                break
-            index, part, here, reached = index[going], part.take(going), here.take(going), (reached[0][going], reached[1][going])
-            surplus, length = surplus[going], length[going]
-            if tier == 0:
-                first, used = _onset_before(kernel, part, end[index], start[index], here.x, noise[index])
-                longest[index] = _longer(here, first, end[index])
-                spent[index] += used
+    # an orbit without contact has no Q to compare
+    index = np.flatnonzero(~np.isnan(known.b) & (known.x <= 0))
+    if index.size:
+        if index.size < cycle.size:
+            cycle, known, start, end = cycle.take(index), known.take(index), start[index], end[index]
+        with np.errstate(all="ignore"):
+            suspects = np.maximum(_suspects(kernel, cycle, known), -known.x)
+            reference = beside(kernel, cycle, known, end)
+            proven[index], spent[index] = _excluded(kernel, reference, suspects, np.maximum(-start, suspects), _ROUNDS)
     return proven, spent
 
 
-def _next(kernel, cycle: Cycle, known: Orbit, reached, surplus, length, noise):
-    """A phase before which the orbit y must lie, the end of adhesion that leads there, and the evaluations.
+def none_hangs(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
+    """Which cycles of strips out of reach, ``D <= -delta_0``, that cannot stay engaged are proven to have no most engaged orbit
+    with an onset; and the evaluations spent on each."""
+    none, spent = np.zeros(cycle.size, bool), np.ones(cycle.size)
+    with np.errstate(all="ignore"):
+        guess, reference = _held_best(cycle), at_rest(cycle)
+        index = np.flatnonzero(surplus(kernel, reference, guess, guess) > 0)
+        if index.size:
+            lo, hi = _stable_within(kernel, cycle.take(index), guess[index])
+            none[index], used = _excluded(kernel, reference.take(index), lo, np.maximum(lo, hi), _FINER)
+            spent[index] += used + 2
+    return none, spent
 
-    ``reached``: the same from the round before, which tells of y a ``surplus`` and a contact of at least this ``length``.
+
+def none_clings(kernel, cycle: Cycle) -> np.ndarray:
+    """Which cycles are proven to have no orbit that is always engaged."""
+    valley = np.full(cycle.size, np.pi)
+    with np.errstate(all="ignore"):
+        reference = at_rest(cycle)
+        # adhesion that does not begin in the valley has no step of w there
+        reference.gap_on, reference.jump = cycle.strips.delta_0, 0 * valley
+        return surplus(kernel, reference, valley, valley) > 0
+
+
+def beside(kernel, cycle: Cycle, known: Orbit, end) -> _Reference:
+    """Orbits or marches with contact as references; adhesion does not ``end`` after."""
+    s, noise = cycle.strips, _noise(cycle.strips)
+    w_c = kernel.profile(known.c, s.D) + s.delta_0 + cycle.jump
+    return _Reference(
+        *_groups(cycle),
+        q_on=cycle.q_on,
+        x=known.x,
+        c=known.c,
+        level=np.minimum(w_c, w_c * kernel.decay(known.x + TWO_PI - known.c, s.beta)) - s.D - s.delta_0,
+        kept=s.beta * (known.r - noise),
+        least=np.zeros(cycle.size),
+        pressed=_sum(kernel, known.b, known.a, s),
+        b=known.b,
+        a=known.a,
+        turn=_turn(kernel, s, known),
+        end=end,
+        noise=noise,
+    )
+
+
+def at_rest(cycle: Cycle) -> _Reference:
+    """The foundation at rest as reference."""
+    zero = np.zeros(cycle.size)
+    return _Rest(
+        *_groups(cycle),
+        q_on=zero,
+        x=zero,
+        c=zero,
+        level=-cycle.strips.D - cycle.strips.delta_0,
+        kept=zero,
+        least=zero - np.inf,
+        pressed=zero,
+        b=zero,
+        a=zero,
+        turn=zero,
+        end=zero + np.pi,
+        noise=_noise(cycle.strips),
+    )
+
+
+def _noise(s: Strips):
+    return 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
+
+
+def _groups(cycle: Cycle):
+    s = cycle.strips
+    return s.alpha, s.beta, s.L, s.p_0, s.delta_0, s.D, cycle.gap_on, cycle.jump, cycle.centre + TWO_PI - cycle.half_b
+
+
+def _held_best(cycle: Cycle):
+    """About the onset, less its sign, with which a strip is held best on a foundation that stands still in a gap."""
+    s, pull = cycle.strips, gains(cycle)[1]
+    xi, glassy = np.ones(cycle.size), s.L * s.beta / s.alpha
+    for _ in range(_GUESSES):
+        a = np.arccos(np.clip(np.cos(xi) + s.delta_0, -1.0, 1.0))
+        sine, weight = np.sin(xi), np.pi + glassy * a
+        slope = np.cos(xi) * weight + glassy * sine**2 / np.maximum(np.sin(a), _LEAST)
+        xi = np.clip(np.where(slope > 0, xi - (sine * weight - pull) / slope, _LATEST), _EARLIEST, _LATEST)
+    return xi
+
+
+def _stable_within(kernel, cycle: Cycle, guess):
+    """Phases between which lies -x of every orbit with ``T' <= 1`` of a strip out of reach.
+
+    Contact begins where w has fallen from the onset to u, and ends before ``cos a = cos c + delta_0``, since w falls from there.
     """
-    arc, release = _suspects(kernel, cycle, known, length)
-    # an orbit after the phase x is engaged no longer than from x on, and until the end of adhesion that leads to x
-    allowed = surplus / cycle.strips.p_0
-    spread = reached[1] + _SHARE * (allowed - _longer(known, *reached))
-    by_slope = release >= spread
-    c = np.minimum(np.where(by_slope, release, spread), cycle.centre + TWO_PI - cycle.half_c)
-    x, spent = onset_after(kernel, cycle, c, known.x, noise)
-    short = _longer(known, x, c) < allowed
-    return np.where(by_slope, np.maximum(arc, x), np.where(short, x, np.inf)), c, spent
+    s = cycle.strips
+    onset, release = gains(cycle)
+    # low onsets: F and M grow with xi and c up to the middle of their arcs
+    lo = np.minimum(_LOWER * guess, np.minimum(-cycle.centre, cycle.centre + np.pi))
+    height = _versine(lo)
+    c = _arc(height + cycle.jump + (height - s.D - s.delta_0) * np.expm1(TWO_PI / s.beta) + _noise(s))
+    begun = np.minimum(_arc(height - cycle.gap_on + lo / s.beta * s.p_0), lo)
+    longest = begun + _arc(_versine(c) - s.delta_0)
+    lo = np.where((c < cycle.centre + np.pi) & _unstable(kernel, cycle, lo, c, longest), lo, 0.0)
+    # high onsets: they fall beyond it, and c is more than xi
+    sine = np.minimum(_LOWER * (onset + release) / (TWO_PI * (1 + s.L * s.beta / s.alpha)), 1.0)
+    hi = np.maximum(np.pi - np.arcsin(sine), np.maximum(-cycle.centre, cycle.centre + np.pi))
+    return lo, np.where(_unstable(kernel, cycle, hi, hi, TWO_PI), hi, np.pi)
 
 
-def _longer(known: Orbit, x, c):
-    """By how much the engagement from x to c is longer than the known one."""
-    return np.maximum(known.x - x, 0.0) + np.maximum(c - known.c, 0.0)
+def _unstable(kernel, cycle: Cycle, xi, c, longest):
+    """Where ``T' > 1`` if F and M are at most what they are for an onset at -xi and an end of adhesion at c, and contact is no
+    longer than ``longest``."""
+    onset, release = gains(cycle)
+    F, M = onset_margin(kernel, cycle, -xi), release_margin(kernel, cycle, c)
+    gain = np.log1p(onset / np.maximum(F, 0.0)) + np.log1p(release / np.maximum(M, 0.0))
+    return gain > (1 + 64 * _EPS) * fading(cycle, longest)
 
 
-def _suspects(kernel, cycle: Cycle, known: Orbit, length):
-    """Where an orbit y must lie: its onset before the first phase or its end of adhesion after the second; NaN: unknown."""
+def _arc(height):
+    """Phase where ``1 - cos`` is this much, at most pi."""
+    return 2 * np.arcsin(np.sqrt(np.clip(0.5 * height, 0.0, 1.0)))
+
+
+def _versine(phase):
+    return 2 * np.sin(0.5 * phase) ** 2
+
+
+def _sum(kernel, b, a, s):
+    """Sum of the pressure over -p_0 from b to a, but for ``-alpha`` times its rise."""
+    return kernel.profile_integral(b, a, s.D) + s.beta * kernel.profile_rise(b, a) + s.p_0 * (a - b)
+
+
+def _suspects(kernel, cycle: Cycle, known: Orbit):
+    """The phase -x before which an orbit y must lie by its slope; that of the known one where nothing is known."""
     s = cycle.strips
     F, M = onset_margin(kernel, cycle, known.x), release_margin(kernel, cycle, known.c)
     onset, release = gains(cycle)
     at_onset, at_release = np.log1p(onset / F), np.log1p(release / M)
-    share = fading(cycle, length) * (1 - 64 * _EPS) / (at_onset + at_release)
+    share = fading(cycle, known.a - known.b) * (1 - 64 * _EPS) / (at_onset + at_release)
     fits = (F > 0) & (M > 0) & (share > 1)
-    F, M = (
-        np.where(fits, gain / np.expm1(np.minimum(share * log, 700.0)), np.nan)
-        for gain, log in ((onset, at_onset), (release, at_release))
+    least_F, least_M = (
+        gain / np.expm1(np.minimum(share * log, 700.0)) for gain, log in ((onset, at_onset), (release, at_release))
     )
-    arc = cycle.centre - kernel.forcing_arc(s.delta_0 - F, s.D, s.beta)[1]
-    last = cycle.centre + TWO_PI - kernel.forcing_arc(s.p_0 + s.delta_0 + M, s.D, s.beta)[1]
-    return arc, last
+    arc = kernel.forcing_arc(s.delta_0 - least_F, s.D, s.beta)[1] - cycle.centre
+    last = cycle.centre + TWO_PI - kernel.forcing_arc(s.p_0 + s.delta_0 + least_M, s.D, s.beta)[1]
+    # free flow from the end of adhesion, over no longer a way than from the known one
+    w_c = kernel.profile(last, s.D) + s.delta_0 + cycle.jump
+    free = known.x + TWO_PI - known.c
+    later = _arc(_versine(last) - cycle.jump - np.maximum(w_c * kernel.decay_loss(free, s.beta), 0.0) - _noise(s))
+    # it leads on to x, which moves with c by no less than where M is least and F is greatest
+    F = np.where(known.x < cycle.centre, F, s.D - 1 + np.hypot(1, s.beta) + s.delta_0)
+    moved = (last - known.c) * (least_M + release) / F * kernel.decay(free, s.beta) - known.x
+    later = np.where(known.r == 0, np.maximum(later, moved), later)
+    return np.where(fits, np.minimum(arc, later), -known.x)
 
 
-def _onset_before(kernel, cycle: Cycle, c, start, x, noise):
-    """The start, or a later phase before the onset that free flow from c leads to.
-
-    No orbit whose adhesion ends before c has an earlier onset.
-    """
-    s = cycle.strips
-    entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
-    spent = np.zeros(c.shape)
-    far, near = np.maximum(start + TWO_PI, c), x + TWO_PI
-    guess = np.clip(TWO_PI - c, far, near)
-    phase, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, guess, far, -1.0, noise, _CLOSE + 0 * c, spent, near)
-    return np.where(found, phase - TWO_PI, start), spent
+def _turn(kernel, s: Strips, known: Orbit):
+    """By how much later contact ends, if it begins earlier by one."""
+    one, two = (kernel.forcing(edge, s.D, s.beta) + s.p_0 for edge in (known.b, known.a))
+    return np.clip(-one / two, 0.0, 1.0) * kernel.decay(known.a - known.b, s.alpha)
 
 
-def onset_after(kernel, cycle: Cycle, c, x, noise):
-    """Onsets after the one that free flow from c leads to, no later than x where that is found (else inf)."""
-    s = cycle.strips
-    entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
-    spent = np.zeros(c.shape)
-    far = x + TWO_PI
-    near = np.minimum(np.maximum(c, cycle.centre - cycle.half_d + TWO_PI), far)
-    # on a slow foundation the gap is the same about the crest
-    guess = np.clip(TWO_PI - c, near, far)
-    phase, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, guess, far, 1.0, noise, _CLOSE + 0 * c, spent, near)
-    return np.where(found, phase - TWO_PI, np.inf), spent
+def _contact(reference: _Reference, lo):
+    """Phase t, so that contact begins before -t if the onset is not after -lo; 0 where it may not begin, inf where no orbit may
+    have such an onset: its w would be less than -p_0."""
+    r = reference
+    rise = _versine(lo) - r.gap_on - r.noise
+    lag = np.maximum(r.p_0 + r.D - rise, 0.0)
+    t = _arc(rise)
+    most = _arc(rise - lag * np.expm1((t - lo) / r.beta))
+    least = -lag * np.expm1(np.minimum(most - lo, 0.0) / r.beta)
+    t = np.maximum(_arc(rise + least), -r.b)
+    beyond = np.flatnonzero(lo > _VALLEY)
+    if beyond.size:
+        t[beyond] = np.maximum(t[beyond], _closed(r.beta[beyond], lag[beyond], r.gap_on[beyond], lo[beyond]))
+    return np.where(lag > 0, t, np.inf)
 
 
-def _gain(kernel, cycle: Cycle, known: Orbit, x, noise):
-    """Of an orbit with an onset before x: the least sum of the pressure over -p_0 in contact, less that of ``known``, and the
-    least length of that contact; and the evaluations."""
-    s = cycle.strips
-    spent = np.ones(x.shape)
-    x = np.minimum(x, known.x)
-    near = np.minimum(np.maximum(x, cycle.centre - cycle.half_b), known.b)
-    entry = kernel.gap_entry(x, cycle.gap_on, -s.p_0, s.D, s.beta)
-    # on a slow foundation w stays, and the gap closes where the profile has risen by as much
-    guess = np.clip(_SURELY - np.arccos(np.minimum(np.cos(x) + cycle.gap_on, 1.0)), near, known.b)
-    b, found = bound(kernel.gap_event, entry, 0.0, 1.0, guess, known.b, 1.0, noise, _CLOSE + 0 * x, spent, near)
-    b = np.where(cycle.direct, x, np.where(found, b, known.b))
-    entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
-    blur = noise + 64 * _EPS * entry[4]
-    far = np.maximum(cycle.centre + TWO_PI - cycle.half_b, known.a)
-    guess = np.clip(known.a + known.b - b - _SURELY, known.a, far)
-    a, found = bound(kernel.excess_event, entry, 0.0, 1.0, guess, known.a, -1.0, blur, _CLOSE + 0 * x, spent, far)
-    a = np.where(found, a, known.a)
-    left = kernel.excess_event(a, *entry)[0]
-    pressed = [
-        kernel.profile_integral(one, two, s.D) + s.beta * kernel.profile_rise(one, two) + s.p_0 * (two - one)
-        for one, two in ((b, a), (known.b, known.a))
-    ]
-    gain = pressed[0] - pressed[1] - s.alpha * left
-    return gain - TWO_PI * noise - 64 * _EPS * (s.beta + s.alpha * np.abs(left)), a - b, spent
+def _closed(beta, lag, gap, lo):
+    """The same for onsets beyond the valley, or next to it: a phase that is verified, -inf where it is not."""
+    sine, rate = np.sin(lo), lag / beta
+    slope, bend = sine + rate, -np.cos(lo) - rate / beta
+    way = 2 * _BEYOND * gap / (slope + np.sqrt(np.maximum(slope**2 + 2 * bend * gap, 0.0)))
+    risen = 2 * np.sin(0.5 * way) * np.sin(lo - 0.5 * way) - lag * np.expm1(-way / beta)
+    return np.where((way >= 0) & (risen >= gap), lo - way, -np.inf)
+
+
+def surplus(kernel, reference: _Reference, lo, hi):
+    """Lower bound of the balance of all orbits with an onset between -hi and -lo, less that of the reference."""
+    r = reference
+    # contact, at least
+    t = _contact(r, lo)
+    possible, t = np.isfinite(t), np.minimum(t, TWO_PI)
+    e = np.clip(r.contact_end(t) - _SHY, 0.0, r.turned)
+    late = kernel.excess_after(-t, e, r.q_on, r.p_0, r.D, r.alpha, r.beta, r.L)
+    blur = 64 * _EPS * (r.beta + r.alpha * np.abs(late))
+    pressed = np.where(t > 0, np.maximum(_sum(kernel, -t, e, r) - r.alpha * late - blur - r.pressed, 0.0), 0.0)
+    held = np.where((t > 0) & (late > blur), e, 0.0)
+    # engagement, at most
+    crest, near = r.D + r.delta_0, np.where(hi > np.pi, np.minimum(lo, TWO_PI - hi), lo)
+    low, high = _versine(near), _versine(np.minimum(hi, np.pi)) + r.noise
+    later = np.maximum(r.c, near)
+    free = np.maximum(TWO_PI - lo - np.where(low > crest, later, r.c), 0.0)
+    out = high - crest
+    c = np.minimum(_arc(high + r.jump + np.maximum(out, 0.0) * np.expm1(free / r.beta)), r.end)
+    free = np.maximum(TWO_PI - hi - c, 0.0)
+    c = np.where(out < 0, np.minimum(_arc(high + r.jump + out * np.expm1(free / r.beta)), c), c)
+    longer = np.maximum(hi + r.x, 0.0) + np.maximum(c - r.c, 0.0)
+    free = np.maximum(TWO_PI - hi - c, 0.0)
+    # displacement, at least
+    steep, onset = r.level + low, -r.x
+    begun, ended = np.maximum(np.minimum(t, near), onset), np.maximum(np.minimum(held, near), r.c)
+    apart = (r.level + 1 + r.delta_0) * (begun - onset + ended - r.c)
+    apart -= np.sin(begun) - np.sin(onset) + np.sin(ended) - np.sin(r.c)
+    apart += (TWO_PI - begun - later) * steep + (later - ended) * np.minimum(r.level + _versine(held) + r.delta_0, steep)
+    apart += np.maximum(steep, 0.0) * (r.beta * np.expm1(free / r.beta) - free)
+    least = r.kept + pressed - r.p_0 * longer + np.maximum(apart, r.least) - TWO_PI * r.noise
+    return np.where(possible, least, np.inf)
+
+
+def _excluded(kernel, reference: _Reference, lo, hi, rounds) -> tuple[np.ndarray, np.ndarray]:
+    """Where no orbit has an onset between -hi and -lo, and the evaluations spent."""
+    n = lo.size
+    proven, spent = np.ones(n, bool), np.zeros(n)
+    index, part = np.arange(n), reference
+    for going in range(rounds, -1, -1):
+        spent += np.bincount(index, minlength=n)
+        open_ = np.flatnonzero(~(surplus(kernel, part, lo, hi) > 0))
+        if not open_.size:
+            break
+        if not going:
+            proven[index[open_]] = False
+            break
+        index, part = np.tile(index[open_], _PARTS), part.take(np.tile(open_, _PARTS))
+        width = (hi[open_] - lo[open_]) / _PARTS
+        lo = (lo[open_] + np.arange(_PARTS)[:, None] * width).ravel()
+        hi = lo + np.tile(width, _PARTS)
+    return proven, spent

@@ -6,6 +6,7 @@ more extremal one exists; all else is left to ``search``.
 
 import numpy as np
 
+from .balance import SLOW, none_hangs
 from .certificate import attracting, edges_admissible
 from .chain import CONVERGED, follow
 from .exclusion import alone, closed, none_before, onsets_within
@@ -59,10 +60,15 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: Outermost):
         possible = arc & (s.D - 1 + s.p_0 < kernel.modulus_ratio(s.alpha, s.beta))
     else:
         possible = arc & ~bounds.missed
+    none = ~arc | bounds.missed
     found = _Found(kernel, cycle, last, bounds)
+    if not last:
+        hanging = np.flatnonzero(possible & (s.D <= -s.delta_0) & (s.beta > SLOW))
+        if hanging.size:
+            none[hanging], found.evaluations[hanging] = none_hangs(kernel, cycle.take(hanging))
+            possible &= ~none
     found.attempt("acaf", np.flatnonzero(possible & ~cycle.direct))
     found.attempt("afc", np.flatnonzero(possible & cycle.direct))
-    none = ~arc | bounds.missed
     low = possible & ~cycle.direct & (last | (s.p_0 < _LOW))
     found.attempt("af", np.flatnonzero(low & ~found.proven))
     return found.orbit, found.sequence, found.proven, none, found.evaluations
@@ -120,9 +126,12 @@ def first_by_marches(kernel, cycle: Cycle, known: Orbit, bounds: Outermost):
         part = cycle.take(rest)
         result = turning(kernel, part, start[rest], end[rest])
         none[rest] = result.none
-        located = at_zeros(kernel, part, result.isolated)
-        spent[rest] += located.evaluations
-        here = np.flatnonzero(located.certified)
-        orbit.put(rest[here], located.orbit.take(here))
-        proven[rest[here]] = True
+        used, here = result.isolated.evaluations, np.flatnonzero(result.isolated.found)
+        if here.size:
+            located = at_zeros(kernel, part.take(here), result.isolated.take(here))
+            used[here] = located.evaluations
+            good = np.flatnonzero(located.certified)
+            orbit.put(rest[here[good]], located.orbit.take(good))
+            proven[rest[here[good]]] = True
+        spent[rest] += used
     return orbit, proven, none, spent

@@ -20,6 +20,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from .balance import SLOW, none_clings
 from .certificate import greatest_gap
 from .direct import certified, extremal, first_by_marches
 from .march import Orbit
@@ -129,18 +130,23 @@ class _Batch:
         hold = reaches & clinging
         self.record.constant(index[hold], "a", -s.p_0[hold], 0.0, 0.0, 1.0)
         done = full | hold
-        partial = reaches & ~clinging
-        if self.unloading and not self.searching:
-            partial &= ~self._bounded(index, s, ~done, reaches)
+        partial = reaches & ~clinging & ~self.bounds.released[index]
+        if not self.searching:
+            if self.unloading:
+                partial &= ~self._bounded(index, s, ~done, reaches)
+            ask = np.flatnonzero(partial & (s.beta > SLOW))
+            partial[ask] = ~none_clings(self.kernel, adhesive_cycle(self.kernel, s.take(ask)))
         partial = np.flatnonzero(partial)
         if partial.size:
             done[partial] = self._contact_with_saturated_adhesion(index[partial])
-        return index[~done]
+        index = index[~done]
+        self.bounds.released[index] = True
+        return index
 
     def _bounded(self, index, s: Strips, ask, reaches) -> np.ndarray:
         """Bound all orbits of the strips ``index`` of which to ``ask``; returns of which none is always engaged."""
         released = np.zeros(index.size, bool)
-        hanging = np.flatnonzero(ask & (s.D <= -s.delta_0))
+        hanging = np.flatnonzero(ask & (s.D <= -s.delta_0) & (s.beta <= SLOW))
         missed = np.zeros(index.size, bool)
         if hanging.size:
             missed[hanging] = out_of_reach(self.kernel, s.take(hanging))

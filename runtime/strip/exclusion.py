@@ -14,8 +14,8 @@ Otherwise, with a probe x1 between x0 and x*,
 * [x0, x1] holds none where the onset map already takes x0 beyond x1 (it is monotone), or by the bounds of ``search``.
 
 On a slow foundation the map takes an onset hardly any further, and bounds would have to be as close as that to tell:
-there the balance of a period is asked first (``balance``). Strips that hang next to their fold are left by both; a
-few marches back to the start of the arc prove most (``none_before``).
+there the balance of a period is asked first (``balance``). What both leave is mostly proven by a few marches back to the start
+of the arc (``none_before``).
 
 What is not proven here is left to ``search``; nothing is ever accepted for lack of a counterexample.
 """
@@ -33,8 +33,6 @@ from .sensitivity import slope_bounds, steep_margin
 _EPS = np.finfo(float).eps
 #: least relaxation time that is divided by
 _LEAST = 1e-290
-#: beta above which the balance of a period is asked first: a faster foundation is judged better by its bounds
-SLOW = 30.0
 #: ends of the intervals from a known onset to the start of the arc
 _SHARES = np.array([1e-5, 1e-3, 0.02, 0.15, 0.4, 0.55, 0.7, 0.85, 1.0])
 #: probes tried; the first half way to the end of the arc, the next ones after longer steps from what is proven, or shorter ones
@@ -54,14 +52,12 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> 
         unknown = np.full(known.size, np.nan)
         outer = Orbit(limits.x, unknown, unknown, np.maximum(limits.c, part.c), np.zeros(known.size, bool), unknown, unknown)
         proven[known] = _falls_between(kernel, cycle.take(known), part, outer, 1.0)
-        rest = np.flatnonzero(~proven & (cycle.strips.beta > SLOW))
+        rest = np.flatnonzero(~proven & (cycle.strips.beta > balance.SLOW))
         if rest.size:
             part = cycle.take(rest)
             here = closed(kernel, part, orbit.take(rest))
             proven[rest], spent[rest] = balance.first(kernel, part, here, *onsets_within(part, bounds.take(rest)))
-    # next to its fold a strip that hangs is too much for bounds at a few probes
-    hanging = cycle.strips.D <= -cycle.strips.delta_0
-    rest = np.flatnonzero(~proven & (last | ~hanging))
+    rest = np.flatnonzero(~proven)
     if rest.size:
         part, sign = cycle.take(rest), -1.0 if last else 1.0
         end = part.centre - sign * part.half_d

@@ -23,8 +23,9 @@ from .sensitivity import SlopeBounds, onset_margin, slope_bounds, slope_excess
 
 _EPS = np.finfo(float).eps
 _MAX_STEPS = 4000
-#: marches in a round that cost hardly more than one, and shorter steps probed with them
-_TOGETHER, _SHORTER = 256, 8
+#: steps probed at once, each half as long as the one before: as many for every batch, since the last digits of a strip must
+#: not depend on which others are solved with it
+_TOGETHER = 3
 #: retardation times after which a displacement is gone, to the smallest number
 FORGOTTEN = 750
 
@@ -42,6 +43,13 @@ class SearchResult:
         self.unresolved = np.zeros(n, bool)
         self.marches = np.zeros(n, int)
         self.evaluations = np.zeros(n)
+
+    def take(self, index: np.ndarray) -> "SearchResult":
+        part = SearchResult(index.size)
+        for name in ("found", "unresolved", "marches", "evaluations"):
+            setattr(part, name, getattr(self, name)[index])
+        part.left, part.right = self.left.take(index), self.right.take(index)
+        return part
 
 
 def isolate(kernel, cycle: Cycle, last: bool, known: Orbit | None = None) -> SearchResult:
@@ -149,18 +157,16 @@ class _Search:
     def _advance(self, index, frontier, step, stop, beyond):
         """Probe ahead of each frontier, then exclude, bracket or take a shorter step.
 
-        A round over few cycles costs little more than one over a single one: then several shorter steps are probed as well,
-        and the longest that tells something is kept.
+        Shorter steps are probed as well, and the longest that tells something is kept.
         """
         n = index.size
-        many = int(np.clip(_TOGETHER // n, 1, _SHORTER))
-        again = np.tile(np.arange(n), many)
-        step = (step * 0.5 ** np.arange(many)[:, None]).ravel()
+        again = np.tile(np.arange(n), _TOGETHER)
+        step = (step * 0.5 ** np.arange(_TOGETHER)[:, None]).ravel()
         final, target, probe, excluded, unique = self._probed(
             index[again], frontier.take(again), step, stop.take(again), beyond.take(again)
         )
-        told = (excluded | unique).reshape(many, n)
-        kept = np.where(told.any(axis=0), told.argmax(axis=0), many - 1) * n + np.arange(n)
+        told = (excluded | unique).reshape(_TOGETHER, n)
+        kept = np.where(told.any(axis=0), told.argmax(axis=0), _TOGETHER - 1) * n + np.arange(n)
         final, target, step, excluded, unique = (values[kept] for values in (final, target, step, excluded, unique))
         probe = probe.take(kept)
         bracketed = np.flatnonzero(unique)

@@ -25,11 +25,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import balance
+from .bound import bound
 from .chain import arcs, links, moved
 from .exclusion import none_before
 from .march import Orbit, closing, march
 from .polish import newton
-from .problem import Cycle
+from .problem import TWO_PI, Cycle
 from .search import SearchResult, excluded
 from .sensitivity import contact_length, fading, gains, onset_margin, release_margin, slope_bounds, slope_excess
 
@@ -49,6 +50,8 @@ _OUTER, _INNER = 1.4, 0.6
 _TOWARDS = np.array([0.0, 1e-4, 0.02, 0.2, 1.0])
 _ALL_ALONG = np.linspace(0.0, 1.0, 7), np.linspace(0.0, 1.0, 21)
 _TOP = 0.9
+#: bounds this close to an onset are good enough
+_CLOSE = 0.05
 
 
 @dataclass(slots=True)
@@ -131,7 +134,7 @@ def _unstable_after(kernel, cycle: Cycle, x, shares) -> tuple[np.ndarray, np.nda
     middle = cycle.centre + np.pi
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         latest = np.maximum(x, cycle.centre + _TOP * cycle.half_d)
-        after, spent = balance.onset_after(kernel, cycle, middle, latest, noise)
+        after, spent = _onset_after(kernel, cycle, middle, latest, noise)
     top = np.maximum(np.maximum(x, cycle.centre), np.minimum(after, latest))
     n, many = cycle.size, shares.size
     nodes = (x + shares[:, None] * (top - x)).ravel()
@@ -149,6 +152,19 @@ def _unstable_after(kernel, cycle: Cycle, x, shares) -> tuple[np.ndarray, np.nda
     none = (left.r > 0) & (right.r > 0) & excluded(kernel, pieces, left, right, bounds, False)
     unstable[ask] = none | (bounds.fall <= 0)
     return proven & unstable.reshape(many - 1, n).all(axis=0), spent
+
+
+def _onset_after(kernel, cycle: Cycle, c, x, noise):
+    """Onsets after the one that free flow from c leads to, no later than x where that is found (else inf)."""
+    s = cycle.strips
+    entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
+    spent = np.zeros(c.shape)
+    far = x + TWO_PI
+    near = np.minimum(np.maximum(c, cycle.centre - cycle.half_d + TWO_PI), far)
+    # on a slow foundation the gap is the same about the crest
+    guess = np.clip(TWO_PI - c, near, far)
+    phase, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, guess, far, 1.0, noise, _CLOSE + 0 * c, spent, near)
+    return np.where(found, phase - TWO_PI, np.inf), spent
 
 
 def _rises(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:

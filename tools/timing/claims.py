@@ -64,7 +64,7 @@ def _fig_6(rows):
     for scripted in of(rows, s.FIG_6, s.SCRIPT)[:1]:
         if here:
             yield (
-                f"Fig. 6 (400 points, {here.solved} of them solved): {here.seconds:.0f} s at rtol 1e-6 "
+                f"Fig. 6 ({here.points} points, {here.solved} of them solved): {here.seconds:.0f} s at rtol 1e-6 "
                 f"(error {here.error:.0e}); the script takes {short(scripted.seconds / here.seconds)} "
                 f"times that ({scripted.solved} points solved) at {scripted.error / here.error:.0e} times the error "
                 f"({scripted.failures} failures)."
@@ -93,7 +93,7 @@ def _digits(rows):
     for scene in (s.POINT, s.ADHESIVE, s.FIG_6):
         mine = sorted(of(rows, scene, s.HERE), key=lambda row: -float(row.setting.partition("=")[2]))
         if len(mine) > 1:
-            strips = [row.strips for row in mine]
+            strips = [round(row.strips * row.points / row.solved) for row in mine]
             rising = "growing throughout" if strips == sorted(strips) else "NOT growing throughout"
             digits = [-math.log10(float(row.setting.partition("=")[2])) for row in mine]
             yield (

@@ -39,7 +39,8 @@ def scenes(quick: bool) -> list[Scene]:
     speeds = np.geomspace(1e-5, 1e-2, 100 if quick else 1000)
     pressures = np.linspace(-650, 1500, 4 if quick else 20)
     few = 1 if quick else 4
-    fig_6 = [_here(1e-6, 2)] if quick else [_here(rtol, 100) for rtol in (1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)]
+    some = {1e-3: 100, 1e-4: 100, 1e-5: 100, 1e-6: None, 1e-8: 100, 1e-10: 100}
+    fig_6 = [_here(1e-6, 2)] if quick else [_here(*setting) for setting in some.items()]
     # the friction of complete contact is known: does Tamaas, treated like this, get there?
     known = [_tamaas(16, steps) for steps in (64, 256, 1024)] if half_space.available() else []
     return [
