@@ -7,6 +7,8 @@ pressure does: both are cut there.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from hystrip.errors import SolverError
@@ -20,10 +22,15 @@ from .peaks import Peaks
 from .pressure import ContactPressure
 
 #: nodes over a panel of strips and over each part of a contact, tried in turn
-RULES = ((3, 4), (4, 5), (5, 7), (7, 9), (9, 12), (12, 16), (17, 22), (24, 30), (34, 40), (48, 56), (70, 80))
-#: share of what is allowed that these sums may miss, and how much more than their changes is feared: kinks that no
-#: part ends at come and go
-_QUADRATURE, _SURE = 0.7, 1.5
+RULES = ((3, 4), (4, 5), (7, 8), (11, 12), (16, 18), (24, 28), (36, 42), (54, 64), (81, 96))
+#: accuracies in parts of the greatest friction from which on the first of them are left out; and that of contact for
+#: which the second one has to do where friction does not count
+_SHARP, _ROUGH = np.array((3e-3, 1e-5)), 1e-3
+#: share of what is allowed that these sums may miss, how much more than their changes is feared, and the fastest that
+#: these are believed to fall
+_QUADRATURE, _SURE, _FASTEST = 0.7, 1.5, 0.05
+#: share of what is allowed that the friction of a strip may miss because its width is not known
+_MISSED = 0.1
 #: steps towards where a contact's pressure passes the breaks of the law
 _STEPS = 4
 #: nodes of all parts together, about, that are summed at a time
@@ -39,12 +46,23 @@ class Carrier:
         self.pressure, self.laws = pressure, laws
         self.strips = 0
 
-    def carried(self, group: np.ndarray, d: np.ndarray, goal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """What columns at ``d = D/h`` carry (m, q), to ``goal`` (m, q), and the errors of the sums (m, q)."""
+    def carried(self, group: np.ndarray, d: np.ndarray, goal: np.ndarray, at_once: bool) -> tuple[np.ndarray, np.ndarray]:
+        """What columns at ``d = D/h`` carry (m, q), to ``goal`` (m, q), and the errors of the sums (m, q): the first
+        change from rule to rule may be small by chance, and is believed only if ``at_once``."""
         out, errors = np.zeros((d.size, self.laws.full.shape[1])), np.zeros((d.size, self.laws.full.shape[1]))
-        left, changes = np.flatnonzero(d > 0), Changes(_SURE, at_once=True)
-        for rule in RULES:
-            new = self._sums(group[left], d[left], *rule)
+        left, changes = np.flatnonzero(d > 0), Changes(_SURE, at_once, fastest=_FASTEST)
+        if not left.size:
+            return out, errors
+        columns = self._columns(group[left], d[left], goal[left, :-1:3].min(axis=1))
+        most = self.laws.most[columns.group]
+        if (most <= columns.allowed).all():
+            # whatever the sums are, friction that small may be missed
+            out[left] = self._sums(columns, *RULES[1 + int(goal[:, 1].min() < _ROUGH)])
+            errors[left, 0] = most
+            return out, errors
+        finest = (columns.allowed / np.maximum(most, np.finfo(float).tiny)).min()
+        for rule in RULES[np.count_nonzero(finest < _SHARP) if at_once else 0 :]:
+            new = self._sums(columns, *rule)
             miss = changes.after(new)
             done = (miss <= _QUADRATURE * goal[left]).all(axis=1) | (rule == RULES[-1])
             out[left[done]], errors[left[done]] = new[done], miss[done]
@@ -52,57 +70,71 @@ class Carrier:
             if not left.size:
                 break
             changes.keep(~done)
+            columns = columns.at(np.flatnonzero(~done))
         return out, errors
 
-    def _sums(self, group, d, strips: int, nodes: int):
-        out = np.zeros((d.size, self.laws.full.shape[1]))
+    def _columns(self, group, d, allowed) -> _Columns:
+        f = self.level.family
+        ends = np.zeros((d.size, 0))
+        part = np.flatnonzero(d < 0.5 * f.s_sat[group])
+        if part.size:
+            breaks = self.laws.breaks[group[part]] / (0.5 * self.pressure)
+            known = Span(d[part], f.s_sat[group[part]]).ends(f, self.peaks, group[part], breaks)
+            ends = np.zeros((d.size, known.shape[1]))
+            ends[part] = known
+        return _Columns(group, d, allowed, ends)
+
+    def _sums(self, columns, strips: int, nodes: int):
+        out = np.zeros((columns.d.size, self.laws.full.shape[1]))
         # so many columns at a time that memory stays bounded
         many = max(1, _CHUNK // (4 * strips * nodes))
-        for start in range(0, d.size, many):
+        for start in range(0, columns.d.size, many):
             some = slice(start, start + many)
-            out[some] = self._chunk(group[some], d[some], strips, nodes)
+            out[some] = self._chunk(columns.at(some), strips, nodes)
         return out
 
-    def _chunk(self, group, d, strips, nodes):
-        f = self.level.family
-        out = np.zeros((d.size, self.laws.full.shape[1]))
-        some = np.flatnonzero(d < 0.5 * f.s_sat[group])
+    def _chunk(self, columns, strips, nodes):
+        s_sat = self.level.family.s_sat[columns.group]
+        out = np.zeros((columns.d.size, self.laws.full.shape[1]))
+        some = np.flatnonzero(columns.d < 0.5 * s_sat)
         if some.size:
-            out[some] = self._partial(group[some], d[some], strips, nodes)
-        some = np.flatnonzero(d > 1)
+            out[some] = self._partial(columns.at(some), strips, nodes)
+        some = np.flatnonzero(columns.d > 1)
         if some.size:
-            out[some] += self._complete(group[some], d[some], strips, nodes)
+            out[some] += self._complete(columns.group[some], columns.d[some], strips, nodes)
         return out
 
-    def _partial(self, group, d, strips, nodes):
+    def _partial(self, columns, strips, nodes):
         """Strips in partial contact."""
-        f, peaks = self.level.family, self.peaks
-        span = Span(d, f.s_sat[group])
-        breaks = self.laws.breaks[group] / (0.5 * self.pressure)
-        at = span.panels(span.ends(f, peaks, group, breaks), strips)
-        known = f.values(group[at.column], at.s, slopes=True)
-        column = np.repeat(at.column, strips)
+        f, peaks, group = self.level.family, self.peaks, columns.group
+        at = Span(columns.d, f.s_sat[group]).panels(columns.ends, strips)
+        column, u, weight = np.repeat(at.column, strips), at.u.ravel(), at.weight.ravel()
         wave = Wave(self.foundation, self.rate[group[column]])
+        known = f.values(group[at.column], at.s, slopes=True)
         width = _inside(known[:, :, 2].ravel())
-        # families know pressures, not widths, as well as friction needs it: a step of Newton's towards the strip that
-        # is meant
-        miss = at.s.ravel() - wave.orbits(width, means=False).D
-        width = _inside(width / (2 * np.pi) + known[:, :, 5].ravel() * miss)
         orbits = wave.orbits(width, means=False)
+        missed = at.s.ravel() - orbits.D
+        steepest = 0.5 * self.pressure * self.laws.steepest[group]
+        # families know pressures, not widths, as well as friction may need it: a step of Newton's towards the strip that
+        # is meant
+        if (np.abs(missed) * u * steepest[column] > _MISSED * columns.allowed[column]).any():
+            width = _inside(width / (2 * np.pi) + known[:, :, 5].ravel() * missed)
+            orbits = wave.orbits(width, means=False)
+            missed = at.s.ravel() - orbits.D
         if not orbits.certified.all():
             raise SolverError("a strip without adhesion was not certified")
         self.strips += width.size
-        u = at.u.ravel()
         contact = ContactPressure(wave, orbits)
         crest = peaks.at(group[at.column], width.reshape(at.u.shape) / (2 * np.pi))[1].ravel()
-        edges, top = _passages(contact, crest, breaks[column] / u[:, None])
-        weight = at.weight.ravel() * width / (2 * np.pi)
+        edges, top = _passages(contact, crest, self.laws.breaks[group[column]] / (0.5 * self.pressure * u[:, None]))
+        weight *= width / (2 * np.pi)
         parts = _Parts.between(edges, top & np.isfinite(self.laws.p_full[group[column]]))
         x, w = parts.nodes(nodes)
         p = contact.at(x, parts.row) * (0.5 * self.pressure * u[parts.row, None])
         total = self.laws.averages(group, np.repeat(column[parts.row], nodes), p.ravel(), (weight[parts.row, None] * w).ravel())
+        total[:, -1] += np.bincount(column, weight * u * np.abs(missed), minlength=group.size) * steepest
         # where the pressure saturates all below there is nothing to sum
-        return total + np.bincount(column, weight * parts.saturated, minlength=d.size)[:, None] * self.laws.full[group]
+        return total + np.bincount(column, weight * parts.saturated, minlength=group.size)[:, None] * self.laws.full[group]
 
     def _complete(self, group, d, strips, nodes):
         """Strips in complete contact: one harmonic of the phase about the mean."""
@@ -137,6 +169,20 @@ class Carrier:
             group, np.repeat(column[parts.row], nodes), self.pressure * p.ravel(), (weight[parts.row, None] * w).ravel()
         )
         return total + np.bincount(column, weight * parts.saturated, minlength=d.size)[:, None] * self.laws.full[group]
+
+
+@dataclass(frozen=True)
+class _Columns:
+    """Columns (m,) at ``d``: the friction that a sum over them may miss (Pa), and the ends (m, e) of their panels."""
+
+    group: np.ndarray
+    d: np.ndarray
+    allowed: np.ndarray
+    ends: np.ndarray
+
+    def at(self, index) -> _Columns:
+        """The columns ``index``."""
+        return _Columns(self.group[index], self.d[index], self.allowed[index], self.ends[index])
 
 
 class _Parts:

@@ -125,7 +125,7 @@ def family(
         done = (error <= goal).all(axis=1) | (n == _LAST)
         for k in np.flatnonzero(done):
             g = left[k]
-            out.series[g], lost = _trimmed(over[k], _TRIMMED * goal[k])
+            out.series[g], lost = trimmed(over[k], _TRIMMED * goal[k])
             out.errors[g] = error[k] + lost
             out.top[g] = _xi(s[k, -1], s_sat[g])
         keep = np.flatnonzero(~done)
@@ -148,7 +148,7 @@ def _xi(s, s_sat):
     return np.arcsin(np.sqrt(np.clip(s / s_sat, 0.0, 1.0)))
 
 
-def _trimmed(c, goal):
+def trimmed(c, goal):
     """Coefficients without a tail that doesn't matter, and what is lost with it; sizes in steps, so that series of one
     size are evaluated together."""
     tail = np.cumsum(np.abs(c[::-1]), axis=0)[::-1]

@@ -43,9 +43,10 @@ def pressures(low, high, omega, quartic: bool):
 class BareLaws:
     """Laws of a level at velocities (G,): ``pieces`` that follow one another; ``breaks`` (G, k): the pressures that
     part the sharpest of them, ascending, inf for none; from ``p_full`` (G,) on everything below is saturated, with the
-    means ``full`` (G, q). ``top`` (G,): as far as the law goes, beyond it stays what it is there; ``steepest`` (G,): the
-    greatest slope of friction, own and carried, over pressure. Quantities: friction, contact, adhesion of the level,
-    then of each below; the last one bounds the error of all friction, Pa."""
+    means ``full`` (G, q). ``top`` (G,): as far as the law goes, beyond it stays what it is there; ``steepest``
+    (G,): the greatest slope of friction, own and carried, over pressure; ``most`` (G,): what it never exceeds.
+    Quantities: friction, contact, adhesion of the level, then of each below; the last one bounds the error of all
+    friction, Pa."""
 
     pieces: list[Piece]
     breaks: np.ndarray
@@ -53,6 +54,7 @@ class BareLaws:
     full: np.ndarray
     top: np.ndarray
     steepest: np.ndarray
+    most: np.ndarray
 
     def averages(self, group: np.ndarray, owner: np.ndarray, p: np.ndarray, weight: np.ndarray) -> np.ndarray:
         """Sums (m, q) over the nodes of each column, ``group`` (m,) its law, of the law at ``p`` by ``weight``

@@ -22,8 +22,11 @@ _RULES = (8, 12, 18, 27, 40, 60, 90)
 _QUADRATURE, _FASTEST, _SURE = 0.5, 0.25, 2.0
 #: a level's sum is not believed to gain more than this from rule to rule
 _PACE = 0.3
-#: penetrations are looked for to this, what is left being taken up by slopes; and steps
-_CLOSE, _STEPS = 1e-7, 60
+#: penetrations are looked for to this, or pressures to that, or to this share of what is not known of them, what is left
+#: being taken up by slopes; and steps
+_CLOSE, _MET, _BLURRED, _STEPS = 1e-5, 1e-7, 1e-2, 60
+#: penetrations that are looked at first
+_LOOKS = 32
 #: share of what is allowed below which no error is claimed to be
 _TOLD = 1e-3
 #: least penetration in heights
@@ -54,10 +57,12 @@ def mapped_slope(t):
 class Changes:
     """What sums by finer and finer rules change, and so what the last one may miss. A change that is small by chance,
     as they are where an integrand has a layer or a kink, is not believed; ``sure``: how much more than a change is
-    feared; ``pace``: no more than this is believed to be gained from rule to rule."""
+    feared; ``pace``: no more than this is believed to be gained from rule to rule; ``fastest``: nor are changes to
+    fall faster."""
 
-    def __init__(self, sure: float, at_once: bool = False, pace: float = 1.0):
-        self.sure, self.at_once, self.pace, self.sums, self.change = sure, at_once, pace, None, None
+    def __init__(self, sure: float, at_once: bool = False, pace: float = 1.0, fastest: float = _FASTEST):
+        self.sure, self.at_once, self.pace, self.fastest = sure, at_once, pace, fastest
+        self.sums, self.change = None, None
 
     def after(self, sums: np.ndarray) -> np.ndarray:
         """Error of the ``sums`` (m, q) by the next rule; of the first change nothing is concluded, unless it is
@@ -70,7 +75,7 @@ class Changes:
         if last is None:
             return self.sure * change if self.at_once else np.full_like(sums, np.inf)
         pace = np.divide(change, last, out=np.ones_like(change), where=last > change)
-        return self.sure * np.maximum(change, _FASTEST * last) * np.maximum(pace, self.pace)
+        return self.sure * np.maximum(change, self.fastest * last) * np.maximum(pace, self.pace)
 
     def keep(self, which) -> None:
         """Go on with the rows ``which``."""
@@ -183,7 +188,7 @@ class Level:
         """d at which the mean pressure (K h) is ``p`` (m,), between 0 and that of saturation: Newton on the root of
         the pressure, which is nearly linear."""
         low, high = p.copy(), np.minimum(p + 0.75, 0.5 * self.family.s_sat[group])
-        d = np.clip(np.sqrt(2 * p), low, high)
+        d = np.clip(self._looked_up(group, p), low, high)
         left = np.arange(p.size)
         for _ in range(_STEPS):
             at = self.means(group[left], d[left], _RULES[1], True)
@@ -193,9 +198,28 @@ class Level:
             new = d[left] - np.divide(miss, slope, out=np.full_like(miss, np.inf), where=slope > 0)
             inside = (new >= low[left]) & (new <= high[left])
             new = np.where(inside, new, 0.5 * (low[left] + high[left]))
+            known = _BLURRED * self.family.errors[group[left], 0]
+            off = np.abs(at[:, 0] - p[left]) > np.maximum(_MET * p[left], known)
+            left, new = left[off], new[off]
             moved = np.abs(new - d[left])
             d[left] = new
             left = left[moved > _CLOSE * new]
             if not left.size:
                 break
         return d
+
+    def _looked_up(self, group, p):
+        """About what ``penetrations`` finds, from a few of them."""
+        which, row = np.unique(group, return_inverse=True)
+        most = np.zeros(which.size)
+        np.maximum.at(most, row, p)
+        # roots of the pressure are nearly linear
+        d = np.minimum(most + 0.75, 0.5 * self.family.s_sat[which])[:, None] * np.linspace(0, 1, _LOOKS + 1)[1:] ** 2
+        d = np.minimum(d, 0.5 * self.family.s_sat[which, None] * (1 - 4 * _EPS))
+        known = self.means(np.repeat(which, _LOOKS), d.ravel(), _RULES[0])[:, 0].reshape(d.shape)
+        known = np.sqrt(np.maximum.accumulate(np.maximum(known, 0.0), axis=1))
+        out = np.empty_like(p)
+        for k in range(which.size):
+            mine = row == k
+            out[mine] = np.interp(np.sqrt(p[mine]), np.append(0.0, known[k]), np.append(0.0, d[k]))
+        return out

@@ -14,28 +14,30 @@ from hystrip.solver import Foundation
 from ..chebyshev import interpolation_errors, lobatto
 from ..strips import Tally
 from .carried import Carrier
-from .family import coefficients_over, family
+from .family import coefficients_over, family, trimmed
 from .law import BareLaws, Piece, pressures
 from .means import CANCELLED, Level
 from .peaks import Peaks, peak, peaks_of
 
 #: nodes of a piece of a law, tried in turn
-_NODES = (8, 16, 32, 64, 128)
+_NODES = (16, 32, 64, 128)
 #: of what is allowed: what interpolating a law may err, what its values may, and what a strip's means may
-_INTERPOLATION, _VALUES, _STRIPS = 0.3, 0.3, 2.0
+_INTERPOLATION, _VALUES, _STRIPS = 1.0, 0.6, 2.0
 #: contact fractions are interpolated no finer than this, and on no more nodes
 _CONTACT, _FOR_CONTACT = 1e-5, 16
-_SHARES = 3e-5
+_SHARES = 1e-4
 #: an accuracy in parts of the greatest friction from which on a law is only parted where it is least smooth
 _BLUNT = 1e-4
+#: share of what is allowed that is cut off a series
+_TRIMMED = 0.03
 #: how much more than the estimated error of a law is feared
 _SURE = 2.0
+#: slope of friction over pressure, k h, that is never reached
+_STEEPEST = 2.0
 #: slopes of a law are looked at over steps of at least this share of the pressure
 _STEP = 1e-3
 #: by how much more a greatest pressure is allowed for
 _BETWEEN = 1.02
-#: looks, and how often they are narrowed, at where it passes a break of the law below
-_LOOKS, _NARROWINGS = 17, 3
 _EPS = np.finfo(float).eps
 
 
@@ -174,7 +176,8 @@ class BareStack:
             goal = np.stack((*(2 * [allowed[part] / friction]), np.full(part.size, self.wanted.rtol)), axis=1)
             means, errors = level.sure_means(g, d[part], goal, True)
             rise = np.where(means[:, 3] > 0, means[:, 3], np.inf)
-            by_pressure = means[:, 4] / rise
+            # friction is pressure times slope: where means of next to nothing vary by chance they say nothing else
+            by_pressure = np.clip(means[:, 4] / rise, -_STEEPEST, _STEEPEST)
             lift = 0.0 if p is None else p[part] / unit - means[:, 0]
             d[part] += lift / rise
             own[part, 0], own[part, 1] = (means[:, 1] + by_pressure * lift) * friction, means[:, 2]
@@ -186,7 +189,7 @@ class BareStack:
         carrier = self.carrier(i, laws)
         goal = np.full((d.size, laws.full.shape[1]), max(self.wanted.rtol, _SHARES))
         goal[:, :-1:3], goal[:, -1] = allowed[:, None], np.inf
-        carried, errors = carrier.carried(group, d, goal)
+        carried, errors = carrier.carried(group, d, goal, at_once=i > 0)
         self.tally.solved += carrier.strips
         error += errors[:, :-1:3].sum(axis=1) + carried[:, -1]
         # local pressures are as uncertain as a strip's means, and change friction by the law's slope
@@ -209,54 +212,23 @@ class BareStack:
         near = np.diff(ends, axis=1) <= 1e-6 * np.minimum(ends[:, 1:], unit)
         for j in np.flatnonzero(near.any(axis=0)):
             ends[near[:, j], j + 1] = ends[near[:, j], j]
-        pieces, steepest = self._pieces(i, ends, below)
+        pieces, steepest, most = self._pieces(i, ends, below)
         p_full = np.where(top >= self.p_full[i], self.p_full[i], np.inf)
         breaks = np.where(own < np.where(np.isinf(p_full), top, np.inf)[:, None], own, np.inf)
-        return BareLaws(pieces, breaks, p_full, self._saturated(i), top, steepest)
+        return BareLaws(pieces, breaks, p_full, self._saturated(i), top, steepest, most)
 
     def _met(self, i, below: BareLaws):
-        """Pressures at which the greatest local pressure of level i, the least one of its crests, or that at the edges
-        of its cells passes a break of the law below, (G, k)."""
+        """Pressures at which that at the edges of the cells of level i, all one, passes a break of the law below, (G, k)."""
         at, unit = self.levels[i], self.units[i]
-        local = np.where(np.isfinite(below.breaks), below.breaks, np.nan) / unit
-        s_sat = at.family.s_sat[:, None]
-        d = [0.5 * s_sat + local, 1 + local, self._peaking(i, local)]
-        out = np.concatenate(d, axis=1)
-        row, column = np.nonzero(np.isfinite(out) & (out > 0))
-        p = np.full(out.shape, np.inf)
-        x, part = out[row, column], out[row, column] < 0.5 * at.family.s_sat[row]
-        pressure = x - 0.75
+        d = 1 + below.breaks / unit
+        row, column = np.nonzero(np.isfinite(d))
+        p = np.full(d.shape, np.inf)
+        x = d[row, column]
+        pressure, part = x - 0.75, x < 0.5 * at.family.s_sat[row]
         if part.any():
             pressure[part] = at.means(row[part], x[part], 18)[:, 0]
         p[row, column] = pressure * unit
         return p
-
-    def _peaking(self, i, local):
-        """d at which the greatest local pressure of level i is ``local`` (K h, (G, k)); nan for what is not met."""
-        low = np.zeros(local.shape)
-        high = np.broadcast_to(self._penetrations(i, self.groups, self.ceilings[i])[:, None], local.shape).copy()
-        met = np.isfinite(local) & (local > 0)
-        for _ in range(_NARROWINGS):
-            share = np.linspace(0, 1, _LOOKS)
-            d = low[..., None] + (high - low)[..., None] * share
-            group = np.broadcast_to(self.groups[:, None, None], d.shape)
-            peak = self._peak(i, group.ravel(), d.ravel()).reshape(d.shape)
-            met &= local < peak[..., -1]
-            reached = np.clip((peak < local[..., None]).sum(axis=-1), 1, _LOOKS - 1)[..., None]
-            low, high = (np.take_along_axis(d, reached - side, axis=-1)[..., 0] for side in (1, 0))
-        return np.where(met, 0.5 * (low + high), np.nan)
-
-    def _peak(self, i, group, d):
-        """Greatest local pressure of level i at ``d`` (m,), K h."""
-        at = self.levels[i]
-        s_sat = at.family.s_sat[group]
-        out = np.where(d > 0, d - 1 + 0.5 * s_sat, 0.0)
-        part = np.flatnonzero((d > 0) & (d < 0.5 * s_sat))
-        if part.size:
-            g = group[part]
-            share = at.family.values(g, 2 * d[part, None])[:, :, 2]
-            out[part] = np.minimum(out[part], 0.5 * self.peaks[i].at(g, share)[0][:, 0])
-        return out
 
     def _at_height(self, i):
         """Pressure at D = h."""
@@ -279,12 +251,12 @@ class BareStack:
 
     def _pieces(self, i, ends, below):
         """Pieces between the ``ends`` (G, pieces + 1) of each law, all together; and of each law the
-        greatest slope of friction, (G,)."""
+        greatest slope of friction, and a bound of its size, (G,)."""
         G, J, q = self.V.size, ends.shape[1] - 1, 3 * (len(self.waves) - i) + 1
         group, piece = np.nonzero(np.diff(ends, axis=1) > 0)
         low, high, wanted = ends[group, piece], ends[group, piece + 1], self.wanted.of(i)[group]
         series: list[np.ndarray] = [np.zeros((1, q))] * group.size
-        steep = np.zeros(G)
+        steep, most = np.zeros(G), self._saturated(i)[:, ::3].sum(axis=1)
         left, values, worst = np.arange(group.size), None, np.zeros(group.size)
         for n in _NODES:
             omega = lobatto(n) if values is None else lobatto(n)[1::2]
@@ -311,9 +283,11 @@ class BareStack:
             nodes = pressures(np.zeros(1), np.ones(1), lobatto(n), False)[0]
             for k in np.flatnonzero(done):
                 j, g = left[k], group[left[k]]
+                kept, lost = trimmed(c[k, :, 1:], _TRIMMED * goal[k, 1:])
+                most[g] = max(most[g], np.abs(c[k, :, 0]).sum())
                 # one bound of the error of friction for all of a piece
-                series[j] = np.pad(c[k, :, 1:], ((0, 0), (0, 1)))
-                series[j][0, -1] = _SURE * miss[k, 0] + worst[j]
+                series[j] = np.pad(kept, ((0, 0), (0, 1)))
+                series[j][0, -1] = _SURE * miss[k, 0] + worst[j] + lost[::3].sum()
                 share = nodes**2 if piece[j] == 0 else nodes
                 rise, step = np.abs(np.diff(total[k, :, 0])), np.diff((high[j] - low[j]) * share)
                 # differences of pressures that rounding or quadrature would make slopes of are none
@@ -325,7 +299,7 @@ class BareStack:
         table = np.zeros((G, J, max((s.shape[0] for s in series), default=1), q))
         for g, j, s in zip(group, piece, series, strict=True):
             table[g, j, : s.shape[0]] = s
-        return [Piece(ends[:, j], ends[:, j + 1], table[:, j], j == 0) for j in range(J)], steep
+        return [Piece(ends[:, j], ends[:, j + 1], table[:, j], j == 0) for j in range(J)], steep, most
 
 
 def _merged(old, fresh):
