@@ -29,7 +29,7 @@ RUNTIME: dict[str, tuple[tuple[str, str, str], ...]] = {
         ("level/means.py", "level_means", "return average("),
         ("level/means.py", "equal_strips", "mean = values.mean"),
     ),
-    "multilevel.local_shear": (("level/strips.py", "integrand", "np.concatenate((values, carried)"),),
+    "multilevel.local_shear": (("level/strips.py", "_values", "np.concatenate((strips.values, carried)"),),
     "multilevel.carried_friction": CARRIED,
     "modes.levels.carried_friction": CARRIED,
     "multilevel.friction_coefficient": (("solve.py", "_result", "mu = np.divide"),),

@@ -63,7 +63,8 @@ def cells_of(
     which, c, start, sizes = (np.concatenate(v) for v in zip(*found, strict=True))
     order = np.lexsort((start, which))
     parts = np.split(order, np.searchsorted(which[order], np.arange(1, count)))
-    return [Cells(np.swapaxes(c[i], 0, 1), start[i], sizes[i], np.repeat(np.arange(i.size), sizes[i]), error[k]) for k, i in enumerate(parts)]
+    c = np.swapaxes(c, 0, 1)
+    return [Cells(c[:, i], start[i], sizes[i], np.repeat(np.arange(i.size), sizes[i]), error[k]) for k, i in enumerate(parts)]
 
 
 def slot(x: np.ndarray) -> np.ndarray:
