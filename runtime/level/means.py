@@ -16,8 +16,10 @@ def level_means(columns: Columns, rtol: np.ndarray, hints: Hints | None = None) 
         return equal_strips(columns, columns.strips)
     q = columns.scales.size
     floor = np.broadcast_to(columns.floors, (columns.size, q))
+    # curves of many means need not be exact where that is to be had
+    costless = np.zeros_like if columns.frictional else columns.saturated
     known = columns.transitions()
-    return average(columns.integrand, columns.probe, columns.guide, known, floor, rtol, q, hints, columns.saturated)
+    return average(columns.integrand, columns.probe, columns.guide, known, floor, rtol, q, hints, costless)
 
 
 def equal_strips(columns: Columns, strips: int) -> Averages:
