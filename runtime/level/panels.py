@@ -35,6 +35,8 @@ _CROWD = 150
 _EPS = np.finfo(float).eps
 #: a panel's part of what a column may err, and that of the slivers in which transitions are bracketed
 _SHARE, _SLIVER = 0.4, 0.03
+#: share of it below which no panel's error is claimed to be: a layer may be too thin to show at its nodes
+_TOLD = 1e-5
 
 
 @dataclass(frozen=True, slots=True)
@@ -337,9 +339,9 @@ class _Work:
         goal = self.rtol[:, None] * (np.abs(total) + np.pi * self.floor)
         done = (error <= _SHARE * goal[panels.column] + 2 * rounding).all(axis=1)
         if values.shape[1] + 1 < _COSTLESS:
-            done &= ~self.columns.saturated(codes)
+            done &= ~self.columns.costless(codes)
         np.add.at(self.values, panels.column[done], fine[done])
-        np.add.at(self.errors, panels.column[done], error[done])
+        np.add.at(self.errors, panels.column[done], (error + _TOLD * goal[panels.column] * (error > 0))[done])
         self._keep(panels.take(done), codes[done], values[done])
         return done
 

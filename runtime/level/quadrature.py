@@ -13,14 +13,16 @@ _EPS = np.finfo(float).eps
 #: coefficients in the middle of a series that those at its end are held against: one may be small by chance
 _MIDDLE = 3
 #: fastest pace believed of coefficients, by number of nodes, and the slowest that is told apart from a slower one
-_FASTEST, _SLOWEST = {8: 0.54, 16: 0.42, 32: 0.65}, 0.97
+_FASTEST, _SLOWEST = {8: 0.65, 16: 0.42, 32: 0.65}, 0.97
 #: number of nodes from which on coefficients are many; up to it and from it on, the ratio of the last coefficients to the middle
 #: ones below which they surely fall geometrically
 _MANY, _GEOMETRIC = 16, (0.15, 0.05)
 #: ratio of them above which they may fall by a power only, and how much more than by that of the last ones the next may count
 _POWER, _TURNS = 0.2, 2.5
 #: how much more is feared than what is left at the pace that coefficients fall at
-_SAFE = 3.0
+_SAFE = 2.0
+#: weight of the pace among the last coefficients, against that since the middle
+_RECENT = 0.7
 #: all quantities share their singularities: power of the roughest one's size, relative to its own, in that of every other one
 _COMMON = 0.2
 #: coefficients below this share of a change that doesn't matter say nothing of a pace
@@ -125,7 +127,7 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     doubtful = _SAFE * np.maximum(first, second)
     # as those of a kink may fall: by a power, and coming and going; so the next ones by as much as these
     slow = np.where(ratio > _POWER, np.maximum(doubtful, _TURNS * size * ratio), doubtful)
-    return np.where(sure, _SAFE * np.sqrt(first * second), slow)
+    return np.where(sure, _SAFE * first ** (1 - _RECENT) * second**_RECENT, slow)
 
 
 def _ratio(last, first):

@@ -176,10 +176,10 @@ class Columns:
             return codes
         return codes + len(CODE) * self.carry.crossed(kernel_of(self.material), strips, self.group[column])
 
-    @staticmethod
-    def saturated(codes: np.ndarray) -> np.ndarray:
-        """Which ``codes`` are of strips in saturated contact: their means take no search."""
-        return codes % len(CODE) == CODE["c"]
+    def costless(self, codes: np.ndarray) -> np.ndarray:
+        """Which ``codes`` are of strips whose means take no search and may as well be summed exactly: those in saturated contact,
+        except where many means make one curve."""
+        return (codes % len(CODE) == CODE["c"]) & (not self.frictional)
 
     def transitions(self) -> list[np.ndarray]:
         """Thetas of the transitions known in closed form, for every column: where strips become saturated, where they lose

@@ -20,6 +20,8 @@ _RULES = (8, 12, 18, 27, 40, 60, 90)
 #: share of what is allowed that a sum over nodes may miss, the fastest that its changes are believed to fall, and how
 #: much more than a change is feared
 _QUADRATURE, _FASTEST, _SURE = 0.5, 0.25, 2.0
+#: share of the roughest quantity's first change, both relative, that every other one is taken to have at least
+_SHARED = 0.1
 #: a level's sum is not believed to gain more than this from rule to rule
 _PACE = 0.3
 #: penetrations are looked for to this, or pressures to that, or to this share of what is not known of them, what is left
@@ -72,8 +74,12 @@ class Changes:
             return np.full_like(sums, np.inf)
         change, last = np.abs(sums - self.sums), self.change
         self.sums, self.change = sums, change
+        if last is None and self.at_once:
+            # alone it may be small by chance: all quantities change where one does
+            roughest = np.divide(change, np.abs(sums), out=np.zeros_like(change), where=sums != 0).max(axis=1, keepdims=True)
+            return self.sure * np.maximum(change, _SHARED * roughest * np.abs(sums))
         if last is None:
-            return self.sure * change if self.at_once else np.full_like(sums, np.inf)
+            return np.full_like(sums, np.inf)
         pace = np.divide(change, last, out=np.ones_like(change), where=last > change)
         return self.sure * np.maximum(change, self.fastest * last) * np.maximum(pace, self.pace)
 
