@@ -1,6 +1,8 @@
 """What the fast proofs claim about orbits, against a dense scan of the onset map and against the search, on hanging and slow
 strips."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -119,6 +121,27 @@ def test_strips_said_to_hang_or_not_to_cling_have_no_such_orbit():
         assert clings.sum() > 1000 and not (clings & not_clinging).any()
         others = ~clings & may_cling(kernel, s) & (s.beta > balance.SLOW)
         assert not_clinging[others].mean() > 0.5
+
+
+def test_next_to_the_end_of_a_branch_stable_onsets_lie_where_they_are_sought_and_none_is_passed_over():
+    """Strips that hang as low as an orbit with an onset allows, to a thousandth, and lower by up to a tenth."""
+    s = strips(8, 12_000, "hanging")
+    s = s.take(np.flatnonzero(solve_strips(kernel, s, unloading=True).code == CODE["acaf"]))
+    high, low = s.D, -s.delta_0 - s.p_0
+    for _ in range(10):
+        middle = 0.5 * (low + high)
+        there = solve_strips(kernel, replace(s, D=middle), unloading=True).code == CODE["acaf"]
+        low, high = np.where(there, low, middle), np.where(there, middle, high)
+    cycle, orbit = known_orbits(replace(s, D=high), unloading=True)
+    assert orbit.x.size == s.size > 800
+    for factor in (0.5, 1.0, 2.0):
+        lo, hi = balance._stable_within(kernel, cycle, np.minimum(factor * balance._held_best(cycle), np.pi))
+        assert np.all((lo <= -orbit.x) & (-orbit.x <= hi))
+    for lower in (0.0, 0.003, 0.01, 0.03, 0.1):
+        cycle = adhesive_cycle(kernel, replace(s, D=high - lower * (s.p_0 + np.abs(high))))
+        none, found = balance.none_hangs(kernel, cycle)[0], isolate(kernel, cycle, last=False).found
+        assert not (none & found).any()
+    assert none.sum() > 500
 
 
 def test_what_has_an_orbit_before_it_is_not_proven_to_have_none():
