@@ -1,6 +1,8 @@
 """What the fast proofs claim about orbits, against a dense scan of the onset map and against the search, on hanging and slow
 strips."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -47,14 +49,14 @@ def known_orbits(s: Strips, unloading: bool):
 
 
 def crossed_before(cycle, x):
-    """Where the onset map goes back from some onset before x: an orbit lies before that one or, engaged all along, beyond the
-    arc."""
+    """The last onset before x from which the onset map goes back, NaN if there is none: an orbit lies before it or, engaged all
+    along, beyond the arc."""
     low = cycle.centre - cycle.half_d
     shares = (np.arange(SCANNED) + 0.5) / SCANNED
     onsets = low + 0.999 * shares[:, None] * (x - low)
     orbit, _ = march(kernel, cycle.take(np.tile(np.arange(cycle.size), SCANNED)), onsets.ravel())
     back = ~orbit.engaged & (orbit.r < -1e-12 * (1 + np.abs(orbit.w_end)))
-    return back.reshape(SCANNED, -1).any(axis=0)
+    return np.fmax.reduce(np.where(back, onsets.ravel(), np.nan).reshape(SCANNED, -1))
 
 
 def proofs(cycle, orbit):
@@ -65,7 +67,7 @@ def proofs(cycle, orbit):
 @pytest.mark.parametrize("where", ["hanging", "pressed"])
 def test_the_first_orbit_is_proven_to_be_the_first(where):
     cycle, orbit = known_orbits(strips(1, 4000, where), unloading=True)
-    assert not crossed_before(cycle, orbit.x).any()
+    assert np.isnan(crossed_before(cycle, orbit.x)).all()
     by_balance, by_marches = proofs(cycle, orbit)
     assert by_balance.mean() > 0.9 and by_marches.mean() > 0.85 and (by_balance | by_marches).mean() > 0.97
 
@@ -121,11 +123,36 @@ def test_strips_said_to_hang_or_not_to_cling_have_no_such_orbit():
         assert not_clinging[others].mean() > 0.5
 
 
+def test_next_to_the_end_of_a_branch_stable_onsets_lie_where_they_are_sought_and_none_is_passed_over():
+    """Strips that hang as low as an orbit with an onset allows, to a thousandth, and lower by up to a tenth."""
+    s = strips(8, 12_000, "hanging")
+    s = s.take(np.flatnonzero(solve_strips(kernel, s, unloading=True).code == CODE["acaf"]))
+    high, low = s.D, -s.delta_0 - s.p_0
+    for _ in range(10):
+        middle = 0.5 * (low + high)
+        there = solve_strips(kernel, replace(s, D=middle), unloading=True).code == CODE["acaf"]
+        low, high = np.where(there, low, middle), np.where(there, middle, high)
+    cycle, orbit = known_orbits(replace(s, D=high), unloading=True)
+    assert orbit.x.size == s.size > 800
+    for factor in (0.5, 1.0, 2.0):
+        lo, hi = balance._stable_within(kernel, cycle, np.minimum(factor * balance._held_best(cycle), np.pi))
+        assert np.all((lo <= -orbit.x) & (-orbit.x <= hi))
+    for lower in (0.0, 0.003, 0.01, 0.03, 0.1):
+        cycle = adhesive_cycle(kernel, replace(s, D=high - lower * (s.p_0 + np.abs(high))))
+        none, found = balance.none_hangs(kernel, cycle)[0], isolate(kernel, cycle, last=False).found
+        assert not (none & found).any()
+    assert none.sum() > 500
+
+
 def test_what_has_an_orbit_before_it_is_not_proven_to_have_none():
     """Strips that may be in saturated contact, and the orbits that let go in spite of it: unstable ones lie before them."""
     cycle, orbit = known_orbits(strips(3, 10_000, "saturated"), unloading=False)
-    before = crossed_before(cycle, orbit.x)
+    onset = crossed_before(cycle, orbit.x)
+    before = ~np.isnan(onset)
     assert before.sum() > 40
+    # from there on it turns forward again at an unstable orbit
+    suspects = balance._suspects(kernel, cycle, exclusion.closed(kernel, cycle, orbit))
+    assert (suspects <= -onset)[before].all()
     by_balance, by_marches = proofs(cycle, orbit)
     assert not (by_balance & before).any() and not (by_marches & before).any()
 

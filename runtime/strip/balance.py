@@ -24,7 +24,8 @@ negative: a and c lie between 0 and pi.
   adheres after its contact w falls from where that ended, on or behind the crest; so it is at most u(e) after any phase e up to
   which contact is certain to last. As V grows towards the valley, V(lo) stands for V(xi).
 
-What is always engaged is bounded alike: in the valley its gap is at most delta_0, as from an onset there.
+What is always engaged is bounded alike: in the valley its gap is at most delta_0, as from an onset there. Where nothing is, the
+most engaged orbit is what more engaged states fall to: if it has an onset, the slope T' of the onset map is not above one there.
 
 If l is an orbit or a march that meets contact, suppose that there is an orbit with an earlier onset.
 
@@ -232,10 +233,10 @@ def _stable_within(kernel, cycle: Cycle, guess):
     onset, release = gains(cycle)
     # low onsets: F and M grow with xi and c up to the middle of their arcs
     lo = np.minimum(_LOWER * guess, np.minimum(-cycle.centre, cycle.centre + np.pi))
-    height = _versine(lo)
-    c = _arc(height + cycle.jump + (height - s.D - s.delta_0) * np.expm1(TWO_PI / s.beta) + _noise(s))
+    height = _versine(lo) + _noise(s)
+    c = _arc(height + cycle.jump + (height - s.D - s.delta_0) * np.expm1(TWO_PI / s.beta))
     begun = np.minimum(_arc(height - cycle.gap_on + lo / s.beta * s.p_0), lo)
-    longest = begun + _arc(_versine(c) - s.delta_0)
+    longest = begun + _arc(_versine(c) - s.delta_0 + _noise(s))
     lo = np.where((c < cycle.centre + np.pi) & _unstable(kernel, cycle, lo, c, longest), lo, 0.0)
     # high onsets: they fall beyond it, and c is more than xi
     sine = np.minimum(_LOWER * (onset + release) / (TWO_PI * (1 + s.L * s.beta / s.alpha)), 1.0)
@@ -248,7 +249,8 @@ def _unstable(kernel, cycle: Cycle, xi, c, longest):
     longer than ``longest``."""
     onset, release = gains(cycle)
     F, M = onset_margin(kernel, cycle, -xi), release_margin(kernel, cycle, c)
-    gain = np.log1p(onset / np.maximum(F, 0.0)) + np.log1p(release / np.maximum(M, 0.0))
+    blur = _noise(cycle.strips) + 64 * _EPS * cycle.strips.beta
+    gain = np.log1p(onset / (np.maximum(F, 0.0) + blur)) + np.log1p(release / (np.maximum(M, 0.0) + blur))
     return gain > (1 + 64 * _EPS) * fading(cycle, longest)
 
 

@@ -50,11 +50,8 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
     index, part = np.arange(n), cycle
     # where a link is lost to rounding or overflows the step is no number, and the strip is left to the search
     with np.errstate(all="ignore"):
-        before = np.full((2, n), np.nan)
         for iteration in range(1, iterations + 1):
-            constant, linear, value, slope = _reduced(*links(kernel, part, sequence, edges))
-            move = constant + linear * _bent(value, slope, (slope - before[1]) / (edges[0] - before[0]))
-            before = np.array([edges[0], slope])
+            move = _step(*links(kernel, part, sequence, edges))
             size = np.abs(move).max(axis=0)
             edges = moved(edges, move, low, high, size)
             if iteration < together:
@@ -65,7 +62,7 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
                 if not going.size:
                     break
                 index, part = index[going], part.take(going)
-                edges, before, low, high = edges[:, going], before[:, going], low[:, going], high[:, going]
+                edges, low, high = edges[:, going], low[:, going], high[:, going]
         step, sense = _refined(kernel, cycle, sequence, result)
         spent += 1
         correction = np.abs(step).max(axis=0)
@@ -149,27 +146,15 @@ def links(kernel, cycle: Cycle, sequence: str, edges):
     return zip(*found, strict=True)
 
 
-def _reduced(values, before, after):
-    """The chain as one equation for the onset: edges move by the first (k, n), and by the second per step of the onset; value and
-    slope of the closing link."""
+def _step(values, before, after):
+    """Newton step of the edges (k, n)."""
     constant, linear = [np.zeros_like(values[0])], [np.ones_like(values[0])]
     for value, back, on in zip(values[:-1], before[:-1], after[:-1], strict=True):
         constant.append(-(value + back * constant[-1]) / on)
         linear.append(-back * linear[-1] / on)
-    return np.array(constant), np.array(linear), values[-1] + before[-1] * constant[-1], after[-1] + before[-1] * linear[-1]
-
-
-def _step(values, before, after):
-    """Newton step of the edges (k, n)."""
-    constant, linear, value, slope = _reduced(values, before, after)
-    return constant - linear * value / slope
-
-
-def _bent(value, slope, bend):
-    """Step of the onset to where a parabola vanishes, next to a fold Newton's goes only half the way to it; Newton's where there
-    is no parabola, or it does not vanish."""
-    root = slope**2 - 2 * value * bend
-    return -2 * value / (slope + np.where(root > 0, np.copysign(np.sqrt(np.maximum(root, 0.0)), slope), slope))
+    slope = -before[-1] * linear[-1] / after[-1]
+    first = (values[-1] + before[-1] * constant[-1]) / (after[-1] * (slope - 1))
+    return np.array([k + m * first for k, m in zip(constant, linear, strict=True)])
 
 
 def _refined(kernel, cycle: Cycle, sequence: str, edges):
