@@ -211,7 +211,10 @@ def test_strips_grow_no_faster_than_levels():
     strips = [counted(SIMILAR[:n], 1e-3) for n in (1, 2, 3, 4, 8)]
     assert (np.diff(strips) > 0).all()
     third, last = strips[2] - strips[1], (strips[4] - strips[3]) / 4
-    assert last <= 2 * third and strips[4] <= 30_000
+    assert last <= 2 * third and strips[4] <= 6_000
+    # and little is added by levels whose friction hardly counts, at a tight tolerance too
+    tight = [counted(SIMILAR[:n], 1e-6) for n in (3, 4, 8)]
+    assert tight[2] - tight[1] <= 2 * (tight[1] - tight[0]) and tight[2] <= 30_000
 
 
 @pytest.mark.parametrize("rtol", [1e-3, 1e-8])

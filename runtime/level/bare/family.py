@@ -23,7 +23,7 @@ from .orbit import Wave
 _FIRST, _LAST = 8, 512
 #: a family is sampled this far beyond the penetration that is asked for, at most
 _BEYOND = 4.0
-_STEPS = 12
+_STEPS, _CLOSE = 12, 1e-9
 #: nothing is sampled finer than this many roundings; and the share of what is allowed that is cut off a series
 _FINEST, _TRIMMED = 256, 0.03
 #: slope of the width of contact over s, averaged over a level, in parts of its mean slope
@@ -241,7 +241,8 @@ def _resampled(s, values, s_sat):
         new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
         moved = np.abs(new - x).max()
         x = new
-        if moved <= 8 * _EPS:
+        # the step after it would be about its square
+        if moved <= _CLOSE:
             break
     x[:, 0], x[:, -1] = -1.0, 1.0
     return coefficients_over(evaluated(both[:, :, 1:], x))

@@ -9,12 +9,13 @@ the one in which the mean pressure is positive.
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
 
 from hystrip.modes.polish import arguments
-from hystrip.modes.problem import ModeStrips
+from hystrip.modes.problem import ModeStrips, take_modes
 from hystrip.solver import Foundation
 from hystrip.strip.problem import Strips
 from hystrip.strip.solved import groups
@@ -53,6 +54,15 @@ class Wave:
             one = np.ones(rate.size)
             self.times = rate * m.T_sigma, rate * m.T_eps, m.J * one, m.L * one
 
+    def at(self, index: np.ndarray) -> Wave:
+        """The strips ``index``."""
+        chosen = copy(self)
+        if self.many:
+            chosen.m = take_modes(self.m, index)
+        else:
+            chosen.times = tuple(v[index] for v in self.times)
+        return chosen
+
     def strips(self, D):
         """The strips with these penetrations, (N,)."""
         none = np.zeros(D.size)
@@ -75,10 +85,12 @@ class Wave:
     def orbits(self, width: np.ndarray, means: bool = True) -> Orbits:
         """The strips whose contact is so wide, radians between 0 and 2 pi, (N,); their ``means`` are nan if not
         wanted."""
-        none, up = np.zeros(width.size), np.full(width.size, 0.5 * np.pi)
-        penetrate = self.residual(none, width, np.full(width.size, _HUGE)) / _HUGE
-        # without D: what multiplies cos m, and sin m
-        cosine, sine = (penetrate[1] * r[0] - penetrate[0] * r[1] for r in (self.residual(m, width, none) for m in (none, up)))
+        N, none = width.size, np.zeros(width.size)
+        # all at once: with D alone, and without it what multiplies cos m, and sin m
+        middles, penetrations = np.repeat((0.0, 0.0, 0.5 * np.pi), N), np.repeat((_HUGE, 0.0, 0.0), N)
+        three = self.at(np.tile(np.arange(N), 3)).residual(middles, np.tile(width, 3), penetrations).reshape(2, 3, N)
+        penetrate = three[:, 0] / _HUGE
+        cosine, sine = (penetrate[1] * three[0, k] - penetrate[0] * three[1, k] for k in (1, 2))
         middle = np.arctan2(-cosine * np.sign(sine), np.abs(sine))
         # D from both equations, each as far as it depends on it
         left = self.residual(middle, width, none)

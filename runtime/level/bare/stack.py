@@ -25,7 +25,8 @@ _NODES = (16, 32, 64, 128)
 _INTERPOLATION, _VALUES, _STRIPS = 1.0, 0.6, 2.0
 #: contact fractions are interpolated no finer than this, and on no more nodes
 _CONTACT, _FOR_CONTACT = 1e-5, 16
-_SHARES = 1e-4
+#: they are averaged no finer and, on however little of the surface, no coarser than this
+_SHARES, _COARSE = 1e-4, 1e-2
 #: an accuracy in parts of the greatest friction from which on a law is only parted where it is least smooth
 _BLUNT = 1e-4
 #: share of what is allowed that is cut off a series
@@ -187,7 +188,9 @@ class BareStack:
         if laws is None:
             return Found(d, pressure, np.column_stack((own, error)))
         carrier = self.carrier(i, laws)
-        goal = np.full((d.size, laws.full.shape[1]), max(self.wanted.rtol, _SHARES))
+        # contact counts on as much of the surface as friction does
+        share = max(self.wanted.rtol, _SHARES) * (self.wanted.of(i) / self.wanted.friction)[group]
+        goal = np.broadcast_to(np.minimum(share, _COARSE)[:, None], (d.size, laws.full.shape[1])).copy()
         goal[:, :-1:3], goal[:, -1] = allowed[:, None], np.inf
         carried, errors = carrier.carried(group, d, goal, at_once=i > 0)
         self.tally.solved += carrier.strips

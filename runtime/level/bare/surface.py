@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,6 +16,8 @@ from .stack import BareStack, Wanted
 
 #: share of what is allowed that a further attempt aims at, how much finer it is at least and at most, and how many there are
 _SURE, _FINER, _FINEST, _ATTEMPTS = 0.3, 0.3, 1e-3, 4
+#: accuracy of that where there are more levels
+_ROUGH = 1e-2
 #: no less contact is believed in
 _LEAST = 1e-3
 #: friction is at first taken to be this many times what counts beside it
@@ -70,7 +72,8 @@ class BareSurface:
         n, levels = load.size, len(self.levels)
         # the friction and the contact of level 1 alone say how well all of it has to be known; where there is only that
         # level it may do
-        size = self._attempt(out, np.arange(n), group, load, by_pressure, np.full(n, _GUESS * self.floor), 1)
+        rough = self if levels == 1 else replace(self, rtol=max(self.rtol, _ROUGH))
+        size = rough._attempt(out, np.arange(n), group, load, by_pressure, np.full(n, _GUESS * self.floor), 1)
         touching, finer = np.maximum(out.contact[0], _LEAST), np.ones(n)
         for _ in range(_ATTEMPTS):
             left = np.flatnonzero(~out.certain)
