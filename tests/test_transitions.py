@@ -11,8 +11,9 @@ from hystrip.level.breaks import breakpoints, breaks_on, first_contact
 from hystrip.level.contact import contact_of
 from hystrip.level.curve import Interval, interpolate
 from hystrip.level.means import level_means
+from hystrip.level.panels import Hints
 from hystrip.level.strips import Columns, saturation_depth
-from hystrip.level.transitions import Guide, locate
+from hystrip.level.transitions import Guide, Looks, locate
 from hystrip.solver import kernel_of
 from hystrip.strip.regimes import CODE
 
@@ -58,6 +59,30 @@ def test_a_margin_that_misleads_costs_points_but_no_change_is_lost():
     line = Line(0.37, off=1e-3)
     found = _found(line, 1e-6)
     assert abs(found.low[0] - 0.37) < 1e-5
+
+
+@pytest.mark.parametrize("seen", [(0.2, 0.34, 0.365, 0.5), (0.2, 0.38, 0.39, 0.5), (0.2, 0.5)])
+def test_looks_beforehand_spare_points(seen):
+    """Wherever they fell: their margins lead on from there."""
+    line, x = Line(0.37), np.array(seen)
+    looks = Looks(np.zeros(x.size, int), x, *line(0, x))
+    one, guide = np.zeros(1, int), Guide(lambda code, other: np.where(code == 0, 0, -1), np.array([2]))
+    ends, line.asked = (x[:1], x[-1:], one, one + 1), 0
+    found = locate(line, guide, one, *ends, np.full(1, 1e-12), looks)
+    spared, line.asked = line.asked, 0
+    locate(line, guide, one, *ends, np.full(1, 1e-12))
+    assert found.low[0] <= 0.37 + 1e-12 and found.high[0] >= 0.37 - 1e-12 and found.high[0] - found.low[0] <= 1e-12
+    assert found.codes.tolist() == [[0, 1]]
+    assert spared < line.asked if x.size == 4 and x[1] < 0.37 else spared <= line.asked
+
+
+def test_what_is_known_in_closed_form_is_not_expected():
+    theta = np.array([0.5, 1.0, 1.0, 2.0])
+    column, code = np.array([0, 0, 1, 1]), np.zeros(4, int)
+    hints = Hints(column, theta - 0.01, theta + 0.01, code, code + 1, np.zeros((2, 1)), column[:0], theta[:0])
+    left = hints.without(np.array([1, 0]), np.array([1.005, 2.0]))
+    assert left.column.tolist() == [0, 0, 1] and left.low.tolist() == (theta - 0.01)[[0, 1, 3]].tolist()
+    assert hints.without(column[:0], theta[:0]).column.size == 4
 
 
 @pytest.mark.parametrize("branch", ["unloading", "loading"])
