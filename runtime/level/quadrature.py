@@ -21,8 +21,6 @@ _MANY, _GEOMETRIC = 16, (0.15, 0.05)
 _POWER, _TURNS = 0.2, 2.5
 #: how much more is feared than what is left at the pace that coefficients fall at
 _SAFE = 2.0
-#: weight of the pace among the last coefficients, against that since the middle
-_RECENT = 0.7
 #: all quantities share their singularities: power of the roughest one's size, relative to its own, in that of every other one
 _COMMON = 0.2
 #: coefficients below this share of a change that doesn't matter say nothing of a pace
@@ -105,8 +103,8 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     don't matter.
 
     The last coefficients say how much is left, and their pace how fast it falls: the one since the middle, or the one among the
-    last, which is slower where a layer next to an end is all that is left. The two are told by different coefficients: where they
-    fall geometrically the geometric mean of both is taken, else the larger.
+    last, which is slower where a layer next to an end is all that is left. Where coefficients fall geometrically the second is
+    believed, and the geometric mean of both where it is the smaller one, which may be chance; elsewhere the larger.
     """
     n = values.shape[1] + 1
     c = np.abs(_second_kind(n) @ values)
@@ -128,7 +126,7 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     doubtful = _SAFE * np.maximum(first, second)
     # as those of a kink may fall: by a power, and coming and going; so the next ones by as much as these
     slow = np.where(ratio > _POWER, np.maximum(doubtful, _TURNS * size * ratio), doubtful)
-    return np.where(sure, _SAFE * first ** (1 - _RECENT) * second**_RECENT, slow)
+    return np.where(sure, _SAFE * np.sqrt(np.maximum(first, second) * second), slow)
 
 
 def _ratio(last, first):
