@@ -50,21 +50,29 @@ class Carrier:
         """What columns at ``d = D/h`` carry (m, q), to ``goal`` (m, q), and the errors of the sums (m, q): the first
         change from rule to rule may be small by chance, and is believed only if ``at_once``."""
         out, errors = np.zeros((d.size, self.laws.full.shape[1])), np.zeros((d.size, self.laws.full.shape[1]))
-        left, changes = np.flatnonzero(d > 0), Changes(_SURE, at_once, fastest=_FASTEST)
-        if not left.size:
-            return out, errors
-        columns = self._columns(group[left], d[left], goal[left, :-1:3].min(axis=1))
-        most = self.laws.most[columns.group]
-        if (most <= columns.allowed).all():
-            # whatever the sums are, friction that small may be missed
-            out[left] = self._sums(columns, *RULES[1 + int(goal[:, 1].min() < _ROUGH)])
-            errors[left, 0] = most
-            return out, errors
-        finest = (columns.allowed / np.maximum(most, np.finfo(float).tiny)).min()
-        for rule in RULES[np.count_nonzero(finest < _SHARP) if at_once else 0 :]:
+        allowed, most = goal[:, :-1:3].min(axis=1), self.laws.most[group]
+        # each column by itself: what else is in the batch makes no difference
+        first = (allowed[:, None] < _SHARP * most[:, None]).sum(axis=1) if at_once else np.zeros(d.size, int)
+        # whatever the sums are, friction that small may be missed
+        slight = most <= allowed
+        first[slight] = 1 + (goal[slight, 1] < _ROUGH)
+        for kind in np.unique(np.stack((first, slight))[:, d > 0], axis=1).T:
+            some = np.flatnonzero((first == kind[0]) & (slight == kind[1]) & (d > 0))
+            columns = self._columns(group[some], d[some], allowed[some])
+            if kind[1]:
+                out[some], errors[some, 0] = self._sums(columns, *RULES[kind[0]]), most[some]
+            else:
+                out[some], errors[some] = self._settled(columns, goal[some], RULES[kind[0] :], at_once)
+        return out, errors
+
+    def _settled(self, columns, goal, rules, at_once):
+        """Sums by as many of the ``rules`` as it takes for ``goal``, and their errors, (m, q)."""
+        out, errors = np.zeros(goal.shape), np.zeros(goal.shape)
+        left, changes = np.arange(goal.shape[0]), Changes(_SURE, at_once, fastest=_FASTEST)
+        for rule in rules:
             new = self._sums(columns, *rule)
             miss = changes.after(new)
-            done = (miss <= _QUADRATURE * goal[left]).all(axis=1) | (rule == RULES[-1])
+            done = (miss <= _QUADRATURE * goal[left]).all(axis=1) | (rule == rules[-1])
             out[left[done]], errors[left[done]] = new[done], miss[done]
             left = left[~done]
             if not left.size:

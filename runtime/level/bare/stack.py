@@ -200,16 +200,17 @@ class BareStack:
         return Found(d, pressure, np.column_stack((own, carried[:, :-1], error)))
 
     def _sharp(self, i):
-        """Whether the friction of level i with all that it carries counts enough for its lesser breaks to matter."""
-        return bool((self.wanted.of(i) < _BLUNT * self._saturated(i)[:, ::3].sum(axis=1)).any())
+        """Where the friction of level i with all that it carries counts enough for its lesser breaks to matter, (G,)."""
+        return self.wanted.of(i) < _BLUNT * self._saturated(i)[:, ::3].sum(axis=1)
 
     def _law(self, i, below: BareLaws | None) -> BareLaws:
         unit, top = self.units[i], self.ceilings[i]
         edge = np.minimum(self._at_height(i), self.p_sat[i])
         own = np.minimum([edge, self.p_sat[i], self.p_full[i]], top).T
-        ends = own
-        if below is not None and self._sharp(i):
-            ends = np.concatenate((own, np.minimum(self._met(i, below), own[:, 2:])), axis=1)
+        ends, sharp = own, self._sharp(i)
+        if below is not None and sharp.any():
+            met = np.minimum(np.where(sharp[:, None], self._met(i, below), np.inf), own[:, 2:])
+            ends = np.concatenate((own, met), axis=1)
         ends = np.sort(np.concatenate((np.zeros((self.V.size, 1)), ends), axis=1), axis=1)
         # ends that are next to one another are one
         near = np.diff(ends, axis=1) <= 1e-6 * np.minimum(ends[:, 1:], unit)

@@ -81,7 +81,8 @@ class BareSurface:
                 return
             wanted = finer[left] * size[left]
             size[left] = self._attempt(out, left, group[left], load[left], by_pressure, wanted, levels, wanted / touching[left])
-            finer *= np.clip(_SURE * self.rtol * size / out.error, _FINEST, _FINER)
+            told = np.maximum(_DIGIT * (size - self.floor), 0.0)
+            finer *= np.clip(_SURE * np.minimum(self.rtol * size, told) / out.error, _FINEST, _FINER)
 
     def _attempt(self, out: BarePoints, index, group, load, by_pressure, size, levels, below=None):
         """Solve the points ``index`` on so many levels, to ``rtol size``, and the laws of lower levels to ``rtol below``;
