@@ -8,8 +8,9 @@ import hystrip
 from hystrip import multilevel
 from hystrip.level.cells import cells_of
 from hystrip.level.chebyshev import Piece
+from hystrip.level.curve import Curve
 from hystrip.level.demand import Demand
-from hystrip.level.law import Law, rising
+from hystrip.level.law import Law, branches, rising
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
@@ -113,3 +114,16 @@ def test_a_break_is_known_as_well_as_the_branch_that_ends_there(unloading):
     errors = dict(zip(law.breaks, law.at_breaks()[1], strict=True))
     assert errors[1.0] == (1e-6 if unloading else 1e-2)
     assert errors[-1.0] == 1e-2 and errors[2.0] == 1e-6
+
+
+def test_loading_does_not_begin_where_the_curve_only_seems_to_rise():
+    """While strips begin to cling the pressure falls from 0; a ripple on it, within its error, is no branch."""
+    ripple = np.zeros((10, 4))
+    ripple[[0, 1, 9]] = np.array([-40.0, -40.0, 0.6])[:, None]
+    falling, rise = (
+        Piece(-1.0, 0.0, ripple, np.full(4, 2.0)),
+        Piece(0.0, 1.0, np.array([[10.0] * 4, [90.0] * 4]), np.full(4, 1e-6)),
+    )
+    assert len(rising(falling)) > 0
+    (branch,) = branches(Curve([rise, falling], 1.0, 0), unloading=False)
+    assert branch.p_low == pytest.approx(-80.0) and branch.p_high == pytest.approx(100.0)

@@ -77,8 +77,10 @@ def branches(curve: Curve, unloading: bool) -> list[Branch]:
                 kept.append(cut)
                 least = cut.p_low
         return kept[::-1]
+    # while the first strips cling the pressure falls with D: what seems to rise there is known to, or it does not count
+    certain = (k for k, part in enumerate(reversed(parts)) if part.p_high - part.p_low > 2 * part.piece.error[0])
     most = -np.inf
-    for part in reversed(parts):
+    for part in parts[::-1][next(certain, 0) :]:
         cut = _above(part, most)
         if cut is not None:
             kept.append(cut)
