@@ -179,3 +179,15 @@ def test_the_greatest_pressure_of_a_contact(T_sigma):
     p = contact.pressure(np.repeat(np.arange(index.size), share.size), phase.ravel()).reshape(phase.shape)
     assert index.size > 10 and (contact.p_peak >= p.max(axis=1) * (1 - 1e-12)).all()
     assert np.allclose(contact.p_peak, p.max(axis=1), rtol=1e-4, atol=0)
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-2, 20.0])
+def test_a_panel_next_to_the_flat_edge_may_be_narrower_than_what_is_left_out_there(rtol):
+    """Where nothing counts any accuracy is asked for; panels with nodes beyond the strip next to the edge end all the same."""
+    scene = surfaces.draw(np.random.default_rng((811, 29)), velocities=1, levels=2)
+    columns = _columns(scene.velocity, scene.edge, scene.branch, scene.adhesion, scene.levels[1], scene.material)
+    D = -scene.adhesion.delta_0 + np.linspace(0.5, 1.0, 20) * scene.levels[1].h
+    means = level_means(columns.at(np.zeros(20, int), D), np.full(20, rtol))
+    assert means.strips.max() < 150 and np.isfinite(means.errors).all()
+    for zones in means.zones:
+        assert (zones[:, 1] < zones[:, 2]).all() and (zones[1:, 1] >= zones[:-1, 2]).all()

@@ -30,6 +30,8 @@ _COSTLESS = 32
 _ROUNDS = 60
 #: looks closer to an expected transition than its bracket is wide, as shares of half of it
 _CLOSER = (1 / 4, 1 / 16)
+#: how far from the flat edge the strip next to it is, in parts of the accuracy; what does not count is asked for to any accuracy
+_EDGE = 0.01
 #: panels a column may have waiting at once
 _CROWD = 150
 _EPS = np.finfo(float).eps
@@ -397,7 +399,10 @@ class _Work:
         """Fill in what is known of the crest and the flat edge."""
         if self.ends is None:
             return
-        for side, there in enumerate((panels.low == 0, panels.high == np.pi)):
+        outermost = panels.low + (np.pi - panels.low) * mapped(interior_nodes(_FIRST)[-1])
+        # beyond the strip next to the flat edge a panel may have nodes: then that strip is not its end
+        flat = (panels.high == np.pi) & (outermost < self._edge()[panels.column])
+        for side, there in enumerate((panels.low == 0, flat)):
             panels.codes[there, side] = self.ends[panels.column[there], side]
             panels.values[there, side] = self.end_values[panels.column[there], side]
 
@@ -412,7 +417,7 @@ class _Work:
 
     def _edge(self):
         """Theta next to the flat edge of each column: what lies beyond does not matter at its accuracy."""
-        return np.pi * (1 - 0.01 * self.rtol)
+        return np.pi * (1 - _EDGE * np.minimum(self.rtol, 0.1))
 
     def _probe(self, column, theta):
         np.add.at(self.strips, column, 1)
