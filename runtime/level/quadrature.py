@@ -20,7 +20,7 @@ _MANY, _GEOMETRIC = 16, (0.15, 0.05)
 #: ratio of them above which they may fall by a power only, and how much more than by that of the last ones the next may count
 _POWER, _TURNS = 0.2, 2.5
 #: how much more is feared than what is left at the pace that coefficients fall at
-_SAFE = 2.0
+_SAFE = 1.5
 #: all quantities share their singularities: power of the roughest one's size, relative to its own, in that of every other one
 _COMMON = 0.2
 #: coefficients below this share of a change that doesn't matter say nothing of a pace
