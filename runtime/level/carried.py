@@ -14,7 +14,7 @@ import numpy as np
 from hystrip.solver import kernel_of
 
 from .contact import Contact, contact_of
-from .quadrature import interior_nodes, mapped, mapped_weights, sum_errors
+from .quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
 from .strips import Columns, SolvedStrips
 from .table import LawTable
 
@@ -143,8 +143,8 @@ class CarriedByLaws:
             new, new_errors = self.table(np.repeat(group[i], fresh.size), p)
             new = np.concatenate((p[:, None], new), axis=1).reshape(left.size, fresh.size, -1)
             new_errors = new_errors.reshape(left.size, fresh.size, 2)
-            values = new if values is None else _merged(new, values)
-            errors = new_errors if errors is None else _merged(new_errors, errors)
+            values = new if values is None else interleaved(new, values)
+            errors = new_errors if errors is None else interleaved(new_errors, errors)
             law, w = values[:, :, 1:], mapped_weights(n)
             best = width[:, None] * (w @ law)
             noise = _SHARE * self.rtol * (1e-3 * self.scales[:-1] + np.abs(law).max(axis=1))
@@ -168,12 +168,6 @@ class CarriedByLaws:
         between = np.minimum(slope * errors[:, 1:, 1], np.abs(np.diff(friction)))
         shifted = np.concatenate((between[:, :1], between), axis=1)
         return (errors[:, :, 0] + shifted) @ w
-
-
-def _merged(fresh, known):
-    out = np.empty((known.shape[0], known.shape[1] + fresh.shape[1], known.shape[2]))
-    out[:, 0::2], out[:, 1::2] = fresh, known
-    return out
 
 
 def peak_pressure(columns: Columns) -> np.ndarray:

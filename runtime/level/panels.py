@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .order import FREE, NARROWEST, Question
-from .quadrature import interior_nodes, mapped, mapped_weights, sum_errors
+from .quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
 from .transitions import Guide, Looks, locate
 
 if TYPE_CHECKING:
@@ -363,11 +363,7 @@ class _Work:
     def _doubled(self, panels: _Panels, n: int, codes, values):
         """Codes (panels, n - 1) and values (panels, n - 1, q) at the interior nodes, from those at the nodes of n/2."""
         new_codes, new_values, _ = self._at_nodes(panels, interior_nodes(n)[0::2])
-        all_codes = np.empty((panels.size, n - 1), codes.dtype)
-        all_values = np.empty((panels.size, n - 1, values.shape[2]))
-        all_codes[:, 0::2], all_codes[:, 1::2] = new_codes, codes
-        all_values[:, 0::2], all_values[:, 1::2] = new_values, values
-        return all_codes, all_values
+        return interleaved(new_codes, codes), interleaved(new_values, values)
 
     def _at_nodes(self, panels: _Panels, t, question: Question | None = None):
         """Codes (panels, nodes) and values (panels, nodes, q) at the parameters ``t``; codes of the strips of a ``question``."""

@@ -27,6 +27,13 @@ _COMMON = 0.2
 _QUIET = 0.01
 
 
+def interleaved(fresh: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """What is had at nested nodes (m, nodes, ...), in order: the ``fresh`` ones lie around and between those ``known``."""
+    out = np.empty((known.shape[0], known.shape[1] + fresh.shape[1], *known.shape[2:]), known.dtype)
+    out[:, 0::2], out[:, 1::2] = fresh, known
+    return out
+
+
 def mapped(t):
     """Where parameter t in [0, 1] lies in its interval, as a share of it."""
     return t * t * (3 - 2 * t)

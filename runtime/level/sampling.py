@@ -11,6 +11,7 @@ from .demand import Demand
 from .expected import expect, hints
 from .interval import Interval, Seen
 from .means import level_means
+from .quadrature import interleaved
 from .strips import Columns
 
 #: share of the error allowed that each mean may have
@@ -74,7 +75,7 @@ class Batch:
         if first:
             self.values, self.errors, self.zones = values, errors, zones
             return
-        self.values, self.errors = _merged(self.values, values), _merged(self.errors, errors)
+        self.values, self.errors = interleaved(values, self.values), interleaved(errors, self.errors)
         self.zones = [_alternating(old, new) for old, new in zip(self.zones, zones, strict=True)]
 
     def known(self, k: int, n: int) -> Interval:
@@ -86,12 +87,6 @@ class Batch:
         """Go on with the intervals ``index`` alone."""
         self.intervals, self.zones = [self.intervals[i] for i in index], [self.zones[i] for i in index]
         self.values, self.errors = self.values[index], self.errors[index]
-
-
-def _merged(old, fresh):
-    out = np.empty((old.shape[0], old.shape[1] + fresh.shape[1], old.shape[2]))
-    out[:, 0::2], out[:, 1::2] = fresh, old
-    return out
 
 
 def _alternating(old, fresh):
