@@ -27,10 +27,10 @@ _COMMON = 0.2
 _QUIET = 0.01
 
 
-def interleaved(fresh: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """What is had at nested nodes (m, nodes, ...), in order: the ``fresh`` ones lie around and between those ``known``."""
-    out = np.empty((known.shape[0], known.shape[1] + fresh.shape[1], *known.shape[2:]), known.dtype)
-    out[:, 0::2], out[:, 1::2] = fresh, known
+def interleaved(outer: np.ndarray, inner: np.ndarray) -> np.ndarray:
+    """What is had at nested nodes (m, nodes, ...), in order: those of ``outer``, one more, lie around those of ``inner``."""
+    out = np.empty((inner.shape[0], inner.shape[1] + outer.shape[1], *inner.shape[2:]), inner.dtype)
+    out[:, 0::2], out[:, 1::2] = outer, inner
     return out
 
 

@@ -12,6 +12,7 @@ from hystrip.inputs.surface import Level as Wavy
 from hystrip.solver import Foundation
 
 from ..chebyshev import interpolation_errors, lobatto
+from ..quadrature import interleaved
 from ..strips import Tally
 from .carried import Carrier
 from .family import coefficients_over, family, trimmed
@@ -271,7 +272,7 @@ class BareStack:
             )
             found = self.at(i, np.repeat(group[left], omega.size), p.ravel(), below)
             new = found.values.reshape(left.size, omega.size, q)
-            values = new if values is None else _merged(values, new)
+            values = new if values is None else interleaved(values, new)
             worst[left] = np.maximum(worst[left], found.values[:, -1].reshape(left.size, -1).max(axis=1))
             total = np.concatenate((values[:, :, :-1:3].sum(axis=2, keepdims=True), values[:, :, :-1]), axis=2)
             goal = np.full((left.size, q), max(self.wanted.rtol, _CONTACT))
@@ -304,9 +305,3 @@ class BareStack:
         for g, j, s in zip(group, piece, series, strict=True):
             table[g, j, : s.shape[0]] = s
         return [Piece(ends[:, j], ends[:, j + 1], table[:, j], j == 0) for j in range(J)], steep, most
-
-
-def _merged(old, fresh):
-    out = np.empty((old.shape[0], old.shape[1] + fresh.shape[1], old.shape[2]))
-    out[:, 0::2], out[:, 1::2] = old, fresh
-    return out
