@@ -13,12 +13,13 @@ import numpy as np
 
 from .chebyshev import lobatto
 from .demand import Demand
-from .interval import Interval
-from .sampling import Batch
+from .interval import Interval, Seen
+from .means import level_means
+from .sampling import MEAN
 from .strips import Columns
 
-#: accuracy of the look, and its last nodes; narrower intervals, as a share of the column's, are left at the first
-_ROUGH, _FIRST, _LAST, _NARROW = 5e-3, 4, 16, 0.05
+#: accuracy of the look, and its nodes; narrower intervals, as a share of the column's, have fewer
+_ROUGH, _MANY, _FEW, _NARROW = 5e-3, 16, 4, 0.05
 #: how much more than its error, and than what it bends between two nodes, a pressure has to keep above what was before
 _DOUBT, _BEND = 2.0, 0.5
 
@@ -61,16 +62,16 @@ def _looks(columns: Columns, intervals: list[Interval], strips) -> list[tuple[In
     whole = np.zeros(columns.size)
     for i in intervals:
         whole[i.column] += i.high - i.low
-    batch = Batch(columns, np.full(columns.size, _ROUGH), [replace(i, even=True) for i in intervals], strips)
-    n, out = _FIRST, []
-    batch.sample(n)
-    while batch.intervals:
-        done = np.array([n == _LAST or i.high - i.low < _NARROW * whole[i.column] for i in batch.intervals])
-        for k in np.flatnonzero(done):
-            look = batch.known(k, n)
-            out.append((look, look.penetrations(lobatto(n)[1:-1]), batch.values[k], batch.errors[k, :, 0]))
-        batch.keep(np.flatnonzero(~done))
-        if batch.intervals:
-            n *= 2
-            batch.sample(n)
+    evenly = [replace(i, even=True) for i in intervals]
+    nodes = [lobatto(_FEW if i.high - i.low < _NARROW * whole[i.column] else _MANY)[1:-1] for i in evenly]
+    places = [i.penetrations(t) for i, t in zip(evenly, nodes, strict=True)]
+    column = np.repeat([i.column for i in evenly], [t.size for t in nodes])
+    means = level_means(columns.at(column, np.concatenate(places)), np.full(column.size, MEAN * _ROUGH))
+    np.add.at(strips, column, means.strips)
+    out, stop = [], 0
+    for i, t, D in zip(evenly, nodes, places, strict=True):
+        start, stop = stop, stop + t.size
+        values, zones = means.values[start:stop], means.zones[start:stop]
+        look = replace(i, seen=Seen(i, t, zones, np.abs(values).min(axis=0)))
+        out.append((look, D, values, means.errors[start:stop, 0]))
     return out
