@@ -71,10 +71,11 @@ _SHY = 0.01
 class _Reference:
     """What the bounds need of n strips and their references, arrays (n,).
 
-    ``turned``: end of the arc where contact ends. ``q_on``: excess pressure as contact begins. ``x``, ``c``: onset and end of
-    adhesion of the reference, 0 for a foundation at rest, as are ``b``, ``a``, its contact, and ``pressed``, its Q. ``turn``: by
-    how much later contact ends if it begins earlier by one. ``level``: omega less ``u + delta_0`` at the crest. ``kept``:
-    ``beta r``. ``least``: of the sum of ``w_l - w_y``. ``end``: adhesion does not end after. ``noise``: of a displacement.
+    ``storage``, ``loss``: of complete contact. ``turned``: end of the arc where contact ends. ``q_on``: excess pressure as contact
+    begins. ``x``, ``c``: onset and end of adhesion of the reference, 0 for a foundation at rest, as are ``b``, ``a``, its contact,
+    and ``pressed``, its Q. ``turn``: by how much later contact ends if it begins earlier by one. ``level``: omega less ``u +
+    delta_0`` at the crest. ``kept``: ``beta r``. ``least``: of the sum of ``w_l - w_y``. ``end``: adhesion does not end after.
+    ``noise``: of a displacement.
     """
 
     alpha: np.ndarray
@@ -83,6 +84,8 @@ class _Reference:
     p_0: np.ndarray
     delta_0: np.ndarray
     D: np.ndarray
+    storage: np.ndarray
+    loss: np.ndarray
     gap_on: np.ndarray
     jump: np.ndarray
     turned: np.ndarray
@@ -102,8 +105,8 @@ class _Reference:
     def take(self, index):
         return type(self)(*[getattr(self, name)[index] for name in _Reference.__slots__])
 
-    def contact_end(self, t):
-        """About where a contact ends that begins at ``-t``."""
+    def contact_end(self, t, sine, cosine):
+        """About where a contact ends that begins at ``-t``, of this sine and cosine."""
         return self.a + self.turn * (t + self.b)
 
 
@@ -112,9 +115,8 @@ class _Rest(_Reference):
 
     __slots__ = ()
 
-    def contact_end(self, t):
+    def contact_end(self, t, sine, cosine):
         # adhesion lifts, pressure relaxes
-        sine, cosine = np.sin(t), np.cos(t)
         relaxed = self.L * self.beta / self.alpha * (sine - t * cosine)
         lifted = t * (self.p_0 + self.D - 1 + cosine)
         return t + 2 * (lifted - relaxed) / (self.beta * np.maximum(sine, _LEAST))
@@ -143,7 +145,7 @@ def none_hangs(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
     with an onset; and the evaluations spent on each."""
     none, spent = np.zeros(cycle.size, bool), np.ones(cycle.size)
     with np.errstate(all="ignore"):
-        guess, reference = _held_best(cycle), at_rest(cycle)
+        guess, reference = _held_best(cycle), at_rest(kernel, cycle)
         index = np.flatnonzero(surplus(kernel, reference, guess, guess) > 0)
         if index.size:
             lo, hi = _stable_within(kernel, cycle.take(index), guess[index])
@@ -156,7 +158,7 @@ def none_clings(kernel, cycle: Cycle) -> np.ndarray:
     """Which cycles are proven to have no orbit that is always engaged."""
     valley = np.full(cycle.size, np.pi)
     with np.errstate(all="ignore"):
-        reference = at_rest(cycle)
+        reference = at_rest(kernel, cycle)
         # adhesion that does not begin in the valley has no step of w there
         reference.gap_on, reference.jump = cycle.strips.delta_0, 0 * valley
         return surplus(kernel, reference, valley, valley) > 0
@@ -167,14 +169,14 @@ def beside(kernel, cycle: Cycle, known: Orbit, end) -> _Reference:
     s, noise = cycle.strips, _noise(cycle.strips)
     w_c = kernel.profile(known.c, s.D) + s.delta_0 + cycle.jump
     return _Reference(
-        *_groups(cycle),
+        *_groups(kernel, cycle),
         q_on=cycle.q_on,
         x=known.x,
         c=known.c,
         level=np.minimum(w_c, w_c * kernel.decay(known.x + TWO_PI - known.c, s.beta)) - s.D - s.delta_0,
         kept=s.beta * (known.r - noise),
         least=np.zeros(cycle.size),
-        pressed=_sum(kernel, known.b, known.a, s),
+        pressed=_sum(s, known.b, known.a),
         b=known.b,
         a=known.a,
         turn=_turn(kernel, s, known),
@@ -183,11 +185,11 @@ def beside(kernel, cycle: Cycle, known: Orbit, end) -> _Reference:
     )
 
 
-def at_rest(cycle: Cycle) -> _Reference:
+def at_rest(kernel, cycle: Cycle) -> _Reference:
     """The foundation at rest as reference."""
     zero = np.zeros(cycle.size)
     return _Rest(
-        *_groups(cycle),
+        *_groups(kernel, cycle),
         q_on=zero,
         x=zero,
         c=zero,
@@ -207,9 +209,11 @@ def _noise(s: Strips):
     return 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
 
 
-def _groups(cycle: Cycle):
+def _groups(kernel, cycle: Cycle):
     s = cycle.strips
-    return s.alpha, s.beta, s.L, s.p_0, s.delta_0, s.D, cycle.gap_on, cycle.jump, cycle.centre + TWO_PI - cycle.half_b
+    modulus = kernel.storage(s.alpha, s.beta), kernel.loss(s.alpha, s.beta, s.L)
+    ends = cycle.centre + TWO_PI - cycle.half_b
+    return s.alpha, s.beta, s.L, s.p_0, s.delta_0, s.D, *modulus, cycle.gap_on, cycle.jump, ends
 
 
 def _held_best(cycle: Cycle):
@@ -256,16 +260,16 @@ def _unstable(kernel, cycle: Cycle, xi, c, longest):
 
 def _arc(height):
     """Phase where ``1 - cos`` is this much, at most pi."""
-    return 2 * np.arcsin(np.sqrt(np.clip(0.5 * height, 0.0, 1.0)))
+    return 2 * np.arcsin(np.sqrt(np.minimum(np.maximum(0.5 * height, 0.0), 1.0)))
 
 
 def _versine(phase):
     return 2 * np.sin(0.5 * phase) ** 2
 
 
-def _sum(kernel, b, a, s):
+def _sum(s, b, a):
     """Sum of the pressure over -p_0 from b to a, but for ``-alpha`` times its rise."""
-    return kernel.profile_integral(b, a, s.D) + s.beta * kernel.profile_rise(b, a) + s.p_0 * (a - b)
+    return (s.D - 1 + s.p_0) * (a - b) + np.sin(a) - np.sin(b) + s.beta * (np.cos(a) - np.cos(b))
 
 
 def _suspects(kernel, cycle: Cycle, known: Orbit):
@@ -326,14 +330,20 @@ def _closed(beta, lag, gap, lo):
 def surplus(kernel, reference: _Reference, lo, hi):
     """Lower bound of the balance of all orbits with an onset between -hi and -lo, less that of the reference."""
     r = reference
-    # contact, at least
+    # contact, at least: the pressure of complete contact, and what fades of its difference to the one at -t
     t = _contact(r, lo)
     possible, t = np.isfinite(t), np.minimum(t, TWO_PI)
-    e = np.clip(r.contact_end(t) - _SHY, 0.0, r.turned)
-    late = kernel.excess_after(-t, e, r.q_on, r.p_0, r.D, r.alpha, r.beta, r.L)
-    blur = 64 * _EPS * (r.beta + r.alpha * np.abs(late))
-    pressed = np.where(t > 0, np.maximum(_sum(kernel, -t, e, r) - r.alpha * late - blur - r.pressed, 0.0), 0.0)
-    held = np.where((t > 0) & (late > blur), e, 0.0)
+    sin_t, cos_t = np.sin(t), np.cos(t)
+    e = np.minimum(np.maximum(r.contact_end(t, sin_t, cos_t) - _SHY, 0.0), r.turned)
+    sin_e, cos_e = np.sin(e), np.cos(e)
+    mean = r.D - 1 + r.p_0
+    begins = mean + r.storage * cos_t + r.loss * sin_t
+    late = mean + r.storage * cos_e - r.loss * sin_e + (r.q_on - begins) * kernel.decay(e + t, r.alpha)
+    blur = 64 * _EPS * (1 + r.beta + (1 + r.alpha) * (np.abs(late) + np.abs(mean)))
+    summed = mean * (e + t) + sin_e + sin_t + r.beta * (cos_e - cos_t)
+    pressed = np.where(t > 0, np.maximum(summed - r.alpha * late - blur - r.pressed, 0.0), 0.0)
+    holds = (t > 0) & (late > blur)
+    held, drop = np.where(holds, e, 0.0), np.where(holds, 1 - cos_e, 0.0)
     # engagement, at most
     crest, near = r.D + r.delta_0, np.where(hi > np.pi, np.minimum(lo, TWO_PI - hi), lo)
     low, high = _versine(near), _versine(np.minimum(hi, np.pi)) + r.noise
@@ -350,7 +360,7 @@ def surplus(kernel, reference: _Reference, lo, hi):
     begun, ended = np.maximum(np.minimum(t, near), onset), np.maximum(np.minimum(held, near), r.c)
     apart = (r.level + 1 + r.delta_0) * (begun - onset + ended - r.c)
     apart -= np.sin(begun) - np.sin(onset) + np.sin(ended) - np.sin(r.c)
-    apart += (TWO_PI - begun - later) * steep + (later - ended) * np.minimum(r.level + _versine(held) + r.delta_0, steep)
+    apart += (TWO_PI - begun - later) * steep + (later - ended) * np.minimum(r.level + drop + r.delta_0, steep)
     apart += np.maximum(steep, 0.0) * (r.beta * np.expm1(free / r.beta) - free)
     least = r.kept + pressed - r.p_0 * longer + np.maximum(apart, r.least) - TWO_PI * r.noise
     return np.where(possible, least, np.inf)
