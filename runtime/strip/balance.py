@@ -53,8 +53,11 @@ from .sensitivity import fading, gains, onset_margin, release_margin
 _EPS = np.finfo(float).eps
 #: beta above which the balance of a period is asked first: a faster foundation is judged better by its bounds
 SLOW = 30.0
-#: parts into which an interval is divided that is not decided, and how often
-_PARTS, _ROUNDS, _FINER = 3, 4, 5
+#: what the bound loses over an interval, in p_0 times its width; by how much finer than that asks for it is divided, into how
+#: many parts at most, and how often
+_LOSS, _AMPLY, _MOST, _ROUNDS = 2.1, 1.5, 12, 4
+#: less surplus than this, in p_0, where an orbit out of reach is held best is not worth dividing for
+_WORTH = 0.01
 #: rounds of the guess where an orbit out of reach is held best
 _GUESSES, _EARLIEST, _LATEST = 2, 0.05, 2.3
 #: parts of the phases, or sines, at which the slope of the onset map is thought to be one
@@ -136,7 +139,8 @@ def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, n
         with np.errstate(all="ignore"):
             suspects = np.maximum(_suspects(kernel, cycle, known), -known.x)
             reference = beside(kernel, cycle, known, end)
-            proven[index], spent[index] = _excluded(kernel, reference, suspects, np.maximum(-start, suspects), _ROUNDS)
+            latest = np.maximum(-start, suspects)
+            proven[index], spent[index] = _excluded(kernel, reference, suspects, latest)
     return proven, spent
 
 
@@ -146,10 +150,13 @@ def none_hangs(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
     none, spent = np.zeros(cycle.size, bool), np.ones(cycle.size)
     with np.errstate(all="ignore"):
         guess, reference = _held_best(cycle), at_rest(kernel, cycle)
-        index = np.flatnonzero(surplus(kernel, reference, guess, guess) > 0)
+        least = surplus(kernel, reference, guess, guess)
+        index = np.flatnonzero(least > _WORTH * cycle.strips.p_0)
         if index.size:
             lo, hi = _stable_within(kernel, cycle.take(index), guess[index])
-            none[index], used = _excluded(kernel, reference.take(index), lo, np.maximum(lo, hi), _FINER)
+            part = reference.take(index)
+            parts = _parts(_LOSS * part.p_0 * np.maximum(hi - lo, 0.0), least[index])
+            none[index], used = _excluded(kernel, part, lo, np.maximum(lo, hi), np.maximum(parts, 1))
             spent[index] += used + 2
     return none, spent
 
@@ -366,21 +373,39 @@ def surplus(kernel, reference: _Reference, lo, hi):
     return np.where(possible, least, np.inf)
 
 
-def _excluded(kernel, reference: _Reference, lo, hi, rounds) -> tuple[np.ndarray, np.ndarray]:
-    """Where no orbit has an onset between -hi and -lo, and the evaluations spent."""
+def _excluded(kernel, reference: _Reference, lo, hi, parts=None) -> tuple[np.ndarray, np.ndarray]:
+    """Where no orbit has an onset between -hi and -lo, asked in as many ``parts``, (n,), to begin with; and the evaluations spent.
+
+    Over an interval the bound loses as much as engagement grows, which tells how fine a part that fails has to be divided, or
+    that it cannot succeed.
+    """
     n = lo.size
     proven, spent = np.ones(n, bool), np.zeros(n)
     index, part = np.arange(n), reference
-    for going in range(rounds, -1, -1):
+    for _ in range(_ROUNDS):
+        if parts is not None:
+            pieces = np.repeat(np.arange(index.size), parts)
+            place = np.arange(pieces.size) - np.repeat(np.cumsum(parts) - parts, parts)
+            index, width = index[pieces], ((hi - lo) / parts)[pieces]
+            lo = lo[pieces] + place * width
+            hi, part = lo + width, reference.take(index)
         spent += np.bincount(index, minlength=n)
-        open_ = np.flatnonzero(~(surplus(kernel, part, lo, hi) > 0))
+        left = surplus(kernel, part, lo, hi)
+        open_ = np.flatnonzero(~(left > 0))
         if not open_.size:
-            break
-        if not going:
-            proven[index[open_]] = False
-            break
-        index, part = np.tile(index[open_], _PARTS), part.take(np.tile(open_, _PARTS))
-        width = (hi[open_] - lo[open_]) / _PARTS
-        lo = (lo[open_] + np.arange(_PARTS)[:, None] * width).ravel()
-        hi = lo + np.tile(width, _PARTS)
+            return proven, spent
+        index, lo, hi, left = index[open_], lo[open_], hi[open_], left[open_]
+        loss = _LOSS * reference.p_0[index] * (hi - lo)
+        proven[index[~(left + loss > 0)]] = False
+        going = np.flatnonzero(proven[index])
+        if not going.size:
+            return proven, spent
+        index, lo, hi, loss = index[going], lo[going], hi[going], loss[going]
+        parts = _parts(loss, left[going] + loss)
+    proven[index] = False
     return proven, spent
+
+
+def _parts(loss, least):
+    """Into how many parts to divide an interval over which the bound loses so much, from about ``least``."""
+    return np.minimum(np.ceil(_AMPLY * loss / least), _MOST).astype(int)
