@@ -17,6 +17,8 @@ from .problem import TWO_PI, Cycle
 _ITERATIONS, _TOGETHER = 10, 3
 _ITERATIONS_BARE, _TOGETHER_BARE = 24, 2
 _TIGHTENING = 5
+#: a step this large after so many iterations leads nowhere, but where contact is all but complete
+_WILD, _LOST_AFTER = 0.1, 7
 #: a step this small leaves an error of its square
 _SMALL = 1e-7
 #: largest correction that an orbit may still ask for
@@ -45,7 +47,8 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
     n = cycle.size
     edges, result = edges.copy(), edges.copy()
     low, high = arcs(cycle, sequence)
-    iterations, together = (_ITERATIONS_BARE, _TOGETHER_BARE) if sequence in ("ac", "cf") else (_ITERATIONS, _TOGETHER)
+    bare = sequence in ("ac", "cf")
+    iterations, together, wild = (_ITERATIONS_BARE, _TOGETHER_BARE, np.inf) if bare else (_ITERATIONS, _TOGETHER, _WILD)
     spent, step_size = np.zeros(n), np.full(n, np.inf)
     index, part = np.arange(n), cycle
     # where a link is lost to rounding or overflows the step is no number, and the strip is left to the search
@@ -56,7 +59,8 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
             edges = moved(edges, move, low, high, size)
             if iteration < together:
                 continue
-            going = np.flatnonzero(~(size <= _SMALL) & np.isfinite(size)) if iteration < iterations else index[:0]
+            far = wild if iteration >= _LOST_AFTER else np.inf
+            going = np.flatnonzero((size > _SMALL) & (size < far)) if iteration < iterations else index[:0]
             if going.size < index.size:
                 result[:, index], step_size[index], spent[index] = edges, size, iteration
                 if not going.size:

@@ -26,36 +26,36 @@ def crossing(
     guarantees the signs at the ends; they are not evaluated. Returns the zeros and the evaluations each took, both of
     the shape of ``low``.
     """
-    low, high = low.copy(), high.copy()
     x = np.clip(guess, low, high) if guess is not None else 0.5 * (low + high)
-    result = np.where(high > low, x, high)
+    result, spent = np.where(high > low, x, high), np.zeros(low.shape)
     active = np.flatnonzero(high > low)
-    before = high - low  # last step taken, or the bracket
-    correction = np.zeros(low.shape)  # Newton's step before, 0 if that was none
-    spent = np.zeros(low.shape)
+    x, lo, hi = x[active], low[active], high[active]
+    before = hi - lo  # last step taken, or the bracket
+    correction = np.zeros(active.size)  # Newton's step before, 0 if that was none
     for _ in range(_MAX_ITERATIONS):
-        if active.size == 0:
+        if not active.size:
             break
-        xa, lo, hi = x[active], low[active], high[active]
-        value, slope = event(xa, active)
+        value, slope = event(x, active)
         spent[active] += 1
         positive = value > 0
-        lo = np.where(positive, xa, lo)
-        hi = np.where(positive, hi, xa)
+        lo, hi = np.where(positive, x, lo), np.where(positive, hi, x)
         # a slope of the wrong sign, or one too small to divide by, sends the step outside the bracket: bisection then
         usable = (slope < 0) & (np.abs(slope) > 1e-290 * np.abs(value))
         step = np.divide(-value, slope, out=np.full_like(value, np.inf), where=usable)
-        new = xa + step
-        size, then = np.abs(step), correction[active]
-        bisected = ~((new >= lo) & (new <= hi)) | (size > 0.5 * before[active])
+        new, size = x + step, np.abs(step)
+        bisected = ~((new >= lo) & (new <= hi)) | (size > 0.5 * before)
         new = np.where(bisected, 0.5 * (lo + hi), new)
         tolerance = 2 * _EPS * np.maximum(np.abs(lo), np.abs(hi))
         # two steps in a row that shrink this fast do so quadratically: the next one need not be taken
-        ratio = np.divide(size, then, out=np.ones_like(size), where=then > size)
-        done = (value == 0) | (hi - lo <= tolerance) | (~bisected & (size * ratio * ratio <= tolerance))
-        new = np.where(value == 0, xa, new)
-        result[active], x[active], low[active], high[active] = new, new, lo, hi
-        before[active] = np.where(bisected, hi - lo, size)
-        correction[active] = np.where(bisected, 0.0, size)
-        active = active[~done]
+        ratio = np.divide(size, correction, out=np.ones_like(size), where=correction > size)
+        exact = value == 0
+        done = exact | (hi - lo <= tolerance) | (~bisected & (size * ratio * ratio <= tolerance))
+        x = np.where(exact, x, new)
+        before, correction = np.where(bisected, hi - lo, size), np.where(bisected, 0.0, size)
+        if done.any():
+            result[active[done]] = x[done]
+            going = np.flatnonzero(~done)
+            active, x, lo, hi = active[going], x[going], lo[going], hi[going]
+            before, correction = before[going], correction[going]
+    result[active] = x
     return result, spent

@@ -165,19 +165,26 @@ def _happens(event, start, end, index, sure, spent):
 
 
 class _Event:
-    """An event function of a batch with its entry data worked into constants once: value and slope at later phases."""
+    """An event function of a batch with its entry data worked into constants once: value and slope at later phases of the
+    elements ``sub``, which ascend."""
 
     def __init__(self, function, constants, offset=0.0, sign=1.0):
         self.function, self.sign = function, sign
         self.constants = rows(constants[1].size, offset, *constants)
+        self._asked, self._last = None, self.constants
 
     def take(self, index) -> "_Event":
         other = object.__new__(_Event)
         other.function, other.sign, other.constants = self.function, self.sign, self.constants[:, index]
+        other._asked, other._last = None, other.constants
         return other
 
     def __call__(self, phase, sub):
-        offset, *constants = self.constants[:, sub]
+        # iterations ask for the same elements again and again, mostly for all of them
+        if sub is not self._asked:
+            self._asked = sub
+            self._last = self.constants if sub.size == self.constants.shape[1] else self.constants[:, sub]
+        offset, *constants = self._last
         value, slope = self.function(phase, *constants)
         return self.sign * (value - offset), self.sign * slope
 

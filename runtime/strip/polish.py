@@ -104,7 +104,6 @@ def _linear(jacobian, like):
 
 def _ratio(upper, lower):
     """``upper/lower``; 0 where the divisor vanishes or is lost (a grazed edge stays where the search put it)."""
-    lower = np.broadcast_to(lower, np.shape(upper))
     return np.divide(upper, lower, out=np.zeros_like(upper), where=np.abs(lower) > 1e-290 * (1 + np.abs(upper)))
 
 
