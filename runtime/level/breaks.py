@@ -9,10 +9,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from .strips import Columns
-from .transitions import locate
+from .strips import Columns, saturation_depth
+from .transitions import Looks, Probe, locate
 
 _SCAN = 48
+#: how far from a penetration that is known to look, as a share of the width of a bracket
+_ASIDE = 0.45
 _EPS = np.finfo(float).eps
 
 
@@ -66,10 +68,10 @@ def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list
     a, h, K = columns.adhesion, columns.level.h, columns.material.K
     m = column.size
     # what levels below carry may change at the flat edge too
-    ends = np.array((0.0, np.pi) if columns.carry else (0.0,))
+    places = np.array((0.0, np.pi) if columns.carry else (0.0,))
 
     def crest_or_edge(line, x):
-        return columns.at(column[line % m], x), np.arange(x.size), ends[line // m]
+        return columns.at(column[line % m], x), np.arange(x.size), places[line // m]
 
     def codes_at(line, x):
         at, *where = crest_or_edge(line, x)
@@ -79,12 +81,14 @@ def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list
         at, *where = crest_or_edge(line, x)
         return at.probe(*where)
 
-    D = np.tile(D, (ends.size, 1))
-    codes = codes_at(np.repeat(np.arange(m * ends.size), D.shape[1]), D.ravel()).reshape(D.shape)
+    D = np.tile(D, (places.size, 1))
+    codes = codes_at(np.repeat(np.arange(m * places.size), D.shape[1]), D.ravel()).reshape(D.shape)
     line, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
     low, high = D[line, node], D[line, node + 1]
-    width = 16 * _EPS * np.maximum(np.maximum(np.abs(low), np.abs(high)), h)
-    changes = locate(probe, columns.guide, line, low, high, codes[line, node], codes[line, node + 1], width)
+    width = 16 * _EPS * np.maximum(np.maximum(np.abs(low), np.abs(high)), max(h, a.p_0 / K))
+    ends = codes[line, node], codes[line, node + 1]
+    looks = _beside_known(columns, column, probe, line, low, high, ends, width)
+    changes = locate(probe, columns.guide, line, low, high, *ends, width, looks)
     if columns.branch == "unloading" and a.p_0 > 0:
         edge = [h - a.p_0 / K, h - a.p_0 / K - a.delta_0]
     else:
@@ -95,6 +99,24 @@ def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list
         points = np.unique([*changes.high[changes.line % m == r], *(e for e in edge if D[r, 0] < e < D[r, -1])])
         out.append(points[np.concatenate(([True], np.diff(points) > 1e-12 * h))] if points.size else points)
     return out, touched
+
+
+def _beside_known(columns: Columns, column, probe: Probe, line, low, high, ends, width) -> Looks:
+    """Looks at the ``ends`` (codes at ``low`` and ``high``) of brackets, and next to where the crest is known to change."""
+    known = np.stack((columns.clinging.crest(columns), saturation_depth(columns)))
+    crest = np.flatnonzero(line < column.size)
+    place = known[:, column[line[crest]]]
+    x = place + np.multiply.outer((-_ASIDE, _ASIDE), width[crest])[:, None]
+    *_, at = inside = np.nonzero((x > low[crest]) & (x < high[crest]))
+    rows, x = crest[at], x[inside]
+    codes, margins = probe(line[rows], x)
+    every, unknown = np.arange(line.size), np.full((2 * line.size, margins.shape[1]), np.nan)
+    return Looks(
+        np.concatenate((every, every, rows)),
+        np.concatenate((low, high, x)),
+        np.concatenate((*ends, codes)),
+        np.concatenate((unknown, margins)),
+    )
 
 
 def _scan(columns: Columns, top):

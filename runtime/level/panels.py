@@ -31,7 +31,9 @@ _ROUNDS = 60
 #: looks closer to an expected transition than its bracket is wide, as shares of half of it
 _CLOSER = (1 / 4, 1 / 16)
 #: how far from the flat edge the strip next to it is, in parts of the accuracy; what does not count is asked for to any accuracy
-_EDGE = 0.01
+_EDGE, _ANY = 0.01, 0.1
+#: how far a strip may be from a transition that is known, in parts of what may err there: values change by a thousand floors
+_ASIDE = 0.5e-3
 #: panels a column may have waiting at once
 _CROWD = 150
 _EPS = np.finfo(float).eps
@@ -60,10 +62,7 @@ class Hints:
 
     def without(self, column: np.ndarray, known: np.ndarray) -> Hints:
         """Those away from the transitions ``known`` of the columns ``column``."""
-        # theta is below 4: columns apart
-        keys = np.sort(4.0 * column + known)
-        low, high = (np.searchsorted(keys, 4.0 * self.column + v, side) for v, side in ((self.low, "left"), (self.high, "right")))
-        away = low == high
+        away = _hold_none(self.column, self.low, self.high, column, known)
         kept = {name: getattr(self, name)[away] for name in ("column", "low", "high", "code_low", "code_high")}
         return replace(self, **kept)
 
@@ -133,9 +132,9 @@ def average(
     n = len(starts)
     work = _Work(columns, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
     column, known = np.repeat(np.arange(n), [s.size for s in starts]), np.concatenate([*starts, np.empty(0)])
-    cuts = _Panels.unknown(column, known, known, q)
+    cuts = _Panels.joined((_Panels.unknown(column, known, known, q), work.met(*columns.ends_of_clinging(), column, known)))
     if hints is not None:
-        cuts = _Panels.joined((cuts, work.expected(hints, column, known)))
+        cuts = _Panels.joined((cuts, work.expected(hints, cuts.column, 0.5 * (cuts.low + cuts.high))))
     panels = _between(n, cuts)
     for _ in range(_ROUNDS):
         panels = work.refine(panels.take(np.flatnonzero(panels.high > panels.low)))
@@ -150,6 +149,20 @@ def average(
         work.give_up(panels)
     work.close_slivers()
     return Averages(work.values / np.pi, work.errors / np.pi, work.strips, work.zones())
+
+
+def _hold_none(column, low, high, other, known) -> np.ndarray:
+    """Which brackets [low, high] of a ``column`` hold none of the transitions ``known`` of the columns ``other``."""
+    # theta is below 4: columns apart
+    keys = np.sort(4.0 * other + known)
+    return np.searchsorted(keys, 4.0 * column + low, "left") == np.searchsorted(keys, 4.0 * column + high, "right")
+
+
+def _apart(column, low, high) -> np.ndarray:
+    """Which brackets of a column do not overlap, in order."""
+    order = np.lexsort((low, column))
+    tight = np.flatnonzero((column[order[1:]] == column[order[:-1]]) & (low[order[1:]] <= high[order[:-1]]))
+    return np.delete(order, np.union1d(tight, tight + 1))
 
 
 def _between(n: int, cuts: _Panels) -> _Panels:
@@ -184,6 +197,28 @@ def _beside(column, place, owner, ends) -> np.ndarray:
 
 
 @dataclass(slots=True)
+class _Sights:
+    """Strips that are asked for first, arrays (k,): at ``theta`` of a ``column``, for what ends at ``place``; their ``codes`` and
+    ``values`` (k, q) once they are known. What is narrower than a panel's first step shows up there."""
+
+    column: np.ndarray
+    theta: np.ndarray
+    place: np.ndarray
+    codes: np.ndarray | None = None
+    values: np.ndarray | None = None
+
+    def add(self, column, place) -> None:
+        """Ask for the strips at each ``place`` of a ``column`` too."""
+        self.column, self.theta, self.place = (
+            np.concatenate(v) for v in ((self.column, column), (self.theta, place), (self.place, place))
+        )
+
+    def at(self, column, place) -> np.ndarray:
+        """Which one lies at each ``place`` of a column, -1 for none."""
+        return _beside(column, place, self.column, self.place)
+
+
+@dataclass(slots=True)
 class _Work:
     columns: Columns
     floor: np.ndarray
@@ -194,10 +229,23 @@ class _Work:
     accepted: list[tuple] = field(default_factory=list)
     #: brackets of transitions (column, low, high) with what was left out for each, and how far off that may be
     slivers: list[tuple] = field(default_factory=list)
-    #: codes (columns, 2) and values (columns, 2, q) at the crest and next to the flat edge: what is narrower than a panel's first
-    #: step shows up there
-    ends: np.ndarray | None = None
-    end_values: np.ndarray | None = None
+    sights: _Sights = field(init=False)
+
+    def __post_init__(self):
+        every = np.arange(self.rtol.size)
+        crest, flat = 0.0 * self.rtol, np.full(every.size, np.pi)
+        self.sights = _Sights(np.tile(every, 2), np.concatenate((crest, self._edge())), np.concatenate((crest, flat)))
+
+    def met(self, column, theta, rounding, other, known) -> _Panels:
+        """Brackets of the transitions ``theta`` (m,) of a ``column`` that are known to ``rounding``, away from the ``known`` ones
+        of columns ``other``."""
+        aside = np.maximum(_ASIDE * _SLIVER * _SHARE * np.minimum(self.rtol, _ANY)[column], rounding)
+        low, high = theta - aside, theta + aside
+        inside = np.flatnonzero((low > 0) & (high < self._edge()[column]) & _hold_none(column, low, high, other, known))
+        index = inside[_apart(column[inside], low[inside], high[inside])]
+        column, low, high = column[index], low[index], high[index]
+        self.sights.add(np.tile(column, 2), np.concatenate((low, high)))
+        return _Panels.unknown(column, low, high, self.values.shape[1])
 
     def zones(self) -> list[np.ndarray]:
         """See ``Averages.zones``."""
@@ -258,12 +306,7 @@ class _Work:
         seen, witnessed = codes[places.size :], values[places.size :]
         holds = (codes[:m] == hints.code_low) & (codes[m : 2 * m] == hints.code_high)
         index = np.flatnonzero(holds)
-        order = index[np.lexsort((hints.low[index], hints.column[index]))]
-        # brackets of one column must not overlap
-        tight = np.flatnonzero(
-            (hints.column[order[1:]] == hints.column[order[:-1]]) & (hints.low[order[1:]] <= hints.high[order[:-1]])
-        )
-        index = np.delete(order, np.union1d(tight, tight + 1))
+        index = index[_apart(hints.column[index], hints.low[index], hints.high[index])]
         spread = np.abs(values[m : 2 * m] - values[:m])[index]
         line = hints.column[index]
         size = np.pi * (hints.size[line] + self.floor[line])
@@ -377,30 +420,36 @@ class _Work:
         return codes[:m].reshape(shape), values[:m].reshape(*shape, values.shape[1]), codes[m:]
 
     def _evaluated(self, ask, column, theta) -> list[np.ndarray]:
-        """What is asked of strips (m,), codes and values first; the first time also of those at the ends."""
-        m = theta.size
-        if self.ends is None:
-            every = np.arange(self.rtol.size)
-            column = np.concatenate((column, every, every))
-            theta = np.concatenate((theta, 0.0 * self.rtol, self._edge()))
+        """What is asked of strips (m,), codes and values first; the first time also of the sights."""
+        m, first = theta.size, self.sights.codes is None
+        if first:
+            column, theta = np.concatenate((column, self.sights.column)), np.concatenate((theta, self.sights.theta))
         np.add.at(self.strips, column, 1)
         answers = ask(column, theta)
-        if self.ends is None:
-            codes, values = answers[:2]
-            self.ends = codes[m:].reshape(2, -1).T
-            self.end_values = values[m:].reshape(2, every.size, -1).swapaxes(0, 1)
+        if first:
+            self.sights.codes, self.sights.values = answers[0][m:], answers[1][m:]
+            self._leave_out_met()
         return [answer[:m] for answer in answers]
 
+    def _leave_out_met(self) -> None:
+        """Leave out the slivers of the transitions that are known to rounding, now that values at their ends are."""
+        met = slice(2 * self.rtol.size, None)
+        column, (low, high) = np.split(self.sights.column[met], 2)[0], np.split(self.sights.place[met], 2)
+        values = np.split(self.sights.values[met], 2)
+        self._leave_out(column, low, high, np.minimum(*values), np.maximum(*values))
+
     def _learn_ends(self, panels: _Panels) -> None:
-        """Fill in what is known of the crest and the flat edge."""
-        if self.ends is None:
+        """Fill in what is known of the panels' ends from the sights."""
+        sights = self.sights
+        if sights.codes is None:
             return
         outermost = panels.low + (np.pi - panels.low) * mapped(interior_nodes(_FIRST)[-1])
         # beyond the strip next to the flat edge a panel may have nodes: then that strip is not its end
-        flat = (panels.high == np.pi) & (outermost < self._edge()[panels.column])
-        for side, there in enumerate((panels.low == 0, flat)):
-            panels.codes[there, side] = self.ends[panels.column[there], side]
-            panels.values[there, side] = self.end_values[panels.column[there], side]
+        beyond = (panels.high == np.pi) & (outermost >= self._edge()[panels.column])
+        for side, place in enumerate((panels.low, np.where(beyond, np.nan, panels.high))):
+            at = sights.at(panels.column, place)
+            there = np.flatnonzero(at >= 0)
+            panels.codes[there, side], panels.values[there, side] = sights.codes[at[there]], sights.values[at[there]]
 
     def _with_ends(self, panels: _Panels, theta, codes, values):
         """Nodes, codes and values with the panels' ends added where these are known (the end nodes twice elsewhere)."""
@@ -413,7 +462,7 @@ class _Work:
 
     def _edge(self):
         """Theta next to the flat edge of each column: what lies beyond does not matter at its accuracy."""
-        return np.pi * (1 - _EDGE * np.minimum(self.rtol, 0.1))
+        return np.pi * (1 - _EDGE * np.minimum(self.rtol, _ANY))
 
     def _probe(self, column, theta):
         np.add.at(self.strips, column, 1)

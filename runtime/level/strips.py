@@ -13,6 +13,7 @@ from hystrip.solver import Material, foundation_of, kernel_of
 from hystrip.strip.regimes import CODE
 from hystrip.strip.solved import Solved
 
+from .clinging import Clinging
 from .margins import POWERS, decisive, margins
 from .order import FreeBelow, Question
 from .saturated import saturated_level
@@ -62,8 +63,9 @@ class Columns:
 
     ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
     laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels. ``frictional``: it is for
-    pressure and friction that the averages are made; fractions need be accurate against 1 only. ``free``: what is known of free
-    strips, shared by all that is made of these columns; None: every strip is asked.
+    pressure and friction that the averages are made; fractions need be accurate against 1 only. ``free``, ``clinging``: what is
+    known of strips that are free and of such as are engaged all along, shared by all that is made of these columns; no ``free``:
+    every strip is asked.
     """
 
     material: Material
@@ -79,6 +81,7 @@ class Columns:
     frictional: bool = False
     tally: Tally = field(default_factory=Tally, compare=False)
     free: FreeBelow | None = field(default_factory=FreeBelow, compare=False)
+    clinging: Clinging = field(default_factory=Clinging, compare=False)
 
     def at(self, index, D) -> Columns:
         """The columns ``index`` at other penetrations ``D``."""
@@ -185,6 +188,10 @@ class Columns:
         """Thetas of the transitions known in closed form, for every column: where strips become saturated, where they lose
         touch."""
         return _known_transitions(self)
+
+    def ends_of_clinging(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Columns and thetas (k,) of the transitions where strips cease to be engaged all along, and how well each is known."""
+        return self.clinging.ends(self)
 
 
 @dataclass(frozen=True)
