@@ -26,14 +26,14 @@ from hystrip.strip.start import start
 if TYPE_CHECKING:
     from .strips import Columns
 
-#: points of a curve below and above ``S = 2``, dense there and where contact begins or fills the period
+#: points of a curve: S up to 2, and shares of what lies above; dense at 2, where contact begins and where it fills the period
 _BELOW = 2 * (np.arange(1, 13) / 12) ** 2
-_ABOVE = np.sin(0.5 * np.pi * np.arange(1, 24) / 24) ** 4
+_ABOVE = np.concatenate((np.sin(0.5 * np.pi * np.arange(1, 24) / 24) ** 4, 1 - 0.1 ** np.arange(3, 7)))
 #: least of ``k V T_eps`` and of what ``S`` at saturation exceeds 2 by: below, the gap hardly depends on what happened in contact
 _LEAST = 1e-3
 _EPS = np.finfo(float).eps
-#: roundings of a penetration
-_ROUNDED = 2.0
+#: roundings of a penetration that are counted
+_ROUNDED = 0.5
 #: steps of Newton at most; one this small leaves an error of its square
 _STEPS, _SMALL = 8, 1e-7
 

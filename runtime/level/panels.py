@@ -122,17 +122,21 @@ class _Panels:
 
 
 def average(
-    columns: Columns, starts: list[np.ndarray], floor: np.ndarray, rtol: np.ndarray, q: int, hints: Hints | None = None
+    columns: Columns,
+    known: tuple[np.ndarray, np.ndarray],
+    floor: np.ndarray,
+    rtol: np.ndarray,
+    q: int,
+    hints: Hints | None = None,
 ) -> Averages:
     """Means ``(1/pi) int_0^pi values d(theta)`` of the ``integrand`` of every column to ``rtol (|value| + floor)``.
 
-    ``starts``: for each column the interior thetas known to be transitions, sorted. ``floor`` and ``rtol`` have shape
-    (columns, q) and (columns,). ``hints``: what is expected, but not certain.
+    ``known``: columns and interior thetas (k,) known to be transitions. ``floor`` and ``rtol`` have shape (columns, q) and
+    (columns,). ``hints``: what is expected, but not certain.
     """
-    n = len(starts)
+    n, (column, theta) = rtol.size, known
     work = _Work(columns, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
-    column, known = np.repeat(np.arange(n), [s.size for s in starts]), np.concatenate([*starts, np.empty(0)])
-    cuts = _Panels.joined((_Panels.unknown(column, known, known, q), work.met(*columns.ends_of_clinging(), column, known)))
+    cuts = _Panels.joined((_Panels.unknown(column, theta, theta, q), work.met(*columns.ends_of_clinging(), *known)))
     if hints is not None:
         cuts = _Panels.joined((cuts, work.expected(hints, cuts.column, 0.5 * (cuts.low + cuts.high))))
     panels = _between(n, cuts)

@@ -88,7 +88,7 @@ def _left(n: int, turning: bool) -> tuple[np.ndarray, np.ndarray]:
     odd = np.arctanh(z)
     exact = (0.75 * odd - 0.375 * (z**2 * odd - z) - 0.375 * (odd - z) / z**2)[:, 0]
     values = z / (1 - 2 * z * np.cos(np.arange(1, n) * np.pi / n) + z**2)
-    c = np.abs(values @ _second_kind(n).T)
+    c = np.abs(_second_kind(n) @ values.T)
     missed = np.abs(values @ mapped_weights(n) - exact) / _last(c, _runs(n)[0 if turning else 1])
     shown = rho if turning else _last(c, _step(n)) / _last(c, _step(n), _step(n))
     return shown, np.maximum.accumulate(missed.reshape(rho.size, -1).max(axis=1))
@@ -100,9 +100,9 @@ def _step(n: int) -> int:
 
 
 def _last(c: np.ndarray, size: int, skipped: int = 0) -> np.ndarray:
-    """Largest of the last ``size`` coefficients (p, n - 1, ...), but for the ``skipped`` ones behind them."""
-    end = c.shape[1] - skipped
-    return c[:, end - size : end].max(axis=1)
+    """Largest of the last ``size`` coefficients (n - 1, ...), but for the ``skipped`` ones behind them."""
+    end = len(c) - skipped
+    return c[end - size : end].max(axis=0)
 
 
 def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
@@ -114,14 +114,16 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     believed, and the geometric mean of both where it is the smaller one, which may be chance; elsewhere the larger.
     """
     n = values.shape[1] + 1
-    c = np.abs(_second_kind(n) @ values)
+    # nodes first and intervals last: largest ones are had fastest so
+    c, values = (np.ascontiguousarray(np.moveaxis(v, 0, 2)) for v in (_second_kind(n) @ values, values))
     # what is rounding says nothing of the singularities
-    c = np.maximum(c - 16 * _EPS * np.abs(values).max(axis=1)[:, None], 0.0)
-    amplitude = c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny
-    shape = (c / amplitude[:, None]).max(axis=2, keepdims=True)
+    c = np.maximum(np.abs(c) - 16 * _EPS * np.abs(values).max(axis=0), 0.0)
+    noise = noise.T
+    amplitude = c[1:].max(axis=0) + noise + np.finfo(float).tiny
+    shape = (c / amplitude).max(axis=1)
     many, few = _runs(n)
     step = _step(n)
-    ratio = _ratio(_last(shape, many), shape[:, n // 2 - _MIDDLE : n // 2].max(axis=1))
+    ratio = _ratio(_last(shape, many), shape[n // 2 - _MIDDLE : n // 2].max(axis=0))
     since = ratio ** (1 / (0.5 * (n + 1 - many)))
     recent = np.maximum(
         _ratio(_last(c, step), _last(c, step, step) + _QUIET * noise), _ratio(_last(shape, step), _last(shape, step, step))
@@ -133,7 +135,7 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     doubtful = _SAFE * np.maximum(first, second)
     # as those of a kink may fall: by a power, and coming and going; so the next ones by as much as these
     slow = np.where(ratio > _POWER, np.maximum(doubtful, _TURNS * size * ratio), doubtful)
-    return np.where(sure, _SAFE * np.sqrt(np.maximum(first, second) * second), slow)
+    return np.where(sure, _SAFE * np.sqrt(np.maximum(first, second) * second), slow).T
 
 
 def _ratio(last, first):

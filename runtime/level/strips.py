@@ -184,8 +184,8 @@ class Columns:
         except where many means make one curve."""
         return (codes % len(CODE) == CODE["c"]) & (not self.frictional)
 
-    def transitions(self) -> list[np.ndarray]:
-        """Thetas of the transitions known in closed form, for every column: where strips become saturated, where they lose
+    def transitions(self) -> tuple[np.ndarray, np.ndarray]:
+        """Columns and thetas (k,) of the transitions known in closed form: where strips become saturated, where they lose
         touch."""
         return _known_transitions(self)
 
@@ -215,10 +215,10 @@ def saturation_depth(columns: Columns) -> np.ndarray:
     return saturated_level(columns.material, columns.adhesion, columns.level, columns.V, columns.branch).D_sat
 
 
-def _known_transitions(columns: Columns) -> list[np.ndarray]:
+def _known_transitions(columns: Columns) -> tuple[np.ndarray, np.ndarray]:
     m, h, p_0, delta_0 = columns.material, columns.level.h, columns.adhesion.p_0, columns.adhesion.delta_0
     if h == 0:
-        return [np.empty(0)] * columns.size
+        return np.empty(0, int), np.empty(0)
     R = foundation_of(m).modulus_ratio(columns.level.k * columns.V)
     # saturated where D - drop >= A (1 + R) - p_0/K, with drop = (h/2)(1 - cos), A = (h/4)(1 + cos)
     numerator = (columns.D + p_0 / m.K) / h - 0.5 - 0.25 * (1 + R)
@@ -228,8 +228,6 @@ def _known_transitions(columns: Columns) -> list[np.ndarray]:
     if columns.branch == "loading" or p_0 == 0:
         # free where D - drop <= -delta_0 (or 0 without adhesion)
         found.append(1 - 2 * (columns.D + (delta_0 if p_0 > 0 else 0.0)) / h)
-    out = []
-    for cosines in np.array(found).T:
-        inside = cosines[(cosines > -1) & (cosines < 1)]
-        out.append(np.sort(np.arccos(inside)))
-    return out
+    cosines = np.array(found)
+    kind, column = np.nonzero((cosines > -1) & (cosines < 1))
+    return column, np.arccos(cosines[kind, column])
