@@ -14,6 +14,7 @@ import numpy as np
 from hystrip.solver import kernel_of
 
 from .contact import Contact, contact_of
+from .parts import Parts, around, between
 from .quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
 from .strips import Columns, SolvedStrips
 from .table import LawTable
@@ -22,7 +23,7 @@ TWO_PI = 2 * np.pi
 _FIRST, _LAST = 8, 32
 _HALVINGS = 12
 #: a part's share of the error that an average of strips is allowed, and parts integrated at a time
-_SHARE, _CHUNK = 0.1, 8192
+_SHARE, _CHUNK = 0.1, 2048
 
 
 @dataclass(frozen=True)
@@ -88,22 +89,23 @@ class CarriedByLaws:
         deepest = reached.max(initial=0)
         # phases between which the pressure exceeds each break, nested
         passes = [contact.passes(breaks[:, j], reached > j) for j in range(deepest)]
-        parts = []
+        parts: list[Parts] = []
         for j, (up, down) in enumerate(passes):
             saturated = (reached > j) & (breaks[:, j] >= table.p_sat[group])
             total[saturated, :-1] += (down - up)[saturated, None] * table.saturated[group[saturated], 1:]
             rest = (reached > j) & ~saturated
+            if not rest.any():
+                continue
             inner = rest & (reached > j + 1)
-            next_up, next_down = passes[j + 1] if j + 1 < deepest else (up, down)
-            for pick, low, high in ((rest & ~inner, up, down), (inner, up, next_up), (inner, next_down, down)):
-                rows = np.flatnonzero(pick & (high > low))
-                parts.append((rows, low[rows], high[rows]))
+            if inner.any():
+                parts += between(contact, j, inner, up, down, *passes[j + 1])
+            # saturation is a break: there is one after this
+            parts += around(contact, j, rest & ~inner, up, down, contact.p_peak - breaks[:, j], breaks[:, j + 1] - contact.p_peak)
             # where the break lies is known as well as the law's pressures: that much of the jump may fall on the wrong side
             crossing = rest & (breaks[:, j] > contact.p_least)
             total[crossing, -1] += self._misplaced(contact, group, j, np.flatnonzero(crossing), up, down)
         if parts:
-            rows, low, high = (np.concatenate(v) for v in zip(*parts, strict=True))
-            self._integrate(contact, group, rows, low, high, total)
+            self._integrate(contact, group, Parts.joined(parts).sharing(), total)
         return total
 
     def _misplaced(self, contact: Contact, group, j, rows, up, down):
@@ -115,59 +117,78 @@ class CarriedByLaws:
             reach += np.minimum(np.divide(shift, slope, out=np.full(rows.size, np.inf), where=slope > 0), np.sqrt(shift))
         return table.jumps[g, j] * np.minimum(reach, down[rows] - up[rows])
 
-    def _integrate(self, contact: Contact, group, rows, low, high, total):
-        """Add the integrals of the law over parts [low, high] of the contacts ``rows``, smooth inside, with their errors."""
-        for _ in range(_HALVINGS):
-            again = []
-            for start in range(0, rows.size, _CHUNK):
-                some = slice(start, start + _CHUNK)
-                left = self._attempt(contact, group, rows[some], low[some], high[some], total, last=False)
-                again.append([v[some][left] for v in (rows, low, high)])
-            rows, low, high = (np.concatenate(v) for v in zip(*again, strict=True)) if again else (rows, low, high)
-            if not rows.size:
+    def _integrate(self, contact: Contact, group, parts: Parts, total):
+        """Add the integrals of the law over ``parts`` of the contacts, smooth inside, with their errors."""
+        for k in range(_HALVINGS + 1):
+            if not parts.size:
                 return
-            middle = 0.5 * (low + high)
-            rows, low, high = np.tile(rows, 2), np.concatenate((low, middle)), np.concatenate((middle, high))
-        self._attempt(contact, group, rows, low, high, total, last=True)
+            last = k == _HALVINGS
+            left = [self._attempt(contact, group, some, total, last) for some in parts.chunks(_CHUNK)]
+            parts = Parts.joined(left).halves()
 
-    def _attempt(self, contact: Contact, group, rows, low, high, total, last: bool):
-        """Integrate on doubled nodes what converges; returns the indices of what does not (or takes it as it is)."""
-        left, values, errors = np.arange(rows.size), None, None
-        n = _FIRST
-        while left.size:
-            t = interior_nodes(n)
-            fresh = t if values is None else t[0::2]
-            i, width = rows[left], (high - low)[left]
-            phase = low[left][:, None] + width[:, None] * mapped(fresh)
-            p = contact.pressure(np.repeat(i, fresh.size), phase.ravel())
-            new, new_errors = self.table(np.repeat(group[i], fresh.size), p)
-            new = np.concatenate((p[:, None], new), axis=1).reshape(left.size, fresh.size, -1)
-            new_errors = new_errors.reshape(left.size, fresh.size, 2)
-            values = new if values is None else interleaved(new, values)
-            errors = new_errors if errors is None else interleaved(new_errors, errors)
-            law, w = values[:, :, 1:], mapped_weights(n)
-            best = width[:, None] * (w @ law)
-            noise = _SHARE * self.rtol * (1e-3 * self.scales[:-1] + np.abs(law).max(axis=1))
-            miss = width[:, None] * sum_errors(law, noise)
-            frictions = self.table.frictions
-            own = width * self._own(values, errors, w)
-            allowed = _SHARE * self.rtol * (width[:, None] * 1e-3 * self.scales[:-1] + np.abs(best))
+    def _attempt(self, contact: Contact, group, parts: Parts, total, last: bool) -> Parts:
+        """Integrate on doubled nodes what converges; returns what does not (or takes it as it is)."""
+        frictions, floor = self.table.frictions, 1e-3 * self.scales[self.table.frictions, None]
+        values, n = None, _FIRST
+        while parts.size:
+            t, w = interior_nodes(n), mapped_weights(n)
+            fresh = self._at_nodes(contact, group, parts, t if values is None else t[0::2])
+            values = fresh if values is None else interleaved(fresh, values)
+            p, law, errors = values[0], values[1:-2], values[-2:]
+            width = parts.times * parts.width
+            best = width * _summed(w, law)
+            # what is not added yet counts for the size of the result, not for the result
+            strip = parts.rows - parts.rows.min()
+            size = np.abs(total[parts.rows][:, frictions].T) + _by_strip(np.abs(best[frictions]), strip)
+            spread = contact.a[parts.rows] - contact.b[parts.rows]
+            allowed = _SHARE * self.rtol * (spread * floor + size) * parts.share
+            friction = law[frictions]
+            miss = width * sum_errors(np.ascontiguousarray(friction.T), (allowed / width).T).T
+            own = width * _summed(w, self._own(p, np.abs(friction).sum(axis=0), errors))
             # there is no use in integrating better than the law is known
-            done = ((miss <= allowed) | (miss <= own[:, None])).all(axis=1) | (last & (n == _LAST))
-            np.add.at(total, i[done], np.column_stack((best, miss[:, frictions].sum(axis=1) + own))[done])
-            left, values, errors = left[~done], values[~done], errors[~done]
+            done = ((miss <= allowed) | (miss <= own)).all(axis=0)
+            done |= (_by_strip(miss, strip) <= _by_strip(allowed, strip)).all(axis=0) | (last & (n == _LAST))
+            np.add.at(total, parts.rows[done], np.concatenate((best, (miss.sum(axis=0) + own)[None]))[:, done].T)
+            parts, values = parts.take(~done), values[:, :, ~done]
             if n == _LAST:
-                return left
+                break
             n *= 2
-        return left
+        return parts
 
-    def _own(self, values, errors, w):
-        """Error that the law itself brings, per width: of its friction, and of the pressure it belongs to."""
-        p, friction = values[:, :, 0], np.abs(values[:, :, 1:][:, :, self.table.frictions]).sum(axis=2)
-        slope = np.divide(np.abs(np.diff(friction)), np.abs(np.diff(p)), out=np.zeros_like(p[:, 1:]), where=np.diff(p) != 0)
-        between = np.minimum(slope * errors[:, 1:, 1], np.abs(np.diff(friction)))
-        shifted = np.concatenate((between[:, :1], between), axis=1)
-        return (errors[:, :, 0] + shifted) @ w
+    def _at_nodes(self, contact: Contact, group, parts: Parts, t):
+        """Pressure, what the law says and its errors of friction and pressure at the parameters ``t``, (q + 2, nodes, parts)."""
+        out = np.empty((self.scales.size + 2, t.size, parts.size))
+        half, uneven = t.size // 2, parts.uneven
+        # an even part is known by its first half
+        for some, nodes in ((slice(0, uneven), t), (slice(uneven, None), t[: t.size - half])):
+            rows, low, width = parts.rows[some], parts.low[some], parts.width[some]
+            if rows.size:
+                p = contact.pressure(rows, low + width * mapped(nodes)[:, None])
+                values, errors = self.table(group[rows], parts.interval[some], p)
+                out[:, : nodes.size, some] = np.concatenate((p[None], values, np.broadcast_to(errors, (2, *p.shape))))
+        out[:, t.size - half :, uneven:] = out[:, :half, uneven:][:, ::-1]
+        return out
+
+    @staticmethod
+    def _own(p, friction, errors):
+        """Error that the law itself brings at each node: of its friction, and of the pressure it belongs to."""
+        rise = np.abs(np.diff(p, axis=0))
+        share = np.divide(np.minimum(errors[1, 1:], rise), rise, out=np.zeros_like(rise), where=rise > 0)
+        between = share * np.abs(np.diff(friction, axis=0))
+        return errors[0] + np.concatenate((between[:1], between))
+
+
+def _summed(weights, values):
+    """Weighted sum over the nodes (..., nodes, parts), one after the other: no part's sum depends on those beside it."""
+    out = weights[0] * values[..., 0, :]
+    for k in range(1, weights.size):
+        out += weights[k] * values[..., k, :]
+    return out
+
+
+def _by_strip(values, strip):
+    """Sums (q, parts) of ``values`` over the parts of the same strip."""
+    return np.stack([np.bincount(strip, row)[strip] for row in values])
 
 
 def peak_pressure(columns: Columns) -> np.ndarray:

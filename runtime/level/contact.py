@@ -48,15 +48,14 @@ class Contact:
         self.p_least = self._least()
 
     def pressure(self, rows, phase):
-        """Pressure, Pa, of strip ``rows`` at ``phase`` in its contact."""
-        s = self.s
-        p = np.empty(rows.size)
-        full = self.full[rows]
+        """Pressure, Pa, of the strips ``rows`` (m,) at the phases ``phase`` (m,) or (nodes, m) in their contact."""
+        s, full = self.s, self.full[rows]
+        p = np.empty(phase.shape)
         i = rows[full]
-        p[full] = self.mean[i] + self.amplitude[i] * np.cos(phase[full] - self.centre[i])
+        p[..., full] = self.mean[i] + self.amplitude[i] * np.cos(phase[..., full] - self.centre[i])
         i, rest = rows[~full], ~full
-        q = self.kernel.excess_after(self.b[i], phase[rest], self.q_b[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
-        p[rest] = q - s.p_0[i]
+        q = self.kernel.excess_after(self.b[i], phase[..., rest], self.q_b[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
+        p[..., rest] = q - s.p_0[i]
         return p * self.unit[rows]
 
     def _peak(self):

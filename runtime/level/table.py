@@ -6,11 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .cells import SLOTS, clenshaw, slot, within
+from .cells import SLOTS, slot, within
 from .chebyshev import parameter
 from .law import Law
 
-_CHUNK = 4096
+#: breaks closer than this, relative to the largest, are one
+_SAME = 1e-12
 
 
 class LawTable:
@@ -36,35 +37,60 @@ class LawTable:
         every = [b for law in laws for b in law.branches]
         self._low, self._high = np.array([b.p_low for b in every]), np.array([b.p_high for b in every])
         error = np.array([b.piece.error for b in every]).reshape(len(every), -1)
-        self._error = np.stack((error[:, 1 + self.frictions].sum(axis=1), error[:, 0]), axis=1) if every else np.zeros((0, 2))
+        self._error = np.stack((error[:, 1 + self.frictions].sum(axis=1), error[:, 0])) if every else np.zeros((2, 0))
         cells = [b.cells for b in every]
         first = np.cumsum([0, *(c.start.size for c in cells)])
         joined = lambda values: np.concatenate(values) if cells else np.zeros(0)  # noqa: E731
-        self._coefficients = np.concatenate([c.coefficients[:, :, 1:] for c in cells], axis=1) if cells else np.zeros((1, 0, 0))
         self._from, self._size = joined([c.start for c in cells]), joined([c.size for c in cells])
-        self._cell = np.array([c.of + at for c, at in zip(cells, first[:-1], strict=True)]).reshape(-1, SLOTS)
+        self._cell = joined([c.of + at for c, at in zip(cells, first[:-1], strict=True)]).astype(np.intp)
+        self._powers = _powers([c.coefficients[:, :, 1:] for c in cells], self.saturated.shape[1] - 1)
+        self._first, self._final = self._branches_between()
 
-    def __call__(self, group: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Quantities after pressure (m, q - 1) at pressures ``p`` (m,) of the laws ``group`` (m,), and errors of friction and
-        pressure (m, 2)."""
-        out, errors = np.zeros((p.size, self.saturated.shape[1] - 1)), np.zeros((p.size, 2))
-        high = p >= self.p_sat[group]
-        out[high] = self.saturated[group[high], 1:]
-        rest = np.flatnonzero(~high & (p >= self.pull_off[group]))
-        if not self._low.size:
-            return out, errors
-        # few at a time: their coefficients stay in the cache
-        for start in range(0, rest.size, _CHUNK):
-            some = rest[start : start + _CHUNK]
-            out[some], errors[some] = self._between(group[some], p[some])
-        return out, errors
+    def _branches_between(self):
+        """The first and the last branch between each break and the next, (groups, B) both."""
+        breaks = np.concatenate((self.breaks, np.full((self.breaks.shape[0], 1), np.inf)), axis=1)
+        apart = _SAME * np.abs(np.where(np.isfinite(breaks), breaks, 0.0)).max(axis=1, keepdims=True)
+        below = lambda p: np.count_nonzero(self._upper[:, None] < p[:, :, None], axis=2)  # noqa: E731
+        ends = below(breaks[:, :-1] + apart), below(breaks[:, 1:] - apart)
+        return (self._start[:, None] + np.minimum(count, self._last[:, None]) for count in ends)
 
-    def _between(self, g, p):
-        which = self._start[g] + np.minimum(np.count_nonzero(self._upper[g] < p[:, None], axis=1), self._last[g])
-        share = np.clip((p - self._low[which]) / (self._high[which] - self._low[which]), 0.0, 1.0)
-        u = parameter(share)
-        cell = self._cell[which, slot(u)]
-        return clenshaw(self._coefficients[:, cell], within(u, self._from[cell], self._size[cell])), self._error[which]
+    def __call__(self, group: np.ndarray, interval: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Quantities after pressure (q - 1, nodes, m), and errors of friction and pressure (2, nodes or 1, m).
+
+        At pressures ``p`` (nodes, m) of the laws ``group`` (m,), between their breaks ``interval`` (m,) and the next ones.
+        """
+        which, final = self._first[group, interval], self._final[group, interval]
+        # mostly there is one branch between two breaks
+        for _ in range((final - which).max(initial=0)):
+            which = which + ((which < final) & (p > self._high[which]))
+        low = self._low[which]
+        share = (p - low) / (self._high[which] - low)
+        u = parameter(np.minimum(np.maximum(share, 0.0, out=share), 1.0, out=share))
+        cell = self._cell[which * SLOTS + slot(u)]
+        x = within(u, self._from[cell], self._size[cell])
+        out = np.empty((self._powers.shape[0], *p.shape))
+        for value, powers in zip(out, self._powers, strict=True):
+            np.take(powers[-1], cell, out=value, mode="clip")
+            for coefficient in powers[-2::-1]:
+                value *= x
+                value += coefficient[cell]
+        errors = self._error[:, which]
+        return out, errors if which.ndim > 1 else errors[:, None]
+
+
+def _powers(coefficients: list[np.ndarray], q: int) -> np.ndarray:
+    """Coefficients (q, degree + 1, cells) of powers, from those of Chebyshev polynomials.
+
+    Only the last of these are multiplied by much, and they are small unless a cell is one of the smallest.
+    """
+    if not coefficients:
+        return np.zeros((q, 1, 0))
+    c = np.concatenate(coefficients, axis=1)
+    to_powers = np.zeros((c.shape[0],) * 2)
+    for k, unit in enumerate(np.eye(c.shape[0])):
+        row = np.polynomial.chebyshev.cheb2poly(unit)
+        to_powers[: row.size, k] = row
+    return np.ascontiguousarray(np.tensordot(to_powers, c, axes=1).transpose(2, 0, 1))
 
 
 def _padded(rows, value):

@@ -55,8 +55,9 @@ class ModeContact:
         self.p_least = self.pressure(np.arange(index.size), np.where(self.full, self.centre - np.pi, self.b))
 
     def pressure(self, rows, phase):
-        """Pressure, Pa, of strip ``rows`` at ``phase`` in its contact."""
-        return self._at(rows, phase)[0] * self.unit[rows]
+        """Pressure, Pa, of the strips ``rows`` (m,) at the phases ``phase`` (m,) or (nodes, m) in their contact."""
+        every = np.broadcast_to(rows, phase.shape).ravel()
+        return self._at(every, phase.ravel())[0].reshape(phase.shape) * self.unit[rows]
 
     def slope(self, rows, phase):
         """Derivative of the pressure by phase, in the strip's own unit, of strip ``rows`` at ``phase`` in its contact."""

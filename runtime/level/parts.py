@@ -1,0 +1,107 @@
+"""Parts of the contact of strips in which the law of the level below is smooth.
+
+They lie between the phases where the pressure passes its breaks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+#: a peak this close below a break, as a share of its height above the one before: the law ends there like a root, nearly
+_CLOSE = 0.5
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Parts [low, high] of the contacts ``rows`` in phase, where the pressure lies between the breaks ``interval`` and the next
+    ones; all (m,).
+
+    ``times``: how often each counts, since in saturated contact the pressure falls as it rises. ``even``: it is its own
+    mirror image about its middle; such ones stand last. ``share``: of the error allowed to its contact.
+    """
+
+    rows: np.ndarray
+    interval: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    times: np.ndarray
+    even: np.ndarray
+    share: np.ndarray
+
+    @classmethod
+    def joined(cls, some: list[Parts]) -> Parts:
+        """All of them, in order."""
+        every = cls(*(np.concatenate([getattr(parts, f.name) for parts in some]) for f in fields(cls)))
+        return every.take(np.lexsort((every.rows, every.even)))
+
+    def take(self, index) -> Parts:
+        return Parts(*(getattr(self, f.name)[index] for f in fields(self)))
+
+    @property
+    def size(self) -> int:
+        return self.rows.size
+
+    @property
+    def uneven(self) -> int:
+        """How many are not even: those stand first."""
+        return self.size - np.count_nonzero(self.even)
+
+    @property
+    def width(self) -> np.ndarray:
+        return self.high - self.low
+
+    def sharing(self) -> Parts:
+        """The same, what is allowed to a contact divided evenly among its parts."""
+        return replace(self, share=1 / np.bincount(self.rows)[self.rows])
+
+    def halves(self) -> Parts:
+        """Both halves of each; of those that are even the first counts twice."""
+        middle, even = 0.5 * (self.low + self.high), self.even
+        share = np.where(even, self.share, 0.5 * self.share)
+        times = np.where(even, 2 * self.times, self.times)
+        first = replace(self, high=middle, times=times, even=np.zeros_like(even), share=share)
+        return Parts.joined([first, replace(self, low=middle, share=share).take(~even)])
+
+    def chunks(self, size: int) -> Iterator[Parts]:
+        """About ``size`` at a time, those of a contact together."""
+        order = np.argsort(self.rows, kind="stable")
+        rows = self.rows[order]
+        for some in np.split(order, np.unique(np.searchsorted(rows, rows[size::size]))):
+            yield self.take(np.sort(some))
+
+
+def between(contact, interval: int, which: np.ndarray, up, down, next_up, next_down) -> list[Parts]:
+    """Where the pressure of the contacts ``which`` passes from a break to the next and back: phases as of ``Contact.passes``."""
+    full = contact.full
+    return [
+        _parts(which & (next_up > up), interval, up, next_up, times=1 + full),
+        _parts(which & ~full & (down > next_down), interval, next_down, down),
+    ]
+
+
+def around(contact, interval: int, which: np.ndarray, up, down, over, under) -> list[Parts]:
+    """About the peaks of the contacts ``which``, that lie ``over`` the last break and ``under`` the next one, Pa: both sides by
+    themselves where it is close."""
+    full, close = contact.full, under < _CLOSE * over
+    inside = which & (down > up)
+    return [
+        _parts(inside & ~close, interval, up, down, even=full),
+        _parts(inside & close, interval, up, contact.top, times=1 + full),
+        _parts(inside & close & ~full, interval, contact.top, down),
+    ]
+
+
+def _parts(which, interval, low, high, times=None, even=None):
+    rows = np.flatnonzero(which)
+    return Parts(
+        rows,
+        np.full(rows.size, interval),
+        low[rows],
+        high[rows],
+        np.ones(rows.size) if times is None else times[rows].astype(float),
+        np.zeros(rows.size, bool) if even is None else even[rows],
+        np.ones(rows.size),
+    )
