@@ -6,11 +6,12 @@ import pytest
 
 import hystrip
 from hystrip import multilevel
+from hystrip.level.branches import branches, rising
 from hystrip.level.cells import cells_of
 from hystrip.level.chebyshev import Piece
 from hystrip.level.curve import Curve
 from hystrip.level.demand import Demand
-from hystrip.level.law import Law, branches, rising
+from hystrip.level.law import Law
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)

@@ -20,8 +20,8 @@ def data() -> dict[str, Any]:
 
     ``reachable``: met by pulling back slowly under load control; the rest of the unloading curve needs control of penetration.
     """
+    from hystrip.level.branches import branches
     from hystrip.level.curve import trace
-    from hystrip.level.law import branches
     from hystrip.level.strips import Columns, saturation_depth
     from hystrip.scene import load_scene
 

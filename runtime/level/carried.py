@@ -23,7 +23,7 @@ TWO_PI = 2 * np.pi
 _FIRST, _LAST = 8, 32
 _HALVINGS = 12
 #: a part's share of the error that an average of strips is allowed, and parts integrated at a time
-_SHARE, _CHUNK = 0.1, 2048
+_SHARE, _CHUNK = 0.1, 4096
 
 
 @dataclass(frozen=True)

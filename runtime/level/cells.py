@@ -32,7 +32,7 @@ class Cells:
     def __call__(self, x: np.ndarray) -> np.ndarray:
         """Values (m, q) at ``x`` (m,) in [0, 1]."""
         cell = self.of[slot(x)]
-        return clenshaw(self.coefficients[:, cell], within(x, self.start[cell], self.size[cell]))
+        return clenshaw(self.coefficients.swapaxes(1, 2), cell, within(x, self.start[cell], self.size[cell])).T
 
 
 def cells_of(
@@ -77,10 +77,15 @@ def within(x: np.ndarray, start: np.ndarray, size: np.ndarray) -> np.ndarray:
     return 2 * (x * SLOTS - start) / size - 1
 
 
-def clenshaw(c: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Chebyshev sums (m, q) with coefficients ``c`` (degree + 1, m, q) of their own at every ``x`` (m,)."""
-    twice = 2 * x[:, None]
-    one = two = 0.0
-    for k in range(c.shape[0] - 1, 0, -1):
-        one, two = c[k] + twice * one - two, one
-    return c[0] + x[:, None] * one - two
+def clenshaw(table: np.ndarray, which: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Chebyshev sums (q, ...) at ``x`` (...): those of the members ``which`` (...) of a ``table`` (degree + 1, q, n)."""
+    twice, shape = 2 * x, (table.shape[1], *x.shape)
+    one, two, product, here = np.zeros(shape), np.zeros(shape), np.empty(shape), np.empty(shape)
+    for c in table[:0:-1]:
+        # the older one becomes the next, in place: all time goes here
+        np.subtract(np.multiply(twice, one, out=product), two, out=two)
+        two += np.take(c, which, axis=1, out=here, mode="clip")
+        one, two = two, one
+    np.subtract(np.multiply(x, one, out=product), two, out=two)
+    two += np.take(table[0], which, axis=1, out=here, mode="clip")
+    return two

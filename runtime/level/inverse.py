@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .branches import Branch, rising
 from .breaks import breaks_on, first_contact, threshold_width
 from .curve import Sought, interpolate
 from .interval import Interval
-from .law import Branch, rising
 from .means import level_means
 from .monotone import enclosed
 from .strips import Columns

@@ -12,11 +12,11 @@ from .cells import cells_of, clenshaw
 from .chebyshev import graded, parameter
 
 if TYPE_CHECKING:
-    from .law import Branch
+    from .branches import Branch
 
 _GRID = np.linspace(0, 1, 65)
 _EPS = np.finfo(float).eps
-_CHUNK = 1024
+_CHUNK = 4096
 
 
 def resampled(branches: Sequence[Branch], tolerance: np.ndarray) -> list[Branch]:
@@ -49,12 +49,12 @@ class Inverse:
         # over this share t is all but linear, also where the curve turns
         self._grid = self._ends[:, :1] + np.diff(self._ends) * _GRID
         every = np.repeat(np.arange(len(pieces)), _GRID.size)
-        shares = self._share(every, self._pressures(every, self._grid.ravel())[:, 0]).reshape(self._grid.shape)
+        shares = self._share(every, self._pressures(every, self._grid.ravel())[0]).reshape(self._grid.shape)
         self._shares = np.maximum.accumulate(shares, axis=1)
 
     def quantities(self, which: np.ndarray, t: np.ndarray) -> np.ndarray:
         """Quantities (m, q) of the pieces of the branches ``which`` at ``t``, both (m,)."""
-        return self._quantities(which, t)
+        return self._quantities(which, t).T
 
     def parameter(self, which: np.ndarray, p: np.ndarray) -> np.ndarray:
         """t at which the pressure of the branches ``which`` is ``p``, both (m,), clipped to the branch; safeguarded Newton."""
@@ -66,7 +66,7 @@ class Inverse:
             if not left.size:
                 break
             here = t[left]
-            value, slope = self._pressures(which[left], here).T
+            value, slope = self._pressures(which[left], here)
             miss = p[left] - value
             # next to a flat end rounding would send what is there already anywhere
             off = np.abs(miss) > self._blur[which[left]]
@@ -97,18 +97,19 @@ class _Sums:
     def __init__(self, coefficients: Sequence[np.ndarray]):
         self._size = np.array([c.shape[0] for c in coefficients])
         self._rank, self._tables = np.empty(self._size.size, int), {}
-        for size in np.unique(self._size):
+        for size in np.unique(self._size).tolist():
             members = np.flatnonzero(self._size == size)
             self._rank[members] = np.arange(members.size)
-            self._tables[size] = np.stack([coefficients[i] for i in members], axis=1)
+            self._tables[size] = np.stack([coefficients[i] for i in members], axis=2)
 
     def __call__(self, which, t) -> np.ndarray:
-        """Sums (m, q) of the pieces ``which`` at ``t`` in [0, 1], both (m,)."""
-        out = np.empty((which.size, next(iter(self._tables.values())).shape[2]))
+        """Sums (q, m) of the pieces ``which`` at ``t`` in [0, 1], both (m,)."""
+        out = np.empty((next(iter(self._tables.values())).shape[1], which.size))
         sizes = self._size[which]
         for size, table in self._tables.items():
             rows = np.flatnonzero(sizes == size)
+            # few at a time: what is known of them stays in the cache
             for start in range(0, rows.size, _CHUNK):
                 some = rows[start : start + _CHUNK]
-                out[some] = clenshaw(table[:, self._rank[which[some]]], 2 * t[some] - 1)
+                out[:, some] = clenshaw(table, self._rank[which[some]], 2 * t[some] - 1)
         return out

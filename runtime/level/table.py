@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .cells import SLOTS, slot, within
+from .cells import SLOTS, clenshaw, slot, within
 from .chebyshev import parameter
 from .law import Law
 
@@ -43,7 +43,8 @@ class LawTable:
         joined = lambda values: np.concatenate(values) if cells else np.zeros(0)  # noqa: E731
         self._from, self._size = joined([c.start for c in cells]), joined([c.size for c in cells])
         self._cell = joined([c.of + at for c, at in zip(cells, first[:-1], strict=True)]).astype(np.intp)
-        self._powers = _powers([c.coefficients[:, :, 1:] for c in cells], self.saturated.shape[1] - 1)
+        every = np.concatenate([c.coefficients[:, :, 1:] for c in cells], axis=1) if cells else np.zeros((1, 0, 0))
+        self._coefficients = np.ascontiguousarray(every.swapaxes(1, 2))
         self._first, self._final = self._branches_between()
 
     def _branches_between(self):
@@ -68,29 +69,9 @@ class LawTable:
         u = parameter(np.minimum(np.maximum(share, 0.0, out=share), 1.0, out=share))
         cell = self._cell[which * SLOTS + slot(u)]
         x = within(u, self._from[cell], self._size[cell])
-        out = np.empty((self._powers.shape[0], *p.shape))
-        for value, powers in zip(out, self._powers, strict=True):
-            np.take(powers[-1], cell, out=value, mode="clip")
-            for coefficient in powers[-2::-1]:
-                value *= x
-                value += coefficient[cell]
+        out = clenshaw(self._coefficients, cell, x)
         errors = self._error[:, which]
         return out, errors if which.ndim > 1 else errors[:, None]
-
-
-def _powers(coefficients: list[np.ndarray], q: int) -> np.ndarray:
-    """Coefficients (q, degree + 1, cells) of powers, from those of Chebyshev polynomials.
-
-    Only the last of these are multiplied by much, and they are small unless a cell is one of the smallest.
-    """
-    if not coefficients:
-        return np.zeros((q, 1, 0))
-    c = np.concatenate(coefficients, axis=1)
-    to_powers = np.zeros((c.shape[0],) * 2)
-    for k, unit in enumerate(np.eye(c.shape[0])):
-        row = np.polynomial.chebyshev.cheb2poly(unit)
-        to_powers[: row.size, k] = row
-    return np.ascontiguousarray(np.tensordot(to_powers, c, axes=1).transpose(2, 0, 1))
 
 
 def _padded(rows, value):

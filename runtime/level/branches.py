@@ -1,0 +1,214 @@
+"""Branches of a curve that load control follows: where pressure rises with penetration, and is not hidden by other parts.
+
+Unloading follows the largest penetration at which the level carries the pressure: from saturation downwards a part of the curve
+counts only where its pressure lies below everything above it. Loading follows the smallest: from the first contact upwards
+only where the pressure lies above everything below. What remains is a stack of monotone branches in disjoint intervals of
+pressure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.polynomial.chebyshev import chebder
+
+from hystrip.strip.crossing import crossing
+
+from .cells import Cells
+from .chebyshev import Piece, parameter
+from .curve import Curve
+from .resample import Inverse
+
+_GRID = np.linspace(0, 1, 65)
+#: parameters at which turns are looked for: one may hide next to an end, where every piece is flat
+_NEAR = 0.5 ** np.arange(10, 6, -1)
+_TURNS = np.concatenate(([0.0], _NEAR, _GRID[1:-1], 1 - _NEAR[::-1], [1.0]))
+_EPS = np.finfo(float).eps
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """A monotone part of a curve: piece and parameters between which pressure rises from ``p_low`` to ``p_high``.
+
+    ``cells``: its quantities over u, ``p = p_low + (p_high - p_low) graded(u)``, in which they are smooth where they are over the
+    piece's own parameter, and where the curve turns.
+    ``soft_low``, ``soft_high``: the law goes on smoothly beyond that end, in another branch.
+    """
+
+    piece: Piece
+    t_low: float
+    t_high: float
+    p_low: float
+    p_high: float
+    cells: Cells | None = None
+    soft_low: bool = False
+    soft_high: bool = False
+
+    def values(self, p: np.ndarray) -> np.ndarray:
+        """Quantities at the pressures ``p`` (m,), shape (m, q)."""
+        if self.cells is None:
+            return self.piece.values(self.parameter(p))
+        share = np.clip((p - self.p_low) / (self.p_high - self.p_low), 0.0, 1.0)
+        return self.cells(parameter(share))
+
+    def parameter(self, p: np.ndarray) -> np.ndarray:
+        """t at which the pressure is ``p`` (m,), clipped to the branch."""
+        return Inverse([self]).parameter(np.zeros(p.size, int), p)
+
+    def reaches(self, p: float) -> float:
+        """t at which the one pressure ``p`` is reached, clipped to the branch."""
+        return float(_reached([self], np.array([p]))[0])
+
+
+def branches(curve: Curve, unloading: bool) -> list[Branch]:
+    """Branches that load control follows, in order of rising pressure."""
+    return branches_of([curve], unloading)[0]
+
+
+def branches_of(curves: Sequence[Curve], unloading: bool) -> list[list[Branch]]:
+    """``branches`` of many curves."""
+    found = iter(_rising([piece for curve in curves for piece in curve.pieces]))
+    rows = [[part for _ in curve.pieces for part in next(found)] for curve in curves]  # from high D to low D
+    if unloading:
+        return [row[::-1] for row in _standing_out(rows, unloading)]
+    return _standing_out([_certain(row[::-1]) for row in rows], unloading)
+
+
+def rising(piece: Piece) -> list[Branch]:
+    """Maximal parts of a piece in which pressure rises with D, from high to low D."""
+    return _rising([piece])[0]
+
+
+def meets(part: Branch, overlap: float) -> bool:
+    """Whether a part overlaps its neighbour by no more than the curve is uncertain: then they are one."""
+    return overlap <= 2 * part.piece.error[0] + 64 * _EPS * (abs(part.p_low) + abs(part.p_high))
+
+
+def _certain(parts: list[Branch]) -> list[Branch]:
+    """While the first strips cling the pressure falls with D: what seems to rise there is known to, or it does not count."""
+    certain = (k for k, part in enumerate(parts) if part.p_high - part.p_low > 2 * part.piece.error[0])
+    return parts[next(certain, 0) :]
+
+
+def _standing_out(rows: list[list[Branch]], unloading: bool) -> list[list[Branch]]:
+    """Of each row what lies below (unloading) or above all that stands before it; the rows advance together."""
+    kept: list[list[Branch]] = [[] for _ in rows]
+    for k in range(max((len(row) for row in rows), default=0)):
+        cut = []
+        for row, before in zip(rows, kept, strict=True):
+            if k >= len(row):
+                continue
+            part = row[k]
+            bound = (before[-1].p_low if unloading else before[-1].p_high) if before else None
+            if bound is None or (part.p_high <= bound if unloading else part.p_low >= bound):
+                before.append(part)
+            elif part.p_low < bound < part.p_high:
+                cut.append((part, bound, before))
+        reached = _reached([part for part, *_ in cut], np.array([p for _, p, _ in cut]))
+        for (part, p, before), t in zip(cut, reached.tolist(), strict=True):
+            if unloading and t > part.t_low:
+                soft = part.soft_high and meets(part, part.p_high - p)
+                before.append(replace(part, t_high=t, p_high=p, soft_high=soft))
+            elif not unloading and t < part.t_high:
+                soft = part.soft_low and meets(part, p - part.p_low)
+                before.append(replace(part, t_low=t, p_low=p, soft_low=soft))
+    return kept
+
+
+def _rising(pieces: Sequence[Piece]) -> list[list[Branch]]:
+    """``rising`` of many pieces."""
+    if not pieces:
+        return []
+    pressures = _Pressures(pieces)
+    rises = _seen_rising(pressures.at_turns())
+    last = _TURNS.size - 1
+    outside = np.zeros((len(pieces), 1), int)
+    change = np.diff(rises.astype(int), axis=1, prepend=outside, append=outside)
+    (which, first), end = np.nonzero(change > 0), np.nonzero(change < 0)[1]
+    low, high = np.zeros(which.size), np.ones(which.size)
+    turns, tops = np.flatnonzero(first > 0), np.flatnonzero(end < last)
+    low[turns] = pressures.turns(which[turns], first[turns], 1.0)
+    high[tops] = pressures.turns(which[tops], end[tops], -1.0)
+    p_low, p_high = (pressures(which, t)[:, 0] for t in (low, high))
+    parts: list[list[Branch]] = [[] for _ in pieces]
+    for k in np.flatnonzero((high > low) & (p_high > p_low))[::-1]:
+        piece = pieces[which[k]]
+        soft = piece.soft_low and low[k] == 0.0, piece.soft_high and high[k] == 1.0
+        parts[which[k]].append(Branch(piece, *(float(v[k]) for v in (low, high, p_low, p_high)), None, *soft))
+    return parts
+
+
+def _seen_rising(p: np.ndarray) -> np.ndarray:
+    """Between which of ``_TURNS`` the pressures ``p`` (pieces, turns) there rise, (pieces, turns - 1)."""
+    steps, last = np.diff(p), _TURNS.size - 1
+    rises = steps > 0
+    # next to the ends rounding tells nothing: there it goes on as before
+    rounded = np.abs(steps) <= 16 * _EPS * np.abs(p).max(axis=1, keepdims=True)
+    for inner in range(_NEAR.size, 0, -1):
+        for outer, k in ((inner - 1, inner), (last - inner, last - inner - 1)):
+            rises[:, outer] = np.where(rounded[:, outer], rises[:, k], rises[:, outer])
+    return rises
+
+
+def _reached(parts: Sequence[Branch], p: np.ndarray) -> np.ndarray:
+    """t at which each part reaches its pressure ``p`` (n,), clipped to the part."""
+    if not parts:
+        return np.empty(0)
+    pressures = _Pressures([part.piece for part in parts])
+
+    def missing(t, which):
+        value, slope, _ = pressures(which, t).T
+        return p[which] - value, -slope
+
+    t_low, t_high, p_low, p_high = np.array([(part.t_low, part.t_high, part.p_low, part.p_high) for part in parts]).T
+    t, _ = crossing(missing, t_low, t_high)
+    return np.where(p <= p_low, t_low, np.where(p >= p_high, t_high, t))
+
+
+class _Pressures:
+    """Pressure along many pieces, with its first two derivatives by t: those with as many coefficients stand together."""
+
+    def __init__(self, pieces: Sequence[Piece]):
+        self._size = np.array([piece.coefficients.shape[0] for piece in pieces])
+        self._rank, self._tables = np.empty(self._size.size, int), {}
+        for size in np.unique(self._size).tolist():
+            members = np.flatnonzero(self._size == size)
+            self._rank[members] = np.arange(members.size)
+            p = np.stack([pieces[i].coefficients[:, 0] for i in members], axis=1)
+            slope = np.pad(2 * chebder(p), ((0, 1), (0, 0)))
+            self._tables[size] = np.stack((p, slope, np.pad(2 * chebder(slope), ((0, 1), (0, 0)))), axis=2).swapaxes(0, 1)
+
+    def __call__(self, which: np.ndarray, t: np.ndarray) -> np.ndarray:
+        """Pressure and derivatives (m, 3) of the pieces ``which`` at ``t``, both (m,)."""
+        out = np.empty((which.size, 3))
+        for size, table in self._tables.items():
+            rows = np.flatnonzero(self._size[which] == size)
+            # one by one: what is found does not depend on what is asked with it
+            out[rows] = (_polynomials(t[rows], size)[:, None] @ table[self._rank[which[rows]]])[:, 0]
+        return out
+
+    def at_turns(self) -> np.ndarray:
+        """Pressures at ``_TURNS``, (pieces, turns)."""
+        out = np.empty((self._size.size, _TURNS.size))
+        for size, table in self._tables.items():
+            out[self._size == size] = (_polynomials(_TURNS, size) @ table[:, :, :1])[:, :, 0]
+        return out
+
+    def turns(self, which: np.ndarray, near: np.ndarray, sign: float) -> np.ndarray:
+        """t next to point ``near`` of ``_TURNS`` from which on the slope of the pressure has this ``sign``, all (m,).
+
+        At an end of a piece its slope says nothing: it is not asked there.
+        """
+
+        def slope(t, sub):
+            _, first, second = self(which[sub], t).T
+            return -sign * first, -sign * second
+
+        return crossing(slope, _TURNS[np.maximum(near - 1, 0)], _TURNS[np.minimum(near + 1, _TURNS.size - 1)])[0]
+
+
+def _polynomials(t, size: int) -> np.ndarray:
+    """Chebyshev polynomials (m, size) at ``t`` in [0, 1] (m,)."""
+    return np.cos(np.arccos(np.clip(2 * t - 1, -1.0, 1.0))[:, None] * np.arange(size))
