@@ -11,9 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hystrip.solver import kernel_of
-
-from .contact import Contact, contact_of
+from .contact import Contact
 from .parts import Parts, around, between
 from .quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
 from .strips import Columns, SolvedStrips
@@ -38,13 +36,12 @@ class CarriedByLaws:
     rtol: float
     scales: np.ndarray
 
-    def crossed(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
+    def crossed(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """See ``strips.Carry``: how many breaks the greatest pressure exceeds, and how many the pressure exceeds all along (or at
         entry)."""
         crossed = np.zeros(group.size, int)
-        index = np.flatnonzero(strips.solved.contact_fraction > 0)
+        index, contact = strips.touching
         if index.size:
-            contact = contact_of(kernel, strips, index)
             breaks = self.table.breaks[group[index]]
             top, least = (np.count_nonzero(breaks < p[:, None], axis=1) for p in (contact.p_peak, contact.p_least))
             crossed[index] = 1 + top + (breaks.shape[1] + 1) * least
@@ -55,12 +52,11 @@ class CarriedByLaws:
         """See ``strips.Carry``: the greatest and the least pressure over each break."""
         return 2 * self.table.breaks.shape[1]
 
-    def heights(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
+    def heights(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """See ``strips.Carry``."""
         out = np.full((group.size, self.passes), np.nan)
-        index = np.flatnonzero(strips.solved.contact_fraction > 0)
+        index, contact = strips.touching
         if index.size:
-            contact = contact_of(kernel, strips, index)
             breaks = self.table.breaks[group[index]]
             out[index] = np.concatenate([p[:, None] - breaks for p in (contact.p_peak, contact.p_least)], axis=1)
         return out
@@ -73,12 +69,12 @@ class CarriedByLaws:
         lower = np.where(top != other_top, np.minimum(top, other_top), size + np.minimum(least, other_least))
         return np.where((crossed > 0) & (other > 0) & (crossed != other), lower, -1)
 
-    def over_contact(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
+    def over_contact(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """See ``strips.Carry``. The contributions are the law's quantities from friction on, then their error."""
         carried = np.zeros((group.size, self.scales.size))
-        index = np.flatnonzero(strips.solved.contact_fraction > 0)
+        index, contact = strips.touching
         if index.size:
-            carried[index] = self._contributions(contact_of(kernel, strips, index), group[index]) / TWO_PI
+            carried[index] = self._contributions(contact, group[index]) / TWO_PI
         return carried
 
     def _contributions(self, contact: Contact, group) -> np.ndarray:
@@ -195,7 +191,7 @@ def peak_pressure(columns: Columns) -> np.ndarray:
     """Greatest local pressure of each column, Pa, (n,): at its crest, the most engaged strip; -inf without contact."""
     strips = columns.solve(np.arange(columns.size), np.zeros(columns.size))
     peak = np.full(columns.size, -np.inf)
-    index = np.flatnonzero(strips.solved.contact_fraction > 0)
+    index, contact = strips.touching
     if index.size:
-        peak[index] = contact_of(kernel_of(columns.material), strips, index).p_peak
+        peak[index] = contact.p_peak
     return peak

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from hystrip.strip.crossing import crossing
@@ -9,7 +11,9 @@ from hystrip.strip.problem import snaps_in
 from hystrip.strip.regimes import CODE
 
 from .harmonic import passages
-from .strips import SolvedStrips
+
+if TYPE_CHECKING:
+    from .strips import SolvedStrips
 
 #: contact this much faster than the wave forgets: pressure is local
 _MEMORY = 1e-6
@@ -101,24 +105,22 @@ class Contact:
         full = np.flatnonzero(above & self.full)
         up[full], down[full] = passages(level[full], self.mean[full], self.amplitude[full], self.centre[full])
         part = np.flatnonzero(above & ~self.full)
-        if part.size:
-            s = self.s.take(part)
-            b, a, top = self.b[part], self.a[part], self.top[part]
-            q_b, goal = self.q_b[part], level[part] + s.p_0
+        up[part], down[part] = self.b[part], self.a[part]
+        goal, s = level + self.s.p_0, self.s
+        rising, falling = part[self.q_b[part] < goal[part]], part[goal[part] > 0]
+        i, upward = np.concatenate((rising, falling)), np.arange(rising.size + falling.size) < rising.size
+        sign, outer = np.where(upward, -1.0, 1.0), np.where(upward, self.b[i], self.a[i])
+        low, high = np.where(upward, outer, self.top[i]), np.where(upward, self.top[i], outer)
 
-            def excess(phase, sub, sign):
-                args = (b[sub], phase, q_b[sub], s.p_0[sub], s.D[sub], s.alpha[sub], s.beta[sub], s.L[sub])
-                value = self.kernel.excess_after(*args) - goal[sub]
-                return sign * value, sign * self.kernel.excess_after_slope(*args)
+        def excess(phase, sub):
+            k = i[sub]
+            args = (self.b[k], phase, self.q_b[k], s.p_0[k], s.D[k], s.alpha[k], s.beta[k], s.L[k])
+            value = self.kernel.excess_after(*args) - goal[k]
+            return sign[sub] * value, sign[sub] * self.kernel.excess_after_slope(*args)
 
-            starts = q_b < goal
-            first = b.copy()
-            rising = np.flatnonzero(starts)
-            first[rising], _ = crossing(lambda x, sub: excess(x, rising[sub], -1.0), b[rising], top[rising])
-            up[part] = first
-            ends = goal > 0
-            last = a.copy()
-            falling = np.flatnonzero(ends)
-            last[falling], _ = crossing(lambda x, sub: excess(x, falling[sub], 1.0), top[falling], a[falling])
-            down[part] = last
+        # as far along as on a parabola about the peak; at exit the excess is zero
+        peak, least = self.p_peak[i] / self.unit[i] + s.p_0[i], np.where(upward, self.q_b[i], 0.0)
+        share = np.divide(peak - goal[i], peak - least, out=np.zeros(i.size), where=peak > least)
+        found, _ = crossing(excess, low, high, self.top[i] + (outer - self.top[i]) * np.sqrt(np.clip(share, 0.0, 1.0)))
+        up[rising], down[falling] = found[upward], found[~upward]
         return up, down

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any, Protocol
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -14,10 +15,14 @@ from hystrip.strip.regimes import CODE
 from hystrip.strip.solved import Solved
 
 from .clinging import Clinging
+from .contact import Contact, contact_of
 from .margins import POWERS, decisive, margins
 from .order import FreeBelow, Question
 from .saturated import saturated_level
 from .transitions import Guide
+
+if TYPE_CHECKING:
+    from hystrip.modes.contact import ModeContact
 
 #: What is averaged over the strips of a level, in this order; what lower levels carry in its contact follows.
 QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
@@ -44,16 +49,16 @@ class Carry(Protocol):
     scales: np.ndarray
     passes: int
 
-    def crossed(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
+    def crossed(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Codes (m,) of the law breaks that each strip's pressure passes."""
 
-    def heights(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
+    def heights(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Margins (m, k) of each strip's pressures over the law's breaks, Pa; NaN without contact."""
 
     def passing(self, crossed: np.ndarray, other: np.ndarray) -> np.ndarray:
         """Which of the ``heights`` vanishes where one code of ``crossed`` becomes another, -1 for none."""
 
-    def over_contact(self, kernel, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
+    def over_contact(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Contributions averaged over the period, (m, q)."""
 
 
@@ -119,7 +124,7 @@ class Columns:
         )
         self.tally.count(solved)
         tau = solved.tau_mean * scales["p"] * scales["k"] * scales["A"]
-        return SolvedStrips(solved, strips, scales, solved.p_mean * scales["p"], tau)
+        return SolvedStrips(solved, strips, scales, solved.p_mean * scales["p"], tau, kernel_of(self.material))
 
     def codes(self, column: np.ndarray, theta: np.ndarray) -> np.ndarray:
         """Codes that change wherever the integrand may not be smooth, (m,): the regime, and the breaks of the law below that are
@@ -163,7 +168,7 @@ class Columns:
     def _values(self, strips: SolvedStrips, column):
         if self.carry is None:
             return strips.values
-        carried = self.carry.over_contact(kernel_of(self.material), strips, self.group[column])
+        carried = self.carry.over_contact(strips, self.group[column])
         return np.concatenate((strips.values, carried), axis=1)
 
     def _margins(self, strips: SolvedStrips, column):
@@ -171,13 +176,13 @@ class Columns:
         own = margins(kernel, strips)
         if self.carry is None:
             return own
-        return np.concatenate((own, self.carry.heights(kernel, strips, self.group[column])), axis=1)
+        return np.concatenate((own, self.carry.heights(strips, self.group[column])), axis=1)
 
     def _codes(self, strips: SolvedStrips, column):
         codes = strips.solved.code.astype(int)
         if self.carry is None:
             return codes
-        return codes + len(CODE) * self.carry.crossed(kernel_of(self.material), strips, self.group[column])
+        return codes + len(CODE) * self.carry.crossed(strips, self.group[column])
 
     def costless(self, codes: np.ndarray) -> np.ndarray:
         """Which ``codes`` are of strips whose means take no search and may as well be summed exactly: those in saturated contact,
@@ -203,6 +208,13 @@ class SolvedStrips:
     scales: dict
     p_mean: np.ndarray
     tau_mean: np.ndarray
+    kernel: Any
+
+    @cached_property
+    def touching(self) -> tuple[np.ndarray, Contact | ModeContact]:
+        """Which strips are in contact, and their contact."""
+        index = np.flatnonzero(self.solved.contact_fraction > 0)
+        return index, contact_of(self.kernel, self, index)
 
     @property
     def values(self) -> np.ndarray:
