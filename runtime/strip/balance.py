@@ -161,6 +161,17 @@ def none_hangs(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
     return none, spent
 
 
+def could_let_go(kernel, s: Strips) -> np.ndarray:
+    """Where it is worth asking ``none_clings``.
+
+    On a foundation that stands still in the gap contact ends where the gap in the valley, ``1 + cos a`` then, is all but delta_0,
+    if a strip just manages to cling, and the pressure there is that of complete contact less what pulls in between.
+    """
+    cosine = np.minimum(np.maximum(s.delta_0 - 1, -1.0), 1.0)
+    carried = np.sqrt(1 - cosine**2) - np.arccos(cosine) * cosine
+    return np.pi * (s.D + s.p_0 - 1 + cosine) <= kernel.modulus_ratio(s.alpha, s.beta) * carried
+
+
 def none_clings(kernel, cycle: Cycle) -> np.ndarray:
     """Which cycles are proven to have no orbit that is always engaged."""
     valley = np.full(cycle.size, np.pi)

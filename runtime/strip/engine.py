@@ -20,7 +20,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .balance import SLOW, none_clings
+from .balance import SLOW, could_let_go, none_clings
 from .certificate import greatest_gap
 from .direct import certified, extremal, first_by_marches
 from .march import Orbit
@@ -134,8 +134,9 @@ class _Batch:
         if not self.searching:
             if self.unloading:
                 partial &= ~self._bounded(index, s, ~done, reaches)
-            ask = np.flatnonzero(partial & (s.beta > SLOW))
-            partial[ask] = ~none_clings(self.kernel, adhesive_cycle(self.kernel, s.take(ask)))
+            ask = np.flatnonzero(partial & (s.beta > SLOW) & could_let_go(self.kernel, s))
+            if ask.size:
+                partial[ask] = ~none_clings(self.kernel, adhesive_cycle(self.kernel, s.take(ask)))
         partial = np.flatnonzero(partial)
         if partial.size:
             done[partial] = self._contact_with_saturated_adhesion(index[partial])

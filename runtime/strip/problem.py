@@ -80,7 +80,8 @@ def adhesive_cycle(kernel, strips: Strips) -> Cycle:
     direct = snaps_in(strips)
     jump = strips.chi * strips.J * strips.p_0
     reach = np.divide(strips.delta_0, strips.J, out=np.zeros_like(jump), where=direct)
-    centre, half_d = kernel.forcing_arc(strips.delta_0, strips.D, strips.beta)
+    excess = np.array([strips.delta_0, strips.p_0, strips.p_0 + strips.delta_0])
+    centre, (half_d, half_b, half_c) = kernel.forcing_arc(excess, strips.D, strips.beta)
     return Cycle(
         strips=strips,
         direct=direct,
@@ -91,8 +92,8 @@ def adhesive_cycle(kernel, strips: Strips) -> Cycle:
         slope_on=np.where(direct, reach, strips.delta_0 + (1 - strips.chi * strips.J) * strips.p_0),
         centre=centre,
         half_d=half_d,
-        half_b=kernel.forcing_arc(strips.p_0, strips.D, strips.beta)[1],
-        half_c=kernel.forcing_arc(strips.p_0 + strips.delta_0, strips.D, strips.beta)[1],
+        half_b=half_b,
+        half_c=half_c,
     )
 
 
