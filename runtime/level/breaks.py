@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .folds import folds
 from .strips import Columns, saturation_depth
 from .transitions import Looks, Probe, locate
 
@@ -88,7 +89,8 @@ def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list
     width = 16 * _EPS * np.maximum(np.maximum(np.abs(low), np.abs(high)), max(h, a.p_0 / K))
     ends = codes[line, node], codes[line, node + 1]
     looks = _beside_known(columns, column, probe, line, low, high, ends, width)
-    changes = locate(probe, columns.guide, line, low, high, *ends, width, looks)
+    aim = folds(columns, lambda rows, x: crest_or_edge(line[rows], x), low, high, *ends, width)
+    changes = locate(probe, columns.guide, line, low, high, *ends, width, looks, aim)
     if columns.branch == "unloading" and a.p_0 > 0:
         edge = [h - a.p_0 / K, h - a.p_0 / K - a.delta_0]
     else:

@@ -82,7 +82,7 @@ class Clinging:
         before, after = value[column, at], value[column, at + 1]
         share = (before / (before - after))[:, None]
         S, g, x, a, phase = ((1 - share) * curves[column, :, at] + share * curves[column, :, at + 1]).T
-        strips = _strips(columns, columns.V[column], S)
+        strips = columns.groups(columns.V[column], S)
         S, g = _closer(kernel_of(columns.material), strips, x, a, phase, by_g[column], by_S[column], constant[column])
         found = ~np.isnan(S)
         return column[found], S[found], g[found]
@@ -101,13 +101,6 @@ def _tells(columns: Columns) -> bool:
     return columns.branch == "unloading" and columns.adhesion.p_0 > 0 and not hasattr(kernel_of(columns.material), "MODES")
 
 
-def _strips(columns: Columns, V, S) -> Strips:
-    """Strips without adhesion at ``S``, in their own units."""
-    m, rate, none = foundation_of(columns.material).material, columns.level.k * V, np.zeros(S.size)
-    chi = np.full(S.size, float(columns.edge == "constitutive"))
-    return Strips(rate * m.T_sigma, rate * m.T_eps, none + m.J, none + m.L, none, none, S, chi)
-
-
 def _curves(columns: Columns, V) -> np.ndarray:
     """Curves at the velocities ``V``, (velocities, 5, points), NaN where one is not known."""
     kernel = kernel_of(columns.material)
@@ -115,7 +108,7 @@ def _curves(columns: Columns, V) -> np.ndarray:
     out = np.full((V.size, 5, _BELOW.size + _ABOVE.size), np.nan)
     usual = np.flatnonzero((columns.level.k * V * foundation_of(columns.material).longest_time > _LEAST) & (above > _LEAST))
     S = np.concatenate((np.tile(_BELOW, (usual.size, 1)), 2 + above[usual, None] * _ABOVE), axis=1)
-    strips = _strips(columns, np.repeat(V[usual], S.shape[1]), S.ravel())
+    strips = columns.groups(np.repeat(V[usual], S.shape[1]), S.ravel())
     cycle = bare_cycle(kernel, strips)
     orbit, good, _ = certified(kernel, cycle, "ac", start(kernel, cycle, "ac"))
     good = np.flatnonzero(good)

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .folds import folds
 from .order import FREE, NARROWEST, Question
 from .quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
 from .transitions import Guide, Looks, locate
@@ -485,15 +486,10 @@ class _Work:
         np.add.at(total, panels.column, (panels.high - panels.low)[:, None] * np.abs(values).mean(axis=1))
         line = panels.column[row]
         width = self._bracket(self.rtol[line, None] * np.abs(total)[line], spread, theta[row, node + 1])
+        low, high, ends = theta[row, node], theta[row, node + 1], (codes[row, node], codes[row, node + 1])
+        aim = folds(self.columns, lambda i, x: (self.columns, line[i], x), low, high, *ends, width)
         found = locate(
-            lambda line, x: self._probe(panels.column[line], x),
-            self.columns.guide,
-            row,
-            theta[row, node],
-            theta[row, node + 1],
-            codes[row, node],
-            codes[row, node + 1],
-            width,
+            lambda line, x: self._probe(panels.column[line], x), self.columns.guide, row, low, high, *ends, width, aim=aim
         )
         column = panels.column[found.line]
         self._leave_out(column, found.low, found.high, values.min(axis=1)[found.line], values.max(axis=1)[found.line])

@@ -11,6 +11,7 @@ import numpy as np
 from hystrip.inputs.adhesion import Dugdale
 from hystrip.inputs.surface import Level
 from hystrip.solver import Material, foundation_of, kernel_of
+from hystrip.strip.problem import Strips
 from hystrip.strip.regimes import CODE
 from hystrip.strip.solved import Solved
 
@@ -125,6 +126,12 @@ class Columns:
         self.tally.count(solved)
         tau = solved.tau_mean * scales["p"] * scales["k"] * scales["A"]
         return SolvedStrips(solved, strips, scales, solved.p_mean * scales["p"], tau, kernel_of(self.material))
+
+    def groups(self, V, D, p_0=0.0, delta_0=0.0) -> Strips:
+        """Strips at the velocities ``V``, all else in their own units, (m,); for a foundation with one time."""
+        m, rate, every = foundation_of(self.material).material, self.level.k * V, np.zeros(D.size)
+        chi = every + (self.edge == "constitutive")
+        return Strips(rate * m.T_sigma, rate * m.T_eps, every + m.J, every + m.L, every + p_0, every + delta_0, D, chi)
 
     def codes(self, column: np.ndarray, theta: np.ndarray) -> np.ndarray:
         """Codes that change wherever the integrand may not be smooth, (m,): the regime, and the breaks of the law below that are

@@ -8,7 +8,7 @@ next to a fold are dear.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,6 +24,8 @@ _WORTH = 0.2
 _TRUSTED = 2
 #: a place that is taken from the margins alone is held to be off by so much more than they say
 _SURE = 64.0
+#: looks of a guess
+_GUESSES = 4
 #: points of a look in parts of its half width, towards the side that does not foretell: one well on the other for the next one to
 #: build on
 _AROUND = np.array((-4.0, -1.0, 1.0))
@@ -59,6 +61,22 @@ class Transitions:
 
 
 @dataclass(frozen=True)
+class Aim:
+    """Where the change in every bracket is expected for other reasons, and how far off that may be, (m,): NaN and inf where
+    unknown."""
+
+    place: np.ndarray
+    doubt: np.ndarray
+
+    @classmethod
+    def nowhere(cls, m: int) -> Aim:
+        return cls(np.full(m, np.nan), np.full(m, np.inf))
+
+    def take(self, index) -> Aim:
+        return Aim(self.place[index], self.doubt[index])
+
+
+@dataclass(frozen=True)
 class Looks:
     """Points that were looked at before: ``bracket`` (k,) that each lies in or at an end of, ``x``, ``codes``, ``margins`` (k,
     powers)."""
@@ -69,15 +87,28 @@ class Looks:
     margins: np.ndarray
 
 
-def locate(probe: Probe, guide: Guide, line, low, high, code_low, code_high, width, looks: Looks | None = None) -> Transitions:
+def locate(
+    probe: Probe,
+    guide: Guide,
+    line,
+    low,
+    high,
+    code_low,
+    code_high,
+    width,
+    looks: Looks | None = None,
+    aim: Aim | None = None,
+) -> Transitions:
     """Narrow every bracket [low, high] of the ``line`` it lies on to ``width`` or less, all (m,); where a third code shows up in
     between, its transitions are found too. ``code_low``, ``code_high`` are the codes at the ends. ``looks``: what is known of
-    every bracket, its ends included."""
+    every bracket, its ends included. ``aim``: where to look first."""
     found = []
     brackets = _Brackets.between(line, low, high, code_low, code_high, width, guide.powers.size)
     if looks is not None:
         brackets.x[:] = np.nan
-        brackets = brackets.changes(looks.bracket, looks.x, looks.codes, looks.margins)[0]
+        brackets, parents = brackets.changes(looks.bracket, looks.x, looks.codes, looks.margins)
+        aim = None if aim is None else aim.take(parents)
+    brackets = replace(brackets, aim=aim)
     for _ in range(80):
         ends, done = brackets.settled(guide)
         found.append((brackets.line[done], *ends[:, done], brackets.codes[done]))
@@ -92,11 +123,27 @@ def locate(probe: Probe, guide: Guide, line, low, high, code_low, code_high, wid
     return Transitions(line[order], low[order], high[order], codes[order])
 
 
+def aimed(guess: Probe, guide: Guide, low, high, code_low, code_high, width) -> Aim:
+    """Where brackets [low, high], all (m,), change by the margins of a ``guess`` that is cheap and knows the two codes only."""
+    out = Aim.nowhere(low.size)
+    brackets = _Brackets.between(np.arange(low.size), low, high, code_low, code_high, width, guide.powers.size)
+    for _ in range(_GUESSES):
+        if not brackets.line.size:
+            break
+        brackets = brackets.narrowed(guess, guide)
+        place, doubt, _ = brackets.foretold(guide)
+        better = doubt < out.doubt[brackets.line]
+        row = brackets.line[better]
+        out.place[row], out.doubt[row] = place[better], doubt[better]
+        brackets = brackets.take(~brackets.settled(guide)[1])
+    return out
+
+
 @dataclass(frozen=True)
 class _Brackets:
     """Brackets, arrays (n,), with the points remembered below and above each, the nearest first: ``x`` (n, 2, kept), NaN where
     there is none, ``margins`` (n, 2, kept, k), ``codes`` (n, 2). ``misses``: looks in a row that found it elsewhere than
-    foretold."""
+    foretold. ``aim``: until the first look."""
 
     line: np.ndarray
     width: np.ndarray
@@ -104,6 +151,7 @@ class _Brackets:
     x: np.ndarray
     margins: np.ndarray
     misses: np.ndarray
+    aim: Aim | None = None
 
     @classmethod
     def between(cls, line, low, high, code_low, code_high, width, k: int) -> _Brackets:
@@ -121,13 +169,14 @@ class _Brackets:
         return self.x[:, 1, 0]
 
     def take(self, index) -> _Brackets:
-        return _Brackets(*(getattr(self, name)[index] for name in ("line", "width", "codes", "x", "margins", "misses")))
+        aim = None if self.aim is None else self.aim.take(index)
+        return _Brackets(*(getattr(self, name)[index] for name in ("line", "width", "codes", "x", "margins", "misses")), aim)
 
     def settled(self, guide: Guide) -> tuple[np.ndarray, np.ndarray]:
         """Ends (2, n) of brackets that are narrow enough, or of what the margins leave of them, and which are either."""
         ends = np.stack((self.low, self.high))
         narrow = ends[1] - ends[0] <= self.width
-        place, doubt, _ = self._foretold(guide)
+        place, doubt, _ = self.foretold(guide)
         doubt = _SURE * doubt
         known = (place - doubt > ends[0]) & (place + doubt < ends[1]) & (2 * doubt <= self.width) & (self.misses < _TRUSTED)
         ends[:, known] = place[known] + np.multiply.outer((-1.0, 1.0), np.maximum(doubt[known], 0.0))
@@ -136,23 +185,28 @@ class _Brackets:
     def narrowed(self, probe: Probe, guide: Guide) -> _Brackets:
         """The brackets of all changes inside, after a look at some points of each: around the foretold place, or all along."""
         low, high = self.low, self.high
-        place, doubt, away = self._foretold(guide)
+        place, doubt, away = self.foretold(guide)
+        if self.aim is not None:
+            better = self.aim.doubt < doubt
+            place, doubt = np.where(better, self.aim.place, place), np.where(better, self.aim.doubt, doubt)
         doubt = np.maximum(doubt * _WIDER**self.misses, 0.4 * self.width)
         guided = (place > low) & (place < high) & (doubt < _WORTH * (high - low))
-        aimed, others = np.flatnonzero(guided), np.flatnonzero(~guided)
+        targets, others = np.flatnonzero(guided), np.flatnonzero(~guided)
         # many points at once where there are few brackets: rounds, not strips, are what costs then
         m = int(np.clip(_POINTS // self.line.size, 3, 15))
-        rows = np.concatenate((np.repeat(aimed, _AROUND.size), np.repeat(others, m)))
+        rows = np.concatenate((np.repeat(targets, _AROUND.size), np.repeat(others, m)))
         spread = low[others, None] + (high - low)[others, None] * np.arange(1, m + 1) / (m + 1)
-        x = np.concatenate(((place[aimed, None] + (away * doubt)[aimed, None] * _AROUND).ravel(), spread.ravel()))
-        inside = (x > low[rows]) & (x < high[rows])
+        x = np.concatenate(((place[targets, None] + (away * doubt)[targets, None] * _AROUND).ravel(), spread.ravel()))
+        # where the look should end it there is no need to build on
+        outer = np.concatenate((np.tile(_AROUND < -1, targets.size), np.zeros(spread.size, bool)))
+        inside = (x > low[rows]) & (x < high[rows]) & ~(outer & (doubt <= 0.5 * self.width)[rows])
         rows, x = rows[inside], x[inside]
         changes, parents = self.changes(rows, x, *probe(self.line[rows], x))
         missed = guided[parents] & (changes.high - changes.low > 2.1 * doubt[parents])
         changes.misses[:] = np.where(missed, self.misses[parents] + 1, 0)
         return changes
 
-    def _foretold(self, guide: Guide) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def foretold(self, guide: Guide) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Where the change should be by the margins of the surer side, and how far off that may be, NaN and inf where nothing is
         known; and the direction away from that side."""
         place, doubt, away = np.full(self.line.size, np.nan), np.full(self.line.size, np.inf), np.ones(self.line.size)
