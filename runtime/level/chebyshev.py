@@ -1,9 +1,8 @@
 """Chebyshev interpolation of several quantities at once on a piece ``low <= D <= high``.
 
-``D = low + width graded(t)``: the grading is flat like t^4 at both ends. A quantity that ends like a square root in D is smooth
-in t, and one that ends like ``D log D`` nearly so (a level does where its crest lets go while its neighbours still hold). Either
-way it is flat in t at the end, which says what it is there: the ends are no nodes. They are breaks, and next to one rounding
-decides which side of it a strip is on.
+``D = low + width share(t)`` (``grading.py``): whatever a quantity does next to an end, it is smooth and flat in t there, which
+says what it is at the end: the ends are no nodes. They are breaks, and next to one rounding decides which side of it a strip is
+on.
 """
 
 from dataclasses import dataclass
@@ -11,11 +10,16 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
+from .grading import Grading
+
 _EPS = np.finfo(float).eps
-#: share of the roughest quantity's relative error that every other one is taken to have at least
-_COMMON = 0.3
-#: slowest decay that a sum of the rest may be extrapolated with
-_SLOWEST = 64.0
+#: power of the roughest quantity's coefficients, relative to its own, in those of every other one
+_COMMON = 0.2
+#: ratio of the last coefficients to those in the middle below which they surely fall geometrically
+_GEOMETRIC = 0.01
+#: how much of the last coefficient a sum of the rest is at least and at most, and how much more than that sum is feared: a sum
+#: that falls by a power is up to three times one that falls geometrically at first
+_FASTEST, _SLOWEST, _SAFE = 0.5, 32.0, 3.0
 
 
 @lru_cache
@@ -58,26 +62,29 @@ def interpolation_errors(
     matter; ``blur`` (p, q): how uncertain the coefficients are themselves; ``rounding`` (p, q): what of each is rounding and not
     counted.
 
-    What is left is extrapolated from the last coefficients, at the pace they fell at since the middle: that of the slowest
-    quantity, and no quantity is taken to be much smoother than the roughest, for they share their singularities.
+    What is left is extrapolated from the end of the series, at the pace that coefficients fell at since the middle: those of a
+    quantity itself, as far as they don't fall faster than those of the roughest one, for all share their singularities.
     """
     n = c.shape[1] - 1
     c = np.abs(c)
     # what is rounding says nothing of the singularities
     c = np.maximum(c - (16 * _EPS * c.max(axis=1) + rounding)[:, None], 0.0)
-    amplitude = c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny
-    blur = np.broadcast_to(blur, amplitude.shape)[:, None]
-    shape = (np.maximum(c - blur, 0.0) / amplitude[:, None]).max(axis=2)
+    amplitude = (c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny)[:, None]
+    blur = np.broadcast_to(blur, noise.shape)[:, None]
+    roughest = (np.maximum(c - blur, 0.0) / amplitude).max(axis=2, keepdims=True)
+    c = c ** (1 - _COMMON) * (roughest * amplitude) ** _COMMON
     # a run long enough that a kink's coefficients, which come and go, are not all small in it
     few = max(3, n // 5)
-    last, middle = shape[:, n - few :].max(axis=1), shape[:, n // 2 - 2 : n // 2 + 1].max(axis=1)
-    pace = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0) ** (1 / (n / 2 + 1 - few / 2))
-    rest = np.minimum(4 * pace / np.maximum(1 - pace, 1e-3), _SLOWEST)[:, None]
-    return np.maximum(c[:, n - few :].max(axis=1), _COMMON * last[:, None] * amplitude) * rest
+    last, middle = c[:, n - few :].max(axis=1), c[:, n // 2 - 2 : n // 2 + 1].max(axis=1)
+    ratio = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0)
+    pace = ratio ** (1 / (n / 2 + 1 - few / 2))
+    onward = (c[:, n - few :] * pace[:, None] ** np.arange(few, -1, -1)[:, None]).max(axis=1)
+    end = np.where(ratio < _GEOMETRIC, onward, last)
+    return _SAFE * end * np.clip(2 * pace / np.maximum(1 - pace, 1e-3), _FASTEST, _SLOWEST)
 
 
 def graded(t):
-    """Share of an interval that lies below parameter t: both in [0, 1], flat like t^4 at both ends."""
+    """Share of a range of pressure that lies below parameter t: both in [0, 1], flat like t^4 at both ends."""
     return np.sin(0.5 * np.pi * np.sin(0.5 * np.pi * t) ** 2) ** 2
 
 
@@ -91,7 +98,7 @@ def parameter(share):
 class Piece:
     """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t; ``error`` bounds each of them, (q,).
 
-    ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end, in another piece.
+    ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end, in another piece. ``grading``: what t is.
     """
 
     low: float
@@ -100,14 +107,11 @@ class Piece:
     error: np.ndarray
     soft_low: bool = False
     soft_high: bool = False
+    grading: Grading = Grading()
 
     def penetration(self, t):
         """D at t."""
-        return self.low + (self.high - self.low) * graded(t)
-
-    def parameter(self, D):
-        """t at D."""
-        return parameter(np.clip((D - self.low) / (self.high - self.low), 0.0, 1.0))
+        return self.low + (self.high - self.low) * self.grading.share(t)
 
     def values(self, t) -> np.ndarray:
         """Quantities at t (m,), shape (m, q)."""

@@ -14,6 +14,7 @@ from .appearance import is_inside, island, vanishing
 from .breaks import breakpoints, threshold_width
 from .chebyshev import Piece, flat_ended, interpolation_errors, lobatto
 from .demand import Demand
+from .ends import with_gentle_ends
 from .interval import Interval
 from .rims import where_rims_hold
 from .sampling import MEAN, Batch
@@ -117,6 +118,7 @@ def interpolate(
     those above the ``ceiling`` (Pa, per column) not at all.
     """
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
+    intervals = with_gentle_ends(columns, intervals)
     for _ in range(_ROUNDS):
         if not intervals:
             return pieces
@@ -151,7 +153,7 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
         done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in batch.intervals]
         for k in np.flatnonzero(done):
             i, bound = batch.intervals[k], error[k] + _ROUNDED * rounding[k] + batch.errors[k].max(axis=0)
-            pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.soft_low, i.soft_high))
+            pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.soft_low, i.soft_high, i.grading))
         # coefficients fall geometrically: where twice the nodes would not do, halves are better
         missed = error / goal
         hopeless = ~done & (missed * np.minimum(missed / before, _PACE) ** 2 > 1).any(axis=1)

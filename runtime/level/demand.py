@@ -41,7 +41,7 @@ class Demand:
 
     def ease(self, group: int, low: float, high: float, friction: float) -> float:
         """How much coarser than what is asked of the whole a law may be between the pressures ``low`` and ``high`` (Pa), where
-        its friction is up to ``friction`` (Pa): by an error of that, and by one of the pressure at which it ends."""
+        what it may err is relative to ``friction`` (Pa): by an error of that, and by one of the pressure at which it ends."""
         if not high > low:
             return _EASIEST
         least = _EASIEST

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from .chebyshev import graded, parameter
 from .expected import expect
+from .grading import GENTLE, STEEP, Grading
 
 
 @dataclass(frozen=True)
@@ -26,15 +26,18 @@ class Seen:
 
 @dataclass(frozen=True)
 class Interval:
-    """An interval of D of one column; ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end. ``witnesses``:
-    thetas at which some regime is met in next to no strips towards an end. ``ease``: how much coarser than what is asked of the
-    column it may be. ``even``: its parameters are shares of it, not graded towards its ends: enough for a look."""
+    """An interval of D of one column; ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end; ``gentle_low``,
+    ``gentle_high``: it seems to end smoothly enough there. ``witnesses``: thetas at which some regime is met in next to no strips
+    towards an end. ``ease``: how much coarser than what is asked of the column it may be. ``even``: its parameters are shares of
+    it, not graded towards its ends: enough for a look."""
 
     column: int
     low: float
     high: float
     soft_low: bool = False
     soft_high: bool = False
+    gentle_low: bool = False
+    gentle_high: bool = False
     witnesses: tuple[float, ...] = ()
     ease: float = 1.0
     even: bool = False
@@ -42,11 +45,12 @@ class Interval:
     seen: Seen | None = field(default=None, compare=False, repr=False)
 
     def split(self, D: float, soft: bool, *witnesses: float) -> list[Interval]:
-        """The two parts below and above D; what is new about their strips in ``witnesses``."""
-        every = self.witnesses + witnesses
+        """The two parts below and above D; what is new about their strips in ``witnesses``. What only seemed to end gently is no
+        longer taken to."""
+        every, sure = self.witnesses + witnesses, {"gentle_low": False, "gentle_high": False}
         return [
-            replace(self, high=D, soft_high=soft, witnesses=every),
-            replace(self, low=D, soft_low=soft, witnesses=every),
+            replace(self, high=D, soft_high=soft, witnesses=every, **sure),
+            replace(self, low=D, soft_low=soft, witnesses=every, **sure),
         ]
 
     @property
@@ -54,11 +58,18 @@ class Interval:
         """The two halves; the curve goes on smoothly between them."""
         return self.split(0.5 * (self.low + self.high), soft=True)
 
+    @property
+    def grading(self) -> Grading:
+        """Of its nodes."""
+        if self.even:
+            return Grading(1, 1)
+        ends = (self.soft_low or self.gentle_low, self.soft_high or self.gentle_high)
+        return Grading(*(GENTLE if gentle else STEEP for gentle in ends))
+
     def penetrations(self, t):
         """D at the parameters ``t`` of a piece."""
-        return self.low + (self.high - self.low) * (t if self.even else graded(t))
+        return self.low + (self.high - self.low) * self.grading.share(t)
 
     def parameter(self, D):
         """Parameters of the penetrations ``D`` inside."""
-        share = (D - self.low) / (self.high - self.low)
-        return share if self.even else parameter(share)
+        return self.grading.parameter((D - self.low) / (self.high - self.low))

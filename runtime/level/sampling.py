@@ -43,7 +43,9 @@ class Batch:
 
     def weigh(self, demand: Demand, ceiling: np.ndarray | None) -> None:
         """Let intervals be as coarse as what is asked of their pressures allows."""
-        p, friction = self.values[:, :, 0], np.abs(self.values[:, :, 1]).max(axis=1)
+        p, frictions = self.values[:, :, 0], self.columns.frictions
+        # what an accuracy is relative to, of its own friction and all that it carries
+        friction = (np.abs(self.values[:, :, frictions]).min(axis=1) + self.columns.floors[frictions]).sum(axis=1)
         high = p.max(axis=1) if ceiling is None else np.minimum(p.max(axis=1), ceiling[self.column])
         ranges = zip(self.intervals, p.min(axis=1), high, friction, strict=True)
         self.intervals = [replace(i, ease=max(i.ease, demand.ease(i.column, *of))) for i, *of in ranges]

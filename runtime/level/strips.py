@@ -115,6 +115,11 @@ class Columns:
             floors[fractions] = 1.0
         return floors
 
+    @property
+    def frictions(self) -> np.ndarray:
+        """Which quantities are frictions, its own and those it carries: a level below adds three and an error."""
+        return 1 + 3 * np.arange(self.scales.size // len(QUANTITIES))
+
     def solve(self, column: np.ndarray, theta: np.ndarray) -> SolvedStrips:
         """Strips at ``theta = k y`` of the given columns, both of shape (m,). Raises ``SolverError`` for one not certified."""
         A = self.level.amplitude(theta)
