@@ -115,11 +115,6 @@ class Columns:
             floors[fractions] = 1.0
         return floors
 
-    @property
-    def frictions(self) -> np.ndarray:
-        """Which quantities are frictions, its own and those it carries: a level below adds three and an error."""
-        return 1 + 3 * np.arange(self.scales.size // len(QUANTITIES))
-
     def solve(self, column: np.ndarray, theta: np.ndarray) -> SolvedStrips:
         """Strips at ``theta = k y`` of the given columns, both of shape (m,). Raises ``SolverError`` for one not certified."""
         A = self.level.amplitude(theta)
@@ -209,6 +204,11 @@ class Columns:
     def ends_of_clinging(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Columns and thetas (k,) of the transitions where strips cease to be engaged all along, and how well each is known."""
         return self.clinging.ends(self)
+
+    @property
+    def frictions(self) -> np.ndarray:
+        """Which quantities are frictions, its own and those it carries: a level below adds three and an error."""
+        return 1 + 3 * np.arange(self.scales.size // len(QUANTITIES))
 
 
 @dataclass(frozen=True)
