@@ -13,7 +13,7 @@ import numpy as np
 
 from .contact import Contact
 from .parts import Parts, around, between
-from .quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
+from .quadrature import interior_nodes, interleaved, mapped_weights, sum_errors
 from .strips import Columns, SolvedStrips
 from .table import LawTable
 
@@ -127,7 +127,9 @@ class CarriedByLaws:
         frictions, floor = self.table.frictions, 1e-3 * self.scales[self.table.frictions, None]
         values, n = None, _FIRST
         while parts.size:
-            t, w = interior_nodes(n), mapped_weights(n)
+            t = interior_nodes(n)
+            steepness = _steepness(t)
+            w = steepness * mapped_weights(n)
             fresh = self._at_nodes(contact, group, parts, t if values is None else t[0::2])
             values = fresh if values is None else interleaved(fresh, values)
             p, law, errors = values[0], values[1:-2], values[-2:]
@@ -139,7 +141,8 @@ class CarriedByLaws:
             spread = contact.a[parts.rows] - contact.b[parts.rows]
             allowed = _SHARE * self.rtol * (spread * floor + size) * parts.share
             friction = law[frictions]
-            miss = width * sum_errors(np.ascontiguousarray(friction.T), (allowed / width).T).T
+            integrand = np.multiply(friction.T, steepness[:, None], order="C")
+            miss = width * sum_errors(integrand, (allowed / width).T).T
             own = width * _summed(w, self._own(p, np.abs(friction).sum(axis=0), errors))
             # there is no use in integrating better than the law is known
             done = ((miss <= allowed) | (miss <= own)).all(axis=0)
@@ -159,7 +162,7 @@ class CarriedByLaws:
         for some, nodes in ((slice(0, uneven), t), (slice(uneven, None), t[: t.size - half])):
             rows, low, width = parts.rows[some], parts.low[some], parts.width[some]
             if rows.size:
-                p = contact.pressure(rows, low + width * mapped(nodes)[:, None])
+                p = contact.pressure(rows, low + width * _along(nodes)[:, None])
                 values, errors = self.table(group[rows], parts.interval[some], p)
                 out[:, : nodes.size, some] = np.concatenate((p[None], values, np.broadcast_to(errors, (2, *p.shape))))
         out[:, t.size - half :, uneven:] = out[:, :half, uneven:][:, ::-1]
@@ -172,6 +175,17 @@ class CarriedByLaws:
         share = np.divide(np.minimum(errors[1, 1:], rise), rise, out=np.zeros_like(rise), where=rise > 0)
         between = share * np.abs(np.diff(friction, axis=0))
         return errors[0] + np.concatenate((between[:1], between))
+
+
+def _along(t):
+    """Where parameter t in [0, 1] lies in its part, as a share of it: flat like t^3 at both ends. A law ends at its breaks like a
+    root, or like ``p log p``, and hardly anything of that is left in t."""
+    return t**3 * (10 - t * (15 - 6 * t))
+
+
+def _steepness(t):
+    """How fast ``_along`` rises, over ``quadrature.mapped``: by that much more counts what is summed up there."""
+    return 5 * t * (1 - t)
 
 
 def _summed(weights, values):
