@@ -22,6 +22,8 @@ _FIRST, _LAST = 8, 32
 _HALVINGS = 12
 #: a part's share of the error that an average of strips is allowed, and parts integrated at a time
 _SHARE, _CHUNK = 0.1, 4096
+#: how much more than told by their coefficients integrands are feared to miss that are steeper than those it is told of
+_SAFE = 2.0
 
 
 @dataclass(frozen=True)
@@ -142,7 +144,7 @@ class CarriedByLaws:
             allowed = _SHARE * self.rtol * (spread * floor + size) * parts.share
             friction = law[frictions]
             integrand = np.multiply(friction.T, steepness[:, None], order="C")
-            miss = width * sum_errors(integrand, (allowed / width).T).T
+            miss = _SAFE * width * sum_errors(integrand, (allowed / width).T).T
             own = width * _summed(w, self._own(p, np.abs(friction).sum(axis=0), errors))
             # there is no use in integrating better than the law is known
             done = ((miss <= allowed) | (miss <= own)).all(axis=0)

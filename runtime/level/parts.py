@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 #: a peak this close below a break, as a share of its height above the one before: the law ends there like a root, nearly
-_CLOSE = 0.5
+_CLOSE = 2.0
 
 
 @dataclass(frozen=True)
