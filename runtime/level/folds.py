@@ -66,4 +66,5 @@ def _presumed(columns: Columns, column, theta, sequence: str) -> tuple[np.ndarra
     record.constant(np.flatnonzero(~good), "f", 0.0, 0.0, 0.0, 0.0)
     record.orbits(found, sequence, orbit.take(found))
     solved = record.solved
-    return solved.code.astype(int), margins(kernel, SolvedStrips(solved, strips, {}, solved.p_mean, solved.tau_mean))
+    presumed = SolvedStrips(solved, strips, {}, solved.p_mean, solved.tau_mean, kernel)
+    return solved.code.astype(int), margins(kernel, presumed)
