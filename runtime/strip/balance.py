@@ -134,8 +134,7 @@ def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, n
     # an orbit without contact has no Q to compare
     index = np.flatnonzero(~np.isnan(known.b) & (known.x <= 0))
     if index.size:
-        if index.size < cycle.size:
-            cycle, known, start, end = cycle.take(index), known.take(index), start[index], end[index]
+        cycle, known, start, end = cycle.among(index), known.take(index), start[index], end[index]
         with np.errstate(all="ignore"):
             suspects = np.maximum(_suspects(kernel, cycle, known), -known.x)
             reference = beside(kernel, cycle, known, end)
@@ -153,7 +152,7 @@ def none_hangs(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
         least = surplus(kernel, reference, guess, guess)
         index = np.flatnonzero(least > _WORTH * cycle.strips.p_0)
         if index.size:
-            lo, hi = _stable_within(kernel, cycle.take(index), guess[index])
+            lo, hi = _stable_within(kernel, cycle.among(index), guess[index])
             part = reference.take(index)
             parts = _parts(_LOSS * part.p_0 * np.maximum(hi - lo, 0.0), least[index])
             none[index], used = _excluded(kernel, part, lo, np.maximum(lo, hi), np.maximum(parts, 1))

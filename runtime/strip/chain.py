@@ -65,7 +65,7 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
                 result[:, index], step_size[index], spent[index] = edges, size, iteration
                 if not going.size:
                     break
-                index, part = index[going], part.take(going)
+                index, part = index[going], part.among(going)
                 edges, low, high = edges[:, going], low[:, going], high[:, going]
         step, sense = _refined(kernel, cycle, sequence, result)
         spent += 1
@@ -75,7 +75,7 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
         # a closing link that cancels, on a slow foundation, left more to correct than the square of a step
         once_more = np.flatnonzero(converged & (correction > CONVERGED))
         if once_more.size:
-            step, sense = _refined(kernel, cycle.take(once_more), sequence, result[:, once_more])
+            step, sense = _refined(kernel, cycle.among(once_more), sequence, result[:, once_more])
             spent[once_more] += 1
             size = np.abs(step).max(axis=0)
             closer = np.flatnonzero(sense & (size < correction[once_more]))

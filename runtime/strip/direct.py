@@ -34,12 +34,12 @@ def certified(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[O
     if coarse.size:
         # next to a fold or a graze the search knows better; a strip without adhesion has neither
         blurred = sequence in ("ac", "cf")
-        new, converged, _, more = refined(kernel, sequence, cycle.take(coarse), orbit.take(coarse), blurred=blurred)
+        new, converged, _, more = refined(kernel, sequence, cycle.among(coarse), orbit.take(coarse), blurred=blurred)
         spent[coarse] += more
         orbit.put(coarse, new)
         good[coarse] = converged
     here = np.flatnonzero(good)
-    part, there = cycle.take(here), orbit.take(here)
+    part, there = cycle.among(here), orbit.take(here)
     good[here] = edges_admissible(kernel, part, there)
     if sequence not in ("ac", "cf"):  # where p does not step the onset map contracts everywhere
         good[here] &= attracting(kernel, part, there)
@@ -65,7 +65,7 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: Outermost):
     if not last:
         hanging = np.flatnonzero(possible & (s.D <= -s.delta_0) & (s.beta > SLOW))
         if hanging.size:
-            none[hanging], found.evaluations[hanging] = none_hangs(kernel, cycle.take(hanging))
+            none[hanging], found.evaluations[hanging] = none_hangs(kernel, cycle.among(hanging))
             possible &= ~none
     found.attempt("acaf", np.flatnonzero(possible & ~cycle.direct))
     found.attempt("afc", np.flatnonzero(possible & cycle.direct))
@@ -87,13 +87,13 @@ class _Found:
         """Newton for the cycles ``pick``, and the proof that what it finds is extremal."""
         if not pick.size:
             return
-        part, limits = self.cycle.take(pick), self.bounds.take(pick)
+        part, limits = self.cycle.among(pick), self.bounds.take(pick)
         orbit, good, used = certified(self.kernel, part, sequence, start(self.kernel, part, sequence, limits))
         self.evaluations[pick] += used
         here = np.flatnonzero(good)
         if not here.size:
             return
-        sure, used = alone(self.kernel, part.take(here), orbit.take(here), self.last, limits.take(here))
+        sure, used = alone(self.kernel, part.among(here), orbit.take(here), self.last, limits.take(here))
         pick = pick[here]
         self.evaluations[pick] += used
         # of two orbits that are known the more extremal one is worth keeping
@@ -116,19 +116,19 @@ def first_by_marches(kernel, cycle: Cycle, known: Orbit, bounds: Outermost):
     proven, none, spent = np.zeros(cycle.size, bool), np.zeros(cycle.size, bool), np.zeros(cycle.size)
     here = np.flatnonzero(~np.isnan(known.x))
     if here.size:
-        part = cycle.take(here)
+        part = cycle.among(here)
         proven[here], spent[here] = none_before(kernel, part, closed(kernel, part, known.take(here)), start[here])
     # Newton may be lost next to a fold, and finds nothing beyond it; without memory there is none, and the search has a closed
     # form
     remembers = cycle.strips.beta >= TWO_PI / FORGOTTEN
     rest = np.flatnonzero(~proven & ~cycle.direct & (cycle.half_d > 0) & remembers)
     if rest.size:
-        part = cycle.take(rest)
+        part = cycle.among(rest)
         result = turning(kernel, part, start[rest], end[rest])
         none[rest] = result.none
         used, here = result.isolated.evaluations, np.flatnonzero(result.isolated.found)
         if here.size:
-            located = at_zeros(kernel, part.take(here), result.isolated.take(here))
+            located = at_zeros(kernel, part.among(here), result.isolated.take(here))
             used[here] = located.evaluations
             good = np.flatnonzero(located.certified)
             orbit.put(rest[here[good]], located.orbit.take(good))

@@ -122,7 +122,7 @@ class _Batch:
         return index[~free]
 
     def _engaged(self, index):
-        s = self.strips.take(index)
+        s = self.strips.among(index)
         full = saturates(self.kernel, s)
         self.record.saturated_contact(index[full])
         reaches = ~full & may_cling(self.kernel, s)
@@ -136,7 +136,7 @@ class _Batch:
                 partial &= ~self._bounded(index, s, ~done, reaches)
             ask = np.flatnonzero(partial & (s.beta > SLOW) & could_let_go(self.kernel, s))
             if ask.size:
-                partial[ask] = ~none_clings(self.kernel, adhesive_cycle(self.kernel, s.take(ask)))
+                partial[ask] = ~none_clings(self.kernel, adhesive_cycle(self.kernel, s.among(ask)))
         partial = np.flatnonzero(partial)
         if partial.size:
             done[partial] = self._contact_with_saturated_adhesion(index[partial])
@@ -150,11 +150,11 @@ class _Batch:
         hanging = np.flatnonzero(ask & (s.D <= -s.delta_0) & (s.beta <= SLOW))
         missed = np.zeros(index.size, bool)
         if hanging.size:
-            missed[hanging] = out_of_reach(self.kernel, s.take(hanging))
+            missed[hanging] = out_of_reach(self.kernel, s.among(hanging))
             ask &= reaches | ~missed
         ask = np.flatnonzero(ask & (s.beta <= FAST))
         if ask.size:
-            bounds = outermost(self.kernel, adhesive_cycle(self.kernel, s.take(ask)))
+            bounds = outermost(self.kernel, adhesive_cycle(self.kernel, s.among(ask)))
             released[ask] = bounds.released
             self.bounds.put(index[ask], bounds)
             self.record.solved.evaluations[index[ask]] += bounds.evaluations
@@ -163,7 +163,7 @@ class _Batch:
 
     def _onset(self, index):
         """Orbits that are free once per period."""
-        cycle = adhesive_cycle(self.kernel, self.strips.take(index))
+        cycle = adhesive_cycle(self.kernel, self.strips.among(index))
         return (self._onset_searched if self.searching else self._onset_direct)(index, cycle)
 
     def _onset_direct(self, index, cycle: Cycle):
@@ -189,7 +189,7 @@ class _Batch:
             self.record.orbits(index[pick], sequence, orbit.take(pick))
         rest = np.flatnonzero(~proven & ~none)
         none = index[none]
-        return np.concatenate((none, self._sought(index[rest], cycle.take(rest)))) if rest.size else none
+        return np.sort(np.concatenate((none, self._sought(index[rest], cycle.among(rest))))) if rest.size else none
 
     def _sought(self, index, cycle: Cycle):
         result = sought(self.kernel, cycle, last=not self.unloading, known=self.known.take(index))
@@ -205,25 +205,25 @@ class _Batch:
     def _without_adhesion(self, index):
         if not index.size:
             return
-        s = self.strips.take(index)
+        s = self.strips.among(index)
         full = saturates(self.kernel, s)
         free = ~full & (s.D <= 0)
         self.record.saturated_contact(index[full])
         self.record.constant(index[free], "f", 0.0, 0.0, 0.0, 0.0)
         index = index[~full & ~free]
         if index.size:
-            orbit, found = self._bare(index, "cf", bare_cycle(self.kernel, self.strips.take(index)))
+            orbit, found = self._bare(index, "cf", bare_cycle(self.kernel, self.strips.among(index)))
             self.record.solved.code[index] = CODE["cf"]
             pick = np.flatnonzero(found)
             self.record.orbits(index[pick], "cf", orbit.take(pick))
 
     def _contact_with_saturated_adhesion(self, index):
         """Solve as the strip without adhesion at ``D + p_0``; returns which strips are decided, or left open."""
-        strips = self.strips.take(index)
+        strips = self.strips.among(index)
         cycle = bare_cycle(self.kernel, strips)
         orbit, found = self._bare(index, "ac", cycle)
         pick = np.flatnonzero(found)
-        pick = pick[greatest_gap(self.kernel, strips.take(pick), orbit.take(pick)) <= strips.delta_0[pick]]
+        pick = pick[greatest_gap(self.kernel, strips.among(pick), orbit.take(pick)) <= strips.delta_0[pick]]
         self.record.orbits(index[pick], "ac", orbit.take(pick))
         # there is such an orbit without a limit to the gap: one that is not found is not certified, never passed over
         done = ~found
@@ -241,7 +241,7 @@ class _Batch:
         if rest.size and not self.searching:
             self._open.append(index[rest])
         elif rest.size:
-            result = sought(self.kernel, cycle.take(rest), last=False)
+            result = sought(self.kernel, cycle.among(rest), last=False)
             self.record.solved.evaluations[index[rest]] += result.evaluations
             orbit.put(rest, result.orbit)
             found[rest] = result.certified

@@ -51,15 +51,15 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> 
         part, limits = orbit.take(known), bounds.take(known)
         unknown = np.full(known.size, np.nan)
         outer = Orbit(limits.x, unknown, unknown, np.maximum(limits.c, part.c), np.zeros(known.size, bool), unknown, unknown)
-        proven[known] = _falls_between(kernel, cycle.take(known), part, outer, 1.0)
+        proven[known] = _falls_between(kernel, cycle.among(known), part, outer, 1.0)
         rest = np.flatnonzero(~proven & (cycle.strips.beta > balance.SLOW))
         if rest.size:
-            part = cycle.take(rest)
+            part = cycle.among(rest)
             here = closed(kernel, part, orbit.take(rest))
             proven[rest], spent[rest] = balance.first(kernel, part, here, *onsets_within(part, bounds.take(rest)))
     rest = np.flatnonzero(~proven)
     if rest.size:
-        part, sign = cycle.take(rest), -1.0 if last else 1.0
+        part, sign = cycle.among(rest), -1.0 if last else 1.0
         end = part.centre - sign * part.half_d
         end = end if last else np.fmax(end, bounds.x[rest])
         proven[rest], used = _cleared(kernel, part, closed(kernel, part, orbit.take(rest)), sign, end)
@@ -104,7 +104,7 @@ def none_before(kernel, cycle: Cycle, known: Orbit, start) -> tuple[np.ndarray, 
     left, right = marches, Orbit.joined([known, marches.take(np.arange((many - 1) * n))])
     empty = np.zeros(n * many, bool)
     ask = np.flatnonzero(~right.engaged)
-    pieces, left, right = pieces.take(ask), left.take(ask), right.take(ask)
+    pieces, left, right = pieces.among(ask), left.take(ask), right.take(ask)
     bounds = slope_bounds(kernel, pieces, left, right)
     apart = (left.r > 0) & (right.r > 0) & excluded(kernel, pieces, left, right, bounds, False)
     empty[ask] = apart | (~left.engaged & bounds.falls)
@@ -129,14 +129,14 @@ def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.n
         spent += used
         stuck = np.flatnonzero(outer.engaged)
         if stuck.size:
-            closer, used = _released(kernel, cycle.take(stuck), known.take(stuck), outer.x[stuck], sign)
+            closer, used = _released(kernel, cycle.among(stuck), known.take(stuck), outer.x[stuck], sign)
             outer.put(stuck, closer)
             spent[stuck] += used
         proven = ~outer.engaged & _falls_between(kernel, cycle, known, outer, sign)
         active = np.flatnonzero(~proven)
         if not active.size:
             return proven, spent
-        part, here, outer = cycle.take(active), known.take(active), outer.take(active)
+        part, here, outer = cycle.among(active), known.take(active), outer.take(active)
         frontier, step = here.take(np.arange(active.size)), _FIRST * (outer.x - here.x)
         for _ in range(_PROBES):
             x = frontier.x + np.where(np.abs(step) < 0.9 * np.abs(outer.x - frontier.x), step, _FIRST * (outer.x - frontier.x))
@@ -151,7 +151,7 @@ def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.n
                 break
             near = np.flatnonzero(near)
             frontier.put(near, probe.take(near))
-            active, part, here, step = active[going], part.take(going), here.take(going), step[going]
+            active, part, here, step = active[going], part.among(going), here.take(going), step[going]
             frontier, outer = frontier.take(going), outer.take(going)
     return proven, spent
 
@@ -176,7 +176,7 @@ def _released(kernel, cycle: Cycle, known: Orbit, x, sign) -> tuple[Orbit, np.nd
     # bounds may miss an adhesion that ends just before its arc does: then the edges themselves
     missed = np.flatnonzero(closer.engaged)
     if missed.size:
-        exact, used = march(kernel, cycle.take(missed), closer.x[missed])
+        exact, used = march(kernel, cycle.among(missed), closer.x[missed])
         closer.put(missed, exact)
         spent[missed] += used
     return closer, spent

@@ -69,7 +69,7 @@ def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, lat
     r, w_end = np.full(x.shape, -np.inf), np.full(x.shape, np.nan)
     free = np.flatnonzero(~engaged)
     if free.size:
-        r[free], w_end[free] = closing(kernel, cycle.take(free), x[free], b[free], a[free], c[free])
+        r[free], w_end[free] = closing(kernel, cycle.among(free), x[free], b[free], a[free], c[free])
     return Orbit(x.copy(), b, a, c, engaged, r, w_end), spent
 
 

@@ -72,7 +72,7 @@ def outermost(kernel, cycle: Cycle) -> Outermost:
     index = np.flatnonzero(~cycle.direct & (cycle.half_b > 0) & (cycle.half_b < np.pi))
     if not index.size:
         return out
-    part = cycle.take(index) if index.size < n else cycle
+    part = cycle.among(index)
     near = [part.centre + half for half in (part.half_b, part.half_c)]
     start = [
         low + _SOON * (part.centre + TWO_PI - half - low) for low, half in zip(near, (part.half_b, part.half_c), strict=True)
@@ -83,7 +83,7 @@ def outermost(kernel, cycle: Cycle) -> Outermost:
         out.evaluations[index] += spent
         go = np.flatnonzero(released)
         if go.size:
-            index, part = index[go], part.take(go) if go.size < index.size else part
+            index, part = index[go], part.among(go)
             out.x[index], out.missed[index], spent = _onset(kernel, part, c[go], onset_guess(part))
             out.evaluations[index] += spent
     return out

@@ -29,6 +29,10 @@ class Strips:
         """The strips at ``index``."""
         return type(self)(*[getattr(self, name)[index] for name in self.__slots__])
 
+    def among(self, index: np.ndarray) -> "Strips":
+        """The strips at ``index``, which ascends and repeats nothing: themselves where these are all."""
+        return self if index.size == self.size else self.take(index)
+
     @property
     def size(self) -> int:
         return self.D.size
@@ -64,6 +68,10 @@ class Cycle:
     def take(self, index: np.ndarray) -> "Cycle":
         """The cycles at ``index``."""
         return type(self)(self.strips.take(index), *[getattr(self, name)[index] for name in self.__slots__[1:]])
+
+    def among(self, index: np.ndarray) -> "Cycle":
+        """The cycles at ``index``, which ascends and repeats nothing: themselves where these are all."""
+        return self if index.size == self.size else self.take(index)
 
     @property
     def size(self) -> int:

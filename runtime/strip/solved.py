@@ -49,7 +49,7 @@ class Record:
         self.solved = Solved.empty(strips.size)
 
     def saturated_contact(self, index) -> None:
-        p_mean, tau_mean = self.kernel.means_c(*groups(self.strips.take(index)))
+        p_mean, tau_mean = self.kernel.means_c(*groups(self.strips.among(index)))
         self.constant(index, "c", p_mean, tau_mean, 1.0, 0.0)
 
     def constant(self, index, sequence: str, p_mean, tau_mean, contact: float, adhesion: float) -> None:
@@ -66,7 +66,7 @@ class Record:
         out = self.solved
         out.code[index], out.certified[index] = CODE[sequence], True
         means = getattr(self.kernel, "means_ac" if sequence == "cf" else f"means_{sequence}")
-        out.p_mean[index], out.tau_mean[index] = means(*edges_of(sequence, orbit), *groups(self.strips.take(index)))
+        out.p_mean[index], out.tau_mean[index] = means(*edges_of(sequence, orbit), *groups(self.strips.among(index)))
         contact = np.clip(np.where(np.isnan(orbit.b), 0.0, orbit.a - orbit.b) / TWO_PI, 0.0, 1.0)  # a - b is rounded
         adhesion = {"cf": 0.0, "ac": 1 - contact}.get(sequence)
         out.contact_fraction[index] = contact

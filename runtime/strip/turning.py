@@ -74,7 +74,7 @@ def turning(kernel, cycle: Cycle, start, end) -> Turning:
     for shares in _ALL_ALONG:
         ask = np.flatnonzero(np.isnan(x) & ~result.none)
         if ask.size:
-            result.none[ask], used = _unstable_after(kernel, cycle.take(ask), start[ask], shares)
+            result.none[ask], used = _unstable_after(kernel, cycle.among(ask), start[ask], shares)
             result.isolated.evaluations[ask] += used
     index = np.flatnonzero((way > 0) & np.isfinite(way))
     if index.size:
@@ -93,10 +93,10 @@ def _settle(kernel, cycle: Cycle, index, before, after, start, end, result: Turn
     marches, used = march(kernel, cycle.take(np.tile(index, 2)), np.concatenate((before, after)))
     left, right = marches.take(np.arange(n)), marches.take(np.arange(n, 2 * n))
     isolated.evaluations[index] += used[:n] + used[n:]
-    part = cycle.take(index)
+    part = cycle.among(index)
     one, none = np.zeros(n, bool), np.zeros(n, bool)
     ask = np.flatnonzero((left.r > 0) & ~right.engaged)
-    ends, there, here = part.take(ask), left.take(ask), right.take(ask)
+    ends, there, here = part.among(ask), left.take(ask), right.take(ask)
     bounds = slope_bounds(kernel, ends, there, here)
     one[ask] = (here.r <= 0) & bounds.falls
     none[ask] = (here.r > 0) & excluded(kernel, ends, there, here, bounds, False)
@@ -104,16 +104,16 @@ def _settle(kernel, cycle: Cycle, index, before, after, start, end, result: Turn
     # past the middle of both arcs T' only grows
     ask = np.flatnonzero(none & ((right.x < part.centre) | (right.c > part.centre + np.pi)))
     if ask.size:
-        none[ask], used = _unstable_after(kernel, part.take(ask), right.x[ask], _TOWARDS)
+        none[ask], used = _unstable_after(kernel, part.among(ask), right.x[ask], _TOWARDS)
         isolated.evaluations[index[ask]] += used
     go = np.flatnonzero(one | none)
     if not go.size:
         return
-    part, ends = part.take(go), left.take(go)
+    part, ends = part.among(go), left.take(go)
     first, used = balance.first(kernel, part, ends, start[index[go]], end[index[go]])
     rest = np.flatnonzero(~first)
     if rest.size:
-        first[rest], more = none_before(kernel, part.take(rest), ends.take(rest), start[index[go[rest]]])
+        first[rest], more = none_before(kernel, part.among(rest), ends.take(rest), start[index[go[rest]]])
         used[rest] += more
     isolated.evaluations[index[go]] += used
     go = go[first]
@@ -171,7 +171,7 @@ def _rises(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     """Where ``T' > 1`` by more than rounding; not where the strip stays engaged."""
     rises = np.zeros(cycle.size, bool)
     index = np.flatnonzero(~orbit.engaged)
-    part, orbit = cycle.take(index), orbit.take(index)
+    part, orbit = cycle.among(index), orbit.take(index)
     blur = 64 * _EPS * fading(part, contact_length(orbit.b, orbit.a))
     rises[index] = slope_excess(kernel, part, orbit)[0] > blur
     return rises
@@ -195,7 +195,7 @@ def _least(kernel, cycle: Cycle):
         if not going.size:
             break
         if going.size < index.size:
-            index, part = index[going], part.take(going)
+            index, part = index[going], part.among(going)
     x, F = edges[0], onset_margin(kernel, cycle, edges[0])
     found = (size <= _SMALL) & (slope > 0) & (F > 0)
     r, _ = closing(kernel, cycle, *edges)
