@@ -41,12 +41,13 @@ def polish(kernel, sequence: str, strips: Strips, edges: np.ndarray, bounds=(-np
     noise = _noise(kernel, sequence, strips)
     edges = edges.copy()
     n = strips.size
-    last, attainable, evaluations = np.full(n, np.inf), np.full(n, np.inf), np.zeros(n)
+    last, evaluations = np.full(n, np.inf), np.zeros(n)
     low, high = (np.broadcast_to(bound, edges.shape) for bound in bounds)
     stalls = np.zeros(n, int)
-    active = np.arange(n)
+    active, here = np.arange(n), arguments
+    # of each strip, at the last step that was a correction
+    slopes: list[list] = []
     for _ in range(_ITERATIONS):
-        here = tuple(v[active] for v in arguments)
         current = edges[:, active]
         matrix = jacobian(*current, *here)
         step, _ = newton(residual(*current, *here), matrix)
@@ -58,16 +59,26 @@ def polish(kernel, sequence: str, strips: Strips, edges: np.ndarray, bounds=(-np
         new = np.clip(np.maximum.accumulate(current + step, axis=0), low[:, active], high[:, active])
         edges[:, moved] = new[:, better]
         last[moved] = size[better]
-        attainable[moved] = _propagated([e[moved] for e in noise], _rows(matrix, better))
+        slopes = _kept(slopes, matrix, moved, better)
         stalls[active[~better]] += 1
-        active = active[(stalls[active] < 2) & (size > 4 * _EPS * np.max(np.abs(new), axis=0))]
-        if not active.size:
+        going = np.flatnonzero((stalls[active] < 2) & (size > 4 * _EPS * np.max(np.abs(new), axis=0)))
+        if not going.size:
             break
-    return Polished(edges, last, attainable, evaluations, stalls > 0)
+        if going.size < active.size:
+            active = active[going]
+            here = tuple(v[active] for v in arguments)
+    return Polished(edges, last, _propagated(noise, slopes), evaluations, stalls > 0)
 
 
-def _rows(matrix, pick):
-    return [[entry if np.ndim(entry) == 0 else entry[pick] for entry in row] for row in matrix]
+def _kept(slopes: list[list], matrix, moved, better) -> list[list]:
+    """The ``slopes`` with those of ``matrix`` for the strips ``moved``, which are ``better``."""
+    if not slopes:  # the first step is a correction, unless it is no number
+        return [[entry if np.ndim(entry) == 0 else np.where(better, entry, np.nan) for entry in row] for row in matrix]
+    for row, now in zip(slopes, matrix, strict=True):
+        for entry, value in zip(row, now, strict=True):
+            if np.ndim(entry):
+                entry[moved] = value[better]
+    return slopes
 
 
 def newton(residual, jacobian):
