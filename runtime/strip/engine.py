@@ -33,7 +33,7 @@ from .sought import sought
 from .start import start
 
 #: Strips solved at a time: their working arrays stay in the cache, and memory stays bounded.
-CHUNK = 16384
+CHUNK = 32768
 _EPS = np.finfo(float).eps
 #: distances in roundings of D at which a strip on the end of a branch is settled
 _SHIFTS = (8, 64, 512)
@@ -122,6 +122,13 @@ class _Batch:
         return index[~free]
 
     def _engaged(self, index):
+        # what the pass without search has told holds
+        told = self.bounds.released[index]
+        asked = index[~told]
+        rest = self._engaged_asked(asked) if asked.size else asked
+        return np.sort(np.concatenate((index[told], rest))) if told.any() else rest
+
+    def _engaged_asked(self, index):
         s = self.strips.among(index)
         full = saturates(self.kernel, s)
         self.record.saturated_contact(index[full])
