@@ -22,7 +22,7 @@ from .strips import Columns, saturation_depth
 
 _FIRST, _LAST = 6, 96
 _ROUNDS = 40
-#: share of the error allowed that interpolating may have: the means have the rest
+#: share of the error allowed that interpolating may have at least: the means may have the rest
 _INTERPOLATION = 1 - MEAN
 #: coefficients below this share of what the means may err say nothing of how smooth they are
 _BLUR = 0.1
@@ -149,7 +149,9 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
             goal[:, 0] = sought.goals(batch.column, batch.values[:, :, 0])
         elif columns.frictional:
             goal[:, 0] = _pressure_goal(batch.values, goal)
-        done = (error <= _INTERPOLATION * goal).all(axis=1)
+        # what the means leave of it
+        goal = np.maximum(goal - batch.errors.max(axis=1), _INTERPOLATION * goal)
+        done = (error <= goal).all(axis=1)
         done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in batch.intervals]
         for k in np.flatnonzero(done):
             i, bound = batch.intervals[k], error[k] + _ROUNDED * rounding[k] + batch.errors[k].max(axis=0)

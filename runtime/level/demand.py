@@ -23,7 +23,7 @@ _STRIPS, _POINTS = 24, 32
 #: a share is not known any better than this
 _FINEST = 1e-6
 #: parts of a law that may each err by what the whole is allowed
-_PARTS = 3
+_PARTS = 2
 #: no law is coarser than this, times what is asked
 _EASIEST = 1e6
 
