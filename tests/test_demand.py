@@ -17,8 +17,8 @@ MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
 LEVELS = (hystrip.Level(l=10e-6, h=1e-6), hystrip.Level(l=500e-9, h=100e-9))
 PRESSURE, V, RTOL = 100.0, np.array([5e-4, 2e-2]), 1e-5
-#: velocities at which much of the law is asked for on little of the surface
-SLOW = np.array([4e-4, 5e-4])
+#: velocities at which much of the law is asked for on little of the surface, and a tolerance at which that takes more nodes
+SLOW, FINE = np.array([5e-4, 8e-4]), 1e-6
 
 
 def demand(share, friction=1.0):
@@ -51,11 +51,11 @@ def test_pressures_nobody_asks_for_are_easiest():
     assert demand(0.5).ease(0, 2.0, 1.0, 1.0) > 1e5 and demand(0.5).ease(0, 5.0, 6.0, 1e-9) > 1e4
 
 
-def _friction(monkeypatch=None, V=V):
+def _friction(monkeypatch=None, V=V, rtol=RTOL):
     if monkeypatch is not None:
         # every pressure asked for everywhere: no law is coarser than the result
         monkeypatch.setattr(multilevel, "demand_of", lambda columns, group: None)
-    return hystrip.solve(MATERIAL, ADHESION, LEVELS, pressure=PRESSURE, velocity=V, rtol=RTOL)
+    return hystrip.solve(MATERIAL, ADHESION, LEVELS, pressure=PRESSURE, velocity=V, rtol=rtol)
 
 
 def test_coarser_laws_give_the_same_friction_for_less(monkeypatch):
@@ -63,9 +63,9 @@ def test_coarser_laws_give_the_same_friction_for_less(monkeypatch):
     floor = 1e-3 * (MATERIAL.K * LEVELS[0].h + ADHESION.p_0) * LEVELS[0].h / LEVELS[0].l
     assert (np.abs(weighted.tau - even.tau) <= RTOL * (np.abs(even.tau) + floor)).all()
     assert (weighted.tau_error <= RTOL * (np.abs(even.tau) + floor)).all()
-    even = _friction(monkeypatch, SLOW)
+    even = _friction(monkeypatch, SLOW, FINE)
     monkeypatch.undo()
-    assert _friction(V=SLOW).counts["strips_solved"] < 0.9 * even.counts["strips_solved"]
+    assert _friction(V=SLOW, rtol=FINE).counts["strips_solved"] < 0.9 * even.counts["strips_solved"]
 
 
 @pytest.mark.parametrize(("V", "edge"), [(3e-4, "continuous"), (3e-4, "constitutive"), (5e-3, "continuous")])
