@@ -101,7 +101,7 @@ def none_before(kernel, cycle: Cycle, known: Orbit, start) -> tuple[np.ndarray, 
     nodes = (known.x + _SHARES[:, None] * (start - known.x)).ravel()
     marches, spent = march(kernel, cycle.take(np.tile(np.arange(n), many)), nodes)
     pieces = cycle.take(np.tile(np.arange(n), many))
-    left, right = marches, Orbit.joined([known, marches.take(np.arange((many - 1) * n))])
+    left, right = marches, Orbit.joined([known, marches.take(slice(0, -n))])
     empty = np.zeros(n * many, bool)
     ask = np.flatnonzero(~right.engaged)
     pieces, left, right = pieces.among(ask), left.take(ask), right.take(ask)

@@ -46,7 +46,7 @@ class Orbit:
         """The orbits of all ``parts``, one after another."""
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in cls.__slots__))
 
-    def take(self, index: np.ndarray) -> "Orbit":
+    def take(self, index: np.ndarray | slice) -> "Orbit":
         return Orbit(*[getattr(self, name)[index] for name in self.__slots__])
 
     def put(self, index: np.ndarray, other: "Orbit") -> None:

@@ -71,8 +71,10 @@ def turning(kernel, cycle: Cycle, start, end) -> Turning:
         way = np.sqrt(2 * np.abs(r) / curvature)
     result = Turning(np.zeros(cycle.size, bool), SearchResult(cycle.size))
     result.isolated.evaluations += spent
+    # a strip within reach is not free
+    hangs = cycle.strips.D <= -cycle.strips.delta_0
     for shares in _ALL_ALONG:
-        ask = np.flatnonzero(np.isnan(x) & ~result.none)
+        ask = np.flatnonzero(np.isnan(x) & hangs & ~result.none)
         if ask.size:
             result.none[ask], used = _unstable_after(kernel, cycle.among(ask), start[ask], shares)
             result.isolated.evaluations[ask] += used
@@ -91,7 +93,7 @@ def _settle(kernel, cycle: Cycle, index, before, after, start, end, result: Turn
     """March the cycles ``index`` from the onsets ``before`` and ``after``, and enter what that proves."""
     n, isolated = index.size, result.isolated
     marches, used = march(kernel, cycle.take(np.tile(index, 2)), np.concatenate((before, after)))
-    left, right = marches.take(np.arange(n)), marches.take(np.arange(n, 2 * n))
+    left, right = marches.take(slice(0, n)), marches.take(slice(n, None))
     isolated.evaluations[index] += used[:n] + used[n:]
     part = cycle.among(index)
     one, none = np.zeros(n, bool), np.zeros(n, bool)
@@ -140,8 +142,8 @@ def _unstable_after(kernel, cycle: Cycle, x, shares) -> tuple[np.ndarray, np.nda
     nodes = (x + shares[:, None] * (top - x)).ravel()
     marches, used = march(kernel, cycle.take(np.tile(np.arange(n), many)), nodes)
     spent += used.reshape(many, n).sum(axis=0)
-    left, right = marches.take(np.arange((many - 1) * n)), marches.take(np.arange(n, many * n))
-    last = marches.take(np.arange((many - 1) * n, many * n))
+    left, right = marches.take(slice(0, -n)), marches.take(slice(n, None))
+    last = marches.take(slice(-n, None))
     # from here on M is at most what it is where adhesion ends now, or in the middle of the arc
     last.c = np.minimum(last.c, middle)
     proven = _rises(kernel, cycle, last)
