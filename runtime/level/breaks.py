@@ -14,8 +14,8 @@ from .strips import Columns, saturation_depth
 from .transitions import Looks, Probe, locate
 
 _SCAN = 48
-#: how far from a penetration that is known to look, as a share of the width of a bracket
-_ASIDE = 0.45
+#: how far from a penetration that is known to look, as shares of the width of a bracket
+_ASIDE = np.array((-0.45, -0.06, 0.06, 0.45))
 _EPS = np.finfo(float).eps
 
 
@@ -88,7 +88,8 @@ def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list
     low, high = D[line, node], D[line, node + 1]
     width = 16 * _EPS * np.maximum(np.maximum(np.abs(low), np.abs(high)), max(h, a.p_0 / K))
     ends = codes[line, node], codes[line, node + 1]
-    looks = _beside_known(columns, column, probe, line, low, high, ends, width)
+    known = np.stack((columns.clinging.crest(columns), saturation_depth(columns)))[:, column]
+    looks = _beside_known(known, probe, line, low, high, ends, width)
     aim = folds(columns, lambda rows, x: crest_or_edge(line[rows], x), low, high, *ends, width)
     changes = locate(probe, columns.guide, line, low, high, *ends, width, looks, aim)
     if columns.branch == "unloading" and a.p_0 > 0:
@@ -103,12 +104,11 @@ def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list
     return out, touched
 
 
-def _beside_known(columns: Columns, column, probe: Probe, line, low, high, ends, width) -> Looks:
-    """Looks at the ``ends`` (codes at ``low`` and ``high``) of brackets, and next to where the crest is known to change."""
-    known = np.stack((columns.clinging.crest(columns), saturation_depth(columns)))
-    crest = np.flatnonzero(line < column.size)
-    place = known[:, column[line[crest]]]
-    x = place + np.multiply.outer((-_ASIDE, _ASIDE), width[crest])[:, None]
+def _beside_known(known, probe: Probe, line, low, high, ends, width) -> Looks:
+    """Looks at the ``ends`` (codes at ``low`` and ``high``) of brackets, and next to where crests are ``known`` to change,
+    (kinds, crests)."""
+    crest = np.flatnonzero(line < known.shape[1])
+    x = known[:, line[crest]] + np.multiply.outer(_ASIDE, width[crest])[:, None]
     *_, at = inside = np.nonzero((x > low[crest]) & (x < high[crest]))
     rows, x = crest[at], x[inside]
     codes, margins = probe(line[rows], x)

@@ -29,8 +29,9 @@ if TYPE_CHECKING:
 #: points of a curve: S up to 2, and shares of what lies above; dense at 2, where contact begins and where it fills the period
 _BELOW = 2 * (np.arange(1, 13) / 12) ** 2
 _ABOVE = np.concatenate((np.sin(0.5 * np.pi * np.arange(1, 24) / 24) ** 4, 1 - 0.1 ** np.arange(3, 7)))
-#: least of ``k V T_eps`` and of what ``S`` at saturation exceeds 2 by: below, the gap hardly depends on what happened in contact
-_LEAST = 1e-3
+#: ``k V T_eps`` of a curve, and the least that ``S`` at saturation exceeds 2 by: below, the gap hardly depends on what happened in
+#: contact
+_LEAST, _MOST = 1e-3, 1e12
 _EPS = np.finfo(float).eps
 #: roundings of a penetration that are counted
 _ROUNDED = 0.5
@@ -52,14 +53,15 @@ class Clinging:
         if not _tells(columns):
             return np.empty(0, int), np.empty(0), np.empty(0)
         a, h = columns.adhesion, columns.level.h
-        E = columns.D - h + a.p_0 / columns.material.K
+        # rounded once
+        E = columns.D + (a.p_0 / columns.material.K - h)
         column, _, g = self._met(columns, E, np.full(E.size, -a.delta_0), np.full(E.size, 2 * a.delta_0))
         touching = np.flatnonzero((E < 0) & (E > -a.delta_0))
         column, A = np.concatenate((column, touching)), np.concatenate((a.delta_0 / g, -0.5 * E[touching]))
         inside = np.flatnonzero((A > 0) & (2 * A < h))
         column, theta = column[inside], 2 * np.arccos(np.sqrt(2 * A[inside] / h))
         digit = _ROUNDED * _EPS * (np.abs(columns.D[column]) + h + a.p_0 / columns.material.K)
-        return column, theta, digit / (0.25 * h * np.sin(theta))
+        return column, theta, digit / np.maximum(0.25 * h * np.sin(theta), np.finfo(float).tiny)
 
     def crest(self, columns: Columns) -> np.ndarray:
         """Penetrations (n,) at which the crest ceases to be engaged all along, NaN where not known; the columns' own are not
@@ -74,14 +76,12 @@ class Clinging:
     def _met(self, columns: Columns, by_g, by_S, constant) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Where ``by_g g + by_S S + constant``, (n,), falls through zero along the curves of the columns: which columns, S and g
         there."""
-        row = self._rows_of(columns)
-        curves = self._curves[row]
-        with np.errstate(invalid="ignore"):
-            value = by_g[:, None] * curves[:, 1] + by_S[:, None] * curves[:, 0] + constant[:, None]
-            column, at = np.nonzero((value[:, :-1] > 0) & (value[:, 1:] <= 0))
-        before, after = value[column, at], value[column, at + 1]
+        row, curves = self._rows_of(columns), self._curves
+        value = by_g[:, None] * curves[row, 1] + by_S[:, None] * curves[row, 0] + constant[:, None]
+        column, at = np.nonzero((value[:, :-1] > 0) & (value[:, 1:] <= 0))
+        before, after, row = value[column, at], value[column, at + 1], row[column]
         share = (before / (before - after))[:, None]
-        S, g, x, a, phase = ((1 - share) * curves[column, :, at] + share * curves[column, :, at + 1]).T
+        S, g, x, a, phase = ((1 - share) * curves[row, :, at] + share * curves[row, :, at + 1]).T
         strips = columns.groups(columns.V[column], S)
         S, g = _closer(kernel_of(columns.material), strips, x, a, phase, by_g[column], by_S[column], constant[column])
         found = ~np.isnan(S)
@@ -97,16 +97,18 @@ class Clinging:
 
 
 def _tells(columns: Columns) -> bool:
-    """Whether orbits that are engaged all along are what unloading follows, and have one time to remember."""
-    return columns.branch == "unloading" and columns.adhesion.p_0 > 0 and not hasattr(kernel_of(columns.material), "MODES")
+    """Whether orbits that are engaged all along are what is followed, on a wavy level, and have one time to remember."""
+    adhesive = columns.branch == "unloading" and columns.adhesion.p_0 > 0 and columns.level.h > 0
+    return adhesive and not hasattr(kernel_of(columns.material), "MODES")
 
 
 def _curves(columns: Columns, V) -> np.ndarray:
     """Curves at the velocities ``V``, (velocities, 5, points), NaN where one is not known."""
     kernel = kernel_of(columns.material)
-    above = foundation_of(columns.material).modulus_ratio(columns.level.k * V) - 1
+    foundation, rate = foundation_of(columns.material), columns.level.k * V
+    above, beta = foundation.modulus_ratio(rate) - 1, rate * foundation.longest_time
     out = np.full((V.size, 5, _BELOW.size + _ABOVE.size), np.nan)
-    usual = np.flatnonzero((columns.level.k * V * foundation_of(columns.material).longest_time > _LEAST) & (above > _LEAST))
+    usual = np.flatnonzero((beta > _LEAST) & (beta < _MOST) & (above > _LEAST))
     S = np.concatenate((np.tile(_BELOW, (usual.size, 1)), 2 + above[usual, None] * _ABOVE), axis=1)
     strips = columns.groups(np.repeat(V[usual], S.shape[1]), S.ravel())
     cycle = bare_cycle(kernel, strips)

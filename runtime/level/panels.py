@@ -35,6 +35,8 @@ _CLOSER = (1 / 4, 1 / 16)
 _EDGE, _ANY = 0.01, 0.1
 #: how far a strip may be from a transition that is known, in parts of what may err there: values change by a thousand floors
 _ASIDE = 0.5e-3
+#: roundings of a transition that is known, in the same parts, above which it is located all the same
+_BLURRED = 300.0
 #: panels a column may have waiting at once
 _CROWD = 150
 _EPS = np.finfo(float).eps
@@ -232,9 +234,12 @@ class _Work:
     errors: np.ndarray
     strips: np.ndarray
     accepted: list[tuple] = field(default_factory=list)
-    #: brackets of transitions (column, low, high) with what was left out for each, and how far off that may be
+    #: brackets of transitions (column, low, high, how much of it may lie on either side) with what was left out for each, and how
+    #: far off that may be
     slivers: list[tuple] = field(default_factory=list)
     sights: _Sights = field(init=False)
+    #: by how much transitions that are known may be off but for the rounding of a penetration
+    unsure: np.ndarray = field(default_factory=lambda: np.empty(0))
 
     def __post_init__(self):
         every = np.arange(self.rtol.size)
@@ -244,11 +249,16 @@ class _Work:
     def met(self, column, theta, rounding, other, known) -> _Panels:
         """Brackets of the transitions ``theta`` (m,) of a ``column`` that are known to ``rounding``, away from the ``known`` ones
         of columns ``other``."""
-        aside = np.maximum(_ASIDE * _SLIVER * _SHARE * np.minimum(self.rtol, _ANY)[column], rounding)
+        unsure = _ASIDE * _SLIVER * _SHARE * np.minimum(self.rtol, _ANY)[column]
+        aside = np.maximum(unsure, rounding)
         low, high = theta - aside, theta + aside
-        inside = np.flatnonzero((low > 0) & (high < self._edge()[column]) & _hold_none(column, low, high, other, known))
+        # next to the crest of a break strips themselves know it better than to many roundings
+        sharp = rounding <= _BLURRED * unsure
+        inside = np.flatnonzero(
+            sharp & (low > 0) & (high < self._edge()[column]) & _hold_none(column, low, high, other, known)
+        )
         index = inside[_apart(column[inside], low[inside], high[inside])]
-        column, low, high = column[index], low[index], high[index]
+        column, low, high, self.unsure = column[index], low[index], high[index], unsure[index]
         self.sights.add(np.tile(column, 2), np.concatenate((low, high)))
         return _Panels.unknown(column, low, high, self.values.shape[1])
 
@@ -345,19 +355,20 @@ class _Work:
         width = np.min(np.divide(goal, spread, out=np.full_like(goal, np.pi), where=spread > goal / np.pi), axis=1)
         return np.maximum(width, 4 * _EPS * theta)
 
-    def _leave_out(self, column, low, high, low_side, high_side):
-        """The sliver of a bracket is left out: for now what it could hold by these values is its value and its error."""
-        sliver = (high - low)[:, None]
-        value = sliver * 0.5 * (low_side + high_side)
+    def _leave_out(self, column, low, high, low_side, high_side, unsure=None):
+        """The sliver of a bracket is left out: for now what it could hold by these values is its value and its error. ``unsure``:
+        how much of it may lie on either side, all of it if not given."""
+        unsure = high - low if unsure is None else unsure
+        value = (high - low)[:, None] * 0.5 * (low_side + high_side)
         np.add.at(self.values, column, value)
-        self.slivers.append((column, low, high, value, sliver * np.abs(high_side - low_side)))
+        self.slivers.append((column, low, high, unsure, value, unsure[:, None] * np.abs(high_side - low_side)))
 
     def close_slivers(self) -> None:
         """What the slivers hold, by the panels next to them: to either side of the transition values are as at the ends of
         these."""
         if not self.slivers:
             return
-        column, low, high, value, error = (np.concatenate(v) for v in zip(*self.slivers, strict=True))
+        column, low, high, unsure, value, error = (np.concatenate(v) for v in zip(*self.slivers, strict=True))
         owner, _, starts, ends, first, last = (np.concatenate(v) for v in zip(*self.accepted, strict=True))
         before, after = _beside(column, low, owner, ends), _beside(column, high, owner, starts)
         known = np.flatnonzero((before >= 0) & (after >= 0))
@@ -367,7 +378,7 @@ class _Work:
         sliver = (high - low)[known, None]
         better = sliver * 0.5 * places.sum(axis=1)
         np.add.at(self.values, column[known], better - value[known])
-        error[known] = sliver * (0.5 * np.abs(places[:, 1] - places[:, 0]) + off)
+        error[known] = unsure[known, None] * 0.5 * np.abs(places[:, 1] - places[:, 0]) + sliver * off
         np.add.at(self.errors, column, error)
 
     def give_up(self, panels: _Panels) -> None:
@@ -441,7 +452,7 @@ class _Work:
         met = slice(2 * self.rtol.size, None)
         column, (low, high) = np.split(self.sights.column[met], 2)[0], np.split(self.sights.place[met], 2)
         values = np.split(self.sights.values[met], 2)
-        self._leave_out(column, low, high, np.minimum(*values), np.maximum(*values))
+        self._leave_out(column, low, high, np.minimum(*values), np.maximum(*values), 2 * self.unsure)
 
     def _learn_ends(self, panels: _Panels) -> None:
         """Fill in what is known of the panels' ends from the sights."""
