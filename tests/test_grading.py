@@ -1,0 +1,91 @@
+"""Nodes stand as closely towards an end as what ends there asks for: their places, when they are taken to be enough, and that a
+wrong guess costs no digits."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import hystrip
+from hystrip.level import curve
+from hystrip.level.breaks import breakpoints
+from hystrip.level.chebyshev import evaluate, flat_ended, lobatto
+from hystrip.level.curve import interpolate, smooth_intervals
+from hystrip.level.ends import with_gentle_ends
+from hystrip.level.grading import GENTLE, STEEP, Grading
+from hystrip.level.interval import Interval
+from hystrip.level.means import level_means
+from hystrip.level.strips import Columns, saturation_depth
+
+POWERS = [(a, b) for a in (GENTLE, STEEP) for b in (GENTLE, STEEP)]
+
+
+@pytest.mark.parametrize(("low", "high"), POWERS)
+def test_shares_begin_and_end_like_the_powers(low, high):
+    grading, t = Grading(low, high), np.array([1e-6, 2e-6])
+    start, end = grading.share(t), 1 - grading.share(1 - 1e3 * t)
+    assert np.diff(np.log(start)) == pytest.approx(low * np.log(2), rel=1e-4)
+    assert np.diff(np.log(end)) == pytest.approx(high * np.log(2), rel=1e-2)
+    assert (grading.share(np.array([0.0, 1.0])) == [0, 1]).all() and (np.diff(grading.share(np.linspace(0, 1, 999))) > 0).all()
+
+
+@pytest.mark.parametrize(("low", "high"), [*POWERS, (1, 1)])
+def test_parameters_belong_to_shares(low, high):
+    grading, t = Grading(low, high), np.concatenate((np.linspace(0, 0.99, 200), [1e-9, 1e-4]))
+    assert grading.parameter(grading.share(t)) == pytest.approx(t, abs=1e-7)
+
+
+def _missed(function, grading, n):
+    """Error of the interpolant through n - 1 nodes of a function of the share."""
+    t = np.linspace(0, 1, 1001)
+    found = evaluate(flat_ended(n) @ function(grading.share(lobatto(n)[1:-1]))[:, None], t)[:, 0]
+    return np.abs(found - function(grading.share(t))).max()
+
+
+def test_ends_are_as_smooth_as_their_powers_make_them():
+    """A square root asks for the steep end, a square root of a cube for the gentle one; what is smooth has more digits there."""
+    root, cube = lambda s: np.sqrt(s) * np.exp(-s), lambda s: (1 - s) ** 1.5 * np.exp(s)
+    assert _missed(root, Grading(STEEP, GENTLE), 24) < 1e-9 and _missed(root, Grading(GENTLE, GENTLE), 24) > 1e-4
+    assert _missed(cube, Grading(GENTLE, GENTLE), 16) < 1e-8
+    assert _missed(np.exp, Grading(GENTLE, GENTLE), 12) < 1e-2 * _missed(np.exp, Grading(STEEP, STEEP), 12)
+
+
+def _columns():
+    material, adhesion = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+    V = np.array([1e-2])
+    return Columns(material, adhesion, hystrip.Level(l=500e-9, h=100e-9), "continuous", "unloading", V, np.zeros(1))
+
+
+def test_a_crest_that_clings_all_along_ends_gently_and_one_that_lets_go_does_not():
+    columns = _columns()
+    top = saturation_depth(columns)
+    (row,), (crest,) = smooth_intervals(columns, top)
+    where_gentle = {
+        (round(i.low * 1e9), round(i.high * 1e9)): (i.gentle_low, i.gentle_high) for i in with_gentle_ends(columns, row)
+    }
+    held = [i for i in row if i.low >= crest]
+    # discrete adhesion zones between the end of the crest and the beginning of saturated adhesion, which lasts to saturation
+    (middle, upper) = (where_gentle[round(i.low * 1e9), round(i.high * 1e9)] for i in held)
+    assert middle == (False, False) and upper == (True, True)
+
+
+def test_a_cut_is_no_end():
+    columns = _columns()
+    (points,), _ = breakpoints(columns, saturation_depth(columns))
+    whole = Interval(0, points[-2], points[-1])
+    (cut,) = with_gentle_ends(columns, [replace(whole, high=0.5 * (whole.low + whole.high))])
+    assert cut.gentle_high
+
+
+def test_a_wrong_guess_costs_no_digits(monkeypatch):
+    columns = _columns()
+    (row,), (crest,) = smooth_intervals(columns, saturation_depth(columns))
+    hard = next(i for i in row if i.low >= crest)
+    gently = lambda _, intervals: [replace(i, gentle_low=True, gentle_high=True) for i in intervals]  # noqa: E731
+    monkeypatch.setattr(curve, "with_gentle_ends", gently)
+    (pieces,) = interpolate(columns, np.array([1e-5]), [hard], np.zeros(1, int))
+    assert len(pieces) > 1
+    for piece in pieces:
+        t = np.array([0.13, 0.5, 0.87])
+        means = level_means(columns.at(np.zeros(3, int), piece.penetration(t)), np.full(3, 1e-8))
+        assert (np.abs(piece.values(t) - means.values) <= piece.error + means.errors).all()
