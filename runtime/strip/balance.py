@@ -78,7 +78,7 @@ class _Reference:
     begins. ``x``, ``c``: onset and end of adhesion of the reference, 0 for a foundation at rest, as are ``b``, ``a``, its contact,
     and ``pressed``, its Q. ``turn``: by how much later contact ends if it begins earlier by one. ``level``: omega less ``u +
     delta_0`` at the crest. ``kept``: ``beta r``. ``least``: of the sum of ``w_l - w_y``. ``end``: adhesion does not end after.
-    ``noise``: of a displacement.
+    ``noise``: of a displacement. ``sines``: of -x and c, summed.
     """
 
     alpha: np.ndarray
@@ -104,6 +104,7 @@ class _Reference:
     turn: np.ndarray
     end: np.ndarray
     noise: np.ndarray
+    sines: np.ndarray
 
     def take(self, index):
         return type(self)(*[getattr(self, name)[index] for name in _Reference.__slots__])
@@ -199,6 +200,7 @@ def beside(kernel, cycle: Cycle, known: Orbit, end) -> _Reference:
         turn=_turn(kernel, s, known),
         end=end,
         noise=noise,
+        sines=np.sin(known.c) - np.sin(known.x),
     )
 
 
@@ -219,6 +221,7 @@ def at_rest(kernel, cycle: Cycle) -> _Reference:
         turn=zero,
         end=zero + np.pi,
         noise=_noise(cycle.strips),
+        sines=zero,
     )
 
 
@@ -284,6 +287,13 @@ def _versine(phase):
     return 2 * np.sin(0.5 * phase) ** 2
 
 
+def _sine_cosine(phase):
+    """Both to rounding of one, by the tangent of half the phase: a fraction of their cost."""
+    tangent = np.tan(0.5 * phase)
+    double = 2 / (1 + tangent * tangent)
+    return tangent * double, double - 1
+
+
 def _sum(s, b, a):
     """Sum of the pressure over -p_0 from b to a, but for ``-alpha`` times its rise."""
     return (s.D - 1 + s.p_0) * (a - b) + np.sin(a) - np.sin(b) + s.beta * (np.cos(a) - np.cos(b))
@@ -319,11 +329,11 @@ def _turn(kernel, s: Strips, known: Orbit):
     return np.clip(-one / two, 0.0, 1.0) * kernel.decay(known.a - known.b, s.alpha)
 
 
-def _contact(reference: _Reference, lo):
-    """Phase t, so that contact begins before -t if the onset is not after -lo; 0 where it may not begin, inf where no orbit may
-    have such an onset: its w would be less than -p_0."""
+def _contact(reference: _Reference, lo, versine):
+    """Phase t, so that contact begins before -t if the onset is not after -lo, of this ``versine``; 0 where it may not begin, inf
+    where no orbit may have such an onset: its w would be less than -p_0."""
     r = reference
-    rise = _versine(lo) - r.gap_on - r.noise
+    rise = versine - r.gap_on - r.noise
     lag = np.maximum(r.p_0 + r.D - rise, 0.0)
     t = _arc(rise)
     most = _arc(rise - lag * np.expm1((t - lo) / r.beta))
@@ -337,8 +347,8 @@ def _contact(reference: _Reference, lo):
 
 def _closed(beta, lag, gap, lo):
     """The same for onsets beyond the valley, or next to it: a phase that is verified, -inf where it is not."""
-    sine, rate = np.sin(lo), lag / beta
-    slope, bend = sine + rate, -np.cos(lo) - rate / beta
+    (sine, cosine), rate = _sine_cosine(lo), lag / beta
+    slope, bend = sine + rate, -cosine - rate / beta
     way = 2 * _BEYOND * gap / (slope + np.sqrt(np.maximum(slope**2 + 2 * bend * gap, 0.0)))
     risen = 2 * np.sin(0.5 * way) * np.sin(lo - 0.5 * way) - lag * np.expm1(-way / beta)
     return np.where((way >= 0) & (risen >= gap), lo - way, -np.inf)
@@ -348,22 +358,28 @@ def surplus(kernel, reference: _Reference, lo, hi):
     """Lower bound of the balance of all orbits with an onset between -hi and -lo, less that of the reference."""
     r = reference
     # contact, at least: the pressure of complete contact, and what fades of its difference to the one at -t
-    t = _contact(r, lo)
+    low = _versine(lo)
+    t = _contact(r, lo, low)
     possible, t = np.isfinite(t), np.minimum(t, TWO_PI)
-    sin_t, cos_t = np.sin(t), np.cos(t)
+    sin_t, cos_t = _sine_cosine(t)
     e = np.minimum(np.maximum(r.contact_end(t, sin_t, cos_t) - _SHY, 0.0), r.turned)
-    sin_e, cos_e = np.sin(e), np.cos(e)
+    sin_e, cos_e = _sine_cosine(e)
     mean = r.D - 1 + r.p_0
     begins = mean + r.storage * cos_t + r.loss * sin_t
     late = mean + r.storage * cos_e - r.loss * sin_e + (r.q_on - begins) * kernel.decay(e + t, r.alpha)
-    blur = 64 * _EPS * (1 + r.beta + (1 + r.alpha) * (np.abs(late) + np.abs(mean)))
+    blur = 128 * _EPS * (1 + r.beta + (1 + r.alpha) * (np.abs(late) + np.abs(mean)))
     summed = mean * (e + t) + sin_e + sin_t + r.beta * (cos_e - cos_t)
     pressed = np.where(t > 0, np.maximum(summed - r.alpha * late - blur - r.pressed, 0.0), 0.0)
     holds = (t > 0) & (late > blur)
     held, drop = np.where(holds, e, 0.0), np.where(holds, 1 - cos_e, 0.0)
     # engagement, at most
-    crest, near = r.D + r.delta_0, np.where(hi > np.pi, np.minimum(lo, TWO_PI - hi), lo)
-    low, high = _versine(near), _versine(np.minimum(hi, np.pi)) + r.noise
+    crest, near = r.D + r.delta_0, lo
+    turned = np.flatnonzero(lo + hi > TWO_PI)
+    if turned.size:
+        near = lo.copy()
+        near[turned] = TWO_PI - hi[turned]
+        low[turned] = _versine(near[turned])
+    high = _versine(np.minimum(hi, np.pi)) + r.noise
     later = np.maximum(r.c, near)
     free = np.maximum(TWO_PI - lo - np.where(low > crest, later, r.c), 0.0)
     out = high - crest
@@ -376,7 +392,7 @@ def surplus(kernel, reference: _Reference, lo, hi):
     steep, onset = r.level + low, -r.x
     begun, ended = np.maximum(np.minimum(t, near), onset), np.maximum(np.minimum(held, near), r.c)
     apart = (r.level + 1 + r.delta_0) * (begun - onset + ended - r.c)
-    apart -= np.sin(begun) - np.sin(onset) + np.sin(ended) - np.sin(r.c)
+    apart -= _sine_cosine(begun)[0] + _sine_cosine(ended)[0] - r.sines
     apart += (TWO_PI - begun - later) * steep + (later - ended) * np.minimum(r.level + drop + r.delta_0, steep)
     apart += np.maximum(steep, 0.0) * (r.beta * np.expm1(free / r.beta) - free)
     least = r.kept + pressed - r.p_0 * longer + np.maximum(apart, r.least) - TWO_PI * r.noise
