@@ -74,11 +74,11 @@ _SHY = 0.01
 class _Reference:
     """What the bounds need of n strips and their references, arrays (n,).
 
-    ``storage``, ``loss``: of complete contact. ``turned``: end of the arc where contact ends. ``q_on``: excess pressure as contact
-    begins. ``x``, ``c``: onset and end of adhesion of the reference, 0 for a foundation at rest, as are ``b``, ``a``, its contact,
-    and ``pressed``, its Q. ``turn``: by how much later contact ends if it begins earlier by one. ``level``: omega less ``u +
-    delta_0`` at the crest. ``kept``: ``beta r``. ``least``: of the sum of ``w_l - w_y``. ``end``: adhesion does not end after.
-    ``noise``: of a displacement. ``sines``: of -x and c, summed.
+    ``storage``, ``loss``: of complete contact. ``turned``: end of the arc where contact ends. ``q_on``: excess pressure as
+    contact begins. ``x``, ``c``: onset and end of adhesion of the reference, 0 for a foundation at rest, as are ``b``, ``a``,
+    its contact, and ``pressed``, its Q. ``turn``: by how much later contact ends if it begins earlier by one. ``level``:
+    omega less ``u + delta_0`` at the crest. ``kept``: ``beta r``. ``least``: of the sum of ``w_l - w_y``. ``end``: adhesion
+    does not end after. ``noise``: of a displacement. ``sines``: of -x and c, summed.
     """
 
     alpha: np.ndarray
@@ -400,7 +400,7 @@ def surplus(kernel, reference: _Reference, lo, hi):
 
 
 def _excluded(kernel, reference: _Reference, lo, hi, parts=None) -> tuple[np.ndarray, np.ndarray]:
-    """Where no orbit has an onset between -hi and -lo, asked in as many ``parts``, (n,), to begin with; and the evaluations spent.
+    """Where no orbit has an onset between -hi and -lo, asked in so many ``parts``, (n,), to begin with; and the evaluations.
 
     Over an interval the bound loses as much as engagement grows, which tells how fine a part that fails has to be divided, or
     that it cannot succeed.

@@ -137,7 +137,7 @@ class _Batch:
         hold = reaches & clinging
         self.record.constant(index[hold], "a", -s.p_0[hold], 0.0, 0.0, 1.0)
         done = full | hold
-        partial = reaches & ~clinging & ~self.bounds.released[index]
+        partial = reaches & ~clinging
         if not self.searching:
             if self.unloading:
                 partial &= ~self._bounded(index, s, ~done, reaches)
