@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import hystrip
-from hystrip.level import panels
+from hystrip.level import averages
 from hystrip.level.breaks import breakpoints, let_go
 from hystrip.level.clinging import Clinging
 from hystrip.level.folds import folds
@@ -116,7 +116,7 @@ def test_means_are_those_found_by_looking(rtol, monkeypatch):
     columns = _over_the_curve(2e-3)
     means = level_means(columns, np.full(columns.size, rtol))
     monkeypatch.setattr(Clinging, "ends", lambda self, columns: (np.empty(0, int), np.empty(0), np.empty(0)))
-    monkeypatch.setattr(panels, "folds", lambda *bracket: None)
+    monkeypatch.setattr(averages, "folds", lambda *bracket: None)
     found = level_means(columns, np.full(columns.size, rtol))
     assert (np.abs(means.values - found.values) <= means.errors + found.errors + 1e-13 * np.abs(found.values)).all()
     assert means.strips.sum() < 0.8 * found.strips.sum()
@@ -141,9 +141,7 @@ def test_a_fold_is_foretold_by_newton_alone():
     columns = _columns(5e-3, np.zeros(1))
     (points,), _ = breakpoints(columns, saturation_depth(columns))
     every = np.arange(points.size)
-    below, above = (
-        columns.at(0 * every, points + side * 1e-3 * SMALL.h).codes(every, np.zeros(points.size)) for side in (-1, 1)
-    )
+    below, above = (columns.at(0 * every, points + side * 1e-3 * SMALL.h).codes(every, np.zeros(points.size)) for side in (-1, 1))
     (fold,) = points[(below == CODE["f"]) & (above == CODE["acaf"])]
     low, high = np.array([fold - 0.1 * SMALL.h]), np.array([fold + 0.3 * SMALL.h])
 

@@ -31,7 +31,7 @@ _BELOW = 2 * (np.arange(1, 13) / 12) ** 2
 _ABOVE = np.concatenate(
     (0.2 ** np.arange(9, 2, -1), np.sin(0.5 * np.pi * np.arange(6, 24) / 24) ** 4, 1 - 0.1 ** np.arange(3, 7))
 )
-#: ``k V T_eps`` of a curve, and the least that ``S`` at saturation exceeds 2 by: below, the gap hardly depends on what happened in
+#: ``k V T_eps`` of a curve; the least also of what ``S`` at saturation exceeds 2 by: below, the gap forgets what happened in
 #: contact
 _LEAST, _MOST = 1e-3, 1e12
 _EPS = np.finfo(float).eps

@@ -1,4 +1,4 @@
-"""Where orbits with a free part end at a fold, as Newton alone foretells: strips next to one are dear, and this spares looks there.
+"""Where orbits with a free part end at a fold, as Newton alone foretells: strips next to one are dear, and this spares looks.
 
 Newton finds such an orbit up to a thousandth of the way from where it ends, and none beyond. That it is the extremal one is not
 asked: what comes of it is where to look.
@@ -27,8 +27,9 @@ _NEAR, _FLAT = 1e-4, 1e-6
 
 
 def folds(columns: Columns, at, low, high, code_low, code_high, width) -> Aim | None:
-    """Where brackets [low, high], all (m,), of ``width`` at last, change that lead from such an orbit to no interaction;
-    ``at(rows, x)``: columns, which of them, and theta at x. None if there is none of them."""
+    """Where brackets [low, high], all (m,), change in which such an orbit gives way to no interaction; None if there are none.
+
+    ``at(rows, x)``: columns, which of them, and theta at x of the brackets ``rows``. ``width``: how well it has to be known."""
     codes = np.stack((code_low, code_high)) % len(CODE)
     folding = np.isin(codes, [CODE[name] for name in _FOLDING])
     between = (codes == CODE["f"]).any(axis=0) & folding.any(axis=0)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .panels import Averages, Hints, average
+from .averages import Averages, average
+from .panels import Hints
 from .strips import Columns
 
 

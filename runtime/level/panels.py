@@ -1,49 +1,70 @@
-"""Averages over y by panels between the transitions of regime.
-
-Inside a panel every strip is in the same regime and the integrand is smooth, but for its ends, where a strip may detach
-like a square root at a fold. The substitution ``theta = low + width (3 t^2 - 2 t^3)`` turns such an end into a smooth one, and
-Clenshaw-Curtis sums in t, doubled on nested nodes, converge geometrically. Where nodes of one panel disagree about the
-regime, the transition between them is located and the panel is split there; where neighbouring columns have
-told about where it lies, that bracket is tried first.
-
-All panels of all columns (a column is one velocity and one penetration) advance together: one batch of strips per round.
-"""
+"""Panels of theta, what cuts them, and what is known of their ends."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .folds import folds
-from .order import FREE, NARROWEST, Question
-from .quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
-from .transitions import Guide, Looks, locate
+from .transitions import Guide
 
-if TYPE_CHECKING:
-    from .strips import Columns
-
-
-_FIRST, _LAST = 8, 64
-#: nodes of a panel whose strips are had without a search: its sum may as well be exact
-_COSTLESS = 32
-_ROUNDS = 60
 #: looks closer to an expected transition than its bracket is wide, as shares of half of it
 _CLOSER = (1 / 4, 1 / 16)
-#: how far from the flat edge the strip next to it is, in parts of the accuracy; what does not count is asked for to any accuracy
-_EDGE, _ANY = 0.01, 0.1
-#: how far a strip may be from a transition that is known, in parts of what may err there: values change by a thousand floors
-_ASIDE = 0.5e-3
-#: roundings of a transition that is known, in the same parts, above which it is located all the same
-_BLURRED = 300.0
-#: panels a column may have waiting at once
-_CROWD = 150
-_EPS = np.finfo(float).eps
-#: a panel's part of what a column may err, and that of the slivers in which transitions are bracketed
-_SHARE, _SLIVER = 0.4, 0.03
-#: share of it below which no panel's error is claimed to be: a layer may be too thin to show at its nodes
-_TOLD = 1e-5
+
+
+@dataclass(slots=True)
+class Panels:
+    """Panels [low, high] of columns, arrays (m,), with the ``codes`` (m, 2) and ``values`` (m, 2, q) at their ends where these
+    are known (NaN: not). Where values are known codes are."""
+
+    column: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    codes: np.ndarray
+    values: np.ndarray
+
+    @classmethod
+    def unknown(cls, column, low, high, q: int):
+        """Panels of whose ends nothing is known."""
+        return cls(column, low, high, np.full((column.size, 2), np.nan), np.full((column.size, 2, q), np.nan))
+
+    @classmethod
+    def joined(cls, parts):
+        return cls(*(np.concatenate([getattr(p, f) for p in parts]) for f in ("column", "low", "high", "codes", "values")))
+
+    def take(self, index):
+        return Panels(self.column[index], self.low[index], self.high[index], self.codes[index], self.values[index])
+
+    @property
+    def size(self):
+        return self.column.size
+
+    @property
+    def known(self):
+        """Which ends (m, 2) are known, (m, 2)."""
+        return ~np.isnan(self.values[:, :, 0])
+
+
+def between(n: int, cuts: Panels) -> Panels:
+    """The panels that the cuts leave of every column."""
+    cuts = cuts.take(np.lexsort((cuts.low, cuts.column)))
+    q = cuts.values.shape[2]
+    every, nothing = np.arange(n), (np.full(n, np.nan), np.full((n, q), np.nan))
+    after = (
+        np.concatenate(v)
+        for v in zip((every, np.zeros(n), *nothing), (cuts.column, cuts.high, cuts.codes[:, 1], cuts.values[:, 1]), strict=True)
+    )
+    before = (
+        np.concatenate(v)
+        for v in zip(
+            (cuts.column, cuts.low, cuts.codes[:, 0], cuts.values[:, 0]), (every, np.full(n, np.pi), *nothing), strict=True
+        )
+    )
+    (column, *starts), (last, *ends) = after, before
+    starts = [v[np.argsort(column, kind="stable")] for v in starts]
+    ends = [v[np.argsort(last, kind="stable")] for v in ends]
+    codes, values = (np.stack(pair, axis=1) for pair in zip(starts[1:], ends[1:], strict=True))
+    return Panels(np.sort(column, kind="stable"), starts[0], ends[0], codes, values)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +86,7 @@ class Hints:
 
     def without(self, column: np.ndarray, known: np.ndarray) -> Hints:
         """Those away from the transitions ``known`` of the columns ``column``."""
-        away = _hold_none(self.column, self.low, self.high, column, known)
+        away = hold_none(self.column, self.low, self.high, column, known)
         kept = {name: getattr(self, name)[away] for name in ("column", "low", "high", "code_low", "code_high")}
         return replace(self, **kept)
 
@@ -78,133 +99,22 @@ class Hints:
         return np.stack((self.low, self.high, *(middle + side * half * share for share in _CLOSER)))
 
 
-@dataclass(slots=True)
-class Averages:
-    """Means over the cell: values and error estimates of shape (columns, q); strips evaluated per column.
-
-    ``zones``: for each column the codes met along y, one row (code, low, high) for each run of panels that share it.
-    """
-
-    values: np.ndarray
-    errors: np.ndarray
-    strips: np.ndarray
-    zones: list[np.ndarray] = field(default_factory=list)
-
-
-@dataclass(slots=True)
-class _Panels:
-    """Panels [low, high] of columns, arrays (m,), with the ``codes`` (m, 2) and ``values`` (m, 2, q) at their ends where these
-    are known (NaN: not). Where values are known codes are."""
-
-    column: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
-    codes: np.ndarray
-    values: np.ndarray
-
-    @classmethod
-    def unknown(cls, column, low, high, q: int):
-        """Panels of whose ends nothing is known."""
-        return cls(column, low, high, np.full((column.size, 2), np.nan), np.full((column.size, 2, q), np.nan))
-
-    @classmethod
-    def joined(cls, parts):
-        return cls(*(np.concatenate([getattr(p, f) for p in parts]) for f in ("column", "low", "high", "codes", "values")))
-
-    def take(self, index):
-        return _Panels(self.column[index], self.low[index], self.high[index], self.codes[index], self.values[index])
-
-    @property
-    def size(self):
-        return self.column.size
-
-    @property
-    def known(self):
-        """Which ends (m, 2) are known, (m, 2)."""
-        return ~np.isnan(self.values[:, :, 0])
-
-
-def average(
-    columns: Columns,
-    known: tuple[np.ndarray, np.ndarray],
-    floor: np.ndarray,
-    rtol: np.ndarray,
-    q: int,
-    hints: Hints | None = None,
-) -> Averages:
-    """Means ``(1/pi) int_0^pi values d(theta)`` of the ``integrand`` of every column to ``rtol (|value| + floor)``.
-
-    ``known``: columns and interior thetas (k,) known to be transitions. ``floor`` and ``rtol`` have shape (columns, q) and
-    (columns,). ``hints``: what is expected, but not certain.
-    """
-    n, (column, theta) = rtol.size, known
-    work = _Work(columns, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
-    cuts = _Panels.joined((_Panels.unknown(column, theta, theta, q), work.met(*columns.ends_of_clinging(), *known)))
-    if hints is not None:
-        cuts = _Panels.joined((cuts, work.expected(hints, cuts.column, 0.5 * (cuts.low + cuts.high))))
-    panels = _between(n, cuts)
-    for _ in range(_ROUNDS):
-        panels = work.refine(panels.take(np.flatnonzero(panels.high > panels.low)))
-        # at a penetration where strips sit on a threshold all along y, rounding decides each: no use in splitting further
-        crowded = np.bincount(panels.column, minlength=n)[panels.column] > _CROWD
-        if crowded.any():
-            work.give_up(panels.take(np.flatnonzero(crowded)))
-            panels = panels.take(np.flatnonzero(~crowded))
-        if not panels.size:
-            break
-    else:
-        work.give_up(panels)
-    work.close_slivers()
-    return Averages(work.values / np.pi, work.errors / np.pi, work.strips, work.zones())
-
-
-def _hold_none(column, low, high, other, known) -> np.ndarray:
+def hold_none(column, low, high, other, known) -> np.ndarray:
     """Which brackets [low, high] of a ``column`` hold none of the transitions ``known`` of the columns ``other``."""
     # theta is below 4: columns apart
     keys = np.sort(4.0 * other + known)
     return np.searchsorted(keys, 4.0 * column + low, "left") == np.searchsorted(keys, 4.0 * column + high, "right")
 
 
-def _apart(column, low, high) -> np.ndarray:
+def apart(column, low, high) -> np.ndarray:
     """Which brackets of a column do not overlap, in order."""
     order = np.lexsort((low, column))
     tight = np.flatnonzero((column[order[1:]] == column[order[:-1]]) & (low[order[1:]] <= high[order[:-1]]))
     return np.delete(order, np.union1d(tight, tight + 1))
 
 
-def _between(n: int, cuts: _Panels) -> _Panels:
-    """The panels that the cuts leave of every column."""
-    cuts = cuts.take(np.lexsort((cuts.low, cuts.column)))
-    q = cuts.values.shape[2]
-    every, nothing = np.arange(n), (np.full(n, np.nan), np.full((n, q), np.nan))
-    after = (
-        np.concatenate(v)
-        for v in zip((every, np.zeros(n), *nothing), (cuts.column, cuts.high, cuts.codes[:, 1], cuts.values[:, 1]), strict=True)
-    )
-    before = (
-        np.concatenate(v)
-        for v in zip(
-            (cuts.column, cuts.low, cuts.codes[:, 0], cuts.values[:, 0]), (every, np.full(n, np.pi), *nothing), strict=True
-        )
-    )
-    (column, *starts), (last, *ends) = after, before
-    starts = [v[np.argsort(column, kind="stable")] for v in starts]
-    ends = [v[np.argsort(last, kind="stable")] for v in ends]
-    codes, values = (np.stack(pair, axis=1) for pair in zip(starts[1:], ends[1:], strict=True))
-    return _Panels(np.sort(column, kind="stable"), starts[0], ends[0], codes, values)
-
-
-def _beside(column, place, owner, ends) -> np.ndarray:
-    """Which of the ``owner``s' ``ends`` lies at each ``place`` of a column, -1 for none."""
-    keys = owner + 1j * ends
-    order = np.argsort(keys)
-    at = np.minimum(np.searchsorted(keys[order], column + 1j * place), order.size - 1)
-    found = order[at]
-    return np.where((owner[found] == column) & (ends[found] == place), found, -1)
-
-
 @dataclass(slots=True)
-class _Sights:
+class Sights:
     """Strips that are asked for first, arrays (k,): at ``theta`` of a ``column``, for what ends at ``place``; their ``codes`` and
     ``values`` (k, q) once they are known. What is narrower than a panel's first step shows up there."""
 
@@ -222,298 +132,13 @@ class _Sights:
 
     def at(self, column, place) -> np.ndarray:
         """Which one lies at each ``place`` of a column, -1 for none."""
-        return _beside(column, place, self.column, self.place)
+        return beside(column, place, self.column, self.place)
 
 
-@dataclass(slots=True)
-class _Work:
-    columns: Columns
-    floor: np.ndarray
-    rtol: np.ndarray
-    values: np.ndarray
-    errors: np.ndarray
-    strips: np.ndarray
-    accepted: list[tuple] = field(default_factory=list)
-    #: brackets of transitions (column, low, high, how much of it may lie on either side) with what was left out for each, and how
-    #: far off that may be
-    slivers: list[tuple] = field(default_factory=list)
-    sights: _Sights = field(init=False)
-    #: by how much transitions that are known may be off but for the rounding of a penetration
-    unsure: np.ndarray = field(default_factory=lambda: np.empty(0))
-
-    def __post_init__(self):
-        every = np.arange(self.rtol.size)
-        crest, flat = 0.0 * self.rtol, np.full(every.size, np.pi)
-        self.sights = _Sights(np.tile(every, 2), np.concatenate((crest, self._edge())), np.concatenate((crest, flat)))
-
-    def met(self, column, theta, rounding, other, known) -> _Panels:
-        """Brackets of the transitions ``theta`` (m,) of a ``column`` that are known to ``rounding``, away from the ``known`` ones
-        of columns ``other``."""
-        unsure = _ASIDE * _SLIVER * _SHARE * np.minimum(self.rtol, _ANY)[column]
-        aside = np.maximum(unsure, rounding)
-        low, high = theta - aside, theta + aside
-        # next to the crest of a break strips themselves know it better than to many roundings
-        sharp = rounding <= _BLURRED * unsure
-        inside = np.flatnonzero(
-            sharp & (low > 0) & (high < self._edge()[column]) & _hold_none(column, low, high, other, known)
-        )
-        index = inside[_apart(column[inside], low[inside], high[inside])]
-        column, low, high, self.unsure = column[index], low[index], high[index], unsure[index]
-        self.sights.add(np.tile(column, 2), np.concatenate((low, high)))
-        return _Panels.unknown(column, low, high, self.values.shape[1])
-
-    def zones(self) -> list[np.ndarray]:
-        """See ``Averages.zones``."""
-        column, code, low, high, *_ = (np.concatenate(v) for v in zip(*self.accepted, strict=True))
-        order = np.lexsort((low, column))
-        column, code, low, high = column[order], code[order], low[order], high[order]
-        first = np.flatnonzero(np.append(True, (column[1:] != column[:-1]) | (code[1:] != code[:-1])))
-        last = np.append(first[1:], column.size) - 1
-        runs = np.stack((code[first], low[first], high[last]), axis=1)
-        ends = np.searchsorted(column[first], np.arange(self.strips.size + 1))
-        return [runs[start:stop] for start, stop in zip(ends[:-1], ends[1:], strict=True)]
-
-    def refine(self, panels: _Panels) -> _Panels:
-        """Accept what converges under doubling; return what has to be split."""
-        later = []
-        self._learn_ends(panels)
-        empty = (panels.codes == FREE).all(axis=1) & (panels.high - panels.low >= NARROWEST) & (self.columns.free is not None)
-        empty, panels = panels.take(empty), panels.take(~empty)
-        codes, values, doubtful = self._first_look(panels, empty)
-        if doubtful.size:
-            later.append(doubtful)
-        n = _FIRST
-        while panels.size:
-            mixed = (codes != codes[:, :1]).any(axis=1)
-            if n == _FIRST:
-                self._learn_ends(panels)
-                # what is narrower than the first step shows up at an end that is known
-                mixed |= (panels.known & (panels.codes != codes[:, [0, -1]])).any(axis=1)
-            if mixed.any():
-                later.append(self._split_at_transitions(panels.take(mixed), codes[mixed], values[mixed], n))
-            keep = ~mixed
-            panels, codes, values = panels.take(keep), codes[keep], values[keep]
-            width = (panels.high - panels.low)[:, None]
-            fine = width * (mapped_weights(n) @ values)
-            rounding = 4 * _EPS * width * np.max(np.abs(values), axis=1, initial=0.0)
-            noise = 0.1 * self.rtol[panels.column, None] * self.floor[panels.column]
-            error = width * sum_errors(values, noise) + rounding
-            done = self._accept(panels, codes[:, 0], values, fine, error, rounding)
-            rest = ~done
-            panels = panels.take(rest)
-            if n == _LAST or not panels.size:
-                break
-            n *= 2
-            codes, values = self._doubled(panels, n, codes[rest], values[rest])
-        if panels.size:
-            middle, q = 0.5 * (panels.low + panels.high), panels.values.shape[2]
-            later.append(_Panels.unknown(panels.column, panels.low, middle, q))
-            later.append(_Panels.unknown(panels.column, middle, panels.high, q))
-        return _Panels.joined(later) if later else panels
-
-    def expected(self, hints: Hints, column, known) -> _Panels:
-        """Brackets of the transitions that are where they were expected, narrowed; away from those ``known``."""
-        hints = hints.without(column, known)
-        m = hints.column.size
-        places = hints.places(self.columns.guide)
-        asked = np.concatenate((np.tile(hints.column, len(places)), hints.witness_column))
-        codes, values, margins = self._evaluated(self.columns.look, asked, np.concatenate((places.ravel(), hints.witness)))
-        seen, witnessed = codes[places.size :], values[places.size :]
-        holds = (codes[:m] == hints.code_low) & (codes[m : 2 * m] == hints.code_high)
-        index = np.flatnonzero(holds)
-        index = index[_apart(hints.column[index], hints.low[index], hints.high[index])]
-        spread = np.abs(values[m : 2 * m] - values[:m])[index]
-        line = hints.column[index]
-        size = np.pi * (hints.size[line] + self.floor[line])
-        width = self._bracket(self.rtol[line, None] * size, spread, hints.high[index])
-        probe = lambda i, x: self._probe(hints.column[i], x)  # noqa: E731
-        every = (index + m * np.arange(len(places))[:, None]).ravel()
-        looks = Looks(np.tile(np.arange(index.size), len(places)), places.ravel()[every], codes[every], margins[every])
-        ends = hints.low[index], hints.high[index], codes[index], codes[m + index]
-        found = locate(probe, self.columns.guide, index, *ends, width, looks)
-        end = {int(i): j for j, i in enumerate(index)}
-        which = np.array([end[int(i)] for i in found.line], int)
-        first, last = values[index][which], values[m + index][which]
-        self._leave_out(hints.column[found.line], found.low, found.high, np.minimum(first, last), np.maximum(first, last))
-        values = np.stack((first, last), axis=1)
-        # where a third code showed up in between, the values of the two ends belong to the outermost
-        inner = found.line[1:] == found.line[:-1]
-        values[1:][inner, 0] = values[:-1][inner, 1] = np.nan
-        found = _Panels(hints.column[found.line], found.low, found.high, found.codes.astype(float), values)
-        # a witness that stands apart from the transitions found is the end of two panels
-        apart = np.ones(seen.size, bool)
-        for c, low, high in zip(found.column, found.low, found.high, strict=True):
-            apart &= ~((hints.witness_column == c) & (hints.witness >= low) & (hints.witness <= high))
-        alone = np.flatnonzero(apart)
-        witness, code = hints.witness[alone], np.repeat(seen[alone, None], 2, axis=1).astype(float)
-        values = np.repeat(witnessed[alone, None], 2, axis=1)
-        return _Panels.joined((found, _Panels(hints.witness_column[alone], witness, witness, code, values)))
-
-    def _bracket(self, goal, spread, theta):
-        """How narrow to bracket a transition at which the values change by ``spread``."""
-        goal = _SLIVER * _SHARE * goal
-        width = np.min(np.divide(goal, spread, out=np.full_like(goal, np.pi), where=spread > goal / np.pi), axis=1)
-        return np.maximum(width, 4 * _EPS * theta)
-
-    def _leave_out(self, column, low, high, low_side, high_side, unsure=None):
-        """The sliver of a bracket is left out: for now what it could hold by these values is its value and its error. ``unsure``:
-        how much of it may lie on either side, all of it if not given."""
-        unsure = high - low if unsure is None else unsure
-        value = (high - low)[:, None] * 0.5 * (low_side + high_side)
-        np.add.at(self.values, column, value)
-        self.slivers.append((column, low, high, unsure, value, unsure[:, None] * np.abs(high_side - low_side)))
-
-    def close_slivers(self) -> None:
-        """What the slivers hold, by the panels next to them: to either side of the transition values are as at the ends of
-        these."""
-        if not self.slivers:
-            return
-        column, low, high, unsure, value, error = (np.concatenate(v) for v in zip(*self.slivers, strict=True))
-        owner, _, starts, ends, first, last = (np.concatenate(v) for v in zip(*self.accepted, strict=True))
-        before, after = _beside(column, low, owner, ends), _beside(column, high, owner, starts)
-        known = np.flatnonzero((before >= 0) & (after >= 0))
-        sides = np.stack((last[before[known]], first[after[known]]), axis=1)
-        # nodes lie like 1 and 4 next to an end: from these to the end, which lies a third further
-        places, off = (4 * sides[..., 0, :] - sides[..., 1, :]) / 3, np.abs(sides[..., 1, :] - sides[..., 0, :]).sum(axis=1) / 3
-        sliver = (high - low)[known, None]
-        better = sliver * 0.5 * places.sum(axis=1)
-        np.add.at(self.values, column[known], better - value[known])
-        error[known] = unsure[known, None] * 0.5 * np.abs(places[:, 1] - places[:, 0]) + sliver * off
-        np.add.at(self.errors, column, error)
-
-    def give_up(self, panels: _Panels) -> None:
-        """Take panels that do not converge as they are, with the spread of their values as error."""
-        codes, values, _ = self._at_nodes(panels, interior_nodes(_FIRST))
-        width = (panels.high - panels.low)[:, None]
-        np.add.at(self.values, panels.column, width * (mapped_weights(_FIRST) @ values))
-        np.add.at(self.errors, panels.column, width * (values.max(axis=1) - values.min(axis=1)))
-        self._keep(panels, codes[:, 0], values)
-
-    def _keep(self, panels, codes, values):
-        """Panels that are summed up, with their values at the two nodes next to either end, the outer one first."""
-        self.accepted.append((panels.column, codes, panels.low, panels.high, values[:, :2], values[:, -1:-3:-1]))
-
-    def _accept(self, panels, codes, values, fine, error, rounding):
-        # what is not accepted yet counts for the size of the result, not for the result
-        total = self.values.copy()
-        np.add.at(total, panels.column, fine)
-        goal = self.rtol[:, None] * (np.abs(total) + np.pi * self.floor)
-        done = (error <= _SHARE * goal[panels.column] + 2 * rounding).all(axis=1)
-        if values.shape[1] + 1 < _COSTLESS:
-            done &= ~self.columns.costless(codes)
-        np.add.at(self.values, panels.column[done], fine[done])
-        np.add.at(self.errors, panels.column[done], (error + _TOLD * goal[panels.column] * (error > 0))[done])
-        self._keep(panels.take(done), codes[done], values[done])
-        return done
-
-    def _first_look(self, panels: _Panels, empty: _Panels):
-        """Codes and values at the first nodes of ``panels``; and those of the ``empty`` ones that are not seen to be so: the
-        others are summed up."""
-        question = self.columns.free_panels(empty.column, empty.low, empty.high) if empty.size else None
-        codes, values, answers = self._at_nodes(panels, interior_nodes(_FIRST), question)
-        if question is None:
-            return codes, values, empty
-        known = question.answered(answers)
-        done, doubtful = empty.take(known), empty.take(~known)
-        self._keep(done, np.full(done.size, FREE), np.zeros((done.size, *values.shape[1:])))
-        doubtful.codes[:] = np.nan
-        return codes, values, doubtful
-
-    def _doubled(self, panels: _Panels, n: int, codes, values):
-        """Codes (panels, n - 1) and values (panels, n - 1, q) at the interior nodes, from those at the nodes of n/2."""
-        new_codes, new_values, _ = self._at_nodes(panels, interior_nodes(n)[0::2])
-        return interleaved(new_codes, codes), interleaved(new_values, values)
-
-    def _at_nodes(self, panels: _Panels, t, question: Question | None = None):
-        """Codes (panels, nodes) and values (panels, nodes, q) at the parameters ``t``; codes of the strips of a ``question``."""
-        shape = panels.size, t.size
-        theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * mapped(t)
-        column, theta = np.repeat(panels.column, t.size), theta.ravel()
-        if question is not None:
-            column, theta = np.concatenate((column, question.column)), np.concatenate((theta, question.theta))
-        codes, values = self._evaluated(self.columns.integrand, column, theta)
-        m = panels.size * t.size
-        return codes[:m].reshape(shape), values[:m].reshape(*shape, values.shape[1]), codes[m:]
-
-    def _evaluated(self, ask, column, theta) -> list[np.ndarray]:
-        """What is asked of strips (m,), codes and values first; the first time also of the sights."""
-        m, first = theta.size, self.sights.codes is None
-        if first:
-            column, theta = np.concatenate((column, self.sights.column)), np.concatenate((theta, self.sights.theta))
-        np.add.at(self.strips, column, 1)
-        answers = ask(column, theta)
-        if first:
-            self.sights.codes, self.sights.values = answers[0][m:], answers[1][m:]
-            self._leave_out_met()
-        return [answer[:m] for answer in answers]
-
-    def _leave_out_met(self) -> None:
-        """Leave out the slivers of the transitions that are known to rounding, now that values at their ends are."""
-        met = slice(2 * self.rtol.size, None)
-        column, (low, high) = np.split(self.sights.column[met], 2)[0], np.split(self.sights.place[met], 2)
-        values = np.split(self.sights.values[met], 2)
-        self._leave_out(column, low, high, np.minimum(*values), np.maximum(*values), 2 * self.unsure)
-
-    def _learn_ends(self, panels: _Panels) -> None:
-        """Fill in what is known of the panels' ends from the sights."""
-        sights = self.sights
-        if sights.codes is None:
-            return
-        outermost = panels.low + (np.pi - panels.low) * mapped(interior_nodes(_FIRST)[-1])
-        # beyond the strip next to the flat edge a panel may have nodes: then that strip is not its end
-        beyond = (panels.high == np.pi) & (outermost >= self._edge()[panels.column])
-        for side, place in enumerate((panels.low, np.where(beyond, np.nan, panels.high))):
-            at = sights.at(panels.column, place)
-            there = np.flatnonzero(at >= 0)
-            panels.codes[there, side], panels.values[there, side] = sights.codes[at[there]], sights.values[at[there]]
-
-    def _with_ends(self, panels: _Panels, theta, codes, values):
-        """Nodes, codes and values with the panels' ends added where these are known (the end nodes twice elsewhere)."""
-        places = np.stack((panels.low, np.where(panels.high == np.pi, self._edge()[panels.column], panels.high)), axis=1)
-        known, out = panels.known, []
-        for ends, inner in ((places, theta), (panels.codes, codes), (panels.values, values)):
-            outer = np.where(known.reshape(known.shape + (1,) * (inner.ndim - 2)), ends, inner[:, [0, -1]]).astype(inner.dtype)
-            out.append(np.concatenate((outer[:, :1], inner, outer[:, 1:]), axis=1))
-        return out
-
-    def _edge(self):
-        """Theta next to the flat edge of each column: what lies beyond does not matter at its accuracy."""
-        return np.pi * (1 - _EDGE * np.minimum(self.rtol, _ANY))
-
-    def _probe(self, column, theta):
-        np.add.at(self.strips, column, 1)
-        return self.columns.probe(column, theta)
-
-    def _split_at_transitions(self, panels: _Panels, codes, values, n) -> _Panels:
-        """Locate every transition between neighbouring nodes that disagree; panels end there."""
-        t = interior_nodes(n)
-        theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * mapped(t)
-        if n == _FIRST:
-            theta, codes, values = self._with_ends(panels, theta, codes, values)
-        row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
-        spread = (values.max(axis=1) - values.min(axis=1))[row]
-        # the size of the result is known by what is summed up, and by these panels' own share
-        total = self.values + np.pi * self.floor
-        np.add.at(total, panels.column, (panels.high - panels.low)[:, None] * np.abs(values).mean(axis=1))
-        line = panels.column[row]
-        width = self._bracket(self.rtol[line, None] * np.abs(total)[line], spread, theta[row, node + 1])
-        low, high, ends = theta[row, node], theta[row, node + 1], (codes[row, node], codes[row, node + 1])
-        aim = folds(self.columns, lambda i, x: (self.columns, line[i], x), low, high, *ends, width)
-        found = locate(
-            lambda line, x: self._probe(panels.column[line], x), self.columns.guide, row, low, high, *ends, width, aim=aim
-        )
-        column = panels.column[found.line]
-        self._leave_out(column, found.low, found.high, values.min(axis=1)[found.line], values.max(axis=1)[found.line])
-        first = np.concatenate(([True], found.line[1:] != found.line[:-1]))
-        last = np.concatenate((found.line[1:] != found.line[:-1], [True]))
-        starts = panels.low[found.line]
-        starts[~first] = found.high[np.flatnonzero(~first) - 1]
-        tail = found.line[last]
-        every = np.concatenate((column, panels.column[tail]))
-        starts, ends = np.concatenate((starts, found.high[last])), np.concatenate((found.low, panels.high[tail]))
-        parts = _Panels.unknown(every, starts, ends, values.shape[2])
-        # codes alone: what is known of the ends of other panels is too far off
-        parts.codes[: found.line.size, 1] = found.codes[:, 0]
-        parts.codes[: found.line.size][~first, 0] = found.codes[np.flatnonzero(~first) - 1, 1]
-        parts.codes[found.line.size :, 0] = found.codes[last, 1]
-        return parts
+def beside(column, place, owner, ends) -> np.ndarray:
+    """Which of the ``owner``s' ``ends`` lies at each ``place`` of a column, -1 for none."""
+    keys = owner + 1j * ends
+    order = np.argsort(keys)
+    at = np.minimum(np.searchsorted(keys[order], column + 1j * place), order.size - 1)
+    found = order[at]
+    return np.where((owner[found] == column) & (ends[found] == place), found, -1)
