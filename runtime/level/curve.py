@@ -118,7 +118,8 @@ def interpolate(
     those above the ``ceiling`` (Pa, per column) not at all.
     """
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
-    intervals = with_gentle_ends(columns, intervals)
+    if sought is None:
+        intervals = with_gentle_ends(columns, intervals)
     for _ in range(_ROUNDS):
         if not intervals:
             return pieces

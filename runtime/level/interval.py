@@ -45,12 +45,11 @@ class Interval:
     seen: Seen | None = field(default=None, compare=False, repr=False)
 
     def split(self, D: float, soft: bool, *witnesses: float) -> list[Interval]:
-        """The two parts below and above D; what is new about their strips in ``witnesses``. What only seemed to end gently is no
-        longer taken to."""
-        every, sure = self.witnesses + witnesses, {"gentle_low": False, "gentle_high": False}
+        """The two parts below and above D; what is new about their strips in ``witnesses``."""
+        every = self.witnesses + witnesses
         return [
-            replace(self, high=D, soft_high=soft, witnesses=every, **sure),
-            replace(self, low=D, soft_low=soft, witnesses=every, **sure),
+            replace(self, high=D, soft_high=soft, gentle_high=False, witnesses=every),
+            replace(self, low=D, soft_low=soft, gentle_low=False, witnesses=every),
         ]
 
     @property

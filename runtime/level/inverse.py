@@ -97,7 +97,9 @@ class _Descent:
         self.inside = threshold_width(columns, top)
         bottom = first_contact(columns)
         # the next one last; ``unbroken`` ones are known to hold no break
-        self.waiting = [self._parts(Interval(i, bottom, D)) if D > bottom else [] for i, D in enumerate(top)]
+        # at the top the curve is but cut, or saturates
+        every = (Interval(i, bottom, D, gentle_high=True) for i, D in enumerate(top))
+        self.waiting = [self._parts(interval) if interval.high > bottom else [] for interval in every]
         self.unbroken: set[Interval] = set()
 
     def _parts(self, interval: Interval) -> list[Interval]:
@@ -146,8 +148,8 @@ class _Descent:
         parts, rest = [], interval
         for D in breaks:
             if D - inside > rest.low:
-                parts.append(replace(rest, high=D - inside, soft_high=False))
-            rest = replace(rest, low=min(D + inside, rest.high), soft_low=False)
+                parts.append(replace(rest, high=D - inside, soft_high=False, gentle_high=False))
+            rest = replace(rest, low=min(D + inside, rest.high), soft_low=False, gentle_low=False)
         parts.append(rest)
         parts = [part for part in parts if part.high > part.low]
         self.unbroken.update(parts)

@@ -81,9 +81,11 @@ class Batch:
         self.zones = [_alternating(old, new) for old, new in zip(self.zones, zones, strict=True)]
 
     def known(self, k: int, n: int) -> Interval:
-        """Interval ``k`` with what was seen of it at the interior nodes of ``lobatto(n)``."""
+        """Interval ``k`` with what was seen of it at the interior nodes of ``lobatto(n)``; as that is not enough, what only
+        seemed to end gently is no longer taken to."""
         i = self.intervals[k]
-        return replace(i, seen=Seen(i, lobatto(n)[1:-1], self.zones[k], np.abs(self.values[k]).min(axis=0)))
+        seen = Seen(i, lobatto(n)[1:-1], self.zones[k], np.abs(self.values[k]).min(axis=0))
+        return replace(i, gentle_low=False, gentle_high=False, seen=seen)
 
     def keep(self, index) -> None:
         """Go on with the intervals ``index`` alone."""
