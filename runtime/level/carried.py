@@ -18,7 +18,7 @@ from .strips import Columns, SolvedStrips
 from .table import LawTable
 
 TWO_PI = 2 * np.pi
-_FIRST, _LAST = 8, 32
+_FIRST, _LAST = 16, 32
 _HALVINGS = 12
 #: a part's share of the error that an average of strips is allowed, and parts integrated at a time
 _SHARE, _CHUNK = 0.1, 4096
@@ -182,14 +182,14 @@ class CarriedByLaws:
 
 
 def _along(t):
-    """Where parameter t in [0, 1] lies in its part, as a share of it: flat like t^3 at both ends. A law ends at its breaks like a
-    root, or like ``p log p``, and hardly anything of that is left in t."""
-    return t**3 * (10 - t * (15 - 6 * t))
+    """Where parameter t in [0, 1] lies in its part, as a share of it: flat like t^4 at both ends, as ``chebyshev.graded`` is. A
+    law that begins at its break like a root, or nearly like ``p log p``, is smooth in t."""
+    return t**4 * (35 - t * (84 - t * (70 - 20 * t)))
 
 
 def _steepness(t):
     """How fast ``_along`` rises, over ``quadrature.mapped``: by that much more counts what is summed up there."""
-    return 5 * t * (1 - t)
+    return 70 / 3 * (t * (1 - t)) ** 2
 
 
 def _summed(weights, values):
