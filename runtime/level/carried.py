@@ -7,25 +7,47 @@ and each part integrated by itself, on as many nodes as it needs.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from .contact import Contact
 from .parts import Parts, around, between
-from .quadrature import interior_nodes, interleaved, mapped_weights, sum_errors
+from .quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
 from .strips import Columns, SolvedStrips
 from .table import LawTable
 
 TWO_PI = 2 * np.pi
-_FIRST, _LAST = 16, 32
 _HALVINGS = 12
 #: a part's share of the error that an average of strips is allowed, and parts integrated at a time
-_SHARE, _CHUNK = 0.1, 4096
+_SHARE, _CHUNK = 0.1, 2048
 #: how much more than told by their coefficients integrands are feared to miss that are steeper than those it is told of
 _SAFE = 2.0
 #: what is left in a mean over contacts of the greatest error of a law: along its pieces errors change sign
 _CANCELLED = 0.3
+#: a part of its contact below which few nodes are tried first
+_NARROW = 0.03
+
+
+@dataclass(frozen=True)
+class _Nodes:
+    """How many nodes a part gets at first and at last, and where.
+
+    ``along``: where parameter t in [0, 1] lies in the part, as a share of it; ``steepness``: how fast that rises, over
+    ``mapped``: by that much more counts what is summed up there.
+    """
+
+    first: int
+    last: int
+    along: Callable[[np.ndarray], np.ndarray]
+    steepness: Callable[[np.ndarray], np.ndarray]
+
+
+_FEW = _Nodes(8, 8, mapped, np.ones_like)
+#: flat like t^4 at both ends, as ``chebyshev.graded`` is: a law that begins at its break like a root, or nearly like ``p log p``,
+#: is smooth in t
+_MANY = _Nodes(16, 32, lambda t: t**4 * (35 - t * (84 - t * (70 - 20 * t))), lambda t: 70 / 3 * (t * (1 - t)) ** 2)
 
 
 @dataclass(frozen=True)
@@ -119,22 +141,30 @@ class CarriedByLaws:
 
     def _integrate(self, contact: Contact, group, parts: Parts, total):
         """Add the integrals of the law over ``parts`` of the contacts, smooth inside, with their errors."""
+        narrow = parts.width < _NARROW * (contact.a - contact.b)[parts.rows]
+        self._refine(contact, group, parts.take(~narrow), total)
+        # next to all the others these count for little
+        left = [self._attempt(contact, group, some, total, _FEW) for some in parts.take(narrow).chunks(_CHUNK)]
+        self._refine(contact, group, Parts.joined(left), total)
+
+    def _refine(self, contact: Contact, group, parts: Parts, total):
+        """``_integrate``, what does not converge by halves."""
         for k in range(_HALVINGS + 1):
             if not parts.size:
                 return
             last = k == _HALVINGS
-            left = [self._attempt(contact, group, some, total, last) for some in parts.chunks(_CHUNK)]
+            left = [self._attempt(contact, group, some, total, _MANY, last) for some in parts.chunks(_CHUNK)]
             parts = Parts.joined(left).halves()
 
-    def _attempt(self, contact: Contact, group, parts: Parts, total, last: bool) -> Parts:
-        """Integrate on doubled nodes what converges; returns what does not (or takes it as it is)."""
+    def _attempt(self, contact: Contact, group, parts: Parts, total, nodes: _Nodes, last: bool = False) -> Parts:
+        """Integrate on doubled ``nodes`` what converges; returns what does not (or takes it as it is)."""
         frictions, floor = self.table.frictions, 1e-3 * self.scales[self.table.frictions, None]
-        values, n = None, _FIRST
+        values, n = None, nodes.first
         while parts.size:
             t = interior_nodes(n)
-            steepness = _steepness(t)
+            steepness = nodes.steepness(t)
             w = steepness * mapped_weights(n)
-            fresh = self._at_nodes(contact, group, parts, t if values is None else t[0::2])
+            fresh = self._at_nodes(contact, group, parts, t if values is None else t[0::2], nodes)
             values = fresh if values is None else interleaved(fresh, values)
             p, law, errors = values[0], values[1:-2], values[-2:]
             width = parts.times * parts.width
@@ -150,25 +180,25 @@ class CarriedByLaws:
             own = _CANCELLED * width * _summed(w, self._own(p, np.abs(friction).sum(axis=0), errors))
             # there is no use in integrating better than the law is known
             done = ((miss <= allowed) | (miss <= own)).all(axis=0)
-            done |= (_by_strip(miss, strip) <= _by_strip(allowed, strip)).all(axis=0) | (last & (n == _LAST))
+            done |= (_by_strip(miss, strip) <= _by_strip(allowed, strip)).all(axis=0) | (last & (n == nodes.last))
             np.add.at(total, parts.rows[done], np.concatenate((best, (miss.sum(axis=0) + own)[None]))[:, done].T)
             parts, values = parts.take(~done), values[:, :, ~done]
-            if n == _LAST:
+            if n == nodes.last:
                 break
             n *= 2
         return parts
 
-    def _at_nodes(self, contact: Contact, group, parts: Parts, t):
+    def _at_nodes(self, contact: Contact, group, parts: Parts, t, nodes: _Nodes):
         """Pressure, what the law says and its errors of friction and pressure at the parameters ``t``, (q + 2, nodes, parts)."""
         out = np.empty((self.scales.size + 2, t.size, parts.size))
         half, uneven = t.size // 2, parts.uneven
         # an even part is known by its first half
-        for some, nodes in ((slice(0, uneven), t), (slice(uneven, None), t[: t.size - half])):
+        for some, place in ((slice(0, uneven), t), (slice(uneven, None), t[: t.size - half])):
             rows, low, width = parts.rows[some], parts.low[some], parts.width[some]
             if rows.size:
-                p = contact.pressure(rows, low + width * _along(nodes)[:, None])
+                p = contact.pressure(rows, low + width * nodes.along(place)[:, None])
                 values, errors = self.table(group[rows], parts.interval[some], p)
-                out[:, : nodes.size, some] = np.concatenate((p[None], values, np.broadcast_to(errors, (2, *p.shape))))
+                out[:, : place.size, some] = np.concatenate((p[None], values, np.broadcast_to(errors, (2, *p.shape))))
         out[:, t.size - half :, uneven:] = out[:, :half, uneven:][:, ::-1]
         return out
 
@@ -179,17 +209,6 @@ class CarriedByLaws:
         share = np.divide(np.minimum(errors[1, 1:], rise), rise, out=np.zeros_like(rise), where=rise > 0)
         between = share * np.abs(np.diff(friction, axis=0))
         return errors[0] + np.concatenate((between[:1], between))
-
-
-def _along(t):
-    """Where parameter t in [0, 1] lies in its part, as a share of it: flat like t^4 at both ends, as ``chebyshev.graded`` is. A
-    law that begins at its break like a root, or nearly like ``p log p``, is smooth in t."""
-    return t**4 * (35 - t * (84 - t * (70 - 20 * t)))
-
-
-def _steepness(t):
-    """How fast ``_along`` rises, over ``quadrature.mapped``: by that much more counts what is summed up there."""
-    return 70 / 3 * (t * (1 - t)) ** 2
 
 
 def _summed(weights, values):

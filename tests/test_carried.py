@@ -1,0 +1,119 @@
+"""Laws of the level below over the contact of strips, against adaptive quadrature of a law known in closed form."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+import hystrip
+from hystrip.level.branches import rising
+from hystrip.level.carried import CarriedByLaws
+from hystrip.level.chebyshev import Piece, coefficients, graded, lobatto
+from hystrip.level.law import Law
+from hystrip.level.resample import resampled
+from hystrip.level.strips import Columns
+from hystrip.level.table import LawTable
+
+SLS = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+WEAK = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+LARGE = hystrip.Level(l=10e-6, h=1e-6)
+
+TWO_TIMES = hystrip.Prony(1e9, [5e10, 4e10], [1e-4, 1e-3])
+#: pull-off, a jump, and saturation
+BREAKS = np.array([-800.0, 2500.0, 8000.0])
+SCALES = np.array([1e5, 1.0, 1.0, np.inf])
+RTOL = 1e-7
+
+
+def _lower(share, rest):
+    """Like a root where the level lets go."""
+    return 1e4 * (1 + np.sqrt(share))
+
+
+def _upper(share, rest):
+    """Like a root on the way to saturation."""
+    return 5e4 * (2 - np.sqrt(rest))
+
+
+def friction(p):
+    share = [np.clip((p - low) / (high - low), 0.0, 1.0) for low, high in zip(BREAKS[:-1], BREAKS[1:], strict=True)]
+    law = [_lower(share[0], 1 - share[0]), _upper(share[1], 1 - share[1])]
+    return np.select([p < BREAKS[0], p < BREAKS[1], p < BREAKS[2]], [0.0, *law], 1e5)
+
+
+def _piece(low, high, law):
+    t = lobatto(64)
+    share, rest = graded(t), graded(1 - t)
+    values = np.stack((low + (high - low) * share, law(share, rest), share, rest), axis=1)
+    return Piece(low, high, coefficients(values), np.zeros(4))
+
+
+def table():
+    pieces = [_piece(BREAKS[0], BREAKS[1], _lower), _piece(BREAKS[1], BREAKS[2], _upper)]
+    branches = resampled([part for piece in pieces for part in rising(piece)], np.full((2, 4), [1e-8, 1e-8, 1e-13, 1e-13]))
+    saturated = np.array([BREAKS[2], 1e5, 1.0, 0.0])
+    return LawTable([Law(branches, BREAKS[0], BREAKS[2], saturated, BREAKS[2], np.zeros(4), 0, True)])
+
+
+@pytest.fixture(scope="module")
+def carry():
+    return CarriedByLaws(table(), RTOL, SCALES)
+
+
+def _solved(V, material=SLS, edge="continuous", branch="unloading", shares=(0.2, 0.6, 2.0, 10.0)):
+    D = np.repeat(np.array(shares) * LARGE.h, 8)
+    columns = Columns(material, WEAK, LARGE, edge, branch, np.full(D.size, V), D)
+    return columns, np.tile(np.linspace(0.0, 2.8, 8), len(shares))
+
+
+def _by_quadrature(contact, row):
+    p = lambda phase: float(contact.pressure(np.array([row]), np.array([phase]))[0])  # noqa: E731
+    top, first, last = contact.top[row], contact.b[row], contact.a[row]
+    total = 0.0
+    for a, b in ((first, top), (top, last)):
+        cuts = [a, b]
+        for level in BREAKS:
+            up, down = contact.passes(np.full(contact.b.size, level), contact.p_peak > level)
+            cuts += [x for x in (up[row], down[row]) if a < x < b]
+        cuts = np.unique(cuts)
+        for low, high in zip(cuts[:-1], cuts[1:], strict=True):
+            # a root at either end becomes smooth
+            inner = lambda t, low=low, high=high: friction(p(low + (high - low) * np.sin(t) ** 2)) * np.sin(2 * t)  # noqa: E731
+            total += (high - low) * quad(inner, 0.0, np.pi / 2, epsabs=1e-6, epsrel=1e-11, limit=200)[0]
+    return total / (2 * np.pi)
+
+
+@pytest.mark.parametrize("material", [SLS, TWO_TIMES], ids=["one time", "several"])
+@pytest.mark.parametrize("V", [2e-3, 5e-3])
+def test_friction_of_a_law_over_a_contact(carry, V, material):
+    columns, theta = _solved(V, material)
+    strips = columns.solve(np.arange(columns.size), theta)
+    index, contact = strips.touching
+    got = carry.over_contact(strips, np.zeros(columns.size, int))
+    assert index.size > 12 and contact.full.any() and not contact.full.all()
+    assert not np.delete(got, index, axis=0).any()
+    for row in range(0, index.size, 3):
+        true, (value, *_, error) = _by_quadrature(contact, row), got[index[row]]
+        # where the law is constant nothing is missed but rounding
+        assert abs(value - true) <= error + 1e-14 * abs(true)
+        assert error <= RTOL * (abs(true) + 1e-3 * SCALES[0])
+
+
+@pytest.mark.parametrize("branch", ["unloading", "loading"])
+def test_what_a_strip_carries_does_not_depend_on_those_beside_it(carry, branch):
+    columns, theta = _solved(2e-3, branch=branch)
+    every = np.arange(columns.size)
+    together = carry.over_contact(columns.solve(every, theta), np.zeros(columns.size, int))
+    assert np.count_nonzero(together[:, 0]) > 12
+    for k in every:
+        alone = carry.over_contact(columns.solve(every[k : k + 1], theta[k : k + 1]), np.zeros(1, int))
+        assert np.array_equal(alone[0], together[k])
+
+
+def test_fractions_of_a_law_over_a_contact_are_as_good(carry):
+    """Contact and adhesion add up to one wherever the law is between pull-off and saturation, and beyond."""
+    columns, theta = _solved(2e-3)
+    strips = columns.solve(np.arange(columns.size), theta)
+    got = carry.over_contact(strips, np.zeros(columns.size, int))
+    index, contact = strips.touching
+    up, down = contact.passes(np.full(index.size, BREAKS[0]), contact.p_peak > BREAKS[0])
+    assert np.allclose(got[index, 1] + got[index, 2], (down - up) / (2 * np.pi), rtol=1e-11, atol=0)
