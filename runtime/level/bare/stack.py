@@ -11,33 +11,24 @@ import numpy as np
 from hystrip.inputs.surface import Level as Wavy
 from hystrip.solver import Foundation
 
-from ..chebyshev import interpolation_errors, lobatto
+from ..chebyshev import lobatto
 from ..quadrature import interleaved
 from ..strips import Tally
 from .carried import Carrier
-from .family import coefficients_over, family, trimmed
+from .family import family
 from .law import BareLaws, Piece, pressures
 from .means import CANCELLED, Level
 from .peaks import Peaks, peak, peaks_of
+from .tried import NODES, Tried
 
-#: nodes of a piece of a law, tried in turn
-_NODES = (16, 32, 64, 128)
-#: of what is allowed: what interpolating a law may err, what its values may, and what a strip's means may
-_INTERPOLATION, _VALUES, _STRIPS = 1.0, 0.6, 2.0
-#: contact fractions are interpolated no finer than this, and on no more nodes
-_CONTACT, _FOR_CONTACT = 1e-5, 16
-#: they are averaged no finer and, on however little of the surface, no coarser than this
+#: of what is allowed: what the values of a law may err, and what a strip's means may
+_VALUES, _STRIPS = 0.6, 2.0
+#: contact fractions are averaged no finer and, on however little of the surface, no coarser than this
 _SHARES, _COARSE = 1e-4, 1e-2
 #: an accuracy in parts of the greatest friction from which on a law is only parted where it is least smooth
 _BLUNT = 1e-4
-#: share of what is allowed that is cut off a series
-_TRIMMED = 0.03
-#: how much more than the estimated error of a law is feared
-_SURE = 2.0
 #: slope of friction over pressure, k h, that is never reached
 _STEEPEST = 2.0
-#: slopes of a law are looked at over steps of at least this share of the pressure
-_STEP = 1e-3
 #: by how much more a greatest pressure is allowed for
 _BETWEEN = 1.02
 _EPS = np.finfo(float).eps
@@ -259,49 +250,33 @@ class BareStack:
         greatest slope of friction, and a bound of its size, (G,)."""
         G, J, q = self.V.size, ends.shape[1] - 1, 3 * (len(self.waves) - i) + 1
         group, piece = np.nonzero(np.diff(ends, axis=1) > 0)
-        low, high, wanted = ends[group, piece], ends[group, piece + 1], self.wanted.of(i)[group]
+        low, high = ends[group, piece], ends[group, piece + 1]
         series: list[np.ndarray] = [np.zeros((1, q))] * group.size
         steep, most = np.zeros(G), self._saturated(i)[:, ::3].sum(axis=1)
         left, values, worst = np.arange(group.size), None, np.zeros(group.size)
-        for n in _NODES:
+        for n in NODES:
             omega = lobatto(n) if values is None else lobatto(n)[1::2]
-            p = np.where(
-                (piece[left] == 0)[:, None],
-                pressures(low[left], high[left], omega, True),
-                pressures(low[left], high[left], omega, False),
-            )
+            p = _graded(low[left], high[left], omega, piece[left] == 0)
             found = self.at(i, np.repeat(group[left], omega.size), p.ravel(), below)
             new = found.values.reshape(left.size, omega.size, q)
             values = new if values is None else interleaved(values, new)
             worst[left] = np.maximum(worst[left], found.values[:, -1].reshape(left.size, -1).max(axis=1))
-            total = np.concatenate((values[:, :, :-1:3].sum(axis=2, keepdims=True), values[:, :, :-1]), axis=2)
-            goal = np.full((left.size, q), max(self.wanted.rtol, _CONTACT))
-            goal[:, 0] = _INTERPOLATION * wanted[left]
-            goal[:, 1::3] = goal[:, :1]
-            c = coefficients_over(total)
-            alone = np.swapaxes(c, 1, 2).reshape(-1, n + 1, 1)
-            miss = interpolation_errors(alone, 0.1 * goal.reshape(-1, 1)).reshape(left.size, -1)
-            # between values that hardly differ there is little to miss
-            miss = np.minimum(miss, 2 * np.ptp(total, axis=1))
-            friction = (miss[:, :1] <= goal[:, :1]).all(axis=1) & (miss[:, 1::3] <= goal[:, 1::3]).all(axis=1)
-            done = (miss <= goal).all(axis=1) | (n == _NODES[-1]) | (friction & (n >= _FOR_CONTACT))
-            nodes = pressures(np.zeros(1), np.ones(1), lobatto(n), False)[0]
+            tried = Tried(n, values, self.wanted.of(i)[group[left]], self.wanted.rtol)
+            done = tried.done
             for k in np.flatnonzero(done):
                 j, g = left[k], group[left[k]]
-                kept, lost = trimmed(c[k, :, 1:], _TRIMMED * goal[k, 1:])
-                most[g] = max(most[g], np.abs(c[k, :, 0]).sum())
-                # one bound of the error of friction for all of a piece
-                series[j] = np.pad(kept, ((0, 0), (0, 1)))
-                series[j][0, -1] = _SURE * miss[k, 0] + worst[j] + lost[::3].sum()
-                share = nodes**2 if piece[j] == 0 else nodes
-                rise, step = np.abs(np.diff(total[k, :, 0])), np.diff((high[j] - low[j]) * share)
-                # differences of pressures that rounding or quadrature would make slopes of are none
-                steep[g] = max(steep[g], (rise[step > _STEP * high[j]] / step[step > _STEP * high[j]]).max(initial=0.0))
-            keep = ~done
-            left, values = left[keep], values[keep]
+                series[j] = tried.series(k, worst[j])
+                most[g] = max(most[g], tried.most(k))
+                steep[g] = max(steep[g], tried.steepest(k, low[j], high[j], piece[j] == 0))
+            left, values = left[~done], values[~done]
             if not left.size:
                 break
         table = np.zeros((G, J, max((s.shape[0] for s in series), default=1), q))
         for g, j, s in zip(group, piece, series, strict=True):
             table[g, j, : s.shape[0]] = s
         return [Piece(ends[:, j], ends[:, j + 1], table[:, j], j == 0) for j in range(J)], steep, most
+
+
+def _graded(low, high, omega, first):
+    """Pressures (m, nodes) between ``low`` and ``high``, as those of the ``first`` piece of a law or of others, all (m,)."""
+    return np.where(first[:, None], pressures(low, high, omega, True), pressures(low, high, omega, False))
