@@ -77,7 +77,9 @@ def test_no_orbit_out_of_reach_is_said_to_be_out_of_balance():
     cycle, orbit = known_orbits(strips(4, 40_000, "hanging"), unloading=True)
     s, onset = cycle.strips, -orbit.x
     for width in (0.0, 1e-4, 1e-2, 0.3):
-        surplus = balance.surplus(kernel, balance.at_rest(kernel, cycle), np.maximum(onset - width, 0), np.minimum(onset + width, np.pi))
+        surplus = balance.surplus(
+            kernel, balance.at_rest(kernel, cycle), np.maximum(onset - width, 0), np.minimum(onset + width, np.pi)
+        )
         assert (surplus <= 0).all()
     room = -balance.surplus(kernel, balance.at_rest(kernel, cycle), onset, onset) / (1 + np.abs(s.D) + s.p_0)
     assert onset.size > 3000 and np.median(room[s.beta > 3e3]) < 0.01
