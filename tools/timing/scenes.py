@@ -100,7 +100,7 @@ def scenes(quick: bool) -> list[Scene]:
             (LARGE, SMALL),
             one(curve.size) * 100,
             curve,
-            1e-7 if quick else 1e-9,
+            1e-7 if quick else 1e-11,
             (*fig_6, *(_equal(n, few) for n in strips), _script(100, few), *(() if quick else (_script(300, 2),))),
             2 if quick else 5,
         ),
