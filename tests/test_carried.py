@@ -17,6 +17,8 @@ SLS = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 WEAK = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
 LARGE = hystrip.Level(l=10e-6, h=1e-6)
 
+#: its pressure steps where contact begins, and may fall from there
+NO_RELAXATION = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=0.0)
 TWO_TIMES = hystrip.Prony(1e9, [5e10, 4e10], [1e-4, 1e-3])
 #: pull-off, a jump, and saturation
 BREAKS = np.array([-800.0, 2500.0, 8000.0])
@@ -82,7 +84,7 @@ def _by_quadrature(contact, row):
     return total / (2 * np.pi)
 
 
-@pytest.mark.parametrize("material", [SLS, TWO_TIMES], ids=["one time", "several"])
+@pytest.mark.parametrize("material", [SLS, NO_RELAXATION, TWO_TIMES], ids=["one time", "none", "several"])
 @pytest.mark.parametrize("V", [2e-3, 5e-3])
 def test_friction_of_a_law_over_a_contact(carry, V, material):
     columns, theta = _solved(V, material)

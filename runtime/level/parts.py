@@ -89,8 +89,9 @@ def around(contact, interval: int, which: np.ndarray, up, down, over, under) -> 
     inside = which & (down > up)
     return [
         _parts(inside & ~close, interval, up, down, even=full),
-        _parts(inside & close, interval, up, contact.top, times=1 + full),
-        _parts(inside & close & ~full, interval, contact.top, down),
+        # a pressure that falls all along, or rises, has its peak at an end
+        _parts(inside & close & (contact.top > up), interval, up, contact.top, times=1 + full),
+        _parts(inside & close & ~full & (down > contact.top), interval, contact.top, down),
     ]
 
 
