@@ -49,3 +49,13 @@ def test_a_zone_expected_beyond_the_crest_is_not_looked_for():
     theta = np.array([[-0.04, -0.01], [0.01, 0.04]])
     looks = hints([np.array([0, 1])], [(codes, theta, width)], [()], np.ones((2, 4)))
     assert looks.witness_column.tolist() == [1] and looks.witness == pytest.approx([0.025])
+
+
+def test_rims_count_with_the_friction_that_they_carry():
+    """The rims of level 2 hold from -25 to -46 Pa, and hardly rub themselves: what they carry does."""
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1.9141429755921044e-05)
+    adhesion = hystrip.Dugdale(gamma=9.759981476420326e-07, delta_0=1.2313690943960306e-09)
+    levels = [hystrip.Level(1e-5, 4.968e-7), hystrip.Level(6.824e-7, 1.7699e-7), hystrip.Level(9.63e-8, 7.048e-9)]
+    point = {"pressure": 1.51, "velocity": [0.04407], "edge": "constitutive"}
+    rough, fine = (hystrip.solve(material, adhesion, levels, rtol=rtol, **point) for rtol in (1e-3, 1e-4))
+    assert abs(rough.tau - fine.tau)[0] <= (rough.tau_error + fine.tau_error)[0]

@@ -22,6 +22,8 @@ from .strips import Columns
 _ROUGH, _MANY, _FEW, _NARROW = 5e-3, 16, 4, 0.05
 #: how much more than its error, and than what it bends between two nodes, a pressure has to keep above what was before
 _DOUBT, _BEND = 2.0, 0.5
+#: share of what is asked that may be left out without being counted as an error
+_UNTOLD = 0.01
 
 
 def where_rims_hold(
@@ -46,8 +48,10 @@ def where_rims_hold(
                 continue
             ease = 1.0
             if demand is not None:
-                ease = demand.ease(column, floor[run].min(), before[run].max(), np.abs(values[nodes, 1]).max())
-            if ease * rtol[column] < 1.0:
+                # all of the friction is missed where this is left out, its own and what it carries
+                friction = np.abs(values[nodes][:, columns.frictions]).max(axis=0).sum()
+                ease = demand.ease(column, floor[run].min(), before[run].max(), friction)
+            if _UNTOLD * ease * rtol[column] < 1.0:
                 soft = look.soft_low or first > 0, look.soft_high or last < p.size - 1
                 low, high = D[first] if first > 0 else look.low, D[last] if last < p.size - 1 else look.high
                 out.append(
