@@ -1,5 +1,8 @@
 """Laws of the level below over the contact of strips, against adaptive quadrature of a law known in closed form."""
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -119,3 +122,14 @@ def test_fractions_of_a_law_over_a_contact_are_as_good(carry):
     index, contact = strips.touching
     up, down = contact.passes(np.full(index.size, BREAKS[0]), contact.p_peak > BREAKS[0])
     assert np.allclose(got[index, 1] + got[index, 2], (down - up) / (2 * np.pi), rtol=1e-11, atol=0)
+
+
+def test_rounding_does_not_decide_which_contacts_pass_a_break_where_all_begin(carry):
+    columns, theta = _solved(2e-3)
+    strips = columns.solve(np.arange(columns.size), theta)
+    index, contact = strips.touching
+    begins = np.flatnonzero(np.abs(contact.p_least / WEAK.p_0 + 1) < 1e-10)
+    assert begins.size > 3
+    law = replace(carry, table=SimpleNamespace(breaks=np.array([[np.median(contact.p_least[begins])]])))
+    crossed = law.crossed(strips, np.zeros(columns.size, int))[index[begins]]
+    assert np.unique(crossed).size == 1

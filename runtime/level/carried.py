@@ -26,6 +26,8 @@ _SHARE, _CHUNK = 0.1, 2048
 _SAFE = 2.0
 #: what is left in a mean over contacts of the greatest error of a law: along its pieces errors change sign
 _CANCELLED = 0.3
+#: share of a pressure by which two that are next to one another are told apart
+_TRIFLE = 1e-9
 #: a part of its contact below which few nodes are tried first
 _NARROW = 0.03
 
@@ -69,7 +71,7 @@ class CarriedByLaws:
         index, contact = strips.touching
         if index.size:
             breaks = self.table.breaks[group[index]]
-            top, least = (np.count_nonzero(breaks < p[:, None], axis=1) for p in (contact.p_peak, contact.p_least))
+            top, least = (np.count_nonzero(breaks < p[:, None], axis=1) for p in _extremes(contact))
             crossed[index] = 1 + top + (breaks.shape[1] + 1) * least
         return crossed
 
@@ -84,7 +86,7 @@ class CarriedByLaws:
         index, contact = strips.touching
         if index.size:
             breaks = self.table.breaks[group[index]]
-            out[index] = np.concatenate([p[:, None] - breaks for p in (contact.p_peak, contact.p_least)], axis=1)
+            out[index] = np.concatenate([p[:, None] - breaks for p in _extremes(contact)], axis=1)
         return out
 
     def passing(self, crossed: np.ndarray, other: np.ndarray) -> np.ndarray:
@@ -209,6 +211,12 @@ class CarriedByLaws:
         share = np.divide(np.minimum(errors[1, 1:], rise), rise, out=np.zeros_like(rise), where=rise > 0)
         between = share * np.abs(np.diff(friction, axis=0))
         return errors[0] + np.concatenate((between[:1], between))
+
+
+def _extremes(contact: Contact):
+    """Greatest and least pressure of contacts, Pa: the least a trifle above itself. Many begin at ``-p_0``, all along y, where a
+    law may let go too: rounding must not decide which of them pass that."""
+    return contact.p_peak, contact.p_least + _TRIFLE * np.abs(contact.p_least)
 
 
 def _summed(weights, values):
