@@ -7,12 +7,12 @@ parameters. The strip solver's formulas are generated: see ``hystrip.derivation`
 
 from typing import TYPE_CHECKING
 
-from hystrip.errors import HystripError, InputError, MissingExtra, SolverError
-from hystrip.inputs.adhesion import Dugdale
-from hystrip.inputs.material import KelvinVoigt, StandardLinearSolid
-from hystrip.inputs.prony import Prony
-from hystrip.inputs.surface import Level
-from hystrip.solve import solve
+from .errors import HystripError, InputError, MissingExtra, SolverError
+from .inputs.adhesion import Dugdale
+from .inputs.material import KelvinVoigt, StandardLinearSolid
+from .inputs.prony import Prony
+from .inputs.surface import Level
+from .solve import solve
 
 __version__ = "0.1.0"
 
@@ -59,12 +59,12 @@ _LAZY = {
 }
 
 if TYPE_CHECKING:
-    from hystrip.level.solution import FrictionLaw, LevelSolution, friction_law, solve_level
-    from hystrip.loading import load_solver
-    from hystrip.result import Result
-    from hystrip.scene import Scene, load_scene
-    from hystrip.strip.solution import StripSolution, solve_strip
-    from hystrip.sweeps import Sweep, sweep
+    from .level.solution import FrictionLaw, LevelSolution, friction_law, solve_level
+    from .loading import load_solver
+    from .result import Result
+    from .scene import Scene, load_scene
+    from .strip.solution import StripSolution, solve_strip
+    from .sweeps import Sweep, sweep
 
 
 def __getattr__(name: str):

@@ -1,6 +1,6 @@
 """``python -m hystrip``: the command line."""
 
-from hystrip.commands.entry import main
+from .commands.entry import main
 
 if __name__ == "__main__":
     main()

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.extras import require
-from hystrip.solver import parameters
-from hystrip.tables import parts_of_mu
+from .extras import require
+from .solver import parameters
+from .tables import parts_of_mu
 
 #: unit and long name of every variable
 LABELS = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from types import ModuleType
 
-from hystrip.errors import MissingExtra
+from .errors import MissingExtra
 
 
 def require(module: str, extra: str, purpose: str) -> ModuleType:

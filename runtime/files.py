@@ -8,7 +8,7 @@ import os
 from pathlib import Path
 from types import TracebackType
 
-from hystrip.errors import InputError
+from .errors import InputError
 
 
 class Outputs:

@@ -11,8 +11,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from hystrip.errors import InputError
-from hystrip.inputs.model import ModelMaterial
+from .errors import InputError
+from .inputs.model import ModelMaterial
 
 #: version of the interface of emitted solvers that this runtime speaks
 INTERFACE = 1

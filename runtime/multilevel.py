@@ -7,18 +7,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hystrip.inputs.adhesion import Dugdale
-from hystrip.inputs.surface import Level
-from hystrip.level.bare.surface import BareSurface, is_bare
-from hystrip.level.build import build_laws
-from hystrip.level.carried import CarriedByLaws, peak_pressure
-from hystrip.level.demand import demand_of
-from hystrip.level.inverse import Inverse, cut_penetration, invert
-from hystrip.level.means import level_means
-from hystrip.level.saturated import SaturatedLevel, saturated_friction, saturated_level
-from hystrip.level.strips import QUANTITIES, Columns, Tally
-from hystrip.level.table import LawTable
-from hystrip.solver import Material, foundation_of
+from .inputs.adhesion import Dugdale
+from .inputs.surface import Level
+from .level.bare.surface import BareSurface, is_bare
+from .level.build import build_laws
+from .level.carried import CarriedByLaws, peak_pressure
+from .level.demand import demand_of
+from .level.inverse import Inverse, cut_penetration, invert
+from .level.means import level_means
+from .level.saturated import SaturatedLevel, saturated_friction, saturated_level
+from .level.strips import QUANTITIES, Columns, Tally
+from .level.table import LawTable
+from .solver import Material, foundation_of
 
 _OWN = len(QUANTITIES)
 #: the error column of what is carried never asks for refinement

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.level.saturated import saturated_level
-from hystrip.strip.solution import solve_strip
+from .level.saturated import saturated_level
+from .strip.solution import solve_strip
 
 PULLED_OFF = "below pull-off: no contact"
 

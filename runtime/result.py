@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from hystrip.inputs.adhesion import Dugdale
-    from hystrip.inputs.surface import Level
-    from hystrip.solver import Material
+    from .inputs.adhesion import Dugdale
+    from .inputs.surface import Level
+    from .solver import Material
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +63,7 @@ class Result:
     def p_sat(self) -> np.ndarray:
         """Nominal pressure from which level 1 is in saturated contact, Pa; on the loading branch one that suffices.
         Shape of ``mu``."""
-        from hystrip.level.saturated import saturated_level
+        from .level.saturated import saturated_level
 
         V = self.velocity.ravel()
         return saturated_level(self.material, self.adhesion, self.levels[0], V, self.branch).p_sat.reshape(self.velocity.shape)
@@ -73,13 +73,13 @@ class Result:
 
         Needs the extra ``dataset``. ``to_netcdf(path, engine="h5netcdf")`` writes it.
         """
-        from hystrip.dataset import to_dataset
+        from .dataset import to_dataset
 
         return to_dataset(self)
 
     def summary(self) -> str:
         """Where the friction comes from, as text: levels, shares of mu, real contact, pull-off, saturation, what was skipped."""
-        from hystrip.summary import summary
+        from .summary import summary
 
         return summary(self)
 
@@ -88,6 +88,6 @@ class Result:
 
         Needs the extra ``plot``; ``hystrip.plots.save(figure, path)`` writes it.
         """
-        from hystrip.plots import friction
+        from .plots import friction
 
         return friction(self)

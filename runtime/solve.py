@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hystrip.errors import InputError, SolverError
-from hystrip.inputs.adhesion import Dugdale
-from hystrip.inputs.checks import SMALLEST, broadcast, choice, number, numbers
-from hystrip.inputs.surface import Level
-from hystrip.solver import check_edge, check_material, parameters
+from .errors import InputError, SolverError
+from .inputs.adhesion import Dugdale
+from .inputs.checks import SMALLEST, broadcast, choice, number, numbers
+from .inputs.surface import Level
+from .solver import check_edge, check_material, parameters
 
 if TYPE_CHECKING:
-    from hystrip.multilevel import Surface
-    from hystrip.result import Result
-    from hystrip.solver import Material
+    from .multilevel import Surface
+    from .result import Result
+    from .solver import Material
 
 #: least pressure over ``K h`` without adhesion: the contact under a smaller one is lost in rounding
 _FAINTEST = 1e-22
@@ -69,9 +69,9 @@ def solve(
     [9.30e-05 2.72e-04]
     """
     # loaded here: `import hystrip` is to cost next to nothing
-    from hystrip.level.strips import Tally
-    from hystrip.multilevel import Surface
-    from hystrip.strip.solution import BRANCHES
+    from .level.strips import Tally
+    from .multilevel import Surface
+    from .strip.solution import BRANCHES
 
     levels = check_levels(levels)
     check_single(material, adhesion)
@@ -98,7 +98,7 @@ def solve(
 
 
 def _result(points, surface: Surface, shape, V, load: str) -> Result:
-    from hystrip.result import Result
+    from .result import Result
 
     tau = points.tau.sum(axis=0)
     loaded = points.p != 0

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from hystrip.errors import InputError
-from hystrip.inputs.checks import choice
-from hystrip.inputs.material import StandardLinearSolid
-from hystrip.inputs.model import ModelMaterial
-from hystrip.inputs.prony import Prony
+from .errors import InputError
+from .inputs.checks import choice
+from .inputs.material import StandardLinearSolid
+from .inputs.model import ModelMaterial
+from .inputs.prony import Prony
 
 if TYPE_CHECKING:
-    from hystrip.strip.solved import Solved
+    from .strip.solved import Solved
 
 EDGES = ("continuous", "constitutive")
 _WHY = (
@@ -91,10 +91,10 @@ def foundation_of(material) -> Foundation:
     """The material with its solver; with one time it is the standard linear solid, however it was written down."""
     material = _reduced(material)
     if isinstance(material, StandardLinearSolid):
-        from hystrip.strip.single import SingleTime
+        from .strip.single import SingleTime
 
         return SingleTime(kernel_of(material), material)
-    from hystrip.modes.foundation import ManyTimes
+    from .modes.foundation import ManyTimes
 
     return ManyTimes(kernel_of(material), material)
 

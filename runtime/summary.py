@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.solver import foundation_of, parameters
-from hystrip.tables import shares
+from .solver import foundation_of, parameters
+from .tables import shares
 
 
 def summary(result: Any) -> str:
@@ -47,7 +47,7 @@ def _parameter(name: str, value: Any) -> str:
 
 
 def _levels(result: Any) -> list[str]:
-    from hystrip.level.saturated import saturated_level
+    from .level.saturated import saturated_level
 
     De, V_peak, part = deborah(result), peak_velocities(result), shares(result)
     V = np.atleast_1d(np.asarray(result.velocity)).ravel()
@@ -104,8 +104,8 @@ def _contact(result: Any) -> list[str]:
 
 def _closer(result: Any) -> list[str]:
     """Pull-off of level 1, and the regimes on every level, at the point of largest friction (the first, if there is none)."""
-    from hystrip.level.solution import friction_law
-    from hystrip.regimes_by_level import regimes_by_level
+    from .level.solution import friction_law
+    from .regimes_by_level import regimes_by_level
 
     mu = np.abs(np.ravel(result.mu))
     if not mu.size:

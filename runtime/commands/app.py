@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from hystrip.commands import audit, check, figures, fit, init, levels, regenerate, schema, solve, sweep
+from . import audit, check, figures, fit, init, levels, regenerate, schema, solve, sweep
 
 
 def build() -> typer.Typer:
@@ -25,7 +25,7 @@ def build() -> typer.Typer:
 
 def _version(wanted: bool) -> None:
     if wanted:
-        from hystrip import __version__
+        from .. import __version__
 
         typer.echo(f"hystrip {__version__}")
         raise typer.Exit()

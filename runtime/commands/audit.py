@@ -15,10 +15,10 @@ def command(
     Pages for a browser, and JSON. Exits with 1, and names the step, if one does not verify. Needs the
     extras `regenerate` and `plot`.
     """
-    from hystrip.commands.derivation import needed
-    from hystrip.commands.progress import progress
-    from hystrip.extras import require
-    from hystrip.files import refuse_unwritable
+    from ..extras import require
+    from ..files import refuse_unwritable
+    from .derivation import needed
+    from .progress import progress
 
     needed("auditing")
     require("matplotlib", "plot", "drawing the audit's examples")

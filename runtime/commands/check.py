@@ -10,8 +10,8 @@ def command() -> None:
 
     Byte by byte; exits with 1 if they differ, or if a step does not verify, and names it. Needs the extra `regenerate`.
     """
-    from hystrip.commands.derivation import needed
-    from hystrip.commands.progress import progress
+    from .derivation import needed
+    from .progress import progress
 
     needed("checking the generated files")
     import hystrip.derivation

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hystrip.extras import require
+from ..extras import require
 
 
 def needed(purpose: str) -> None:

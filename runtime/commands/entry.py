@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 import sys
 
-from hystrip.errors import HystripError, InputError, MissingExtra
-from hystrip.extras import require
+from ..errors import HystripError, InputError, MissingExtra
+from ..extras import require
 
 USAGE, FAILED, INTERRUPTED = 2, 1, 130
 
@@ -21,7 +21,7 @@ def _status() -> int:
         sys.stdout.reconfigure(errors="replace")
     try:
         require("typer", "cli", "the command line")
-        from hystrip.commands.app import build
+        from .app import build
 
         build()(prog_name="hystrip", standalone_mode=True)
     except SystemExit as end:

@@ -15,10 +15,10 @@ def command(
 
     PNG, SVG, and the data of each as CSV.
     """
-    from hystrip.commands.progress import progress
-    from hystrip.extras import require
-    from hystrip.figures import draw
-    from hystrip.files import refuse_unwritable
+    from ..extras import require
+    from ..figures import draw
+    from ..files import refuse_unwritable
+    from .progress import progress
 
     require("matplotlib", "plot", "drawing")
     refuse_unwritable(out, "--out")

@@ -31,14 +31,14 @@ def command(
     Writes measured and fitted moduli as CSV, a picture, and with --length a scene that holds the material: SCENE with
     its own replaced.
     """
-    from hystrip.commands.quantities import metres
-    from hystrip.dma import fit_prony, read_dma
-    from hystrip.dma.output import material_table, rows
-    from hystrip.extras import require
-    from hystrip.files import Outputs, refuse_unwritable
-    from hystrip.scene.edit import with_material, with_setting
-    from hystrip.scene.load import located, scene_text
-    from hystrip.tables import write_csv
+    from ..dma import fit_prony, read_dma
+    from ..dma.output import material_table, rows
+    from ..extras import require
+    from ..files import Outputs, refuse_unwritable
+    from ..scene.edit import with_material, with_setting
+    from ..scene.load import located, scene_text
+    from ..tables import write_csv
+    from .quantities import metres
 
     if plot:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
@@ -55,7 +55,7 @@ def command(
                 text = with_setting(text, "edge", "constitutive")
         files[f"{data.stem}.fitted.toml"] = lambda path: path.write_text(text, encoding="utf-8", newline="\n")
     if plot:
-        from hystrip.plots import fitted_modulus, save
+        from ..plots import fitted_modulus, save
 
         files[f"{data.stem}.fit.png"] = lambda path: save(fitted_modulus(series, measured), path)
     with Outputs(out) as outputs:

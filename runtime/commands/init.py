@@ -14,8 +14,8 @@ def command(
     """Write a commented starter scene."""
     from importlib import resources
 
-    from hystrip.errors import InputError
-    from hystrip.files import refuse_unwritable, write_text
+    from ..errors import InputError
+    from ..files import refuse_unwritable, write_text
 
     if path.is_dir():
         raise InputError("PATH", str(path), "the path of a file to write; this is a folder")

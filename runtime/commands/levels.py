@@ -33,12 +33,12 @@ def command(
     Each level has the rms height and the rms gradient of the surface in its band of wavelengths. Writes a scene that
     holds them: SCENE with its own replaced. Needs the extra `roughness`.
     """
-    from hystrip.commands.quantities import metres
-    from hystrip.extras import require
-    from hystrip.files import Outputs, refuse_unwritable
-    from hystrip.roughness import levels_of, read_surface
-    from hystrip.scene.edit import with_levels, with_solver_seen_from
-    from hystrip.scene.load import located, scene_text
+    from ..extras import require
+    from ..files import Outputs, refuse_unwritable
+    from ..roughness import levels_of, read_surface
+    from ..scene.edit import with_levels, with_solver_seen_from
+    from ..scene.load import located, scene_text
+    from .quantities import metres
 
     if plot:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
@@ -56,7 +56,7 @@ def command(
         names = [f"{surface.stem}.levels.toml"]
         files.path(names[0]).write_text(text, encoding="utf-8", newline="\n")
         if plot:
-            from hystrip.plots import roughness_levels, save
+            from ..plots import roughness_levels, save
 
             names.append(f"{surface.stem}.levels.png")
             save(roughness_levels(found, scan), files.path(names[1]))

@@ -18,7 +18,7 @@ def progress(title: str, rate: bool = False) -> Iterator[Report | None]:
     if not sys.stderr.isatty():
         yield None
         return
-    from hystrip.extras import require
+    from ..extras import require
 
     console = require("rich.console", "cli", "the progress bar").Console(stderr=True)
     bars = require("rich.progress", "cli", "the progress bar")

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 def metres(text: str | None, option: str) -> float | None:
     """A length in m, or None if the option is not given. Raises InputError, naming the option."""
-    from hystrip.scene.quantity import to_si
+    from ..scene.quantity import to_si
 
     if text is None:
         return None

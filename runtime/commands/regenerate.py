@@ -16,10 +16,10 @@ def command(
 
     The folder is used with hystrip.load_solver(...), or in a scene as [material] solver. Needs the extra `regenerate`.
     """
-    from hystrip.commands.derivation import needed
-    from hystrip.commands.progress import progress
-    from hystrip.errors import HystripError, InputError
-    from hystrip.files import refuse_unwritable
+    from ..errors import HystripError, InputError
+    from ..files import refuse_unwritable
+    from .derivation import needed
+    from .progress import progress
 
     if model is not None and out is None:
         raise InputError("--out", None, "a folder for the solver of your model")

@@ -12,6 +12,6 @@ def command() -> None:
     """
     import json
 
-    from hystrip.scene.schema import json_schema
+    from ..scene.schema import json_schema
 
     typer.echo(json.dumps(json_schema(), indent=2, ensure_ascii=False))

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.scene import Scene
+from ..scene import Scene
 
 
 def show_friction(scene: Scene, columns: dict[str, np.ndarray]) -> None:

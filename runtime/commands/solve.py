@@ -20,11 +20,11 @@ def command(
 
     Writes a CSV and, for more than one velocity, a picture of mu with the share of every level.
     """
-    from hystrip.commands.progress import progress
-    from hystrip.extras import require
-    from hystrip.files import Outputs, refuse_unwritable
-    from hystrip.scene import load_scene
-    from hystrip.tables import friction_rows, write_csv
+    from ..extras import require
+    from ..files import Outputs, refuse_unwritable
+    from ..scene import load_scene
+    from ..tables import friction_rows, write_csv
+    from .progress import progress
 
     case = load_scene(scene, allow_solver=allow_solver)
     draws = plot and case.velocity.size > 1
@@ -43,11 +43,11 @@ def command(
         if netcdf:
             result.to_dataset().to_netcdf(files.path(f"{case.name}.nc"), engine="h5netcdf")
         if draws:
-            from hystrip.plots import save
+            from ..plots import save
 
             save(result.plot(), files.path(f"{case.name}.png"))
     if table:
-        from hystrip.commands.show import show_friction
+        from .show import show_friction
 
         show_friction(case, columns)
     if summary:

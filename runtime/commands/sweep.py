@@ -27,11 +27,11 @@ def command(
     Every combination of them is solved. Results go to disk as they come: after Ctrl-C, a crash or a kill the same
     command goes on where it was. A point that cannot be solved is recorded with its reason.
     """
-    from hystrip.commands.progress import progress
-    from hystrip.extras import require
-    from hystrip.files import Outputs
-    from hystrip.sweeps import sweep
-    from hystrip.sweeps.over import over_of
+    from ..extras import require
+    from ..files import Outputs
+    from ..sweeps import sweep
+    from ..sweeps.over import over_of
+    from .progress import progress
 
     if netcdf:
         require("xarray", "dataset", "writing netCDF")

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.dma.read import DynamicModulus
-from hystrip.dma.series import PronySeries
-from hystrip.errors import InputError
-from hystrip.inputs.checks import number, numbers
+from ..errors import InputError
+from ..inputs.checks import number, numbers
+from .read import DynamicModulus
+from .series import PronySeries
 
 #: a branch below this share of the glassy modulus is rounding of the solver
 _NOTHING = 1e-12

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.dma.read import DynamicModulus
-from hystrip.dma.series import PronySeries
+from .read import DynamicModulus
+from .series import PronySeries
 
 
 def rows(series: PronySeries, data: DynamicModulus) -> dict[str, np.ndarray]:

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hystrip.errors import InputError
-from hystrip.inputs.checks import numbers
+from ..errors import InputError
+from ..inputs.checks import numbers
 
 _MODULUS = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
 _FREQUENCY = {"f": ("Hz", 2 * np.pi), "omega": ("rad/s", 1.0)}

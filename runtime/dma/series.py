@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hystrip.errors import InputError
-from hystrip.inputs.checks import number
-from hystrip.inputs.material import StandardLinearSolid
+from ..errors import InputError
+from ..inputs.checks import number
+from ..inputs.material import StandardLinearSolid
 
 if TYPE_CHECKING:
-    from hystrip.inputs.prony import Prony
+    from ..inputs.prony import Prony
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ class PronySeries:
 
         Raises ``InputError`` for a bad length.
         """
-        from hystrip.inputs.prony import Prony
+        from ..inputs.prony import Prony
 
         each = self.foundation(length)
         return self.standard_linear_solid(length) if len(self.times) == 1 else Prony(each.K, each.moduli, each.times)

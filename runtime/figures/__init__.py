@@ -7,8 +7,8 @@ import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from hystrip.errors import InputError
-from hystrip.files import Outputs
+from ..errors import InputError
+from ..files import Outputs
 
 FIGURES = ("fig3", "fig4", "fig5", "fig6", "fig7")
 
@@ -20,8 +20,8 @@ def draw(
 
     Raises InputError for a name that is not one of :data:`FIGURES`.
     """
-    from hystrip.plots.style import save
-    from hystrip.tables import write_csv
+    from ..plots.style import save
+    from ..tables import write_csv
 
     names = list(dict.fromkeys(only or FIGURES))
     for name in names:

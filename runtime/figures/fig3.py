@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.plots.style import COLUMN, OKABE_ITO, stacked, styled
+from ..plots.style import COLUMN, OKABE_ITO, stacked, styled
 
 _RTOL = 1e-3
 _POINTS = 40
@@ -20,10 +20,10 @@ def data() -> dict[str, Any]:
 
     ``reachable``: met by pulling back slowly under load control; the rest of the unloading curve needs control of penetration.
     """
-    from hystrip.level.branches import branches
-    from hystrip.level.curve import trace
-    from hystrip.level.strips import Columns, saturation_depth
-    from hystrip.scene import load_scene
+    from ..level.branches import branches
+    from ..level.curve import trace
+    from ..level.strips import Columns, saturation_depth
+    from ..scene import load_scene
 
     scene = load_scene("paper_fig3")
     V = np.sort(np.atleast_1d(scene.velocity))
@@ -57,7 +57,7 @@ def data() -> dict[str, Any]:
 
 def _above(scene: Any, columns: Any, v: float, D_top: float, kind: str) -> list[tuple]:
     """Saturated contact from the penetration ``D_top`` on."""
-    from hystrip.level.saturated import saturated_level
+    from ..level.saturated import saturated_level
 
     level = scene.levels[0]
     each = saturated_level(scene.material, scene.adhesion, level, columns.V)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.plots.style import COLUMN, axes, styled
+from ..plots.style import COLUMN, axes, styled
 
 _X, _Y = 401, 241
 _FIRST, _LAST = "contact from x [m]", "contact to x [m]"
@@ -15,7 +15,8 @@ _FIRST, _LAST = "contact from x [m]", "contact to x [m]"
 def state() -> tuple[Any, float]:
     """The scene ``paper_fig5`` and the penetration of its level 1, m, at the nominal pressure."""
     import hystrip
-    from hystrip.scene import load_scene
+
+    from ..scene import load_scene
 
     scene = load_scene("paper_fig5")
     # what level 2 carries is tangential: it does not change the pressure of level 1

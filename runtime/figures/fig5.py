@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.figures.fig4 import state, strips_at
-from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, stacked, styled
+from ..plots.style import COLUMN, DASHES, OKABE_ITO, stacked, styled
+from .fig4 import state, strips_at
 
 _STRIPS = (0, 63)  # the paper's
 _N = 100  # the paper's strips in half a cell

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, stacked, styled
+from ..plots.style import COLUMN, DASHES, OKABE_ITO, stacked, styled
 
 #: The paper's text gives the smaller energy; the larger is not given, and taken as twice that (N/m).
 ENERGIES = (2.5e-5, 5e-5)
@@ -17,8 +17,9 @@ _PEAKS = (3e-4, 3e-3, 100)  # m/s: the peaks are sharp
 def data() -> dict[str, Any]:
     """Rows of the scene ``paper_fig6`` for both energies, with more velocities about the peaks."""
     import hystrip
-    from hystrip.scene import load_scene
-    from hystrip.tables import friction_rows
+
+    from ..scene import load_scene
+    from ..tables import friction_rows
 
     scene = load_scene("paper_fig6")
     velocity = np.union1d(np.geomspace(scene.velocity.min(), scene.velocity.max(), _POINTS), np.geomspace(*_PEAKS))

@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, axes, styled
+from ..plots.style import COLUMN, DASHES, OKABE_ITO, axes, styled
 
 
 def data() -> dict[str, Any]:
     """Rows of the scene ``paper_fig7``."""
-    from hystrip.scene import load_scene
-    from hystrip.tables import friction_rows
+    from ..scene import load_scene
+    from ..tables import friction_rows
 
     return friction_rows(load_scene("paper_fig7").solve())
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hystrip.errors import InputError
-
+from ..errors import InputError
 from .checks import LARGEST, broadcast, numbers
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.errors import InputError
+from ..errors import InputError
 
 #: greatest magnitude of an input, and the least of one that must not be zero: far beyond anything physical in SI, and
 #: near enough that no product or quotient of a few of them leaves the range of a double

@@ -6,8 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hystrip.errors import InputError
-
+from ..errors import InputError
 from .checks import broadcast, numbers
 
 

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.errors import InputError
-
+from ..errors import InputError
 from .checks import broadcast, numbers
 from .material import StandardLinearSolid
 

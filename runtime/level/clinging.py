@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hystrip.solver import foundation_of, kernel_of
-from hystrip.strip.crossing import crossing
-from hystrip.strip.direct import certified
-from hystrip.strip.problem import TWO_PI, Strips, bare_cycle
-from hystrip.strip.start import start
+from ..solver import foundation_of, kernel_of
+from ..strip.crossing import crossing
+from ..strip.direct import certified
+from ..strip.problem import TWO_PI, Strips, bare_cycle
+from ..strip.start import start
 
 if TYPE_CHECKING:
     from .strips import Columns

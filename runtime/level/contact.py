@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hystrip.strip.crossing import crossing
-from hystrip.strip.problem import snaps_in
-from hystrip.strip.regimes import CODE
-
+from ..strip.crossing import crossing
+from ..strip.problem import snaps_in
+from ..strip.regimes import CODE
 from .harmonic import passages
 
 if TYPE_CHECKING:
@@ -22,7 +21,7 @@ _MEMORY = 1e-6
 def contact_of(kernel, strips: SolvedStrips, index):
     """Contact of the strips ``index``, for a foundation with one time or several."""
     if hasattr(kernel, "MODES"):
-        from hystrip.modes.contact import ModeContact
+        from ..modes.contact import ModeContact
 
         return ModeContact(kernel, strips, index)
     return Contact(kernel, strips, index)

@@ -12,8 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hystrip.strip.regimes import CODE
-
+from ..strip.regimes import CODE
 from .interval import Interval
 from .strips import Columns
 

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from hystrip.solver import kernel_of
-from hystrip.strip.direct import certified
-from hystrip.strip.problem import adhesive_cycle
-from hystrip.strip.regimes import CODE
-from hystrip.strip.solved import Record
-from hystrip.strip.start import start
-
+from ..solver import kernel_of
+from ..strip.direct import certified
+from ..strip.problem import adhesive_cycle
+from ..strip.regimes import CODE
+from ..strip.solved import Record
+from ..strip.start import start
 from .margins import POWERS, decisive, margins
 from .strips import Columns, SolvedStrips
 from .transitions import Aim, Guide, aimed

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hystrip.strip.march import TWO_PI, Orbit
-from hystrip.strip.problem import adhesive_cycle
-from hystrip.strip.regimes import CODE
-from hystrip.strip.sensitivity import onset_margin, slope_excess
+from ..strip.march import TWO_PI, Orbit
+from ..strip.problem import adhesive_cycle
+from ..strip.regimes import CODE
+from ..strip.sensitivity import onset_margin, slope_excess
 
 if TYPE_CHECKING:
     from .strips import SolvedStrips

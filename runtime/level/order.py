@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hystrip.strip.regimes import CODE
+from ..strip.regimes import CODE
 
 if TYPE_CHECKING:
     from .strips import Columns, Tally

@@ -8,9 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from hystrip.inputs.adhesion import Dugdale
-from hystrip.inputs.surface import Level
-from hystrip.solver import Foundation, Material, foundation_of
+from ..inputs.adhesion import Dugdale
+from ..inputs.surface import Level
+from ..solver import Foundation, Material, foundation_of
 
 #: velocities of a block of the closed form: its temporaries stay in the cache
 _BLOCK = 4096

@@ -6,13 +6,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from hystrip.errors import InputError
-from hystrip.inputs.adhesion import Dugdale
-from hystrip.inputs.checks import broadcast, choice, number, numbers
-from hystrip.inputs.surface import Level
-from hystrip.solver import Material, check_edge, foundation_of
-from hystrip.strip.solution import BRANCHES
-
+from ..errors import InputError
+from ..inputs.adhesion import Dugdale
+from ..inputs.checks import broadcast, choice, number, numbers
+from ..inputs.surface import Level
+from ..solver import Material, check_edge, foundation_of
+from ..strip.solution import BRANCHES
 from .bare.points import bare_means
 from .bare.surface import is_bare
 from .build import build_laws
@@ -77,7 +76,7 @@ class FrictionLaw:
 
     def plot(self):
         """A matplotlib Figure of friction stress and contact fraction over nominal pressure. Needs the extra ``plot``."""
-        from hystrip.plots import law_over_pressure
+        from ..plots import law_over_pressure
 
         return law_over_pressure(self)
 
@@ -119,7 +118,7 @@ def solve_level(
     V, level, edge, branch, rtol = _checked(material, adhesion, level, V, edge, branch, rtol)
     if (D is None) == (pressure is None):
         raise InputError("D, pressure", {"D": D, "pressure": pressure}, "exactly one of the two")
-    from hystrip.solve import check_strips, refuse_faint
+    from ..solve import check_strips, refuse_faint
 
     strips = check_strips(strips)
     if strips is not None and D is None:
@@ -228,7 +227,7 @@ def _laws(columns: Columns, rtol: float, top) -> list[Law]:
 
 
 def _checked(material, adhesion, level, V, edge, branch, rtol):
-    from hystrip.solve import check_rtol, check_single
+    from ..solve import check_rtol, check_single
 
     check_single(material, adhesion)
     if not isinstance(level, Level):

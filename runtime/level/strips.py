@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from hystrip.inputs.adhesion import Dugdale
-from hystrip.inputs.surface import Level
-from hystrip.solver import Material, foundation_of, kernel_of
-from hystrip.strip.problem import Strips
-from hystrip.strip.regimes import CODE
-from hystrip.strip.solved import Solved
-
+from ..inputs.adhesion import Dugdale
+from ..inputs.surface import Level
+from ..solver import Material, foundation_of, kernel_of
+from ..strip.problem import Strips
+from ..strip.regimes import CODE
+from ..strip.solved import Solved
 from .clinging import Clinging
 from .contact import Contact, contact_of
 from .margins import POWERS, decisive, margins
@@ -23,7 +22,7 @@ from .saturated import saturated_level
 from .transitions import Guide
 
 if TYPE_CHECKING:
-    from hystrip.modes.contact import ModeContact
+    from ..modes.contact import ModeContact
 
 #: What is averaged over the strips of a level, in this order; what lower levels carry in its contact follows.
 QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")

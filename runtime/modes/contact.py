@@ -11,10 +11,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from hystrip.level.harmonic import passages
-from hystrip.strip.crossing import crossing
-from hystrip.strip.regimes import CODE
-
+from ..level.harmonic import passages
+from ..strip.crossing import crossing
+from ..strip.regimes import CODE
 from .fields import zones_of
 from .problem import pick
 

@@ -12,9 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from hystrip.strip.regimes import CODE
-from hystrip.strip.solved import Solved
-
+from ..strip.regimes import CODE
+from ..strip.solved import Solved
 from .certificate import enclosed, marched, stable
 from .engaged import engaged_orbit
 from .march import TWO_PI, march

@@ -6,13 +6,12 @@ from types import ModuleType
 
 import numpy as np
 
-from hystrip.errors import InputError
-from hystrip.inputs.model import ModelMaterial, modes_of
-from hystrip.strip.flat import is_flat, solve_flat
-from hystrip.strip.regimes import CODE
-from hystrip.strip.solution import refuse_uncertified
-from hystrip.strip.solved import Solved
-
+from ..errors import InputError
+from ..inputs.model import ModelMaterial, modes_of
+from ..strip.flat import is_flat, solve_flat
+from ..strip.regimes import CODE
+from ..strip.solution import refuse_uncertified
+from ..strip.solved import Solved
 from .engine import solve_modes
 from .fields import fields
 from .problem import ModeStrips
@@ -86,7 +85,7 @@ class ManyTimes:
         return solved, strips, {"k": k, "A": A, "D": D, "p": K * unit, "length": unit, "flat": flat}
 
     def _named(self, shape):
-        from hystrip.solver import parameters
+        from ..solver import parameters
 
         named = parameters(self.material)
         # a material of arrays was spread over the strips in `flat`; the strip's own values are in K and the modes

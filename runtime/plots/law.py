@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.plots.style import COLUMN, OKABE_ITO, stacked, styled
+from .style import COLUMN, OKABE_ITO, stacked, styled
 
 
 @styled

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, axes, styled
+from .style import COLUMN, DASHES, OKABE_ITO, axes, styled
 
 
 @styled

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.errors import InputError
-from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, stacked, styled
+from ..errors import InputError
+from .style import COLUMN, DASHES, OKABE_ITO, stacked, styled
 
 
 @styled

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from hystrip.extras import require
+from ..extras import require
 
 COLUMN = 85 / 25.4
 """Width of a journal column [inch]."""

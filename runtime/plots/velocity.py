@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.errors import InputError
-from hystrip.plots.style import COLUMN, DASHES, OKABE_ITO, length, stacked, styled
-from hystrip.tables import LOAD_UNITS, parts_of_mu
+from ..errors import InputError
+from ..tables import LOAD_UNITS, parts_of_mu
+from .style import COLUMN, DASHES, OKABE_ITO, length, stacked, styled
 
 _PANELS = 6
 LOAD_LABELS = {"pressure": "nominal pressure $p$ (Pa)", "penetration": "penetration $D$ (m)"}

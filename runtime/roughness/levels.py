@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.errors import InputError
-from hystrip.inputs.checks import choice, number, numbers
-from hystrip.inputs.surface import Level
-from hystrip.roughness.scan import Scan
+from ..errors import InputError
+from ..inputs.checks import choice, number, numbers
+from ..inputs.surface import Level
+from .scan import Scan
 
 #: variance of Eq. 4 over h^2: the mean square of ``(cos + 1)(cos + 1)/4`` less the square of its mean
 VARIANCE = 5 / 64

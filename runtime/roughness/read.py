@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.errors import InputError
-from hystrip.extras import require
-from hystrip.roughness.scan import Scan
+from ..errors import InputError
+from ..extras import require
+from .scan import Scan
 
 
 def read_surface(

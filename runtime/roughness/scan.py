@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.errors import InputError
-from hystrip.inputs.checks import numbers
+from ..errors import InputError
+from ..inputs.checks import numbers
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,7 @@ Reading one needs the extra ``cli`` (msgspec), and ``units`` (Pint) if a quantit
 StandardLinearSolid(K=2000000000.0, T_eps=0.005, T_sigma=0.0001)
 """
 
-from hystrip.scene.load import BUILTIN, load_scene, parse_scene
-from hystrip.scene.model import Scene
+from .load import BUILTIN, load_scene, parse_scene
+from .model import Scene
 
 __all__ = ["BUILTIN", "Scene", "load_scene", "parse_scene"]

@@ -7,8 +7,8 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from hystrip.scene.errors import SceneError
-from hystrip.scene.load import parse_scene, parse_toml
+from .errors import SceneError
+from .load import parse_scene, parse_toml
 
 _HEADER = re.compile(r"\s*\[\[?\s*(?P<name>[^\]\s]+)\s*\]?\]")
 

@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Iterable
 from typing import Any
 
-from hystrip.errors import InputError, shown
+from ..errors import InputError, shown
 
 
 class SceneError(InputError):

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.errors import InputError
-from hystrip.scene.errors import SceneError, nearest
-from hystrip.scene.model import Scene
+from ..errors import InputError
+from .errors import SceneError, nearest
+from .model import Scene
 
 _LARGEST = 1 << 20  # bytes; a scene has a few hundred, and /dev/zero has no end
 
@@ -62,7 +62,7 @@ def load_scene(source: str | os.PathLike[str], *, allow_solver: bool = False) ->
 
 def parse_scene(text: str, name: str = "scene", source: str = "", *, allow_solver: bool = False) -> Scene:
     """Build a scene from TOML text; `source` is named in errors. Raises as :func:`load_scene`."""
-    from hystrip.scene.validate import validated
+    from .validate import validated
 
     with located(source):
         values = validated(parse_toml(text))
@@ -191,7 +191,7 @@ def _parameters(material: dict[str, Any]) -> dict[str, Any]:
         elif isinstance(each, list):
             arguments[key] = [float(entry) for entry in each]
     if material["solver"] is not None:
-        from hystrip.loading import load_solver
+        from ..loading import load_solver
 
         try:
             arguments["solver"] = load_solver(material["solver"])

@@ -66,7 +66,8 @@ class Scene:
         InputError, SolverError : as :func:`hystrip.solve`
         """
         import hystrip
-        from hystrip.scene.load import located
+
+        from .load import located
 
         name, load = self.load
         options: dict[str, Any] = {name: load.reshape(load.shape + (1,) * self.velocity.ndim)}

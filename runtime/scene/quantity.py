@@ -8,9 +8,9 @@ import re
 from decimal import Decimal
 from typing import Any
 
-from hystrip.errors import InputError
-from hystrip.extras import require
-from hystrip.inputs.checks import LARGEST
+from ..errors import InputError
+from ..extras import require
+from ..inputs.checks import LARGEST
 
 _TEXT = re.compile(r"\s*(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?)\s*(?P<unit>[^\W\d_].*?)?\s*")
 _UNIT = re.compile(r"[\w\s*/^().\-²³⁻¹]+")

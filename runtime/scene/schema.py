@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from hystrip.extras import require
-from hystrip.scene.quantity import EXAMPLES
+from ..extras import require
+from .quantity import EXAMPLES
 
 msgspec = require("msgspec", "cli", "reading scenes")
 Meta, Struct = msgspec.Meta, msgspec.Struct

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.errors import InputError
-from hystrip.scene import schema
-from hystrip.scene.errors import SceneError, nearest
-from hystrip.scene.quantity import to_si
+from ..errors import InputError
+from . import schema
+from .errors import SceneError, nearest
+from .quantity import to_si
 
 msgspec = schema.msgspec
 _PATH = re.compile(r"^(?P<problem>.*?)(?: - at `\$(?P<path>[^`]*)`)?$", re.DOTALL)

@@ -6,8 +6,7 @@ from types import ModuleType
 
 import numpy as np
 
-from hystrip.inputs.material import StandardLinearSolid
-
+from ..inputs.material import StandardLinearSolid
 from .fields import fields
 from .solution import refuse_uncertified, solve_si
 

@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hystrip.errors import InputError, SolverError
-from hystrip.inputs.adhesion import Dugdale
-from hystrip.inputs.checks import broadcast, choice, numbers
-from hystrip.solver import Foundation, check_edge, check_material, foundation_of, parameters
-
+from ..errors import InputError, SolverError
+from ..inputs.adhesion import Dugdale
+from ..inputs.checks import broadcast, choice, numbers
+from ..solver import Foundation, check_edge, check_material, foundation_of, parameters
 from .engine import solve_strips
 from .flat import is_flat, solve_flat
 from .problem import Strips
@@ -22,7 +21,7 @@ from .solved import Solved
 
 BRANCHES = ("unloading", "loading")
 if TYPE_CHECKING:
-    from hystrip.solver import Material
+    from ..solver import Material
 #: beyond this alpha and beta squared overflow
 _GROUP_LIMIT = 1e150
 
@@ -115,7 +114,7 @@ class StripSolution:
 
     def plot(self):
         """A matplotlib Figure of pressure, foundation and profile of a single strip. Needs the extra ``plot``."""
-        from hystrip.plots import strip_fields
+        from ..plots import strip_fields
 
         return strip_fields(self)
 

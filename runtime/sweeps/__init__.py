@@ -1,5 +1,5 @@
 """Sweeps: a scene solved over any of its parameters, in batches that go to disk as they come."""
 
-from hystrip.sweeps.run import Sweep, sweep
+from .run import Sweep, sweep
 
 __all__ = ["Sweep", "sweep"]

@@ -63,8 +63,9 @@ def _solve(task: Task, at: np.ndarray, fixed: list[int], rows: np.ndarray, numbe
 
 def _numbers(task: Task, at: np.ndarray, fixed: list[int], rows: np.ndarray) -> np.ndarray:
     import hystrip
-    from hystrip.sweeps.plan import single
-    from hystrip.tables import parts_of_mu
+
+    from ..tables import parts_of_mu
+    from .plan import single
 
     base = task.base
     objects = single(base, [task.keys[i] for i in fixed], at)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.extras import require
+from ..extras import require
 
 _NAMES = {
     "mu": ("mu", "1", "friction coefficient"),

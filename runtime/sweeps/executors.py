@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from typing import Any
 
-from hystrip.errors import HystripError, InputError
-from hystrip.extras import require
+from ..errors import HystripError, InputError
+from ..extras import require
 
 
 class InProcess(Executor):

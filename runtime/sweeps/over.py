@@ -7,10 +7,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hystrip.errors import InputError
-from hystrip.scene.schema import Values, msgspec
-from hystrip.scene.validate import values_in_si
-from hystrip.sweeps.plan import has_unit, unit_of
+from ..errors import InputError
+from ..scene.schema import Values, msgspec
+from ..scene.validate import values_in_si
+from .plan import has_unit, unit_of
 
 
 def over_of(texts: Sequence[str]) -> dict[str, np.ndarray]:

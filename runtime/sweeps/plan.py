@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.errors import InputError
-from hystrip.inputs.checks import numbers
-from hystrip.loading import solver_key
-from hystrip.scene.errors import SceneError, nearest
-from hystrip.scene.load import (
+from ..errors import InputError
+from ..inputs.checks import numbers
+from ..loading import solver_key
+from ..scene.errors import SceneError, nearest
+from ..scene.load import (
     build_adhesion,
     build_level,
     build_material,
@@ -24,8 +24,8 @@ from hystrip.scene.load import (
     quantities,
     refuse_ambiguous,
 )
-from hystrip.solve import check_levels
-from hystrip.solver import check_edge, kernel_of
+from ..solve import check_levels
+from ..solver import check_edge, kernel_of
 
 _LOADS = ("pressure", "penetration")
 _UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "moduli": "Pa/m", "times": "s",

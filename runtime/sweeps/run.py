@@ -12,13 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.errors import HystripError, InputError
-from hystrip.files import Outputs, refuse_unwritable
-from hystrip.sweeps.batch import Task, outputs, solve_batch
-from hystrip.sweeps.executors import dask, local, lost
-from hystrip.sweeps.plan import Plan, plan_of
-from hystrip.sweeps.store import Store
-from hystrip.tables import write_csv
+from ..errors import HystripError, InputError
+from ..files import Outputs, refuse_unwritable
+from ..tables import write_csv
+from .batch import Task, outputs, solve_batch
+from .executors import dask, local, lost
+from .plan import Plan, plan_of
+from .store import Store
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +46,7 @@ class Sweep:
 
     def to_dataset(self) -> Any:
         """The sweep as an xarray Dataset: one dimension for every swept quantity of a grid, ``point`` for a list."""
-        from hystrip.sweeps.dataset import to_dataset
+        from .dataset import to_dataset
 
         return to_dataset(self)
 
@@ -96,8 +96,8 @@ def sweep(
     >>> done.plan.shape, done.solved, again.solved, again.kept
     ((2, 141), 3, 0, 3)
     """
-    from hystrip.scene.load import located, parse_toml, resolve_solver, scene_text
-    from hystrip.scene.validate import validated
+    from ..scene.load import located, parse_toml, resolve_solver, scene_text
+    from ..scene.validate import validated
 
     text, name = scene_text(scene)
     with located(os.fspath(scene)):

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from hystrip.errors import HystripError, InputError
+from ..errors import HystripError, InputError
 
 
 class Store:

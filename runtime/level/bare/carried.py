@@ -11,9 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hystrip.errors import SolverError
-from hystrip.solver import Foundation
-
+from ...errors import SolverError
+from ...solver import Foundation
 from .law import BareLaws
 from .means import Changes, Level, gauss, mapped, mapped_slope
 from .orbit import Wave

@@ -13,9 +13,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from hystrip.errors import SolverError
-from hystrip.solver import Foundation
-
+from ...errors import SolverError
+from ...solver import Foundation
 from ..chebyshev import coefficients, interpolation_errors, lobatto
 from .orbit import Wave
 

@@ -14,11 +14,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hystrip.modes.polish import arguments
-from hystrip.modes.problem import ModeStrips, take_modes
-from hystrip.solver import Foundation
-from hystrip.strip.problem import Strips
-from hystrip.strip.solved import groups
+from ...modes.polish import arguments
+from ...modes.problem import ModeStrips, take_modes
+from ...solver import Foundation
+from ...strip.problem import Strips
+from ...strip.solved import groups
 
 #: a penetration beside which the profile is nothing: what is left of an equation is its coefficient of D
 _HUGE = 1e200

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hystrip.solver import Foundation
-
+from ...solver import Foundation
 from ..chebyshev import lobatto
 from .family import coefficients_over, evaluated
 from .means import mapped

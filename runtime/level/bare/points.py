@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hystrip.errors import SolverError
-from hystrip.solver import foundation_of
-
+from ...errors import SolverError
+from ...solver import foundation_of
 from ..strips import Columns
 from .family import family
 from .means import Level

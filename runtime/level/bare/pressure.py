@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hystrip.modes.problem import take_modes
-
+from ...modes.problem import take_modes
 from .orbit import Orbits, Wave
 
 

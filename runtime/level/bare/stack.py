@@ -8,9 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hystrip.inputs.surface import Level as Wavy
-from hystrip.solver import Foundation
-
+from ...inputs.surface import Level as Wavy
+from ...solver import Foundation
 from ..chebyshev import lobatto
 from ..quadrature import interleaved
 from ..strips import Tally

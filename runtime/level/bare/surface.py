@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hystrip.errors import SolverError
-from hystrip.inputs.surface import Level as Wavy
-from hystrip.solver import Foundation
-
+from ...errors import SolverError
+from ...inputs.surface import Level as Wavy
+from ...solver import Foundation
 from ..strips import Tally
 from .stack import BareStack, Wanted
 
