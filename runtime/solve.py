@@ -7,19 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .arguments import check_levels, check_rtol, check_single, check_strips, refuse_faint
 from .errors import InputError, SolverError
 from .inputs.adhesion import Dugdale
-from .inputs.checks import SMALLEST, broadcast, choice, number, numbers
+from .inputs.checks import broadcast, choice, numbers
 from .inputs.surface import Level
-from .solver import check_edge, check_material, parameters
+from .solver import check_edge
 
 if TYPE_CHECKING:
     from .multilevel import Surface
     from .result import Result
     from .solver import Material
-
-#: least pressure over ``K h`` without adhesion: the contact under a smaller one is lost in rounding
-_FAINTEST = 1e-22
 
 
 def solve(
@@ -136,60 +134,3 @@ def _result(points, surface: Surface, shape, V, load: str) -> Result:
         strips=surface.strips,
         load=load,
     )
-
-
-def refuse_faint(pressure: np.ndarray, material: Material, adhesion: Dugdale, level: Level) -> None:
-    """Refuse pressures, Pa, not zero but too near it for a friction coefficient or for the contact they make on ``level``."""
-    faintest = 0.0 if adhesion.p_0 > 0 else _FAINTEST * material.K * level.h
-    faint = (pressure != 0) & (np.abs(pressure) < SMALLEST) | (pressure > 0) & (pressure < faintest)
-    if faint.any():
-        allowed = f"0, or a magnitude from {max(SMALLEST, faintest):g} Pa on"
-        raise InputError("pressure", float(pressure[faint].flat[0]), allowed)
-
-
-def check_levels(levels) -> tuple[Level, ...]:
-    """``levels`` as a tuple of at least one, the largest first."""
-    if isinstance(levels, Level):
-        return (levels,)
-    try:
-        given, levels = levels, tuple(levels)
-    except TypeError:
-        raise InputError("levels", levels, "a sequence of hystrip.Level, the largest first") from None
-    if not levels:
-        raise InputError("levels", given, "at least one hystrip.Level")
-    for i, level in enumerate(levels):
-        if not isinstance(level, Level):
-            raise InputError(f"levels[{i}]", level, "a hystrip.Level")
-        if i and level.l > levels[i - 1].l:
-            above = f"levels[{i - 1}].l = {levels[i - 1].l:g} m"
-            raise InputError(f"levels[{i}].l", level.l, f"at most {above}: the largest wave comes first")
-    return levels
-
-
-def check_single(material, adhesion) -> None:
-    """Refuse anything but one material and one adhesion law with single values."""
-    check_material(material)
-    if not isinstance(adhesion, Dugdale):
-        raise InputError("adhesion", adhesion, "a hystrip.Dugdale (gamma=0: no adhesion)")
-    given = {f"material.{name}": value for name, value in parameters(material).items()}
-    given |= {f"adhesion.{name}": getattr(adhesion, name) for name in ("p_0", "delta_0")}
-    for name, value in given.items():
-        if np.ndim(value):
-            raise InputError(name, value, "a single number (arrays are for solve_strip)")
-
-
-def check_strips(strips) -> int | None:
-    """``strips`` as an int >= 1, or None."""
-    if strips is None:
-        return None
-    if isinstance(strips, bool) or not isinstance(strips, (int, np.integer)) or strips < 1:
-        raise InputError("strips", strips, "an integer >= 1, or None for adaptive panels")
-    return int(strips)
-
-
-def check_rtol(rtol) -> float:
-    """``rtol`` as a float between 1e-12 and 0.1."""
-    rtol = number("rtol", rtol, "", 1e-12)
-    if rtol > 0.1:
-        raise InputError("rtol", rtol, "a number from 1e-12 to 0.1")
-    return rtol

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ..arguments import check_rtol, check_single, check_strips, refuse_faint
 from ..errors import InputError
 from ..inputs.adhesion import Dugdale
 from ..inputs.checks import broadcast, choice, number, numbers
@@ -118,8 +119,6 @@ def solve_level(
     V, level, edge, branch, rtol = _checked(material, adhesion, level, V, edge, branch, rtol)
     if (D is None) == (pressure is None):
         raise InputError("D, pressure", {"D": D, "pressure": pressure}, "exactly one of the two")
-    from ..solve import check_strips, refuse_faint
-
     strips = check_strips(strips)
     if strips is not None and D is None:
         raise InputError("strips", strips, "None where the pressure is given: equal strips need D")
@@ -227,8 +226,6 @@ def _laws(columns: Columns, rtol: float, top) -> list[Law]:
 
 
 def _checked(material, adhesion, level, V, edge, branch, rtol):
-    from ..solve import check_rtol, check_single
-
     check_single(material, adhesion)
     if not isinstance(level, Level):
         raise InputError("level", level, "a hystrip.Level")

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arguments import check_levels
 from ..errors import InputError
 from ..inputs.checks import numbers
 from ..loading import solver_key
@@ -24,7 +25,6 @@ from ..scene.load import (
     quantities,
     refuse_ambiguous,
 )
-from ..solve import check_levels
 from ..solver import check_edge, kernel_of
 
 _LOADS = ("pressure", "penetration")
