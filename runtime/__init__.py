@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from .errors import HystripError, InputError, MissingExtra, SolverError
 from .inputs.adhesion import Dugdale
+from .inputs.half_space import HalfSpace
 from .inputs.material import KelvinVoigt, StandardLinearSolid
 from .inputs.prony import Prony
 from .inputs.surface import Level
@@ -19,6 +20,7 @@ __version__ = "0.1.0"
 __all__ = [
     "Dugdale",
     "FrictionLaw",
+    "HalfSpace",
     "HystripError",
     "InputError",
     "KelvinVoigt",

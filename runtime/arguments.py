@@ -21,7 +21,7 @@ _FAINTEST = 1e-22
 
 def refuse_faint(pressure: np.ndarray, material: Material, adhesion: Dugdale, level: Level) -> None:
     """Refuse pressures, Pa, not zero but too near it for a friction coefficient or for the contact they make on ``level``."""
-    faintest = 0.0 if adhesion.p_0 > 0 else _FAINTEST * material.K * level.h
+    faintest = 0.0 if adhesion.p_0 > 0 else _FAINTEST * material.at_wavelength(level.l).K * level.h
     faint = (pressure != 0) & (np.abs(pressure) < SMALLEST) | (pressure > 0) & (pressure < faintest)
     if faint.any():
         allowed = f"0, or a magnitude from {max(SMALLEST, faintest):g} Pa on"

@@ -57,13 +57,17 @@ class Surface:
     tally: Tally
     strips: int | None = None
 
+    def at_level(self, i: int) -> Material:
+        """The material under level ``i``."""
+        return self.material.at_wavelength(self.levels[i].l)
+
     def columns(self, i: int, V, D=None, carry=None, group=None) -> Columns:
         """Columns of level ``i``."""
         D = np.zeros(V.size) if D is None else D
         # the curves behind the laws of lower levels are interpolated over D: equal strips would make steps of them
         strips = self.strips if i == 0 else None
         columns = Columns(
-            self.material, self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, strips, tally=self.tally
+            self.at_level(i), self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, strips, tally=self.tally
         )
         return columns if self.skip else replace(columns, free=None)
 
@@ -75,11 +79,12 @@ class Surface:
         """Saturation of every level, and of each level with all below it."""
         own = [self.alone(level, V) for level in self.levels]
         p_full, D_full = [own[-1].p_sat], [own[-1].D_sat]
-        for level, s in zip(self.levels[-2::-1], own[-2::-1], strict=True):
+        for i in range(len(self.levels) - 2, -1, -1):
+            level, s = self.levels[i], own[i]
             # the least local pressure, at the crest, has to saturate everything below; and -p_0 keeps the level's own contact
             needed = np.maximum(s.p_sat, p_full[0] + s.lift)
             p_full.insert(0, needed)
-            D_full.insert(0, needed / self.material.K + 0.75 * level.h)
+            D_full.insert(0, needed / self.at_level(i).K + 0.75 * level.h)
         return Stack(own, p_full, D_full)
 
     def full(self, V, load, by_pressure: bool) -> np.ndarray:
@@ -151,7 +156,7 @@ class _Solve:
     def _closed_form(self, full):
         """Points ``full`` (n,) are in saturated contact on every level."""
         i = slice(None) if full.all() else np.flatnonzero(full)
-        out, load, K, h = self.out, self.load[i], self.surface.material.K, self.surface.levels[0].h
+        out, load, K, h = self.out, self.load[i], self.surface.at_level(0).K, self.surface.levels[0].h
         out.p[i] = load if self.by_pressure else K * (load - 0.75 * h)
         out.D[i] = load / K + 0.75 * h if self.by_pressure else load
         tau = saturated_friction(self.surface.material, self.surface.levels, self.V[i])
@@ -186,7 +191,8 @@ class _Solve:
         """Solve what can be solved without adhesion; returns what is left, as positions in ``index``."""
         surface, load = self.surface, self.load[index]
         every = np.arange(index.size)
-        if surface.strips is not None or not is_bare(foundation_of(surface.material), surface.adhesion.p_0, surface.levels, V):
+        foundation = foundation_of(surface.at_level(0))
+        if surface.strips is not None or not is_bare(foundation, surface.adhesion.p_0, surface.levels, V):
             return every
         # the general path has the closed form of saturation, and says what is out of contact
         full = (stack.p_full if self.by_pressure else stack.D_full)[0][group]
@@ -194,10 +200,10 @@ class _Solve:
         if not mine.size:
             return every
         level = surface.levels[0]
-        floor = 1e-3 * surface.material.K * level.h * level.h / level.l
+        floor = 1e-3 * foundation.K * level.h * level.h / level.l
         p_sat = [own.p_sat for own in stack.own]
-        foundation = foundation_of(surface.material)
-        bare = BareSurface(foundation, surface.levels, V, p_sat, stack.p_full, floor, surface.rtol, surface.tally)
+        stiffness = [surface.at_level(i).K for i in range(self.M)]
+        bare = BareSurface(foundation, stiffness, surface.levels, V, p_sat, stack.p_full, floor, surface.rtol, surface.tally)
         found = bare.solve(group[mine], load[mine], self.by_pressure)
         sure = found.certain
         at, out = index[mine[sure]], self.out
@@ -212,7 +218,7 @@ class _Solve:
             return Inverse(load.copy(), *np.zeros((2, index.size)))
         surface, own = self.surface, stack.own[0]
         D, (slopes, doubts) = np.full(index.size, np.nan), np.zeros((2, index.size))
-        K, h = surface.material.K, surface.levels[0].h
+        K, h = surface.at_level(0).K, surface.levels[0].h
         saturated = load >= own.p_sat[group]
         D[saturated] = load[saturated] / K + 0.75 * h
         rest = np.flatnonzero(~saturated)

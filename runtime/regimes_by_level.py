@@ -82,7 +82,7 @@ class _Strips:
 
 def _depths(result: Any, i: int, V: float, most: float) -> np.ndarray:
     """Penetrations from no contact to the one that carries ``most`` (Pa), in three even pieces."""
-    a, level, K = result.adhesion, result.levels[i], result.material.K
+    a, level, K = result.adhesion, result.levels[i], result.material.at_wavelength(result.levels[i].l).K
     full = saturated_level(result.material, a, level, np.array([V]), result.branch).D_sat[0]
     low = -(2 * a.p_0 / K + (a.delta_0 if a.p_0 > 0 else 0.0))
     # at high speed saturation is far up, and what carries little lives near first contact

@@ -9,6 +9,7 @@ import numpy as np
 
 from .errors import InputError
 from .inputs.checks import choice
+from .inputs.half_space import HalfSpace
 from .inputs.material import StandardLinearSolid
 from .inputs.model import ModelMaterial
 from .inputs.prony import Prony
@@ -22,8 +23,8 @@ _WHY = (
     "displacement leaves all but one of the internal displacements open, so 'continuous' is not determined"
 )
 #: what may be given as a material
-MATERIALS = (StandardLinearSolid, Prony, ModelMaterial)
-Material = StandardLinearSolid | Prony | ModelMaterial
+MATERIALS = (StandardLinearSolid, Prony, HalfSpace, ModelMaterial)
+Material = StandardLinearSolid | Prony | HalfSpace | ModelMaterial
 
 
 class Foundation(Protocol):
@@ -88,7 +89,9 @@ def kernel_of(material) -> ModuleType:
 
 
 def foundation_of(material) -> Foundation:
-    """The material with its solver; with one time it is the standard linear solid, however it was written down."""
+    """The material under one level, with its solver; with one time it is the standard linear solid, however it is written."""
+    if isinstance(material, HalfSpace):
+        raise TypeError("a half-space has a foundation for each level: give its at_wavelength(l)")
     material = _reduced(material)
     if isinstance(material, StandardLinearSolid):
         from .strip.single import SingleTime
@@ -102,7 +105,7 @@ def foundation_of(material) -> Foundation:
 def check_material(material) -> None:
     """``InputError`` unless ``material`` is one."""
     if not isinstance(material, MATERIALS):
-        raise InputError("material", material, "a hystrip.StandardLinearSolid, hystrip.KelvinVoigt or hystrip.Prony")
+        raise InputError("material", material, "a hystrip.StandardLinearSolid, KelvinVoigt, Prony or HalfSpace")
 
 
 def check_edge(material, edge: str) -> str:
@@ -117,7 +120,11 @@ def parameters(material) -> dict[str, Any]:
     """Names and values of a material's parameters, one entry for each number (or array over strips)."""
     if isinstance(material, StandardLinearSolid):
         return {name: getattr(material, name) for name in ("K", "T_eps", "T_sigma")}
-    given = material.given if isinstance(material, ModelMaterial) else {n: getattr(material, n) for n in ("K", "moduli", "times")}
+    if isinstance(material, ModelMaterial):
+        given = material.given
+    else:
+        own = ("E", "nu") if isinstance(material, HalfSpace) else ("K",)
+        given = {n: getattr(material, n) for n in (*own, "moduli", "times")}
     named = {}
     for name, value in given.items():
         named |= {f"{name}[{i}]": each for i, each in enumerate(value)} if isinstance(value, tuple) else {name: value}
@@ -125,4 +132,6 @@ def parameters(material) -> dict[str, Any]:
 
 
 def _reduced(material):
+    if isinstance(material, HalfSpace):  # every level has its times, at another scale
+        material = material.modulus
     return (material.single or material) if isinstance(material, (Prony, ModelMaterial)) else material

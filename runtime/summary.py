@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from .solver import foundation_of, parameters
+from .inputs.half_space import HalfSpace
+from .solver import Foundation, foundation_of, parameters
 from .tables import shares
 
 
@@ -20,12 +21,17 @@ def summary(result: Any) -> str:
 def deborah(result: Any) -> np.ndarray:
     """Deborah number ``k V T_eps`` of every level, (levels, ...): longest retardation time over that of a slide by ``1/k``."""
     k = np.array([level.k for level in result.levels])
-    return np.multiply.outer(k, np.asarray(result.velocity)) * foundation_of(result.material).longest_time
+    return np.multiply.outer(k, np.asarray(result.velocity)) * _foundation(result).longest_time
 
 
 def peak_velocities(result: Any) -> np.ndarray:
     """Velocity, m/s, at which each level rubs most in saturated contact: ``Im K*(kV)`` is greatest; inf for ``T_sigma = 0``."""
-    return np.array([level.l for level in result.levels]) / (2 * np.pi) * foundation_of(result.material).lossiest_rate
+    return np.array([level.l for level in result.levels]) / (2 * np.pi) * _foundation(result).lossiest_rate
+
+
+def _foundation(result: Any) -> Foundation:
+    """That of level 1: those of other levels have the same times."""
+    return foundation_of(result.material.at_wavelength(result.levels[0].l))
 
 
 def _inputs(result: Any) -> list[str]:
@@ -33,16 +39,19 @@ def _inputs(result: Any) -> list[str]:
     sticky = f"gamma = {a.gamma:.4g} J/m^2, delta_0 = {a.delta_0:.4g} m, p_0 = {a.p_0:.4g} Pa" if a.p_0 > 0 else "none"
     panels = "" if result.strips is None else f", level 1 over {result.strips} equal strips"
     return [
-        f"material   {type(m).__name__}: {', '.join(_parameter(*each) for each in parameters(m).items())}",
+        f"material   {type(m).__name__}: {', '.join(_parameter(*each, m) for each in parameters(m).items())}",
         f"adhesion   {sticky}",
         f"closure    {result.edge}, branch {result.branch}, rtol {result.rtol:g}{panels}",
         f"points     {np.size(result.mu)}: pressure {_span(result.pressure, 'Pa')}, velocity {_span(result.velocity, 'm/s')}",
     ]
 
 
-def _parameter(name: str, value: Any) -> str:
+def _parameter(name: str, value: Any, material: Any) -> str:
     """``K = 1e+09 Pa/m``; the unit of what is not known here is left to the model."""
-    unit = {"K": " Pa/m", "moduli": " Pa/m", "T_eps": " s", "T_sigma": " s", "times": " s"}.get(name.partition("[")[0], "")
+    modulus = " Pa" if isinstance(material, HalfSpace) else " Pa/m"
+    unit = {"K": " Pa/m", "E": " Pa", "moduli": modulus, "T_eps": " s", "T_sigma": " s", "times": " s"}.get(
+        name.partition("[")[0], ""
+    )
     return f"{name} = {value:.4g}{unit}"
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -59,6 +60,10 @@ class StandardLinearSolid:
         """Glassy stiffness ``K T_eps/T_sigma``, Pa/m; inf for Kelvin-Voigt."""
         J = self.J
         return np.divide(self.K, J, out=np.full(np.broadcast_shapes(J.shape, np.shape(self.K)), np.inf), where=J > 0)
+
+    def at_wavelength(self, l: Any) -> StandardLinearSolid:  # noqa: E741 - the paper's symbol
+        """The foundation under a level of wavelength ``l``, m: this one, which is local."""
+        return self
 
     def _key(self):
         return (type(self), *(np.asarray(v).tobytes() for v in (self.K, self.T_eps, self.T_sigma)))

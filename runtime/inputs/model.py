@@ -58,6 +58,10 @@ class ModelMaterial:
         T_eps, T_sigma = (float(times[at_work, 0].sum()) for times in (self.modes.beta, self.modes.alpha))
         return StandardLinearSolid(self.K, T_eps, T_sigma)
 
+    def at_wavelength(self, l: Any) -> ModelMaterial:  # noqa: E741 - the paper's symbol
+        """The foundation under a level of wavelength ``l``, m: this one, which is local."""
+        return self
+
     def __setattr__(self, name, value):
         raise AttributeError(f"a material is immutable: {name} cannot be set")
 

@@ -116,6 +116,10 @@ class Prony:
         tau = self.times[0]
         return StandardLinearSolid(self.K, np.asarray(tau) * (1 + np.asarray(self.moduli[0]) / self.K), tau)
 
+    def at_wavelength(self, l: Any) -> Prony:  # noqa: E741 - the paper's symbol
+        """The foundation under a level of wavelength ``l``, m: this one, which is local."""
+        return self
+
     def _key(self):
         return (type(self), *(np.asarray(v).tobytes() for v in (self.K, *self.moduli, *self.times)), id(self.solver))
 

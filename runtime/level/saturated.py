@@ -66,15 +66,17 @@ def saturated_level(
     Unloading leaves saturated contact exactly at ``p_sat``. Loading may reach it later than unloading leaves it, at a penetration
     with no closed form; the threshold given for it is one above which nothing else can be.
     """
-    return SaturatedLevel(foundation_of(material), adhesion.p_0, level, V, branch)
+    return SaturatedLevel(foundation_of(material.at_wavelength(level.l)), adhesion.p_0, level, V, branch)
 
 
 def saturated_friction(material: Material, levels: Sequence[Level], V: np.ndarray) -> np.ndarray:
     """Friction of every level in saturated contact (Eq. 16) at velocities ``V`` (m/s), shape (n,): (levels, n), Pa."""
-    foundation = foundation_of(material)
+    foundations = [foundation_of(material.at_wavelength(level.l)) for level in levels]
+    first, K = foundations[0], np.array([each.K for each in foundations])
     l, h = (np.array([getattr(level, name) for level in levels])[:, None] for name in ("l", "h"))  # noqa: E741
     tau = np.empty((len(levels), V.size))
     for start in range(0, V.size, _BLOCK):
         block = slice(start, start + _BLOCK)
-        tau[:, block] = foundation.saturation_friction(l, h, V[block])
-    return tau
+        tau[:, block] = first.saturation_friction(l, h, V[block])
+    # foundations of different levels differ in scale alone
+    return tau if (K == first.K).all() else tau * (K / first.K)[:, None]

@@ -116,7 +116,7 @@ def solve_level(
     >>> print(f"{float(level.p_mean):.4g} Pa, {float(level.tau_mean):.4g} Pa, {float(level.contact_fraction):.4g}")
     42.54 Pa, 23.53 Pa, 0.4357
     """
-    V, level, edge, branch, rtol = _checked(material, adhesion, level, V, edge, branch, rtol)
+    material, V, level, edge, branch, rtol = _checked(material, adhesion, level, V, edge, branch, rtol)
     if (D is None) == (pressure is None):
         raise InputError("D, pressure", {"D": D, "pressure": pressure}, "exactly one of the two")
     strips = check_strips(strips)
@@ -201,7 +201,7 @@ def friction_law(
     >>> print(law([0, 100, 1e6]).round(1), round(law.p_sat, 1), round(law.tau_sat, 1))
     [ 0.   0.9 90.5] 4912.9 90.5
     """
-    V, level, edge, branch, rtol = _checked(material, adhesion, level, V, edge, branch, rtol)
+    material, V, level, edge, branch, rtol = _checked(material, adhesion, level, V, edge, branch, rtol)
     if V.ndim:
         raise InputError("V", V, "a single number: a finite number >= 0 (m/s)")
     top = None if below is None else np.array([number("below", below, "Pa")])
@@ -230,4 +230,5 @@ def _checked(material, adhesion, level, V, edge, branch, rtol):
     if not isinstance(level, Level):
         raise InputError("level", level, "a hystrip.Level")
     V = numbers("V", V, "m/s", 0)
-    return V, level, check_edge(material, edge), choice("branch", branch, BRANCHES), check_rtol(rtol)
+    edge = check_edge(material, edge)
+    return material.at_wavelength(level.l), V, level, edge, choice("branch", branch, BRANCHES), check_rtol(rtol)

@@ -185,6 +185,7 @@ def solve_strip(
     D = numbers("D", D, "m")
     V = numbers("V", V, "m/s", 0)
     edge, branch = check_edge(material, edge), choice("branch", branch, BRANCHES)
+    material = material.at_wavelength(wavelength)
     shape = broadcast(
         l=wavelength,
         A=A,

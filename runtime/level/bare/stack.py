@@ -61,17 +61,27 @@ class BareStack:
     """The levels at velocities ``V`` (G,), each with its family as far as pressures up to ``p_max`` (Pa, (G,)) on
     level 1 need it.
 
-    ``p_sat``, ``p_full`` (levels, G): saturation of each level by itself, and with all below it. ``d_max`` (G,), where
-    that is what is known of level 1: penetrations in its height.
+    ``stiffness``: K of each level's foundation, Pa/m. ``p_sat``, ``p_full`` (levels, G): saturation of each level by itself,
+    and with all below it. ``d_max`` (G,), where that is what is known of level 1: penetrations in its height.
     """
 
     def __init__(
-        self, foundation: Foundation, levels: Sequence[Wavy], V, p_max, d_max, p_sat, p_full, wanted: Wanted, tally: Tally
+        self,
+        foundation: Foundation,
+        stiffness: Sequence[float],
+        levels: Sequence[Wavy],
+        V,
+        p_max,
+        d_max,
+        p_sat,
+        p_full,
+        wanted: Wanted,
+        tally: Tally,
     ):
         self.foundation, self.waves, self.V, self.p_full, self.wanted, self.tally = foundation, levels, V, p_full, wanted, tally
         self.p_sat = p_sat
         self.groups = np.arange(V.size)
-        self.units = [foundation.K * level.h for level in levels]
+        self.units = [K * level.h for K, level in zip(stiffness, levels, strict=True)]
         self.levels = self._levels(p_max, d_max)
         self.peaks = self._peaks()
         self.ceilings = [p_max]

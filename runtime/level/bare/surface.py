@@ -42,10 +42,12 @@ class BarePoints:
 
 @dataclass(frozen=True)
 class BareSurface:
-    """What points of a surface have in common. ``p_sat``, ``p_full`` (levels, G) at the velocities ``V`` (G,): see
+    """What points of a surface have in common. ``stiffness``: K of each level's foundation, Pa/m, all of the times of
+    ``foundation``. ``p_sat``, ``p_full`` (levels, G) at the velocities ``V`` (G,): see
     ``BareStack``; ``floor``: friction, Pa, that counts beside its own size where ``rtol`` is relative."""
 
     foundation: Foundation
+    stiffness: Sequence[float]
     levels: Sequence[Wavy]
     V: np.ndarray
     p_sat: Sequence[np.ndarray]
@@ -96,6 +98,7 @@ class BareSurface:
         wanted = Wanted(self.rtol * least[0], self.rtol * least[1], self.rtol)
         stack = BareStack(
             self.foundation,
+            self.stiffness[:levels],
             self.levels[:levels],
             self.V[which],
             most,
