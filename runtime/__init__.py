@@ -34,20 +34,24 @@ __all__ = [
     "StandardLinearSolid",
     "StripSolution",
     "Sweep",
+    "dma",
     "friction_law",
     "load_scene",
     "load_solver",
+    "plots",
+    "roughness",
     "solve",
     "solve_level",
     "solve_strip",
     "sweep",
+    "typing",
 ]
 
 
 #: Where a name lives that is loaded when it is first used; scenes need the command-line extra, everything else works without.
 _LAZY = {
     "FrictionLaw": "hystrip.level.solution",
-    "LevelSolution": "hystrip.level.solution",
+    "LevelSolution": "hystrip.level_solution",
     "Result": "hystrip.result",
     "Scene": "hystrip.scene",
     "Sweep": "hystrip.sweeps",
@@ -60,8 +64,13 @@ _LAZY = {
     "sweep": "hystrip.sweeps",
 }
 
+#: subpackages that are there without an import of their own
+_MODULES = ("dma", "plots", "roughness", "typing")
+
 if TYPE_CHECKING:
-    from .level.solution import FrictionLaw, LevelSolution, friction_law, solve_level
+    from . import dma, plots, roughness, typing
+    from .level.solution import FrictionLaw, friction_law, solve_level
+    from .level_solution import LevelSolution
     from .loading import load_solver
     from .result import Result
     from .scene import Scene, load_scene
@@ -69,15 +78,19 @@ if TYPE_CHECKING:
     from .sweeps import Sweep, sweep
 
 
-def __getattr__(name: str):
-    if name not in _LAZY:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    import importlib
+if not TYPE_CHECKING:  # a type checker would take any name for one of ours
 
-    value = getattr(importlib.import_module(_LAZY[name]), name)
-    globals()[name] = value
-    return value
+    def __getattr__(name):
+        import importlib
+
+        if name in _MODULES:
+            return importlib.import_module(f".{name}", __name__)
+        if name not in _LAZY:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        value = getattr(importlib.import_module(_LAZY[name]), name)
+        globals()[name] = value
+        return value
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *_LAZY})
+    return sorted({*globals(), *_LAZY, *_MODULES})

@@ -24,10 +24,10 @@ class Solver:
     def __init__(self, folder: Path, models: dict[str, ModuleType]):
         self.folder, self.models = folder, models
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Solver({str(self.folder)!r}, models={sorted(self.models)})"
 
-    def material(self, model: str | None = None, /, **parameters: Any):
+    def material(self, model: str | None = None, /, **parameters: Any) -> ModelMaterial:
         """Material of one of the models (of the only one by default) with its parameters in SI.
 
         They have the names of ``kernel.MATERIAL``.

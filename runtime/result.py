@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from xarray import Dataset
+
     from .inputs.adhesion import Dugdale
     from .inputs.surface import Level
     from .solver import Material
+    from .typing import Bools, Branch, Edge, Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,32 +37,32 @@ class Result:
         points below pull-off
     """
 
-    mu: np.ndarray
-    tau: np.ndarray
-    tau_by_level: np.ndarray
-    pressure: np.ndarray
-    velocity: np.ndarray
-    penetration: np.ndarray
-    contact_fraction: np.ndarray
-    contact_by_level: np.ndarray
-    adhesion_by_level: np.ndarray
-    pulled_off: np.ndarray
-    closed_form: np.ndarray
-    error_estimate: np.ndarray
-    tau_error: np.ndarray
+    mu: Floats
+    tau: Floats
+    tau_by_level: Floats
+    pressure: Floats
+    velocity: Floats
+    penetration: Floats
+    contact_fraction: Floats
+    contact_by_level: Floats
+    adhesion_by_level: Floats
+    pulled_off: Bools
+    closed_form: Bools
+    error_estimate: Floats
+    tau_error: Floats
     counts: dict[str, int]
     material: Material = field(repr=False)
     adhesion: Dugdale = field(repr=False)
     levels: tuple[Level, ...] = field(repr=False)
-    edge: str
-    branch: str
+    edge: Edge
+    branch: Branch
     rtol: float
     strips: int | None = None
-    load: str = "pressure"
+    load: Literal["pressure", "penetration"] = "pressure"
     scene: str = field(default="", repr=False)
 
     @cached_property
-    def p_sat(self) -> np.ndarray:
+    def p_sat(self) -> Floats:
         """Nominal pressure from which level 1 is in saturated contact, Pa; on the loading branch one that suffices.
         Shape of ``mu``."""
         from .level.saturated import saturated_level
@@ -68,7 +70,7 @@ class Result:
         V = self.velocity.ravel()
         return saturated_level(self.material, self.adhesion, self.levels[0], V, self.branch).p_sat.reshape(self.velocity.shape)
 
-    def to_dataset(self) -> Any:
+    def to_dataset(self) -> Dataset:
         """The result as an xarray Dataset: labelled dimensions, units, long names, inputs and versions in the attributes.
 
         Needs the extra ``dataset``. ``to_netcdf(path, engine="h5netcdf")`` writes it.
@@ -83,7 +85,7 @@ class Result:
 
         return summary(self)
 
-    def plot(self) -> Any:
+    def plot(self) -> Figure:
         """A matplotlib Figure of mu over velocity (over the load if there is one velocity) with every level's part.
 
         Needs the extra ``plot``; ``hystrip.plots.save(figure, path)`` writes it.

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
@@ -15,25 +15,38 @@ from .inputs.surface import Level
 from .solver import check_edge
 
 if TYPE_CHECKING:
+    from typing import Unpack
+
     from .multilevel import Surface
     from .result import Result
     from .solver import Material
+    from .typing import Branch, Edge, Numbers, Options, Progress
 
 
+@overload
+def solve(
+    material: Material, adhesion: Dugdale, levels: Sequence[Level] | Level, *,
+    pressure: Numbers, penetration: None = None, velocity: Numbers, **options: Unpack[Options],
+) -> Result: ...  # fmt: skip
+@overload
+def solve(
+    material: Material, adhesion: Dugdale, levels: Sequence[Level] | Level, *,
+    pressure: None = None, penetration: Numbers, velocity: Numbers, **options: Unpack[Options],
+) -> Result: ...  # fmt: skip
 def solve(
     material: Material,
     adhesion: Dugdale,
-    levels: Sequence[Level],
+    levels: Sequence[Level] | Level,
     *,
-    pressure=None,
-    penetration=None,
-    velocity,
-    edge: str = "continuous",
-    branch: str = "unloading",
+    pressure: Numbers | None = None,
+    penetration: Numbers | None = None,
+    velocity: Numbers,
+    edge: Edge = "continuous",
+    branch: Branch = "unloading",
     rtol: float = 1e-6,
     strips: int | None = None,
     skip: bool = True,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Result:
     """Friction coefficient of a multilevel surface (Eqs. 11-14).
 

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any, overload
+
 import numpy as np
 
 from ..errors import InputError
-from .checks import LARGEST, broadcast, numbers
+from .checks import LARGEST, SMALLEST, broadcast, numbers
+
+if TYPE_CHECKING:
+    from ..typing import Numbers
 
 
 class Dugdale:
     """Dugdale adhesion: traction ``-p_0`` for ``0 < gap <= delta_0``, zero beyond (Eq. 2), ``gamma = p_0 delta_0`` (Eq. 3).
 
-    Give two of the three; ``gamma=0`` or ``p_0=0`` alone means no adhesion.
+    Give two of the three, the third follows; ``gamma=0`` or ``p_0=0`` alone means no adhesion.
 
     Parameters
     ----------
@@ -23,38 +28,44 @@ class Dugdale:
 
     >>> Dugdale(gamma=2.5e-5, delta_0=1e-8).p_0
     2500.0
+    >>> Dugdale(gamma=2.5e-5, p_0=2500.0).delta_0
+    1e-08
     """
 
     __slots__ = ("gamma", "p_0", "delta_0")
 
-    def __init__(self, gamma=None, delta_0=None, p_0=None):
+    # a number, or an array where it was given arrays
+    gamma: Any
+    p_0: Any
+    delta_0: Any
+
+    @overload
+    def __init__(self, gamma: Numbers, delta_0: Numbers | None = None, p_0: None = None) -> None: ...
+    @overload
+    def __init__(self, gamma: Numbers, *, p_0: Numbers) -> None: ...
+    @overload
+    def __init__(self, *, p_0: Numbers, delta_0: Numbers | None = None) -> None: ...
+    def __init__(self, gamma: Numbers | None = None, delta_0: Numbers | None = None, p_0: Numbers | None = None):
         given = {"gamma": gamma, "p_0": p_0, "delta_0": delta_0}
         units = {"gamma": "N/m", "p_0": "Pa", "delta_0": "m"}
         values = {n: numbers(f"adhesion.{n}", v, units[n], 0) for n, v in given.items() if v is not None}
         broadcast(**{f"adhesion.{n}": v for n, v in values.items()})
-        strength = [n for n in ("gamma", "p_0") if n in values]
-        if len(strength) != 1:
+        if set(values) == {"gamma", "p_0"}:
+            values["delta_0"] = _range(values["gamma"], values["p_0"])
+        elif len(values) == 3 or "delta_0" in values and len(values) == 1 or not values:
             shown = {n: v for n, v in given.items() if v is not None}
-            raise InputError("adhesion", shown, "either gamma (N/m) or p_0 (Pa), with delta_0 (m)")
-        name = strength[0]
-        value = values[name]
-        delta = values.get("delta_0")
-        if delta is None:
-            if value.any():
-                raise InputError("adhesion.delta_0", None, "a finite number > 0 (m), since there is adhesion")
-            delta = np.zeros(value.shape)
+            raise InputError("adhesion", shown, "two of the three: gamma (N/m), p_0 (Pa), delta_0 (m)")
+        value = values["gamma" if "gamma" in values else "p_0"]
+        delta = values.get("delta_0", np.zeros(value.shape))
+        if "delta_0" not in values and value.any():
+            raise InputError("adhesion.delta_0", None, "a finite number > 0 (m), since there is adhesion")
         value, delta = np.broadcast_arrays(value, delta)
         if ((value > 0) & (delta == 0)).any():
             raise InputError("adhesion.delta_0", 0.0, "a finite number > 0 (m), since there is adhesion")
-        with np.errstate(over="ignore"):  # refused below, by name
-            p = np.divide(value, delta, out=np.zeros(value.shape), where=delta > 0) if name == "gamma" else value
-        beyond = p > LARGEST
-        if beyond.any():
-            allowed = f"gamma/delta_0 must be a traction up to {LARGEST:g} Pa"
-            raise InputError("adhesion.gamma", float(value[beyond].flat[0]), allowed)
+        p = np.broadcast_to(values["p_0"], value.shape) if "p_0" in values else _traction(value, delta)
         self._set("p_0", p)
         self._set("delta_0", delta)
-        self._set("gamma", value if name == "gamma" else p * delta)
+        self._set("gamma", value if "gamma" in values else p * delta)
 
     def _set(self, name, value):
         object.__setattr__(self, name, float(value) if np.ndim(value) == 0 else np.asarray(value))
@@ -63,7 +74,7 @@ class Dugdale:
         raise AttributeError(f"Dugdale is immutable: {name} cannot be set")
 
     def __reduce__(self):
-        return _rebuild, (self.p_0, self.delta_0)
+        return _rebuild, (self.gamma, self.p_0, self.delta_0)
 
     def __repr__(self):
         return f"Dugdale(gamma={self.gamma!r}, delta_0={self.delta_0!r})"
@@ -78,5 +89,35 @@ class Dugdale:
         return hash(self._key())
 
 
-def _rebuild(p_0, delta_0):
-    return Dugdale(p_0=p_0, delta_0=delta_0)
+def _traction(gamma: np.ndarray, delta: np.ndarray) -> np.ndarray:
+    """``gamma/delta_0``, Pa; zero without adhesion."""
+    with np.errstate(over="ignore"):  # refused below, by name
+        p = np.divide(gamma, delta, out=np.zeros(gamma.shape), where=delta > 0)
+    beyond = p > LARGEST
+    if beyond.any():
+        raise InputError("adhesion.gamma", float(gamma[beyond].flat[0]), f"gamma/delta_0 must be a traction up to {LARGEST:g} Pa")
+    return p
+
+
+def _range(gamma: np.ndarray, p_0: np.ndarray) -> np.ndarray:
+    """``gamma/p_0``, m; zero without adhesion."""
+    gamma, p_0 = np.broadcast_arrays(gamma, p_0)
+    one = (gamma > 0) != (p_0 > 0)
+    if one.any():
+        allowed = "gamma = p_0 delta_0: both zero, or both above zero"
+        raise InputError("adhesion.gamma, adhesion.p_0", (float(gamma[one].flat[0]), float(p_0[one].flat[0])), allowed)
+    with np.errstate(over="ignore", under="ignore"):  # refused below, by name
+        delta = np.divide(gamma, p_0, out=np.zeros(gamma.shape), where=p_0 > 0)
+    beyond = (delta > LARGEST) | ((delta < SMALLEST) & (gamma > 0))
+    if beyond.any():
+        allowed = f"gamma/p_0 must be a range from {SMALLEST:g} to {LARGEST:g} m"
+        raise InputError("adhesion.gamma", float(gamma[beyond].flat[0]), allowed)
+    return delta
+
+
+def _rebuild(gamma: Any, p_0: Any, delta_0: Any) -> Dugdale:
+    """An equal law, to the bit: unpickled, or read from a file."""
+    law = object.__new__(Dugdale)
+    for name, value in (("gamma", gamma), ("p_0", p_0), ("delta_0", delta_0)):
+        law._set(name, value)
+    return law

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import InputError
 from .checks import number, numbers
 from .prony import Prony
+
+if TYPE_CHECKING:
+    from ..loading import Solver
+    from ..typing import Floats, Number, Numbers
 
 #: stiffness under Eq. 4 over that under one wave: ``(1/2 + sqrt(2)/4)/(3/4)``
 SHAPE = (0.5 + 0.25 * np.sqrt(2)) / 0.75
@@ -45,11 +50,22 @@ class HalfSpace:
 
     E: float
     nu: float
-    moduli: Any = ()
-    times: Any = ()
-    solver: Any = field(default=None, repr=False)
+    moduli: tuple[float, ...] = ()
+    times: tuple[float, ...] = ()
+    solver: Solver | None = field(default=None, repr=False)
 
-    def __post_init__(self):
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            E: Number,
+            nu: Number,
+            moduli: Sequence[Number] | Floats = ...,
+            times: Sequence[Number] | Floats = ...,
+            solver: Solver | None = None,
+        ) -> None: ...
+
+    def __post_init__(self) -> None:
         E = number("material.E", self.E, "Pa", 0, strict=True)
         nu = number("material.nu", self.nu, "", 0)
         if nu > 0.5:
@@ -74,7 +90,7 @@ class HalfSpace:
         """The modulus as a Prony series, in Pa: the times of every level's foundation, at another scale."""
         return Prony(self.E, self.moduli, self.times, self.solver)
 
-    def at_wavelength(self, l: Any) -> Prony:  # noqa: E741 - the paper's symbol
+    def at_wavelength(self, l: Numbers) -> Prony:  # noqa: E741 - the paper's symbol
         """The foundation under a level of wavelength ``l``, m, > 0; an array gives a foundation for each strip."""
         return self._at(float(l)) if np.ndim(l) == 0 else self._foundation(numbers("l", l, "m", 0, strict=True))
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import InputError
 from .checks import broadcast, numbers
+
+if TYPE_CHECKING:
+    from ..typing import Floats, Numbers
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,11 +30,16 @@ class StandardLinearSolid:
     100000000000.0
     """
 
-    K: float
-    T_eps: float
-    T_sigma: float
+    # a float, or an array where it was given arrays
+    K: Any
+    T_eps: Any
+    T_sigma: Any
 
-    def __post_init__(self):
+    if TYPE_CHECKING:
+
+        def __init__(self, K: Numbers, T_eps: Numbers, T_sigma: Numbers) -> None: ...
+
+    def __post_init__(self) -> None:
         K = numbers("material.K", self.K, "Pa/m", 0, strict=True)
         T_eps = numbers("material.T_eps", self.T_eps, "s", 0)
         T_sigma = numbers("material.T_sigma", self.T_sigma, "s", 0)
@@ -44,19 +52,19 @@ class StandardLinearSolid:
             object.__setattr__(self, name, float(value) if value.ndim == 0 else value)
 
     @property
-    def J(self):
+    def J(self) -> Floats:
         """Instantaneous compliance times K, ``T_sigma/T_eps``; 1 for an elastic foundation (both times zero)."""
         T_eps, T_sigma = np.broadcast_arrays(self.T_eps, self.T_sigma)
         return np.divide(T_sigma, T_eps, out=np.ones(T_eps.shape), where=T_eps > 0)
 
     @property
-    def L(self):
+    def L(self) -> Floats:
         """``1 - J = (T_eps - T_sigma)/T_eps``, without the cancellation of the difference."""
         T_eps, T_sigma = np.broadcast_arrays(self.T_eps, self.T_sigma)
         return np.divide(T_eps - T_sigma, T_eps, out=np.zeros(T_eps.shape), where=T_eps > 0)
 
     @property
-    def K_glassy(self):
+    def K_glassy(self) -> Floats:
         """Glassy stiffness ``K T_eps/T_sigma``, Pa/m; inf for Kelvin-Voigt."""
         J = self.J
         return np.divide(self.K, J, out=np.full(np.broadcast_shapes(J.shape, np.shape(self.K)), np.inf), where=J > 0)
@@ -93,4 +101,8 @@ class KelvinVoigt(StandardLinearSolid):
     KelvinVoigt(K=1000000000.0, T_eps=0.01)
     """
 
-    T_sigma: float = field(default=0.0, init=False, repr=False)
+    T_sigma: Any = field(default=0.0, init=False, repr=False)
+
+    if TYPE_CHECKING:
+
+        def __init__(self, K: Numbers, T_eps: Numbers) -> None: ...

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import InputError
 from .checks import broadcast, numbers
 from .material import StandardLinearSolid
+
+if TYPE_CHECKING:
+    from ..loading import Solver
+    from ..typing import Floats, Number, Numbers
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,12 +41,23 @@ class Prony:
     Prony(K=1000000000.0, moduli=(7000000000.0,), times=(0.001,))
     """
 
+    # floats, or arrays where it was given arrays
     K: Any
-    moduli: Any
-    times: Any
-    solver: Any = field(default=None, repr=False)
+    moduli: tuple[Any, ...]
+    times: tuple[Any, ...]
+    solver: Solver | None = field(default=None, repr=False)
 
-    def __post_init__(self):
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            K: Numbers,
+            moduli: Sequence[Numbers] | Floats,
+            times: Sequence[Numbers] | Floats,
+            solver: Solver | None = None,
+        ) -> None: ...
+
+    def __post_init__(self) -> None:
         K = numbers("material.K", self.K, "Pa/m", 0, strict=True)
         moduli = _each("material.moduli", self.moduli, "Pa/m", strict=False)
         times = _each("material.times", self.times, "s", strict=True)
@@ -62,7 +78,13 @@ class Prony:
             object.__setattr__(self, name, value)
 
     @classmethod
-    def from_retardation(cls, K_glassy, compliances, times, solver=None) -> Prony:
+    def from_retardation(
+        cls,
+        K_glassy: Number,
+        compliances: Sequence[Number] | Floats,
+        times: Sequence[Number] | Floats,
+        solver: Solver | None = None,
+    ) -> Prony:
         """The same foundation from its retardation form: ``J(t) = 1/K_glassy + sum_j J_j (1 - exp(-t/lambda_j))``.
 
         Parameters
@@ -91,7 +113,7 @@ class Prony:
         return len(self.times)
 
     @property
-    def K_glassy(self):
+    def K_glassy(self) -> Any:
         """Glassy stiffness ``K + sum K_i``, Pa/m."""
         return self.K + sum(self.moduli)
 

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .checks import number
+from .checks import number, numbers
+
+if TYPE_CHECKING:
+    from ..typing import Floats, Numbers
 
 
 @dataclass(frozen=True)
@@ -36,10 +40,31 @@ class Level:
         """Wave number, 1/m."""
         return 2 * np.pi / self.l
 
-    def amplitude(self, theta):
+    def amplitude(self, theta: Numbers) -> Floats:
         """Amplitude A of the strip at ``theta = k y`` (Eq. 8), m: zero at ``theta = pi``."""
         return 0.5 * self.h * np.cos(0.5 * theta) ** 2
 
-    def drop(self, theta):
+    def drop(self, theta: Numbers) -> Floats:
         """Depth by which the strip's crest lies below the level's, ``(h/2)(1 - cos ky)`` (Eq. 8), m."""
         return self.h * np.sin(0.5 * theta) ** 2
+
+    def strip(self, y: Numbers, D: Numbers) -> tuple[Floats, Floats]:
+        """Amplitude A and penetration D_j of the strip at ``y`` (m) where the level is pressed in by ``D`` (m) (Eq. 8), m.
+
+        ``solve_strip(..., l=level.l, A=A, D=D_j)`` solves it. Raises ``InputError`` for what is no number.
+
+        >>> A, D_j = Level(l=10e-6, h=1e-6).strip(y=2.5e-6, D=6e-7)
+        >>> print(f"{A:.3g} {D_j:.3g}")
+        2.5e-07 1e-07
+        """
+        theta = self.k * numbers("y", y, "m")
+        return self.amplitude(theta), numbers("D", D, "m") - self.drop(theta)
+
+    def profile(self, x: Numbers, y: Numbers) -> Floats:
+        """Height f of the gap between the level's crest and its surface at (x, y), m (Eq. 4): zero at crests, h in valleys.
+
+        >>> round(float(Level(l=10e-6, h=1e-6).profile(5e-6, 0.0)), 9)
+        1e-06
+        """
+        x, y = numbers("x", x, "m"), numbers("y", y, "m")
+        return self.h * (1 - np.cos(0.5 * self.k * x) ** 2 * np.cos(0.5 * self.k * y) ** 2)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from ..errors import InputError
 from ..inputs.adhesion import Dugdale
 from ..inputs.checks import broadcast, choice, number, numbers
 from ..inputs.surface import Level
+from ..level_solution import Inputs, LevelSolution
 from ..solver import Material, check_edge, foundation_of
 from ..strip.solution import BRANCHES
 from .bare.points import bare_means
@@ -22,23 +24,10 @@ from .means import level_means
 from .saturated import saturated_level
 from .strips import QUANTITIES, Columns, Tally
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
-@dataclass(frozen=True, eq=False)
-class LevelSolution:
-    """Means of a level; arrays have the broadcast shape of V and D (or pressure), SI units.
-
-    ``D`` and means are NaN and zero below pull-off (``pulled_off``). ``error_estimate``: of ``p_mean``, ``tau_mean``,
-    ``contact_fraction``, ``adhesion_fraction``, absolute, shape (4, ...). ``strips``: strips evaluated, in all.
-    """
-
-    D: np.ndarray
-    p_mean: np.ndarray
-    tau_mean: np.ndarray
-    contact_fraction: np.ndarray
-    adhesion_fraction: np.ndarray
-    error_estimate: np.ndarray
-    pulled_off: np.ndarray
-    strips: int
+    from ..typing import Branch, Edge, Floats, Numbers
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +47,7 @@ class FrictionLaw:
     _law: Law = field(repr=False)
 
     @property
-    def breaks(self) -> np.ndarray:
+    def breaks(self) -> Floats:
         """Pressures, Pa, ascending, at which the law jumps or is not smooth."""
         return self._law.breaks
 
@@ -67,15 +56,15 @@ class FrictionLaw:
         """Strips that were evaluated to build the law."""
         return self._law.strips
 
-    def __call__(self, p):
+    def __call__(self, p: Numbers) -> Floats:
         """Friction stress at nominal pressure ``p`` (Pa), same shape."""
         return self._evaluate(p, 1)
 
-    def contact_fraction(self, p):
+    def contact_fraction(self, p: Numbers) -> Floats:
         """Contact fraction at nominal pressure ``p`` (Pa), same shape."""
         return self._evaluate(p, 2)
 
-    def plot(self):
+    def plot(self) -> Figure:
         """A matplotlib Figure of friction stress and contact fraction over nominal pressure. Needs the extra ``plot``."""
         from ..plots import law_over_pressure
 
@@ -88,16 +77,26 @@ class FrictionLaw:
         return self._law(p.ravel())[:, quantity].reshape(p.shape)[()]
 
 
+@overload
+def solve_level(
+    material: Material, adhesion: Dugdale, level: Level, *, V: Numbers, D: Numbers, pressure: None = None,
+    edge: Edge = ..., branch: Branch = ..., rtol: float = ..., strips: int | None = None,
+) -> LevelSolution: ...  # fmt: skip
+@overload
+def solve_level(
+    material: Material, adhesion: Dugdale, level: Level, *, V: Numbers, D: None = None, pressure: Numbers,
+    edge: Edge = ..., branch: Branch = ..., rtol: float = ..., strips: None = None,
+) -> LevelSolution: ...  # fmt: skip
 def solve_level(
     material: Material,
     adhesion: Dugdale,
     level: Level,
     *,
-    V,
-    D=None,
-    pressure=None,
-    edge: str = "continuous",
-    branch: str = "unloading",
+    V: Numbers,
+    D: Numbers | None = None,
+    pressure: Numbers | None = None,
+    edge: Edge = "continuous",
+    branch: Branch = "unloading",
     rtol: float = 1e-9,
     strips: int | None = None,
 ) -> LevelSolution:
@@ -128,8 +127,9 @@ def solve_level(
     shape = broadcast(**{"V": V, name: load})
     V, load = (np.broadcast_to(v, shape).ravel() for v in (V, load))
     tally = Tally()
+    inputs = Inputs(material, adhesion, level, V.reshape(shape), edge, branch, rtol, strips)
     if pressure is not None:
-        return _at_pressure(material, adhesion, level, V, load, edge, branch, rtol, shape, tally)
+        return _at_pressure(inputs, V, load, shape, tally)
     columns = Columns(material, adhesion, level, edge, branch, V, load, strips=strips, tally=tally)
     values, errors = np.zeros((2, V.size, len(QUANTITIES)))
     rest = np.arange(V.size)
@@ -139,10 +139,13 @@ def solve_level(
     if rest.size:
         means = level_means(columns.at(rest, load[rest]), np.full(rest.size, rtol))
         values[rest], errors[rest] = means.values, means.errors
-    return _solution(load, values, errors, np.zeros(V.size, bool), shape, tally)
+    return _solution(inputs, load, values, errors, np.zeros(V.size, bool), shape, tally)
 
 
-def _at_pressure(material, adhesion, level, V, p, edge, branch, rtol, shape, tally):
+def _at_pressure(inputs, V, p, shape, tally):
+    material, adhesion, level, edge, branch, rtol = (
+        inputs.material, inputs.adhesion, inputs.level, inputs.edge, inputs.branch, inputs.rtol,
+    )  # fmt: skip
     columns = Columns(material, adhesion, level, edge, branch, V, np.zeros(V.size), tally=tally)
     s = saturated_level(material, adhesion, level, V, branch)
     D = np.where(p >= s.p_sat, p / material.K + 0.75 * level.h, np.nan)
@@ -170,14 +173,13 @@ def _at_pressure(material, adhesion, level, V, p, edge, branch, rtol, shape, tal
     miss = np.abs(values[on, 0] - p[on])
     errors[on, 0] += miss
     errors[on, 1] += np.abs(slopes[on]) * errors[on, 0]
-    return _solution(D, values, errors, off, shape, tally)
+    return _solution(inputs, D, values, errors, off, shape, tally)
 
 
-def _solution(D, values, errors, off, shape, tally):
+def _solution(inputs, D, values, errors, off, shape, tally):
     columns = [values[:, i].reshape(shape) for i in range(len(QUANTITIES))]
-    return LevelSolution(
-        D.reshape(shape), *columns, errors.T.reshape(len(QUANTITIES), *shape), off.reshape(shape), tally.solved + tally.decided
-    )
+    errors = errors.T.reshape(len(QUANTITIES), *shape)
+    return LevelSolution(D.reshape(shape), *columns, errors, off.reshape(shape), tally.solved + tally.decided, inputs)
 
 
 def friction_law(
@@ -185,9 +187,9 @@ def friction_law(
     adhesion: Dugdale,
     level: Level,
     *,
-    V,
-    edge: str = "continuous",
-    branch: str = "unloading",
+    V: float,
+    edge: Edge = "continuous",
+    branch: Branch = "unloading",
     rtol: float = 1e-6,
     below: float | None = None,
 ) -> FrictionLaw:

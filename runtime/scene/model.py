@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
+if TYPE_CHECKING:
+    from ..inputs.adhesion import Dugdale
+    from ..inputs.surface import Level
+    from ..result import Result
+    from ..solver import Material
+    from ..typing import Branch, Edge, Floats, Progress
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,25 +35,25 @@ class Scene:
     name: str
     title: str
     description: str
-    material: Any
-    adhesion: Any
-    levels: tuple[Any, ...]
-    pressure: np.ndarray | None
-    penetration: np.ndarray | None
-    velocity: np.ndarray
-    edge: str
-    branch: str
+    material: Material
+    adhesion: Dugdale
+    levels: tuple[Level, ...]
+    pressure: Floats | None
+    penetration: Floats | None
+    velocity: Floats
+    edge: Edge
+    branch: Branch
     rtol: float
     strips: int | None
     text: str
     source: str = ""
 
     @property
-    def load(self) -> tuple[str, np.ndarray]:
+    def load(self) -> tuple[Literal["pressure", "penetration"], Floats]:
         """``("pressure", values)`` or ``("penetration", values)``, whichever the scene gives."""
         return ("penetration", self.penetration) if self.pressure is None else ("pressure", self.pressure)
 
-    def solve(self, progress: Callable[[int, int], None] | None = None) -> Any:
+    def solve(self, progress: Progress | None = None) -> Result:
         """Solve every combination of load and velocity.
 
         Parameters

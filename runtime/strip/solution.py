@@ -21,7 +21,11 @@ from .solved import Solved
 
 BRANCHES = ("unloading", "loading")
 if TYPE_CHECKING:
+    import numpy.typing as npt
+    from matplotlib.figure import Figure
+
     from ..solver import Material
+    from ..typing import Branch, Edge, Floats, Numbers
 #: beyond this alpha and beta squared overflow
 _GROUP_LIMIT = 1e150
 
@@ -40,47 +44,47 @@ class StripSolution:
     edge, branch : the edge closure and the branch that was asked for
     """
 
-    edge: str
-    branch: str
+    edge: Edge
+    branch: Branch
     _strips: Any = field(repr=False)
     _solved: Solved = field(repr=False)
     _scales: dict = field(repr=False)
     _foundation: Foundation = field(repr=False)
 
     @cached_property
-    def p_mean(self) -> np.ndarray:
+    def p_mean(self) -> Floats:
         return self._out(self._solved.p_mean) * self._scales["p"]
 
     @cached_property
-    def tau_mean(self) -> np.ndarray:
+    def tau_mean(self) -> Floats:
         return self._out(self._solved.tau_mean) * self._scales["p"] * self._scales["k"] * self._scales["A"]
 
     @cached_property
-    def contact_fraction(self) -> np.ndarray:
+    def contact_fraction(self) -> Floats:
         return self._out(self._solved.contact_fraction)
 
     @cached_property
-    def adhesion_fraction(self) -> np.ndarray:
+    def adhesion_fraction(self) -> Floats:
         return self._out(self._solved.adhesion_fraction)
 
     @cached_property
-    def regime(self) -> np.ndarray:
+    def regime(self) -> npt.NDArray[np.str_]:
         return self._out(SEQUENCES[self._solved.code])
 
     @cached_property
-    def a(self) -> np.ndarray:
+    def a(self) -> Floats:
         return self._edge(self._solved.a)
 
     @cached_property
-    def b(self) -> np.ndarray:
+    def b(self) -> Floats:
         return self._edge(-self._solved.b)
 
     @cached_property
-    def c(self) -> np.ndarray:
+    def c(self) -> Floats:
         return self._edge(self._solved.c)
 
     @cached_property
-    def d(self) -> np.ndarray:
+    def d(self) -> Floats:
         return self._edge(-self._solved.d)
 
     def _out(self, flat: np.ndarray) -> np.ndarray:
@@ -90,29 +94,29 @@ class StripSolution:
         return self._out(phase) * (1 / self._scales["k"])
 
     @property
-    def regime_name(self) -> np.ndarray:
+    def regime_name(self) -> npt.NDArray[np.object_]:
         """Names of the regimes in words, same shape as ``regime``."""
         return np.vectorize(REGIMES.__getitem__, otypes=[object])(self.regime)
 
-    def pressure(self, x) -> np.ndarray:
+    def pressure(self, x: Numbers) -> Floats:
         """Pressure at x, Pa. ``x`` (m) broadcasts against the strips. At an edge: the value on the side a material point meets
         later."""
         p, _, scales = self._fields(x)
         return p * scales["p"]
 
-    def gap(self, x) -> np.ndarray:
+    def gap(self, x: Numbers) -> Floats:
         """Gap between foundation and rigid profile at x, m; zero in contact. ``x`` (m) broadcasts against the strips."""
         _, gap, scales = self._fields(x)
         return gap * scales["length"]
 
-    def displacement(self, x) -> np.ndarray:
+    def displacement(self, x: Numbers) -> Floats:
         """Displacement w of the foundation at x, m, positive into the foundation. ``x`` (m) broadcasts against the strips."""
         x = numbers("x", x, "m")
         k, A, D = (self._scales[n] for n in ("k", "A", "D"))
         profile = D - 2 * A * np.sin(0.5 * k * x) ** 2
         return self.gap(x) + profile
 
-    def plot(self):
+    def plot(self) -> Figure:
         """A matplotlib Figure of pressure, foundation and profile of a single strip. Needs the extra ``plot``."""
         from ..plots import strip_fields
 
@@ -140,12 +144,12 @@ def solve_strip(
     material: Material,
     adhesion: Dugdale,
     *,
-    l,  # noqa: E741 - the paper's symbol
-    A,
-    D,
-    V,
-    edge: str = "continuous",
-    branch: str = "unloading",
+    l: Numbers,  # noqa: E741 - the paper's symbol
+    A: Numbers,
+    D: Numbers,
+    V: Numbers,
+    edge: Edge = "continuous",
+    branch: Branch = "unloading",
 ) -> StripSolution:
     """Steady sliding of strips over the foundation, solved as one batch.
 

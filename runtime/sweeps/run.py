@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -19,6 +19,11 @@ from .batch import Task, outputs, solve_batch
 from .executors import dask, local, lost
 from .plan import Plan, plan_of
 from .store import Store
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from ..typing import Numbers, Progress
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +49,7 @@ class Sweep:
         """Reasons of the points that could not be solved."""
         return {row: reason for row, reason in enumerate(self.columns["failed"]) if reason}
 
-    def to_dataset(self) -> Any:
+    def to_dataset(self) -> Dataset:
         """The sweep as an xarray Dataset: one dimension for every swept quantity of a grid, ``point`` for a list."""
         from .dataset import to_dataset
 
@@ -54,16 +59,16 @@ class Sweep:
 def sweep(
     scene: str | os.PathLike[str],
     *,
-    over: dict[str, Any] | None = None,
+    over: Mapping[str, Numbers] | None = None,
     out: str | os.PathLike[str] = "hystrip-out",
-    combine: str | None = None,
+    combine: Literal["grid", "list"] | None = None,
     batch: int | None = None,
     workers: int = 1,
     executor: Executor | None = None,
     scheduler: str | None = None,
     restart: bool = False,
     allow_solver: bool = False,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Progress | None = None,
 ) -> Sweep:
     """Solve a scene over all lists and ranges in it. Killed at any moment and called again, it goes on where it was.
 
@@ -104,7 +109,7 @@ def sweep(
         values = validated(parse_toml(text))
         resolve_solver(values, os.fspath(scene), allow_solver)
     with located(os.fspath(scene)) if not over else contextlib.nullcontext():
-        plan = plan_of(values, name, text, over or {}, combine, batch)
+        plan = plan_of(values, name, text, dict(over or {}), combine, batch)
     out = Path(out)
     refuse_unwritable(out, "--out")
     if executor is not None and not hasattr(executor, "submit"):

@@ -1,0 +1,46 @@
+"""What ``hystrip.solve_level`` returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .inputs.adhesion import Dugdale
+    from .inputs.surface import Level
+    from .solver import Material
+    from .typing import Bools, Branch, Edge, Floats
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """What a level was solved with; ``velocity`` has the shape of the solution, m/s."""
+
+    material: Material
+    adhesion: Dugdale
+    level: Level
+    velocity: Floats
+    edge: Edge
+    branch: Branch
+    rtol: float
+    strips: int | None
+
+
+@dataclass(frozen=True, eq=False)
+class LevelSolution:
+    """Means of a level; arrays have the broadcast shape of V and D (or pressure), SI units.
+
+    ``D`` and means are NaN and zero below pull-off (``pulled_off``). ``error_estimate``: of ``p_mean``, ``tau_mean``,
+    ``contact_fraction``, ``adhesion_fraction``, absolute, shape (4, ...). ``strips``: strips evaluated, in all.
+    ``inputs``: the material, the adhesion, the level, the velocities and the options it was solved with.
+    """
+
+    D: Floats
+    p_mean: Floats
+    tau_mean: Floats
+    contact_fraction: Floats
+    adhesion_fraction: Floats
+    error_estimate: Floats
+    pulled_off: Bools
+    strips: int
+    inputs: Inputs = field(repr=False)
