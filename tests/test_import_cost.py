@@ -19,7 +19,7 @@ HEAVY = (
     "distributed",
     "SurfaceTopography",
 )
-LIMIT = 0.030  # seconds over numpy's own import
+LIMIT = 0.030  # seconds of processor time over numpy's own import: what else runs on the machine does not count
 
 
 def run(code):
@@ -32,7 +32,7 @@ def test_nothing_heavy_is_loaded():
 
 
 def test_cost_over_numpy():
-    code = "import time, numpy; start = time.perf_counter(); import hystrip; print(time.perf_counter() - start)"
+    code = "import time, numpy; start = time.process_time(); import hystrip; print(time.process_time() - start)"
     run(code)  # byte code is compiled at the first
     seconds = [float(run(code)) for _ in range(9)]
     assert statistics.median(seconds) <= LIMIT, seconds
