@@ -1,9 +1,9 @@
 """Run time against error: this solver, the paper's method, a script, a march and Tamaas, on the same scenes, in one run.
 
-    python tools/benchmark.py [--quick] [--resume] [--only fig] [--out benchmark] [--readme README.md]
+    python tools/benchmark.py [--quick] [--resume] [--only fig] [--out benchmark] [--readme tools/docs/accuracy.md]
 
 Writes OUT.csv (every measurement, as it comes), OUT.png (error over time, a panel for each scene) and OUT.md (a table of time by
-error, what the measurements say, and every setting), and puts table and findings between the two marks in the README if one is
+error, what the measurements say, and every setting), and puts table and findings between the two marks of a page if one is
 given. ``--resume`` goes on with an OUT.csv of the same code.
 
 Times are processor time of one thread, medians where a run is short. Errors are of the friction, the largest over the points
