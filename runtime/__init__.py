@@ -55,12 +55,12 @@ _LAZY = {
     "Result": "hystrip.result",
     "Scene": "hystrip.scene",
     "Sweep": "hystrip.sweeps",
-    "StripSolution": "hystrip.strip.solution",
+    "StripSolution": "hystrip.orbit.solution",
     "friction_law": "hystrip.level.solution",
     "load_scene": "hystrip.scene",
     "load_solver": "hystrip.loading",
     "solve_level": "hystrip.level.solution",
-    "solve_strip": "hystrip.strip.solution",
+    "solve_strip": "hystrip.orbit.solution",
     "sweep": "hystrip.sweeps",
 }
 
@@ -72,9 +72,9 @@ if TYPE_CHECKING:
     from .level.solution import FrictionLaw, friction_law, solve_level
     from .level_solution import LevelSolution
     from .loading import load_solver
+    from .orbit.solution import StripSolution, solve_strip
     from .result import Result
     from .scene import Scene, load_scene
-    from .strip.solution import StripSolution, solve_strip
     from .sweeps import Sweep, sweep
 
 

@@ -10,10 +10,10 @@ from .errors import InputError
 from .inputs.adhesion import Dugdale
 from .inputs.checks import SMALLEST, number
 from .inputs.surface import Level
-from .solver import check_material, parameters
+from .orbit.materials import check_material, parameters
 
 if TYPE_CHECKING:
-    from .solver import Material
+    from .orbit.materials import Material
 
 #: least pressure over ``K h`` without adhesion: the contact under a smaller one is lost in rounding
 _FAINTEST = 1e-22

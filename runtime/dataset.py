@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .extras import require
-from .solver import parameters
+from .orbit.materials import parameters
 from .tables import parts_of_mu
 
 #: unit and long name of every variable

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from .inputs.adhesion import Dugdale
     from .inputs.surface import Level
-    from .solver import Material
+    from .orbit.materials import Material
     from .typing import Bools, Branch, Edge, Floats
 
 

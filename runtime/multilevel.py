@@ -18,7 +18,8 @@ from .level.means import level_means
 from .level.saturated import SaturatedLevel, saturated_friction, saturated_level
 from .level.strips import QUANTITIES, Columns, Tally
 from .level.table import LawTable
-from .solver import Material, foundation_of
+from .orbit.foundation import foundation_of
+from .orbit.materials import Material
 
 _OWN = len(QUANTITIES)
 #: the error column of what is carried never asks for refinement

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .level.saturated import saturated_level
-from .strip.solution import solve_strip
+from .orbit.solution import solve_strip
 
 PULLED_OFF = "below pull-off: no contact"
 

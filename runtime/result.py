@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from .inputs.adhesion import Dugdale
     from .inputs.surface import Level
-    from .solver import Material
+    from .orbit.materials import Material
     from .typing import Bools, Branch, Edge, Floats
 
 

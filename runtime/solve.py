@@ -12,14 +12,14 @@ from .errors import InputError, SolverError
 from .inputs.adhesion import Dugdale
 from .inputs.checks import broadcast, choice, numbers
 from .inputs.surface import Level
-from .solver import check_edge
+from .orbit.materials import check_edge
 
 if TYPE_CHECKING:
     from typing import Unpack
 
     from .multilevel import Surface
+    from .orbit.materials import Material
     from .result import Result
-    from .solver import Material
     from .typing import Branch, Edge, Numbers, Options, Progress
 
 
@@ -82,7 +82,7 @@ def solve(
     # loaded here: `import hystrip` is to cost next to nothing
     from .level.strips import Tally
     from .multilevel import Surface
-    from .strip.solution import BRANCHES
+    from .orbit.solution import BRANCHES
 
     levels = check_levels(levels)
     check_single(material, adhesion)

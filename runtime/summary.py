@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from .inputs.half_space import HalfSpace
-from .solver import Foundation, foundation_of, parameters
+from .orbit.foundation import Foundation, foundation_of
+from .orbit.materials import parameters
 from .tables import shares
 
 

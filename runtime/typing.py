@@ -12,7 +12,7 @@ from .inputs.half_space import HalfSpace
 from .inputs.material import KelvinVoigt, StandardLinearSolid
 from .inputs.model import ModelMaterial
 from .inputs.prony import Prony
-from .solver import Material
+from .orbit.materials import Material
 
 __all__ = [
     "Array",

@@ -15,7 +15,7 @@ from hystrip.level.bare.means import cells
 from hystrip.level.bare.orbit import Wave
 from hystrip.level.means import level_means
 from hystrip.level.strips import Columns
-from hystrip.solver import foundation_of
+from hystrip.orbit.foundation import foundation_of
 
 K, T_EPS = 1e9, 1e-2
 NONE = hystrip.Dugdale(gamma=0)

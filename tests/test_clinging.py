@@ -12,7 +12,7 @@ from hystrip.level.clinging import Clinging
 from hystrip.level.folds import folds
 from hystrip.level.means import level_means
 from hystrip.level.strips import Columns, saturation_depth
-from hystrip.strip.regimes import CODE
+from hystrip.orbit.regimes import CODE
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 WEAK = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)

@@ -83,7 +83,7 @@ def test_material_is_checked_and_travels():
             hystrip.HalfSpace(**arguments)
         assert refused.value.field == field and allowed in refused.value.allowed, refused.value
     with pytest.raises(TypeError, match="foundation for each level"):
-        hystrip.solver.foundation_of(RUBBER)
+        hystrip.orbit.foundation.foundation_of(RUBBER)
 
 
 def test_summary_and_dataset_hold_the_half_space():

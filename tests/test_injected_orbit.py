@@ -7,9 +7,9 @@ from oracle.flow import Strip
 from oracle.orbits import returning_orbits
 
 from hystrip.generated import standard_linear_solid as kernel
-from hystrip.strip import certificate
-from hystrip.strip.march import Orbit
-from hystrip.strip.problem import Strips, adhesive_cycle
+from hystrip.orbit import certificate
+from hystrip.orbit.groups import Strips, adhesive_cycle
+from hystrip.orbit.march import Orbit
 
 # alpha, beta, P0, Delta, delta: a repelling orbit between an attracting one with an onset and another without
 SCENES = {

@@ -15,7 +15,7 @@ HOW = {"edge": "constitutive"}
 
 
 def test_the_second_solver_reduces_to_the_first():
-    from hystrip.solver import foundation_of
+    from hystrip.orbit.foundation import foundation_of
 
     assert foundation_of(TWO).kernel.MODES == 2 and not hasattr(foundation_of(ONE).kernel, "MODES")
 

@@ -6,11 +6,11 @@ import pytest
 
 from hystrip.generated import generalised_2, generalised_3
 from hystrip.inputs.model import modes_of
-from hystrip.modes.engine import solve_modes
-from hystrip.modes.march import march
-from hystrip.modes.problem import ModeStrips
-from hystrip.modes.propagation import Order, exact_gains, least_gains, propagation
-from hystrip.strip.regimes import SEQUENCES
+from hystrip.orbit.modes.engine import solve_modes
+from hystrip.orbit.modes.march import march
+from hystrip.orbit.modes.problem import ModeStrips
+from hystrip.orbit.modes.propagation import Order, exact_gains, least_gains, propagation
+from hystrip.orbit.regimes import SEQUENCES
 
 KERNELS = {2: generalised_2, 3: generalised_3}
 N = 4000

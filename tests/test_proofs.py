@@ -8,14 +8,14 @@ import pytest
 
 import hystrip
 from hystrip.generated import standard_linear_solid as kernel
-from hystrip.strip import balance, exclusion, turning
-from hystrip.strip.engine import solve_strips
-from hystrip.strip.march import Orbit, march
-from hystrip.strip.outermost import Outermost
-from hystrip.strip.problem import Strips, adhesive_cycle
-from hystrip.strip.reach import may_cling, saturates
-from hystrip.strip.regimes import CODE
-from hystrip.strip.search import isolate
+from hystrip.orbit import balance, exclusion, turning
+from hystrip.orbit.engine import solve_strips
+from hystrip.orbit.groups import Strips, adhesive_cycle
+from hystrip.orbit.march import Orbit, march
+from hystrip.orbit.outermost import Outermost
+from hystrip.orbit.reach import may_cling, saturates
+from hystrip.orbit.regimes import CODE
+from hystrip.orbit.search import isolate
 
 SCANNED = 300
 

@@ -14,8 +14,8 @@ from hystrip.level.means import level_means
 from hystrip.level.panels import Hints
 from hystrip.level.strips import Columns, saturation_depth
 from hystrip.level.transitions import Guide, Looks, locate
-from hystrip.solver import kernel_of
-from hystrip.strip.regimes import CODE
+from hystrip.orbit.materials import kernel_of
+from hystrip.orbit.regimes import CODE
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 WEAK = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)

@@ -24,8 +24,8 @@ import time
 import numpy as np
 
 import hystrip
-from hystrip.strip.solution import SEQUENCES
-from hystrip.strip.start import CONTACT_END, DECADES, ONSET, RELEASE, SLOW
+from hystrip.orbit.solution import SEQUENCES
+from hystrip.orbit.start import CONTACT_END, DECADES, ONSET, RELEASE, SLOW
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 DELTA_0 = 1e-8

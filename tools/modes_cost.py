@@ -22,8 +22,8 @@ from mode_solvers import one_mode
 import hystrip
 from hystrip.generated import generalised_2, generalised_3
 from hystrip.inputs.model import modes_of
-from hystrip.modes.engine import solve_modes
-from hystrip.modes.problem import ModeStrips
+from hystrip.orbit.modes.engine import solve_modes
+from hystrip.orbit.modes.problem import ModeStrips
 
 
 def strips(kernel, wide, count, materials=40):

@@ -13,7 +13,7 @@ import matplotlib
 import numpy as np
 
 import hystrip
-from hystrip.strip.regimes import REGIMES
+from hystrip.orbit.regimes import REGIMES
 
 P_0, DELTA_0, RATIO = 5.0, 0.04, 100.0
 ORDER = ("f", "af", "a", "cf", "ac", "afc", "acaf", "c")

@@ -22,9 +22,9 @@ CARRIED = (
 )
 RUNTIME: dict[str, tuple[tuple[str, str, str], ...]] = {
     "strip.adhesion_law": (("inputs/adhesion.py", "Dugdale.__init__", "p * delta"),),
-    "strip.dimensionless_groups": (("strip/solution.py", "dimensionless", "alpha, beta ="),),
-    "jumps.closures": (("strip/problem.py", "adhesive_cycle", "jump ="),),
-    "saturated.threshold": (("strip/reach.py", "saturates", "return s.D - 1 + s.p_0 >="),),
+    "strip.dimensionless_groups": (("orbit/si.py", "dimensionless", "alpha, beta ="),),
+    "jumps.closures": (("orbit/groups.py", "adhesive_cycle", "jump ="),),
+    "saturated.threshold": (("orbit/reach.py", "saturates", "return s.D - 1 + s.p_0 >="),),
     "multilevel.means_over_a_level": (
         ("level/means.py", "level_means", "return average("),
         ("level/means.py", "equal_strips", "mean = values.mean"),

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.polynomial.chebyshev import chebder
 
-from ..strip.crossing import crossing
+from ..orbit.crossing import crossing
 from .cells import Cells
 from .chebyshev import Piece, parameter
 from .curve import Curve

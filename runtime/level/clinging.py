@@ -17,11 +17,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..solver import foundation_of, kernel_of
-from ..strip.crossing import crossing
-from ..strip.direct import certified
-from ..strip.problem import TWO_PI, Strips, bare_cycle
-from ..strip.start import start
+from ..orbit.crossing import crossing
+from ..orbit.direct import certified
+from ..orbit.foundation import foundation_of
+from ..orbit.groups import TWO_PI, Strips, bare_cycle
+from ..orbit.materials import kernel_of
+from ..orbit.start import start
 
 if TYPE_CHECKING:
     from .strips import Columns

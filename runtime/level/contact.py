@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..strip.crossing import crossing
-from ..strip.problem import snaps_in
-from ..strip.regimes import CODE
+from ..orbit.crossing import crossing
+from ..orbit.groups import snaps_in
+from ..orbit.regimes import CODE
 from .harmonic import passages
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ _MEMORY = 1e-6
 def contact_of(kernel, strips: SolvedStrips, index):
     """Contact of the strips ``index``, for a foundation with one time or several."""
     if hasattr(kernel, "MODES"):
-        from ..modes.contact import ModeContact
+        from ..orbit.modes.contact import ModeContact
 
         return ModeContact(kernel, strips, index)
     return Contact(kernel, strips, index)

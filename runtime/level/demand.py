@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..solver import kernel_of
+from ..orbit.materials import kernel_of
 from .contact import contact_of
 from .quadrature import interior_nodes, mapped, mapped_weights
 from .strips import Columns

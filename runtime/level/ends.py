@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..strip.regimes import CODE
+from ..orbit.regimes import CODE
 from .interval import Interval
 from .strips import Columns
 

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..solver import kernel_of
-from ..strip.direct import certified
-from ..strip.problem import adhesive_cycle
-from ..strip.regimes import CODE
-from ..strip.solved import Record
-from ..strip.start import start
+from ..orbit.direct import certified
+from ..orbit.groups import adhesive_cycle
+from ..orbit.materials import kernel_of
+from ..orbit.regimes import CODE
+from ..orbit.solved import Record
+from ..orbit.start import start
 from .margins import POWERS, decisive, margins
 from .strips import Columns, SolvedStrips
 from .transitions import Aim, Guide, aimed

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..strip.march import TWO_PI, Orbit
-from ..strip.problem import adhesive_cycle
-from ..strip.regimes import CODE
-from ..strip.sensitivity import onset_margin, slope_excess
+from ..orbit.groups import adhesive_cycle
+from ..orbit.march import TWO_PI, Orbit
+from ..orbit.regimes import CODE
+from ..orbit.sensitivity import onset_margin, slope_excess
 
 if TYPE_CHECKING:
     from .strips import SolvedStrips

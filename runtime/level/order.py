@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..strip.regimes import CODE
+from ..orbit.regimes import CODE
 
 if TYPE_CHECKING:
     from .strips import Columns, Tally

@@ -10,7 +10,8 @@ import numpy as np
 
 from ..inputs.adhesion import Dugdale
 from ..inputs.surface import Level
-from ..solver import Foundation, Material, foundation_of
+from ..orbit.foundation import Foundation, foundation_of
+from ..orbit.materials import Material
 
 #: velocities of a block of the closed form: its temporaries stay in the cache
 _BLOCK = 4096

@@ -13,8 +13,9 @@ from ..inputs.adhesion import Dugdale
 from ..inputs.checks import broadcast, choice, number, numbers
 from ..inputs.surface import Level
 from ..level_solution import Inputs, LevelSolution
-from ..solver import Material, check_edge, foundation_of
-from ..strip.solution import BRANCHES
+from ..orbit.foundation import foundation_of
+from ..orbit.materials import Material, check_edge
+from ..orbit.solution import BRANCHES
 from .bare.points import bare_means
 from .bare.surface import is_bare
 from .build import build_laws

@@ -10,10 +10,11 @@ import numpy as np
 
 from ..inputs.adhesion import Dugdale
 from ..inputs.surface import Level
-from ..solver import Material, foundation_of, kernel_of
-from ..strip.problem import Strips
-from ..strip.regimes import CODE
-from ..strip.solved import Solved
+from ..orbit.foundation import foundation_of
+from ..orbit.groups import Strips
+from ..orbit.materials import Material, kernel_of
+from ..orbit.regimes import CODE
+from ..orbit.solved import Solved
 from .clinging import Clinging
 from .contact import Contact, contact_of
 from .margins import POWERS, decisive, margins
@@ -22,7 +23,7 @@ from .saturated import saturated_level
 from .transitions import Guide
 
 if TYPE_CHECKING:
-    from ..modes.contact import ModeContact
+    from ..orbit.modes.contact import ModeContact
 
 #: What is averaged over the strips of a level, in this order; what lower levels carry in its contact follows.
 QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")

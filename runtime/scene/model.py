@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal
 if TYPE_CHECKING:
     from ..inputs.adhesion import Dugdale
     from ..inputs.surface import Level
+    from ..orbit.materials import Material
     from ..result import Result
-    from ..solver import Material
     from ..typing import Branch, Edge, Floats, Progress
 
 

@@ -16,6 +16,7 @@ from ..arguments import check_levels
 from ..errors import InputError
 from ..inputs.checks import numbers
 from ..loading import solver_key
+from ..orbit.materials import check_edge, kernel_of
 from ..scene.errors import SceneError, nearest
 from ..scene.load import (
     build_adhesion,
@@ -25,7 +26,6 @@ from ..scene.load import (
     quantities,
     refuse_ambiguous,
 )
-from ..solver import check_edge, kernel_of
 
 _LOADS = ("pressure", "penetration")
 _UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "moduli": "Pa/m", "times": "s",

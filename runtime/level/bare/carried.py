@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import SolverError
-from ...solver import Foundation
+from ...orbit.foundation import Foundation
 from .law import BareLaws
 from .means import Changes, Level, gauss, mapped, mapped_slope
 from .orbit import Wave

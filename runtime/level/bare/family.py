@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...errors import SolverError
-from ...solver import Foundation
+from ...orbit.foundation import Foundation
 from ..chebyshev import coefficients, interpolation_errors, lobatto
 from .orbit import Wave
 

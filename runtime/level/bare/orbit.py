@@ -14,11 +14,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...modes.polish import arguments
-from ...modes.problem import ModeStrips, take_modes
-from ...solver import Foundation
-from ...strip.problem import Strips
-from ...strip.solved import groups
+from ...orbit.foundation import Foundation
+from ...orbit.groups import Strips
+from ...orbit.modes.polish import arguments
+from ...orbit.modes.problem import ModeStrips, take_modes
+from ...orbit.solved import groups
 
 #: a penetration beside which the profile is nothing: what is left of an equation is its coefficient of D
 _HUGE = 1e200

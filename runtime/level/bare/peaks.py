@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...solver import Foundation
+from ...orbit.foundation import Foundation
 from ..chebyshev import lobatto
 from .family import coefficients_over, evaluated
 from .means import mapped

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import SolverError
-from ...solver import foundation_of
+from ...orbit.foundation import foundation_of
 from ..strips import Columns
 from .family import family
 from .means import Level

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...modes.problem import take_modes
+from ...orbit.modes.problem import take_modes
 from .orbit import Orbits, Wave
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...inputs.surface import Level as Wavy
-from ...solver import Foundation
+from ...orbit.foundation import Foundation
 from ..chebyshev import lobatto
 from ..quadrature import interleaved
 from ..strips import Tally

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...errors import SolverError
 from ...inputs.surface import Level as Wavy
-from ...solver import Foundation
+from ...orbit.foundation import Foundation
 from ..strips import Tally
 from .stack import BareStack, Wanted
 

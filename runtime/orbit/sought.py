@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .certificate import edges_admissible, stable
+from .groups import Cycle
 from .march import Orbit, between, lies_between
-from .problem import Cycle
 from .refine import refined
 from .search import SearchResult, isolate, locate
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from .bound import rows
 from .crossing import crossing
-from .problem import TWO_PI, Cycle
+from .groups import TWO_PI, Cycle
 
 _EPS = np.finfo(float).eps
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..strip.fields import by_regime
-from ..strip.solved import Solved
+from ..fields import by_regime
+from ..solved import Solved
 from .march import TWO_PI
 from .polish import arguments
 from .problem import ModeStrips

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..level.harmonic import passages
-from ..strip.crossing import crossing
-from ..strip.regimes import CODE
+from ...level.harmonic import passages
+from ..crossing import crossing
+from ..regimes import CODE
 from .fields import zones_of
 from .problem import pick
 

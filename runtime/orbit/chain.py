@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .problem import TWO_PI, Cycle
+from .groups import TWO_PI, Cycle
 
 #: iterations at most, and before strips that are done are set aside. Where there is an orbit with a free part Newton needs half
 #: of them; next to complete contact, where two edges all but coincide, more

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .groups import Strips
 from .march import TWO_PI, Orbit
-from .problem import Strips
 from .regimes import CODE
 
 UNDECIDED = -1

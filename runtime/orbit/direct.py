@@ -10,9 +10,9 @@ from .balance import SLOW, none_hangs
 from .certificate import attracting, edges_admissible
 from .chain import CONVERGED, follow
 from .exclusion import alone, closed, none_before, onsets_within
+from .groups import TWO_PI, Cycle
 from .march import Orbit
 from .outermost import Outermost
-from .problem import TWO_PI, Cycle
 from .refine import refined
 from .search import FORGOTTEN
 from .solved import orbit_of

@@ -21,8 +21,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .bound import bound, close_enough
+from .groups import Cycle
 from .march import TWO_PI
-from .problem import Cycle
 from .start import onset_guess
 
 _EPS = np.finfo(float).eps

@@ -1,4 +1,4 @@
-"""The foundation with several relaxation times and its generated solver, as ``hystrip.solver.Foundation``."""
+"""The foundation with several relaxation times and its generated solver, as ``orbit.foundation.Foundation``."""
 
 from __future__ import annotations
 
@@ -6,12 +6,13 @@ from types import ModuleType
 
 import numpy as np
 
-from ..errors import InputError
-from ..inputs.model import ModelMaterial, modes_of
-from ..strip.flat import is_flat, solve_flat
-from ..strip.regimes import CODE
-from ..strip.solution import refuse_uncertified
-from ..strip.solved import Solved
+from ...errors import InputError
+from ...inputs.model import ModelMaterial, modes_of
+from ..flat import is_flat, solve_flat
+from ..materials import parameters
+from ..regimes import CODE
+from ..si import refuse_uncertified
+from ..solved import Solved
 from .engine import solve_modes
 from .fields import fields
 from .problem import ModeStrips
@@ -21,7 +22,7 @@ _GROUP_LIMIT = 1e150
 
 
 class ManyTimes:
-    """See ``hystrip.solver.Foundation``. ``modes``: the kernel's ``Modes`` in seconds, last axis strips or of length one."""
+    """See ``orbit.foundation.Foundation``. ``modes``: the kernel's ``Modes`` in seconds, last axis strips or of length one."""
 
     def __init__(self, kernel: ModuleType, material, K=None, modes=None):
         self.kernel, self.material = kernel, material
@@ -85,8 +86,6 @@ class ManyTimes:
         return solved, strips, {"k": k, "A": A, "D": D, "p": K * unit, "length": unit, "flat": flat}
 
     def _named(self, shape):
-        from ..solver import parameters
-
         named = parameters(self.material)
         # a material of arrays was spread over the strips in `flat`; the strip's own values are in K and the modes
         return {n: np.broadcast_to(v, shape) for n, v in named.items() if np.ndim(v) == 0} | {"K": np.broadcast_to(self.K, shape)}

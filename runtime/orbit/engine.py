@@ -23,9 +23,9 @@ import numpy as np
 from .balance import SLOW, could_let_go, none_clings
 from .certificate import greatest_gap
 from .direct import certified, extremal, first_by_marches
+from .groups import Cycle, Strips, adhesive_cycle, bare_cycle
 from .march import Orbit
 from .outermost import FAST, Outermost, outermost
-from .problem import Cycle, Strips, adhesive_cycle, bare_cycle
 from .reach import may_cling, out_of_reach, saturates
 from .regimes import CODE
 from .solved import Record, Solved

@@ -30,7 +30,7 @@ Consequences. The period map P is monotone, in D too (in the coordinates e - D).
 
 So iterates from E rise to the most engaged orbit and those from above fall to the least engaged one. For n >= 2
 unordered orbits, even of longer periods, are not excluded by monotony alone; all lie between these two. With n = 1 this
-is the order of ``strip.engine``.
+is the order of ``orbit.engine``.
 
 Acceleration. Let M be a lower bound of the derivative of P between x and every orbit above it, ``r = P(x) - x >= 0``.
 Then every orbit ``e* >= x`` obeys ``e* - x = P(e*) - x >= r + M (e* - x)``, so ``e* >= x + (I - M)^-1 r``, which again

@@ -30,7 +30,7 @@ That sum grows with E. Starting from ``E = 2 pi`` each evaluation bounds E close
 
 import numpy as np
 
-from .problem import TWO_PI, Strips
+from .groups import TWO_PI, Strips
 
 _EPS = np.finfo(float).eps
 _ROUNDINGS = 1

@@ -3,9 +3,9 @@
 import numpy as np
 
 from .chain import CONVERGED, tighten
+from .groups import Cycle
 from .march import Orbit
 from .polish import polish
-from .problem import Cycle
 from .solved import edges_of, orbit_of
 
 #: Corrections may be this many times what rounding leaves uncertain, which itself must not be worse than near a fold.

@@ -1,5 +1,5 @@
 """The extremal periodic orbit of every strip of a batch with several relaxation times; the same answers as
-``strip.engine`` gives for one.
+``orbit.engine`` gives for one.
 
 Why the orbits are extremal is shown in ``order``. ``unloading`` takes the always engaged orbit where it is admissible,
 else the first orbit above it; ``loading`` the free orbit where it is admissible, else the first orbit below
@@ -12,8 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..strip.regimes import CODE
-from ..strip.solved import Solved
+from ..regimes import CODE
+from ..solved import Solved
 from .certificate import enclosed, marched, stable
 from .engaged import engaged_orbit
 from .march import TWO_PI, march

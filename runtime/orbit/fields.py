@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .problem import TWO_PI, Strips, adhesive_cycle, bare_cycle
+from .groups import TWO_PI, Strips, adhesive_cycle, bare_cycle
 from .regimes import CODE
 from .solved import Solved
 

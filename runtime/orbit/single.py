@@ -1,4 +1,4 @@
-"""The foundation with one relaxation time and its generated solver, as ``hystrip.solver.Foundation``."""
+"""The foundation with one relaxation time and its generated solver, as ``orbit.foundation.Foundation``."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ import numpy as np
 
 from ..inputs.material import StandardLinearSolid
 from .fields import fields
-from .solution import refuse_uncertified, solve_si
+from .si import refuse_uncertified, solve_si
 
 
 class SingleTime:
-    """See ``hystrip.solver.Foundation``."""
+    """See ``orbit.foundation.Foundation``."""
 
     def __init__(self, kernel: ModuleType, material: StandardLinearSolid):
         self.kernel, self.material, self.K = kernel, material, material.K

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .groups import Cycle
 from .march import TWO_PI, Orbit
-from .problem import Cycle
 
 _EPS = np.finfo(float).eps
 #: least relaxation time that is divided by

@@ -7,8 +7,8 @@ zones between them stay within their gaps, and when it is stable: an extremal or
 
 import numpy as np
 
+from .groups import Cycle, Strips
 from .march import TWO_PI, Orbit
-from .problem import Cycle, Strips
 from .sensitivity import onset_margin, slope_excess
 
 _EPS = np.finfo(float).eps

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .problem import Strips
+from .groups import Strips
 
 _ITERATIONS = 20
 #: steps larger than this are corrections, whatever the one before was

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .chain import EDGES, TWO_PI
-from .problem import Cycle, Strips
+from .groups import Cycle, Strips
 
 if TYPE_CHECKING:
     from .outermost import Outermost

@@ -46,8 +46,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .groups import Cycle, Strips
 from .march import TWO_PI, Orbit
-from .problem import Cycle, Strips
 from .sensitivity import fading, gains, onset_margin, release_margin
 
 _EPS = np.finfo(float).eps

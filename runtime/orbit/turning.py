@@ -28,9 +28,9 @@ from . import balance
 from .bound import bound
 from .chain import arcs, links, moved
 from .exclusion import none_before
+from .groups import TWO_PI, Cycle
 from .march import Orbit, closing, march
 from .polish import newton
-from .problem import TWO_PI, Cycle
 from .search import SearchResult, excluded
 from .sensitivity import contact_length, fading, gains, onset_margin, release_margin, slope_bounds, slope_excess
 

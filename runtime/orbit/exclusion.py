@@ -24,9 +24,9 @@ import numpy as np
 
 from . import balance
 from .bound import bound, close_enough
+from .groups import Cycle
 from .march import TWO_PI, Orbit, march
 from .outermost import Outermost
-from .problem import Cycle
 from .search import excluded
 from .sensitivity import slope_bounds, steep_margin
 

@@ -17,8 +17,8 @@ exactly one zero, a stable orbit. All other intervals are halved.
 
 import numpy as np
 
+from .groups import Cycle
 from .march import TWO_PI, Orbit, march, next_onset
-from .problem import Cycle
 from .sensitivity import SlopeBounds, onset_margin, slope_bounds, slope_excess
 
 _EPS = np.finfo(float).eps

@@ -1,0 +1,79 @@
+"""Strips in SI units: their dimensionless groups, the flat strip apart, and the refusal of what could not be certified."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..errors import InputError, SolverError
+from .engine import solve_strips
+from .flat import is_flat, solve_flat
+from .groups import Strips
+from .regimes import CODE
+from .solved import Solved
+
+#: beyond this alpha and beta squared overflow
+_GROUP_LIMIT = 1e150
+
+
+def _each(function, *arrays) -> np.ndarray:
+    """``function`` of flat arrays, once for all where they are views of single numbers."""
+    if all(array.strides == (0,) for array in arrays):
+        return np.broadcast_to(function(*(array[:1] for array in arrays)), arrays[0].shape)
+    return function(*arrays)
+
+
+def _product(k, V, T):
+    return k * V * T
+
+
+def dimensionless(l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge) -> tuple[Strips, dict]:  # noqa: E741
+    """Groups of flat SI arrays of shape (n,), and the scales back to SI.
+
+    A strip whose wave is negligible, ``scales["flat"]``, is in units of K alone. Nothing is refused here but groups that
+    overflow.
+    """
+    with np.errstate(over="ignore"):  # refused below, by name
+        k = _each(lambda l: 2 * np.pi / l, l)  # noqa: E741
+        alpha, beta = _each(_product, k, V, T_sigma), _each(_product, k, V, T_eps)
+    if np.any(beta > _GROUP_LIMIT):
+        raise InputError("V", float(V[beta > _GROUP_LIMIT][0]), f"k V T_eps at most {_GROUP_LIMIT:g}")
+    traction = _each(np.divide, p_0, K)
+    flat = is_flat(A, beta, D, traction, delta_0)
+    unit = np.where(flat, 1.0, A) if flat.any() else A
+    chi = np.broadcast_to(float(edge == "constitutive"), D.shape)
+    strips = Strips(
+        alpha, beta, J, L, _each(np.divide, traction, unit), _each(np.divide, delta_0, unit), _each(np.divide, D, unit), chi
+    )
+    scales = {"k": k, "A": A, "D": D, "p": _each(np.multiply, K, unit), "length": unit, "flat": flat}
+    return strips, scales
+
+
+def solve_si(kernel, *inputs, edge, branch) -> tuple[Solved, Strips, dict]:
+    """Solve flat SI arrays, in the order of ``dimensionless``; returns the solutions, the groups and the scales back to SI."""
+    strips, scales = dimensionless(*inputs, edge)
+    flat = scales["flat"]
+    unloading = branch == "unloading"
+    if not flat.any():
+        return solve_strips(kernel, strips, unloading), strips, scales
+    solved = Solved.empty(strips.size)
+    wavy = np.flatnonzero(~flat)
+    solved.put(wavy, solve_strips(kernel, strips.take(wavy), unloading))
+    level = np.flatnonzero(flat)
+    code, p = solve_flat(strips.D[level], strips.p_0[level], strips.delta_0[level], unloading)
+    solved.code[level], solved.p_mean[level], solved.tau_mean[level] = code, p, 0.0
+    solved.contact_fraction[level] = code == CODE["c"]
+    solved.adhesion_fraction[level] = code == CODE["a"]
+    solved.certified[level] = True
+    return solved, strips, scales
+
+
+def refuse_uncertified(solved: Solved, inputs: dict[str, np.ndarray], edge: str, branch: str) -> None:
+    """``SolverError`` naming the first strip that did not pass its certificate, by its inputs (name to flat array)."""
+    bad = np.flatnonzero(~solved.certified)
+    if not bad.size:
+        return
+    strip = ", ".join(f"{n}={float(v[bad[0]])!r}" for n, v in inputs.items())
+    raise SolverError(
+        f"{bad.size} of {solved.certified.size} strips could not be certified; the first, strip {bad[0]}: "
+        f"{strip}, edge={edge!r}, branch={branch!r}"
+    )
