@@ -32,6 +32,10 @@ class SolverError(HystripError, RuntimeError):
     """No solution passed its own checks. The message names the strip; no number is returned in its place."""
 
 
+class FitWarning(UserWarning):
+    """A series that fits poorly what it was fitted to. Says over which band, and by how much."""
+
+
 class MissingExtra(HystripError, ImportError):
     """An optional dependency is not installed. The message names the extra that brings it."""
 

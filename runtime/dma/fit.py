@@ -2,36 +2,57 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import FitWarning, InputError
 from ..inputs.checks import number, numbers
-from .read import DynamicModulus
+from ..inputs.fitted import FittedBand
+from .modulus import DynamicModulus
+from .projection import placed, relative_errors, solved
 from .series import PronySeries
 
+#: most relaxation times of a material that hystrip solves
+MOST_TIMES = 40
+#: rms of the relative residuals that is asked for where nothing else is
+ACCURACY = 0.02
+#: and above which a fit is called poor
+POOR = 0.1
 #: a branch below this share of the glassy modulus is rounding of the solver
 _NOTHING = 1e-12
-_MOST_TIMES = 500
+#: what does not reach the accuracy takes the fewest times that come this near to the best
+_AS_GOOD = 1.05
 
 
 def fit_prony(
-    data: DynamicModulus, *, per_decade: float | None = None, terms: int | None = None, times: Any = None
+    data: DynamicModulus | Callable[[np.ndarray], Any] | tuple[Any, Any],
+    *,
+    accuracy: float | None = None,
+    terms: int | None = None,
+    per_decade: float | None = None,
+    times: Any = None,
+    band: tuple[float, float] | None = None,
 ) -> PronySeries:
     """Fit ``relaxed + sum_j moduli_j i omega times_j/(1 + i omega times_j)`` to measured moduli.
 
     Minimises the sum of the squared relative residuals of storage and loss modulus, each relative to its own measured
-    value (a loss of zero relative to the storage modulus), over non-negative moduli: ``scipy.optimize.nnls``. Times
-    that get no modulus are dropped.
+    value (a loss of zero relative to the storage modulus), over non-negative moduli and, with ``accuracy`` or ``terms``, over
+    the times too. Times that get no modulus are dropped. Warns (``hystrip.dma.FitWarning``) where more than 10 % rms are left.
 
     Parameters
     ----------
-    data : what was measured
-    per_decade : relaxation times per decade, > 0, evenly over the measured band from ``1/omega_max`` to
-        ``1/omega_min``, both included; 1 if neither this nor one of the next two is given
-    terms : in place of that, so many relaxation times, an integer from 1 to 8, placed where they fit best
+    data : what was measured; or a table ``(omega, E*)`` of complex moduli, Pa, over rad/s; or a function ``E*(omega)``,
+        such as a fractional model, together with ``band``
+    accuracy : as few relaxation times, up to 40, as bring the root mean square of the residuals down to this, 1e-6 to 0.5;
+        0.02 if neither this nor one of the next three is given. Where 40 do not, as few as fit about as well as any
+    terms : in place of that, so many relaxation times, an integer from 1 to 40, placed where they fit best
+    per_decade : in place of that, relaxation times per decade, > 0, evenly over the measured band from ``1/omega_max`` to
+        ``1/omega_min``, both included
     times : in place of that, the relaxation times themselves, s, > 0
+    band : lowest and highest frequency, Hz; all that was measured without it
 
     Raises
     ------
@@ -44,116 +65,163 @@ def fit_prony(
     >>> omega = np.geomspace(1, 1e6, 50)
     >>> x = 1j * omega * 1e-3
     >>> modulus = 1e6 + 5e6 * x / (1 + x)
-    >>> series = fit_prony(DynamicModulus(omega, modulus.real, modulus.imag), terms=1)
+    >>> series = fit_prony(DynamicModulus(omega, modulus.real, modulus.imag))
     >>> print(f"{series.relaxed:.6g} {series.moduli[0]:.6g} {series.times[0]:.6g}")
     1e+06 5e+06 0.001
+
+    A fractional Zener model over eight decades:
+
+    >>> def fractional_zener(omega):
+    ...     x = (1j * omega * 1e-4) ** 0.4
+    ...     return 1e6 + 1e9 * x / (1 + x)
+    >>> series = fit_prony(fractional_zener, band=(1e-2, 1e6), accuracy=0.01)
+    >>> len(series.times) < 15 and series.rms < 0.01
+    True
     """
-    given = {"per_decade": per_decade, "terms": terms, "times": times}
+    data = _as_data(data, band)
+    given = {"accuracy": accuracy, "terms": terms, "per_decade": per_decade, "times": times}
     if sum(each is not None for each in given.values()) > 1:
-        raise InputError("per_decade, terms, times", {k: v for k, v in given.items() if v is not None}, "one of the three")
+        shown = {key: each for key, each in given.items() if each is not None}
+        raise InputError("accuracy, terms, per_decade, times", shown, "one of the four")
     if terms is not None:
-        if isinstance(terms, bool) or not isinstance(terms, (int, np.integer)) or not 1 <= terms <= 8:
-            raise InputError("terms", terms, "an integer from 1 to 8")
+        if isinstance(terms, bool) or not isinstance(terms, (int, np.integer)) or not 1 <= terms <= MOST_TIMES:
+            raise InputError("terms", terms, f"an integer from 1 to {MOST_TIMES}")
         _refuse_too_many(int(terms), 2 * int(terms) + 1, data)
-        offered = _placed(data, int(terms))
+        series = _series(data, _placed(data, int(terms)), True)
     elif times is not None:
         offered = np.unique(np.atleast_1d(numbers("times", times, "s", 0, strict=True)))
         _refuse_too_many(offered.size, offered.size + 1, data)
+        series = _series(data, offered, False)
+    elif per_decade is not None:
+        count = _count(data, number("per_decade", per_decade, "", 0, strict=True))
+        _refuse_too_many(count, count + 1, data)
+        series = _series(data, _evenly(data, count), False)
     else:
-        offered = _evenly(data, 1.0 if per_decade is None else number("per_decade", per_decade, "", 0, strict=True))
-        _refuse_too_many(offered.size, offered.size + 1, data)
-    return _series(data, offered)
+        accuracy = ACCURACY if accuracy is None else number("accuracy", accuracy, "", 1e-6)
+        if accuracy > 0.5:
+            raise InputError("accuracy", accuracy, "a number from 1e-6 to 0.5")
+        series = _series(data, _fewest(data, accuracy), True)
+    if series.rms > POOR:
+        warnings.warn(f"poor fit: {series.quality}", FitWarning, stacklevel=2)
+    return series
+
+
+def _as_data(data: Any, band: Any) -> DynamicModulus:
+    if band is not None and (not isinstance(band, (tuple, list)) or len(band) != 2):
+        raise InputError("band", band, "(lowest, highest) frequency, Hz")
+    if callable(data):
+        if band is None:
+            raise InputError("band", None, "(lowest, highest) frequency, Hz, over which the function is fitted")
+        return DynamicModulus.from_function(data, *band)
+    if isinstance(data, tuple) and len(data) == 2:
+        data = DynamicModulus.from_complex(*data)
+    if not isinstance(data, DynamicModulus):
+        raise InputError("data", data, "a hystrip.dma.DynamicModulus, a pair (omega, E*), or a function E*(omega)")
+    if band is None:
+        return data
+    return data.between(*(number(f"band[{i}]", each, "Hz", 0) for i, each in enumerate(band)))
 
 
 def _refuse_too_many(count: int, unknowns: int, data: DynamicModulus) -> None:
+    if count > MOST_TIMES:
+        raise InputError("relaxation times", count, f"at most {MOST_TIMES}: give a smaller per_decade, or accuracy")
     if unknowns > 2 * data.omega.size:
         what = f"{count} relaxation times for {data.omega.size} frequencies"
         raise InputError("relaxation times", what, "fewer unknowns than moduli measured: give a smaller per_decade, or terms")
-    if count > _MOST_TIMES:
-        raise InputError("relaxation times", count, f"at most {_MOST_TIMES}: give a smaller per_decade")
 
 
-def _evenly(data: DynamicModulus, per_decade: float) -> np.ndarray:
+def _count(data: DynamicModulus, per_decade: float) -> int:
+    return int(min(round(per_decade * np.log10(data.omega[-1] / data.omega[0])) + 1, MOST_TIMES + 1))
+
+
+def _evenly(data: DynamicModulus, count: int) -> np.ndarray:
     low, high = 1 / data.omega[-1], 1 / data.omega[0]
-    count = min(round(per_decade * np.log10(high / low)) + 1, _MOST_TIMES + 1)
     return np.geomspace(low, high, count) if count > 1 else np.array([np.sqrt(low * high)])
 
 
-def _system(data: DynamicModulus, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Matrix and goal of the relative residuals, storage rows above loss rows; the relaxed modulus comes first."""
-    x = np.multiply.outer(data.omega, times)
-    storage, loss = x**2 / (1 + x**2), x / (1 + x**2)
-    one = np.ones((data.omega.size, 1))
-    rows = np.block([[one, storage], [0 * one, loss]])
-    measured = np.concatenate((data.storage, data.loss))
-    size = np.where(measured > 0, measured, np.concatenate((data.storage, data.storage)))
-    return rows / size[:, None], measured / size
+def _rms(residuals: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(residuals**2)))
 
 
-def _solved(data: DynamicModulus, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Moduli (1 + times,), Pa, and relative residuals (2 n,)."""
-    from scipy.optimize import nnls
+def _fewest(data: DynamicModulus, accuracy: float) -> np.ndarray:
+    """As few times as reach the accuracy: first how many evenly spaced ones do, then how many fewer where they fit best."""
+    most = min(MOST_TIMES, (2 * data.omega.size - 1) // 2)
+    found: dict[int, tuple[float, np.ndarray]] = {}
 
-    rows, goal = _system(data, times)
-    # columns of one size: moduli of rubber span decades, and the solver's tolerance is absolute
-    size = np.linalg.norm(rows, axis=0)
-    size[size == 0] = 1.0
-    found, _ = nnls(rows / size, goal)
-    moduli = found / size
-    return moduli, rows @ moduli - goal
+    def at(count: int) -> float:
+        if count not in found:
+            times = _placed(data, count)
+            found[count] = (_rms(solved(data, times)[1]), times)
+        return found[count][0]
+
+    even, enough = [], most
+    for count in range(1, most + 1):
+        even.append(_rms(solved(data, _evenly(data, count))[1]))
+        if even[-1] <= accuracy:
+            enough = count
+            break
+    else:
+        # noise, or more decades than so many times can span: where they are best placed matters little then
+        enough = 1 + next(i for i, rms in enumerate(even) if rms <= _AS_GOOD * min(even))
+        accuracy = max(accuracy, _AS_GOOD * at(enough))
+    low, high = 0, enough  # fewer than `high` times may do, `low` do not
+    if at(high) > accuracy:
+        return _evenly(data, enough)
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if at(middle) <= accuracy else (middle, high)
+    return found[high][1]
 
 
 def _placed(data: DynamicModulus, terms: int) -> np.ndarray:
-    """Times at which ``terms`` branches fit best; their moduli follow from them (variable projection)."""
-    from scipy.optimize import least_squares
-
-    span = np.log(1 / data.omega[-1]), np.log(1 / data.omega[0])
-    best = None
-    for start in _starts(data, terms, span):
-        # within a decade of what was measured: beyond, a branch cannot be told from a constant
-        bounds = span[0] - np.log(10), span[1] + np.log(10)
-        found = least_squares(lambda s: _solved(data, np.exp(s))[1], start, bounds=bounds, xtol=1e-14, ftol=1e-14, gtol=1e-14)
-        if best is None or found.cost < best.cost:
-            best = found
-    return np.unique(np.exp(best.x))
+    """Times at which ``terms`` branches fit best; their moduli follow from them."""
+    return min((placed(data, start) for start in _starts(data, terms)), key=lambda found: found[1])[0]
 
 
-def _starts(data: DynamicModulus, terms: int, span: tuple[float, float]) -> list[np.ndarray]:
-    """Two guesses of ln(times): even over the band; and at even shares of a finely resolved spectrum."""
-    even = span[0] + (span[1] - span[0]) * (np.arange(terms) + 0.5) / terms
-    fine = _evenly(data, 4.0)
-    moduli = _solved(data, fine)[0][1:]
+def _starts(data: DynamicModulus, terms: int) -> list[np.ndarray]:
+    """Guesses of the times: even over the band, with its ends and without; and at even shares of a finely resolved spectrum."""
+    low, high = np.log(1 / data.omega[-1]), np.log(1 / data.omega[0])
+    inner = np.exp(low + (high - low) * (np.arange(terms) + 0.5) / terms)
+    starts = [inner] if terms == 1 else [inner, _evenly(data, terms)]
+    fine = _evenly(data, max(_count(data, 4.0), terms))
+    moduli = solved(data, fine)[0][1:]
     if not moduli.any():
-        return [even]
+        return starts
     # shares of the logarithm of the modulus: soft and slow branches matter as much as stiff and fast ones
-    rise = np.diff(np.log(np.cumsum(np.concatenate(([max(moduli.sum(), 1.0) * 1e-6], moduli[::-1])))))[::-1]
+    rise = np.diff(np.log(np.cumsum(np.concatenate(([moduli.sum() * 1e-6], moduli[::-1])))))[::-1]
     share = np.cumsum(rise) / rise.sum()
-    shared = np.interp((np.arange(terms) + 0.5) / terms, share, np.log(fine))
-    return [even, shared]
+    return [*starts, np.exp(np.interp((np.arange(terms) + 0.5) / terms, share, np.log(fine)))]
 
 
-def _series(data: DynamicModulus, times: np.ndarray) -> PronySeries:
-    moduli, residuals = _solved(data, times)
+def _series(data: DynamicModulus, times: np.ndarray, free: bool) -> PronySeries:
+    """The series at these times, with what is known of its quality; ``free``: the times were fitted too."""
+    offered = times.size
+    moduli, residuals = solved(data, times)
     keep = moduli[1:] > _NOTHING * moduli.sum()
     if not keep.any():
         raise InputError("dma", "no relaxation", "data whose loss modulus is not zero throughout")
+    f = data.frequency
     if moduli[0] <= _NOTHING * moduli.sum():
-        problem = f"no relaxed modulus between {data.omega[0] / (2 * np.pi):.4g} and {data.omega[-1] / (2 * np.pi):.4g} Hz"
+        problem = f"no relaxed modulus between {f[0]:.4g} and {f[-1]:.4g} Hz"
         raise InputError("dma", problem, "a solid: frequencies low enough for the storage modulus to level off, or fewer times")
-    n = data.omega.size
-    f = data.omega / (2 * np.pi)
+    times, moduli = times[keep], moduli[np.concatenate(([True], keep))]
+    modulus_errors, time_errors = relative_errors(data, moduli, times, residuals, free)
+    n = f.size
     worst = int(np.argmax(np.abs(residuals)))
-    rms = [float(np.sqrt(np.mean(part**2))) for part in (residuals[:n], residuals[n:])]
     return PronySeries(
         relaxed=float(moduli[0]),
-        moduli=tuple(moduli[1:][keep].tolist()),
-        times=tuple(times[keep].tolist()),
+        moduli=tuple(moduli[1:].tolist()),
+        times=tuple(times.tolist()),
         kind=data.kind,
-        offered=int(times.size),
+        offered=int(offered),
         band=(float(f[0]), float(f[-1])),
         points=n,
-        rms_storage=rms[0],
-        rms_loss=rms[1],
+        rms_storage=_rms(residuals[:n]),
+        rms_loss=_rms(residuals[n:]),
         worst=float(abs(residuals[worst])),
         worst_at=float(f[worst % n]),
+        relaxed_error=float(modulus_errors[0]),
+        moduli_errors=tuple(modulus_errors[1:].tolist()),
+        times_errors=tuple(time_errors.tolist()),
+        fit=FittedBand.of_residuals(f, residuals.reshape(2, n)),
     )

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .read import DynamicModulus
+from .modulus import DynamicModulus
 from .series import PronySeries
 
 

@@ -1,185 +1,249 @@
-"""Reading dynamic mechanical analysis (DMA) data: frequency, storage and loss modulus from a CSV file."""
+"""Reading dynamic mechanical analysis (DMA) data: frequency, storage and loss modulus from a text file."""
 
 from __future__ import annotations
 
-import csv
 import os
-from dataclasses import dataclass, field
+import re
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..errors import InputError
-from ..inputs.checks import numbers
+from .columns import Column, columns_of, factor, is_header, to_kelvin
+from .modulus import DynamicModulus
+from .table import Table, as_number, decimal_comma, read_table
 
-_MODULUS = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
-_FREQUENCY = {"f": ("Hz", 2 * np.pi), "omega": ("rad/s", 1.0)}
-_LARGEST = 1 << 26  # bytes; a master curve has a few thousand
+#: in which order of preference two columns give storage and loss modulus
+_PAIRS = (("storage", "loss"), ("storage", "tan"), ("loss", "tan"), ("absolute", "tan"))
+#: columns that mean nothing without a unit
+_WITH_UNIT = ("frequency", "omega", "storage", "loss", "absolute")
+_NUMBER = re.compile(r"[-+\u2212]?[.,]?\d[\d.,]*([eE][-+]?\d+)?$|[-+]?(nan|inf)", re.IGNORECASE)
+#: K: temperatures closer than this are one step of a furnace
+_ONE_STEP = 1.0
 
 
 @dataclass(frozen=True, eq=False)
-class DynamicModulus:
-    """Storage and loss modulus over angular frequency, sorted by it.
+class Readings:
+    """What a file holds, row by row (n,): angular frequency (rad/s), moduli (Pa), temperature (K) and the text in the
+    column ``Set``, None where there is no such column; and what each column was taken for."""
 
-    Parameters
-    ----------
-    omega : angular frequency, rad/s, > 0, shape (n,), n >= 2
-    storage, loss : moduli, Pa, > 0 and >= 0, shape (n,)
-    kind : ``"E"`` (tension, compression) or ``"G"`` (shear)
-
-    Raises
-    ------
-    InputError : a value outside its range, or shapes that differ
-
-    >>> data = DynamicModulus(omega=[10.0, 1.0], storage=[2e6, 1e6], loss=[3e5, 1e5])
-    >>> data.storage.tolist()
-    [1000000.0, 2000000.0]
-    """
-
+    where: str
     omega: np.ndarray
     storage: np.ndarray
     loss: np.ndarray
-    kind: str = field(default="E")
+    kind: str
+    temperature: np.ndarray | None
+    set: np.ndarray | None
+    columns: tuple[str, ...]
 
-    def __post_init__(self):
-        omega = numbers("dma.omega", self.omega, "rad/s", 0, strict=True)
-        storage = numbers("dma.storage", self.storage, "Pa", 0, strict=True)
-        loss = numbers("dma.loss", self.loss, "Pa", 0)
-        shapes = [each.shape for each in (omega, storage, loss)]
-        if omega.ndim != 1 or omega.size < 2 or len(set(shapes)) > 1:
-            raise InputError("dma", shapes, "omega, storage and loss of one shape (n,), n >= 2")
-        if self.kind not in ("E", "G"):
-            raise InputError("dma.kind", self.kind, "'E' (tension) or 'G' (shear)")
-        order = np.argsort(omega, kind="stable")
-        for name, values in (("omega", omega), ("storage", storage), ("loss", loss)):
-            object.__setattr__(self, name, values[order])
+    def of(self, rows: np.ndarray) -> DynamicModulus:
+        """The modulus of some rows, at their mean temperature."""
+        if np.count_nonzero(rows) < 2:
+            raise InputError(self.where, f"{np.count_nonzero(rows)} rows of numbers", "two or more, at different frequencies")
+        T = None if self.temperature is None else float(self.temperature[rows].mean())
+        return DynamicModulus(self.omega[rows], self.storage[rows], self.loss[rows], self.kind, T, self.columns)
 
-    def between(self, low: float | None = None, high: float | None = None) -> DynamicModulus:
-        """The part from ``low`` to ``high``, in Hz. Raises InputError if fewer than two frequencies remain."""
-        f = self.omega / (2 * np.pi)
-        # a limit as written and a frequency that came through 2 pi and back differ by rounding
-        keep = (f >= (low or 0) * (1 - 1e-12)) & (f <= (np.inf if high is None else high * (1 + 1e-12)))
-        if keep.sum() < 2:
-            span = f"{f[0]:.4g} to {f[-1]:.4g} Hz"
-            raise InputError("frequencies", (low, high), f"a range with two measured frequencies or more; measured: {span}")
-        return DynamicModulus(self.omega[keep], self.storage[keep], self.loss[keep], self.kind)
+    def isotherms(self) -> list[np.ndarray]:
+        """Rows of each temperature, or of each set where the file has sets; one of all rows without either."""
+        if self.set is not None:
+            return [self.set == name for name in dict.fromkeys(self.set.tolist())]
+        if self.temperature is None:
+            return [np.ones(self.omega.size, bool)]
+        ordered = np.sort(self.temperature)
+        starts = np.concatenate(([-np.inf], 0.5 * (ordered[1:] + ordered[:-1])[np.diff(ordered) > _ONE_STEP], [np.inf]))
+        steps = [(self.temperature > low) & (self.temperature <= high) for low, high in zip(starts, starts[1:], strict=False)]
+        return [rows for rows in steps if rows.any()]
 
 
-def read_dma(path: str | os.PathLike[str], temperature_set: str | None = None) -> DynamicModulus:
-    """Read a CSV file in the layout that pyvisco reads.
+def read_dma(path: str | os.PathLike[str], temperature_set: str | None = None, decimal: str | None = None) -> DynamicModulus:
+    """Read frequency, storage and loss modulus from what an instrument exports as text.
 
-    The first row holds names, the second their units, then numbers::
+    Columns are parted by comma, semicolon or tab; numbers have a decimal point or comma. A row of names, in any order and
+    below any remarks, with the unit in the name or in a row of its own::
 
-        f, E_stor, E_loss
-        Hz, MPa, MPa
+        f, E_stor, E_loss            Frequency [Hz];E' [MPa];tan delta
+        Hz, MPa, MPa                 0,01;1,02;0,108
         0.01, 1.02, 0.11
 
-    Columns, in any order: ``f`` in Hz (or ``omega`` in rad/s); ``E_stor`` and ``E_loss`` (shear: ``G_stor``,
-    ``G_loss``) in Pa, kPa, MPa or GPa. Others are ignored, but for ``Set``: raw data at several temperatures have to
-    be shifted to a master curve first. Rows with an empty or undefined number are left out.
+    Names: ``f``, ``frequency``, ``omega``, ``angular frequency``; ``E'``, ``E_stor``, ``storage modulus`` and the like for
+    storage and loss, of E or G; ``tan delta``, ``E*``. Two of storage, loss (or the absolute value) and tan delta will do.
+    Units: any of stress and of frequency (other than Pa, kPa, MPa, GPa, Hz, kHz, rad/s: extra ``units``). Other columns
+    are ignored, but for ``Set`` and temperature: raw data at several temperatures have to become a master curve first
+    (``hystrip.dma.master_curve``). Rows with an empty or undefined number are left out. ``columns`` of what is returned says
+    what was taken for what.
 
     Parameters
     ----------
     path : the file
     temperature_set : of raw data at several temperatures, take the rows with this entry in the column ``Set``
+    decimal : ``"."`` or ``","``, for a file that can be read both ways
 
     Raises
     ------
     InputError : the file cannot be read, or a column, unit or number in it not be used; names file, place and what is
         allowed
     """
-    where = os.fspath(path)
-    rows = _rows(where)
-    if len(rows) < 2:
-        raise InputError(where, f"{len(rows)} rows", "a row of names, a row of units, then numbers")
-    names, units = rows[0], rows[1]
-    at = {name: column for column, name in enumerate(names) if name}
-    frequency = next((name for name in _FREQUENCY if name in at), None)
-    if frequency is None:
-        raise InputError(f"{where}, row 1", names, "a column named 'f' (Hz) or 'omega' (rad/s)")
-    kind = next((letter for letter in "EG" if f"{letter}_stor" in at), None)
-    if kind is None or f"{kind}_loss" not in at:
-        raise InputError(f"{where}, row 1", names, "columns 'E_stor' and 'E_loss', or 'G_stor' and 'G_loss'")
-    for name in (frequency, f"{kind}_stor", f"{kind}_loss"):
-        if names.count(name) > 1:
-            raise InputError(f"{where}, row 1", names, f"one column named {name!r}")
-    factors = {frequency: _frequency_factor(where, frequency, _cell(units, at[frequency]))}
-    for name in (f"{kind}_stor", f"{kind}_loss"):
-        unit = _cell(units, at[name])
-        if unit not in _MODULUS:
-            raise InputError(f"{where}, row 2, {name}", unit, "one of " + ", ".join(_MODULUS))
-        factors[name] = _MODULUS[unit]
-    kept = _of_one_temperature(where, rows[2:], at, temperature_set)
-    table = _numbers(where, kept, [at[name] for name in factors], list(factors))
-    if len(table) < 2:
-        raise InputError(where, f"{len(table)} rows of numbers", "two or more")
-    omega, storage, loss = (table * np.array(list(factors.values()))).T
-    for name, values, good in (
-        (frequency, omega, omega > 0),
-        (f"{kind}_stor", storage, storage > 0),
-        (f"{kind}_loss", loss, loss >= 0),
-    ):
+    readings = read_readings(path, decimal)
+    if temperature_set is not None:
+        names = [] if readings.set is None else list(dict.fromkeys(readings.set.tolist()))
+        if temperature_set not in names:
+            has = f"one of {', '.join(names)}" if names else f"None: {readings.where} has no column 'Set'"
+            raise InputError("temperature_set", temperature_set, has)
+        return readings.of(readings.set == temperature_set)
+    isotherms = readings.isotherms()
+    if len(isotherms) > 1:
+        _refuse_raw(readings, isotherms)
+    return readings.of(np.ones(readings.omega.size, bool))
+
+
+def read_readings(path: str | os.PathLike[str], decimal: str | None = None) -> Readings:
+    """All rows of a file, as :func:`read_dma` reads it. Raises ``InputError`` as that does."""
+    table = read_table(path, is_header)
+    where = table.where
+    columns = columns_of(table.names)
+    pair, chosen = _chosen(where, table, columns)
+    units, rows = _with_units(table, list(chosen.values()))
+    chosen = {role: _given(column, unit) for (role, column), unit in zip(chosen.items(), units, strict=True)}
+    used = [column for role, column in chosen.items() if role != "set"]
+    comma = decimal_comma(where, [table.cell(row, column.index) for _, row in rows for column in used], decimal)
+    factors = {role: 1.0 if role == "temperature" else factor(each, where) for role, each in chosen.items() if role != "set"}
+    numbers, kept = _numbers(table, rows, used, comma)
+    if not numbers.size:
+        raise InputError(where, "no row of numbers", "two or more, each with frequency and moduli")
+    frequency = used[0].role
+    values = {column.role: numbers[:, i] * factors[column.role] for i, column in enumerate(used)}
+    for role in (frequency, *pair):
+        good = values[role] >= 0 if role in ("loss", "tan") else values[role] > 0
         if not good.all():
-            bound = ">= 0" if values is loss else "> 0"
-            raise InputError(f"{where}, {name}", float((values / factors[name])[~good][0]), f"numbers {bound}")
-    return DynamicModulus(omega, storage, loss, kind)
-
-
-def _rows(path: str) -> list[list[str]]:
-    try:
-        with open(path, "rb") as file:
-            data = file.read(_LARGEST + 1)
-    except OSError as error:
-        raise InputError(path, path, f"a CSV file that can be read ({error.strerror or error})") from None
-    if len(data) > _LARGEST:
-        raise InputError(path, path, "a CSV file of at most 64 MiB")
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise InputError(path, path, f"a CSV file, which is UTF-8 text (byte {error.start} is not)") from None
-    try:
-        return [[cell.strip() for cell in row] for row in csv.reader(text.splitlines())]
-    except csv.Error as error:
-        raise InputError(path, path, f"a CSV file ({error})") from None
-
-
-def _cell(row: list[str], column: int) -> str:
-    return row[column] if column < len(row) else ""
-
-
-def _frequency_factor(where: str, name: str, unit: str) -> float:
-    expected, factor = _FREQUENCY[name]
-    if unit != expected:
-        raise InputError(f"{where}, row 2, {name}", unit, expected)
-    return factor
-
-
-def _of_one_temperature(where: str, rows: list[list[str]], at: dict[str, int], wanted: str | None) -> list[tuple[int, list[str]]]:
-    """Numbered rows, of one temperature alone."""
-    numbered = [(number, row) for number, row in enumerate(rows, start=3) if any(row)]
-    sets = list(dict.fromkeys(_cell(row, at["Set"]) for _, row in numbered)) if "Set" in at else []
-    if wanted is not None:
-        if wanted not in sets:
+            bound = ">= 0" if role in ("loss", "tan") else "> 0"
+            at = int(np.argmin(good))
             raise InputError(
-                "temperature_set", wanted, f"one of {', '.join(sets)}" if sets else f"None: {where} has no column 'Set'"
+                f"{where}, line {kept[at][0]}, column {chosen[role].name!r}",
+                float(values[role][at] / factors[role]),
+                f"numbers {bound}",
             )
-        return [(number, row) for number, row in numbered if _cell(row, at["Set"]) == wanted]
-    if len(sets) > 1:
-        raise InputError(f"{where}, Set", sets, "one temperature: a master curve, or the rows of one set (temperature_set)")
-    return numbered
+    storage, loss = _moduli(pair, values)
+    if pair == ("loss", "tan") and not np.isfinite(storage).all():
+        raise InputError(
+            f"{where}, column {chosen['tan'].name!r}", 0.0, "numbers > 0 where the storage modulus follows from them"
+        )
+    temperature = to_kelvin(values["temperature"], chosen["temperature"], where) if "temperature" in chosen else None
+    names = np.array([table.cell(row, chosen["set"].index) for _, row in kept]) if "set" in chosen else None
+    kind = next((chosen[role].kind for role in pair if chosen[role].kind), "E")
+    said = _said(table, columns, chosen, comma, len(rows) - len(kept))
+    return Readings(where, values[frequency], storage, loss, kind, temperature, names, said)
 
 
-def _numbers(where: str, rows: list[tuple[int, list[str]]], columns: list[int], names: list[str]) -> np.ndarray:
-    out = []
-    for number, row in rows:
-        cells = [_cell(row, column) for column in columns]
+def _chosen(where: str, table: Table, columns: list[Column]) -> tuple[tuple[str, str], dict[str, Column]]:
+    """The two columns that give the moduli, and all that are used: frequency first. Raises ``InputError`` for two of a kind."""
+    roles = {column.role for column in columns}
+    pair = next(each for each in _PAIRS if set(each) <= roles)
+    frequency = "frequency" if "frequency" in roles else "omega"
+    chosen = {}
+    for role in (frequency, *pair, *(each for each in ("temperature", "set") if each in roles)):
+        found = [column for column in columns if column.role == role]
+        if len(found) > 1:
+            raise InputError(f"{where}, line {table.line}", [column.name for column in found], f"one column of {role}")
+        chosen[role] = found[0]
+    kinds = {chosen[role].kind for role in pair} - {""}
+    if len(kinds) > 1:
+        raise InputError(f"{where}, line {table.line}", [chosen[role].name for role in pair], "both of E or both of G")
+    return pair, chosen
+
+
+def _with_units(table: Table, columns: list[Column]) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    """Units of the columns from the row below the names, if that is one of units; and the rows of numbers."""
+    none = [""] * len(columns)
+    if not table.rows or all(column.unit for column in columns if column.role in _WITH_UNIT):
+        return none, table.rows
+    cells = [table.cell(table.rows[0][1], column.index) for column in columns]
+    needed = [cell for cell, column in zip(cells, columns, strict=True) if column.role in _WITH_UNIT]
+    if not any(needed) or any(_NUMBER.match(cell) for cell in needed):
+        return none, table.rows
+    return cells, table.rows[1:]
+
+
+def _given(column: Column, unit: str) -> Column:
+    """The column with the unit that stands below its name, unless the name has one."""
+    return Column(column.index, column.name, column.role, column.kind, column.unit or unit)
+
+
+def _numbers(
+    table: Table, rows: list[tuple[int, list[str]]], columns: list[Column], comma: bool
+) -> tuple[np.ndarray, list[tuple[int, list[str]]]]:
+    """Numbers of the rows that have all of them, (n, columns), and these rows."""
+    out, kept = [], []
+    for line, row in rows:
         values = []
-        for name, text in zip(names, cells, strict=True):
+        for column in columns:
+            text = table.cell(row, column.index)
             try:
-                values.append(float(text or "nan"))
+                values.append(as_number(text, comma))
             except ValueError:
-                raise InputError(f"{where}, row {number}, {name}", text, "a number with a decimal point, or nothing") from None
+                sign = "comma" if comma else "point"
+                raise InputError(
+                    f"{table.where}, line {line}, column {column.name!r}", text, f"a number with a decimal {sign}, or nothing"
+                ) from None
         if np.isinf(values).any():
-            raise InputError(f"{where}, row {number}", cells, "finite numbers")
+            raise InputError(
+                f"{table.where}, line {line}", [table.cell(row, column.index) for column in columns], "finite numbers"
+            )
         if not np.isnan(values).any():
             out.append(values)
-    return np.array(out, dtype=float).reshape(-1, len(columns))
+            kept.append((line, row))
+    return np.array(out, dtype=float).reshape(-1, len(columns)), kept
+
+
+def _moduli(pair: tuple[str, str], values: dict[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    first, second = (values[role] for role in pair)
+    if pair == ("storage", "loss"):
+        return first, second
+    if pair == ("storage", "tan"):
+        return first, first * second
+    if pair == ("loss", "tan"):
+        return np.divide(first, second, out=np.full(first.shape, np.inf), where=second > 0), first
+    size = first / np.hypot(1.0, second)
+    return size, size * second
+
+
+def _said(table: Table, columns: list[Column], chosen: dict[str, Column], comma: bool, left_out: int) -> tuple[str, ...]:
+    words = {
+        "frequency": "frequency",
+        "omega": "angular frequency",
+        "storage": "storage modulus",
+        "loss": "loss modulus",
+        "tan": "tan delta",
+        "absolute": "absolute value of the modulus",
+        "temperature": "temperature",
+        "set": "set of one temperature",
+    }
+    lines = []
+    for role, column in chosen.items():
+        unit = "rad/s" if column.role == "frequency" and "rad" in column.unit else column.unit
+        word = "angular frequency" if unit == "rad/s" else words[role] + (f" {column.kind}" if column.kind else "")
+        lines.append(f"{column.name!r}: {word}" + (f", in {unit}" if unit and role not in ("tan", "set") else ""))
+    ignored = [name for i, name in enumerate(table.names) if name and i not in {column.index for column in chosen.values()}]
+    if ignored:
+        lines.append(f"ignored: {', '.join(map(repr, ignored[:8]))}" + (", ..." if len(ignored) > 8 else ""))
+    lines.append(f"cells parted by {table.separator}, decimal {'comma' if comma else 'point'}")
+    if left_out:
+        lines.append(f"{left_out} rows left out: a number is missing")
+    return tuple(lines)
+
+
+def _refuse_raw(readings: Readings, isotherms: list[np.ndarray]) -> None:
+    """Refuse raw data at several temperatures: their bands overlap. A temperature that drifts along one sweep does not matter."""
+    bands = [(readings.omega[rows].min(), readings.omega[rows].max()) for rows in isotherms]
+    bands.sort()
+    apart = all(before[1] < after[0] * (1 - 1e-9) for before, after in zip(bands, bands[1:], strict=False))
+    if readings.set is None and apart:
+        return
+    if readings.set is not None:
+        shown: list = list(dict.fromkeys(readings.set.tolist()))
+        raise InputError(
+            f"{readings.where}, Set",
+            shown,
+            "one temperature: a master curve (`hystrip master` makes one), or the rows of one set",
+        )
+    shown = [f"{readings.temperature[rows].mean():.1f} K" for rows in isotherms]
+    raise InputError(f"{readings.where}, temperature", shown, "one temperature: a master curve (`hystrip master` makes one)")

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..inputs.checks import number
+from ..inputs.fitted import FittedBand
 from ..inputs.material import StandardLinearSolid
 
 if TYPE_CHECKING:
@@ -42,6 +43,9 @@ class PronySeries:
     points : frequencies fitted
     rms_storage, rms_loss : root mean square of the relative residuals of storage and loss modulus
     worst, worst_at : the largest relative residual, and its frequency, Hz
+    relaxed_error, moduli_errors, times_errors : relative standard errors, from the residuals left and the linearised problem;
+        zero for times that were not fitted, infinite where the data does not determine a number at all
+    fit : the error decade by decade
     """
 
     relaxed: float
@@ -55,6 +59,25 @@ class PronySeries:
     rms_loss: float
     worst: float
     worst_at: float
+    relaxed_error: float = 0.0
+    moduli_errors: tuple[float, ...] = ()
+    times_errors: tuple[float, ...] = ()
+    fit: FittedBand | None = None
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of all relative residuals, of storage and loss modulus."""
+        return float(np.hypot(self.rms_storage, self.rms_loss) / np.sqrt(2))
+
+    @property
+    def quality(self) -> str:
+        """How well it fits, in a few words."""
+        low, high = self.band
+        return (
+            f"{100 * self.rms:.2g} % rms between {low:.4g} and {high:.4g} Hz (storage {100 * self.rms_storage:.2g} %, loss "
+            f"{100 * self.rms_loss:.2g} %), at most {100 * self.worst:.2g} % at {self.worst_at:.4g} Hz, with {len(self.times)} "
+            f"relaxation times"
+        )
 
     @property
     def glassy(self) -> float:
@@ -119,6 +142,15 @@ class PronySeries:
             f"residuals  storage {100 * self.rms_storage:.2g} % rms, loss {100 * self.rms_loss:.2g} % rms, "
             f"at most {100 * self.worst:.2g} % (at {self.worst_at:.4g} Hz)",
             "",
-            f"{'time [s]':>12}  {self.kind + ' [Pa]':>12}",
+            f"{'time [s]':>12}  {self.kind + ' [Pa]':>12}  standard errors",
+            f"{'relaxed':>12}  {self.relaxed:12.4g}  {' ' * 12}  {_percent(self.relaxed_error)}",
         ]
-        return "\n".join(lines + [f"{time:12.4g}  {each:12.4g}" for time, each in zip(self.times, self.moduli, strict=True)])
+        n = len(self.times)
+        errors = zip(self.times_errors or (0.0,) * n, self.moduli_errors or (0.0,) * n, strict=True)
+        for time, modulus, (of_time, of_modulus) in zip(self.times, self.moduli, errors, strict=True):
+            lines.append(f"{time:12.4g}  {modulus:12.4g}  {_percent(of_time) if of_time else '':>12}  {_percent(of_modulus)}")
+        return "\n".join(lines)
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.2g} %" if share < 10 else "undetermined"

@@ -13,6 +13,7 @@ from ..extras import require
 from ..inputs.checks import LARGEST
 
 _TEXT = re.compile(r"\s*(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?)\s*(?P<unit>[^\W\d_].*?)?\s*")
+_LONGEST = 100  # characters of a unit
 _UNIT = re.compile(r"[\w\s*/^().\-²³⁻¹]+")
 
 
@@ -47,20 +48,27 @@ def _converted(text: str, unit: str, field: str) -> float:
         raise InputError(field, text, f"a number in {unit} without quotes, or text with a unit")
     if not _UNIT.fullmatch(match["unit"]):
         raise InputError(field, text, _allowed(unit))
-    return float(Decimal(match["number"]) * _factor(match["unit"], unit, field, text))
+    return float(Decimal(match["number"]) * _factor(match["unit"], unit, field, text, _allowed(unit)))
 
 
-def _factor(written: str, unit: str, field: str, text: str) -> Decimal:
+def unit_factor(written: str, unit: str, field: str, allowed: str) -> float:
+    """What a number in the unit ``written`` is multiplied with to be one in ``unit``. Raises as :func:`to_si`."""
+    if len(written) > _LONGEST or not _UNIT.fullmatch(written):
+        raise InputError(field, written, allowed)
+    return float(_factor(written, unit, field, written, allowed))
+
+
+def _factor(written: str, unit: str, field: str, text: str, allowed: str) -> Decimal:
     pint = require("pint", "units", "a quantity written with a unit")
     registry = _registry()
     try:
         return registry.Quantity(Decimal(1), registry.parse_units(written)).to(unit).magnitude
     except pint.UndefinedUnitError:
-        raise InputError(field, text, f"{_allowed(unit)}; the unit {written!r} is not known (case counts)") from None
+        raise InputError(field, text, f"{allowed}; the unit {written!r} is not known (case counts)") from None
     except pint.DimensionalityError:
-        raise InputError(field, text, f"{_allowed(unit)}; {written!r} is a unit of something else") from None
+        raise InputError(field, text, f"{allowed}; {written!r} is a unit of something else") from None
     except Exception:  # Pint's parser ends malformed input in errors of many kinds
-        raise InputError(field, text, f"{_allowed(unit)}; {written!r} cannot be read as a unit") from None
+        raise InputError(field, text, f"{allowed}; {written!r} cannot be read as a unit") from None
 
 
 @functools.cache

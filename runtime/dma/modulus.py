@@ -1,0 +1,119 @@
+"""Storage and loss modulus over angular frequency: measured, tabulated or computed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..inputs.checks import LARGEST, number, numbers
+
+#: frequencies per decade at which a function is tabulated: several to each relaxation time of the finest series
+_PER_DECADE = 12
+
+
+@dataclass(frozen=True, eq=False)
+class DynamicModulus:
+    """Storage and loss modulus over angular frequency, sorted by it.
+
+    Parameters
+    ----------
+    omega : angular frequency, rad/s, > 0, shape (n,), n >= 2
+    storage, loss : moduli, Pa, > 0 and >= 0, shape (n,)
+    kind : ``"E"`` (tension, compression) or ``"G"`` (shear)
+    temperature : at which it was measured, K, or None
+    columns : what each column of a file was taken for, in words
+
+    Raises
+    ------
+    InputError : a value outside its range, or shapes that differ
+
+    >>> data = DynamicModulus(omega=[10.0, 1.0], storage=[2e6, 1e6], loss=[3e5, 1e5])
+    >>> data.storage.tolist()
+    [1000000.0, 2000000.0]
+    """
+
+    omega: np.ndarray
+    storage: np.ndarray
+    loss: np.ndarray
+    kind: str = field(default="E")
+    temperature: float | None = None
+    columns: tuple[str, ...] = field(default=(), repr=False)
+
+    def __post_init__(self):
+        omega = numbers("dma.omega", self.omega, "rad/s", 0, strict=True)
+        storage = numbers("dma.storage", self.storage, "Pa", 0, strict=True)
+        loss = numbers("dma.loss", self.loss, "Pa", 0)
+        shapes = [each.shape for each in (omega, storage, loss)]
+        if omega.ndim != 1 or omega.size < 2 or len(set(shapes)) > 1:
+            raise InputError("dma", shapes, "omega, storage and loss of one shape (n,), n >= 2")
+        if self.kind not in ("E", "G"):
+            raise InputError("dma.kind", self.kind, "'E' (tension) or 'G' (shear)")
+        if self.temperature is not None:
+            object.__setattr__(self, "temperature", number("dma.temperature", self.temperature, "K", 0, strict=True))
+        order = np.argsort(omega, kind="stable")
+        for name, values in (("omega", omega), ("storage", storage), ("loss", loss)):
+            object.__setattr__(self, name, values[order])
+
+    @classmethod
+    def from_complex(cls, omega: Any, modulus: Any, kind: str = "E") -> DynamicModulus:
+        """From a table of the complex modulus ``E*(omega) = storage + i loss``, Pa, shape (n,).
+
+        Raises ``InputError`` as for :class:`DynamicModulus`.
+        """
+        try:
+            values = np.asarray(modulus, dtype=complex)
+        except (TypeError, ValueError):
+            raise InputError("modulus", modulus, "complex numbers, storage + i loss (Pa)") from None
+        return cls(omega, values.real, values.imag, kind)
+
+    @classmethod
+    def from_function(
+        cls, modulus: Callable[[np.ndarray], Any], low: float, high: float, per_decade: int = _PER_DECADE, kind: str = "E"
+    ) -> DynamicModulus:
+        """From a function ``E*(omega)`` of rad/s that returns the complex modulus, Pa; e.g. a fractional model.
+
+        Parameters
+        ----------
+        low, high : band, Hz, > 0
+        per_decade : frequencies in each decade
+
+        Raises ``InputError`` for a bad band, or for values that are no modulus of a solid.
+
+        >>> def fractional_zener(omega):
+        ...     x = (1j * omega * 1e-4) ** 0.5
+        ...     return 1e6 + 1e9 * x / (1 + x)
+        >>> DynamicModulus.from_function(fractional_zener, 1e-2, 1e4).omega.size
+        73
+        """
+        low, high = number("low", low, "Hz", 0, strict=True), number("high", high, "Hz", 0, strict=True)
+        if not low < high:
+            raise InputError("low, high", (low, high), "a lowest frequency below the highest (Hz)")
+        count = max(round(per_decade * np.log10(high / low)) + 1, 2)
+        omega = 2 * np.pi * np.geomspace(low, high, count)
+        return cls.from_complex(omega, np.broadcast_to(modulus(omega), omega.shape), kind)
+
+    @property
+    def frequency(self) -> np.ndarray:
+        """Frequency, Hz, shape (n,)."""
+        return self.omega / (2 * np.pi)
+
+    def between(self, low: float | None = None, high: float | None = None) -> DynamicModulus:
+        """The part from ``low`` to ``high``, in Hz. Raises InputError if fewer than two frequencies remain."""
+        f = self.frequency
+        # a limit as written and a frequency that came through 2 pi and back differ by rounding
+        keep = (f >= (low or 0) * (1 - 1e-12)) & (f <= (LARGEST if high is None else high * (1 + 1e-12)))
+        if keep.sum() < 2:
+            span = f"{f[0]:.4g} to {f[-1]:.4g} Hz"
+            raise InputError("frequencies", (low, high), f"a range with two measured frequencies or more; measured: {span}")
+        return self._with(self.omega[keep], self.storage[keep], self.loss[keep])
+
+    def shifted(self, factor: float, vertical: float = 1.0) -> DynamicModulus:
+        """At ``factor`` times the frequency (a_T) and moduli over ``vertical`` (b_T): moved along a master curve."""
+        return self._with(self.omega * factor, self.storage / vertical, self.loss / vertical)
+
+    def _with(self, omega, storage, loss) -> DynamicModulus:
+        return DynamicModulus(omega, storage, loss, self.kind, self.temperature, self.columns)

@@ -1,0 +1,92 @@
+"""Moduli that fit best at given relaxation times, and the times that fit best (variable projection).
+
+The residuals are those of storage and loss modulus, each relative to what was measured. For given times they are linear in
+the moduli: non-negative least squares. The times then have a problem of their own, whose Jacobian is Kaufman's: the
+derivative of the columns, less what a change of the moduli takes up (BIT 15, 1975, 49).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .modulus import DynamicModulus
+
+
+def system(data: DynamicModulus, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Matrix (2 n, 1 + times) and goal (2 n,) of the relative residuals, storage rows above loss rows; the relaxed modulus
+    comes first."""
+    x = np.multiply.outer(data.omega, times)
+    one = np.ones((data.omega.size, 1))
+    rows = np.block([[one, 1 / (1 + x**-2)], [0 * one, 1 / (x + 1 / x)]])
+    measured = np.concatenate((data.storage, data.loss))
+    size = _size(data)
+    return rows / size[:, None], measured / size
+
+
+def solved(data: DynamicModulus, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Moduli (1 + times,), Pa, and relative residuals (2 n,)."""
+    from scipy.optimize import nnls
+
+    rows, goal = system(data, times)
+    # columns of one size: moduli of rubber span decades, and the solver's tolerance is absolute
+    size = np.linalg.norm(rows, axis=0)
+    size[size == 0] = 1.0
+    found, _ = nnls(rows / size, goal, maxiter=100 * rows.shape[1])
+    moduli = found / size
+    return moduli, rows @ moduli - goal
+
+
+def by_log_times(data: DynamicModulus, times: np.ndarray, moduli: np.ndarray) -> np.ndarray:
+    """Derivatives (2 n, times) of the residuals by the logarithms of the times, the moduli of the branches held."""
+    x = np.multiply.outer(data.omega, times)
+    small = np.minimum(x, 1 / x)  # x^2/(1 + x^2)^2 is the same for x and 1/x
+    storage = 2 * (small / (1 + small**2)) ** 2
+    loss = small / (1 + small**2) * np.where(x > 1, -1, 1) * (1 - small**2) / (1 + small**2)
+    return np.concatenate((storage, loss)) * moduli / _size(data)[:, None]
+
+
+def placed(data: DynamicModulus, start: np.ndarray) -> tuple[np.ndarray, float]:
+    """Times that fit best, starting from ``start``, s, and half the sum of squares."""
+    from scipy.optimize import least_squares
+
+    low, high = np.log(1 / data.omega[-1]), np.log(1 / data.omega[0])
+
+    def residuals(s):
+        return solved(data, np.exp(s))[1]
+
+    def jacobian(s):
+        times = np.exp(s)
+        moduli = solved(data, times)[0]
+        rows, _ = system(data, times)
+        basis, _ = np.linalg.qr((rows / np.maximum(np.linalg.norm(rows, axis=0), 1e-300))[:, moduli > 0])
+        change = by_log_times(data, times, moduli[1:])
+        return change - basis @ (basis.T @ change)
+
+    # within a decade of what was measured: beyond, a branch cannot be told from a constant
+    bounds = low - np.log(10), high + np.log(10)
+    inside = np.clip(np.log(start), bounds[0] + 1e-9, bounds[1] - 1e-9)
+    found = least_squares(residuals, inside, jacobian, bounds=bounds, xtol=1e-12, ftol=1e-12, gtol=1e-14, max_nfev=200)
+    return np.unique(np.exp(found.x)), float(found.cost)
+
+
+def relative_errors(
+    data: DynamicModulus, moduli: np.ndarray, times: np.ndarray, residuals: np.ndarray, free_times: bool
+) -> tuple[np.ndarray, np.ndarray]:
+    """Relative standard errors of the moduli (1 + times,) and of the times (times,), from the residuals left and the
+    linearised problem; the times' are zero unless they were fitted."""
+    rows, _ = system(data, times)
+    jacobian = rows * moduli
+    if free_times:
+        jacobian = np.concatenate((jacobian, by_log_times(data, times, moduli[1:])), axis=1)
+    freedom = max(residuals.size - jacobian.shape[1], 1)
+    _, sizes, directions = np.linalg.svd(jacobian, full_matrices=False)
+    scaled = directions / np.maximum(sizes, 1e-15 * sizes[0])[:, None]
+    errors = np.sqrt(np.sum(scaled**2, axis=0) * np.sum(residuals**2) / freedom)
+    n = moduli.size
+    return errors[:n], errors[n:] if free_times else np.zeros(times.size)
+
+
+def _size(data: DynamicModulus) -> np.ndarray:
+    """What residuals are relative to, (2 n,): the measured value; a loss of zero relative to the storage modulus."""
+    measured = np.concatenate((data.storage, data.loss))
+    return np.where(measured > 0, measured, np.concatenate((data.storage, data.storage)))
