@@ -14,12 +14,11 @@ from .dispatch import derive_any
 from .drift import CertificateError, Drift, check, generated_folder, regenerate, stored_bounds
 from .model import Model, Parameter, Roots, Series
 from .model_file import load_model
-from .models import GENERALISED_2, GENERALISED_3, KELVIN_VOIGT, MODELS, STANDARD_LINEAR_SOLID, operator_model, prony_model
+from .models import GENERALISED, KELVIN_VOIGT, MODELS, STANDARD_LINEAR_SOLID, operator_model, prony_model
 from .pages.publish import AuditError, audit
 
 __all__ = [
-    "GENERALISED_2",
-    "GENERALISED_3",
+    "GENERALISED",
     "KELVIN_VOIGT",
     "MODELS",
     "STANDARD_LINEAR_SOLID",

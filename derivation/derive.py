@@ -9,12 +9,14 @@ from typing import Any
 import sympy as sp
 
 from .averages import constant_means, strip_means, zone_integrals
+from .basis import Basis
 from .check import Derived
 from .conditions import conditions
 from .energy import friction_balance, power_balance
 from .events import excess_event, gap_event
 from .flows import flows
 from .functions import Call
+from .further import FOR_ONE_TIME, further
 from .jumps import jumps
 from .kernel import Kernel
 from .level import level
@@ -104,6 +106,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     upwards = multilevel(one_strip, full, whole, partial, means, integrals)
     pile = stack(one_strip, full, whole)
     done("levels")
+    more = further(FOR_ONE_TIME, Basis(flow, full, table))
     sections = (
         ("Rigid profile, load, zones", zone.kernels),
         ("Events: value and slope, for root finding in a zone whose entry is evaluated once", events),
@@ -113,6 +116,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         ("Means of pressure and friction", (full.means, *still, *means)),
         ("Slope of the onset-to-onset map", slopes),
         ("A whole level in complete contact, and a stack of them: SI units", whole.kernels),
+        *more,
     )
     stages = (
         ground,
@@ -135,6 +139,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         slopes,
         upwards,
         pile,
+        more,
     )
     return Derivation(model, stages, table, sections)
 

@@ -66,6 +66,7 @@ class Model:
     P: tuple[sp.Expr, ...]
     differences: tuple[tuple[sp.Symbol, sp.Expr], ...] = ()
     series: Series | Roots | None = None
+    any_number: bool = False  # of relaxation times: the operators are those of one number, the emitted solver reads it
 
     @property
     def modes(self) -> int:

@@ -46,7 +46,7 @@ class Solver:
 
     def prony_kernel(self, times: int) -> ModuleType:
         """The module that solves a Prony series of so many times."""
-        fits = [m for m in self.models.values() if m.MODES == times and set(m.MATERIAL) == {"K", "K_i", "tau_i"}]
+        fits = [m for m in self.models.values() if m.MODES in (None, times) and set(m.MATERIAL) == {"K", "K_i", "tau_i"}]
         if not fits:
             has = ", ".join(f"{m.MODEL} ({m.MODES})" for m in self.models.values())
             wanted = f"a solver for a Prony series of {times} different times; this one has {has}"

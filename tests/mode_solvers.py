@@ -1,37 +1,15 @@
-"""Solvers of models with several relaxation times, emitted for the tests; and orbits to hold them against."""
+"""Orbits of the standard linear solid, to hold solvers for several relaxation times against."""
 
 from __future__ import annotations
 
-import functools
-import importlib
-import sys
-import tempfile
-from pathlib import Path
 from types import ModuleType
 
 import numpy as np
 
 import hystrip
-from hystrip.derivation import prony_model
-from hystrip.derivation.emit import emit
-from hystrip.derivation.modes.derive import derive_modes
 from hystrip.generated import standard_linear_solid
 
 ORDER = ("d", "b", "a", "c")
-
-
-@functools.cache
-def one_mode() -> ModuleType:
-    """The pipeline for n modes, given one: to be held against the pipeline for one relaxation time."""
-    folder = Path(tempfile.mkdtemp()) / "one_mode_solvers"
-    folder.mkdir()
-    for name, text in emit((derive_modes(prony_model("one_mode", 1)),)).items():
-        (folder / name).write_text(text, encoding="utf-8")
-    sys.path.insert(0, str(folder.parent))
-    try:
-        return importlib.import_module("one_mode_solvers.one_mode")
-    finally:
-        sys.path.remove(str(folder.parent))
 
 
 class Orbits:

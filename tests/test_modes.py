@@ -5,28 +5,28 @@ from __future__ import annotations
 import mpmath
 import numpy as np
 import pytest
-from mode_solvers import Orbits, one_mode
+from mode_solvers import Orbits
 
-from hystrip.generated import generalised_2, generalised_3, kelvin_voigt, modes, standard_linear_solid
+from hystrip.generated import generalised, kelvin_voigt, modes, standard_linear_solid
 
 PARTIAL = ("acaf", "afc", "af", "ac")
-SHIPPED = (kelvin_voigt, generalised_2, generalised_3)
+SHIPPED = (kelvin_voigt, generalised)
 
 
 @pytest.mark.parametrize("sequence", PARTIAL)
 def test_one_mode_is_the_standard_linear_solid(sequence: str) -> None:
     orbits = Orbits(sequence)
     assert len(orbits.rows) > 5
-    K, found = one_mode().material_modes(1.0, *orbits.branch)
-    assert orbits.held(one_mode(), found) < 1e-12
+    K, found = generalised.material_modes(1.0, *orbits.branch)
+    assert orbits.held(generalised, found) < 1e-12
 
 
 @pytest.mark.parametrize("sequence", PARTIAL)
 def test_two_equal_times_are_one(sequence: str) -> None:
     orbits = Orbits(sequence)
     K_1, tau_1 = orbits.branch
-    _, found = generalised_2.material_modes(1.0, np.concatenate((0.3 * K_1, 0.7 * K_1)), np.concatenate((tau_1, tau_1)))
-    assert orbits.held(generalised_2, found) < 1e-12
+    _, found = generalised.material_modes(1.0, np.concatenate((0.3 * K_1, 0.7 * K_1)), np.concatenate((tau_1, tau_1)))
+    assert orbits.held(generalised, found) < 1e-12
 
 
 @pytest.mark.parametrize("sequence", PARTIAL)
@@ -34,10 +34,10 @@ def test_two_equal_times_are_one(sequence: str) -> None:
 def test_two_nearly_equal_times_lose_nothing(sequence: str, apart: float) -> None:
     orbits = Orbits(sequence)
     K_1, tau_1 = orbits.branch
-    _, found = generalised_2.material_modes(
+    _, found = generalised.material_modes(
         1.0, np.concatenate((0.3 * K_1, 0.7 * K_1)), np.concatenate((tau_1, tau_1 * (1 + apart)))
     )
-    assert orbits.held(generalised_2, found) < 1e-12 + 1e2 * apart
+    assert orbits.held(generalised, found) < 1e-12 + 1e2 * apart
 
 
 @pytest.mark.parametrize("sequence", PARTIAL)
@@ -47,11 +47,11 @@ def test_a_branch_without_modulus_does_not_count(sequence: str, modulus: float, 
     orbits = Orbits(sequence)
     K_1, tau_1 = orbits.branch
     K_i, tau_i = np.concatenate((modulus * K_1, K_1)), np.concatenate((slower * tau_1, tau_1))
-    _, found = generalised_2.material_modes(1.0, K_i, tau_i)
-    assert orbits.held(generalised_2, found) < 1e-11
+    _, found = generalised.material_modes(1.0, K_i, tau_i)
+    assert orbits.held(generalised, found) < 1e-11
     nothing = np.zeros_like(K_1)
-    _, found = generalised_3.material_modes(1.0, np.concatenate((K_i, nothing)), np.concatenate((tau_i, nothing)))
-    assert orbits.held(generalised_3, found) < 1e-11
+    _, found = generalised.material_modes(1.0, np.concatenate((K_i, nothing)), np.concatenate((tau_i, nothing)))
+    assert orbits.held(generalised, found) < 1e-11
 
 
 @pytest.mark.parametrize("sequence", ["acaf", "af", "ac"])
@@ -63,8 +63,8 @@ def test_a_vanishing_relaxation_time_is_kelvin_voigt(sequence: str) -> None:
     viscosity = (orbits.beta / orbits.k)[None]
     for ratio in (1e-6, 1e-9, 1e-13):
         tau = viscosity * ratio
-        _, found = one_mode().material_modes(1.0, viscosity / tau, tau)
-        assert orbits.held(one_mode(), found) < 1e-11 + 1e4 * ratio
+        _, found = generalised.material_modes(1.0, viscosity / tau, tau)
+        assert orbits.held(generalised, found) < 1e-11 + 1e4 * ratio
 
 
 @pytest.mark.parametrize("sequence", ["acaf", "afc", "af", "ac"])
@@ -72,18 +72,18 @@ def test_without_moduli_the_strip_is_elastic(sequence: str) -> None:
     orbits = Orbits(sequence, J=1.0)
     assert len(orbits.rows)
     nothing = np.zeros((2, len(orbits.rows)))
-    _, found = generalised_2.material_modes(1.0, nothing, np.ones_like(nothing))
-    assert orbits.held(generalised_2, found) < 1e-12
+    _, found = generalised.material_modes(1.0, nothing, np.ones_like(nothing))
+    assert orbits.held(generalised, found) < 1e-12
     p_0, delta_0 = orbits.p_0, orbits.delta_0
-    m = generalised_2.at_speed(found, np.full(len(orbits.rows), orbits.k))
-    _, tau_mean = generalised_2.REGIMES[sequence]["means"](*orbits.edges, m, *orbits.parameters)
+    m = generalised.at_speed(found, np.full(len(orbits.rows), orbits.k))
+    _, tau_mean = generalised.REGIMES[sequence]["means"](*orbits.edges, m, *orbits.parameters)
     snaps = p_0 >= delta_0
     detached = np.where(snaps, p_0 * delta_0 + p_0**2 / 2 - delta_0**2 / 2, p_0**2)
     assert np.allclose(2 * np.pi * tau_mean, 0.0 if sequence == "ac" else detached, rtol=1e-10, atol=1e-12)
 
 
 def _material(solver, draw) -> tuple[dict, mpmath.mpf, list]:
-    n = solver.MODES
+    n = solver.MODES or 3
     if solver is kelvin_voigt:
         T_eps = 10 ** draw.uniform(-6, 2)
         return {"K": 1e9, "T_eps": T_eps}, mpmath.mpf(1e9), [(mpmath.mpf(T_eps), mpmath.mpf(0))]
@@ -127,13 +127,14 @@ def test_saturated_pressure_is_the_loss_and_storage(solver) -> None:
     assert np.allclose(solver.saturated_pressure(s, 0.7, many), expected, rtol=1e-13, atol=1e-12 * solver.modulus_ratio(m))
 
 
-@pytest.mark.parametrize("solver", (generalised_2, generalised_3), ids=lambda s: s.MODEL)
+@pytest.mark.parametrize("n", (2, 3, 8))
 @pytest.mark.parametrize("sequence", PARTIAL)
-def test_jacobian_is_the_slope_of_the_residual(solver, sequence: str) -> None:
+def test_jacobian_is_the_slope_of_the_residual(n: int, sequence: str) -> None:
+    solver = generalised
     draw = np.random.default_rng(9)
     regime = solver.REGIMES[sequence]
     for _ in range(20):
-        K_i, tau_i = 10 ** draw.uniform(-1, 1, solver.MODES), 10 ** draw.uniform(-1.5, 1.5, solver.MODES)
+        K_i, tau_i = 10 ** draw.uniform(-1, 1, n), 10 ** draw.uniform(-1.5, 1.5, n)
         _, m = solver.material_modes(1.0, K_i, tau_i)
         edges = np.sort(draw.uniform(-3, 3, len(regime["edges"])))
         rest = (m, *10 ** draw.uniform(-1, 0, 2), draw.uniform(-1, 2))
@@ -149,9 +150,9 @@ def test_jacobian_is_the_slope_of_the_residual(solver, sequence: str) -> None:
 @pytest.mark.parametrize("sequence", PARTIAL)
 def test_the_return_map_of_one_mode_is_the_onset_slope(sequence: str) -> None:
     orbits = Orbits(sequence)
-    _, found = one_mode().material_modes(1.0, *orbits.branch)
-    m = one_mode().at_speed(found, np.full(len(orbits.rows), orbits.k))
-    (slope,) = one_mode().REGIMES[sequence]["return_map"](*orbits.edges, m, *orbits.parameters)[0]
+    _, found = generalised.material_modes(1.0, *orbits.branch)
+    m = generalised.at_speed(found, np.full(len(orbits.rows), orbits.k))
+    (slope,) = generalised.REGIMES[sequence]["return_map"](*orbits.edges, m, *orbits.parameters)[0]
     alpha = orbits.J_0 * orbits.beta
     expected = standard_linear_solid.REGIMES[sequence]["onset_slope"](
         *orbits.edges, alpha, orbits.beta, orbits.J_0, 1 - orbits.J_0, *orbits.parameters, 1.0
@@ -162,11 +163,11 @@ def test_the_return_map_of_one_mode_is_the_onset_slope(sequence: str) -> None:
 def test_return_map_of_two_equal_times_has_the_slope_of_one_as_its_only_eigenvalue() -> None:
     orbits = Orbits("acaf")
     K_1, tau_1 = orbits.branch
-    _, one = one_mode().material_modes(1.0, K_1, tau_1)
-    _, two = generalised_2.material_modes(1.0, np.concatenate((K_1, 0 * K_1)), np.concatenate((tau_1, tau_1)))
+    _, one = generalised.material_modes(1.0, K_1, tau_1)
+    _, two = generalised.material_modes(1.0, np.concatenate((K_1, 0 * K_1)), np.concatenate((tau_1, tau_1)))
     kV = np.full(len(orbits.rows), orbits.k)
-    (slope,) = one_mode().return_map_acaf(*orbits.edges, one_mode().at_speed(one, kV), *orbits.parameters)[0]
-    matrix = generalised_2.return_map_acaf(*orbits.edges, generalised_2.at_speed(two, kV), *orbits.parameters)
+    (slope,) = generalised.return_map_acaf(*orbits.edges, generalised.at_speed(one, kV), *orbits.parameters)[0]
+    matrix = generalised.return_map_acaf(*orbits.edges, generalised.at_speed(two, kV), *orbits.parameters)
     largest = np.max(np.abs(np.linalg.eigvals(np.moveaxis(matrix, -1, 0))), axis=1)
     assert np.allclose(largest, np.abs(slope), rtol=1e-9, atol=1e-13)
 
@@ -197,7 +198,7 @@ def test_no_warning_at_rest_and_far_apart_times(solver) -> None:
     if solver is kelvin_voigt:
         cases = [{"K": 1.0, "T_eps": time} for time in (0.0, 1e-200, 1.0, 1e200)]
     else:
-        n = solver.MODES
+        n = solver.MODES or 3
         cases = [
             {"K": 1.0, "K_i": np.full(n, stiff), "tau_i": 10.0 ** np.linspace(-spread, spread, n)}
             for stiff in (0.0, 1e-30, 1.0, 1e6)
@@ -223,10 +224,11 @@ def test_no_warning_at_rest_and_far_apart_times(solver) -> None:
         ({"K": np.nan}, "K must be finite and above 0"),
         ({"K_i": [1.0, -1.0]}, "K_i must be finite and at least 0"),
         ({"tau_i": [1.0, np.inf]}, "tau_i must be finite and at least 0"),
-        ({"K_i": [1.0]}, "K_i must have 2 values along its first axis, not 1 along it"),
+        ({"K_i": [1.0]}, "tau_i must have 1 value along its first axis, not 2 along it"),
+        ({"K_i": []}, "K_i must have at least 1 value along its first axis, not 0 along it"),
         ({"tau_i": 1.0}, "tau_i must have 2 values along its first axis, not a single number"),
     ],
 )
 def test_what_is_no_passive_solid_is_refused(change: dict, message: str) -> None:
     with pytest.raises(ValueError, match=message):
-        generalised_2.material_modes(**{"K": 1.0, "K_i": [1.0, 2.0], "tau_i": [0.1, 1.0], **change})
+        generalised.material_modes(**{"K": 1.0, "K_i": [1.0, 2.0], "tau_i": [0.1, 1.0], **change})

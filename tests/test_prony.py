@@ -153,10 +153,14 @@ def test_continuous_is_refused_with_the_reason():
         assert error.value.field == "edge"
 
 
-def test_a_number_of_times_without_solver_says_how_to_get_one():
-    material = Prony(1e9, [1e9] * 4, [1e-3, 1e-2, 1e-1, 1.0])
-    with pytest.raises(InputError, match="hystrip regenerate"):
-        solve(material)
+def test_many_times_need_no_solver_of_their_own():
+    """Two branches, split in halves of equal times, among eight that carry next to nothing, over eight decades."""
+    split = [(0.5 * modulus, time) for modulus, time in ((3e9, 1e-3), (2e10, 1e-1)) for _ in range(2)]
+    light = [(1e-3, 10.0 ** (k + 0.5)) for k in range(-6, 2)]
+    many = Prony(1e9, *zip(*split, *light, strict=True))
+    assert many.n == 10
+    few, all_of_them = (solve(each) for each in (Prony(1e9, [3e9, 2e10], [1e-3, 1e-1]), many))
+    assert np.allclose(all_of_them.p_mean, few.p_mean, rtol=1e-9) and np.allclose(all_of_them.tau_mean, few.tau_mean, rtol=1e-8)
 
 
 def test_materials_are_immutable_and_compare_by_value():

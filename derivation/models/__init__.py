@@ -1,15 +1,14 @@
 """The viscoelastic models that ship with the derivation, one file each."""
 
-from .generalised import GENERALISED_2, GENERALISED_3, prony_model
+from .generalised import GENERALISED, prony_model
 from .kelvin_voigt import KELVIN_VOIGT
 from .operators import operator_model
 from .standard_linear_solid import STANDARD_LINEAR_SOLID
 
-MODELS = (STANDARD_LINEAR_SOLID, KELVIN_VOIGT, GENERALISED_2, GENERALISED_3)
+MODELS = (STANDARD_LINEAR_SOLID, KELVIN_VOIGT, GENERALISED)
 
 __all__ = [
-    "GENERALISED_2",
-    "GENERALISED_3",
+    "GENERALISED",
     "KELVIN_VOIGT",
     "MODELS",
     "STANDARD_LINEAR_SOLID",

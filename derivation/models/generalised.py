@@ -5,14 +5,16 @@ import sympy as sp
 from ..model import Model, Parameter, Series, rate
 from ..symbols import K
 
+REPRESENTATIVE = 3  # relaxation times of the operators written out for any number of them
 K_i, tau_i = sp.symbols("K_i tau_i", positive=True)
 
 
-def prony_model(name: str, modes: int, title: str = "") -> Model:
-    """The model of a Prony series with ``modes`` relaxation times, which the solver takes as the arrays K_i and tau_i.
+def prony_model(name: str, modes: int | None = None, title: str = "") -> Model:
+    """The model of a Prony series with ``modes`` relaxation times, or any number, given to the solver as arrays K_i and tau_i.
 
     Raises :class:`ValueError` for fewer than one relaxation time.
     """
+    given, modes = modes, REPRESENTATIVE if modes is None else modes
     if modes < 1:
         raise ValueError(f"prony_model: modes must be at least 1, not {modes}")
     series = Series(K, viscosity=K_i * tau_i / K, time=tau_i, arrays=(K_i, tau_i))
@@ -26,7 +28,7 @@ def prony_model(name: str, modes: int, title: str = "") -> Model:
     )
     return Model(
         name=name,
-        title=title or f"Generalised model with {modes} relaxation times",
+        title=title or f"Generalised model with {given or 'n'} relaxation times",
         parameters=(
             Parameter(K, "K", "Pa/m", "relaxed stiffness of the foundation per area"),
             Parameter(K_i, "K_i", "Pa/m", "branch moduli, one per relaxation time"),
@@ -35,6 +37,7 @@ def prony_model(name: str, modes: int, title: str = "") -> Model:
         Q=_coefficients(numerator, modes),
         P=tuple(c / K for c in _coefficients(denominator, modes)),
         series=series,
+        any_number=given is None,
     )
 
 
@@ -42,5 +45,4 @@ def _coefficients(polynomial: sp.Expr, degree: int) -> tuple[sp.Expr, ...]:
     return tuple(reversed(sp.Poly(polynomial, rate).all_coeffs()))[: degree + 1]
 
 
-GENERALISED_2 = prony_model("generalised_2", 2)
-GENERALISED_3 = prony_model("generalised_3", 3)
+GENERALISED = prony_model("generalised")

@@ -6,9 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from ..basis import Basis
 from ..check import Derived
 from ..conditions import zone_conditions
 from ..derive import _records as records
+from ..further import FOR_ANY_NUMBER, further
 from ..model import Model
 from ..strip import adhesion_law, strip_profile
 from .averages import strip_means
@@ -73,6 +75,7 @@ def derive_modes(model: Model, progress: Progress | None = None) -> ModesDerivat
     done("complete contact")
     regimes = mode_regimes(model.P[-1] != 0, complete.threshold.value)
     done("regimes")
+    sections += further(FOR_ANY_NUMBER, Basis(flows, complete, regimes))
     means = strip_means(ground)
     done("means")
     upwards = mode_levels(flows, complete, regimes)

@@ -32,14 +32,14 @@ def template_values(derivation: ModesDerivation) -> dict[str, Any]:
     arrays = [] if isinstance(series, Roots) else [source(symbol) for symbol in series.arrays]
     formulas = [kernel.formula for kernel in derivation.kernels]
     sums = {type(f).__name__ for f in _functions(formulas) if isinstance(f, SUMS)}
-    checked = [_checked(parameter, arrays) for parameter in model.parameters]
+    checked = [_checked(parameter, arrays, model.any_number) for parameter in model.parameters]
     material, builders = _modes_of_material(model, series)
     validators = {text.partition("(")[0] for _, text in checked}
     complete = derivation.complete
     return {
         "title": model.title,
         "model": model.name,
-        "n": model.modes,
+        "n": None if model.any_number else model.modes,
         "closures": derivation.closures.value,
         "material": model.parameters,
         "arrays": arrays,
@@ -62,11 +62,12 @@ def template_values(derivation: ModesDerivation) -> dict[str, Any]:
     }
 
 
-def _checked(parameter: Parameter, arrays: list[str]) -> tuple[str, str]:
+def _checked(parameter: Parameter, arrays: list[str], any_number: bool) -> tuple[str, str]:
     """A parameter's name and the call that checks it, by what its symbol assumes."""
     name = parameter.name
     if name in arrays:
-        return name, f'per_mode("{name}", {name}, MODES)'
+        count = "MODES" if not any_number or name == arrays[0] else f"len({arrays[0]})"
+        return name, f'per_mode("{name}", {name}, {count})'
     bound = (
         "positive"
         if parameter.symbol.is_positive and name == "K"

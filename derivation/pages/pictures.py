@@ -27,8 +27,7 @@ _STRIPS: tuple[dict[str, Any], ...] = (
 MATERIALS: dict[str, dict[str, Any]] = {
     "standard_linear_solid": {"K": 1e9, "T_eps": 1e-2, "T_sigma": 2e-3},
     "kelvin_voigt": {"K": 1e9, "T_eps": 1e-2},
-    "generalised_2": {"K": 1e9, "K_i": (2e9, 2e9), "tau_i": (5e-4, 4e-3)},
-    "generalised_3": {"K": 1e9, "K_i": (1.5e9, 1.5e9, 1e9), "tau_i": (2e-4, 1.5e-3, 6e-3)},
+    "generalised": {"K": 1e9, "K_i": (1.5e9, 1.5e9, 1e9), "tau_i": (2e-4, 1.5e-3, 6e-3)},
 }
 UNITS = {
     "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "K_i": "Pa/m", "tau_i": "s",

@@ -65,13 +65,17 @@ def carried_out(step: Derived) -> list[Place]:
 def _place(step: str, file: str, function: str, piece: str) -> Place:
     text, tree = _parsed(file)
     name = function.rpartition(".")[2]
-    found = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name == name]
+    found = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name == name and not _overload(node)]
     lines = [line for node in found for line in text.splitlines()[node.lineno - 1 : node.end_lineno] if piece in line]
     if len(found) != 1 or len(lines) != 1:
         raise DerivationError(
             step, f"runtime/{file}: {function} has {len(lines)} lines with {piece!r}, not the one that the audit names"
         )
     return Place(f"runtime/{file}", function, lines[0].strip())
+
+
+def _overload(node: ast.FunctionDef) -> bool:
+    return any(ast.unparse(decorator) == "overload" for decorator in node.decorator_list)
 
 
 @lru_cache

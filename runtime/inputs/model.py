@@ -32,9 +32,10 @@ class ModelMaterial:
                 wanted = f"a value ({unit}) for every parameter of {kernel.MODEL}: {', '.join(known)}"
                 raise InputError(f"material.{name}", None, wanted)
             array = numbers(f"material.{name}", given[name], unit)
-            shape = (kernel.MODES,) if name in kernel.MODE_PARAMETERS else ()
+            count = kernel.MODES or len(np.atleast_1d(given.get(kernel.MODE_PARAMETERS[0], ())))
+            shape = (count,) if name in kernel.MODE_PARAMETERS else ()
             if array.shape != shape:
-                wanted = f"{kernel.MODES} numbers, one for each relaxation time" if shape else "a single number"
+                wanted = f"{count} numbers, one for each relaxation time" if shape else "a single number"
                 raise InputError(f"material.{name}", given[name], f"{wanted} ({unit})")
             values[name] = array
         K, modes = modes_of(kernel, {name: v[..., None] for name, v in values.items()})

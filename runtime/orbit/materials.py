@@ -23,7 +23,7 @@ Material = StandardLinearSolid | Prony | HalfSpace | ModelMaterial
 
 
 def kernel_of(material) -> ModuleType:
-    """Generated module that solves ``material``. Raises ``InputError`` where there is none for its number of times."""
+    """Generated module that solves ``material``. Raises ``InputError`` where its own solver has none for its number of times."""
     material = reduced(material)
     if isinstance(material, StandardLinearSolid):
         from hystrip.generated import standard_linear_solid
@@ -33,19 +33,9 @@ def kernel_of(material) -> ModuleType:
         return material.kernel
     if material.solver is not None:
         return material.solver.prony_kernel(material.n)
-    import importlib
+    from hystrip.generated import generalised
 
-    name = f"generalised_{material.n}"
-    try:
-        return importlib.import_module(f"hystrip.generated.{name}")
-    except ModuleNotFoundError:
-        raise InputError(
-            "material.times",
-            list(material.times),
-            f"2 or 3 different times with the solvers that hystrip comes with; for {material.n} write a model file with "
-            f'`MODEL = hystrip.derivation.prony_model("my_rubber", modes={material.n})`, run `hystrip regenerate` on it and give '
-            "the material solver=hystrip.load_solver(...)",
-        ) from None
+    return generalised
 
 
 def check_material(material) -> None:
