@@ -1,0 +1,106 @@
+"""Bracketed roots of many functions of one variable at once: Newton's method, or the secant's, that cannot leave its bracket.
+
+Each step is Newton's where the function gives its slope, and else that of the secant through the last two points; it is
+replaced by bisection where it would leave the bracket or is no half as long as the step before. This is Dekker's safeguard (in
+"Constructive Aspects of the Fundamental Theorem of Algebra", 1969) in the form of ``rtsafe`` (Press et al., "Numerical
+Recipes", section 9.4): it ends for every function, and like Newton's method or the secant's next to a simple root.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+_EPS = np.finfo(float).eps
+#: bisection alone ends within 1,100 steps, from the largest number to the smallest, and every other step at least halves
+_MOST = 2200
+#: a quotient by less than this share of a value would overflow
+_TINY = 1e-290
+
+
+@dataclass(frozen=True)
+class Roots:
+    """Roots ``x``, final brackets ``low`` and ``high``, ``evaluations``, all of the shape of the brackets given."""
+
+    x: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    evaluations: np.ndarray
+
+
+def falling_root(
+    function: Callable[[np.ndarray, np.ndarray], np.ndarray | tuple[np.ndarray, np.ndarray]],
+    low: np.ndarray,
+    high: np.ndarray,
+    guess: np.ndarray | None = None,
+    tolerance: np.ndarray | float = 0.0,
+) -> Roots:
+    """Where functions fall through zero, each between ``low`` (m,), where it is positive, and ``high`` (m,), where it is not.
+
+    ``function(x, index)`` returns the values at ``x`` of the members ``index``, all (k,), or a tuple of values and slopes. The
+    signs at the ends are the caller's word: the ends are not evaluated. Where there are several roots one of them is found.
+    Ends at two roundings of x, or at ``tolerance`` (m,) in x, whichever is larger. A bracket without width is its own root.
+    """
+    low, high = np.array(low, float), np.array(high, float)
+    limit = np.broadcast_to(np.asarray(tolerance, float), low.shape)
+    x = 0.5 * (low + high) if guess is None else np.clip(guess, low, high)
+    out = Roots(np.where(high > low, x, high), low, high, np.zeros(low.shape, int))
+    live = np.flatnonzero(high > low)
+    x, lo, hi, limit = x[live], low[live], high[live], limit[live]
+    before = hi - lo  # the step before, or the bracket
+    correction = np.zeros(live.size)  # the step before if it was no bisection, else 0
+    last = None  # the point before and its value, for the secant
+    for _ in range(_MOST):
+        if not live.size:
+            break
+        found = function(x, live)
+        value, slope = found if isinstance(found, tuple) else (found, _secant(last, x, found))
+        newton = isinstance(found, tuple)
+        out.evaluations[live] += 1
+        positive = value > 0
+        last, lo, hi = (x, value), np.where(positive, x, lo), np.where(positive, hi, x)
+        # neither a slope of the wrong sign nor one that over- or underflowed says anything
+        usable = (slope < 0) & (slope > -np.inf) & (np.abs(slope) > _TINY * np.abs(value))
+        step = np.divide(-value, slope, out=np.full_like(value, np.inf), where=usable)
+        small = np.maximum(2 * _EPS * np.maximum(np.abs(lo), np.abs(hi)), limit)
+        if not newton:
+            # a small step may be that of a steep secant: only a narrow bracket tells, and steps that are not too small make one
+            step = np.copysign(np.maximum(np.abs(step), 0.5 * small), step)
+        new, size = x + step, np.abs(step)
+        bisected = ~((new >= lo) & (new <= hi)) | (size > 0.5 * before)
+        new = np.where(bisected, 0.5 * (lo + hi), new)
+        # next to the root the next step of Newton's would be this one times the square of the last ratio of steps
+        ratio = np.divide(size, correction, out=np.ones_like(size), where=correction > size)
+        settled = ~bisected & (size * ratio * ratio <= small) & newton
+        exact = value == 0
+        done = exact | settled | (hi - lo <= small)
+        x = np.where(exact, x, new)
+        before, correction = np.where(bisected, hi - lo, size), np.where(bisected, 0.0, size)
+        if done.any():
+            at = live[done]
+            out.x[at], out.low[at], out.high[at] = x[done], lo[done], hi[done]
+            going = np.flatnonzero(~done)
+            live, x, lo, hi, limit = live[going], x[going], lo[going], hi[going], limit[going]
+            before, correction, last = before[going], correction[going], tuple(v[going] for v in last)
+    out.x[live], out.low[live], out.high[live] = x, lo, hi
+    return out
+
+
+def rising_root(function: Callable, low: np.ndarray, high: np.ndarray, guess=None, tolerance=0.0) -> Roots:
+    """``falling_root`` of functions that are not positive at ``low`` and positive at ``high``."""
+
+    def negative(x, index):
+        found = function(x, index)
+        return tuple(-v for v in found) if isinstance(found, tuple) else -found
+
+    return falling_root(negative, low, high, guess, tolerance)
+
+
+def _secant(last, x, value):
+    """Slope of the secant through the last two points; none at first."""
+    if last is None:
+        return np.zeros_like(value)
+    run = x - last[0]
+    return np.divide(value - last[1], run, out=np.zeros_like(value), where=run != 0)
