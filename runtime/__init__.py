@@ -7,7 +7,7 @@ parameters. The strip solver's formulas are generated: see ``hystrip.derivation`
 
 from typing import TYPE_CHECKING
 
-from .errors import HystripError, InputError, MissingExtra, SolverError
+from .errors import ConvergenceWarning, HystripError, InputError, MissingExtra, SolverError
 from .inputs.adhesion import Dugdale
 from .inputs.half_space import HalfSpace
 from .inputs.material import KelvinVoigt, StandardLinearSolid
@@ -18,6 +18,7 @@ from .solve import solve
 __version__ = "0.1.0"
 
 __all__ = [
+    "ConvergenceWarning",
     "Dugdale",
     "FrictionLaw",
     "HalfSpace",

@@ -1,4 +1,4 @@
-"""The errors that hystrip raises on purpose."""
+"""The errors that hystrip raises on purpose, and its warnings."""
 
 from __future__ import annotations
 
@@ -34,6 +34,10 @@ class SolverError(HystripError, RuntimeError):
 
 class FitWarning(UserWarning):
     """A series that fits poorly what it was fitted to. Says over which band, and by how much."""
+
+
+class ConvergenceWarning(UserWarning):
+    """Points that came back without the accuracy asked for. The message names the first of them and the reason."""
 
 
 class MissingExtra(HystripError, ImportError):

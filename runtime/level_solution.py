@@ -31,7 +31,8 @@ class LevelSolution:
     """Means of a level; arrays have the broadcast shape of V and D (or pressure), SI units.
 
     ``D`` and means are NaN and zero below pull-off (``pulled_off``). ``error_estimate``: of ``p_mean``, ``tau_mean``,
-    ``contact_fraction``, ``adhesion_fraction``, absolute, shape (4, ...). ``strips``: strips evaluated, in all.
+    ``contact_fraction``, ``adhesion_fraction``, absolute, shape (4, ...). ``converged``: bool, all four errors are within
+    ``rtol``. ``strips``: strips evaluated, in all.
     ``inputs``: the material, the adhesion, the level, the velocities and the options it was solved with.
     """
 
@@ -42,5 +43,6 @@ class LevelSolution:
     adhesion_fraction: Floats
     error_estimate: Floats
     pulled_off: Bools
+    converged: Bools
     strips: int
     inputs: Inputs = field(repr=False)

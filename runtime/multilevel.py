@@ -13,10 +13,11 @@ from .level.bare.surface import BareSurface, is_bare
 from .level.build import build_laws
 from .level.carried import CarriedByLaws, peak_pressure
 from .level.demand import demand_of
+from .level.effort import WorkCounters
 from .level.inverse import Inverse, cut_penetration, invert
 from .level.means import level_means
 from .level.saturated import SaturatedLevel, saturated_friction, saturated_level
-from .level.strips import QUANTITIES, Columns, Tally
+from .level.strips import QUANTITIES, Columns
 from .level.table import LawTable
 from .orbit.foundation import foundation_of
 from .orbit.materials import Material
@@ -55,12 +56,18 @@ class Surface:
     branch: str
     rtol: float
     skip: bool
-    tally: Tally
+    work: WorkCounters
     strips: int | None = None
 
     def at_level(self, i: int) -> Material:
         """The material under level ``i``."""
         return self.material.at_wavelength(self.levels[i].l)
+
+    @property
+    def friction_floor(self) -> float:
+        """Friction, Pa, that counts beside its own size where ``rtol`` is relative."""
+        level = self.levels[0]
+        return 1e-3 * (self.at_level(0).K * level.h + self.adhesion.p_0) * level.h / level.l
 
     def columns(self, i: int, V, D=None, carry=None, group=None) -> Columns:
         """Columns of level ``i``."""
@@ -68,7 +75,7 @@ class Surface:
         # the curves behind the laws of lower levels are interpolated over D: equal strips would make steps of them
         strips = self.strips if i == 0 else None
         columns = Columns(
-            self.at_level(i), self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, strips, tally=self.tally
+            self.at_level(i), self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, strips, work=self.work
         )
         return columns if self.skip else replace(columns, free=None)
 
@@ -186,7 +193,7 @@ class _Solve:
         carry = self._carry(stack, V, group, columns) if self.M > 1 else None
         columns = surface.columns(0, V[group], D, carry, group)
         means = level_means(columns, np.full(index.size, 0.5 * surface.rtol))
-        self._write(index, Inverse(D, found.slope[touching], found.doubt[touching]), means)
+        self._write(index, found.take(touching), means)
 
     def _bare(self, stack: Stack, V, index, group) -> np.ndarray:
         """Solve what can be solved without adhesion; returns what is left, as positions in ``index``."""
@@ -200,11 +207,10 @@ class _Solve:
         mine = np.flatnonzero((load > 0) & (load < full))
         if not mine.size:
             return every
-        level = surface.levels[0]
-        floor = 1e-3 * foundation.K * level.h * level.h / level.l
         p_sat = [own.p_sat for own in stack.own]
         stiffness = [surface.at_level(i).K for i in range(self.M)]
-        bare = BareSurface(foundation, stiffness, surface.levels, V, p_sat, stack.p_full, floor, surface.rtol, surface.tally)
+        floor = surface.friction_floor
+        bare = BareSurface(foundation, stiffness, surface.levels, V, p_sat, stack.p_full, floor, surface.rtol, surface.work)
         found = bare.solve(group[mine], load[mine], self.by_pressure)
         sure = found.certain
         at, out = index[mine[sure]], self.out
@@ -216,21 +222,26 @@ class _Solve:
         """Penetration of each point (NaN below pull-off) and the slope d(tau)/dp of level 1 there."""
         load = self.load[index]
         if not self.by_pressure:
-            return Inverse(load.copy(), *np.zeros((2, index.size)))
+            return Inverse(load.copy(), *np.zeros((2, index.size)), np.zeros(index.size, bool))
         surface, own = self.surface, stack.own[0]
-        D, (slopes, doubts) = np.full(index.size, np.nan), np.zeros((2, index.size))
+        out = Inverse(np.full(index.size, np.nan), *np.zeros((2, index.size)), np.zeros(index.size, bool))
         K, h = surface.at_level(0).K, surface.levels[0].h
         saturated = load >= own.p_sat[group]
-        D[saturated] = load[saturated] / K + 0.75 * h
+        out.D[saturated] = load[saturated] / K + 0.75 * h
         rest = np.flatnonzero(~saturated)
         if rest.size:
             columns = surface.columns(0, V[group[rest]])
             found = invert(columns, load[rest], own.D_sat[group[rest]], 0.5 * surface.rtol)
-            D[rest], slopes[rest], doubts[rest] = found.D, found.slope, found.doubt
-        off = np.isnan(D)
+            out.D[rest], out.slope[rest], out.doubt[rest], out.undecided[rest] = (
+                found.D,
+                found.slope,
+                found.doubt,
+                found.undecided,
+            )
+        off = np.isnan(out.D)
         self.out.pulled_off[index[off]] = True
         self.out.p[index[off]] = load[off]
-        return Inverse(D, slopes, doubts)
+        return out
 
     def _carry(self, stack: Stack, V, group, columns: Columns) -> CarriedByLaws:
         """Laws of level 2, built from the smallest level upwards, each as far as the level above reaches."""
@@ -284,4 +295,5 @@ class _Solve:
         for _ in range(1, self.M):
             error = error + np.abs(values[:, at])
             at += 1
-        out.error[index] = error
+        # another part of the curve may carry anything
+        out.error[index] = error + np.where(root.undecided, np.abs(out.tau[:, index]).sum(axis=0), 0.0)

@@ -31,6 +31,8 @@ class Result:
     closed_form : the point was solved by the closed form of saturated contact on all levels
     error_estimate : estimated absolute error of mu (of tau over the pressure); NaN at zero pressure
     tau_error : estimated absolute error of tau, Pa
+    converged : bool; the estimated error is within ``rtol``. Where it is not, the work came to its limit and the estimate says
+        what is known; with ``strips`` it says whether the equal strips happen to be as accurate
     strips : equal strips that level 1 was averaged over, None for adaptive panels
     load : which of the two was given, "pressure" or "penetration"; scene : the TOML text it came from, if it did
     counts : strips solved, decided by a threshold, and known to be free because a deeper one is; points solved in closed form,
@@ -50,6 +52,7 @@ class Result:
     closed_form: Bools
     error_estimate: Floats
     tau_error: Floats
+    converged: Bools
     counts: dict[str, int]
     material: Material = field(repr=False)
     adhesion: Dugdale = field(repr=False)

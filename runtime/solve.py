@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
 from .arguments import check_levels, check_rtol, check_single, check_strips, refuse_faint
-from .errors import InputError, SolverError
+from .errors import ConvergenceWarning, InputError, SolverError
 from .inputs.adhesion import Dugdale
 from .inputs.checks import broadcast, choice, numbers
 from .inputs.surface import Level
@@ -70,6 +71,11 @@ def solve(
     InputError : an input outside its range, named with what is allowed
     SolverError : a strip that could not be certified, named
 
+    Warns
+    -----
+    ConvergenceWarning : points whose estimated error exceeds what ``rtol`` allows, as the work on each is bounded:
+        ``converged`` is false there, and the message names the first of them with the reason
+
     Examples
     --------
     >>> import hystrip
@@ -80,7 +86,7 @@ def solve(
     [9.30e-05 2.72e-04]
     """
     # loaded here: `import hystrip` is to cost next to nothing
-    from .level.strips import Tally
+    from .level.effort import WorkCounters
     from .multilevel import Surface
     from .orbit.solution import BRANCHES
 
@@ -98,17 +104,24 @@ def solve(
         refuse_faint(load, material, adhesion, levels[0])
     shape = broadcast(**{name: load, "velocity": velocity})
     V, L = (np.broadcast_to(v, shape).reshape(-1) for v in (velocity, load))
-    tally = Tally()
-    surface = Surface(material, adhesion, levels, edge, branch, rtol, skip, tally, check_strips(strips))
+    work = WorkCounters()
+    surface = Surface(material, adhesion, levels, edge, branch, rtol, skip, work, check_strips(strips))
     points = surface.solve(V, L, name == "pressure", progress)
     if not (np.isfinite(points.tau).all() and np.isfinite(points.error).all()):
         lost = np.flatnonzero(~(np.isfinite(points.tau).all(axis=0) & np.isfinite(points.error)))
         first = f"{name} {L[lost[0]]:g}, velocity {V[lost[0]]:g}"
         raise SolverError(f"{lost.size} of {L.size} points have no finite friction; the first: {first}")
-    return _result(points, surface, shape, V, name)
+    tau = points.tau.sum(axis=0)
+    converged = points.error <= rtol * (np.abs(tau) + surface.friction_floor)
+    if strips is None and not converged.all():
+        lost = np.flatnonzero(~converged)
+        first = f"{name} {L[lost[0]]:g}, velocity {V[lost[0]]:g}: {work.reason(V[lost[0]])}"
+        missed = f"{lost.size} of {L.size} points did not converge to rtol = {rtol:g}"
+        warnings.warn(f"{missed}; the first: {first} (see error_estimate)", ConvergenceWarning, stacklevel=2)
+    return _result(points, surface, shape, V, name, converged)
 
 
-def _result(points, surface: Surface, shape, V, load: str) -> Result:
+def _result(points, surface: Surface, shape, V, load: str, converged) -> Result:
     from .result import Result
 
     tau = points.tau.sum(axis=0)
@@ -131,10 +144,11 @@ def _result(points, surface: Surface, shape, V, load: str) -> Result:
         closed_form=one(points.closed_form),
         error_estimate=one(error),
         tau_error=one(points.error),
+        converged=one(converged),
         counts={
-            "strips_solved": surface.tally.solved,
-            "strips_decided_by_threshold": surface.tally.decided,
-            "strips_decided_by_order": surface.tally.ordered,
+            "strips_solved": surface.work.solved,
+            "strips_decided_by_threshold": surface.work.decided,
+            "strips_decided_by_order": surface.work.ordered,
             "points_in_closed_form": int(points.closed_form.sum()),
             "points_below_pull_off": int(points.pulled_off.sum()),
         },

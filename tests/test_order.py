@@ -52,7 +52,7 @@ def test_means_are_bit_identical_without_it(edge, branch, material):
     assert np.array_equal(on.values, off.values) and np.array_equal(on.errors, off.errors)
     assert all(np.array_equal(one, two) for one, two in zip(on.zones, off.zones, strict=True))
     # the least engaged orbit is free by a threshold, which costs nothing
-    assert columns.tally.ordered > 25 if branch == "unloading" else columns.tally.ordered == 0
+    assert columns.work.ordered > 25 if branch == "unloading" else columns.work.ordered == 0
     assert on.strips.sum() < off.strips.sum() if branch == "unloading" else np.array_equal(on.strips, off.strips)
 
 
@@ -67,7 +67,7 @@ def test_only_the_deepest_is_asked():
     # what both cover is asked of the deeper one only
     assert asked[0].size >= 7 and 0 < asked[1].size < 7 and (asked[1] < deep).all()
     codes, _ = columns.integrand(question.column, question.theta)
-    assert question.answered(codes).all() and columns.tally.ordered + asked[1].size >= 7
+    assert question.answered(codes).all() and columns.work.ordered + asked[1].size >= 7
     # and never again, nor of what lies higher
     assert not columns.free.asked(columns, column, low, high).theta.size
     higher = columns.at(np.zeros(1, int), np.array([0.1 * SMALL.h]))

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 import hystrip
+from hystrip.level.effort import WorkCounters
 from hystrip.level.inverse import cut_penetration
-from hystrip.level.strips import Columns, Tally
+from hystrip.level.strips import Columns
 from hystrip.multilevel import Surface
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
@@ -41,7 +42,7 @@ def test_the_closed_form_is_what_solving_gives(levels):
 def test_the_fastest_velocity_decides_for_all(material, branch):
     """Thresholds grow with V: the short way over the fastest velocity, and the threshold of every point, say the same."""
     V, p = np.geomspace(1e-7, 10, 40), np.geomspace(10, 1e9, 30)[:, None]
-    surface = Surface(material, WEAK, LEVELS, "constitutive", branch, 1e-6, True, Tally())
+    surface = Surface(material, WEAK, LEVELS, "constitutive", branch, 1e-6, True, WorkCounters())
     each = np.array([[surface.full(V[j : j + 1], row, True)[0] for j in range(V.size)] for row in p])
     assert np.array_equal(each, [surface.full(V, np.broadcast_to(row, V.shape), True) for row in p])
     assert each.any() and not each.all() and (np.diff(each.astype(int), axis=1) <= 0).all()

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .effort import AVERAGE_LIMIT
 from .folds import folds
 from .order import FREE, NARROWEST, Question
 from .panels import Hints, Panels, Sights, apart, beside, between, hold_none
@@ -79,7 +80,7 @@ def average(
     for _ in range(_ROUNDS):
         panels = work.refine(panels.take(np.flatnonzero(panels.high > panels.low)))
         # at a penetration where strips sit on a threshold all along y, rounding decides each: no use in splitting further
-        crowded = np.bincount(panels.column, minlength=n)[panels.column] > _CROWD
+        crowded = (np.bincount(panels.column, minlength=n)[panels.column] > _CROWD) | (work.strips[panels.column] > AVERAGE_LIMIT)
         if crowded.any():
             work.give_up(panels.take(np.flatnonzero(crowded)))
             panels = panels.take(np.flatnonzero(~crowded))
@@ -247,6 +248,8 @@ class _Work:
 
     def give_up(self, panels: Panels) -> None:
         """Take panels that do not converge as they are, with the spread of their values as error."""
+        where = self.columns
+        where.work.limit_reached(where.V[panels.column], where.level.l, "an average over the strips did not converge")
         codes, values, _ = self._at_nodes(panels, interior_nodes(_FIRST))
         width = (panels.high - panels.low)[:, None]
         np.add.at(self.values, panels.column, width * (mapped_weights(_FIRST) @ values))

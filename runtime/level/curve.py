@@ -14,6 +14,7 @@ from .appearance import is_inside, island, vanishing
 from .breaks import breakpoints, threshold_width
 from .chebyshev import Piece, flat_ended, interpolation_errors, lobatto
 from .demand import Demand
+from .effort import CURVE_LIMIT
 from .ends import with_gentle_ends
 from .interval import Interval
 from .rims import where_rims_hold
@@ -120,15 +121,17 @@ def interpolate(
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
     if sought is None:
         intervals = with_gentle_ends(columns, intervals)
-    for _ in range(_ROUNDS):
+    for k in range(_ROUNDS):
         if not intervals:
-            return pieces
-        intervals = _round(columns, rtol, intervals, pieces, strips, sought, demand, ceiling)
-    raise ArithmeticError("the curve over penetration did not converge")
+            break
+        limit = CURVE_LIMIT if k + 1 < _ROUNDS else -1
+        intervals = _round(columns, rtol, intervals, pieces, strips, sought, demand, ceiling, limit)
+    return pieces
 
 
-def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, sought, demand, ceiling) -> list[Interval]:
-    """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not."""
+def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, sought, demand, ceiling, limit) -> list[Interval]:
+    """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not. Columns
+    with more ``strips`` than the ``limit`` are taken as they are, with the spread of their values as error."""
     batch = Batch(columns, rtol, intervals, strips)
     batch.sample(_FIRST)
     if demand is not None:
@@ -144,7 +147,8 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
         rounding = _rounding(columns, batch, n, c)
         error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1), rounding)
         # where next to nothing changes there is little to miss, whatever nobody marked there
-        error = np.minimum(error, 2 * np.ptp(batch.values, axis=1))
+        spread = np.ptp(batch.values, axis=1)
+        error = np.minimum(error, 2 * spread)
         if sought is not None:
             goal = np.full_like(goal, np.inf)
             goal[:, 0] = sought.goals(batch.column, batch.values[:, :, 0])
@@ -154,6 +158,11 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
         goal = np.maximum(goal - batch.errors.max(axis=1), _INTERPOLATION * goal)
         done = (error <= goal).all(axis=1)
         done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in batch.intervals]
+        ended = ~done & (strips[batch.column] > limit)
+        if ended.any():
+            V = columns.V[batch.column[ended]]
+            columns.work.limit_reached(V, columns.level.l, "the curve over penetration did not converge")
+            error[ended], done = np.maximum(error, spread)[ended], done | ended
         for k in np.flatnonzero(done):
             i, bound = batch.intervals[k], error[k] + _ROUNDED * rounding[k] + batch.errors[k].max(axis=0)
             pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.soft_low, i.soft_high, i.grading))

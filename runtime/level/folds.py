@@ -61,7 +61,7 @@ def _presumed(columns: Columns, column, theta, sequence: str) -> tuple[np.ndarra
     strips = columns.groups(columns.V[column], D / A, a.p_0 / columns.material.K / A, a.delta_0 / A)
     cycle = adhesive_cycle(kernel, strips)
     orbit, good, _ = certified(kernel, cycle, sequence, start(kernel, cycle, sequence))
-    columns.tally.solved += A.size
+    columns.work.solved += A.size
     record, found = Record(kernel, strips), np.flatnonzero(good)
     record.constant(np.flatnonzero(~good), "f", 0.0, 0.0, 0.0, 0.0)
     record.orbits(found, sequence, orbit.take(found))

@@ -14,6 +14,7 @@ import numpy as np
 from .branches import Branch, rising
 from .breaks import breaks_on, first_contact, threshold_width
 from .curve import Sought, interpolate
+from .effort import CURVE_LIMIT
 from .interval import Interval
 from .means import level_means
 from .monotone import enclosed
@@ -35,11 +36,16 @@ _EPS = np.finfo(float).eps
 @dataclass(frozen=True)
 class Inverse:
     """Penetrations that carry given pressures, arrays (n,): ``D`` (NaN below pull-off), the slope d(tau)/dp of the level there,
-    and how uncertain the slope is."""
+    how uncertain the slope is, and which are ``undecided``: the work ended before it was known which part of the curve it is."""
 
     D: np.ndarray
     slope: np.ndarray
     doubt: np.ndarray
+    undecided: np.ndarray
+
+    def take(self, index) -> Inverse:
+        """Those at ``index``."""
+        return Inverse(self.D[index], self.slope[index], self.doubt[index], self.undecided[index])
 
 
 def cut_penetration(columns: Columns, p_max: np.ndarray, full: np.ndarray) -> np.ndarray:
@@ -66,13 +72,14 @@ def invert(columns: Columns, p: np.ndarray, full: np.ndarray, rtol: float) -> In
         if loaded.size:
             some = columns.at(loaded, D[loaded])
             D[loaded], slope[loaded], doubt[loaded] = _refine(some, p[loaded], enclosed(some, p[loaded]), rtol)
-        return Inverse(D, slope, doubt)
-    roots = _Descent(columns, p, cut_penetration(columns, p, full), rtol).run()
+        return Inverse(D, slope, doubt, np.zeros(p.size, bool))
+    descent = _Descent(columns, p, cut_penetration(columns, p, full), rtol)
+    roots = descent.run()
     found = np.array([i for i, root in enumerate(roots) if root is not None], int)
     if found.size:
         near = [np.array([getattr(roots[i], name) for i in found]) for name in ("D", "slope", "friction_slope", "low", "high")]
         D[found], slope[found], doubt[found] = _refine(columns.at(found, D[found]), p[found], near, rtol)
-    return Inverse(D, slope, doubt)
+    return Inverse(D, slope, doubt, descent.undecided)
 
 
 @dataclass(frozen=True)
@@ -95,6 +102,7 @@ class _Descent:
         scale = columns.scales[0]
         self.scale, self.finest = np.abs(p) + scale, rtol * (np.abs(p) + 1e-3 * scale)
         self.inside = threshold_width(columns, top)
+        self.undecided = np.zeros(p.size, bool)
         bottom = first_contact(columns)
         # the next one last; ``unbroken`` ones are known to hold no break
         # at the top the curve is but cut, or saturates
@@ -126,6 +134,9 @@ class _Descent:
                 row = sorted(pieces[i], key=lambda piece: -piece.low if self.unloading else piece.low)
                 parts = [part for piece in row for part in self._along(piece)]
                 root, doubtful = self._first(parts, self.p[i], goal[i] > self.finest[i])
+                if doubtful and strips[i] > CURVE_LIMIT:
+                    self.undecided[i] = True
+                    root, doubtful = self._first(parts, self.p[i], False)
                 if doubtful:
                     goal[i] = max(_FINER * goal[i], self.finest[i])
                     self.waiting[i].append(interval)

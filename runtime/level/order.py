@@ -31,7 +31,8 @@ import numpy as np
 from ..orbit.regimes import CODE
 
 if TYPE_CHECKING:
-    from .strips import Columns, Tally
+    from .effort import WorkCounters
+    from .strips import Columns
 
 #: thetas of the finest grid over (0, pi), and how many a panel has to hold at least
 _FINEST, _LEAST = 256, 7
@@ -64,7 +65,7 @@ class FreeBelow:
         order = unknown[np.lexsort((D[unknown], place[unknown], row[unknown]))]
         key = row[order] * _FINEST + place[order]
         strips = order[np.append(key[1:] != key[:-1], True)] if order.size else order
-        return Question(self, columns.tally, low.size, panel, row, place, D, column[panel[strips]], strips)
+        return Question(self, columns.work, low.size, panel, row, place, D, column[panel[strips]], strips)
 
     def _rows_of(self, V: np.ndarray) -> np.ndarray:
         values, which = np.unique(V, return_inverse=True)
@@ -81,7 +82,7 @@ class Question:
     ``theta``, both (k,)."""
 
     known: FreeBelow
-    tally: Tally
+    work: WorkCounters
     size: int
     panel: np.ndarray
     row: np.ndarray
@@ -100,7 +101,7 @@ class Question:
         self.known.largest[self.row[free], self.place[free]] = self.D[free]
         out = np.ones(self.size, bool)
         out[self.panel[self.D > self.known.largest[self.row, self.place]]] = False
-        self.tally.ordered += int(np.count_nonzero(out[self.panel]) - np.count_nonzero(out[self.panel[self.strips]]))
+        self.work.ordered += int(np.count_nonzero(out[self.panel]) - np.count_nonzero(out[self.panel[self.strips]]))
         return out
 
 

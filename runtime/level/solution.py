@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
 from ..arguments import check_rtol, check_single, check_strips, refuse_faint
-from ..errors import InputError
+from ..errors import ConvergenceWarning, InputError
 from ..inputs.adhesion import Dugdale
 from ..inputs.checks import broadcast, choice, number, numbers
 from ..inputs.surface import Level
@@ -19,11 +20,12 @@ from ..orbit.solution import BRANCHES
 from .bare.points import bare_means
 from .bare.surface import is_bare
 from .build import build_laws
+from .effort import WorkCounters
 from .inverse import invert
 from .law import Law
 from .means import level_means
 from .saturated import saturated_level
-from .strips import QUANTITIES, Columns, Tally
+from .strips import QUANTITIES, Columns
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -107,7 +109,8 @@ def solve_level(
     ``rtol`` is relative to ``|value| + 1e-3 scale``, scale ``K h + p_0`` for pressure, times ``h/l`` for friction, 1 for
     fractions.
 
-    Raises ``InputError`` for inputs out of range, ``SolverError`` for a strip that could not be certified.
+    Raises ``InputError`` for inputs out of range, ``SolverError`` for a strip that could not be certified; warns with a
+    ``ConvergenceWarning`` of points that are not ``converged``, as the work on each is bounded.
 
     >>> import hystrip
     >>> material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
@@ -127,35 +130,62 @@ def solve_level(
         refuse_faint(load, material, adhesion, level)
     shape = broadcast(**{"V": V, name: load})
     V, load = (np.broadcast_to(v, shape).ravel() for v in (V, load))
-    tally = Tally()
+    work = WorkCounters()
     inputs = Inputs(material, adhesion, level, V.reshape(shape), edge, branch, rtol, strips)
-    if pressure is not None:
-        return _at_pressure(inputs, V, load, shape, tally)
-    columns = Columns(material, adhesion, level, edge, branch, V, load, strips=strips, tally=tally)
-    values, errors = np.zeros((2, V.size, len(QUANTITIES)))
-    rest = np.arange(V.size)
-    if strips is None and is_bare(foundation_of(material), adhesion.p_0, (level,), V):
-        bare = bare_means(columns, np.full(V.size, rtol))
+    columns = Columns(material, adhesion, level, edge, branch, V, load, strips=strips, work=work)
+    of = _means_at_pressure(columns, load, rtol) if D is None else _means_at_penetration(columns, rtol)
+    values, errors = of.values, of.errors
+    floors = np.where(of.pulled_off[:, None], np.inf, columns.floors)
+    converged = (errors <= rtol * (np.abs(values) + floors)).all(axis=1)
+    if strips is None and not converged.all():
+        lost = np.flatnonzero(~converged)
+        first = f"{name} {load[lost[0]]:g}, V {V[lost[0]]:g}: {work.reason(V[lost[0]])}"
+        missed = f"{lost.size} of {load.size} points did not converge to rtol = {rtol:g}"
+        warnings.warn(f"{missed}; the first: {first} (see error_estimate)", ConvergenceWarning, stacklevel=2)
+    one = lambda v: v.reshape(shape)  # noqa: E731
+    return LevelSolution(
+        one(of.D),
+        *(one(v) for v in values.T),
+        error_estimate=errors.T.reshape(len(QUANTITIES), *shape),
+        pulled_off=one(of.pulled_off),
+        converged=one(converged),
+        strips=work.solved + work.decided,
+        inputs=inputs,
+    )
+
+
+@dataclass(frozen=True)
+class _Means:
+    """Penetrations (n,), means and errors (n, 4), and which points lie below pull-off."""
+
+    D: np.ndarray
+    values: np.ndarray
+    errors: np.ndarray
+    pulled_off: np.ndarray
+
+
+def _means_at_penetration(columns: Columns, rtol: float) -> _Means:
+    n = columns.size
+    values, errors = np.zeros((2, n, len(QUANTITIES)))
+    rest = np.arange(n)
+    if columns.strips is None and is_bare(foundation_of(columns.material), columns.adhesion.p_0, (columns.level,), columns.V):
+        bare = bare_means(columns, np.full(n, rtol))
         values, errors, rest = bare.values, bare.errors, np.flatnonzero(~bare.certain)
     if rest.size:
-        means = level_means(columns.at(rest, load[rest]), np.full(rest.size, rtol))
+        means = level_means(columns.at(rest, columns.D[rest]), np.full(rest.size, rtol))
         values[rest], errors[rest] = means.values, means.errors
-    return _solution(inputs, load, values, errors, np.zeros(V.size, bool), shape, tally)
+    return _Means(columns.D, values, errors, np.zeros(n, bool))
 
 
-def _at_pressure(inputs, V, p, shape, tally):
-    material, adhesion, level, edge, branch, rtol = (
-        inputs.material, inputs.adhesion, inputs.level, inputs.edge, inputs.branch, inputs.rtol,
-    )  # fmt: skip
-    columns = Columns(material, adhesion, level, edge, branch, V, np.zeros(V.size), tally=tally)
-    s = saturated_level(material, adhesion, level, V, branch)
+def _means_at_pressure(columns: Columns, p: np.ndarray, rtol: float) -> _Means:
+    material, level, V = columns.material, columns.level, columns.V
+    s = saturated_level(material, columns.adhesion, level, V, columns.branch)
     D = np.where(p >= s.p_sat, p / material.K + 0.75 * level.h, np.nan)
     slopes = np.zeros(p.size)
-    q = len(QUANTITIES)
-    values, errors = np.zeros((p.size, q)), np.zeros((p.size, q))
-    known = np.zeros(p.size, bool)
+    values, errors = np.zeros((2, p.size, len(QUANTITIES)))
+    known, undecided = np.zeros((2, p.size), bool)
     part = np.flatnonzero((p > 0) & (p < s.p_sat))
-    if part.size and is_bare(foundation_of(material), adhesion.p_0, (level,), V):
+    if part.size and is_bare(foundation_of(material), columns.adhesion.p_0, (level,), V):
         bare = bare_means(columns.at(part, D[part]), np.full(part.size, rtol), p[part])
         sure = part[bare.certain]
         D[sure], values[sure], errors[sure], known[sure] = (
@@ -164,7 +194,7 @@ def _at_pressure(inputs, V, p, shape, tally):
     rest = np.flatnonzero((p < s.p_sat) & ~known)
     if rest.size:
         found = invert(columns.at(rest, D[rest]), p[rest], s.D_sat[rest], 0.3 * rtol)
-        D[rest], slopes[rest] = found.D, found.slope
+        D[rest], slopes[rest], undecided[rest] = found.D, found.slope, found.undecided
     off = np.isnan(D)
     on = np.flatnonzero(~off & ~known)
     values[off, 0] = p[off]
@@ -174,13 +204,8 @@ def _at_pressure(inputs, V, p, shape, tally):
     miss = np.abs(values[on, 0] - p[on])
     errors[on, 0] += miss
     errors[on, 1] += np.abs(slopes[on]) * errors[on, 0]
-    return _solution(inputs, D, values, errors, off, shape, tally)
-
-
-def _solution(inputs, D, values, errors, off, shape, tally):
-    columns = [values[:, i].reshape(shape) for i in range(len(QUANTITIES))]
-    errors = errors.T.reshape(len(QUANTITIES), *shape)
-    return LevelSolution(D.reshape(shape), *columns, errors, off.reshape(shape), tally.solved + tally.decided, inputs)
+    errors[undecided] += np.abs(values[undecided])
+    return _Means(D, values, errors, off)
 
 
 def friction_law(

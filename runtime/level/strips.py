@@ -17,6 +17,7 @@ from ..orbit.regimes import CODE
 from ..orbit.solved import Solved
 from .clinging import Clinging
 from .contact import Contact, contact_of
+from .effort import WorkCounters
 from .margins import POWERS, decisive, margins
 from .order import FreeBelow, Question
 from .saturated import saturated_level
@@ -27,21 +28,6 @@ if TYPE_CHECKING:
 
 #: What is averaged over the strips of a level, in this order; what lower levels carry in its contact follows.
 QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
-
-
-@dataclass
-class Tally:
-    """Work done so far: strips whose orbit was searched for, strips decided by a closed form alone, and strips known by the order
-    of orbits along the penetration."""
-
-    solved: int = 0
-    decided: int = 0
-    ordered: int = 0
-
-    def count(self, solved: Solved) -> None:
-        searched = int(np.count_nonzero(solved.evaluations))
-        self.solved += searched
-        self.decided += solved.code.size - searched
 
 
 class Carry(Protocol):
@@ -85,7 +71,7 @@ class Columns:
     group: np.ndarray | None = None
     strips: int | None = None
     frictional: bool = False
-    tally: Tally = field(default_factory=Tally, compare=False)
+    work: WorkCounters = field(default_factory=WorkCounters, compare=False)
     free: FreeBelow | None = field(default_factory=FreeBelow, compare=False)
     clinging: Clinging = field(default_factory=Clinging, compare=False)
 
@@ -123,7 +109,7 @@ class Columns:
         solved, strips, scales = foundation_of(self.material).solve(
             l, A, D, self.V[column], a.p_0, a.delta_0, self.edge, self.branch
         )
-        self.tally.count(solved)
+        self.work.count(solved)
         tau = solved.tau_mean * scales["p"] * scales["k"] * scales["A"]
         return SolvedStrips(solved, strips, scales, solved.p_mean * scales["p"], tau, kernel_of(self.material))
 

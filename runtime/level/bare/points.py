@@ -53,7 +53,7 @@ def bare_means(columns: Columns, rtol: np.ndarray, p: np.ndarray | None = None) 
             # the general path solves them, or names the strip that it can't
             break
         at = Level(known)
-        columns.tally.solved += int(known.strips.sum())
+        columns.work.solved += int(known.strips.sum())
         d = load[left] if p is None else at.penetrations(row, load[left])
         solved, missed = _at(at, row, d, rtol[left], floors / unit, p is not None)
         if p is not None:

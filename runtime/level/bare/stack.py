@@ -11,8 +11,8 @@ import numpy as np
 from ...inputs.surface import Level as Wavy
 from ...orbit.foundation import Foundation
 from ..chebyshev import lobatto
+from ..effort import WorkCounters
 from ..quadrature import interleaved
-from ..strips import Tally
 from .carried import Carrier
 from .family import family
 from .law import BareLaws, Piece, pressures
@@ -76,9 +76,9 @@ class BareStack:
         p_sat,
         p_full,
         wanted: Wanted,
-        tally: Tally,
+        work: WorkCounters,
     ):
-        self.foundation, self.waves, self.V, self.p_full, self.wanted, self.tally = foundation, levels, V, p_full, wanted, tally
+        self.foundation, self.waves, self.V, self.p_full, self.wanted, self.work = foundation, levels, V, p_full, wanted, work
         self.p_sat = p_sat
         self.groups = np.arange(V.size)
         self.units = [K * level.h for K, level in zip(stiffness, levels, strict=True)]
@@ -114,7 +114,7 @@ class BareStack:
             np.array((1.0, 1.0, 1e30)),
             np.concatenate(shares),
         )
-        self.tally.solved += int(known.strips.sum())
+        self.work.solved += int(known.strips.sum())
         return [Level(known.part(slice(i * G, (i + 1) * G))) for i in range(len(self.waves))]
 
     def _peaks(self) -> list[Peaks]:
@@ -124,7 +124,7 @@ class BareStack:
             return []
         top = np.array([series[:, 2].sum() for level in self.levels[:-1] for series in level.family.series])
         known, strips = peaks_of(self.foundation, self._rates(carrying), np.clip(top, _EPS, 1.0))
-        self.tally.solved += strips
+        self.work.solved += strips
         return [known.part(slice(i * G, (i + 1) * G)) for i in range(carrying)]
 
     def _greatest(self, i, d):
@@ -136,7 +136,7 @@ class BareStack:
             share = np.clip(family.values(part, 2 * d[part, None])[:, 0, 2], _EPS, 1 - 1e-9)
             found = peak(self.foundation, self.waves[i].k * self.V[part], share)[0]
             out[part] = np.minimum(out[part], 0.5 * _BETWEEN * found)
-            self.tally.solved += part.size
+            self.work.solved += part.size
         return self.units[i] * out
 
     def _penetrations(self, i, group, p):
@@ -194,7 +194,7 @@ class BareStack:
         goal = np.broadcast_to(np.minimum(share, _COARSE)[:, None], (d.size, laws.full.shape[1])).copy()
         goal[:, :-1:3], goal[:, -1] = allowed[:, None], np.inf
         carried, errors = carrier.carried(group, d, goal, at_once=i > 0)
-        self.tally.solved += carrier.strips
+        self.work.solved += carrier.strips
         error += errors[:, :-1:3].sum(axis=1) + carried[:, -1]
         # local pressures are as uncertain as a strip's means, and change friction by the law's slope
         error += own[:, 1] * (CANCELLED * level.family.errors[group, 0] + missed) * unit * laws.steepest[group]

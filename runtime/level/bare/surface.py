@@ -10,7 +10,7 @@ import numpy as np
 from ...errors import SolverError
 from ...inputs.surface import Level as Wavy
 from ...orbit.foundation import Foundation
-from ..strips import Tally
+from ..effort import WorkCounters
 from .stack import BareStack, Wanted
 
 #: share of what is allowed that a further attempt aims at, how much finer it is at least and at most, and how many there are
@@ -54,7 +54,7 @@ class BareSurface:
     p_full: Sequence[np.ndarray]
     floor: float
     rtol: float
-    tally: Tally
+    work: WorkCounters
 
     def solve(self, group: np.ndarray, load: np.ndarray, by_pressure: bool) -> BarePoints:
         """Points at ``load`` > 0 (Pa, or m) and velocities ``V[group]``, (n,)."""
@@ -106,7 +106,7 @@ class BareSurface:
             take(self.p_sat),
             take(self.p_full),
             wanted,
-            self.tally,
+            self.work,
         )
         found = stack.at(0, row, load if by_pressure else None, stack.laws(), None if by_pressure else load / self.levels[0].h)
         friction, error = found.values[:, :-1:3], found.values[:, -1]
