@@ -5,18 +5,27 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import platform
+import re
+import sys
+import time
+from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
 
 from .errors import InputError
 
+#: seconds after which a file that a run left half-written is nobody's, whatever its name says; no picture takes a day
+_FORGOTTEN = 86_400.0
+_HOST = re.sub(r"\W", "", platform.node()) or "here"
+
 
 class Outputs:
     """A set of files in one folder that appear together, or not at all.
 
-    Each is written aside under a hidden name; on leaving the ``with`` block without an error all are renamed into
-    place. On an error nothing is left, not even a folder that was made for them (unless somebody else put something
-    there).
+    Each is written aside under a hidden name; on leaving the ``with`` block without an error all are flushed to the disk
+    and renamed into place. On an error nothing is left, not even a folder that was made for them (unless somebody else put
+    something there). What a killed run left aside of a file of the same name is removed.
 
     Parameters
     ----------
@@ -30,7 +39,8 @@ class Outputs:
 
     def path(self, name: str) -> Path:
         """Where to write the file that will be called `name`. The name keeps its suffix."""
-        part = self.folder / f".{os.getpid()}.part.{name}"
+        _remove_left(self.folder, name)
+        part = self.folder / f".{_HOST}-{os.getpid()}.part.{name}"
         self._parts[self.folder / name] = part
         return part
 
@@ -42,10 +52,15 @@ class Outputs:
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
         placed = False
         try:
+            if isinstance(error, OSError) and self._parts:  # of what was being written
+                _name(error, next(reversed(self._parts)))
             if kind is None:
                 for final in self._parts:  # the one thing that would stop the renaming half-way
                     if final.is_dir():
                         raise IsADirectoryError(errno.EISDIR, "a folder stands where the file would go", str(final))
+                for final, part in self._parts.items():
+                    with named(final):
+                        synced(part)
                 for final, part in self._parts.items():
                     os.replace(part, final)
                 placed = True
@@ -65,11 +80,89 @@ def write_text(path: str | os.PathLike[str], text: str) -> None:
         outputs.path(target.name).write_text(text, encoding="utf-8", newline="\n")
 
 
+def synced(path: Path) -> None:
+    """Have the content of a file on the disk."""
+    with open(path, "rb+") as file:
+        os.fsync(file.fileno())
+
+
+@contextlib.contextmanager
+def named(path: Path) -> Iterator[None]:
+    """Have an error of the system, such as a full disk, name the file it concerns."""
+    try:
+        yield
+    except OSError as error:
+        _name(error, path)
+        raise
+
+
+def _name(error: OSError, path: Path) -> None:
+    if error.errno is None and "No space left" in str(error):  # HDF5 says it in words
+        error.errno, error.strerror = errno.ENOSPC, os.strerror(errno.ENOSPC)
+    error.filename = str(path)
+
+
+def _remove_left(folder: Path, name: str) -> None:
+    """Remove what killed runs of this machine, or forgotten ones of others, left aside of a file called `name`."""
+    for left in folder.glob(f".*.part.{glob_escaped(name)}"):
+        run = re.match(r"\.(?:(?P<host>\w+)-)?(?P<pid>\d+)\.part\.", left.name)
+        with contextlib.suppress(OSError):
+            forgotten = time.time() - left.stat().st_mtime > _FORGOTTEN
+            if forgotten or (run and run["host"] == _HOST and not _alive(int(run["pid"]))):
+                left.unlink()
+
+
+def glob_escaped(name: str) -> str:
+    """A name for ``Path.glob`` in which no character stands for others."""
+    return re.sub(r"([*?\[])", r"[\1]", name)
+
+
+def _alive(pid: int) -> bool:
+    """Whether a process of this machine runs; True where the system cannot say without doing harm."""
+    if sys.platform == "win32":  # os.kill(pid, 0) would send it Ctrl-C
+        return True
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:  # another user's
+        return True
+    return True
+
+
 def refuse_unwritable(folder: str | os.PathLike[str], field: str) -> None:
     """Raise InputError, naming `field`, if files cannot be put into `folder` or it cannot be made."""
-    path = Path(folder)
-    nearest = next(each for each in (path, *path.absolute().parents) if each.exists())
+    path = path_of(folder, field, "a folder")
+    try:
+        nearest = next(each for each in (path, *path.absolute().parents) if each.exists())
+    except OSError as error:
+        raise InputError(field, str(folder), f"a folder that can be written to ({error.strerror or error})") from None
     if not nearest.is_dir():
         raise InputError(field, str(folder), f"a folder; {nearest} is a file")
     if not os.access(nearest, os.W_OK | os.X_OK):
         raise InputError(field, str(folder), f"a folder that can be written to; {nearest} cannot")
+
+
+def path_of(given: str | os.PathLike[str], field: str, what: str) -> Path:
+    """``given`` as a path. InputError, naming ``field`` and ``what`` the path should be of, unless it can be one."""
+    try:
+        path = os.fspath(given)
+    except TypeError:
+        raise InputError(field, given, f"the path of {what}") from None
+    if not isinstance(path, str) or "\0" in path or not path:
+        raise InputError(field, given, f"the path of {what}")
+    return Path(path)
+
+
+def read_at_most(path: str | os.PathLike[str], most: int) -> bytes:
+    """The content of a file, its first ``most`` + 1 bytes at most. OSError for what is no regular file, such as a pipe,
+    which might never end or never begin."""
+    import stat
+
+    kind = os.stat(path).st_mode
+    if stat.S_ISDIR(kind):
+        raise IsADirectoryError(errno.EISDIR, "this is a folder", os.fspath(path))
+    if not stat.S_ISREG(kind):
+        raise OSError(errno.EINVAL, "no regular file, but a pipe or a device", os.fspath(path))
+    with open(path, "rb") as file:
+        return file.read(most + 1)

@@ -22,6 +22,7 @@ import hystrip
 from hystrip.scene.validate import validated
 from hystrip.sweeps.executors import InProcess
 from hystrip.sweeps.plan import plan_of, short_name
+from hystrip.sweeps.sizing import blocks, first_size, next_size
 
 SATURATED = """
 pressure = [5e6, 6e6]
@@ -53,7 +54,7 @@ def scene(tmp_path):
 
 def test_grid_is_every_combination(scene, tmp_path):
     done = hystrip.sweep(scene, out=tmp_path / "out")
-    assert (done.plan.size, done.plan.batches, done.solved, done.kept, done.failed) == (80, 12, 12, 0, {})
+    assert (done.plan.size, done.solved, done.kept, done.failed) == (80, 12, 0, {})
     assert list(done.columns)[:5] == ["h_1 [m]", "K [Pa/m]", "gamma [J/m^2]", "pressure [Pa]", "velocity [m/s]"]
     data = done.to_dataset()
     assert data.mu.dims == ("h_1", "K", "gamma", "pressure", "velocity") and data.mu_by_level.dims[0] == "level"
@@ -121,15 +122,35 @@ def test_a_material_without_a_solver_is_refused_before_any_work(scene, tmp_path,
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.parametrize(("points", "batch"), [(2, 128), (2048, 128), (10_000, 625), (100_000, 2048)])
-def test_batches_are_decided_by_the_number_of_points(points, batch):
-    values = validated(tomllib.loads(SATURATED.replace("batch = 7", "")))
+def planned(points, text=SATURATED):
+    values = validated(tomllib.loads(text.replace("batch = 7", "")))
     over = {"levels[0].h": 1e-6, "material.K": 1e9, "adhesion.gamma": 0.0, "pressure": 5e6}
-    plan = plan_of(values, "s", SATURATED, over | {"velocity": np.geomspace(1e-4, 1e-2, points)}, None, None)
-    assert plan.batch == batch and plan.batches == -(-points // batch)
-    values["levels"] = values["levels"][:1]
-    alone = plan_of(values, "s", SATURATED, over | {"velocity": np.geomspace(1e-4, 1e-2, points)}, None, None)
-    assert alone.batch == max(batch, 512)
+    return plan_of(values, "s", text, over | {"velocity": np.geomspace(1e-4, 1e-2, points)}, None, None)
+
+
+@pytest.mark.parametrize("cost", [lambda n: 1e-4 * n, lambda n: 0.3 * n, lambda n: 0.1 * n**0.57, lambda n: 1.0 + 1e-3 * n])
+def test_batches_take_a_few_seconds_whatever_a_point_costs(cost):
+    plan = planned(10_000)
+    size, sizes = first_size(plan), []
+    for _ in range(12):
+        sizes.append(size)
+        size = next_size(plan, size, cost(size))
+    settled = [cost(size) for size in sizes[6:]]
+    assert max(settled) < 12 and (min(settled) > 1.5 or min(sizes[6:]) > plan.size)
+    assert all(later <= 4 * earlier for earlier, later in zip(sizes, sizes[1:], strict=False))
+
+
+@pytest.mark.parametrize("points", [2, 33, 1000, 100_000])
+def test_blocks_hold_every_point_once(points):
+    plan = planned(points)
+    assert [point for block in blocks(plan) for point in block] == list(range(points))
+    assert len(list(blocks(plan))) <= 64
+
+
+def test_a_material_for_each_point_begins_with_few_of_them():
+    values = validated(tomllib.loads(SATURATED.replace("batch = 7", "")))
+    many = {"velocity": 1e-3, "pressure": 5e6, "material.K": np.geomspace(1e9, 2e9, 1000)}
+    assert first_size(plan_of(values, "s", SATURATED, many, None, None)) == 4 < first_size(planned(1000)) == 32
 
 
 def test_nothing_to_sweep_and_unequal_lists(scene, tmp_path):
@@ -165,7 +186,7 @@ def test_an_error_nobody_thought_of_costs_its_point_alone(scene, tmp_path, monke
 def test_lost_workers_are_one_sentence_and_finished_batches_are_kept(scene, tmp_path, monkeypatch):
     class Dying(InProcess):
         def submit(self, function, task):
-            if task.number < 3:
+            if task.first < 3 * 7:
                 return super().submit(function, task)
             future = Future()
             future.cancel()
@@ -208,11 +229,27 @@ def test_partial_contact_batches_do_not_depend_on_what_was_solved_before(tmp_pat
         "[[levels]]\nl = 5e-7\nh = 1e-7\n"
     )
     first = hystrip.sweep(path, out=tmp_path / "out").path.read_bytes()
-    (tmp_path / "out/p.parts/part-000001.json").unlink()
+    (tmp_path / "out/p.parts/part-000000003.json").unlink()
     assert hystrip.sweep(path, out=tmp_path / "out").path.read_bytes() == first
 
 
-def many(folder, points=10_000):
+def test_batches_sized_by_their_work_do_not_depend_on_what_was_solved_before(tmp_path):
+    path = tmp_path / "p.toml"
+    path.write_text(
+        "penetration = 5e-8\nvelocity = { start = 1e-4, stop = 1e-2, num = 1000 }\nrtol = 1e-2\n"
+        "[material]\nK = 1e9\nT_eps = 0.01\nT_sigma = 1e-4\n[[levels]]\nl = 5e-7\nh = 1e-7\n"
+    )
+    first = hystrip.sweep(path, out=tmp_path / "out")
+    parts = sorted((tmp_path / "out/p.parts").glob("part-*.json"))
+    assert [part.name for part in parts[:3]] == ["part-000000000.json", "part-000000128.json", "part-000000512.json"]
+    for part in (parts[1], parts[-1]):
+        part.unlink()
+    with ThreadPoolExecutor(2) as threads:
+        again = hystrip.sweep(path, out=tmp_path / "out", executor=threads)
+    assert again.path.read_bytes() == first.path.read_bytes() and (again.solved, again.kept) == (2, len(parts) - 2)
+
+
+def many(folder, points=3000):
     text = SATURATED.replace("num = 5", f"num = {points // 16}").replace("batch = 7", "batch = 10")
     (folder / "many.toml").write_text(text)
 
@@ -246,18 +283,18 @@ def test_killed_five_times_the_final_file_is_the_same(tmp_path, workers):
     chance, before = random.Random(workers), 0
     for _ in range(5):
         process = started(tmp_path, "--workers", str(workers))
-        wait_for_parts(tmp_path, before + chance.randrange(1, 150), process)
+        wait_for_parts(tmp_path, before + chance.randrange(1, 45), process)
         time.sleep(chance.random() * 0.02)
         process.kill()  # the parent alone: its workers have to notice
         process.communicate(timeout=60)
         assert process.returncode == -signal.SIGKILL
         assert parts_in(tmp_path) >= before and not (tmp_path / "hystrip-out/many.sweep.csv").exists()
         before = parts_in(tmp_path)
-    assert 5 <= before < 1000
+    assert 5 <= before < 300
     stamps = {path: path.stat().st_mtime_ns for path in (tmp_path / "hystrip-out/many.parts").glob("part-*.json")}
     last = started(tmp_path)
     out, err = last.communicate(timeout=300)
-    assert last.returncode == 0 and f"{before} of 1000 batches from before" in out, err
+    assert last.returncode == 0 and f"{before} of 300 batches from before" in out, err
     assert {path: path.stat().st_mtime_ns for path in stamps} == stamps
     assert (tmp_path / "hystrip-out/many.sweep.csv").read_bytes() == (tmp_path / "whole/hystrip-out/many.sweep.csv").read_bytes()
 
@@ -276,12 +313,11 @@ def test_ctrl_c_ends_cleanly(tmp_path, workers):
 
 
 def test_two_runs_at_once_are_refused(scene, tmp_path):
-    fcntl = pytest.importorskip("fcntl")
-    hystrip.sweep(scene, out=tmp_path / "out")
-    with open(tmp_path / "out/s.parts/lock") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    def again(done, total):
         with pytest.raises(hystrip.HystripError, match="another run"):
             hystrip.sweep(scene, out=tmp_path / "out")
+
+    hystrip.sweep(scene, out=tmp_path / "out", progress=again)
 
 
 def test_schema_knows_the_sweep_table():
@@ -293,4 +329,4 @@ def test_schema_knows_the_sweep_table():
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGKILL")
 def test_killed_in_partial_contact_csv_and_netcdf_are_the_same(tmp_path):
     """The short version of ``tools/kill_sweep.py``."""
-    assert kill_sweep.compare(tmp_path, points=300, kills=2, workers=2, batch=5, seed=5, say=lambda text: None) == []
+    assert kill_sweep.compare(tmp_path / "given", points=300, kills=2, workers=2, batch=5, seed=5, say=lambda text: None) == []

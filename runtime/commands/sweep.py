@@ -17,7 +17,7 @@ def command(
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results; run again with the same to go on."),
     workers: int = typer.Option(1, "--workers", help="Local processes."),
     scheduler: str = typer.Option(None, "--scheduler", help="Address of a Dask scheduler, such as tcp://host:8786."),
-    batch: int = typer.Option(None, "--batch", help="Points solved and stored together [the scene's, or a 16th of all]."),
+    batch: int = typer.Option(None, "--batch", help="Points solved and stored together [the scene's, or a few seconds of work]."),
     netcdf: bool = typer.Option(False, "--netcdf", help="Write the labelled results as netCDF too (extra `dataset`)."),
     restart: bool = typer.Option(False, "--restart", help="Delete what an earlier sweep left in the folder."),
     allow_solver: bool = typer.Option(False, "--allow-solver", help="Run the code of a solver that the scene names."),
@@ -51,7 +51,7 @@ def command(
             name = done.path.with_suffix(".nc").name
             done.to_dataset().to_netcdf(files.path(name), engine="h5netcdf")
         written.append(out / name)
-    again = f", {done.kept} of {done.plan.batches} batches from before" if done.kept else ""
+    again = f", {done.kept} of {done.kept + done.solved} batches from before" if done.kept else ""
     typer.echo(f"{done.plan.size} points{again}")
     if done.failed:
         typer.echo(

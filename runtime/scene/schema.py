@@ -111,7 +111,7 @@ class Sweep(Struct, forbid_unknown_fields=True, kw_only=True):
     batch: Annotated[
         Annotated[int, Meta(ge=1, le=100_000)] | None,
         Meta(description="an integer from 1 to 100000, points that are solved and stored together "
-             "(without it a 16th of all, from 128, with one level 512, to 2048)"),
+             "(without it as many as take a few seconds)"),
     ] = None  # fmt: skip
 
 

@@ -2,76 +2,112 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-_RUN_KEYS = ("pressure", "penetration", "velocity")
+from ..errors import HystripError
+from ..loading import solver_key
+from .code import code_key
+from .plan import RUN_KEYS, single
+from .sizing import work_of
+from .variables import variables
 
 
 @dataclass(frozen=True)
 class Task:
-    """A batch as it travels to a worker: the scene, the swept keys, their values at the batch's points (n, keys)."""
+    """A batch as it travels to a worker.
 
-    number: int
+    ``first``: its first point; ``base``: the scene; ``keys``: what is swept; ``coordinates``: their values at the batch's
+    points, (n, keys); ``code``, ``solver``: keys of the code that has to solve it.
+    """
+
+    first: int
     base: dict[str, Any]
     keys: tuple[str, ...]
     coordinates: np.ndarray
+    code: str
+    solver: str
 
 
-def outputs(levels: int) -> list[str]:
-    """Names of the numbers that a point gives, in order."""
-    parts = [f"mu of level {i}" for i in range(1, levels + 1)]
-    return [
-        "mu",
-        "tau [Pa]",
-        *parts,
-        "pressure [Pa]",
-        "penetration [m]",
-        "contact fraction",
-        "pulled off",
-        "error estimate of mu",
-    ]
+@dataclass(frozen=True)
+class Batch:
+    """A solved batch.
+
+    ``columns``: values of every variable at its points, (n,), NaN where a point failed; ``failed``: the reasons of those, by
+    place in the batch; ``work``: what it took, in the unit of ``sizing.work_of``; ``code``: key of the code that solved it.
+    """
+
+    first: int
+    points: int
+    columns: dict[str, np.ndarray]
+    failed: dict[int, str] = field(default_factory=dict)
+    work: float = 0.0
+    code: str = ""
 
 
-def solve_batch(task: Task) -> tuple[np.ndarray, dict[int, str]]:
-    """Numbers of every point (n, outputs), NaN where a point failed; and the reasons of those, by place in the batch.
+def solve_batch(task: Task) -> Batch:
+    """Solve every point of a batch; one that fails is recorded with its reason.
 
     What is solved together is decided by the batch alone, so the numbers do not depend on where or when it is solved.
+
+    Raises ``HystripError`` on a worker whose hystrip is another, and for a solver's folder that has changed since.
     """
-    numbers = np.full((len(task.coordinates), len(outputs(len(task.base["levels"])))), np.nan)
-    reasons: dict[int, str] = {}
-    fixed = [i for i, key in enumerate(task.keys) if key not in _RUN_KEYS]
+    if code_key() != task.code:
+        raise HystripError(OTHER_CODE)
+    _refuse_changed_solver(task)
+    points = len(task.coordinates)
+    columns = {each.column: np.full(points, np.nan) for each in variables(len(task.base["levels"]))}
+    failed: dict[int, str] = {}
+    fixed = [i for i, key in enumerate(task.keys) if key not in RUN_KEYS]
     cases, case = np.unique(task.coordinates[:, fixed], axis=0, return_inverse=True)
+    work = 0.0
     for number in range(len(cases)):
-        _solve(task, cases[number], fixed, np.flatnonzero(case.ravel() == number), numbers, reasons)
-    return numbers, reasons
+        work += _solve(task, cases[number], fixed, np.flatnonzero(case.ravel() == number), columns, failed)
+    _refuse_changed_solver(task)
+    return Batch(task.first, points, columns, failed, work, task.code)
 
 
-def _solve(task: Task, at: np.ndarray, fixed: list[int], rows: np.ndarray, numbers: np.ndarray, reasons: dict[int, str]) -> None:
-    """Solve the points ``rows``, which share everything but load and velocity; halve them until a failing one is alone."""
+OTHER_CODE = "a worker has another hystrip than this process: install the same version there; finished batches are kept"
+
+
+def _refuse_changed_solver(task: Task) -> None:
+    folder = task.base["material"]["solver"]
+    if solver_key(folder) != task.solver:
+        raise HystripError(
+            f"material.solver: the code in {folder} changed while the sweep ran: put it back, or run the sweep with --restart"
+        )
+
+
+def _solve(
+    task: Task, at: np.ndarray, fixed: list[int], rows: np.ndarray, columns: dict[str, np.ndarray], failed: dict[int, str]
+) -> float:
+    """Solve the points ``rows``, which share everything but load and velocity; halve them until a failing one is alone.
+
+    Returns the work done.
+    """
     try:
-        numbers[rows] = _numbers(task, at, fixed, rows)
+        result = _result(task, at, fixed, rows)
+        found = {each.column: each.of(result) for each in variables(len(task.base["levels"]))}
     except Exception as error:  # whatever it is: one point must not cost a night's sweep
         if rows.size == 1:
-            reasons[int(rows[0])] = " ".join(f"{type(error).__name__}: {error}".split())
-            return
-        for half in np.array_split(rows, 2):
-            _solve(task, at, fixed, half, numbers, reasons)
+            failed[int(rows[0])] = " ".join(f"{type(error).__name__}: {error}".split())
+            return work_of(None)
+        return work_of(None) + sum(_solve(task, at, fixed, half, columns, failed) for half in np.array_split(rows, 2))
+    for column, values in found.items():
+        columns[column][rows] = values
+    return work_of(result)
 
 
-def _numbers(task: Task, at: np.ndarray, fixed: list[int], rows: np.ndarray) -> np.ndarray:
+def _result(task: Task, at: np.ndarray, fixed: list[int], rows: np.ndarray) -> Any:
     import hystrip
-
-    from ..tables import parts_of_mu
-    from .plan import single
 
     base = task.base
     objects = single(base, [task.keys[i] for i in fixed], at)
-    run = {key: np.broadcast_to(base[key], rows.size) for key in _RUN_KEYS if base[key] is not None and key not in task.keys}
-    run |= {key: task.coordinates[rows, i] for i, key in enumerate(task.keys) if key in _RUN_KEYS}
-    result = hystrip.solve(
+    run = {key: np.broadcast_to(base[key], rows.size) for key in RUN_KEYS if base[key] is not None and key not in task.keys}
+    run |= {key: task.coordinates[rows, i] for i, key in enumerate(task.keys) if key in RUN_KEYS}
+    return hystrip.solve(
         objects["material"],
         objects["adhesion"],
         objects["levels"],
@@ -81,7 +117,3 @@ def _numbers(task: Task, at: np.ndarray, fixed: list[int], rows: np.ndarray) -> 
         rtol=base["rtol"],
         strips=base["strips"],
     )
-    return np.column_stack([
-        result.mu, result.tau, *parts_of_mu(result), result.pressure, result.penetration, result.contact_fraction,
-        result.pulled_off, result.error_estimate,
-    ])  # fmt: skip

@@ -7,16 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..extras import require
-
-_NAMES = {
-    "mu": ("mu", "1", "friction coefficient"),
-    "tau [Pa]": ("tau", "Pa", "friction stress"),
-    "pressure [Pa]": ("pressure", "Pa", "nominal pressure"),
-    "penetration [m]": ("penetration", "m", "penetration of level 1"),
-    "contact fraction": ("contact_fraction", "1", "real contact: fraction of the nominal area in contact on every level"),
-    "pulled off": ("pulled_off", "1", "1 where the pressure lies below pull-off"),
-    "error estimate of mu": ("error_estimate", "1", "estimated absolute error of the friction coefficient"),
-}
+from .variables import COMMON, part_of_level
 
 
 def to_dataset(sweep: Any) -> Any:
@@ -33,10 +24,11 @@ def to_dataset(sweep: Any) -> Any:
     for axis in plan.axes:
         coords[axis.name] = (axis.name if grid else "point", axis.values, {"units": axis.unit, "long_name": f"swept: {axis.key}"})
     variables = {}
-    for column, (name, unit, long_name) in _NAMES.items():
-        if column in columns and name not in coords:
-            variables[name] = (dims, np.reshape(columns[column], plan.shape), {"units": unit, "long_name": long_name})
-    parts = np.stack([np.reshape(columns[f"mu of level {i}"], plan.shape) for i in range(1, plan.levels + 1)])
+    for each in COMMON:
+        if each.name not in coords:
+            attributes = {"units": each.unit, "long_name": each.long_name}
+            variables[each.name] = (dims, np.reshape(columns[each.column], plan.shape), attributes)
+    parts = np.stack([np.reshape(columns[part_of_level(i).column], plan.shape) for i in range(1, plan.levels + 1)])
     variables["mu_by_level"] = (("level", *dims), parts, {"units": "1", "long_name": "part of mu that each level adds"})
     reasons = np.array(columns["failed"], dtype=object).reshape(plan.shape)
     variables["failed"] = (dims, reasons, {"units": "", "long_name": "why a point could not be solved, empty if it was"})

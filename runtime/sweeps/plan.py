@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import copy
-import dataclasses
 import hashlib
 import json
+import math
 import re
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -26,15 +27,17 @@ from ..scene.load import (
     quantities,
     refuse_ambiguous,
 )
+from . import code
 
 _LOADS = ("pressure", "penetration")
+#: what the solver takes arrays of
+RUN_KEYS = (*_LOADS, "velocity")
 _UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "moduli": "Pa/m", "times": "s",
           "gamma": "J/m^2", "p_0": "Pa", "delta_0": "m",
           "pressure": "Pa", "penetration": "m", "velocity": "m/s"}  # fmt: skip
 
-#: batches of a sweep that does not say: so many, of at least and at most so many points; one level alone is so quick that
-#: smaller batches take longer than the solution
-_SHARES, _LEAST, _LEAST_OF_ONE_LEVEL, _MOST = 16, 128, 512, 2048
+#: most points of a sweep: their coordinates and numbers are held in memory at its end
+_MOST = 100_000_000
 
 
 @dataclass(frozen=True)
@@ -63,7 +66,7 @@ class Plan:
     base: dict[str, Any]
     axes: tuple[Axis, ...]
     combine: str
-    batch: int
+    batch: int | None
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -73,11 +76,14 @@ class Plan:
 
     @property
     def size(self) -> int:
-        return int(np.prod(self.shape, dtype=int))
+        return math.prod(self.shape)
 
     @property
-    def batches(self) -> int:
-        return -(-self.size // self.batch)
+    def points_of_a_call(self) -> int:
+        """Points in a row that differ in load and velocity alone: the solver takes them together."""
+        if self.combine == "list":
+            return self.size if all(axis.key in RUN_KEYS for axis in self.axes) else 1
+        return math.prod(axis.values.size for axis in self.axes if axis.key in RUN_KEYS)
 
     @property
     def levels(self) -> int:
@@ -87,23 +93,22 @@ class Plan:
     def load(self) -> str:
         return "penetration" if self.base["pressure"] is None else "pressure"
 
-    def points_of(self, number: int) -> np.ndarray:
-        """Indices of the points of a batch."""
-        return np.arange(number * self.batch, min((number + 1) * self.batch, self.size))
-
     def coordinates(self, points: np.ndarray) -> np.ndarray:
         """Values of the axes at points (n,), shape (n, axes)."""
         index = np.unravel_index(points, self.shape) if self.combine == "grid" else [points] * len(self.axes)
         return np.column_stack([axis.values[i] for axis, i in zip(self.axes, index, strict=True)])
 
-    @property
-    def fingerprint(self) -> str:
-        """Changes with anything that the numbers, their order or the batches depend on."""
-        import hystrip
+    @cached_property
+    def solver(self) -> str:
+        """Hash of the code in the solver's folder that the scene names; empty without one."""
+        return solver_key(self.base["material"]["solver"])
 
+    @cached_property
+    def fingerprint(self) -> str:
+        """Changes with anything that the numbers, their order or the batches depend on: the code that solves, too."""
         solved = {key: each for key, each in self.base.items() if key not in ("title", "description", "sweep")}
-        solver = solver_key(self.base["material"]["solver"])
-        seen = [solved, solver, [[axis.key, axis.values] for axis in self.axes], self.combine, self.batch, hystrip.__version__]
+        axes = [[axis.key, axis.values] for axis in self.axes]
+        seen = [solved, self.solver, axes, self.combine, self.batch, code.code_key()]
         return hashlib.sha256(json.dumps(seen, default=_listed, sort_keys=True).encode()).hexdigest()
 
 
@@ -157,12 +162,10 @@ def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], 
         raise SceneError(
             "", None, "a list or a range for at least one quantity", "nothing is swept: every quantity is a single value"
         )
-    plan = Plan(name, text, values, axes, combine, batch or 1)
-    if plan.size > 100_000_000:
-        raise SceneError("", plan.size, "at most 1e8 points", f"{plan.size} points")
-    # large batches use the vectorised solver well, many share out among workers and lose little to a kill
-    least = _LEAST if plan.levels > 1 else _LEAST_OF_ONE_LEVEL
-    return plan if batch else dataclasses.replace(plan, batch=min(max(-(-plan.size // _SHARES), least), _MOST))
+    plan = Plan(name, text, values, axes, combine, batch)
+    if plan.size > _MOST:
+        raise SceneError("", plan.size, f"at most {_MOST:.0e} points", f"{plan.size} points")
+    return plan
 
 
 def _refuse_hopeless(values: dict[str, Any], swept: set[str]) -> None:
@@ -221,9 +224,7 @@ def keys_of(values: dict[str, Any]) -> list[str]:
 
 def single(base: dict[str, Any], keys: list[str], at: np.ndarray) -> dict[str, Any]:
     """Material, adhesion and levels at one combination of the values of ``keys`` (load and velocity are left alone)."""
-    values = copy.deepcopy(
-        {key: base[key] for key in ("material", "adhesion", "levels")} | {key: base[key] for key in (*_LOADS, "velocity")}
-    )
+    values = copy.deepcopy({key: base[key] for key in ("material", "adhesion", "levels")} | {key: base[key] for key in RUN_KEYS})
     for key, value in zip(keys, at, strict=True):
         _put(values, key, float(value))
     return build_objects(values)

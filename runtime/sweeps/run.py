@@ -13,12 +13,15 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ..errors import HystripError, InputError
-from ..files import Outputs, refuse_unwritable
+from ..files import Outputs, path_of, refuse_unwritable
 from ..tables import write_csv
-from .batch import Task, outputs, solve_batch
+from .batch import OTHER_CODE, Batch, Task, solve_batch
+from .code import code_key, fresh_code_key
 from .executors import dask, local, lost
 from .plan import Plan, plan_of
+from .sizing import blocks, first_size, next_size
 from .store import Store
+from .variables import variables
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -79,8 +82,8 @@ def sweep(
         ``{"adhesion.gamma": [0, 1e-5], "levels[1].h": [5e-8, 1e-7], "material.times[0]": [1e-3, 1e-2]}``
     out : folder for ``<name>.sweep.csv`` and the finished batches (``<name>.parts/``)
     combine : ``"grid"`` (every combination) or ``"list"`` (all of one length, taken together); the scene's ``[sweep]`` if None
-    batch : points solved and stored together; the scene's ``[sweep]`` if None, and if it does not say a
-        16th of all, from 128 (with one level 512) to 2048
+    batch : points solved and stored together; the scene's ``[sweep]`` if None, and if it does not say as many as take a
+        few seconds. That is counted, not timed: the same points are solved together wherever and whenever the sweep runs
     workers : local processes, 1 for this one; or executor : anything with the ``concurrent.futures`` interface, such as
         Dask's ``Client.get_executor()``; or scheduler : address of a Dask scheduler
     restart : delete what an earlier sweep left in the folder
@@ -99,7 +102,7 @@ def sweep(
     ...     done = sweep("paper_fig7", over={"adhesion.gamma": [0, 1e-5]}, out=folder)
     ...     again = sweep("paper_fig7", over={"adhesion.gamma": [0, 1e-5]}, out=folder)
     >>> done.plan.shape, done.solved, again.solved, again.kept
-    ((2, 141), 3, 0, 3)
+    ((2, 141), 18, 0, 18)
     """
     from ..scene.load import located, parse_toml, resolve_solver, scene_text
     from ..scene.validate import validated
@@ -110,77 +113,134 @@ def sweep(
         resolve_solver(values, os.fspath(scene), allow_solver)
     with located(os.fspath(scene)) if not over else contextlib.nullcontext():
         plan = plan_of(values, name, text, dict(over or {}), combine, batch)
-    out = Path(out)
-    refuse_unwritable(out, "--out")
+    folder = path_of(out, "--out", "a folder")
+    refuse_unwritable(folder, "--out")
     if executor is not None and not hasattr(executor, "submit"):
         raise InputError("executor", executor, "anything with the concurrent.futures interface")
     if sum((workers != 1, executor is not None, scheduler is not None)) > 1:
         raise InputError("workers, executor, scheduler", (workers, executor, scheduler), "one of them")
     where = contextlib.nullcontext((executor, 64)) if executor is not None else dask(scheduler) if scheduler else local(workers)
-    about = {"name": name, "points": plan.size, "batches": plan.batches, "scene": text}
-    store = Store(out / f"{name}.parts", plan.fingerprint, about)
+    about = {"name": name, "points": plan.size, "scene": text}
+    store = Store(folder / f"{name}.parts", plan.fingerprint, about)
     with where as (runs_on, in_flight), store.open(restart):
-        missing = [number for number in range(plan.batches) if store.read(number) is None]
-        _run(plan, store, missing, runs_on, in_flight, progress)
+        run = _Run(plan, store, progress)
+        run.all(runs_on, in_flight)
         columns = _collected(plan, store)
-        with Outputs(out) as files:
+        with Outputs(folder) as files:
             write_csv(files.path(f"{name}.sweep.csv"), columns)
-    return Sweep(columns, out / f"{name}.sweep.csv", plan, len(missing), plan.batches - len(missing))
+    return Sweep(columns, folder / f"{name}.sweep.csv", plan, run.solved, run.kept)
 
 
-def _run(plan: Plan, store: Store, missing: list[int], executor: Executor, in_flight: int, progress: Any) -> None:
-    done = plan.size - sum(plan.points_of(number).size for number in missing)
-    tasks = _tasks(plan, missing)
-    running: dict[Future, int] = {}
-    if progress:
-        progress(done, plan.size)
-    try:
-        while True:
-            while len(running) < in_flight and (task := next(tasks, None)) is not None:
-                running[executor.submit(solve_batch, task)] = task.number
-            if not running:
-                return
-            # what is finished goes to disk before another batch's failure ends the run
-            for future in sorted(wait(running, return_when=FIRST_COMPLETED).done, key=_failed):
-                number = running.pop(future)
-                store.write(number, *future.result())
-                done += plan.points_of(number).size
-                if progress:
-                    progress(done, plan.size)
-    except (BrokenExecutor, CancelledError) as error:
-        raise HystripError(lost(f"the workers are gone ({str(error) or type(error).__name__})")) from None
-    finally:
-        for future in running:
-            future.cancel()
+class _Block:
+    """Points that are solved in batches one after the other."""
+
+    def __init__(self, points: range, size: int):
+        self.at, self.end, self.size = points.start, points.stop, min(size, len(points))
+
+    def advance(self, plan: Plan, batch: Batch) -> bool:
+        """Go on behind a batch; False at the end."""
+        self.at += batch.points
+        self.size = min(next_size(plan, batch.points, batch.work), self.end - self.at)
+        return self.at < self.end
+
+
+class _Run:
+    """The work of one call: what is on disk is kept, what is missing is solved."""
+
+    def __init__(self, plan: Plan, store: Store, progress: Callable[[int, int], None] | None):
+        self.plan, self.store, self.progress = plan, store, progress
+        self.solved = self.kept = self.done = 0
+        self._base = {key: each for key, each in plan.base.items() if key not in ("title", "description", "sweep")}
+
+    def all(self, executor: Executor, in_flight: int) -> None:
+        """Solve what is missing, with so many batches in flight."""
+        waiting = self._with_missing(_Block(points, first_size(self.plan)) for points in blocks(self.plan))
+        running: dict[Future, _Block] = {}
+        if self.progress:
+            self.progress(0, self.plan.size)
+        ready: list[_Block] = []  # blocks whose next batch follows from one that is finished
+        try:
+            while True:
+                while len(running) < in_flight and (block := ready.pop() if ready else next(waiting, None)):
+                    running[executor.submit(solve_batch, self._task(block))] = block
+                if not running:
+                    break
+                # what is finished goes to disk before another batch's failure ends the run
+                for future in sorted(wait(running, return_when=FIRST_COMPLETED).done, key=_failed):
+                    block, batch = running.pop(future), _solved(future.result())
+                    self.store.write(batch)
+                    self.solved += 1
+                    self._count(batch)
+                    if block.advance(self.plan, batch) and self._missing(block):
+                        ready.append(block)
+        except (BrokenExecutor, CancelledError) as error:
+            raise HystripError(lost(f"the workers are gone ({str(error) or type(error).__name__})")) from None
+        finally:
+            for future in running:
+                future.cancel()
+        if fresh_code_key() != code_key():
+            raise HystripError("the installed hystrip changed while the sweep ran: run the sweep with --restart")
+
+    def _with_missing(self, blocks: Iterator[_Block]) -> Iterator[_Block]:
+        return (block for block in blocks if self._missing(block))
+
+    def _missing(self, block: _Block) -> bool:
+        """Go on to the first batch of a block that is not on disk; False if all are."""
+        while (stored := self.store.read(block.at, block.size)) is not None:
+            self.kept += 1
+            self._count(stored)
+            if not block.advance(self.plan, stored):
+                return False
+        return True
+
+    def _count(self, batch: Batch) -> None:
+        self.done += batch.points
+        if self.progress:
+            self.progress(self.done, self.plan.size)
+
+    def _task(self, block: _Block) -> Task:
+        keys = tuple(axis.key for axis in self.plan.axes)
+        coordinates = self.plan.coordinates(np.arange(block.at, block.at + block.size))
+        return Task(block.at, self._base, keys, coordinates, code_key(), self.plan.solver)
 
 
 def _failed(future: Future) -> bool:
     return future.cancelled() or future.exception() is not None
 
 
-def _tasks(plan: Plan, missing: list[int]) -> Iterator[Task]:
-    keys = tuple(axis.key for axis in plan.axes)
-    base = {key: each for key, each in plan.base.items() if key not in ("title", "description", "sweep")}
-    for number in missing:
-        yield Task(number, base, keys, plan.coordinates(plan.points_of(number)))
+def _solved(batch: Any) -> Batch:
+    """What a worker returned. A worker too old to say by which code it is is refused."""
+    if getattr(batch, "code", None) != code_key():
+        raise HystripError(OTHER_CODE)
+    return batch
 
 
 def _collected(plan: Plan, store: Store) -> dict[str, Any]:
     """All batches as one table."""
-    rows, failed = [], [""] * plan.size
-    for number in range(plan.batches):
-        stored = store.read(number)
-        if stored is None:
-            raise HystripError(f"{store.path(number)} vanished while the sweep ran: run it again")
-        rows.append(stored[0])
-        for row, reason in stored[1].items():
-            failed[number * plan.batch + row] = reason
+    stored = [*_all_batches(plan, store)]
+    store.require_ours()
+    failed = [""] * plan.size
+    for batch in stored:
+        for row, reason in batch.failed.items():
+            failed[batch.first + row] = reason
     coordinates = plan.coordinates(np.arange(plan.size))
     columns: dict[str, Any] = {f"{axis.name} [{axis.unit}]": coordinates[:, i] for i, axis in enumerate(plan.axes)}
-    numbers = np.concatenate(rows)
-    for i, name in enumerate(outputs(plan.levels)):
-        columns.setdefault(name, numbers[:, i])
+    for each in variables(plan.levels):
+        columns.setdefault(each.column, np.concatenate([batch.columns[each.column] for batch in stored]))
     if "velocity [m/s]" not in columns:
         columns = {"velocity [m/s]": np.full(plan.size, float(plan.base["velocity"])), **columns}
     columns["failed"] = failed
     return columns
+
+
+def _all_batches(plan: Plan, store: Store) -> Iterator[Batch]:
+    for points in blocks(plan):
+        block = _Block(points, first_size(plan))
+        while True:
+            batch = store.read(block.at, block.size)
+            if batch is None:
+                store.require_ours()
+                raise HystripError(f"{store.path(block.at)} vanished while the sweep ran: run it again")
+            yield batch
+            if not block.advance(plan, batch):
+                break

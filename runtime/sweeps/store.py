@@ -6,6 +6,7 @@ import contextlib
 import hashlib
 import json
 import os
+import secrets
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -13,85 +14,110 @@ from typing import Any
 import numpy as np
 
 from ..errors import HystripError, InputError
+from ..extras import require
+from ..files import named, synced
+from .batch import Batch
 
 
 class Store:
     """The folder ``<out>/<name>.parts`` of a sweep.
 
-    ``plan.json`` says whose parts these are. A part is written aside, flushed to the disk and renamed, and carries a
-    checksum: after a kill or a power cut it is whole, absent, or known to be damaged and solved again.
+    ``plan.json`` says whose parts these are, and which run is at work on them. A part is written aside, flushed to the
+    disk and renamed. Its checksum covers the fingerprint of its sweep and its place in it: after a kill or a power cut, and
+    whatever was copied there, it is this very part, or it is not read.
     """
 
     def __init__(self, folder: Path, fingerprint: str, about: dict[str, Any]):
         self.folder, self.fingerprint, self._about = folder, fingerprint, about
+        self._run = secrets.token_hex(8)
 
     @contextlib.contextmanager
     def open(self, restart: bool = False) -> Iterator[None]:
         """Make the folder or check that it belongs to this sweep, and keep other processes out while it is used."""
+        filelock = require("filelock", "cli", "a sweep")
         self.folder.mkdir(parents=True, exist_ok=True)
-        with _locked(self.folder / "lock"):
-            plan = self.folder / "plan.json"
-            if restart:
-                for path in (plan, *self.folder.glob("part-*.json")):
-                    path.unlink(missing_ok=True)
-            if plan.exists() and not self._ours(plan):
-                raise InputError("--out", str(self.folder), "results of this very sweep; these are of another scene or version "
-                                 "(--restart deletes them, or give another --out)")  # fmt: skip
-            if not plan.exists():
-                _write(plan, json.dumps({"fingerprint": self.fingerprint, **self._about}, indent=1))
-            for left in self.folder.glob("*.tmp"):
-                left.unlink(missing_ok=True)
+        lock = filelock.FileLock(self.folder / "lock", timeout=0)  # released by the system even when a run is killed
+        try:
+            lock.acquire()
+        except filelock.Timeout:
+            raise HystripError(f"{self.folder}: another run of this sweep is at work there") from None
+        try:
+            self._claim(restart)
             yield
+        finally:
+            lock.release()
 
-    def _ours(self, plan: Path) -> bool:
+    def _claim(self, restart: bool) -> None:
+        parts, plan = [*self.folder.glob("part-*.json")], self.folder / "plan.json"
+        if restart:
+            for path in (*parts, plan):  # the plan last: as long as there are parts it says whose they are
+                path.unlink(missing_ok=True)
+        else:
+            theirs = self._plan().get("fingerprint")
+            if theirs != self.fingerprint and (theirs is not None or parts):
+                held = "these are of another scene or version" if theirs else "these are parts without a plan"
+                raise InputError("--out", str(self.folder), f"results of this very sweep; {held} "
+                                 "(--restart deletes them, or give another --out)")  # fmt: skip
+        for left in self.folder.glob("*.tmp"):
+            left.unlink(missing_ok=True)
+        _write(plan, json.dumps({"fingerprint": self.fingerprint, "run": self._run, **self._about}, indent=1))
+
+    def _plan(self) -> dict[str, Any]:
+        """What ``plan.json`` holds; nothing if it is not there or not readable."""
         try:
-            return json.loads(plan.read_text(encoding="utf-8")).get("fingerprint") == self.fingerprint
-        except (ValueError, AttributeError):
-            return False
+            plan = json.loads((self.folder / "plan.json").read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return {}
+        return plan if isinstance(plan, dict) else {}
 
-    def path(self, number: int) -> Path:
-        return self.folder / f"part-{number:06d}.json"
+    def require_ours(self) -> None:
+        """``HystripError`` unless this run is still the one at work in the folder."""
+        if self._plan().get("run") != self._run:
+            raise HystripError(f"{self.folder}: the folder was removed, or taken over by another run, while this sweep ran")
 
-    def write(self, number: int, numbers: np.ndarray, reasons: dict[int, str]) -> None:
+    def path(self, first: int) -> Path:
+        """File of the batch that begins with the point ``first``."""
+        return self.folder / f"part-{first:09d}.json"
+
+    def write(self, batch: Batch) -> None:
         """Store a finished batch."""
-        body = json.dumps({"numbers": numbers.tolist(), "failed": {str(row): reason for row, reason in sorted(reasons.items())}})
-        _write(self.path(number), f"{hashlib.sha256(body.encode()).hexdigest()}\n{body}\n")
+        self.require_ours()
+        body = json.dumps({
+            "sweep": self.fingerprint,
+            "first": batch.first,
+            "points": batch.points,
+            "work": batch.work,
+            "columns": {column: values.tolist() for column, values in batch.columns.items()},
+            "failed": {str(row): reason for row, reason in sorted(batch.failed.items())},
+        })  # fmt: skip
+        _write(self.path(batch.first), f"{hashlib.sha256(body.encode()).hexdigest()}\n{body}\n")
 
-    def read(self, number: int) -> tuple[np.ndarray, dict[int, str]] | None:
-        """A stored batch, or None if it is not there or not whole."""
+    def read(self, first: int, points: int) -> Batch | None:
+        """The stored batch of so many points from ``first`` on, or None if it is not there, not whole, or not this one."""
         try:
-            check, body = self.path(number).read_text(encoding="utf-8").split("\n", 1)
+            check, body = self.path(first).read_text(encoding="utf-8").split("\n", 1)
         except (OSError, ValueError):
             return None
         body = body.rstrip("\n")
         if hashlib.sha256(body.encode()).hexdigest() != check:
             return None
         content = json.loads(body)
-        return np.array(content["numbers"], dtype=float), {int(row): reason for row, reason in content["failed"].items()}
+        if not isinstance(content, dict) or [content.get(key) for key in ("sweep", "first", "points")] != [
+            self.fingerprint, first, points,
+        ]:  # fmt: skip
+            return None
+        columns = {column: np.array(values, dtype=float) for column, values in content["columns"].items()}
+        failed = {int(row): reason for row, reason in content["failed"].items()}
+        return Batch(first, points, columns, failed, content["work"])
 
 
 def _write(path: Path, text: str) -> None:
     aside = path.with_name(f"{path.name}.{os.getpid()}.tmp")
-    try:
-        with open(aside, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(aside, path)
-    finally:
-        aside.unlink(missing_ok=True)
-
-
-@contextlib.contextmanager
-def _locked(path: Path) -> Iterator[None]:
-    with open(path, "a") as file:
+    with named(path):
         try:
-            import fcntl
-        except ImportError:  # Windows has no such lock: two runs of one sweep at once are the user's to avoid
-            yield
-            return
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)  # released by the system even when a run is killed
-        except OSError:
-            raise HystripError(f"{path.parent}: another run of this sweep is at work there") from None
-        yield
+            aside.write_text(text, encoding="utf-8", newline="\n")
+            synced(aside)
+            os.replace(aside, path)
+        finally:
+            with contextlib.suppress(OSError):
+                aside.unlink(missing_ok=True)
