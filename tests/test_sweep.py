@@ -111,12 +111,11 @@ def test_wrong_sweeps_are_refused_before_any_work(scene, tmp_path, over, said):
     [
         ('model = "prony"\nmoduli = [1e9, 2e9]\ntimes = [1e-3, 1e-2]', "edge: got 'continuous'"),
         ('model = "prony"\nmoduli = [1e9, 1e9, 1e9, 1e9]\ntimes = [1, 2, 3, 4]', "edge: got 'continuous'"),
-        ('model = "prony"\nmoduli = [1e9, 1e9, 1e9, 1e9]\ntimes = [1, 2, 3, 4]\n#constitutive', "material.times: got"),
     ],
 )
 def test_a_material_without_a_solver_is_refused_before_any_work(scene, tmp_path, model, said):
     text = SATURATED.replace("K = [1e9, 1.1e9]", "K = 1e9").replace("T_eps = 0.01\nT_sigma = 1e-4", model)
-    scene.write_text(('edge = "constitutive"\n' if "#" in model else "") + text)
+    scene.write_text(text)
     with pytest.raises(hystrip.InputError, match=said):
         hystrip.sweep(scene, out=tmp_path / "out")
     assert not (tmp_path / "out").exists()

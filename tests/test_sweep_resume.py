@@ -196,7 +196,7 @@ def test_a_solver_edited_while_the_sweep_runs_is_noticed(tmp_path):
     solver = tmp_path / "solver"
     package = Path(hystrip.generated.__file__).parent
     shutil.copytree(package, solver, ignore=shutil.ignore_patterns("audit", "__pycache__"))
-    (solver / "__init__.py").write_text('MODELS = ("generalised_2",)\n')
+    (solver / "__init__.py").write_text('MODELS = ("generalised",)\n')
     scene = tmp_path / "s.toml"
     scene.write_text(
         'pressure = 1e9\nvelocity = [1e-3, 2e-3, 3e-3]\nedge = "constitutive"\n[sweep]\nbatch = 1\n[material]\nmodel = "prony"\n'
@@ -205,7 +205,7 @@ def test_a_solver_edited_while_the_sweep_runs_is_noticed(tmp_path):
 
     def edit(done, total):
         if done == 2:
-            with open(solver / "generalised_2.py", "a") as file:
+            with open(solver / "generalised.py", "a") as file:
                 file.write("# edited\n")
 
     with pytest.raises(hystrip.HystripError, match="material.solver.*changed while the sweep ran"):

@@ -147,7 +147,7 @@ class _Block:
 class _Run:
     """The work of one call: what is on disk is kept, what is missing is solved."""
 
-    def __init__(self, plan: Plan, store: Store, progress: Callable[[int, int], None] | None):
+    def __init__(self, plan: Plan, store: Store, progress: Progress | None):
         self.plan, self.store, self.progress = plan, store, progress
         self.solved = self.kept = self.done = 0
         self._base = {key: each for key, each in plan.base.items() if key not in ("title", "description", "sweep")}
