@@ -37,6 +37,7 @@ __all__ = [
     "Sweep",
     "dma",
     "friction_law",
+    "load",
     "load_scene",
     "load_solver",
     "plots",
@@ -57,6 +58,7 @@ _LAZY = {
     "Scene": "hystrip.scene",
     "Sweep": "hystrip.sweeps",
     "StripSolution": "hystrip.orbit.solution",
+    "load": "hystrip.storage.read",
     "friction_law": "hystrip.level.solution",
     "load_scene": "hystrip.scene",
     "load_solver": "hystrip.loading",
@@ -76,6 +78,7 @@ if TYPE_CHECKING:
     from .orbit.solution import StripSolution, solve_strip
     from .result import Result
     from .scene import Scene, load_scene
+    from .storage.read import load
     from .sweeps import Sweep, sweep
 
 

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .extras import require
-from .orbit.materials import parameters
+from .storage.inputs import adhesion_text, levels_text, material_text
 from .tables import parts_of_mu
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from .level_solution import LevelSolution
+    from .result import Result
 
 #: unit and long name of every variable
 LABELS = {
@@ -25,27 +31,33 @@ LABELS = {
     "adhesion_by_level": ("1", "fraction of the nominal area in the adhesion zone of each level"),
     "pulled_off": ("1", "the pressure lies below pull-off: no contact"),
     "p_sat": ("Pa", "nominal pressure from which level 1 is in saturated contact"),
+    "converged": ("1", "the estimated error is within the accuracy that was asked for"),
     "closed_form": ("1", "solved by the closed form of saturated contact on all levels"),
     "error_estimate": ("1", "estimated absolute error of the friction coefficient"),
     "tau_error": ("Pa", "estimated absolute error of the friction stress"),
+    "p_mean": ("Pa", "mean pressure"),
+    "tau_mean": ("Pa", "mean friction stress"),
+    "adhesion_fraction": ("1", "fraction of the area in the adhesion zone"),
     "level": ("1", "level of the surface, 1 the largest"),
     "wavelength": ("m", "wavelength of the level"),
     "height": ("m", "height of the level"),
 }
+#: version of the layout, counted up when a reader of older files could no longer understand it
+FORMAT = 1
 _BY_LEVEL = ("tau_by_level", "mu_by_level", "contact_by_level", "adhesion_by_level")
-_PLAIN = (
-    "mu", "tau", "contact_fraction", "pulled_off", "p_sat", "closed_form", "error_estimate", "tau_error",
-)  # fmt: skip
+_PLAIN = ("mu", "tau", "contact_fraction", "pulled_off", "p_sat", "converged", "closed_form", "error_estimate", "tau_error")
+_MEANS = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
 
 
-def to_dataset(result: Any) -> Any:
+def to_dataset(result: Result) -> Dataset:
     """Dataset of a :class:`hystrip.Result`.
 
     Dimensions: ``level``, and for every axis of the result what changes along it, ``velocity``, ``pressure`` or
     ``penetration``; ``point`` where several change together. Needs the extra ``dataset``.
     """
     xarray = require("xarray", "dataset", "a labelled dataset")
-    names = axis_names(result)
+    inputs = {name: np.asarray(getattr(result, name)) for name in (result.load, "velocity")}
+    names = axis_names(inputs, np.shape(result.mu))
     coords: dict[str, Any] = {"level": _labelled("level", ("level",), np.arange(1, len(result.levels) + 1))}
     coords["wavelength"] = _labelled("wavelength", ("level",), np.array([level.l for level in result.levels]))
     coords["height"] = _labelled("height", ("level",), np.array([level.h for level in result.levels]))
@@ -55,20 +67,51 @@ def to_dataset(result: Any) -> Any:
     for name in ("velocity", "pressure", "penetration"):
         values = np.asarray(getattr(result, name))
         if name in names:
-            axis = names.index(name)
-            along = values[tuple(slice(None) if i == axis else 0 for i in range(values.ndim))]
-            coords[name] = _labelled(name, (name,), along)
-        elif name in ("velocity", result.load):
+            coords[name] = _labelled(name, (name,), _along(values, names.index(name)))
+        elif name in inputs:
             coords[name] = _labelled(name, *_reduced(names, values))
         else:
             variables[name] = _labelled(name, names, values)
-    return xarray.Dataset(variables, coords, attrs=attributes(result))
+    attributes = {
+        **_about("result"),
+        "material": material_text(result.material),
+        "adhesion": adhesion_text(result.adhesion),
+        "levels": levels_text(result.levels),
+        **_asked(result.edge, result.branch, result.rtol, result.strips),
+        "load": result.load,
+        "counts": json.dumps(result.counts),
+        "scene": result.scene,
+    }
+    return xarray.Dataset(variables, coords, attrs=attributes)
 
 
-def axis_names(result: Any) -> tuple[str, ...]:
-    """A name for every axis of the result."""
-    shape = np.shape(result.mu)
-    inputs = {name: np.asarray(getattr(result, name)) for name in (result.load, "velocity")}
+def level_dataset(solution: LevelSolution) -> Dataset:
+    """Dataset of a :class:`hystrip.LevelSolution`; dimensions as of a result. Needs the extra ``dataset``."""
+    xarray = require("xarray", "dataset", "a labelled dataset")
+    asked = solution.inputs
+    inputs = {"penetration": solution.D, "velocity": asked.velocity}
+    names = axis_names(inputs, np.shape(solution.D))
+    coords: dict[str, Any] = {"mean": ("mean", list(_MEANS), {"units": "1", "long_name": "which mean an error estimate is of"})}
+    variables = {name: _labelled(name, names, getattr(solution, name)) for name in (*_MEANS, "pulled_off", "converged")}
+    label = {"units": "1", "long_name": "estimated absolute error, in the unit of the mean"}
+    variables["error_estimate"] = (("mean", *names), np.array(solution.error_estimate), label)
+    for name, values in inputs.items():
+        coords[name] = _labelled(name, (name,), _along(values, names.index(name))) if name in names else _labelled(
+            name, *_reduced(names, values)
+        )  # fmt: skip
+    attributes = {
+        **_about("level"),
+        "material": material_text(asked.material),
+        "adhesion": adhesion_text(asked.adhesion),
+        "levels": levels_text([asked.level]),
+        **_asked(asked.edge, asked.branch, asked.rtol, asked.strips),
+        "strips_evaluated": solution.strips,
+    }
+    return xarray.Dataset(variables, coords, attrs=attributes)
+
+
+def axis_names(inputs: dict[str, np.ndarray], shape: tuple[int, ...]) -> tuple[str, ...]:
+    """A name for every axis of arrays of ``shape``: that of the one input that changes along it."""
     names: list[str] = []
     for axis, size in enumerate(shape):
         varies = [name for name, values in inputs.items() if size > 1 and not _constant(values, axis)]
@@ -82,29 +125,22 @@ def axis_names(result: Any) -> tuple[str, ...]:
     return tuple(names)
 
 
-def attributes(result: Any) -> dict[str, Any]:
-    """Inputs and versions, as what netCDF can hold."""
-    import hystrip
+def _about(kind: str) -> dict[str, Any]:
+    """What the file holds, and what wrote it."""
+    from . import __version__
 
-    material, adhesion = result.material, result.adhesion
-    out = {
+    return {
         "title": "friction of a multiscale wavy surface on a viscoelastic foundation with adhesion",
-        "source": f"hystrip {hystrip.__version__}",
-        "hystrip_version": hystrip.__version__,
+        "source": f"hystrip {__version__}",
+        "hystrip_kind": kind,
+        "hystrip_format": FORMAT,
+        "hystrip_version": __version__,
         "numpy_version": np.__version__,
-        "material": json.dumps({"model": type(material).__name__, **parameters(material)}),
-        "adhesion": json.dumps({n: getattr(adhesion, n) for n in ("gamma", "p_0", "delta_0")}),
-        "levels": json.dumps([{"l": level.l, "h": level.h} for level in result.levels]),
-        "edge": result.edge,
-        "branch": result.branch,
-        "rtol": result.rtol,
-        "strips": "adaptive panels" if result.strips is None else result.strips,
-        "load": result.load,
-        **{name: int(count) for name, count in result.counts.items()},
     }
-    if result.scene:
-        out["scene"] = result.scene
-    return out
+
+
+def _asked(edge: str, branch: str, rtol: float, strips: int | None) -> dict[str, Any]:
+    return {"edge": edge, "branch": branch, "rtol": rtol, "strips": "adaptive panels" if strips is None else strips}
 
 
 def _labelled(name: str, dims: tuple[str, ...], values: Any) -> tuple[tuple[str, ...], np.ndarray, dict[str, str]]:
@@ -112,11 +148,17 @@ def _labelled(name: str, dims: tuple[str, ...], values: Any) -> tuple[tuple[str,
     return dims, np.array(values), {"units": unit, "long_name": long_name}
 
 
+def _along(values: np.ndarray, axis: int) -> np.ndarray:
+    """Along an axis, at the start of all others."""
+    return values[tuple(slice(None) if i == axis else 0 for i in range(values.ndim))]
+
+
 def _constant(values: np.ndarray, axis: int) -> bool:
+    """Whether nothing changes along an axis, to the bit: zeros of both signs differ."""
     if not values.size:  # an axis without points stays an axis
         return values.shape[axis] > 0
-    first = np.take(values, [0], axis=axis)
-    return bool(np.all((values == first) | (np.isnan(values) & np.isnan(first))))
+    bits = np.ascontiguousarray(values, dtype=float).view(np.int64)
+    return bool(np.all(bits == np.take(bits, [0], axis=axis)))
 
 
 def _reduced(names: tuple[str, ...], values: np.ndarray) -> tuple[tuple[str, ...], np.ndarray]:

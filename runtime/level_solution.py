@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import os
+
+    from xarray import Dataset
+
     from .inputs.adhesion import Dugdale
     from .inputs.surface import Level
     from .orbit.materials import Material
@@ -26,7 +31,7 @@ class Inputs:
     strips: int | None
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class LevelSolution:
     """Means of a level; arrays have the broadcast shape of V and D (or pressure), SI units.
 
@@ -45,4 +50,32 @@ class LevelSolution:
     pulled_off: Bools
     converged: Bools
     strips: int
-    inputs: Inputs = field(repr=False)
+    inputs: Inputs
+
+    def __repr__(self) -> str:
+        from .display import as_text, of_level
+
+        return as_text(of_level(self))
+
+    def _repr_html_(self) -> str:
+        from .display import as_html, of_level
+
+        return as_html(of_level(self))
+
+    def to_dataset(self) -> Dataset:
+        """The solution as an xarray Dataset: labelled dimensions, units, long names, inputs and versions in the attributes.
+
+        Needs the extra ``dataset``.
+        """
+        from .dataset import level_dataset
+
+        return level_dataset(self)
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the solution as netCDF; ``hystrip.load(path)`` gives it back, equal to the bit. Returns the path.
+
+        Needs the extra ``dataset``.
+        """
+        from .storage.write import save
+
+        return save(self.to_dataset(), path)

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
+    import os
+
     from matplotlib.figure import Figure
+    from pandas import DataFrame
     from xarray import Dataset
 
     from .inputs.adhesion import Dugdale
@@ -16,7 +20,7 @@ if TYPE_CHECKING:
     from .typing import Bools, Branch, Edge, Floats
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Result:
     """Friction of a surface; arrays have the broadcast shape of pressure (or penetration) and velocity, SI units.
 
@@ -54,15 +58,25 @@ class Result:
     tau_error: Floats
     converged: Bools
     counts: dict[str, int]
-    material: Material = field(repr=False)
-    adhesion: Dugdale = field(repr=False)
-    levels: tuple[Level, ...] = field(repr=False)
+    material: Material
+    adhesion: Dugdale
+    levels: tuple[Level, ...]
     edge: Edge
     branch: Branch
     rtol: float
     strips: int | None = None
     load: Literal["pressure", "penetration"] = "pressure"
-    scene: str = field(default="", repr=False)
+    scene: str = ""
+
+    def __repr__(self) -> str:
+        from .display import as_text, of_result
+
+        return as_text(of_result(self))
+
+    def _repr_html_(self) -> str:
+        from .display import as_html, of_result
+
+        return as_html(of_result(self))
 
     @cached_property
     def p_sat(self) -> Floats:
@@ -76,11 +90,31 @@ class Result:
     def to_dataset(self) -> Dataset:
         """The result as an xarray Dataset: labelled dimensions, units, long names, inputs and versions in the attributes.
 
-        Needs the extra ``dataset``. ``to_netcdf(path, engine="h5netcdf")`` writes it.
+        Needs the extra ``dataset``.
         """
         from .dataset import to_dataset
 
         return to_dataset(self)
+
+    def to_dataframe(self) -> DataFrame:
+        """The result as a pandas DataFrame: a row for every point in its order, the columns of the CSV file.
+
+        Needs the extra ``dataset``, which brings pandas.
+        """
+        from .extras import require
+        from .tables import friction_rows
+
+        frame: DataFrame = require("pandas", "dataset", "a data frame").DataFrame(friction_rows(self))
+        return frame
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the result as netCDF; ``hystrip.load(path)`` gives it back, equal to the bit. Returns the path.
+
+        Needs the extra ``dataset``. At no time is there half a file.
+        """
+        from .storage.write import save
+
+        return save(self.to_dataset(), path)
 
     def summary(self) -> str:
         """Where the friction comes from, as text: levels, shares of mu, real contact, pull-off, saturation, what was skipped."""

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from .display import percent, span
 from .inputs.half_space import HalfSpace
 from .orbit.foundation import Foundation, foundation_of
 from .orbit.materials import parameters
@@ -43,7 +44,7 @@ def _inputs(result: Any) -> list[str]:
         f"material   {type(m).__name__}: {', '.join(_parameter(*each, m) for each in parameters(m).items())}",
         f"adhesion   {sticky}",
         f"closure    {result.edge}, branch {result.branch}, rtol {result.rtol:g}{panels}",
-        f"points     {np.size(result.mu)}: pressure {_span(result.pressure, 'Pa')}, velocity {_span(result.velocity, 'm/s')}",
+        f"points     {np.size(result.mu)}: pressure {span(result.pressure, 'Pa')}, velocity {span(result.velocity, 'm/s')}",
     ]
 
 
@@ -78,8 +79,8 @@ def _levels(result: Any) -> list[str]:
     for i, level in enumerate(result.levels):
         p_sat = saturated_level(result.material, result.adhesion, level, V).p_sat
         rows.append((
-            str(i + 1), f"{level.l:.4g}", f"{level.h:.4g}", _span(De[i]), f"{V_peak[i]:.4g}", _span(p_sat),
-            _percent(part[i]), _percent(result.contact_by_level[i]), _percent(result.adhesion_by_level[i]),
+            str(i + 1), f"{level.l:.4g}", f"{level.h:.4g}", span(De[i]), f"{V_peak[i]:.4g}", span(p_sat),
+            percent(part[i]), percent(result.contact_by_level[i]), percent(result.adhesion_by_level[i]),
         ))  # fmt: skip
     widths = [max(len(row[j]) for row in rows) for j in range(len(rows[0]))]
     return ["  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True)).rstrip() for row in rows]
@@ -87,12 +88,12 @@ def _levels(result: Any) -> list[str]:
 
 def _friction(result: Any) -> list[str]:
     mu = np.ravel(result.mu)
-    out = [f"mu         {_span(mu)}"]
+    out = [f"mu         {span(mu)}"]
     if np.isfinite(mu).sum() > 1:
         top = int(np.nanargmax(np.abs(mu)))
         at = f"V = {np.ravel(result.velocity)[top]:.4g} m/s, p = {np.ravel(result.pressure)[top]:.4g} Pa"
         out.append(
-            f"           largest at {at}: level shares " + ", ".join(_percent(np.ravel(part)[top]) for part in shares(result))
+            f"           largest at {at}: level shares " + ", ".join(percent(np.ravel(part)[top]) for part in shares(result))
         )
     error = np.ravel(result.error_estimate)
     out.append(
@@ -106,8 +107,8 @@ def _friction(result: Any) -> list[str]:
 def _contact(result: Any) -> list[str]:
     off = int(np.count_nonzero(result.pulled_off))
     return [
-        f"real contact (touching on every level)  {_percent(result.contact_fraction)}",
-        f"level 1 is saturated from {_span(result.p_sat, 'Pa')}",
+        f"real contact (touching on every level)  {percent(result.contact_fraction)}",
+        f"level 1 is saturated from {span(result.p_sat, 'Pa')}",
         *([f"{off} points lie below pull-off: no contact, mu = 0, nothing to solve"] if off else []),
     ]
 
@@ -144,22 +145,3 @@ def _work(result: Any) -> list[str]:
         f"           {ordered} strips that are free as a deeper one is,",
         f"           {closed} points by the closed form (every level saturated), {off} points below pull-off",
     ]
-
-
-def _span(values: Any, unit: str = "") -> str:
-    values = np.ravel(values)
-    values = values[~np.isnan(values)]
-    tail = f" {unit}" if unit else ""
-    if not values.size:
-        return "-"
-    low, high = f"{values.min():.4g}", f"{values.max():.4g}"
-    return (low if low == high else f"{low} .. {high}") + tail
-
-
-def _percent(values: Any) -> str:
-    values = np.ravel(values)
-    values = 100 * values[~np.isnan(values)]
-    if not values.size:
-        return "-"
-    low, high = f"{values.min():.3g}", f"{values.max():.3g}"
-    return (low if low == high else f"{low} .. {high}") + " %"

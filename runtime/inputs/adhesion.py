@@ -74,7 +74,7 @@ class Dugdale:
         raise AttributeError(f"Dugdale is immutable: {name} cannot be set")
 
     def __reduce__(self):
-        return _rebuild, (self.gamma, self.p_0, self.delta_0)
+        return rebuild, (self.gamma, self.p_0, self.delta_0)
 
     def __repr__(self):
         return f"Dugdale(gamma={self.gamma!r}, delta_0={self.delta_0!r})"
@@ -115,7 +115,7 @@ def _range(gamma: np.ndarray, p_0: np.ndarray) -> np.ndarray:
     return delta
 
 
-def _rebuild(gamma: Any, p_0: Any, delta_0: Any) -> Dugdale:
+def rebuild(gamma: Any, p_0: Any, delta_0: Any) -> Dugdale:
     """An equal law, to the bit: unpickled, or read from a file."""
     law = object.__new__(Dugdale)
     for name, value in (("gamma", gamma), ("p_0", p_0), ("delta_0", delta_0)):

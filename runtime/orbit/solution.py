@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from .materials import Material
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class StripSolution:
     """Steady sliding of strips; arrays have the broadcast shape of the inputs and are made when first asked for.
 
@@ -42,10 +42,10 @@ class StripSolution:
 
     edge: Edge
     branch: Branch
-    _strips: Any = field(repr=False)
-    _solved: Solved = field(repr=False)
-    _scales: dict = field(repr=False)
-    _foundation: Foundation = field(repr=False)
+    _strips: Any
+    _solved: Solved
+    _scales: dict
+    _foundation: Foundation
 
     @cached_property
     def p_mean(self) -> Floats:
@@ -88,6 +88,16 @@ class StripSolution:
 
     def _edge(self, phase: np.ndarray) -> np.ndarray:
         return self._out(phase) * (1 / self._scales["k"])
+
+    def __repr__(self) -> str:
+        from ..display import as_text, of_strips
+
+        return as_text(of_strips(self))
+
+    def _repr_html_(self) -> str:
+        from ..display import as_html, of_strips
+
+        return as_html(of_strips(self))
 
     @property
     def regime_name(self) -> npt.NDArray[np.object_]:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from ..typing import Numbers, Progress
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Sweep:
     """A finished sweep.
 
@@ -46,6 +46,16 @@ class Sweep:
     plan: Plan
     solved: int
     kept: int
+
+    def __repr__(self) -> str:
+        from ..display import as_text, of_sweep
+
+        return as_text(of_sweep(self))
+
+    def _repr_html_(self) -> str:
+        from ..display import as_html, of_sweep
+
+        return as_html(of_sweep(self))
 
     @property
     def failed(self) -> dict[int, str]:

@@ -1,0 +1,148 @@
+"""Reading what :func:`hystrip.storage.save` has written."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any, TypeVar, overload
+
+import numpy as np
+
+from ..dataset import FORMAT
+from ..errors import InputError
+from ..extras import require
+from ..level_solution import Inputs, LevelSolution
+from ..result import Result
+from .inputs import adhesion_of, levels_of, material_of
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from ..loading import Solver
+
+T = TypeVar("T")
+_WHOLE = "a netCDF file that save() of a hystrip result has written"
+
+
+@overload
+def load(path: str | os.PathLike[str], kind: type[T], *, solver: Solver | None = None) -> T: ...
+@overload
+def load(path: str | os.PathLike[str], kind: None = None, *, solver: Solver | None = None) -> Any: ...
+def load(path: str | os.PathLike[str], kind: Any = None, *, solver: Solver | None = None) -> Any:
+    """Read a result that its ``save`` has written: equal to the bit, whatever version has written it.
+
+    Parameters
+    ----------
+    path : the netCDF file
+    kind : :class:`hystrip.Result` or :class:`hystrip.LevelSolution`, to be sure of it; None for whatever the file holds
+    solver : from ``hystrip.load_solver``, for a material that was solved with a solver of one's own
+
+    Needs the extra ``dataset``.
+
+    Raises
+    ------
+    InputError : no such file, no result in it, one of a version that cannot be read, another kind, or the wrong solver
+
+    Examples
+    --------
+    >>> import tempfile, os, hystrip
+    >>> result = hystrip.load_scene("paper_fig7").solve()
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = result.save(os.path.join(folder, "fig7.nc"))
+    ...     again = hystrip.load(path, hystrip.Result)
+    >>> bool((again.mu == result.mu).all())
+    True
+    """
+    data = _opened(path)
+    found = str(data.attrs["hystrip_kind"])
+    if found not in _READ:
+        raise InputError("path", os.fspath(path), f"a file that holds one of {', '.join(_READ)}; this holds {found!r}")
+    made, read = _READ[found]
+    if kind is not None and made is not kind:
+        raise InputError("path", os.fspath(path), f"a file that holds a {kind.__name__}; this holds a {made.__name__}")
+    return read(data, solver)
+
+
+def _opened(path: str | os.PathLike[str]) -> Dataset:
+    """The dataset in a file, in memory. Raises InputError unless it is one of ours, and of a version that can be read."""
+    xarray = require("xarray", "dataset", "reading a result")
+    require("h5netcdf", "dataset", "reading netCDF")
+    shown = os.fspath(path)
+    if not os.path.isfile(path):
+        raise InputError("path", shown, "a file that exists")
+    try:
+        with xarray.open_dataset(path, engine="h5netcdf") as file:
+            data = file.load()
+    except (OSError, ValueError, KeyError, RuntimeError) as error:  # what HDF5 makes of a file that is none, or is damaged
+        raise InputError("path", shown, f"{_WHOLE}: {_first_line(error)}") from None
+    version, written = data.attrs.get("hystrip_version"), data.attrs.get("hystrip_format")
+    if version is None:
+        raise InputError("path", shown, f"{_WHOLE}; this is netCDF of something else")
+    if written is None:
+        allowed = (
+            f"a file of format 1 to {FORMAT}; this one, of hystrip {version}, has none: solve it again, or open it with xarray"
+        )
+        raise InputError("path", shown, allowed)
+    if int(written) > FORMAT:
+        raise InputError("path", shown, f"a file of format {FORMAT} or older; this is format {written}, of hystrip {version}")
+    return data
+
+
+def _result(data: Dataset, solver: Solver | None) -> Result:
+    levels, attrs = levels_of(data.attrs["levels"]), data.attrs
+    names = data["mu"].dims
+    known = {each.name for each in fields(Result)}
+    arrays = {name: _full(data, name, names) for name in map(str, data.variables) if name in known}
+    result = Result(
+        **arrays,
+        counts=json.loads(attrs["counts"]),
+        material=material_of(attrs["material"], solver),
+        adhesion=adhesion_of(attrs["adhesion"]),
+        levels=levels,
+        load=attrs["load"],
+        scene=attrs["scene"],
+        **_asked(attrs),
+    )
+    result.__dict__["p_sat"] = _full(data, "p_sat", names)  # a cached property, and what was saved is what it was
+    return result
+
+
+def _level(data: Dataset, solver: Solver | None) -> LevelSolution:
+    attrs, names = data.attrs, data["p_mean"].dims
+    (level,) = levels_of(attrs["levels"])
+    material, adhesion = material_of(attrs["material"], solver), adhesion_of(attrs["adhesion"])
+    inputs = Inputs(material, adhesion, level, _full(data, "velocity", names), **_asked(attrs))
+    means = {name: _full(data, name, names) for name in ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")}
+    return LevelSolution(
+        D=_full(data, "penetration", names),
+        **means,
+        error_estimate=data["error_estimate"].values,
+        pulled_off=_full(data, "pulled_off", names),
+        converged=_full(data, "converged", names),
+        strips=int(attrs["strips_evaluated"]),
+        inputs=inputs,
+    )
+
+
+_READ = {"result": (Result, _result), "level": (LevelSolution, _level)}
+
+
+def _asked(attrs: dict[str, Any]) -> dict[str, Any]:
+    strips = attrs["strips"]
+    strips = None if isinstance(strips, str) else int(strips)
+    return {"edge": attrs["edge"], "branch": attrs["branch"], "rtol": float(attrs["rtol"]), "strips": strips}
+
+
+def _full(data: Dataset, name: str, names: tuple[Any, ...]) -> np.ndarray:
+    """A variable over all axes, a level axis in front where it has one."""
+    variable = data[name]
+    dims = ("level", *names) if "level" in variable.dims else names
+    index = tuple(slice(None) if each in variable.dims else None for each in dims)
+    shape = tuple(data.sizes[each] for each in dims)
+    return np.array(np.broadcast_to(variable.values[index], shape))
+
+
+def _first_line(error: Exception) -> str:
+    text = str(error).strip().splitlines()
+    return f"{type(error).__name__}: {text[0]}" if text else type(error).__name__
