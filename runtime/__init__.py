@@ -12,12 +12,15 @@ from .inputs.adhesion import Dugdale
 from .inputs.half_space import HalfSpace
 from .inputs.material import KelvinVoigt, StandardLinearSolid
 from .inputs.prony import Prony
+from .inputs.shift import WLF, Arrhenius
 from .inputs.surface import Level
 from .solve import solve
 
 __version__ = "0.1.0"
 
 __all__ = [
+    "WLF",
+    "Arrhenius",
     "ConvergenceWarning",
     "Dugdale",
     "FrictionLaw",

@@ -78,6 +78,7 @@ def to_dataset(result: Result) -> Dataset:
         "adhesion": adhesion_text(result.adhesion),
         "levels": levels_text(result.levels),
         **_asked(result.edge, result.branch, result.rtol, result.strips),
+        **({} if result.temperature is None else {"temperature": result.temperature}),
         "load": result.load,
         "counts": json.dumps(result.counts),
         "scene": result.scene,

@@ -38,7 +38,8 @@ class Result:
     converged : bool; the estimated error is within ``rtol``. Where it is not, the work came to its limit and the estimate says
         what is known; with ``strips`` it says whether the equal strips happen to be as accurate
     strips : equal strips that level 1 was averaged over, None for adaptive panels
-    load : which of the two was given, "pressure" or "penetration"; scene : the TOML text it came from, if it did
+    load : which of the two was given, "pressure" or "penetration"; scene : the TOML text it came from, if it did;
+        temperature : K, if one was given
     counts : strips solved, decided by a threshold, and known to be free because a deeper one is; points solved in closed form,
         points below pull-off
     """
@@ -67,6 +68,7 @@ class Result:
     strips: int | None = None
     load: Literal["pressure", "penetration"] = "pressure"
     scene: str = ""
+    temperature: float | None = None
 
     def __repr__(self) -> str:
         from .display import as_text, of_result
@@ -86,6 +88,13 @@ class Result:
 
         V = self.velocity.ravel()
         return saturated_level(self.material, self.adhesion, self.levels[0], V, self.branch).p_sat.reshape(self.velocity.shape)
+
+    @property
+    def notes(self) -> list[str]:
+        """What about the inputs may be beyond the model or the material, one sentence each; mostly none."""
+        from .plausibility import notes
+
+        return notes(self.material, self.levels, self.velocity)
 
     def to_dataset(self) -> Dataset:
         """The result as an xarray Dataset: labelled dimensions, units, long names, inputs and versions in the attributes.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, overload
 
 import numpy as np
@@ -48,6 +49,7 @@ def solve(
     strips: int | None = None,
     skip: bool = True,
     progress: Progress | None = None,
+    temperature: float | None = None,
 ) -> Result:
     """Friction coefficient of a multilevel surface (Eqs. 11-14).
 
@@ -65,6 +67,7 @@ def solve(
     skip : use the closed form where every level is saturated, and leave out strips that are free because a deeper one is (off:
         every point is solved, and every strip)
     progress : called with the number of points done and the total
+    temperature : K, for a material with a ``shift``; without it the material is as it was given
 
     Raises
     ------
@@ -92,6 +95,8 @@ def solve(
 
     levels = check_levels(levels)
     check_single(material, adhesion)
+    if temperature is not None:
+        material = material.at_temperature(temperature)
     edge, branch = check_edge(material, edge), choice("branch", branch, BRANCHES)
     rtol = check_rtol(rtol)
     velocity = numbers("velocity", velocity, "m/s", 0)
@@ -118,7 +123,8 @@ def solve(
         first = f"{name} {L[lost[0]]:g}, velocity {V[lost[0]]:g}: {work.reason(V[lost[0]])}"
         missed = f"{lost.size} of {L.size} points did not converge to rtol = {rtol:g}"
         warnings.warn(f"{missed}; the first: {first} (see error_estimate)", ConvergenceWarning, stacklevel=2)
-    return _result(points, surface, shape, V, name, converged)
+    result = _result(points, surface, shape, V, name, converged)
+    return result if temperature is None else replace(result, temperature=float(temperature))
 
 
 def _result(points, surface: Surface, shape, V, load: str, converged) -> Result:

@@ -10,7 +10,11 @@ from .display import percent, span
 from .inputs.half_space import HalfSpace
 from .orbit.foundation import Foundation, foundation_of
 from .orbit.materials import parameters
+from .plausibility import excited
 from .tables import shares
+
+#: relaxation times that are listed one by one
+_SHOWN = 3
 
 
 def summary(result: Any) -> str:
@@ -38,14 +42,28 @@ def _foundation(result: Any) -> Foundation:
 
 def _inputs(result: Any) -> list[str]:
     m, a = result.material, result.adhesion
+    known = excited(m, result.levels, result.velocity)
     sticky = f"gamma = {a.gamma:.4g} J/m^2, delta_0 = {a.delta_0:.4g} m, p_0 = {a.p_0:.4g} Pa" if a.p_0 > 0 else "none"
+    at = "" if result.temperature is None else f", at {result.temperature:.5g} K"
     panels = "" if result.strips is None else f", level 1 over {result.strips} equal strips"
     return [
-        f"material   {type(m).__name__}: {', '.join(_parameter(*each, m) for each in parameters(m).items())}",
+        f"material   {type(m).__name__}: {_parameters(m)}" + at,
         f"adhesion   {sticky}",
         f"closure    {result.edge}, branch {result.branch}, rtol {result.rtol:g}{panels}",
         f"points     {np.size(result.mu)}: pressure {span(result.pressure, 'Pa')}, velocity {span(result.velocity, 'm/s')}",
+        *([f"excited    {known}"] if known else []),
+        *(f"note       {note}" for note in result.notes),
     ]
+
+
+def _parameters(material: Any) -> str:
+    """All parameters of a material; of many relaxation times their number and range."""
+    given, times = parameters(material), getattr(material, "times", ())
+    if len(times) <= _SHOWN:
+        return ", ".join(_parameter(*each, material) for each in given.items())
+    few = [_parameter(name, value, material) for name, value in given.items() if "[" not in name]
+    unit = "Pa" if isinstance(material, HalfSpace) else "Pa/m"
+    return ", ".join([*few, f"{len(times)} times {span(times, 's')}, moduli {span(material.moduli, unit)}"])
 
 
 def _parameter(name: str, value: Any, material: Any) -> str:

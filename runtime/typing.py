@@ -68,3 +68,4 @@ class Options(TypedDict, total=False):
     strips: int | None
     skip: bool
     progress: Progress | None
+    temperature: float | None

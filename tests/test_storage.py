@@ -12,6 +12,9 @@ xarray = pytest.importorskip("xarray")
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.6e-5, delta_0=1.3e-8)
 LEVELS = [hystrip.Level(l=10e-6, h=1e-6), hystrip.Level(l=500e-9, h=100e-9)]
+FITTED = hystrip.HalfSpace(
+    2e6, 0.49, [1e6], [1 / 3], shift=hystrip.WLF(8.9, 101.6, 293.15), fit=hystrip.inputs.fitted.FittedBand((1 / 3, 1e3), (0.01,))
+)
 
 
 def bits(values):
@@ -49,6 +52,8 @@ CASES = {
         material=hystrip.Prony(1e9, [1e10, 3e9], [1e-3, 1 / 3]), pressure=1e6, velocity=5e-3, edge="constitutive"
     ),
     "half-space": lambda: solve(material=hystrip.HalfSpace(2e6, 0.49, [1e6], [1 / 3]), pressure=1e6, velocity=[1e-3, 5e-3]),
+    "a shift and a fit": lambda: solve(material=FITTED, pressure=1e6, velocity=[1e-3, 5e-3]),
+    "another temperature": lambda: solve(material=FITTED, pressure=1e6, velocity=[1e-3, 5e-3], temperature=300.1),
     "a level": lambda: hystrip.solve_level(MATERIAL, ADHESION, LEVELS[0], V=[[1e-3], [5e-3]], D=[5e-7, 6e-7, -1e-6], rtol=1e-2),
     "a level at pressures": lambda: hystrip.solve_level(MATERIAL, ADHESION, LEVELS[0], V=5e-3, pressure=[100, -1e5], rtol=1e-2),
 }

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import FitWarning, InputError
 from ..inputs.checks import number, numbers
-from ..inputs.fitted import FittedBand
+from ..inputs.fitted import POOR, FittedBand
 from .modulus import DynamicModulus
 from .projection import placed, relative_errors, solved
 from .series import PronySeries
@@ -19,8 +19,6 @@ from .series import PronySeries
 MOST_TIMES = 40
 #: rms of the relative residuals that is asked for where nothing else is
 ACCURACY = 0.02
-#: and above which a fit is called poor
-POOR = 0.1
 #: a branch below this share of the glassy modulus is rounding of the solver
 _NOTHING = 1e-12
 #: what does not reach the accuracy takes the fewest times that come this near to the best

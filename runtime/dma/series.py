@@ -13,7 +13,9 @@ from ..inputs.fitted import FittedBand
 from ..inputs.material import StandardLinearSolid
 
 if TYPE_CHECKING:
+    from ..inputs.half_space import HalfSpace
     from ..inputs.prony import Prony
+    from ..inputs.shift import Shift
 
 
 @dataclass(frozen=True)
@@ -98,9 +100,7 @@ class PronySeries:
         - A layer of thickness H on a rigid base, free to slide and bulge at its sides: ``length = H`` with E. Bonded,
           and thin against the contact: H with the oedometric modulus ``E (1 - nu)/((1 + nu)(1 - 2 nu))``, that is
           ``length = H (1 + nu)(1 - 2 nu)/(1 - nu)``.
-        - A half-space under a pressure wave of wavelength l: ``K = pi E/((1 - nu^2) l)``, that is
-          ``length = (1 - nu^2) l/pi`` (for ``nu`` = 1/2 about 0.24 l). One number serves one wavelength: take that of
-          the level that rubs most.
+        - A half-space: :meth:`half_space`, whose stiffness goes with the wavelength of a level.
         - Shear data (G): divide the length by ``2 (1 + nu)``, since ``E = 2 (1 + nu) G`` with a constant Poisson ratio.
 
         Raises ``InputError`` for a length that is not a finite number > 0.
@@ -111,15 +111,30 @@ class PronySeries:
         length = number("length", length, "m", 0, strict=True)
         return Foundation(self.relaxed / length, tuple(each / length for each in self.moduli), self.times)
 
-    def material(self, length: float) -> StandardLinearSolid | Prony:
-        """The foundation as a material: a standard linear solid for one branch, ``hystrip.Prony`` for several.
+    def material(self, length: float, shift: Shift | None = None) -> Prony:
+        """The foundation as a material (``length`` as for :meth:`foundation`), of as many times as the series has.
 
         Raises ``InputError`` for a bad length.
         """
         from ..inputs.prony import Prony
 
         each = self.foundation(length)
-        return self.standard_linear_solid(length) if len(self.times) == 1 else Prony(each.K, each.moduli, each.times)
+        return Prony(each.K, each.moduli, each.times, shift=shift, fit=self.fit)
+
+    def half_space(self, nu: float, shift: Shift | None = None) -> HalfSpace:
+        """The half-space of this modulus, in which every level gets the stiffness of its own wavelength.
+
+        Parameters
+        ----------
+        nu : Poisson ratio, 0 to 0.5; also turns a shear modulus G into ``E = 2 (1 + nu) G``
+
+        Raises ``InputError`` for another ratio.
+        """
+        from ..inputs.half_space import HalfSpace
+
+        per_modulus = 2 * (1 + number("nu", nu, "", 0)) if self.kind == "G" else 1.0
+        moduli = [per_modulus * each for each in self.moduli]
+        return HalfSpace(per_modulus * self.relaxed, nu, moduli, self.times, shift=shift, fit=self.fit)
 
     def standard_linear_solid(self, length: float) -> StandardLinearSolid:
         """The material of a series with one branch: ``T_sigma`` is its time, ``T_eps = T_sigma (1 + modulus/relaxed)``.

@@ -10,6 +10,9 @@ import numpy as np
 from ..errors import InputError
 from .checks import numbers
 
+#: rms of the relative residuals above which a fit is called poor
+POOR = 0.1
+
 
 @dataclass(frozen=True)
 class FittedBand:
@@ -67,3 +70,9 @@ class FittedBand:
         parts = zip(self.edges, self.edges[1:], self.rms, strict=False)
         met = [rms for start, end, rms in parts if start <= high and end >= low]
         return max(met, default=None)
+
+
+def check_fit(value: Any) -> None:
+    """``InputError`` unless ``value`` is a band or None."""
+    if value is not None and not isinstance(value, FittedBand):
+        raise InputError("material.fit", value, "None, or the fit of a hystrip.dma.PronySeries")

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import InputError
 from .checks import number, numbers
+from .fitted import FittedBand, check_fit
 from .prony import Prony
+from .shift import Shift, check_shift
 
 if TYPE_CHECKING:
     from ..loading import Solver
@@ -36,7 +38,7 @@ class HalfSpace:
     nu : Poisson ratio, from 0 to 0.5
     moduli : E_i, Young's modulus of each branch, Pa, >= 0
     times : tau_i, relaxation time of each branch, s, > 0
-    solver : as for :class:`hystrip.Prony`
+    solver, shift, fit : as for :class:`hystrip.Prony`
 
     Single values; ``moduli`` and ``times`` sequences of n of them (n = 0: elastic). Branches of modulus zero are dropped and
     equal times merged. Raises ``InputError`` for values outside these ranges.
@@ -53,6 +55,8 @@ class HalfSpace:
     moduli: tuple[float, ...] = ()
     times: tuple[float, ...] = ()
     solver: Solver | None = field(default=None, repr=False)
+    shift: Shift | None = field(default=None, kw_only=True, repr=False)
+    fit: FittedBand | None = field(default=None, kw_only=True, repr=False)
 
     if TYPE_CHECKING:
 
@@ -63,9 +67,14 @@ class HalfSpace:
             moduli: Sequence[Number] | Floats = ...,
             times: Sequence[Number] | Floats = ...,
             solver: Solver | None = None,
+            *,
+            shift: Shift | None = None,
+            fit: FittedBand | None = None,
         ) -> None: ...
 
     def __post_init__(self) -> None:
+        check_shift(self.shift)
+        check_fit(self.fit)
         E = number("material.E", self.E, "Pa", 0, strict=True)
         nu = number("material.nu", self.nu, "", 0)
         if nu > 0.5:
@@ -88,18 +97,25 @@ class HalfSpace:
     @property
     def modulus(self) -> Prony:
         """The modulus as a Prony series, in Pa: the times of every level's foundation, at another scale."""
-        return Prony(self.E, self.moduli, self.times, self.solver)
+        return Prony(self.E, self.moduli, self.times, self.solver, shift=self.shift, fit=self.fit)
+
+    def at_temperature(self, temperature: float) -> HalfSpace:
+        """The half-space at a temperature, K, as its ``shift`` has it. Raises ``InputError`` where it has none."""
+        at = self.modulus.at_temperature(temperature)
+        return HalfSpace(at.K, self.nu, at.moduli, at.times, self.solver, fit=at.fit)
 
     def at_wavelength(self, l: Numbers) -> Prony:  # noqa: E741 - the paper's symbol
         """The foundation under a level of wavelength ``l``, m, > 0; an array gives a foundation for each strip."""
-        return self._at(float(l)) if np.ndim(l) == 0 else self._foundation(numbers("l", l, "m", 0, strict=True))
+        l = numbers("l", l, "m", 0, strict=True)  # noqa: E741
+        return self._at(float(l)) if l.ndim == 0 else self._foundation(l)
 
     def _foundation(self, l) -> Prony:  # noqa: E741 - the paper's symbol
         per_modulus = SHAPE * np.pi / (l * (1 - self.nu**2))
-        return Prony(per_modulus * self.E, [per_modulus * each for each in self.moduli], self.times, self.solver)
+        moduli = [per_modulus * each for each in self.moduli]
+        return Prony(per_modulus * self.E, moduli, self.times, self.solver, shift=self.shift, fit=self.fit)
 
     def _key(self):
-        return (self.E, self.nu, self.moduli, self.times, id(self.solver))
+        return (self.E, self.nu, self.moduli, self.times, id(self.solver), self.shift, self.fit)
 
     def __eq__(self, other):
         return isinstance(other, HalfSpace) and self._key() == other._key()
@@ -108,7 +124,8 @@ class HalfSpace:
         return hash(self._key())
 
     def __reduce__(self):
-        return HalfSpace, (self.E, self.nu, self.moduli, self.times, self.solver)
+        make = partial(HalfSpace, shift=self.shift, fit=self.fit)
+        return make, (self.E, self.nu, self.moduli, self.times, self.solver)
 
 
 def _series(E: float, moduli: Any, times: Any, solver: Any) -> Prony:

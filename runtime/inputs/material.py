@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import InputError
 from .checks import broadcast, numbers
+from .shift import Shift, check_shift, factors_at
 
 if TYPE_CHECKING:
     from ..typing import Floats, Numbers
@@ -23,6 +24,7 @@ class StandardLinearSolid:
     K : relaxed stiffness per area, Pa/m, > 0 (``p = K w`` at rest; the printed paper calls it a compliance)
     T_eps : retardation time, s, >= T_sigma
     T_sigma : relaxation time, s, >= 0; zero is the Kelvin-Voigt foundation
+    shift : how it changes with temperature, a :class:`hystrip.WLF` or :class:`hystrip.Arrhenius`, or None
 
     Scalars or arrays that broadcast. Raises ``InputError`` for a value outside these ranges.
 
@@ -34,12 +36,14 @@ class StandardLinearSolid:
     K: Any
     T_eps: Any
     T_sigma: Any
+    shift: Shift | None = field(default=None, kw_only=True, repr=False)
 
     if TYPE_CHECKING:
 
-        def __init__(self, K: Numbers, T_eps: Numbers, T_sigma: Numbers) -> None: ...
+        def __init__(self, K: Numbers, T_eps: Numbers, T_sigma: Numbers, *, shift: Shift | None = None) -> None: ...
 
     def __post_init__(self) -> None:
+        check_shift(self.shift)
         K = numbers("material.K", self.K, "Pa/m", 0, strict=True)
         T_eps = numbers("material.T_eps", self.T_eps, "s", 0)
         T_sigma = numbers("material.T_sigma", self.T_sigma, "s", 0)
@@ -73,8 +77,13 @@ class StandardLinearSolid:
         """The foundation under a level of wavelength ``l``, m: this one, which is local."""
         return self
 
+    def at_temperature(self, temperature: float) -> StandardLinearSolid:
+        """The foundation at a temperature, K, as its ``shift`` has it. Raises ``InputError`` where it has none."""
+        a_T, b_T = factors_at(self.shift, temperature)
+        return StandardLinearSolid(self.K * b_T, self.T_eps * a_T, self.T_sigma * a_T)
+
     def _key(self):
-        return (type(self), *(np.asarray(v).tobytes() for v in (self.K, self.T_eps, self.T_sigma)))
+        return (type(self), *(np.asarray(v).tobytes() for v in (self.K, self.T_eps, self.T_sigma)), self.shift)
 
     def __eq__(self, other):
         return isinstance(other, StandardLinearSolid) and self._key() == other._key()
@@ -93,6 +102,7 @@ class KelvinVoigt(StandardLinearSolid):
     ----------
     K : relaxed stiffness per area, Pa/m, > 0
     T_eps : retardation time, s, >= 0
+    shift : as for :class:`hystrip.StandardLinearSolid`
 
     Scalars or arrays that broadcast. Raises ``InputError`` for a value outside these ranges.
 
@@ -105,4 +115,9 @@ class KelvinVoigt(StandardLinearSolid):
 
     if TYPE_CHECKING:
 
-        def __init__(self, K: Numbers, T_eps: Numbers) -> None: ...
+        def __init__(self, K: Numbers, T_eps: Numbers, *, shift: Shift | None = None) -> None: ...
+
+    def at_temperature(self, temperature: float) -> KelvinVoigt:
+        """The foundation at a temperature, K, as its ``shift`` has it. Raises ``InputError`` where it has none."""
+        a_T, b_T = factors_at(self.shift, temperature)
+        return KelvinVoigt(self.K * b_T, self.T_eps * a_T)

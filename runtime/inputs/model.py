@@ -63,6 +63,10 @@ class ModelMaterial:
         """The foundation under a level of wavelength ``l``, m: this one, which is local."""
         return self
 
+    def at_temperature(self, temperature: float) -> ModelMaterial:
+        """Refused: which of its parameters are times, and which moduli, is the model's own affair."""
+        raise InputError("temperature", temperature, f"None: what it does to {self.kernel.MODEL} is not known")
+
     def __setattr__(self, name, value):
         raise AttributeError(f"a material is immutable: {name} cannot be set")
 

@@ -10,7 +10,9 @@ import numpy as np
 
 from ..errors import InputError
 from .checks import broadcast, numbers
+from .fitted import FittedBand, check_fit
 from .material import StandardLinearSolid
+from .shift import Shift, check_shift, factors_at
 
 if TYPE_CHECKING:
     from ..loading import Solver
@@ -31,6 +33,8 @@ class Prony:
     moduli : K_i, stiffness of each branch, Pa/m, >= 0
     times : tau_i, relaxation time of each branch, s, > 0
     solver : from ``hystrip.load_solver``, for a number of times that no solver in the package has
+    shift : how it changes with temperature, a :class:`hystrip.WLF` or :class:`hystrip.Arrhenius`, or None
+    fit : over which frequencies it was fitted, and how well (``hystrip.dma``), or None
 
     ``moduli`` and ``times``: sequences of n numbers, or of n arrays that broadcast (for ``solve_strip``; then all
     moduli have to be > 0 and the times of a branch apart from those of the others). Raises ``InputError`` for values
@@ -46,6 +50,8 @@ class Prony:
     moduli: tuple[Any, ...]
     times: tuple[Any, ...]
     solver: Solver | None = field(default=None, repr=False)
+    shift: Shift | None = field(default=None, kw_only=True, repr=False)
+    fit: FittedBand | None = field(default=None, kw_only=True, repr=False)
 
     if TYPE_CHECKING:
 
@@ -55,9 +61,14 @@ class Prony:
             moduli: Sequence[Numbers] | Floats,
             times: Sequence[Numbers] | Floats,
             solver: Solver | None = None,
+            *,
+            shift: Shift | None = None,
+            fit: FittedBand | None = None,
         ) -> None: ...
 
     def __post_init__(self) -> None:
+        check_shift(self.shift)
+        check_fit(self.fit)
         K = numbers("material.K", self.K, "Pa/m", 0, strict=True)
         moduli = _each("material.moduli", self.moduli, "Pa/m", strict=False)
         times = _each("material.times", self.times, "s", strict=True)
@@ -142,8 +153,17 @@ class Prony:
         """The foundation under a level of wavelength ``l``, m: this one, which is local."""
         return self
 
+    def at_temperature(self, temperature: float) -> Prony:
+        """The foundation at a temperature, K, as its ``shift`` has it. Raises ``InputError`` where it has none."""
+        a_T, b_T = factors_at(self.shift, temperature)
+        fit = self.fit and self.fit.moved(1 / a_T)
+        return Prony(
+            self.K * b_T, [b_T * each for each in self.moduli], [a_T * each for each in self.times], self.solver, fit=fit
+        )
+
     def _key(self):
-        return (type(self), *(np.asarray(v).tobytes() for v in (self.K, *self.moduli, *self.times)), id(self.solver))
+        numbers = (np.asarray(v).tobytes() for v in (self.K, *self.moduli, *self.times))
+        return (type(self), *numbers, id(self.solver), self.shift, self.fit)
 
     def __eq__(self, other):
         return isinstance(other, Prony) and self._key() == other._key()

@@ -132,6 +132,7 @@ def _assembled(values: dict[str, Any], text: str, name: str, source: str) -> Sce
             raise SceneError(field, each.tolist(), allowed)
     objects = build_objects(values)
     rest = {key: each for key, each in values.items() if key not in ("material", "adhesion", "levels", "sweep")}
+    rest["temperature"] = None if values["temperature"] is None else float(values["temperature"])
     return Scene(name=name, text=text, source=source, **objects, **rest)
 
 
@@ -152,7 +153,7 @@ def quantities(values: dict[str, Any]) -> Iterator[tuple[str, np.ndarray]]:
                 yield f"{path}.{key}", each
             elif isinstance(each, list):  # moduli and times: every entry is a quantity
                 yield from ((f"{path}.{key}[{index}]", entry) for index, entry in enumerate(each))
-    for key in ("pressure", "penetration", "velocity"):
+    for key in ("pressure", "penetration", "velocity", "temperature"):
         if values[key] is not None:
             yield key, values[key]
 
@@ -179,7 +180,12 @@ def build_level(values: dict[str, Any], index: int) -> Any:
     return _made("Level", {key: float(each) for key, each in values["levels"][index].items()}, f"levels[{index}]")
 
 
-_MODELS = {"standard_linear_solid": "StandardLinearSolid", "kelvin_voigt": "KelvinVoigt", "prony": "Prony"}
+_MODELS = {
+    "standard_linear_solid": "StandardLinearSolid",
+    "kelvin_voigt": "KelvinVoigt",
+    "prony": "Prony",
+    "half-space": "HalfSpace",
+}
 
 
 def _parameters(material: dict[str, Any]) -> dict[str, Any]:
@@ -190,6 +196,13 @@ def _parameters(material: dict[str, Any]) -> dict[str, Any]:
             arguments[key] = float(each)
         elif isinstance(each, list):
             arguments[key] = [float(entry) for entry in each]
+    if material["shift"] is not None:
+        arguments["shift"] = _shift(material["shift"])
+    if material["fit"] is not None:
+        if material["model"] not in ("prony", "half-space"):
+            allowed = 'a series: model = "prony" or kind = "half-space"'
+            raise SceneError("material.fit", material["fit"], allowed, "of a material that is no series")
+        arguments["fit"] = _made("FittedBand", material["fit"], "material.fit")
     if material["solver"] is not None:
         from ..loading import load_solver
 
@@ -200,11 +213,29 @@ def _parameters(material: dict[str, Any]) -> dict[str, Any]:
     return arguments
 
 
+def _shift(table: dict[str, Any]) -> Any:
+    """The shift of a validated [material.shift]: every parameter of its model, and none of the other's."""
+    wanted = {"WLF": ("C_1", "C_2"), "Arrhenius": ("E_a",)}
+    arguments = {"T_ref": float(table["T_ref"]), "vertical": table["vertical"]}
+    for model, keys in wanted.items():
+        for key in keys:
+            given = table[key]
+            if (given is None) == (model == table["model"]):
+                problem = "missing" if given is None else f"a key of the model {model}"
+                allowed = f'with model = "{table["model"]}": {", ".join(wanted[table["model"]])}, T_ref, vertical'
+                raise SceneError(f"material.shift.{key}", given, allowed, problem)
+            if given is not None:
+                arguments[key] = float(given)
+    return _made(table["model"], arguments, "material.shift")
+
+
 def _made(kind: str, arguments: dict[str, Any], path: str) -> Any:
     import hystrip
 
+    from ..inputs.fitted import FittedBand
+
     try:
-        return getattr(hystrip, kind)(**arguments)
+        return (FittedBand if kind == "FittedBand" else getattr(hystrip, kind))(**arguments)
     except InputError as error:
         # The library says "level.h", the file "levels[1].h".
         field = path + error.field[len(error.field.partition(".")[0]) :]

@@ -29,6 +29,7 @@ class Scene:
     edge, branch : closure where the pressure steps, and which of several solutions
     rtol : accuracy asked for, as in :func:`hystrip.solve`; strips : equal strips of level 1, None for adaptive panels
     text : the TOML text it was read from
+    temperature : K, for a material with a shift; None for the material as it is given
     source : the file or built-in scene it was read from, named in errors
     """
 
@@ -47,6 +48,7 @@ class Scene:
     strips: int | None
     text: str
     source: str = ""
+    temperature: float | None = None
 
     @property
     def load(self) -> tuple[Literal["pressure", "penetration"], Floats]:
@@ -87,6 +89,7 @@ class Scene:
                 branch=self.branch,
                 rtol=self.rtol,
                 strips=self.strips,
+                temperature=self.temperature,
                 **options,
             )
         return dataclasses.replace(result, scene=self.text)

@@ -12,7 +12,12 @@ from ..errors import InputError
 from ..extras import require
 from ..inputs.checks import LARGEST
 
-_TEXT = re.compile(r"\s*(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?)\s*(?P<unit>[^\W\d_].*?)?\s*")
+_TEXT = re.compile(r"\s*(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?)\s*(?P<unit>(?:[^\W\d_]|°).*?)?\s*")
+#: what is added to degrees, and how many of them five kelvin are
+_OFFSETS = {
+    **dict.fromkeys(("°C", "degC", "celsius", "℃"), ("273.15", "5")),
+    **dict.fromkeys(("°F", "degF", "fahrenheit"), ("459.67", "9")),
+}
 _LONGEST = 100  # characters of a unit
 _UNIT = re.compile(r"[\w\s*/^().\-²³⁻¹]+")
 
@@ -46,6 +51,9 @@ def _converted(text: str, unit: str, field: str) -> float:
         raise InputError(field, text, _allowed(unit))
     if match["unit"] is None:
         raise InputError(field, text, f"a number in {unit} without quotes, or text with a unit")
+    if unit == "K" and match["unit"] in _OFFSETS:  # no factor turns degrees into kelvin
+        offset, scale = _OFFSETS[match["unit"]]
+        return float((Decimal(match["number"]) + Decimal(offset)) * 5 / Decimal(scale))
     if not _UNIT.fullmatch(match["unit"]):
         raise InputError(field, text, _allowed(unit))
     return float(Decimal(match["number"]) * _factor(match["unit"], unit, field, text, _allowed(unit)))
@@ -62,7 +70,12 @@ def _factor(written: str, unit: str, field: str, text: str, allowed: str) -> Dec
     pint = require("pint", "units", "a quantity written with a unit")
     registry = _registry()
     try:
-        return registry.Quantity(Decimal(1), registry.parse_units(written)).to(unit).magnitude
+        parsed = registry.parse_units(written)
+        if unit == "K" and registry.Quantity(Decimal(0), parsed).to(unit).magnitude:  # another scale with a zero of its own
+            raise InputError(field, text, allowed)
+        return registry.Quantity(Decimal(1), parsed).to(unit).magnitude
+    except InputError:
+        raise
     except pint.UndefinedUnitError:
         raise InputError(field, text, f"{allowed}; the unit {written!r} is not known (case counts)") from None
     except pint.DimensionalityError:
@@ -88,5 +101,8 @@ EXAMPLES: dict[str, Any] = {
     "Pa/m": "1 GPa/m",
     "J/m^2": "25 uJ/m^2",
     "m/s": "5 mm/s",
+    "K": "20 degC",
+    "J/mol": "80 kJ/mol",
+    "1": "0.49",
 }
 """An example for every SI unit that a scene uses."""

@@ -54,20 +54,64 @@ class Range(Struct, forbid_unknown_fields=True, kw_only=True):
 Values = Number | list[Number] | Range
 
 
-class Material(Struct, forbid_unknown_fields=True, kw_only=True):
-    """The viscoelastic foundation: a stiffness per area and its times."""
+class Shift(Struct, forbid_unknown_fields=True, kw_only=True):
+    """Time-temperature superposition."""
 
+    model: Annotated[Literal["WLF", "Arrhenius"], Meta(description='"WLF" (C_1, C_2) or "Arrhenius" (E_a)')]
+    T_ref: Annotated[
+        Number,
+        Meta(
+            description='temperature of the moduli and times given: a number in K or text such as "20 degC"', extra={"unit": "K"}
+        ),
+    ]
+    C_1: Annotated[float | None, Meta(description="first constant of WLF, a number > 0")] = None
+    C_2: Annotated[float | None, Meta(description="second constant of WLF, a number > 0 (K)")] = None
+    E_a: Annotated[
+        Number | None,
+        Meta(description='activation energy, > 0: a number in J/mol or text such as "80 kJ/mol"', extra={"unit": "J/mol"}),
+    ] = None
+    vertical: Annotated[
+        float,
+        Meta(description="moduli go with (T/T_ref)^vertical: 0 (the default) not at all, 1 like an ideal rubber", ge=-10, le=10),
+    ] = 0.0
+
+
+class Fit(Struct, forbid_unknown_fields=True, kw_only=True):
+    """Where a material was measured, and how well its series fits."""
+
+    edges: Annotated[
+        list[float], Meta(description="ascending frequencies that bound the parts of the band, a list of numbers in Hz")
+    ]
+    rms: Annotated[list[float], Meta(description="rms of the relative residuals in each part, a list of numbers, one fewer")]
+
+
+class Material(Struct, forbid_unknown_fields=True, kw_only=True):
+    """The viscoelastic foundation: a stiffness per area and its times; or a half-space: moduli and times."""
+
+    kind: Annotated[
+        Literal["foundation", "half-space"],
+        Meta(
+            description='"foundation" (the default: one stiffness per area for all levels, of a model) or "half-space" (E, nu, '
+            "moduli, times: every level gets the stiffness of its own wavelength)"
+        ),
+    ] = "foundation"
     model: Annotated[
-        Literal["standard_linear_solid", "kelvin_voigt", "prony"],
+        Literal["standard_linear_solid", "kelvin_voigt", "prony"] | None,
         Meta(
             description='"standard_linear_solid" (the default: K, T_eps, T_sigma), "kelvin_voigt" (K, T_eps) or "prony" '
             "(K, moduli, times)"
         ),
-    ] = "standard_linear_solid"
-    K: Annotated[Values, _swept_meta("relaxed stiffness per area, > 0", "Pa/m")]
+    ] = None
+    E: Annotated[Values | None, _swept_meta("relaxed Young's modulus of a half-space, > 0", "Pa")] = None
+    nu: Annotated[
+        Values | None, Meta(description="Poisson ratio of a half-space, a number from 0 to 0.5", extra={"unit": "1"})
+    ] = None
+    K: Annotated[Values | None, _swept_meta("relaxed stiffness per area, > 0", "Pa/m")] = None
     T_eps: Annotated[Values | None, _swept_meta("retardation time, >= T_sigma", "s")] = None
     T_sigma: Annotated[Values | None, _swept_meta("relaxation time, from 0 to T_eps", "s")] = None
-    moduli: Annotated[list[Values] | None, _list_meta("branch moduli K_i, one for each relaxation time, >= 0", "Pa/m")] = None
+    moduli: Annotated[
+        list[Values] | None, _list_meta("branch moduli, one for each relaxation time, >= 0 (half-space: in Pa)", "Pa/m")
+    ] = None
     times: Annotated[list[Values] | None, _list_meta("relaxation times tau_i, > 0", "s")] = None
     solver: Annotated[
         str | None,
@@ -76,10 +120,20 @@ class Material(Struct, forbid_unknown_fields=True, kw_only=True):
             "(from the scene's folder on); its code is run, which has to be allowed"
         ),
     ] = None
+    shift: Annotated[Shift | None, Meta(description="a table [material.shift], how times and moduli change with temperature")] = (
+        None
+    )
+    fit: Annotated[
+        Fit | None,
+        Meta(description="a table [material.fit] from `hystrip fit`: where the material was measured, and how well it fits"),
+    ] = None
 
 
+#: the model of a material of kind half-space
+HALF_SPACE = "half-space"
 #: the parameters that each model of a material takes
 MATERIAL_KEYS = {
+    HALF_SPACE: ("E", "nu", "moduli", "times"),
     "standard_linear_solid": ("K", "T_eps", "T_sigma"),
     "kelvin_voigt": ("K", "T_eps"),
     "prony": ("K", "moduli", "times"),
@@ -123,6 +177,7 @@ class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):
     pressure: Annotated[Values | None, _range_meta("nominal pressure (negative pulls); or give penetration", "Pa")] = None
     penetration: Annotated[Values | None, _range_meta("penetration of level 1, in place of pressure", "m")] = None
     velocity: Annotated[Values, _range_meta("sliding velocity, >= 0", "m/s")]
+    temperature: Annotated[Values | None, _swept_meta("temperature, for a material with [material.shift]", "K")] = None
     strips: Annotated[
         Annotated[int, Meta(ge=1, le=1_000_000)] | None,
         Meta(description="an integer from 1 to 1000000: average level 1 over so many equal strips, as the paper does "

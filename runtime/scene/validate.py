@@ -41,22 +41,33 @@ def validated(raw: dict[str, Any]) -> dict[str, Any]:
         raise _explained(error, raw) from None
     _refuse_other_models(scene.material)
     try:
-        return _resolved(scene, "")
+        values = _resolved(scene, "")
+        values["material"]["model"] = _model(scene.material)
+        return values
     except InputError as error:
         raise SceneError(error.field, error.value, error.allowed) from None
 
 
+def _model(material: Any) -> str:
+    """Which of ``schema.MATERIAL_KEYS`` a material is."""
+    return schema.HALF_SPACE if material.kind == schema.HALF_SPACE else material.model or "standard_linear_solid"
+
+
 def _refuse_other_models(material: Any) -> None:
     """Every parameter of the material's model, and none of another's."""
-    wanted = schema.MATERIAL_KEYS[material.model]
+    if material.kind == schema.HALF_SPACE and material.model is not None:
+        raise SceneError("material.model", material.model, 'none with kind = "half-space", which has E, nu, moduli and times')
+    model = _model(material)
+    named = f'kind = "{model}"' if model == schema.HALF_SPACE else f'model = "{model}"'
+    wanted = schema.MATERIAL_KEYS[model]
     for key in sorted({key for keys in schema.MATERIAL_KEYS.values() for key in keys}):
         given = getattr(material, key)
         if key in wanted and given is None:
             raise SceneError(f"material.{key}", None, _described(f"material.{key}"), "missing")
         if key not in wanted and given is not None:
-            allowed = f'with model = "{material.model}" in [material]: {", ".join(wanted)}'
+            allowed = f"with {named} in [material]: {', '.join(wanted)}"
             raise SceneError(f"material.{key}", given, allowed, "a key of another model")
-    if material.solver is not None and material.model != "prony":
+    if material.solver is not None and model not in ("prony", schema.HALF_SPACE):
         raise SceneError("material.solver", material.solver, 'with model = "prony" only; other models come with hystrip')
 
 
@@ -143,11 +154,13 @@ def _resolved(struct: Any, path: str) -> dict[str, Any]:
     for name, (_, meta) in _fields(type(struct)).items():
         value, field = getattr(struct, name), _join(path, name)
         unit = (meta.extra or {}).get("unit")
+        if name == "moduli" and struct.kind == schema.HALF_SPACE:
+            unit = "Pa"
         if value is not None and unit is not None:
             value = _each(value, unit, field) if (meta.extra or {}).get("each") else values_in_si(value, unit, field)
         elif isinstance(value, schema.Struct):
             value = _resolved(value, field)
-        elif isinstance(value, list):
+        elif isinstance(value, list) and value and isinstance(value[0], schema.Struct):
             value = [_resolved(each, f"{field}[{index}]") for index, each in enumerate(value)]
         out[name] = value
     return out

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import json
 import os
+from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..inputs.adhesion import Dugdale, rebuild
+from ..inputs.fitted import FittedBand
 from ..inputs.half_space import HalfSpace
 from ..inputs.material import KelvinVoigt, StandardLinearSolid
 from ..inputs.model import ModelMaterial
 from ..inputs.prony import Prony
+from ..inputs.shift import WLF, Arrhenius
 from ..inputs.surface import Level
 from ..loading import solver_key
 
@@ -29,6 +32,9 @@ _ARGUMENTS = {
     HalfSpace: ("E", "nu", "moduli", "times"),
 }
 
+#: what a material may carry
+_PARTS = {"WLF": WLF, "Arrhenius": Arrhenius, "FittedBand": FittedBand}
+
 
 def material_text(material: Material) -> str:
     """The material as JSON: ``model`` and its parameters; for a solver of one's own its folder and the hash of its code."""
@@ -38,6 +44,10 @@ def material_text(material: Material) -> str:
         return json.dumps({**described, "solver": {"folder": folder, "key": solver_key(folder)}})
     described = {"model": type(material).__name__}
     described |= {name: getattr(material, name) for name in _ARGUMENTS[type(material)]}
+    for name in ("shift", "fit"):
+        part = getattr(material, name, None)
+        if part is not None:
+            described[name] = {"kind": type(part).__name__, **asdict(part)}
     solver = getattr(material, "solver", None)
     if solver is not None:
         described["solver"] = {"folder": str(solver.folder), "key": solver_key(solver.folder)}
@@ -48,6 +58,10 @@ def material_of(text: str, solver: Solver | None) -> Material:
     """The material of :func:`material_text`. Raises InputError unless ``solver`` is the one it was solved with."""
     described = json.loads(text)
     model, wanted = described.pop("model"), described.pop("solver", None)
+    for name in ("shift", "fit"):
+        if name in described:
+            part = described[name]
+            described[name] = _PARTS[part.pop("kind")](**part)
     if wanted is not None:
         if solver is None:
             how = f"solver=hystrip.load_solver({wanted['folder']!r}): the material was solved with that code, which would run"

@@ -102,6 +102,7 @@ def _result(data: Dataset, solver: Solver | None) -> Result:
         levels=levels,
         load=attrs["load"],
         scene=attrs["scene"],
+        temperature=float(attrs["temperature"]) if "temperature" in attrs else None,
         **_asked(attrs),
     )
     result.__dict__["p_sat"] = _full(data, "p_sat", names)  # a cached property, and what was saved is what it was

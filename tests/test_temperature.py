@@ -1,0 +1,172 @@
+"""Temperature: times and moduli shift, and nothing else."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import hystrip
+from hystrip.dma import DynamicModulus, fit_prony
+from hystrip.plausibility import excited_band, notes
+from hystrip.scene import parse_scene
+
+LEVELS = [hystrip.Level(l=1e-3, h=2e-5), hystrip.Level(l=1e-4, h=2e-6)]
+WLF = hystrip.WLF(C_1=8.86, C_2=101.6, T_ref=293.15, vertical=1)
+ARRHENIUS = hystrip.Arrhenius(E_a=1.2e5, T_ref=293.15)
+MATERIALS = [
+    hystrip.StandardLinearSolid(1e9, 1e-2, 1e-4, shift=WLF),
+    hystrip.KelvinVoigt(1e9, 1e-3, shift=ARRHENIUS),
+    hystrip.Prony(1e9, [3e9, 1e10], [1e-3, 1e-5], shift=ARRHENIUS),
+    hystrip.HalfSpace(2e6, 0.49, [8e6, 3e7], [1e-3, 1e-5], shift=WLF),
+]
+
+
+@pytest.mark.parametrize("material", MATERIALS, ids=lambda m: type(m).__name__)
+def test_friction_at_a_temperature_is_that_at_another_velocity_and_load(material):
+    """``E*(omega, T) = b_T E*(a_T omega, T_ref)``: the same contact at V a_T under p/b_T."""
+    T, V, p = 313.15, np.array([1e-2, 1.0]), 2e5
+    a_T, b_T = float(material.shift.factor(T)), float(material.shift.modulus_factor(T))
+    assert a_T < 0.1 and b_T in (1.0, T / 293.15)
+    how = {"rtol": 1e-2, "edge": "constitutive"}
+    hot = hystrip.solve(material, hystrip.Dugdale(gamma=0), LEVELS, pressure=p, velocity=V, temperature=T, **how)
+    same = hystrip.solve(material, hystrip.Dugdale(gamma=0), LEVELS, pressure=p / b_T, velocity=V * a_T, **how)
+    assert hot.mu == pytest.approx(same.mu, rel=1e-9) and hot.temperature == T and "at 313.15 K" in hot.summary()
+    assert type(hot.material) is type(material) and material == pickle.loads(pickle.dumps(material))
+
+
+def test_shift_factors_are_the_textbook_ones():
+    T = np.array([283.15, 293.15, 333.15])
+    assert np.log10(WLF.factor(T)) == pytest.approx(-8.86 * (T - 293.15) / (101.6 + T - 293.15), abs=1e-14)
+    assert np.log(ARRHENIUS.factor(T)) == pytest.approx(1.2e5 / 8.314462618 * (1 / T - 1 / 293.15), abs=1e-14)
+    assert WLF.modulus_factor(T) == pytest.approx(T / 293.15) and (ARRHENIUS.modulus_factor(T) == 1).all()
+
+
+@pytest.mark.parametrize(
+    ("call", "field", "allowed"),
+    [
+        (lambda: hystrip.WLF(C_1=-1, C_2=50, T_ref=293), "shift.C_1", "> 0"),
+        (lambda: hystrip.WLF(C_1=8, C_2=50, T_ref=0), "shift.T_ref", "(K)"),
+        (lambda: hystrip.Arrhenius(E_a="80", T_ref=293), "shift.E_a", "J/mol"),
+        (lambda: hystrip.Arrhenius(E_a=8e4, T_ref=293, vertical=99), "shift.vertical", "-10 to 10"),
+        (lambda: WLF.factor(190.0), "temperature", "> 191.55"),
+        (lambda: hystrip.Arrhenius(E_a=1e6, T_ref=293).factor(1.0), "temperature", "30 decades"),
+        (lambda: MATERIALS[0].at_temperature([300.0, 310.0]), "temperature", "a single number"),
+        (lambda: hystrip.Prony(1e9, [1e9], [1.0]).at_temperature(300.0), "temperature", "[material.shift]"),
+        (lambda: hystrip.Prony(1e9, [1e9], [1.0], shift=300.0), "material.shift", "a hystrip.WLF"),
+        (lambda: hystrip.HalfSpace(1e6, 0.5, fit=0.1), "material.fit", "PronySeries"),
+    ],
+)
+def test_what_cannot_be_shifted_is_refused(call, field, allowed):
+    with pytest.raises(hystrip.InputError) as refused:
+        call()
+    assert refused.value.field == field and allowed in refused.value.allowed, refused.value
+
+
+SCENE = """
+pressure = 1e5
+velocity = 1.0
+edge = "constitutive"
+temperature = "104 °F"
+[material]
+kind = "half-space"
+E = "2 MPa"
+nu = 0.49
+moduli = ["8 MPa", 3e7]
+times = [1e-3, "10 us"]
+[material.shift]
+model = "WLF"
+C_1 = 8.86
+C_2 = 101.6
+T_ref = "20 degC"
+vertical = 1
+[material.fit]
+edges = [0.01, 1, 1e4]
+rms = [0.01, 0.02]
+[[levels]]
+l = "1 mm"
+h = "20 um"
+"""
+
+
+def test_scene_of_a_half_space_at_a_temperature():
+    scene = parse_scene(SCENE)
+    assert scene.temperature == pytest.approx(313.15, abs=1e-9) and scene.material.shift == WLF
+    assert (scene.material.E, scene.material.nu, scene.material.moduli) == (2e6, 0.49, (3e7, 8e6))
+    direct = hystrip.solve(
+        MATERIALS[3], scene.adhesion, scene.levels, pressure=1e5, velocity=1.0, temperature=313.15, edge="constitutive"
+    )
+    assert scene.solve().mu == pytest.approx(direct.mu, rel=1e-9)
+
+
+WRONG = [
+    ('kind = "half-space"', 'kind = "halfspace"', 'material.kind: got .*"half-space"'),
+    ('kind = "half-space"', 'kind = "half-space"\nmodel = "prony"', 'material.model: got .*none with kind = "half-space"'),
+    ('kind = "half-space"', "", "material.E: a key of another model; allowed: with model"),
+    ('E = "2 MPa"', "", "material.E: missing"),
+    ('E = "2 MPa"', 'E = "2 MPa/m"', "material.E: .*unit of something else"),
+    ('E = "2 MPa"', "E = -2", "material.E: got -2.0"),
+    ('E = "2 MPa"', 'E = "2 MPa"\nK = 1e9', "material.K: a key of another model; allowed: with kind"),
+    ("nu = 0.49", "", "material.nu: missing"),
+    ("nu = 0.49", "nu = 0.6", "material.nu: got 0.6; allowed: a Poisson ratio from 0 to 0.5"),
+    ("nu = 0.49", 'nu = "0.49"', "material.nu: got '0.49'"),
+    ('"8 MPa"', '"8 MPa/m"', r"material.moduli\[0\]: .*unit of something else"),
+    ('"8 MPa"', "-1", r"material.moduli\[0\]: got -1.0; allowed: .*\(Pa\)"),
+    ("3e7]", "3e7, 1]", "material.moduli, material.times.*as many|material.moduli.*as many"),
+    ('model = "WLF"', 'model = "wlf"', 'material.shift.model: got .*"WLF"'),
+    ('model = "WLF"', 'model = "Arrhenius"', "material.shift.C_1: a key of the model WLF"),
+    ("C_1 = 8.86", "", "material.shift.C_1: missing"),
+    ("C_1 = 8.86", "C_1 = 0", "material.shift.C_1: got 0"),
+    ("C_2 = 101.6", 'C_2 = "101.6 K"', "material.shift.C_2: got '101.6 K'; allowed: second constant"),
+    ('T_ref = "20 degC"', "", "material.shift.T_ref: missing"),
+    ('T_ref = "20 degC"', "T_ref = -20", "material.shift.T_ref: got -20"),
+    ('T_ref = "20 degC"', 'T_ref = "20 m"', "material.shift.T_ref: .*unit of something else"),
+    ('T_ref = "20 degC"', 'T_ref = "20 degRe"', "material.shift.T_ref: got '20 degRe'"),
+    ("vertical = 1", "vertical = 11", "material.shift.vertical: got 11"),
+    ("vertical = 1", "E_a = 1", "material.shift.E_a: a key of the model Arrhenius"),
+    ("edges = [0.01, 1, 1e4]", "edges = [0.01, 1]", "material.fit.rms: .*1 numbers"),
+    ("edges = [0.01, 1, 1e4]", "edges = [1, 0.01, 1e4]", "material.fit.edges: .*ascending"),
+    ("edges = [0.01, 1, 1e4]", "edges = 3", "material.fit.edges: got 3"),
+    ("rms = [0.01, 0.02]", "rms = [0.01, -0.02]", "material.fit.rms: got -0.02"),
+    ("rms = [0.01, 0.02]", "", "material.fit.rms: missing"),
+    ('temperature = "104 °F"', 'temperature = "-300 °C"', "temperature: got -26.85"),
+    ('temperature = "104 °F"', 'temperature = ["20 °C", "30 °C"]', "temperature: .*`hystrip sweep`"),
+    ('temperature = "104 °F"', "temperature = 150", "temperature: got 150"),
+    ('edge = "constitutive"', "", "edge: .*several relaxation times"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "said"), WRONG)
+def test_wrong_scenes_are_named(old, new, said):
+    with pytest.raises(hystrip.InputError, match=said):
+        parse_scene(SCENE.replace(old, new)).solve()
+
+
+def test_temperature_needs_a_shift():
+    table = SCENE.index("[material.shift]"), SCENE.index("[material.fit]")
+    with pytest.raises(hystrip.InputError, match=r"temperature: .*\[material.shift\]"):
+        parse_scene(SCENE[: table[0]] + SCENE[table[1] :]).solve()
+
+
+def test_plausibility_is_said():
+    omega = 2 * np.pi * np.geomspace(1e-2, 1e4, 60)
+    x = 1j * omega * 1e-3
+    E = 1e6 + 5e6 * x / (1 + x)
+    series = fit_prony(DynamicModulus(omega, E.real, E.imag))
+    material = series.half_space(0.5)
+    assert notes(material, LEVELS, [1e-3, 0.5]) == []
+    assert excited_band(LEVELS, [0.0, 1e-3, 0.5]) == pytest.approx((1.0, 5e3)) and excited_band(LEVELS, [0.0]) is None
+    (beyond,) = notes(material, LEVELS, [1e-3, 10.0])
+    assert "from 1 to 1e+05 Hz, beyond the 0.01 to 1e+04 Hz" in beyond
+    odd = [hystrip.Level(0.2, 1e-3), hystrip.Level(1e-6, 4e-7), hystrip.Level(5e-10, 1e-12)]
+    said = " ".join(notes(hystrip.StandardLinearSolid(1e9, 1e-2, 1e-4), odd, 1.0))
+    for part in ("level 1: a wavelength of 0.2 m", "level 2: h/l = 0.4", "level 3: a wavelength of 5e-10 m"):
+        assert part in said
+    with pytest.warns(hystrip.dma.FitWarning):
+        poor = fit_prony(lambda omega: 1e6 + 1e9 / (1 + (1j * omega * 1e-4) ** -0.4), band=(1e-2, 1e4), terms=1)
+    (off,) = notes(poor.half_space(0.5), LEVELS, [1e-3, 0.5])
+    assert "% rms off" in off
+    # shifted to another temperature the fitted band moves with the times
+    hot = hystrip.HalfSpace(1e6, 0.5, [5e6], [1e-3], shift=WLF, fit=material.fit).at_temperature(313.15)
+    assert hot.fit.high == pytest.approx(1e4 / float(WLF.factor(313.15)))
+    result = hystrip.solve(material, hystrip.Dugdale(gamma=0), LEVELS, pressure=1e7, velocity=[1e-3, 10.0])
+    assert result.notes == [beyond] and f"note       {beyond}" in result.summary() and "excited    k V" in result.summary()
