@@ -44,7 +44,7 @@ class ModeContact:
             if i.size:
                 names = {"acaf": "dbac", "afc": "bac"}.get(sequence, "ba")
                 edges = [getattr(solved, name)[index[i]] for name in names]
-                for zone, _, overstress in zones_of(kernel, sequence, s.take(i), edges):
+                for zone, _, overstress, _ in zones_of(kernel, sequence, s.take(i), edges):
                     if zone == "c":
                         self.entry[:, i] = overstress
                         break

@@ -9,11 +9,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from .march import Period, march
+from .extremal import certified, lowest_state
+from .fields import state_at
+from .march import TWO_PI, Period, march
 from .problem import ModeStrips
 from .propagation import Order, propagation, solve_order
 
 _STEPS = 80
+#: agreement of the edges with a march of the period
+_AGREE = 1e-7
 _EPS = np.finfo(float).eps
 #: slow modes leave their displacements less certain than the edges; the state serves as a bound and as a start for ``polish``
 _COARSEST = 1e-7
@@ -52,3 +56,37 @@ def engaged_orbit(kernel, strips: ModeStrips, start) -> tuple[np.ndarray, Period
     period = march(kernel, s, yes, z, start)
     period.evaluations += spent
     return z - s.m.J * strips.p_0, period, propagation(s, order, period, None), converged & ~period.lost
+
+
+def engaged(kernel, strips: ModeStrips, start):
+    """The same orbits by Newton's method on their edges, checked by a march.
+
+    Returns states at the phases ``start``, edges b and a (2, N), which are known, and the evaluations."""
+    s = strips.raised()
+    yes = np.ones(s.size, bool)
+    low = march(kernel, s, yes, lowest_state(kernel, s, start), start)
+    spent = low.evaluations
+    edges, known, used = certified(kernel, s, "ac", np.nan_to_num(engaged_edges(low)))
+    k = np.flatnonzero(known)
+    z, part = np.full((s.modes, s.size), np.nan), s.take(k)
+    z[:, k], _ = state_at(kernel, "ac", part, edges[:, k], start[k])
+    turn = march(kernel, part, yes[k], z[:, k], start[k])
+    spent[k] += turn.evaluations
+    apart = np.abs(np.mod(engaged_edges(turn) - edges[:, k] + np.pi, TWO_PI) - np.pi).max(axis=0)
+    known[k] = (apart <= _AGREE) & (turn.contacts == 1) & ~turn.lost
+    rest = np.flatnonzero(~known)
+    if rest.size:
+        z[:, rest], turn, _, good = engaged_orbit(kernel, strips.take(rest), start[rest])
+        z[:, rest] += strips.take(rest).m.J * strips.p_0[rest]
+        edges[:, rest], known[rest] = engaged_edges(turn), False
+        spent[rest] += turn.evaluations
+        again, converged, used = certified(kernel, s.take(rest), "ac", np.nan_to_num(edges[:, rest]))
+        edges[:, rest], known[rest] = again, good & converged
+    return z - s.m.J * strips.p_0, edges, known, spent
+
+
+def engaged_edges(period: Period):
+    """Edges b, a of an always engaged orbit, b first."""
+    b, a = period.entry, period.exit
+    b = np.where(b > a, b - TWO_PI, b)
+    return np.array([b, a]) - TWO_PI * np.floor((a + 0.5 * np.pi) / TWO_PI)

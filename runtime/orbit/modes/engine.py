@@ -15,14 +15,15 @@ import numpy as np
 from ..regimes import CODE
 from ..solved import Solved
 from .certificate import enclosed, marched, stable
-from .engaged import engaged_orbit
+from .engaged import engaged, engaged_edges, engaged_orbit
+from .extremal import ROWS, extremal, highest_state, in_order, lowest_state
 from .march import TWO_PI, march
-from .order import ENGAGED, FREE, NARROW, ORBIT, approach
+from .order import ENGAGED, FREE, NARROW, ORBIT, UNRESOLVED, approach
 from .polish import arguments, polish
 from .problem import ModeStrips
 
 #: strips solved at a time: memory stays bounded
-CHUNK = 2048
+CHUNK = 16384
 _CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
 _EPS = np.finfo(float).eps
 #: distances in roundings of D at which a strip on the end of a branch is settled
@@ -77,13 +78,66 @@ class _Batch:
         return self.solved
 
     def _search(self, index):
+        bare = self.strips.p_0[index] == 0
+        self._always_engaged(index[bare], "cf")
+        index = index[~bare]
+        if index.size:
+            self._first(index, *self._outside(index), ask=True)
+
+    def _outside(self, index):
+        """States beyond all orbits, and whether they are engaged."""
+        s = self.strips.take(index)
+        z = lowest_state(self.kernel, s, self.start[index]) if self.unloading else highest_state(self.kernel, s)
+        return z, np.full(index.size, self.unloading)
+
+    def _first(self, index, z, engaged, ask: bool):
+        """Strips ``index`` from the states ``z`` beyond all orbits; ``ask``: the engaged orbit is not known yet."""
+        s = self.strips.take(index)
+        found = extremal(self.kernel, s, self.start[index], z, engaged, self.unloading)
+        self.solved.evaluations[index] += found.evaluations
+        self._free(index[found.kind == FREE])
+        orbit = found.kind == ORBIT
+        for number, sequence in enumerate(ROWS, 1):
+            k = np.flatnonzero(orbit & (found.sequence == number))
+            self._write(index[k], sequence, sequence, s.take(k), found.edges[list(ROWS[sequence])][:, k])
+        held = np.flatnonzero(found.kind == ENGAGED)
+        if held.size and not self.unloading:
+            closed = (self.full | self.clinging)[index[held]]
+            self._closed(index[held[closed]])
+            self._always_engaged(index[held[~closed]], "ac")
+        elif held.size and ask:
+            z, good = self._always_engaged(index[held], "ac")
+            rest = np.flatnonzero(good & ~self.solved.certified[index[held]])
+            if rest.size:
+                self._first(index[held[rest]], z[:, rest], np.ones(rest.size, bool), False)
+        left = index[(found.kind == UNRESOLVED) | ((found.kind == ENGAGED) & (not ask))]
+        if left.size:
+            self._thorough(left)
+
+    def _always_engaged(self, index, sequence):
+        """Solve the always engaged orbits of the strips ``index``; write those that are orbits of the strip.
+
+        Returns their states and which are known."""
+        if not index.size:
+            return np.empty((self.strips.modes, 0)), np.zeros(0, bool)
+        s, start = self.strips.take(index), self.start[index]
+        z, edges, known, spent = engaged(self.kernel, s, start)
+        self.solved.evaluations[index] += spent
+        k = np.flatnonzero(known)
+        if sequence == "ac":
+            period = march(self.kernel, s.take(k), np.ones(k.size, bool), z[:, k], start[k])
+            self.solved.evaluations[index[k]] += period.evaluations
+            k = k[period.never_free]
+        self.solved.code[index] = CODE[sequence]
+        self._write(index[k], "ac", sequence, s.take(k).raised(), edges[:, k])
+        return z, known
+
+    def _thorough(self, index):
+        """The same by windows between two states, closed in on the first orbit however slowly."""
         z, period, floor, ok = engaged_orbit(self.kernel, self.strips.take(index), self.start[index])
         self.solved.evaluations[index] += period.evaluations
-        self.ends = _engaged_edges(period)
-        bare = self.strips.p_0[index] == 0
-        pick = np.flatnonzero(bare & ok)
-        self._engaged(index[pick], self.ends[:, pick], "cf")
-        pick = np.flatnonzero(~bare & ok)
+        self.ends = engaged_edges(period)
+        pick = np.flatnonzero(ok)
         if pick.size:
             rise_or_fall = self._rising if self.unloading else self._falling
             rise_or_fall(index[pick], z[:, pick], floor[pick], self.ends[:, pick])
@@ -141,7 +195,7 @@ class _Batch:
         snaps = (self.strips.step >= self.strips.delta_0)[index]
         contact = ~np.isnan(found.lower[1])
         orbit = found.kind == ORBIT
-        lower, upper = _in_order(found.lower), _in_order(found.upper)
+        lower, upper = in_order(found.lower), in_order(found.upper)
         for sequence, kind, rows in (
             ("acaf", contact & ~snaps, [0, 1, 2, 3]),
             ("afc", contact & snaps, [0, 2, 3]),
@@ -184,6 +238,7 @@ class _Batch:
 
     def _write(self, index, equations, sequence, s, e):
         out = self.solved
+        out.code[index], out.certified[index] = CODE[sequence], True
         out.p_mean[index], out.tau_mean[index] = getattr(self.kernel, f"means_{equations}")(*e, *arguments(s))
         if sequence == "ac":
             out.p_mean[index] -= self.strips.p_0[index]
@@ -203,18 +258,3 @@ class _Batch:
 def _around(lower, upper, slack):
     """Bounds for edges enclosed by those of two states."""
     return np.minimum(lower, upper) - slack, np.maximum(lower, upper) + slack
-
-
-def _in_order(edges):
-    """Edges d, b, a, c in one period that ends with c in (0, pi): the gap can only grow while the profile falls."""
-    d, b, a, c = edges
-    shifted = [np.where(e > c, e - TWO_PI, e) for e in (d, b, a)]
-    turns = TWO_PI * np.floor(c / TWO_PI)
-    return np.array([*shifted, c]) - turns
-
-
-def _engaged_edges(period):
-    """Edges b, a of an always engaged orbit, b first."""
-    b, a = period.entry, period.exit
-    b = np.where(b > a, b - TWO_PI, b)
-    return np.array([b, a]) - TWO_PI * np.floor((a + 0.5 * np.pi) / TWO_PI)

@@ -31,7 +31,7 @@ def _with_edges(kernel, sequence, s: ModeStrips, solved: Solved, index, phase):
     edges = [getattr(solved, name)[index] for name in names]
     phase = edges[0] + np.mod(phase - edges[0], TWO_PI)
     p, gap = np.zeros(index.size), np.zeros(index.size)
-    for zone, start, entry in zones_of(kernel, sequence, s, edges):
+    for zone, start, entry, _ in zones_of(kernel, sequence, s, edges):
         inside = phase >= start
         later = np.maximum(phase, start)
         if zone == "c":
@@ -44,8 +44,8 @@ def _with_edges(kernel, sequence, s: ModeStrips, solved: Solved, index, phase):
 
 
 def zones_of(kernel, sequence, s: ModeStrips, edges):
-    """Zones of an orbit in the order met: letter, start, and the overstress (contact) or the state z (elsewhere) there,
-    (n, N)."""
+    """Zones of an orbit in the order met: letter, start, the overstress (contact) or the state z (elsewhere) there, and the
+    state, (n, N)."""
     zones, _ = ZONES[sequence]
     z = getattr(kernel, f"state_{'ac' if sequence == 'cf' else sequence}")(*edges, *arguments(s))
     for i, (zone, start) in enumerate(zip(zones, edges, strict=True)):
@@ -53,8 +53,22 @@ def zones_of(kernel, sequence, s: ModeStrips, edges):
         if zone == "c":
             snapped = sequence == "afc"
             overstress = kernel.overstress(z, -s.delta_0 / s.m.J_0 if snapped else -s.p_0, s.m)
-            yield zone, start, overstress
+            yield zone, start, overstress, z
             z = z + kernel.contact_increment(start, end, overstress, s.m)
         else:
-            yield zone, start, z
+            yield zone, start, z, z
             z = z + kernel.relaxation_increment(start, end, z, -s.p_0 if zone == "a" else 0.0, s.m)
+
+
+def state_at(kernel, sequence, s: ModeStrips, edges, phase):
+    """State z (n, N) of orbits at a ``phase`` (N,), and whether they are engaged there."""
+    phase = edges[0] + np.mod(phase - edges[0], TWO_PI)
+    state, engaged = np.empty((s.modes, s.size)), np.zeros(s.size, bool)
+    for zone, start, entry, z in zones_of(kernel, sequence, s, edges):
+        inside, later = phase >= start, np.maximum(phase, start)
+        if zone == "c":
+            change = kernel.contact_increment(start, later, entry, s.m)
+        else:
+            change = kernel.relaxation_increment(start, later, z, -s.p_0 if zone == "a" else 0.0, s.m)
+        state, engaged = np.where(inside, z + change, state), np.where(inside, zone != "f", engaged)
+    return state, engaged

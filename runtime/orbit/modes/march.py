@@ -16,6 +16,8 @@ TWO_PI = 2 * np.pi
 CONTACT, ADHESION, FREE = 0, 1, 2
 LETTERS = "caf"
 _MAX_ZONES = 24
+#: what of a period has a value for each time
+STATES = ("dz", "z_onset", "z_release", "z_from_onset", "z_from_release")
 
 
 @dataclass(slots=True)
@@ -30,6 +32,10 @@ class Zone:
     z: np.ndarray
     slope: np.ndarray
     following: np.ndarray
+
+    def of(self, index: np.ndarray, keep=slice(None)) -> Zone:
+        """The places ``keep`` of the zone as one of the strips ``index``."""
+        return Zone(index, *(getattr(self, name)[..., keep] for name in Zone.__slots__[1:]))
 
 
 @dataclass(slots=True)
@@ -69,6 +75,33 @@ class Period:
     evaluations: np.ndarray
     zones: list[Zone] = field(default_factory=list)
 
+    @classmethod
+    def blank(cls, n: int, N: int) -> Period:
+        """Records of N points with n times, nothing met."""
+        no, count, nan, state = np.zeros(N, bool), np.zeros(N, int), np.full(N, np.nan), np.zeros((n, N))
+        kinds = {"engaged_before": no, "engaged": no, "lost": no, "smooth_onset": no, "smooth_release": no, "onsets": count}
+        kinds |= {"contacts": count, "releases": count, "evaluations": np.zeros(N)} | dict.fromkeys(STATES, state)
+        return cls(**{name: kinds.get(name, nan).copy() for name in cls.__slots__ if name != "zones"}, zones=[])
+
+    def take(self, index: np.ndarray) -> Period:
+        """The records of the points ``index``."""
+        where = np.full(self.lost.size, -1)
+        where[index] = np.arange(index.size)
+        kept = [(zone, np.flatnonzero(where[zone.index] >= 0)) for zone in self.zones]
+        zones = [zone.of(where[zone.index[keep]], keep) for zone, keep in kept if keep.size]
+        return Period(*(getattr(self, name)[..., index] for name in self.__slots__ if name != "zones"), zones)
+
+    def put(self, index: np.ndarray, other: Period) -> None:
+        """Write the records ``other`` of the points ``index``."""
+        fresh = np.ones(self.lost.size, bool)
+        fresh[index] = False
+        kept = [(zone, np.flatnonzero(fresh[zone.index])) for zone in self.zones]
+        self.zones = [zone.of(zone.index[keep], keep) for zone, keep in kept if keep.size]
+        for name in self.__slots__:
+            if name != "zones":
+                getattr(self, name)[..., index] = getattr(other, name)
+        self.zones += [zone.of(index[zone.index]) for zone in other.zones]
+
     @property
     def never_free(self) -> np.ndarray:
         """Engaged from the start to the end, without a release."""
@@ -94,13 +127,9 @@ def zone_at(kernel, s: ModeStrips, engaged, z, phase):
 def march(kernel, s: ModeStrips, engaged, z, start) -> Period:
     """Follow every point from the phase ``start`` (N,) for one turn."""
     n, N = z.shape
-    nan = lambda: np.full(N, np.nan)  # noqa: E731
-    letter, now_engaged = zone_at(kernel, s, engaged, z, start)
-    out = Period(
-        np.array(now_engaged), np.array(now_engaged), np.zeros((n, N)), nan(), nan(), nan(), nan(),
-        *(np.zeros(N, int) for _ in range(3)), np.zeros((n, N)), np.zeros((n, N)), nan(), nan(), nan(), nan(),
-        np.zeros((n, N)), np.zeros((n, N)), nan(), nan(), *(np.zeros(N, bool) for _ in range(3)), np.zeros(N),
-    )  # fmt: skip
+    out = Period.blank(n, N)
+    letter, out.engaged_before[:] = zone_at(kernel, s, engaged, z, start)
+    out.engaged[:] = out.engaged_before
     index, here, phase, end = np.arange(N), s, np.array(start, float), start + TWO_PI
     where, limit = phase.copy(), end
     pressure = None

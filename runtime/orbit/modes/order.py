@@ -58,7 +58,6 @@ _EPS = np.finfo(float).eps
 _LEAST, _WIDEST = 1e-12, 1e-5
 
 ENGAGED, FREE, ORBIT, UNRESOLVED = 0, 1, 2, -1
-_STATES = ("dz", "z_onset", "z_release", "z_from_onset", "z_from_release")
 
 
 @dataclass(slots=True)
@@ -134,7 +133,7 @@ def _advance(kernel, st: _State, rising: bool, out: Approach) -> _State:
     st.room[:, i] = np.maximum(sign * (st.other[:, i] - st.order.take(i).to_e(st.z[:, i])), 0.0)
     i = np.flatnonzero(~ended & ~switched)
     if i.size:
-        ended[i] |= _step(kernel, st, i, _of(near, i), sign, out)
+        ended[i] |= _step(kernel, st, i, near.take(i), sign, out)
     return st.take(np.flatnonzero(~ended))
 
 
@@ -215,20 +214,3 @@ def _edges(p: Period):
 def _close(one, two):
     """Edges of the two ends agree, NaN with NaN."""
     return np.all((np.abs(one - two) <= NARROW) | (np.isnan(one) & np.isnan(two)), axis=0)
-
-
-def _of(p: Period, i) -> Period:
-    """A period's record for the strips ``i``."""
-    where = np.full(p.lost.size, -1)
-    where[i] = np.arange(i.size)
-    zones = []
-    for zone in p.zones:
-        keep = np.flatnonzero(where[zone.index] >= 0)
-        if keep.size:
-            zones.append(type(zone)(where[zone.index[keep]], zone.letter[keep], zone.start[keep], zone.end[keep], zone.z[:, keep],
-                                    zone.slope[keep], zone.following[keep]))  # fmt: skip
-    plain = ("engaged_before", "engaged", "onset", "entry", "exit", "release", "onsets", "contacts", "releases", "slope_onset",
-             "slope_release", "from_onset", "from_release",
-             "until_onset", "until_release", "smooth_onset", "smooth_release", "lost", "evaluations")  # fmt: skip
-    values = {name: getattr(p, name)[i] for name in plain} | {name: getattr(p, name)[:, i] for name in _STATES}
-    return Period(**values, zones=zones)

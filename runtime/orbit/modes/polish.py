@@ -12,6 +12,8 @@ _ITERATIONS = 12
 #: steps larger than this are corrections, whatever the one before was
 _ROUNDING_LIMITED = 1e-7
 _EPS = np.finfo(float).eps
+#: a step expected to be this small is not taken; steps as large as that after so many lead nowhere
+_SETTLED, _LOST, _LOST_AFTER = 2 * _EPS, 0.1, 6
 
 
 @dataclass(slots=True)
@@ -38,8 +40,8 @@ def polish(kernel, sequence: str, strips: ModeStrips, edges: np.ndarray, low: np
     N = strips.size
     last, attainable, spent = np.full(N, np.inf), np.full(N, np.inf), np.zeros(N)
     active = np.arange(N)
-    for _ in range(_ITERATIONS):
-        s = strips.take(active)
+    for iteration in range(_ITERATIONS):
+        s, before = strips.take(active), last[active]
         here = edges[:, active]
         matrix = _matrix(jacobian(*here, *arguments(s)), here)
         inverse = _inverse(matrix)
@@ -54,7 +56,11 @@ def polish(kernel, sequence: str, strips: ModeStrips, edges: np.ndarray, low: np
         last[moved] = size[better]
         noise = _noise(kernel, len(edges), s)
         attainable[moved] = np.einsum("Nij,jN->iN", np.abs(inverse), noise).max(axis=0)[better]
-        active = active[better & (size > 2 * _EPS * np.maximum(1.0, np.abs(here).max(axis=0)))]
+        # steps that shrink quadratically: the next one need not be taken
+        ahead = size * np.divide(size, before, out=np.ones_like(size), where=(size < before) & np.isfinite(before))
+        settled = ahead <= _SETTLED
+        last[active[better & settled]] = ahead[better & settled]
+        active = active[better & ~settled & ((iteration < _LOST_AFTER) | (size < _LOST))]
         if not active.size:
             break
     return Polished(edges, last, attainable, spent)

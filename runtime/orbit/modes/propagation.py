@@ -107,8 +107,8 @@ def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period, alike
     gamma = np.broadcast_to(order.gamma, late.shape)
     fading = lambda width: np.exp(-width * order.rate)  # noqa: E731
     shrink = lambda width: np.exp(-width * gamma)[None]  # noqa: E731
-    steep_on = np.fmin(_steepest_onset(s, order, lower, upper), _steepest_by_modes(s, order, lower, upper, True))
-    steep_off = np.fmin(_steepest_release(s, order, lower, upper), _steepest_by_modes(s, order, lower, upper, False))
+    steep_on = np.fmin(_steepest_onset(s, order, lower, upper), slopes_by_modes(s, order, lower, upper, True)[1])
+    steep_off = np.fmin(_steepest_release(s, order, lower, upper), slopes_by_modes(s, order, lower, upper, False)[1])
     onset, release = (np.where(alike, gain, 0.0) for gain in (_ratio(s.jump_on, steep_on), _ratio(s.step, steep_off)))
     pair = _across(s, order, lower, upper, onset, True), _across(s, order, lower, upper, release, False)
     taken = [each.gain > 0 for each in pair]
@@ -252,11 +252,12 @@ def _steepest_release(s: ModeStrips, order: Order, lower: Period, upper: Period)
     return _harmonic_max(gamma, 1.0, low, high) + gamma * (s.D - 1 + s.delta_0) - (weight * e).sum(axis=0)
 
 
-def _steepest_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period, onset: bool):
-    """The same upper bounds from the modes of the gap zone that the event ends: fast ones have died out since it began.
+def slopes_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period, onset: bool):
+    """Least and greatest rate at which the gap falls to the onset, or grows to the release, from the modes of the gap zone that
+    the event ends: fast ones have died out since it began.
 
     The state there lies between those of the two marches, whatever the phase at which the zone began, and between the
-    bounds of all orbits.
+    bounds of all orbits. The rates hold all along, from the earlier of the two events to the later.
     """
     name = "onset" if onset else "release"
     (z_low, from_low), (z_up, from_up) = ((getattr(p, f"z_from_{name}"), getattr(p, f"from_{name}")) for p in (lower, upper))
@@ -273,9 +274,12 @@ def _steepest_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period
     short, long = np.maximum(event[0] - last, 0.0), event[1] - first
     rate = rates(s.m.beta)
     little, much = rate * np.exp(-long * rate), rate * np.exp(-short * rate)
-    if onset:
-        return _harmonic_max(0.0, -1.0, event[0], event[1]) + (most * np.where(most > 0, much, little)).sum(axis=0)
-    return _harmonic_max(0.0, 1.0, event[0], event[1]) - (least * np.where(least > 0, little, much)).sum(axis=0)
+    sum_least = (least * np.where(least > 0, little, much)).sum(axis=0)
+    sum_most = (most * np.where(most > 0, much, little)).sum(axis=0)
+    sign = -1.0 if onset else 1.0
+    top = _harmonic_max(0.0, sign, event[0], event[1])
+    bottom = -_harmonic_max(0.0, -sign, event[0], event[1])
+    return (bottom + sum_least, top + sum_most) if onset else (bottom - sum_most, top - sum_least)
 
 
 def _extreme(e, floor, ceiling, kept, at_end, sign):
