@@ -8,7 +8,7 @@ import numpy as np
 
 from .errors import InputError
 from .inputs.adhesion import Dugdale
-from .inputs.checks import SMALLEST, number
+from .inputs.checks import SMALLEST, number, sequence
 from .inputs.surface import Level
 from .orbit.materials import check_material, parameters
 
@@ -32,10 +32,7 @@ def check_levels(levels) -> tuple[Level, ...]:
     """``levels`` as a tuple of at least one, the largest first."""
     if isinstance(levels, Level):
         return (levels,)
-    try:
-        given, levels = levels, tuple(levels)
-    except TypeError:
-        raise InputError("levels", levels, "a sequence of hystrip.Level, the largest first") from None
+    given, levels = levels, tuple(sequence("levels", levels, "a sequence of hystrip.Level, the largest first"))
     if not levels:
         raise InputError("levels", given, "at least one hystrip.Level")
     for i, level in enumerate(levels):

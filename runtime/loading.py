@@ -12,6 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from .errors import InputError
+from .files import path_of
 from .inputs.model import ModelMaterial
 
 #: version of the interface of emitted solvers that this runtime speaks
@@ -60,14 +61,16 @@ def load_solver(folder: str | os.PathLike[str]) -> Solver:
     Raises ``InputError`` if the folder holds no solver, or one for another version of the interface; it says how to regenerate.
     """
     written = "a folder that `hystrip regenerate my_model.py --out FOLDER` has written"
+    given = path_of(folder, "solver", written)
     try:
-        path = Path(folder).resolve()
+        path = given.resolve()
         init = path / "__init__.py"
         found = init.is_file()
-    except (OSError, ValueError):  # no path that the system can have
+    except (OSError, RuntimeError):  # no path that the system can have; a circle of links
         found = False
     if not found:
-        raise InputError("solver", str(folder), written)
+        is_other = "; this is a pipe or a device" if given.exists() and not (given.is_dir() or given.is_file()) else ""
+        raise InputError("solver", str(folder), written + is_other)
     again = "run `hystrip regenerate my_model.py --out FOLDER` again"
     name = f"_hystrip_solver_{solver_key(path)[:16]}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
     try:

@@ -67,7 +67,7 @@ CALLS = [
     (["solve", "binary"], ["did you mean 'binary.toml'"]),
     (["solve", "folder"], ["folder", "this is a folder"]),
     (["solve", "binary.toml"], ["binary.toml", "UTF-8"]),
-    (["solve", "/dev/zero"], ["/dev/zero", "too large"]),
+    (["solve", "/dev/zero"], ["/dev/zero", "no regular file"]),
     (["solve"], ["Missing argument"]),
     (["solve", "paper_fig6", "--out", "binary.toml"], ["--out", "binary.toml", "a folder"]),
     (["solve", "paper_fig6", "--outt", "x"], ["No such option"]),

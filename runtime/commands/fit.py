@@ -36,7 +36,8 @@ def command(
     from ..extras import require
     from ..files import Outputs, refuse_unwritable
     from ..scene.edit import with_material, with_setting
-    from ..scene.load import located, scene_text
+    from ..scene.errors import located
+    from ..scene.load import scene_text
     from ..tables import write_csv
     from .quantities import metres
 

@@ -37,7 +37,8 @@ def command(
     from ..files import Outputs, refuse_unwritable
     from ..roughness import levels_of, read_surface
     from ..scene.edit import with_levels, with_solver_seen_from
-    from ..scene.load import located, scene_text
+    from ..scene.errors import located
+    from ..scene.load import scene_text
     from .quantities import metres
 
     if plot:

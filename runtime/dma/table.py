@@ -9,8 +9,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from ..errors import InputError
+from ..files import path_of, read_at_most
 
-_LARGEST = 1 << 26  # bytes; a master curve has a few thousand
+_LARGEST = 1 << 24  # bytes; a master curve has a few thousand
 _SEPARATORS = {"\t": "tab", ";": "semicolon", ",": "comma"}
 #: rows of remarks that an instrument may write above the names
 _PREAMBLE = 200
@@ -41,7 +42,7 @@ def read_table(path: str | os.PathLike[str], is_header: Callable[[list[str]], bo
 
     Raises ``InputError`` naming the file: not readable, not text, or without such a row.
     """
-    where = os.fspath(path)
+    where = str(path_of(path, "path", "a text file with a table"))
     lines = _text(where).splitlines()
     for separator in _SEPARATORS:
         rows = _rows(where, lines, separator)
@@ -93,14 +94,9 @@ def as_number(text: str, comma: bool) -> float:
 
 def _text(where: str) -> str:
     try:
-        if not os.path.isfile(where):
-            raise InputError(where, where, "a file" if os.path.exists(where) else "a file that exists")
-        with open(where, "rb") as file:
-            data = file.read(_LARGEST + 1)
-    except (OSError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(where, where, f"a file that can be read ({getattr(error, 'strerror', None) or error})") from None
+        data = read_at_most(where, _LARGEST)
+    except OSError as error:
+        raise InputError(where, where, f"a file that can be read ({error.strerror or error})") from None
     if len(data) > _LARGEST:
         raise InputError(where, where, f"a text file of at most {_LARGEST >> 20} MiB")
     encodings = ("utf-16",) if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp1252")

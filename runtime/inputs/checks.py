@@ -59,6 +59,14 @@ def number(field: str, value: Any, unit: str, minimum: float = -np.inf, strict: 
     return float(array)
 
 
+def sequence(field: str, values: Any, allowed: str) -> list[Any]:
+    """The entries of a list, a tuple, an array or anything else in an order and of a known length, else ``InputError``."""
+    known = hasattr(values, "__len__") and hasattr(values, "__iter__")
+    if not known or isinstance(values, (str, bytes, dict, set, frozenset)) or (hasattr(values, "ndim") and not values.ndim):
+        raise InputError(field, values, allowed)
+    return list(values)
+
+
 def choice(field: str, value: Any, allowed: Sequence[str]) -> str:
     """``value`` if it is one of ``allowed``, else ``InputError``."""
     if not isinstance(value, str) or value not in allowed:

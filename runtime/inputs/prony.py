@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError
-from .checks import broadcast, numbers
+from .checks import broadcast, numbers, sequence
 from .fitted import FittedBand, check_fit
 from .material import StandardLinearSolid
 from .shift import Shift, check_shift, factors_at
@@ -17,6 +17,9 @@ from .shift import Shift, check_shift, factors_at
 if TYPE_CHECKING:
     from ..loading import Solver
     from ..typing import Floats, Number, Numbers
+
+#: branches that may be given; those of equal times become one
+_MOST = 1000
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,9 +177,15 @@ class Prony:
 
 def _each(field_name: str, values: Any, unit: str, strict: bool = False) -> list[np.ndarray]:
     """Every entry of a sequence, checked under its own name."""
-    if isinstance(values, (str, bytes, dict)) or not np.iterable(values):
-        raise InputError(field_name, values, f"a sequence of numbers {'>' if strict else '>='} 0 ({unit}), one for each time")
-    return [numbers(f"{field_name}[{i}]", v, unit, 0, strict=strict) for i, v in enumerate(values)]
+    allowed = f"a sequence of numbers {'>' if strict else '>='} 0 ({unit}), one for each time"
+    entries = sequence(field_name, values, allowed)
+    if len(entries) > _MOST:
+        raise InputError(field_name, values, f"{allowed}, at most {_MOST} of them")
+    found = [numbers(f"{field_name}[{i}]", v, unit, 0, strict=strict) for i, v in enumerate(entries)]
+    for i, each in enumerate(found):
+        if not each.size:
+            raise InputError(f"{field_name}[{i}]", entries[i], "a number, or an array of at least one")
+    return found
 
 
 def _single(name: str, value: np.ndarray) -> np.ndarray:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..extras import require
+from ..files import path_of
 from .scan import Scan
 
 
@@ -39,9 +40,10 @@ def read_surface(
     MissingExtra : SurfaceTopography is not installed
     """
     topographies = require("SurfaceTopography", "roughness", "reading a measured surface")
-    where = os.fspath(path)
+    where = str(path_of(path, "path", "a file with a measured surface"))
     if not os.path.isfile(where):
-        raise InputError(where, where, "a file with a measured surface")
+        is_other = ": this is a folder, a pipe or a device" if os.path.exists(where) else ""
+        raise InputError(where, where, f"a file with a measured surface{is_other}")
     given = {"physical_sizes": sizes, "height_scale_factor": height_factor, "unit": unit}
     options = {key: each for key, each in given.items() if each is not None}
     try:

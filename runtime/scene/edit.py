@@ -8,7 +8,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from .errors import SceneError
-from .load import parse_scene, parse_toml
+from .load import parse_scene
+from .toml import parse_toml
 
 _HEADER = re.compile(r"\s*\[\[?\s*(?P<name>[^\]\s]+)\s*\]?\]")
 

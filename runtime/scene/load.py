@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
-import tomllib
 from collections.abc import Iterator
 from importlib import resources
 from typing import Any
@@ -12,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from .errors import SceneError, nearest
+from ..files import path_of, read_at_most
+from .errors import SceneError, located, nearest
 from .model import Scene
-
-_LARGEST = 1 << 20  # bytes; a scene has a few hundred, and /dev/zero has no end
+from .toml import LARGEST, parse_toml
 
 
 def _builtin_names() -> tuple[str, ...]:
@@ -29,7 +27,11 @@ BUILTIN = _builtin_names()
 
 def scene_text(source: str | os.PathLike[str]) -> tuple[str, str]:
     """Text and short name of a scene file or built-in scene. Raises SceneError."""
-    path = os.fspath(source)
+    try:
+        path = str(path_of(source, "scene", "a scene file"))
+    except InputError as error:
+        allowed = f"the path of a TOML file, or a built-in scene: {', '.join(BUILTIN)}"
+        raise SceneError("scene", error.value, allowed) from None
     if path in BUILTIN:
         return (resources.files("hystrip") / "scenes" / f"{path}.toml").read_text(encoding="utf-8"), path
     return _read(path), os.path.splitext(os.path.basename(path))[0] or "scene"
@@ -82,29 +84,9 @@ def resolve_solver(values: dict[str, Any], source: str, allowed: bool) -> None:
     values["material"]["solver"] = os.path.abspath(os.path.join(os.path.dirname(source), folder))
 
 
-def parse_toml(text: str) -> dict[str, Any]:
-    """Content of a TOML text. Raises SceneError."""
-    try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise SceneError("", None, "", f"not valid TOML: {error}") from None
-    except RecursionError:
-        raise SceneError("", None, "", "not valid TOML: nested too deeply") from None
-
-
-@contextlib.contextmanager
-def located(source: str) -> Iterator[None]:
-    """Add the file's name to every input error that leaves the block."""
-    try:
-        yield
-    except InputError as error:
-        raise SceneError(error.field, error.value, error.allowed, getattr(error, "problem", ""), source) from None
-
-
 def _read(path: str) -> str:
     try:
-        with open(path, "rb") as file:
-            data = file.read(_LARGEST + 1)
+        data = read_at_most(path, LARGEST)
     except FileNotFoundError:
         near = f"{path}.toml" if os.path.isfile(f"{path}.toml") else nearest(path, BUILTIN)
         hint = f" (did you mean {near!r}?)" if near else ""
@@ -113,8 +95,9 @@ def _read(path: str) -> str:
     except IsADirectoryError:
         raise SceneError("", path, "the path of a TOML file", "this is a folder", path) from None
     except (OSError, ValueError) as error:
-        raise SceneError("", path, "a file that can be read", f"cannot be read ({error})", path) from None
-    if len(data) > _LARGEST:
+        problem = f"cannot be read ({getattr(error, 'strerror', None) or error})"
+        raise SceneError("", path, "a file that can be read", problem, path) from None
+    if len(data) > LARGEST:
         raise SceneError("", path, "a TOML file of at most 1 MiB", "too large for a scene", path)
     try:
         return data.decode("utf-8-sig")

@@ -73,7 +73,7 @@ class Scene:
         """
         import hystrip
 
-        from .load import located
+        from .errors import located
 
         name, load = self.load
         options: dict[str, Any] = {name: load.reshape(load.shape + (1,) * self.velocity.ndim)}

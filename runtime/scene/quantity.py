@@ -18,7 +18,9 @@ _OFFSETS = {
     **dict.fromkeys(("°C", "degC", "celsius", "℃"), ("273.15", "5")),
     **dict.fromkeys(("°F", "degF", "fahrenheit"), ("459.67", "9")),
 }
-_LONGEST = 100  # characters of a unit
+_LONGEST = 100  # characters of a quantity, or of a unit
+#: a number raised to a power, or one of many digits: computing it could take for ever
+_ENDLESS = re.compile(r"\d[\s)]*(\*\*|\^)|\d{4}")
 _UNIT = re.compile(r"[\w\s*/^().\-²³⁻¹]+")
 
 
@@ -36,7 +38,10 @@ def to_si(value: float | str, unit: str, field: str) -> float:
     InputError : not finite, of a magnitude beyond that of any input, no unit, a unit that is unknown or of another dimension
     MissingExtra : a unit is written and Pint is not installed
     """
-    number = _converted(value, unit, field) if isinstance(value, str) else float(value)
+    try:
+        number = _converted(value, unit, field) if isinstance(value, str) else float(value)
+    except OverflowError:  # an integer beyond all numbers
+        number = math.inf
     if not math.isfinite(number):
         raise InputError(field, value, _allowed(unit))
     if abs(number) > LARGEST:
@@ -45,6 +50,8 @@ def to_si(value: float | str, unit: str, field: str) -> float:
 
 
 def _converted(text: str, unit: str, field: str) -> float:
+    if len(text) > _LONGEST:
+        raise InputError(field, text, f"{_allowed(unit)}, of at most {_LONGEST} characters")
     # The number is read here, not by Pint: that reads "0,1 kPa" as 0 kPa.
     match = _TEXT.fullmatch(text)
     if match is None:
@@ -68,20 +75,25 @@ def unit_factor(written: str, unit: str, field: str, allowed: str) -> float:
 
 def _factor(written: str, unit: str, field: str, text: str, allowed: str) -> Decimal:
     pint = require("pint", "units", "a quantity written with a unit")
-    registry = _registry()
     try:
-        parsed = registry.parse_units(written)
-        if unit == "K" and registry.Quantity(Decimal(0), parsed).to(unit).magnitude:  # another scale with a zero of its own
-            raise InputError(field, text, allowed)
-        return registry.Quantity(Decimal(1), parsed).to(unit).magnitude
-    except InputError:
-        raise
+        return _in_si(written, unit)
     except pint.UndefinedUnitError:
         raise InputError(field, text, f"{allowed}; the unit {written!r} is not known (case counts)") from None
     except pint.DimensionalityError:
         raise InputError(field, text, f"{allowed}; {written!r} is a unit of something else") from None
     except Exception:  # Pint's parser ends malformed input in errors of many kinds
         raise InputError(field, text, f"{allowed}; {written!r} cannot be read as a unit") from None
+
+
+@functools.lru_cache(maxsize=256)
+def _in_si(written: str, unit: str) -> Decimal:
+    if _ENDLESS.search(written):
+        raise ValueError(written)
+    registry = _registry()
+    parsed = registry.parse_units(written)
+    if unit == "K" and registry.Quantity(Decimal(0), parsed).to(unit).magnitude:  # another scale with a zero of its own
+        raise ValueError(written)
+    return registry.Quantity(Decimal(1), parsed).to(unit).magnitude
 
 
 @functools.cache

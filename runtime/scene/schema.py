@@ -198,7 +198,12 @@ class SceneFile(Struct, forbid_unknown_fields=True, kw_only=True):
     adhesion: Annotated[Adhesion | None, Meta(description="a table [adhesion]; without one there is no adhesion")] = None
     sweep: Annotated[Sweep | None, Meta(description="a table [sweep] with combine and batch, for `hystrip sweep`")] = None
     levels: Annotated[
-        list[Level], Meta(min_length=1, description="one [[levels]] table or more, each with l and h, the largest first")
+        list[Level],
+        Meta(
+            min_length=1,
+            max_length=100,
+            description="one [[levels]] table or more, at most 100, each with l and h, the largest first",
+        ),
     ]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 import types
 import typing
@@ -71,6 +72,7 @@ def _refuse_other_models(material: Any) -> None:
         raise SceneError("material.solver", material.solver, 'with model = "prony" only; other models come with hystrip')
 
 
+@functools.cache
 def _fields(struct: type) -> dict[str, tuple[Any, Any]]:
     """Name -> (type, Meta) of every key of a struct."""
     hints = typing.get_type_hints(struct, include_extras=True)

@@ -31,8 +31,9 @@ class InProcess(Executor):
 @contextlib.contextmanager
 def local(workers: int) -> Iterator[tuple[Executor, int]]:
     """An executor of this machine and how many batches to keep in flight."""
-    if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
-        raise InputError("workers", workers, "an integer >= 1, local processes")
+    most = max(4 * (os.cpu_count() or 1), 60)  # Windows waits for no more than 61 processes at once
+    if isinstance(workers, bool) or not isinstance(workers, int) or not 1 <= workers <= most:
+        raise InputError("workers", workers, f"an integer >= 1, local processes, at most {most} on this machine")
     if workers == 1:
         yield InProcess(), 1
         return

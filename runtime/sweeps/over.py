@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Sequence
 
 import numpy as np
 
 from ..errors import InputError
+from ..scene.errors import SceneError
 from ..scene.schema import Values, msgspec
+from ..scene.toml import parse_toml
 from ..scene.validate import values_in_si
 from .plan import has_unit, unit_of
 
@@ -32,11 +33,11 @@ def over_of(texts: Sequence[str]) -> dict[str, np.ndarray]:
 def _read(key: str, written: str):
     for attempt in (written, f"[{written}]"):
         try:
-            read = tomllib.loads(f"values = {attempt}")
+            read = parse_toml(f"values = {attempt}")
             if len(read) > 1:  # more lines than one
                 break
             return msgspec.convert(read["values"], Values)
-        except tomllib.TOMLDecodeError:
+        except SceneError:
             continue
         except msgspec.ValidationError:
             break

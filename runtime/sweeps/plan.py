@@ -188,7 +188,7 @@ def _refuse_hopeless(values: dict[str, Any], swept: set[str]) -> None:
 def _put(values: dict[str, Any], key: str, given: Any) -> None:
     known = [*keys_of(values)]
     if key not in known:
-        near = nearest(key, known)
+        near = nearest(key, known) if isinstance(key, str) else None
         raise InputError("over", key, f"one of {', '.join(known)}" + (f" (did you mean {near!r}?)" if near else ""))
     array = numbers(key, given, unit_of(key))
     if array.ndim > 1 or not array.size:

@@ -114,9 +114,13 @@ def sweep(
     >>> done.plan.shape, done.solved, again.solved, again.kept
     ((2, 141), 18, 0, 18)
     """
-    from ..scene.load import located, parse_toml, resolve_solver, scene_text
+    from ..scene.errors import located
+    from ..scene.load import resolve_solver, scene_text
+    from ..scene.toml import parse_toml
     from ..scene.validate import validated
 
+    if over is not None and not isinstance(over, Mapping):
+        raise InputError("over", over, "a dict of dotted key of the scene -> values in SI")
     text, name = scene_text(scene)
     with located(os.fspath(scene)):
         values = validated(parse_toml(text))
