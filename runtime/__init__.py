@@ -22,6 +22,7 @@ __all__ = [
     "WLF",
     "Arrhenius",
     "ConvergenceWarning",
+    "ContactMap",
     "Dugdale",
     "FrictionLaw",
     "HalfSpace",
@@ -30,6 +31,7 @@ __all__ = [
     "KelvinVoigt",
     "Level",
     "LevelSolution",
+    "Loop",
     "MissingExtra",
     "Prony",
     "Result",
@@ -41,6 +43,7 @@ __all__ = [
     "dma",
     "friction_law",
     "load",
+    "loading_loop",
     "load_scene",
     "load_solver",
     "plots",
@@ -61,7 +64,10 @@ _LAZY = {
     "Scene": "hystrip.scene",
     "Sweep": "hystrip.sweeps",
     "StripSolution": "hystrip.orbit.solution",
+    "ContactMap": "hystrip.contact_map",
+    "Loop": "hystrip.loop",
     "load": "hystrip.storage.read",
+    "loading_loop": "hystrip.loop",
     "friction_law": "hystrip.level.solution",
     "load_scene": "hystrip.scene",
     "load_solver": "hystrip.loading",
@@ -75,9 +81,11 @@ _MODULES = ("dma", "plots", "roughness", "typing")
 
 if TYPE_CHECKING:
     from . import dma, plots, roughness, typing
+    from .contact_map import ContactMap
     from .level.solution import FrictionLaw, friction_law, solve_level
     from .level_solution import LevelSolution
     from .loading import load_solver
+    from .loop import Loop, loading_loop
     from .orbit.solution import StripSolution, solve_strip
     from .result import Result
     from .scene import Scene, load_scene

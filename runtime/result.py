@@ -14,10 +14,11 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from xarray import Dataset
 
+    from .contact_map import ContactMap
     from .inputs.adhesion import Dugdale
     from .inputs.surface import Level
     from .orbit.materials import Material
-    from .typing import Bools, Branch, Edge, Floats
+    from .typing import Bools, Branch, Edge, Floats, ResultPlot
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -131,11 +132,46 @@ class Result:
 
         return summary(self)
 
-    def plot(self) -> Figure:
-        """A matplotlib Figure of mu over velocity (over the load if there is one velocity) with every level's part.
+    def plot(
+        self,
+        kind: ResultPlot | None = None,
+        *,
+        at: int | tuple[int, ...] | None = None,
+        level: int = 1,
+        y: float = 0.0,
+    ) -> Figure:
+        """A matplotlib Figure; ``hystrip.plots.save(figure, path)`` writes it. Needs the extra ``plot``.
 
-        Needs the extra ``plot``; ``hystrip.plots.save(figure, path)`` writes it.
+        Parameters
+        ----------
+        kind : what is drawn. None: mu over velocity; over the load, if there is one velocity, tau, contact, penetration and mu.
+            ``"mu"``, ``"tau"``, ``"contact"``: that alone, with every level's part.
+            ``"map"``: the pressure over the cell of a level, contact and adhesion outlined.
+            ``"strip"``: pressure, gap and tangential stresses along the strip of level 1 at ``y``.
+            ``"loop"``: pressure over penetration of a level, pressed in and pulled back, pull-off marked
+        at : which point to look into, a flat index or a tuple; by default that of the largest friction coefficient
+        level : which level, 1 the largest; one below is looked at under the mean pressure in the contact of the one above
+        y : place of the strip, m; 0 is the crest
+
+        Raises ``InputError`` for an unknown kind, a point that is pulled off, or a curve of a single point.
         """
+        from .inputs.checks import choice
+
+        choice("kind", kind or "mu", ("mu", "tau", "contact", "map", "strip", "loop"))
+        if kind in ("map", "strip", "loop"):
+            from .plots.point import look_into
+
+            return look_into(self, str(kind), at, level, y)
         from .plots import friction
 
-        return friction(self)
+        return friction(self, kind)
+
+    def contact_map(self, at: int | tuple[int, ...] | None = None, level: int = 1) -> ContactMap:
+        """Pressure, gap and zones over the cell of a level at a point; arguments as of ``plot``.
+
+        Raises ``InputError`` where the surface is pulled off.
+        """
+        from .at_point import cell_of
+        from .contact_map import map_of
+
+        return map_of(cell_of(self, at, level))

@@ -5,9 +5,12 @@ from __future__ import annotations
 import csv
 import os
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from .result import Result
 
 LOAD_UNITS = {"pressure": "Pa", "penetration": "m"}
 
@@ -49,18 +52,46 @@ def friction_rows(result: Any) -> dict[str, np.ndarray]:
     for number, part in enumerate(shares(result), start=1):
         columns[f"share of level {number}"] = part
     columns["contact fraction"] = result.contact_fraction
+    columns["pulled off"] = result.pulled_off
     columns["error estimate of mu"] = result.error_estimate
-    return {name: np.array(values, dtype=float).reshape(-1) for name, values in columns.items()}
+    columns["converged"] = result.converged
+    return {name: np.array(values).reshape(-1) for name, values in columns.items()}
 
 
-def write_csv(path: str | os.PathLike[str], columns: dict[str, Sequence[Any]]) -> None:
-    """Write columns under a heading row; every number has all its digits, an undefined one is empty."""
+def write_csv(path: str | os.PathLike[str], columns: dict[str, Sequence[Any]], about: Sequence[str] = ()) -> None:
+    """Write columns under a heading row; every number has all its digits, an undefined one is empty.
+
+    ``about``: lines that stand above the heading, each behind ``# `` (``pandas.read_csv(path, comment="#")`` skips them).
+    """
     with open(path, "w", encoding="utf-8", newline="") as file:
+        file.writelines(f"# {line}\n" for text in about for line in text.splitlines())
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
         lists = (values.tolist() if isinstance(values, np.ndarray) else values for values in columns.values())
         for row in zip(*lists, strict=True):
             writer.writerow(cell(value) for value in row)
+
+
+def about_version() -> list[str]:
+    """What wrote a table, and the units in it."""
+    from . import __version__
+
+    return [f"hystrip {__version__}", "units: SI, in brackets in the headings; what has none is a number"]
+
+
+def about_result(result: Result, scene: str = "") -> list[str]:
+    """Lines above the table of a result: version, units, scene, inputs, tolerance."""
+    from .storage.inputs import adhesion_text, levels_text, material_text
+
+    panels = "" if result.strips is None else f", level 1 over {result.strips} equal strips"
+    return [
+        *about_version(),
+        *([f"scene: {scene}"] if scene else []),
+        f"material: {material_text(result.material)}",
+        f"adhesion: {adhesion_text(result.adhesion)}",
+        f"levels: {levels_text(result.levels)}",
+        f"edge {result.edge}, branch {result.branch}, rtol {result.rtol:g}{panels}",
+    ]
 
 
 def cell(value: Any) -> str:

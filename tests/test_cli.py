@@ -20,7 +20,11 @@ SCENE = 'title = "two velocities"\nrtol = 1e-2\n' + TWO_LEVELS.replace("= 100", 
 
 def rows(path):
     with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def visible(folder):
+    return sorted(each.name for each in folder.iterdir() if not each.name.startswith("."))
 
 
 def test_solve_writes_table_csv_and_picture(run, tmp_path):
@@ -28,7 +32,7 @@ def test_solve_writes_table_csv_and_picture(run, tmp_path):
     status, out, err = run("solve", "mine.toml", "--out", "a/b")
     assert (status, err) == (0, "")
     assert "two velocities" in out and "level 2" in out
-    assert sorted(each.name for each in (tmp_path / "a/b").iterdir()) == ["mine.csv", "mine.png"]
+    assert visible(tmp_path / "a/b") == ["mine.csv", "mine.png"]
     table = rows(tmp_path / "a/b/mine.csv")
     assert [float(row["velocity [m/s]"]) for row in table] == [1e-3, 5e-3]
     result = load_scene(tmp_path / "mine.toml").solve()
@@ -125,14 +129,14 @@ def test_solve_without_picture_and_table(run, tmp_path):
     status, out, _ = run("solve", "mine.toml", "--no-plot", "--no-table")
     assert status == 0
     assert out.split() == ["wrote", "hystrip-out/mine.csv"]
-    assert [each.name for each in (tmp_path / "hystrip-out").iterdir()] == ["mine.csv"]
+    assert visible(tmp_path / "hystrip-out") == ["mine.csv"]
 
 
 def test_one_velocity_has_no_curve_to_draw(run, tmp_path):
     (tmp_path / "one.toml").write_text(SCENE.replace("[1e-3, 5e-3]", "5e-3"))
     status, _, _ = run("solve", "one.toml")
     assert status == 0
-    assert [each.name for each in (tmp_path / "hystrip-out").iterdir()] == ["one.csv"]
+    assert visible(tmp_path / "hystrip-out") == ["one.csv"]
 
 
 def test_several_pressures_have_a_row_each_zero_an_empty_mu(run, tmp_path):
@@ -202,3 +206,25 @@ def test_ctrl_c_is_one_line_and_leaves_no_file(tmp_path):
     out, err = process.communicate(timeout=60)
     assert (process.returncode, out, err) == (130, "", "hystrip: interrupted\n")
     assert [each.name for each in tmp_path.iterdir()] == ["big.toml"]
+
+
+def test_show_draws_the_contact(run, tmp_path):
+    (tmp_path / "mine.toml").write_text(SCENE.replace("= 5e6", "= 1e4").replace("gamma = 2.5e-5", "gamma = 0"))
+    status, out, err = run("show", "mine.toml", "--map", "--strip", "1 um", "--velocity", "2 mm/s")
+    assert (status, err) == (0, "") and "velocity 0.002 m/s" in out and "pressure 1e+04 Pa" in out
+    assert visible(tmp_path / "hystrip-out") == ["mine.map.png", "mine.strip.png"]
+
+
+def test_no_output_takes_the_place_of_another_of_the_same_stem(run, tmp_path):
+    for folder, title in (("a", "one"), ("b", "other")):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "mine.toml").write_text(SCENE.replace("two velocities", title))
+    assert run("solve", "a/mine.toml", "--no-plot")[0] == 0
+    before = (tmp_path / "hystrip-out/mine.csv").read_bytes()
+    status, _, err = run("solve", "b/mine.toml", "--no-plot")
+    assert status == 2 and "mine.csv in it was made from ../a/mine.toml" in err
+    assert (tmp_path / "hystrip-out/mine.csv").read_bytes() == before
+    (tmp_path / "a/mine.toml").write_text(SCENE.replace("two velocities", "changed"))
+    assert run("solve", "a/mine.toml", "--no-plot")[0] == 0  # the same scene, edited, takes its own place
+    head = (tmp_path / "hystrip-out/mine.csv").read_text().splitlines()[:3]
+    assert head[0].startswith("# hystrip ") and head[1].startswith("# units: SI") and head[2] == "# scene: changed"

@@ -321,7 +321,7 @@ def test_command_writes_a_scene_that_loads(run, tmp_path):
     status, out, err = run("fit", "rubber.csv", "--terms", 1, "--length", "2 mm")
     assert (status, err) == (0, "") and "residuals" in out
     names = ["rubber.fit.csv", "rubber.fit.png", "rubber.fitted.toml"]
-    assert sorted(path.name for path in (tmp_path / "hystrip-out").iterdir()) == names
+    assert sorted(path.name for path in (tmp_path / "hystrip-out").glob("[!.]*")) == names
     material = load_scene(tmp_path / "hystrip-out/rubber.fitted.toml").material
     assert (material.K, material.T_eps, material.T_sigma) == pytest.approx((5e8, 1e-2, 1e-4), rel=1e-9)
     text = (tmp_path / "hystrip-out/rubber.fitted.toml").read_text(encoding="utf-8")

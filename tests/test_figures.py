@@ -13,7 +13,7 @@ from hystrip.scene import load_scene
 
 def read(path):
     with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
 
 
 def test_files_of_fig5_and_fig7(tmp_path):

@@ -58,7 +58,7 @@ def test_the_command_line_finds_the_scheduler(cluster, tmp_path):
     command = [sys.executable, "-m", "hystrip", "sweep", "s.toml", "--scheduler", cluster.scheduler_address]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0 and "wrote hystrip-out/s.sweep.csv" in done.stdout, done.stderr
-    values = np.genfromtxt(tmp_path / "hystrip-out/s.sweep.csv", delimiter=",", names=True, usecols=(0, 1))
+    values = np.genfromtxt(tmp_path / "hystrip-out/s.sweep.csv", delimiter=",", names=True, usecols=(0, 1), skip_header=4)
     assert values.size == 4 and (values["mu"] > 0).all()
 
 

@@ -38,7 +38,8 @@ def command(
     from ..scene.edit import with_material, with_setting
     from ..scene.errors import located
     from ..scene.load import scene_text
-    from ..tables import write_csv
+    from ..tables import about_version, write_csv
+    from .origin import record_origin, refuse_other_origin
     from .quantities import metres
 
     if plot:
@@ -46,9 +47,12 @@ def command(
     over = metres(length, "--length")
     measured = read_dma(data, temperature_set)
     refuse_unwritable(out, "--out")
+    names = [f"{data.stem}.{each}" for each in ("fit.csv", *["fitted.toml"] * (over is not None), *["fit.png"] * plot)]
+    refuse_other_origin(out, names, data)
+    about = [*about_version(), f"data: {data.name}"]
     measured = measured.between(low, high)
     series = fit_prony(measured, per_decade=per_decade, terms=terms)
-    files = {f"{data.stem}.fit.csv": lambda path: write_csv(path, rows(series, measured))}
+    files = {f"{data.stem}.fit.csv": lambda path: write_csv(path, rows(series, measured), about)}
     if over is not None:
         with located(scene):
             text = with_material(scene_text(scene)[0], *material_table(series, over, data.name))
@@ -62,6 +66,7 @@ def command(
     with Outputs(out) as outputs:
         for name, write in files.items():
             write(outputs.path(name))
+        record_origin(outputs, names, data)
     typer.echo(series.report())
     for name in files:
         typer.echo(f"wrote {out / name}")

@@ -39,12 +39,15 @@ def command(
     from ..scene.edit import with_levels, with_solver_seen_from
     from ..scene.errors import located
     from ..scene.load import scene_text
+    from .origin import record_origin, refuse_other_origin
     from .quantities import metres
 
     if plot:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
     limits = {"longest": metres(longest, "--longest"), "shortest": metres(shortest, "--shortest")}
     refuse_unwritable(out, "--out")
+    names = [f"{surface.stem}.levels.{suffix}" for suffix in ("toml", *["png"] * plot)]
+    refuse_other_origin(out, names, surface)
     scan = read_surface(surface, channel=channel, unit=unit, sizes=tuple(size) if size else None)
     found = levels_of(scan, count=count, ratio=ratio, wavelength=wavelength, **limits)
     ends = f"{found.bands.max():.4g} to {found.bands.min():.4g} m"
@@ -54,13 +57,12 @@ def command(
         levels = [{"l": each.l, "h": each.h} for each in found.levels]
         text = with_levels(text, levels, comment, folder=out, allow_solver=allow_solver)
     with Outputs(out) as files:
-        names = [f"{surface.stem}.levels.toml"]
         files.path(names[0]).write_text(text, encoding="utf-8", newline="\n")
         if plot:
             from ..plots import roughness_levels, save
 
-            names.append(f"{surface.stem}.levels.png")
             save(roughness_levels(found, scan), files.path(names[1]))
+        record_origin(files, names, surface)
     typer.echo(found.report())
     for name in names:
         typer.echo(f"wrote {out / name}")

@@ -7,10 +7,12 @@ def metres(text: str | None, option: str) -> float | None:
     """A length in m, or None if the option is not given. Raises InputError, naming the option."""
     from ..scene.quantity import to_si
 
-    if text is None:
-        return None
+    return None if text is None else to_si(number_or_text(text), "m", option)
+
+
+def number_or_text(text: str) -> float | str:
+    """A number, if the text is one; else the text, for a unit."""
     try:
-        given: float | str = float(text)
+        return float(text)
     except ValueError:
-        given = text
-    return to_si(given, "m", option)
+        return text

@@ -1,50 +1,54 @@
-"""The table that a person reads on a terminal."""
+"""``hystrip show``: look into a scene: its levels, and pictures of its contact."""
 
 from __future__ import annotations
 
-from typing import Any
+from pathlib import Path
 
-import numpy as np
-
-from ..scene import Scene
+import typer
 
 
-def show_friction(scene: Scene, columns: dict[str, np.ndarray]) -> None:
-    """Print load (if it varies), velocity, mu, and every level's part of mu with its share in per cent."""
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
+def command(
+    scene: str = typer.Argument(help="A scene file (TOML), or the name of a built-in scene such as paper_fig6."),
+    map: bool = typer.Option(False, "--map", help="Draw the pressure over the cell of a level, contact and adhesion outlined."),
+    strip: str = typer.Option(
+        None, "--strip", help='Draw the strip of level 1 at this y, such as "2.5 um": pressure, profile, stresses.'
+    ),
+    loop: bool = typer.Option(False, "--loop", help="Draw the loop of pressure over penetration, with pull-off."),
+    level: int = typer.Option(1, "--level", help="Which level, 1 the largest."),
+    pressure: str = typer.Option(None, "--pressure", help="At this nominal pressure [the scene's, the first of them]."),
+    velocity: str = typer.Option(None, "--velocity", help="At this sliding velocity [the scene's, the middle one]."),
+    out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the pictures."),
+    allow_solver: bool = typer.Option(False, "--allow-solver", help="Run the code of a solver that the scene names."),
+) -> None:
+    """Look into a scene at one pressure and one velocity.
 
-    load_name, load = scene.load
-    levels = range(1, len(scene.levels) + 1)
-    # the title is text, whatever stands in brackets in it
-    table = Table(title=Text(scene.title or scene.name), title_justify="left", title_style="bold")
-    load_column = next(iter(columns))
-    if load.ndim:
-        table.add_column(load_column, justify="right")
-    for heading in ("V [m/s]", "mu", *(f"level {level}" for level in levels), "error of mu"):
-        table.add_column(heading, justify="right")
-    for row in range(len(columns["mu"])):
-        at = {name: values[row] for name, values in columns.items()}
-        cells = [f"{at[load_column]:.4g}"] if load.ndim else []
-        cells += [f"{at['velocity [m/s]']:.4g}", _number(at["mu"])]
-        cells += [_part(at[f"mu of level {level}"], at[f"share of level {level}"]) for level in levels]
-        table.add_row(*cells, _error(at["error estimate of mu"]))
-    # Wide enough for every column also where the output is no terminal: a file has no width to fit into.
-    console = Console()
-    console.print(table) if console.is_terminal else Console(width=max(100, 24 * (3 + len(scene.levels)))).print(table)
-    if not load.ndim:
-        unit = "Pa" if load_name == "pressure" else "m"
-        print(f"nominal {load_name} {float(load):g} {unit}, edge {scene.edge}, branch {scene.branch}")
+    Prints where the friction comes from there; draws what is asked for.
+    """
+    from ..extras import require
+    from ..files import Outputs, refuse_unwritable
+    from ..scene import load_scene
+    from .at import point_of
+    from .origin import record_origin, refuse_other_origin
+    from .quantities import metres
 
+    case = load_scene(scene, allow_solver=allow_solver)
+    drawn = {"map": map, "strip": strip is not None, "loop": loop}
+    if any(drawn.values()):
+        require("matplotlib", "plot", "drawing")
+        refuse_unwritable(out, "--out")
+    y = metres(strip, "--strip") or 0.0
+    names = [f"{case.name}.{kind}{f'_{level}' if level > 1 else ''}.png" for kind, wanted in drawn.items() if wanted]
+    refuse_other_origin(out, names, case.source)
+    result = point_of(case, pressure, velocity)
+    typer.echo(result.summary())
+    if not names:
+        return
+    from ..plots import save
 
-def _number(value: Any) -> str:
-    return "-" if np.isnan(value) else f"{value:.4f}" if 1e-3 <= abs(value) < 1e4 or value == 0 else f"{value:.3e}"
-
-
-def _error(value: Any) -> str:
-    return "-" if np.isnan(value) else f"{value:.0e}" if value else "exact"
-
-
-def _part(value: Any, share: Any) -> str:
-    return _number(value) if np.isnan(share) else f"{_number(value)} ({100 * share:3.0f} %)"
+    kinds = [kind for kind, wanted in drawn.items() if wanted]
+    with Outputs(out) as files:
+        for kind, name in zip(kinds, names, strict=True):
+            save(result.plot(kind, at=0, level=level, y=y), files.path(name))
+        record_origin(files, names, case.source)
+    for name in names:
+        typer.echo(f"wrote {out / name}")

@@ -10,7 +10,7 @@ import typer
 def command(
     scene: str = typer.Argument(help="A scene file (TOML), or the name of a built-in scene such as paper_fig6."),
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
-    plot: bool = typer.Option(True, help="Draw mu over velocity (PNG)."),
+    plot: bool = typer.Option(True, help="Draw mu over velocity, or over the load (PNG)."),
     table: bool = typer.Option(True, help="Print the table."),
     netcdf: bool = typer.Option(False, "--netcdf", help="Write the labelled results as netCDF too (extra `dataset`)."),
     summary: bool = typer.Option(False, "--summary", help="Say where the friction comes from."),
@@ -18,16 +18,17 @@ def command(
 ) -> None:
     """Solve a scene: friction over velocity.
 
-    Writes a CSV and, for more than one velocity, a picture of mu with the share of every level.
+    Writes a CSV and, for more than one point, a picture of the friction with the share of every level.
     """
     from ..extras import require
     from ..files import Outputs, refuse_unwritable
     from ..scene import load_scene
-    from ..tables import friction_rows, write_csv
+    from ..tables import about_result, friction_rows, write_csv
+    from .origin import record_origin, refuse_other_origin
     from .progress import progress
 
     case = load_scene(scene, allow_solver=allow_solver)
-    draws = plot and case.velocity.size > 1
+    draws = plot and case.load[1].size * case.velocity.size > 1
     # What can fail without the work fails before it.
     if draws:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
@@ -35,22 +36,25 @@ def command(
         require("xarray", "dataset", "writing netCDF")
         require("h5netcdf", "dataset", "writing netCDF")
     refuse_unwritable(out, "--out")
+    names = [f"{case.name}.{suffix}" for suffix in ("csv", *["nc"] * netcdf, *["png"] * draws)]
+    refuse_other_origin(out, names, case.source)
     with progress(case.title or case.name) as report:
         result = case.solve(progress=report)
     columns = friction_rows(result)
     with Outputs(out) as files:
-        write_csv(files.path(f"{case.name}.csv"), columns)
+        write_csv(files.path(f"{case.name}.csv"), columns, about_result(result, case.title or case.name))
         if netcdf:
             result.to_dataset().to_netcdf(files.path(f"{case.name}.nc"), engine="h5netcdf")
         if draws:
             from ..plots import save
 
             save(result.plot(), files.path(f"{case.name}.png"))
+        record_origin(files, names, case.source)
     if table:
-        from .show import show_friction
+        from .terminal import show_friction
 
         show_friction(case, columns)
     if summary:
         typer.echo(result.summary())
-    for suffix in ("csv", *["nc"] * netcdf, *["png"] * draws):
-        typer.echo(f"wrote {out / case.name}.{suffix}")
+    for name in names:
+        typer.echo(f"wrote {out / name}")

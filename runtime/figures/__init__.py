@@ -21,7 +21,7 @@ def draw(
     Raises InputError for a name that is not one of :data:`FIGURES`.
     """
     from ..plots.style import save
-    from ..tables import write_csv
+    from ..tables import about_version, write_csv
 
     names = list(dict.fromkeys(only or FIGURES))
     for name in names:
@@ -34,7 +34,7 @@ def draw(
         module = importlib.import_module(f"hystrip.figures.{name}")
         table = module.data()
         with Outputs(out) as files:
-            write_csv(files.path(f"{name}.csv"), table)
+            write_csv(files.path(f"{name}.csv"), table, [*about_version(), f"figure: {(module.__doc__ or name).splitlines()[0]}"])
             figure = module.paint(table)
             for kind in ("png", "svg"):
                 save(figure, files.path(f"{name}.{kind}"))

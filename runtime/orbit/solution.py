@@ -100,6 +100,12 @@ class StripSolution:
         return as_html(of_strips(self))
 
     @property
+    def wavelength(self) -> Floats:
+        """Wavelength of each strip, m."""
+        wavelength: Floats = 2 * np.pi / self._scales["k"]
+        return wavelength
+
+    @property
     def regime_name(self) -> npt.NDArray[np.object_]:
         """Names of the regimes in words, same shape as ``regime``."""
         return np.vectorize(REGIMES.__getitem__, otypes=[object])(self.regime)

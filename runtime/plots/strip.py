@@ -1,42 +1,94 @@
-"""Pressure, displacement and rigid profile of one strip over a period."""
+"""Pressure, gap and rigid profile of one strip over a period, and what rubs in it."""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import InputError
+from .legend import legend_above
 from .style import COLUMN, DASHES, OKABE_ITO, stacked, styled
+from .units import length, unit_for
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ..orbit.solution import StripSolution
+    from ..typing import Floats
 
 
 @styled
-def strip_fields(strip: Any, points: int = 1001) -> Any:
-    """Draw a single strip of a :class:`hystrip.StripSolution`: pressure above, foundation and profile below, contact shaded.
+def strip_fields(strip: StripSolution, points: int = 1001) -> Figure:
+    """Draw a single strip: pressure above, foundation and profile below, contact shaded.
 
     Returns
     -------
     matplotlib Figure
     """
+    return _draw(strip, points, None, "")
+
+
+@styled
+def strip_stresses(strip: StripSolution, x: Floats, stresses: Sequence[Floats], title: str) -> Figure:
+    """The same, and the tangential stress of every level along the strip (Fig. 5): ``stresses`` at ``x`` (m), Pa.
+
+    Returns
+    -------
+    matplotlib Figure
+    """
+    return _draw(strip, x.size, stresses, title)
+
+
+def _draw(strip: StripSolution, points: int, stresses: Sequence[Floats] | None, title: str) -> Figure:
     if np.size(strip.p_mean) != 1:
         raise InputError("strip", f"{np.size(strip.p_mean)} strips", "a solution of one strip")
-    period = 2 * np.pi / float(np.ravel(strip._scales["k"])[0])
+    period = float(np.ravel(strip.wavelength)[0])
     x = np.linspace(-0.5, 0.5, points) * period
     p, w, gap = (np.ravel(each(x)) for each in (strip.pressure, strip.displacement, strip.gap))
-    upper, lower = stacked(2, COLUMN, 1.2 * COLUMN)
+    panels = stacked(2 if stresses is None else 3, COLUMN, (0.6 if stresses is None else 0.52 * 1.5) * 2 * COLUMN)
     share = x / period
-    upper.plot(share, p, color="black")
-    upper.axhline(0, color="0.6", linewidth=0.5, zorder=0)
-    upper.set_ylabel("pressure $p$ (Pa)")
+    _pressure(panels[0], share, p)
+    factor, unit = unit_for("m", np.ptp(w), np.ptp(w - gap))
     # positive displacement goes into the foundation: drawn downwards, the profile lies above it
-    lower.plot(share, -(w - gap) * 1e9, color=OKABE_ITO[1], linestyle=DASHES[0], label="rigid profile")
-    lower.plot(share, -w * 1e9, color="black", label="foundation")
-    for panel in (upper, lower):
+    panels[1].plot(share, -(w - gap) / factor, color=OKABE_ITO[1], linestyle=DASHES[0], label="rigid profile")
+    panels[1].plot(share, -w / factor, color="black", label="foundation")
+    panels[1].set_ylabel(f"height ({unit})")
+    if stresses is not None:
+        _stresses(panels[2], share, stresses)
+    for panel in panels:
         low, high = panel.get_ylim()
-        panel.fill_between(share, low, high, where=gap <= 0, color="0.9", linewidth=0, zorder=-1)
+        panel.fill_between(share, low, high, where=gap <= 0, color="0.9", linewidth=0, zorder=-1, label="contact")
         panel.set_ylim(low, high)
-    lower.set_ylabel("height (nm)")
-    lower.set_xlabel("$x/l$ (sliding towards $+x$)")
-    lower.set_xlim(-0.5, 0.5)
-    lower.legend(loc="best")
-    return upper.figure
+    panels[-1].set_xlabel(f"$x/l$, $l$ = {length(period)} (sliding towards $+x$)")
+    panels[-1].set_xlim(-0.5, 0.5)
+    if title:
+        panels[0].set_title(title, fontsize=7)
+    figure: Figure = panels[0].figure
+    figure.align_ylabels()
+    found = dict(zip(*reversed(panels[1].get_legend_handles_labels()), strict=True))
+    if stresses is not None and len(stresses) > 1:
+        found |= {
+            label: handle for handle, label in zip(*panels[2].get_legend_handles_labels(), strict=True) if label != "contact"
+        }
+    legend_above(figure, list(found.values()), list(found))
+    return figure
+
+
+def _pressure(panel: Any, share: np.ndarray, p: np.ndarray) -> None:
+    factor, unit = unit_for("Pa", p)
+    panel.plot(share, p / factor, color="black")
+    panel.axhline(0, color="0.6", linewidth=0.5, zorder=0)
+    panel.set_ylabel(f"pressure ({unit})")
+
+
+def _stresses(panel: Any, share: np.ndarray, stresses: Sequence[Floats]) -> None:
+    factor, unit = unit_for("Pa", *stresses)
+    for index, stress in enumerate(stresses):
+        color, dash, label = ((OKABE_ITO[0], "-", "stress of level 1"), (OKABE_ITO[2], DASHES[1], "stress of the levels below"))[
+            index
+        ]
+        panel.plot(share, stress / factor, color=color, linestyle=dash, label=label)
+    panel.axhline(0, color="0.6", linewidth=0.5, zorder=0)
+    panel.set_ylabel(f"tangential stress ({unit})")

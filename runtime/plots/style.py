@@ -57,14 +57,6 @@ def stacked(count: int, width: float, height: float, **options: Any) -> Any:
     return figure.subplots(count, 1, sharex=True, squeeze=False, **options)[:, 0]
 
 
-def length(metres: float) -> str:
-    """A length in words, e.g. ``"500 nm"``."""
-    for factor, unit in ((1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")):
-        if metres >= 0.999 * factor:
-            return f"{metres / factor:.4g} {unit}"
-    return f"{metres:.3g} m"
-
-
 @styled
 def save(figure: Any, path: str | os.PathLike[str]) -> None:
     """Write a figure; the suffix (``.png``, ``.svg``, ``.pdf``) decides the format. PNG has 300 dots per inch."""

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..errors import HystripError, InputError
 from ..files import Outputs, path_of, refuse_unwritable
-from ..tables import write_csv
+from ..tables import about_version, write_csv
 from .batch import OTHER_CODE, Batch, Task, solve_batch
 from .code import code_key, fresh_code_key
 from .executors import dask, local, lost
@@ -141,7 +141,7 @@ def sweep(
         run.all(runs_on, in_flight)
         columns = _collected(plan, store)
         with Outputs(folder) as files:
-            write_csv(files.path(f"{name}.sweep.csv"), columns)
+            write_csv(files.path(f"{name}.sweep.csv"), columns, _about(plan))
     return Sweep(columns, folder / f"{name}.sweep.csv", plan, run.solved, run.kept)
 
 
@@ -227,6 +227,13 @@ def _solved(batch: Any) -> Batch:
     if getattr(batch, "code", None) != code_key():
         raise HystripError(OTHER_CODE)
     return batch
+
+
+def _about(plan: Plan) -> list[str]:
+    """Lines above the table: version, units, scene, tolerance."""
+    base, swept = plan.base, ", ".join(axis.key for axis in plan.axes) or "nothing"
+    asked = f"edge {base['edge']}, branch {base['branch']}, rtol {base['rtol']:g}"
+    return [*about_version(), f"scene: {base['title'] or plan.name}; over {swept}", asked]
 
 
 def _collected(plan: Plan, store: Store) -> dict[str, Any]:

@@ -1,0 +1,84 @@
+"""One point of a result, looked into: the contact of a level, and the stresses along a strip."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .contact_map import Cell, map_of
+from .errors import InputError
+from .inputs.checks import number
+from .level.solution import solve_level
+
+if TYPE_CHECKING:
+    from .result import Result
+    from .typing import Floats
+
+#: accuracy of the penetration of a lower level, and of the friction of the levels below; enough for a picture
+_RTOL = 1e-3
+#: points of the map from which the mean pressure in contact is taken
+_COARSE = (201, 101)
+#: points along a strip
+_X = 601
+
+
+def index_of(result: Result, at: int | tuple[int, ...] | None) -> int:
+    """Flat index of a point: the given one, or that of the largest friction coefficient (the first, if there is none)."""
+    size = np.size(result.mu)
+    if not size:
+        raise InputError("result", "no points", "a result with a point to look at")
+    if at is None:
+        mu = np.abs(np.ravel(result.mu))
+        return int(np.nanargmax(mu)) if np.isfinite(mu).any() else 0
+    try:
+        index = np.ravel_multi_index(at, result.mu.shape) if isinstance(at, tuple) else range(size)[at]
+    except (IndexError, ValueError, TypeError):
+        raise InputError("at", at, f"an index into the {size} points, of shape {result.mu.shape}") from None
+    return int(index)
+
+
+def cell_of(result: Result, at: int | tuple[int, ...] | None, number_of_level: int) -> Cell:
+    """A level at a point of a result; one below the first at the mean pressure in the contact of the level above.
+
+    Raises InputError where there is no contact to look into, or no such level.
+    """
+    if isinstance(number_of_level, bool) or number_of_level not in range(1, len(result.levels) + 1):
+        raise InputError("level", number_of_level, f"the number of a level, 1 to {len(result.levels)}")
+    index = index_of(result, at)
+    V, D = float(np.ravel(result.velocity)[index]), float(np.ravel(result.penetration)[index])
+    if not np.isfinite(D):
+        p = float(np.ravel(result.pressure)[index])
+        raise InputError("at", index, f"a point in contact: at {p:g} Pa and {V:g} m/s the surface is pulled off")
+    cell = Cell(result.material, result.adhesion, result.levels[0], D, V, result.edge, result.branch)
+    for level in result.levels[1:number_of_level]:
+        above = map_of(cell, _COARSE)
+        inside = above.pressure[above.contact]
+        if not inside.size:
+            raise InputError("level", number_of_level, "a level that the contact of the one above reaches")
+        p = max(float(inside.mean()), 0.0)
+        how = {"edge": result.edge, "branch": result.branch}
+        solved = solve_level(result.material, result.adhesion, level, V=V, pressure=p, rtol=_RTOL, **how)
+        cell = Cell(result.material, result.adhesion, level, float(solved.D), V, result.edge, result.branch)
+    return cell
+
+
+def stresses_along(result: Result, cell: Cell, y: float) -> tuple[Floats, list[Floats]]:
+    """Tangential stress along a strip of level 1 at ``y`` (m): x (m), and its own and that of all lower levels, Pa (Fig. 5)."""
+    from .level.effort import WorkCounters
+    from .multilevel import Surface
+
+    level = cell.level
+    x = np.linspace(-0.5, 0.5, _X) * level.l
+    strip = cell.strip(np.asarray(number("y", y, "m")))
+    p, gap = strip.pressure(x), strip.gap(x)
+    A, _ = level.strip(y, 0.0)
+    own = p * A * level.k * np.sin(level.k * x)
+    if len(result.levels) == 1:
+        return x, [own]
+    below = np.zeros(x.size)
+    inside = gap <= 0
+    lower = Surface(result.material, result.adhesion, result.levels[1:], cell.edge, cell.branch, _RTOL, True, WorkCounters())
+    solved = lower.solve(np.full(int(inside.sum()), cell.V), p[inside], True, None)
+    below[inside] = solved.tau.sum(axis=0)
+    return x, [own, below]

@@ -1,0 +1,42 @@
+"""Which input each file of an output folder was made from: results of one input never take the place of another's."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..errors import InputError
+from ..files import Outputs
+
+#: a hidden file in the output folder: name -> the input, as a path from the folder on, or the name of a built-in scene
+_INDEX = ".origins.json"
+
+
+def refuse_other_origin(out: Path, names: Sequence[str], source: str | os.PathLike[str]) -> None:
+    """Raise InputError if a file of these names is there that was made from another input of the same stem."""
+    known, mine = _read(out), _origin(out, source)
+    for name in names:
+        other = known.get(name, mine)
+        if other != mine and (out / name).exists():
+            raise InputError("--out", str(out), f"another folder: {name} in it was made from {other}, this would be from {mine}")
+
+
+def record_origin(files: Outputs, names: Sequence[str], source: str | os.PathLike[str]) -> None:
+    """Note what the files of a set are made from; the note appears together with them."""
+    known = _read(files.folder) | dict.fromkeys(names, _origin(files.folder, source))
+    files.path(_INDEX).write_text(json.dumps(known, indent=1, sort_keys=True) + "\n", encoding="utf-8", newline="\n")
+
+
+def _origin(out: Path, source: str | os.PathLike[str]) -> str:
+    text = os.fspath(source)
+    return Path(os.path.relpath(text, out)).as_posix() if os.path.exists(text) else text
+
+
+def _read(out: Path) -> dict[str, str]:
+    try:
+        known = json.loads((out / _INDEX).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return known if isinstance(known, dict) else {}

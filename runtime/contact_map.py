@@ -1,0 +1,93 @@
+"""The contact of one level over its cell: pressure, gap and zones at every point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .errors import InputError
+from .orbit.solution import solve_strip
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from .inputs.adhesion import Dugdale
+    from .inputs.surface import Level
+    from .orbit.materials import Material
+    from .orbit.solution import StripSolution
+    from .typing import Bools, Branch, Edge, Floats
+
+#: points over a cell, along x and along y
+_POINTS = (601, 401)
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One level pressed in by ``D`` (m) at velocity ``V`` (m/s), with all that determines its strips."""
+
+    material: Material
+    adhesion: Dugdale
+    level: Level
+    D: float
+    V: float
+    edge: Edge
+    branch: Branch
+
+    def strip(self, y: Floats) -> StripSolution:
+        """Strips at ``y`` (m); shape of ``y``."""
+        A, depth = self.level.strip(y, self.D)
+        return solve_strip(
+            self.material, self.adhesion, l=self.level.l, A=A, D=depth, V=self.V, edge=self.edge, branch=self.branch
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class ContactMap:
+    """Contact of a level over one cell; it slides towards +x. SI units.
+
+    Attributes
+    ----------
+    x, y : coordinates, m, shapes (nx,) and (ny,); the crest stands at the origin
+    pressure : p(x, y), Pa, shape (ny, nx)
+    gap : gap between foundation and surface, m, (ny, nx); zero in contact
+    contact, adhesion : bool, (ny, nx): where they touch, and where they attract each other across the gap
+    first, last : where contact begins and ends along each strip, m, (ny,); NaN in saturated contact and without contact
+    cell : the level, its penetration, the velocity, material and adhesion
+    """
+
+    x: Floats
+    y: Floats
+    pressure: Floats
+    gap: Floats
+    contact: Bools
+    adhesion: Bools
+    first: Floats
+    last: Floats
+    cell: Cell
+
+    def __repr__(self) -> str:
+        level, shares = self.cell.level, [float(np.mean(each)) for each in (self.contact, self.adhesion)]
+        return (
+            f"ContactMap: {self.x.size} x {self.y.size} points, l = {level.l:g} m, h = {level.h:g} m, D = {self.cell.D:.4g} m, "
+            f"V = {self.cell.V:g} m/s: {100 * shares[0]:.3g} % in contact, {100 * shares[1]:.3g} % in adhesion"
+        )
+
+    def plot(self) -> Figure:
+        """A matplotlib Figure of the pressure with the borders of contact and adhesion. Needs the extra ``plot``."""
+        from .plots.cell import contact_map
+
+        return contact_map(self)
+
+
+def map_of(cell: Cell, points: tuple[int, int] = _POINTS) -> ContactMap:
+    """The contact of a cell at ``points`` (nx, ny). Raises InputError where the level is pulled off."""
+    if not np.isfinite(cell.D):
+        raise InputError("D", cell.D, "a finite penetration: below pull-off there is no contact to look into")
+    half = 0.5 * cell.level.l
+    x, y = (np.linspace(-half, half, each) for each in points)
+    strips = cell.strip(np.abs(y)[:, None])
+    p, gap = strips.pressure(x[None, :]), strips.gap(x[None, :])
+    contact = gap <= 0
+    return ContactMap(x, y, p, gap, contact, ~contact & (p < 0), -strips.a[:, 0], strips.b[:, 0], cell)

@@ -1,0 +1,162 @@
+"""Friction over sliding velocity or load: the coefficient, the stress, the contact, with what every level adds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import InputError
+from ..tables import parts_of_mu
+from .legend import legend_above
+from .style import COLUMN, DASHES, OKABE_ITO, stacked, styled
+from .units import length, unit_for
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ..result import Result
+
+#: panels of a result over velocity, one for each load
+_PANELS = 6
+#: near zero pressure mu has a pole: the axis shows mu where the pressure is at least this part of the largest
+_APART = 0.05
+_LOADS = {"pressure": ("nominal pressure $p$", "Pa"), "penetration": ("penetration $D$", "m")}
+
+
+@dataclass(frozen=True)
+class _Quantity:
+    """What is drawn: ``label`` and ``unit``, the total if there is one, and every level's."""
+
+    label: str
+    unit: str
+    total: Callable[[Result], Any] | None
+    parts: Callable[[Result], Any] | None
+
+
+_QUANTITIES = {
+    "mu": _Quantity(r"friction coefficient $\mu$", "", lambda r: r.mu, parts_of_mu),
+    "tau": _Quantity(r"friction stress $\tau$", "Pa", lambda r: r.tau, lambda r: r.tau_by_level),
+    "contact": _Quantity("contact fraction", "", lambda r: r.contact_fraction, lambda r: r.contact_by_level),
+    "penetration": _Quantity("penetration $D$", "m", lambda r: r.penetration, None),
+    "pressure": _Quantity("nominal pressure $p$", "Pa", lambda r: r.pressure, None),
+}
+
+
+@styled
+def friction(result: Result, kind: str | None = None) -> Figure:
+    """Draw a result over log velocity, one panel for each of at most six loads; over the load where there is one velocity.
+
+    Parameters
+    ----------
+    result : a :class:`hystrip.Result` with at least two points
+    kind : ``"mu"``, ``"tau"`` or ``"contact"``, each with every level's part. None: mu over velocity; over the load all
+        three and the penetration, one above the other. At p = 0 the line of mu is broken: mu has a pole there
+
+    Returns
+    -------
+    matplotlib Figure
+    """
+    if np.size(result.mu) < 2:
+        raise InputError("result", f"{np.size(result.mu)} point", "a result of two points or more: one point is no curve")
+    if np.unique(result.velocity).size > 1:
+        return _over_velocity(result, _QUANTITIES[kind or "mu"])
+    other = "penetration" if result.load == "pressure" else "pressure"
+    return _over_load(result, [_QUANTITIES[each] for each in ([kind] if kind else ["tau", "contact", other, "mu"])])
+
+
+def _over_velocity(result: Result, quantity: _Quantity) -> Figure:
+    shape = np.shape(result.mu)
+    rows = int(np.prod(shape[:-1], dtype=int))
+    flat = lambda values: np.reshape(values, (rows, shape[-1]))  # noqa: E731
+    velocity, load = flat(result.velocity), flat(getattr(result, result.load))
+    curves = _curves(result, quantity)
+    shown = np.unique(np.linspace(0, rows - 1, min(rows, _PANELS)).round().astype(int))
+    panels = stacked(shown.size, COLUMN, (0.68 * shown.size + 0.1) * COLUMN)
+    unit = unit_for(quantity.unit, *(values for values, _, _ in curves))
+    for panel, row in zip(panels, shown, strict=True):
+        order = np.argsort(velocity[row], kind="stable")
+        _draw(panel, velocity[row][order], [(flat(v)[row][order], style, label) for v, style, label in curves], unit)
+        _label(panel, quantity, unit)
+        if shown.size > 1:
+            factor, name = unit_for(_LOADS[result.load][1], load[row][0])
+            panel.set_title(f"{result.load} {load[row][0] / factor:.4g} {name}", fontsize=7)
+        if velocity[row].min() > 0:
+            panel.set_xscale("log")
+        panel.set_xlim(velocity[row][order][0], velocity[row][order][-1])
+    panels[-1].set_xlabel("sliding velocity $V$ (m/s)")
+    return _with_legend(panels[0])
+
+
+def _over_load(result: Result, quantities: list[_Quantity]) -> Figure:
+    text, unit = _LOADS[result.load]
+    load = np.ravel(getattr(result, result.load))
+    order = np.argsort(load, kind="stable")
+    load = load[order]
+    factor, name = unit_for(unit, load)
+    height = 0.75 if len(quantities) == 1 else 0.5 * len(quantities) + 0.1
+    panels = stacked(len(quantities), COLUMN, height * COLUMN)
+    pressure, off = (np.ravel(values)[order] for values in (result.pressure, result.pulled_off))
+    for panel, quantity in zip(panels, quantities, strict=True):
+        curves = [(np.ravel(values)[order], style, label) for values, style, label in _curves(result, quantity)]
+        drawn = unit_for(quantity.unit, *(values for values, _, _ in curves))
+        pole = quantity is _QUANTITIES["mu"] and pressure.min() <= 0
+        if pole:
+            panel.set_ylim(*_limits_apart_from_the_pole(pressure, [values / drawn[0] for values, _, _ in curves]))
+        # no line through the pole, nor across the jump at pull-off
+        at = np.union1d(_changes(off), _changes(np.sign(pressure)) if pole else []).astype(int)
+        curves = [(np.insert(np.asarray(values, float), at, np.nan), style, label) for values, style, label in curves]
+        _draw(panel, np.insert(load, at, np.nan) / factor, curves, drawn)
+        _label(panel, quantity, drawn)
+        if load[0] < 0 < load[-1]:
+            panel.axvline(0, color="0.75", linewidth=0.5, zorder=0)
+    panels[-1].set_xlim(load[0] / factor, load[-1] / factor)
+    panels[-1].set_xlabel(f"{text} ({name})")
+    return _with_legend(panels[0])
+
+
+def _curves(result: Result, quantity: _Quantity) -> list[tuple[np.ndarray, dict[str, Any], str]]:
+    """Values, style and label of every line."""
+    curves: list[tuple[np.ndarray, dict[str, Any], str]] = []
+    if quantity.parts is not None and len(result.levels) > 1:
+        for index, (level, part) in enumerate(zip(result.levels, quantity.parts(result), strict=True)):
+            style = {"color": OKABE_ITO[index % len(OKABE_ITO)], "linestyle": DASHES[index % len(DASHES)]}
+            curves.append((np.asarray(part), style, f"level {index + 1} ($l$ = {length(level.l)})"))
+    if quantity.total is not None:
+        curves.insert(0, (np.asarray(quantity.total(result)), {"color": "black", "zorder": 3}, "total"))
+    return curves
+
+
+def _limits_apart_from_the_pole(pressure: np.ndarray, curves: list[np.ndarray]) -> tuple[float, float]:
+    """Limits of y without what the pole at zero pressure makes huge."""
+    far = np.abs(pressure) >= _APART * np.abs(pressure).max()
+    seen = np.concatenate([values[far & np.isfinite(values)] for values in curves])
+    low, high = (min(seen.min(), 0.0), max(seen.max(), 0.0)) if seen.size else (0.0, 1.0)
+    margin = 0.05 * (high - low) or 1.0
+    return low - margin, high + margin
+
+
+def _changes(values: np.ndarray) -> np.ndarray:
+    """Places in the list at which a value differs from the one before."""
+    return np.flatnonzero(values[1:] != values[:-1]) + 1
+
+
+def _draw(panel: Any, x: np.ndarray, curves: Any, unit: tuple[float, str]) -> None:
+    for values, style, label in curves:
+        panel.plot(x, values / unit[0], label=label, **style)
+    panel.axhline(0, color="0.6", linewidth=0.5, zorder=0)
+
+
+def _label(panel: Any, quantity: _Quantity, unit: tuple[float, str]) -> None:
+    panel.set_ylabel(quantity.label + (f" ({unit[1]})" if unit[1] else ""))
+
+
+def _with_legend(panel: Any) -> Figure:
+    handles, labels = panel.get_legend_handles_labels()
+    figure: Figure = panel.figure
+    figure.align_ylabels()
+    if len(handles) > 1:
+        legend_above(figure, handles, labels)
+    return figure

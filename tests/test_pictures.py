@@ -1,0 +1,135 @@
+"""Pictures show what the numbers say: legends inside the canvas, units from the data, maps and loops as the means have it."""
+
+import numpy as np
+import pytest
+
+import hystrip
+from hystrip.at_point import cell_of, stresses_along
+from hystrip.plots.legend import legend_above
+from hystrip.plots.style import COLUMN, stacked
+from hystrip.plots.units import unit_for
+
+MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+LEVELS = [hystrip.Level(l=10e-6, h=1e-6), hystrip.Level(l=500e-9, h=100e-9)]
+SMALL = LEVELS[1]
+
+
+def saturated(count):
+    levels = [hystrip.Level(l=1e-5 / 3**i, h=1e-6 / 3**i) for i in range(count)]
+    return hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), levels, pressure=1e8, velocity=[1e-4, 1e-3])
+
+
+def inside(figure):
+    figure.draw_without_rendering()
+    boxes = [legend.get_window_extent() for legend in [*figure.legends, *(a.get_legend() for a in figure.axes if a.get_legend())]]
+    boxes += [axis.get_tightbbox() for axis in figure.axes]
+    canvas = figure.bbox
+    return all(b.x0 >= -0.5 and b.y0 >= -0.5 and b.x1 <= canvas.x1 + 0.5 and b.y1 <= canvas.y1 + 0.5 for b in boxes)
+
+
+@pytest.mark.parametrize("count", [2, 3, 6, 8])
+def test_legends_stand_inside_the_canvas(count):
+    assert inside(saturated(count).plot())
+
+
+def test_long_labels_are_wrapped():
+    (panel,) = stacked(1, COLUMN, COLUMN)
+    handles = [panel.plot([0, 1], [0, i])[0] for i in range(3)]
+    legend_above(panel.figure, handles, ["a very long label that says all there is to say about a line, and then more"] * 3)
+    assert inside(panel.figure)
+
+
+def test_units_follow_the_data():
+    assert [unit_for("m", v)[1] for v in (2.0, 2e-3, 2e-6, 9.98e-7, 1e-9)] == ["m", "mm", "µm", "nm", "nm"]
+    assert unit_for("Pa", [np.nan, -3e6, 10.0]) == (1e6, "MPa") and unit_for("Pa", [0.0]) == (1.0, "Pa")
+    figure = hystrip.solve(MATERIAL, ADHESION, [SMALL], pressure=[3e3, 5e3], velocity=1e-3).plot()
+    assert figure.axes[-1].get_xlabel() == "nominal pressure $p$ (kPa)"
+    assert [axis.get_ylabel() for axis in figure.axes] == [
+        "friction stress $\\tau$ (Pa)", "contact fraction", "penetration $D$ (µm)", "friction coefficient $\\mu$"
+    ]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def over_pressure():
+    return hystrip.solve(MATERIAL, ADHESION, [SMALL], pressure=np.linspace(-1000, 3000, 17), velocity=1e-3, rtol=1e-2)
+
+
+def test_no_line_through_the_pole_nor_across_pull_off(over_pressure):
+    (panel,) = over_pressure.plot("mu").axes
+    x, y = panel.lines[0].get_data()
+    crossing = [(a, b) for a, b in zip(x[:-1], x[1:], strict=True) if a < 0 < b]
+    assert not crossing and np.isnan(y[np.isnan(x)]).all()
+    # zero pressure stands alone, and what is far from it fits
+    assert np.isnan(y[x == 0]).all()
+    far = np.abs(over_pressure.pressure) > 500
+    low, high = panel.get_ylim()
+    assert (over_pressure.mu[far] >= low).all() and (over_pressure.mu[far] <= high).all()
+    tau = over_pressure.plot("tau").axes[0].lines[0].get_xdata()
+    off = over_pressure.pressure[over_pressure.pulled_off].max() / 1e3
+    assert np.isnan(tau[np.flatnonzero(tau == off) + 1]).all()
+
+
+def test_every_kind_is_drawn(over_pressure):
+    at = int(np.argmax(over_pressure.pressure))
+    for kind in (None, "mu", "tau", "contact", "map", "strip"):
+        figure = over_pressure.plot(kind, at=at) if kind in ("map", "strip") else over_pressure.plot(kind)
+        assert inside(figure), kind
+    with pytest.raises(hystrip.InputError, match="kind: got 'dream'"):
+        over_pressure.plot("dream")
+    with pytest.raises(hystrip.InputError, match="pulled off"):
+        over_pressure.plot("map", at=0)
+    with pytest.raises(hystrip.InputError, match="1 to 1"):
+        over_pressure.plot("map", at=at, level=2)
+    with pytest.raises(hystrip.InputError, match="an index into the 17 points"):
+        over_pressure.plot("map", at=17)
+
+
+def test_a_map_has_the_means_of_its_level():
+    level = hystrip.solve_level(MATERIAL, ADHESION, LEVELS[0], V=5e-3, pressure=100.0, rtol=1e-6)
+    found = level.contact_map()
+    # over one period each way: the border stands in the map twice
+    mean = lambda values: float(np.mean(values[:-1, :-1]))  # noqa: E731
+    assert mean(found.contact) == pytest.approx(float(level.contact_fraction), abs=5e-3)
+    assert mean(found.adhesion) == pytest.approx(float(level.adhesion_fraction), abs=5e-3)
+    assert mean(found.pressure) == pytest.approx(100.0, abs=15.0)  # of 6000 at most
+    assert (found.gap[found.contact] <= 0).all() and not (found.contact & found.adhesion).any()
+    assert np.allclose(found.pressure[found.adhesion], -ADHESION.p_0)
+    assert inside(found.plot()) and inside(level.plot("strip", y=2e-6))
+
+
+def test_stresses_along_a_strip_are_those_of_the_levels():
+    result = hystrip.solve(MATERIAL, ADHESION, LEVELS, pressure=100.0, velocity=5e-3, rtol=1e-3)
+    cell = cell_of(result, 0, 1)
+    x, (own, below) = stresses_along(result, cell, 2e-6)
+    strip = cell.strip(np.array(2e-6))
+    assert np.mean(own[:-1]) == pytest.approx(float(strip.tau_mean), rel=0.02)
+    law = hystrip.friction_law(MATERIAL, ADHESION, LEVELS[1], V=5e-3, rtol=1e-3)
+    touching = strip.gap(x) <= 0
+    assert np.allclose(below[touching], law(strip.pressure(x[touching])), rtol=2e-3, atol=1.0) and not below[~touching].any()
+    lower = cell_of(result, 0, 2)
+    assert lower.level == LEVELS[1] and np.isfinite(lower.D)
+
+
+def test_a_loop_has_pull_off_and_closes():
+    loop = hystrip.loading_loop(MATERIAL, ADHESION, SMALL, V=1e-3, rtol=1e-2)
+    law = hystrip.friction_law(MATERIAL, ADHESION, SMALL, V=1e-3, rtol=1e-2, below=0.0)
+    assert loop.pull_off == pytest.approx(law.pull_off, rel=0.01)
+    assert loop.work > 0 and loop.unloading.p_mean[0] == loop.loading.p_mean[0] == 0
+    assert loop.unloading.p_mean[-1] == pytest.approx(loop.loading.p_mean[-1], rel=1e-6)
+    bare = hystrip.loading_loop(MATERIAL, hystrip.Dugdale(gamma=0), SMALL, V=1e-3, rtol=1e-2)
+    assert bare.pull_off == 0 and bare.work == pytest.approx(0, abs=1e-6 * 1e9 * SMALL.h**2)
+    assert "pull-off" in repr(loop) and inside(loop.plot()) and inside(bare.plot())
+
+
+def test_a_level_says_its_strips_and_profile():
+    level = LEVELS[0]
+    y = np.linspace(0, 5e-6, 7)
+    A, D = level.strip(y, 6e-7)
+    assert np.allclose(A, 0.25 * level.h * (1 + np.cos(level.k * y)), atol=1e-20)
+    assert np.allclose(D, 6e-7 - 0.5 * level.h * (1 - np.cos(level.k * y)), atol=1e-20)
+    x = np.linspace(-5e-6, 5e-6, 9)
+    f = level.h - 0.25 * level.h * (np.cos(level.k * x) + 1) * (np.cos(level.k * y[3]) + 1)
+    assert np.allclose(level.profile(x, y[3]), f, atol=1e-20)
+    # the strip's own profile is a cut through the level's
+    assert np.allclose(D[3] - A[3] * (1 - np.cos(level.k * x)), 6e-7 - level.profile(x, y[3]), atol=1e-20)
