@@ -74,10 +74,9 @@ class Surface:
         D = np.zeros(V.size) if D is None else D
         # the curves behind the laws of lower levels are interpolated over D: equal strips would make steps of them
         strips = self.strips if i == 0 else None
-        columns = Columns(
+        return Columns(
             self.at_level(i), self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, strips, work=self.work
         )
-        return columns if self.skip else replace(columns, free=None)
 
     def alone(self, level: Level, V) -> SaturatedLevel:
         """Saturation of a level by itself."""

@@ -41,8 +41,7 @@ class Result:
     strips : equal strips that level 1 was averaged over, None for adaptive panels
     load : which of the two was given, "pressure" or "penetration"; scene : the TOML text it came from, if it did;
         temperature : K, if one was given
-    counts : strips solved, decided by a threshold, and known to be free because a deeper one is; points solved in closed form,
-        points below pull-off
+    counts : strips solved, and decided by a threshold; points solved in closed form, points below pull-off
     """
 
     mu: Floats

@@ -64,8 +64,7 @@ def solve(
     strips : average level 1 over the paper's so many equal strips of half a cell (midpoints) instead of adaptive
         panels: to compare with the paper. The laws of the levels below stay adaptive, ``rtol`` holds for them alone,
         and the error estimate says the rest
-    skip : use the closed form where every level is saturated, and leave out strips that are free because a deeper one is (off:
-        every point is solved, and every strip)
+    skip : use the closed form where every level is saturated (off: every point is solved)
     progress : called with the number of points done and the total
     temperature : K, for a material with a ``shift``; without it the material is as it was given
 
@@ -154,7 +153,6 @@ def _result(points, surface: Surface, shape, V, load: str, converged) -> Result:
         counts={
             "strips_solved": surface.work.solved,
             "strips_decided_by_threshold": surface.work.decided,
-            "strips_decided_by_order": surface.work.ordered,
             "points_in_closed_form": int(points.closed_form.sum()),
             "points_below_pull_off": int(points.pulled_off.sum()),
         },

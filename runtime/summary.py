@@ -156,10 +156,9 @@ def _closer(result: Any) -> list[str]:
 
 def _work(result: Any) -> list[str]:
     c = result.counts
-    decided, ordered = c["strips_decided_by_threshold"], c["strips_decided_by_order"]
+    decided = c["strips_decided_by_threshold"]
     closed, off = c["points_in_closed_form"], c["points_below_pull_off"]
     return [
         f"work       {c['strips_solved']} strips solved; skipped: {decided} strips by a threshold (saturated or free),",
-        f"           {ordered} strips that are free as a deeper one is,",
         f"           {closed} points by the closed form (every level saturated), {off} points below pull-off",
     ]

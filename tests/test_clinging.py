@@ -6,10 +6,8 @@ import numpy as np
 import pytest
 
 import hystrip
-from hystrip.level import averages
 from hystrip.level.breaks import breakpoints, let_go
 from hystrip.level.clinging import Clinging
-from hystrip.level.folds import folds
 from hystrip.level.means import level_means
 from hystrip.level.strips import Columns, saturation_depth
 from hystrip.orbit.regimes import CODE
@@ -116,7 +114,6 @@ def test_means_are_those_found_by_looking(rtol, monkeypatch):
     columns = _over_the_curve(2e-3)
     means = level_means(columns, np.full(columns.size, rtol))
     monkeypatch.setattr(Clinging, "ends", lambda self, columns: (np.empty(0, int), np.empty(0), np.empty(0)))
-    monkeypatch.setattr(averages, "folds", lambda *bracket: None)
     found = level_means(columns, np.full(columns.size, rtol))
     assert (np.abs(means.values - found.values) <= means.errors + found.errors + 1e-13 * np.abs(found.values)).all()
     assert means.strips.sum() < 0.8 * found.strips.sum()
@@ -134,20 +131,3 @@ def test_a_wrong_place_costs_strips_and_nothing_else(monkeypatch):
     monkeypatch.setattr(Clinging, "ends", wrong)
     misled = level_means(columns, np.full(columns.size, 1e-6))
     assert (np.abs(means.values - misled.values) <= means.errors + misled.errors + 1e-13 * np.abs(means.values)).all()
-
-
-def test_a_fold_is_foretold_by_newton_alone():
-    """At the crest, from no interaction to a contact that lets go: far closer than the points it was asked at lie."""
-    columns = _columns(5e-3, np.zeros(1))
-    (points,), _ = breakpoints(columns, saturation_depth(columns))
-    every = np.arange(points.size)
-    below, above = (columns.at(0 * every, points + side * 1e-3 * SMALL.h).codes(every, np.zeros(points.size)) for side in (-1, 1))
-    (fold,) = points[(below == CODE["f"]) & (above == CODE["acaf"])]
-    low, high = np.array([fold - 0.1 * SMALL.h]), np.array([fold + 0.3 * SMALL.h])
-
-    def at(rows, D):
-        return columns.at(0 * rows, D), np.arange(D.size), np.zeros(D.size)
-
-    aim = folds(columns, at, low, high, np.array([CODE["f"]]), np.array([CODE["acaf"]]), 1e-12 * (high - low))
-    assert abs(aim.place[0] - fold) < 1e-6 * SMALL.h and abs(aim.place[0] - fold) < 10 * aim.doubt[0]
-    assert folds(columns, at, low, high, np.array([CODE["ac"]]), np.array([CODE["acaf"]]), high - low) is None

@@ -68,9 +68,7 @@ def test_partial_contact_is_bit_identical_without_skipping(edge, branch):
     on, off = (hystrip.solve(MATERIAL, WEAK, levels, skip=skip, **given) for skip in (True, False))
     for name in ("mu", "tau_by_level", "penetration", "contact_by_level", "error_estimate"):
         assert np.array_equal(getattr(on, name), getattr(off, name)), name
-    assert on.counts["strips_decided_by_threshold"] > 0 == off.counts["strips_decided_by_order"]
-    if branch == "unloading":
-        assert on.counts["strips_decided_by_order"] > 0 and on.counts["strips_solved"] < off.counts["strips_solved"]
+    assert on.counts["strips_decided_by_threshold"] > 0
 
 
 @pytest.mark.parametrize("branch", ["unloading", "loading"])

@@ -11,7 +11,6 @@ from hystrip.level.breaks import breakpoints, breaks_on, first_contact
 from hystrip.level.contact import contact_of
 from hystrip.level.curve import Interval, interpolate
 from hystrip.level.means import level_means
-from hystrip.level.panels import Hints
 from hystrip.level.strips import Columns, saturation_depth
 from hystrip.level.transitions import Guide, Looks, locate
 from hystrip.orbit.materials import kernel_of
@@ -76,15 +75,6 @@ def test_looks_beforehand_spare_points(seen):
     assert spared < line.asked if x.size == 4 and x[1] < 0.37 else spared <= line.asked
 
 
-def test_what_is_known_in_closed_form_is_not_expected():
-    theta = np.array([0.5, 1.0, 1.0, 2.0])
-    column, code = np.array([0, 0, 1, 1]), np.zeros(4, int)
-    hints = Hints(column, theta - 0.01, theta + 0.01, code, code + 1, np.zeros((2, 1)), column[:0], theta[:0])
-    left = hints.without(np.array([1, 0]), np.array([1.005, 2.0]))
-    assert left.column.tolist() == [0, 0, 1] and left.low.tolist() == (theta - 0.01)[[0, 1, 3]].tolist()
-    assert hints.without(column[:0], theta[:0]).column.size == 4
-
-
 @pytest.mark.parametrize("branch", ["unloading", "loading"])
 @pytest.mark.parametrize("edge", ["continuous", "constitutive"])
 def test_breaks_are_where_the_crest_changes(edge, branch):
@@ -145,8 +135,8 @@ def test_an_island_vanishes_where_its_strips_do():
     scene = _random(0)
     columns = _columns(scene.velocity[2:], scene.edge, scene.branch, scene.adhesion, scene.levels[0], scene.material)
     seen = Island(0, CODE["f"], 2.5728, 2.6259, 1.4170062189113333e-07, 1.4203712327079623e-07)
-    (D,), (theta,) = vanishing(columns, [seen], np.zeros(1, int), roughly=False)
-    across = theta + np.linspace(-2e-3, 2e-3, 401)
+    (D,) = vanishing(columns, [seen], np.zeros(1, int), roughly=False)
+    across = np.linspace(seen.low, seen.high, 5001)
     for side, there in ((-1e-6, True), (1e-6, False)):
         at = columns.at(np.zeros(across.size, int), np.full(across.size, D * (1 + side)))
         codes = at.codes(np.arange(across.size), across)

@@ -67,8 +67,8 @@ def _blind(zones: np.ndarray, place: int) -> float:
     return 0.0
 
 
-def vanishing(columns: Columns, islands: list[Island], strips: np.ndarray, roughly: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Penetrations and thetas at which the islands have shrunk to nothing, all at once; ``strips`` (per column) counts the work.
+def vanishing(columns: Columns, islands: list[Island], strips: np.ndarray, roughly: bool) -> np.ndarray:
+    """Penetrations at which the islands have shrunk to nothing, all at once; ``strips`` (per column) counts the work.
     NaN: it is not absent at all.
 
     At a fixed theta the island's code ends at some penetration, located like any transition; the island vanishes at the extreme
@@ -81,7 +81,7 @@ def vanishing(columns: Columns, islands: list[Island], strips: np.ndarray, rough
         np.array([getattr(i, name) for i in islands]) for name in ("code", "present", "absent", "low", "high")
     )
     way = absent - present
-    top, vertex, lasting = np.zeros(here.size), np.zeros(here.size), np.zeros(here.size, bool)
+    top, lasting = np.zeros(here.size), np.zeros(here.size, bool)
     for attempt in range(_FEW if roughly else _ROUNDS):
         theta = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, _ACROSS)
         width = np.maximum(
@@ -96,12 +96,11 @@ def vanishing(columns: Columns, islands: list[Island], strips: np.ndarray, rough
         bend = left - 2 * centre + right
         at = np.divide(0.5 * (left - right), bend, out=np.zeros(here.size), where=bend < 0)
         top = np.where(bend < 0, centre + 0.25 * (right - left) * at, share.max(axis=1))
-        vertex = theta[here, best] + 0.5 * (theta[here, best + 1] - theta[here, best - 1]) * np.clip(at, -1, 1)
         # where the code lasts longest there is the vertex, or it is at an end
         low, high = theta[here, best - 1], theta[here, best + 1]
         if lasting.all():
             break
-    return np.where(lasting, np.nan, present + top * way), vertex
+    return np.where(lasting, np.nan, present + top * way)
 
 
 def _ends(columns: Columns, column, code, theta, present, absent, width, strips) -> tuple[np.ndarray, np.ndarray]:

@@ -4,7 +4,7 @@ Inside a panel every strip is in the same regime and the integrand is smooth, bu
 like a square root at a fold. The substitution ``theta = low + width (3 t^2 - 2 t^3)`` turns such an end into a smooth one, and
 Clenshaw-Curtis sums in t, doubled on nested nodes, converge geometrically. Where nodes of one panel disagree about the
 regime, the transition between them is located and the panel is split there. Panels end beforehand where a transition is known
-(``clinging``, ``Columns.transitions``); where neighbouring columns have told about where it lies, that bracket is tried first.
+(``clinging``, ``Columns.transitions``).
 
 All panels of all columns (a column is one velocity and one penetration) advance together: one batch of strips per round.
 """
@@ -17,11 +17,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .effort import AVERAGE_LIMIT
-from .folds import folds
-from .order import FREE, NARROWEST, Question
-from .panels import Hints, Panels, Sights, apart, beside, between, hold_none
+from .panels import Panels, Sights, apart, beside, between, hold_none
 from .quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
-from .transitions import Looks, locate
+from .transitions import locate
 
 if TYPE_CHECKING:
     from .strips import Columns
@@ -64,18 +62,15 @@ def average(
     floor: np.ndarray,
     rtol: np.ndarray,
     q: int,
-    hints: Hints | None = None,
 ) -> Averages:
     """Means ``(1/pi) int_0^pi values d(theta)`` of the ``integrand`` of every column to ``rtol (|value| + floor)``.
 
     ``known``: columns and interior thetas (k,) known to be transitions. ``floor`` and ``rtol`` have shape (columns, q) and
-    (columns,). ``hints``: what is expected, but not certain.
+    (columns,).
     """
     n, (column, theta) = rtol.size, known
     work = _Work(columns, floor, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
     cuts = Panels.joined((Panels.unknown(column, theta, theta, q), work.met(*columns.ends_of_clinging(), *known)))
-    if hints is not None:
-        cuts = Panels.joined((cuts, work.expected(hints, cuts.column, 0.5 * (cuts.low + cuts.high))))
     panels = between(n, cuts)
     for _ in range(_ROUNDS):
         panels = work.refine(panels.take(np.flatnonzero(panels.high > panels.low)))
@@ -142,12 +137,8 @@ class _Work:
         """Accept what converges under doubling; return what has to be split."""
         later = []
         self._learn_ends(panels)
-        empty = (panels.codes == FREE).all(axis=1) & (panels.high - panels.low >= NARROWEST) & (self.columns.free is not None)
-        empty, panels = panels.take(empty), panels.take(~empty)
-        codes, values, doubtful = self._first_look(panels, empty)
-        if doubtful.size:
-            later.append(doubtful)
         n = _FIRST
+        codes, values = self._at_nodes(panels, interior_nodes(n))
         while panels.size:
             mixed = (codes != codes[:, :1]).any(axis=1)
             if n == _FIRST:
@@ -175,44 +166,6 @@ class _Work:
             later.append(Panels.unknown(panels.column, panels.low, middle, q))
             later.append(Panels.unknown(panels.column, middle, panels.high, q))
         return Panels.joined(later) if later else panels
-
-    def expected(self, hints: Hints, column, known) -> Panels:
-        """Brackets of the transitions that are where they were expected, narrowed; away from those ``known``."""
-        hints = hints.without(column, known)
-        m = hints.column.size
-        places = hints.places(self.columns.guide)
-        asked = np.concatenate((np.tile(hints.column, len(places)), hints.witness_column))
-        codes, values, margins = self._evaluated(self.columns.look, asked, np.concatenate((places.ravel(), hints.witness)))
-        seen, witnessed = codes[places.size :], values[places.size :]
-        holds = (codes[:m] == hints.code_low) & (codes[m : 2 * m] == hints.code_high)
-        index = np.flatnonzero(holds)
-        index = index[apart(hints.column[index], hints.low[index], hints.high[index])]
-        spread = np.abs(values[m : 2 * m] - values[:m])[index]
-        line = hints.column[index]
-        size = np.pi * (hints.size[line] + self.floor[line])
-        width = self._bracket(self.rtol[line, None] * size, spread, hints.high[index])
-        probe = lambda i, x: self._probe(hints.column[i], x)  # noqa: E731
-        every = (index + m * np.arange(len(places))[:, None]).ravel()
-        looks = Looks(np.tile(np.arange(index.size), len(places)), places.ravel()[every], codes[every], margins[every])
-        ends = hints.low[index], hints.high[index], codes[index], codes[m + index]
-        found = locate(probe, self.columns.guide, index, *ends, width, looks)
-        end = {int(i): j for j, i in enumerate(index)}
-        which = np.array([end[int(i)] for i in found.line], int)
-        first, last = values[index][which], values[m + index][which]
-        self._leave_out(hints.column[found.line], found.low, found.high, np.minimum(first, last), np.maximum(first, last))
-        values = np.stack((first, last), axis=1)
-        # where a third code showed up in between, the values of the two ends belong to the outermost
-        inner = found.line[1:] == found.line[:-1]
-        values[1:][inner, 0] = values[:-1][inner, 1] = np.nan
-        found = Panels(hints.column[found.line], found.low, found.high, found.codes.astype(float), values)
-        # a witness that stands apart from the transitions found is the end of two panels
-        outside = np.ones(seen.size, bool)
-        for c, low, high in zip(found.column, found.low, found.high, strict=True):
-            outside &= ~((hints.witness_column == c) & (hints.witness >= low) & (hints.witness <= high))
-        alone = np.flatnonzero(outside)
-        witness, code = hints.witness[alone], np.repeat(seen[alone, None], 2, axis=1).astype(float)
-        values = np.repeat(witnessed[alone, None], 2, axis=1)
-        return Panels.joined((found, Panels(hints.witness_column[alone], witness, witness, code, values)))
 
     def _bracket(self, goal, spread, theta):
         """How narrow to bracket a transition at which the values change by ``spread``."""
@@ -250,7 +203,7 @@ class _Work:
         """Take panels that do not converge as they are, with the spread of their values as error."""
         where = self.columns
         where.work.limit_reached(where.V[panels.column], where.level.l, "an average over the strips did not converge")
-        codes, values, _ = self._at_nodes(panels, interior_nodes(_FIRST))
+        codes, values = self._at_nodes(panels, interior_nodes(_FIRST))
         width = (panels.high - panels.low)[:, None]
         np.add.at(self.values, panels.column, width * (mapped_weights(_FIRST) @ values))
         np.add.at(self.errors, panels.column, width * (values.max(axis=1) - values.min(axis=1)))
@@ -273,42 +226,26 @@ class _Work:
         self._keep(panels.take(done), codes[done], values[done])
         return done
 
-    def _first_look(self, panels: Panels, empty: Panels):
-        """Codes and values at the first nodes of ``panels``; and those of the ``empty`` ones that are not seen to be so: the
-        others are summed up."""
-        question = self.columns.free_panels(empty.column, empty.low, empty.high) if empty.size else None
-        codes, values, answers = self._at_nodes(panels, interior_nodes(_FIRST), question)
-        if question is None:
-            return codes, values, empty
-        known = question.answered(answers)
-        done, doubtful = empty.take(known), empty.take(~known)
-        self._keep(done, np.full(done.size, FREE), np.zeros((done.size, *values.shape[1:])))
-        doubtful.codes[:] = np.nan
-        return codes, values, doubtful
-
     def _doubled(self, panels: Panels, n: int, codes, values):
         """Codes (panels, n - 1) and values (panels, n - 1, q) at the interior nodes, from those at the nodes of n/2."""
-        new_codes, new_values, _ = self._at_nodes(panels, interior_nodes(n)[0::2])
+        new_codes, new_values = self._at_nodes(panels, interior_nodes(n)[0::2])
         return interleaved(new_codes, codes), interleaved(new_values, values)
 
-    def _at_nodes(self, panels: Panels, t, question: Question | None = None):
-        """Codes (panels, nodes) and values (panels, nodes, q) at the parameters ``t``; codes of the strips of a ``question``."""
+    def _at_nodes(self, panels: Panels, t):
+        """Codes (panels, nodes) and values (panels, nodes, q) at the parameters ``t``."""
         shape = panels.size, t.size
         theta = panels.low[:, None] + (panels.high - panels.low)[:, None] * mapped(t)
         column, theta = np.repeat(panels.column, t.size), theta.ravel()
-        if question is not None:
-            column, theta = np.concatenate((column, question.column)), np.concatenate((theta, question.theta))
-        codes, values = self._evaluated(self.columns.integrand, column, theta)
-        m = panels.size * t.size
-        return codes[:m].reshape(shape), values[:m].reshape(*shape, values.shape[1]), codes[m:]
+        codes, values = self._evaluated(column, theta)
+        return codes.reshape(shape), values.reshape(*shape, values.shape[1])
 
-    def _evaluated(self, ask, column, theta) -> list[np.ndarray]:
-        """What is asked of strips (m,), codes and values first; the first time also of the sights."""
+    def _evaluated(self, column, theta) -> list[np.ndarray]:
+        """Codes and values of strips (m,); the first time also of the sights."""
         m, first = theta.size, self.sights.codes is None
         if first:
             column, theta = np.concatenate((column, self.sights.column)), np.concatenate((theta, self.sights.theta))
         np.add.at(self.strips, column, 1)
-        answers = ask(column, theta)
+        answers = self.columns.integrand(column, theta)
         if first:
             self.sights.codes, self.sights.values = answers[0][m:], answers[1][m:]
             self._leave_out_met()
@@ -365,10 +302,7 @@ class _Work:
         line = panels.column[row]
         width = self._bracket(self.rtol[line, None] * np.abs(total)[line], spread, theta[row, node + 1])
         low, high, ends = theta[row, node], theta[row, node + 1], (codes[row, node], codes[row, node + 1])
-        aim = folds(self.columns, lambda i, x: (self.columns, line[i], x), low, high, *ends, width)
-        found = locate(
-            lambda line, x: self._probe(panels.column[line], x), self.columns.guide, row, low, high, *ends, width, aim=aim
-        )
+        found = locate(lambda line, x: self._probe(panels.column[line], x), self.columns.guide, row, low, high, *ends, width)
         column = panels.column[found.line]
         self._leave_out(column, found.low, found.high, values.min(axis=1)[found.line], values.max(axis=1)[found.line])
         first = np.concatenate(([True], found.line[1:] != found.line[:-1]))

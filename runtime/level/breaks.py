@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from .folds import folds
 from .strips import Columns, saturation_depth
 from .transitions import Looks, Probe, locate
 
@@ -90,8 +89,7 @@ def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list
     ends = codes[line, node], codes[line, node + 1]
     known = np.stack((columns.clinging.crest(columns), saturation_depth(columns)))[:, column]
     looks = _beside_known(known, probe, line, low, high, ends, width)
-    aim = folds(columns, lambda rows, x: crest_or_edge(line[rows], x), low, high, *ends, width)
-    changes = locate(probe, columns.guide, line, low, high, *ends, width, looks, aim)
+    changes = locate(probe, columns.guide, line, low, high, *ends, width, looks)
     if columns.branch == "unloading" and a.p_0 > 0:
         edge = [h - a.p_0 / K, h - a.p_0 / K - a.delta_0]
     else:

@@ -6,9 +6,9 @@ gap, ``A g(S)``, may not exceed delta_0. On a level ``D_j = D - h + 2 A``, so th
     S = 2 + E/A,   and such an orbit ends where   E g(S) = delta_0 (S - 2).
 
 Of the curve (S, g) this wants the point on the ray from (2, 0) along (E, delta_0), and A is ``delta_0/g`` there. At ``S = 0``
-contact ends in turn. The gap falls with S (``order``): above ``S = 2`` there is one such point. What unloading follows is the
-most engaged orbit, so these are transitions, on that branch, whatever the strip becomes beyond. None of this decides a strip:
-panels end there, and are told what is found on either side.
+contact ends in turn. The gap falls with S, as orbits are ordered along the penetration: above ``S = 2`` there is one such
+point. What unloading follows is the most engaged orbit, so these are transitions, on that branch, whatever the strip becomes
+beyond. None of this decides a strip: panels end there, and are told what is found on either side.
 """
 
 from __future__ import annotations

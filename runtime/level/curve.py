@@ -170,16 +170,16 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
         missed = error / goal
         hopeless = ~done & (missed * np.minimum(missed / before, _PACE) ** 2 > 1).any(axis=1)
         split = _islands(columns, batch, n, ~done, strips, sought is not None) if n > 2 * _FIRST else {}
-        for k, (D_break, theta) in split.items():
-            parts += batch.known(k, n).split(D_break, False, theta)
+        for k, D_break in split.items():
+            parts += batch.ungentle(k).split(D_break, False)
         done[list(split)] = True
         for k in np.flatnonzero(hopeless & ~done):
-            parts += batch.known(k, n).halves
+            parts += batch.ungentle(k).halves
         keep = np.flatnonzero(~done & ~hopeless)
         batch.keep(keep)
         before = np.maximum(missed[keep], np.finfo(float).tiny)
     for k in range(len(batch.intervals)):
-        parts += batch.known(k, n).halves
+        parts += batch.ungentle(k).halves
     return parts
 
 
@@ -203,9 +203,8 @@ def _pressure_goal(values, goal):
     return np.maximum(goal[:, 0], pressure * np.minimum(share, _COARSEST))
 
 
-def _islands(columns: Columns, batch: Batch, n: int, which, strips, roughly: bool) -> dict[int, tuple[float, float]]:
-    """Breaks inside intervals: penetrations and thetas at which something appears or vanishes between two nodes, away from the
-    crest."""
+def _islands(columns: Columns, batch: Batch, n: int, which, strips, roughly: bool) -> dict[int, float]:
+    """Breaks inside intervals: penetrations at which something appears or vanishes between two nodes, away from the crest."""
     seen = {}
     for k in np.flatnonzero(which):
         i = batch.intervals[k]
@@ -214,6 +213,5 @@ def _islands(columns: Columns, batch: Batch, n: int, which, strips, roughly: boo
             seen[int(k)] = found
     if not seen:
         return {}
-    where = zip(*(v.tolist() for v in vanishing(columns, list(seen.values()), strips, roughly)), strict=True)
-    breaks = dict(zip(seen, where, strict=True))
-    return {k: at for k, at in breaks.items() if is_inside(at[0], batch.intervals[k].low, batch.intervals[k].high)}
+    breaks = dict(zip(seen, vanishing(columns, list(seen.values()), strips, roughly).tolist(), strict=True))
+    return {k: D for k, D in breaks.items() if is_inside(D, batch.intervals[k].low, batch.intervals[k].high)}

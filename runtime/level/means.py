@@ -5,19 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from .averages import Averages, average
-from .panels import Hints
 from .strips import Columns
 
 
-def level_means(columns: Columns, rtol: np.ndarray, hints: Hints | None = None) -> Averages:
-    """Means of ``strips.QUANTITIES`` for every column, to ``rtol (|value| + floor)`` each; ``rtol`` of shape (n,).
-
-    ``hints``: where transitions are expected."""
+def level_means(columns: Columns, rtol: np.ndarray) -> Averages:
+    """Means of ``strips.QUANTITIES`` for every column, to ``rtol (|value| + floor)`` each; ``rtol`` of shape (n,)."""
     if columns.strips is not None:
         return equal_strips(columns, columns.strips)
     q = columns.scales.size
     floor = np.broadcast_to(columns.floors, (columns.size, q))
-    return average(columns, columns.transitions(), floor, rtol, q, hints)
+    return average(columns, columns.transitions(), floor, rtol, q)
 
 
 def equal_strips(columns: Columns, strips: int) -> Averages:

@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
-
-from .transitions import Guide
-
-#: looks closer to an expected transition than its bracket is wide, as shares of half of it
-_CLOSER = (1 / 4, 1 / 16)
 
 
 @dataclass(slots=True)
@@ -65,38 +60,6 @@ def between(n: int, cuts: Panels) -> Panels:
     ends = [v[np.argsort(last, kind="stable")] for v in ends]
     codes, values = (np.stack(pair, axis=1) for pair in zip(starts[1:], ends[1:], strict=True))
     return Panels(np.sort(column, kind="stable"), starts[0], ends[0], codes, values)
-
-
-@dataclass(frozen=True, slots=True)
-class Hints:
-    """Where transitions are expected, arrays (m,): ``column``, bracket in theta, codes at its ends; ``size`` (columns, q): of the
-    values.
-
-    ``witness_column``, ``witness`` (w,): thetas in the middle of narrow zones that are expected.
-    """
-
-    column: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
-    code_low: np.ndarray
-    code_high: np.ndarray
-    size: np.ndarray
-    witness_column: np.ndarray
-    witness: np.ndarray
-
-    def without(self, column: np.ndarray, known: np.ndarray) -> Hints:
-        """Those away from the transitions ``known`` of the columns ``column``."""
-        away = hold_none(self.column, self.low, self.high, column, known)
-        kept = {name: getattr(self, name)[away] for name in ("column", "low", "high", "code_low", "code_high")}
-        return replace(self, **kept)
-
-    def places(self, guide: Guide) -> np.ndarray:
-        """Where to look, (4, m): at both ends of every bracket, the lower first, and closer to where the transition is expected
-        on the side that foretells."""
-        middle, half = 0.5 * (self.low + self.high), 0.5 * (self.high - self.low)
-        lower, upper = guide.sureness(self.code_low, self.code_high), guide.sureness(self.code_high, self.code_low)
-        side = np.where(lower >= upper, -1.0, 1.0)
-        return np.stack((self.low, self.high, *(middle + side * half * share for share in _CLOSER)))
 
 
 def hold_none(column, low, high, other, known) -> np.ndarray:

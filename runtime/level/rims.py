@@ -13,7 +13,7 @@ import numpy as np
 
 from .chebyshev import lobatto
 from .demand import Demand
-from .interval import Interval, Seen
+from .interval import Interval
 from .means import level_means
 from .sampling import MEAN
 from .strips import Columns
@@ -73,9 +73,7 @@ def _looks(columns: Columns, intervals: list[Interval], strips) -> list[tuple[In
     means = level_means(columns.at(column, np.concatenate(places)), np.full(column.size, MEAN * _ROUGH))
     np.add.at(strips, column, means.strips)
     out, stop = [], 0
-    for i, t, D in zip(evenly, nodes, places, strict=True):
-        start, stop = stop, stop + t.size
-        values, zones = means.values[start:stop], means.zones[start:stop]
-        look = replace(i, seen=Seen(i, t, zones, np.abs(values).min(axis=0)))
-        out.append((look, D, values, means.errors[start:stop, 0]))
+    for i, D in zip(evenly, places, strict=True):
+        start, stop = stop, stop + D.size
+        out.append((i, D, means.values[start:stop], means.errors[start:stop, 0]))
     return out

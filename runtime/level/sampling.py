@@ -8,8 +8,7 @@ import numpy as np
 
 from .chebyshev import flat_ended, lobatto
 from .demand import Demand
-from .expected import expect, hints
-from .interval import Interval, Seen
+from .interval import Interval
 from .means import level_means
 from .quadrature import interleaved
 from .strips import Columns
@@ -57,19 +56,7 @@ class Batch:
         t = nodes if first else nodes[::2]
         D = np.concatenate([i.penetrations(t) for i in self.intervals])
         rows = np.repeat(self.column, t.size)
-        if first:
-            inherited = [i.seen for i in self.intervals]
-            expected = [
-                None if seen is None else seen.expected(i.penetrations(t))
-                for i, seen in zip(self.intervals, inherited, strict=True)
-            ]
-            size = np.array([np.zeros(self.columns.scales.size) if seen is None else seen.size for seen in inherited])
-        else:
-            expected = [expect(nodes[1::2], zones, t) for zones in self.zones]
-            size = np.abs(self.values).min(axis=1)
-        where = np.arange(rows.size).reshape(-1, t.size)
-        hint = hints(where, expected, [i.witnesses for i in self.intervals], np.repeat(size, t.size, axis=0))
-        means = level_means(self.columns.at(rows, D), MEAN * np.repeat(self.accuracy, t.size), hint)
+        means = level_means(self.columns.at(rows, D), MEAN * np.repeat(self.accuracy, t.size))
         np.add.at(self.strips, rows, means.strips)
         shape = (len(self.intervals), t.size, -1)
         values, errors = means.values.reshape(shape), means.errors.reshape(shape)
@@ -80,12 +67,9 @@ class Batch:
         self.values, self.errors = interleaved(values, self.values), interleaved(errors, self.errors)
         self.zones = [_alternating(old, new) for old, new in zip(self.zones, zones, strict=True)]
 
-    def known(self, k: int, n: int) -> Interval:
-        """Interval ``k`` with what was seen of it at the interior nodes of ``lobatto(n)``; as that is not enough, what only
-        seemed to end gently is no longer taken to."""
-        i = self.intervals[k]
-        seen = Seen(i, lobatto(n)[1:-1], self.zones[k], np.abs(self.values[k]).min(axis=0))
-        return replace(i, gentle_low=False, gentle_high=False, seen=seen)
+    def ungentle(self, k: int) -> Interval:
+        """Interval ``k``; as its nodes are not enough, what only seemed to end gently is no longer taken to."""
+        return replace(self.intervals[k], gentle_low=False, gentle_high=False)
 
     def keep(self, index) -> None:
         """Go on with the intervals ``index`` alone."""

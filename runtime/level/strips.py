@@ -19,7 +19,6 @@ from .clinging import Clinging
 from .contact import Contact, contact_of
 from .effort import WorkCounters
 from .margins import POWERS, decisive, margins
-from .order import FreeBelow, Question
 from .saturated import saturated_level
 from .transitions import Guide
 
@@ -55,9 +54,8 @@ class Columns:
 
     ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
     laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels. ``frictional``: it is for
-    pressure and friction that the averages are made; fractions need be accurate against 1 only. ``free``, ``clinging``: what is
-    known of strips that are free and of such as are engaged all along, shared by all that is made of these columns; no ``free``:
-    every strip is asked.
+    pressure and friction that the averages are made; fractions need be accurate against 1 only. ``clinging``: what is
+    known of strips that are engaged all along, shared by all that is made of these columns.
     """
 
     material: Material
@@ -72,7 +70,6 @@ class Columns:
     strips: int | None = None
     frictional: bool = False
     work: WorkCounters = field(default_factory=WorkCounters, compare=False)
-    free: FreeBelow | None = field(default_factory=FreeBelow, compare=False)
     clinging: Clinging = field(default_factory=Clinging, compare=False)
 
     def at(self, index, D) -> Columns:
@@ -148,15 +145,6 @@ class Columns:
         """Codes (m,) and the values to average (m, q)."""
         strips = self.solve(column, theta)
         return self._codes(strips, column), self._values(strips, column)
-
-    def look(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Codes and values as of ``integrand``, and margins as of ``probe``."""
-        strips = self.solve(column, theta)
-        return self._codes(strips, column), self._values(strips, column), self._margins(strips, column)
-
-    def free_panels(self, column: np.ndarray, low: np.ndarray, high: np.ndarray) -> Question:
-        """What to solve to tell which panels [low, high], all (m,), are free all along; ``free`` is not None."""
-        return self.free.asked(self, column, low, high)
 
     def _values(self, strips: SolvedStrips, column):
         if self.carry is None:

@@ -8,7 +8,7 @@ next to a fold are dear.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -24,8 +24,6 @@ _WORTH = 0.2
 _TRUSTED = 2
 #: a place that is taken from the margins alone is held to be off by so much more than they say
 _SURE = 64.0
-#: looks of a guess
-_GUESSES = 4
 #: points of a look in parts of its half width, towards the side that does not foretell: one well on the other for the next one to
 #: build on
 _AROUND = np.array((-4.0, -1.0, 1.0))
@@ -42,12 +40,6 @@ class Guide:
     foretells: Callable[[np.ndarray, np.ndarray], np.ndarray]
     powers: np.ndarray
 
-    def sureness(self, code, other) -> np.ndarray:
-        """How far the side with ``code`` of a change to ``other`` is to be asked about it: not at all (0), rather not (1: next to
-        a fold, where points are dear, and where the other regime may take over before), or gladly (2)."""
-        which = self.foretells(code, other)
-        return np.where(which < 0, 0, np.where(self.powers[which] > 1, 1, 2))
-
 
 @dataclass(frozen=True)
 class Transitions:
@@ -58,22 +50,6 @@ class Transitions:
     low: np.ndarray
     high: np.ndarray
     codes: np.ndarray
-
-
-@dataclass(frozen=True)
-class Aim:
-    """Where the change in every bracket is expected for other reasons, and how far off that may be, (m,): NaN and inf where
-    unknown."""
-
-    place: np.ndarray
-    doubt: np.ndarray
-
-    @classmethod
-    def nowhere(cls, m: int) -> Aim:
-        return cls(np.full(m, np.nan), np.full(m, np.inf))
-
-    def take(self, index) -> Aim:
-        return Aim(self.place[index], self.doubt[index])
 
 
 @dataclass(frozen=True)
@@ -97,18 +73,15 @@ def locate(
     code_high,
     width,
     looks: Looks | None = None,
-    aim: Aim | None = None,
 ) -> Transitions:
     """Narrow every bracket [low, high] of the ``line`` it lies on to ``width`` or less, all (m,); where a third code shows up in
     between, its transitions are found too. ``code_low``, ``code_high`` are the codes at the ends. ``looks``: what is known of
-    every bracket, its ends included. ``aim``: where to look first."""
+    every bracket, its ends included."""
     found = []
     brackets = _Brackets.between(line, low, high, code_low, code_high, width, guide.powers.size)
     if looks is not None:
         brackets.x[:] = np.nan
-        brackets, parents = brackets.changes(looks.bracket, looks.x, looks.codes, looks.margins)
-        aim = None if aim is None else aim.take(parents)
-    brackets = replace(brackets, aim=aim)
+        brackets, _ = brackets.changes(looks.bracket, looks.x, looks.codes, looks.margins)
     for _ in range(80):
         ends, done = brackets.settled(guide)
         found.append((brackets.line[done], *ends[:, done], brackets.codes[done]))
@@ -123,27 +96,11 @@ def locate(
     return Transitions(line[order], low[order], high[order], codes[order])
 
 
-def aimed(guess: Probe, guide: Guide, low, high, code_low, code_high, width) -> Aim:
-    """Where brackets [low, high], all (m,), change by the margins of a ``guess`` that is cheap and knows the two codes only."""
-    out = Aim.nowhere(low.size)
-    brackets = _Brackets.between(np.arange(low.size), low, high, code_low, code_high, width, guide.powers.size)
-    for _ in range(_GUESSES):
-        if not brackets.line.size:
-            break
-        brackets = brackets.narrowed(guess, guide)
-        place, doubt, _ = brackets.foretold(guide)
-        better = doubt < out.doubt[brackets.line]
-        row = brackets.line[better]
-        out.place[row], out.doubt[row] = place[better], doubt[better]
-        brackets = brackets.take(~brackets.settled(guide)[1])
-    return out
-
-
 @dataclass(frozen=True)
 class _Brackets:
     """Brackets, arrays (n,), with the points remembered below and above each, the nearest first: ``x`` (n, 2, kept), NaN where
     there is none, ``margins`` (n, 2, kept, k), ``codes`` (n, 2). ``misses``: looks in a row that found it elsewhere than
-    foretold. ``aim``: until the first look."""
+    foretold."""
 
     line: np.ndarray
     width: np.ndarray
@@ -151,7 +108,6 @@ class _Brackets:
     x: np.ndarray
     margins: np.ndarray
     misses: np.ndarray
-    aim: Aim | None = None
 
     @classmethod
     def between(cls, line, low, high, code_low, code_high, width, k: int) -> _Brackets:
@@ -169,8 +125,7 @@ class _Brackets:
         return self.x[:, 1, 0]
 
     def take(self, index) -> _Brackets:
-        aim = None if self.aim is None else self.aim.take(index)
-        return _Brackets(*(getattr(self, name)[index] for name in ("line", "width", "codes", "x", "margins", "misses")), aim)
+        return _Brackets(*(getattr(self, name)[index] for name in ("line", "width", "codes", "x", "margins", "misses")))
 
     def settled(self, guide: Guide) -> tuple[np.ndarray, np.ndarray]:
         """Ends (2, n) of brackets that are narrow enough, or of what the margins leave of them, and which are either."""
@@ -186,9 +141,6 @@ class _Brackets:
         """The brackets of all changes inside, after a look at some points of each: around the foretold place, or all along."""
         low, high = self.low, self.high
         place, doubt, away = self.foretold(guide)
-        if self.aim is not None:
-            better = self.aim.doubt < doubt
-            place, doubt = np.where(better, self.aim.place, place), np.where(better, self.aim.doubt, doubt)
         doubt = np.maximum(doubt * _WIDER**self.misses, 0.4 * self.width)
         guided = (place > low) & (place < high) & (doubt < _WORTH * (high - low))
         targets, others = np.flatnonzero(guided), np.flatnonzero(~guided)
