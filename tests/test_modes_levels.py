@@ -17,7 +17,7 @@ HOW = {"edge": "constitutive"}
 def test_the_second_solver_reduces_to_the_first():
     from hystrip.orbit.foundation import foundation_of
 
-    assert foundation_of(TWO).kernel.MODES == 2 and not hasattr(foundation_of(ONE).kernel, "MODES")
+    assert hasattr(foundation_of(TWO).kernel, "MODES") and not hasattr(foundation_of(ONE).kernel, "MODES")
 
 
 @pytest.mark.parametrize("branch", ["unloading", "loading"])
