@@ -225,3 +225,17 @@ def test_strong_adhesion_pulls_into_full_contact(edge, p_0):
     assert (s.regime == "c").all()
     assert np.allclose(s.p_mean, D - 1, rtol=1e-13)
     assert np.allclose(s.tau_mean, 0.5 * 0.9 / 1.01, rtol=1e-12)
+
+
+@pytest.mark.parametrize("times", [1, 2])
+def test_whether_a_point_snaps_in_does_not_depend_on_the_strip(times):
+    """At an exact tie ``J_0 p_0 = delta_0`` every strip snaps in, whatever its amplitude rounds."""
+    K, share = 1e9, 100.0
+    material = hystrip.StandardLinearSolid(K=K, T_eps=1e-2, T_sigma=1e-4)
+    if times == 2:
+        material = hystrip.Prony(K=K, moduli=[98e9, 1e9], times=[1e-4, 1e-3])
+    A = np.linspace(1e-7, 5e-5, 300)
+    for delta_0 in (1e-5, 7e-6, 1.1e-5):
+        adhesion = hystrip.Dugdale(p_0=delta_0 * K * share, delta_0=delta_0)
+        strips = hystrip.solve_strip(material, adhesion, l=1e-3, A=A, D=0.2 * A, V=1.0, edge="constitutive")
+        assert (strips.regime == "afc").any() and not np.isin(strips.regime, ["acaf", "af"]).any()

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..orbit.crossing import crossing
-from ..orbit.groups import snaps_in
 from ..orbit.regimes import CODE
 from .harmonic import passages
 
@@ -44,7 +43,7 @@ class Contact:
         self.centre = -np.arctan2(loss, storage)  # phase of the saturated field's maximum
         self.b = np.where(self.full, self.centre - np.pi, solved.b[index])
         self.a = np.where(self.full, self.centre + np.pi, solved.a[index])
-        snap = snaps_in(s) & (solved.code[index] == CODE["afc"])
+        snap = solved.code[index] == CODE["afc"]
         reach = np.divide(s.delta_0, s.J, out=np.zeros_like(s.J), where=snap)
         self.q_b = np.where(snap, s.p_0 - reach, 0.0)
         self.p_peak = self._peak()

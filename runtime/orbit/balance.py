@@ -24,8 +24,8 @@ negative: a and c lie between 0 and pi.
   adheres after its contact w falls from where that ended, on or behind the crest; so it is at most u(e) after any phase e up to
   which contact is certain to last. As V grows towards the valley, V(lo) stands for V(xi).
 
-What is always engaged is bounded alike: in the valley its gap is at most delta_0, as from an onset there. Where nothing is, the
-most engaged orbit is what more engaged states fall to: if it has an onset, the slope T' of the onset map is not above one there.
+Where nothing is always engaged, the most engaged orbit is what more engaged states fall to: if it has an onset, the slope T' of
+the onset map is not above one there.
 
 If l is an orbit or a march that meets contact, suppose that there is an orbit with an earlier onset.
 
@@ -159,27 +159,6 @@ def none_hangs(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
             none[index], used = _excluded(kernel, part, lo, np.maximum(lo, hi), np.maximum(parts, 1))
             spent[index] += used + 2
     return none, spent
-
-
-def could_let_go(kernel, s: Strips) -> np.ndarray:
-    """Where it is worth asking ``none_clings``.
-
-    On a foundation that stands still in the gap contact ends where the gap in the valley, ``1 + cos a`` then, is all but delta_0,
-    if a strip just manages to cling, and the pressure there is that of complete contact less what pulls in between.
-    """
-    cosine = np.minimum(np.maximum(s.delta_0 - 1, -1.0), 1.0)
-    carried = np.sqrt(1 - cosine**2) - np.arccos(cosine) * cosine
-    return np.pi * (s.D + s.p_0 - 1 + cosine) <= kernel.modulus_ratio(s.alpha, s.beta) * carried
-
-
-def none_clings(kernel, cycle: Cycle) -> np.ndarray:
-    """Which cycles are proven to have no orbit that is always engaged."""
-    valley = np.full(cycle.size, np.pi)
-    with np.errstate(all="ignore"):
-        reference = at_rest(kernel, cycle)
-        # adhesion that does not begin in the valley has no step of w there
-        reference.gap_on, reference.jump = cycle.strips.delta_0, 0 * valley
-        return surplus(kernel, reference, valley, valley) > 0
 
 
 def beside(kernel, cycle: Cycle, known: Orbit, end) -> _Reference:

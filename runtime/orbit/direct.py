@@ -9,16 +9,13 @@ import numpy as np
 from .balance import SLOW, none_hangs
 from .certificate import attracting, edges_admissible
 from .chain import CONVERGED, follow
-from .exclusion import alone, closed, none_before, onsets_within
-from .groups import TWO_PI, Cycle
+from .exclusion import alone
+from .groups import Cycle
 from .march import Orbit
 from .outermost import Outermost
 from .refine import refined
-from .search import FORGOTTEN
 from .solved import orbit_of
-from .sought import at_zeros
 from .start import start
-from .turning import turning
 
 #: traction that lifts the foundation less than the wave is high: then the most engaged orbit may not reach contact
 _LOW = 1.0
@@ -103,35 +100,3 @@ class _Found:
         self.orbit.put(pick[keep], orbit.take(here[keep]))
         self.sequence[pick[keep]] = sequence
         self.proven[pick] |= sure
-
-
-def first_by_marches(kernel, cycle: Cycle, known: Orbit, bounds: Outermost):
-    """First orbits of cycles that ``extremal`` leaves open: of the ``known`` orbits (x NaN where there is none) and next to a
-    fold.
-
-    Returns those orbits, which are proven to be the first, which cycles are proven to have none, and the evaluations spent.
-    """
-    orbit = known.take(np.arange(cycle.size))
-    start, end = onsets_within(cycle, bounds)
-    proven, none, spent = np.zeros(cycle.size, bool), np.zeros(cycle.size, bool), np.zeros(cycle.size)
-    here = np.flatnonzero(~np.isnan(known.x))
-    if here.size:
-        part = cycle.among(here)
-        proven[here], spent[here] = none_before(kernel, part, closed(kernel, part, known.take(here)), start[here])
-    # Newton may be lost next to a fold, and finds nothing beyond it; without memory there is none, and the search has a closed
-    # form
-    remembers = cycle.strips.beta >= TWO_PI / FORGOTTEN
-    rest = np.flatnonzero(~proven & ~cycle.direct & (cycle.half_d > 0) & remembers)
-    if rest.size:
-        part = cycle.among(rest)
-        result = turning(kernel, part, start[rest], end[rest])
-        none[rest] = result.none
-        used, here = result.isolated.evaluations, np.flatnonzero(result.isolated.found)
-        if here.size:
-            located = at_zeros(kernel, part.among(here), result.isolated.take(here))
-            used[here] = located.evaluations
-            good = np.flatnonzero(located.certified)
-            orbit.put(rest[here[good]], located.orbit.take(good))
-            proven[rest[here[good]]] = True
-        spent[rest] += used
-    return orbit, proven, none, spent

@@ -7,7 +7,7 @@ iterates from infinitely far fall to the least engaged one, and there is no long
 
 * Always engaged states contract onto one candidate: saturated contact, saturated adhesion, or contact with saturated
   adhesion. If its inequalities hold it is the most engaged orbit; nothing more engaged exists.
-  Where it is not, closed forms (``reach``) or bounds on all orbits (``outermost``) mostly tell without solving for it.
+  Where it is not, bounds on all orbits (``outermost``) mostly tell without solving for it.
 * Every other orbit but the free one has an onset phase and is a zero of the onset map's defect ``r``. The first (or last) of
   them is had from Newton with a proof that it is alone on its side (``direct``), or else from a search that passes over none
   (``sought``).
@@ -20,13 +20,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from .balance import SLOW, could_let_go, none_clings
 from .certificate import greatest_gap
-from .direct import certified, extremal, first_by_marches
+from .direct import certified, extremal
 from .groups import Cycle, Strips, adhesive_cycle, bare_cycle
 from .march import Orbit
 from .outermost import FAST, Outermost, outermost
-from .reach import may_cling, out_of_reach, saturates
+from .reach import may_cling, saturates
 from .regimes import CODE
 from .solved import Record, Solved
 from .sought import sought
@@ -138,12 +137,8 @@ class _Batch:
         self.record.constant(index[hold], "a", -s.p_0[hold], 0.0, 0.0, 1.0)
         done = full | hold
         partial = reaches & ~clinging
-        if not self.searching:
-            if self.unloading:
-                partial &= ~self._bounded(index, s, ~done, reaches)
-            ask = np.flatnonzero(partial & (s.beta > SLOW) & could_let_go(self.kernel, s))
-            if ask.size:
-                partial[ask] = ~none_clings(self.kernel, adhesive_cycle(self.kernel, s.among(ask)))
+        if self.unloading and not self.searching:
+            partial &= ~self._bounded(index, s, ~done)
         partial = np.flatnonzero(partial)
         if partial.size:
             done[partial] = self._contact_with_saturated_adhesion(index[partial])
@@ -151,27 +146,21 @@ class _Batch:
         self.bounds.released[index] = True
         return index
 
-    def _bounded(self, index, s: Strips, ask, reaches) -> np.ndarray:
+    def _bounded(self, index, s: Strips, ask) -> np.ndarray:
         """Bound all orbits of the strips ``index`` of which to ``ask``; returns of which none is always engaged."""
         released = np.zeros(index.size, bool)
-        hanging = np.flatnonzero(ask & (s.D <= -s.delta_0) & (s.beta <= SLOW))
-        missed = np.zeros(index.size, bool)
-        if hanging.size:
-            missed[hanging] = out_of_reach(self.kernel, s.among(hanging))
-            ask &= reaches | ~missed
         ask = np.flatnonzero(ask & (s.beta <= FAST))
         if ask.size:
             bounds = outermost(self.kernel, adhesive_cycle(self.kernel, s.among(ask)))
             released[ask] = bounds.released
             self.bounds.put(index[ask], bounds)
             self.record.solved.evaluations[index[ask]] += bounds.evaluations
-        self.bounds.missed[index[missed]] = True
         return released
 
     def _onset(self, index):
         """Orbits that are free once per period."""
         cycle = adhesive_cycle(self.kernel, self.strips.among(index))
-        return (self._onset_searched if self.searching else self._onset_direct)(index, cycle)
+        return (self._sought if self.searching else self._onset_direct)(index, cycle)
 
     def _onset_direct(self, index, cycle: Cycle):
         orbit, sequences, proven, none, spent = extremal(
@@ -184,19 +173,6 @@ class _Batch:
         self.known.put(index, orbit)
         self._open.append(index[~proven & ~none])
         return index[none]
-
-    def _onset_searched(self, index, cycle: Cycle):
-        if not self.unloading:
-            return self._sought(index, cycle)
-        orbit, proven, none, spent = first_by_marches(self.kernel, cycle, self.known.take(index), self.bounds.take(index))
-        self.record.solved.evaluations[index] += spent
-        contact = ~np.isnan(orbit.b)
-        for sequence, kind in {"acaf": contact & ~cycle.direct, "afc": contact & cycle.direct, "af": ~contact}.items():
-            pick = np.flatnonzero(proven & kind)
-            self.record.orbits(index[pick], sequence, orbit.take(pick))
-        rest = np.flatnonzero(~proven & ~none)
-        none = index[none]
-        return np.sort(np.concatenate((none, self._sought(index[rest], cycle.among(rest))))) if rest.size else none
 
     def _sought(self, index, cycle: Cycle):
         result = sought(self.kernel, cycle, last=not self.unloading, known=self.known.take(index))

@@ -8,14 +8,9 @@ for.
 
 Mostly bounds at one onset x0 are enough, at the end of the arc or where ``outermost`` has moved it: R falls strictly
 wherever F is not too small (``sensitivity.steep_margin``), and between there and x0 too little to use up the r of x0.
-Otherwise, with a probe x1 between x0 and x*,
+Otherwise x0 is moved on: r cannot vanish sooner than bounds on its slope between x0 and x* allow (``search.reach_on``).
 
-* [x1, x*] holds no second zero where R falls strictly on it (``sensitivity.slope_bounds``);
-* [x0, x1] holds none where the onset map already takes x0 beyond x1 (it is monotone), or by the bounds of ``search``.
-
-On a slow foundation the map takes an onset hardly any further, and bounds would have to be as close as that to tell:
-there the balance of a period is asked first (``balance``). What both leave is mostly proven by a few marches back to the start
-of the arc (``none_before``).
+On a slow foundation the balance of a period is asked first (``balance``): one evaluation in place of two bounds on every edge.
 
 What is not proven here is left to ``search``; nothing is ever accepted for lack of a counterexample.
 """
@@ -27,17 +22,14 @@ from .bound import bound, close_enough
 from .groups import Cycle
 from .march import TWO_PI, Orbit, march
 from .outermost import Outermost
-from .search import excluded
+from .search import reach_back, reach_on
 from .sensitivity import slope_bounds, steep_margin
 
 _EPS = np.finfo(float).eps
 #: least relaxation time that is divided by
 _LEAST = 1e-290
-#: ends of the intervals from a known onset to the start of the arc
-_SHARES = np.array([1e-5, 1e-3, 0.02, 0.15, 0.4, 0.55, 0.7, 0.85, 1.0])
-#: probes tried; the first half way to the end of the arc, the next ones after longer steps from what is proven, or shorter ones
-#: after a failure
-_PROBES, _FIRST, _BOLDER, _WARIER = 2, 0.5, 3.0, 0.2
+#: rounds, and the share of what is left that each has to gain: of strips with edges three prove all but one in a thousand
+_ROUNDS, _STUCK = 3, 0.1
 
 
 def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
@@ -91,26 +83,6 @@ def _falls_between(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float
     return steep & ((way == 0) | kept)
 
 
-def none_before(kernel, cycle: Cycle, known: Orbit, start) -> tuple[np.ndarray, np.ndarray]:
-    """Where no zero of r lies between ``start`` and the onsets of ``known`` orbits or marches, r >= 0; and the evaluations.
-
-    It is shown by marches at the ends of a few intervals. From the known onset back: an interval on which R falls strictly leaves
-    r positive, one that is excluded does so from both ends.
-    """
-    n, many = cycle.size, _SHARES.size
-    nodes = (known.x + _SHARES[:, None] * (start - known.x)).ravel()
-    marches, spent = march(kernel, cycle.take(np.tile(np.arange(n), many)), nodes)
-    pieces = cycle.take(np.tile(np.arange(n), many))
-    left, right = marches, Orbit.joined([known, marches.take(slice(0, -n))])
-    empty = np.zeros(n * many, bool)
-    ask = np.flatnonzero(~right.engaged)
-    pieces, left, right = pieces.among(ask), left.take(ask), right.take(ask)
-    bounds = slope_bounds(kernel, pieces, left, right)
-    apart = (left.r > 0) & (right.r > 0) & excluded(kernel, pieces, left, right, bounds, False)
-    empty[ask] = apart | (~left.engaged & bounds.falls)
-    return empty.reshape(many, n).all(axis=0), spent.reshape(many, n).sum(axis=0)
-
-
 def closed(kernel, cycle: Cycle, orbit: Orbit) -> Orbit:
     """Known orbits as marches that end where they begin."""
     s = cycle.strips
@@ -137,23 +109,30 @@ def _cleared(kernel, cycle: Cycle, known: Orbit, sign: float, end) -> tuple[np.n
         if not active.size:
             return proven, spent
         part, here, outer = cycle.among(active), known.take(active), outer.take(active)
-        frontier, step = here.take(np.arange(active.size)), _FIRST * (outer.x - here.x)
-        for _ in range(_PROBES):
-            x = frontier.x + np.where(np.abs(step) < 0.9 * np.abs(outer.x - frontier.x), step, _FIRST * (outer.x - frontier.x))
+        for _ in range(_ROUNDS):
+            x = _further(kernel, part, here, outer, sign)
             probe, used = enclose(kernel, part, x, here, sign)
             spent[active] += used
-            near = _empty(kernel, part, probe, frontier, here, sign)
-            done = near & _empty(kernel, part, outer, probe, here, sign)
+            gone = sign * (x - here.x) >= 0
+            done = gone | (~probe.engaged & _falls_between(kernel, part, here, probe, sign))
             proven[active[done]] = True
-            step = (x - frontier.x) * np.where(near, _BOLDER, _WARIER)
-            going = np.flatnonzero(~done)
+            going = np.flatnonzero(~done & ~probe.engaged & (np.abs(x - outer.x) > _STUCK * np.abs(here.x - x)))
             if not going.size:
                 break
-            near = np.flatnonzero(near)
-            frontier.put(near, probe.take(near))
-            active, part, here, step = active[going], part.among(going), here.take(going), step[going]
-            frontier, outer = frontier.take(going), outer.take(going)
+            active, part, here, outer = active[going], part.among(going), here.take(going), probe.take(going)
     return proven, spent
+
+
+def _further(kernel, cycle: Cycle, known: Orbit, outer: Orbit, sign: float) -> np.ndarray:
+    """Onsets up to which no zero of r lies, from the one of ``outer`` towards the known one: r falls no faster than its bounds
+    over all that way allow."""
+    s = cycle.strips
+    noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
+    left, right = (outer, known) if sign > 0 else (known, outer)
+    fall = slope_bounds(kernel, cycle, left, right).fall
+    margin = np.maximum(sign * outer.r - noise, 0.0)
+    way = reach_on(s.beta, margin, fall) if sign > 0 else reach_back(s.beta, margin, fall)
+    return np.where(way > 0, outer.x + sign * np.minimum(way, 2 * TWO_PI), outer.x)
 
 
 def _released(kernel, cycle: Cycle, known: Orbit, x, sign) -> tuple[Orbit, np.ndarray]:
@@ -180,26 +159,6 @@ def _released(kernel, cycle: Cycle, known: Orbit, x, sign) -> tuple[Orbit, np.nd
         closer.put(missed, exact)
         spent[missed] += used
     return closer, spent
-
-
-def _empty(kernel, cycle: Cycle, outer: Orbit, inner: Orbit, known: Orbit, sign) -> np.ndarray:
-    """Whether no zero of r other than the known one lies between the onsets of ``outer`` and ``inner``."""
-    s = cycle.strips
-    noise = 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
-    # the edges of the known orbit bound those of any other from the inner side
-    bounded = Orbit(inner.x, known.b, known.a, known.c, known.engaged, inner.r, inner.w_end)
-    left, right = (outer, bounded) if sign > 0 else (bounded, outer)
-    bounds = slope_bounds(kernel, cycle, left, right)
-    apart = (sign * outer.r > noise) & (sign * inner.r > noise) & excluded(kernel, cycle, left, right, bounds, sign < 0)
-    by_slope = ~outer.engaged & (bounds.falls | apart)
-    by_image = sign * _gap_at(kernel, cycle, _last_end(cycle, outer, sign), inner.x) > noise
-    return ~inner.engaged & (by_slope | by_image)
-
-
-def _last_end(cycle: Cycle, outer: Orbit, sign):
-    """How late (``sign`` < 0: early) adhesion can end from any onset between the end of the arc and the probe, if it ends."""
-    arc = cycle.centre + (TWO_PI - cycle.half_c if sign > 0 else cycle.half_c)
-    return np.where(outer.engaged, arc, outer.c)
 
 
 def _gap_at(kernel, cycle: Cycle, c, x):

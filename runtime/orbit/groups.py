@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 TWO_PI = 2 * np.pi
+#: roundings of J_0 p_0 (a product and two quotients) within which it equals delta_0
+_TIE = 4 * np.finfo(float).eps
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,7 +15,8 @@ class Strips:
 
     Lengths are divided by the amplitude A, pressures by K A. ``alpha = k V T_sigma``, ``beta = k V T_eps``,
     ``J = T_sigma/T_eps`` (instantaneous compliance times K), ``L = 1 - J``; ``chi`` is 0 under the continuous and 1
-    under the constitutive closure.
+    under the constitutive closure. ``snaps``: the step of w at the adhesion onset closes the whole gap, ``J_0 p_0 >= delta_0``
+    under the constitutive closure; as the amplitude has no part in it, it is decided in SI where strips are made from SI.
     """
 
     alpha: np.ndarray
@@ -24,6 +27,12 @@ class Strips:
     delta_0: np.ndarray
     D: np.ndarray
     chi: np.ndarray
+    snaps: np.ndarray | None = None
+
+    def __post_init__(self):
+        if self.snaps is None:
+            snaps = (self.chi > 0) & snaps_in(self.J * self.p_0, self.delta_0)
+            object.__setattr__(self, "snaps", np.broadcast_to(snaps, self.D.shape))
 
     def take(self, index: np.ndarray) -> "Strips":
         """The strips at ``index``."""
@@ -78,14 +87,15 @@ class Cycle:
         return self.centre.size
 
 
-def snaps_in(strips: Strips) -> np.ndarray:
-    """Where the step of w at the adhesion onset closes the whole gap: ``J_0 p_0 >= delta_0``, constitutive."""
-    return (strips.chi > 0) & (strips.p_0 > 0) & (strips.J * strips.p_0 >= strips.delta_0)
+def snaps_in(step, delta_0) -> np.ndarray:
+    """Where a ``step`` of w by ``J_0 p_0`` closes the gap ``delta_0``, in whatever unit; equal but for roundings counts as
+    equal."""
+    return (step > 0) & (step >= delta_0 * (1 - _TIE))
 
 
 def adhesive_cycle(kernel, strips: Strips) -> Cycle:
     """Cycle of a strip that is free once per period and meets adhesion (or snaps into contact) at its onset."""
-    direct = snaps_in(strips)
+    direct = strips.snaps
     jump = strips.chi * strips.J * strips.p_0
     reach = np.divide(strips.delta_0, strips.J, out=np.zeros_like(jump), where=direct)
     excess = np.array([strips.delta_0, strips.p_0, strips.p_0 + strips.delta_0])
@@ -95,7 +105,7 @@ def adhesive_cycle(kernel, strips: Strips) -> Cycle:
         direct=direct,
         bare=np.zeros(strips.size, bool),
         gap_on=np.where(direct, 0.0, strips.delta_0 - jump),
-        q_on=np.where(direct, strips.p_0 - reach, 0.0),
+        q_on=np.where(direct, np.maximum(strips.p_0 - reach, 0.0), 0.0),
         jump=jump,
         slope_on=np.where(direct, reach, strips.delta_0 + (1 - strips.chi * strips.J) * strips.p_0),
         centre=centre,
@@ -112,7 +122,7 @@ def bare_cycle(kernel, strips: Strips) -> Cycle:
     strip without adhesion at penetration ``D + p_0/K``, its pressure lowered by ``p_0``.
     """
     zero = np.zeros(strips.size)
-    shifted = Strips(strips.alpha, strips.beta, strips.J, strips.L, zero, zero, strips.D + strips.p_0, strips.chi)
+    shifted = Strips(strips.alpha, strips.beta, strips.J, strips.L, zero, zero, strips.D + strips.p_0, strips.chi, strips.snaps)
     centre, half = kernel.forcing_arc(zero, shifted.D, shifted.beta)
     yes = np.ones(strips.size, bool)
     return Cycle(shifted, yes, yes, zero, zero, zero, zero, centre, half, half, half)

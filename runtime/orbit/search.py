@@ -25,7 +25,7 @@ _EPS = np.finfo(float).eps
 _MAX_STEPS = 4000
 #: steps probed at once, each half as long as the one before: as many for every batch, since the last digits of a strip must
 #: not depend on which others are solved with it
-_TOGETHER = 3
+_TOGETHER = 1
 #: retardation times after which a displacement is gone, to the smallest number
 FORGOTTEN = 750
 
@@ -305,12 +305,12 @@ def excluded(kernel, cycle: Cycle, left: Orbit, right: Orbit, bounds: SlopeBound
     width = right.x - left.x
     beta = cycle.strips.beta
     if last:
-        near = _reach_back(beta, -right.r, bounds.fall)
-        far = np.where(left.engaged, 0.0, _reach_on(beta, np.where(left.engaged, 0.0, -left.r), bounds.rise))
+        near = reach_back(beta, -right.r, bounds.fall)
+        far = np.where(left.engaged, 0.0, reach_on(beta, np.where(left.engaged, 0.0, -left.r), bounds.rise))
         compared = _stays_below(kernel, cycle, left.x, right, bounds.N_min)
     else:
-        near = _reach_on(beta, left.r, bounds.fall)
-        far = _reach_back(beta, right.r, bounds.rise)
+        near = reach_on(beta, left.r, bounds.fall)
+        far = reach_back(beta, right.r, bounds.rise)
         compared = _stays_above(kernel, cycle, left, right.x, bounds.N_min)
     return compared | (near + far > width)
 
@@ -320,13 +320,13 @@ def _ratio(margin, rate):
     return np.divide(margin, rate, out=np.full_like(margin, np.inf), where=rate > 1e-290 * margin)
 
 
-def _reach_on(beta, margin, rate):
+def reach_on(beta, margin, rate):
     """Distance in the direction of travel over which ``margin - rate (exp(x/beta) - 1)`` stays positive."""
     ratio = _ratio(np.maximum(margin, 0.0), rate)
     return np.where(np.isinf(ratio), np.inf, beta * np.log1p(np.where(np.isinf(ratio), 0.0, ratio)))
 
 
-def _reach_back(beta, margin, rate):
+def reach_back(beta, margin, rate):
     """Distance against the direction of travel over which ``margin - rate (1 - exp(-x/beta))`` stays positive."""
     ratio = _ratio(np.maximum(margin, 0.0), rate)
     inside = ratio < 1

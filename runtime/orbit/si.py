@@ -7,7 +7,7 @@ import numpy as np
 from ..errors import InputError, SolverError
 from .engine import solve_strips
 from .flat import is_flat, solve_flat
-from .groups import Strips
+from .groups import Strips, snaps_in
 from .regimes import CODE
 from .solved import Solved
 
@@ -41,9 +41,9 @@ def dimensionless(l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge) -> tu
     flat = is_flat(A, beta, D, traction, delta_0)
     unit = np.where(flat, 1.0, A) if flat.any() else A
     chi = np.broadcast_to(float(edge == "constitutive"), D.shape)
-    strips = Strips(
-        alpha, beta, J, L, _each(np.divide, traction, unit), _each(np.divide, delta_0, unit), _each(np.divide, D, unit), chi
-    )
+    snaps = _each(lambda J, p_0, delta_0: snaps_in(J * p_0, delta_0) & (edge == "constitutive"), J, traction, delta_0)
+    lengths = (_each(np.divide, v, unit) for v in (traction, delta_0, D))
+    strips = Strips(alpha, beta, J, L, *lengths, chi, np.broadcast_to(snaps, D.shape))
     scales = {"k": k, "A": A, "D": D, "p": _each(np.multiply, K, unit), "length": unit, "flat": flat}
     return strips, scales
 

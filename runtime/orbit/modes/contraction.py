@@ -36,7 +36,7 @@ def contracts(s: ModeStrips, order: Order, lower: Period, upper: Period) -> np.n
     x_2 = np.mod(upper.onset - first, TWO_PI)
     x_1 = x_2 - np.maximum(upper.onset - lower.onset, 0.0)
     b = np.where(contact, np.mod(upper.entry - first, TWO_PI), TWO_PI)
-    snaps = s.step >= s.delta_0
+    snaps = s.snaps
     b = np.where(contact & snaps, np.maximum(b, x_2), b)
     same &= (c_2 < x_1) & (x_2 <= b)
     (on, steep), (off, _) = (slopes_by_modes(s, order, lower, upper, onset) for onset in (True, False))

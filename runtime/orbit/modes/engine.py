@@ -192,7 +192,7 @@ class _Batch:
     def _found(self, index, found):
         self.solved.evaluations[index] += found.evaluations
         self.solved.code[index] = CODE["acaf"]
-        snaps = (self.strips.step >= self.strips.delta_0)[index]
+        snaps = self.strips.snaps[index]
         contact = ~np.isnan(found.lower[1])
         orbit = found.kind == ORBIT
         lower, upper = in_order(found.lower), in_order(found.upper)

@@ -144,7 +144,7 @@ class _Rounds:
         edges = in_order(np.array([met.onset, met.entry, met.exit, met.release]))
         usable = np.isfinite(edges[0]) & np.isfinite(edges[3])
         contact = usable & np.isfinite(edges[1]) & np.isfinite(edges[2])
-        snaps = (s.step >= s.delta_0)[pick]
+        snaps = s.snaps[pick]
         for number, kind in ((1, contact & ~snaps), (2, contact & snaps), (3, usable & ~contact & ~snaps)):
             k = np.flatnonzero(kind)
             if k.size:

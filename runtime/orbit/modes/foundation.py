@@ -9,6 +9,7 @@ import numpy as np
 from ...errors import InputError
 from ...inputs.model import ModelMaterial, modes_of
 from ..flat import is_flat, solve_flat
+from ..groups import snaps_in
 from ..materials import parameters
 from ..regimes import CODE
 from ..si import refuse_uncertified
@@ -68,7 +69,7 @@ class ManyTimes:
             )
         flat = is_flat(A, longest, D, p_0 / K, delta_0)
         unit = np.where(flat, 1.0, A)
-        strips = ModeStrips(m, p_0 / K / unit, delta_0 / unit, D / unit)
+        strips = ModeStrips(m, p_0 / K / unit, delta_0 / unit, D / unit, snaps_in(m.J_0 * (p_0 / K), delta_0))
         solved = Solved.empty(D.size)
         unloading = branch == "unloading"
         wavy = np.flatnonzero(~flat)

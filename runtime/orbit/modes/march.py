@@ -183,7 +183,7 @@ def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, o
     if apart.size:
         t, i = s.take(apart), apart
         out.dz[:, index[i]] += kernel.relaxation_increment(start[i], end[i], z[:, i], p[i], t.m)
-    snaps = s.step >= s.delta_0
+    snaps = s.snaps
     met = np.where(
         contact, ADHESION, np.where(letter == FREE, np.where(snaps, CONTACT, ADHESION), np.where(which == LOWER, CONTACT, FREE))
     )

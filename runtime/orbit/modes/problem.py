@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..groups import snaps_in
+
 #: the greatest rate of decay
 _FASTEST = 1e13
 
@@ -15,14 +17,20 @@ class ModeStrips:
     """Dimensionless groups of N strips: lengths in A, pressures in K A, times in 1/(k V).
 
     ``m``: the kernel's ``Modes`` at the strips' speeds, per-mode arrays (n, N) or, where all strips share one material,
-    (n, 1) and matrices (n, n, 1). ``p_0``, ``delta_0``, ``D``: shape (N,). ``bare``: nothing is ever released.
+    (n, 1) and matrices (n, n, 1). ``p_0``, ``delta_0``, ``D``: shape (N,). ``snaps``: see ``groups.Strips``. ``bare``: nothing is
+    ever released.
     """
 
     m: tuple
     p_0: np.ndarray
     delta_0: np.ndarray
     D: np.ndarray
+    snaps: np.ndarray | None = None
     bare: bool = False
+
+    def __post_init__(self):
+        if self.snaps is None:
+            object.__setattr__(self, "snaps", snaps_in(self.step, self.delta_0))
 
     @property
     def size(self) -> int:
@@ -40,7 +48,7 @@ class ModeStrips:
     @property
     def jump_on(self) -> np.ndarray:
         """How far w steps at an onset: the whole gap where the point snaps into contact, (N,)."""
-        return np.minimum(self.step, self.delta_0)
+        return np.where(self.snaps, self.delta_0, self.step)
 
     @property
     def size_of_lengths(self) -> np.ndarray:
@@ -49,12 +57,14 @@ class ModeStrips:
 
     def take(self, index) -> ModeStrips:
         """The strips at ``index``."""
-        return ModeStrips(take_modes(self.m, index), self.p_0[index], self.delta_0[index], self.D[index], self.bare)
+        return ModeStrips(
+            take_modes(self.m, index), self.p_0[index], self.delta_0[index], self.D[index], self.snaps[index], self.bare
+        )
 
     def raised(self) -> ModeStrips:
         """The strips that are never released, seen from ``-p_0``: adding ``p_0`` to w, p and every e leaves the
         foundation's law unchanged."""
-        return ModeStrips(self.m, np.zeros(self.size), np.zeros(self.size), self.D + self.p_0, bare=True)
+        return ModeStrips(self.m, np.zeros(self.size), np.zeros(self.size), self.D + self.p_0, self.snaps, bare=True)
 
 
 def pick(value, index):
