@@ -5,16 +5,9 @@ single strips, ``solve_level`` and ``friction_law`` one level, ``solve`` the who
 parameters. The strip solver's formulas are generated: see ``hystrip.derivation``.
 """
 
+import sys
+from types import ModuleType
 from typing import TYPE_CHECKING
-
-from .errors import ConvergenceWarning, HystripError, InputError, MissingExtra, SolverError
-from .inputs.adhesion import Dugdale
-from .inputs.half_space import HalfSpace
-from .inputs.material import KelvinVoigt, StandardLinearSolid
-from .inputs.prony import Prony
-from .inputs.shift import WLF, Arrhenius
-from .inputs.surface import Level
-from .solve import solve
 
 __version__ = "0.1.0"
 
@@ -58,22 +51,36 @@ __all__ = [
 
 #: Where a name lives that is loaded when it is first used; scenes need the command-line extra, everything else works without.
 _LAZY = {
-    "FrictionLaw": "hystrip.level.solution",
-    "LevelSolution": "hystrip.level_solution",
-    "Result": "hystrip.result",
-    "Scene": "hystrip.scene",
-    "Sweep": "hystrip.sweeps",
-    "StripSolution": "hystrip.orbit.solution",
+    "Arrhenius": "hystrip.inputs.shift",
     "ContactMap": "hystrip.contact_map",
-    "Loop": "hystrip.loop",
-    "load": "hystrip.storage.read",
-    "loading_loop": "hystrip.loop",
+    "ConvergenceWarning": "hystrip.errors",
+    "Dugdale": "hystrip.inputs.adhesion",
     "friction_law": "hystrip.level.solution",
+    "FrictionLaw": "hystrip.level.solution",
+    "HalfSpace": "hystrip.inputs.half_space",
+    "HystripError": "hystrip.errors",
+    "InputError": "hystrip.errors",
+    "KelvinVoigt": "hystrip.inputs.material",
+    "Level": "hystrip.inputs.surface",
+    "LevelSolution": "hystrip.level_solution",
+    "load": "hystrip.storage.read",
     "load_scene": "hystrip.scene",
     "load_solver": "hystrip.loading",
+    "loading_loop": "hystrip.loop",
+    "Loop": "hystrip.loop",
+    "MissingExtra": "hystrip.errors",
+    "Prony": "hystrip.inputs.prony",
+    "Result": "hystrip.result",
+    "Scene": "hystrip.scene",
+    "solve": "hystrip.solve",
     "solve_level": "hystrip.level.solution",
     "solve_strip": "hystrip.orbit.solution",
+    "SolverError": "hystrip.errors",
+    "StandardLinearSolid": "hystrip.inputs.material",
+    "StripSolution": "hystrip.orbit.solution",
+    "Sweep": "hystrip.sweeps",
     "sweep": "hystrip.sweeps",
+    "WLF": "hystrip.inputs.shift",
 }
 
 #: subpackages that are there without an import of their own
@@ -82,6 +89,13 @@ _MODULES = ("dma", "plots", "roughness", "typing")
 if TYPE_CHECKING:
     from . import dma, plots, roughness, typing
     from .contact_map import ContactMap
+    from .errors import ConvergenceWarning, HystripError, InputError, MissingExtra, SolverError
+    from .inputs.adhesion import Dugdale
+    from .inputs.half_space import HalfSpace
+    from .inputs.material import KelvinVoigt, StandardLinearSolid
+    from .inputs.prony import Prony
+    from .inputs.shift import WLF, Arrhenius
+    from .inputs.surface import Level
     from .level.solution import FrictionLaw, friction_law, solve_level
     from .level_solution import LevelSolution
     from .loading import load_solver
@@ -89,9 +103,20 @@ if TYPE_CHECKING:
     from .orbit.solution import StripSolution, solve_strip
     from .result import Result
     from .scene import Scene, load_scene
+    from .solve import solve
     from .storage.read import load
     from .sweeps import Sweep, sweep
 
+
+class _Package(ModuleType):
+    """The package itself: ``hystrip.solve`` is the function, also after an import of the module of that name."""
+
+    def __setattr__(self, name, value):
+        if not (name == "solve" and isinstance(value, ModuleType)):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package
 
 if not TYPE_CHECKING:  # a type checker would take any name for one of ours
 

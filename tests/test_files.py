@@ -1,5 +1,10 @@
 """Sets of output files: all of them, or none."""
 
+import os
+import re
+import subprocess
+import sys
+
 import pytest
 
 from hystrip.files import Outputs, write_text
@@ -37,3 +42,30 @@ def test_an_error_leaves_what_another_run_has_put_into_the_same_new_folder(tmp_p
         filled(tmp_path / "shared", "theirs.csv")
         raise KeyError
     assert [path.name for path in (tmp_path / "shared").iterdir()] == ["theirs.csv"]
+
+
+def test_what_a_killed_run_left_aside_is_removed(tmp_path):
+    """Of a process that is gone, or of a day ago; not of one that runs."""
+    gone = subprocess.Popen([sys.executable, "-c", ""])
+    gone.wait()
+    code = "import sys, os; from hystrip.files import Outputs\nwith Outputs('.') as f: f.path('a.csv').write_text('half'); os._exit(1)"
+    subprocess.run([sys.executable, "-c", code], cwd=tmp_path)
+    (left,) = tmp_path.iterdir()
+    mine = tmp_path / left.name.replace(f"-{re.search('-([0-9]+).part', left.name)[1]}.", f"-{os.getppid()}.")
+    other = tmp_path / ".elsewhere-1.part.a.csv"
+    old = tmp_path / ".elsewhere-2.part.a.csv"
+    foreign = tmp_path / f".{left.name[1:].rpartition('.part.')[0]}.part.b.csv"
+    for path in (mine, other, old, foreign):
+        path.write_text("half")
+    os.utime(old, (0, 0))
+    filled(tmp_path, "a.csv")
+    assert {path.name for path in tmp_path.iterdir()} == {"a.csv", mine.name, other.name, foreign.name}
+
+
+def test_files_are_on_the_disk_before_they_get_their_names(tmp_path, monkeypatch):
+    done = []
+    monkeypatch.setattr(os, "fsync", lambda file: done.append("sync"))
+    replace = os.replace
+    monkeypatch.setattr(os, "replace", lambda part, final: (done.append("rename"), replace(part, final)))
+    filled(tmp_path, "a.csv", "b.csv")
+    assert done == ["sync", "sync", "rename", "rename"]

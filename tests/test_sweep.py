@@ -1,5 +1,6 @@
 """Sweeps: what is solved, how it gets to disk, and that nothing is lost when a run is killed."""
 
+import dataclasses
 import json
 import os
 import random
@@ -8,6 +9,7 @@ import subprocess
 import sys
 import time
 import tomllib
+import warnings
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
@@ -180,6 +182,20 @@ def test_an_error_nobody_thought_of_costs_its_point_alone(scene, tmp_path, monke
     done = hystrip.sweep(scene, out=tmp_path / "out")
     assert set(done.failed.values()) == {"ValueError: nobody thought of this"} and len(done.failed) == 16
     assert np.array_equal(np.isnan(done.columns["mu"]), done.columns["velocity [m/s]"] == 1e-2)
+
+
+def test_points_that_did_not_converge_are_kept_marked_and_said_once(scene, tmp_path, monkeypatch):
+    def half(*inputs, velocity, **options):
+        result = solve(*inputs, velocity=velocity, **options)
+        warnings.warn("some", hystrip.ConvergenceWarning, stacklevel=2)
+        return dataclasses.replace(result, converged=np.broadcast_to(velocity < 1e-2, result.mu.shape))
+
+    solve = hystrip.solve
+    monkeypatch.setattr(hystrip, "solve", half)
+    with pytest.warns(hystrip.ConvergenceWarning, match="16 of 80 points") as said:
+        done = hystrip.sweep(scene, out=tmp_path / "out")
+    assert len(said) == 1 and np.array_equal(done.columns["converged"] == 0, done.columns["velocity [m/s]"] == 1e-2)
+    assert done.to_dataset().converged.sum() == 64 and not done.failed
 
 
 def test_lost_workers_are_one_sentence_and_finished_batches_are_kept(scene, tmp_path, monkeypatch):

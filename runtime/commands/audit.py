@@ -6,6 +6,8 @@ from pathlib import Path
 
 import typer
 
+from .output import say
+
 
 def command(
     out: Path = typer.Option(None, "--out", help="Folder to write into; without it, the installed package's own."),
@@ -31,6 +33,6 @@ def command(
         with progress("auditing") as report:
             hystrip.derivation.audit(folder, progress=report)
     except (hystrip.derivation.DerivationError, hystrip.derivation.AuditError) as problem:
-        typer.echo(f"hystrip: {problem}", err=True)
+        say(f"hystrip: {problem}", err=True)
         raise typer.Exit(1) from None
-    typer.echo(f"wrote {folder / 'index.html'}")
+    say(f"wrote {folder / 'index.html'}")

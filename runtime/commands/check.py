@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import typer
 
+from .output import say
+
 
 def command() -> None:
     """Compare the generated solver with a fresh one.
@@ -20,11 +22,11 @@ def command() -> None:
         with progress("deriving") as report:
             drift = list(hystrip.derivation.check(progress=report))
     except hystrip.derivation.DerivationError as problem:
-        typer.echo(f"hystrip: {problem}", err=True)
+        say(f"hystrip: {problem}", err=True)
         raise typer.Exit(1) from None
     for record in drift:
-        typer.echo(str(record))
+        say(str(record))
     if drift:
-        typer.echo(f"{len(drift)} generated file(s) differ from the derivation", err=True)
+        say(f"{len(drift)} generated file(s) differ from the derivation", err=True)
         raise typer.Exit(1)
-    typer.echo("the generated files are what the derivation emits")
+    say("the generated files are what the derivation emits")

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import typer
 
+from .output import say
+
 
 def command(
     only: list[str] = typer.Argument(None, help="Which ones, such as fig3 fig6; all without any."),
@@ -25,4 +27,4 @@ def command(
     with progress("figures") as report:
         written = draw(only, out, report)
     for path in written:
-        typer.echo(f"wrote {path}")
+        say(f"wrote {path}")

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import typer
 
+from .output import say
+
 
 def command(
     data: Path = typer.Argument(
@@ -67,6 +69,6 @@ def command(
         for name, write in files.items():
             write(outputs.path(name))
         record_origin(outputs, names, data)
-    typer.echo(series.report())
+    say(series.report())
     for name in files:
-        typer.echo(f"wrote {out / name}")
+        say(f"wrote {out / name}")

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import typer
 
+from .output import say
+
 
 def command(
     path: Path = typer.Argument(Path("scene.toml"), help="The file to write."),
@@ -26,4 +28,4 @@ def command(
     refuse_unwritable(path.parent, "PATH")
     template = resources.files("hystrip") / "scenes" / "starter.toml"
     write_text(path, template.read_text(encoding="utf-8"))
-    typer.echo(f"wrote {path}; try: hystrip solve {path}")
+    say(f"wrote {path}; try: hystrip solve {path}")

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import typer
 
+from .output import say
+
 
 def command(
     surface: Path = typer.Argument(help="A measured surface, in any format that SurfaceTopography reads."),
@@ -63,6 +65,6 @@ def command(
 
             save(roughness_levels(found, scan), files.path(names[1]))
         record_origin(files, names, surface)
-    typer.echo(found.report())
+    say(found.report())
     for name in names:
-        typer.echo(f"wrote {out / name}")
+        say(f"wrote {out / name}")

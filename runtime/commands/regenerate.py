@@ -7,6 +7,8 @@ from pathlib import Path
 
 import typer
 
+from .output import say
+
 
 def command(
     model: Path = typer.Argument(None, help="A file that declares MODEL (its code is run); without it, the models of hystrip."),
@@ -47,4 +49,4 @@ def command(
         raise InputError("--out", str(folder), f"a folder that is new or holds a solver: {error}") from None
     except hystrip.derivation.CertificateError as error:
         raise HystripError(str(error)) from None
-    typer.echo(f"wrote {folder}")
+    say(f"wrote {folder}")

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import typer
 
+from .output import say
+
 
 def command(
     scene: str = typer.Argument(help="A scene file (TOML), or the name of a built-in scene such as paper_fig6."),
@@ -40,7 +42,7 @@ def command(
     names = [f"{case.name}.{kind}{f'_{level}' if level > 1 else ''}.png" for kind, wanted in drawn.items() if wanted]
     refuse_other_origin(out, names, case.source)
     result = point_of(case, pressure, velocity)
-    typer.echo(result.summary())
+    say(result.summary())
     if not names:
         return
     from ..plots import save
@@ -51,4 +53,4 @@ def command(
             save(result.plot(kind, at=0, level=level, y=y), files.path(name))
         record_origin(files, names, case.source)
     for name in names:
-        typer.echo(f"wrote {out / name}")
+        say(f"wrote {out / name}")

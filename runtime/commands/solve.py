@@ -6,6 +6,8 @@ from pathlib import Path
 
 import typer
 
+from .output import say
+
 
 def command(
     scene: str = typer.Argument(help="A scene file (TOML), or the name of a built-in scene such as paper_fig6."),
@@ -55,6 +57,6 @@ def command(
 
         show_friction(case, columns)
     if summary:
-        typer.echo(result.summary())
+        say(result.summary())
     for name in names:
-        typer.echo(f"wrote {out / name}")
+        say(f"wrote {out / name}")

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import typer
 
+from .output import say
+
 
 def command(
     scene: str = typer.Argument(help="A scene file (TOML) in which any quantity may be a list or a range."),
@@ -31,6 +33,7 @@ def command(
     from ..files import Outputs
     from ..sweeps import sweep
     from ..sweeps.over import over_of
+    from .entry import Terminated
     from .progress import progress
 
     if netcdf:
@@ -42,8 +45,8 @@ def command(
                 scene, over=over_of(over or []), out=out, workers=workers, scheduler=scheduler, batch=batch,
                 restart=restart, allow_solver=allow_solver, progress=report,
             )  # fmt: skip
-    except KeyboardInterrupt:
-        typer.echo("hystrip: finished batches are kept; the same command goes on from there", err=True)
+    except (KeyboardInterrupt, Terminated):
+        say("hystrip: finished batches are kept; the same command goes on from there", err=True)
         raise
     written = [done.path]
     if netcdf:
@@ -52,13 +55,13 @@ def command(
             done.to_dataset().to_netcdf(files.path(name), engine="h5netcdf")
         written.append(out / name)
     again = f", {done.kept} of {done.kept + done.solved} batches from before" if done.kept else ""
-    typer.echo(f"{done.plan.size} points{again}")
+    say(f"{done.plan.size} points{again}")
     if done.failed:
-        typer.echo(
+        say(
             f"{len(done.failed)} points failed; the column 'failed' says why, the first: {next(iter(done.failed.values()))}",
             err=True,
         )
     for path in written:
-        typer.echo(f"wrote {path}")
+        say(f"wrote {path}")
     if len(done.failed) == done.plan.size:
         raise typer.Exit(1)

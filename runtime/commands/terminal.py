@@ -15,10 +15,12 @@ def show_friction(scene: Scene, columns: dict[str, np.ndarray]) -> None:
     from rich.table import Table
     from rich.text import Text
 
+    from ..errors import printable
+
     load_name, load = scene.load
     levels = range(1, len(scene.levels) + 1)
     # the title is text, whatever stands in brackets in it
-    table = Table(title=Text(scene.title or scene.name), title_justify="left", title_style="bold")
+    table = Table(title=Text(printable(scene.title or scene.name)), title_justify="left", title_style="bold")
     load_column = next(iter(columns))
     if load.ndim:
         table.add_column(load_column, justify="right")

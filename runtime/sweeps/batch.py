@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from ..errors import HystripError
+from ..errors import ConvergenceWarning, HystripError
 from ..loading import solver_key
 from .code import code_key
 from .plan import RUN_KEYS, single
@@ -88,7 +89,9 @@ def _solve(
     Returns the work done.
     """
     try:
-        result = _result(task, at, fixed, rows)
+        with warnings.catch_warnings():  # kept as a variable, and said once for the sweep
+            warnings.simplefilter("ignore", ConvergenceWarning)
+            result = _result(task, at, fixed, rows)
         found = {each.column: each.of(result) for each in variables(len(task.base["levels"]))}
     except Exception as error:  # whatever it is: one point must not cost a night's sweep
         if rows.size == 1:

@@ -28,6 +28,28 @@ class InProcess(Executor):
         return future
 
 
+class _Pool(ProcessPoolExecutor):
+    """Local processes that Ctrl-C does not reach, from their first moment on: it is the parent's to handle."""
+
+    def submit(self, function: Any, /, *arguments: Any, **options: Any) -> Future:
+        """Run on one of the processes; they start when there is work, and inherit what is blocked then."""
+        with _without_interrupts():
+            return super().submit(function, *arguments, **options)
+
+
+@contextlib.contextmanager
+def _without_interrupts() -> Iterator[None]:
+    """Hold Ctrl-C back for a moment, where the system can."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 @contextlib.contextmanager
 def local(workers: int) -> Iterator[tuple[Executor, int]]:
     """An executor of this machine and how many batches to keep in flight."""
@@ -39,7 +61,7 @@ def local(workers: int) -> Iterator[tuple[Executor, int]]:
         return
     from multiprocessing import get_context
 
-    pool = ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=_start_worker)
+    pool = _Pool(workers, mp_context=get_context("spawn"), initializer=_start_worker)
     try:
         yield pool, 2 * workers
     except BaseException:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import warnings
 from collections.abc import Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ..errors import HystripError, InputError
+from ..errors import ConvergenceWarning, HystripError, InputError
 from ..files import Outputs, path_of, refuse_unwritable
 from ..tables import about_version, write_csv
 from .batch import OTHER_CODE, Batch, Task, solve_batch
@@ -105,6 +106,10 @@ def sweep(
     InputError : the scene or an argument; a single point that fails is recorded, it raises nothing
     HystripError : another run is at work in the folder, or the workers were lost; finished batches are kept
 
+    Warns
+    -----
+    ConvergenceWarning : points whose estimated error exceeds what ``rtol`` allows; the column ``converged`` is 0 there
+
     Examples
     --------
     >>> import tempfile
@@ -142,7 +147,15 @@ def sweep(
         columns = _collected(plan, store)
         with Outputs(folder) as files:
             write_csv(files.path(f"{name}.sweep.csv"), columns, _about(plan))
+    _warn_of_missed(columns["converged"], plan)
     return Sweep(columns, folder / f"{name}.sweep.csv", plan, run.solved, run.kept)
+
+
+def _warn_of_missed(converged: np.ndarray, plan: Plan) -> None:
+    missed = np.flatnonzero(converged == 0)
+    if missed.size and plan.base["strips"] is None:
+        text = f"{missed.size} of {plan.size} points did not converge to rtol = {plan.base['rtol']:g}; the first: row {missed[0]}"
+        warnings.warn(f"{text} (see the columns 'converged' and 'error estimate of mu')", ConvergenceWarning, stacklevel=3)
 
 
 class _Block:

@@ -53,6 +53,7 @@ _STATE = (
         "estimated absolute error of the friction coefficient",
         lambda result: result.error_estimate,
     ),
+    Variable("converged", "converged", "1", "1 where the estimated error is within rtol", lambda result: result.converged),
 )
 #: variables that do not depend on the number of levels
 COMMON = (*_FRICTION, *_STATE)
