@@ -28,22 +28,25 @@ class InProcess(Executor):
         return future
 
 
+_ENDING = {signal.SIGINT, signal.SIGTERM}
+
+
 class _Pool(ProcessPoolExecutor):
-    """Local processes that Ctrl-C does not reach, from their first moment on: it is the parent's to handle."""
+    """Local processes that no signal interrupts as they start: neither them, nor the parent half-way through starting one."""
 
     def submit(self, function: Any, /, *arguments: Any, **options: Any) -> Future:
         """Run on one of the processes; they start when there is work, and inherit what is blocked then."""
-        with _without_interrupts():
+        with _without_signals():
             return super().submit(function, *arguments, **options)
 
 
 @contextlib.contextmanager
-def _without_interrupts() -> Iterator[None]:
-    """Hold Ctrl-C back for a moment, where the system can."""
+def _without_signals() -> Iterator[None]:
+    """Hold SIGINT and SIGTERM back for a moment, where the system can."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, _ENDING)
     try:
         yield
     finally:
@@ -69,7 +72,7 @@ def local(workers: int) -> Iterator[tuple[Executor, int]]:
         processes = list((getattr(pool, "_processes", None) or {}).values())
         pool.shutdown(wait=False, cancel_futures=True)
         for process in processes:
-            process.terminate()
+            process.kill()  # one that is just starting may still hold other signals back
         raise
     pool.shutdown()
 
@@ -116,6 +119,8 @@ def _start_worker() -> None:
     from multiprocessing import connection, parent_process
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, _ENDING)
     parent = parent_process()
 
     def watch() -> None:
