@@ -170,3 +170,23 @@ def test_plausibility_is_said():
     assert hot.fit.high == pytest.approx(1e4 / float(WLF.factor(313.15)))
     result = hystrip.solve(material, hystrip.Dugdale(gamma=0), LEVELS, pressure=1e7, velocity=[1e-3, 10.0])
     assert result.notes == [beyond] and f"note       {beyond}" in result.summary() and "excited    k V" in result.summary()
+
+
+def test_sweep_over_temperature_and_moduli(run, tmp_path):
+    pytest.importorskip("typer")
+    (tmp_path / "hot.toml").write_text(
+        SCENE.replace('"104 °F"', '["20 °C", "40 °C"]').replace("1.0\n", "[1.0, 10.0]\n", 1), encoding="utf-8"
+    )
+    done = hystrip.sweep(tmp_path / "hot.toml", over={"material.E": [2e6, 3e6]}, out=tmp_path / "out")
+    assert done.plan.shape == (2, 2, 2) and [axis.name for axis in done.plan.axes] == ["E", "velocity", "temperature"]
+    scene = parse_scene(SCENE)
+    for row in range(8):
+        E, V, T = (done.columns[name][row] for name in ("E [Pa]", "velocity [m/s]", "temperature [K]"))
+        material = hystrip.HalfSpace(E, 0.49, [8e6, 3e7], [1e-3, 1e-5], shift=WLF)
+        one = hystrip.solve(material, scene.adhesion, scene.levels, pressure=1e5, velocity=V, temperature=T, edge="constitutive")
+        assert done.columns["mu"][row] == pytest.approx(one.mu, rel=1e-6)
+    (tmp_path / "one.toml").write_text(SCENE, encoding="utf-8")
+    status, out, err = run("sweep", "one.toml", "--over", 'material.moduli[0]=["8 MPa", 9e6]', "--over", 'temperature="30 degC"')
+    assert (status, err) == (0, "") and "2 points" in out
+    status, _, err = run("sweep", "one.toml", "--over", 'material.moduli[0]=["8 MPa/m"]')
+    assert status == 2 and "unit of something else" in err

@@ -31,18 +31,21 @@ def command(
     """
     from ..extras import require
     from ..files import Outputs
+    from ..scene.load import parse_toml, scene_text
     from ..sweeps import sweep
     from ..sweeps.over import over_of
+    from ..sweeps.plan import is_half_space
     from .entry import Terminated
     from .progress import progress
 
     if netcdf:
         require("xarray", "dataset", "writing netCDF")
         require("h5netcdf", "dataset", "writing netCDF")
+    swept = over_of(over, is_half_space(parse_toml(scene_text(scene)[0]))) if over else {}
     try:
         with progress("sweeping", rate=True) as report:
             done = sweep(
-                scene, over=over_of(over or []), out=out, workers=workers, scheduler=scheduler, batch=batch,
+                scene, over=swept, out=out, workers=workers, scheduler=scheduler, batch=batch,
                 restart=restart, allow_solver=allow_solver, progress=report,
             )  # fmt: skip
     except (KeyboardInterrupt, Terminated):

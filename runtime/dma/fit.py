@@ -11,12 +11,11 @@ import numpy as np
 from ..errors import FitWarning, InputError
 from ..inputs.checks import number, numbers
 from ..inputs.fitted import POOR, FittedBand
+from ..inputs.prony import MOST_TIMES
 from .modulus import DynamicModulus
 from .projection import placed, relative_errors, solved
 from .series import PronySeries
 
-#: most relaxation times of a material that hystrip solves
-MOST_TIMES = 40
 #: rms of the relative residuals that is asked for where nothing else is
 ACCURACY = 0.02
 #: a branch below this share of the glassy modulus is rounding of the solver

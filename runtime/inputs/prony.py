@@ -20,11 +20,13 @@ if TYPE_CHECKING:
 
 #: branches that may be given; those of equal times become one
 _MOST = 1000
+#: relaxation times of a series: three or four per decade over all that is ever measured
+MOST_TIMES = 40
 
 
 @dataclass(frozen=True, eq=False)
 class Prony:
-    """Foundation with n relaxation times: ``p = K w + sum_i K_i (w - e_i)``, ``tau_i e_i' + e_i = w`` (Prony series).
+    """Foundation with n relaxation times, 1 to 40: ``p = K w + sum_i K_i (w - e_i)``, ``tau_i e_i' + e_i = w`` (Prony series).
 
     A pressure held at a constant displacement w relaxes as ``(K + sum_i K_i exp(-t/tau_i)) w``. One time is the
     standard linear solid with ``T_sigma = tau``, ``T_eps = tau (1 + K_1/K)``. Branches of modulus zero are dropped and
@@ -35,7 +37,7 @@ class Prony:
     K : relaxed stiffness per area, Pa/m, > 0
     moduli : K_i, stiffness of each branch, Pa/m, >= 0
     times : tau_i, relaxation time of each branch, s, > 0
-    solver : from ``hystrip.load_solver``, for a number of times that no solver in the package has
+    solver : from ``hystrip.load_solver``, in place of that in the package
     shift : how it changes with temperature, a :class:`hystrip.WLF` or :class:`hystrip.Arrhenius`, or None
     fit : over which frequencies it was fitted, and how well (``hystrip.dma``), or None
 
@@ -79,6 +81,8 @@ class Prony:
             raise InputError("material.moduli, material.times", (len(moduli), len(times)), "as many moduli as times")
         if self.solver is not None and not hasattr(self.solver, "prony_kernel"):
             raise InputError("material.solver", self.solver, "None, or what hystrip.load_solver returns")
+        if len(times) > MOST_TIMES:
+            raise InputError("material.times", f"{len(times)} times", f"at most {MOST_TIMES}")
         names = [*(f"material.moduli[{i}]" for i in range(len(moduli))), *(f"material.times[{i}]" for i in range(len(times)))]
         shape = broadcast(**{"material.K": K}, **dict(zip(names, moduli + times, strict=True)))
         if shape:

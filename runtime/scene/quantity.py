@@ -52,6 +52,8 @@ def to_si(value: float | str, unit: str, field: str) -> float:
 def _converted(text: str, unit: str, field: str) -> float:
     if len(text) > _LONGEST:
         raise InputError(field, text, f"{_allowed(unit)}, of at most {_LONGEST} characters")
+    if unit == "1":
+        raise InputError(field, text, _allowed(unit))
     # The number is read here, not by Pint: that reads "0,1 kPa" as 0 kPa.
     match = _TEXT.fullmatch(text)
     if match is None:
@@ -103,6 +105,8 @@ def _registry() -> Any:
 
 
 def _allowed(unit: str) -> str:
+    if unit == "1":
+        return "a finite number, without quotes"
     return f"a finite number in {unit}, or text with a unit such as {EXAMPLES[unit]!r}"
 
 
@@ -115,6 +119,5 @@ EXAMPLES: dict[str, Any] = {
     "m/s": "5 mm/s",
     "K": "20 degC",
     "J/mol": "80 kJ/mol",
-    "1": "0.49",
 }
 """An example for every SI unit that a scene uses."""

@@ -14,10 +14,11 @@ from ..scene.validate import values_in_si
 from .plan import has_unit, unit_of
 
 
-def over_of(texts: Sequence[str]) -> dict[str, np.ndarray]:
+def over_of(texts: Sequence[str], half_space: bool = False) -> dict[str, np.ndarray]:
     """``KEY=VALUES`` -> values in SI by dotted key; values are written as in a scene, the brackets of a list may be left out.
 
-    Raises :class:`InputError` for what is neither. Whether the scene has the key is checked by the sweep.
+    ``half_space``: for a scene whose material is one, of moduli in Pa. Raises :class:`InputError` for what is neither. Whether
+    the scene has the key is checked by the sweep.
     """
     found = {}
     for text in texts:
@@ -26,7 +27,7 @@ def over_of(texts: Sequence[str]) -> dict[str, np.ndarray]:
             raise InputError("--over", text, "KEY=VALUES, such as levels[0].h=[1e-6, 2e-6] or velocity=1e-3")
         if not has_unit(key):
             raise InputError("--over", key, "the dotted key of a quantity of the scene, such as material.times[0]")
-        found[key] = values_in_si(_read(key, written), unit_of(key), key)
+        found[key] = values_in_si(_read(key, written), unit_of(key, half_space), key)
     return found
 
 

@@ -32,10 +32,12 @@ from . import code
 _LOADS = ("pressure", "penetration")
 #: what the solver takes arrays of
 RUN_KEYS = (*_LOADS, "velocity")
-_UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "moduli": "Pa/m", "times": "s",
+_UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "E": "Pa", "nu": "1", "moduli": "Pa/m", "times": "s",
           "gamma": "J/m^2", "p_0": "Pa", "delta_0": "m",
-          "pressure": "Pa", "penetration": "m", "velocity": "m/s"}  # fmt: skip
+          "pressure": "Pa", "penetration": "m", "velocity": "m/s", "temperature": "K"}  # fmt: skip
 
+#: what is zero nowhere
+_POSITIVE = ("K", "E", "l", "times", "temperature")
 #: most points of a sweep: their coordinates and numbers are held in memory at its end
 _MOST = 100_000_000
 
@@ -46,15 +48,12 @@ class Axis:
 
     key: str
     values: np.ndarray
+    unit: str
 
     @property
     def name(self) -> str:
         """Short name: ``gamma``, ``h_2`` (level 2's h), ``times_1`` (the first relaxation time), ``velocity``."""
         return short_name(self.key)
-
-    @property
-    def unit(self) -> str:
-        return unit_of(self.key)
 
 
 @dataclass(frozen=True)
@@ -123,9 +122,16 @@ def short_name(key: str) -> str:
     return f"{name}_{int(numbered[1]) + 1}" if numbered else name
 
 
-def unit_of(key: str) -> str:
-    """SI unit of a quantity of the scene; the key must be one."""
-    return _UNITS[_last(key)]
+def unit_of(key: str, half_space: bool = False) -> str:
+    """SI unit of a quantity of the scene; the key must be one. ``half_space``: the scene's material is one, of moduli in Pa."""
+    name = _last(key)
+    return "Pa" if half_space and name == "moduli" else _UNITS[name]
+
+
+def is_half_space(values: dict[str, Any]) -> bool:
+    """Whether the material of a scene is a half-space."""
+    material = values.get("material")
+    return isinstance(material, dict) and material.get("kind") == "half-space"
 
 
 def has_unit(key: str) -> bool:
@@ -151,7 +157,8 @@ def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], 
         raise InputError("combine", combine, "'grid' (every combination) or 'list' (all of one length, taken together)")
     if batch is not None and (isinstance(batch, bool) or not isinstance(batch, int) or batch < 1):
         raise InputError("batch", batch, "an integer >= 1, points that are solved and stored together")
-    axes = tuple(Axis(key, each) for key, each in quantities(values) if each.ndim)
+    half_space = is_half_space(values)
+    axes = tuple(Axis(key, each, unit_of(key, half_space)) for key, each in quantities(values) if each.ndim)
     _refuse_hopeless(values, {axis.key for axis in axes})
     sizes = {axis.key: axis.values.size for axis in axes}
     if combine == "list" and len(set(sizes.values())) > 1:
@@ -172,12 +179,15 @@ def _refuse_hopeless(values: dict[str, Any], swept: set[str]) -> None:
     """Refuse before any work what no combination can mend; what a combination spoils is recorded point by point."""
     for key, each in quantities(values):
         if key not in _LOADS:
-            numbers(key, each, unit_of(key), 0, strict=_last(key) in ("K", "l", "times"))
+            numbers(key, each, unit_of(key, is_half_space(values)), 0, strict=_last(key) in _POSITIVE)
     fixed = lambda path: not any(key.startswith(path) for key in swept)  # noqa: E731
     if fixed("material"):
         material = build_material(values)
         check_edge(material, values["edge"])
         kernel_of(material)
+        if values["temperature"] is not None:
+            for temperature in np.ravel(values["temperature"]):
+                material.at_temperature(float(temperature))
     if fixed("levels"):
         check_levels([build_level(values, index) for index in range(len(values["levels"]))])
     if values["adhesion"] is not None and fixed("adhesion.delta_0"):
@@ -190,7 +200,7 @@ def _put(values: dict[str, Any], key: str, given: Any) -> None:
     if key not in known:
         near = nearest(key, known) if isinstance(key, str) else None
         raise InputError("over", key, f"one of {', '.join(known)}" + (f" (did you mean {near!r}?)" if near else ""))
-    array = numbers(key, given, unit_of(key))
+    array = numbers(key, given, unit_of(key, is_half_space(values)))
     if array.ndim > 1 or not array.size:
         raise InputError(key, given, "a number or a one-dimensional list of numbers, at least one")
     if key in _LOADS:
@@ -216,15 +226,21 @@ def keys_of(values: dict[str, Any]) -> list[str]:
     """Dotted keys of everything that can be swept in a validated scene."""
     keys = [f"levels[{i}].{field}" for i in range(len(values["levels"])) for field in ("l", "h")]
     material = values["material"]
+    own = [f"material.{key}" for key in ("E", "nu") if material[key] is not None] or ["material.K"]
     times = [f"material.{key}" for key in ("T_eps", "T_sigma") if material[key] is not None]
     times += [f"material.{key}[{i}]" for key in ("moduli", "times") for i in range(len(material[key] or ()))]
-    keys += ["material.K", *times, "adhesion.gamma", "adhesion.p_0", "adhesion.delta_0"]
-    return [*keys, "pressure", "penetration", "velocity"]
+    keys += [*own, *times, "adhesion.gamma", "adhesion.p_0", "adhesion.delta_0"]
+    return [*keys, *(["temperature"] if material["shift"] is not None else []), "pressure", "penetration", "velocity"]
 
 
 def single(base: dict[str, Any], keys: list[str], at: np.ndarray) -> dict[str, Any]:
-    """Material, adhesion and levels at one combination of the values of ``keys`` (load and velocity are left alone)."""
-    values = copy.deepcopy({key: base[key] for key in ("material", "adhesion", "levels")} | {key: base[key] for key in RUN_KEYS})
+    """Material (at its temperature), adhesion and levels at one combination of the values of ``keys`` (load and velocity are
+    left alone)."""
+    kept = ("material", "adhesion", "levels", "temperature", *RUN_KEYS)
+    values = copy.deepcopy({key: base[key] for key in kept})
     for key, value in zip(keys, at, strict=True):
         _put(values, key, float(value))
-    return build_objects(values)
+    objects = build_objects(values)
+    if values["temperature"] is not None:
+        objects["material"] = objects["material"].at_temperature(float(values["temperature"]))
+    return objects
