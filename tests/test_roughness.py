@@ -173,18 +173,20 @@ def test_gaps_and_uneven_steps_are_filled():
 
 
 def test_command_writes_a_scene_that_loads(run, files, tmp_path):
-    status, out, err = run("levels", files / "scan.nc")
+    status, out, err = run("levels", files / "scan.nc", "--pressure", "0.1 MPa")
     assert (status, err) == (0, "") and "left out" in out
-    assert sorted(path.name for path in (tmp_path / "hystrip-out").glob("[!.]*")) == ["scan.levels.png", "scan.levels.toml"]
+    assert sorted(path.name for path in (tmp_path / "hystrip-out").glob("[!.]*")) == ["scan.levels.toml", "scan.spectrum.png"]
     scene = load_scene(tmp_path / "hystrip-out/scan.levels.toml")
-    assert np.allclose([(level.l, level.h) for level in scene.levels], LEVELS, rtol=1e-7)
+    assert np.allclose([(level.l, level.h) for level in scene.levels], LEVELS, rtol=1e-5)
+    assert (scene.title, float(scene.pressure)) == ("Surface of scan.nc", 1e5)
 
 
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
         (["absent.nc"], "a file with a measured surface"),
-        (["text.csv"], "text.csv: got 'no format that SurfaceTopography knows'"),
+        (["text.csv"], "--pressure: got None"),
+        (["text.csv", "--scene", "paper_fig3"], "text.csv: got 'no format that SurfaceTopography knows'"),
         (["plain.txt"], "(--size, --unit)"),
         (["plain.txt", "--size", "20", "--size", "20"], "plain.txt, unit: got None"),
         (["scan.nc", "--unit", "um"], "fixed by file"),
@@ -197,6 +199,6 @@ def test_command_writes_a_scene_that_loads(run, files, tmp_path):
 )
 def test_wrong_calls_leave_nothing(run, files, tmp_path, arguments, said):
     name, *rest = arguments
-    status, out, err = run("levels", files / name, *rest)
+    status, out, err = run("levels", files / name, *rest, *([] if "--scene" in rest or name == "text.csv" else ["--pressure", 1]))
     assert status == 2 and out == "" and said in err and err.count("\n") == 1
     assert not list(tmp_path.iterdir())

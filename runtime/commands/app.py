@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from . import audit, check, figures, fit, init, levels, regenerate, schema, show, solve, sweep
+from . import audit, check, figures, fit, init, levels, master, regenerate, schema, show, solve, sweep
 
 
 def build() -> typer.Typer:
@@ -18,7 +18,7 @@ def build() -> typer.Typer:
         context_settings={"help_option_names": ["-h", "--help"]},
     )
     app.callback()(_options)
-    for module in (solve, sweep, show, figures, init, fit, levels, schema, regenerate, check, audit):
+    for module in (solve, sweep, show, figures, init, master, fit, levels, schema, regenerate, check, audit):
         app.command(name=module.__name__.rsplit(".", 1)[1])(module.command)
     return app
 

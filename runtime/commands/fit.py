@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import typer
@@ -11,55 +12,73 @@ from .output import say
 
 def command(
     data: Path = typer.Argument(
-        help="CSV of frequency, storage and loss modulus: a row of names (f, E_stor, E_loss), a row of units."
+        help="Table of frequency, storage and loss modulus (or tan delta): a row of names, units in them or in the row below."
+    ),
+    nu: float = typer.Option(
+        None, "--nu", help="Poisson ratio: write a scene with the half-space of this modulus, a stiffness for each level."
     ),
     length: str = typer.Option(
         None,
         "--length",
-        help='Modulus over this is the stiffness per area, such as "2 mm", a layer\'s thickness; writes a scene.',
+        help='Or modulus over this is the stiffness per area of all levels, such as "2 mm", a layer\'s thickness.',
     ),
-    terms: int = typer.Option(None, "--terms", help="So many relaxation times, placed where they fit best."),
-    per_decade: float = typer.Option(None, "--per-decade", help="Or so many in each decade of the data [1]."),
+    accuracy: float = typer.Option(None, "--accuracy", help="As few relaxation times as fit to this rms [0.02]."),
+    terms: int = typer.Option(None, "--terms", help="Or so many relaxation times, 1 to 40, placed where they fit best."),
+    per_decade: float = typer.Option(None, "--per-decade", help="Or so many in each decade of the data."),
     low: float = typer.Option(None, "--low", help="Lowest frequency to fit [Hz]."),
     high: float = typer.Option(None, "--high", help="Highest frequency to fit [Hz]."),
     temperature_set: str = typer.Option(None, "--set", help="Of raw data at several temperatures, the rows of this set."),
+    decimal: str = typer.Option(None, "--decimal", help='"." or ",", for a file that can be read both ways.'),
     scene: str = typer.Option("starter", "--scene", help="The scene whose material is replaced [that of `hystrip init`]."),
+    pressure: str = typer.Option(None, "--pressure", help='Nominal pressure of the scene, such as "0.2 MPa" [that of SCENE].'),
+    title: str = typer.Option(None, "--title", help="Title of the scene."),
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
     plot: bool = typer.Option(True, help="Draw the fit (PNG)."),
 ) -> None:
     """Fit relaxation times to DMA data: a material.
 
     Non-negative least squares of the relative residuals of storage and loss modulus; says how well it fits.
-    Writes measured and fitted moduli as CSV, a picture, and with --length a scene that holds the material: SCENE with
-    its own replaced.
+    Writes measured and fitted moduli as CSV, a picture, and with --nu or --length a scene that holds the material: SCENE
+    with its own replaced. A master curve of `hystrip master` brings its temperature shift along.
     """
     from ..dma import fit_prony, read_dma
-    from ..dma.output import material_table, rows
+    from ..dma.output import material_tables, rows
+    from ..dma.read import read_shift
+    from ..errors import FitWarning, InputError
     from ..extras import require
     from ..files import Outputs, refuse_unwritable
-    from ..scene.edit import with_material, with_setting
+    from ..inputs.fitted import POOR
+    from ..scene.edit import with_material, with_settings
     from ..scene.errors import located
     from ..scene.load import scene_text
     from ..tables import about_version, write_csv
     from .origin import record_origin, refuse_other_origin
-    from .quantities import metres
+    from .quantities import metres, pascals
+    from .scene_options import settings
 
     if plot:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
+    if nu is not None and length is not None:
+        raise InputError("--nu, --length", (nu, length), "one of the two: a half-space, or one stiffness for all levels")
     over = metres(length, "--length")
-    measured = read_dma(data, temperature_set)
+    writes_scene = nu is not None or over is not None
+    given = settings(scene if writes_scene else "", pascals(pressure, "--pressure"), title, f"Rubber of {data.name}")
+    measured, shift = read_dma(data, temperature_set, decimal), read_shift(data)
     refuse_unwritable(out, "--out")
-    names = [f"{data.stem}.{each}" for each in ("fit.csv", *["fitted.toml"] * (over is not None), *["fit.png"] * plot)]
+    names = [f"{data.stem}.{each}" for each in ("fit.csv", *["fitted.toml"] * writes_scene, *["fit.png"] * plot)]
     refuse_other_origin(out, names, data)
     about = [*about_version(), f"data: {data.name}"]
     measured = measured.between(low, high)
-    series = fit_prony(measured, per_decade=per_decade, terms=terms)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", FitWarning)  # said below, with everything else about the fit
+        series = fit_prony(measured, accuracy=accuracy, per_decade=per_decade, terms=terms)
     files = {f"{data.stem}.fit.csv": lambda path: write_csv(path, rows(series, measured), about)}
-    if over is not None:
+    if writes_scene:
+        material = series.half_space(nu, shift) if nu is not None else series.material(over, shift)
+        if len(series.times) > 1:  # the other closure does not determine the edges of such a material
+            given["edge"] = "constitutive"
         with located(scene):
-            text = with_material(scene_text(scene)[0], *material_table(series, over, data.name))
-            if len(series.times) > 1:  # the other closure does not determine the edges of such a material
-                text = with_setting(text, "edge", "constitutive")
+            text = with_material(with_settings(scene_text(scene)[0], given), *material_tables(material, series, data.name, over))
         files[f"{data.stem}.fitted.toml"] = lambda path: path.write_text(text, encoding="utf-8", newline="\n")
     if plot:
         from ..plots import fitted_modulus, save
@@ -69,6 +88,10 @@ def command(
         for name, write in files.items():
             write(outputs.path(name))
         record_origin(outputs, names, data)
+    for line in measured.columns:
+        say(f"read       {line}")
     say(series.report())
+    if series.rms > POOR:
+        say(f"note       poor fit: {series.quality}")
     for name in files:
         say(f"wrote {out / name}")

@@ -26,6 +26,8 @@ def command(
         None, "--size", help="Length of the scan in that unit, once for each direction, if the file does not say."
     ),
     scene: str = typer.Option("starter", "--scene", help="The scene whose levels are replaced [that of `hystrip init`]."),
+    pressure: str = typer.Option(None, "--pressure", help='Nominal pressure of the scene, such as "0.2 MPa" [that of SCENE].'),
+    title: str = typer.Option(None, "--title", help="Title of the scene."),
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
     plot: bool = typer.Option(True, help="Draw the spectrum with the levels (PNG)."),
     allow_solver: bool = typer.Option(False, "--allow-solver", help="Run the code of a solver that the scene names."),
@@ -38,24 +40,27 @@ def command(
     from ..extras import require
     from ..files import Outputs, refuse_unwritable
     from ..roughness import levels_of, read_surface
-    from ..scene.edit import with_levels, with_solver_seen_from
+    from ..scene.edit import with_levels, with_settings, with_solver_seen_from
     from ..scene.errors import located
     from ..scene.load import scene_text
     from .origin import record_origin, refuse_other_origin
-    from .quantities import metres
+    from .quantities import metres, pascals
+    from .scene_options import settings
 
     if plot:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
     limits = {"longest": metres(longest, "--longest"), "shortest": metres(shortest, "--shortest")}
+    given = settings(scene, pascals(pressure, "--pressure"), title, f"Surface of {surface.name}")
     refuse_unwritable(out, "--out")
-    names = [f"{surface.stem}.levels.{suffix}" for suffix in ("toml", *["png"] * plot)]
+    names = [f"{surface.stem}.{part}" for part in ("levels.toml", *["spectrum.png"] * plot)]
     refuse_other_origin(out, names, surface)
     scan = read_surface(surface, channel=channel, unit=unit, sizes=tuple(size) if size else None)
     found = levels_of(scan, count=count, ratio=ratio, wavelength=wavelength, **limits)
     ends = f"{found.bands.max():.4g} to {found.bands.min():.4g} m"
     comment = f"Made from {surface.name}, wavelengths {ends}: rms height and gradient of each band."
     with located(scene):
-        text = with_solver_seen_from(out, scene_text(scene)[0], scene)
+        text = with_settings(scene_text(scene)[0], given) if given else scene_text(scene)[0]
+        text = with_solver_seen_from(out, text, scene)
         levels = [{"l": each.l, "h": each.h} for each in found.levels]
         text = with_levels(text, levels, comment, folder=out, allow_solver=allow_solver)
     with Outputs(out) as files:

@@ -2,8 +2,19 @@
 
 from ..errors import FitWarning
 from .fit import fit_prony
+from .master import MasterCurve, master_curve, read_isotherms
 from .modulus import DynamicModulus
 from .read import read_dma
 from .series import Foundation, PronySeries
 
-__all__ = ["DynamicModulus", "FitWarning", "Foundation", "PronySeries", "fit_prony", "read_dma"]
+__all__ = [
+    "DynamicModulus",
+    "FitWarning",
+    "Foundation",
+    "MasterCurve",
+    "PronySeries",
+    "fit_prony",
+    "master_curve",
+    "read_dma",
+    "read_isotherms",
+]

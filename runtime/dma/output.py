@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-from typing import Any
+import textwrap
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..inputs.half_space import HalfSpace
+from ..inputs.shift import WLF
 from .modulus import DynamicModulus
 from .series import PronySeries
+
+if TYPE_CHECKING:
+    from ..inputs.prony import Prony
+    from ..inputs.shift import Shift
 
 
 def rows(series: PronySeries, data: DynamicModulus) -> dict[str, np.ndarray]:
     """Measured and fitted moduli, one row for each frequency."""
     fitted, kind = series.modulus(data.omega), series.kind
     return {
-        "f [Hz]": data.omega / (2 * np.pi),
+        "f [Hz]": data.frequency,
         f"{kind}_stor [Pa]": data.storage,
         f"{kind}_loss [Pa]": data.loss,
         f"{kind}_stor fitted [Pa]": fitted.real,
@@ -22,19 +29,31 @@ def rows(series: PronySeries, data: DynamicModulus) -> dict[str, np.ndarray]:
     }
 
 
-def material_table(series: PronySeries, length: float, source: str) -> tuple[dict[str, Any], str]:
-    """Keys of the ``[material]`` table, and a comment that says where they are from."""
-    low, high = series.band
-    comment = (
-        f"Fitted to {source}, {low:.4g} to {high:.4g} Hz: residuals {100 * series.rms_storage:.2g} % rms in storage, "
-        f"{100 * series.rms_loss:.2g} % in loss modulus.\nStiffness per area is modulus over {length:.4g} m."
-    )
-    if len(series.times) == 1:
-        solid = series.standard_linear_solid(length)
-        return {"model": "standard_linear_solid", "K": solid.K, "T_eps": solid.T_eps, "T_sigma": solid.T_sigma}, comment
-    if len(series.times) > 3:
-        n = len(series.times)
-        comment += f"\nhystrip has solvers for 2 and 3 times: for {n}, `hystrip regenerate` a model of so many and name its"
-        comment += '\nfolder here: solver = "..."'
-    each = series.foundation(length)
-    return {"model": "prony", "K": each.K, "moduli": each.moduli, "times": each.times}, comment
+def material_tables(
+    material: HalfSpace | Prony, series: PronySeries, source: str, length: float | None
+) -> tuple[dict[str, dict[str, Any]], str]:
+    """The ``[material]`` table and those below it by their names, and a comment that says where they are from."""
+    comment = f"Fitted to {source}:\n" + "\n".join(textwrap.wrap(f"{series.quality}.", 110))
+    if isinstance(material, HalfSpace):
+        own: dict[str, Any] = {"kind": "half-space", "E": material.E, "nu": material.nu}
+        if series.kind == "G":
+            comment += f"\nE = 2 (1 + nu) G, with nu = {material.nu:.4g}."
+    else:
+        own = {"model": "prony", "K": material.K}
+        comment += f"\nStiffness per area is modulus over {length:.4g} m."
+    tables = {"material": own | {"moduli": material.moduli, "times": material.times}}
+    if material.shift is not None:
+        tables["material.shift"] = shift_table(material.shift)
+    if series.fit is not None:
+        tables["material.fit"] = {"edges": _rounded(series.fit.edges), "rms": _rounded(series.fit.rms)}
+    return tables, comment
+
+
+def shift_table(shift: Shift) -> dict[str, Any]:
+    """Keys of ``[material.shift]``."""
+    own = {"C_1": shift.C_1, "C_2": shift.C_2} if isinstance(shift, WLF) else {"E_a": shift.E_a}
+    return {"model": type(shift).__name__, **own, "T_ref": shift.T_ref, "vertical": shift.vertical}
+
+
+def _rounded(values: tuple[float, ...]) -> list[float]:
+    return [float(f"{each:.3g}") for each in values]

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import re
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
 from ..errors import InputError
+from ..inputs.shift import WLF, Arrhenius, Shift
 from .columns import Column, columns_of, factor, is_header, to_kelvin
 from .modulus import DynamicModulus
 from .table import Table, as_number, decimal_comma, read_table
@@ -247,3 +248,28 @@ def _refuse_raw(readings: Readings, isotherms: list[np.ndarray]) -> None:
         )
     shown = [f"{readings.temperature[rows].mean():.1f} K" for rows in isotherms]
     raise InputError(f"{readings.where}, temperature", shown, "one temperature: a master curve (`hystrip master` makes one)")
+
+
+def shift_remark(shift: Shift) -> str:
+    """A remark above a table of moduli that says how they shift with temperature; :func:`read_shift` reads it after a ``#``."""
+    values = " ".join(f"{name}={value!r}" for name, value in asdict(shift).items())
+    return f"shift: {type(shift).__name__} {values}"
+
+
+def read_shift(path: str | os.PathLike[str]) -> WLF | Arrhenius | None:
+    """The shift that a remark above the table of a file states, as in a master curve of ``hystrip master``; None without one.
+
+    Raises ``InputError`` for a remark that is no shift, or a file that cannot be read.
+    """
+    table = read_table(path, is_header)
+    for line in table.remarks:
+        if not line.startswith("# shift:"):
+            continue
+        words = line.removeprefix("# shift:").replace(",", " ").replace(";", " ").split()
+        try:
+            kind = {"WLF": WLF, "Arrhenius": Arrhenius}[words[0]]
+            return kind(**{name: float(value) for name, _, value in (word.partition("=") for word in words[1:])})
+        except (KeyError, IndexError, TypeError, ValueError) as error:
+            allowed = "# shift: WLF C_1=.. C_2=.. T_ref=.. vertical=.., or Arrhenius E_a=.. T_ref=.. vertical=.."
+            raise InputError(f"{table.where}, shift", f"{line} ({error})", allowed) from None
+    return None

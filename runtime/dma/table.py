@@ -24,13 +24,14 @@ _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(,\d{3})+")
 @dataclass(frozen=True)
 class Table:
     """A table of text: ``names`` of the columns, the rows below as (line number, cells), what parts the cells, and the
-    ``line`` of the names."""
+    ``line`` of the names, and the lines above it."""
 
     where: str
     names: list[str]
     rows: list[tuple[int, list[str]]]
     separator: str
     line: int
+    remarks: tuple[str, ...] = ()
 
     def cell(self, row: Sequence[str], column: int) -> str:
         """A cell, empty beyond the end of its row."""
@@ -48,7 +49,7 @@ def read_table(path: str | os.PathLike[str], is_header: Callable[[list[str]], bo
         rows = _rows(where, lines, separator)
         for at, (line, cells) in enumerate(rows[:_PREAMBLE]):
             if is_header(cells):
-                return Table(where, cells, rows[at + 1 :], _SEPARATORS[separator], line)
+                return Table(where, cells, rows[at + 1 :], _SEPARATORS[separator], line, tuple(lines[: line - 1]))
     first = next((line for line in lines if line.strip()), "")
     if not first:
         raise InputError(where, "no text", "a row of names (frequency, storage and loss modulus, with units), then numbers")

@@ -81,8 +81,6 @@ class Prony:
             raise InputError("material.moduli, material.times", (len(moduli), len(times)), "as many moduli as times")
         if self.solver is not None and not hasattr(self.solver, "prony_kernel"):
             raise InputError("material.solver", self.solver, "None, or what hystrip.load_solver returns")
-        if len(times) > MOST_TIMES:
-            raise InputError("material.times", f"{len(times)} times", f"at most {MOST_TIMES}")
         names = [*(f"material.moduli[{i}]" for i in range(len(moduli))), *(f"material.times[{i}]" for i in range(len(times)))]
         shape = broadcast(**{"material.K": K}, **dict(zip(names, moduli + times, strict=True)))
         if shape:
@@ -91,6 +89,8 @@ class Prony:
             moduli, times = [moduli[i] for i in order], [times[i] for i in order]
         else:
             moduli, times = _merged(moduli, times)
+        if len(times) > MOST_TIMES:
+            raise InputError("material.times", f"{len(times)} different times", f"at most {MOST_TIMES}")
         one = lambda v: float(v) if np.ndim(v) == 0 else v  # noqa: E731
         for name, value in (("K", one(K)), ("moduli", tuple(map(one, moduli))), ("times", tuple(map(one, times)))):
             object.__setattr__(self, name, value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 from collections.abc import Mapping, Sequence
@@ -11,12 +12,17 @@ from .errors import SceneError
 from .load import parse_scene
 from .toml import parse_toml
 
+#: of what is measured more digits than these are noise
+_DIGITS = 6
+_IN_A_LINE = 5
 _HEADER = re.compile(r"\s*\[\[?\s*(?P<name>[^\]\s]+)\s*\]?\]")
 
 
-def with_material(text: str, table: Mapping[str, Any], comment: str = "") -> str:
-    """The scene with another ``[material]``. Raises SceneError if what comes out is no scene."""
-    return _checked(text, _replaced(text, "material", [_table("[material]", table, comment)]), "material")
+def with_material(text: str, tables: Mapping[str, Mapping[str, Any]], comment: str = "") -> str:
+    """The scene with another ``[material]`` and, by their names, other tables below it. Raises SceneError if what comes out is
+    no scene."""
+    written = [_table(f"[{name}]", table, comment if name == "material" else "") for name, table in tables.items()]
+    return _checked(text, _replaced(text, "material", written), "material")
 
 
 def with_levels(
@@ -44,14 +50,16 @@ def with_solver_seen_from(folder: Any, text: str, source: Any) -> str:
     return "\n".join(lines) + "\n"
 
 
-def with_setting(text: str, key: str, value: str) -> str:
-    """The scene with another value of a key that stands above its tables, and holds text."""
-    lines = text.splitlines()
-    top = next((number for number, line in enumerate(lines) if _HEADER.match(line)), len(lines))
-    old = [number for number, line in enumerate(lines[:top]) if re.match(rf"\s*{key}\s*=", line)]
-    new = f"{key} = {_value(value)}"
-    lines = [*lines[: old[0]], new, *lines[old[0] + 1 :]] if old else [new, *lines]
-    return _checked(text, "\n".join(lines) + "\n", key)
+def with_settings(text: str, values: Mapping[str, Any]) -> str:
+    """The scene with other values of keys that stand above its tables, text or numbers."""
+    for key, value in values.items():
+        lines = text.splitlines()
+        top = next((number for number, line in enumerate(lines) if _HEADER.match(line)), len(lines))
+        old = [number for number, line in enumerate(lines[:top]) if re.match(rf"\s*{key}\s*=", line)]
+        new = f"{key} = {_value(value)}"
+        lines = [*lines[: old[0]], new, *lines[old[0] + 1 :]] if old else [new, *lines]
+        text = _same_but(text, "\n".join(lines) + "\n", key)
+    return text
 
 
 def _table(header: str, table: Mapping[str, Any], comment: str) -> str:
@@ -61,10 +69,14 @@ def _table(header: str, table: Mapping[str, Any], comment: str) -> str:
 
 def _value(value: Any) -> str:
     if isinstance(value, str):
-        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(map(_value, value)) + "]"
-    return repr(float(value))
+        shown = list(map(_value, value))
+        if len(shown) <= _IN_A_LINE:
+            return "[" + ", ".join(shown) + "]"
+        lines = (", ".join(shown[i : i + _IN_A_LINE]) for i in range(0, len(shown), _IN_A_LINE))
+        return "[\n" + "".join(f"  {line},\n" for line in lines) + "]"
+    return f"{value:.{_DIGITS}g}"
 
 
 def _replaced(text: str, name: str, tables: list[str]) -> str:
@@ -75,7 +87,7 @@ def _replaced(text: str, name: str, tables: list[str]) -> str:
     for line in text.splitlines():
         header = _HEADER.match(line)
         if header:
-            cutting = header["name"] == name
+            cutting = header["name"] == name or header["name"].startswith(f"{name}.")
             place = len(kept) if cutting and place is None else place
             kept += [] if cutting else held
             held = []
@@ -93,12 +105,17 @@ def _replaced(text: str, name: str, tables: list[str]) -> str:
 
 def _checked(old: str, new: str, name: str, **options: Any) -> str:
     """The new text, if it is a scene and differs from the old one in the table alone."""
+    parse_scene(_same_but(old, new, name), **options)
+    return new
+
+
+def _same_but(old: str, new: str, name: str) -> str:
+    """The new text, if it is TOML and differs from the old one in one key alone."""
     was = parse_toml(old)
     try:
         now = parse_toml(new)
     except SceneError:  # written in another way, and now there twice
         now = {}
     if {key: each for key, each in was.items() if key != name} != {key: each for key, each in now.items() if key != name}:
-        raise SceneError(name, was.get(name), "a table under its own header, so that it can be replaced")
-    parse_scene(new, **options)
+        raise SceneError(name, was.get(name), "a table under its own header, or a key on a line of its own, to be replaced")
     return new

@@ -1,0 +1,65 @@
+"""``hystrip master``: isotherms become one master curve."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import typer
+
+from .output import say
+
+
+def command(
+    data: Path = typer.Argument(help="Table of temperature, frequency, storage and loss modulus at several temperatures."),
+    reference: str = typer.Option(None, "--reference", help='Temperature of the master curve, such as "25 degC" [20 degC].'),
+    law: str = typer.Option("best", "--law", help="Law of the shift factors: WLF, Arrhenius, or best, the nearer of the two."),
+    vertical: bool = typer.Option(False, "--vertical", help="Shift moduli too."),
+    decimal: str = typer.Option(None, "--decimal", help='"." or ",", for a file that can be read both ways.'),
+    out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
+    plot: bool = typer.Option(True, help="Draw isotherms, master curve and shift factors (PNG)."),
+) -> None:
+    """Make one master curve of isotherms.
+
+    Finds the shift factors at which all temperatures lie on one smooth curve, and the law that they follow. Writes the
+    curve (`hystrip fit` reads it, with its shift), the factors, and a picture.
+    """
+    from ..dma import master_curve, read_isotherms
+    from ..dma.read import shift_remark
+    from ..extras import require
+    from ..files import Outputs, refuse_unwritable
+    from ..tables import about_version, write_csv
+    from .origin import record_origin, refuse_other_origin
+    from .quantities import kelvins
+
+    if plot:
+        require("matplotlib", "plot", "drawing (or give --no-plot)")
+    T_ref = kelvins(reference, "--reference")
+    isotherms = read_isotherms(data, decimal)
+    refuse_unwritable(out, "--out")
+    names = [f"{data.stem}.{part}" for part in ("master.csv", "shifts.csv", *["master.png"] * plot)]
+    refuse_other_origin(out, names, data)
+    found = master_curve(isotherms, T_ref=T_ref, law=law, vertical=vertical)
+    curve, kind = found.data, found.data.kind
+    points = {"f [Hz]": curve.frequency, f"{kind}_stor [Pa]": curve.storage, f"{kind}_loss [Pa]": curve.loss}
+    factors = {
+        "T [K]": found.temperatures,
+        "a_T": found.a_T,
+        "relative standard error of a_T": found.a_T_error,
+        "a_T of the law": found.shift.factor(found.temperatures),
+        "b_T": found.b_T,
+    }
+    about = [*about_version(), f"data: {data.name}", shift_remark(found.shift)]
+    with Outputs(out) as files:
+        write_csv(files.path(names[0]), points, about)
+        write_csv(files.path(names[1]), factors, about)
+        if plot:
+            from ..plots import save
+            from ..plots.master import master_curve as draw
+
+            save(draw(found), files.path(names[2]))
+        record_origin(files, names, data)
+    for line in curve.columns:
+        say(f"read       {line}")
+    say(found.report())
+    for name in names:
+        say(f"wrote {out / name}")

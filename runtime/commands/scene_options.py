@@ -1,0 +1,25 @@
+"""What the commands that write a scene set in it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..errors import InputError
+
+STARTER = "starter"
+
+
+def settings(scene: str, pressure: float | None, title: str | None, named: str) -> dict[str, Any]:
+    """Keys above the tables of a scene that is written, with their values; ``scene``: what it is made from, "" for none.
+
+    The starter's pressure and title are its own, not the user's: there a pressure has to be given, and the title is ``named``.
+    Raises ``InputError`` where a pressure is missing.
+    """
+    if scene == STARTER and pressure is None:
+        raise InputError("--pressure", None, 'the nominal pressure, such as "0.2 MPa"; or a --scene that has one')
+    found: dict[str, Any] = {}
+    if title is not None or scene == STARTER:
+        found["title"] = title if title is not None else named
+    if pressure is not None:
+        found["pressure"] = pressure
+    return found
