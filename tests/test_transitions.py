@@ -1,5 +1,4 @@
-"""Transitions along a line: found where the codes change, however few points it takes; islands; narrow zones; the greatest
-pressure in contact."""
+"""Where the strips of a level change regime: breaks over penetration, islands, narrow zones; the greatest pressure in contact."""
 
 import numpy as np
 import pytest
@@ -12,7 +11,6 @@ from hystrip.level.contact import contact_of
 from hystrip.level.curve import Interval, interpolate
 from hystrip.level.means import level_means
 from hystrip.level.strips import Columns, saturation_depth
-from hystrip.level.transitions import Guide, Looks, locate
 from hystrip.orbit.materials import kernel_of
 from hystrip.orbit.regimes import CODE
 
@@ -24,55 +22,6 @@ SMALL = hystrip.Level(l=500e-9, h=100e-9)
 def _columns(V, edge="continuous", branch="unloading", adhesion=WEAK, level=SMALL, material=MATERIAL):
     V = np.atleast_1d(V).astype(float)
     return Columns(material, adhesion, level, edge, branch, V, np.zeros(V.size))
-
-
-class Line:
-    """Code 0 below ``place`` and 1 above, with a margin on the lower side that vanishes like the square root; counts what is
-    asked."""
-
-    def __init__(self, place, off=0.0):
-        self.place, self.off, self.asked = place, off, 0
-
-    def __call__(self, line, x):
-        self.asked += x.size
-        margin = np.sqrt(np.maximum(self.place + self.off - x, 0.0)) * (1 + 0.3 * np.maximum(self.place - x, 0.0))
-        return (x > self.place).astype(int), np.where(x > self.place, np.nan, margin)[:, None]
-
-
-def _found(line, width):
-    one = np.zeros(1, int)
-    guide = Guide(lambda code, other: np.where(code == 0, 0, -1), np.array([2]))
-    return locate(line, guide, one, np.zeros(1), np.ones(1), one, one + 1, np.full(1, width))
-
-
-@pytest.mark.parametrize("place", [1e-3, 0.1, 0.37, 0.999])
-def test_a_margin_leads_to_the_change(place):
-    line = Line(place)
-    found = _found(line, 1e-12)
-    assert found.low[0] <= place + 1e-12 and found.high[0] >= place - 1e-12 and found.high[0] - found.low[0] <= 1e-12
-    assert line.asked < 60  # multisection takes 150
-
-
-def test_a_margin_that_misleads_costs_points_but_no_change_is_lost():
-    """It vanishes a little beyond the change: what lies between is not believed once a look has missed twice, or is that near."""
-    line = Line(0.37, off=1e-3)
-    found = _found(line, 1e-6)
-    assert abs(found.low[0] - 0.37) < 1e-5
-
-
-@pytest.mark.parametrize("seen", [(0.2, 0.34, 0.365, 0.5), (0.2, 0.38, 0.39, 0.5), (0.2, 0.5)])
-def test_looks_beforehand_spare_points(seen):
-    """Wherever they fell: their margins lead on from there."""
-    line, x = Line(0.37), np.array(seen)
-    looks = Looks(np.zeros(x.size, int), x, *line(0, x))
-    one, guide = np.zeros(1, int), Guide(lambda code, other: np.where(code == 0, 0, -1), np.array([2]))
-    ends, line.asked = (x[:1], x[-1:], one, one + 1), 0
-    found = locate(line, guide, one, *ends, np.full(1, 1e-12), looks)
-    spared, line.asked = line.asked, 0
-    locate(line, guide, one, *ends, np.full(1, 1e-12))
-    assert found.low[0] <= 0.37 + 1e-12 and found.high[0] >= 0.37 - 1e-12 and found.high[0] - found.low[0] <= 1e-12
-    assert found.codes.tolist() == [[0, 1]]
-    assert spared < line.asked if x.size == 4 and x[1] < 0.37 else spared <= line.asked
 
 
 @pytest.mark.parametrize("branch", ["unloading", "loading"])

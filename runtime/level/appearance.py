@@ -10,8 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .boundaries import located
+from .changes import Changes, locate_changes
 from .strips import Columns
-from .transitions import locate
 
 #: points across an island, and how often they are drawn closer to where it vanishes
 _ACROSS, _ROUNDS, _FEW = 9, 5, 2
@@ -107,27 +108,37 @@ def _ends(columns: Columns, column, code, theta, present, absent, width, strips)
     """Penetration between ``present`` and ``absent`` at which each strip (islands, across) loses the island's code, NaN where it
     has not got it or keeps it; and which keep it."""
     shape = theta.shape
-    line = np.arange(theta.size)
-    row, theta = line // shape[1], theta.ravel()
+    every = np.arange(theta.size)
+    row, theta = every // shape[1], theta.ravel()
     start, stop = present[row], absent[row]
+    amplitude, h = columns.level.amplitude(theta), columns.level.h
 
     def probe(line, D):
         np.add.at(strips, column[row[line]], 1)
-        return columns.at(column[row[line]], D).probe(np.arange(D.size), theta[line])
+        codes, values, heights, edges = columns.at(column[row[line]], D).evaluate(np.arange(D.size), theta[line])
+        return codes, heights, edges, values
 
-    codes = probe(np.tile(line, 2), np.concatenate((start, stop)))[0].reshape(2, -1)
-    bound = (codes[0] == code[row]) & (codes[1] != code[row])
-    at = np.flatnonzero(bound)
+    def equation(changes):
+        line = changes.line
+        E = np.stack((changes.low, changes.high), axis=1) - h
+        place, found = located(columns.at(column[row[line]], changes.low), changes, np.tile(amplitude[line, None], 2), E, "E")
+        return place + h, found
+
+    ends = [
+        v.reshape(2, theta.size, *v.shape[1:]).swapaxes(0, 1) for v in probe(np.tile(every, 2), np.concatenate((start, stop)))
+    ]
+    codes = ends[0]
+    at = np.flatnonzero((codes[:, 0] == code[row]) & (codes[:, 1] != code[row]))
     out = np.full(theta.size, np.nan)
-    still = (codes[1] == code[row]).reshape(shape)
+    still = (codes[:, 1] == code[row]).reshape(shape)
     if not at.size:
         return out.reshape(shape), still
     falls = (stop < start)[at]
-    ends, codes = np.sort((start[at], stop[at]), axis=0), codes[:, at]
-    low, high = np.where(falls, codes[::-1], codes)
-    found = locate(probe, columns.guide, at, *ends, low, high, width[row[at]])
-    # of several transitions the one next to where the island is present
-    order = np.argsort(found.low) if not falls.any() else np.argsort(np.where((stop < start)[found.line], -found.low, found.low))
+    ends = [np.where(falls.reshape(-1, *[1] * (v.ndim - 1)), v[at, ::-1], v[at]) for v in ends]
+    changes = Changes(at, np.minimum(start, stop)[at], np.maximum(start, stop)[at], *ends)
+    found, _ = locate_changes(probe, equation, changes, width[row[at]], checked=True)
+    # of several changes the one next to where the island is present
+    order = np.argsort(np.where((stop < start)[found.line], -found.low, found.low))
     for i in order[::-1]:
         out[found.line[i]] = found.low[i] if stop[found.line[i]] > start[found.line[i]] else found.high[i]
     return out.reshape(shape), still

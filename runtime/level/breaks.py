@@ -9,12 +9,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from .strips import Columns, saturation_depth
-from .transitions import Looks, Probe, locate
+from .boundaries import located
+from .changes import Changes, locate_changes
+from .strips import Columns
 
 _SCAN = 48
-#: how far from a penetration that is known to look, as shares of the width of a bracket
-_ASIDE = np.array((-0.45, -0.06, 0.06, 0.45))
 _EPS = np.finfo(float).eps
 
 
@@ -65,58 +64,43 @@ def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list
 
     Returns them, ascending, for every row, and the lowest that is one of the crest (inf: none), (m,).
     """
-    a, h, K = columns.adhesion, columns.level.h, columns.material.K
-    m = column.size
-    # what levels below carry may change at the flat edge too
-    places = np.array((0.0, np.pi) if columns.carry else (0.0,))
-
-    def crest_or_edge(line, x):
-        return columns.at(column[line % m], x), np.arange(x.size), places[line // m]
-
-    def codes_at(line, x):
-        at, *where = crest_or_edge(line, x)
-        return at.codes(*where)
+    h, m = columns.level.h, column.size
 
     def probe(line, x):
-        at, *where = crest_or_edge(line, x)
-        return at.probe(*where)
+        codes, values, heights, edges = columns.at(column[line], x).evaluate(np.arange(x.size), np.zeros(x.size))
+        return codes, heights, edges, values
 
-    D = np.tile(D, (places.size, 1))
-    codes = codes_at(np.repeat(np.arange(m * places.size), D.shape[1]), D.ravel()).reshape(D.shape)
-    line, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
-    low, high = D[line, node], D[line, node + 1]
-    width = 16 * _EPS * np.maximum(np.maximum(np.abs(low), np.abs(high)), max(h, a.p_0 / K))
-    ends = codes[line, node], codes[line, node + 1]
-    known = np.stack((columns.clinging.crest(columns), saturation_depth(columns)))[:, column]
-    looks = _beside_known(known, probe, line, low, high, ends, width)
-    changes = locate(probe, columns.guide, line, low, high, *ends, width, looks)
-    if columns.branch == "unloading" and a.p_0 > 0:
-        edge = [h - a.p_0 / K, h - a.p_0 / K - a.delta_0]
-    else:
-        edge = [h - a.p_0 / K, h - (a.delta_0 if a.p_0 > 0 else 0.0)]
+    def equation(changes):
+        E = np.stack((changes.low, changes.high), axis=1) - h
+        place, found = located(columns.at(column[changes.line], changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
+        return place + h, found
+
+    answers = [v.reshape(*D.shape, *v.shape[1:]) for v in probe(np.repeat(np.arange(m), D.shape[1]), D.ravel())]
+    line, node = np.nonzero(answers[0][:, 1:] != answers[0][:, :-1])
+    pair = lambda x: np.stack((x[line, node], x[line, node + 1]), axis=1)  # noqa: E731
+    ends = pair(D)
+    width = 16 * _EPS * np.maximum(np.abs(ends).max(axis=1, initial=0.0), max(h, columns.stretch))
+    changes = Changes(line, ends[:, 0].copy(), ends[:, 1].copy(), *(pair(v) for v in answers))
+    changes, _ = locate_changes(probe, equation, changes, width, checked=True)
+    valley = _of_valley(columns)[column]
     out, touched = [], np.full(m, np.inf)
     for r in range(m):
-        touched[r] = changes.high[changes.line == r].min(initial=np.inf)
-        points = np.unique([*changes.high[changes.line % m == r], *(e for e in edge if D[r, 0] < e < D[r, -1])])
+        own = changes.high[changes.line == r]
+        touched[r] = own.min(initial=np.inf)
+        points = np.unique([*own, *valley[r][(D[r, 0] < valley[r]) & (valley[r] < D[r, -1])]])
         out.append(points[np.concatenate(([True], np.diff(points) > 1e-12 * h))] if points.size else points)
     return out, touched
 
 
-def _beside_known(known, probe: Probe, line, low, high, ends, width) -> Looks:
-    """Looks at the ``ends`` (codes at ``low`` and ``high``) of brackets, and next to where crests are ``known`` to change,
-    (kinds, crests)."""
-    crest = np.flatnonzero(line < known.shape[1])
-    x = known[:, line[crest]] + np.multiply.outer(_ASIDE, width[crest])[:, None]
-    *_, at = inside = np.nonzero((x > low[crest]) & (x < high[crest]))
-    rows, x = crest[at], x[inside]
-    codes, margins = probe(line[rows], x)
-    every, unknown = np.arange(line.size), np.full((2 * line.size, margins.shape[1]), np.nan)
-    return Looks(
-        np.concatenate((every, every, rows)),
-        np.concatenate((low, high, x)),
-        np.concatenate((*ends, codes)),
-        np.concatenate((unknown, margins)),
-    )
+def _of_valley(columns: Columns) -> np.ndarray:
+    """Penetrations (n, k) at which the flat strip of the valley makes contact, adheres, or passes a break of the law below with
+    its pressure ``K (D - h)``; inf where there are fewer."""
+    h, reach = columns.level.h, columns.adhesion.delta_0 if columns.stretch > 0 else 0.0
+    loose = h - reach - (columns.stretch if columns.branch == "unloading" else 0.0)
+    own = np.tile([h - columns.stretch, loose], (columns.size, 1))
+    if columns.carry is None:
+        return own
+    return np.concatenate((own, h + columns.carry.breaks(columns.group) / columns.material.K), axis=1)
 
 
 def _scan(columns: Columns, top):

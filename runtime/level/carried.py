@@ -64,6 +64,10 @@ class CarriedByLaws:
     rtol: float
     scales: np.ndarray
 
+    def breaks(self, group: np.ndarray) -> np.ndarray:
+        """See ``strips.Carry``."""
+        return self.table.breaks[group]
+
     def crossed(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """See ``strips.Carry``: how many breaks the greatest pressure exceeds, and how many the pressure exceeds all along (or at
         entry)."""
@@ -75,27 +79,14 @@ class CarriedByLaws:
             crossed[index] = 1 + top + (breaks.shape[1] + 1) * least
         return crossed
 
-    @property
-    def passes(self) -> int:
-        """See ``strips.Carry``: the greatest and the least pressure over each break."""
-        return 2 * self.table.breaks.shape[1]
-
     def heights(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """See ``strips.Carry``."""
-        out = np.full((group.size, self.passes), np.nan)
+        out = np.full((group.size, 2 * self.table.breaks.shape[1]), np.nan)
         index, contact = strips.touching
         if index.size:
             breaks = self.table.breaks[group[index]]
             out[index] = np.concatenate([p[:, None] - breaks for p in _extremes(contact)], axis=1)
         return out
-
-    def passing(self, crossed: np.ndarray, other: np.ndarray) -> np.ndarray:
-        """See ``strips.Carry``: the lowest break that one of the two passes and the other does not, by its greatest pressure or
-        else its least."""
-        size = self.table.breaks.shape[1]
-        (least, top), (other_least, other_top) = (np.divmod(v - 1, size + 1) for v in (crossed, other))
-        lower = np.where(top != other_top, np.minimum(top, other_top), size + np.minimum(least, other_least))
-        return np.where((crossed > 0) & (other > 0) & (crossed != other), lower, -1)
 
     def over_contact(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """See ``strips.Carry``. The contributions are the law's quantities from friction on, then their error."""

@@ -15,13 +15,15 @@ AVERAGE_LIMIT, CURVE_LIMIT = 10_000, 150_000
 
 @dataclass
 class WorkCounters:
-    """Work done so far: strips whose orbit was searched for, and strips decided by a closed form alone.
+    """Work done so far: strips whose orbit was searched for, strips decided by a closed form alone, and
+    steps of bisection where no equation told where a regime ends.
 
     ``limits``: for pairs of velocity and wavelength, the limit that ended the work there.
     """
 
     solved: int = 0
     decided: int = 0
+    bisected: int = 0
     limits: dict[tuple[float, float], str] = field(default_factory=dict)
 
     def count(self, solved: Solved) -> None:

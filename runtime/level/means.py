@@ -12,9 +12,7 @@ def level_means(columns: Columns, rtol: np.ndarray) -> Averages:
     """Means of ``strips.QUANTITIES`` for every column, to ``rtol (|value| + floor)`` each; ``rtol`` of shape (n,)."""
     if columns.strips is not None:
         return equal_strips(columns, columns.strips)
-    q = columns.scales.size
-    floor = np.broadcast_to(columns.floors, (columns.size, q))
-    return average(columns, columns.transitions(), floor, rtol, q)
+    return average(columns, rtol)
 
 
 def equal_strips(columns: Columns, strips: int) -> Averages:

@@ -11,16 +11,13 @@ import numpy as np
 from ..inputs.adhesion import Dugdale
 from ..inputs.surface import Level
 from ..orbit.foundation import foundation_of
-from ..orbit.groups import Strips
 from ..orbit.materials import Material, kernel_of
 from ..orbit.regimes import CODE
 from ..orbit.solved import Solved
-from .clinging import Clinging
 from .contact import Contact, contact_of
+from .crossings import Crossings
 from .effort import WorkCounters
-from .margins import POWERS, decisive, margins
 from .saturated import saturated_level
-from .transitions import Guide
 
 if TYPE_CHECKING:
     from ..orbit.modes.contact import ModeContact
@@ -30,19 +27,18 @@ QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
 
 
 class Carry(Protocol):
-    """What the levels below contribute in the contact of a strip. ``passes``: how many ``heights`` there are."""
+    """What the levels below contribute in the contact of a strip."""
 
     scales: np.ndarray
-    passes: int
+
+    def breaks(self, group: np.ndarray) -> np.ndarray:
+        """Pressures (m, k), Pa, ascending, at which the laws of each ``group`` are not smooth; inf where there are fewer."""
 
     def crossed(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Codes (m,) of the law breaks that each strip's pressure passes."""
 
     def heights(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """Margins (m, k) of each strip's pressures over the law's breaks, Pa; NaN without contact."""
-
-    def passing(self, crossed: np.ndarray, other: np.ndarray) -> np.ndarray:
-        """Which of the ``heights`` vanishes where one code of ``crossed`` becomes another, -1 for none."""
+        """Greatest, then least pressure of each strip over the law's breaks, (m, k), Pa; NaN without contact."""
 
     def over_contact(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Contributions averaged over the period, (m, q)."""
@@ -54,8 +50,8 @@ class Columns:
 
     ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
     laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels. ``frictional``: it is for
-    pressure and friction that the averages are made; fractions need be accurate against 1 only. ``clinging``: what is
-    known of strips that are engaged all along, shared by all that is made of these columns.
+    pressure and friction that the averages are made; fractions need be accurate against 1 only. ``crossings``: points located of
+    the curves that divide the plane of strips, shared by all that is made of these columns.
     """
 
     material: Material
@@ -70,7 +66,7 @@ class Columns:
     strips: int | None = None
     frictional: bool = False
     work: WorkCounters = field(default_factory=WorkCounters, compare=False)
-    clinging: Clinging = field(default_factory=Clinging, compare=False)
+    crossings: Crossings = field(default_factory=Crossings, compare=False)
 
     def at(self, index, D) -> Columns:
         """The columns ``index`` at other penetrations ``D``."""
@@ -110,36 +106,29 @@ class Columns:
         tau = solved.tau_mean * scales["p"] * scales["k"] * scales["A"]
         return SolvedStrips(solved, strips, scales, solved.p_mean * scales["p"], tau, kernel_of(self.material))
 
-    def groups(self, V, D, p_0=0.0, delta_0=0.0) -> Strips:
-        """Strips at the velocities ``V``, all else in their own units, (m,); for a foundation with one time."""
-        m, rate, every = foundation_of(self.material).material, self.level.k * V, np.zeros(D.size)
-        chi = every + (self.edge == "constitutive")
-        return Strips(rate * m.T_sigma, rate * m.T_eps, every + m.J, every + m.L, every + p_0, every + delta_0, D, chi)
+    @property
+    def stretch(self) -> float:
+        """``p_0/K``: how far the adhesive traction draws the foundation out, m."""
+        return self.adhesion.p_0 / self.material.K
+
+    def groups(self, V: np.ndarray, A: np.ndarray, D: np.ndarray) -> tuple | None:
+        """Arguments of the boundary equations of strips at the velocities ``V``, (m,) each; None where these are
+        not closed in the edges alone."""
+        p_0, delta_0 = self.stretch / A, self.adhesion.delta_0 / A
+        return foundation_of(self.material).boundary_arguments(self.level.k * V, D / A, p_0, delta_0, self.edge)
+
+    def evaluate(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Of the strips at ``theta``: codes (m,), values to average (m, q), greatest and least pressures over the breaks of the
+        law below (m, k), NaN without contact, and the edges d, b, a, c (m, 4), NaN where there are none."""
+        strips = self.solve(column, theta)
+        s = strips.solved
+        heights = np.empty((theta.size, 0)) if self.carry is None else self.carry.heights(strips, self.group[column])
+        return self._codes(strips, column), self._values(strips, column), heights, np.stack((s.d, s.b, s.a, s.c), axis=1)
 
     def codes(self, column: np.ndarray, theta: np.ndarray) -> np.ndarray:
         """Codes that change wherever the integrand may not be smooth, (m,): the regime, and the breaks of the law below that are
         passed."""
         return self._codes(self.solve(column, theta), column)
-
-    def probe(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Codes (m,), and margins (m, k) that vanish where they change, as the ``guide`` says."""
-        strips = self.solve(column, theta)
-        return self._codes(strips, column), self._margins(strips, column)
-
-    @property
-    def guide(self) -> Guide:
-        """What the margins of ``probe`` mean."""
-        if self.carry is None:
-            return Guide(decisive, POWERS)
-        n, carry = len(CODE), self.carry
-
-        def foretells(code, other):
-            passing = carry.passing(code // n, other // n)
-            return np.where(
-                code % n == other % n, np.where(passing < 0, -1, POWERS.size + passing), decisive(code % n, other % n)
-            )
-
-        return Guide(foretells, np.concatenate((POWERS, np.ones(carry.passes, int))))
 
     def integrand(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Codes (m,) and the values to average (m, q)."""
@@ -152,32 +141,11 @@ class Columns:
         carried = self.carry.over_contact(strips, self.group[column])
         return np.concatenate((strips.values, carried), axis=1)
 
-    def _margins(self, strips: SolvedStrips, column):
-        kernel = kernel_of(self.material)
-        own = margins(kernel, strips)
-        if self.carry is None:
-            return own
-        return np.concatenate((own, self.carry.heights(strips, self.group[column])), axis=1)
-
     def _codes(self, strips: SolvedStrips, column):
         codes = strips.solved.code.astype(int)
         if self.carry is None:
             return codes
         return codes + len(CODE) * self.carry.crossed(strips, self.group[column])
-
-    def costless(self, codes: np.ndarray) -> np.ndarray:
-        """Which ``codes`` are of strips whose means take no search and may as well be summed exactly: those in saturated contact,
-        except where many means make one curve."""
-        return (codes % len(CODE) == CODE["c"]) & (not self.frictional)
-
-    def transitions(self) -> tuple[np.ndarray, np.ndarray]:
-        """Columns and thetas (k,) of the transitions known in closed form: where strips become saturated, where they lose
-        touch."""
-        return _known_transitions(self)
-
-    def ends_of_clinging(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Columns and thetas (k,) of the transitions where strips cease to be engaged all along, and how well each is known."""
-        return self.clinging.ends(self)
 
     @property
     def frictions(self) -> np.ndarray:
@@ -211,21 +179,3 @@ class SolvedStrips:
 def saturation_depth(columns: Columns) -> np.ndarray:
     """Penetration from which the whole level is in contact, m; shape (n,)."""
     return saturated_level(columns.material, columns.adhesion, columns.level, columns.V, columns.branch).D_sat
-
-
-def _known_transitions(columns: Columns) -> tuple[np.ndarray, np.ndarray]:
-    m, h, p_0, delta_0 = columns.material, columns.level.h, columns.adhesion.p_0, columns.adhesion.delta_0
-    if h == 0:
-        return np.empty(0, int), np.empty(0)
-    R = foundation_of(m).modulus_ratio(columns.level.k * columns.V)
-    # saturated where D - drop >= A (1 + R) - p_0/K, with drop = (h/2)(1 - cos), A = (h/4)(1 + cos)
-    numerator = (columns.D + p_0 / m.K) / h - 0.5 - 0.25 * (1 + R)
-    saturated = np.divide(4 * numerator, R - 1, out=np.full(columns.size, np.inf), where=R > 1)
-    # saturation decides the unloading branch only
-    found = [saturated] if columns.branch == "unloading" or p_0 == 0 else []
-    if columns.branch == "loading" or p_0 == 0:
-        # free where D - drop <= -delta_0 (or 0 without adhesion)
-        found.append(1 - 2 * (columns.D + (delta_0 if p_0 > 0 else 0.0)) / h)
-    cosines = np.array(found)
-    kind, column = np.nonzero((cosines > -1) & (cosines < 1))
-    return column, np.arccos(cosines[kind, column])

@@ -34,6 +34,10 @@ class Foundation(Protocol):
     def fields(self, strips, solved, phase) -> tuple[np.ndarray, np.ndarray]:
         """Dimensionless pressure and gap at a phase of each strip."""
 
+    def boundary_arguments(self, rate, D, p_0, delta_0, edge: str) -> tuple | None:
+        """What the generated boundary equations take after the edges, for strips at ``rate = k V``, 1/s, the rest dimensionless;
+        None where they are not closed in the edges alone."""
+
     def modulus_ratio(self, rate) -> np.ndarray:
         """``|K*(i rate)|/K``."""
 

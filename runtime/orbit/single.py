@@ -50,6 +50,11 @@ class SingleTime:
     def fields(self, strips, solved, phase):
         return fields(self.kernel, strips, solved, phase)
 
+    def boundary_arguments(self, rate, D, p_0, delta_0, edge):
+        m, one = self.material, np.ones(D.size)
+        chi = one * (edge == "constitutive")
+        return rate * m.T_sigma, rate * m.T_eps, one * m.J, one * m.L, p_0, delta_0, D, chi
+
     def modulus_ratio(self, rate):
         return self.kernel.modulus_ratio(rate * self.material.T_sigma, rate * self.material.T_eps)
 

@@ -94,6 +94,9 @@ class ManyTimes:
     def fields(self, strips, solved, phase):
         return fields(self.kernel, strips, solved, phase)
 
+    def boundary_arguments(self, rate, D, p_0, delta_0, edge):
+        return None
+
     def modulus_ratio(self, rate):
         rate = np.atleast_1d(np.asarray(rate, float))
         return self.kernel.modulus_ratio(self.kernel.at_speed(self.modes, rate))

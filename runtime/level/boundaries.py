@@ -1,0 +1,168 @@
+"""Where the strips of a level change regime.
+
+A level at penetration D is a horizontal segment of the plane of strips (``plane``), ``E = D - h``. Thresholds cross it where a
+closed form says. Other curves are met between two strips in different regimes, and located by the equation of the orbit that
+ends there, from that orbit's edges. What was located is remembered: neighbouring segments cross the same curve nearby.
+
+Nothing here decides what a strip does: a curve that is not found is met by bisection (and counted), one too many costs a panel.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..orbit.foundation import foundation_of
+from ..orbit.regimes import CODE
+from . import plane
+from .changes import Changes
+from .plane import BOUNDARIES, Boundary, Points
+
+if TYPE_CHECKING:
+    from .strips import Columns
+
+#: columns of the edges of a strip
+_COLUMN = {"d": 0, "b": 1, "a": 2, "c": 3}
+EDGES = {"acaf": "dbac", "afc": "bac", "af": "dc", "ac": "ba", "cf": "ba"}
+_ENGAGED = np.array([CODE["ac"], CODE["a"], CODE["c"]])
+
+
+def straight(columns: Columns) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Straight curves ``A = a + b E`` of the plane, (a, b) of shape (n,) each: thresholds in closed form for every state.
+
+    Saturated contact, loss of touch, contact in a gap that adheres throughout, and the greatest and the least pressure of
+    saturated contact at the breaks of the law below."""
+    one, P = np.ones(columns.size), columns.stretch
+    R = foundation_of(columns.material).modulus_ratio(columns.level.k * columns.V)
+    with np.errstate(divide="ignore"):
+        rise = np.where(R > 1, 1 / (R - 1), np.inf)
+    found = [(rise * P, rise)]
+    if columns.branch == "loading" or P == 0:
+        found.append((-0.5 * (columns.adhesion.delta_0 if P > 0 else 0.0) * one, -0.5 * one))
+    if P > 0:
+        found.append((-0.5 * P * one, -0.5 * one))
+    if columns.carry is not None:
+        for level in columns.carry.breaks(columns.group).T / columns.material.K:
+            found += [(level / (1 + R), -1 / (1 + R)), (-level * rise, rise)]
+    return found
+
+
+def thresholds(columns: Columns) -> tuple[np.ndarray, np.ndarray]:
+    """States and thetas (k,) at which strips pass a threshold in closed form."""
+    E, h, P = columns.D - columns.level.h, columns.level.h, columns.stretch
+    lines = straight(columns)
+    with np.errstate(invalid="ignore", over="ignore"):
+        A = np.array([a + b * E for a, b in lines])
+    usual = 1 + (columns.branch == "loading" or P == 0)
+    if P > 0:
+        # a gap that adheres throughout is nowhere wider than delta_0
+        A[usual][E + P < -columns.adhesion.delta_0] = -1.0
+    # pressures of saturated contact, where there is any
+    first = usual + (P > 0)
+    A[first:][A[first:] > A[0] * (1 + 1e-9)] = -1.0
+    kind, state = np.nonzero((A > 0) & (2 * A < h) & np.isfinite(A))
+    return state, theta_of(columns, A[kind, state])
+
+
+def theta_of(columns: Columns, A) -> np.ndarray:
+    """``k y`` of the strips with amplitude ``A``, m."""
+    return 2 * np.arccos(np.sqrt(np.clip(2 * A / columns.level.h, 0.0, 1.0)))
+
+
+def equations(columns: Columns, code: np.ndarray, other: np.ndarray) -> list[tuple[Boundary, np.ndarray]]:
+    """Boundaries at which an orbit with ``code`` may give way to one with ``other``, both (m,): each with the rows it is for.
+
+    Orbits are ordered: pressed deeper a strip is more engaged. So unloading leaves an orbit that is engaged all along only where
+    that ends itself, and loading one with a free part; contact that appears in an adhesion zone ends neither."""
+    own = lambda sequence: code == CODE[sequence]  # noqa: E731
+    to_engaged = np.isin(other, _ENGAGED)
+    found = []
+    for boundary in BOUNDARIES:
+        rows = own(boundary.sequence)
+        if boundary.event == "release":
+            rows = rows & (columns.branch == "unloading")
+        elif boundary.event == "closing":
+            rows = rows & (other == CODE["acaf"])
+        else:
+            rows = rows & (~to_engaged if columns.branch == "unloading" else other != CODE["f"])
+        if rows.any():
+            found.append((boundary, np.flatnonzero(rows)))
+    return found
+
+
+def located(columns: Columns, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str) -> tuple[np.ndarray, np.ndarray]:
+    """Where regimes that meet between two strips of the plane do, by the equation of an orbit that ends there; or where its
+    greatest pressure passes a break of the law below.
+
+    ``A`` and ``E`` (m, 2) of the ends of the ``changes``; ``unknown`` "A" or "E": the coordinate they differ in. ``columns``: the
+    state of each. Returns that coordinate, and which were found (m,); the points are remembered."""
+    place, found = _by_threshold(columns, changes, A, E, unknown)
+    if columns.groups(columns.V[:0], columns.V[:0], columns.V[:0]) is None:
+        return place, found
+    ends = A if unknown == "A" else E
+    low, high = ends.min(axis=1), ends.max(axis=1)
+    code = changes.codes % len(CODE)
+    for side in (0, 1):
+        kinds = [(b, rows, np.zeros(rows.size)) for b, rows in equations(columns, code[:, side], code[:, 1 - side])]
+        if columns.carry is not None:
+            kinds += _peaks(columns, changes, code)
+        for boundary, rows, pressure in kinds:
+            left = ~found[rows]
+            rows, pressure = rows[left], pressure[left]
+            if not rows.size:
+                continue
+            names = [_COLUMN[name] for name in EDGES[boundary.sequence]]
+            start = Points(columns.V[rows], A[rows, side], E[rows, side], changes.edges[rows, side][:, names].T, pressure)
+            got, good = plane.locate(columns, boundary, start, unknown)
+            at = getattr(got, unknown)
+            good &= (at > low[rows]) & (at < high[rows])
+            place[rows[good]], found[rows[good]] = at[good], True
+            if good.any():
+                columns.crossings.remember(columns, boundary, got.take(np.flatnonzero(good)))
+    return place, found
+
+
+def _by_threshold(columns: Columns, changes: Changes, A, E, unknown: str) -> tuple[np.ndarray, np.ndarray]:
+    """Where saturated contact ends when unloading, where free strips are touched when loading, and where the extreme pressures of
+    saturated contact, ``K (E + A (1 +- R))``, pass a break of the law below; and which changes are of that kind."""
+    code, m = changes.codes % len(CODE), changes.size
+    R = foundation_of(columns.material).modulus_ratio(columns.level.k * columns.V)
+    contact = code == CODE["c"]
+    # E + factor A = constant
+    factor, constant = 1 - R, np.full(m, -columns.stretch)
+    partial = np.isin(code, [CODE["ac"], CODE["cf"]])
+    known = contact.any(axis=1) & partial.any(axis=1) & (columns.branch == "unloading")
+    if columns.branch == "loading" or columns.stretch == 0:
+        touched = (code == CODE["f"]).any(axis=1) & ~(code == CODE["f"]).all(axis=1)
+        reach = columns.adhesion.delta_0 if columns.stretch > 0 else 0.0
+        factor, constant, known = np.where(touched, 2.0, factor), np.where(touched, -reach, constant), known | touched
+    if columns.carry is not None:
+        over = changes.heights > 0
+        passed = over[:, 0] != over[:, 1]
+        breaks = columns.carry.breaks(columns.group) / columns.material.K
+        one = contact.all(axis=1) & (passed.sum(axis=1) == 1)
+        which = passed.argmax(axis=1)
+        constant = np.where(one, breaks[np.arange(m), which % breaks.shape[1]], constant)
+        factor = np.where(one & (which < breaks.shape[1]), 1 + R, factor)
+        known |= one
+    with np.errstate(divide="ignore", invalid="ignore"):
+        place = constant - factor * A[:, 0] if unknown == "E" else (constant - E[:, 0]) / factor
+    ends = A if unknown == "A" else E
+    return place, known & (place > ends.min(axis=1)) & (place < ends.max(axis=1))
+
+
+def _peaks(columns: Columns, changes: Changes, code) -> list[tuple[Boundary, np.ndarray, np.ndarray]]:
+    """Changes at which nothing happens but that the greatest pressure passes one break: boundaries, rows and pressures."""
+    over = changes.heights > 0
+    passed = over[:, 0] != over[:, 1]
+    breaks = columns.carry.breaks(columns.group)
+    same = np.flatnonzero((code[:, 0] == code[:, 1]) & (passed.sum(axis=1) == 1))
+    which = passed[same].argmax(axis=1)
+    found = []
+    for sequence in EDGES:
+        for index in range(breaks.shape[1]):
+            rows = same[(code[same, 0] == CODE[sequence]) & (which == index)]
+            if rows.size and sequence != "af":
+                found.append((Boundary(sequence, "peak", index), rows, breaks[rows, index]))
+    return found
