@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -9,10 +10,10 @@ import sympy as sp
 from . import stable
 from .check import REPRODUCED, Check, Derived, derived, zero
 from .flows import Flows
-from .functions import Formula, written_out
+from .functions import Formula, either, written_out
 from .kernel import Kernel
 from .regime import Regime
-from .sequences import CONTACT, FREE, NOTHING, PERIOD
+from .sequences import ADHESION, CONTACT, FREE, NOTHING, PERIOD, Span
 from .symbols import PARAMETERS, D, L, alpha, beta, p, p_0, q_0, s, s_0, s_1, w_0
 
 
@@ -99,6 +100,12 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
             sum_p - sum_w - beta * regime.closing,
             phases=regime.edges,
         ),
+        zero(
+            name,
+            "over a period the profile rises by nothing",
+            sum(written_out(stable.PROFILE_RISE(zone.first, zone.last)) for zone in regime.zones),
+            phases=regime.edges,
+        ),
         zero(name, "the stable forms equal the averages", [stated[0] - exact[0], stated[1] - exact[1]], phases=regime.edges),
     ]
     record = derived(
@@ -162,5 +169,16 @@ def _stable_means(regime: Regime) -> tuple[sp.Expr, sp.Expr]:
                 total += stable.RELAXATION_INTEGRAL(zone.first, zone.last, zone.displacement, zone.load, beta)
             else:
                 total += zone.load * (zone.last - zone.first)
-            work += (zone.load + raised) * stable.PROFILE_RISE(zone.first, zone.last)
-    return total / PERIOD, work / PERIOD
+            work += NOTHING if zone.kind == ADHESION else (zone.load + raised) * stable.PROFILE_RISE(zone.first, zone.last)
+    return total / PERIOD, (work + (raised - p_0) * adhesive_rise(regime.zones)) / PERIOD
+
+
+def adhesive_rise(zones: Sequence[Span]) -> sp.Expr:
+    """Rise of the profile over the adhesion zones; over two wide ones, less that over the rest: over a period it is 0."""
+    rises = {zone: stable.PROFILE_RISE(zone.first, zone.last) for zone in zones}
+    adhesive = [zone for zone in zones if zone.kind == ADHESION]
+    short = sum((rises[zone] for zone in adhesive), NOTHING)
+    if len(adhesive) < 2:
+        return short
+    width = sum(zone.last - zone.first for zone in adhesive)
+    return either(width, short, -sum(rises[zone] for zone in zones if zone not in adhesive))

@@ -5,8 +5,9 @@ from __future__ import annotations
 import sympy as sp
 
 from . import stable
-from .check import zero
+from .check import Check, zero
 from .flows import Flows
+from .functions import Formula
 from .kernel import Kernel, kernel
 from .symbols import J, beta, p_0, p_in, q_0, s, s_0, s_1
 
@@ -79,7 +80,15 @@ def contact_state(flows: Flows) -> tuple[Kernel, ...]:
             total,
             "Work of the contact pressure on the rigid profile, entered at the pressure p_in.",
             r"\int_{s_0}^{s_1} p\,u'\,ds",
+            _short_and_wide(),
             zero("contact_work", "the antiderivative differentiates to p u'", sp.diff(work, s) - work_rate, phases=(s_0, s)),
             paper="Eq. 10",
         ),
     )
+
+
+def _short_and_wide() -> Check:
+    """Both forms of the integral of (1 - exp(-t/alpha)) u' over the zone are the same."""
+    args, steps = stable.CONTACT_WORK.args, stable.CONTACT_WORK.steps
+    short, wide = (Formula("form", args, form, steps).written_out(args) for form in (stable.SHORT, stable.WIDE))
+    return zero("contact_work", "the form for short zones is that for wide ones", short - wide, phases=(s_0, s_1))

@@ -19,8 +19,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from .certify import SCALE, Certificate
-from .dispatch import AnyDerivation, certificates_of, certified_names, derive_any, stages_of
+from .certificates import SCALE, WORDS, Certificate, certificates_of, certified_names, domain, modes_of
+from .dispatch import AnyDerivation, derive_any, stages_of
 from .emit import INTERFACE, emit, input_hash
 from .model import Model
 from .model_file import require_names
@@ -114,7 +114,7 @@ def regenerate(
             solver = _loaded(folder, derivation.model.name)
             measured = _counted(certificates_of(derivation, solver), len(certified_names(derivation)), say)
             rows = bounds_of(derivation.model.name, measured, stored, accept or {})
-            certificates[derivation.model.name] = {"interface": INTERFACE, "functions": rows}
+            certificates[derivation.model.name] = {"interface": INTERFACE, "modes": list(modes_of(derivation)), "functions": rows}
     files[CERTIFICATES] = _certificates_text(certificates)
     known = read_measured(target) or read_measured(generated_folder())
     measured = {name: known[name] for name in certificates if name in known}
@@ -231,7 +231,7 @@ def bounds_of(
             row = {"bound": _bound(worst), "why": why}
         if row["bound"] > AIM and "why" not in row:
             raise CertificateError(f"{model}.{name}: {worst:.3g} ulp, too near to the aim of {AIM:g} without a reason given")
-        rows[name] = {**row, "points": certificate.points}
+        rows[name] = {**row, "points": certificate.points, "domain": domain(certificate.args)}
     return rows
 
 
@@ -242,7 +242,8 @@ def _bound(worst: float) -> float:
 
 
 def _certificates_text(models: dict[str, Any]) -> str:
-    return dumped({"hash": input_hash(), "unit": f"ulp (2**-52) of the natural scale: {SCALE}", "models": models})
+    unit = f"ulp (2**-52) of the natural scale: {SCALE}"
+    return dumped({"hash": input_hash(), "unit": unit, "domain": WORDS, "models": models})
 
 
 def dumped(content: Any) -> str:

@@ -53,6 +53,7 @@ class FunctionText:
     paper: str
     steps: tuple[tuple[str, str], ...]
     result: str
+    algorithm: str = ""  # what puts together what is derived, if not the formula
 
 
 @dataclass(frozen=True)
@@ -130,6 +131,7 @@ def function_text(formula: Formula, record: Any) -> FunctionText:
         record.paper,
         tuple((source(label), source(term)) for label, term in formula.steps),
         results(formula.result),
+        getattr(record, "algorithm", ""),
     )
 
 

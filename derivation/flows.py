@@ -6,6 +6,7 @@ to that edge every exponent is ``-(s - s_0)/T <= 0``: nothing can overflow.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import sympy as sp
@@ -36,7 +37,7 @@ def contact_flow(strip: Strip) -> Derived:
     .. math:: p = p_{sat}(s) + (p(s_0) - p_{sat}(s_0))\,e^{-(s-s_0)/\alpha}
     """
     name = "contact flow"
-    pressure = _solved(name, lambda unknown: strip.law(strip.u, unknown), entry=q_0 - p_0)
+    pressure = solved(name, lambda unknown: strip.law(strip.u, unknown), entry=q_0 - p_0)
     checks = [
         zero(name, "the law holds with w = u", strip.law(strip.u, pressure)),
         zero(name, "the zone is entered at the pressure q_0 - p_0", pressure.subs(s, s_0) - (q_0 - p_0)),
@@ -58,7 +59,7 @@ def contact_flow(strip: Strip) -> Derived:
 def relaxation_flow(strip: Strip) -> Derived:
     r"""Eq. 5 with p given, adhesion :math:`p=-p_0` or free :math:`p=0`: :math:`w = p + (w_0 - p)\,e^{-(s-s_0)/\beta}`."""
     name = "relaxation flow"
-    displacement = _solved(name, lambda unknown: strip.law(unknown, p), entry=w_0)
+    displacement = solved(name, lambda unknown: strip.law(unknown, p), entry=w_0)
     checks = [
         zero(name, "the law holds under the constant pressure p", strip.law(displacement, p)),
         zero(name, "the zone is entered with w_0", displacement.subs(s, s_0) - w_0),
@@ -97,7 +98,7 @@ def gap_flow(strip: Strip, displacement: sp.Expr) -> Derived:
     )
 
 
-def _solved(name, law, entry: sp.Expr) -> sp.Expr:
+def solved(name: str, law: Callable[[sp.Expr], sp.Expr], entry: sp.Expr) -> sp.Expr:
     """Solve the linear law for a function of s with ``f(s_0) = entry``.
 
     The general solution is a particular one plus a constant times a mode. The entry condition fixes the constant, and

@@ -119,6 +119,16 @@ class sine_lag(Helper):
         return sp.sin(tau) - T * (1 - sp.exp(-tau / T))
 
 
+class either(Helper):
+    """A form for short zones and one for wide ones, proven to be the same by whoever has both."""
+
+    nargs = 3
+
+    @classmethod
+    def meaning(cls, width, short, wide):
+        return short
+
+
 class versine(Helper):
     nargs = 1
 
@@ -156,13 +166,13 @@ class arc_half(Helper):
 
 
 class stack_sum(Helper):
-    """Sum over the levels, which lie along the last axis; for one level, the term itself."""
+    """Sum over the levels, which lie along the last axis."""
 
     nargs = 1
 
     @classmethod
     def meaning(cls, term):
-        return term
+        return cls(term)
 
 
 HELPERS = (
@@ -177,6 +187,7 @@ HELPERS = (
     per_time,
     sine_deficit,
     sine_lag,
+    either,
     versine,
     hypot,
     quotient,

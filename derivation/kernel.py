@@ -2,59 +2,87 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
 
-from .check import BEYOND, REPRODUCED, Check, Derived, derived, zero
-from .functions import Formula
-from .printing import source
-from .symbols import s_0, s_1
+from .check import BEYOND, REPRODUCED, Check, DerivationError, Derived, derived, zero
+from .functions import Formula, written_out
+from .modes.symbols import S, eta
+from .modes.tensor import EVERY_SUM, generic
+from .symbols import alpha, s_0, s_1
 
 
 @dataclass(frozen=True)
 class Kernel:
-    """A formula and the expression that it was proven to compute, both in the formula's arguments."""
+    """A formula and the expression that it was proven to compute, sums over modes and all, both in the formula's arguments."""
 
     formula: Formula
     exact: Any
     derived: Derived
     parts: tuple[tuple[sp.Expr, ...], ...] = ()  # of a balance: the terms of each component of ``exact``, flattened
     chain: tuple[Formula, Formula] | None = None  # an entry and its event, which are measured as one function
+    moving: bool = False  # has no value at rest, V = 0
+    springs: bool = False  # nor where a branch has no spring
 
     @property
     def args(self) -> tuple[sp.Symbol, ...]:
         """The symbols of ``exact``: those of the formula, or of its chain."""
-        return self.formula.args if self.chain is None else (s_0, s_1, *self.chain[0].args[1:])
-
-    def computed(self, solver: Any, columns: dict[str, Any]) -> Any:
-        """What ``solver`` computes for the arguments ``columns``, by name."""
         if self.chain is None:
-            return getattr(solver, self.formula.name)(**columns)
-        entry, event = self.chain
-        constants = getattr(solver, entry.name)(*(columns[source(argument)] for argument in entry.args))
-        return getattr(solver, event.name)(columns[source(s_1)], *constants)
+            return self.formula.args
+        first, *rest = self.chain[0].args
+        return (first, s_1, *rest)
 
 
-def same(step: str, formula: Formula, exact: Any, phases: tuple = (s_0, s_1)) -> Check:
-    """The stable form equals the derived expression, identically."""
-    return zero(
-        step,
-        f"{formula.name}: the stable form equals the derived expression",
-        formula.written_out(formula.args) - exact,
-        phases=phases,
-    )
+def same(name: str, stated: Any, exact: Any, phases: tuple[sp.Symbol, ...] = (s_0, s_1), claim: str = "") -> Check:
+    """The stable form equals the derived expression, identically: what stands under the same sum over modes is the same."""
+    residuals = []
+    for one, other in zip(_flat(stated), _flat(exact), strict=True):
+        if {f.func for f in sp.sympify(one).atoms(*EVERY_SUM)} != {f.func for f in sp.sympify(other).atoms(*EVERY_SUM)}:
+            raise DerivationError(name, "both forms sum over the modes in the same way", one - other)
+        residuals.append((generic(sp.sympify(one)) - generic(sp.sympify(other))).subs(S, alpha / eta))
+    return zero(name, claim or f"{name}: the stable form equals the derived expression", residuals, phases=phases)
 
 
-def kernel(by: Any, formula: Formula, exact: Any, statement: str, latex: str, *extra: Check, **options: Any) -> Kernel:
+def kernel(
+    by: Callable[..., Any],
+    formula: Formula,
+    exact: Any,
+    statement: str,
+    latex: str,
+    *extra: Check,
+    moving: bool = False,
+    **options: Any,
+) -> Kernel:
     """Prove ``formula`` equal to ``exact`` and record it under the function ``by`` that derived it."""
     options.setdefault("status", REPRODUCED if options.get("paper") else BEYOND)
-    checks = [same(formula.name, formula, exact), *extra]
-    return Kernel(
-        formula,
-        exact,
-        derived(
-            by, exact, name=formula.name, statement=statement, latex=latex, checks=checks, emitted=(formula.name,), **options
-        ),
+    checks = [same(formula.name, formula.written_out(formula.args), exact), *extra]
+    record = derived(
+        by, exact, name=formula.name, statement=statement, latex=latex, checks=checks, emitted=(formula.name,), **options
     )
+    return Kernel(formula, exact, record, moving=moving)
+
+
+def pair(
+    by: Callable[..., Any],
+    chain: tuple[Formula, Formula],
+    exact: Any,
+    statements: tuple[str, str],
+    latex: tuple[str, str],
+) -> tuple[Kernel, Kernel]:
+    """An entry and its event, proven equal to ``exact`` together, and measured as the one function that they are."""
+    entry, event = chain
+    constants = tuple(written_out(part) for part in entry.written_out(entry.args))
+    composed = event.written_out((s_1, *constants))
+    check = same(event.name, composed, exact, claim=f"{event.name} after {entry.name} is the derived value and its slope")
+    records = (
+        derived(by, value, name=formula.name, statement=said, latex=shown, checks=[check], emitted=(formula.name,))
+        for formula, value, said, shown in zip(chain, (constants, exact), statements, latex, strict=True)
+    )
+    return tuple(Kernel(formula, exact, record, chain=chain) for formula, record in zip(chain, records, strict=True))
+
+
+def _flat(result: Any) -> list[Any]:
+    return [e for part in result for e in _flat(part)] if isinstance(result, (tuple, list)) else [result]

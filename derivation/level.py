@@ -12,6 +12,7 @@ import sympy as sp
 from .check import BEYOND, CORRECTED, REPRODUCED, Check, Derived, derived, holds, zero
 from .functions import Formula, hypot, stack_sum
 from .kernel import Kernel
+from .modes.tensor import generic
 from .saturated import MODULUS, Saturated
 from .surface import AMPLITUDE, PENETRATION, mean_over_wave
 from .symbols import A, D, D_j, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, y
@@ -131,7 +132,7 @@ def saturation_friction(mean_tau: sp.Expr) -> Kernel:
 def stack_friction(one_level: sp.Expr) -> Kernel:
     r"""Eq. 16, corrected: :math:`\mu = \frac1{p_1}\sum_i \tau_{sat}(h_i, l_i)`."""
     name = "saturated_stack_friction"
-    exact = one_level / p_nominal
+    exact = stack_sum(one_level) / p_nominal
     formula = Formula(
         name,
         (*_si, l, h, V, p_nominal),
@@ -233,8 +234,8 @@ def _at_least_one() -> bool:
 
 def _kernel(by, formula: Formula, exact: sp.Expr, checks, statement, latex, **options) -> Kernel:
     name = formula.name
-    residual = formula.written_out(formula.args) - exact
-    checks = [*checks, zero(name, f"{name}: the stable form equals the derived expression", sp.simplify(residual))]
+    residual = sp.simplify(generic(formula.written_out(formula.args)) - generic(exact))
+    checks = [*checks, zero(name, f"{name}: the stable form equals the derived expression", residual)]
     options.setdefault("status", REPRODUCED if options.get("paper") else BEYOND)
     return Kernel(
         formula, exact, derived(by, exact, name=name, statement=statement, latex=latex, checks=checks, emitted=(name,), **options)

@@ -37,11 +37,6 @@ class Series:
     time: sp.Expr
     arrays: tuple[sp.Symbol, ...] = ()
 
-    def of_branch(self, number: int) -> tuple[sp.Expr, sp.Expr]:
-        """(viscosity, time) of one branch, counted from 1, in numbered parameters."""
-        numbered = {symbol: sp.Symbol(f"{symbol.name.removesuffix('_i')}_{number}", positive=True) for symbol in self.arrays}
-        return sp.sympify(self.viscosity).subs(numbered), sp.sympify(self.time).subs(numbered)
-
 
 @dataclass(frozen=True)
 class Roots:
@@ -54,9 +49,10 @@ class Roots:
 class Model:
     """``sum_n Q[n] d^n w/dt^n = sum_n P[n] d^n p/dt^n``.
 
+    A model with arrays in its ``series`` states no operators, but ``count``, its number of relaxation times; None for any.
     ``differences`` writes parameters as sums of nonnegative ones, so that an inequality the model asks of its parameters
-    (``T_eps >= T_sigma``) holds by construction where admissibility is checked. A model with ``series`` goes through the
-    pipeline for n modes (:mod:`.modes`).
+    (``T_eps >= T_sigma``) holds by construction where admissibility is checked. A model with ``series`` is derived for a generic
+    one of its modes.
     """
 
     name: str
@@ -66,12 +62,22 @@ class Model:
     P: tuple[sp.Expr, ...]
     differences: tuple[tuple[sp.Symbol, sp.Expr], ...] = ()
     series: Series | Roots | None = None
-    any_number: bool = False  # of relaxation times: the operators are those of one number, the emitted solver reads it
+    count: int | None = None
 
     @property
-    def modes(self) -> int:
-        """Number of relaxation times: the internal states of a material point."""
-        return len(self.Q) - 1
+    def modes(self) -> int | None:
+        """Number of relaxation times, the internal states of a material point; None: any number, read by the solver."""
+        return self.count if isinstance(self.series, Series) and self.series.arrays else len(self.Q) - 1
+
+    @property
+    def stated(self) -> bool:
+        """Whether the model states its Prony series."""
+        return isinstance(self.series, Series)
+
+    @property
+    def springy(self) -> bool:
+        """Whether there is an instantaneous compliance: no bare dashpot."""
+        return bool(self.series.time != 0) if isinstance(self.series, Series) else bool(self.P[-1] != 0)
 
     def operator_w(self, step: sp.Expr = rate) -> sp.Expr:
         return sum((q * step**n for n, q in enumerate(self.Q)), sp.Integer(0))

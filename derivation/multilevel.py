@@ -13,7 +13,7 @@ import sympy as sp
 
 from .averages import ZoneIntegrals
 from .check import REPRODUCED, Check, Derived, derived, zero
-from .functions import written_out
+from .functions import stack_sum, written_out
 from .kernel import Kernel
 from .level import Level, over_strips
 from .regime import ADHESION, CONTACT, PERIOD, Regime
@@ -178,7 +178,7 @@ def friction_coefficient(one_level: sp.Expr, stack: sp.Expr, own: Sequence[sp.Sy
         zero(
             name,
             "three levels in complete contact: the recursion gives Eq. 16, corrected",
-            coefficient.subs(tau_1, shear) - sum(stack.subs(level) for level in levels),
+            coefficient.subs(tau_1, shear) - stack.replace(stack_sum, lambda term: sum(term.subs(level) for level in levels)),
         )
     ]
     return derived(

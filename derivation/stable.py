@@ -26,6 +26,7 @@ from .functions import (
     decay_mean,
     decay_rate,
     divisible,
+    either,
     expm1,
     hypot,
     loss_mean,
@@ -220,14 +221,19 @@ CONTACT_INCREMENT.partials.update({0: _pressure_only(CONTACT_INCREMENT_START), 1
 #     C = alpha (cos t - e) - sin t,   S = -C' = cos t - e + alpha sin t.
 # C ("ramp") starts like t^2 although its terms start like t: written with lost = int (1 - e) dt, its terms do too. The
 # integrals of (1 - e)(1 - cos t) and of (1 - e) sin t follow by parts, with lost_twice = int lost dt; those of e cos t and
-# e sin t likewise, with kept = int e dt.
+# e sin t likewise, with kept = int e dt. Where the zone is nearly a period long, int (1 - e) u' dt is nearly nothing, and the
+# terms of that form are not: there it is taken from the antiderivative, whose terms then vanish with it.
 _vs, _sd = versine(width), sine_deficit(width)
+SHORT = -(sp.sin(s_0) * (lost - lost_versine) + sp.cos(s_0) * lost_sin)
+WIDE = unit * (
+    unit * (rise + kept * sp.sin(s_1)) + alpha_unit * (kept * sp.cos(s_1) - 2 * sp.sin(width / 2) * sp.cos((s_0 + s_1) / 2))
+)
 CONTACT_WORK = Formula(
     "contact_work",
     (s_0, s_1, p_in, D, alpha, beta, L),
     rise**2 / 2
     - p_in * (sp.sin(s_0) * kept_cos + sp.cos(s_0) * kept_sin)
-    - PROFILE(s_0, D) * (sp.sin(s_0) * (lost - lost_versine) + sp.cos(s_0) * lost_sin)
+    + PROFILE(s_0, D) * either(width, SHORT, WIDE)
     - LOSS(alpha, beta, L) * (ramp_work + sp.sin(s_0) * sp.sin(s_1) * ramp),
     (
         WIDTH,

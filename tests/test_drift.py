@@ -13,7 +13,7 @@ import pytest
 from derived_once import audited, derivations, emitted
 
 from hystrip.derivation import MODELS, generated_folder
-from hystrip.derivation.dispatch import certified_names
+from hystrip.derivation.certificates import certified_names
 from hystrip.derivation.drift import CERTIFICATES, MEASURED, compare, write_files
 
 NAMES = [model.name for model in MODELS]

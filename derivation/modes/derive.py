@@ -11,16 +11,19 @@ from ..check import Derived
 from ..conditions import zone_conditions
 from ..derive import _records as records
 from ..further import FOR_ANY_NUMBER, further
+from ..kernel import Kernel
 from ..model import Model
 from ..strip import adhesion_law, strip_profile
 from .averages import strip_means
 from .flows import mode_flows, u
+from .functions import RegimeFunction, level_functions, period_map
 from .jumps import closures, jump_law
-from .kernel import ModeKernel
-from .law import Law, law
 from .levels import mode_levels
+from .material import admissibility, foundation_law, prony_series, relaxed_stiffness
 from .regimes import ModeRegime, mode_regimes
 from .saturated import Complete, complete_contact
+from .states import dimensionless_groups, partial_fractions
+from .states import states as point_states
 from .zones import contact, gap, passages, profile, relaxation, states
 
 Progress = Callable[[str], None]
@@ -32,12 +35,12 @@ class ModesDerivation:
     """Everything derived for one model. ``sections`` holds the kernels to emit; ``steps`` every verified quantity."""
 
     model: Model
-    law: Law
     closures: Derived
     complete: Complete
+    levels: tuple[RegimeFunction, ...]
     means: Derived
     regimes: tuple[ModeRegime, ...]
-    sections: tuple[tuple[str, tuple[ModeKernel, ...]], ...]
+    sections: tuple[tuple[str, tuple[Kernel, ...]], ...]
     stages: tuple[Any, ...]
 
     @property
@@ -49,18 +52,19 @@ class ModesDerivation:
         return tuple(found.values())
 
     @property
-    def kernels(self) -> tuple[ModeKernel, ...]:
+    def kernels(self) -> tuple[Kernel, ...]:
         return tuple(kernel for _, kernels in self.sections for kernel in kernels)
 
 
 def derive_modes(model: Model, progress: Progress | None = None) -> ModesDerivation:
     """Derive and verify everything that follows from the Prony series of ``model``."""
     done = progress or (lambda stage: None)
-    ground = law(model)
+    ground = (admissibility(model), foundation_law(model), relaxed_stiffness(model), prony_series(model))
+    coordinates = (dimensionless_groups(), partial_fractions(), point_states())
     done("model")
-    flows = mode_flows(ground)
+    flows = mode_flows()
     done("flows")
-    jump, closure = jump_law(ground), closures(ground)
+    jump, closure = jump_law(), closures(model)
     done("edge conditions")
     sections = [
         ("Rigid profile", profile()),
@@ -71,17 +75,20 @@ def derive_modes(model: Model, progress: Progress | None = None) -> ModesDerivat
     ]
     done("zones")
     complete = complete_contact(flows)
+    of_level = level_functions(complete)
     sections.append(("Complete contact", complete.kernels))
     done("complete contact")
-    regimes = mode_regimes(model.P[-1] != 0, complete.threshold.value)
+    regimes = mode_regimes(model.springy, complete.threshold.value)
     done("regimes")
     sections += further(FOR_ANY_NUMBER, Basis(flows, complete, regimes))
-    means = strip_means(ground)
+    means = strip_means()
+    period = period_map()
     done("means")
     upwards = mode_levels(flows, complete, regimes)
     done("levels")
     stages = (
         ground,
+        coordinates,
         adhesion_law(),
         strip_profile(),
         zone_conditions(u),
@@ -92,6 +99,7 @@ def derive_modes(model: Model, progress: Progress | None = None) -> ModesDerivat
         complete,
         regimes,
         means,
+        period,
         upwards,
     )
-    return ModesDerivation(model, ground, closure, complete, means, regimes, tuple(sections), stages)
+    return ModesDerivation(model, closure, complete, of_level, means, regimes, tuple(sections), stages)

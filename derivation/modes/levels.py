@@ -19,7 +19,7 @@ from .symbols import eta, f_0
 
 def mode_levels(flows: ModeFlows, complete: Complete, regimes: tuple[ModeRegime, ...]) -> Multilevel:
     """Eq. 11 to 14 for a foundation with n relaxation times."""
-    storage, loss = sp.symbols("storage loss", real=True)
+    storage, loss = sp.Symbol("storage", real=True), R_LOSS
     pressure = D - 1 + storage * sp.cos(s) - loss * sp.sin(s)  # Eq. 15, as in complete.threshold
     return Multilevel(
         means_over_a_level(pressure, complete.means.value),

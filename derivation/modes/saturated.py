@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..check import CORRECTED, REPRODUCED, Check, Derived, derived, holds, zero
+from ..functions import stack_sum
+from ..kernel import Kernel, kernel
 from ..level import AMPLITUDE, MISPRINT, PENETRATION, over_strips
 from ..saturated import threshold_record
-from ..symbols import D, K, alpha, beta, h, k, l, p_0, p_nominal, s, y
+from ..symbols import D, K, alpha, h, k, l, p_0, p_nominal, s, y
 from . import stable
 from .flows import ModeFlows, u
-from .identity import vanishes
-from .kernel import ModeKernel, kernel
 from .symbols import eta, f_0
 from .tensor import total
 
@@ -25,7 +25,7 @@ class Complete:
     """Complete contact: the emitted kernels, and what holds for the strip and its level."""
 
     modulus: Derived
-    kernels: tuple[ModeKernel, ...]
+    kernels: tuple[Kernel, ...]
     threshold: Derived
     means: Derived
     penetration: Derived
@@ -35,7 +35,7 @@ class Complete:
 
 
 def complete_contact(flows: ModeFlows) -> Complete:
-    modulus = complex_modulus(flows)
+    modulus = complex_modulus()
     means = saturated_means()
     penetration = saturation_penetration()
     friction = saturation_friction()
@@ -51,20 +51,18 @@ def complete_contact(flows: ModeFlows) -> Complete:
     )
 
 
-def complex_modulus(flows: ModeFlows) -> Derived:
+def complex_modulus() -> Derived:
     r""":math:`\frac{K^*(ikV)}{K} = 1 + \sum_i \frac{i\eta_i}{1 + i\alpha_i}`, the operators at s = i."""
     name = "complex modulus"
-    law = flows.law
-    n = law.modes
-    modes = range(n)
-    Q, P = law.operators
-    rate = next(iter(Q.free_symbols - {law.values[(symbol, mode)] for symbol in (alpha, beta) for mode in modes}))
     term = sp.I * eta / (1 + sp.I * alpha)
+    motion = sp.exp(sp.I * s)  # of w, and term times it of f
     real, imaginary = (sp.simplify(part) for part in sp.expand_complex(term).as_real_imag())
-    at = [{eta: law.values[(eta, i)], alpha: law.values[(alpha, i)]} for i in modes]
-    series = 1 + sp.Add(*(term.subs(values) for values in at))
     checks = [
-        vanishes(name, "storage + i loss is Q/P of the strip at d/ds = i", [Q.subs(rate, sp.I) - series * P.subs(rate, sp.I)], n),
+        zero(
+            name,
+            "a branch answers w = exp(i s) with the overstress i eta/(1 + i alpha) w",
+            sp.simplify((term + alpha * term * sp.I - eta * sp.I) * motion),
+        ),
         zero(name, "every branch adds eta alpha/(1 + alpha^2) to the storage", real - eta * alpha / (1 + alpha**2)),
         zero(name, "and eta/(1 + alpha^2) to the loss", imaginary - eta / (1 + alpha**2)),
     ]
@@ -79,7 +77,7 @@ def complex_modulus(flows: ModeFlows) -> Derived:
     )
 
 
-def modulus_kernels() -> tuple[ModeKernel, ...]:
+def modulus_kernels() -> tuple[Kernel, ...]:
     r"""Storage, loss and :math:`R = |K^*|/K`."""
     real, imaginary = 1 + total(eta * alpha / (1 + alpha**2)), total(eta / (1 + alpha**2))
     return (
@@ -89,7 +87,7 @@ def modulus_kernels() -> tuple[ModeKernel, ...]:
     )
 
 
-def field_kernels(flows: ModeFlows) -> tuple[ModeKernel, ...]:
+def field_kernels(flows: ModeFlows) -> tuple[Kernel, ...]:
     r"""Eq. 15: :math:`p_{sat} = u + \sum_i f_{sat,i}`."""
     name = "saturated_overstress"
     # What the contact flow leaves behind when its transients have died out.
@@ -138,7 +136,7 @@ def threshold() -> Derived:
 def saturated_means() -> Derived:
     r"""Eq. 10 in complete contact: :math:`\bar p = D - 1`, :math:`\bar\tau = \frac12\mathrm{Im}\,K^*/K`."""
     name = "means_c"
-    storage, loss = sp.symbols("storage loss", real=True)
+    storage, loss = sp.Symbol("storage", real=True), R_LOSS
     pressure = D - 1 + storage * sp.cos(s) - loss * sp.sin(s)
     mean = [sp.integrate(sp.expand(q), (s, 0, 2 * sp.pi)) / (2 * sp.pi) for q in (pressure, pressure * sp.diff(u, s), u)]
     checks = [
@@ -231,7 +229,7 @@ def stack_friction(friction: sp.Expr) -> Derived:
     ]
     return derived(
         stack_friction,
-        friction / p_nominal,
+        stack_sum(friction) / p_nominal,
         name=name,
         statement="Friction coefficient when every level is in complete contact: the levels add.",
         latex=r"\mu = \frac{3\pi}{32\,p_1} \sum_i \frac{h_i^2}{l_i}\,\mathrm{Im}\,K^*(ik_iV)",

@@ -1,8 +1,7 @@
-"""Symbols of a generic mode, and those of the numbered modes of an actual model.
+"""Symbols of a generic mode.
 
 A formula is derived and emitted for a *generic* mode: ``alpha``, ``eta``, ``z_0``, ... stand for arrays along the mode axis,
-and :mod:`.tensor` writes a formula out for the n modes of an actual model, where identities between modes are proven. There
-everything is rational in the two interlaced sets of times, ``alpha_1 <= beta_1 <= alpha_2 <= ...``.
+in the order ``alpha_1 <= beta_1 <= alpha_2 <= ...``. Identities between modes are those of :mod:`.states`.
 """
 
 from __future__ import annotations
@@ -22,9 +21,3 @@ MATERIAL = (alpha, beta, eta, S, J, J_0, enter, leave, share)
 VECTORS = (alpha, beta, eta, S, J, z_0, f_0, z, f)
 MATRICES = (enter, leave, share)
 STATES = (z_0, f_0, z, f)
-
-
-def numbered(symbol: sp.Symbol, mode: int) -> sp.Symbol:
-    """The symbol of one of the modes, counted from 0; times and compliances of an actual model are positive."""
-    assumptions = {"real": True} if symbol in STATES else {"positive": True}
-    return sp.Symbol(f"{symbol.name}_{mode + 1}" if symbol not in STATES else f"{symbol.name}__{mode + 1}", **assumptions)

@@ -6,17 +6,17 @@ import sympy as sp
 
 from .. import stable as one_mode
 from ..check import zero
+from ..kernel import Kernel, kernel, pair
 from ..symbols import p, p_0, p_in, s, s_0, s_1
 from . import stable
 from .flows import ModeFlows, u
-from .kernel import ModeKernel, kernel, pair
 from .symbols import J_0, J, S, enter, eta, f, f_0, leave, share, z, z_0
 from .tensor import across, back, diagonal, sandwich, total
 
 u_0, u_1 = u.subs(s, s_0), u.subs(s, s_1)
 
 
-def profile() -> tuple[ModeKernel, ...]:
+def profile() -> tuple[Kernel, ...]:
     r"""Rigid profile :math:`u = D - 1 + \cos s`, its slope, rise and integral."""
     integral = sp.integrate(u, s)
     return (
@@ -36,7 +36,7 @@ def profile() -> tuple[ModeKernel, ...]:
     )
 
 
-def states() -> tuple[ModeKernel, ...]:
+def states() -> tuple[Kernel, ...]:
     r""":math:`w = J_0 p + \sum z_j`, and the other coordinates of the same state."""
     lag = z - J * p
     return (
@@ -59,7 +59,7 @@ def states() -> tuple[ModeKernel, ...]:
     )
 
 
-def relaxation(flows: ModeFlows) -> tuple[ModeKernel, ...]:
+def relaxation(flows: ModeFlows) -> tuple[Kernel, ...]:
     r"""z under a constant pressure: after, change, rate, and :math:`\int w\,ds`."""
     flow = flows.relaxation.value
     after = flow.subs(s, s_1)
@@ -93,7 +93,7 @@ def relaxation(flows: ModeFlows) -> tuple[ModeKernel, ...]:
     )
 
 
-def gap(flows: ModeFlows) -> tuple[ModeKernel, ...]:
+def gap(flows: ModeFlows) -> tuple[Kernel, ...]:
     r""":math:`g = w - u` under a constant pressure."""
     after = flows.relaxation.value.subs(s, s_1)
     g = J_0 * p + total(after) - u_1
@@ -122,7 +122,7 @@ def gap(flows: ModeFlows) -> tuple[ModeKernel, ...]:
     )
 
 
-def contact(flows: ModeFlows) -> tuple[ModeKernel, ...]:
+def contact(flows: ModeFlows) -> tuple[Kernel, ...]:
     r"""Overstress and pressure in contact, the change of z, and the work :math:`\int p\,u'\,ds`."""
     flow = flows.contact.value
     after = flow.subs(s, s_1)
@@ -185,7 +185,7 @@ def contact(flows: ModeFlows) -> tuple[ModeKernel, ...]:
     )
 
 
-def passages(flows: ModeFlows) -> tuple[ModeKernel, ...]:
+def passages(flows: ModeFlows) -> tuple[Kernel, ...]:
     """A zone as an affine map of the state, and with all its derivatives: what the edge equations of a regime are made of."""
     gap_flow = flows.relaxation.value.subs(s, s_1)
     contact_flow = flows.contact.value

@@ -6,7 +6,8 @@ import os
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from ..dispatch import certified_names, derive_any, stages_of
+from ..certificates import certified_names
+from ..dispatch import derive_any, stages_of
 from ..drift import AUDIT, CERTIFICATES, MEASURED, certificate_drift, dumped, generated_folder, read_certificates, write_files
 from ..emit import emit
 from ..model import Model

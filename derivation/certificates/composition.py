@@ -15,13 +15,14 @@ import mpmath
 import numpy as np
 import sympy as sp
 
-from ...certify import FLOOR
-from ...check import DerivationError
-from ...sequences import CONTACT
-from ...symbols import p, p_in, s, s_0, s_1
-from ..regimes import ModeRegime, ModeZone
-from ..symbols import f_0, numbered, z, z_0
-from .reference import Point, Reference
+from ..check import DerivationError
+from ..modes.regimes import ModeRegime, ModeZone
+from ..modes.symbols import f_0, z, z_0
+from ..sequences import CONTACT
+from ..symbols import p, p_in, s, s_0, s_1
+from .measure import FLOOR
+from .point import Point
+from .reference import Reference
 from .scaled import Scaled, inverted
 
 BLOCKS = (
@@ -49,47 +50,51 @@ AGREED = mpmath.mpf(10) ** -50  # of its scale, between a difference and the der
 class Composition:
     """The functions of a regime at one point. Without ``sized`` the scales are left out, which is much less work."""
 
-    def __init__(self, regime: ModeRegime, blocks: dict[str, Reference], point: Point, n: int, sized: bool = True):
-        self.regime, self.blocks, self.point, self.n, self.sized = regime, blocks, point, n, sized
-        self.onset = point[regime.edges[0]] if regime.edges else None
+    def __init__(self, regime: ModeRegime, blocks: dict[str, Reference], point: Point, sized: bool = True):
+        self.regime, self.blocks, self.point, self.sized = regime, blocks, point, sized
+        self.n = point.modes or 1
+        self.onset = point.values[regime.edges[0]]
 
-    def functions(self) -> dict[str, Scaled]:
-        """Exact values and natural scales of every emitted function of the regime, flattened as it returns them."""
+    def functions(self, agreed: bool) -> dict[str, Scaled]:
+        """Exact values and natural scales of every emitted function of the regime, flattened as it returns them.
+
+        ``agreed``: the derivatives, put together as by the emitted functions, are held against differences.
+        """
         state = self.state()
         passages = self.passages(state)
+        jacobian, return_map = self.jacobian(passages), self.return_map(passages)
+        if agreed:
+            self._agree("jacobian", jacobian, self.jacobian_by_differences())
+            self._agree("return map", return_map, self.return_map_by_differences(state))
         return {
             "state": state,
-            "passages": _joined([part for passage in passages for part in passage]),
+            "passages": Scaled.joined([part for passage in passages for part in passage]),
             "residual": self.residual(state),
-            "jacobian": self._agreed("jacobian", self.jacobian(passages), self.jacobian_by_differences()),
-            "return_map": self._agreed("return map", self.return_map(passages), self.return_map_by_differences(state)),
+            "jacobian": jacobian,
+            "return_map": return_map,
             "means": self.means(state),
         }
 
-    def _agreed(self, what: str, composed: Scaled, exact: np.ndarray) -> Scaled:
+    def _agree(self, what: str, composed: Scaled, exact: np.ndarray) -> None:
         for one, other, size in zip(composed.value.flat, exact.flat, composed.size.flat, strict=True):
             if abs(one - other) > AGREED * max(size, FLOOR):
                 name = f"regime {self.regime.sequence}"
                 raise DerivationError(name, f"the {what} is the derivative of what the derived zones do", one - other)
-        return Scaled(exact, composed.size)
 
     # -- what a zone does ---------------------------------------------------------------------------------------------
 
     def _block(self, name: str, at: dict[sp.Symbol, Any], state: tuple[sp.Symbol, Scaled] | None = None) -> Scaled:
-        point = {**self.point, **{symbol: self._value(value) for symbol, value in at.items()}}
-        scales: Point = {}
-        if state is not None:
-            symbol, given = state
-            for mode in range(self.n):
-                point[numbered(symbol, mode)] = given.value[mode]
-                scales[numbered(symbol, mode)] = given.size[mode]
-        return self.blocks[name](point, scales) if self.sized else self.blocks[name].value(point)
+        values = {symbol: self._value(value) for symbol, value in at.items()}
+        # What is left of the period for the last zone is known to the period's own digits.
+        rest = {s_1: 2 * mpmath.pi} if at.get(s_1) is self.regime.zones[-1].last else {}
+        point = self.point.moved(values, [symbol for symbol in (s, s_0, s_1) if symbol in values], rest)
+        return self.blocks[name](point.at(dict([state])) if state else point, self.sized)
 
     def _value(self, expression: Any) -> mpmath.mpf:
         if isinstance(expression, mpmath.mpf):
             return expression
         symbols, evaluate = _evaluator(sp.sympify(expression))
-        return mpmath.mpf(evaluate(*(self.point[symbol] for symbol in symbols)))
+        return mpmath.mpf(evaluate(*(self.point.values[symbol] for symbol in symbols)))
 
     def _edges(self, zone: ModeZone) -> dict[sp.Symbol, Any]:
         return {s_0: zone.first, s_1: zone.last}
@@ -139,7 +144,7 @@ class Composition:
         for zone, entered in self._along(state):
             if zone is not regime.zones[-1]:
                 parts.append(self._constant(zone.missing) + self._change(zone, entered))
-        return _joined(parts)
+        return Scaled.joined(parts)
 
     def _constant(self, expression: sp.Expr) -> Scaled:
         terms = [Scaled.of([self._value(term)]) for term in sp.Add.make_args(sp.sympify(expression))]
@@ -161,7 +166,7 @@ class Composition:
                 else:
                     w = Scaled.of([load * self._value(zone.last - zone.first)])
             height, work = height + w, work + q
-        return _joined([height, work]) / Scaled.of([2 * mpmath.pi])
+        return Scaled.joined([height, work]) / Scaled.of([2 * mpmath.pi])
 
     # -- derivatives --------------------------------------------------------------------------------------------------
 
@@ -218,7 +223,7 @@ class Composition:
     # -- the same by differences --------------------------------------------------------------------------------------
 
     def _moved(self, edge: sp.Symbol, by: mpmath.mpf) -> Composition:
-        return Composition(self.regime, self.blocks, {**self.point, edge: self.point[edge] + by}, self.n, sized=False)
+        return Composition(self.regime, self.blocks, self.point.moved({edge: self.point.values[edge] + by}, ()), sized=False)
 
     def jacobian_by_differences(self) -> np.ndarray:
         columns = []
@@ -229,7 +234,7 @@ class Composition:
 
     def return_map_by_differences(self, state: Scaled) -> np.ndarray:
         """One turn as a function of the state before the first edge and of the edges, which follow it by their events."""
-        still = Composition(self.regime, self.blocks, self.point, self.n, sized=False)
+        still = Composition(self.regime, self.blocks, self.point, sized=False)
         start = Scaled(state.value, 0 * state.value)
         by_state, events_by_state = [], []
         for mode in range(self.n):
@@ -260,18 +265,13 @@ class Composition:
             state = state + self._increment(zone, state)
         back = {s_0: last.first, s_1: onset + 2 * mpmath.pi, p: last.pressure}
         state = state + self._block("relaxation_increment", back, (z_0, state))
-        return state.value, _joined(events).value
+        return state.value, Scaled.joined(events).value
 
 
 @cache
 def _evaluator(expression: sp.Expr) -> tuple[list[sp.Symbol], Callable[..., Any]]:
     symbols = sorted(expression.free_symbols, key=str)
     return symbols, sp.lambdify(symbols, expression, modules="mpmath")
-
-
-def _joined(parts: list[Scaled]) -> Scaled:
-    flat = [part.reshape(-1) for part in parts]
-    return Scaled(np.concatenate([part.value for part in flat]), np.concatenate([part.size for part in flat]))
 
 
 def _with(rows: Scaled, index: int, more: Scaled) -> Scaled:

@@ -3,54 +3,54 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Sequence
 from typing import Any
 
 import mpmath
 import numpy as np
 import sympy as sp
 
-from ...certify import STEP, Certificate
-from ...symbols import alpha, beta
-from ..derive import ModesDerivation
-from ..law import Law
-from ..symbols import J_0, MATERIAL, MATRICES
-from .reference import DIGITS
+from ..model import Model, Series
+from ..modes.states import exact_modes
+from ..modes.symbols import MATERIAL, m
+from .measure import DIGITS, Certificate, Worst, points_at
+from .point import STEP
 from .scaled import Scaled
-from .worst import Worst
 
+NAME = "material_modes"
+POINTS = 40
 RANGE = 160  # of the logarithm of a distance
-ROUGH = mpmath.mpf(10) ** -40  # to which it is bisected
-NEWTON = 4  # steps from there, or from a neighbouring point: each squares what is left
+ROUGH = mpmath.mpf(10) ** -35  # to which it is bisected
+NEWTON = 5  # steps from there, or from a neighbouring point: each squares what is left
 
 
-def measure_material(name: str, derivation: ModesDerivation, solver: Any, points: int) -> Certificate:
+def measure_material(model: Model, series: Series, solver: Any, modes: Sequence[int], points: int = POINTS) -> Certificate:
     """Measure ``material_modes`` of a model that states its Prony series."""
-    material, worst = Material(derivation), Worst(name)
+    worst = Worst(NAME, (m,))
     with mpmath.workdps(DIGITS):
-        for index in range(points):
-            given = material.drawn(index)
-            arguments = {key: np.array(value) if isinstance(value, list) else value for key, value in given.items()}
-            with np.errstate(all="raise", under="ignore"):
-                K, modes = solver.material_modes(**arguments)
-            shown = {f"{key} {k}": v for key, value in given.items() for k, v in enumerate(np.ravel(value).tolist())}
-            worst.see((K, modes), material.scaled(given), shown)
+        for count in modes:
+            material = Material(model, series, count)
+            for index in range(points_at(count, points)):
+                given = material.drawn(index)
+                arguments = {key: np.array(value) if isinstance(value, list) else value for key, value in given.items()}
+                with np.errstate(all="raise", under="ignore"):
+                    K, found = solver.material_modes(**arguments)
+                shown = {f"{key} {k}": v for key, value in given.items() for k, v in enumerate(np.ravel(value).tolist())}
+                worst.see((K, *found), material.scaled(given), shown)
     return worst.certificate()
 
 
 class Material:
     """Exact modes of a material with given parameters, and their natural scales."""
 
-    def __init__(self, derivation: ModesDerivation):
-        self.law, self.n, self.model = derivation.law, derivation.law.modes, derivation.model
-        self.series = derivation.model.series
+    def __init__(self, model: Model, series: Series, count: int):
+        self.n, self.model, self.series = count, model, series
         symbols = [parameter.symbol for parameter in self.model.parameters]
-        stated = (self.series.K, self.series.viscosity, self.series.time)
-        self.branch = sp.lambdify(symbols, stated, modules="mpmath")
-        self.evaluate = _every_entry(self.law)
+        self.branch = sp.lambdify(symbols, (series.K, series.viscosity, series.time), modules="mpmath")
 
     def drawn(self, index: int) -> dict[str, float | list[float]]:
         """Parameters: times over many decades, near-equal ones among them, each with its modulus."""
-        draw = random.Random(f"{self.model.parameters} {index}")
+        draw = random.Random(f"{self.model.parameters} {self.n} {index}")
         spread = draw.choice((1.0, 3.0, 6.0))
         given: dict[str, float | list[float]] = {}
         for parameter in self.model.parameters:
@@ -79,8 +79,10 @@ class Material:
         """K and every entry of the modes, in the order of the fields; ``near``: distances of the roots, roughly."""
         times, viscosities = self._branches(given)
         roots = [times[mode] + self._polished(mode, times, viscosities, near[mode]) for mode in range(self.n)]
-        ordered = [time for pair in zip(times, roots, strict=True) for time in pair]
-        return np.array([self._of_branch(given, 0)[0], *map(mpmath.mpf, self.evaluate(*ordered))], object)
+        found = exact_modes(times, roots)
+        return np.concatenate(
+            [np.ravel(np.array(part, dtype=object)) for part in (self._of_branch(given, 0)[0], *(found[f] for f in MATERIAL))]
+        )
 
     def _branches(self, given: dict[str, np.ndarray]) -> tuple[list[mpmath.mpf], list[mpmath.mpf]]:
         """Relaxation times, ascending, and viscosities."""
@@ -89,19 +91,20 @@ class Material:
 
     def _of_branch(self, given: dict[str, np.ndarray], mode: int) -> tuple[mpmath.mpf, ...]:
         """(K, viscosity, time)."""
-        return self.branch(*(values[mode if len(values) > 1 else 0] for values in given.values()))
+        return tuple(map(mpmath.mpf, self.branch(*(values[mode if len(values) > 1 else 0] for values in given.values()))))
 
-    # Q vanishes where sum eta_i/(lambda - tau_i) = 1: once above each relaxation time and below the next. Unknown is the
-    # distance from the relaxation time below.
+    # The stiffness vanishes where sum eta_i/(lambda - tau_i) = 1: once above each relaxation time and below the next. Unknown is
+    # the distance from the relaxation time below.
 
     def _bisected(self, mode: int, times: list[mpmath.mpf], viscosities: list[mpmath.mpf]) -> mpmath.mpf:
-        high = mpmath.log(sum(viscosities) if mode + 1 == self.n else times[mode + 1] - times[mode])
-        low = high - RANGE
-        while high - low > ROUGH:
-            middle = (low + high) / 2
-            pull, _ = _pull(mode, times, viscosities, mpmath.exp(middle))
-            low, high = (middle, high) if pull > 1 else (low, middle)
-        return mpmath.exp(high)
+        with mpmath.workdps(60):
+            high = mpmath.log(sum(viscosities) if mode + 1 == self.n else times[mode + 1] - times[mode])
+            low = high - RANGE
+            while high - low > ROUGH:
+                middle = (low + high) / 2
+                pull, _ = _pull(mode, times, viscosities, mpmath.exp(middle))
+                low, high = (middle, high) if pull > 1 else (low, middle)
+            return mpmath.exp(high)
 
     def _polished(self, mode: int, times: list[mpmath.mpf], viscosities: list[mpmath.mpf], distance: mpmath.mpf) -> mpmath.mpf:
         for _ in range(NEWTON):
@@ -116,18 +119,3 @@ def _pull(
     """sum eta_i/(lambda - tau_i), and its derivative by lambda."""
     terms = [(v, distance + (times[mode] - time)) for v, time in zip(viscosities, times, strict=True)]
     return sum(v / x for v, x in terms), -sum(v / x**2 for v, x in terms)
-
-
-def _every_entry(law: Law) -> Any:
-    """Every entry of the modes as a function of alpha_1, beta_1, alpha_2, ...: at the times in seconds."""
-    n = law.modes
-    ordered = [law.values[(symbol, mode)] for mode in range(n) for symbol in (alpha, beta)]
-    entries: list[sp.Expr] = []
-    for field in MATERIAL:
-        if field == J_0:
-            entries.append(law.values[J_0])
-        elif field in MATRICES:
-            entries += [law.values[(field, row, column)] for row in range(n) for column in range(n)]
-        else:
-            entries += [law.values[(field, mode)] for mode in range(n)]
-    return sp.lambdify(ordered, entries, modules="mpmath", cse=True)

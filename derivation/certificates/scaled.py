@@ -1,4 +1,4 @@
-"""Exact values that carry their natural scale |f| + sum |x df/dx| through sums, products, quotients and linear systems."""
+"""Exact values that carry their natural scale |f| + sum |x df/dx| through sums, products and linear systems."""
 
 from __future__ import annotations
 
@@ -24,12 +24,13 @@ class Scaled:
         return cls(value, abs(value))
 
     @classmethod
+    def joined(cls, parts: Sequence[Scaled]) -> Scaled:
+        """All numbers of the parts in one row."""
+        return cls(*(np.concatenate([np.ravel(getattr(part, name)) for part in parts]) for name in ("value", "size")))
+
+    @classmethod
     def stacked(cls, parts: Sequence[Scaled], axis: int = 0) -> Scaled:
         return cls(np.stack([part.value for part in parts], axis), np.stack([part.size for part in parts], axis))
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        return self.value.shape
 
     def __getitem__(self, index: Any) -> Scaled:
         return Scaled(np.asarray(self.value[index], object), np.asarray(self.size[index], object))
@@ -38,7 +39,7 @@ class Scaled:
     def transposed(self) -> Scaled:
         return Scaled(self.value.T, self.size.T)
 
-    def reshape(self, shape: int | tuple[int, ...]) -> Scaled:
+    def reshape(self, shape: tuple[int, ...]) -> Scaled:
         return Scaled(np.reshape(self.value, shape), np.reshape(self.size, shape))
 
     def sum(self) -> Scaled:

@@ -1,0 +1,158 @@
+"""The grid: how every input is drawn, over the whole range on which a solver may ask for a function.
+
+Some draws of an input come from the decades that matter most, the rest from all that is admitted; ``WORDS`` say from which.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable, Sequence
+
+import mpmath
+import numpy as np
+import sympy as sp
+
+from ..modes.states import exact_modes
+from ..modes.symbols import J_0, STATES, m
+from ..printing import source
+from ..symbols import J, L, T_eps, T_sigma, a, alpha, b, beta, c, d, h, l, p, p_0, s, s_0, s_1
+from .point import ZERO, Point, rounded
+
+PHASES = (d, b, a, c, s, s_0, s_1)
+EDGES = PHASES[:4]
+PERIOD = 2 * math.pi
+NARROW = 1e-9  # the narrowest zone
+LEVELS = 5  # of a stack, at most
+Random = random.Random
+Range = tuple[Callable[[Random], float], str]
+
+
+def log(draw: Random, low: float, high: float) -> float:
+    return 10.0 ** draw.uniform(low, high)
+
+
+def signed(draw: Random, low: float, high: float) -> float:
+    return draw.choice((-1.0, 1.0)) * log(draw, low, high)
+
+
+TRACTION = "0 or 1e-9 .. 1e9"
+DOMAIN: dict[str, Range] = {
+    "D": (
+        lambda r: r.choice((0.0, signed(r, -9, 6), 1.0 + signed(r, -9, 0), r.uniform(-2.0, 3.0))),
+        "0, +-1e-9 .. 1e6, and near 1",
+    ),
+    "p_0": (lambda r: r.choice((0.0, log(r, -9, 9), log(r, -2, 1))), TRACTION),
+    "delta_0": (lambda r: r.choice((log(r, -9, 6), log(r, -2, 1))), "1e-9 .. 1e6"),
+    "chi": (lambda r: r.choice((0.0, 1.0)), "0 and 1"),
+    "p": (lambda r: r.choice((0.0, -log(r, -9, 9), -log(r, -2, 1))), "0 or -p_0"),
+    "gap_0": (lambda r: r.choice((0.0, log(r, -9, 6), signed(r, -3, 1))), "0, 1e-9 .. 1e6, -10 .. 10"),
+    "q_0": (lambda r: r.choice((0.0, 0.0, signed(r, -9, 9))), "0, +-1e-9 .. 1e9"),
+    "p_in": (lambda r: r.choice((0.0, -log(r, -9, 9), signed(r, -3, 3))), "0, -1e-9 .. -1e9, +-1e-3 .. 1e3"),
+    "lag_0": (lambda r: signed(r, -9, 9), "+-1e-9 .. 1e9"),
+    "w_0": (lambda r: signed(r, -9, 6), "+-1e-9 .. 1e6"),
+    "excess": (lambda r: r.choice((0.0, log(r, -9, 9))), "0, 1e-9 .. 1e9"),
+    "kV": (lambda r: r.choice((0.0, log(r, -6, 12))), "0, 1e-6 .. 1e12 1/s"),
+    "K": (lambda r: log(r, 3, 15), "1e3 .. 1e15 Pa/m"),
+    "T_eps": (lambda r: log(r, -9, 6), "1e-9 .. 1e6 s"),
+    "T_sigma": (lambda r: r.choice((0.0, 1.0, log(r, -9, 0))), "0, 1e-9 T_eps .. T_eps"),  # of T_eps
+    "l": (lambda r: log(r, -10, 0), "1e-10 .. 1 m"),
+    "h": (lambda r: log(r, -12, 0), "1e-12 .. 1 m"),
+    "V": (lambda r: r.choice((0.0, log(r, -12, 3), log(r, -9, 2))), "0, 1e-12 .. 1e3 m/s"),
+    "p_1": (lambda r: log(r, -3, 12), "1e-3 .. 1e12 Pa"),
+}
+OF_STATES = (lambda r: r.choice((0.0, signed(r, -9, 6), signed(r, -2, 1))), "0, +-1e-9 .. 1e6, each mode by itself")
+WORDS = {
+    **{name: words for name, (_, words) in DOMAIN.items()},
+    "alpha, beta": "beta 0, 1e-12 .. 1e15; J = alpha/beta 0, 1e-12 .. 1, 1 - 1e-12 .. 1",
+    "phases": "the first anywhere in a period, near a crest or valley within 1e-9; widths 1e-9 .. 2 pi",
+    "m": "1 to 30 interlaced times (of a model for any number of them), spread over 2 to 12 decades, some within 1e-9 of their "
+    "neighbours, the least 0; k V 0, 1e-8 .. 1e9",
+    "states": OF_STATES[1],
+}
+
+
+def drawn(args: Sequence[sp.Symbol], seed: str, modes: int = 0, moving: bool = False, dashpots: bool | None = None) -> Point:
+    """A point for a function with these arguments; ``modes``: of a foundation with a Prony series.
+
+    ``moving``: never at rest, V = 0. ``dashpots``: whether the least time is 0, always or never; drawn if None.
+    """
+    draw = Random(f"{seed} {' '.join(map(str, args))} {modes}")
+    edges = [symbol for symbol in PHASES if symbol in args]
+    exact: dict[sp.Symbol, object] = dict(_phases(draw, edges))
+    coupled = None
+    if {alpha, beta} & set(args) and m not in args:
+        coupled, material = _one_time(draw, args)
+        exact |= material
+    if m in args:
+        exact |= _material(draw, modes, moving, dashpots)
+    several = any(str(symbol) == "p_1" for symbol in args)
+    for symbol in args:
+        name = source(symbol)
+        if symbol in exact or symbol == m:
+            continue
+        if symbol in STATES:
+            exact[symbol] = np.array([mpmath.mpf(OF_STATES[0](draw)) for _ in range(modes)], dtype=object)
+        elif several and symbol in (h, l):
+            count = Random(f"{seed} levels").randint(1, LEVELS)
+            exact[symbol] = np.array([mpmath.mpf(DOMAIN[name][0](draw)) for _ in range(count)], dtype=object)
+        else:
+            exact[symbol] = mpmath.mpf(DOMAIN[name][0](draw))
+    if p in exact and p_0 in exact:
+        exact[p] = draw.choice((mpmath.mpf(0), -exact[p_0]))
+    if T_sigma in exact:
+        exact[T_sigma] = mpmath.mpf(float(exact[T_eps] * exact[T_sigma]))
+    given = {symbol: rounded(value) for symbol, value in exact.items()}
+    return Point(exact, given, tuple(edges), modes or None, coupled)
+
+
+def _phases(draw: Random, edges: Sequence[sp.Symbol]) -> dict[sp.Symbol, mpmath.mpf]:
+    """Phases in order, as floats; of a regime's edges, the last zone is wider than 1e-9 as the others."""
+    near = draw.choice((-math.pi, math.pi / 2, 0.0)) + signed(draw, -9, -1)
+    position = draw.choice((draw.uniform(-math.pi, math.pi), signed(draw, -9, 0), near))
+    room, found = PERIOD, {}
+    for number, edge in enumerate(edges):
+        if number:
+            width = draw.choice((log(draw, -9, 0), draw.uniform(0.0, 1.5), draw.uniform(0.0, room), room - log(draw, -9, 0)))
+            width = min(max(width, NARROW), room - NARROW * (len(edges) - number))  # which leaves as much for those that follow
+            room -= width
+            position = position + width
+        found[edge] = mpmath.mpf(position)
+    return found
+
+
+def _one_time(draw: Random, args: Sequence[sp.Symbol]) -> tuple[sp.Symbol, dict[sp.Symbol, mpmath.mpf]]:
+    """The independent one of J and L, and all four exactly."""
+    time = mpmath.mpf(draw.choice((0.0, log(draw, -12, 15), log(draw, -2, 2), log(draw, -8, 9), log(draw, -2, 2)))) or ZERO
+    snap = args[0] == d and b not in args and a in args  # needs an instantaneous compliance
+    kind = draw.choice((J, J, L, L, 1 if snap else 0, 1))
+    ratio = mpmath.mpf(log(draw, -12, 0))
+    if kind is L:
+        return L, {beta: time, L: ratio, J: 1 - ratio, alpha: (1 - ratio) * time}
+    ratio = ratio if kind is J else mpmath.mpf(kind) or ZERO
+    return J, {beta: time, J: ratio, L: 1 - ratio, alpha: ratio * time}
+
+
+def _material(draw: Random, modes: int, moving: bool, dashpots: bool | None) -> dict[sp.Symbol, object]:
+    """Interlaced times as sums of positive steps over many decades, near-equal ones among them; the rest follows exactly."""
+    dashpot = draw.random() < 0.15 if dashpots is None else dashpots
+    spread = draw.choice((1.0, 3.0, 6.0))
+    speed = mpmath.mpf(draw.choice((log(draw, -2, 2) if moving else ZERO, log(draw, -8, 9), log(draw, -2, 2), log(draw, -2, 2))))
+    position, times = mpmath.mpf(0), []
+    for number in range(2 * modes):
+        step = log(draw, -spread, spread) * (draw.choice((1.0, 1.0, 1.0, 1e-9)) if number else not dashpot)
+        position += mpmath.mpf(step) or ZERO
+        times.append(position * speed)
+    return exact_modes(times[0::2], times[1::2])
+
+
+def domain(args: Sequence[sp.Symbol]) -> list[str]:
+    """The keys of ``WORDS`` that say on which domain a function with these arguments is measured."""
+    names = [source(symbol) for symbol in args]
+    keys = ["phases"] if set(args) & set(PHASES) else []
+    keys += ["m"] if m in args else ["alpha, beta"] if {alpha, beta} & set(args) else []
+    keys += ["states"] if set(args) & set(STATES) else []
+    return keys + sorted(name for name in names if name in DOMAIN)
+
+
+__all__ = ["DOMAIN", "WORDS", "J_0", "domain", "drawn"]

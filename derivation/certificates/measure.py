@@ -1,0 +1,102 @@
+"""The worst error of an emitted function over the grid, in ulp of its natural scale."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import mpmath
+import numpy as np
+import sympy as sp
+
+from ..kernel import Kernel
+from .grid import EDGES, drawn
+from .point import Point
+from .reference import Reference, flat
+from .scaled import Scaled
+
+EPS = 2.0**-52
+DIGITS = 320  # the worst cancellation of a derived form on this grid costs about 60, the stand-in for zero 180
+FLOOR = mpmath.mpf(10) ** -40  # least scale: below it lie only remains of the stand-in, and decays that underflow
+POINTS = 200  # of the grid, for a function of one relaxation time
+POINTS_OF_REGIME = 80  # of a function of a whole regime, whose reference costs more
+MODES = (1, 2, 3, 5, 8, 15, 30)  # numbers of relaxation times at which a solver for any number is measured
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """Worst error of one function, in ulp of its natural scale, and where."""
+
+    name: str
+    worst: float
+    points: int
+    where: dict[str, float]
+    args: tuple[sp.Symbol, ...] = ()
+
+
+@dataclass
+class Worst:
+    """Collects errors of one function."""
+
+    name: str
+    args: tuple[sp.Symbol, ...] = ()
+    ulps: float = 0.0
+    where: dict[str, float] = field(default_factory=dict)
+    points: int = 0
+
+    def see(self, computed: Any, truth: Scaled, where: dict[str, float]) -> None:
+        """Compare one result of the emitted function, nested as it may be, with its exact value."""
+        self.points += 1
+        self.where = self.where or where
+        for got, true, size in zip(_numbers(computed), np.ravel(truth.value), np.ravel(truth.size), strict=True):
+            ulps = float(abs(mpmath.mpf(got) - true) / (max(size, FLOOR) * EPS)) if np.isfinite(got) else np.inf
+            if not ulps <= self.ulps:
+                self.ulps, self.where = ulps, where
+
+    def certificate(self) -> Certificate:
+        return Certificate(self.name, self.ulps, self.points, self.where, self.args)
+
+
+def points_at(modes: int, few: int) -> int:
+    """How many points are enough with so many modes: each of them is a sample by itself, and costs as much."""
+    return max(1, few // modes)
+
+
+def measure(kernel: Kernel, solver: Any, modes: Sequence[int] = (), points: int | None = None) -> Certificate:
+    """Measure one function, as ``solver`` computes it, against the kernel's exact expression.
+
+    ``modes``: the numbers of relaxation times at which a function of a Prony series is measured; empty for one of a single time.
+    ``points``: of the grid, with one relaxation time.
+    """
+    worst = Worst(kernel.formula.name, kernel.args)
+    if points is None:
+        points = POINTS_OF_REGIME if set(EDGES) & set(kernel.args) else POINTS
+        points = points // 8 if modes else points
+    with mpmath.workdps(DIGITS):
+        reference = Reference(kernel.exact, kernel.parts)
+        for count in modes or (0,):
+            for index in range(points_at(count or 1, points)):
+                point = drawn(
+                    kernel.args, f"{kernel.formula.name} {index}", count, kernel.moving, False if kernel.springs else None
+                )
+                with np.errstate(all="raise", under="ignore"):
+                    computed = _computed(kernel, solver, point)
+                worst.see(computed, reference(point), point.shown())
+    return worst.certificate()
+
+
+def _computed(kernel: Kernel, solver: Any, point: Point) -> Any:
+    def called(name: str, args: Sequence[sp.Symbol]) -> Any:
+        return getattr(solver, name)(*(point.argument(symbol, solver) for symbol in args))
+
+    if kernel.chain is None:
+        return called(kernel.formula.name, kernel.formula.args)
+    entry, event = kernel.chain
+    constants = called(entry.name, entry.args)
+    return getattr(solver, event.name)(point.argument(event.args[0], solver), *constants)
+
+
+def _numbers(result: Any) -> list[float]:
+    """All numbers of a nested result, in order."""
+    return [float(value) for part in flat(result) for value in np.ravel(np.asarray(part, dtype=float))]

@@ -1,0 +1,135 @@
+"""Exact values of derived expressions at a point of the grid, with their natural scales.
+
+The expressions are evaluated by mpmath as SymPy derived them, not in the stable form. A sum over modes, over levels, or over
+the parts of a balance is as exact as its terms: its scale is that of each term, added up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import mpmath
+import numpy as np
+import sympy as sp
+
+from ..functions import stack_sum, written_out
+from ..modes.symbols import MATRICES
+from ..modes.tensor import EVERY_SUM, across, diagonal, is_matrix, sandwich, total
+from .point import STEP, Point
+from .scaled import Scaled
+
+MODULES = [{"acos": lambda cosine: mpmath.acos(max(-1, min(1, cosine)))}, "mpmath"]
+Evaluated = Callable[[Point], Scaled]
+
+
+class Reference:
+    """An exact result, nested as it may be: at a point, all its numbers in the order in which NumPy lays them out."""
+
+    def __init__(self, exact: Any, parts: Sequence[Sequence[sp.Expr]] = ()):
+        components = [written_out(sp.sympify(component)) for component in flat(exact)]
+        self.groups: list[Any] = []  # of each component: a matrix, or the positions of its parts in what is evaluated together
+        plain: list[sp.Expr] = []
+        for number, component in enumerate(components):
+            if is_matrix(component):
+                self.groups.append(_matrix(component))
+                continue
+            terms = [written_out(term) for term in parts[number]] if parts else [component]
+            self.groups.append(range(len(plain), len(plain) + len(terms)))
+            plain += terms
+        self.together = Together(plain)
+
+    def __call__(self, point: Point, sized: bool = True) -> Scaled:
+        found = self.together(point, sized)
+        return Scaled.joined(
+            [
+                sum((found[k] for k in group[1:]), found[group[0]]) if isinstance(group, range) else group(point)
+                for group in self.groups
+            ]
+        )
+
+
+class Together:
+    """Expressions evaluated together, mode by mode; sums that they hold are evaluated first, as inputs with a scale."""
+
+    def __init__(self, expressions: list[sp.Expr]):
+        sums = sorted(set().union(*(_outermost(expression) for expression in expressions)), key=str)
+        names = [sp.Symbol(f"sum_{number}") for number in range(len(sums))]
+        outer = [expression.xreplace(dict(zip(sums, names, strict=True))) for expression in expressions]
+        self.sums = {name: _summed(node) for name, node in zip(names, sums, strict=True)}
+        self.free = [sorted(expression.free_symbols, key=str) for expression in outer]
+        self.symbols = sorted(set().union(*map(set, self.free)), key=str)
+        self.evaluate = sp.lambdify(self.symbols, outer, modules=MODULES, cse=True)
+
+    def __call__(self, point: Point, sized: bool = True) -> list[Scaled]:
+        if self.sums:
+            point = point.at({name: summed(point) for name, summed in self.sums.items()})
+        values = self._at(point.values)
+        sizes = abs(values)
+        for weight, moved in point.directions(self.symbols) if sized else ():
+            sizes = sizes + weight * abs(self._at({**point.values, **moved}) - values) / STEP
+        rows = [any(np.ndim(point.values[symbol]) for symbol in free) for free in self.free]
+        return [Scaled(v, s) if row else Scaled(v[:1], s[:1]) for v, s, row in zip(values, sizes, rows, strict=True)]
+
+    def _at(self, values: dict[sp.Symbol, Any]) -> np.ndarray:
+        """(expressions, modes)."""
+        given = [values[symbol] for symbol in self.symbols]
+        count = max([np.size(value) for value in given if np.ndim(value)], default=1)
+        columns = [
+            [mpmath.mpf(v) for v in self.evaluate(*(value[mode] if np.ndim(value) else value for value in given))]
+            for mode in range(count)
+        ]
+        return np.array(columns, dtype=object).T
+
+
+def _summed(node: sp.Expr) -> Evaluated:
+    """A sum as a function of the point: of one number, or of one for each mode."""
+    inner = Together([node.args[-1]])
+    if isinstance(node, total):
+        return lambda point: _spread(inner(point)[0], point).sum()
+    if isinstance(node, stack_sum):
+        return lambda point: Scaled.stacked([inner(level)[0] for level in point.levels()]).sum()[0]
+    matrix = _matrix(node.args[0])
+    if isinstance(node, across):
+        return lambda point: matrix(point) @ _spread(inner(point)[0], point)
+    return lambda point: matrix(point).transposed @ _spread(inner(point)[0], point)
+
+
+def _spread(vector: Scaled, point: Point) -> Scaled:
+    """One value for each mode, also where all are the same."""
+    count = point.modes or 1
+    return vector if len(vector.value) == count else Scaled(np.repeat(vector.value, count), np.repeat(vector.size, count))
+
+
+def _matrix(expression: sp.Expr) -> Evaluated:
+    if isinstance(expression, sp.Mul) and expression.could_extract_minus_sign():
+        positive = _matrix(-expression)
+        return lambda point: -positive(point)
+    if expression in MATRICES:
+        return lambda point: Scaled.of(point.values[expression])
+    if isinstance(expression, diagonal):
+        (vector,) = (Together([expression.args[0]]),)
+        return lambda point: _on_diagonal(_spread(vector(point)[0], point))
+    if isinstance(expression, sandwich):
+        left, vector, right = _matrix(expression.args[0]), Together([expression.args[1]]), _matrix(expression.args[2])
+        return lambda point: (left(point) @ _on_diagonal(_spread(vector(point)[0], point))) @ right(point)
+    raise ValueError(f"{expression} is no matrix")
+
+
+def _on_diagonal(vector: Scaled) -> Scaled:
+    zero = np.full((len(vector.value),) * 2, mpmath.mpf(0), dtype=object)
+    value, size = zero.copy(), zero
+    np.fill_diagonal(value, vector.value)
+    np.fill_diagonal(size, vector.size)
+    return Scaled(value, size)
+
+
+def _outermost(expression: sp.Expr) -> set[sp.Expr]:
+    """The sums of an expression that stand in no other."""
+    if isinstance(expression, EVERY_SUM):
+        return {expression}
+    return set().union(*map(_outermost, expression.args))
+
+
+def flat(result: Any) -> list[Any]:
+    return [e for part in result for e in flat(part)] if isinstance(result, (tuple, list)) else [result]

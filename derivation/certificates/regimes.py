@@ -1,0 +1,56 @@
+"""The functions of every regime with edges on a foundation with modes, against the derived zones put together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import mpmath
+import numpy as np
+
+from ..kernel import Kernel
+from ..modes.regimes import ModeRegime
+from ..modes.symbols import m
+from ..symbols import D, delta_0, p_0
+from .composition import BLOCKS, Composition
+from .grid import drawn
+from .measure import DIGITS, Certificate, Worst, points_at
+from .reference import Reference
+
+KINDS = ("state", "passages", "residual", "jacobian", "return_map", "means")
+POINTS = 8
+AGREED_UP_TO = 2  # modes; how derivatives are put together does not depend on their number
+
+
+def regime_names(regimes: Sequence[ModeRegime]) -> list[str]:
+    """Names of the functions that :func:`measure_regimes` measures."""
+    return [f"{kind}_{regime.sequence}" for regime in regimes if regime.edges for kind in KINDS]
+
+
+def measure_regimes(
+    regimes: Sequence[ModeRegime], kernels: Sequence[Kernel], solver: Any, modes: Sequence[int], points: int = POINTS
+) -> Iterator[Certificate]:
+    """Measure every function of every regime with edges, as ``solver`` computes it.
+
+    Raises :class:`DerivationError` where a derivative, as the emitted functions put it together, is not that of the zones.
+    """
+    with mpmath.workdps(DIGITS):
+        blocks = {k.formula.name: Reference(k.exact) for k in kernels if k.formula.name in BLOCKS}
+    for regime in regimes:
+        if not regime.edges:
+            continue
+        args = (*regime.edges, m, p_0, delta_0, D)
+        worst = {kind: Worst(f"{kind}_{regime.sequence}", args) for kind in KINDS}
+        with mpmath.workdps(DIGITS):
+            for count in modes:
+                for index in range(points_at(count, points)):
+                    # a snap into contact needs an instantaneous compliance
+                    point = drawn(args, f"{regime.sequence} {index}", count, dashpots=False if regime.sequence == "afc" else None)
+                    truth = Composition(regime, blocks, point).functions(agreed=count <= AGREED_UP_TO and index < 3)
+                    given = [point.argument(symbol, solver) for symbol in args]
+                    for kind in KINDS:
+                        with np.errstate(all="raise", under="ignore"):
+                            found = getattr(solver, f"{kind}_{regime.sequence}")(*given)
+                        worst[kind].see(found, truth[kind], point.shown())
+        for kind in KINDS:
+            yield worst[kind].certificate()

@@ -1,0 +1,264 @@
+"""The functions of a regime on a foundation with modes: its zones put together, as formulas to emit.
+
+The boundary equations are the zones' own: what entry and exit of a zone leave for the change over it. The state at the first
+edge is the one that a period returns: zones are affine maps of it, z -> z + drive - forget z, which the step "period map"
+composes. Means are the integrals of the zones, summed. What is an algorithm, the chain rule over the zones, is named as one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from ..averages import adhesive_rise
+from ..check import BEYOND, Derived, derived, zero
+from ..functions import Call, Formula, Helper, stack_sum
+from ..sequences import ADHESION, CONTACT, PERIOD
+from ..stable import PROFILE, PROFILE_INTEGRAL, PROFILE_RISE, PROFILE_SLOPE
+from ..symbols import D, K, V, delta_0, h, l, p_0, p_nominal
+from . import stable
+from .regimes import ModeRegime, ModeZone
+from .saturated import R_LOSS, Complete, R
+from .symbols import m
+from .tensor import generic
+
+ORDINALS = ("first", "second", "third", "fourth")
+
+
+class periodic(Helper):
+    """The state that a period returns, from the maps of its zones."""
+
+
+class Passage(Helper):
+    """What a zone does, under names."""
+
+
+class edge_slopes(Helper):
+    """Chain rule over the passages of a period, the periodic state moving along."""
+
+
+class monodromy(Helper):
+    """Chain rule over the passages of a period, every event moving along."""
+
+
+ALGORITHMS = (periodic, Passage, edge_slopes, monodromy)
+"""Functions of the generated ``modes``: loops and products of matrices, which hold no physics."""
+
+
+@dataclass(frozen=True)
+class RegimeFunction:
+    """A formula that calls derived ones. ``algorithm``: what puts them together, if not the formula."""
+
+    formula: Formula
+    statement: str
+    latex: str
+    function: str
+    paper: str = ""
+    algorithm: str = ""
+
+
+class at_speed(Helper):
+    """The modes of a strip that passes at a rate: their times multiplied by it."""
+
+
+def level_functions(complete: Complete) -> tuple[RegimeFunction, ...]:
+    """Complete contact of a strip, and of levels in K* at their own rate k V; their modes have times in seconds."""
+    modes = sp.Symbol("modes")
+    passing = at_speed(modes, 2 * sp.pi * V / l)
+    ratio, loss = stable.MODULUS_RATIO(passing), stable.LOSS(passing)
+    of_level, of_strip = (K, modes, p_0, l, h, V), (m, p_0, delta_0, D)
+    friction = Formula("level_saturation_friction", (K, modes, l, h, V), 3 * sp.pi / 32 * K * h * (h / l) * loss)
+    rows = (
+        (complete.penetration, Formula("level_saturation_penetration", of_level, h / 2 * (1 + ratio) - p_0 / K)),
+        (complete.pressure, Formula("level_saturation_pressure", of_level, K * h * (2 * ratio - 1) / 4 - p_0)),
+        (complete.friction, friction),
+        (
+            complete.stack,
+            Formula("saturated_stack_friction", (*friction.args, p_nominal), stack_sum(friction(*friction.args)) / p_nominal),
+        ),
+        (complete.means, Formula("means_c", of_strip, (D - 1, stable.LOSS(m) / 2))),
+    )
+    meaning = {"modulus_ratio": R, "loss": R_LOSS, friction.name: complete.friction.value}
+    for record, formula in rows:
+        stated = [
+            part.replace(lambda e: isinstance(e, Call), lambda e: meaning[e.formula.name]) for part in _parts(formula.result)
+        ]
+        residuals = [generic(one) - generic(other) for one, other in zip(stated, _parts(record.value), strict=True)]
+        zero(record.name, f"{formula.name}: the emitted form is the derived expression", residuals)
+    return tuple(RegimeFunction(formula, r.statement, r.latex, r.function, r.paper) for r, formula in rows)
+
+
+def rest_functions(regimes: Sequence[ModeRegime], means: Derived) -> tuple[RegimeFunction, ...]:
+    """Means of the regimes at rest, whose pressure is constant: it does no work over a period."""
+    at_rest = [regime for regime in regimes if not regime.edges and regime.zones[0].kind != CONTACT]
+    return tuple(
+        RegimeFunction(
+            Formula(f"means_{r.sequence}", (m, p_0, delta_0, D), (r.zones[0].pressure, sp.Integer(0))),
+            f"Means of pressure and friction of a strip: {r.title}.",
+            means.latex,
+            means.function,
+            means.paper,
+        )
+        for r in at_rest
+    )
+
+
+def _parts(value: Any) -> tuple[sp.Expr, ...]:
+    return value if isinstance(value, tuple) else (value,)
+
+
+def period_map() -> Derived:
+    r"""Two zones in turn, :math:`z \to z + c_k - R_k z`, are one: :math:`c = c_2 + c_1 - R_2 c_1,\ R = R_1 + R_2 - R_2 R_1`."""
+    name = "period map"
+    state, drive_1, drive_2, forget_1, forget_2 = sp.symbols("z c_1 c_2 R_1 R_2", commutative=False)
+    after = state + drive_1 - forget_1 * state
+    twice = after + drive_2 - forget_2 * after
+    drive, forget = drive_2 + drive_1 - forget_2 * drive_1, forget_1 + forget_2 - forget_2 * forget_1
+    return derived(
+        period_map,
+        (drive, forget),
+        name=name,
+        statement="A period is an affine map of the state, and R z = c is the state that it returns. What is forgotten is "
+        "accumulated, not what is kept: slow modes forget little, and that little keeps its digits.",
+        latex=r"z \to z + c - R z,\quad c = c_2 + c_1 - R_2 c_1,\quad R = R_1 + R_2 - R_2 R_1,\qquad R z = c",
+        checks=[zero(name, "for matrices, which do not commute", sp.expand(twice - (state + drive - forget * state)))],
+        status=BEYOND,
+        emitted=tuple(f"state_{sequence}" for sequence in ("acaf", "afc", "af", "ac")),
+    )
+
+
+def regime_functions(regime: ModeRegime, means: Derived) -> tuple[RegimeFunction, ...]:
+    """What is emitted for a regime with edges."""
+    sequence, args = regime.sequence, (*regime.edges, m, p_0, delta_0, D)
+    by, first = regime.derived.function, regime.edges[0]
+    state = Formula(f"state_{sequence}", args, periodic(sp.Tuple(*(_map(zone) for zone in regime.zones))))
+    passages = _passages(regime, args, state)
+    slopes = Formula(f"jacobian_{sequence}", args, edge_slopes(passages(*args), PROFILE_SLOPE(first)))
+    turn = Formula(f"return_map_{sequence}", args, monodromy(passages(*args)))
+    meanings = "; ".join(meaning for _, meaning in regime.equations)
+    return (
+        RegimeFunction(state, f"{regime.derived.statement} The state at {first}.", "R z = c", "modes.functions.period_map"),
+        RegimeFunction(
+            passages,
+            f"The zones in turn, from the state at {first}: a Passage each.",
+            r"z_{k+1} = z_k + \Delta z_k",
+            by,
+        ),
+        RegimeFunction(
+            _residual(regime, args, state),
+            f"Boundary equations: {meanings}. Each is counted from the edge before.",
+            r"w - u - g = 0,\quad \text{entry} - \text{exit} + \Delta = 0,\quad \Delta\ \text{of the gap or of the pressure}",
+            by,
+        ),
+        RegimeFunction(
+            slopes,
+            f"Derivatives of residual_{sequence} by the edges, the state moving along.",
+            r"R\,\partial z = \partial c - \partial R\,z",
+            by,
+            algorithm="the chain rule over the zones, modes.edge_slopes",
+        ),
+        RegimeFunction(
+            turn,
+            f"Derivative of the state before {first} by that one period earlier. "
+            "An orbit is stable if its spectral radius is below 1.",
+            r"\partial z(s + 2\pi)/\partial z(s)",
+            by,
+            algorithm="the chain rule over the zones and their events, modes.monodromy",
+        ),
+        RegimeFunction(
+            _means(regime, args, state),
+            f"Means of pressure and friction of a strip: {regime.title}.",
+            means.latex,
+            means.function,
+            means.paper,
+        ),
+    )
+
+
+def _map(zone: ModeZone) -> sp.Expr:
+    """The zone as an affine map of the state."""
+    of = stable.CONTACT_MAP if zone.kind == CONTACT else stable.RELAXATION_MAP
+    return of(zone.first, zone.last, zone.pressure, m)
+
+
+def _symbol(letter: str, number: int) -> sp.Symbol:
+    return sp.Symbol(f"{letter}_{number + 1}", real=True)
+
+
+def _passages(regime: ModeRegime, args: tuple[sp.Symbol, ...], state: Formula) -> Formula:
+    entered, steps, names = _symbol("z", 0), [], []
+    steps.append((entered, state(*args)))
+    for number, zone in enumerate(regime.zones):
+        of = stable.CONTACT_PASSAGE if zone.kind == CONTACT else stable.RELAXATION_PASSAGE
+        name = sp.Symbol(ORDINALS[number])
+        steps.append((name, Passage(of(zone.first, zone.last, entered, zone.pressure, m))))
+        names.append(name)
+        if zone is not regime.zones[-1]:
+            after = _symbol("z", number + 1)
+            steps.append((after, entered + sp.Symbol(f"{name}.increment")))
+            entered = after
+    return Formula(f"passages_{regime.sequence}", args, tuple(names), tuple(steps))
+
+
+def _entries(
+    regime: ModeRegime, args: tuple[sp.Symbol, ...], state: Formula
+) -> tuple[list[sp.Symbol], list[tuple[sp.Symbol, sp.Expr]]]:
+    """What every zone is entered with (overstresses in contact, retardation displacements elsewhere), and the steps to it."""
+    z = _symbol("z", 0)
+    entered, steps = [], [(z, state(*args))]
+    for number, zone in enumerate(regime.zones):
+        last = zone is regime.zones[-1]
+        if zone.kind == CONTACT:
+            f = _symbol("f", number)
+            steps.append((f, stable.OVERSTRESS(z, zone.pressure, m)))
+            entered.append(f)
+            change = stable.CONTACT_INCREMENT(zone.first, zone.last, f, m)
+        else:
+            entered.append(z)
+            change = stable.RELAXATION_INCREMENT(zone.first, zone.last, z, zone.pressure, m)
+        if not last:
+            after = _symbol("z", number + 1)
+            steps.append((after, z + change))
+            z = after
+    return entered, steps
+
+
+def _residual(regime: ModeRegime, args: tuple[sp.Symbol, ...], state: Formula) -> Formula:
+    entered, steps = _entries(regime, args, state)
+    onset = stable.DISPLACEMENT(steps[0][0], regime.onset_pressure, m) - PROFILE(regime.edges[0], D) - regime.onset_gap
+    terms = [onset]
+    for zone, entry in zip(regime.zones[:-1], entered, strict=False):
+        if zone.kind == CONTACT:
+            change = stable.EXCESS_CHANGE(zone.first, zone.last, entry, m)
+        else:
+            change = stable.GAP_CHANGE(zone.first, zone.last, entry, zone.pressure, m)
+        terms.append(zone.missing + change)
+    return Formula(f"residual_{regime.sequence}", args, tuple(terms), tuple(steps))
+
+
+def _means(regime: ModeRegime, args: tuple[sp.Symbol, ...], state: Formula) -> Formula:
+    """The mean of w, where there is contact, for that of p, and the work of p.
+
+    Where nothing is free the traction acts everywhere and does no work over a period: pressures count from -p_0.
+    """
+    name = f"means_{regime.sequence}"
+    touches = any(zone.kind == CONTACT for zone in regime.zones)
+    raised = p_0 if touches and all(zone.kind in (CONTACT, ADHESION) for zone in regime.zones) else sp.Integer(0)
+    entered, steps = _entries(regime, args, state) if touches else ([None] * len(regime.zones), [])
+    height = work = sp.Integer(0)
+    for zone, entry in zip(regime.zones, entered, strict=True):
+        if zone.kind == CONTACT:
+            height += PROFILE_INTEGRAL(zone.first, zone.last, D)
+            work += stable.CONTACT_WORK(zone.first, zone.last, entry, D + raised, m)
+            continue
+        if zone.kind != ADHESION:
+            work += (zone.pressure + raised) * PROFILE_RISE(zone.first, zone.last)
+        if touches:
+            height += stable.RELAXATION_INTEGRAL(zone.first, zone.last, entry, zone.pressure, m)
+        else:
+            height += zone.pressure * (zone.last - zone.first)
+    work += (raised - p_0) * adhesive_rise(regime.zones)
+    return Formula(name, args, (height / PERIOD, work / PERIOD), tuple(steps))
