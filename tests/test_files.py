@@ -48,7 +48,7 @@ def test_what_a_killed_run_left_aside_is_removed(tmp_path):
     """Of a process that is gone, or of a day ago; not of one that runs."""
     gone = subprocess.Popen([sys.executable, "-c", ""])
     gone.wait()
-    code = "import sys, os; from hystrip.files import Outputs\nwith Outputs('.') as f: f.path('a.csv').write_text('half'); os._exit(1)"
+    code = "import os; from hystrip.files import Outputs\nwith Outputs('.') as f: f.path('a.csv').write_text('x'); os._exit(1)"
     subprocess.run([sys.executable, "-c", code], cwd=tmp_path)
     (left,) = tmp_path.iterdir()
     mine = tmp_path / left.name.replace(f"-{re.search('-([0-9]+).part', left.name)[1]}.", f"-{os.getppid()}.")

@@ -3,40 +3,30 @@
 from __future__ import annotations
 
 import os
-import signal
 import sys
 import warnings
+from typing import Any
 
 from ..errors import HystripError, InputError, MissingExtra, printable
 from ..extras import require
+from .signals import TERMINATED, Terminated, ignore_interrupts, raise_on_sigterm
 
-USAGE, FAILED, INTERRUPTED, TERMINATED = 2, 1, 130, 143
-
-
-class Terminated(SystemExit):
-    """SIGTERM, as an exception: what is half done is undone, workers are ended."""
+USAGE, FAILED, INTERRUPTED = 2, 1, 130
 
 
 def main() -> None:
     """Run the command line and exit: 0 done, 1 failed, 2 wrong input, 130 interrupted, 143 terminated."""
-    with_handler = signal.getsignal(signal.SIGTERM) == signal.SIG_DFL
-    if with_handler:
-        signal.signal(signal.SIGTERM, _terminate)
+    raise_on_sigterm()
     status = _status()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # nothing is left to interrupt but the interpreter's own end
+    ignore_interrupts()  # nothing is left to interrupt but the interpreter's own end
     sys.exit(status)
-
-
-def _terminate(*_: object) -> None:
-    signal.signal(signal.SIGTERM, signal.SIG_IGN)  # once is enough
-    raise Terminated(TERMINATED)
 
 
 def _status() -> int:
     try:
         if hasattr(sys.stdout, "reconfigure"):  # a title may hold what the terminal's encoding lacks
             sys.stdout.reconfigure(errors="replace")
-        warnings.showwarning = _show_warning
+        _show_warnings()
         require("typer", "cli", "the command line")
         from .app import build
 
@@ -75,10 +65,17 @@ def _say(text: str) -> None:
     print(f"hystrip: {printable(text, limit=4000)}", file=sys.stderr, flush=True)
 
 
-def _show_warning(message: Warning | str, category: type[Warning], *_: object) -> None:
-    """A warning as one line, without the place in the code."""
-    ours = category.__module__.startswith("hystrip")
-    _say(f"warning: {message}" if ours else f"warning: {category.__name__}: {message}")
+def _show_warnings() -> None:
+    """Warnings of ours as one line, without the place in the code; those of others as ever."""
+    others = warnings.showwarning
+
+    def show(message: Warning | str, category: type[Warning], *rest: Any, **options: Any) -> None:
+        if category.__module__.startswith("hystrip"):
+            _say(f"warning: {message}")
+        else:
+            others(message, category, *rest, **options)
+
+    warnings.showwarning = show
 
 
 def _discard_closed_output() -> None:

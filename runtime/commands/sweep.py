@@ -35,8 +35,8 @@ def command(
     from ..sweeps import sweep
     from ..sweeps.over import over_of
     from ..sweeps.plan import is_half_space
-    from .entry import Terminated
     from .progress import progress
+    from .signals import Terminated
 
     if netcdf:
         require("xarray", "dataset", "writing netCDF")

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
+from ..inputs.checks import LARGEST
 from . import schema
 from .errors import SceneError, nearest
 from .quantity import to_si
@@ -36,6 +37,7 @@ def validated(raw: dict[str, Any]) -> dict[str, Any]:
     SceneError : names key, value and what is allowed
     """
     _refuse_unknown_keys(schema.SceneFile, raw, "")
+    _refuse_endless_integers(raw, "")
     try:
         scene = msgspec.convert(raw, schema.SceneFile)
     except msgspec.ValidationError as error:
@@ -52,6 +54,18 @@ def validated(raw: dict[str, Any]) -> dict[str, Any]:
 def _model(material: Any) -> str:
     """Which of ``schema.MATERIAL_KEYS`` a material is."""
     return schema.HALF_SPACE if material.kind == schema.HALF_SPACE else material.model or "standard_linear_solid"
+
+
+def _refuse_endless_integers(raw: Any, path: str) -> None:
+    """Integers beyond every quantity; msgspec cannot say what is wrong with them."""
+    if isinstance(raw, dict):
+        for key, each in raw.items():
+            _refuse_endless_integers(each, _join(path, key))
+    elif isinstance(raw, list):
+        for index, each in enumerate(raw):
+            _refuse_endless_integers(each, f"{path}[{index}]")
+    elif isinstance(raw, int) and raw.bit_length() > 1000:
+        raise SceneError(path, raw, _described(path))
 
 
 def _refuse_other_models(material: Any) -> None:
@@ -182,6 +196,8 @@ def values_in_si(value: Any, unit: str, field: str) -> np.ndarray:
     if isinstance(value, list):
         if not value:
             raise InputError(field, value, "one value or more")
+        if all(type(each) is float for each in value) and np.all(np.abs(value) <= LARGEST):
+            return np.array(value)
         return np.array([to_si(each, unit, f"{field}[{index}]") for index, each in enumerate(value)])
     return np.array(to_si(value, unit, field))
 

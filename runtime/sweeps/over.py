@@ -40,7 +40,7 @@ def _read(key: str, written: str):
             return msgspec.convert(read["values"], Values)
         except SceneError:
             continue
-        except msgspec.ValidationError:
+        except (msgspec.ValidationError, SystemError):  # the latter at integers of thousands of digits, up to msgspec 0.20
             break
     raise InputError(
         key,
