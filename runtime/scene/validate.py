@@ -58,14 +58,12 @@ def _model(material: Any) -> str:
 
 def _refuse_endless_integers(raw: Any, path: str) -> None:
     """Integers beyond every quantity; msgspec cannot say what is wrong with them."""
-    if isinstance(raw, dict):
-        for key, each in raw.items():
-            _refuse_endless_integers(each, _join(path, key))
-    elif isinstance(raw, list):
-        for index, each in enumerate(raw):
-            _refuse_endless_integers(each, f"{path}[{index}]")
-    elif isinstance(raw, int) and raw.bit_length() > 1000:
-        raise SceneError(path, raw, _described(path))
+    for key, each in raw.items() if isinstance(raw, dict) else enumerate(raw):
+        if isinstance(each, (dict, list)) or (isinstance(each, int) and each.bit_length() > 1000):
+            place = _join(path, key) if isinstance(raw, dict) else f"{path}[{key}]"
+            if isinstance(each, int):
+                raise SceneError(place, each, _described(place))
+            _refuse_endless_integers(each, place)
 
 
 def _refuse_other_models(material: Any) -> None:
