@@ -128,7 +128,7 @@ def axis_names(inputs: dict[str, np.ndarray], shape: tuple[int, ...]) -> tuple[s
 
 def _about(kind: str) -> dict[str, Any]:
     """What the file holds, and what wrote it."""
-    from . import __version__
+    from ._version import __version__
 
     return {
         "title": "friction of a multiscale wavy surface on a viscoelastic foundation with adhesion",

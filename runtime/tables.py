@@ -74,7 +74,7 @@ def write_csv(path: str | os.PathLike[str], columns: dict[str, Sequence[Any]], a
 
 def about_version() -> list[str]:
     """What wrote a table, and the units in it."""
-    from . import __version__
+    from ._version import __version__
 
     return [f"hystrip {__version__}", "units: SI, in brackets in the headings; what has none is a number"]
 

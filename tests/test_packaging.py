@@ -38,10 +38,14 @@ def test_every_subpackage_has_an_init():
 
 
 def test_versions_agree():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    """Stated in one file; the build reads it there, and what cites the software says the same."""
     import hystrip
 
-    assert hystrip.__version__ == project["version"]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    assert "version" in project["project"]["dynamic"] and "version" not in project["project"]
+    assert project["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "hystrip._version.__version__"}
+    assert f"\nversion: {hystrip.__version__}\n" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\n## {hystrip.__version__}" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
 
 
 def test_core_needs_numpy_and_scipy_alone():
@@ -86,6 +90,12 @@ def installed(wheel, tmp_path_factory):
         return result.stdout, work
 
     return run
+
+
+def test_wheel_has_the_version(wheel):
+    import hystrip
+
+    assert wheel.name.startswith(f"hystrip-{hystrip.__version__}-")
 
 
 def test_wheel_holds_the_tree(wheel):

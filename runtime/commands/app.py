@@ -25,7 +25,7 @@ def build() -> typer.Typer:
 
 def _version(wanted: bool) -> None:
     if wanted:
-        from .. import __version__
+        from .._version import __version__
 
         typer.echo(f"hystrip {__version__}")
         raise typer.Exit()

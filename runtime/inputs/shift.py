@@ -19,8 +19,13 @@ _FURTHEST = 30.0
 class Shift(Protocol):
     """``E*(omega, T) = b_T E*(a_T omega, T_ref)``."""
 
-    T_ref: float
-    vertical: float
+    @property
+    def T_ref(self) -> float:
+        """Temperature at which moduli and times are given, K."""
+
+    @property
+    def vertical(self) -> float:
+        """Exponent of ``b_T``."""
 
     def factor(self, T: Any) -> np.ndarray:
         """``a_T``: relaxation times at T (K, any shape) over those at ``T_ref``."""
@@ -57,10 +62,12 @@ class WLF:
         _check_vertical(self)
 
     def factor(self, T: Any) -> np.ndarray:
+        """``a_T``: relaxation times at T (K, any shape) over those at ``T_ref``. Raises ``InputError`` where the law does not hold."""
         T = temperatures(T, max(self.T_ref - self.C_2, 0.0))
         return _power(-self.C_1 * (T - self.T_ref) / (self.C_2 + T - self.T_ref), T)
 
     def modulus_factor(self, T: Any) -> np.ndarray:
+        """``b_T``: moduli at T (K, any shape) over those at ``T_ref``."""
         return (temperatures(T) / self.T_ref) ** self.vertical
 
 
@@ -90,10 +97,12 @@ class Arrhenius:
         _check_vertical(self)
 
     def factor(self, T: Any) -> np.ndarray:
+        """``a_T``: relaxation times at T (K, any shape) over those at ``T_ref``. Raises ``InputError`` where the law does not hold."""
         T = temperatures(T)
         return _power(self.E_a / R_GAS * (1 / T - 1 / self.T_ref) / np.log(10), T)
 
     def modulus_factor(self, T: Any) -> np.ndarray:
+        """``b_T``: moduli at T (K, any shape) over those at ``T_ref``."""
         return (temperatures(T) / self.T_ref) ** self.vertical
 
 
