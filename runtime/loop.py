@@ -9,7 +9,7 @@ import numpy as np
 
 from .inputs.checks import number
 from .level.saturated import saturated_level
-from .level.solution import solve_level
+from .level.solution import friction_law, solve_level
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -73,8 +73,8 @@ def loading_loop(
     ----------
     material, adhesion, level : single values
     V : sliding velocity, m/s, >= 0
-    D_max : greatest penetration, m; by default a little beyond where unloading leaves saturated contact, or 2 h and
-        a part of the reach of the adhesion where that is far up
+    D_max : greatest penetration, m; by default a little beyond where unloading leaves saturated contact, at least
+        1.5 h, at most 2 h and a part of the reach of the adhesion
     edge, rtol : as in ``solve_level``
 
     Raises ``InputError`` for inputs out of range, ``SolverError`` for a strip that could not be certified.
@@ -91,7 +91,7 @@ def loading_loop(
     reach = 2 * float(adhesion.p_0) / K + (float(adhesion.delta_0) if adhesion.p_0 > 0 else 0.0)
     if D_max is None:
         full = float(saturated_level(material, adhesion, level, np.array([V])).D_sat[0])
-        top = min(1.1 * full + 0.1 * level.h, 2 * level.h + 0.3 * reach) if level.h > 0 else reach or 1e-9
+        top = max(min(1.1 * full + 0.1 * level.h, 2 * level.h + 0.3 * reach), 1.5 * level.h) if level.h > 0 else reach or 1e-9
     else:
         top = number("D_max", D_max, "m")
     low = min(-reach, 0.0) - 0.05 * (level.h or top)
@@ -105,7 +105,9 @@ def loading_loop(
     pressures = [np.interp(joint, each.D, each.p_mean) for each in (loading, unloading)]
     apart = pressures[0] - pressures[1]
     work = float(np.sum(0.5 * (apart[1:] + apart[:-1]) * np.diff(joint)))
-    pull_off = float(unloading.p_mean[at]) if sticks else 0.0
+    pull_off = 0.0
+    if sticks:  # the least of the curve itself, of which the points are only near
+        pull_off = friction_law(material, adhesion, level, V=V, edge=edge, rtol=rtol, below=0.0).pull_off
     return Loop(loading, unloading, pull_off, float(unloading.D[at]) if sticks else 0.0, work)
 
 

@@ -1,4 +1,4 @@
-"""The examples of the README run as they stand there; so does every example in a docstring."""
+"""The examples of the README and of the documentation run as they stand there; so does every example in a docstring."""
 
 import doctest
 import importlib
@@ -10,22 +10,30 @@ import pytest
 
 import hystrip
 
-README = Path(__file__).resolve().parent.parent / "README.md"
+ROOT = Path(__file__).resolve().parent.parent
+PAGES = [ROOT / "README.md", *sorted((ROOT / "tools" / "docs").rglob("*.md"))]
 
 
 def examples():
-    return re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
+    found = []
+    for page in PAGES:
+        blocks = re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+        found += [pytest.param(block, id=f"{page.stem} {number}") for number, block in enumerate(blocks, start=1)]
+    return found
 
 
-@pytest.mark.parametrize("number", range(len(examples())))
-def test_readme_example(number, tmp_path, monkeypatch, capsys):
+@pytest.mark.parametrize("code", examples())
+def test_example(code, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    exec(compile(examples()[number], f"README example {number + 1}", "exec"), {})
+    exec(compile(code, "example", "exec"), {})
     assert capsys.readouterr().out.strip()
 
 
-def test_there_are_three_examples():
-    assert len(examples()) == 3
+def test_readme_is_two_screens_and_its_links_lead_somewhere():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert len(text.splitlines()) <= 70 and "```python" in text
+    links = re.findall(r"\]\(([^)#]+)\)", text)
+    assert links and not [link for link in links if not (ROOT / link).exists()]
 
 
 def modules():

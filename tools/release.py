@@ -46,8 +46,8 @@ def check(wheel, sdist):
     problems += ["not in the sdist: " + name for name in sorted({*SOURCES, *wanted.values()} - packed)]
     if problems:
         sys.exit("\n".join(problems))
-    print(os.path.basename(wheel) + ": %d files, all of the tree" % len(inside))
-    print(os.path.basename(sdist) + ": %d entries, all of the sources" % len(packed))
+    for path, names in ((wheel, inside), (sdist, packed)):
+        print(f"{os.path.basename(path)}: {len(names)} entries; all of the tree is there")
 
 
 def demo(wheel, folder):

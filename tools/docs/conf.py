@@ -5,6 +5,8 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "_extensions"))
 
+os.environ["DASK_LOGGING__DISTRIBUTED"] = "error"  # an example has a cluster; its log is no part of the page
+
 import hystrip
 
 project = "hystrip"
