@@ -9,7 +9,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "tools"))
 
-import compare
+import compare  # noqa: E402
 
 
 def test_this_state_against_itself():

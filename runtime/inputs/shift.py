@@ -62,7 +62,7 @@ class WLF:
         _check_vertical(self)
 
     def factor(self, T: Any) -> np.ndarray:
-        """``a_T``: relaxation times at T (K, any shape) over those at ``T_ref``. Raises ``InputError`` where the law does not hold."""
+        """``a_T``: relaxation times at T (K, any shape) over those at ``T_ref``."""
         T = temperatures(T, max(self.T_ref - self.C_2, 0.0))
         return _power(-self.C_1 * (T - self.T_ref) / (self.C_2 + T - self.T_ref), T)
 
@@ -97,7 +97,7 @@ class Arrhenius:
         _check_vertical(self)
 
     def factor(self, T: Any) -> np.ndarray:
-        """``a_T``: relaxation times at T (K, any shape) over those at ``T_ref``. Raises ``InputError`` where the law does not hold."""
+        """``a_T``: relaxation times at T (K, any shape) over those at ``T_ref``."""
         T = temperatures(T)
         return _power(self.E_a / R_GAS * (1 / T - 1 / self.T_ref) / np.log(10), T)
 
