@@ -63,3 +63,27 @@ def test_equal_strips_say_what_they_are_without_a_warning():
         warnings.simplefilter("error")
         r = hystrip.solve(MATERIAL, ADHESION, LEVELS, pressure=100.0, velocity=1e-3, rtol=1e-4, strips=5)
     assert not r.converged and r.converged.shape == ()
+
+
+def test_tiny_trailing_levels_are_not_solved_and_change_nothing_that_counts():
+    """Without adhesion: saturated under next to all pressure, and rubbing next to nothing, they follow in closed form."""
+    bare, levels = hystrip.Dugdale(gamma=0), [hystrip.Level(1e-2, 1e-3), hystrip.Level(5e-3, 4e-4), hystrip.Level(1e-8, 1e-10)]
+    given = {"pressure": [1e5, 1e9], "velocity": 1e-2, "rtol": 1e-2}
+    seen = []
+    short = hystrip.solve(MATERIAL, bare, levels, **given, progress=lambda *done: seen.append(done))
+    whole = hystrip.solve(MATERIAL, bare, levels, **given, skip=False)
+    alone = hystrip.solve(MATERIAL, bare, levels, **(given | {"pressure": 1e5}))
+    assert short.counts["strips_solved"] < 0.9 * whole.counts["strips_solved"] and seen[-1] == (2, 2)
+    assert (np.abs(short.tau - whole.tau) <= short.tau_error + whole.tau_error).all() and short.converged.all()
+    assert short.closed_form.tolist() == [False, True] and short.tau[0] == alone.tau
+    assert np.allclose(short.tau_by_level[2], whole.tau_by_level[2], rtol=given["rtol"], atol=0)
+    assert np.allclose(short.contact_by_level, whole.contact_by_level, rtol=given["rtol"], atol=0)
+
+
+def test_fifty_levels_of_a_rough_surface():
+    """It once took minutes and gigabytes: the smallest are smaller than atoms."""
+    levels = [hystrip.Level(1e-2 * 0.6**i, 1e-3 * 0.55**i) for i in range(50)]
+    given = {"pressure": 1e5, "velocity": 1e-2, "rtol": 1e-1}
+    fifty, forty = (hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), levels[:n], **given) for n in (50, 40))
+    assert fifty.converged and fifty.tau_by_level.shape == (50,)
+    assert fifty.tau == pytest.approx(float(forty.tau), rel=1e-6)
