@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[1]
-sys.path.insert(0, str(ROOT / "tools"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "tools"))
 
 import compare  # noqa: E402
 
@@ -15,9 +14,8 @@ import compare  # noqa: E402
 def test_this_state_against_itself():
     """In processes of their own, from copies of the sources; every number is the same."""
     options = ["--quick", "--repeat", "1", "--only", "1 adhesive", "--slower", "9"]
-    done = subprocess.run(
-        [sys.executable, ROOT / "tools" / "compare.py", ROOT, *options], capture_output=True, text=True, check=False
-    )
+    command = [sys.executable, compare.__file__, compare.HERE, *options]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     row = done.stdout.splitlines()[1]
     assert row.startswith("a lone velocity, 1 adhesive level") and row.endswith("0.0e+00")
