@@ -13,7 +13,7 @@ from hystrip.orbit.modes.propagation import Order, exact_gains, least_gains, pro
 from hystrip.orbit.regimes import SEQUENCES
 
 TIMES = (2, 3)
-N = 4000
+N = 1500
 
 
 def strips(rng, n, size=N):
@@ -51,7 +51,7 @@ def test_a_period_preserves_the_order(n):
     assert np.all(one.engaged | ~two.engaged)
     # the test has seen all there is: snap-ins, releases of one but not the other, ordered pairs that stay apart
     snaps = s.step >= s.delta_0
-    assert snaps.sum() > N / 10 and (one.engaged & ~two.engaged).sum() > 10 and np.any(after < after_up - 1e-3)
+    assert snaps.sum() > N / 10 and (one.engaged & ~two.engaged).sum() > N / 400 and np.any(after < after_up - 1e-3)
 
 
 def test_order_fails_where_a_free_state_lies_below_an_engaged_one():
@@ -110,7 +110,7 @@ def test_bounds_of_the_derivative(n):
 def test_plain_iteration_ends_at_the_returned_orbits(n):
     """From far below and far above, period after period: the map alone, without bounds, candidates or boundary equations."""
     rng = np.random.default_rng(20 + n)
-    kernel, s = strips(rng, n, 600)
+    kernel, s = strips(rng, n, 400)
     order = Order.of(kernel, s)
     start = np.full(s.size, np.pi)
     settled_in_all = 0
@@ -119,16 +119,21 @@ def test_plain_iteration_ends_at_the_returned_orbits(n):
         assert solved.certified.all()
         engaged = np.full(s.size, unloading)
         z = order.to_z(np.full((n, s.size), -30.0 if unloading else 30.0))
-        for _ in range(400):
-            period = march(kernel, s, engaged, z, start)
-            engaged, z = period.engaged, z + period.dz
-        settled = np.abs(period.dz).max(axis=0) < 1e-10
-        contact = np.zeros(s.size)
-        adhesion = np.zeros(s.size)
-        for zone in period.zones:
-            length = (zone.end - zone.start) / (2 * np.pi)
-            np.add.at(contact, zone.index[zone.letter == 0], length[zone.letter == 0])
-            np.add.at(adhesion, zone.index[zone.letter == 1], length[zone.letter == 1])
+        contact, adhesion, settled = np.zeros(s.size), np.zeros(s.size), np.zeros(s.size, bool)
+        left = np.arange(s.size)
+        for _ in range(160):
+            period = march(kernel, s.take(left), engaged[left], z[:, left], start[left])
+            # iteration contracts: what moved this little is there, and need not be followed any further
+            still = (np.abs(period.dz).max(axis=0) < 1e-10) & (period.engaged == engaged[left])
+            engaged[left], z[:, left] = period.engaged, z[:, left] + period.dz
+            for zone in period.zones:
+                length = np.where(still[zone.index], (zone.end - zone.start) / (2 * np.pi), 0.0)
+                for fraction, letter in ((contact, 0), (adhesion, 1)):
+                    np.add.at(fraction, left[zone.index[zone.letter == letter]], length[zone.letter == letter])
+            settled[left[still]] = True
+            left = left[~still]
+            if not left.size:
+                break
         off = np.maximum(np.abs(contact - solved.contact_fraction), np.abs(adhesion - solved.adhesion_fraction))
         assert np.flatnonzero(settled & (off > 1e-6)).tolist() == []
         assert {"acaf", "ac", "f", "afc"} <= set(SEQUENCES[solved.code[settled]])

@@ -98,7 +98,7 @@ def next_to_an_end(rng, scene, edge, branch):
     at = lambda D: scenes.solve(scene | {"D": D}, edge, branch).regime  # noqa: E731
     there = at(high)
     useful = at(low) != there
-    for _ in range(60):
+    for _ in range(40):
         middle = low + 0.5 * (high - low)
         same = at(middle) == there
         high, low = np.where(same, middle, high), np.where(same, low, middle)

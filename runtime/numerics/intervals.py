@@ -58,6 +58,13 @@ class Intervals:
     def width(self) -> np.ndarray:
         return self.high - self.low
 
+    def kinds(self) -> list[tuple[int, int, np.ndarray | slice]]:
+        """The strengths that occur, low and high, and the intervals that have them."""
+        key = 16 * self.strength_low + self.strength_high
+        if not key.size or (key == key[0]).all():
+            return [(*divmod(int(k), 16), slice(None)) for k in key[:1]]
+        return [(*divmod(int(k), 16), key == k) for k in np.unique(key)]
+
     def points(self, t: np.ndarray) -> np.ndarray:
         """The points (k, n) of the parameters ``t`` (n,) or (k, n) in (0, 1), never an end if there is a number between."""
         t = np.broadcast_to(t, (self.size, np.shape(t)[-1]))
