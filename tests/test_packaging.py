@@ -109,7 +109,8 @@ def test_wheel_holds_the_tree(wheel):
 def test_wheel_solves_the_demo_scene(installed):
     code = "from hystrip.commands.entry import main; sys.argv = ['hystrip', 'solve', 'paper_fig6', '--out', 'demo']; main()"
     out, work = installed(code)
-    lines = (work / "demo" / "paper_fig6.csv").read_text(encoding="utf-8").splitlines()
+    text = (work / "demo" / "paper_fig6.csv").read_text(encoding="utf-8")
+    lines = [line for line in text.splitlines() if not line.startswith("#")]
     assert len(lines) == 61
     assert (work / "demo" / "paper_fig6.png").read_bytes().startswith(b"\x89PNG")
     assert "mu" in out
@@ -173,11 +174,16 @@ except SystemExit as end:
     assert not (work / "elsewhere").exists() and not (work / "hystrip-out").exists()
 
 
-def test_wheel_regenerates_the_same_bytes(installed):
-    code = (
-        "from hystrip.derivation import regenerate; from hystrip.derivation.models import STANDARD_LINEAR_SOLID; "
-        "regenerate('emitted', models=(STANDARD_LINEAR_SOLID,))"
-    )
+def test_wheel_derives_and_emits_the_same_bytes(installed):
+    """One small model: the derivation finds its templates there; that its sources are the tree's is tested above, and what they
+    emit in test_drift."""
+    code = """
+from hystrip.derivation import KELVIN_VOIGT, derive_any
+from hystrip.derivation.emit import emit
+for name, text in emit((derive_any(KELVIN_VOIGT),)).items():
+    if name != "__init__.py":  # it lists the models
+        open(name, "w", encoding="utf-8", newline="").write(text)
+"""
     _, work = installed(code)
-    for name in ("standard_linear_solid.py", "stable.py"):
-        assert (work / "emitted" / name).read_bytes() == (ROOT / "generated" / name).read_bytes()
+    for name in ("kelvin_voigt.py", "stable.py"):
+        assert (work / name).read_bytes() == (ROOT / "generated" / name).read_bytes()
