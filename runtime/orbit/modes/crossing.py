@@ -95,15 +95,15 @@ def _safe_step(f: Field, s, height, size):
     # a zone begins on the very limit that ended the zone before, and leads away from it
     at_start = lag == 0
     low = np.where(at_start & (slope > 0), np.maximum(value, 0.0), value)
-    step = np.maximum(_reach(low, harmonic - fast, size), _reach(low, slope, size + np.maximum(bend_below, 0.0)))
     bounded = np.isfinite(height)
-    if not bounded.any():
-        return step, np.ones(step.shape, bool), slope, low
     room = np.where(bounded, height, 1.0) - value
     room = np.where(at_start & (slope < 0), np.maximum(room, 0.0), room)
-    up = np.maximum(_reach(room, slow - harmonic, size), _reach(room, -slope, size + bend))
-    up = np.where(bounded, up, np.inf)
-    return np.minimum(step, up), step <= up, slope, np.where(step <= up, low, room)
+    # to either limit by either parabola, all four at once: with few strips the number of calls is what counts
+    gaps, rates = np.stack((low, low, room, room)), np.stack((harmonic - fast, slope, slow - harmonic, -slope))
+    reach = _reach(gaps, rates, size + np.stack((np.zeros(s.shape), np.maximum(bend_below, 0.0), np.zeros(s.shape), bend)))
+    step, up = np.maximum(reach[0], reach[1]), np.where(bounded, np.maximum(reach[2], reach[3]), np.inf)
+    down = step <= up
+    return np.minimum(step, up), down, slope, np.where(down, low, room)
 
 
 def _reach(value, slope, curvature):

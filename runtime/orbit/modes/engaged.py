@@ -58,31 +58,41 @@ def engaged_orbit(kernel, strips: ModeStrips, start) -> tuple[np.ndarray, Period
     return z - s.m.J * strips.p_0, period, propagation(s, order, period, None), converged & ~period.lost
 
 
-def engaged(kernel, strips: ModeStrips, start):
-    """The same orbits by Newton's method on their edges, checked by a march.
+def engaged(kernel, strips: ModeStrips, start, near: Period | None = None):
+    """The same orbits by Newton's method on their edges, from those that marches ``near`` met, each checked by a march.
 
-    Returns states at the phases ``start``, edges b and a (2, N), which are known, and the evaluations."""
-    s = strips.raised()
-    yes = np.ones(s.size, bool)
-    low = march(kernel, s, yes, lowest_state(kernel, s, start), start)
-    spent = low.evaluations
-    edges, known, used = certified(kernel, s, "ac", np.nan_to_num(engaged_edges(low)))
+    Returns states at the phases ``start``, edges b and a (2, N), which are known, which are orbits of the strip itself, as
+    their gaps stay within its reach, and the evaluations."""
+    s, yes, spent = strips.raised(), np.ones(strips.size, bool), np.zeros(strips.size)
+    if near is None:
+        near = march(kernel, s, yes, lowest_state(kernel, s, start), start)
+        spent += near.evaluations
+    edges, known, used = certified(kernel, s, "ac", np.nan_to_num(engaged_edges(near)))
+    spent += used
+    z, within = np.full((s.modes, s.size), np.nan), np.zeros(s.size, bool)
     k = np.flatnonzero(known)
-    z, part = np.full((s.modes, s.size), np.nan), s.take(k)
-    z[:, k], _ = state_at(kernel, "ac", part, edges[:, k], start[k])
-    turn = march(kernel, part, yes[k], z[:, k], start[k])
-    spent[k] += turn.evaluations
-    apart = np.abs(np.mod(engaged_edges(turn) - edges[:, k] + np.pi, TWO_PI) - np.pi).max(axis=0)
-    known[k] = (apart <= _AGREE) & (turn.contacts == 1) & ~turn.lost
+    z[:, k], _ = state_at(kernel, "ac", s.take(k), edges[:, k], start[k])
+    # a march that is never released checks both; where it is, one in which release is put out of action
+    for part, lowered in ((strips, strips.m.J * strips.p_0), (s, 0.0)):
+        turn = march(kernel, part.take(k), yes[k], (z - lowered)[:, k], start[k])
+        spent[k] += turn.evaluations
+        apart = np.abs(np.mod(engaged_edges(turn) - edges[:, k] + np.pi, TWO_PI) - np.pi).max(axis=0)
+        good = (apart <= _AGREE) & (turn.contacts == 1) & turn.never_free
+        known[k], within[k] = good, good & (part is strips)
+        k = k[~good]
+        if not k.size or strips.bare:
+            break
     rest = np.flatnonzero(~known)
     if rest.size:
-        z[:, rest], turn, _, good = engaged_orbit(kernel, strips.take(rest), start[rest])
-        z[:, rest] += strips.take(rest).m.J * strips.p_0[rest]
-        edges[:, rest], known[rest] = engaged_edges(turn), False
-        spent[rest] += turn.evaluations
-        again, converged, used = certified(kernel, s.take(rest), "ac", np.nan_to_num(edges[:, rest]))
+        part = strips.take(rest)
+        z[:, rest], turn, _, good = engaged_orbit(kernel, part, start[rest])
+        again, converged, used = certified(kernel, s.take(rest), "ac", np.nan_to_num(engaged_edges(turn)))
         edges[:, rest], known[rest] = again, good & converged
-    return z - s.m.J * strips.p_0, edges, known, spent
+        turn = march(kernel, part, yes[rest], z[:, rest], start[rest])
+        within[rest] = known[rest] & turn.never_free
+        z[:, rest] += part.m.J * part.p_0
+        spent[rest] += turn.evaluations + used
+    return z - strips.m.J * strips.p_0, edges, known, within, spent
 
 
 def engaged_edges(period: Period):

@@ -15,12 +15,13 @@ import numpy as np
 from ..regimes import CODE
 from ..solved import Solved
 from .certificate import enclosed, marched, stable
-from .engaged import engaged, engaged_edges, engaged_orbit
+from .engaged import engaged
 from .extremal import ROWS, extremal, highest_state, in_order, lowest_state
 from .march import TWO_PI, march
 from .order import ENGAGED, FREE, NARROW, ORBIT, UNRESOLVED, approach
 from .polish import arguments, polish
 from .problem import ModeStrips
+from .propagation import Order, propagation
 
 #: strips solved at a time: memory stays bounded
 CHUNK = 16384
@@ -104,64 +105,45 @@ class _Batch:
         if held.size and not self.unloading:
             closed = (self.full | self.clinging)[index[held]]
             self._closed(index[held[closed]])
-            self._always_engaged(index[held[~closed]], "ac")
-        elif held.size and ask:
-            z, good = self._always_engaged(index[held], "ac")
+            held = held[~closed]
+        if held.size and ask:
+            z, good = self._always_engaged(index[held], "ac", found.held.take(held))
             rest = np.flatnonzero(good & ~self.solved.certified[index[held]])
-            if rest.size:
+            if rest.size and self.unloading:
                 self._first(index[held[rest]], z[:, rest], np.ones(rest.size, bool), False)
-        left = index[(found.kind == UNRESOLVED) | ((found.kind == ENGAGED) & (not ask))]
+        left = np.flatnonzero((found.kind == UNRESOLVED) | ((found.kind == ENGAGED) & (not ask)))
         if left.size:
-            self._thorough(left)
+            self._thorough(index[left], found.z[:, left], found.engaged[left])
 
-    def _always_engaged(self, index, sequence):
+    def _always_engaged(self, index, sequence, near=None):
         """Solve the always engaged orbits of the strips ``index``; write those that are orbits of the strip.
 
         Returns their states and which are known."""
         if not index.size:
             return np.empty((self.strips.modes, 0)), np.zeros(0, bool)
-        s, start = self.strips.take(index), self.start[index]
-        z, edges, known, spent = engaged(self.kernel, s, start)
+        s = self.strips.take(index)
+        whole = replace(s, bare=True) if sequence == "cf" else s
+        z, edges, known, within, spent = engaged(self.kernel, whole, self.start[index], near)
         self.solved.evaluations[index] += spent
-        k = np.flatnonzero(known)
-        if sequence == "ac":
-            period = march(self.kernel, s.take(k), np.ones(k.size, bool), z[:, k], start[k])
-            self.solved.evaluations[index[k]] += period.evaluations
-            k = k[period.never_free]
+        k = np.flatnonzero(within)
         self.solved.code[index] = CODE[sequence]
         self._write(index[k], "ac", sequence, s.take(k).raised(), edges[:, k])
         return z, known
 
-    def _thorough(self, index):
+    def _thorough(self, index, z, engaged):
         """The same by windows between two states, closed in on the first orbit however slowly."""
-        z, period, floor, ok = engaged_orbit(self.kernel, self.strips.take(index), self.start[index])
-        self.solved.evaluations[index] += period.evaluations
-        self.ends = engaged_edges(period)
-        pick = np.flatnonzero(ok)
-        if pick.size:
-            rise_or_fall = self._rising if self.unloading else self._falling
-            rise_or_fall(index[pick], z[:, pick], floor[pick], self.ends[:, pick])
-
-    def _rising(self, index, z, floor, ends):
-        s = self.strips.take(index)
-        real = march(self.kernel, s, np.ones(index.size, bool), z, self.start[index])
-        self.solved.evaluations[index] += real.evaluations
-        holds = real.never_free
-        self._engaged(index[holds], ends[:, holds], "ac")
-        rest = np.flatnonzero(~holds)
-        if rest.size:
-            found = approach(self.kernel, s.take(rest), z[:, rest], self.start[index[rest]], True, None)
-            self._found(index[rest], found)
-            self._free(index[rest[found.kind == FREE]])
-
-    def _falling(self, index, z, floor, ends):
-        s = self.strips.take(index)
-        found = approach(self.kernel, s, z, self.start[index], False, floor)
+        s, start = self.strips.take(index), self.start[index]
+        floor = None
+        if not self.unloading:
+            low = march(self.kernel, s, np.ones(index.size, bool), lowest_state(self.kernel, s, start), start)
+            floor = propagation(s, Order.of(self.kernel, s), low, None)
+        found = approach(self.kernel, s, z, engaged, start, self.unloading, floor)
         self._found(index, found)
-        held = found.kind == ENGAGED
-        closed = self.full[index] | self.clinging[index]
-        self._closed(index[held & closed])
-        self._engaged(index[held & ~closed], ends[:, held & ~closed], "ac")
+        self._free(index[found.kind == FREE])
+        held = index[found.kind == ENGAGED]
+        closed = (self.full | self.clinging)[held]
+        self._closed(held[closed])
+        self._always_engaged(held[~closed], "ac")
 
     # -- writing results ---------------------------------------------------------------------------------------------
 
@@ -184,10 +166,6 @@ class _Batch:
         out.p_mean[index], out.tau_mean[index] = p_mean, tau_mean
         out.contact_fraction[index], out.adhesion_fraction[index] = contact, adhesion
         out.certified[index] = True
-
-    def _engaged(self, index, ends, sequence):
-        """Always engaged orbits with contact and gap: solved from their own edges."""
-        self._finish(index, "ac", sequence, ends, ends, ends, 1e-5)
 
     def _found(self, index, found):
         self.solved.evaluations[index] += found.evaluations

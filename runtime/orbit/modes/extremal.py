@@ -22,7 +22,7 @@ from .propagation import Order, least_gains, propagation, solve_order
 
 #: rounds of bounding states, and those in which Newton's method starts from them: of 3,000 random strips 60 % take one,
 #: 97 % four, all but ten twelve
-_ROUNDS, _STARTS = 12, (0, 1, 2, 4, 8)
+_ROUNDS, _STARTS = 8, (0, 1, 2, 4)
 #: how far Newton's method may take an edge: further away other regimes begin
 _FURTHEST = 1.5
 _CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
@@ -38,7 +38,7 @@ SEQUENCES = ("", "acaf", "afc", "af")
 class Extremal:
     """Outcome for N strips: ``kind`` (see ``order``); orbits by ``edges`` (4, N) in the order d, b, a, c, of the regime
     ``sequence`` (place in ``SEQUENCES``); of strips unresolved the bounding state ``z`` and whether it is ``engaged``;
-    evaluations."""
+    evaluations; the marches that were ``held`` engaged all along."""
 
     kind: np.ndarray
     edges: np.ndarray
@@ -46,6 +46,7 @@ class Extremal:
     z: np.ndarray
     engaged: np.ndarray
     evaluations: np.ndarray
+    held: Period
 
 
 def lowest_state(kernel, s: ModeStrips, phase) -> np.ndarray:
@@ -64,7 +65,7 @@ def highest_state(kernel, s: ModeStrips) -> np.ndarray:
 def extremal(kernel, s: ModeStrips, start, z, engaged, rising: bool) -> Extremal:
     """The first orbit above (``rising``) or below the states ``z`` (n, N) at the phases ``start``."""
     out = Extremal(np.full(s.size, UNRESOLVED), np.full((4, s.size), np.nan), np.zeros(s.size, int), z.copy(), engaged.copy(),
-                   np.zeros(s.size))  # fmt: skip
+                   np.zeros(s.size), Period.blank(s.modes, s.size))  # fmt: skip
     work = _Rounds(kernel, s, np.array(start, float), out, rising)
     for number in range(_ROUNDS):
         if not work.active.size:
@@ -94,6 +95,8 @@ class _Rounds:
         held = near.never_free
         lets = near.never_engaged & self.rising & (s.D <= -s.delta_0)
         out.kind[i[held]], out.kind[i[lets]] = ENGAGED, FREE
+        k = np.flatnonzero(held)
+        out.held.put(i[k], near.take(k))
         ended = held | lets | near.lost
         changed = (near.engaged != out.engaged[i]) & ~ended
         if number in _STARTS:

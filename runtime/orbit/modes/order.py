@@ -72,20 +72,19 @@ class Approach:
     steps: np.ndarray
 
 
-def approach(kernel, s: ModeStrips, lowest: np.ndarray, start, rising: bool, floor: np.ndarray | None) -> Approach:
-    """Iterate from below (``rising``) or above every orbit to the first one.
+def approach(kernel, s: ModeStrips, z, engaged, start, rising: bool, floor: np.ndarray | None) -> Approach:
+    """Iterate from the states ``z`` (n, N) at the phases ``start``, below (``rising``) or above every orbit, to the first one.
 
-    ``lowest``: state z of the always engaged orbit, (n, N) at the phases ``start``. ``floor``: for falling iterates, a
-    lower bound of the map's derivative less the identity, (N, n, n): that of the always engaged orbit, which has the
-    longest contact.
+    ``floor``: for falling iterates, a lower bound of the map's derivative less the identity, (N, n, n): that along a contact as
+    long as any in between.
     """
     N = s.size
     out = Approach(np.full(N, UNRESOLVED), np.full((4, N), np.nan), np.full((4, N), np.nan), np.zeros(N), np.zeros(N, int))
     order = Order.of(kernel, s)
-    low, high = order.to_e(lowest), np.broadcast_to(np.maximum(s.D, 0.0), lowest.shape)
-    z, other = (lowest.copy(), high) if rising else (order.to_z(high), low)
-    state = _State(np.arange(N), s, order, np.full(N, rising), z, np.array(start, float), floor, np.full(N, 8.0),
-                   np.full(N, _LEAST), np.maximum(high - low, 0.0), other)  # fmt: skip
+    other = np.broadcast_to(np.maximum(s.D, 0.0) if rising else -s.p_0, z.shape)
+    room = np.maximum((1.0 if rising else -1.0) * (other - order.to_e(z)), 0.0)
+    state = _State(np.arange(N), s, order, engaged.copy(), z.copy(), np.array(start, float), floor, np.full(N, 8.0),
+                   np.full(N, _LEAST), room, other)  # fmt: skip
     for _ in range(_STEPS):
         if not state.index.size:
             break

@@ -279,7 +279,40 @@ def slopes_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period, o
     sign = -1.0 if onset else 1.0
     top = _harmonic_max(0.0, sign, event[0], event[1])
     bottom = -_harmonic_max(0.0, -sign, event[0], event[1])
-    return (bottom + sum_least, top + sum_most) if onset else (bottom - sum_most, top - sum_least)
+    if onset:
+        return bottom + sum_least, top + sum_most
+    least, most = _rates_after_contact(s, lower, upper, short, long)
+    return np.fmax(bottom - sum_most, bottom + least), np.fmin(top - sum_least, top + most)
+
+
+def _rates_after_contact(s: ModeStrips, lower: Period, upper: Period, short, long):
+    """Least and greatest rate at which w moves, times from ``short`` to ``long`` after contacts that end between those of two
+    marches; -inf and inf where there is none.
+
+    As contact ends every mode moves at the rate ``sum_i J_j/(beta_j - alpha_i) f_i``, and the overstresses f_i of fast branches
+    are those of saturated contact. The others are lower by what fades in contact: it is least at the last end, greatest at
+    the first.
+    """
+    m, ends = s.m, np.stack((upper.exit, lower.exit))
+    after = (upper.from_release == ends[0]) & (lower.from_release == ends[1]) & (ends[0] <= ends[1])
+    ends = np.where(after, ends, 0.0)
+    with np.errstate(invalid="ignore"):
+        response = m.eta / (1 + m.alpha**2)
+        below = []
+        for end, period in zip(ends, (upper, lower), strict=True):
+            f = -np.einsum("ij...,j...->i...", m.enter, period.z_from_release + m.J * s.p_0)
+            below.append(response * (m.alpha * np.cos(end) - np.sin(end)) - f)
+        width = response * np.hypot(m.alpha, 1.0) * (ends[1] - ends[0])
+        top = response * (m.alpha * np.cos(ends[0]) - np.sin(ends[0]))
+        low, high = top - width - np.maximum(*below), top + width - np.minimum(*below)
+        rate = rates(m.beta)
+        share = m.leave * rate[:, None]
+        much, little = (np.exp(-t * rate)[:, None] for t in (short, long))
+        one, two = share * low, share * high
+        least, most = np.minimum(one, two), np.maximum(one, two)
+        least = np.where(least > 0, least * little, least * much).sum(axis=(0, 1))
+        most = np.where(most > 0, most * much, most * little).sum(axis=(0, 1))
+    return np.where(after, least, -np.inf), np.where(after, most, np.inf)
 
 
 def _extreme(e, floor, ceiling, kept, at_end, sign):
