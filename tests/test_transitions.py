@@ -7,11 +7,9 @@ import surfaces
 import hystrip
 from hystrip.level.appearance import Island, island, vanishing
 from hystrip.level.breaks import breakpoints, breaks_on, first_contact
-from hystrip.level.contact import contact_of
 from hystrip.level.curve import Interval, interpolate
 from hystrip.level.means import level_means
 from hystrip.level.strips import Columns, saturation_depth
-from hystrip.orbit.materials import kernel_of
 from hystrip.orbit.regimes import CODE
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
@@ -110,9 +108,8 @@ def test_the_greatest_pressure_of_a_contact(T_sigma):
         np.zeros(1, int), np.array([6e-7])
     )
     theta = np.linspace(0, 2, 20)
-    strips, kernel = columns.solve(np.zeros(theta.size, int), theta), kernel_of(material)
-    index = np.flatnonzero(strips.solved.contact_fraction > 0)
-    contact = contact_of(kernel, strips, index)
+    strips = columns.solve(np.zeros(theta.size, int), theta)
+    index, contact = strips.touching
     share = np.concatenate((np.geomspace(1e-9, 1e-2, 4000, endpoint=False), np.linspace(1e-2, 1, 4000)))
     phase = contact.b[:, None] + (contact.a - contact.b)[:, None] * share
     p = contact.pressure(np.repeat(np.arange(index.size), share.size), phase.ravel()).reshape(phase.shape)

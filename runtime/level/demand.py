@@ -12,8 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..orbit.materials import kernel_of
-from .contact import contact_of
 from .quadrature import interior_nodes, mapped, mapped_weights
 from .strips import Columns
 
@@ -62,7 +60,7 @@ def demand_of(columns: Columns, group: np.ndarray) -> Demand:
     # no contact is pulled at harder than this
     p, share = np.full((n * _STRIPS, t.size), -columns.adhesion.p_0), np.zeros((n * _STRIPS, t.size))
     if touching.size:
-        contact = contact_of(kernel_of(columns.material), strips, touching)
+        contact = strips.foundation.contact(strips.strips, strips.solved, strips.scales, touching)
         rows, width = np.arange(touching.size), contact.a - contact.b
         phase = contact.b[:, None] + width[:, None] * t
         p[touching] = contact.pressure(np.repeat(rows, t.size), phase.ravel()).reshape(phase.shape)

@@ -10,17 +10,16 @@ import numpy as np
 
 from ..inputs.adhesion import Dugdale
 from ..inputs.surface import Level
-from ..orbit.foundation import foundation_of
-from ..orbit.materials import Material, kernel_of
+from ..orbit.foundation import Foundation, foundation_of
+from ..orbit.materials import Material
 from ..orbit.regimes import CODE
 from ..orbit.solved import Solved
-from .contact import Contact, contact_of
 from .crossings import Crossings
 from .effort import WorkCounters
 from .saturated import saturated_level
 
 if TYPE_CHECKING:
-    from ..orbit.modes.contact import ModeContact
+    from ..orbit.contact import Contact
 
 #: What is averaged over the strips of a level, in this order; what lower levels carry in its contact follows.
 QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
@@ -99,12 +98,11 @@ class Columns:
         A = self.level.amplitude(theta)
         D = self.D[column] - self.level.drop(theta)
         l, a = np.full(column.size, self.level.l), self.adhesion  # noqa: E741
-        solved, strips, scales = foundation_of(self.material).solve(
-            l, A, D, self.V[column], a.p_0, a.delta_0, self.edge, self.branch
-        )
+        foundation = foundation_of(self.material)
+        solved, strips, scales = foundation.solve(l, A, D, self.V[column], a.p_0, a.delta_0, self.edge, self.branch)
         self.work.count(solved)
         tau = solved.tau_mean * scales["p"] * scales["k"] * scales["A"]
-        return SolvedStrips(solved, strips, scales, solved.p_mean * scales["p"], tau, kernel_of(self.material))
+        return SolvedStrips(solved, strips, scales, solved.p_mean * scales["p"], tau, foundation)
 
     @property
     def stretch(self) -> float:
@@ -162,13 +160,13 @@ class SolvedStrips:
     scales: dict
     p_mean: np.ndarray
     tau_mean: np.ndarray
-    kernel: Any
+    foundation: Foundation
 
     @cached_property
-    def touching(self) -> tuple[np.ndarray, Contact | ModeContact]:
+    def touching(self) -> tuple[np.ndarray, Contact]:
         """Which strips are in contact, and their contact."""
         index = np.flatnonzero(self.solved.contact_fraction > 0)
-        return index, contact_of(self.kernel, self, index)
+        return index, self.foundation.contact(self.strips, self.solved, self.scales, index)
 
     @property
     def values(self) -> np.ndarray:

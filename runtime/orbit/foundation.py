@@ -12,6 +12,7 @@ from ..inputs.material import StandardLinearSolid
 from .materials import kernel_of, reduced
 
 if TYPE_CHECKING:
+    from .contact import Contact
     from .solved import Solved
 
 
@@ -37,6 +38,9 @@ class Foundation(Protocol):
     def boundary_arguments(self, rate, D, p_0, delta_0, edge: str) -> tuple | None:
         """What the generated boundary equations take after the edges, for strips at ``rate = k V``, 1/s, the rest dimensionless;
         None where they are not closed in the edges alone."""
+
+    def contact(self, strips, solved: Solved, scales: dict, index: np.ndarray) -> Contact:
+        """Contact of the solved strips ``index``, as ``solve`` returned them."""
 
     def modulus_ratio(self, rate) -> np.ndarray:
         """``|K*(i rate)|/K``."""

@@ -7,6 +7,7 @@ from types import ModuleType
 import numpy as np
 
 from ..inputs.material import StandardLinearSolid
+from .contact import SingleContact
 from .fields import fields
 from .si import refuse_uncertified, solve_si
 
@@ -54,6 +55,9 @@ class SingleTime:
         m, one = self.material, np.ones(D.size)
         chi = one * (edge == "constitutive")
         return rate * m.T_sigma, rate * m.T_eps, one * m.J, one * m.L, p_0, delta_0, D, chi
+
+    def contact(self, strips, solved, scales, index):
+        return SingleContact(self.kernel, strips, solved, scales, index)
 
     def modulus_ratio(self, rate):
         return self.kernel.modulus_ratio(rate * self.material.T_sigma, rate * self.material.T_eps)

@@ -14,6 +14,7 @@ from ..materials import parameters
 from ..regimes import CODE
 from ..si import refuse_uncertified
 from ..solved import Solved
+from .contact import ModeContact
 from .engine import solve_modes
 from .fields import fields
 from .problem import ModeStrips
@@ -96,6 +97,9 @@ class ManyTimes:
 
     def boundary_arguments(self, rate, D, p_0, delta_0, edge):
         return None
+
+    def contact(self, strips, solved, scales, index):
+        return ModeContact(self.kernel, strips, solved, scales, index)
 
     def modulus_ratio(self, rate):
         rate = np.atleast_1d(np.asarray(rate, float))
