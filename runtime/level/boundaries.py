@@ -104,16 +104,18 @@ def located(columns: Columns, changes: Changes, A: np.ndarray, E: np.ndarray, un
     low, high = ends.min(axis=1), ends.max(axis=1)
     code = changes.codes % len(CODE)
     for side in (0, 1):
-        kinds = [(b, rows, np.zeros(rows.size)) for b, rows in equations(columns, code[:, side], code[:, 1 - side])]
+        none = np.zeros(changes.size)
+        kinds = [(b, rows, none, none.astype(int)) for b, rows in equations(columns, code[:, side], code[:, 1 - side])]
         if columns.carry is not None:
             kinds += _peaks(columns, changes, code)
-        for boundary, rows, pressure in kinds:
-            left = ~found[rows]
-            rows, pressure = rows[left], pressure[left]
+        for boundary, rows, pressure, index in kinds:
+            rows = rows[~found[rows]]
             if not rows.size:
                 continue
             names = [_COLUMN[name] for name in EDGES[boundary.sequence]]
-            start = Points(columns.V[rows], A[rows, side], E[rows, side], changes.edges[rows, side][:, names].T, pressure)
+            start = Points(
+                columns.V[rows], A[rows, side], E[rows, side], changes.edges[rows, side][:, names].T, pressure[rows], index[rows]
+            )
             got, good = plane.locate(columns, boundary, start, unknown)
             at = getattr(got, unknown)
             good &= (at > low[rows]) & (at < high[rows])
@@ -152,17 +154,14 @@ def _by_threshold(columns: Columns, changes: Changes, A, E, unknown: str) -> tup
     return place, known & (place > ends.min(axis=1)) & (place < ends.max(axis=1))
 
 
-def _peaks(columns: Columns, changes: Changes, code) -> list[tuple[Boundary, np.ndarray, np.ndarray]]:
-    """Changes at which nothing happens but that the greatest pressure passes one break: boundaries, rows and pressures."""
+def _peaks(columns: Columns, changes: Changes, code) -> list[tuple[Boundary, np.ndarray, np.ndarray, np.ndarray]]:
+    """Changes at which nothing happens but that the greatest pressure passes one break: boundaries, their rows; and pressures and
+    numbers of breaks, of every change."""
     over = changes.heights > 0
     passed = over[:, 0] != over[:, 1]
     breaks = columns.carry.breaks(columns.group)
-    same = np.flatnonzero((code[:, 0] == code[:, 1]) & (passed.sum(axis=1) == 1))
-    which = passed[same].argmax(axis=1)
-    found = []
-    for sequence in EDGES:
-        for index in range(breaks.shape[1]):
-            rows = same[(code[same, 0] == CODE[sequence]) & (which == index)]
-            if rows.size and sequence != "af":
-                found.append((Boundary(sequence, "peak", index), rows, breaks[rows, index]))
-    return found
+    which = passed.argmax(axis=1)
+    alone = (code[:, 0] == code[:, 1]) & (passed.sum(axis=1) == 1) & (which < breaks.shape[1])
+    pressure = breaks[np.arange(changes.size), which % breaks.shape[1]]
+    rows = {sequence: np.flatnonzero(alone & (code[:, 0] == CODE[sequence])) for sequence in ("acaf", "afc", "ac", "cf")}
+    return [(Boundary(sequence, "peak"), some, pressure, which) for sequence, some in rows.items() if some.size]

@@ -32,9 +32,9 @@ class Crossings:
             points = Points.joined(known, points)
         # by velocity and along the curve, which has one E for each A; what is closer than this says nothing new
         place = np.floor(points.A * (_GRID / columns.level.h))
-        order = np.lexsort((points.A, points.velocity))
+        order = np.lexsort((points.A, points.index, points.velocity))
         points, place = points.take(order), place[order]
-        fresh = np.append(True, (np.diff(points.velocity) != 0) | (np.diff(place) != 0))
+        fresh = np.append(True, ~_together(points) | (np.diff(place) != 0))
         self.points[boundary] = points.take(np.flatnonzero(fresh))
 
     def expected(self, columns: Columns) -> tuple[np.ndarray, np.ndarray]:
@@ -63,15 +63,24 @@ def _between(known: Points, velocity, E) -> tuple[np.ndarray, Points]:
     first = np.searchsorted(known.velocity, velocity, "left")
     segments = np.maximum(np.searchsorted(known.velocity, velocity, "right") - 1 - first, 0)
     state = np.repeat(np.arange(E.size), segments)
-    nth = np.arange(state.size) - np.repeat(np.cumsum(segments) - segments, segments)
-    lower = first[state] + nth
+    lower = first[state] + np.arange(state.size) - np.repeat(np.cumsum(segments) - segments, segments)
+    together = _together(known)
+    inside = together[lower]
+    state, lower = state[inside], lower[inside]
     upper = lower + 1
     rise = known.E[upper] - known.E[lower]
     share = np.divide(E[state] - known.E[lower], rise, out=np.full(state.size, np.inf), where=rise != 0)
-    low = np.where(nth == 0, -_BEYOND, 0.0)
-    high = np.where(nth == segments[state] - 1, 1 + _BEYOND, 1.0)
+    # only the outermost segments of a curve go on beyond their ends
+    padded = np.concatenate(([False], together, [False]))
+    low = np.where(padded[lower], 0.0, -_BEYOND)
+    high = np.where(padded[upper + 1], 1.0, 1 + _BEYOND)
     near = np.flatnonzero((share >= low) & (share <= high))
     state, share, lower, upper = state[near], share[near], lower[near], upper[near]
     blend = lambda x: x[..., lower] + share * (x[..., upper] - x[..., lower])  # noqa: E731
     A = np.maximum(blend(known.A), 0.5 * known.A[lower])
-    return state, Points(velocity[state], A, E[state], blend(known.edges), known.pressure[lower])
+    return state, Points(velocity[state], A, E[state], blend(known.edges), known.pressure[lower], known.index[lower])
+
+
+def _together(points: Points) -> np.ndarray:
+    """Which points stand on the same curve as the next one."""
+    return (np.diff(points.velocity) == 0) & (np.diff(points.index) == 0)

@@ -29,11 +29,10 @@ _STEP = 1.5e-8
 @dataclass(frozen=True)
 class Boundary:
     """A kind of curve in the plane: the orbits of ``sequence`` end by an ``event``, "fold", "release" or "closing"; or their
-    greatest pressure passes break number ``index`` of the law below ("peak")."""
+    greatest pressure passes a break of the law below ("peak")."""
 
     sequence: str
     event: str
-    index: int = 0
 
 
 #: every way in which the orbit of a regime with edges ends, but for thresholds that are straight lines (``thresholds``)
@@ -48,17 +47,18 @@ BOUNDARIES = (
 
 @dataclass
 class Points:
-    """Points of a curve: ``velocity`` (m/s), ``A`` and ``E`` (m), ``edges`` (k, n) of the orbit that ends there, and the
-    ``pressure`` (Pa) that it passes."""
+    """Points of curves: ``velocity`` (m/s), ``A`` and ``E`` (m), ``edges`` (k, n) of the orbit that ends there, and the
+    ``pressure`` (Pa) that it passes, break number ``index`` of its law."""
 
     velocity: np.ndarray
     A: np.ndarray
     E: np.ndarray
     edges: np.ndarray
     pressure: np.ndarray
+    index: np.ndarray
 
-    def take(self, index) -> Points:
-        return Points(self.velocity[index], self.A[index], self.E[index], self.edges[:, index], self.pressure[index])
+    def take(self, which) -> Points:
+        return Points(*(getattr(self, f.name)[..., which] for f in fields(self)))
 
     @classmethod
     def joined(cls, one: Points, two: Points) -> Points:
@@ -92,7 +92,7 @@ def locate(columns: Columns, boundary: Boundary, start: Points, unknown: str) ->
         found[active[done]] = True
         active = active[~done]
     found &= (np.diff(edges, axis=0) >= -_SMALL).all(axis=0) & (edges[-1] <= edges[0] + TWO_PI)
-    return Points(start.velocity, plane["A"], plane["E"], edges, start.pressure), found
+    return Points(start.velocity, plane["A"], plane["E"], edges, start.pressure, start.index), found
 
 
 class _System:
@@ -102,8 +102,9 @@ class _System:
         self.columns, self.boundary, self.velocity = columns, boundary, start.velocity
         self.stretch = start.pressure / columns.material.K
         self.kernel = kernel_of(columns.material)
-        self.residual = getattr(self.kernel, f"residual_{boundary.sequence}")
-        self.jacobian = getattr(self.kernel, f"jacobian_{boundary.sequence}")
+        # contact without adhesion is contact with saturated adhesion of no strength
+        equations = "ac" if boundary.sequence == "cf" else boundary.sequence
+        self.residual, self.jacobian = (getattr(self.kernel, f"{name}_{equations}") for name in ("residual", "jacobian"))
         self.event = {"release": self._release, "closing": self._closing, "peak": self._peak}.get(boundary.event)
 
     def step(self, index, edges, A, E, unknown: str) -> np.ndarray:
