@@ -20,7 +20,7 @@ class Line:
 
 
 def _none(changes):
-    return np.zeros(changes.size), np.zeros(changes.size, bool)
+    return np.empty(0, int), np.empty(0)
 
 
 def _located(line, width, equation=_none):
@@ -49,7 +49,7 @@ def test_two_changes_in_one_bracket_are_told_apart():
 
 def test_what_an_equation_tells_is_not_asked():
     line = Line(0.37)
-    found, halved = _located(line, 1e-12, lambda changes: (np.full(changes.size, 0.37), np.ones(changes.size, bool)))
+    found, halved = _located(line, 1e-12, lambda changes: (np.arange(changes.size), np.full(changes.size, 0.37)))
     assert found.low[0] == found.high[0] == 0.37 and halved == line.asked == 0
     assert found.codes.tolist() == [[0, 1]]
 
@@ -57,3 +57,9 @@ def test_what_an_equation_tells_is_not_asked():
 def test_neighbouring_numbers_end_it():
     found, _ = _located(Line(0.37, height=False), 0.0)
     assert found.high[0] - found.low[0] <= 4 * np.finfo(float).eps
+
+
+def test_equations_may_tell_of_several_places_in_one_bracket():
+    line = Line(0.3, 0.6)
+    found, _ = _located(line, 1e-12, lambda changes: (np.zeros(2, int), np.array([0.6, 0.3])))
+    assert line.asked == 0 and found.low.tolist() == found.high.tolist() == [0.3, 0.6]

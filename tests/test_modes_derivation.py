@@ -94,7 +94,10 @@ def test_steps_carry_equations_and_functions(name: str) -> None:
     assert all(f"Eq. {number}" in numbers for number in ("1", "2, 3", "4, 6, 8", "5", "10", "11"))
     assert all(step.checks for step in made.steps)
     emitted = {function for step in made.steps for function in step.emitted}
-    assert {function for function in emitted if not hasattr(SOLVERS[name], function)} <= {"means_afc", "state_afc"}  # without snap
+    assert {function for function in emitted if not hasattr(SOLVERS[name], function)} <= {
+        "means_afc",
+        "state_afc",
+    }  # without snap
 
 
 CHANGED = [

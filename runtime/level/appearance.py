@@ -122,7 +122,8 @@ def _ends(columns: Columns, column, code, theta, present, absent, width, strips)
         line = changes.line
         E = np.stack((changes.low, changes.high), axis=1) - h
         place, found = located(columns.at(column[row[line]], changes.low), changes, np.tile(amplitude[line, None], 2), E, "E")
-        return place + h, found
+        told = np.flatnonzero(found)
+        return told, place[told] + h
 
     ends = [
         v.reshape(2, theta.size, *v.shape[1:]).swapaxes(0, 1) for v in probe(np.tile(every, 2), np.concatenate((start, stop)))

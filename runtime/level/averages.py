@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..orbit.regimes import CODE
-from .boundaries import located, theta_of, thresholds
+from .boundaries import located, passed_breaks, theta_of, thresholds
 from .changes import Changes, locate_changes
 from .effort import AVERAGE_LIMIT
 from .quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
@@ -186,13 +186,15 @@ class _Work:
         out[known] = self.ends[which][panels.state][known]
         return out
 
-    def _by_equation(self, state, changes: Changes):
-        """Thetas of the changes of regime between the ends of brackets, where an equation tells them."""
-        columns, level = self.columns.at(state, self.columns.D[state]), self.columns.level
-        theta = np.stack((changes.low, changes.high), axis=1)
+    def _by_equation(self, state, changes: Changes) -> tuple[np.ndarray, np.ndarray]:
+        """Thetas of the changes between the ends of brackets, where equations tell all of them."""
+        each, parent = passed_breaks(changes)
+        columns, level = self.columns.at(state[parent], self.columns.D[state[parent]]), self.columns.level
+        theta = np.stack((each.low, each.high), axis=1)
         E = np.broadcast_to((columns.D - level.h)[:, None], theta.shape)
-        A, found = located(columns, changes, level.amplitude(theta), E, "A")
-        return theta_of(columns, np.where(found, A, 0.0)), found
+        A, found = located(columns, each, level.amplitude(theta), E, "A")
+        told = np.bincount(parent[~found], minlength=changes.size)[parent] == 0
+        return parent[told], theta_of(columns, A[told])
 
     def _accept(self, panels: _Panels, codes, values, n) -> np.ndarray:
         width = panels.width[:, None]

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 #: columns of the edges of a strip
 _COLUMN = {"d": 0, "b": 1, "a": 2, "c": 3}
 EDGES = {"acaf": "dbac", "afc": "bac", "af": "dc", "ac": "ba", "cf": "ba"}
+#: relative rounding of a threshold
+_ROUNDED = 1e-13
 _ENGAGED = np.array([CODE["ac"], CODE["a"], CODE["c"]])
 
 
@@ -139,11 +141,17 @@ def _by_threshold(columns: Columns, changes: Changes, A, E, unknown: str) -> tup
         touched = (code == CODE["f"]).any(axis=1) & ~(code == CODE["f"]).all(axis=1)
         reach = columns.adhesion.delta_0 if columns.stretch > 0 else 0.0
         factor, constant, known = np.where(touched, 2.0, factor), np.where(touched, -reach, constant), known | touched
+    # a gap that adheres throughout: it closes at its crest, and opens to delta_0 over its valley all along y at once
+    adhering = (code == CODE["a"]).any(axis=1)
+    closes = adhering & np.isin(code, [CODE["ac"], CODE["c"]]).any(axis=1)
+    opens = adhering & (code == CODE["f"]).any(axis=1) & (columns.branch == "unloading") & (unknown == "E")
+    factor, known = np.where(closes, 2.0, np.where(opens, 0.0, factor)), known | closes | opens
+    constant = np.where(closes, -columns.stretch, np.where(opens, -columns.stretch - columns.adhesion.delta_0, constant))
     if columns.carry is not None:
         over = changes.heights > 0
         passed = over[:, 0] != over[:, 1]
         breaks = columns.carry.breaks(columns.group) / columns.material.K
-        one = contact.all(axis=1) & (passed.sum(axis=1) == 1)
+        one = contact.all(axis=1) & passed.any(axis=1)
         which = passed.argmax(axis=1)
         constant = np.where(one, breaks[np.arange(m), which % breaks.shape[1]], constant)
         factor = np.where(one & (which < breaks.shape[1]), 1 + R, factor)
@@ -151,7 +159,26 @@ def _by_threshold(columns: Columns, changes: Changes, A, E, unknown: str) -> tup
     with np.errstate(divide="ignore", invalid="ignore"):
         place = constant - factor * A[:, 0] if unknown == "E" else (constant - E[:, 0]) / factor
     ends = A if unknown == "A" else E
-    return place, known & (place > ends.min(axis=1)) & (place < ends.max(axis=1))
+    # a curve over penetration ends at saturation, but for rounding
+    low, high = ends.min(axis=1), ends.max(axis=1)
+    slack = _ROUNDED * (np.abs(low) + np.abs(high) + columns.level.h)
+    return np.clip(place, low, high), known & (place >= low - slack) & (place <= high + slack)
+
+
+def passed_breaks(changes: Changes) -> tuple[Changes, np.ndarray]:
+    """Changes at which pressures pass several breaks of the law below, one for each; the others as they are; and which change
+    each is a part of."""
+    over = changes.heights > 0
+    passed = (over[:, 0] != over[:, 1]) & (changes.codes[:, :1] % len(CODE) == changes.codes[:, 1:] % len(CODE))
+    parent, which = np.nonzero(passed)
+    several = passed.sum(axis=1)[parent] > 1
+    parent, which = parent[several], which[several]
+    one = np.setdiff1d(np.arange(changes.size), parent)
+    parts = changes.take(parent)
+    others = np.arange(over.shape[2]) != which[:, None]
+    # of the other breaks nothing is known, so that they are not passed
+    parts.heights = np.where(others[:, None], np.nan, parts.heights)
+    return Changes.joined([changes.take(one), parts]), np.concatenate((one, parent))
 
 
 def _peaks(columns: Columns, changes: Changes, code) -> list[tuple[Boundary, np.ndarray, np.ndarray, np.ndarray]]:
@@ -161,7 +188,7 @@ def _peaks(columns: Columns, changes: Changes, code) -> list[tuple[Boundary, np.
     passed = over[:, 0] != over[:, 1]
     breaks = columns.carry.breaks(columns.group)
     which = passed.argmax(axis=1)
-    alone = (code[:, 0] == code[:, 1]) & (passed.sum(axis=1) == 1) & (which < breaks.shape[1])
+    alone = (code[:, 0] == code[:, 1]) & passed.any(axis=1) & (which < breaks.shape[1])
     pressure = breaks[np.arange(changes.size), which % breaks.shape[1]]
     rows = {sequence: np.flatnonzero(alone & (code[:, 0] == CODE[sequence])) for sequence in ("acaf", "afc", "ac", "cf")}
     return [(Boundary(sequence, "peak"), some, pressure, which) for sequence, some in rows.items() if some.size]

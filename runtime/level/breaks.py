@@ -73,7 +73,8 @@ def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list
     def equation(changes):
         E = np.stack((changes.low, changes.high), axis=1) - h
         place, found = located(columns.at(column[changes.line], changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
-        return place + h, found
+        told = np.flatnonzero(found)
+        return told, place[told] + h
 
     answers = [v.reshape(*D.shape, *v.shape[1:]) for v in probe(np.repeat(np.arange(m), D.shape[1]), D.ravel())]
     line, node = np.nonzero(answers[0][:, 1:] != answers[0][:, :-1])

@@ -18,7 +18,7 @@ _ASIDE = 1e-6
 
 #: (line, x) -> codes (m,), heights (m, k), edges (m, 4) and values (m, q)
 Probe = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
-#: (changes) -> where an equation puts the change, which it does
+#: (changes) -> changes of which equations tell all there is (k,), and where that is; one of several places may stand for each
 Equation = Callable[["Changes"], tuple[np.ndarray, np.ndarray]]
 
 
@@ -64,10 +64,11 @@ def locate_changes(
         changes, width, weight, stayed = changes.take(~done), width[~done], weight[~done], stayed[~done]
         if not changes.size:
             break
-        place, told = equation(changes)
-        if told.any():
-            exact, place, wide = changes.take(told), place[told], width[told]
-            changes, width, weight, stayed = changes.take(~told), width[~told], weight[~told], stayed[~told]
+        parent, place = equation(changes)
+        if parent.size:
+            exact, wide = changes.take(parent), width[parent]
+            left = np.setdiff1d(np.arange(changes.size), parent)
+            changes, width, weight, stayed = changes.take(left), width[left], weight[left], stayed[left]
             if checked:
                 exact, others, parent = _beside(probe, exact, place)
                 changes, width = Changes.joined([changes, others]), np.concatenate((width, wide[parent]))
