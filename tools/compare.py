@@ -63,6 +63,11 @@ def scenes(quick: bool) -> dict[str, Callable[[], dict]]:
 
         return run
 
+    def law():
+        found = hystrip.friction_law(material, sticky, paper[0], V=1e-3, rtol=1e-4)
+        p = np.linspace(-600, 5000, 57)
+        return {"values": found(p), "errors": np.full(p.size, found.error_estimate), "strips": found.strips}
+
     two_times = hystrip.Prony(K=1e9, moduli=[3e10, 6e10], times=[1e-2, 1e-4])
     few = 10 if quick else 1
     out = {
@@ -72,12 +77,14 @@ def scenes(quick: bool) -> dict[str, Callable[[], dict]]:
             f"a lone velocity, {n} adhesive level{'s' * (n > 1)}": surface(similar[:n], 1e-3, 1e-3)
             for n in ((1, 2) if quick else (1, 2, 4, 6))
         },
+        "a whole law, one velocity": law,
         "mixed strips": strips(material, "continuous", 100_000 // few),
         "four levels without adhesion": surface(similar[:4], np.geomspace(1e-5, 0.1, 64), 1e-3, dry),
         "strips with two times": strips(two_times, "constitutive", 1000 // few),
     }
     if quick:
-        out.pop("the demo")
+        for name in ("the demo", "a whole law, one velocity"):
+            out.pop(name)
     return out
 
 
