@@ -69,11 +69,11 @@ def to_dataset(result: Result) -> Dataset:
         if name in names:
             coords[name] = _labelled(name, (name,), _along(values, names.index(name)))
         elif name in inputs:
-            coords[name] = _labelled(name, *_reduced(names, values))
+            coords[name] = _labelled(name, *reduced(names, values))
         else:
             variables[name] = _labelled(name, names, values)
     attributes = {
-        **_about("result"),
+        **about("result"),
         "material": material_text(result.material),
         "adhesion": adhesion_text(result.adhesion),
         "levels": levels_text(result.levels),
@@ -98,10 +98,10 @@ def level_dataset(solution: LevelSolution) -> Dataset:
     variables["error_estimate"] = (("mean", *names), np.array(solution.error_estimate), label)
     for name, values in inputs.items():
         coords[name] = _labelled(name, (name,), _along(values, names.index(name))) if name in names else _labelled(
-            name, *_reduced(names, values)
+            name, *reduced(names, values)
         )  # fmt: skip
     attributes = {
-        **_about("level"),
+        **about("level"),
         "material": material_text(asked.material),
         "adhesion": adhesion_text(asked.adhesion),
         "levels": levels_text([asked.level]),
@@ -126,7 +126,7 @@ def axis_names(inputs: dict[str, np.ndarray], shape: tuple[int, ...]) -> tuple[s
     return tuple(names)
 
 
-def _about(kind: str) -> dict[str, Any]:
+def about(kind: str) -> dict[str, Any]:
     """What the file holds, and what wrote it."""
     from ._version import __version__
 
@@ -162,7 +162,7 @@ def _constant(values: np.ndarray, axis: int) -> bool:
     return bool(np.all(bits == np.take(bits, [0], axis=axis)))
 
 
-def _reduced(names: tuple[str, ...], values: np.ndarray) -> tuple[tuple[str, ...], np.ndarray]:
-    """Without the axes along which nothing changes."""
-    kept = [axis for axis in range(values.ndim) if not _constant(values, axis)]
-    return tuple(names[axis] for axis in kept), values[tuple(slice(None) if axis in kept else 0 for axis in range(values.ndim))]
+def reduced(names: tuple[str, ...], values: np.ndarray, kept: tuple[str, ...] = ()) -> tuple[tuple[str, ...], np.ndarray]:
+    """Without the axes along which nothing changes, but for those to be ``kept``."""
+    rest = [axis for axis in range(values.ndim) if names[axis] in kept or not _constant(values, axis)]
+    return tuple(names[axis] for axis in rest), values[tuple(slice(None) if axis in rest else 0 for axis in range(values.ndim))]

@@ -141,3 +141,40 @@ def test_reprs_are_short_and_say_what_came_out(tmp_path):
         assert len(text.splitlines()) <= 8 and max(map(len, text.splitlines())) < 200
         assert all(part in text for part in says), text
         assert page.startswith("<div>") and page.endswith("</div>") and page.count("<tr>") == page.count("</tr>") > 3
+
+
+SWEPT = """
+pressure = [-1e5, 100.0]
+velocity = [1e-3, 5e-3]
+rtol = 1e-2
+[material]
+K = 1e9
+T_eps = 1e-2
+T_sigma = 1e-4
+[adhesion]
+gamma = 2.5e-5
+delta_0 = 1e-8
+[[levels]]
+l = 1e-5
+h = 1e-6
+"""
+
+
+@pytest.mark.parametrize("over", [{"levels[0].h": [1e-6, 5e-7]}, {"material.T_sigma": [1e-4, 2e-2], "velocity": 5e-3}])
+def test_a_sweep_is_kept_with_the_variables_of_a_result(over, tmp_path):
+    (tmp_path / "s.toml").write_text(SWEPT)
+    sweep = hystrip.sweep(tmp_path / "s.toml", over=over, out=tmp_path / "out")
+    data = sweep.to_dataset()
+    one = hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8), LEVELS[:1], pressure=[[-1e5], [100.0]],
+                        velocity=[1e-3, 5e-3], rtol=1e-2).to_dataset()  # fmt: skip
+    assert set(one.variables) <= set(data.variables)
+    for name in one.variables:
+        assert data[name].dtype == one[name].dtype and data[name].attrs["units"] == one[name].attrs["units"], name
+    # T_sigma above T_eps: those points failed, and say no
+    assert sweep.failed.keys() == set() or not data.converged.values[data.failed.values != ""].any()
+    again = hystrip.load(sweep.save(tmp_path / "s.nc"), hystrip.Sweep)
+    assert list(again.columns) == list(sweep.columns)
+    for column, values in sweep.columns.items():
+        assert again.columns[column] == values if column == "failed" else bits(again.columns[column]) == bits(values), column
+    assert again.plan.fingerprint == sweep.plan.fingerprint and repr(again) == repr(sweep)
+    assert again.to_dataset().identical(data) and list(again.to_dataframe().columns) == list(sweep.columns)

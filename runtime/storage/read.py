@@ -35,7 +35,8 @@ def load(path: str | os.PathLike[str], kind: Any = None, *, solver: Solver | Non
     Parameters
     ----------
     path : the netCDF file
-    kind : :class:`hystrip.Result` or :class:`hystrip.LevelSolution`, to be sure of it; None for whatever the file holds
+    kind : :class:`hystrip.Result`, :class:`hystrip.LevelSolution` or :class:`hystrip.Sweep`, to be sure of it; None for
+        whatever the file holds
     solver : from ``hystrip.load_solver``, for a material that was solved with a solver of one's own
 
     Needs the extra ``dataset``.
@@ -59,8 +60,8 @@ def load(path: str | os.PathLike[str], kind: Any = None, *, solver: Solver | Non
     if found not in _READ:
         raise InputError("path", os.fspath(path), f"a file that holds one of {', '.join(_READ)}; this holds {found!r}")
     made, read = _READ[found]
-    if kind is not None and made is not kind:
-        raise InputError("path", os.fspath(path), f"a file that holds a {kind.__name__}; this holds a {made.__name__}")
+    if kind is not None and made != kind.__name__:
+        raise InputError("path", os.fspath(path), f"a file that holds a {kind.__name__}; this holds a {made}")
     return read(data, solver)
 
 
@@ -126,7 +127,13 @@ def _level(data: Dataset, solver: Solver | None) -> LevelSolution:
     )
 
 
-_READ = {"result": (Result, _result), "level": (LevelSolution, _level)}
+def _sweep(data: Dataset, solver: Solver | None) -> Any:
+    from .sweep import sweep_of  # needs the extra of scenes, which nothing else here does
+
+    return sweep_of(data, solver)
+
+
+_READ = {"result": ("Result", _result), "level": ("LevelSolution", _level), "sweep": ("Sweep", _sweep)}
 
 
 def _asked(attrs: dict[str, Any]) -> dict[str, Any]:

@@ -22,9 +22,10 @@ from .executors import dask, local, lost
 from .plan import Plan, plan_of
 from .sizing import blocks, first_size, next_size
 from .store import Store
-from .variables import variables
+from .variables import table, variables
 
 if TYPE_CHECKING:
+    from pandas import DataFrame
     from xarray import Dataset
 
     from ..typing import Numbers, Progress
@@ -68,6 +69,22 @@ class Sweep:
         from .dataset import to_dataset
 
         return to_dataset(self)
+
+    def to_dataframe(self) -> DataFrame:
+        """The sweep as a pandas DataFrame: the table of the CSV file. Needs the extra ``dataset``, which brings pandas."""
+        from ..extras import require
+
+        frame: DataFrame = require("pandas", "dataset", "a data frame").DataFrame(self.columns)
+        return frame
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the sweep as netCDF; ``hystrip.load(path)`` gives it back, equal to the bit. Returns the path.
+
+        Needs the extra ``dataset``.
+        """
+        from ..storage.write import save
+
+        return save(self.to_dataset(), path)
 
 
 def sweep(
@@ -258,13 +275,10 @@ def _collected(plan: Plan, store: Store) -> dict[str, Any]:
         for row, reason in batch.failed.items():
             failed[batch.first + row] = reason
     coordinates = plan.coordinates(np.arange(plan.size))
-    columns: dict[str, Any] = {f"{axis.name} [{axis.unit}]": coordinates[:, i] for i, axis in enumerate(plan.axes)}
-    for each in variables(plan.levels):
-        columns.setdefault(each.column, np.concatenate([batch.columns[each.column] for batch in stored]))
-    if "velocity [m/s]" not in columns:
-        columns = {"velocity [m/s]": np.full(plan.size, float(plan.base["velocity"])), **columns}
-    columns["failed"] = failed
-    return columns
+    axes = {f"{axis.name} [{axis.unit}]": coordinates[:, i] for i, axis in enumerate(plan.axes)}
+    values = {each.column: np.concatenate([batch.columns[each.column] for batch in stored]) for each in variables(plan.levels)}
+    velocity = np.full(plan.size, float(plan.base["velocity"])) if "velocity [m/s]" not in axes else np.empty(0)
+    return table(axes, values, velocity, failed)
 
 
 def _all_batches(plan: Plan, store: Store) -> Iterator[Batch]:
