@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import fields
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import numpy as np
@@ -130,7 +131,7 @@ def _level(data: Dataset, solver: Solver | None) -> LevelSolution:
 def _sweep(data: Dataset, solver: Solver | None) -> Any:
     from .sweep import sweep_of  # needs the extra of scenes, which nothing else here does
 
-    return sweep_of(data, solver)
+    return sweep_of(data, Path(data.encoding.get("source", "")), solver)
 
 
 _READ = {"result": ("Result", _result), "level": ("LevelSolution", _level), "sweep": ("Sweep", _sweep)}

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from ..loading import Solver
 
 
-def sweep_of(data: Dataset, solver: Solver | None) -> Sweep:
-    """The sweep of a dataset. Raises InputError where it was solved with a solver of one's own that is not given."""
+def sweep_of(data: Dataset, path: Path, solver: Solver | None) -> Sweep:
+    """The sweep of a dataset that stood in ``path``; no batch of it was solved now. Raises InputError where it was solved with a solver of one's own that is not given."""
     about = json.loads(data.attrs["sweep"])
     values = validated(parse_toml(data.attrs["scene"]))
     if about["solver"] is not None:
@@ -46,4 +46,4 @@ def sweep_of(data: Dataset, solver: Solver | None) -> Sweep:
     coordinates = plan.coordinates(np.arange(plan.size))
     axes = {f"{axis.name} [{axis.unit}]": coordinates[:, i] for i, axis in enumerate(plan.axes)}
     velocity = np.full(plan.size, float(data["velocity"])) if "velocity" not in swept else np.empty(0)
-    return Sweep(table(axes, found, velocity, failed), Path(about["path"]), plan, about["solved"], about["kept"])
+    return Sweep(table(axes, found, velocity, failed), path, plan, 0, 0)

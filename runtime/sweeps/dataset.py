@@ -55,8 +55,7 @@ def to_dataset(sweep: Sweep) -> Dataset:
         "branch": plan.base["branch"],
         "rtol": float(plan.base["rtol"]),
         "sweep": json.dumps({
-            "name": plan.name, "combine": plan.combine, "batch": plan.batch, "path": str(sweep.path), "solved": sweep.solved,
-            "kept": sweep.kept, "solver": plan.base["material"]["solver"],
+            "name": plan.name, "combine": plan.combine, "batch": plan.batch, "solver": plan.base["material"]["solver"],
             "values": {key: np.asarray(each).tolist() for key, each in quantities(plan.base)},
         }),
     }  # fmt: skip
