@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from .style import COLUMN, OKABE_ITO, stacked, styled
+from .units import unit_for
 
 
 @styled
@@ -21,20 +22,21 @@ def law_over_pressure(law: Any, points: int = 400) -> Any:
     span = max(reach - law.pull_off, np.finfo(float).tiny)
     end = reach + 0.1 * span if law.below >= law.p_sat else reach
     upper, lower = stacked(2, COLUMN, 1.2 * COLUMN)
+    (pascals, unit), (stress, stress_unit) = unit_for("Pa", law.pull_off, end), unit_for("Pa", law.tau_sat)
     inner = [b for b in law.breaks if law.pull_off < b < end]
     start = law.pull_off - 0.1 * span
     ends = [law.pull_off, *inner, end]
     for low, high in zip(ends[:-1], ends[1:], strict=True):
         # a jump of the law is not joined by a line
         p = np.linspace(np.nextafter(low, high), np.nextafter(high, low), max(points // len(ends), 20))
-        upper.plot(p, law(p), color=OKABE_ITO[0])
-        lower.plot(p, law.contact_fraction(p), color=OKABE_ITO[0])
+        upper.plot(p / pascals, law(p) / stress, color=OKABE_ITO[0])
+        lower.plot(p / pascals, law.contact_fraction(p), color=OKABE_ITO[0])
     for panel in (upper, lower):
-        panel.plot([start, law.pull_off], [0, 0], color=OKABE_ITO[0])
-        panel.axvline(law.pull_off, color="0.5", linewidth=0.6, linestyle=":")
-    upper.set_ylabel(r"friction stress $\tau$ (Pa)")
+        panel.plot([start / pascals, law.pull_off / pascals], [0, 0], color=OKABE_ITO[0])
+        panel.axvline(law.pull_off / pascals, color="0.5", linewidth=0.6, linestyle=":")
+    upper.set_ylabel(rf"friction stress $\tau$ ({stress_unit})")
     lower.set_ylabel("contact fraction")
-    lower.set_xlabel("nominal pressure $p$ (Pa)")
-    lower.set_xlim(start, end)
+    lower.set_xlabel(f"nominal pressure $p$ ({unit})")
+    lower.set_xlim(start / pascals, end / pascals)
     lower.set_ylim(-0.03, 1.05)
     return upper.figure

@@ -22,7 +22,10 @@ if TYPE_CHECKING:
 
 
 def sweep_of(data: Dataset, path: Path, solver: Solver | None) -> Sweep:
-    """The sweep of a dataset that stood in ``path``; no batch of it was solved now. Raises InputError where it was solved with a solver of one's own that is not given."""
+    """The sweep of a dataset that stood in ``path``; no batch of it was solved now.
+
+    Raises InputError where it was solved with a solver of one's own that is not given.
+    """
     about = json.loads(data.attrs["sweep"])
     values = validated(parse_toml(data.attrs["scene"]))
     if about["solver"] is not None:
