@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import subprocess
 import sys
-import textwrap
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,11 +14,10 @@ import sympy as sp
 
 from .check import DerivationError
 from .derive import Derivation
-from .functions import HELPERS, Call, Formula
-from .printing import RENAMED, results, source
+from .modes.emit import template_values
+from .text import FunctionText, function_text, helpers_used
 
 INTERFACE = 1
-WIDTH = 110  # of a docstring's lines
 HERE = Path(__file__).parent
 TEMPLATES = {
     "stable": "stable.py.jinja",
@@ -38,22 +36,6 @@ PARAMETER_MEANINGS = (
     ("D", "D_j/A, the penetration of the strip"),
     ("chi", "what w does where p steps: 0 continuous, 1 constitutive"),
 )
-
-
-@dataclass(frozen=True)
-class FunctionText:
-    """One function of a generated module, as text for its template."""
-
-    name: str
-    args: tuple[str, ...]
-    statement: str  # first sentence
-    explanation: tuple[str, ...]
-    equation: tuple[str, ...]
-    derived_by: str
-    paper: str
-    steps: tuple[tuple[str, str], ...]
-    result: str
-    algorithm: str = ""  # what puts together what is derived, if not the formula
 
 
 @dataclass(frozen=True)
@@ -96,8 +78,6 @@ def model_text(derivation: Derivation) -> str:
 
 
 def modes_text(derivation: Any) -> str:
-    from .modes.emit import template_values
-
     return _render("modes_model", derivation.model.name, interface=INTERFACE, **template_values(derivation))
 
 
@@ -119,40 +99,6 @@ def _regime_data(regime: Any, emitted: set[str]) -> dict[str, Any]:
         "admissible": [inequality.code for inequality in regime.admissible],
         **{kind: name(kind) for kind in ("residual", "jacobian", "means", "onset_slope")},
     }
-
-
-def function_text(formula: Formula, record: Any) -> FunctionText:
-    return FunctionText(
-        formula.name,
-        tuple(map(source, formula.args)),
-        *docstring(record.statement),
-        tuple(record.latex.split("\n")) if len(record.latex) <= WIDTH else (),
-        record.function,
-        record.paper,
-        tuple((source(label), source(term)) for label, term in formula.steps),
-        results(formula.result),
-        getattr(record, "algorithm", ""),
-    )
-
-
-def docstring(statement: str) -> tuple[str, tuple[str, ...]]:
-    """The first sentence, which must fit a line, and the rest, wrapped."""
-    first, dot, rest = statement.partition(". ")
-    lines = textwrap.wrap(first + (dot.strip() or ""), WIDTH)
-    return lines[0], (*lines[1:], *textwrap.wrap(rest, WIDTH))
-
-
-def helpers_used(formulas: Any) -> list[str]:
-    found: set[str] = set()
-    for formula in formulas:
-        terms = [term for _, term in formula.steps] + flat(formula.result)
-        for term in terms:
-            found |= {type(f).__name__ for f in sp.sympify(term).atoms(sp.Function) if isinstance(f, HELPERS)}
-    return sorted(found - set(RENAMED))
-
-
-def flat(result: Any) -> list[sp.Expr]:
-    return [e for part in result for e in flat(part)] if isinstance(result, tuple) else [result]
 
 
 def stable_text() -> str:
@@ -242,4 +188,4 @@ def formatted(text: str) -> str:
     return _ruff("format", *options, text=text)
 
 
-__all__ = ["INTERFACE", "Call", "emit", "input_hash"]
+__all__ = ["INTERFACE", "emit", "input_hash"]

@@ -19,6 +19,7 @@ from hystrip.derivation import STANDARD_LINEAR_SOLID, DerivationError, Model, de
 from hystrip.derivation.check import CORRECTED, REPRODUCED, STATUSES, derived, zero
 from hystrip.derivation.exact import is_zero
 from hystrip.derivation.flows import contact_flow
+from hystrip.derivation.functions import stack_sum
 from hystrip.derivation.model import inadmissible
 from hystrip.derivation.pages.paper import numbers
 from hystrip.derivation.symbols import (
@@ -198,14 +199,15 @@ LATE = {
 def _late(package, name: str):
     exact = {kernel.formula.name: kernel.exact for kernel in derivation().kernels}
     one, strip = exact["level_saturation_friction"], stage("Strip")
-    conditions, multilevel, stack = (
-        importlib.import_module(f"{package.__name__}.{part}") for part in ("conditions", "multilevel", "stack")
+    conditions, multilevel, stack, functions = (
+        importlib.import_module(f"{package.__name__}.{part}") for part in ("conditions", "multilevel", "stack", "functions")
     )
+    every = exact["saturated_stack_friction"].replace(stack_sum, functions.stack_sum)  # a copy has a sum of its own
     return {
         "zone conditions": lambda: conditions.zone_conditions(strip.u),
         "means over a level": lambda: multilevel.means_over_a_level(exact["saturated_pressure"], exact["means_c"]),
         "local shear": lambda: multilevel.local_shear(strip.u),
-        "friction coefficient": lambda: multilevel.friction_coefficient(one, exact["saturated_stack_friction"]),
+        "friction coefficient": lambda: multilevel.friction_coefficient(one, every),
         "least pressure in complete contact": lambda: stack.least_pressure(
             step("saturation threshold").value, exact["level_saturation_pressure"]
         ),

@@ -6,10 +6,10 @@ from typing import Any
 
 import sympy as sp
 
-from ..emit import flat, function_text, helpers_used
 from ..functions import Formula
 from ..model import Model, Parameter, Roots, Series
 from ..printing import results, source
+from ..text import flat, function_text, helpers_used
 from .derive import ModesDerivation
 from .functions import ALGORITHMS, regime_functions, rest_functions
 from .material import series_of

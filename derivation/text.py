@@ -1,0 +1,65 @@
+"""A formula and its record as the text of one function of a generated module."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from .functions import HELPERS, Formula
+from .printing import RENAMED, results, source
+
+WIDTH = 110  # of a docstring's lines
+
+
+@dataclass(frozen=True)
+class FunctionText:
+    """One function of a generated module, as text for its template."""
+
+    name: str
+    args: tuple[str, ...]
+    statement: str  # first sentence
+    explanation: tuple[str, ...]
+    equation: tuple[str, ...]
+    derived_by: str
+    paper: str
+    steps: tuple[tuple[str, str], ...]
+    result: str
+    algorithm: str = ""  # what puts together what is derived, if not the formula
+
+
+def function_text(formula: Formula, record: Any) -> FunctionText:
+    return FunctionText(
+        formula.name,
+        tuple(map(source, formula.args)),
+        *docstring(record.statement),
+        tuple(record.latex.split("\n")) if len(record.latex) <= WIDTH else (),
+        record.function,
+        record.paper,
+        tuple((source(label), source(term)) for label, term in formula.steps),
+        results(formula.result),
+        getattr(record, "algorithm", ""),
+    )
+
+
+def docstring(statement: str) -> tuple[str, tuple[str, ...]]:
+    """The first sentence, which must fit a line, and the rest, wrapped."""
+    first, dot, rest = statement.partition(". ")
+    lines = textwrap.wrap(first + (dot.strip() or ""), WIDTH)
+    return lines[0], (*lines[1:], *textwrap.wrap(rest, WIDTH))
+
+
+def helpers_used(formulas: Iterable[Formula]) -> list[str]:
+    found: set[str] = set()
+    for formula in formulas:
+        terms = [term for _, term in formula.steps] + flat(formula.result)
+        for term in terms:
+            found |= {type(f).__name__ for f in sp.sympify(term).atoms(sp.Function) if isinstance(f, HELPERS)}
+    return sorted(found - set(RENAMED))
+
+
+def flat(result: Any) -> list[sp.Expr]:
+    return [e for part in result for e in flat(part)] if isinstance(result, tuple) else [result]
