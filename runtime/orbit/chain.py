@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from . import regimes
 from .groups import TWO_PI, Cycle
 
 #: iterations at most, and before strips that are done are set aside. Where there is an orbit with a free part Newton needs half
@@ -27,8 +28,8 @@ CONVERGED = 1e-13
 _BOLD = 0.9
 #: sign of the slope with which the event of each link is met: gap and pressure fall, the gap opens where adhesion ends
 _SENSE = {"acaf": (-1, -1, 1, -1), "afc": (-1, 1, -1), "af": (1, -1), "ac": (-1, -1), "cf": (-1, -1)}
-#: edges of each sequence, the onset first
-EDGES = {"acaf": "xbac", "afc": "xac", "af": "xc", "ac": "xa", "cf": "xa"}
+#: edges of each sequence, x for the onset (of contact, where nothing else is met)
+EDGES = {sequence: "x" + "".join(edges[1:]) for sequence, edges in regimes.EDGES.items() if edges}
 
 
 @dataclass(slots=True)
@@ -169,7 +170,7 @@ def _refined(kernel, cycle: Cycle, sequence: str, edges):
     """
     s = cycle.strips
     _, before, after = links(kernel, cycle, sequence, edges)
-    residual = getattr(kernel, f"residual_{'ac' if sequence == 'cf' else sequence}")
+    residual = getattr(kernel, f"residual_{regimes.EQUATIONS[sequence]}")
     *values, closing = residual(*edges, s.alpha, s.beta, s.J, s.L, s.p_0, s.delta_0, s.D, s.chi)
     contact = {"acaf": 1, "af": None}.get(sequence, 0)
     balance = closing - sum(value * (-s.J if i == contact else 1.0) for i, value in enumerate(values))

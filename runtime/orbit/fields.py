@@ -3,10 +3,8 @@
 import numpy as np
 
 from .groups import TWO_PI, Strips, adhesive_cycle, bare_cycle
-from .regimes import CODE
+from .regimes import CODE, ZONES
 from .solved import Solved
-
-_ZONES = {"c": "c", "ac": "ca", "acaf": "acaf", "afc": "caf", "cf": "cf", "af": "af", "a": "a", "f": "f"}
 
 
 def fields(kernel, strips: Strips, solved: Solved, phase: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -58,7 +56,7 @@ def _with_edges(kernel, sequence, s: Strips, solved: Solved, index, phase):
         }[sequence]
     phase = starts[0] + np.mod(phase - starts[0], TWO_PI)
     p, gap = zero.copy(), zero.copy()
-    for zone, start, first in zip(_ZONES[sequence], starts, gaps, strict=True):
+    for zone, start, first in zip(ZONES[sequence][0], starts, gaps, strict=True):
         inside = phase >= start
         if zone == "c":
             q = kernel.excess_after(start, np.maximum(phase, start), cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)

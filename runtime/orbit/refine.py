@@ -6,6 +6,7 @@ from .chain import CONVERGED, tighten
 from .groups import Cycle
 from .march import Orbit
 from .polish import polish
+from .regimes import EQUATIONS
 from .solved import edges_of, orbit_of
 
 #: Corrections may be this many times what rounding leaves uncertain, which itself must not be worse than near a fold.
@@ -25,7 +26,7 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, ends=None, blurre
         one, two = (edges_of(sequence, end) for end in ends)
         bounds = np.minimum(one, two), np.maximum(one, two)
     # the cycle of an always adhering strip is the bare one, shifted: its boundary equations are those of "ac" at p_0 = 0
-    found = polish(kernel, "ac" if sequence == "cf" else sequence, cycle.strips, edges_of(sequence, orbit), bounds)
+    found = polish(kernel, EQUATIONS[sequence], cycle.strips, edges_of(sequence, orbit), bounds)
     limit = np.where(blurred & found.stalled, _ROUNDINGS * np.minimum(found.attainable, _COARSEST), 0.0)
     edges, correction = found.edges, found.correction
     if sequence in ("ac", "cf"):

@@ -6,7 +6,7 @@ import numpy as np
 
 from .groups import Strips
 from .march import TWO_PI, Orbit
-from .regimes import CODE
+from .regimes import CODE, EQUATIONS
 
 UNDECIDED = -1
 
@@ -65,7 +65,7 @@ class Record:
             return
         out = self.solved
         out.code[index], out.certified[index] = CODE[sequence], True
-        means = getattr(self.kernel, "means_ac" if sequence == "cf" else f"means_{sequence}")
+        means = getattr(self.kernel, f"means_{EQUATIONS[sequence]}")
         out.p_mean[index], out.tau_mean[index] = means(*edges_of(sequence, orbit), *groups(self.strips.among(index)))
         contact = np.clip(np.where(np.isnan(orbit.b), 0.0, orbit.a - orbit.b) / TWO_PI, 0.0, 1.0)  # a - b is rounded
         adhesion = {"cf": 0.0, "ac": 1 - contact}.get(sequence)

@@ -13,9 +13,9 @@ import numpy as np
 
 from ..contact import Contact
 from ..crossing import crossing
-from ..regimes import CODE
+from ..regimes import CODE, ZONES
 from ..solved import Solved
-from .fields import ZONES, zones_of
+from .fields import zones_of
 from .problem import pick
 
 

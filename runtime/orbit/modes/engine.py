@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..regimes import CODE
+from ..regimes import CODE, ZONES
 from ..solved import Solved
 from .certificate import enclosed, marched, stable
 from .engaged import engaged
@@ -220,7 +220,7 @@ class _Batch:
         out.p_mean[index], out.tau_mean[index] = getattr(self.kernel, f"means_{equations}")(*e, *arguments(s))
         if sequence == "ac":
             out.p_mean[index] -= self.strips.p_0[index]
-        named = dict(zip({"acaf": "dbac", "afc": "bac", "af": "dc"}.get(sequence, "ba"), e, strict=True))
+        named = dict(zip(ZONES[sequence][1], e, strict=True))
         for name, values in named.items():
             getattr(out, name)[index] = values
         contact = (named["a"] - named["b"]) / TWO_PI if "b" in named else np.zeros(index.size)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..regimes import EDGES
 from .contraction import alike, contracts
 from .fields import state_at
 from .march import TWO_PI, Period, march
@@ -30,7 +31,7 @@ _EPS = np.finfo(float).eps
 #: agreement of the edges with a march of the period
 _AGREE = 1e-7
 #: edges of each sequence, by their rows in the order d, b, a, c
-ROWS = {"acaf": (0, 1, 2, 3), "afc": (0, 2, 3), "af": (0, 3)}
+ROWS = {sequence: tuple("dbac".index(edge) for edge in EDGES[sequence]) for sequence in ("acaf", "afc", "af")}
 SEQUENCES = ("", "acaf", "afc", "af")
 
 
@@ -179,7 +180,7 @@ class _Rounds:
 
 def agrees(sequence: str, s: ModeStrips, edges, period: Period) -> np.ndarray:
     """Whether a turn from a state of the orbit met the edges (k, N) of ``sequence``, each once, and nothing else."""
-    row = dict(zip({"acaf": "dbac", "afc": "dac", "af": "dc"}[sequence], edges, strict=True))
+    row = dict(zip(EDGES[sequence], edges, strict=True))
     near = lambda met, edge: np.abs(np.mod(met - edge + np.pi, TWO_PI) - np.pi) <= _AGREE  # noqa: E731
     ok = ~period.lost & (period.onsets == 1) & (period.releases == 1) & (period.engaged == period.engaged_before)
     ok &= near(period.onset, row["d"]) & near(period.release, row["c"])

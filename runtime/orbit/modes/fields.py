@@ -5,13 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from ..fields import by_regime
+from ..regimes import EQUATIONS, ZONES
 from ..solved import Solved
 from .march import TWO_PI
 from .polish import arguments
 from .problem import ModeStrips
-
-#: zones in the order met from the first edge on, and the edges at which they begin
-ZONES = {"acaf": ("acaf", "dbac"), "afc": ("caf", "bac"), "af": ("af", "dc"), "ac": ("ca", "ba"), "cf": ("ca", "ba")}
 
 
 def fields(kernel, strips: ModeStrips, solved: Solved, phase: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -47,7 +45,7 @@ def zones_of(kernel, sequence, s: ModeStrips, edges):
     """Zones of an orbit in the order met: letter, start, the overstress (contact) or the state z (elsewhere) there, and the
     state, (n, N)."""
     zones, _ = ZONES[sequence]
-    z = getattr(kernel, f"state_{'ac' if sequence == 'cf' else sequence}")(*edges, *arguments(s))
+    z = getattr(kernel, f"state_{EQUATIONS[sequence]}")(*edges, *arguments(s))
     for i, (zone, start) in enumerate(zip(zones, edges, strict=True)):
         end = edges[i + 1] if i + 1 < len(edges) else edges[0] + TWO_PI
         if zone == "c":
