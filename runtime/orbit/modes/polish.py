@@ -13,7 +13,7 @@ _ITERATIONS = 12
 _ROUNDING_LIMITED = 1e-7
 _EPS = np.finfo(float).eps
 #: a step expected to be this small is not taken; steps as large as that after so many lead nowhere
-_SETTLED, _LOST, _LOST_AFTER = 2 * _EPS, 0.1, 6
+_SETTLED, _LOST, _LOST_AFTER = 2 * _EPS, 0.1, 4
 
 
 @dataclass(slots=True)
