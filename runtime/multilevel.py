@@ -12,8 +12,8 @@ from .inputs.surface import Level
 from .level.bare.surface import BareSurface, is_bare
 from .level.build import build_laws
 from .level.carried import CarriedByLaws, peak_pressure
-from .level.demand import demand_of
 from .level.effort import WorkCounters
+from .level.error_budget import error_budget
 from .level.inverse import Inverse, cut_penetration, invert
 from .level.means import level_means
 from .level.saturated import SaturatedLevel, saturated_friction, saturated_level
@@ -286,14 +286,14 @@ class _Solve:
         surface = self.surface
         p_max = np.full(V.size, -np.inf)
         np.maximum.at(p_max, group, peak_pressure(columns))
-        ceilings, demands = [], [demand_of(columns, group)]
+        ceilings, budgets = [], [error_budget(columns, group)]
         for i in range(1, self.M):
             ceilings.append(p_max)
             if i + 1 < self.M:
                 plain = surface.columns(i, V)
                 D = cut_penetration(plain, p_max, stack.D_full[i])
                 p_max = peak_pressure(surface.columns(i, V, D))
-                demands.append(None)
+                budgets.append(None)
         carry = None
         groups = np.arange(V.size)
         for i in range(self.M - 1, 0, -1):
@@ -306,7 +306,7 @@ class _Solve:
                 stack.D_full[i],
                 saturated,
                 ceilings[i - 1],
-                demands[i - 1],
+                budgets[i - 1],
             )
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error
             scales = np.concatenate((level_columns.scales[1:], [_NO_SCALE]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .curve import trace
-from .demand import Demand
+from .error_budget import ErrorBudget
 from .inverse import cut_penetration
 from .law import Law, laws_of
 from .strips import Columns
@@ -18,15 +18,15 @@ def build_laws(
     D_full: np.ndarray,
     saturated: np.ndarray,
     p_max: np.ndarray | None,
-    demand: Demand | None = None,
+    budget: ErrorBudget | None = None,
 ) -> list[Law]:
     """One law per column (its ``D`` is not used).
 
     ``p_full``, ``D_full`` (n,): where the level, and all it carries, is saturated; ``saturated`` (n, q): means there. ``p_max``
-    (n,): greatest pressure that will be asked for, or None for the whole law. ``demand``: how much its pressures count.
+    (n,): greatest pressure that will be asked for, or None for the whole law. ``budget``: how much its pressures count.
     """
     top = (
         D_full if p_max is None else np.where(p_max < p_full, cut_penetration(columns, np.minimum(p_max, p_full), D_full), D_full)
     )
-    curves = trace(columns, rtol, top, follow=True, demand=demand)
+    curves = trace(columns, rtol, top, follow=True, budget=budget)
     return laws_of(curves, columns.branch == "unloading", p_full, saturated, top < D_full)

@@ -13,11 +13,11 @@ import numpy as np
 from .appearance import is_inside, island, vanishing
 from .breaks import breakpoints, threshold_width
 from .chebyshev import Piece, flat_ended, interpolation_errors, lobatto
-from .demand import Demand
 from .effort import CURVE_LIMIT
 from .ends import with_gentle_ends
+from .error_budget import ErrorBudget
 from .interval import Interval
-from .rims import where_rims_hold
+from .reentrant import reentrant_parts
 from .sampling import MEAN, Batch
 from .strips import Columns, saturation_depth
 
@@ -68,12 +68,12 @@ class Sought:
 
 
 def trace(
-    columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None, follow: bool = False, demand: Demand | None = None
+    columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None, follow: bool = False, budget: ErrorBudget | None = None
 ) -> list[Curve]:
     """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``; of
     ``frictional`` columns pressure only as well as it takes for friction over pressure to be known to that.
 
-    ``follow``: below the penetration at which the crest lets go, only what unloading at a falling pressure comes to. ``demand``:
+    ``follow``: below the penetration at which the crest lets go, only what unloading at a falling pressure comes to. ``budget``:
     what is asked of every column's law; what hardly counts there is made coarser.
     """
     n = columns.size
@@ -83,11 +83,11 @@ def trace(
     intervals = [i for row in rows for i in row]
     hangs = lambda i: follow and i.high <= crest[i.column]  # noqa: E731
     below, above = [i for i in intervals if hangs(i)], [i for i in intervals if not hangs(i)]
-    pieces = interpolate(columns, rtol, above, strips, demand=demand)
+    pieces = interpolate(columns, rtol, above, strips, budget=budget)
     if below:
         least = np.array([min((piece.first(_GRID)[0].min() for piece in row), default=np.inf) for row in pieces])
-        comes = where_rims_hold(columns, rtol, below, least, strips, demand)
-        for row, more in zip(pieces, interpolate(columns, rtol, comes, strips, demand=demand, ceiling=least), strict=True):
+        comes = reentrant_parts(columns, rtol, below, least, strips, budget)
+        for row, more in zip(pieces, interpolate(columns, rtol, comes, strips, budget=budget, ceiling=least), strict=True):
             row += more
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
 
@@ -110,12 +110,12 @@ def interpolate(
     intervals: list[Interval],
     strips: np.ndarray,
     sought: Sought | None = None,
-    demand: Demand | None = None,
+    budget: ErrorBudget | None = None,
     ceiling: np.ndarray | None = None,
 ) -> list[list[Piece]]:
     """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work.
 
-    ``sought``: nothing counts but where the pressure passes a given one. ``demand``: how much the pressures of an interval count,
+    ``sought``: nothing counts but where the pressure passes a given one. ``budget``: how much the pressures of an interval count,
     those above the ``ceiling`` (Pa, per column) not at all.
     """
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
@@ -125,17 +125,17 @@ def interpolate(
         if not intervals:
             break
         limit = CURVE_LIMIT if k + 1 < _ROUNDS else -1
-        intervals = _round(columns, rtol, intervals, pieces, strips, sought, demand, ceiling, limit)
+        intervals = _round(columns, rtol, intervals, pieces, strips, sought, budget, ceiling, limit)
     return pieces
 
 
-def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, sought, demand, ceiling, limit) -> list[Interval]:
+def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, sought, budget, ceiling, limit) -> list[Interval]:
     """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not. Columns
     with more ``strips`` than the ``limit`` are taken as they are, with the spread of their values as error."""
     batch = Batch(columns, rtol, intervals, strips)
     batch.sample(_FIRST)
-    if demand is not None:
-        batch.weigh(demand, ceiling)
+    if budget is not None:
+        batch.weigh(budget, ceiling)
     floor = columns.floors
     parts: list[Interval] = []
     n, before = _FIRST, np.inf

@@ -10,8 +10,8 @@ from .grading import GENTLE, STEEP, Grading
 @dataclass(frozen=True)
 class Interval:
     """An interval of D of one column; ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end; ``gentle_low``,
-    ``gentle_high``: it seems to end smoothly enough there. ``ease``: how much coarser than what is asked of the column it may be.
-    ``even``: its parameters are shares of it, not graded towards its ends: enough for a look."""
+    ``gentle_high``: it seems to end smoothly enough there. ``tolerance_factor``: how much coarser than what is asked of the
+    column it may be. ``even``: its parameters are shares of it, not graded towards its ends: enough for a look."""
 
     column: int
     low: float
@@ -20,7 +20,7 @@ class Interval:
     soft_high: bool = False
     gentle_low: bool = False
     gentle_high: bool = False
-    ease: float = 1.0
+    tolerance_factor: float = 1.0
     even: bool = False
 
     def split(self, D: float, soft: bool) -> list[Interval]:

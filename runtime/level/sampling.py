@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from .chebyshev import flat_ended, lobatto
-from .demand import Demand
+from .error_budget import ErrorBudget
 from .interval import Interval
 from .means import level_means
 from .quadrature import interleaved
@@ -33,21 +33,22 @@ class Batch:
     @property
     def accuracy(self) -> np.ndarray:
         """What is asked of each interval."""
-        return self.rtol[self.column] * np.array([i.ease for i in self.intervals])
+        return self.rtol[self.column] * np.array([i.tolerance_factor for i in self.intervals])
 
     @property
     def coefficients(self) -> np.ndarray:
         """Of the interpolants through the values, (intervals, nodes, q)."""
         return flat_ended(self.values.shape[1] + 1) @ self.values
 
-    def weigh(self, demand: Demand, ceiling: np.ndarray | None) -> None:
+    def weigh(self, budget: ErrorBudget, ceiling: np.ndarray | None) -> None:
         """Let intervals be as coarse as what is asked of their pressures allows."""
         p, frictions = self.values[:, :, 0], self.columns.frictions
         # what an accuracy is relative to, of its own friction and all that it carries
         friction = (np.abs(self.values[:, :, frictions]).min(axis=1) + self.columns.floors[frictions]).sum(axis=1)
         high = p.max(axis=1) if ceiling is None else np.minimum(p.max(axis=1), ceiling[self.column])
         ranges = zip(self.intervals, p.min(axis=1), high, friction, strict=True)
-        self.intervals = [replace(i, ease=max(i.ease, demand.ease(i.column, *of))) for i, *of in ranges]
+        factors = [(i, max(i.tolerance_factor, budget.tolerance_factor(i.column, *of))) for i, *of in ranges]
+        self.intervals = [replace(i, tolerance_factor=factor) for i, factor in factors]
 
     def sample(self, n: int) -> None:
         """Go on to the interior nodes of ``lobatto(n)``, of which every other one is known, unless they are the first."""

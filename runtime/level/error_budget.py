@@ -1,9 +1,8 @@
-"""Which pressures a level asks of the level below it, and how much hangs on each: where next to nothing does, a law may be
-coarser.
+"""Error budget of a law: how coarse it may be at each pressure, by the share of the surface on which that pressure is met.
 
-A law's error counts as much as the share of the surface on which it is asked for. The strips of the level above are looked at by
-a plain sum: it is accuracy that is dealt out here, no result; what a law lacks shows in the error of what it carries
-(``carried``).
+Goal-oriented: a law's error counts as much as the part of the surface on which it is used. That part is had from a plain sum over
+the strips of the level above; it deals out accuracy and enters no result, and what a law lacks shows in the error of the friction
+it gives (``carried``).
 """
 
 from __future__ import annotations
@@ -15,18 +14,18 @@ import numpy as np
 from .quadrature import interior_nodes, mapped, mapped_weights
 from .strips import Columns
 
-#: strips across the cell and points along each contact
+#: strips across the cell and points along each contact: shares are needed to a factor of two or so
 _STRIPS, _POINTS = 24, 32
-#: a share is not known any better than this
+#: a share is not known any better than this: one point of one contact has about a thousandth
 _FINEST = 1e-6
-#: parts of a law that may each err by what the whole is allowed
+#: parts of a law that may each err by what the whole is allowed: mostly one or two branches are used
 _PARTS = 2
-#: no law is coarser than this, times what is asked
-_EASIEST = 1e6
+#: no law is coarser than this, times what is asked: beyond, at the finest tolerance too, nothing is asked at all
+_COARSEST_FACTOR = 1e6
 
 
 @dataclass(frozen=True)
-class Demand:
+class ErrorBudget:
     """Pressures of points of the level above. ``group`` (n,): the law that a point asks; ``p`` (n, m), Pa, ascending in every
     row, with the ``share`` (n, m) of the surface on which the pressure is at most that; ``friction`` (n,): Pa of friction that an
     error is held against."""
@@ -36,12 +35,12 @@ class Demand:
     share: np.ndarray
     friction: np.ndarray
 
-    def ease(self, group: int, low: float, high: float, friction: float) -> float:
+    def tolerance_factor(self, group: int, low: float, high: float, friction: float) -> float:
         """How much coarser than what is asked of the whole a law may be between the pressures ``low`` and ``high`` (Pa), where
         what it may err is relative to ``friction`` (Pa): by an error of that, and by one of the pressure at which it ends."""
         if not high > low:
-            return _EASIEST
-        least = _EASIEST
+            return _COARSEST_FACTOR
+        least = _COARSEST_FACTOR
         for i in np.flatnonzero(self.group == group):
             below, above = np.interp((low, high), self.p[i], self.share[i])
             part = _PARTS * max(above - below, _FINEST) * friction
@@ -50,8 +49,8 @@ class Demand:
         return max(least * min(width, 1.0), 1.0)
 
 
-def demand_of(columns: Columns, group: np.ndarray) -> Demand:
-    """What ``columns`` ask of the laws ``group`` (n,)."""
+def error_budget(columns: Columns, group: np.ndarray) -> ErrorBudget:
+    """Share of the surface of ``columns`` (n,) on which each pressure is met; ``group`` (n,): the law that each uses."""
     n = columns.size
     theta = np.pi * (np.arange(_STRIPS) + 0.5) / _STRIPS
     strips = columns.solve(np.repeat(np.arange(n), _STRIPS), np.tile(theta, n))
@@ -69,4 +68,4 @@ def demand_of(columns: Columns, group: np.ndarray) -> Demand:
     order = np.argsort(p, axis=1)
     p, share = (np.take_along_axis(v, order, axis=1) for v in (p, share))
     friction = np.abs(strips.tau_mean.reshape(n, _STRIPS).mean(axis=1))
-    return Demand(group, p, np.cumsum(share, axis=1), friction + columns.floors[1])
+    return ErrorBudget(group, p, np.cumsum(share, axis=1), friction + columns.floors[1])

@@ -10,7 +10,7 @@ from hystrip.level.branches import branches, rising
 from hystrip.level.cells import cells_of
 from hystrip.level.chebyshev import Piece
 from hystrip.level.curve import Curve
-from hystrip.level.demand import Demand
+from hystrip.level.error_budget import ErrorBudget
 from hystrip.level.law import Law
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
@@ -21,40 +21,40 @@ PRESSURE, V, RTOL = 100.0, np.array([5e-4, 2e-2]), 1e-5
 SLOW, FINE = np.array([5e-4, 8e-4]), 1e-6
 
 
-def demand(share, friction=1.0):
+def budget(share, friction=1.0):
     """One point that asks pressures from -1 to 1 Pa evenly on a ``share`` of the surface."""
-    return Demand(np.array([0]), np.array([[-1.0, 1.0]]), np.array([[0.0, share]]), np.array([friction]))
+    return ErrorBudget(np.array([0]), np.array([[-1.0, 1.0]]), np.array([[0.0, share]]), np.array([friction]))
 
 
 def test_what_is_asked_everywhere_is_not_coarser():
-    assert demand(1.0).ease(0, -1.0, 1.0, friction=1.0) == 1.0
+    assert budget(1.0).tolerance_factor(0, -1.0, 1.0, friction=1.0) == 1.0
 
 
 def test_what_is_asked_on_less_may_be_coarser_by_as_much():
-    one, tenth = (demand(share).ease(0, -1.0, 1.0, friction=0.01) for share in (0.1, 0.01))
+    one, tenth = (budget(share).tolerance_factor(0, -1.0, 1.0, friction=0.01) for share in (0.1, 0.01))
     assert tenth == pytest.approx(10 * one) and one > 1
 
 
 def test_a_narrow_range_has_to_be_found_in_pressure():
     """Half the range is asked half as often, but an error of pressure shifts twice as much of it: at the same size of pressure it
     is no easier."""
-    wide, narrow = demand(0.01).ease(0, -1.0, 1.0, 1e-3), demand(0.01).ease(0, 0.9, 1.0, 1e-3)
+    wide, narrow = budget(0.01).tolerance_factor(0, -1.0, 1.0, 1e-3), budget(0.01).tolerance_factor(0, 0.9, 1.0, 1e-3)
     assert narrow == pytest.approx(wide * 20 * 0.1)
 
 
 def test_the_most_demanding_point_of_a_group_counts():
-    both = Demand(np.array([0, 0, 1]), np.tile([-1.0, 1.0], (3, 1)), np.array([[0, 1e-4], [0, 1.0], [0, 1e-4]]), np.ones(3))
-    assert both.ease(0, -1, 1, 0.1) < both.ease(1, -1, 1, 0.1)
+    both = ErrorBudget(np.array([0, 0, 1]), np.tile([-1.0, 1.0], (3, 1)), np.array([[0, 1e-4], [0, 1.0], [0, 1e-4]]), np.ones(3))
+    assert both.tolerance_factor(0, -1, 1, 0.1) < both.tolerance_factor(1, -1, 1, 0.1)
 
 
 def test_pressures_nobody_asks_for_are_easiest():
-    assert demand(0.5).ease(0, 2.0, 1.0, 1.0) > 1e5 and demand(0.5).ease(0, 5.0, 6.0, 1e-9) > 1e4
+    assert budget(0.5).tolerance_factor(0, 2.0, 1.0, 1.0) > 1e5 and budget(0.5).tolerance_factor(0, 5.0, 6.0, 1e-9) > 1e4
 
 
 def _friction(monkeypatch=None, V=V, rtol=RTOL):
     if monkeypatch is not None:
         # every pressure asked for everywhere: no law is coarser than the result
-        monkeypatch.setattr(multilevel, "demand_of", lambda columns, group: None)
+        monkeypatch.setattr(multilevel, "error_budget", lambda columns, group: None)
     return hystrip.solve(MATERIAL, ADHESION, LEVELS, pressure=PRESSURE, velocity=V, rtol=rtol)
 
 

@@ -1,7 +1,7 @@
-"""Where the curve below the end of the crest falls under all it was before: there the rims of the cells hold on, and unloading
-jumps to them.
+"""Re-entrant branches below the fold of the crest: parts of the curve on which the rims of the cells still hold, under a pressure
+below all that came before, so that unloading jumps to them.
 
-A look at a few penetrations tells it to a few digits; what that leaves open is taken for coming, and only this has to be
+A rough sample of the curve tells where they are to a few digits; what it leaves open is kept, and only what is kept is
 interpolated.
 """
 
@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from .chebyshev import lobatto
-from .demand import Demand
+from .error_budget import ErrorBudget
 from .interval import Interval
 from .means import level_means
 from .sampling import MEAN
@@ -26,11 +26,11 @@ _DOUBT, _BEND = 2.0, 0.5
 _UNTOLD = 0.01
 
 
-def where_rims_hold(
-    columns: Columns, rtol, intervals: list[Interval], least: np.ndarray, strips, demand: Demand | None
+def reentrant_parts(
+    columns: Columns, rtol, intervals: list[Interval], least: np.ndarray, strips, budget: ErrorBudget | None
 ) -> list[Interval]:
     """The parts of the ``intervals`` that unloading may come to after the pressures ``least`` (Pa, per column), as far as they
-    count for the ``demand``."""
+    count for the ``budget``."""
     met, out = least.copy(), []
     for look, D, values, error in sorted(_looks(columns, intervals, strips), key=lambda look: -look[0].high):
         column, p = look.column, values[:, 0]
@@ -46,17 +46,16 @@ def where_rims_hold(
             if last == p.size - 1 and (p - _DOUBT * error)[first:last].min() > met[column]:
                 # the curve goes on from what was met, and rises
                 continue
-            ease = 1.0
-            if demand is not None:
+            tolerance_factor = 1.0
+            if budget is not None:
                 # all of the friction is missed where this is left out, its own and what it carries
                 friction = np.abs(values[nodes][:, columns.frictions]).max(axis=0).sum()
-                ease = demand.ease(column, floor[run].min(), before[run].max(), friction)
-            if _UNTOLD * ease * rtol[column] < 1.0:
+                tolerance_factor = budget.tolerance_factor(column, floor[run].min(), before[run].max(), friction)
+            if _UNTOLD * tolerance_factor * rtol[column] < 1.0:
                 soft = look.soft_low or first > 0, look.soft_high or last < p.size - 1
                 low, high = D[first] if first > 0 else look.low, D[last] if last < p.size - 1 else look.high
-                out.append(
-                    replace(look, low=float(low), high=float(high), soft_low=soft[0], soft_high=soft[1], ease=ease, even=False)
-                )
+                part = replace(look, low=float(low), high=float(high), soft_low=soft[0], soft_high=soft[1], even=False)
+                out.append(replace(part, tolerance_factor=tolerance_factor))
         met[column] = min(met[column], (p + error).min())
     return out
 
