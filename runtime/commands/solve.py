@@ -58,5 +58,8 @@ def command(
         show_friction(case, columns)
     if summary:
         say(result.summary())
+    else:
+        for note in result.notes:
+            say(f"note       {note}")
     for name in names:
         say(f"wrote {out / name}")
