@@ -143,7 +143,8 @@ class Result:
 
         Parameters
         ----------
-        kind : what is drawn. None: mu over velocity; over the load, if there is one velocity, tau, contact, penetration and mu.
+        kind : what is drawn. None: mu over velocity, with the contact below it for a single load; over the load, if there is one
+            velocity, tau, contact, penetration and mu.
             ``"mu"``, ``"tau"``, ``"contact"``: that alone, with every level's part.
             ``"map"``: the pressure over the cell of a level, contact and adhesion outlined.
             ``"strip"``: pressure, gap and tangential stresses along the strip of level 1 at ``y``.

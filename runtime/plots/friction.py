@@ -52,8 +52,9 @@ def friction(result: Result, kind: str | None = None) -> Figure:
     Parameters
     ----------
     result : a :class:`hystrip.Result` with at least two points
-    kind : ``"mu"``, ``"tau"`` or ``"contact"``, each with every level's part. None: mu over velocity; over the load all
-        three and the penetration, one above the other. At p = 0 the line of mu is broken: mu has a pole there
+    kind : ``"mu"``, ``"tau"`` or ``"contact"``, each with every level's part. None: over velocity mu and, for a single load, the
+        contact below it; over the load all three and the penetration, one above the other. At p = 0 the line of mu is broken:
+        mu has a pole there
 
     Returns
     -------
@@ -62,21 +63,25 @@ def friction(result: Result, kind: str | None = None) -> Figure:
     if np.size(result.mu) < 2:
         raise InputError("result", f"{np.size(result.mu)} point", "a result of two points or more: one point is no curve")
     if np.unique(result.velocity).size > 1:
-        return _over_velocity(result, _QUANTITIES[kind or "mu"])
+        one_load = np.size(result.mu) == np.shape(result.mu)[-1]
+        kinds = [kind] if kind else ["mu", "contact"] if one_load else ["mu"]
+        return _over_velocity(result, [_QUANTITIES[each] for each in kinds])
     other = "penetration" if result.load == "pressure" else "pressure"
     return _over_load(result, [_QUANTITIES[each] for each in ([kind] if kind else ["tau", "contact", other, "mu"])])
 
 
-def _over_velocity(result: Result, quantity: _Quantity) -> Figure:
+def _over_velocity(result: Result, quantities: list[_Quantity]) -> Figure:
+    """Panels one above the other: of several quantities, for one load; of several loads, for one quantity."""
     shape = np.shape(result.mu)
     rows = int(np.prod(shape[:-1], dtype=int))
     flat = lambda values: np.reshape(values, (rows, shape[-1]))  # noqa: E731
     velocity, load = flat(result.velocity), flat(getattr(result, result.load))
-    curves = _curves(result, quantity)
     shown = np.unique(np.linspace(0, rows - 1, min(rows, _PANELS)).round().astype(int))
-    panels = stacked(shown.size, COLUMN, (0.68 * shown.size + 0.1) * COLUMN)
-    unit = unit_for(quantity.unit, *(values for values, _, _ in curves))
-    for panel, row in zip(panels, shown, strict=True):
+    places = [(quantity, row) for row in shown for quantity in quantities]
+    panels = stacked(len(places), COLUMN, (0.68 * len(places) + 0.1) * COLUMN)
+    for panel, (quantity, row) in zip(panels, places, strict=True):
+        curves = _curves(result, quantity)
+        unit = unit_for(quantity.unit, *(values for values, _, _ in curves))
         order = np.argsort(velocity[row], kind="stable")
         _draw(panel, velocity[row][order], [(flat(v)[row][order], style, label) for v, style, label in curves], unit)
         _label(panel, quantity, unit)
