@@ -45,4 +45,4 @@ for h in data.h_2.values:
     panel.semilogx(line.velocity, 1e4 * line, label=f"$h_2$ = {h * 1e9:.0f} nm")
 panel.set_xlabel("sliding velocity (m/s)")
 panel.set_ylabel(r"friction coefficient ($10^{-4}$)")
-panel.legend(frameon=False)
+legend = panel.legend(frameon=False)
