@@ -1,4 +1,4 @@
-"""Means of pressure and friction of a strip (Eq. 10), in closed form in the edges: SymPy does the integrals per zone."""
+"""Means of pressure and friction of a strip (Eq. 11), in closed form in the edges: SymPy does the integrals per zone."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def zone_integrals(flows: Flows) -> ZoneIntegrals:
 
 
 def contact_integrals(flows: Flows) -> Derived:
-    r"""What Eq. 10 sums over a contact zone: :math:`\int p\,ds,\ \int u\,ds,\ \int p\,u'\,ds`."""
+    r"""What Eq. 11 sums over a contact zone: :math:`\int p\,ds,\ \int u\,ds,\ \int p\,u'\,ds`."""
     u, pressure = flows.strip.u, flows.contact.value
     value, checks = _integrated("integrals over contact", (pressure, u, pressure * sp.diff(u, s)))
     return derived(
@@ -40,14 +40,14 @@ def contact_integrals(flows: Flows) -> Derived:
         statement="What a contact zone adds to the sums of pressure, displacement and friction.",
         latex=r"\int_{s_0}^{s_1} p\,ds,\quad \int_{s_0}^{s_1} u\,ds,\quad \int_{s_0}^{s_1} p\,u'\,ds",
         checks=checks,
-        paper="Eq. 10",
+        paper="Eq. 11",
         status=REPRODUCED,
         emitted=("profile_integral", "contact_work"),
     )
 
 
 def relaxation_integrals(flows: Flows) -> Derived:
-    r"""What Eq. 10 sums over an adhesion or free zone: :math:`p\,(s_1-s_0),\ \int w\,ds,\ p\,[u]`."""
+    r"""What Eq. 11 sums over an adhesion or free zone: :math:`p\,(s_1-s_0),\ \int w\,ds,\ p\,[u]`."""
     u, displacement = flows.strip.u, flows.relaxation.value
     value, checks = _integrated("integrals over adhesion and free gap", (p, displacement, p * sp.diff(u, s)))
     return derived(
@@ -57,7 +57,7 @@ def relaxation_integrals(flows: Flows) -> Derived:
         statement="What a zone at constant pressure adds. Adhesion counts in both means.",
         latex=r"\int_{s_0}^{s_1} p\,ds = p\,(s_1 - s_0),\quad \int_{s_0}^{s_1} w\,ds,\quad p\,[u]_{s_0}^{s_1}",
         checks=checks,
-        paper="Eq. 10",
+        paper="Eq. 11",
         status=REPRODUCED,
         emitted=("relaxation_integral", "profile_rise"),
     )
@@ -74,7 +74,7 @@ def _integrated(name: str, integrands: tuple[sp.Expr, ...]) -> tuple[tuple[sp.Ex
 
 
 def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
-    r"""Eq. 10, over one period of s:
+    r"""Eq. 11, over one period of s:
 
     .. math:: \bar p = \frac1{2\pi}\oint p\,ds = \frac1{2\pi}\oint w\,ds,\qquad \bar\tau = \frac1{2\pi}\oint p\,u'\,ds
     """
@@ -120,7 +120,7 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
         ),
         latex=r"\bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds",
         checks=checks,
-        paper="Eq. 10",
+        paper="Eq. 11",
         status=REPRODUCED,
         emitted=(name,),
     )
@@ -128,7 +128,7 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
 
 
 def constant_means(regime: Regime) -> Kernel:
-    r"""Eq. 10 at rest, :math:`w = p` constant: :math:`\bar p = p,\ \bar\tau = 0`."""
+    r"""Eq. 11 at rest, :math:`w = p` constant: :math:`\bar p = p,\ \bar\tau = 0`."""
     name = f"means_{regime.sequence}"
     (zone,) = regime.zones
     u = stable.PROFILE(s, D)
@@ -143,7 +143,7 @@ def constant_means(regime: Regime) -> Kernel:
         statement=f"Means of a strip: {regime.title}.",
         latex=rf"\bar p = {sp.latex(zone.load)},\quad \bar\tau = 0",
         checks=checks,
-        paper="Eq. 10",
+        paper="Eq. 11",
         status=REPRODUCED,
         emitted=(name,),
     )

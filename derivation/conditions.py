@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from .check import REPRODUCED, Derived, derived, holds, zero
+from .check import BEYOND, CORRECTED, Derived, derived, holds, zero
 from .regime import Regime
 from .strip import TIMES, Strip
 from .surface import AMPLITUDE, HEIGHT, PENETRATION
@@ -32,8 +32,16 @@ def conditions(strip: Strip, discrete: Regime) -> Conditions:
     return Conditions(zone_conditions(strip.u), problem)
 
 
+SIGN_OF_6 = (
+    "The first of the three lines is printed as w = f + D. Eq. 8 and 15, as printed, follow from w = D - f alone: "
+    "with the printed "
+    "sign the foundation would be deepest where the surface is farthest from it. The other two lines, p = -p_0 and p = 0, are as "
+    "printed."
+)
+
+
 def zone_conditions(u: sp.Expr) -> Derived:
-    r"""Between Eq. 6 and 8, with the gap :math:`g = w - (D - f)`:
+    r"""Eq. 6, all three lines, with the gap :math:`g = w - (D - f)`:
 
     .. math:: g = 0,\ p \ge -p_0; \qquad 0 < g \le \delta_0,\ p = -p_0; \qquad g > \delta_0,\ p = 0
     """
@@ -44,6 +52,11 @@ def zone_conditions(u: sp.Expr) -> Derived:
     checks = [
         zero(name, "in the strip at y the gap is A (w - u)", sp.simplify(gap - in_strip)),
         zero(name, "it is zero where Eq. 6 holds, w = D - f", gap.subs(displacement, (D_level - HEIGHT) / AMPLITUDE)),
+        holds(
+            name,
+            "the printed w = f + D is deepest in the valleys of the surface: its cos kx term has the other sign",
+            _along(D_level + HEIGHT) == -_along(D_level - HEIGHT) != 0,
+        ),
     ]
     return derived(
         zone_conditions,
@@ -54,8 +67,14 @@ def zone_conditions(u: sp.Expr) -> Derived:
         latex=r"g = w - (D - f),\quad \{g = 0,\ p \ge -p_0\},\quad \{0 < g \le \delta_0,\ p = -p_0\},\quad "
         r"\{g > \delta_0,\ p = 0\}",
         checks=checks,
-        status=REPRODUCED,
+        paper="Eq. 6",
+        status=CORRECTED,
+        correction=SIGN_OF_6,
     )
+
+
+def _along(height: sp.Expr) -> sp.Expr:
+    return sp.expand(height).coeff(sp.cos(k * x))
 
 
 def strip_problem(strip: Strip, discrete: Regime) -> Derived:
@@ -104,7 +123,7 @@ def strip_problem(strip: Strip, discrete: Regime) -> Derived:
         latex=r"g(d) = \delta_0,\quad g(b) = 0,\quad p(b) = -p_0,\quad p(-a) = -p_0,\quad g(-c) = \delta_0,\quad "
         r"[w]_d = -\chi J_0 p_0,\quad [w]_{-c} = \chi J_0 p_0,\quad w(x + l) = w(x)",
         checks=checks,
-        status=REPRODUCED,
+        status=BEYOND,
         emitted=("residual_acaf",),
     )
 

@@ -38,7 +38,7 @@ def contact(flows: Flows) -> tuple[Kernel, ...]:
 def contact_state(flows: Flows) -> tuple[Kernel, ...]:
     r""":math:`\Delta z = [u] - J[p]` over contact, equal to :math:`\frac1\beta\int(p-u)\,ds`.
 
-    The work that Eq. 10 sums is :math:`\int p\,u'\,ds`.
+    The work that Eq. 11 sums is :math:`\int p\,u'\,ds`.
     """
     u, pressure = flows.strip.u, flows.contact.value
     rise = u.subs(s, s_1) - u.subs(s, s_0)
@@ -82,7 +82,7 @@ def contact_state(flows: Flows) -> tuple[Kernel, ...]:
             r"\int_{s_0}^{s_1} p\,u'\,ds",
             _short_and_wide(),
             zero("contact_work", "the antiderivative differentiates to p u'", sp.diff(work, s) - work_rate, phases=(s_0, s)),
-            paper="Eq. 10",
+            paper="Eq. 11",
         ),
     )
 

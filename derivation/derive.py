@@ -10,8 +10,9 @@ import sympy as sp
 
 from .averages import constant_means, strip_means, zone_integrals
 from .basis import Basis
-from .check import Derived
+from .check import Check, Derived
 from .conditions import conditions
+from .displays import displays
 from .energy import friction_balance, power_balance
 from .events import excess_event, gap_event
 from .flows import flows
@@ -21,14 +22,18 @@ from .jumps import jumps
 from .kernel import Kernel
 from .level import level
 from .links import links
+from .membership import require_member
 from .model import Model, foundation, require_admissible
 from .multilevel import multilevel
+from .paper import Comparison, comparisons
+from .paper.tags import require_all, require_tags
 from .regime import Regime
 from .regimes import regimes
 from .saturated import saturated
 from .stability import onset_slope, shift_of_events
 from .stack import stack
 from .strip import strip
+from .witness import witnesses
 from .zones import zones
 
 Progress = Callable[[str], None]
@@ -43,6 +48,7 @@ STAGES = (
     "means",
     "stability",
     "levels",
+    "print",
 )
 
 
@@ -54,6 +60,8 @@ class Derivation:
     stages: tuple[Any, ...]
     regimes: tuple[Regime, ...]
     sections: tuple[tuple[str, tuple[Kernel, ...]], ...]
+    comparisons: tuple[Comparison, ...]
+    displayed: dict[str, Check]  # by step: its LaTeX read back and compared
 
     @property
     def steps(self) -> tuple[Derived, ...]:
@@ -75,6 +83,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     """
     done = progress or (lambda stage: None)
     require_admissible(model)
+    require_member(model)
     ground = foundation(model)
     done("model")
     one_strip = strip(ground)
@@ -91,6 +100,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     whole = level(full)
     done("complete contact")
     table = regimes(zone, full.threshold.value)
+    solutions = witnesses(table)
     partial = [regime for regime in table if regime.edges]
     systems = tuple(k for regime in partial for k in system_kernels(regime, zone.kernels))
     done("regimes")
@@ -130,6 +140,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         whole,
         asked,
         table,
+        solutions,
         systems,
         integrals,
         means,
@@ -141,7 +152,14 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         pile,
         more,
     )
-    return Derivation(model, stages, table, sections)
+    exact = {kernel.formula.name: kernel.exact for _, kernels in sections for kernel in kernels}
+    values = {record.name: record.value for record in _records(stages)}
+    printed = comparisons(one_strip, exact, values)
+    read = displays(_records(stages), flow, exact["saturated_pressure"])
+    require_tags(_records(stages))
+    require_all(_records(stages))
+    done("print")
+    return Derivation(model, stages, table, sections, printed, read)
 
 
 def system_kernels(regime: Regime, zone_kernels: tuple[Kernel, ...]) -> tuple[Kernel, Kernel]:

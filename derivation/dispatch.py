@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from .derive import STAGES, Derivation, derive
+from .membership import require_member
 from .model import Model
 from .modes.derive import STAGES as STAGES_OF_MODES
 from .modes.derive import ModesDerivation, derive_modes
@@ -20,4 +21,5 @@ def stages_of(model: Model) -> tuple[str, ...]:
 
 def derive_any(model: Model, progress: Progress | None = None) -> AnyDerivation:
     """Derive and verify everything that follows from a model; raises :class:`DerivationError` for an inadmissible one."""
+    require_member(model)
     return derive_modes(model, progress) if model.series else derive(model, progress)

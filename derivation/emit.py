@@ -160,11 +160,12 @@ def _render(kind: str, concerning: str, **values: Any) -> str:
 
 
 def input_hash() -> str:
-    """Hash of everything that the generated files are made from: sources of the derivation, models and templates."""
+    """Hash of everything that the solvers are made from: sources of the derivation, models and templates, not the pages."""
     digest = hashlib.sha256()
     for path in sorted(HERE.rglob("*")):
-        if path.suffix in (".py", ".jinja") and "__pycache__" not in path.parts:
-            digest.update(path.relative_to(HERE).as_posix().encode() + b"\0" + path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
+        parts = path.relative_to(HERE).parts
+        if path.suffix in (".py", ".jinja") and not {"__pycache__", "pages", "audit"} & set(parts):
+            digest.update("/".join(parts).encode() + b"\0" + path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
     return digest.hexdigest()[:32]
 
 

@@ -91,7 +91,7 @@ def gap_flow(strip: Strip, displacement: sp.Expr) -> Derived:
         gap,
         name=name,
         statement="The gap between the foundation and the rigid profile is driven by the single harmonic H = u + beta u'.",
-        latex="g(s) = " + sp.latex(gap),
+        latex="g(s) = " + sp.latex(gap, symbol_names={gap_0: "g_{0}"}),
         checks=checks,
         status=BEYOND,
         emitted=("gap_after",),

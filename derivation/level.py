@@ -14,8 +14,8 @@ from .functions import Formula, hypot, stack_sum
 from .kernel import Kernel
 from .modes.tensor import generic
 from .saturated import MODULUS, Saturated
-from .surface import AMPLITUDE, PENETRATION, mean_over_wave
-from .symbols import A, D, D_j, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, y
+from .surface import AMPLITUDE, HEIGHT, PENETRATION, mean_over_wave
+from .symbols import A, D, D_j, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, s, x, y
 
 _si = (K, T_eps, T_sigma)
 ratio, pulsation, creep, slender = sp.symbols("ratio pulsation creep slender", positive=True)
@@ -38,8 +38,15 @@ def level(saturated: Saturated) -> Level:
     penetration = saturation_penetration(saturated.threshold.value)
     pressure = saturation_pressure(penetration.exact, mean_p)
     friction = saturation_friction(mean_tau)
-    stack = stack_friction(friction.exact)
+    field = next(kernel.exact for kernel in saturated.kernels if kernel.formula.name == "saturated_pressure")
+    stack = stack_friction(friction.exact, field)
     return Level((penetration, pressure, friction, stack), printed_equation_16(friction.exact))
+
+
+def in_si(field: sp.Expr) -> sp.Expr:
+    """A pressure of complete contact in a strip, given in units of K A over the phase, as a field of x and y in SI."""
+    times = {alpha: TIMES[alpha], beta: TIMES[beta]}
+    return sp.expand(sp.simplify(K * AMPLITUDE * field.subs({D: PENETRATION / AMPLITUDE, s: -k * x}).subs(times)))
 
 
 def over_strips(quantity: sp.Expr) -> sp.Expr:
@@ -129,8 +136,8 @@ def saturation_friction(mean_tau: sp.Expr) -> Kernel:
     )
 
 
-def stack_friction(one_level: sp.Expr) -> Kernel:
-    r"""Eq. 16, corrected: :math:`\mu = \frac1{p_1}\sum_i \tau_{sat}(h_i, l_i)`."""
+def stack_friction(one_level: sp.Expr, field: sp.Expr) -> Kernel:
+    r"""Eq. 16, corrected: :math:`\mu = \frac1{p_1}\sum_i \tau_{sat}(h_i, l_i)`. ``field``: Eq. 15 in a strip."""
     name = "saturated_stack_friction"
     exact = stack_sum(one_level) / p_nominal
     formula = Formula(
@@ -139,11 +146,22 @@ def stack_friction(one_level: sp.Expr) -> Kernel:
         3 * sp.pi**2 / 16 * stack_sum(K * creep * slender**2 / (1 + alpha**2)) / p_nominal,
         _SLENDER,
     )
+    pressed = in_si(field)
+    load, shear = (mean_over_wave(mean_over_wave(part, x), y) for part in (pressed, pressed * sp.diff(HEIGHT, x)))
+    labels = dict(formula.steps)
+    levels = [{symbol: sp.Symbol(f"{symbol}_{i}", positive=True) for symbol in (h, l)} for i in (1, 2, 3)]
+    summed = formula.result.replace(stack_sum, lambda term: sum(term.xreplace(labels).subs(level) for level in levels))
     checks = [
+        zero(name, "Eq. 15 in Eq. 10, averaged over the cell, is tau_sat", sp.simplify(shear.subs(WAVE) - one_level)),
         zero(
             name,
-            "complete contact on every level: the means do not depend on the pressure, so the levels add (Eq. 12-14)",
-            sp.diff(one_level, p_nominal),
+            "pressed deeper by dD a level in complete contact carries K dD more and has the same friction: the levels add",
+            [sp.diff(load, D_level) - K, sp.simplify(sp.diff(shear, D_level))],
+        ),
+        zero(
+            name,
+            "three levels: the emitted sum is that of their friction coefficients",
+            sp.simplify(summed - sum(one_level.subs(level) for level in levels) / p_nominal),
         ),
     ]
     return _kernel(

@@ -9,8 +9,9 @@ from typing import Any
 import sympy as sp
 
 from .check import BEYOND, CORRECTED, REPRODUCED, Check, DerivationError, Derived, derived, holds, zero
+from .membership import constant_coefficients
+from .symbols import rate
 
-rate = sp.Symbol("rate")  # stands for d/dt in the operators
 omega = sp.Symbol("omega", positive=True)
 
 
@@ -121,10 +122,7 @@ def foundation_law(model: Model) -> Derived:
     name = "foundation law"
     time = sp.Symbol("t", real=True)
     w, p = sp.Function("w")(time), sp.Function("p")(time)
-    law = _applied(model.Q, w, time) - _applied(model.P, p, time)
-    mode = sp.exp(rate * time)
-    substituted = law.subs({w: mode, p: model.transfer() * mode}).doit()
-    checks = [zero(name, "w = exp(rate t), p = (Q/P) w solves the law for any rate", sp.simplify(substituted))]
+    checks = [constant_coefficients(name, model)]
     equation = sp.Eq(_applied(model.Q, w, time), _applied(model.P, p, time))
     return law_record(foundation_law, equation, sp.latex(equation), checks)
 
@@ -181,6 +179,8 @@ def instantaneous_compliance(model: Model) -> Derived:
     compliance = sp.limit(1 / model.transfer(), rate, sp.oo)
     top = len(model.Q) - 1
     checks = [zero(name, "J_0 Q_n = P_n: the highest derivatives balance", compliance * model.Q[top] - model.P[top])]
+    if top == 1:
+        checks.append(_creep(name, model, compliance))
     return derived(
         instantaneous_compliance,
         compliance,
@@ -189,6 +189,17 @@ def instantaneous_compliance(model: Model) -> Derived:
         latex=rf"J_0 = \lim_{{s\to\infty}} \frac{{P(s)}}{{Q(s)}} = {sp.latex(compliance)}",
         checks=checks,
     )
+
+
+def _creep(name: str, model: Model, compliance: sp.Expr) -> Check:
+    """The law solved by SymPy under a pressure that is put on at once."""
+    time, load = sp.symbols("t p", positive=True)
+    w = sp.Function("w")
+    law = sp.Eq(_applied(model.Q, w(time), time), model.P[0] * load)
+    crept = sp.dsolve(law, w(time), ics={w(0): compliance * load}).rhs
+    claim = "put under p at once, w creeps from J_0 p to p/K, with 1/K = P(0)/Q(0)"
+    left = [crept.subs(time, 0) - compliance * load, sp.limit(crept, time, sp.oo) - load / model.transfer(sp.Integer(0))]
+    return zero(name, claim, left)
 
 
 def admissibility(model: Model) -> Derived:

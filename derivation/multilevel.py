@@ -1,4 +1,4 @@
-"""A level that carries another: local shear, means, friction coefficient (Eq. 11 to 14).
+"""A level and what it carries: local stress, means, local shear, friction coefficient (Eq. 10 to 14).
 
 The recursion itself is run by the runtime, over solved strips. What it has to compute is derived here: the shear from the
 power of sliding, what a strip carries in its contact, and the coefficient, which in complete contact is Eq. 16.
@@ -6,29 +6,34 @@ power of sliding, what a strip carries in its contact, and the coefficient, whic
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import sympy as sp
 
 from .averages import ZoneIntegrals
-from .check import REPRODUCED, Check, Derived, derived, zero
-from .functions import stack_sum, written_out
+from .check import CORRECTED, REPRODUCED, Check, Derived, derived, zero
+from .functions import stack_sum
 from .kernel import Kernel
-from .level import Level, over_strips
-from .regime import ADHESION, CONTACT, PERIOD, Regime
+from .level import WAVE, Level, in_si, over_strips
+from .load import contact_area, equilibrium
+from .regime import Regime
 from .saturated import Saturated
+from .sequences import ADHESION, CONTACT, FREE, PERIOD
 from .strip import Strip
 from .surface import AMPLITUDE, HEIGHT, PENETRATION, mean_over_wave
-from .symbols import D, D_level, K, V, beta, h, k, l, p_0, p_nominal, q_0, s, s_0, s_1, t, x, y
+from .symbols import D, D_level, J, K, L, V, beta, h, k, l, p_0, p_nominal, s, s_0, s_1, t, x, y
 
-tau_below, slope_x = sp.symbols("tau_M f_x", real=True)
+tau_below, slope_x, pressure, unknown = sp.symbols("tau_M f_x p tau", real=True)
 
 
 @dataclass(frozen=True)
 class Multilevel:
     """Stage 7: what the levels of a surface have to do with one another."""
 
+    load: Derived  # Eq. 7
+    area: Derived  # Eq. 9
+    stress: Derived  # Eq. 10
     means: Derived  # Eq. 11
     shear: Derived  # Eq. 12
     carried: Derived  # Eq. 13
@@ -44,11 +49,52 @@ def multilevel(
     integrals: ZoneIntegrals,
 ) -> Multilevel:
     exact = {kernel.formula.name: kernel.exact for kernel in (*saturated.kernels, *whole.kernels, *means)}
+    field = exact["saturated_pressure"]
     return Multilevel(
-        means_over_a_level(exact["saturated_pressure"], saturated.means.exact),
-        local_shear(strip.u),
-        carried_friction(strip, regimes, exact, integrals),
-        friction_coefficient(exact["level_saturation_friction"], exact["saturated_stack_friction"]),
+        equilibrium(regimes, exact, integrals),
+        contact_area(regimes),
+        local_stress(strip.u, field, dashpot_loss(strip.u, field)),
+        means_over_a_level(field, saturated.means.exact),
+        local_shear(),
+        carried_friction(strip, regimes),
+        friction_coefficient(field, exact["level_saturation_friction"], exact["saturated_stack_friction"]),
+    )
+
+
+def dashpot_loss(u: sp.Expr, field: sp.Expr) -> sp.Expr:
+    r"""Loss of one period, :math:`\frac{\beta}{L}\oint z'^2 ds` with :math:`z = u - J p`."""
+    return beta / L * sp.integrate(sp.expand(sp.diff(u - J * field, s) ** 2), (s, 0, PERIOD))
+
+
+def local_stress(u: sp.Expr, field: sp.Expr, lost: sp.Expr) -> Derived:
+    r"""Eq. 10: :math:`\tau(x, y) = p\,f_x`, the shear at a point of one level.
+
+    ``field``: Eq. 15 in a strip; ``lost``: what the dashpots lose with it in a period.
+    """
+    name = "local stress"
+    slope = sp.diff(HEIGHT, x)
+    stress = pressure * slope
+    work = sp.integrate(sp.expand(field * sp.diff(u, s)), (s, 0, PERIOD))
+    checks = [
+        zero(name, "a point of the foundation in contact yields at the rate w_t = V f_x", yielding() - V * slope),
+        zero(
+            name,
+            "it is the stress whose power V tau is the power p w_t of the pressure on the foundation",
+            sp.solve(V * unknown - pressure * yielding(), unknown)[0] - stress,
+        ),
+        zero(name, "in a strip f_x is k A u': its mean is that of p u'", slope - k * AMPLITUDE * sp.diff(u, s).subs(s, -k * x)),
+        zero(name, "in complete contact its work over a period is what the dashpots lose", work - lost),
+    ]
+    return derived(
+        local_stress,
+        stress,
+        name=name,
+        statement="The pressure acts on the slope of the surface: per nominal area it resists the motion with p f_x. In front of "
+        "a crest, f_x > 0, pressure resists; behind it, pressure drives and the traction of adhesion resists.",
+        latex=r"\tau(x, y) = p(x, y)\,\frac{\partial f}{\partial x}",
+        checks=checks,
+        paper="Eq. 10",
+        status=REPRODUCED,
     )
 
 
@@ -87,24 +133,16 @@ def means_over_a_level(pressure: sp.Expr, means: tuple[sp.Expr, sp.Expr]) -> Der
     )
 
 
-def local_shear(u: sp.Expr) -> Derived:
+def local_shear() -> Derived:
     r"""Eq. 12: :math:`\tau_{M-1}(x, y) = p\,f_x + \tau_M[p]` in contact."""
     name = "local shear"
-    pressure, fixed = sp.symbols("p X", real=True)
     shear = pressure * slope_x + tau_below
-    slope = sp.diff(HEIGHT, x)
-    yields = sp.diff((D_level - HEIGHT).subs(x, fixed - V * t), t).subs(fixed, x + V * t)  # w_t of a point in contact
+    resisted = pressure * yielding() + V * tau_below  # power per area: of the pressure, and lost on the levels below
     checks = [
-        zero(name, "a point of the foundation in contact yields at the rate w_t = V f_x", yields - V * slope),
         zero(
             name,
-            "power: V tau is p w_t, what the pressure does on the foundation, and V tau_M, what the levels below dissipate",
-            V * shear.subs(slope_x, slope) - pressure * yields - V * tau_below,
-        ),
-        zero(
-            name,
-            "in a strip f_x is k A u': the first term is the p u' of Eq. 10",
-            slope - k * AMPLITUDE * sp.diff(u, s).subs(s, -k * x),
+            "it is the shear whose power V tau is that of the pressure on the foundation and that lost on the levels below",
+            sp.solve(V * unknown - resisted, unknown)[0] - shear.subs(slope_x, sp.diff(HEIGHT, x)),
         ),
     ]
     return derived(
@@ -117,11 +155,19 @@ def local_shear(u: sp.Expr) -> Derived:
         latex=r"\tau_{M-1}(x, y) = p\,f_x + \tau_M[p]",
         checks=checks,
         paper="Eq. 12",
-        status=REPRODUCED,
+        status=CORRECTED,
+        correction=CONTACT_ALONE,
     )
 
 
-def carried_friction(strip: Strip, regimes: Sequence[Regime], means: Mapping[str, sp.Expr], integrals: ZoneIntegrals) -> Derived:
+CONTACT_ALONE = (
+    "Printed for every point of the cell. Where level M-1 does not touch, p = 0 or p = -p_0, level M does not touch "
+    "either, but its "
+    "law at p = 0 is not zero with adhesion: the printed form adds tau_M[0] there. The paper's own Fig. 5 has no stress there."
+)
+
+
+def carried_friction(strip: Strip, regimes: Sequence[Regime]) -> Derived:
     r"""Eq. 13:
 
     .. math:: \bar\tau_{M-1} = \frac{1}{l^2}\iint p\,f_x\,dx\,dy + \frac{1}{l^2}\iint_{contact} \tau_M[p]\,dx\,dy
@@ -134,14 +180,10 @@ def carried_friction(strip: Strip, regimes: Sequence[Regime], means: Mapping[str
             "in contact p - p* is driven by one harmonic, H - p*, for every p*: p passes p* at most once up and once down",
             _above_a_pressure(strip),
         ),
-        *(
-            zero(
-                name,
-                f"a law tau_M = c p below: {regime.sequence} carries c (mean p + p_0 times the part of the period in adhesion)",
-                _proportional(regime, means[f"means_{regime.sequence}"][0], integrals),
-                phases=regime.edges,
-            )
-            for regime in touching
+        zero(
+            name,
+            "over the whole cell the printed form has more: tau_M[0] times the free part, tau_M[-p_0] times the part in adhesion",
+            [_beyond_contact(regime) for regime in touching],
         ),
     ]
     return carried_record(carried_friction, checks, ("excess_after", "excess_after_slope"))
@@ -160,39 +202,50 @@ def carried_record(by: Callable, checks: Sequence[Check], emitted: tuple[str, ..
         r"\quad \frac{1}{l} \int_{-a}^{b} \tau_M[p]\,dx = \frac{1}{2\pi} \int_b^a \tau_M[p(s)]\,ds",
         checks=checks,
         paper="Eq. 13",
-        status=REPRODUCED,
+        status=CORRECTED,
+        correction=CONTACT_ALONE,
         emitted=emitted,
     )
 
 
-def friction_coefficient(one_level: sp.Expr, stack: sp.Expr, own: Sequence[sp.Symbol] = (h, l)) -> Derived:
-    r"""Eq. 14: :math:`\mu = \tau_1/p_1`, with :math:`\tau_1` from the recursion of Eq. 13. ``own``: what differs by level."""
+def friction_coefficient(field: sp.Expr, one_level: sp.Expr, stack: sp.Expr, own: Sequence[sp.Symbol] = (h, l)) -> Derived:
+    r"""Eq. 14: :math:`\mu = \tau_1/p_1`, with :math:`\tau_1` from the recursion of Eq. 13.
+
+    ``field``: Eq. 15 in a strip; ``own``: what differs by level.
+    """
     name = "friction coefficient"
-    tau_1 = sp.Symbol("tau_1", real=True)
-    coefficient = tau_1 / p_nominal
-    levels = [{symbol: sp.Symbol(f"{symbol}_{i}", positive=True) for symbol in own} for i in (1, 2, 3)]
-    shear = sp.Integer(0)
-    for level in reversed(levels):  # from the smallest up; in complete contact it is carried everywhere
-        shear = one_level.subs(level) + shear
+    upper, lower = ({symbol: sp.Symbol(f"{symbol}_{i}", positive=True) for symbol in own} for i in (1, 2))
+    pressed = in_si(field)
+    shear = pressed * sp.diff(HEIGHT, x) + one_level.subs(lower)  # Eq. 12 in complete contact, where the law below is constant
+    both = stack.replace(stack_sum, lambda term: sum(term.subs(level) for level in (upper, lower)))
+    load, friction = (mean_over_wave(mean_over_wave(part, x), y).subs(WAVE).subs(upper) for part in (pressed, shear))
     checks = [
         zero(
             name,
-            "three levels in complete contact: the recursion gives Eq. 16, corrected",
-            coefficient.subs(tau_1, shear) - stack.replace(stack_sum, lambda term: sum(term.subs(level) for level in levels)),
+            "Eq. 12 with Eq. 15 on level 1 and the law of level 2, averaged over the cell and divided by its load: "
+            "Eq. 16, corrected",
+            sp.simplify(friction / load - both.subs(p_nominal, load)),
         )
     ]
     return derived(
         friction_coefficient,
-        coefficient,
-        name=name,
+        sp.Symbol("tau_1", real=True) / p_nominal,
+        name="friction coefficient",
         statement="The shear of the largest level, which holds what all levels contribute, over its nominal pressure. The load "
         "is that of the largest level: the smaller ones enter through the shear alone.",
         latex=r"\mu = \frac{\tau_1}{p_1}",
         checks=checks,
         paper="Eq. 14",
-        status=REPRODUCED,
+        status=CORRECTED,
+        correction=CONTACT_ALONE,
         emitted=("saturated_stack_friction",),
     )
+
+
+def yielding() -> sp.Expr:
+    """Rate w_t at which a point of the foundation in contact yields, from w = D - f(X - V t, y), at x = X - V t."""
+    fixed = sp.Symbol("X", real=True)
+    return sp.diff((D_level - HEIGHT).subs(x, fixed - V * t), t).subs(fixed, x + V * t)
 
 
 def _equal_strips(mean: sp.Expr, number: int) -> sp.Expr:
@@ -209,13 +262,11 @@ def _above_a_pressure(strip: Strip) -> sp.Expr:
     return sp.expand((harmonic - above).doit() - strip.law(strip.u, pressure).doit())
 
 
-def _proportional(regime: Regime, mean_p: sp.Expr, integrals: ZoneIntegrals) -> sp.Expr:
-    """Pressure summed over contact, against the mean pressure that is emitted; the closing balance is zero on an orbit."""
-    summed = adhesion = sp.Integer(0)
+def _beyond_contact(regime: Regime) -> sp.Expr:
+    """The law over the whole period, less over contact, less what is said of the rest: the parts of a period make it up."""
+    law, over = sp.Function("tau_M"), {CONTACT: sp.Integer(0), ADHESION: sp.Integer(0), FREE: sp.Integer(0)}
     for zone in regime.zones:
-        if zone.kind == CONTACT:
-            edges = {s_0: zone.first, s_1: zone.last, q_0: zone.entry}
-            summed += integrals.contact.value[0].subs(edges, simultaneous=True)
-        elif zone.kind == ADHESION:
-            adhesion += zone.last - zone.first
-    return written_out(summed) - PERIOD * mean_p - p_0 * adhesion - beta * written_out(regime.closing)
+        over[zone.kind] += zone.last - zone.first
+    rest = sum(law(zone.load) * (zone.last - zone.first) for zone in regime.zones if zone.kind != CONTACT)
+    free = PERIOD - over[CONTACT] - over[ADHESION]
+    return sp.expand(rest - law(sp.Integer(0)) * free - law(-p_0) * over[ADHESION])

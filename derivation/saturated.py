@@ -131,7 +131,7 @@ def field_kernels(flows: Flows, modulus: tuple[sp.Expr, sp.Expr]) -> tuple[Kerne
 
 
 def means(flows: Flows, pressure: sp.Expr) -> Kernel:
-    r"""Eq. 10 in complete contact: :math:`\bar p = D - 1`, :math:`\bar\tau = \frac12\mathrm{Im}\,K^*/K`."""
+    r"""Eq. 11 in complete contact: :math:`\bar p = D - 1`, :math:`\bar\tau = \frac12\mathrm{Im}\,K^*/K`."""
     name = "means_c"
     u = flows.strip.u
     mean_p = sp.integrate(sp.expand(pressure), (s, 0, 2 * sp.pi)) / (2 * sp.pi)
@@ -154,7 +154,7 @@ def means(flows: Flows, pressure: sp.Expr) -> Kernel:
             statement="Means of pressure and friction of a strip in complete contact.",
             latex=r"\bar p = D - 1,\quad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds = \frac{L\beta}{2(1 + \alpha^2)}",
             checks=checks,
-            paper="Eq. 10",
+            paper="Eq. 11",
             status=REPRODUCED,
             emitted=(name,),
         ),

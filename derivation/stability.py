@@ -46,9 +46,12 @@ def shift_of_events() -> Derived:
         shift_of_events,
         None,
         name=name,
-        statement="The derivatives of a zone's flow by its two edges are loads: what drives the event function there.",
-        latex=r"\frac{ds_1}{ds_0} = \frac{H_0 + g_0 - p}{H_1 + g_1 - p}\,e^{-(s_1 - s_0)/\beta}"
-        r"\quad\text{or}\quad \frac{H_0 + p_0 - q_0}{H_1 + p_0 - q_1}\,e^{-(s_1 - s_0)/\alpha}",
+        statement="The derivatives of a zone's flow F by its two edges are loads: what drives the event function there. The edge "
+        "where the zone ends moves by minus their quotient.",
+        latex=r"\frac{\partial g/\partial s_0}{\partial g/\partial s_1} = "
+        r"-\frac{H(s_0) + g_0 - p}{H(s_1) + g(s_1) - p}\,e^{-(s_1 - s_0)/\beta},"
+        r"\quad \frac{\partial q/\partial s_0}{\partial q/\partial s_1} = "
+        r"-\frac{H(s_0) + p_0 - q_0}{H(s_1) + p_0 - q(s_1)}\,e^{-(s_1 - s_0)/\alpha}",
         checks=checks,
     )
 

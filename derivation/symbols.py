@@ -6,6 +6,8 @@ pressures in units of ``K A``, and the phase ``s = -k x``, which grows in the ti
 
 import sympy as sp
 
+rate = sp.Symbol("rate")  # stands for d/dt in the operators of a model
+
 # Surface and motion (SI)
 x, y, t = sp.symbols("x y t", real=True)
 V, k, l, h, A, K = sp.symbols("V k l h A K", positive=True)  # noqa: E741

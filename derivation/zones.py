@@ -130,7 +130,7 @@ def gap(flows: Flows) -> tuple[Kernel, ...]:
 
 
 def relaxation(flows: Flows) -> tuple[Kernel, ...]:
-    r""":math:`w(s_1)`, its change, and :math:`\int w\,ds` (Eq. 10), under a constant pressure."""
+    r""":math:`w(s_1)`, its change, and :math:`\int w\,ds` (Eq. 11), under a constant pressure."""
     w = flows.relaxation.value
     after = w.subs(s, s_1)
     change = (after - w_0).subs(w_0, p + lag_0)
@@ -172,6 +172,6 @@ def relaxation(flows: Flows) -> tuple[Kernel, ...]:
                 p * (s_1 - s_0) - total - beta * (after - w_0),
                 phases=(s_0, s_1),
             ),
-            paper="Eq. 10",
+            paper="Eq. 11",
         ),
     )

@@ -1,4 +1,4 @@
-"""Means of a strip with n modes (Eq. 10): the integrals of the zones, summed."""
+"""Means of a strip with n modes (Eq. 11): the integrals of the zones, summed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .symbols import J_0
 
 
 def strip_means() -> Derived:
-    r"""Eq. 10, over one period of s:
+    r"""Eq. 11, over one period of s:
 
     .. math:: \bar p = \frac1{2\pi}\oint p\,ds = \frac1{2\pi}\oint w\,ds,\qquad \bar\tau = \frac1{2\pi}\oint p\,u'\,ds
     """
@@ -34,7 +34,7 @@ def strip_means() -> Derived:
         "no large terms that cancel; the friction is the work of p on the profile, zone by zone. Adhesion counts in both.",
         latex=r"\bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds",
         checks=checks,
-        paper="Eq. 10",
+        paper="Eq. 11",
         status=REPRODUCED,
         emitted=tuple(f"means_{sequence}" for sequence in ("acaf", "afc", "af", "ac", "a", "f")),
     )

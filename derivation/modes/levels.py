@@ -1,4 +1,4 @@
-"""A level that carries another, on a foundation with n relaxation times (Eq. 11 to 14).
+"""A level and what it carries, on a foundation with n relaxation times (Eq. 7, 9 to 14).
 
 As in :mod:`..multilevel`; what differs is why the pressure passes a value at most once either way.
 """
@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..check import Check, Derived, zero
-from ..multilevel import Multilevel, carried_record, friction_coefficient, local_shear, means_over_a_level
+from ..check import Derived, zero
+from ..load import balance_of_load, contact_area
+from ..multilevel import Multilevel, carried_record, friction_coefficient, local_shear, local_stress, means_over_a_level
 from ..sequences import ADHESION, CONTACT, PERIOD
 from ..symbols import D, alpha, h, l, p_0, s, s_0
 from .flows import ModeFlows, u
@@ -18,18 +19,22 @@ from .symbols import eta, f_0
 
 
 def mode_levels(flows: ModeFlows, complete: Complete, regimes: tuple[ModeRegime, ...]) -> Multilevel:
-    """Eq. 11 to 14 for a foundation with n relaxation times."""
-    storage, loss = sp.Symbol("storage", real=True), R_LOSS
-    pressure = D - 1 + storage * sp.cos(s) - loss * sp.sin(s)  # Eq. 15, as in complete.threshold
+    """Eq. 7 and 9 to 14 for a foundation with n relaxation times."""
+    storage = sp.Symbol("storage", real=True)
+    pressure = D - 1 + storage * sp.cos(s) - R_LOSS * sp.sin(s)  # Eq. 15, as in complete.threshold
+    touching = tuple(regime for regime in regimes if regime.edges and any(z.kind == CONTACT for z in regime.zones))
     return Multilevel(
+        equilibrium(touching),
+        contact_area(touching),
+        local_stress(u, pressure, sp.pi * R_LOSS),
         means_over_a_level(pressure, complete.means.value),
-        local_shear(u),
-        carried_friction(flows, regimes),
-        friction_coefficient(complete.friction.value, complete.stack.value, (h, l, R_LOSS)),
+        local_shear(),
+        carried_friction(flows),
+        friction_coefficient(pressure, complete.friction.value, complete.stack.value, (h, l, R_LOSS)),
     )
 
 
-def carried_friction(flows: ModeFlows, regimes: tuple[ModeRegime, ...]) -> Derived:
+def carried_friction(flows: ModeFlows) -> Derived:
     r"""Eq. 13:
 
     .. math:: \bar\tau_{M-1} = \frac{1}{l^2}\iint p\,f_x\,dx\,dy + \frac{1}{l^2}\iint_{contact} \tau_M[p]\,dx\,dy
@@ -51,18 +56,18 @@ def carried_friction(flows: ModeFlows, regimes: tuple[ModeRegime, ...]) -> Deriv
             "positive, so p passes any p* at most once up and once down",
             flow - harmonic - (f_0 - harmonic.subs(s, s_0)) * sp.exp(-(s - s_0) / alpha),
         ),
-        *(_proportional(name, regime) for regime in regimes if regime.edges and any(z.kind == CONTACT for z in regime.zones)),
     ]
     return carried_record(carried_friction, checks, ("excess_event",))
 
 
-def _proportional(name: str, regime: ModeRegime) -> Check:
+def equilibrium(touching: tuple[ModeRegime, ...]) -> Derived:
+    r"""Eq. 7: :math:`\bar p = \frac{1}{l^2}\iint_{\Omega} p\,dx\,dy`, over contact and adhesion."""
+    return balance_of_load(equilibrium, touching, [_unbalanced(regime) for regime in touching])
+
+
+def _unbalanced(regime: ModeRegime) -> sp.Expr:
     """Pressure summed over contact, against that over the period, which is 2 pi times the mean."""
     mean = sp.Symbol("p_mean", real=True)
     outside = sum(zone.pressure * (zone.last - zone.first) for zone in regime.zones if zone.kind != CONTACT)
     adhesion = sum(zone.last - zone.first for zone in regime.zones if zone.kind == ADHESION)
-    return zero(
-        name,
-        f"a law tau_M = c p below: {regime.sequence} carries c (mean p + p_0 times the part of the period in adhesion)",
-        sp.expand(PERIOD * mean - outside - (PERIOD * mean + p_0 * adhesion)),
-    )
+    return sp.expand(PERIOD * mean - outside - (PERIOD * mean + p_0 * adhesion))

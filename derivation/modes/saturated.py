@@ -134,7 +134,7 @@ def threshold() -> Derived:
 
 
 def saturated_means() -> Derived:
-    r"""Eq. 10 in complete contact: :math:`\bar p = D - 1`, :math:`\bar\tau = \frac12\mathrm{Im}\,K^*/K`."""
+    r"""Eq. 11 in complete contact: :math:`\bar p = D - 1`, :math:`\bar\tau = \frac12\mathrm{Im}\,K^*/K`."""
     name = "means_c"
     storage, loss = sp.Symbol("storage", real=True), R_LOSS
     pressure = D - 1 + storage * sp.cos(s) - loss * sp.sin(s)
@@ -150,7 +150,7 @@ def saturated_means() -> Derived:
         statement="Means of pressure and friction of a strip in complete contact.",
         latex=r"\bar p = D - 1,\quad \bar\tau = \tfrac12 \mathrm{Im}\,K^*(ikV)/K",
         checks=checks,
-        paper="Eq. 10",
+        paper="Eq. 11",
         status=REPRODUCED,
         emitted=("means_c",),
     )

@@ -88,7 +88,7 @@ def relaxation(flows: ModeFlows) -> tuple[Kernel, ...]:
             "Displacement summed over the zone.",
             r"\int_{s_0}^{s_1} w\,ds",
             zero("relaxation_integral", "the antiderivative differentiates to z", sp.diff(primitive, s) - flow, phases=(s_0, s)),
-            paper="Eq. 10",
+            paper="Eq. 11",
         ),
     )
 
@@ -179,7 +179,7 @@ def contact(flows: ModeFlows) -> tuple[Kernel, ...]:
             "Work of the contact pressure on the rigid profile.",
             r"\int_{s_0}^{s_1} p\,u'\,ds",
             zero("contact_work", "the antiderivative differentiates to f u'", sp.diff(work, s) - rate, phases=(s_0, s)),
-            paper="Eq. 10",
+            paper="Eq. 11",
         ),
         *events,
     )

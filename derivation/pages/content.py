@@ -10,12 +10,15 @@ from typing import Any
 
 import sympy as sp
 
+from ..certificates import WORDS
 from ..check import Derived
 from ..derive import Derivation
+from ..displays import STATED as UNREAD
 from ..emit import INTERFACE, PARAMETER_MEANINGS, input_hash
 from ..functions import HELPERS, written_out
+from ..paper.tags import numbers
 from ..regime import EQUATIONS, PERIODIC, Regime
-from . import paper, places, sources
+from . import misprints, paper, places, sources
 from .latex import widest
 
 LONG = 130  # operations from which a value is only read in the generated function
@@ -52,7 +55,6 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
     computed = sources.generated(module, files[module])
     helpers = sources.generated("stable.py", files["stable.py"])
     functions = {step.function for step in derivation.steps}
-    wrong = paper.misprints(derivation.steps)
     return {
         "model": derivation.model.name,
         "title": derivation.model.title,
@@ -61,10 +63,13 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
         "fields": [list(row) for row in FIELDS],
         "parameters": [list(row) for row in PARAMETER_MEANINGS],
         "material": [[p.name, p.unit, p.meaning] for p in derivation.model.parameters],
-        "equations": paper.equations(derivation.steps, wrong),
-        "misprints": wrong,
-        "stages": stages(derivation.steps, computed),
+        "equations": paper.equations(derivation.steps, derivation.comparisons),
+        "misprints": misprints.misprints(derivation.steps),
+        "small": [list(row) for row in misprints.SMALL],
+        "stages": stages(derivation.steps, computed, displayed(derivation)),
         "regimes": [_regime(regime, computed) for regime in derivation.regimes],
+        "domains": [list(row) for row in WORDS.items()],
+        "functions": functions_table(computed, derivation.steps, certificates),
         "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
         "method": [list(row) for row in METHOD],
         "sources": {name: text(sources.deriving(name)) for name in sorted({*functions, *(name for name, _ in METHOD)})},
@@ -84,12 +89,22 @@ def identity(files: dict[str, str]) -> dict[str, Any]:
     }
 
 
-def stages(steps: tuple[Derived, ...], computed: dict[str, sources.Source]) -> list[dict[str, Any]]:
-    """The steps by the module that derives them."""
+def displayed(derivation: Derivation) -> dict[str, str]:
+    """What is said of the display of each step: read back and compared, or why there is nothing to compare."""
+    read = {name: f"{check.claim}: {check.outcome}" for name, check in derivation.displayed.items()}
+    return {name: f"nothing to compare in the display: {what}" for name, what in UNREAD.items()} | read
+
+
+def stages(
+    steps: tuple[Derived, ...], computed: dict[str, sources.Source], displays: dict[str, str] | None = None
+) -> list[dict[str, Any]]:
+    """The steps by the module that derives them. ``displays``: what is said of the display of each step."""
     found: dict[str, list[dict[str, Any]]] = {}
     known = {step.name for step in steps}
     for step in steps:
-        found.setdefault(step.function.rpartition(".")[0], []).append(_step(step, computed, known))
+        found.setdefault(step.function.rpartition(".")[0], []).append(
+            _step(step, computed, known) | {"display": (displays or {}).get(step.name, "")}
+        )
     return [{"module": module, "title": sources.title(module), "steps": steps} for module, steps in found.items()]
 
 
@@ -102,7 +117,7 @@ def _step(step: Derived, computed: dict[str, sources.Source], known: set[str]) -
         "value": _values(step),
         "checks": [[check.claim, check.outcome] for check in step.checks],
         "paper": step.paper,
-        "equations": paper.numbers(step.paper),
+        "equations": numbers(step.paper),
         "status": step.status,
         "correction": step.correction,
         "derived_by": {"function": step.function, "file": derived_in.file, "line": derived_in.line},
@@ -168,6 +183,31 @@ def regime_entry(
         "step": regime.derived.name,
         "computed_by": [name for name in names if name in computed],
     }
+
+
+def functions_table(
+    computed: dict[str, sources.Source], steps: tuple[Derived, ...], certificates: dict[str, Any]
+) -> list[dict[str, Any]]:
+    """Every emitted function: derived, by which steps, or an algorithm; its bound in ulp and the domain that was measured."""
+    proven: dict[str, list[str]] = {}
+    for step in steps:
+        for name in step.emitted:
+            proven.setdefault(name, []).append(step.name)
+    rows = []
+    for name in sorted(computed):
+        row = certificates.get(name, {})
+        rows.append(
+            {
+                "function": name,
+                "kind": "derived" if name in proven else "algorithm",
+                "steps": proven.get(name, []),
+                "bound": row.get("bound", ""),
+                "points": row.get("points", ""),
+                "domain": list(row.get("domain", ())),
+                "why": row.get("why", ""),
+            }
+        )
+    return rows
 
 
 def helpers_table(computed: dict[str, sources.Source]) -> list[dict[str, Any]]:

@@ -18,8 +18,16 @@ TOKEN = re.compile(r"\\left\s*(?:\\.|.)|\\right\s*(?:\\.|.)|\\[,;! ]|\\\\|\\[A-Z
 SIZED = re.compile(r"\\(?:left|right)\s*([()\[\]])")
 
 
+ROWS = re.compile(r"\\(?:begin|end)\{aligned\}|&")
+NULL = re.compile(r"\\(?:left|right)\s*\.")
+
+
 def mathml(latex: str) -> Markup:
     """MathML of an equation: one inline element for each piece, between which a browser may break the line."""
+    if r"\begin{aligned}" in latex:  # its lines, with brackets that need not close in the line where they open
+        latex = re.sub(r"\\(?:left|right)(?![a-z])", "", NULL.sub("", ROWS.sub("", latex)))
+    if r"\begin{cases}" in latex:
+        return Markup(latex2mathml.converter.convert(latex))
     made = [latex2mathml.converter.convert(piece) for piece in pieces(latex)]
     made = [text if n == 0 else LEADING.sub(r'\1<mo\2 form="infix">', text) for n, text in enumerate(made)]
     return Markup(" ").join(Markup(FUNCTION.sub(r'<mi>\1</mi><mspace width="0.17em"/>', text)) for text in made)

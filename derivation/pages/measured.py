@@ -13,6 +13,7 @@ import numpy as np
 
 from ..models import STANDARD_LINEAR_SOLID
 from .pictures import picture, scenes, solved
+from .readings import readings
 from .two_levels import two_levels
 
 TOOLS = ("matplotlib", "mpmath", "numpy", "scipy")
@@ -24,12 +25,15 @@ NODES = 60  # Gauss points in each zone
 def measured(model: str) -> dict[str, Any]:
     """Pictures by regime, tables by name, and the versions that made them. The tables are those of the paper's foundation."""
     pictures: dict[str, list[dict[str, Any]]] = {}
+    tables: dict[str, Any] = {}
+    if model == OWN:
+        tables = {"balance": _balance(), "branches": _branches(), "two_levels": two_levels(), "readings": readings()}
     for scene in scenes(model):
         pictures.setdefault(scene["of"], []).append(picture(scene))
     return {
         "versions": {"python": platform.python_version(), **{tool: version(tool) for tool in TOOLS}},
         "pictures": pictures,
-        "tables": {"balance": _balance(), "branches": _branches(), "two_levels": two_levels()} if model == OWN else {},
+        "tables": tables,
     }
 
 

@@ -6,12 +6,13 @@ from typing import Any
 
 import sympy as sp
 
+from ..certificates import WORDS
 from ..check import Derived
 from ..modes.derive import ModesDerivation
 from ..modes.regimes import ModeRegime
 from ..modes.symbols import J_0
 from ..sequences import CONTACT
-from . import content, paper, sources
+from . import content, misprints, paper, sources
 
 FIELDS = (
     ("alpha", "k V tau_i, relaxation times"),
@@ -33,7 +34,6 @@ def modes_content(derivation: ModesDerivation, files: dict[str, str], certificat
     computed = sources.generated(module, files[module])
     helpers = sources.generated("stable.py", files["stable.py"])
     functions = {step.function for step in derivation.steps}
-    wrong = _misprints(derivation.steps)
     return {
         "model": derivation.model.name,
         "title": derivation.model.title,
@@ -42,10 +42,13 @@ def modes_content(derivation: ModesDerivation, files: dict[str, str], certificat
         "fields": [],
         "parameters": [list(row) for row in FIELDS],
         "material": [[p.name, p.unit, p.meaning] for p in derivation.model.parameters],
-        "equations": paper.equations(derivation.steps, wrong),
-        "misprints": wrong,
+        "equations": paper.equations(derivation.steps),
+        "misprints": _misprints(derivation.steps),
+        "small": [],
         "stages": content.stages(derivation.steps, computed),
         "regimes": [_regime(regime, computed, derivation.closures.value) for regime in derivation.regimes],
+        "domains": [list(row) for row in WORDS.items()],
+        "functions": content.functions_table(computed, derivation.steps, certificates),
         "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
         "method": [list(row) for row in content.METHOD],
         "sources": {
@@ -63,10 +66,12 @@ def _misprints(steps: tuple[Derived, ...]) -> list[dict[str, Any]]:
     closures, stack = by_name["closures"], by_name["saturated_stack_friction"]
     own = "In numbers for Fig. 7, and with its dimensions: page of the standard linear solid, the paper's own foundation."
     return [
-        paper.sign_of_equation_6(by_name["strip profile"]),
-        paper.stiffness(by_name["relaxed stiffness"]),
-        _row([], "What w does where p steps", paper.SILENT, closures, by_name["jump law"].statement, ["jump law", "closures"]),
-        _row([16], "Eq. 16: power of h, factor, upper limit", paper.PRINTED_16, stack, stack.correction, [stack.name], own),
+        misprints.sign_of_equation_6(by_name["zone conditions"]),
+        misprints.stiffness(by_name["relaxed stiffness"]),
+        _row(
+            [], "What w does where p steps", misprints.SILENT, closures, by_name["jump law"].statement, ["jump law", "closures"]
+        ),
+        _row([16], "Eq. 16: power of h, factor, upper limit", misprints.PRINTED_16, stack, stack.correction, [stack.name], own),
     ]
 
 

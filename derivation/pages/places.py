@@ -29,6 +29,7 @@ RUNTIME: dict[str, tuple[tuple[str, str, str], ...]] = {
         ("level/means.py", "level_means", "return average("),
         ("level/means.py", "equal_strips", "mean = values.mean"),
     ),
+    "load.contact_area": (("orbit/solved.py", "Record.orbits", "contact = np.clip("),),
     "multilevel.local_shear": (("level/strips.py", "_values", "np.concatenate((strips.values, carried)"),),
     "multilevel.carried_friction": CARRIED,
     "modes.levels.carried_friction": CARRIED,
@@ -44,6 +45,7 @@ ENTERS: dict[str, tuple[str, ...]] = {
     "jumps.internal_state": ("contact_increment", "relaxation_increment", "regime acaf"),
     "saturated.complex_modulus": ("storage", "loss", "modulus_ratio", "saturated_pressure"),
     "conditions.zone_conditions": ("strip problem", "regime acaf"),
+    "multilevel.local_stress": ("local shear", "integrals over contact"),
     "energy.power_balance": ("friction balance acaf",),
     "stability.shift_of_events": ("onset_slope_acaf", "onset_slope_af"),
 }

@@ -5,16 +5,29 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
 
 from ..certificates import certified_names
 from ..dispatch import derive_any, stages_of
-from ..drift import AUDIT, CERTIFICATES, MEASURED, certificate_drift, dumped, generated_folder, read_certificates, write_files
+from ..drift import (
+    AUDIT,
+    CERTIFICATES,
+    MEASURED,
+    certificate_drift,
+    dumped,
+    generated_folder,
+    read_certificates,
+    read_measured,
+    write_files,
+)
 from ..emit import emit
 from ..model import Model
 from ..models import MODELS
 from .measured import measured
 from .pictures import MATERIALS
 from .render import audit_files
+
+KEPT = ("figure_6",)  # tools/figure6.py
 
 
 class AuditError(Exception):
@@ -51,12 +64,23 @@ def audit(
     if stale:
         raise AuditError(f"{', '.join(stale)} in {installed} is not what the derivation emits; run `hystrip regenerate` first")
     found = {model.name: measured(model.name) for model in chosen if model.name in MATERIALS}
+    for name, tables in kept(read_measured(installed)).items():
+        if name in found:
+            found[name]["tables"] |= tables
     pages = audit_files(derivations, texts, read_certificates(installed / CERTIFICATES), found)
     pages[Path(MEASURED).name] = dumped(found)
     target.mkdir(parents=True, exist_ok=True)
     written = write_files(target, pages)
     say()
     return written
+
+
+def kept(stored: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """The measured tables, by model, that take minutes and have a command of their own in tools/."""
+    return {
+        name: {table: value for table, value in entry.get("tables", {}).items() if table in KEPT}
+        for name, entry in stored.items()
+    }
 
 
 def _same(path: Path, text: str) -> bool:

@@ -1,0 +1,40 @@
+"""Eq. 1 to 16 as printed against what is derived, in order."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import sympy as sp
+
+from ..level import in_si
+from ..strip import Strip
+from . import foundation, level, stack, surface
+from .record import Comparison
+from .words import WAVE
+
+
+def comparisons(strip: Strip, exact: Mapping[str, sp.Expr], steps: Mapping[str, Any]) -> tuple[Comparison, ...]:
+    """Every equation, by number. ``exact``: values of kernels, ``steps``: values of steps, both by name."""
+    complete, one_level = in_si(exact["saturated_pressure"]).subs(WAVE), exact["level_saturation_friction"]
+    found = (
+        foundation.law(strip.foundation),
+        *foundation.adhesion(),
+        surface.shape(),
+        foundation.moving(strip),
+        surface.conditions(steps["zone conditions"]),
+        level.load(complete),
+        surface.penetration(),
+        level.area(),
+        level.stress(steps["local stress"]),
+        level.means(complete),
+        stack.shear(steps["local shear"]),
+        stack.carried(complete, one_level),
+        stack.coefficient(complete, one_level),
+        stack.complete_contact(strip, complete),
+        stack.all_complete(one_level),
+    )
+    return tuple(sorted(found, key=lambda comparison: comparison.number))
+
+
+__all__ = ["Comparison", "comparisons"]

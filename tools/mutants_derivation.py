@@ -1,0 +1,475 @@
+"""Mutations of the derivation, one by one: which step refuses each.
+
+    python tools/mutants_derivation.py [--only TEXT] [--jobs 1]
+
+Each mutant is a copy of the derivation in which one piece of one file reads differently: a sign, a factor, an index, an inequality, a
+closure, a display, a tag, a printed equation, a template, a bound. The derivation of the copy is run as far as it gets (or, for texts
+and certificates, what is emitted is compared with what is checked in) and must fail, in the step that is named here. A mutant that
+comes through is reported, and the command fails. About ten minutes of CPU time; tests/test_mutants.py runs a few of them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import multiprocessing
+import shutil
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+ROOT = Path(__file__).resolve().parents[1]
+SOURCES = ROOT / "derivation"
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One change. ``by``: what must refuse it, the name of a step, or of a gate of the texts or of the certificates."""
+
+    subject: str
+    file: str
+    before: str
+    after: str
+    by: str
+    run: str = "derive"
+
+
+def m(subject: str, file: str, before: str, after: str, by: str, run: str = "derive") -> Mutant:
+    return Mutant(subject, file, before, after, by, run)
+
+
+MUTANTS: tuple[Mutant, ...] = (
+    # operators of the material
+    m("operator", "models/standard_linear_solid.py", "T_sigma / K)", "-T_sigma / K)", "admissibility"),
+    m("operator", "models/standard_linear_solid.py", "Q=(sp.Integer(1), T_eps)", "Q=(sp.Integer(1), T_sigma)", "model"),
+    m(
+        "operator",
+        "models/standard_linear_solid.py",
+        "Q=(sp.Integer(1), T_eps)",
+        'Q=(sp.Integer(1), T_eps * sp.Symbol("x"))',
+        "admissibility",
+    ),
+    m("operator", "strip.py", "(-V) ** n", "V ** n", "moving frame"),
+    m("operator", "strip.py", "sp.cancel((q * (k * V) ** n)", "sp.cancel((q * (-k * V) ** n)", "dimensionless groups"),
+    m(
+        "operator",
+        "model.py",
+        "compliance = sp.limit(1 / model.transfer(), rate, sp.oo)",
+        "compliance = sp.limit(1 / model.transfer(), rate, 0)",
+        "instantaneous compliance",
+    ),
+    # flows
+    m("flow", "flows.py", "(entry - particular.subs(s, s_0))", "(entry + particular.subs(s, s_0))", "contact flow"),
+    m("flow", "flows.py", "+ gap_0) - strip.u", "- gap_0) - strip.u", "gap flow"),
+    m(
+        "stable form",
+        "stable.py",
+        "PROFILE(s, D) + beta * PROFILE_SLOPE(s)",
+        "PROFILE(s, D) - beta * PROFILE_SLOPE(s)",
+        "forcing",
+    ),
+    m("stable form", "stable.py", "rise**2 / 2", "-(rise**2) / 2", "contact_work"),
+    # closures and edge conditions
+    m("closure", "jumps.py", "step_w = chi * J * step", "step_w = -chi * J * step", "closures"),
+    m("closure", "jumps.py", "step_w = chi * J * step", "step_w = (1 - chi) * J * step", "closures"),
+    m("closure", "jumps.py", "z = w - J * p", "z = w + J * p", "internal state"),
+    m("adhesion", "strip.py", "(-p_0, gap <= delta_0)", "(p_0, gap <= delta_0)", "adhesion law"),
+    m("adhesion", "strip.py", "(-p_0, gap <= delta_0)", "(-p_0, gap <= delta_0 / 2)", "adhesion law"),
+    # surface
+    m("surface", "surface.py", "D_level - h / 2 * (1 - sp.cos(k * y))", "D_level + h / 2 * (1 - sp.cos(k * y))", "strip profile"),
+    m("surface", "surface.py", "AMPLITUDE = h / 4", "AMPLITUDE = h / 2", "strip profile"),
+    m("surface", "surface.py", "HEIGHT = h - h / 4", "HEIGHT = h + h / 4", "strip profile"),
+    # boundary equations
+    m(
+        "boundary equation",
+        "sequences.py",
+        "zone(ADHESION, d, b, delta_0 - step",
+        "zone(ADHESION, d, b, delta_0 + step",
+        "regime acaf",
+    ),
+    m(
+        "boundary equation",
+        "sequences.py",
+        "d + PERIOD, delta_0 + step, delta_0)",
+        "d + PERIOD, delta_0, delta_0)",
+        "regime acaf",
+    ),
+    m("boundary equation", "sequences.py", "p_0 - delta_0 / compliance", "p_0 + delta_0 / compliance", "regime afc"),
+    m("boundary equation", "regime.py", "weight * term for weight", "-weight * term for weight", "regime acaf"),
+    m("boundary equation", "conditions.py", "gap_at(onset - 2 * sp.pi / k", "gap_at(onset + 2 * sp.pi / k", "strip problem"),
+    # inequalities
+    m("inequality", "regime.py", "harmonic + p_0 if self.kind", "harmonic - p_0 if self.kind", "regime acaf"),
+    m(
+        "inequality",
+        "regime.py",
+        'relation(">=" if rises else "<="',
+        'relation("<=" if rises else ">="',
+        "inequalities of admissibility",
+        "inequalities",
+    ),
+    m(
+        "inequality",
+        "regime.py",
+        "rises = self.kind == ADHESION and self.exit != NOTHING",
+        "rises = self.kind == ADHESION",
+        "inequalities of admissibility",
+        "inequalities",
+    ),
+    m(
+        "inequality",
+        "regime.py",
+        'relation("<=", *edges, edges[0] + PERIOD)',
+        'relation(">=", *edges, edges[0] + PERIOD)',
+        "inequalities of admissibility",
+        "inequalities",
+    ),
+    m(
+        "inequality",
+        "regimes.py",
+        'relation(">=", replace(adhesion, last=turn).after(), 0)',
+        'relation("<=", replace(adhesion, last=turn).after(), 0)',
+        "inequalities of admissibility",
+        "inequalities",
+    ),
+    m(
+        "inequality",
+        "regimes.py",
+        'relation("<", adhesion.drive(s), 0)',
+        'relation(">", adhesion.drive(s), 0)',
+        "inequalities of admissibility",
+        "inequalities",
+    ),
+    m(
+        "inequality",
+        "regimes.py",
+        'relation("<=", replace(adhesion, last=turn).after(), delta_0)',
+        'relation(">=", replace(adhesion, last=turn).after(), delta_0)',
+        "inequalities of admissibility",
+        "inequalities",
+    ),
+    m(
+        "inequality",
+        "regimes.py",
+        'relation(">", adhesion.drive(s), delta_0)',
+        'relation("<", adhesion.drive(s), delta_0)',
+        "inequalities of admissibility",
+        "inequalities",
+    ),
+    m(
+        "inequality",
+        "regimes.py",
+        'relation(">=", D, threshold)',
+        'relation("<=", D, threshold)',
+        "inequalities of admissibility",
+        "inequalities",
+    ),
+    m(
+        "inequality",
+        "regimes.py",
+        'relation("<=", delta_0 - step, 0)',
+        'relation(">=", delta_0 - step, 0)',
+        "inequalities of admissibility",
+        "inequalities",
+    ),
+    m(
+        "inequality",
+        "regimes.py",
+        'relation(">=", crest, 0), sentence',
+        'relation("<=", crest, 0), sentence',
+        "inequalities of admissibility",
+        "inequalities",
+    ),
+    m(
+        "inequality",
+        "regimes.py",
+        'relation("<=", valley, delta_0)',
+        'relation(">=", valley, delta_0)',
+        "inequalities of admissibility",
+        "inequalities",
+    ),
+    m(
+        "inequality",
+        "regimes.py",
+        'relation(">=", crest, delta_0), relation',
+        'relation("<=", crest, delta_0), relation',
+        "inequalities of admissibility",
+        "inequalities",
+    ),
+    # means, energy, stability
+    m("mean", "averages.py", "sum_p) / PERIOD, sum_tau / PERIOD)", "sum_p) / PERIOD, -sum_tau / PERIOD)", "means_acaf"),
+    m("energy", "energy.py", "sp.diff(w, s) - beta / L", "sp.diff(w, s) + beta / L", "power balance"),
+    m("stability", "stability.py", "(load_0 + gap_0 - p) * decay", "(load_0 - gap_0 - p) * decay", "shift of an event"),
+    # complete contact, levels
+    m("complete contact", "saturated.py", "sp.I**n for n, q", "(-sp.I) ** n for n, q", "complex modulus"),
+    m("level", "level.py", "(2 * ratio - 1) - p_0", "(2 * ratio - 1) + p_0", "level_saturation_pressure"),
+    m(
+        "level",
+        "level.py",
+        "stack_sum(K * creep * slender**2 / (1 + alpha**2))",
+        "slender**2 * stack_sum(K * creep / (1 + alpha**2))",
+        "saturated_stack_friction",
+    ),
+    m("level", "level.py", "3 * sp.pi**2 / 16 * K * creep", "sp.pi**2 * K * creep", "level_saturation_friction"),
+    m(
+        "level",
+        "multilevel.py",
+        "(D_level - HEIGHT).subs(x, fixed - V * t)",
+        "(D_level - HEIGHT).subs(x, fixed + V * t)",
+        "local stress",
+    ),
+    m(
+        "level",
+        "multilevel.py",
+        "shear = pressure * slope_x + tau_below",
+        "shear = pressure * slope_x - tau_below",
+        "local shear",
+    ),
+    m(
+        "level",
+        "multilevel.py",
+        "HEIGHT, x) + one_level.subs(lower)",
+        "HEIGHT, x) - one_level.subs(lower)",
+        "friction coefficient",
+    ),
+    m("level", "load.py", "- PERIOD * mean_p - p_0 * adhesion", "- PERIOD * mean_p + p_0 * adhesion", "equilibrium"),
+    m("level", "load.py", "(2 * width * length(place) for place", "(width * length(place) for place", "contact area"),
+    m("level", "stack.py", "D - threshold.subs", "D + threshold.subs", "least pressure in complete contact"),
+    # the paper as printed
+    m("print", "paper/printed.py", r"h_i - \frac{h_i}{4}\left(\cos", r"h_i + \frac{h_i}{4}\left(\cos", "print of Eq. 4", "print"),
+    m("print", "paper/printed.py", r"w_i - V T_\epsilon", r"w_i + V T_\epsilon", "print of Eq. 5", "print"),
+    m("print", "paper/printed.py", r"&= f_i(x,y) + D_i", r"&= D_i - f_i(x,y)", "print of Eq. 6", "print"),
+    m("print", "paper/printed.py", r"p_i(x,y) &= -p_0", r"p_i(x,y) &= p_0", "print of Eq. 6", "print"),
+    m("print", "paper/printed.py", r"A_i = 2\Delta", r"A_i = \Delta", "print of Eq. 9", "print"),
+    m(
+        "print",
+        "paper/printed.py",
+        r"\bar{p}_i = \frac{2\Delta}{l_i^2}",
+        r"\bar{p}_i = \frac{\Delta}{l_i^2}",
+        "print of Eq. 11",
+        "print",
+    ),
+    m(
+        "print",
+        "paper/printed.py",
+        r"+ 2\pi l_i V (T_\varepsilon - T_\sigma)\sin",
+        r"- 2\pi l_i V (T_\varepsilon - T_\sigma)\sin",
+        "print of Eq. 15",
+        "print",
+    ),
+    m("print", "paper/printed.py", r"\frac{h_i}{4\pi^2 V^2", r"\frac{h_i^3}{4\pi^2 V^2", "print of Eq. 16", "print"),
+    # displays
+    m(
+        "display",
+        "saturated.py",
+        r"p_{sat} = D - 1 + \frac{(1 + \alpha\beta)\cos s - ",
+        r"p_{sat} = D - 1 + \frac{(1 + \alpha\beta)\cos s + ",
+        "saturated_pressure",
+        "displays",
+    ),
+    m("display", "level.py", r"\sum_i \frac{h_i^2}{l_i^2", r"\sum_i \frac{h_i^3}{l_i^2", "saturated_stack_friction", "displays"),
+    m(
+        "display",
+        "level.py",
+        r"p_{sat} = \tfrac14 K h (2R - 1) - p_0",
+        r"p_{sat} = \tfrac14 K h (2R - 1) + p_0",
+        "level_saturation_pressure",
+        "displays",
+    ),
+    m(
+        "display",
+        "level.py",
+        r"\tau_{sat} = \frac{3\pi^2}{16} \frac",
+        r"\tau_{sat} = \frac{3\pi}{16} \frac",
+        "level_saturation_friction",
+        "displays",
+    ),
+    m("display", "zones.py", r"u(s) = D - 1 + \cos s", r"u(s) = D - 1 - \cos s", "profile", "displays"),
+    m(
+        "display",
+        "flows.py",
+        '"w(s) = " + sp.latex(displacement)',
+        '"w(s) = -" + sp.latex(displacement)',
+        "relaxation flow",
+        "displays",
+    ),
+    # tags and status
+    m("tag", "multilevel.py", 'paper="Eq. 12"', 'paper="Eq. 13"', "tags", "tags"),
+    m("tag", "load.py", 'paper="Eq. 9"', 'paper="Eq. 7"', "tags", "tags"),
+    m(
+        "status",
+        "level.py",
+        "status=CORRECTED,\n        correction=MISPRINT,\n    )\n\n\nMISPRINT",
+        "status=REPRODUCED,\n        correction=MISPRINT,\n    )\n\n\nMISPRINT",
+        "saturated_stack_friction",
+    ),
+    # templates and certificates
+    m("template", "templates/stable.py.jinja", "np.sum(", "np.prod(", "certificate of saturated_stack_friction", "certificates"),
+    m(
+        "template",
+        "templates/model.py.jinja",
+        "return {{ function.result }}",
+        "return -({{ function.result }})",
+        "certificate of",
+        "certificates",
+    ),
+    m(
+        "certificate",
+        "stable.py",
+        "-2 * sp.sin(middle) * sp.sin(half), HALVES",
+        "sp.cos(s_1) - sp.cos(s_0), HALVES",
+        "certificate of profile_rise",
+        "certificates",
+    ),
+)
+
+CERTIFIED = ("forcing", "profile_rise", "modulus_ratio", "saturated_stack_friction")  # what a mutant of texts is measured by
+
+
+def copied(mutant: Mutant, folder: Path) -> ModuleType:
+    """Import a copy of the derivation with the mutation; what it changes must stand in the file exactly once."""
+    name = f"mutated_{folder.name}"
+    shutil.copytree(SOURCES, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+    path = folder / name / mutant.file
+    text = path.read_text(encoding="utf-8")
+    if text.count(mutant.before) < 1:
+        raise LookupError(f"{mutant.before!r} is not in {mutant.file}")
+    path.write_text(text.replace(mutant.before, mutant.after, 1), encoding="utf-8")
+    sys.path.insert(0, str(folder))
+    return importlib.import_module(name)
+
+
+def part(package: ModuleType, name: str) -> ModuleType:
+    return importlib.import_module(f"{package.__name__}.{name}")
+
+
+def refused_by(mutant: Mutant) -> str:
+    """The step or gate that refuses a mutant; "" if it comes through."""
+    with tempfile.TemporaryDirectory() as folder:
+        package: ModuleType | None = None
+        try:
+            package = copied(mutant, Path(folder))
+            return RUNS[mutant.run](package) or ""
+        except Exception as refusal:
+            step = getattr(refusal, "step", None)
+            if step is None:
+                raise
+            return str(step)
+        finally:
+            sys.path.remove(folder) if folder in sys.path else None
+
+
+def whole(package: ModuleType) -> None:
+    package.derive_any(package.STANDARD_LINEAR_SOLID)
+
+
+def early(package: ModuleType) -> tuple[Any, Any, Any]:
+    """(strip, flows, complete contact) of a copy."""
+    ground = part(package, "model").foundation(package.STANDARD_LINEAR_SOLID)
+    strip = part(package, "strip").strip(ground)
+    flows = part(package, "flows").flows(strip)
+    return strip, flows, part(package, "saturated").saturated(flows)
+
+
+def inequalities(package: ModuleType) -> None:
+    """The table of regimes against its witnesses; what proves its equations is left out, they are not changed."""
+    strip, flows, full = early(package)
+    passed = part(package, "check").Check("left out", "exact zero")
+    for module in ("regime", "sequences"):
+        part(package, module).zero = lambda *arguments, **options: passed
+    zones = part(package, "zones").Zones(flows, part(package, "jumps").jumps(strip), ())
+    part(package, "witness").witnesses(part(package, "regimes").regimes(zones, full.threshold.value))
+
+
+def printed(package: ModuleType) -> None:
+    strip, _, full = early(package)
+    whole_level, multilevel = part(package, "level").level(full), part(package, "multilevel")
+    exact = {kernel.formula.name: kernel.exact for kernel in (*full.kernels, *whole_level.kernels)}
+    field = exact["saturated_pressure"]
+    steps = (
+        part(package, "conditions").zone_conditions(strip.u),
+        multilevel.local_stress(strip.u, field, multilevel.dashpot_loss(strip.u, field)),
+        multilevel.local_shear(),
+    )
+    part(package, "paper").comparisons(strip, exact, {step.name: step.value for step in steps})
+
+
+def displayed(package: ModuleType) -> None:
+    strip, flows, full = early(package)
+    kernels = (*part(package, "zones").rigid_profile(flows), *full.kernels, *part(package, "level").level(full).kernels)
+    steps = [flows.contact, flows.relaxation, flows.gap, *(kernel.derived for kernel in kernels)]
+    field = next(kernel.exact for kernel in full.kernels if kernel.formula.name == "saturated_pressure")
+    part(package, "displays").displays(steps, flows, field)
+
+
+def tags(package: ModuleType) -> None:
+    strip, flows, full = early(package)
+    field = next(kernel.exact for kernel in full.kernels if kernel.formula.name == "saturated_pressure")
+    multilevel, load = part(package, "multilevel"), part(package, "load")
+    steps = (multilevel.local_stress(strip.u, field, multilevel.dashpot_loss(strip.u, field)), multilevel.local_shear())
+    part(package, "paper.tags").require_tags((*steps, load.contact_area(())))
+
+
+def certificates(package: ModuleType) -> str:
+    """What is emitted by the copy, measured against the true derivation."""
+    from hystrip.derivation import derive_any, stored_bounds
+    from hystrip.derivation.certify import measure
+
+    made = package.derive_any(package.STANDARD_LINEAR_SOLID)
+    drift = part(package, "drift")
+    with tempfile.TemporaryDirectory() as aside:
+        folder = drift._staged(Path(aside), part(package, "emit").emit((made,)))
+        solver = drift._loaded(folder, made.model.name)
+        kernels = {kernel.formula.name: kernel for kernel in derive_any(made.model).kernels}
+        for name in CERTIFIED:
+            if measure(kernels[name], solver, points=60).worst > stored_bounds()[made.model.name][name]:
+                return f"certificate of {name}"
+    return ""
+
+
+RUNS: dict[str, Callable[[ModuleType], str | None]] = {
+    "derive": whole,
+    "inequalities": inequalities,
+    "print": printed,
+    "displays": displayed,
+    "tags": tags,
+    "certificates": certificates,
+}
+
+
+def outcome(mutant: Mutant) -> tuple[Mutant, str, float]:
+    begun = time.process_time()
+    try:
+        found = refused_by(mutant)
+    except Exception as problem:  # a mutant that only crashes is not refused by a step
+        found = f"({type(problem).__name__}: {problem})"
+    return mutant, found, time.process_time() - begun
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--only", default="", help="mutants whose subject, file or step holds this text")
+    parser.add_argument("--jobs", type=int, default=1)
+    chosen = parser.parse_args()
+    wanted = [each for each in MUTANTS if any(chosen.only in text for text in (each.subject, each.file, each.by, each.run))]
+    survived = 0
+    import hystrip.derivation  # noqa: F401  loaded once; every mutant runs in a fork of this process
+
+    with multiprocessing.get_context("fork").Pool(chosen.jobs, maxtasksperchild=1) as pool:
+        for number, (mutant, found, seconds) in enumerate(pool.imap(outcome, wanted), 1):
+            refused = found.startswith(mutant.by)
+            survived += not refused
+            verdict = f"refused by '{found}'" if refused else f"SURVIVES: {found or 'nothing refuses it'} (should: '{mutant.by}')"
+            print(
+                f"{number:2} {mutant.subject:18} {mutant.file:34} {mutant.after[:46]!r:50} {verdict}  {seconds:.0f} s", flush=True
+            )
+    print(f"{len(wanted)} mutants, {survived} survive")
+    return 1 if survived else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
