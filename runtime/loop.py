@@ -84,7 +84,7 @@ def loading_loop(
     >>> adhesion = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
     >>> loop = hystrip.loading_loop(material, adhesion, hystrip.Level(l=500e-9, h=100e-9), V=1e-3, rtol=1e-2)
     >>> print(f"{loop.pull_off:.0f} Pa, {loop.work:.2g} J/m^2")
-    -707 Pa, 2e-05 J/m^2
+    -707 Pa, 0.0014 J/m^2
     """
     V = number("V", V, "m/s", 0)
     K = float(material.at_wavelength(level.l).K)
