@@ -85,7 +85,8 @@ def equations(columns: Columns, code: np.ndarray, other: np.ndarray) -> list[tup
         if boundary.event == "release":
             rows = rows & (columns.branch == "unloading")
         elif boundary.event == "closing":
-            rows = rows & (other == CODE["acaf"])
+            # contact may vanish within a zone that goes on without it, before that ends too
+            rows = rows & (other == CODE["acaf"]) | own("acaf") & np.isin(other, [CODE["af"], CODE["f"]])
         else:
             rows = rows & (~to_engaged if columns.branch == "unloading" else other != CODE["f"])
         if rows.any():
