@@ -60,8 +60,8 @@ def check_strips(strips) -> int | None:
     """``strips`` as an int >= 1, or None."""
     if strips is None:
         return None
-    if isinstance(strips, bool) or not isinstance(strips, (int, np.integer)) or strips < 1:
-        raise InputError("strips", strips, "an integer >= 1, or None for adaptive panels")
+    if isinstance(strips, bool) or not isinstance(strips, (int, np.integer)) or not 1 <= strips <= 1_000_000:
+        raise InputError("strips", strips, "an integer >= 1, at most 1000000, or None for adaptive panels")
     return int(strips)
 
 

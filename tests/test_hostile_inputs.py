@@ -182,6 +182,7 @@ CALLS = [
     ("endless velocity", lambda: surface(velocity=itertools.count()), "velocity"),
     ("endless K", lambda: hystrip.StandardLinearSolid(**(SLS | {"K": itertools.count(1)})), "material.K"),
     ("K of many digits", lambda: hystrip.StandardLinearSolid(**(SLS | {"K": 10**5000})), "material.K"),
+    ("a range without end", lambda: hystrip.StandardLinearSolid(**(SLS | {"K": range(10**12)})), "material.K"),
     ("nested K", lambda: hystrip.StandardLinearSolid(**(SLS | {"K": nested(5000)})), "material.K"),
     ("over with a number", lambda: hystrip.sweep("paper_fig7", over={1: [1]}), "over"),
     ("over as a list", lambda: hystrip.sweep("paper_fig7", over=[1]), "over"),

@@ -13,6 +13,10 @@ from ..errors import InputError
 #: greatest magnitude of an input, and the least of one that must not be zero: far beyond anything physical in SI, and
 #: near enough that no product or quotient of a few of them leaves the range of a double
 LARGEST, SMALLEST = 1e40, 1e-40
+#: entries of a sequence that is made an array: 0.8 GB of them
+_MOST = 100_000_000
+#: entries of a sequence that are looked at one by one
+_MOST_ENTRIES = 10_000
 
 
 def numbers(field: str, value: Any, unit: str, minimum: float = -np.inf, strict: bool = False) -> np.ndarray:
@@ -31,6 +35,8 @@ def numbers(field: str, value: Any, unit: str, minimum: float = -np.inf, strict:
         raise InputError(field, value, f"{allowed}, without a unit of its own: convert it first")
     if "numpy.ma" in sys.modules and np.ma.is_masked(value):  # loading it takes longer than most calls
         raise InputError(field, value, f"{allowed}, none of them masked")
+    if not isinstance(value, np.ndarray) and hasattr(value, "__len__") and _length(value) > _MOST:  # such as range(10**12)
+        raise InputError(field, value, f"{allowed}, at most {_MOST:.0e} of them")
     try:
         raw = np.asarray(value)
         if raw.dtype.kind not in "iuf":
@@ -64,6 +70,8 @@ def sequence(field: str, values: Any, allowed: str) -> list[Any]:
     known = hasattr(values, "__len__") and hasattr(values, "__iter__")
     if not known or isinstance(values, (str, bytes, dict, set, frozenset)) or (hasattr(values, "ndim") and not values.ndim):
         raise InputError(field, values, allowed)
+    if _length(values) > _MOST_ENTRIES:
+        raise InputError(field, values, f"{allowed}; at most {_MOST_ENTRIES} of them")
     return list(values)
 
 
@@ -81,6 +89,14 @@ def broadcast(**arrays: np.ndarray) -> tuple[int, ...]:
     except ValueError:
         shapes = {name: np.shape(a) for name, a in arrays.items() if np.ndim(a)}
         raise InputError(", ".join(shapes), list(shapes.values()), "shapes that broadcast together") from None
+
+
+def _length(value: Any) -> float:
+    """Entries of a sequence; inf where there are more than a machine integer counts."""
+    try:
+        return len(value)
+    except OverflowError:
+        return np.inf
 
 
 def _first(value: Any, array: np.ndarray, bad: np.ndarray) -> Any:

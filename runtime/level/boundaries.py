@@ -39,7 +39,8 @@ def straight(columns: Columns) -> list[tuple[np.ndarray, np.ndarray]]:
     R = foundation_of(columns.material).modulus_ratio(columns.level.k * columns.V)
     with np.errstate(divide="ignore"):
         rise = np.where(R > 1, 1 / (R - 1), np.inf)
-    found = [(rise * P, rise)]
+    with np.errstate(invalid="ignore"):  # inf times 0: no such curve where R is 1 and there is no adhesion
+        found = [(rise * P, rise)]
     if columns.branch == "loading" or P == 0:
         found.append((-0.5 * (columns.adhesion.delta_0 if P > 0 else 0.0) * one, -0.5 * one))
     if P > 0:

@@ -53,12 +53,16 @@ def _without_signals() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-@contextlib.contextmanager
-def local(workers: int) -> Iterator[tuple[Executor, int]]:
-    """An executor of this machine and how many batches to keep in flight."""
+def check_workers(workers: int) -> None:
+    """``InputError`` unless so many local processes can be started."""
     most = max(4 * (os.cpu_count() or 1), 60)  # Windows waits for no more than 61 processes at once
     if isinstance(workers, bool) or not isinstance(workers, int) or not 1 <= workers <= most:
         raise InputError("workers", workers, f"an integer >= 1, local processes, at most {most} on this machine")
+
+
+@contextlib.contextmanager
+def local(workers: int) -> Iterator[tuple[Executor, int]]:
+    """An executor of this machine and how many batches to keep in flight."""
     if workers == 1:
         yield InProcess(), 1
         return

@@ -153,7 +153,7 @@ def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], 
     settings = values["sweep"] or {"combine": "grid", "batch": None}
     combine = settings["combine"] if combine is None else combine
     batch = settings["batch"] if batch is None else batch
-    if combine not in ("grid", "list"):
+    if not isinstance(combine, str) or combine not in ("grid", "list"):
         raise InputError("combine", combine, "'grid' (every combination) or 'list' (all of one length, taken together)")
     if batch is not None and (isinstance(batch, bool) or not isinstance(batch, int) or batch < 1):
         raise InputError("batch", batch, "an integer >= 1, points that are solved and stored together")

@@ -18,7 +18,7 @@ from ..files import Outputs, path_of, refuse_unwritable
 from ..tables import about_version, write_csv
 from .batch import OTHER_CODE, Batch, Task, solve_batch
 from .code import code_key, fresh_code_key
-from .executors import dask, local, lost
+from .executors import check_workers, dask, local, lost
 from .plan import Plan, plan_of
 from .sizing import blocks, first_size, next_size
 from .store import Store
@@ -143,6 +143,13 @@ def sweep(
 
     if over is not None and not isinstance(over, Mapping):
         raise InputError("over", over, "a dict of dotted key of the scene -> values in SI")
+    if scheduler is not None and not isinstance(scheduler, str):
+        raise InputError("scheduler", scheduler, "the address of a Dask scheduler, such as 'tcp://host:8786'")
+    for key, switch in (("restart", restart), ("allow_solver", allow_solver)):
+        if not isinstance(switch, (bool, np.bool_)):
+            raise InputError(key, switch, "True or False")
+    if progress is not None and not callable(progress):
+        raise InputError("progress", progress, "a function of the points done and their total")
     text, name = scene_text(scene)
     with located(os.fspath(scene)):
         values = validated(parse_toml(text))
@@ -153,6 +160,7 @@ def sweep(
     refuse_unwritable(folder, "--out")
     if executor is not None and not hasattr(executor, "submit"):
         raise InputError("executor", executor, "anything with the concurrent.futures interface")
+    check_workers(workers)
     if sum((workers != 1, executor is not None, scheduler is not None)) > 1:
         raise InputError("workers, executor, scheduler", (workers, executor, scheduler), "one of them")
     where = contextlib.nullcontext((executor, 64)) if executor is not None else dask(scheduler) if scheduler else local(workers)

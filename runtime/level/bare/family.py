@@ -117,7 +117,7 @@ def family(
         step = np.diff(s, axis=1)[:, :, None]
         slopes = np.abs(np.divide(np.diff(values, axis=1), step, out=np.zeros((*step.shape[:2], _Q)), where=step > 0)).max(axis=1)
         # that of the width grows like a root towards s = 0, where few strips are
-        slopes[:, 2] = _ROOT * values[:, -1, 2] / s[:, -1]
+        slopes[:, 2] = np.divide(_ROOT * values[:, -1, 2], s[:, -1], out=np.zeros(left.size), where=s[:, -1] > 0)
         sampled = _errors(coefficients_over(samples), np.concatenate((goal.min(axis=1, keepdims=True), goal), axis=1))
         error = _errors(over, goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 16 * _EPS * greatest
         error += 4 * _EPS * (s_sat[left] * s[:, -1])[:, None]
