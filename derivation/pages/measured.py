@@ -15,6 +15,7 @@ from ..models import STANDARD_LINEAR_SOLID
 from .pictures import picture, scenes, solved
 from .readings import readings
 from .two_levels import two_levels
+from .worked import worked
 
 TOOLS = ("matplotlib", "mpmath", "numpy", "scipy")
 RATIOS = (1.1, 1.5, 2.0, 10.0, 100.0)  # T_eps/T_sigma
@@ -27,7 +28,13 @@ def measured(model: str) -> dict[str, Any]:
     pictures: dict[str, list[dict[str, Any]]] = {}
     tables: dict[str, Any] = {}
     if model == OWN:
-        tables = {"balance": _balance(), "branches": _branches(), "two_levels": two_levels(), "readings": readings()}
+        tables = {
+            "worked": worked(),
+            "balance": _balance(),
+            "branches": _branches(),
+            "two_levels": two_levels(),
+            "readings": readings(),
+        }
     for scene in scenes(model):
         pictures.setdefault(scene["of"], []).append(picture(scene))
     return {
