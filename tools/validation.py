@@ -1,6 +1,6 @@
 """How far the foundation model is from a viscoelastic half-space: tables and pictures.
 
-    python tools/validation.py [--out tools/validation] [--points 48] [--steps 64]
+    python tools/validation.py [--out tools/validation] [--points 32] [--steps 32]
 
 (a) several levels in complete contact against the formula of the half-space, to rounding;
 (b) one level in partial contact, over pressures (elastic) and velocities (one relaxation time), beside Tamaas (extra `bench`),
@@ -26,6 +26,7 @@ from peers import half_space, persson
 import hystrip
 from hystrip.dma import fit_prony, read_dma
 from hystrip.example import rubber
+from hystrip.extras import require
 from hystrip.plots.style import COLUMN, OKABE_ITO, save, stacked, styled
 from hystrip.roughness import levels_of, read_surface
 
@@ -115,16 +116,18 @@ def draw_complete(V, mu, formula):
 
 @styled
 def draw_one_level(over_pressure, over_velocity):
-    first, second, third = stacked(3, COLUMN, 1.9 * COLUMN, gridspec_kw={"hspace": 0.1})
-    for panel in (first,):
-        panel.tick_params(labelbottom=True)
-    share, ours, tamaas, theory = np.array(over_pressure).T
-    first.remove()
-    figure = second.figure
-    first = figure.add_subplot(3, 1, 1)
-    first.plot(share, ours, "k-", label="hystrip")
+    figure = require("matplotlib.figure", "plot", "drawing").Figure(figsize=(COLUMN, 1.9 * COLUMN), layout="constrained")
+    first, second, third = figure.subplots(3, 1)
+    third.sharex(second)
+    share, _, tamaas, _ = np.array(over_pressure).T
+    fine = np.linspace(0.01, share[-1], 120)
+    p = fine * LEVEL.h / LEVEL.l * ELASTIC.E
+    ours = hystrip.solve(ELASTIC, NONE, [LEVEL], pressure=p, velocity=0.0, rtol=1e-4).contact_fraction
+    first.plot(fine, ours, "k-", label="hystrip")
     first.plot(share, tamaas, "o", color=OKABE_ITO[1], markersize=4, label="half-space (Tamaas)")
-    first.plot(share, theory, "--", color=OKABE_ITO[0], label="Persson")
+    first.plot(
+        fine, [persson.friction(ELASTIC, [LEVEL], each, [0.0])[1][0] for each in p], "--", color=OKABE_ITO[0], label="Persson"
+    )
     first.set(xlabel=r"$p\,l/(E^* h)$, elastic", ylabel="contact fraction", ylim=(0, 1.05))
     first.legend(loc="lower right")
     rows = np.array(over_velocity)
@@ -169,8 +172,8 @@ def written(path, heads, rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, default=Path(__file__).with_suffix(""), help="folder of tables and pictures")
-    parser.add_argument("--points", type=int, default=48, help="points of Tamaas along a wavelength")
-    parser.add_argument("--steps", type=int, default=64, help="its coarser steps a wavelength")
+    parser.add_argument("--points", type=int, default=32, help="points of Tamaas along a wavelength")
+    parser.add_argument("--steps", type=int, default=32, help="its coarser steps a wavelength")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     V, mu, formula = complete_contact()
