@@ -88,9 +88,9 @@ CALLS = [
     (["solve", "paper_fig7", "extra"], ["unexpected extra argument", "extra"]),
     (["sweep", "paper_fig7", "--workers", "two"], ["--workers", "valid integer"]),
     (["figures", "3"], ["figures", "'3'", "fig3"]),
-    (["fit", "absent.csv", "--length", "1 mm"], ["absent.csv"]),
-    (["fit", "binary.toml", "--length", "1 mm"], ["binary.toml"]),
-    pytest.param(["levels", "absent.nc"], ["absent.nc", "a measured surface"], marks=scans),
+    (["fit", "absent.csv", "--length", "1 mm", "--pressure", "1 MPa"], ["absent.csv"]),
+    (["fit", "binary.toml", "--length", "1 mm", "--pressure", "1 MPa"], ["binary.toml"]),
+    pytest.param(["levels", "absent.nc", "--pressure", "1 MPa"], ["absent.nc", "a measured surface"], marks=scans),
     (["audit", "--out", "binary.toml"], ["--out", "binary.toml", "a folder"]),
     (["regenerate", "binary.toml", "--out", "solver"], ["binary.toml"]),
 ]
