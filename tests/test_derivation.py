@@ -226,7 +226,9 @@ def test_a_changed_sign_in_a_late_step_is_refused_by_name(name: str, tmp_path: P
         _late(wrong, name)
 
 
-@pytest.mark.parametrize(("function", "name"), [("dsolve", "contact flow"), ("integrate", "adhesion law"), ("solve", "jump law")])
+@pytest.mark.parametrize(
+    ("function", "name"), [("dsolve", "instantaneous compliance"), ("integrate", "adhesion law"), ("solve", "jump law")]
+)
 def test_a_wrong_answer_of_sympy_is_refused(function: str, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     right = getattr(sp, function)
 

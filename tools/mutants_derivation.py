@@ -3,8 +3,8 @@
     python tools/mutants_derivation.py [--only TEXT] [--jobs 1]
 
 Each mutant is a copy of the derivation in which one piece of one file reads differently: a sign, a factor, an index, an inequality, a
-closure, a display, a tag, a printed equation, a template, a bound. The derivation of the copy is run as far as it gets (or, for texts
-and certificates, what is emitted is compared with what is checked in) and must fail, in the step that is named here. A mutant that
+closure, a display, a tag, a printed equation, a template, a bound. The derivation of the copy is run as far as it gets (or, for templates
+and certificates, what is emitted is measured against the true derivation) and must fail, in the step that is named here. A mutant that
 comes through is reported, and the command fails. About ten minutes of CPU time; tests/test_mutants.py runs a few of them.
 """
 
@@ -52,7 +52,7 @@ MUTANTS: tuple[Mutant, ...] = (
         "models/standard_linear_solid.py",
         "Q=(sp.Integer(1), T_eps)",
         'Q=(sp.Integer(1), T_eps * sp.Symbol("x"))',
-        "admissibility",
+        "model",
     ),
     m("operator", "strip.py", "(-V) ** n", "V ** n", "moving frame"),
     m("operator", "strip.py", "sp.cancel((q * (k * V) ** n)", "sp.cancel((q * (-k * V) ** n)", "dimensionless groups"),
@@ -417,7 +417,7 @@ def tags(package: ModuleType) -> None:
 def certificates(package: ModuleType) -> str:
     """What is emitted by the copy, measured against the true derivation."""
     from hystrip.derivation import derive_any, stored_bounds
-    from hystrip.derivation.certify import measure
+    from hystrip.derivation.certificates import measure
 
     made = package.derive_any(package.STANDARD_LINEAR_SOLID)
     drift = part(package, "drift")
