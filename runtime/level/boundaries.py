@@ -37,10 +37,8 @@ def straight(columns: Columns) -> list[tuple[np.ndarray, np.ndarray]]:
     saturated contact at the breaks of the law below."""
     one, P = np.ones(columns.size), columns.stretch
     R = foundation_of(columns.material).modulus_ratio(columns.level.k * columns.V)
-    with np.errstate(divide="ignore"):
-        rise = np.where(R > 1, 1 / (R - 1), np.inf)
-    with np.errstate(invalid="ignore"):  # inf times 0: no such curve where R is 1 and there is no adhesion
-        found = [(rise * P, rise)]
+    rise = np.divide(1.0, R - 1, out=np.full(columns.size, np.inf), where=R > 1)
+    found = [(np.where(R > 1, P, 0.0) * np.minimum(rise, np.finfo(float).max), rise)]
     if columns.branch == "loading" or P == 0:
         found.append((-0.5 * (columns.adhesion.delta_0 if P > 0 else 0.0) * one, -0.5 * one))
     if P > 0:
@@ -64,8 +62,15 @@ def thresholds(columns: Columns) -> tuple[np.ndarray, np.ndarray]:
     # pressures of saturated contact, where there is any
     first = usual + (P > 0)
     A[first:][A[first:] > A[0] * (1 + 1e-9)] = -1.0
-    kind, state = np.nonzero((A > 0) & (2 * A < h) & np.isfinite(A))
-    return state, theta_of(columns, A[kind, state])
+    inside = (A > 0) & (2 * A < h) & np.isfinite(A)
+    theta = theta_of(columns, np.where(inside, A, 0.0))
+    if usual == 2:
+        # touch is lost where the profile has dropped by the penetration: next to the crest to all digits of that
+        share = (columns.D + (columns.adhesion.delta_0 if P > 0 else 0.0)) / h if h > 0 else -np.ones(columns.size)
+        inside[1] = (share > 0) & (share < 1)
+        theta[1] = 2 * np.arcsin(np.sqrt(np.clip(share, 0.0, 1.0)))
+    kind, state = np.nonzero(inside)
+    return state, theta[kind, state]
 
 
 def theta_of(columns: Columns, A) -> np.ndarray:
