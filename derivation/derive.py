@@ -18,6 +18,7 @@ from .events import excess_event, gap_event
 from .flows import flows
 from .functions import Call
 from .further import FOR_ONE_TIME, further
+from .half_space import half_space
 from .jumps import jumps
 from .kernel import Kernel
 from .level import level
@@ -115,6 +116,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     asked = conditions(one_strip, table[0])
     upwards = multilevel(one_strip, full, whole, partial, means, integrals)
     pile = stack(one_strip, full, whole)
+    rubber = half_space()
     done("levels")
     more = further(FOR_ONE_TIME, Basis(flow, full, table))
     sections = (
@@ -150,6 +152,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         slopes,
         upwards,
         pile,
+        rubber,
         more,
     )
     exact = {kernel.formula.name: kernel.exact for _, kernels in sections for kernel in kernels}

@@ -14,6 +14,7 @@ from typing import Any
 import mpmath
 import sympy as sp
 
+from . import half_space
 from .check import Check, DerivationError, Derived
 from .exact import RELATIONS
 from .flows import Flows
@@ -264,7 +265,20 @@ def _coefficient(values: list[sp.Expr], words: Mapping[str, Any]) -> dict[str, A
     return {r"\mu": values[0], r"\tau_1": sp.Symbol("tau_1", real=True)}
 
 
+def _under_a_wave(values: list[sp.Expr], words: Mapping[str, Any]) -> dict[str, Any]:
+    w = sp.Symbol("w", positive=True)
+    return half_space.NAMES | {"w": w, "p": values[0] * w}
+
+
+def _of_a_level(values: list[sp.Expr], words: Mapping[str, Any]) -> dict[str, Any]:
+    modulus = half_space.E
+    K_level = values[0] * sp.pi / l * modulus / (1 - half_space.nu**2)
+    return half_space.NAMES | {"c": values[0], "E": lambda place: modulus, "K": lambda place: K_level}
+
+
 BINDINGS: dict[str, Binding] = {
+    "half-space under a wave": _under_a_wave,
+    "foundation that stands for a half-space": _of_a_level,
     "instantaneous compliance": _named("J_0"),
     "strip profile": _shape,
     "dimensionless groups": _motion,

@@ -91,3 +91,14 @@ def test_summary_and_dataset_hold_the_half_space():
     assert "HalfSpace: E = 2e+06 Pa, nu = 0.49, moduli[0] = 8e+06 Pa, times[0] = 0.001 s" in result.summary()
     pytest.importorskip("xarray")
     assert '"nu": 0.49' in result.to_dataset().attrs["material"]
+
+
+def test_constant_is_the_one_that_is_derived():
+    sympy = pytest.importorskip("sympy")
+    from hystrip.derivation.half_space import half_space
+    from hystrip.inputs.half_space import SHAPE
+
+    wave, foundation = half_space()  # raises if a step does not verify
+    assert SHAPE == pytest.approx(float(foundation.value), rel=1e-15)
+    assert all(check.outcome == "exact zero" for each in (wave, foundation) for check in each.checks)
+    assert sympy.simplify(foundation.value - (2 + sympy.sqrt(2)) / 3) == 0

@@ -34,6 +34,7 @@ RUNTIME: dict[str, tuple[tuple[str, str, str], ...]] = {
     "multilevel.carried_friction": CARRIED,
     "modes.levels.carried_friction": CARRIED,
     "multilevel.friction_coefficient": (("solve.py", "_result", "mu = np.divide"),),
+    "half_space.foundation_of_a_level": (("inputs/half_space.py", "_foundation", "per_modulus = SHAPE"),),
     "stack.least_pressure": (("multilevel.py", "saturated", "needed = "),),
 }
 ENTERS: dict[str, tuple[str, ...]] = {
@@ -47,6 +48,7 @@ ENTERS: dict[str, tuple[str, ...]] = {
     "conditions.zone_conditions": ("strip problem", "regime acaf"),
     "multilevel.local_stress": ("local shear", "integrals over contact"),
     "energy.power_balance": ("friction balance acaf",),
+    "half_space.stiffness_under_a_wave": ("foundation that stands for a half-space",),
     "stability.shift_of_events": ("onset_slope_acaf", "onset_slope_af"),
 }
 MEASURED = {"multilevel.friction_coefficient": "two_levels"}  # a table of the measured figures that shows the runtime at it

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..loading import Solver
     from ..typing import Floats, Number, Numbers
 
-#: stiffness under Eq. 4 over that under one wave: ``(1/2 + sqrt(2)/4)/(3/4)``
+#: stiffness under Eq. 4 over that under one wave, ``(1/2 + sqrt(2)/4)/(3/4)``: derivation/half_space.py
 SHAPE = (0.5 + 0.25 * np.sqrt(2)) / 0.75
 
 
