@@ -42,15 +42,28 @@ class _Pool(ProcessPoolExecutor):
 
 @contextlib.contextmanager
 def _without_signals() -> Iterator[None]:
-    """Hold SIGINT and SIGTERM back for a moment, where the system can."""
+    """Hold SIGINT and SIGTERM back for a moment, where the system can.
+
+    Processes started meanwhile inherit what is blocked. Blocking alone does not keep the handlers of this process back: another
+    thread (NumPy's, say) may take the signal, and Python runs its handler in the main thread all the same.
+    """
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
+    held: list[int] = []
+    handlers: dict[int, Any] = {}
     before = signal.pthread_sigmask(signal.SIG_BLOCK, _ENDING)
     try:
+        for number in _ENDING if threading.current_thread() is threading.main_thread() else ():
+            if signal.getsignal(number) is not None:  # else one that is not Python's, and that it could not put back
+                handlers[number] = signal.signal(number, lambda got, _: held.append(got))
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        for number in held[:1]:
+            signal.raise_signal(number)
 
 
 def check_workers(workers: int) -> None:
