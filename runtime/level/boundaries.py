@@ -107,8 +107,6 @@ def located(columns: Columns, changes: Changes, A: np.ndarray, E: np.ndarray, un
     ``A`` and ``E`` (m, 2) of the ends of the ``changes``; ``unknown`` "A" or "E": the coordinate they differ in. ``columns``: the
     state of each. Returns that coordinate, and which were found (m,); the points are remembered."""
     place, found = _by_threshold(columns, changes, A, E, unknown)
-    if columns.groups(columns.V[:0], columns.V[:0], columns.V[:0]) is None:
-        return place, found
     ends = A if unknown == "A" else E
     low, high = ends.min(axis=1), ends.max(axis=1)
     code = changes.codes % len(CODE)

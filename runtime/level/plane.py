@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..orbit.materials import kernel_of
+from ..orbit.foundation import foundation_of
 
 if TYPE_CHECKING:
     from .strips import Columns
@@ -22,8 +22,11 @@ if TYPE_CHECKING:
 TWO_PI = 2 * np.pi
 #: Newton: iterations at most; a step of the edges this small leaves an error of its square; the largest step taken whole
 _ITERATIONS, _SMALL, _LONGEST = 16, 1e-8, 0.5
-#: relative step of the differences that stand for derivatives of the last equation: the root of the rounding
-_STEP = 1.5e-8
+#: differences that stand for derivatives: of A or E, a share of it, the root of the rounding; of edges, further, as the
+#: determinant of zones of 1e-8 radians keeps 8 digits: Newton's method then gains 5 digits a step. A zone's are a share of it
+_STEP, _FAR, _SHARE, _LEAST = 1.5e-8, 1e-5, 1e-2, 1e-13
+#: a zone shrinks at most to this share in a step: fast modes make zones of 1e-8 radians whose edges move by far more than that
+_SHRINKS = 0.1
 
 
 @dataclass(frozen=True)
@@ -79,11 +82,12 @@ def locate(columns: Columns, boundary: Boundary, start: Points, unknown: str) ->
             break
         with np.errstate(all="ignore"):  # what is lost is no number, and is dropped
             step = system.step(active, edges[:, active], plane["A"][active], plane["E"][active], unknown)
-        size = np.maximum(np.abs(step[:k]).max(axis=0), np.abs(step[k]) / (plane["A"][active] + np.abs(plane["E"][active])))
+        share = np.abs(step[k]) / (plane["A"][active] + np.abs(plane["E"][active]))
+        size = np.maximum(np.abs(np.cumsum(step[:k], axis=0)).max(axis=0), share)
         usable = np.isfinite(step).all(axis=0)
         active, step, size = active[usable], step[:, usable], size[usable]
         damping = np.minimum(1.0, _LONGEST / np.maximum(size, 1e-300))
-        edges[:, active] += damping * step[:k]
+        edges[:, active] = _moved(edges[:, active], damping * step[:k])
         moved = damping * step[k]
         if unknown == "A":
             moved = np.clip(moved, -_LONGEST * plane["A"][active], _LONGEST * plane["A"][active])
@@ -95,74 +99,85 @@ def locate(columns: Columns, boundary: Boundary, start: Points, unknown: str) ->
     return Points(start.velocity, plane["A"], plane["E"], edges, start.pressure, start.index), found
 
 
+def _moved(edges: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """Edges (k, n) after a ``step`` of the first and of the zones behind it; of each zone that has a width some is left."""
+    widths = np.diff(edges, axis=0)
+    after = widths + step[1:]
+    after = np.where(widths > 0, np.maximum(after, _SHRINKS * widths), after)
+    return np.cumsum(np.append((edges + step)[:1], after, axis=0), axis=0)
+
+
 class _System:
     """Boundary equations of a sequence and the equation of an event, with their derivatives by edges and A or E."""
 
     def __init__(self, columns: Columns, boundary: Boundary, start: Points):
         self.columns, self.boundary, self.velocity = columns, boundary, start.velocity
         self.stretch = start.pressure / columns.material.K
-        self.kernel = kernel_of(columns.material)
+        foundation = foundation_of(columns.material)
         # contact without adhesion is contact with saturated adhesion of no strength
         equations = "ac" if boundary.sequence == "cf" else boundary.sequence
-        self.residual, self.jacobian = (getattr(self.kernel, f"{name}_{equations}") for name in ("residual", "jacobian"))
-        self.event = {"release": self._release, "closing": self._closing, "peak": self._peak}.get(boundary.event)
+        self.residual, self.jacobian = (getattr(foundation.kernel, f"{name}_{equations}") for name in ("residual", "jacobian"))
+        self.event = None if boundary.event == "fold" else getattr(foundation, boundary.event)
 
     def step(self, index, edges, A, E, unknown: str) -> np.ndarray:
-        """Newton step (k + 1, n) of the edges and of the unknown of the plane."""
+        """Newton step (k + 1, n) of the first edge, of the zones behind it, and of the unknown of the plane."""
         k, n = edges.shape
-        # the point itself, then one copy for each unknown that is moved a little
-        shift = np.zeros((k + 1, k + 2))
-        shift[np.arange(k + 1), np.arange(1, k + 2)] = 1.0
-        length = _STEP * np.concatenate((np.ones((k, n)), [A if unknown == "A" else np.maximum(np.abs(E), A)]))
-        moved = np.concatenate((edges, [A if unknown == "A" else E]))[:, None] + shift[:, :, None] * length[:, None]
-        length = moved[np.arange(k + 1), np.arange(1, k + 2)] - moved[:, 0]
+        own = A if unknown == "A" else E
+        length = np.append(_lengths(edges), _STEP * np.maximum(np.abs(own), A)[None], axis=0)
+        # the point itself, then one copy for each unknown that is moved a little: all edges, those behind a zone, the plane's
+        moved = np.concatenate((edges, own[None]))[:, None].repeat(k + 2, axis=1)
+        for i in range(k):
+            moved[i:k, i + 1] += length[i]
+        moved[k, k + 1] += length[k]
         flat = moved.reshape(k + 1, -1)
         other = np.tile(E if unknown == "A" else A, k + 2)
         A_, E_ = (flat[k], other) if unknown == "A" else (other, flat[k])
-        groups = self.columns.groups(np.tile(self.velocity[index], k + 2), A_, E_ + 2 * A_)
-        values = np.array(self.residual(*flat[:k], *groups)).reshape(k, k + 2, n)
+        V = np.tile(self.velocity[index], k + 2)
+        groups = self.columns.groups(V, A_, E_ + 2 * A_)
+        # nothing but the unknown of the plane has to be moved for the boundary equations
+        two = np.append(np.arange(n), np.arange(n) + (k + 1) * n)
+        these = self.columns.groups(V[two], A_[two], (E_ + 2 * A_)[two])
+        values = np.array(self.residual(*flat[:k, two], *these)).reshape(k, 2, n)
         if self.event is None:
             slopes = self._matrix(flat[:k], groups)
-            scale = np.abs(slopes[:n]).max(axis=2)
-            last = np.linalg.det(slopes / np.tile(scale, (k + 2, 1))[:, :, None])
+            last = _determinant(slopes, n)
+            slopes = slopes[:n]
         else:
-            last = self.event(flat[:k], groups, np.tile(self.stretch[index], k + 2) / A_)
-        values = np.concatenate((values, last.reshape(1, k + 2, n)))
-        matrix = (values[:, 1:] - values[:, :1]) / length
-        matrix, value = matrix.transpose(2, 0, 1), values[:, 0].T
+            slopes = self._matrix(edges, self.columns.groups(V[:n], A, E + 2 * A))
+            peak = self.boundary.event == "peak"
+            pressure = np.tile(self.stretch[index], k + 2) / A_
+            last = self.event(self.boundary.sequence, flat[:k], groups, pressure) if peak else self.event(flat[:k], groups)
+        last = last.reshape(k + 2, n)
+        matrix = np.empty((n, k + 1, k + 1))
+        matrix[:, :k, :k], matrix[:, :k, k] = slopes, ((values[:, 1] - values[:, 0]) / length[k]).T
+        matrix[:, k] = ((last[1:] - last[0]) / length).T
+        value = np.append(values[:, 0], last[:1], axis=0).T
         scale = np.abs(matrix).max(axis=2, keepdims=True)
         solvable = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(value).all(axis=1) & (scale > 0).all(axis=(1, 2))
         step = np.full((n, k + 1), np.nan)
-        for rows in (np.flatnonzero(solvable),):
-            step[rows] = -_solved(matrix[rows] / scale[rows], value[rows] / scale[rows, :, 0])
+        rows = np.flatnonzero(solvable)
+        step[rows] = -_solved(matrix[rows] / scale[rows], value[rows] / scale[rows, :, 0])
         return step.T
 
     def _matrix(self, edges, groups) -> np.ndarray:
+        """Derivatives of the boundary equations by the first edge and the zones behind it, (n, k, k)."""
         rows = self.jacobian(*edges, *groups)
-        return np.array([[np.broadcast_to(v, edges.shape[1]) for v in row] for row in rows]).transpose(2, 0, 1)
+        by_edges = np.array([[np.broadcast_to(v, edges.shape[1]) for v in row] for row in rows]).transpose(2, 0, 1)
+        return np.cumsum(by_edges[:, :, ::-1], axis=2)[:, :, ::-1]
 
-    def _release(self, edges, groups, _):
-        """Greatest gap of an orbit that is engaged all along over delta_0: where the load harmonic rises through
-        ``-p_0 - delta_0`` a gap of delta_0 turns."""
-        _, beta, _, _, p_0, delta_0, D, _ = groups
-        centre, half = self.kernel.forcing_arc(p_0 + delta_0, D, beta)
-        last = edges[-1]
-        return self.kernel.gap_after(last, np.maximum(centre + TWO_PI - half, last), 0 * D, -p_0, D, beta) - delta_0
 
-    def _closing(self, edges, groups, _):
-        """Least gap of an orbit without contact: where the load harmonic falls through ``-p_0`` a gap of nothing turns."""
-        _, beta, J, _, p_0, delta_0, D, chi = groups
-        centre, half = self.kernel.forcing_arc(p_0, D, beta)
-        first = edges[0]
-        return self.kernel.gap_after(first, np.maximum(centre + half, first), delta_0 - J * chi * p_0, -p_0, D, beta)
+def _lengths(edges: np.ndarray) -> np.ndarray:
+    """How far the first of the ``edges`` (k, n) and the zones behind it are moved: a zone by a share of it at most."""
+    widths = np.diff(edges, axis=0)
+    return np.append(np.full_like(edges[:1], _FAR), np.clip(_SHARE * widths, _LEAST, _FAR), axis=0)
 
-    def _peak(self, edges, groups, pressure):
-        """Greatest pressure over ``pressure``: where the load harmonic falls through a pressure, a pressure of that turns."""
-        alpha, beta, J, L, p_0, delta_0, D, _ = groups
-        centre, half = self.kernel.forcing_arc(-pressure, D, beta)
-        start = edges[0 if self.boundary.sequence in ("ac", "cf", "afc") else 1]
-        q_on = p_0 - delta_0 / J if self.boundary.sequence == "afc" else 0 * D
-        return self.kernel.excess_after(start, np.maximum(centre + half, start), q_on, p_0, D, alpha, beta, L) - p_0 - pressure
+
+def _determinant(matrices: np.ndarray, n: int) -> np.ndarray:
+    """Determinants of matrices (m n, k, k), their rows and columns in the scales of the first n."""
+    rows = np.abs(matrices[:n]).max(axis=2, keepdims=True)
+    columns = np.abs(matrices[:n] / rows).max(axis=1, keepdims=True)
+    scale = rows * columns
+    return np.linalg.det(matrices / np.tile(scale, (matrices.shape[0] // n, 1, 1)))
 
 
 def _solved(matrix, value):

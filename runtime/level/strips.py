@@ -109,9 +109,8 @@ class Columns:
         """``p_0/K``: how far the adhesive traction draws the foundation out, m."""
         return self.adhesion.p_0 / self.material.K
 
-    def groups(self, V: np.ndarray, A: np.ndarray, D: np.ndarray) -> tuple | None:
-        """Arguments of the boundary equations of strips at the velocities ``V``, (m,) each; None where these are
-        not closed in the edges alone."""
+    def groups(self, V: np.ndarray, A: np.ndarray, D: np.ndarray) -> tuple:
+        """Arguments of the boundary equations of strips at the velocities ``V``, (m,) each."""
         p_0, delta_0 = self.stretch / A, self.adhesion.delta_0 / A
         return foundation_of(self.material).boundary_arguments(self.level.k * V, D / A, p_0, delta_0, self.edge)
 

@@ -35,9 +35,18 @@ class Foundation(Protocol):
     def fields(self, strips, solved, phase) -> tuple[np.ndarray, np.ndarray]:
         """Dimensionless pressure and gap at a phase of each strip."""
 
-    def boundary_arguments(self, rate, D, p_0, delta_0, edge: str) -> tuple | None:
-        """What the generated boundary equations take after the edges, for strips at ``rate = k V``, 1/s, the rest dimensionless;
-        None where they are not closed in the edges alone."""
+    def boundary_arguments(self, rate, D, p_0, delta_0, edge: str) -> tuple:
+        """What the generated boundary equations take after the edges, for strips at ``rate = k V``, 1/s, the rest
+        dimensionless."""
+
+    def release(self, edges, arguments: tuple) -> np.ndarray:
+        """Of orbits that are engaged all along, with ``edges`` b, a: positive where they would be released, zero at the end."""
+
+    def closing(self, edges, arguments: tuple) -> np.ndarray:
+        """Of orbits without contact, with ``edges`` d, c: negative where their gap would close, zero at the end."""
+
+    def peak(self, sequence: str, edges, arguments: tuple, pressure) -> np.ndarray:
+        """Of orbits of a ``sequence`` with contact: positive where their greatest pressure is above ``pressure``."""
 
     def contact(self, strips, solved: Solved, scales: dict, index: np.ndarray) -> Contact:
         """Contact of the solved strips ``index``, as ``solve`` returned them."""

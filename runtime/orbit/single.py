@@ -9,6 +9,7 @@ import numpy as np
 from ..inputs.material import StandardLinearSolid
 from .contact import SingleContact
 from .fields import fields
+from .groups import TWO_PI
 from .si import refuse_uncertified, solve_si
 
 
@@ -55,6 +56,28 @@ class SingleTime:
         m, one = self.material, np.ones(D.size)
         chi = one * (edge == "constitutive")
         return rate * m.T_sigma, rate * m.T_eps, one * m.J, one * m.L, p_0, delta_0, D, chi
+
+    def release(self, edges, arguments):
+        """Where the load harmonic rises through ``-p_0 - delta_0`` a gap of delta_0 turns."""
+        _, beta, _, _, p_0, delta_0, D, _ = arguments
+        centre, half = self.kernel.forcing_arc(p_0 + delta_0, D, beta)
+        last = edges[-1]
+        return self.kernel.gap_after(last, np.maximum(centre + TWO_PI - half, last), 0 * D, -p_0, D, beta) - delta_0
+
+    def closing(self, edges, arguments):
+        """Where the load harmonic falls through ``-p_0`` a gap of nothing turns."""
+        _, beta, J, _, p_0, delta_0, D, chi = arguments
+        centre, half = self.kernel.forcing_arc(p_0, D, beta)
+        first = edges[0]
+        return self.kernel.gap_after(first, np.maximum(centre + half, first), delta_0 - J * chi * p_0, -p_0, D, beta)
+
+    def peak(self, sequence, edges, arguments, pressure):
+        """Where the load harmonic falls through a pressure, a pressure of that turns."""
+        alpha, beta, J, L, p_0, delta_0, D, _ = arguments
+        centre, half = self.kernel.forcing_arc(-pressure, D, beta)
+        start = edges[0 if sequence in ("ac", "cf", "afc") else 1]
+        q_on = p_0 - delta_0 / J if sequence == "afc" else 0 * D
+        return self.kernel.excess_after(start, np.maximum(centre + half, start), q_on, p_0, D, alpha, beta, L) - p_0 - pressure
 
     def contact(self, strips, solved, scales, index):
         return SingleContact(self.kernel, strips, solved, scales, index)
