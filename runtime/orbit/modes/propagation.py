@@ -19,6 +19,10 @@ import numpy as np
 from .march import ADHESION, CONTACT, FREE, TWO_PI, Period
 from .problem import ModeStrips, pick, rates
 
+#: how much earlier or later than in the two marches contact may begin, as a share of the time from onset to contact: a wider
+#: range costs digits of the bound
+_SHARES = (1e-7, 1e-5, 1e-3, 1e-2, 0.1, 0.5)
+
 
 @dataclass(slots=True)
 class Order:
@@ -126,13 +130,49 @@ def _across(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, ons
     name = "onset" if onset else "release"
     event = np.sort(np.stack([getattr(lower, name), getattr(upper, name)]), axis=0)
     start, end, smooth = getattr(lower, f"from_{name}"), getattr(lower, f"until_{name}"), getattr(lower, f"smooth_{name}")
-    holds = smooth & (event[0] >= start) & (event[1] <= end) & (gain > 0)
-    before = np.where(holds, event - start, 0.0)
-    after = np.where(holds, end - event[::-1], 0.0)
+    holds = smooth & (event[0] >= start) & (gain > 0)
+    inside = holds & (event[1] <= end)
+    after = np.where(inside, end - event[::-1], 0.0)
+    if onset:
+        closing, closes = _closing_times(s, order, lower, upper)
+        after, inside = np.where(holds & closes, closing, after), inside | holds & closes
+    before = np.where(inside, event - start, 0.0)
     kicked = order.to_z(np.broadcast_to(order.rate, (s.modes, s.size)))
     row = np.stack([_least_sum(np.broadcast_to(order.share[:, k], kicked.shape), s, *before) for k in range(s.modes)])
     column = np.stack([_least_sum(order.back[i] * kicked, s, *after) for i in range(s.modes)])
-    return Across(np.where(holds, gain, 0.0), np.maximum(row, 0.0), np.maximum(column, 0.0))
+    return Across(np.where(inside, gain, 0.0), np.maximum(row, 0.0), np.maximum(column, 0.0))
+
+
+def _closing_times(s: ModeStrips, order: Order, lower: Period, upper: Period):
+    """Least and greatest time (2, N) from onset to contact of all states between those of two marches, and where these hold.
+
+    Fast modes draw the point into contact at once, in a time that hardly depends on where the onset is; the onset may move by
+    many times as much. From onset on the gap is ``delta_0 - J_0 p_0 + (rise of the profile) - sum_j (z_j + J_j p_0)(1 -
+    exp(-t/beta_j))`` with z_j as it was at the onset: at a time proposed, its greatest value is negative, or its least positive.
+    From contact on a deviation is kept no less than along the longest contact, which is that of ``lower``.
+    """
+    least, most, short, long, event = _modes_before(s, order, lower, upper, True)
+    rate, kick = rates(s.m.beta), s.m.J * s.p_0
+    fresh, old = np.exp(-short * rate), np.exp(-long * rate)
+    low, high = kick + np.where(least > 0, least * old, least * fresh), kick + np.where(most > 0, most * fresh, most * old)
+    known = lower.smooth_onset & (lower.until_onset == lower.entry) & (upper.until_onset == upper.entry) & ~s.snaps
+    one, two = (np.where(known, p.entry - p.onset, 0.0) for p in (lower, upper))
+    gap = s.delta_0 - s.step
+    times, found = np.zeros((2, s.size)), np.zeros((2, s.size), bool)
+    for share in _SHARES:
+        late, early = np.maximum(one, two) * (1 + share), np.minimum(one, two) * (1 - share)
+        lost_late, lost_early = -np.expm1(-late * rate), -np.expm1(-early * rate)
+        rise = late * _harmonic_max(0.0, 1.0, event[0], event[1] + late)
+        fall = early * np.minimum(-_harmonic_max(0.0, -1.0, event[0], event[1] + early), 0.0)
+        # in contact by then, and not released before
+        by = gap + rise < (low * lost_late).sum(axis=0)
+        by &= gap + np.maximum(rise, 0.0) - (np.minimum(low, 0.0) * lost_late).sum(axis=0) < s.delta_0
+        not_before = gap + fall > (np.maximum(high, 0.0) * lost_early).sum(axis=0)
+        times = np.where(found, times, np.stack((early, late)))
+        found |= np.stack((not_before, by))
+    # a time of nothing is before any contact
+    times[0] = np.where(found[0], times[0], 0.0)
+    return times, known & found[1] & np.isfinite(times).all(axis=0)
 
 
 def _least_sum(amplitudes, s: ModeStrips, short, long):
@@ -259,6 +299,23 @@ def slopes_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period, o
     The state there lies between those of the two marches, whatever the phase at which the zone began, and between the
     bounds of all orbits. The rates hold all along, from the earlier of the two events to the later.
     """
+    least, most, short, long, event = _modes_before(s, order, lower, upper, onset)
+    rate = rates(s.m.beta)
+    little, much = rate * np.exp(-long * rate), rate * np.exp(-short * rate)
+    sum_least = (least * np.where(least > 0, little, much)).sum(axis=0)
+    sum_most = (most * np.where(most > 0, much, little)).sum(axis=0)
+    sign = -1.0 if onset else 1.0
+    top = _harmonic_max(0.0, sign, event[0], event[1])
+    bottom = -_harmonic_max(0.0, -sign, event[0], event[1])
+    if onset:
+        return bottom + sum_least, top + sum_most
+    least, most = _rates_after_contact(s, lower, upper, short, long)
+    return np.fmax(bottom - sum_most, bottom + least), np.fmin(top - sum_least, top + most)
+
+
+def _modes_before(s: ModeStrips, order: Order, lower: Period, upper: Period, onset: bool):
+    """Least and greatest ``z - J p`` (n, N) as the gap zone began that the event ends; the least and the greatest time since, and
+    the phases (2, N) between which the event is."""
     name = "onset" if onset else "release"
     (z_low, from_low), (z_up, from_up) = ((getattr(p, f"z_from_{name}"), getattr(p, f"from_{name}")) for p in (lower, upper))
     first, last = np.minimum(from_low, from_up), np.maximum(from_low, from_up)
@@ -272,17 +329,7 @@ def slopes_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period, o
     least, most = times(rising, low) + times(falling, high) - rest, times(rising, high) + times(falling, low) - rest
     event = np.sort(np.stack([getattr(lower, name), getattr(upper, name)]), axis=0)
     short, long = np.maximum(event[0] - last, 0.0), event[1] - first
-    rate = rates(s.m.beta)
-    little, much = rate * np.exp(-long * rate), rate * np.exp(-short * rate)
-    sum_least = (least * np.where(least > 0, little, much)).sum(axis=0)
-    sum_most = (most * np.where(most > 0, much, little)).sum(axis=0)
-    sign = -1.0 if onset else 1.0
-    top = _harmonic_max(0.0, sign, event[0], event[1])
-    bottom = -_harmonic_max(0.0, -sign, event[0], event[1])
-    if onset:
-        return bottom + sum_least, top + sum_most
-    least, most = _rates_after_contact(s, lower, upper, short, long)
-    return np.fmax(bottom - sum_most, bottom + least), np.fmin(top - sum_least, top + most)
+    return least, most, short, long, event
 
 
 def _rates_after_contact(s: ModeStrips, lower: Period, upper: Period, short, long):
