@@ -44,3 +44,9 @@ def test_pieces_that_share_a_break_have_one_pressure_there():
     assert coarse.breaks.size == fine.breaks.size
     assert np.allclose(coarse.breaks, fine.breaks, rtol=0, atol=1e-3 * 1e-3 * MATERIAL.K * LEVEL.h)
     assert coarse.breaks[-1] == coarse.p_sat and (coarse.breaks <= coarse.p_sat).all()
+
+
+def test_a_law_asks_no_more_strips_than_its_pieces_need():
+    """Zones of a thousandth of a period, and a curve that turns: means that miss them would be halved down to rounding."""
+    found = hystrip.friction_law(MATERIAL, ADHESION, hystrip.Level(l=10e-6, h=1e-6), V=1e-3, rtol=1e-4)
+    assert found.strips < 20_000 and found.error_estimate < 1e-3

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 import hystrip
+from hystrip.level.averages import average
 from hystrip.level.boundaries import located, thresholds
 from hystrip.level.changes import Changes
-from hystrip.level.plane import BOUNDARIES
+from hystrip.level.plane import BOUNDARIES, Boundary
 from hystrip.level.strips import Columns
 from hystrip.orbit.regimes import CODE
 
@@ -68,3 +69,41 @@ def test_thresholds_are_where_saturated_contact_ends():
         at = np.abs(columns.level.amplitude(theta) * (1 + R[state]) - (D[state] - columns.level.drop(theta) + columns.stretch))
         here = at < 1e-9 * columns.level.h
         assert here.any() and ((codes[here] == CODE["c"]) == saturated).all()
+
+
+def test_both_points_are_found_where_a_curve_turns():
+    """Free strips between crest and valley appear as a fold turns: penetrations next to there cross it twice."""
+    material, adhesion = hystrip.StandardLinearSolid(K, 1e-2, 1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+    level, V = hystrip.Level(l=10e-6, h=1e-6), np.full(24, 1e-2)
+    columns = Columns(material, adhesion, level, "continuous", "unloading", V, np.linspace(0.36, 0.38, 24) * level.h)
+    average(columns, np.full(24, 1e-4))
+    turn = 0.382436550468  # located by the strips that let go first
+    near = columns.at(np.zeros(6, int), (turn - np.geomspace(1e-3, 1e-9, 6)) * level.h)
+    state, A = columns.crossings.expected(near)
+    folds = [np.sort(A[(state == k) & (A > 0.08 * level.h) & (A < 0.15 * level.h)]) for k in range(6)]
+    assert all(fold.size >= 2 and fold[-1] > fold[0] for fold in folds)
+    width = [fold[-1] - fold[0] for fold in folds]
+    # like a square root of the distance
+    assert np.allclose(np.diff(np.log(width)), 0.5 * np.log(10 ** (-6 / 5)), rtol=0.05)
+
+
+def test_a_curve_that_is_known_does_not_hide_a_thin_zone_next_to_it():
+    """Next to strips that cling all along, a thousandth of a period is in partial contact: no node of a panel meets it."""
+    material, adhesion = hystrip.StandardLinearSolid(K, 1e-2, 1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+    level, rtol = hystrip.Level(l=10e-6, h=1e-6), 1e-4
+    D, one = np.linspace(-0.066, -0.045, 12) * level.h, np.full(1, 1e-3)
+    alone = [
+        average(Columns(material, adhesion, level, "continuous", "unloading", one, D[[k]]), np.full(1, rtol)) for k in range(12)
+    ]
+    columns = Columns(material, adhesion, level, "continuous", "unloading", np.repeat(one, 12), D)
+    average(columns, np.full(12, rtol))
+    release = next(points for boundary, points in columns.crossings.points.items() if boundary.event == "release")
+    columns.crossings.points = {Boundary("ac", "release"): release}  # the fold next to it is forgotten
+    again = average(columns, np.full(12, rtol))
+    for k in range(12):
+        assert (
+            again.zones[k][:, 0].tolist()
+            == alone[k].zones[0][:, 0].tolist()
+            == [CODE[s] for s in ("acaf", "f", "acaf", "ac", "c")]
+        )
+        assert (np.abs(again.values[k] - alone[k].values[0]) <= again.errors[k] + alone[k].errors[0]).all()

@@ -137,7 +137,7 @@ def _ends(columns: Columns, column, code, theta, present, absent, width, strips)
     falls = (stop < start)[at]
     ends = [np.where(falls.reshape(-1, *[1] * (v.ndim - 1)), v[at, ::-1], v[at]) for v in ends]
     changes = Changes(at, np.minimum(start, stop)[at], np.maximum(start, stop)[at], *ends)
-    found, _ = locate_changes(probe, equation, changes, width[row[at]], checked=True)
+    found, _ = locate_changes(probe, equation, changes, width[row[at]])
     # of several changes the one next to where the island is present
     order = np.argsort(np.where((stop < start)[found.line], -found.low, found.low))
     for i in order[::-1]:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..orbit.regimes import CODE
-from .boundaries import located, passed_breaks, theta_of, thresholds
+from .boundaries import located, may_hide_another, passed_breaks, theta_of, thresholds
 from .changes import Changes, locate_changes
 from .effort import AVERAGE_LIMIT
 from .quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
@@ -52,9 +52,13 @@ class Averages:
 
 @dataclass
 class _Panels:
+    """Panels of ``state`` between thetas; ``first`` and ``last``: the strip known next to each end, -1: none."""
+
     state: np.ndarray
     low: np.ndarray
     high: np.ndarray
+    first: np.ndarray
+    last: np.ndarray
 
     def take(self, index) -> _Panels:
         return _Panels(*(getattr(self, f.name)[index] for f in fields(self)))
@@ -76,9 +80,7 @@ def average(columns: Columns, rtol: np.ndarray) -> Averages:
     """Means ``(1/pi) int_0^pi`` of the strips of every state to ``rtol (|value| + floor)``, ``rtol`` (n,)."""
     n, q = columns.size, columns.scales.size
     work = _Work(columns, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
-    state, theta = thresholds(columns)
-    expected, A = columns.crossings.expected(columns)
-    panels = _between(n, np.concatenate((state, expected)), np.concatenate((theta, theta_of(columns, A))))
+    panels = work.start(*thresholds(columns), *columns.crossings.expected(columns))
     for _ in range(_ROUNDS):
         crowded = (np.bincount(panels.state, minlength=n)[panels.state] > _CROWD) | (work.strips[panels.state] > AVERAGE_LIMIT)
         if crowded.any():
@@ -92,15 +94,6 @@ def average(columns: Columns, rtol: np.ndarray) -> Averages:
     return Averages(work.values / np.pi, work.errors / np.pi, work.strips, work.zones())
 
 
-def _between(n: int, state, theta) -> _Panels:
-    every = np.arange(n)
-    state, theta = np.concatenate((state, every, every)), np.concatenate((theta, np.zeros(n), np.full(n, np.pi)))
-    order = np.lexsort((theta, state))
-    state, theta = state[order], theta[order]
-    inside = np.flatnonzero((state[1:] == state[:-1]) & (np.diff(theta) > 64 * _EPS * np.pi))
-    return _Panels(state[inside], theta[inside], theta[inside + 1])
-
-
 @dataclass
 class _Work:
     columns: Columns
@@ -109,8 +102,27 @@ class _Work:
     errors: np.ndarray
     strips: np.ndarray
     accepted: list[tuple] = field(default_factory=list)
-    #: codes, values, heights and edges of the strips at the crest and next to the valley, (columns, 2, ...)
+    #: states and thetas of strips next to the ends of the first panels; their codes, values, heights and edges
+    beside: tuple[np.ndarray, np.ndarray] = (np.empty(0, int), np.empty(0))
     ends: list[np.ndarray] | None = None
+
+    def start(self, state, theta, expected, A) -> _Panels:
+        """Panels between thresholds (k,) and expected crossings (m,) of curves. Next to a curve the strips of a third regime
+        may be so few that no node meets them: a strip to either side is looked at, as at the crest and next to the valley."""
+        n, crossing = self.rtol.size, theta_of(self.columns, A)
+        every, none, valley = np.arange(n), np.full(theta.size, -1), self.valley
+        aside = np.pi - valley[expected]
+        thetas = np.zeros(n), valley, crossing - aside, crossing + aside
+        self.beside = np.concatenate((every, every, expected, expected)), np.clip(np.concatenate(thetas), 0.0, np.pi)
+        number = np.arange(expected.size) + 2 * n
+        state = np.concatenate((state, every, every, expected))
+        theta = np.concatenate((theta, np.zeros(n), np.full(n, np.pi), crossing))
+        before = np.concatenate((none, np.full(n, -1), every + n, number))
+        after = np.concatenate((none, every, np.full(n, -1), number + expected.size))
+        order = np.lexsort((theta, state))
+        state, theta, before, after = state[order], theta[order], before[order], after[order]
+        inside = np.flatnonzero((state[1:] == state[:-1]) & (np.diff(theta) > 64 * _EPS * np.pi))
+        return _Panels(state[inside], theta[inside], theta[inside + 1], after[inside], before[inside + 1])
 
     def zones(self) -> list[np.ndarray]:
         """See ``Averages.zones``."""
@@ -135,8 +147,8 @@ class _Work:
         while panels.size:
             mixed = (known[0] != known[0][:, :1]).any(axis=1)
             if n == _FIRST:
-                # what is narrower than the first step shows at the crest or next to the valley
-                mixed |= (self._outer(panels, 0, known[0][:, [0, -1]]) != known[0][:, [0, -1]]).any(axis=1)
+                # what is narrower than the first step shows next to the ends
+                mixed |= (self._outer(panels, known)[0][:, [0, -1]] != known[0][:, [0, -1]]).any(axis=1)
             if mixed.any():
                 later.append(self._divide(panels.take(mixed), *(v[mixed] for v in known), n))
                 panels, known = panels.take(~mixed), [v[~mixed] for v in known]
@@ -148,7 +160,9 @@ class _Work:
             new = self._at_nodes(panels, interior_nodes(n)[0::2])
             known = [interleaved(a, b) for a, b in zip(new, known, strict=True)]
         middle = 0.5 * (panels.low + panels.high)
-        later += [_Panels(panels.state, panels.low, middle), _Panels(panels.state, middle, panels.high)]
+        none = np.full(panels.size, -1)
+        later.append(_Panels(panels.state, panels.low, middle, panels.first, none))
+        later.append(_Panels(panels.state, middle, panels.high, none, panels.last))
         return _Panels.joined(later)
 
     def give_up(self, panels: _Panels) -> None:
@@ -166,25 +180,29 @@ class _Work:
         return tuple(answer.reshape(panels.size, t.size, *answer.shape[1:]) for answer in answers)
 
     def _evaluated(self, state, theta) -> list[np.ndarray]:
-        """Codes, values, heights and edges of strips (m,); the first time also of those at the crest and next to the valley."""
-        n, m = self.rtol.size, theta.size
+        """Codes, values, heights and edges of strips (m,); the first time also of those next to the ends of panels."""
+        m = theta.size
         if self.ends is None:
-            every = np.arange(n)
-            state = np.concatenate((state, every, every))
-            theta = np.concatenate((theta, np.zeros(n), self.valley))
+            state, theta = np.concatenate((state, self.beside[0])), np.concatenate((theta, self.beside[1]))
         np.add.at(self.strips, state, 1)
         answers = self.columns.evaluate(state, theta)
         if self.ends is None:
-            self.ends = [np.stack((v[m : m + n], v[m + n :]), axis=1) for v in answers]
+            self.ends = [v[m:] for v in answers]
         return [v[:m] for v in answers]
 
-    def _outer(self, panels: _Panels, which: int, inner: np.ndarray) -> np.ndarray:
-        """What is known at the ends of panels, (panels, 2, ...): of those at the crest and the valley; ``inner`` elsewhere."""
-        outermost = panels.low + panels.width * mapped(interior_nodes(_FIRST)[-1])
-        known = np.stack((panels.low == 0, (panels.high == np.pi) & (outermost < self.valley[panels.state])), axis=1)
-        out = inner.copy()
-        out[known] = self.ends[which][panels.state][known]
-        return out
+    def _outer(self, panels: _Panels, known) -> tuple[np.ndarray, ...]:
+        """What is ``known`` at the first nodes of panels, and their thetas, with one more at either end: what is known beyond the
+        outermost node, where nothing is what is known there."""
+        theta = panels.low[:, None] + panels.width[:, None] * mapped(interior_nodes(_FIRST))
+        number, outermost = np.stack((panels.first, panels.last), axis=1), theta[:, [0, -1]]
+        place = self.beside[1][number]
+        beyond = (number >= 0) & (np.stack((outermost[:, 0] - place[:, 0], place[:, 1] - outermost[:, 1]), axis=1) > 0)
+        out = []
+        for inner, ends in zip((*known, theta), (*self.ends, self.beside[1]), strict=True):
+            outer = inner[:, [0, -1]]
+            outer[beyond] = ends[number[beyond]]
+            out.append(np.concatenate((outer[:, :1], inner, outer[:, 1:]), axis=1))
+        return tuple(out)
 
     def _by_equation(self, state, changes: Changes) -> tuple[np.ndarray, np.ndarray]:
         """Thetas of the changes between the ends of brackets, where equations tell all of them."""
@@ -217,16 +235,10 @@ class _Work:
 
     def _divide(self, panels: _Panels, codes, values, heights, edges, n) -> _Panels:
         """Locate the changes between neighbouring nodes; panels end there."""
-        theta = panels.low[:, None] + panels.width[:, None] * mapped(interior_nodes(n))
         if n == _FIRST:
-            at_valley = self._outer(panels, 0, codes[:, [0, -1]])[:, 1] != codes[:, -1]
-            last = np.where(at_valley, self.valley[panels.state], theta[:, -1])
-            theta = np.column_stack((np.where(panels.low == 0, 0.0, theta[:, 0]), theta, last))
-            widened = []
-            for which, inner in enumerate((codes, values, heights, edges)):
-                outer = self._outer(panels, which, inner[:, [0, -1]])
-                widened.append(np.concatenate((outer[:, :1], inner, outer[:, 1:]), axis=1))
-            codes, values, heights, edges = widened
+            codes, values, heights, edges, theta = self._outer(panels, (codes, values, heights, edges))
+        else:
+            theta = panels.low[:, None] + panels.width[:, None] * mapped(interior_nodes(n))
         row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
         pair = lambda x: np.stack((x[row, node], x[row, node + 1]), axis=1)  # noqa: E731
         ends = pair(theta)
@@ -245,16 +257,17 @@ class _Work:
         def equation(changes):
             return self._by_equation(panels.state[changes.line], changes)
 
-        found, halved = locate_changes(probe, equation, changes, width)
+        found, halved = locate_changes(probe, equation, changes, width, may_hide_another)
         self.columns.work.bisected += halved
         state, sliver = panels.state[found.line], (found.high - found.low)[:, None]
         np.add.at(self.values, state, 0.5 * sliver * found.values.sum(axis=1))
         np.add.at(self.errors, state, 0.5 * sliver * np.abs(found.values[:, 1] - found.values[:, 0]))
         # the parts between the brackets, and the outermost ones
-        starts = np.concatenate((panels.low, found.high))
-        stops = np.concatenate((found.low, panels.high))
-        order_start = np.lexsort((starts, np.concatenate((np.arange(panels.size), found.line))))
-        order_stop = np.lexsort((stops, np.concatenate((found.line, np.arange(panels.size)))))
-        line = np.concatenate((np.arange(panels.size), found.line))[order_start]
-        parts = _Panels(panels.state[line], starts[order_start], stops[order_stop])
+        every, none = np.arange(panels.size), np.full(found.size, -1)
+        starts, first = np.concatenate((panels.low, found.high)), np.concatenate((panels.first, none))
+        stops, last = np.concatenate((found.low, panels.high)), np.concatenate((none, panels.last))
+        order_start = np.lexsort((starts, np.concatenate((every, found.line))))
+        order_stop = np.lexsort((stops, np.concatenate((found.line, every))))
+        line = np.concatenate((every, found.line))[order_start]
+        parts = _Panels(panels.state[line], starts[order_start], stops[order_stop], first[order_start], last[order_stop])
         return parts.take(parts.width > 0)

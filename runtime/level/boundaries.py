@@ -27,6 +27,8 @@ _COLUMN = {"d": 0, "b": 1, "a": 2, "c": 3}
 EDGES = {"acaf": "dbac", "afc": "bac", "af": "dc", "ac": "ba", "cf": "ba"}
 #: relative rounding of a threshold
 _ROUNDED = 1e-13
+#: place of each regime in the order in which a strip that is drawn out passes them
+_RANK = np.array([{"c": 0, "a": 1, "ac": 1, "af": 3, "f": 4}.get(sequence, 2) for sequence in CODE])
 _ENGAGED = np.array([CODE["ac"], CODE["a"], CODE["c"]])
 
 
@@ -168,6 +170,11 @@ def _by_threshold(columns: Columns, changes: Changes, A, E, unknown: str) -> tup
     low, high = ends.min(axis=1), ends.max(axis=1)
     slack = _ROUNDED * (np.abs(low) + np.abs(high) + columns.level.h)
     return np.clip(place, low, high), known & (place >= low - slack) & (place <= high + slack)
+
+
+def may_hide_another(changes: Changes) -> np.ndarray:
+    """Changes (m,) between regimes that do not follow one another as a strip is drawn out: a third may lie between."""
+    return np.abs(np.diff(_RANK[changes.codes % len(CODE)], axis=1)[:, 0]) > 1
 
 
 def passed_breaks(changes: Changes) -> tuple[Changes, np.ndarray]:

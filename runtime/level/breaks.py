@@ -82,7 +82,7 @@ def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list
     ends = pair(D)
     width = 16 * _EPS * np.maximum(np.abs(ends).max(axis=1, initial=0.0), max(h, columns.stretch))
     changes = Changes(line, ends[:, 0].copy(), ends[:, 1].copy(), *(pair(v) for v in answers))
-    changes, _ = locate_changes(probe, equation, changes, width, checked=True)
+    changes, _ = locate_changes(probe, equation, changes, width)
     valley = _of_valley(columns)[column]
     out, touched = [], np.full(m, np.inf)
     for r in range(m):

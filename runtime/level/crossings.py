@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
 
 #: how far beyond the outermost points that are known of a curve it is expected to go on, as a share of their distance
 _BEYOND = 0.5
+#: how far outside of where the parabola at a turn crosses a state Newton starts, as a share of the distance of the points
+_OUTSIDE = 0.1
 #: points of a curve that are kept, over the amplitude of the crest
 _GRID = 512
 
@@ -39,13 +42,14 @@ class Crossings:
 
     def expected(self, columns: Columns) -> tuple[np.ndarray, np.ndarray]:
         """Columns and amplitudes (k,), m, at which ``columns`` cross what is known of the curves, by Newton from between the two
-        points nearest on each."""
+        points nearest on each, or from the parabola through three where the curve turns."""
         E = columns.D - columns.level.h
         states, amplitudes = [], []
         for boundary, known in self.points.items():
-            state, start = _between(known, columns.V, E)
-            if not state.size:
+            parts = [part for part in (_between(known, columns.V, E), _at_turns(known, columns.V, E)) if part[0].size]
+            if not parts:
                 continue
+            state, start = np.concatenate([state for state, _ in parts]), reduce(Points.joined, (start for _, start in parts))
             points, found = plane.locate(columns, boundary, start, "A")
             found &= (points.A > 0) & (2 * points.A < columns.level.h)
             points, state = points.take(np.flatnonzero(found)), state[found]
@@ -79,6 +83,36 @@ def _between(known: Points, velocity, E) -> tuple[np.ndarray, Points]:
     blend = lambda x: x[..., lower] + share * (x[..., upper] - x[..., lower])  # noqa: E731
     A = np.maximum(blend(known.A), 0.5 * known.A[lower])
     return state, Points(velocity[state], A, E[state], blend(known.edges), known.pressure[lower], known.index[lower])
+
+
+def _at_turns(known: Points, velocity, E) -> tuple[np.ndarray, Points]:
+    """States beyond the last point of a curve before it turns back in E, and where each of them crosses the parabola through the
+    three points there, twice."""
+    together = _together(known)
+    steps = np.diff(known.E)
+    middle = 1 + np.flatnonzero(together[:-1] & together[1:] & (steps[:-1] != 0) & (steps[:-1] * steps[1:] <= 0))
+    # E = E_middle + slope (A - A_middle) + bend (A - A_middle)^2
+    before, after = (known.A[middle + k] - known.A[middle] for k in (-1, 1))
+    low, high = ((known.E[middle + k] - known.E[middle]) / (known.A[middle + k] - known.A[middle]) for k in (-1, 1))
+    bend = (high - low) / (after - before)
+    slope = low - bend * before
+    turn = known.E[middle] - 0.25 * slope**2 / bend
+    # Newton's way from outside of the two roots is the safe one, and the parabola's turn is not quite the curve's
+    outside = (_OUTSIDE * np.maximum(-before, after))[:, None] ** 2
+    square = (E - turn[:, None]) / bend[:, None] + outside
+    beyond = (E - known.E[middle, None]) * bend[:, None] < 0
+    at, state = np.nonzero((known.velocity[middle, None] == velocity) & beyond & (square > 0))
+    root = np.sqrt(square[at, state])
+    state, at, root = np.tile(state, 2), np.tile(at, 2), np.concatenate((-root, root))
+    moved = root - 0.5 * slope[at] / bend[at]
+    weights = [  # of Lagrange
+        moved * (moved - after[at]) / (before * (before - after))[at],
+        (moved - before[at]) * (moved - after[at]) / (before * after)[at],
+        moved * (moved - before[at]) / (after * (after - before))[at],
+    ]
+    points = middle[at]
+    edges = sum(weight * known.edges[:, points + k] for k, weight in zip((-1, 0, 1), weights, strict=True))
+    return state, Points(velocity[state], known.A[points] + moved, E[state], edges, known.pressure[points], known.index[points])
 
 
 def _together(points: Points) -> np.ndarray:
