@@ -9,13 +9,13 @@ import numpy as np
 
 from .inputs.adhesion import Dugdale
 from .inputs.surface import Level
-from .level.bare.surface import BareSurface, is_bare
 from .level.build import build_laws
 from .level.carried import CarriedByLaws, peak_pressure
 from .level.effort import WorkCounters
 from .level.error_budget import error_budget
 from .level.inverse import Inverse, cut_penetration, invert
 from .level.means import level_means
+from .level.nonadhesive.surface import NonadhesiveSurface
 from .level.saturated import SaturatedLevel, saturated_friction, saturated_level
 from .level.strips import QUANTITIES, Columns
 from .level.table import LawTable
@@ -218,7 +218,7 @@ class _Solve:
         """Points ``index`` whose velocities are ``V[group]``."""
         surface = self.surface
         stack = surface.saturated(V)
-        left = self._bare(stack, V, index, group)
+        left = self._nonadhesive(stack, V, index, group)
         index, group = index[left], group[left]
         if not index.size:
             return
@@ -233,12 +233,11 @@ class _Solve:
         means = level_means(columns, np.full(index.size, 0.5 * surface.rtol))
         self._write(index, found.take(touching), means)
 
-    def _bare(self, stack: Stack, V, index, group) -> np.ndarray:
+    def _nonadhesive(self, stack: Stack, V, index, group) -> np.ndarray:
         """Solve what can be solved without adhesion; returns what is left, as positions in ``index``."""
         surface, load = self.surface, self.load[index]
         every = np.arange(index.size)
-        foundation = foundation_of(surface.at_level(0))
-        if surface.strips is not None or not is_bare(foundation, surface.adhesion.p_0, surface.levels, V):
+        if surface.strips is not None:
             return every
         # the general path has the closed form of saturation, and says what is out of contact
         full = (stack.p_full if self.by_pressure else stack.D_full)[0][group]
@@ -248,8 +247,11 @@ class _Solve:
         p_sat = [own.p_sat for own in stack.own]
         stiffness = [surface.at_level(i).K for i in range(self.M)]
         floor = surface.friction_floor
-        bare = BareSurface(foundation, stiffness, surface.levels, V, p_sat, stack.p_full, floor, surface.rtol, surface.work)
-        found = bare.solve(group[mine], load[mine], self.by_pressure)
+        foundation, p_0 = foundation_of(surface.at_level(0)), surface.adhesion.p_0
+        families = NonadhesiveSurface(
+            foundation, stiffness, surface.levels, p_0, V, p_sat, stack.p_full, floor, surface.rtol, surface.work
+        )
+        found = families.solve(group[mine], load[mine], self.by_pressure)
         sure = found.certain
         at, out = index[mine[sure]], self.out
         out.D[at], out.p[at], out.error[at] = found.D[sure], found.p[sure], found.error[sure]

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hystrip.level.bare.means import Changes
 from hystrip.level.chebyshev import coefficients, evaluate, flat_ended, graded, interpolation_errors, lobatto
+from hystrip.level.nonadhesive.means import Changes
 from hystrip.level.quadrature import interior_nodes, mapped, mapped_weights, sum_errors
 
 TOOLS = Path(__file__).resolve().parents[1] / "tools"

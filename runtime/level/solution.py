@@ -14,16 +14,14 @@ from ..inputs.adhesion import Dugdale
 from ..inputs.checks import broadcast, choice, number, numbers
 from ..inputs.surface import Level
 from ..level_solution import Inputs, LevelSolution
-from ..orbit.foundation import foundation_of
 from ..orbit.materials import Material, check_edge
 from ..orbit.solution import BRANCHES
-from .bare.points import bare_means
-from .bare.surface import is_bare
 from .build import build_laws
 from .effort import WorkCounters
 from .inverse import invert
 from .law import Law
 from .means import level_means
+from .nonadhesive.points import family_means
 from .saturated import saturated_level
 from .strips import QUANTITIES, Columns
 
@@ -166,11 +164,8 @@ class _Means:
 
 def _means_at_penetration(columns: Columns, rtol: float) -> _Means:
     n = columns.size
-    values, errors = np.zeros((2, n, len(QUANTITIES)))
-    rest = np.arange(n)
-    if columns.strips is None and is_bare(foundation_of(columns.material), columns.adhesion.p_0, (columns.level,), columns.V):
-        bare = bare_means(columns, np.full(n, rtol))
-        values, errors, rest = bare.values, bare.errors, np.flatnonzero(~bare.certain)
+    families = family_means(columns, np.full(n, rtol))
+    values, errors, rest = families.values, families.errors, np.flatnonzero(~families.certain)
     if rest.size:
         means = level_means(columns.at(rest, columns.D[rest]), np.full(rest.size, rtol))
         values[rest], errors[rest] = means.values, means.errors
@@ -185,12 +180,11 @@ def _means_at_pressure(columns: Columns, p: np.ndarray, rtol: float) -> _Means:
     values, errors = np.zeros((2, p.size, len(QUANTITIES)))
     known, undecided = np.zeros((2, p.size), bool)
     part = np.flatnonzero((p > 0) & (p < s.p_sat))
-    if part.size and is_bare(foundation_of(material), columns.adhesion.p_0, (level,), V):
-        bare = bare_means(columns.at(part, D[part]), np.full(part.size, rtol), p[part])
-        sure = part[bare.certain]
-        D[sure], values[sure], errors[sure], known[sure] = (
-            v[bare.certain] for v in (bare.D, bare.values, bare.errors, bare.certain)
-        )
+    families = family_means(columns.at(part, D[part]), np.full(part.size, rtol), p[part])
+    sure = part[families.certain]
+    D[sure], values[sure], errors[sure], known[sure] = (
+        v[families.certain] for v in (families.D, families.values, families.errors, families.certain)
+    )
     rest = np.flatnonzero((p < s.p_sat) & ~known)
     if rest.size:
         found = invert(columns.at(rest, D[rest]), p[rest], s.D_sat[rest], 0.3 * rtol)

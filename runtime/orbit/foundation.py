@@ -13,6 +13,7 @@ from .materials import kernel_of, reduced
 
 if TYPE_CHECKING:
     from .contact import Contact
+    from .nonadhesive import Waves
     from .solved import Solved
 
 
@@ -47,6 +48,9 @@ class Foundation(Protocol):
 
     def peak(self, sequence: str, edges, arguments: tuple, pressure) -> np.ndarray:
         """Of orbits of a ``sequence`` with contact: positive where their greatest pressure is above ``pressure``."""
+
+    def waves(self, rate: np.ndarray) -> Waves:
+        """Strips without adhesion at the rates ``k V`` (N,), 1/s."""
 
     def contact(self, strips, solved: Solved, scales: dict, index: np.ndarray) -> Contact:
         """Contact of the solved strips ``index``, as ``solve`` returned them."""

@@ -10,6 +10,7 @@ from ..inputs.material import StandardLinearSolid
 from .contact import SingleContact
 from .fields import fields
 from .groups import TWO_PI
+from .nonadhesive import SingleWaves
 from .si import refuse_uncertified, solve_si
 
 
@@ -78,6 +79,10 @@ class SingleTime:
         start = edges[0 if sequence in ("ac", "cf", "afc") else 1]
         q_on = p_0 - delta_0 / J if sequence == "afc" else 0 * D
         return self.kernel.excess_after(start, np.maximum(centre + half, start), q_on, p_0, D, alpha, beta, L) - p_0 - pressure
+
+    def waves(self, rate):
+        m, one = self.material, np.ones(rate.size)
+        return SingleWaves(self.kernel, (rate * m.T_sigma, rate * m.T_eps, one * m.J, one * m.L))
 
     def contact(self, strips, solved, scales, index):
         return SingleContact(self.kernel, strips, solved, scales, index)

@@ -19,6 +19,7 @@ from .contact import ModeContact
 from .engine import solve_modes
 from .extremes import greatest_gap, least_gap, peak
 from .fields import fields
+from .nonadhesive import ModeWaves
 from .problem import ModeStrips
 
 #: beyond this k V tau its square overflows
@@ -109,6 +110,9 @@ class ManyTimes:
 
     def peak(self, sequence, edges, arguments, pressure):
         return peak(self.kernel, sequence, edges, ModeStrips(*arguments)) - pressure
+
+    def waves(self, rate):
+        return ModeWaves(self.kernel, self.kernel.at_speed(self.modes, rate))
 
     def contact(self, strips, solved, scales, index):
         return ModeContact(self.kernel, strips, solved, scales, index)

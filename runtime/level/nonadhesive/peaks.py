@@ -10,8 +10,6 @@ from ...orbit.foundation import Foundation
 from ..chebyshev import lobatto
 from .family import coefficients_over, evaluated
 from .means import mapped
-from .orbit import Wave
-from .pressure import ContactPressure
 
 #: widths, and looks at each contact
 _WIDTHS, _LOOKS = 16, 33
@@ -51,14 +49,14 @@ def peaks_of(foundation: Foundation, rate: np.ndarray, top: np.ndarray) -> tuple
 def peak(foundation: Foundation, rate: np.ndarray, share: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Greatest pressure, K A, in contacts that are the ``share`` (N,) of their period at the rates k V (N,), and its place:
     from looks at them that are closest at either end."""
-    wave = Wave(foundation, rate)
-    pressure = ContactPressure(wave, wave.orbits(2 * np.pi * share, means=False))
+    waves = foundation.waves(rate)
+    pressure = waves.pressure(waves.orbits(2 * np.pi * share, means=False))
     t = np.linspace(0, 1, _LOOKS)
-    looks = pressure.at(np.broadcast_to(mapped(t), (share.size, _LOOKS)))
+    looks = pressure(np.broadcast_to(mapped(t), (share.size, _LOOKS)))
     # the vertex of the parabola through the highest look and those next to it
     rows, highest = np.arange(share.size), np.clip(looks.argmax(axis=1), 1, _LOOKS - 2)
     before, at, after = (looks[rows, highest + k] for k in (-1, 0, 1))
     bend = before + after - 2 * at
     offset = np.divide(0.5 * (before - after), bend, out=np.zeros_like(bend), where=bend < 0)
     vertex = mapped(np.clip(t[highest] + offset * t[1], 0.0, 1.0))
-    return np.maximum(pressure.at(vertex[:, None])[:, 0], looks.max(axis=1)), vertex
+    return np.maximum(pressure(vertex[:, None])[:, 0], looks.max(axis=1)), vertex

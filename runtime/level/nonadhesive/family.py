@@ -8,15 +8,15 @@ closed form and smooth as well, and resampled over xi.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from functools import lru_cache
 
 import numpy as np
 
-from ...errors import SolverError
+from ...inputs.surface import Level
 from ...orbit.foundation import Foundation
 from ..chebyshev import coefficients, interpolation_errors, lobatto
-from .orbit import Wave
 
 #: nodes of the first attempt and of the last
 _FIRST, _LAST = 8, 512
@@ -27,9 +27,17 @@ _STEPS, _CLOSE = 12, 1e-9
 _FINEST, _TRIMMED = 256, 0.03
 #: slope of the width of contact over s, averaged over a level, in parts of its mean slope
 _ROOT = 4.0
+#: beyond this k V times the longest retardation time the general path says what is wrong
+_FASTEST = 1e100
 _EPS = np.finfo(float).eps
 #: quantities of a strip: mean pressure, mean friction, share of the period in contact
 _Q = 3
+
+
+def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V: np.ndarray) -> bool:
+    """Whether the strips of all ``levels`` are families at the velocities ``V``: without adhesion (``p_0``), and wavy."""
+    fastest = max(level.k for level in levels) * V.max(initial=0.0) * foundation.longest_time
+    return p_0 == 0 and all(level.h > 0 for level in levels) and bool(fastest < _FASTEST)
 
 
 @dataclass(frozen=True)
@@ -178,9 +186,7 @@ class _Sampling:
         row, node = np.nonzero((phi > 0) & ~complete)
         if row.size:
             which = g[row]
-            orbits = Wave(self.foundation, self.rate[which]).orbits(2 * np.pi * phi[row, node])
-            if not orbits.certified.all():
-                raise SolverError("a strip without adhesion was not certified")
+            orbits = self.foundation.waves(self.rate[which]).orbits(2 * np.pi * phi[row, node])
             np.add.at(self.strips, which, 1)
             out[row, node] = np.stack((orbits.D, orbits.p_mean, orbits.tau_mean, phi[row, node]), axis=1)
         return out

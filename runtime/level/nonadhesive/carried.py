@@ -11,14 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...errors import SolverError
 from ...orbit.foundation import Foundation
-from .law import BareLaws
+from .law import Laws
 from .means import Changes, Level, gauss, mapped, mapped_slope
-from .orbit import Wave
 from .panels import Span
 from .peaks import Peaks
-from .pressure import ContactPressure
 
 #: nodes over a panel of strips and over each part of a contact, tried in turn
 RULES = ((3, 4), (4, 5), (7, 8), (11, 12), (16, 18), (24, 28), (36, 42), (54, 64), (81, 96))
@@ -40,7 +37,7 @@ _EPS = np.finfo(float).eps
 class Carrier:
     """A level that carries the ``laws`` of the next one: its contact pressures."""
 
-    def __init__(self, foundation: Foundation, level: Level, peaks: Peaks, rate: np.ndarray, pressure: float, laws: BareLaws):
+    def __init__(self, foundation: Foundation, level: Level, peaks: Peaks, rate: np.ndarray, pressure: float, laws: Laws):
         self.foundation, self.level, self.peaks, self.rate = foundation, level, peaks, rate
         self.pressure, self.laws = pressure, laws
         self.strips = 0
@@ -116,28 +113,26 @@ class Carrier:
         f, peaks, group = self.level.family, self.peaks, columns.group
         at = Span(columns.d, f.s_sat[group]).panels(columns.ends, strips)
         column, u, weight = np.repeat(at.column, strips), at.u.ravel(), at.weight.ravel()
-        wave = Wave(self.foundation, self.rate[group[column]])
+        waves = self.foundation.waves(self.rate[group[column]])
         known = f.values(group[at.column], at.s, slopes=True)
         width = _inside(known[:, :, 2].ravel())
-        orbits = wave.orbits(width, means=False)
+        orbits = waves.orbits(width, means=False)
         missed = at.s.ravel() - orbits.D
         steepest = 0.5 * self.pressure * self.laws.steepest[group]
         # families know pressures, not widths, as well as friction may need it: a step of Newton's towards the strip that
         # is meant
         if (np.abs(missed) * u * steepest[column] > _MISSED * columns.allowed[column]).any():
             width = _inside(width / (2 * np.pi) + known[:, :, 5].ravel() * missed)
-            orbits = wave.orbits(width, means=False)
+            orbits = waves.orbits(width, means=False)
             missed = at.s.ravel() - orbits.D
-        if not orbits.certified.all():
-            raise SolverError("a strip without adhesion was not certified")
         self.strips += width.size
-        contact = ContactPressure(wave, orbits)
+        pressure = waves.pressure(orbits)
         crest = peaks.at(group[at.column], width.reshape(at.u.shape) / (2 * np.pi))[1].ravel()
-        edges, top = _passages(contact, crest, self.laws.breaks[group[column]] / (0.5 * self.pressure * u[:, None]))
+        edges, top = _passages(pressure, crest, self.laws.breaks[group[column]] / (0.5 * self.pressure * u[:, None]))
         weight *= width / (2 * np.pi)
         parts = _Parts.between(edges, top & np.isfinite(self.laws.p_full[group[column]]))
         x, w = parts.nodes(nodes)
-        p = contact.at(x, parts.row) * (0.5 * self.pressure * u[parts.row, None])
+        p = pressure(x, parts.row) * (0.5 * self.pressure * u[parts.row, None])
         total = self.laws.averages(group, np.repeat(column[parts.row], nodes), p.ravel(), (weight[parts.row, None] * w).ravel())
         total[:, -1] += np.bincount(column, weight * u * np.abs(missed), minlength=group.size) * steepest
         # where the pressure saturates all below there is nothing to sum
@@ -222,12 +217,12 @@ def _inside(share):
     return 2 * np.pi * np.clip(share, 1e-9, 1 - 1e-9)
 
 
-def _passages(contact: ContactPressure, crest, breaks) -> tuple[np.ndarray, np.ndarray]:
+def _passages(pressure, crest, breaks) -> tuple[np.ndarray, np.ndarray]:
     """Shares of contacts between which the pressure exceeds each of ``breaks`` (N, B), and the ends 0 and 1, (N, 2 B + 2); and
     where it exceeds the last one. A pressure rises to its ``crest`` (N,) and falls from there. The passages only part smooth
     pieces from one another: they are not needed to the last digit."""
     N, B = breaks.shape
-    entry, top = contact.at(np.column_stack((np.zeros(N), crest))).T
+    entry, top = pressure(np.column_stack((np.zeros(N), crest))).T
     edges = np.repeat(crest[:, None], 2 * B + 2, axis=1)
     edges[:, 0], edges[:, -1] = 0.0, 1.0
     row, which = np.nonzero(breaks < top[:, None])
@@ -243,7 +238,7 @@ def _passages(contact: ContactPressure, crest, breaks) -> tuple[np.ndarray, np.n
     middle = low
     for _ in range(_STEPS if rows.size else 0):
         middle = (low * f_high - high * f_low) / np.where(f_high > f_low, f_high - f_low, 1.0)
-        f = short(contact.at((crest[rows] + (far - crest[rows]) * middle)[:, None], rows)[:, 0]) - target
+        f = short(pressure((crest[rows] + (far - crest[rows]) * middle)[:, None], rows)[:, 0]) - target
         less = f <= 0
         f_high, f_low = np.where(less, 0.5 * f_high, f), np.where(less, f, 0.5 * f_low)
         low, high = np.where(less, middle, low), np.where(less, high, middle)

@@ -40,7 +40,7 @@ def pressures(low, high, omega, quartic: bool):
 
 
 @dataclass(frozen=True)
-class BareLaws:
+class Laws:
     """Laws of a level at velocities (G,): ``pieces`` that follow one another; ``breaks`` (G, k): the pressures that
     part the sharpest of them, ascending, inf for none; from ``p_full`` (G,) on everything below is saturated, with the
     means ``full`` (G, q). ``top`` (G,): as far as the law goes, beyond it stays what it is there; ``steepest``

@@ -15,7 +15,7 @@ from ..effort import WorkCounters
 from ..quadrature import interleaved
 from .carried import Carrier
 from .family import family
-from .law import BareLaws, Piece, pressures
+from .law import Laws, Piece, pressures
 from .means import CANCELLED, Level
 from .peaks import Peaks, peak, peaks_of
 from .tried import NODES, Tried
@@ -57,7 +57,7 @@ class Found:
     values: np.ndarray
 
 
-class BareStack:
+class FamilyStack:
     """The levels at velocities ``V`` (G,), each with its family as far as pressures up to ``p_max`` (Pa, (G,)) on
     level 1 need it.
 
@@ -148,18 +148,18 @@ class BareStack:
             d[part] = at.penetrations(group[part], p[part] / unit)
         return d
 
-    def laws(self) -> BareLaws | None:
+    def laws(self) -> Laws | None:
         """Of level 2 with all that it carries; None where there is none."""
         laws = None
         for i in range(len(self.waves) - 1, 0, -1):
             laws = self._law(i, laws)
         return laws
 
-    def carrier(self, i, laws: BareLaws) -> Carrier:
+    def carrier(self, i, laws: Laws) -> Carrier:
         """Level i over the ``laws`` of the next one."""
         return Carrier(self.foundation, self.levels[i], self.peaks[i], self.waves[i].k * self.V, self.units[i], laws)
 
-    def at(self, i, group, p, laws: BareLaws | None, d=None) -> Found:
+    def at(self, i, group, p, laws: Laws | None, d=None) -> Found:
         """Level i over the ``laws`` of the next one at pressures ``p`` (m,), Pa, or (None) at penetrations ``d`` (m,)
         in its height."""
         level, unit, friction = self.levels[i], self.units[i], self._friction_unit(i)
@@ -204,7 +204,7 @@ class BareStack:
         """Where the friction of level i with all that it carries counts enough for its lesser breaks to matter, (G,)."""
         return self.wanted.of(i) < _BLUNT * self._saturated(i)[:, ::3].sum(axis=1)
 
-    def _law(self, i, below: BareLaws | None) -> BareLaws:
+    def _law(self, i, below: Laws | None) -> Laws:
         unit, top = self.units[i], self.ceilings[i]
         edge = np.minimum(self._at_height(i), self.p_sat[i])
         own = np.minimum([edge, self.p_sat[i], self.p_full[i]], top).T
@@ -220,9 +220,9 @@ class BareStack:
         pieces, steepest, most = self._pieces(i, ends, below)
         p_full = np.where(top >= self.p_full[i], self.p_full[i], np.inf)
         breaks = np.where(own < np.where(np.isinf(p_full), top, np.inf)[:, None], own, np.inf)
-        return BareLaws(pieces, breaks, p_full, self._saturated(i), top, steepest, most)
+        return Laws(pieces, breaks, p_full, self._saturated(i), top, steepest, most)
 
-    def _met(self, i, below: BareLaws):
+    def _met(self, i, below: Laws):
         """Pressures at which that at the edges of the cells of level i, all one, passes a break of the law below, (G, k)."""
         at, unit = self.levels[i], self.units[i]
         d = 1 + below.breaks / unit

@@ -11,7 +11,8 @@ from ...errors import SolverError
 from ...inputs.surface import Level as Wavy
 from ...orbit.foundation import Foundation
 from ..effort import WorkCounters
-from .stack import BareStack, Wanted
+from .family import are_families
+from .stack import FamilyStack, Wanted
 
 #: share of what is allowed that a further attempt aims at, how much finer it is at least and at most, and how many there are
 _SURE, _FINER, _FINEST, _ATTEMPTS = 0.3, 0.3, 1e-3, 4
@@ -23,12 +24,10 @@ _LEAST = 1e-3
 _GUESS = 30.0
 #: share of the friction that its error may be at most, whatever counts beside it
 _DIGIT = 0.1
-#: beyond this k V times the longest retardation time the general path says what is wrong
-_FASTEST = 1e100
 
 
 @dataclass(frozen=True)
-class BarePoints:
+class Points:
     """Results at points (n,): penetration, m; pressure, Pa; friction, Pa, contact and adhesion of each level, (levels,
     n); error of all friction, Pa; and which are ``certain`` to be as accurate as was asked for."""
 
@@ -41,14 +40,16 @@ class BarePoints:
 
 
 @dataclass(frozen=True)
-class BareSurface:
+class NonadhesiveSurface:
     """What points of a surface have in common. ``stiffness``: K of each level's foundation, Pa/m, all of the times of
     ``foundation``. ``p_sat``, ``p_full`` (levels, G) at the velocities ``V`` (G,): see
-    ``BareStack``; ``floor``: friction, Pa, that counts beside its own size where ``rtol`` is relative."""
+    ``FamilyStack``; ``floor``: friction, Pa, that counts beside its own size where ``rtol`` is relative. With an
+    adhesive traction ``p_0``, Pa, no point is solved."""
 
     foundation: Foundation
     stiffness: Sequence[float]
     levels: Sequence[Wavy]
+    p_0: float
     V: np.ndarray
     p_sat: Sequence[np.ndarray]
     p_full: Sequence[np.ndarray]
@@ -56,12 +57,14 @@ class BareSurface:
     rtol: float
     work: WorkCounters
 
-    def solve(self, group: np.ndarray, load: np.ndarray, by_pressure: bool) -> BarePoints:
+    def solve(self, group: np.ndarray, load: np.ndarray, by_pressure: bool) -> Points:
         """Points at ``load`` > 0 (Pa, or m) and velocities ``V[group]``, (n,)."""
         n, levels = load.size, len(self.levels)
-        out = BarePoints(
+        out = Points(
             np.zeros(n), np.zeros(n), np.zeros((levels, n)), np.zeros((levels, n)), np.full(n, np.inf), np.zeros(n, bool)
         )
+        if not are_families(self.foundation, self.p_0, self.levels, self.V):
+            return out
         try:
             self._refine(out, group, load, by_pressure)
         except SolverError:
@@ -69,7 +72,7 @@ class BareSurface:
             out.certain[:] = False
         return out
 
-    def _refine(self, out: BarePoints, group, load, by_pressure) -> None:
+    def _refine(self, out: Points, group, load, by_pressure) -> None:
         n, levels = load.size, len(self.levels)
         # the friction and the contact of level 1 alone say how well all of it has to be known; where there is only that
         # level it may do
@@ -85,7 +88,7 @@ class BareSurface:
             told = np.maximum(_DIGIT * (size - self.floor), 0.0)
             finer *= np.clip(_SURE * np.minimum(self.rtol * size, told) / out.error, _FINEST, _FINER)
 
-    def _attempt(self, out: BarePoints, index, group, load, by_pressure, size, levels, below=None):
+    def _attempt(self, out: Points, index, group, load, by_pressure, size, levels, below=None):
         """Solve the points ``index`` on so many levels, to ``rtol size``, and the laws of lower levels to ``rtol below``;
         returns the size of friction, Pa."""
         which, row = np.unique(group, return_inverse=True)
@@ -96,7 +99,7 @@ class BareSurface:
         take = lambda arrays: [a[which] for a in arrays[:levels]]  # noqa: E731
         d_max = None if by_pressure else most / self.levels[0].h
         wanted = Wanted(self.rtol * least[0], self.rtol * least[1], self.rtol)
-        stack = BareStack(
+        stack = FamilyStack(
             self.foundation,
             self.stiffness[:levels],
             self.levels[:levels],
@@ -117,9 +120,3 @@ class BareSurface:
         told = (error <= _DIGIT * (total - self.floor)) | (self.V[group] == 0)
         out.certain[index] = (error <= self.rtol * total) & told & (levels == len(self.levels))
         return total
-
-
-def is_bare(foundation: Foundation, p_0: float, levels: Sequence[Wavy], V: np.ndarray) -> bool:
-    """Whether the strips of all these levels are families: without adhesion, and wavy."""
-    fastest = max(level.k for level in levels) * V.max(initial=0.0) * foundation.longest_time
-    return p_0 == 0 and all(level.h > 0 for level in levels) and bool(fastest < _FASTEST)

@@ -6,14 +6,12 @@ import pytest
 import surfaces
 
 import hystrip
-import hystrip.level.bare.stack
-import hystrip.level.bare.surface
-import hystrip.multilevel
-from hystrip.level.bare.family import family
-from hystrip.level.bare.means import Level as Means
-from hystrip.level.bare.means import cells
-from hystrip.level.bare.orbit import Wave
+import hystrip.level.nonadhesive.stack
+import hystrip.level.nonadhesive.surface
 from hystrip.level.means import level_means
+from hystrip.level.nonadhesive.family import family
+from hystrip.level.nonadhesive.means import Level as Means
+from hystrip.level.nonadhesive.means import cells
 from hystrip.level.strips import Columns
 from hystrip.orbit.foundation import foundation_of
 
@@ -43,8 +41,7 @@ def test_the_orbit_of_a_width_is_the_strip_that_the_search_finds(name):
     material = MATERIALS[name]
     phi = np.concatenate((np.linspace(0.02, 0.98, 13), [1e-3, 1 - 1e-3]))
     V, phi = (v.ravel() for v in np.meshgrid(SPEEDS, phi))
-    orbits = Wave(foundation_of(material), LEVEL.k * V).orbits(2 * np.pi * phi)
-    assert orbits.certified.all()
+    orbits = foundation_of(material).waves(LEVEL.k * V).orbits(2 * np.pi * phi)
     A = 1e-7
     strips = hystrip.solve_strip(material, NONE, l=LENGTH, A=A, D=orbits.D * A, V=V, edge=closure(material))
     size = 1 + orbits.D
@@ -59,7 +56,7 @@ def test_the_orbit_of_a_width_is_the_strip_that_the_search_finds(name):
 def test_elastic_strips_are_arcs_of_a_cosine(width):
     """V = 0: contact where the profile is below the plane, ``D = 1 - cos(w/2)``, mean pressure ``(sin(w/2) - (w/2)
     cos(w/2))/pi``, no friction."""
-    o = Wave(foundation_of(SOFT), np.zeros(1)).orbits(np.array([width]))
+    o = foundation_of(SOFT).waves(np.zeros(1)).orbits(np.array([width]))
     half = width / 2
     exact = 2 * np.sin(half / 2) ** 2
     assert abs(o.D[0] - exact) <= 1e-13 * exact
@@ -127,7 +124,7 @@ def test_nothing_is_carried_without_pressure():
 def general(monkeypatch, scene, rtol, **options):
     """By searched strips and panels alone."""
     with monkeypatch.context() as patch:
-        patch.setattr(hystrip.multilevel, "is_bare", lambda *_: False)
+        patch.setattr(hystrip.level.nonadhesive.surface, "are_families", lambda *_: False)
         return scene.solve(rtol, **options)
 
 
@@ -165,17 +162,21 @@ def test_a_law_that_ends_too_soon_is_told(monkeypatch, name):
     """Local pressures beyond the end of the law below show in the estimate; where laws reach far enough they do not."""
     given = {"pressure": 1.0, "velocity": 1e-3, "rtol": 1e-5}
     far = hystrip.solve(MATERIALS[name], NONE, SIMILAR[:2], **given)
-    monkeypatch.setattr(hystrip.level.bare.stack, "_BETWEEN", 1.3)
+    monkeypatch.setattr(hystrip.level.nonadhesive.stack, "_BETWEEN", 1.3)
     further = hystrip.solve(MATERIALS[name], NONE, SIMILAR[:2], **given)
     assert abs(far.tau - further.tau) <= far.tau_error + further.tau_error
-    monkeypatch.setattr(hystrip.level.bare.stack, "_BETWEEN", 0.9)
-    monkeypatch.setattr(hystrip.level.bare.surface.BareSurface, "solve", _uncertain(hystrip.level.bare.surface.BareSurface.solve))
+    monkeypatch.setattr(hystrip.level.nonadhesive.stack, "_BETWEEN", 0.9)
+    monkeypatch.setattr(
+        hystrip.level.nonadhesive.surface.NonadhesiveSurface,
+        "solve",
+        _uncertain(hystrip.level.nonadhesive.surface.NonadhesiveSurface.solve),
+    )
     near = hystrip.solve(MATERIALS[name], NONE, SIMILAR[:2], **given)
     assert 1e-6 * far.tau < abs(near.tau - far.tau) <= near.tau_error + far.tau_error
 
 
 def _uncertain(solve):
-    """``BareSurface.solve`` whose points are taken as they are."""
+    """``NonadhesiveSurface.solve`` whose points are taken as they are."""
 
     def taken(*given):
         found = solve(*given)

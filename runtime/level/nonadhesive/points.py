@@ -9,7 +9,7 @@ import numpy as np
 from ...errors import SolverError
 from ...orbit.foundation import foundation_of
 from ..strips import Columns
-from .family import family
+from .family import are_families, family
 from .means import Level
 
 #: shares of what is allowed that the strips' means may err, pressure, friction and contact, and how much finer each
@@ -18,7 +18,7 @@ _SHARES, _FINER, _ATTEMPTS = np.array((0.3, 0.3, 0.5)), 0.01, 3
 
 
 @dataclass(frozen=True)
-class BareMeans:
+class FamilyMeans:
     """Of columns (m,): penetration ``D``, ``values`` and ``errors`` (m, 4) of ``strips.QUANTITIES``, SI, and which are
     ``certain`` to be as accurate as was asked for."""
 
@@ -28,7 +28,7 @@ class BareMeans:
     certain: np.ndarray
 
 
-def bare_means(columns: Columns, rtol: np.ndarray, p: np.ndarray | None = None) -> BareMeans:
+def family_means(columns: Columns, rtol: np.ndarray, p: np.ndarray | None = None) -> FamilyMeans:
     """Means of the level alone at the columns' penetrations, or at the pressures ``p`` > 0 (Pa) below saturation, to
     ``rtol (|value| + floor)``."""
     level, K = columns.level, columns.material.K
@@ -40,7 +40,8 @@ def bare_means(columns: Columns, rtol: np.ndarray, p: np.ndarray | None = None) 
     floors = columns.floors[:3]
     D, values, errors, certain = load.copy(), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n, bool)
     finer = np.ones(n)
-    for _ in range(_ATTEMPTS):
+    applies = columns.strips is None and are_families(foundation, columns.adhesion.p_0, (level,), V)
+    for _ in range(_ATTEMPTS if applies else 0):
         left = np.flatnonzero(~certain)
         if not left.size:
             break
@@ -69,7 +70,7 @@ def bare_means(columns: Columns, rtol: np.ndarray, p: np.ndarray | None = None) 
         certain[left] = (errors[left] <= allowed).all(axis=1)
         finer[left] *= _FINER
     # there is no adhesion
-    return BareMeans(D * level.h, np.column_stack((values, np.zeros(n))), np.column_stack((errors, np.zeros(n))), certain)
+    return FamilyMeans(D * level.h, np.column_stack((values, np.zeros(n))), np.column_stack((errors, np.zeros(n))), certain)
 
 
 def _family(columns, foundation, V, load, row, by_penetration, floors, rtol):

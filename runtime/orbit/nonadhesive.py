@@ -1,0 +1,118 @@
+"""Orbits of strips without adhesion in closed form, from the width of their contact.
+
+With the width ``a - b`` of the contact given, the boundary equations (``residual_ac`` at p_0 = 0) are linear and
+homogeneous in ``(D - 1, cos m, sin m)``, m the phase in the middle of the contact: two equations that leave one
+direction, and so m and D without any search. Orbits are ordered: at a larger penetration more of the period is in
+contact. So every strip has one width and every width one strip, and the direction is that strip's: of its two senses
+the one in which the mean pressure is positive.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import SolverError
+
+#: a penetration beside which the profile is nothing: what is left of an equation is its coefficient of D
+_HUGE = 1e200
+#: how far the equations may be missed, in the size of their terms: rounding alone reaches 1e-12
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class Orbits:
+    """Strips in partial contact, arrays (N,), in units of A and K A: penetration ``D``, entry ``b`` and exit ``a``,
+    means of pressure and of friction (times kA)."""
+
+    D: np.ndarray
+    b: np.ndarray
+    a: np.ndarray
+    p_mean: np.ndarray
+    tau_mean: np.ndarray
+
+
+class Waves(ABC):
+    """Waves of N strips without adhesion over a foundation, each at its own speed: all that their orbits ask of the generated
+    solver."""
+
+    @abstractmethod
+    def take(self, index: np.ndarray) -> Waves:
+        """The strips ``index``."""
+
+    @abstractmethod
+    def residual(self, b, a, D) -> tuple:
+        """Both boundary equations of contact from ``b`` to ``a`` at the penetration ``D`` (N,)."""
+
+    @abstractmethod
+    def means(self, b, a, D) -> tuple:
+        """Means of pressure and friction."""
+
+    @abstractmethod
+    def local_pressure(self, orbits: Orbits) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
+        """Pressure in the contact of the strips ``rows`` (k,) at phases (k, n), as a function of both."""
+
+    def pressure(self, orbits: Orbits) -> Callable[..., np.ndarray]:
+        """Pressure in the contact of strips at shares (k, n) of it from entry to exit, as a function of them and of the strips'
+        rows (k,), all if left out."""
+        local, width = self.local_pressure(orbits), orbits.a - orbits.b
+
+        def at(share, rows=None):
+            rows = np.arange(width.size) if rows is None else rows
+            return np.maximum(local(rows, orbits.b[rows, None] + width[rows, None] * share), 0.0)
+
+        return at
+
+    def orbits(self, width: np.ndarray, means: bool = True) -> Orbits:
+        """The strips whose contact is so wide, radians between 0 and 2 pi, (N,); their ``means`` are nan if not wanted. Raises
+        ``SolverError`` where the equations do not hold, or a strip carries no pressure."""
+        N, none = width.size, np.zeros(width.size)
+        # all at once: with D alone, and without it what multiplies cos m, and sin m
+        middles, D = np.repeat((0.0, 0.0, 0.5 * np.pi), N), np.repeat((_HUGE, 0.0, 0.0), N)
+        half = np.tile(0.5 * width, 3)
+        three = self.take(np.tile(np.arange(N), 3)).residual(middles - half, middles + half, D)
+        three = np.array(np.broadcast_arrays(*three)).reshape(2, 3, N)
+        penetrate = three[:, 0] / _HUGE
+        cosine, sine = (penetrate[1] * three[0, k] - penetrate[0] * three[1, k] for k in (1, 2))
+        middle = np.arctan2(-cosine * np.sign(sine), np.abs(sine))
+        b, a = middle - 0.5 * width, middle + 0.5 * width
+        # D from both equations, each as far as it depends on it
+        left = np.array(np.broadcast_arrays(*self.residual(b, a, none)))
+        D = -(left * penetrate).sum(axis=0) / (penetrate * penetrate).sum(axis=0)
+        p_mean, tau_mean = self.means(b, a, D) if means else np.full((2, N), np.nan)
+        missed, size = np.abs(left + penetrate * D), np.abs(penetrate).max(axis=0) * (1 + np.abs(D))
+        if not ((missed <= _ROUNDING * size).all(axis=0) & (D > 0) & ~(p_mean <= 0)).all():
+            raise SolverError("a strip without adhesion was not certified")
+        return Orbits(D, b, a, p_mean, tau_mean)
+
+
+class SingleWaves(Waves):
+    """Over a foundation with one relaxation time: ``times`` alpha, beta, J, L of the strips, (N,)."""
+
+    def __init__(self, kernel, times: tuple):
+        self.kernel, self.times = kernel, times
+
+    def take(self, index):
+        return SingleWaves(self.kernel, tuple(v[index] for v in self.times))
+
+    def _groups(self, D):
+        none = np.zeros(D.size)
+        return *self.times, none, none, D, none
+
+    def residual(self, b, a, D):
+        return self.kernel.residual_ac(b, a, *self._groups(D))
+
+    def means(self, b, a, D):
+        return self.kernel.means_ac(b, a, *self._groups(D))
+
+    def local_pressure(self, orbits):
+        alpha, beta, _, L = self.times
+        known = (orbits.D, alpha, beta, L)
+
+        def local(rows, phase):
+            return self.kernel.excess_after(orbits.b[rows, None], phase, 0.0, 0.0, *(v[rows, None] for v in known))
+
+        return local
