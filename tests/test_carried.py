@@ -10,11 +10,12 @@ from scipy.integrate import quad
 import hystrip
 from hystrip.level.branches import rising
 from hystrip.level.carried import CarriedByLaws
-from hystrip.level.chebyshev import Piece, coefficients, graded, lobatto
 from hystrip.level.law import Law
+from hystrip.level.piece import Piece, graded
 from hystrip.level.resample import resampled
 from hystrip.level.strips import Columns
 from hystrip.level.table import LawTable
+from hystrip.numerics.chebyshev import coefficients, lobatto
 
 SLS = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 WEAK = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)

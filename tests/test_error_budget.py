@@ -8,10 +8,10 @@ import hystrip
 from hystrip import multilevel
 from hystrip.level.branches import branches, rising
 from hystrip.level.cells import cells_of
-from hystrip.level.chebyshev import Piece
 from hystrip.level.curve import Curve
 from hystrip.level.error_budget import ErrorBudget
 from hystrip.level.law import Law
+from hystrip.level.piece import Piece
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)

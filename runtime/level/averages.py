@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..numerics.quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
 from ..orbit.regimes import CODE
 from .boundaries import located, may_hide_another, passed_breaks, theta_of, thresholds
 from .changes import Changes, locate_changes
 from .effort import AVERAGE_LIMIT
-from .quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
 
 if TYPE_CHECKING:
     from .strips import Columns

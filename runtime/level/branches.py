@@ -16,8 +16,8 @@ from numpy.polynomial.chebyshev import chebder
 
 from ..orbit.crossing import crossing
 from .cells import Cells
-from .chebyshev import Piece, parameter
 from .curve import Curve
+from .piece import Piece, parameter
 from .resample import Inverse
 
 _GRID = np.linspace(0, 1, 65)

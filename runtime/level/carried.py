@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..numerics.quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
 from ..orbit.contact import Contact
 from .parts import Parts, around, between
-from .quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
 from .strips import Columns, SolvedStrips
 from .table import LawTable
 

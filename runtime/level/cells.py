@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .chebyshev import coefficients, lobatto
+from ..numerics.chebyshev import clenshaw, coefficients, lobatto
 
 _DEGREE = 8
 #: the smallest cells are one over this
@@ -75,17 +75,3 @@ def slot(x: np.ndarray) -> np.ndarray:
 def within(x: np.ndarray, start: np.ndarray, size: np.ndarray) -> np.ndarray:
     """Where in its cell each ``x`` lies, in [-1, 1]."""
     return 2 * (x * SLOTS - start) / size - 1
-
-
-def clenshaw(table: np.ndarray, which: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Chebyshev sums (q, ...) at ``x`` (...): those of the members ``which`` (...) of a ``table`` (degree + 1, q, n)."""
-    twice, shape = 2 * x, (table.shape[1], *x.shape)
-    one, two, product, here = np.zeros(shape), np.zeros(shape), np.empty(shape), np.empty(shape)
-    for c in table[:0:-1]:
-        # the older one becomes the next, in place: all time goes here
-        np.subtract(np.multiply(twice, one, out=product), two, out=two)
-        two += np.take(c, which, axis=1, out=here, mode="clip")
-        one, two = two, one
-    np.subtract(np.multiply(x, one, out=product), two, out=two)
-    two += np.take(table[0], which, axis=1, out=here, mode="clip")
-    return two

@@ -10,13 +10,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..numerics.chebyshev import flat_ended, interpolation_errors, lobatto
 from .appearance import is_inside, island, vanishing
 from .breaks import breakpoints, threshold_width
-from .chebyshev import Piece, flat_ended, interpolation_errors, lobatto
 from .effort import CURVE_LIMIT
 from .ends import with_gentle_ends
 from .error_budget import ErrorBudget
 from .interval import Interval
+from .piece import Piece
 from .reentrant import reentrant_parts
 from .sampling import MEAN, Batch
 from .strips import Columns, saturation_depth

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .quadrature import interior_nodes, mapped, mapped_weights
+from ..numerics.quadrature import interior_nodes, mapped, mapped_weights
 from .strips import Columns
 
 #: strips across the cell and points along each contact: shares are needed to a factor of two or so

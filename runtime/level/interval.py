@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from .grading import GENTLE, STEEP, Grading
+from ..numerics.endpoints import GENTLE, STEEP, Grading
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .chebyshev import lobatto
+from ..numerics.chebyshev import lobatto
 from .error_budget import ErrorBudget
 from .interval import Interval
 from .means import level_means

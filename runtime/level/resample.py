@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .cells import cells_of, clenshaw
-from .chebyshev import graded, parameter
+from ..numerics.chebyshev import clenshaw
+from .cells import cells_of
+from .piece import graded, parameter
 
 if TYPE_CHECKING:
     from .branches import Branch

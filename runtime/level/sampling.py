@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from .chebyshev import flat_ended, lobatto
+from ..numerics.chebyshev import flat_ended, lobatto
+from ..numerics.quadrature import interleaved
 from .error_budget import ErrorBudget
 from .interval import Interval
 from .means import level_means
-from .quadrature import interleaved
 from .strips import Columns
 
 #: share of the error allowed that each mean may have

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .cells import SLOTS, clenshaw, slot, within
-from .chebyshev import parameter
+from ..numerics.chebyshev import clenshaw
+from .cells import SLOTS, slot, within
 from .law import Law
+from .piece import parameter
 
 #: breaks closer than this, relative to the largest, are one
 _SAME = 1e-12

@@ -1,86 +1,101 @@
-"""Chebyshev series on [0, 1] through values at interior nodes, for many functions at once.
+"""Chebyshev series of several quantities at once: through values at nested nodes, with the error that is left.
 
-One family of nodes serves interpolation and quadrature: the zeros of the Chebyshev polynomial of the second kind U_n. They are
-nested (n to 2 n + 1) and leave out the ends, which are breakpoints of the caller's function: on which side of one a point lies
-is decided by rounding. Series are sums of ``c_j T_j(2 t - 1)``.
-
-Sums are by the recurrence of Clenshaw, "A note on the summation of Chebyshev series" (Math. Tables Aids Comput. 9, 1955, 118);
-the rest is numpy.polynomial.chebyshev and chapter 4 of Mason & Handscomb, "Chebyshev Polynomials" (2003).
+A function that is flat in t at both ends (``endpoints``) is had from the interior nodes: what it is at an end, which is a
+breakpoint of the caller's, need not be known. Compare chapter 4 of Mason & Handscomb, "Chebyshev Polynomials" (2003); sums over
+many series are by the recurrence of Clenshaw, "A note on the summation of Chebyshev series" (Math. Tables Aids Comput. 9, 1955,
+118).
 """
 
 from functools import lru_cache
 
 import numpy as np
-from numpy.polynomial import chebyshev
 
-#: points summed up at a time: their intermediate results stay in the processor's cache
-_CHUNK = 4096
+_EPS = np.finfo(float).eps
+#: power of the roughest quantity's coefficients, relative to its own, in those of every other one
+_COMMON = 0.2
+#: ratio of the last coefficients to those in the middle below which they surely fall geometrically
+_GEOMETRIC = 0.01
+#: how much of the last coefficient a sum of the rest is at least and at most, and how much more than that sum is feared: a sum
+#: that falls by a power is up to three times one that falls geometrically at first
+_FASTEST, _SLOWEST, _SAFE = 0.5, 32.0, 3.0
 
 
 @lru_cache
-def nodes(n: int) -> np.ndarray:
-    """The n nodes in (0, 1), ascending; every other one of ``nodes(2 n + 1)``, from the second on."""
-    return np.sin(0.5 * np.pi * np.arange(1, n + 1) / (n + 1)) ** 2
+def lobatto(n: int) -> np.ndarray:
+    """Chebyshev-Lobatto nodes on [0, 1], ascending, n + 1 of them; those of n/2 are every other one."""
+    return np.sin(0.5 * np.pi * np.arange(n + 1) / n) ** 2
+
+
+def coefficients(values: np.ndarray) -> np.ndarray:
+    """Chebyshev coefficients (n + 1, q) of the interpolant through ``values`` (n + 1, q) at ``lobatto(n)``."""
+    n = values.shape[0] - 1
+    return _transform(n) @ values
 
 
 @lru_cache
-def second_kind(n: int) -> np.ndarray:
-    """Matrix (n, n) from values at ``nodes(n)`` to coefficients of U_0 to U_(n-1): a discrete sine transform.
+def _transform(n: int) -> np.ndarray:
+    j = np.arange(n + 1)
+    weight = np.where((j == 0) | (j == n), 0.5, 1.0)
+    # ascending nodes are cos(pi (n - j)/n)
+    matrix = np.cos(np.pi * np.outer(j, n - j) / n) * weight * (2 / n)
+    matrix[[0, -1]] *= 0.5
+    return matrix
 
-    A matrix, not a fast transform: below some 200 nodes its product with a stack of values takes less time, and each function's
-    coefficients do not depend on those beside it.
+
+@lru_cache
+def flat_ended(n: int) -> np.ndarray:
+    """Matrix (n + 1, n - 1) from values at the interior nodes of ``lobatto(n)`` to coefficients of the interpolant whose slope
+    vanishes at both ends."""
+    every, degree = _transform(n), np.arange(n + 1)
+    # slopes of the Chebyshev polynomials are k^2 at one end and (-1)^(k + 1) k^2 at the other
+    slopes = np.stack((degree**2, (-1.0) ** degree * degree**2)) @ every
+    ends = np.linalg.solve(slopes[:, [0, -1]], -slopes[:, 1:-1])
+    return every[:, 1:-1] + every[:, [0, -1]] @ ends
+
+
+def interpolation_errors(
+    c: np.ndarray, noise: np.ndarray, blur: np.ndarray | float = 0.0, rounding: np.ndarray | float = 0.0
+) -> np.ndarray:
+    """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q); ``noise`` (p, q): changes that don't
+    matter; ``blur`` (p, q): how uncertain the coefficients are themselves; ``rounding`` (p, q): what of each is rounding and not
+    counted.
+
+    What is left is extrapolated from the end of the series, at the pace that coefficients fell at since the middle: those of a
+    quantity itself, as far as they don't fall faster than those of the roughest one, for all share their singularities.
     """
-    angle = np.pi * np.arange(n, 0, -1) / (n + 1)  # ascending nodes have falling angles
-    return (2 / (n + 1)) * np.sin(np.outer(np.arange(1, n + 1), angle)) * np.sin(angle)
+    n = c.shape[1] - 1
+    c = np.abs(c)
+    # what is rounding says nothing of the singularities
+    c = np.maximum(c - (16 * _EPS * c.max(axis=1) + rounding)[:, None], 0.0)
+    amplitude = (c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny)[:, None]
+    blur = np.broadcast_to(blur, noise.shape)[:, None]
+    roughest = (np.maximum(c - blur, 0.0) / amplitude).max(axis=2, keepdims=True)
+    c = c ** (1 - _COMMON) * (roughest * amplitude) ** _COMMON
+    # a run long enough that a kink's coefficients, which come and go, are not all small in it
+    few = max(3, n // 5)
+    last, middle = c[:, n - few :].max(axis=1), c[:, n // 2 - 2 : n // 2 + 1].max(axis=1)
+    ratio = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0)
+    pace = ratio ** (1 / (n / 2 + 1 - few / 2))
+    onward = (c[:, n - few :] * pace[:, None] ** np.arange(few, -1, -1)[:, None]).max(axis=1)
+    end = np.where(ratio < _GEOMETRIC, onward, last)
+    return _SAFE * end * np.clip(2 * pace / np.maximum(1 - pace, 1e-3), _FASTEST, _SLOWEST)
 
 
-@lru_cache
-def interpolation(n: int, flat_low: bool = False, flat_high: bool = False) -> np.ndarray:
-    """Matrix (n + 2, n) from values at ``nodes(n)`` to coefficients of T_0 to T_(n+1).
-
-    Towards an end that is ``flat`` the derivative vanishes; the polynomial's degree is n - 1 and one more for each such end.
-    Without that it errs n times as much at an end as in between.
-    """
-    degree = np.arange(n + 2)
-    conditions = np.zeros((2, n + 2))
-    conditions[0] = degree**2 / n**2 if flat_high else degree == n + 1
-    conditions[1] = (-1.0) ** degree * degree**2 / n**2 if flat_low else degree == (n if not flat_high else n + 1)
-    return np.linalg.inv(np.vstack((chebyshev.chebvander(2 * nodes(n) - 1, n + 1), conditions)))[:, :n]
+def evaluate(coefficients: np.ndarray, t) -> np.ndarray:
+    """Chebyshev sums of ``coefficients`` (n + 1, q) at ``t`` in [0, 1] (m,), shape (m, q)."""
+    angle = np.arccos(np.clip(2 * np.asarray(t, float) - 1, -1.0, 1.0))
+    return np.cos(angle[:, None] * np.arange(coefficients.shape[0])) @ coefficients
 
 
-@lru_cache
-def vandermonde(n: int, t: tuple[float, ...]) -> np.ndarray:
-    """Matrix (len(t), n) from coefficients to values at the fixed parameters ``t`` in [0, 1]."""
-    return chebyshev.chebvander(2 * np.array(t) - 1, n - 1)
-
-
-@lru_cache
-def _differentiation(n: int) -> np.ndarray:
-    return np.pad(2 * chebyshev.chebder(np.eye(n)), ((0, 1), (0, 0))) if n > 1 else np.zeros((1, 1))
-
-
-def derivative(c: np.ndarray) -> np.ndarray:
-    """Coefficients (..., n, q) of the derivatives by t of the series ``c`` (..., n, q); the last one is zero."""
-    return _differentiation(c.shape[-2]) @ c
-
-
-def clenshaw(table: np.ndarray, which: np.ndarray, t: np.ndarray) -> np.ndarray:
-    """Sums (q, m) of the series ``which`` (m,) of a ``table`` (n, q, series) at ``t`` (m,) in [0, 1]."""
-    out = np.empty((table.shape[1], which.size))
-    for start in range(0, which.size, _CHUNK):
-        some = slice(start, start + _CHUNK)
-        out[:, some] = _sums(table, which[some], t[some])
-    return out
-
-
-def _sums(table, which, t):
-    x = 2 * t - 1
-    twice, shape = 2 * x, (table.shape[1], which.size)
-    newer, older, product, term = np.zeros(shape), np.zeros(shape), np.empty(shape), np.empty(shape)
-    for k in range(table.shape[0] - 1, -1, -1):
-        # in place, the older one becoming the newer: all the time is spent here
-        np.multiply(twice if k else x, newer, out=product)
-        np.subtract(product, older, out=older)
-        older += np.take(table[k], which, axis=1, out=term, mode="clip")
-        newer, older = older, newer
-    return newer
+def clenshaw(table: np.ndarray, which: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Chebyshev sums (q, ...) at ``x`` (...): those of the members ``which`` (...) of a ``table`` (degree + 1, q, n)."""
+    twice, shape = 2 * x, (table.shape[1], *x.shape)
+    one, two, product, here = np.zeros(shape), np.zeros(shape), np.empty(shape), np.empty(shape)
+    for c in table[:0:-1]:
+        # the older one becomes the next, in place: all time goes here
+        np.subtract(np.multiply(twice, one, out=product), two, out=two)
+        two += np.take(c, which, axis=1, out=here, mode="clip")
+        one, two = two, one
+    np.subtract(np.multiply(x, one, out=product), two, out=two)
+    two += np.take(table[0], which, axis=1, out=here, mode="clip")
+    return two

@@ -1,88 +1,55 @@
-"""Changes of variable that make functions smooth which end like roots.
+"""Changes of variable that make functions smooth and flat which end like roots.
 
-With ``x = low + width share(t)`` and strengths p at the ends, the distance of x from either end is like the distance of t to
-the power p. So what ends like ``x^(1/p)`` in x is smooth in t. Strengths are powers of two: 1 (a regular end), 2 (square root),
-4 (a square root with other half powers next to it, or nearly ``x log x``; a fourth root), 8. The map of strength 2 is the
-parabola ``t^2`` towards one end and the cubic ``t^2 (3 - 2 t)`` towards both; higher strengths repeat it. Polynomials keep
-polynomials polynomials, and these have inverses in closed form. Compare Sidi, "A new variable transformation for numerical
-integration" (in "Numerical Integration IV", 1993), and section 2.12 of Davis & Rabinowitz, "Methods of Numerical Integration"
-(1984).
+A share of ``t^2`` next to an end makes what ends like a square root of a cube there, or goes on beyond, smooth and flat in t;
+``t^4`` does so to what ends like a square root itself, and nearly so to ``D log D`` (a level does where its crest lets go while
+its neighbours still hold). Being polynomials they leave what is smooth in D as smooth as they can.
 """
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import comb
 
 import numpy as np
 
-_SIN_60 = 0.5 * np.sqrt(3)
-STRENGTHS = (1, 2, 4, 8)
+GENTLE, STEEP = 2, 4
+_NEWTON = 8
 
 
-def share(t: np.ndarray, low, high) -> np.ndarray:
-    """Share of an interval below the parameter ``t`` in [0, 1]; strengths ``low`` and ``high`` (ints, or arrays (m,) along the
-    first axis of t)."""
-    return _by_strengths(_share, t, low, high)
+@dataclass(frozen=True)
+class Grading:
+    """Shares of an interval over t, both in [0, 1]: like ``t^low`` next to 0 and ``1 - (1 - t)^high`` next to 1."""
+
+    low: int = STEEP
+    high: int = STEEP
+
+    def share(self, t: np.ndarray) -> np.ndarray:
+        """Share of the interval below ``t``; next to either end to the digits of the distance from it."""
+        t = np.asarray(t, float)
+        return np.where(t <= 0.5, _beta(t, self.low, self.high), 1 - _beta(1 - t, self.high, self.low))
+
+    def parameter(self, share: np.ndarray) -> np.ndarray:
+        """t at which ``share`` lies below."""
+        share = np.asarray(share, float)
+        above = share > self.share(0.5)
+        return np.where(above, 1 - _root(1 - share, self.high, self.low), _root(share, self.low, self.high))
 
 
-def slope(t: np.ndarray, low, high) -> np.ndarray:
-    """Derivative of ``share`` by t."""
-    return _by_strengths(_slope, t, low, high)
+def _beta(t, a: int, b: int):
+    """Regularised incomplete beta function: sums of positive terms, so that no digits are lost."""
+    n = a + b - 1
+    return sum(comb(n, j) * t**j * (1 - t) ** (n - j) for j in range(a, n + 1))
 
 
-def parameter(part: np.ndarray, low, high) -> np.ndarray:
-    """The t in [0, 1] at which ``share`` is ``part`` in [0, 1]."""
-    return _by_strengths(_parameter, part, low, high)
-
-
-def _by_strengths(function, x, low, high):
-    x = np.asarray(x, float)
-    if np.ndim(low) == 0 and np.ndim(high) == 0:
-        return function(x, *_levels(int(low), int(high)))
-    kinds = np.broadcast_arrays(low, high, np.empty(x.shape[0]))[:2]
-    key = 16 * kinds[0] + kinds[1]
-    first = key.flat[0] if key.size else 0
-    if (key == first).all():
-        return function(x, *_levels(*divmod(int(first), 16))) if key.size else x.copy()
-    out = np.empty_like(x)
-    for kind in np.unique(key):
-        rows = key == kind
-        out[rows] = function(x[rows], *_levels(*divmod(int(kind), 16)))
-    return out
-
-
-def _levels(low: int, high: int) -> tuple[int, int]:
-    """How often the map of strength 2 is applied towards either end."""
-    if low not in STRENGTHS or high not in STRENGTHS:
-        raise ValueError(f"strengths of ends have to be among {STRENGTHS}, not {low}, {high}")
-    return low.bit_length() - 1, high.bit_length() - 1
-
-
-def _share(t, low, high):
-    for level in range(max(low, high), 0, -1):
-        if low >= level and high >= level:
-            t = t * t * (3 - 2 * t)
-        else:
-            t = t * t if low >= level else t * (2 - t)
+def _root(share, a: int, b: int):
+    """Where ``_beta`` is ``share``, up to its value at 1/2: Newton on its a-th root, which is all but linear there."""
+    goal = np.minimum(share, _beta(0.5, a, b)) ** (1 / a)
+    first = comb(a + b - 1, a)
+    t = np.minimum(goal / first ** (1 / a), 0.5)
+    for _ in range(_NEWTON):
+        value = np.maximum(_beta(t, a, b), np.finfo(float).tiny)
+        rise = first * t ** (a - 1) * (1 - t) ** (b - 1)
+        root = value ** (1 / a)
+        slope = root * rise / value
+        t = np.clip(t + np.divide(goal - root, slope, out=np.zeros_like(t), where=slope > 0), 0.0, 1.0)
     return t
-
-
-def _slope(t, low, high):
-    rise = np.ones_like(t)
-    for level in range(max(low, high), 0, -1):
-        if low >= level and high >= level:
-            rise, t = rise * 6 * t * (1 - t), t * t * (3 - 2 * t)
-        elif low >= level:
-            rise, t = rise * 2 * t, t * t
-        else:
-            rise, t = rise * 2 * (1 - t), t * (2 - t)
-    return rise
-
-
-def _parameter(part, low, high):
-    for level in range(1, max(low, high) + 1):
-        if low >= level and high >= level:
-            # the cubic's root by its trigonometric form, without cancellation towards 0
-            third = 2 / 3 * np.arctan2(np.sqrt(part), np.sqrt(1 - part))
-            part = np.minimum(np.sin(0.5 * third) ** 2 + _SIN_60 * np.sin(third), 1.0)
-        elif low >= level:
-            part = np.sqrt(part)
-        else:
-            part = part / (1 + np.sqrt(1 - part))
-    return part

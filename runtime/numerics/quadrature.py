@@ -1,69 +1,148 @@
-"""Weights on the nested interior nodes of ``chebyshev``, and what a sum with them misses.
+"""Clenshaw-Curtis sums on nested nodes of an interval whose ends may be like square roots, with an error from the decay of
+coefficients.
 
-A strength above 1 (``endpoints``) makes the integrand vanish at that end, which is then as good as a node. With both ends that
-gives the rule of Clenshaw & Curtis ("A method for numerical integration on an automatic computer", Numer. Math. 2, 1960, 197),
-all but as good as Gauss's (Trefethen, "Is Gauss quadrature better than Clenshaw-Curtis?", SIAM Review 50, 2008, 67), with
-neither Fejér's second rule: Waldvogel, "Fast construction of the Fejér and Clenshaw-Curtis quadrature rules" (BIT 46, 2006,
-195).
+``x = low + width (3 t^2 - 2 t^3)``: what starts or ends like a square root in x is smooth in t, and a polynomial in x stays one
+in t. The ends are no nodes: the weight vanishes there, so that nothing need be known of what happens on them.
 """
 
 from functools import lru_cache
 
 import numpy as np
-from numpy.polynomial import chebyshev as series
 
-from . import endpoints
-from .chebyshev import nodes, second_kind
-
-#: terms of the sums over what is missed; rates that these are tabulated at
-_TERMS = 1024
-_RATES = np.linspace(0.0, 0.985, 128)
-
-
-def _integrals(j):
-    """Integrals of U_j over [0, 1], by ``U_-j = -U_(j - 2)`` also for negative j."""
-    return np.where(j % 2 == 0, 1 / (j + 1.0 + (j == -1)), 0.0)
-
-
-@lru_cache
-def weights(n: int, low: int = 1, high: int = 1) -> np.ndarray:
-    """Weights (n,) on [0, 1] of values at ``nodes(n)``, the derivative of the map of strengths ``low`` and ``high`` included."""
-    moments = _integrals(np.arange(n + 2))
-    plain = moments[:n] @ second_kind(n)
-    # the one polynomial of degree n that vanishes at the nodes is U_n, that of degree n + 1 with the other parity x U_n: so
-    # much of them is added that the integrand's polynomial vanishes at the ends
-    at_high = np.arange(1, n + 1) @ second_kind(n)
-    at_low = (np.arange(1, n + 1) * (-1.0) ** np.arange(n)) @ second_kind(n)
-    even, odd = moments[n], 0.5 * (moments[n + 1] + _integrals(np.array(n - 1)))
-    size, sign = n + 1.0, (-1.0) ** n
-    if low > 1 and high > 1:
-        plain = plain - even * 0.5 * (at_high + sign * at_low) / size - odd * 0.5 * (at_high - sign * at_low) / size
-    elif high > 1:
-        plain = plain - even * at_high / size
-    elif low > 1:
-        plain = plain - even * sign * at_low / size
-    return plain * endpoints.slope(nodes(n), low, high)
+_EPS = np.finfo(float).eps
+#: coefficients in the middle of a series that those at its end are held against: one may be small by chance
+_MIDDLE = 3
+#: fastest pace believed of coefficients, by number of nodes, and the slowest that is told apart from a slower one
+_FASTEST, _SLOWEST = {8: 0.65, 16: 0.42, 32: 0.65}, 0.97
+#: number of nodes from which on coefficients are many; up to it and from it on, the ratio of the last coefficients to the middle
+#: ones below which they surely fall geometrically
+_MANY, _GEOMETRIC = 16, (0.15, 0.05)
+#: ratio of them above which they may fall by a power only, and how much more than by that of the last ones the next may count
+_POWER, _TURNS = 0.2, 2.5
+#: how much more is feared than what is left at the pace that coefficients fall at
+_SAFE = 1.5
+#: all quantities share their singularities: power of the roughest one's size, relative to its own, in that of every other one
+_COMMON = 0.2
+#: coefficients below this share of a change that doesn't matter say nothing of a pace
+_QUIET = 0.01
 
 
-def rule(n: int, low: int = 1, high: int = 1) -> tuple[np.ndarray, np.ndarray]:
-    """Points and weights (n,) on (0, 1) for functions that end like roots: ``low``, ``high`` as in ``endpoints``."""
-    return endpoints.share(nodes(n), low, high), weights(n, low, high)
+def interleaved(outer: np.ndarray, inner: np.ndarray) -> np.ndarray:
+    """What is had at nested nodes (m, nodes, ...), in order: those of ``outer``, one more, lie around those of ``inner``."""
+    out = np.empty((inner.shape[0], inner.shape[1] + outer.shape[1], *inner.shape[2:]), inner.dtype)
+    out[:, 0::2], out[:, 1::2] = outer, inner
+    return out
+
+
+def mapped(t):
+    """Where parameter t in [0, 1] lies in its interval, as a share of it."""
+    return t * t * (3 - 2 * t)
 
 
 @lru_cache
-def _missed(n: int, low: int, high: int) -> np.ndarray:
-    """At each of ``_RATES``: the sum of what the rule misses of U_n and all higher ones with coefficients 1, rate, rate^2, ..."""
-    degree = np.arange(n, n + _TERMS)
-    rise = series.chebfit(2 * nodes(63) - 1, endpoints.slope(nodes(63), low, high), 62)
-    k = np.arange(rise.size)
-    # U_j T_k = (U_(j + k) + U_(j - k))/2
-    exact = 0.5 * (_integrals(degree[:, None] + k) + _integrals(degree[:, None] - k)) @ rise
-    angle = np.pi * np.arange(n, 0, -1) / (n + 1)
-    sums = (np.sin(np.outer(degree + 1, angle)) / np.sin(angle)) @ weights(n, low, high)
-    return _RATES[:, None] ** np.arange(_TERMS) @ np.abs(sums - exact)
+def interior_nodes(n: int) -> np.ndarray:
+    """Interior Clenshaw-Curtis nodes on (0, 1)."""
+    j = np.arange(1, n)
+    return np.sin(0.5 * np.pi * j / n) ** 2
 
 
-def missed(n: int, low: int, high: int, rate: np.ndarray) -> np.ndarray:
-    """Largest error (...) on [0, 1] of the rule with n nodes where the coefficients of U_n and onwards are 1, rate, rate^2,
-    ..."""
-    return np.interp(rate, _RATES, _missed(n, low, high))
+@lru_cache
+def mapped_weights(n: int) -> np.ndarray:
+    """Clenshaw-Curtis weights at the interior nodes, times the derivative of ``mapped`` (zero at both ends)."""
+    j = np.arange(1, n)
+    m = np.arange(1, n // 2 + 1)
+    b = np.where(m == n / 2, 1.0, 2.0)
+    angle = 2 * np.outer(j, m) * np.pi / n
+    weights = (2 / n) * (1 - (b * np.cos(angle) / (4 * m**2 - 1)).sum(axis=1)) / 2
+    t = interior_nodes(n)
+    return weights * 6 * t * (1 - t)
+
+
+@lru_cache
+def _second_kind(n: int) -> np.ndarray:
+    """Matrix from values at ``interior_nodes(n)`` to coefficients of Chebyshev polynomials of the second kind, (n - 1, n - 1)."""
+    angle = np.arange(1, n) * np.pi / n
+    return (2 / n) * np.sin(np.outer(np.arange(1, n), angle)) * np.sin(angle)
+
+
+def _runs(n: int) -> tuple[int, int]:
+    """How many of the last coefficients of n nodes are looked at: so many that those of a singularity inside, which come and go,
+    are not all small; and so few that they come of nothing but what falls slowest."""
+    return (max(5, n // 5), 4) if n > 8 else (3, 3)
+
+
+@lru_cache
+def _left(n: int, turning: bool) -> tuple[np.ndarray, np.ndarray]:
+    """What the sum misses of a quantity whose coefficients are ``rho^j``, over the largest of the last ones it shows, and the
+    ratios by which it shows how fast they fall: rho itself where the coefficients are told from the middle on, where they may
+    also turn (``turning``) from order to order, ``rho^j exp(i psi j)``, as those of a singularity inside; else that of the last
+    ones to those before.
+
+    Order j has the integral ``m(j) = -3/(j (j^2 - 4))``, zero for even j. At the nodes orders ``2 n - j`` and ``2 n + j`` look
+    like j but for a sign: where coefficients fall slowly and don't turn, as where an end has a layer, most of it cancels.
+    """
+    rho = np.linspace(_FASTEST.get(n, 0.8), _SLOWEST, 64)
+    psi = np.linspace(0, np.pi, 33) if turning else np.zeros(1)
+    z = (rho[:, None] * np.exp(1j * psi)).reshape(-1, 1)
+    # the sum of m(j) z^j over odd j, by partial fractions
+    odd = np.arctanh(z)
+    exact = (0.75 * odd - 0.375 * (z**2 * odd - z) - 0.375 * (odd - z) / z**2)[:, 0]
+    values = z / (1 - 2 * z * np.cos(np.arange(1, n) * np.pi / n) + z**2)
+    c = np.abs(_second_kind(n) @ values.T)
+    missed = np.abs(values @ mapped_weights(n) - exact) / _last(c, _runs(n)[0 if turning else 1])
+    shown = rho if turning else _last(c, _step(n)) / _last(c, _step(n), _step(n))
+    return shown, np.maximum.accumulate(missed.reshape(rho.size, -1).max(axis=1))
+
+
+def _step(n: int) -> int:
+    """So many of the last coefficients are held against as many before."""
+    return max(2, n // 10)
+
+
+def _last(c: np.ndarray, size: int, skipped: int = 0) -> np.ndarray:
+    """Largest of the last ``size`` coefficients (n - 1, ...), but for the ``skipped`` ones behind them."""
+    end = len(c) - skipped
+    return c[end - size : end].max(axis=0)
+
+
+def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
+    """Error of the sum over nodes of each interval, per width, (p, q); ``values`` (p, n - 1, q), ``noise`` (p, q): changes that
+    don't matter.
+
+    The last coefficients say how much is left, and their pace how fast it falls: the one since the middle, or the one among the
+    last, which is slower where a layer next to an end is all that is left. Where coefficients fall geometrically the second is
+    believed, and the geometric mean of both where it is the smaller one, which may be chance; elsewhere the larger.
+    """
+    n = values.shape[1] + 1
+    # nodes first and intervals last: largest ones are had fastest so
+    c, values = (np.ascontiguousarray(np.moveaxis(v, 0, 2)) for v in (_second_kind(n) @ values, values))
+    # what is rounding says nothing of the singularities
+    c = np.maximum(np.abs(c) - 16 * _EPS * np.abs(values).max(axis=0), 0.0)
+    noise = noise.T
+    amplitude = c[1:].max(axis=0) + noise + np.finfo(float).tiny
+    shape = (c / amplitude).max(axis=1)
+    many, few = _runs(n)
+    step = _step(n)
+    ratio = _ratio(_last(shape, many), shape[n // 2 - _MIDDLE : n // 2].max(axis=0))
+    since = ratio ** (1 / (0.5 * (n + 1 - many)))
+    recent = np.maximum(
+        _ratio(_last(c, step), _last(c, step, step) + _QUIET * noise), _ratio(_last(shape, step), _last(shape, step, step))
+    )
+    size = _size(_last(c, many), _last(shape, many), amplitude)
+    first = size * np.interp(since, *_left(n, True))
+    second = _size(_last(c, few), _last(shape, few), amplitude) * np.interp(recent, *_left(n, False))
+    sure = ratio < _GEOMETRIC[int(n >= _MANY)]
+    doubtful = _SAFE * np.maximum(first, second)
+    # as those of a kink may fall: by a power, and coming and going; so the next ones by as much as these
+    slow = np.where(ratio > _POWER, np.maximum(doubtful, _TURNS * size * ratio), doubtful)
+    return np.where(sure, _SAFE * np.sqrt(np.maximum(first, second) * second), slow).T
+
+
+def _ratio(last, first):
+    """``last`` over ``first``, at most 1."""
+    return np.minimum(np.divide(last, first, out=np.ones_like(last), where=first > last), 1.0)
+
+
+def _size(own, roughest, amplitude):
+    """Size of the last coefficients of each quantity, given that of the ``roughest`` one relative to its ``amplitude``."""
+    return own ** (1 - _COMMON) * (roughest * amplitude) ** _COMMON

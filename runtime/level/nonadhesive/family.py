@@ -15,8 +15,8 @@ from functools import lru_cache
 import numpy as np
 
 from ...inputs.surface import Level
+from ...numerics.chebyshev import coefficients, interpolation_errors, lobatto
 from ...orbit.foundation import Foundation
-from ..chebyshev import coefficients, interpolation_errors, lobatto
 
 #: nodes of the first attempt and of the last
 _FIRST, _LAST = 8, 512

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...numerics.chebyshev import lobatto
 from ...orbit.foundation import Foundation
-from ..chebyshev import lobatto
 from .family import coefficients_over, evaluated
 from .means import mapped
 

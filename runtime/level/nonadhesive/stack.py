@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...inputs.surface import Level as Wavy
+from ...numerics.chebyshev import lobatto
+from ...numerics.quadrature import interleaved
 from ...orbit.foundation import Foundation
-from ..chebyshev import lobatto
 from ..effort import WorkCounters
-from ..quadrature import interleaved
 from .carried import Carrier
 from .family import family
 from .law import Laws, Piece, pressures

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..chebyshev import interpolation_errors, lobatto
+from ...numerics.chebyshev import interpolation_errors, lobatto
 from .family import coefficients_over, trimmed
 from .law import pressures
 

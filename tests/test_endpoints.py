@@ -9,13 +9,13 @@ import pytest
 import hystrip
 from hystrip.level import curve
 from hystrip.level.breaks import breakpoints
-from hystrip.level.chebyshev import evaluate, flat_ended, lobatto
 from hystrip.level.curve import interpolate, smooth_intervals
 from hystrip.level.ends import with_gentle_ends
-from hystrip.level.grading import GENTLE, STEEP, Grading
 from hystrip.level.interval import Interval
 from hystrip.level.means import level_means
 from hystrip.level.strips import Columns, saturation_depth
+from hystrip.numerics.chebyshev import evaluate, flat_ended, lobatto
+from hystrip.numerics.endpoints import GENTLE, STEEP, Grading
 
 POWERS = [(a, b) for a in (GENTLE, STEEP) for b in (GENTLE, STEEP)]
 
