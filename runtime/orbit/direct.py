@@ -11,7 +11,7 @@ from .certificate import attracting, edges_admissible
 from .chain import CONVERGED, follow
 from .exclusion import alone
 from .groups import Cycle
-from .march import Orbit
+from .march import FROZEN, Orbit
 from .outermost import Outermost
 from .refine import refined
 from .solved import orbit_of
@@ -25,8 +25,12 @@ def certified(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[O
     """Orbits of ``sequence`` that Newton finds from ``edges`` (k, n), which are certified, and the evaluations of each."""
     chain = follow(kernel, cycle, sequence, edges)
     spent = chain.evaluations
-    orbit = orbit_of(sequence, chain.edges)
     good = chain.converged
+    frozen = np.flatnonzero(~good & (cycle.strips.alpha > FROZEN)) if sequence in ("acaf", "afc") else ()
+    if len(frozen):
+        # the links along the chain lose what a period changes to rounding; the start is as good as an orbit
+        chain.edges[:, frozen], chain.correction[frozen], good[frozen] = edges[:, frozen], np.inf, True
+    orbit = orbit_of(sequence, chain.edges)
     coarse = np.flatnonzero(good & (chain.correction > CONVERGED))
     if coarse.size:
         # next to a fold or a graze the search knows better; a strip without adhesion has neither

@@ -7,6 +7,9 @@ import numpy as np
 TWO_PI = 2 * np.pi
 #: roundings of J_0 p_0 (a product and two quotients) within which it equals delta_0
 _TIE = 4 * np.finfo(float).eps
+#: alpha from which a strip is taken as the limit of a foundation that stands still: pressures differ from it by 1/alpha of the
+#: glassy pressure, and what a period changes is lost in the rounding of the edges soon after (1e14)
+STANDS_STILL = 1e12
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +88,11 @@ class Cycle:
     @property
     def size(self) -> int:
         return self.centre.size
+
+
+def slowed(alpha) -> np.ndarray:
+    """Share of its speed at which a strip is solved: 1, or less where it is taken as the limit of infinite speed."""
+    return np.divide(STANDS_STILL, alpha, out=np.ones_like(alpha), where=alpha > STANDS_STILL)
 
 
 def snaps_in(step, delta_0) -> np.ndarray:

@@ -1,11 +1,13 @@
 """What no orbit of a strip can exceed: bounds from the most engaged state that it can be in without being in contact all the
 time.
 
-Contact is left where ``H + p_0 <= 0`` and, but for a snap into contact, made where ``H + p_0 >= 0``. So every orbit but
-saturated contact is in a gap at the phase where ``H + p_0`` turns positive, and there nothing is more engaged than a gap that has
-just closed: engaged, with the least ``z = w - J_0 p``. (A free state has ``z = w > u + delta_0``, more than the ``u + J_0 p_0``
-of that one where it does not snap.) The order of states is kept in time. Hence, if from that state contact ends at a, adhesion
-ends at c and the next onset is met at x, then in every orbit contact and adhesion end before a and c, so that
+Contact is left where ``H + p_0 <= 0`` and made where ``H + p_0 >= 0`` (a snap into contact: where ``H + delta_0 >= 0``, and
+``p_0 > delta_0``). So every orbit but saturated contact is in a gap at the phase where ``H + p_0`` turns positive, and there
+nothing is more engaged than a gap that has just closed: engaged, with the least ``z = w - J_0 p``. (A free state has
+``z = w > u + delta_0``, more than the ``u + J_0 p_0`` of that one where it does not snap. Where it does, the state just after the
+snap, ``z = u + delta_0`` in contact, is more engaged than any in a gap.) The order of states is kept in time. Hence, if from that
+state contact ends at a, adhesion ends at c and the next onset is met at x, then in every orbit contact and adhesion end before a
+and c, so that
 
 * no orbit is always engaged,
 * every onset lies after x, and
@@ -66,10 +68,10 @@ class Outermost:
 
 
 def outermost(kernel, cycle: Cycle) -> Outermost:
-    """Bounds for cycles of strips that are not in saturated contact; none for those that snap into contact."""
+    """Bounds for cycles of strips that are not in saturated contact."""
     n = cycle.size
     out = Outermost.blank(n)
-    index = np.flatnonzero(~cycle.direct & (cycle.half_b > 0) & (cycle.half_b < np.pi))
+    index = np.flatnonzero((cycle.half_b > 0) & (cycle.half_b < np.pi))
     if not index.size:
         return out
     part = cycle.among(index)
@@ -99,7 +101,7 @@ def _release(kernel, cycle: Cycle, b, a, c):
     s, noise = cycle.strips, _noise(cycle)
     spent, turned = np.zeros(cycle.size), cycle.centre + TWO_PI
     close = close_enough(s.beta)
-    entry = kernel.excess_entry(b, 0.0, s.p_0, s.D, s.alpha, s.beta, s.L)
+    entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
     near, far = np.maximum(b, cycle.centre + cycle.half_b), turned - cycle.half_b
     blur, start = noise + 64 * _EPS * entry[4], np.clip(a, near, far)
     a, ends = bound(kernel.excess_event, entry, 0.0, 1.0, start, far, 1.0, blur, close, spent, near)

@@ -7,12 +7,14 @@ import numpy as np
 from ..errors import InputError, SolverError
 from .engine import solve_strips
 from .flat import is_flat, solve_flat
-from .groups import Strips, snaps_in
+from .groups import Strips, slowed, snaps_in
 from .regimes import CODE
 from .solved import Solved
 
 #: beyond this alpha and beta squared overflow
 _GROUP_LIMIT = 1e150
+#: regimes in which adhesion begins and ends
+_STEPPING = [CODE[sequence] for sequence in ("acaf", "afc", "af")]
 
 
 def _each(function, *arrays) -> np.ndarray:
@@ -37,14 +39,15 @@ def dimensionless(l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge) -> tu
         alpha, beta = _each(_product, k, V, T_sigma), _each(_product, k, V, T_eps)
     if np.any(beta > _GROUP_LIMIT):
         raise InputError("V", float(V[beta > _GROUP_LIMIT][0]), f"k V T_eps at most {_GROUP_LIMIT:g}")
+    pace = _each(slowed, alpha)
     traction = _each(np.divide, p_0, K)
     flat = is_flat(A, beta, D, traction, delta_0)
     unit = np.where(flat, 1.0, A) if flat.any() else A
     chi = np.broadcast_to(float(edge == "constitutive"), D.shape)
     snaps = _each(lambda J, p_0, delta_0: snaps_in(J * p_0, delta_0) & (edge == "constitutive"), J, traction, delta_0)
     lengths = (_each(np.divide, v, unit) for v in (traction, delta_0, D))
-    strips = Strips(alpha, beta, J, L, *lengths, chi, np.broadcast_to(snaps, D.shape))
-    scales = {"k": k, "A": A, "D": D, "p": _each(np.multiply, K, unit), "length": unit, "flat": flat}
+    strips = Strips(alpha * pace, beta * pace, J, L, *lengths, chi, np.broadcast_to(snaps, D.shape))
+    scales = {"k": k, "A": A, "D": D, "p": _each(np.multiply, K, unit), "length": unit, "flat": flat, "pace": pace}
     return strips, scales
 
 
@@ -54,7 +57,7 @@ def solve_si(kernel, *inputs, edge, branch) -> tuple[Solved, Strips, dict]:
     flat = scales["flat"]
     unloading = branch == "unloading"
     if not flat.any():
-        return solve_strips(kernel, strips, unloading), strips, scales
+        return _at_full_speed(solve_strips(kernel, strips, unloading), strips, scales["pace"]), strips, scales
     solved = Solved.empty(strips.size)
     wavy = np.flatnonzero(~flat)
     solved.put(wavy, solve_strips(kernel, strips.take(wavy), unloading))
@@ -64,7 +67,17 @@ def solve_si(kernel, *inputs, edge, branch) -> tuple[Solved, Strips, dict]:
     solved.contact_fraction[level] = code == CODE["c"]
     solved.adhesion_fraction[level] = code == CODE["a"]
     solved.certified[level] = True
-    return solved, strips, scales
+    return _at_full_speed(solved, strips, scales["pace"]), strips, scales
+
+
+def _at_full_speed(solved: Solved, strips: Strips, pace: np.ndarray) -> Solved:
+    """Friction of strips that were solved at a share ``pace`` of their speed, in the limit of infinite speed: it falls like 1/V
+    where nothing steps, that is but for adhesion that begins and ends under the constitutive closure."""
+    fast = np.flatnonzero(pace < 1)
+    if fast.size:
+        falls = (strips.chi[fast] == 0) | ~np.isin(solved.code[fast], _STEPPING)
+        solved.tau_mean[fast] *= np.where(falls, pace[fast], 1.0)
+    return solved
 
 
 def refuse_uncertified(solved: Solved, inputs: dict[str, np.ndarray], edge: str, branch: str) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from ..inputs.material import StandardLinearSolid
 from .contact import SingleContact
 from .fields import fields
-from .groups import TWO_PI
+from .groups import TWO_PI, slowed
 from .nonadhesive import SingleWaves
 from .si import refuse_uncertified, solve_si
 
@@ -56,6 +56,7 @@ class SingleTime:
     def boundary_arguments(self, rate, D, p_0, delta_0, edge):
         m, one = self.material, np.ones(D.size)
         chi = one * (edge == "constitutive")
+        rate = rate * slowed(rate * m.T_sigma)
         return rate * m.T_sigma, rate * m.T_eps, one * m.J, one * m.L, p_0, delta_0, D, chi
 
     def release(self, edges, arguments):
@@ -103,7 +104,11 @@ class SingleTime:
         return self.kernel.level_saturation_friction(m.K, m.T_eps, m.T_sigma, l, h, V)
 
     def surely_saturated(self, p_0, l, h, V):  # noqa: E741
-        """The forcing ``H + p_0`` is positive all along every strip, so contact once made is never left, and no strip is out of
-        reach."""
-        steepest = np.hypot(1.0, 2 * np.pi / l * V * self.material.T_eps)
-        return np.maximum(0.5 * h * (1 + steepest) - p_0 / self.material.K, h)
+        """Either the forcing ``H + p_0`` is positive all along every strip, so contact once made is never left, and no strip is
+        out of reach; or the excess pressure is, whatever the state: with the creep behind it not above D the pressure is at least
+        ``K_g u - (K_g - K) D``."""
+        m = self.material
+        steepest = np.hypot(1.0, 2 * np.pi / l * V * m.T_eps)
+        forced = 0.5 * h * (1 + steepest)
+        glassy = np.divide(h, m.J, out=np.full(np.shape(m.J), np.inf), where=np.asarray(m.J) > 0)
+        return np.maximum(np.minimum(forced, glassy) - p_0 / m.K, h)
