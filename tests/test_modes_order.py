@@ -6,6 +6,7 @@ import pytest
 
 from hystrip.generated import generalised
 from hystrip.inputs.model import modes_of
+from hystrip.orbit.modes.contraction import upper_bound
 from hystrip.orbit.modes.engine import solve_modes
 from hystrip.orbit.modes.march import march
 from hystrip.orbit.modes.problem import ModeStrips
@@ -69,8 +70,8 @@ def test_order_fails_where_a_free_state_lies_below_an_engaged_one():
 
 @pytest.mark.parametrize(("n", "fast"), [*((n, False) for n in TIMES), (3, True)])
 def test_bounds_of_the_derivative(n, fast):
-    """Between two ordered states the map grows at least as the lower bound of its derivative says, and the exact one is
-    its slope.
+    """Between two ordered states the map grows at least as the lower bound of its derivative says, and contracts
+    no less than the upper one says, and the exact one is its slope.
 
     States lie where all orbits do, between -p_0 and max(D, 0)."""
     rng = np.random.default_rng(10 + n)
@@ -97,6 +98,14 @@ def test_bounds_of_the_derivative(n, fast):
     rounded = np.finfo(float).eps * np.pi / s.m.alpha.min(axis=0) if fast else 0.0
     assert np.all(grown >= np.einsum("Nij,jN->iN", bound, step) - rounded - 1e-11 * (1 + np.abs(e).max(axis=0)))
     assert once.sum() > N / 10
+    # the upper bound is that of the map from another phase of the same turn: their spectral radii are to be compared
+    most, holds = upper_bound(s, order, lower, upper)
+    between = march(kernel, s, h, order.to_z(e + rng.random(N) * step), start)
+    growth = lambda change: np.linalg.eigvals(np.where(holds[:, None, None], change, 0.0)).real.max(axis=1)  # noqa: E731
+    for period in (lower, between, upper):
+        same = holds & (period.contacts == lower.contacts)
+        exact = growth(propagation(s, order, period, exact_gains(s, period)))
+        assert same.sum() > N / 30 and np.all(exact[same] <= growth(most)[same] + 1e-9)
     if fast:
         # onsets that lie further apart than contact is behind them: their gain is known all the same
         wide = once & (upper.onset - lower.onset > 3 * (lower.entry - lower.onset)) & (lower.entry > lower.onset)

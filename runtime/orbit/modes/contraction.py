@@ -16,7 +16,7 @@ import numpy as np
 
 from .march import TWO_PI, Period
 from .problem import ModeStrips, rates
-from .propagation import Order, slopes_by_modes, solve_order
+from .propagation import Order, closing_times, slopes_by_modes, solve_order
 
 
 def alike(lower: Period, upper: Period) -> np.ndarray:
@@ -27,6 +27,14 @@ def alike(lower: Period, upper: Period) -> np.ndarray:
 
 def contracts(s: ModeStrips, order: Order, lower: Period, upper: Period) -> np.ndarray:
     """Where the map contracts between the states that ``lower`` and ``upper`` march from."""
+    change, good = upper_bound(s, order, lower, upper)
+    forgotten = -np.minimum(np.diagonal(change, axis1=1, axis2=2), 0.0).T
+    v = solve_order(change, np.maximum(forgotten, 1e-300))
+    return good & np.all(np.isfinite(v) & (v > 0), axis=0)
+
+
+def upper_bound(s: ModeStrips, order: Order, lower: Period, upper: Period) -> tuple[np.ndarray, np.ndarray]:
+    """Upper bound of the map's derivative less the identity, (N, n, n), between two states, and where it holds, (N,)."""
     contact = upper.contacts == 1
     same = alike(lower, upper) & (lower.contacts == upper.contacts) & (upper.contacts <= 1)
     early, late = upper.release, lower.release
@@ -52,7 +60,10 @@ def contracts(s: ModeStrips, order: Order, lower: Period, upper: Period) -> np.n
         column = lambda short, long: _most(order.back * kick, fade(short), fade(long))  # noqa: E731
         row = lambda short, long: _most(np.swapaxes(order.share, 0, 1), fade(short), fade(long))  # noqa: E731
         between = (kick * fade(x_1 - c_2)).sum(axis=0)
-        before, after_x = row(c_1, c_2), column(b - x_2, b - x_1)
+        # from onset on a state is in the gap until its own contact, and forgets no less in that than in a gap up to b
+        closing, closes = closing_times(s, order, lower, upper)
+        closing, closes = np.where(snaps, 0.0, closing), contact & (snaps | closes)
+        before, after_x = row(c_1, c_2), column(*np.where(closes, closing, np.stack((b - x_2, b - x_1))))
         terms = (
             (release, column(b - c_2, b - c_1), before),
             (onset, after_x, row(x_1, x_2)),
@@ -66,9 +77,7 @@ def contracts(s: ModeStrips, order: Order, lower: Period, upper: Period) -> np.n
         change = (1 + held)[:, :, None] * change
         n = s.modes
         change[:, range(n), range(n)] += held
-        forgotten = -np.minimum(np.diagonal(change, axis1=1, axis2=2), 0.0).T
-        v = solve_order(change, np.maximum(forgotten, 1e-300))
-    return good & np.all(np.isfinite(v) & (v > 0), axis=0)
+    return change, good
 
 
 def _most(amplitudes, short, long):

@@ -134,7 +134,7 @@ def _across(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, ons
     inside = holds & (event[1] <= end)
     after = np.where(inside, end - event[::-1], 0.0)
     if onset:
-        closing, closes = _closing_times(s, order, lower, upper)
+        closing, closes = closing_times(s, order, lower, upper)
         after, inside = np.where(holds & closes, closing, after), inside | holds & closes
     before = np.where(inside, event - start, 0.0)
     kicked = order.to_z(np.broadcast_to(order.rate, (s.modes, s.size)))
@@ -143,7 +143,7 @@ def _across(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, ons
     return Across(np.where(inside, gain, 0.0), np.maximum(row, 0.0), np.maximum(column, 0.0))
 
 
-def _closing_times(s: ModeStrips, order: Order, lower: Period, upper: Period):
+def closing_times(s: ModeStrips, order: Order, lower: Period, upper: Period):
     """Least and greatest time (2, N) from onset to contact of all states between those of two marches, and where these hold.
 
     Fast modes draw the point into contact at once, in a time that hardly depends on where the onset is; the onset may move by
