@@ -89,3 +89,20 @@ def test_fifty_levels_of_a_rough_surface():
     fifty, forty = (hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), levels[:n], **given) for n in (50, 40))
     assert fifty.converged and fifty.tau_by_level.shape == (50,)
     assert fifty.tau == pytest.approx(float(forty.tau), rel=1e-6)
+
+
+def test_a_friction_law_says_whether_it_converged(monkeypatch):
+    at = {"V": 1e-3, "rtol": 1e-4, "edge": "constitutive"}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        exact = hystrip.friction_law(MATERIAL, ADHESION, LEVELS[1], **at)
+    assert exact.converged is True
+    monkeypatch.setattr(curve, "CURVE_LIMIT", 200)
+    with pytest.warns(
+        hystrip.ConvergenceWarning, match=r"friction law .* rtol = 0\.0001; V 0\.001: the curve .*l = 5e-07"
+    ) as said:
+        law = hystrip.friction_law(MATERIAL, ADHESION, LEVELS[1], **at)
+    assert law.converged is False and len(said) == 1 and said[0].filename == __file__
+    p = np.linspace(law.pull_off + 1, exact.p_sat, 50)
+    p = p[np.abs(p[:, None] - np.concatenate((law.breaks, exact.breaks))).min(axis=1) > 1]
+    assert np.abs(law(p) - exact(p)).max() <= law.error_estimate + exact.error_estimate

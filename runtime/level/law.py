@@ -15,6 +15,9 @@ from .branches import Branch, branches_of, meets
 from .curve import Curve
 from .resample import resampled
 
+#: pressures of a branch at which its size is looked at: it is monotone in pressure, and friction over pressure has few humps
+_SUPPORTS = 17
+
 
 def _joined(kept: list[Branch], p_sat: float) -> list[Branch]:
     """The branches, those stretched that end next to where another begins, or at saturation, but for their errors: there is one
@@ -65,6 +68,12 @@ class Law:
         # branches that follow one another meet to rounding
         apart = np.diff(ends, append=np.inf) > 1e-12 * np.abs(ends).max(initial=0.0)
         return ends[apart]
+
+    @property
+    def supports(self) -> np.ndarray:
+        """Pressures across every branch, from end to end, for the size of what they hold."""
+        inside = [np.linspace(b.p_low, b.p_high, _SUPPORTS) for b in self.branches]
+        return np.concatenate([*inside, [self.p_sat]])
 
     def at_breaks(self) -> tuple[np.ndarray, np.ndarray]:
         """Change of friction, its own and what it carries, at each break, and how well the pressure of the break is known, Pa."""

@@ -38,6 +38,7 @@ class FrictionLaw:
     ``p_sat`` is where unloading leaves saturated contact; on the loading branch it is a pressure that suffices for it. Zero
     below ``pull_off``, ``tau_sat`` from ``p_sat`` on. ``breaks``: pressures at which it jumps or has a kink. ``below``: largest
     pressure it was built for; asking for more is an ``InputError``. ``error_estimate``: absolute error of the friction, Pa.
+    ``converged``: it is within ``rtol`` of the greatest friction.
     """
 
     pull_off: float
@@ -45,6 +46,7 @@ class FrictionLaw:
     tau_sat: float
     below: float
     error_estimate: float
+    converged: bool
     _law: Law = field(repr=False)
 
     @property
@@ -215,7 +217,9 @@ def friction_law(
 ) -> FrictionLaw:
     """Friction law of a level at one velocity ``V`` (m/s), from pull-off up to saturation, or up to the pressure ``below`` (Pa).
 
-    Raises ``InputError`` for inputs out of range, ``SolverError`` for a strip that could not be certified.
+    ``rtol`` is relative to ``|friction| + 1e-3 scale``, as in ``solve_level``. Raises ``InputError`` for inputs out of range,
+    ``SolverError`` for a strip that could not be certified; warns with a ``ConvergenceWarning`` of a law that is not
+    ``converged``, as the work on it is bounded.
 
     >>> import hystrip
     >>> material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
@@ -227,7 +231,8 @@ def friction_law(
     if V.ndim:
         raise InputError("V", V, "a single number: a finite number >= 0 (m/s)")
     top = None if below is None else np.array([number("below", below, "Pa")])
-    columns = Columns(material, adhesion, level, edge, branch, V.reshape(1), np.zeros(1))
+    work = WorkCounters()
+    columns = Columns(material, adhesion, level, edge, branch, V.reshape(1), np.zeros(1), work=work)
     law = _laws(columns, rtol, top)[0]
     built = law.p_sat if below is None or below >= law.p_top else float(below)
     if built < law.p_sat and law.pull_off >= built:
@@ -237,7 +242,13 @@ def friction_law(
     if not adhesion.p_0 > 0:
         # contact begins at zero pressure, and there is none at it
         pull_off, law = 0.0, replace(law, pull_off=np.finfo(float).tiny)
-    return FrictionLaw(pull_off, law.p_sat, float(law.saturated[1]), built, law.friction_error, law)
+    greatest = np.abs(law(law.supports)[:, 1]).max(initial=0.0)
+    converged = bool(not work.limits and law.friction_error <= rtol * (greatest + columns.floors[1]))
+    if not converged:
+        reason = f"V {float(V):g}: {work.reason(float(V))}"
+        message = f"the friction law did not converge to rtol = {rtol:g}; {reason} (see error_estimate)"
+        warnings.warn(message, ConvergenceWarning, stacklevel=2)
+    return FrictionLaw(pull_off, law.p_sat, float(law.saturated[1]), built, law.friction_error, converged, law)
 
 
 def _laws(columns: Columns, rtol: float, top) -> list[Law]:
