@@ -229,3 +229,14 @@ def test_a_family_that_goes_further_is_the_same(rtol):
     alone = family(foundation_of(SOFT), rate[:1], np.array([np.inf]), one, floor, rtol * one)
     near, far = Means(both).means(group, d, 27), Means(alone).means(group, d, 27)
     assert (np.abs(near - far) <= rtol * (np.abs(far) + floor)).all()
+
+
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+@pytest.mark.parametrize("h", [0.0, 5e-324, 1e-200, HEIGHT])
+def test_levels_without_height_and_out_of_contact_are_no_warning(h):
+    """Next to nothing is divided by next to nothing, at D below, at and above the plane."""
+    level = hystrip.Level(LENGTH, h)
+    s = hystrip.solve_level(SOFT, NONE, level, V=1e-3, D=[-1e-6, 0.0, 3e-6], rtol=1e-3)
+    assert s.p_mean[0] == 0 and s.p_mean[1] == 0 and s.p_mean[2] == pytest.approx(K * (3e-6 - 0.75 * h), rel=0.05)
+    r = hystrip.solve(SOFT, NONE, [LEVEL, level], pressure=100.0, velocity=1e-3, rtol=1e-3)
+    assert r.mu > 0 and "nan" not in str(r.summary()).lower()

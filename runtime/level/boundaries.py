@@ -68,7 +68,8 @@ def thresholds(columns: Columns) -> tuple[np.ndarray, np.ndarray]:
     theta = theta_of(columns, np.where(inside, A, 0.0))
     if usual == 2:
         # touch is lost where the profile has dropped by the penetration: next to the crest to all digits of that
-        share = (columns.D + (columns.adhesion.delta_0 if P > 0 else 0.0)) / h if h > 0 else -np.ones(columns.size)
+        with np.errstate(over="ignore"):
+            share = (columns.D + (columns.adhesion.delta_0 if P > 0 else 0.0)) / h if h > 0 else -np.ones(columns.size)
         inside[1] = (share > 0) & (share < 1)
         theta[1] = 2 * np.arcsin(np.sqrt(np.clip(share, 0.0, 1.0)))
     kind, state = np.nonzero(inside)
@@ -77,7 +78,9 @@ def thresholds(columns: Columns) -> tuple[np.ndarray, np.ndarray]:
 
 def theta_of(columns: Columns, A) -> np.ndarray:
     """``k y`` of the strips with amplitude ``A``, m."""
-    return 2 * np.arccos(np.sqrt(np.clip(2 * A / columns.level.h, 0.0, 1.0)))
+    # a level without height has one strip, the crest
+    h = columns.level.h
+    return 2 * np.arccos(np.sqrt(np.clip(2 * A / h, 0.0, 1.0))) if h > 0 else np.zeros(np.shape(A))
 
 
 def equations(columns: Columns, code: np.ndarray, other: np.ndarray) -> list[tuple[Boundary, np.ndarray]]:

@@ -25,6 +25,8 @@ _SAFE = 1.5
 _COMMON = 0.2
 #: coefficients below this share of a change that doesn't matter say nothing of a pace
 _QUIET = 0.01
+#: share of its size by which a constant is taken to change: quotients by less would overflow
+_NOTHING = 1e-290
 
 
 def interleaved(outer: np.ndarray, inner: np.ndarray) -> np.ndarray:
@@ -117,9 +119,10 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     # nodes first and intervals last: largest ones are had fastest so
     c, values = (np.ascontiguousarray(np.moveaxis(v, 0, 2)) for v in (_second_kind(n) @ values, values))
     # what is rounding says nothing of the singularities
-    c = np.maximum(np.abs(c) - 16 * _EPS * np.abs(values).max(axis=0), 0.0)
+    largest = np.abs(values).max(axis=0)
+    c = np.maximum(np.abs(c) - 16 * _EPS * largest, 0.0)
     noise = noise.T
-    amplitude = c[1:].max(axis=0) + noise + np.finfo(float).tiny
+    amplitude = c[1:].max(axis=0) + noise + np.finfo(float).tiny + _NOTHING * largest
     shape = (c / amplitude).max(axis=1)
     many, few = _runs(n)
     step = _step(n)

@@ -29,6 +29,8 @@ _FINEST, _TRIMMED = 256, 0.03
 _ROOT = 4.0
 #: beyond this k V times the longest retardation time the general path says what is wrong
 _FASTEST = 1e100
+#: height squared over wavelength, m, from which on products of them do not underflow
+_FLATTEST = 1e-200
 _EPS = np.finfo(float).eps
 #: quantities of a strip: mean pressure, mean friction, share of the period in contact
 _Q = 3
@@ -37,7 +39,7 @@ _Q = 3
 def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V: np.ndarray) -> bool:
     """Whether the strips of all ``levels`` are families at the velocities ``V``: without adhesion (``p_0``), and wavy."""
     fastest = max(level.k for level in levels) * V.max(initial=0.0) * foundation.longest_time
-    return p_0 == 0 and all(level.h > 0 for level in levels) and bool(fastest < _FASTEST)
+    return p_0 == 0 and all(level.k * level.h**2 > _FLATTEST for level in levels) and bool(fastest < _FASTEST)
 
 
 @dataclass(frozen=True)

@@ -31,17 +31,17 @@ class FamilyMeans:
 def family_means(columns: Columns, rtol: np.ndarray, p: np.ndarray | None = None) -> FamilyMeans:
     """Means of the level alone at the columns' penetrations, or at the pressures ``p`` > 0 (Pa) below saturation, to
     ``rtol (|value| + floor)``."""
-    level, K = columns.level, columns.material.K
+    level, K, n = columns.level, columns.material.K, columns.size
+    D, values, errors, certain = columns.D.copy(), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n, bool)
     foundation = foundation_of(columns.material)
+    if columns.strips is not None or not are_families(foundation, columns.adhesion.p_0, (level,), columns.V):
+        return FamilyMeans(D, np.zeros((n, 4)), np.zeros((n, 4)), certain)
     unit = np.array((K * level.h, K * level.h * level.k * level.h, 1.0))
     V, group = np.unique(columns.V, return_inverse=True)
     load = columns.D / level.h if p is None else p / unit[0]
-    n = load.size
     floors = columns.floors[:3]
-    D, values, errors, certain = load.copy(), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n, bool)
-    finer = np.ones(n)
-    applies = columns.strips is None and are_families(foundation, columns.adhesion.p_0, (level,), V)
-    for _ in range(_ATTEMPTS if applies else 0):
+    D, finer = load.copy(), np.ones(n)
+    for _ in range(_ATTEMPTS):
         left = np.flatnonzero(~certain)
         if not left.size:
             break
