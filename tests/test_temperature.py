@@ -141,6 +141,34 @@ def test_wrong_scenes_are_named(old, new, said):
         parse_scene(SCENE.replace(old, new)).solve()
 
 
+def test_sweep_over_a_shift(run, tmp_path):
+    pytest.importorskip("typer")
+    (tmp_path / "shift.toml").write_text(SCENE.replace("C_2 = 101.6", "C_2 = [90, 110]"), encoding="utf-8")
+    over = {"material.shift.vertical": [-1.0, 1.0], "material.shift.T_ref": [280.0, 293.15]}
+    done = hystrip.sweep(tmp_path / "shift.toml", over=over, out=tmp_path / "out")
+    assert [axis.name for axis in done.plan.axes] == ["T_ref", "C_2", "vertical"] and done.plan.size == 8
+    scene = parse_scene(SCENE)
+    for row in range(8):
+        T_ref, C_2, vertical = (done.columns[name][row] for name in ("T_ref [K]", "C_2 [K]", "vertical [1]"))
+        shift = hystrip.WLF(C_1=8.86, C_2=C_2, T_ref=T_ref, vertical=vertical)
+        material = hystrip.HalfSpace(2e6, 0.49, [8e6, 3e7], [1e-3, 1e-5], shift=shift)
+        one = hystrip.solve(
+            material, scene.adhesion, scene.levels, pressure=1e5, velocity=1.0, temperature=313.15, edge="constitutive"
+        )
+        assert done.columns["mu"][row] == pytest.approx(one.mu, rel=1e-6)
+    (tmp_path / "one.toml").write_text(SCENE, encoding="utf-8")
+    status, out, err = run("sweep", "one.toml", "--over", "material.shift.C_1=[8, 9]", "--over", 'material.shift.T_ref="0 degC"')
+    assert (status, err) == (0, "") and "2 points" in out
+    for wrong, said in (
+        ('C_2="100 degC"', "C_2"),
+        ("E_a=1e5", "one of"),
+        ("C_1=[8, -1]", "> 0"),
+        ("vertical=[0, 11]", "vertical"),
+    ):
+        status, out, err = run("sweep", "one.toml", "--over", f"material.shift.{wrong}", "--out", f"out-{said[:3]}")
+        assert status != 0 and said in err, wrong
+
+
 def test_temperature_needs_a_shift():
     table = SCENE.index("[material.shift]"), SCENE.index("[material.fit]")
     with pytest.raises(hystrip.InputError, match=r"temperature: .*\[material.shift\]"):

@@ -135,8 +135,14 @@ def _power(decades: np.ndarray, T: np.ndarray) -> np.ndarray:
     return 10.0**decades
 
 
+def check_exponents(field: str, vertical: Any) -> None:
+    """``InputError`` unless the exponents ``vertical`` of T/T_ref are numbers from -10 to 10."""
+    for each in np.ravel(numbers(field, vertical, "", -10)):
+        if each > 10:
+            raise InputError(field, float(each), "a number from -10 to 10, the exponent of T/T_ref")
+
+
 def _check_vertical(shift: Any) -> None:
-    vertical = number("shift.vertical", shift.vertical, "", -10)
-    if vertical > 10:
-        raise InputError("shift.vertical", shift.vertical, "a number from -10 to 10, the exponent of T/T_ref")
+    vertical = number("shift.vertical", shift.vertical, "")
+    check_exponents("shift.vertical", vertical)
     object.__setattr__(shift, "vertical", vertical)

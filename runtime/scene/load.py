@@ -127,9 +127,10 @@ def refuse_ambiguous(values: dict[str, Any]) -> None:
 
 
 def quantities(values: dict[str, Any]) -> Iterator[tuple[str, np.ndarray]]:
-    """Dotted key and value of every quantity of a validated scene: levels, material, adhesion, load, velocity."""
+    """Dotted key and value of every quantity of a validated scene: levels, material and its shift, adhesion, load, velocity."""
     tables = [(f"levels[{index}]", level) for index, level in enumerate(values["levels"])]
-    tables += [("material", values["material"]), ("adhesion", values["adhesion"] or {})]
+    tables += [("material", values["material"]), ("material.shift", values["material"]["shift"] or {})]
+    tables += [("adhesion", values["adhesion"] or {})]
     for path, table in tables:
         for key, each in table.items():
             if isinstance(each, np.ndarray):
@@ -199,7 +200,7 @@ def _parameters(material: dict[str, Any]) -> dict[str, Any]:
 def _shift(table: dict[str, Any]) -> Any:
     """The shift of a validated [material.shift]: every parameter of its model, and none of the other's."""
     wanted = {"WLF": ("C_1", "C_2"), "Arrhenius": ("E_a",)}
-    arguments = {"T_ref": float(table["T_ref"]), "vertical": table["vertical"]}
+    arguments = {"T_ref": float(table["T_ref"]), "vertical": float(table["vertical"])}
     for model, keys in wanted.items():
         for key in keys:
             given = table[key]

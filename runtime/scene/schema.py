@@ -39,6 +39,10 @@ def _list_meta(description: str, unit: str) -> Any:
     )
 
 
+def _plain_meta(description: str) -> Any:
+    return Meta(description=f"{description} (for `hystrip sweep` also a list or a range)", extra={"unit": "1"})
+
+
 class Range(Struct, forbid_unknown_fields=True, kw_only=True):
     """`num` values from `start` to `stop`, both included."""
 
@@ -52,27 +56,23 @@ class Range(Struct, forbid_unknown_fields=True, kw_only=True):
 
 
 Values = Number | list[Number] | Range
+#: values without text: those of a difference of temperatures, where a text in degrees could be read in two ways, and of no unit
+Plain = float | list[float] | Range
 
 
 class Shift(Struct, forbid_unknown_fields=True, kw_only=True):
     """Time-temperature superposition."""
 
     model: Annotated[Literal["WLF", "Arrhenius"], Meta(description='"WLF" (C_1, C_2) or "Arrhenius" (E_a)')]
-    T_ref: Annotated[
-        Number,
-        Meta(
-            description='temperature of the moduli and times given: a number in K or text such as "20 degC"', extra={"unit": "K"}
-        ),
-    ]
-    C_1: Annotated[float | None, Meta(description="first constant of WLF, a number > 0")] = None
-    C_2: Annotated[float | None, Meta(description="second constant of WLF, a number > 0 (K)")] = None
-    E_a: Annotated[
-        Number | None,
-        Meta(description='activation energy, > 0: a number in J/mol or text such as "80 kJ/mol"', extra={"unit": "J/mol"}),
-    ] = None
+    T_ref: Annotated[Values, _swept_meta("temperature of the moduli and times given", "K")]
+    C_1: Annotated[Plain | None, _plain_meta("first constant of WLF, a number > 0")] = None
+    C_2: Annotated[Plain | None, _plain_meta("second constant of WLF, a number > 0 (K)")] = None
+    E_a: Annotated[Values | None, _swept_meta("activation energy, > 0", "J/mol")] = None
     vertical: Annotated[
-        float,
-        Meta(description="moduli go with (T/T_ref)^vertical: 0 (the default) not at all, 1 like an ideal rubber", ge=-10, le=10),
+        Plain,
+        _plain_meta(
+            "moduli go with (T/T_ref)^vertical: a number from -10 to 10, 0 (the default) not at all, 1 like an ideal rubber"
+        ),
     ] = 0.0
 
 

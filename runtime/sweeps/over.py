@@ -11,7 +11,7 @@ from ..scene.errors import SceneError
 from ..scene.schema import Values, msgspec
 from ..scene.toml import parse_toml
 from ..scene.validate import values_in_si
-from .plan import has_unit, unit_of
+from .plan import has_unit, written_unit
 
 
 def over_of(texts: Sequence[str], half_space: bool = False) -> dict[str, np.ndarray]:
@@ -27,7 +27,7 @@ def over_of(texts: Sequence[str], half_space: bool = False) -> dict[str, np.ndar
             raise InputError("--over", text, "KEY=VALUES, such as levels[0].h=[1e-6, 2e-6] or velocity=1e-3")
         if not has_unit(key):
             raise InputError("--over", key, "the dotted key of a quantity of the scene, such as material.times[0]")
-        found[key] = values_in_si(_read(key, written), unit_of(key, half_space), key)
+        found[key] = values_in_si(_read(key, written), written_unit(key, half_space), key)
     return found
 
 

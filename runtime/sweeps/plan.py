@@ -16,6 +16,7 @@ import numpy as np
 from ..arguments import check_levels
 from ..errors import InputError
 from ..inputs.checks import numbers
+from ..inputs.shift import check_exponents
 from ..loading import solver_key
 from ..orbit.materials import check_edge, kernel_of
 from ..scene.errors import SceneError, nearest
@@ -33,11 +34,11 @@ _LOADS = ("pressure", "penetration")
 #: what the solver takes arrays of
 RUN_KEYS = (*_LOADS, "velocity")
 _UNITS = {"l": "m", "h": "m", "K": "Pa/m", "T_eps": "s", "T_sigma": "s", "E": "Pa", "nu": "1", "moduli": "Pa/m", "times": "s",
-          "gamma": "J/m^2", "p_0": "Pa", "delta_0": "m",
+          "C_1": "1", "C_2": "K", "T_ref": "K", "E_a": "J/mol", "vertical": "1", "gamma": "J/m^2", "p_0": "Pa", "delta_0": "m",
           "pressure": "Pa", "penetration": "m", "velocity": "m/s", "temperature": "K"}  # fmt: skip
 
 #: what is zero nowhere
-_POSITIVE = ("K", "E", "l", "times", "temperature")
+_POSITIVE = ("K", "E", "l", "times", "temperature", "C_1", "C_2", "T_ref", "E_a")
 #: most points of a sweep: their coordinates and numbers are held in memory at its end
 _MOST = 100_000_000
 
@@ -128,6 +129,11 @@ def unit_of(key: str, half_space: bool = False) -> str:
     return "Pa" if half_space and name == "moduli" else _UNITS[name]
 
 
+def written_unit(key: str, half_space: bool = False) -> str:
+    """Unit of a quantity written as text: none of C_2, a difference of temperatures, where degrees could mean two things."""
+    return "1" if _last(key) == "C_2" else unit_of(key, half_space)
+
+
 def is_half_space(values: dict[str, Any]) -> bool:
     """Whether the material of a scene is a half-space."""
     material = values.get("material")
@@ -178,7 +184,9 @@ def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], 
 def _refuse_hopeless(values: dict[str, Any], swept: set[str]) -> None:
     """Refuse before any work what no combination can mend; what a combination spoils is recorded point by point."""
     for key, each in quantities(values):
-        if key not in _LOADS:
+        if _last(key) == "vertical":
+            check_exponents(key, each)
+        elif key not in _LOADS:
             numbers(key, each, unit_of(key, is_half_space(values)), 0, strict=_last(key) in _POSITIVE)
     fixed = lambda path: not any(key.startswith(path) for key in swept)  # noqa: E731
     if fixed("material"):
@@ -206,9 +214,12 @@ def _put(values: dict[str, Any], key: str, given: Any) -> None:
     if key in _LOADS:
         values["pressure"] = values["penetration"] = None
     level = re.fullmatch(r"levels\[(\d+)\]\.(\w+)", key)
+    shift = re.fullmatch(r"material\.shift\.(\w+)", key)
     branch = re.fullmatch(r"material\.(\w+)\[(\d+)\]", key)
     if level:
         values["levels"][int(level[1])][level[2]] = array
+    elif shift:
+        values["material"]["shift"][shift[1]] = array
     elif branch:
         values["material"][branch[1]][int(branch[2])] = array
     elif "." in key:
@@ -229,6 +240,8 @@ def keys_of(values: dict[str, Any]) -> list[str]:
     own = [f"material.{key}" for key in ("E", "nu") if material[key] is not None] or ["material.K"]
     times = [f"material.{key}" for key in ("T_eps", "T_sigma") if material[key] is not None]
     times += [f"material.{key}[{i}]" for key in ("moduli", "times") for i in range(len(material[key] or ()))]
+    if material["shift"] is not None:
+        times += [f"material.shift.{key}" for key, each in material["shift"].items() if isinstance(each, np.ndarray)]
     keys += [*own, *times, "adhesion.gamma", "adhesion.p_0", "adhesion.delta_0"]
     return [*keys, *(["temperature"] if material["shift"] is not None else []), "pressure", "penetration", "velocity"]
 
