@@ -85,7 +85,8 @@ def load_solver(folder: str | os.PathLike[str]) -> Solver:
         if version != INTERFACE:
             wanted = f"a solver for interface {INTERFACE} of this hystrip; {model} was emitted for {version}: {again}"
             raise InputError("solver", str(folder), wanted)
-    usable = {model: module for model, module in models.items() if hasattr(module, "MODES")}
+    # what a material of the solver is made by
+    usable = {model: module for model, module in models.items() if hasattr(module, "material_modes")}
     if not usable:
         has = ", ".join(models) or "none"
         raise InputError("solver", str(folder), f"a solver of a model with relaxation times; it has {has}")
