@@ -9,6 +9,7 @@ from scipy.integrate import quad
 
 import hystrip
 from hystrip.level.branches import rising
+from hystrip.level.carried import _CANCELLED as CANCELLED
 from hystrip.level.carried import CarriedByLaws
 from hystrip.level.law import Law
 from hystrip.level.piece import Piece, graded
@@ -134,3 +135,45 @@ def test_rounding_does_not_decide_which_contacts_pass_a_break_where_all_begin(ca
     law = replace(carry, table=SimpleNamespace(breaks=np.array([[np.median(contact.p_least[begins])]])))
     crossed = law.crossed(strips, np.zeros(columns.size, int))[index[begins]]
     assert np.unique(crossed).size == 1
+
+
+def _stepwise(at, low, high, known_to=(0.0, 0.0)):
+    """A law that is ``low`` up to the pressure ``at`` and ``high`` from there to saturation; how well its pressures and frictions
+    are said to be known."""
+    error = np.array([*known_to, 0.0, 0.0])
+    pieces = [
+        _piece(BREAKS[0], at, lambda share, rest: low + 0 * share),
+        _piece(at, BREAKS[2], lambda share, rest: high + 0 * share),
+    ]
+    branches = resampled([part for piece in pieces for part in rising(piece)], np.full((2, 4), 1e-9))
+    branches = [replace(b, piece=replace(b.piece, error=error)) for b in branches]
+    saturated = np.array([BREAKS[2], high, 1.0, 0.0])
+    return CarriedByLaws(LawTable([Law(branches, BREAKS[0], BREAKS[2], saturated, BREAKS[2], error, 0, True)]), RTOL, SCALES)
+
+
+def _carried(law, V=2e-3):
+    columns, theta = _solved(V, shares=(0.2, 0.6))
+    strips = columns.solve(np.arange(columns.size), theta)
+    index, contact = strips.touching
+    inside = (contact.p_peak > BREAKS[1] + 500) & (contact.p_peak < BREAKS[2])
+    assert inside.sum() >= 3
+    return law.over_contact(strips, np.zeros(columns.size, int))[index[inside]]
+
+
+def test_a_misplaced_jump_of_a_law_is_in_the_error():
+    """A break that is known to 20 Pa may stand 20 Pa further on."""
+    one, other = _carried(_stepwise(BREAKS[1], 2e4, 6e4, (20.0, 0.0))), _carried(_stepwise(BREAKS[1] + 20, 2e4, 6e4))
+    moved = np.abs(one[:, 0] - other[:, 0])
+    assert (moved > 1.0).all() and (moved <= 1.02 * one[:, -1]).all()
+
+
+def test_the_error_of_a_law_is_in_the_error_of_what_it_carries():
+    """A friction that is known to 500 Pa may be higher by 500 Pa everywhere."""
+    one, other = _carried(_stepwise(BREAKS[1], 2e4, 6e4, (0.0, 500.0))), _carried(_stepwise(BREAKS[1], 2.05e4, 6.05e4))
+    moved = np.abs(one[:, 0] - other[:, 0])
+    assert (moved > 10.0).all() and (moved * CANCELLED <= 1.02 * one[:, -1]).all()
+
+
+def test_the_error_of_a_law_is_no_less_than_that_of_its_branches():
+    law = hystrip.friction_law(SLS, WEAK, hystrip.Level(500e-9, 100e-9), V=1e-3, rtol=1e-3)
+    assert law.error_estimate >= max(b.piece.error[1] for b in law._law.branches) > 0

@@ -1,5 +1,7 @@
 """A wrong orbit that balances: the repelling one between two attracting ones is refused by the certificate."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from mpmath import mp
@@ -10,12 +12,16 @@ from hystrip.generated import standard_linear_solid as kernel
 from hystrip.orbit import certificate
 from hystrip.orbit.groups import Strips, adhesive_cycle
 from hystrip.orbit.march import Orbit
+from hystrip.orbit.refine import refined
+from hystrip.orbit.sensitivity import slope_excess
 
 # alpha, beta, P0, Delta, delta: a repelling orbit between an attracting one with an onset and another without
 SCENES = {
     "continuous": (5.35, 14.9, 2.4, 1.13, -1.0),
     "constitutive": (0.2, 7.5, 6.3, 0.64, -2.4),
 }
+#: the way in D to where the repelling orbit meets an attracting one
+DIRECTION = 1.0
 
 
 def orbits_of(groups, closure):
@@ -55,3 +61,23 @@ def test_only_the_repelling_orbit_is_refused(closure):
         assert np.max(np.abs(residual(groups, closure, orbit))) < 1e-12  # it balances
         assert certificate.edges_admissible(kernel, cycle, orbit).all()  # and keeps every inequality
         assert certificate.stable(kernel, cycle, orbit).all() == (found.slope < 1)
+
+
+def test_a_repelling_orbit_next_to_the_fold_is_refused_too():
+    """Followed towards the fold, where its slope comes down to one: as long as that is above one by more than rounding."""
+    groups = SCENES["continuous"]
+    repelling = next(orbit for orbit in orbits_of(groups, "continuous") if orbit.slope > 1)
+    cycle, orbit = as_input(groups, "continuous", repelling)
+    seen = []
+    for delta in groups[4] + np.linspace(0, 0.1, 400)[1:, None] * DIRECTION:
+        cycle = adhesive_cycle(kernel, replace(cycle.strips, D=delta))
+        found, converged, *_ = refined(kernel, "acaf", cycle, orbit)
+        if not converged.all() or abs(found.x - orbit.x)[0] > 0.1:
+            break
+        orbit = found
+        slope = float(slope_excess(kernel, cycle, orbit)[0][0])
+        if slope <= 0:
+            break
+        seen.append(slope)
+        assert not certificate.stable(kernel, cycle, orbit).any()
+    assert min(seen) < 0.08

@@ -35,6 +35,15 @@ def test_the_closed_form_is_what_solving_gives(levels):
     assert np.abs(on.tau_by_level - off.tau_by_level).max() <= 1e-13 * scale
 
 
+def test_all_levels_are_saturated_exactly_where_the_least_local_pressure_saturates_the_lower():
+    V, K = 1e-3, MATERIAL.K
+    alpha, beta = (2 * np.pi / np.array([level.l for level in LEVELS]) * V * T for T in (MATERIAL.T_sigma, MATERIAL.T_eps))
+    lift = [K * level.h * (2 * r - 1) / 4 for level, r in zip(LEVELS, np.hypot(1, beta) / np.hypot(1, alpha), strict=True)]
+    threshold = sum(lift) - WEAK.p_0
+    given = {"velocity": V, "rtol": 1e-2, "pressure": threshold * np.array([1 - 1e-6, 1 + 1e-6])}
+    assert hystrip.solve(MATERIAL, WEAK, LEVELS, **given).closed_form.tolist() == [False, True]
+
+
 @pytest.mark.parametrize("branch", ["unloading", "loading"])
 @pytest.mark.parametrize(
     "material", [MATERIAL, hystrip.Prony(K=1e9, moduli=[3e9, 9e10], times=[1e-3, 1e-4])], ids=["one time", "two times"]

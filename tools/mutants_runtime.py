@@ -1,0 +1,158 @@
+"""Mutations of the runtime, one by one: which come through the tests that are to stop them.
+
+    python tools/mutants_runtime.py [--only TEXT]
+
+Each mutant is a copy of the library in which one line reads differently: a tolerance, a threshold, a bound, an error that is not
+counted. The named tests run on the copy, and one of them has to fail, or take longer than a healthy run may. A mutant that comes
+through is reported, and the command fails. Some minutes of CPU time.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+#: seconds after which tests count as failed: a healthy run takes a tenth of it
+_PATIENCE = 400
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One change of a file of ``runtime/``, and the tests that are to stop it."""
+
+    what: str
+    file: str
+    before: str
+    after: str
+    tests: str
+
+
+MUTANTS = (
+    Mutant(
+        "stability of an orbit to a tenth", "orbit/certificate.py", "STABLE = 1e-6", "STABLE = 1e-1", "test_injected_orbit.py"
+    ),
+    Mutant(
+        "all saturated at 0.9 of the lift", "multilevel.py", "p_full[0] + s.lift", "p_full[0] + 0.9 * s.lift", "test_skipping.py"
+    ),
+    Mutant(
+        "a misplaced jump costs nothing",
+        "level/carried.py",
+        "return table.jumps[g, j] * np.minimum",
+        "return 0 * table.jumps[g, j] * np.minimum",
+        "test_carried.py",
+    ),
+    Mutant(
+        "a tenth of a law's error in what it carries",
+        "level/table.py",
+        "errors = self._error[:, which]",
+        "errors = 0.1 * self._error[:, which]",
+        "test_carried.py",
+    ),
+    Mutant("a tenth of a law's error in its own estimate", "level/law.py", "1.5 * error", "0.1 * error", "test_carried.py"),
+    Mutant("the tie of a snap is a matter of rounding", "orbit/groups.py", "_TIE = 4 *", "_TIE = -4 *", "test_limits.py"),
+    Mutant(
+        "speed is infinite too early", "orbit/groups.py", "STANDS_STILL = 1e12", "STANDS_STILL = 1e4", "test_extreme_velocity.py"
+    ),
+    Mutant(
+        "friction at high speed is not scaled back",
+        "orbit/si.py",
+        "np.where(falls, pace[fast], 1.0)",
+        "1.0",
+        "test_extreme_velocity.py",
+    ),
+    Mutant(
+        "loading saturates beyond what grows with V",
+        "orbit/single.py",
+        "np.minimum(forced, glassy)",
+        "forced",
+        "test_extreme_velocity.py",
+    ),
+    Mutant(
+        "bounds on snapped contacts begin without pressure",
+        "orbit/outermost.py",
+        "excess_entry(b, cycle.q_on, s.p_0",
+        "excess_entry(b, 0.0, s.p_0",
+        "test_proofs.py test_extremal.py",
+    ),
+    Mutant(
+        "twice as much is excluded",
+        "orbit/search.py",
+        "(near + far > width)",
+        "(2 * (near + far) > width)",
+        "test_proofs.py test_extremal.py test_reference_strips.py",
+    ),
+    Mutant(
+        "errors of an average are a hundredth",
+        "level/averages.py",
+        "error = width * sum_errors(values, noise) + rounding",
+        "error = 0.01 * width * sum_errors(values, noise) + rounding",
+        "test_reference_levels.py",
+    ),
+    Mutant(
+        "work that was cut short is not told",
+        "level/effort.py",
+        "self.limits.setdefault((v, wavelength), what)",
+        "pass",
+        "test_bounded_work.py",
+    ),
+)
+
+
+def survives(mutant: Mutant) -> bool:
+    """Whether all tests of a mutant pass. ``LookupError``: the line that it changes is not there, once."""
+    with tempfile.TemporaryDirectory() as folder:
+        package = Path(folder) / "hystrip"
+        shutil.copytree(ROOT / "runtime", package, ignore=shutil.ignore_patterns("__pycache__"))
+        for part in ("generated", "derivation"):
+            shutil.copytree(ROOT / part, package / part, ignore=shutil.ignore_patterns("__pycache__", "audit"))
+        file = package / mutant.file
+        text = file.read_text("utf-8")
+        if text.count(mutant.before) != 1:
+            raise LookupError(f"{mutant.what}: {mutant.file} has {text.count(mutant.before)} times {mutant.before!r}")
+        file.write_text(text.replace(mutant.before, mutant.after), "utf-8")
+        tests = [str(Path("tests") / name) for name in mutant.tests.split()]
+        command = [sys.executable, "-c", _RUN.format(folder=folder), "-x", "-q", "-p", "no:cacheprovider", *tests]
+        try:
+            done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=_PATIENCE, env=dict(os.environ))
+        except subprocess.TimeoutExpired:
+            return False
+    if done.returncode not in (0, 1):
+        raise RuntimeError(f"{mutant.what}: the tests did not run\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+    return done.returncode == 0
+
+
+#: the copy stands in for an installed library
+_RUN = """
+import sys
+sys.path.insert(0, {folder!r})
+import hystrip
+assert hystrip.__file__.startswith({folder!r}), hystrip.__file__
+import pytest
+sys.exit(pytest.main(sys.argv[1:]))
+"""
+
+
+def main(argv: list[str] | None = None) -> int:
+    """The command. Returns its exit status."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", default="", metavar="TEXT", help="mutants with this in their description or file")
+    options = parser.parse_args(argv)
+    chosen = [each for each in MUTANTS if options.only in each.what or options.only in each.file]
+    survivors = 0
+    for each in chosen:
+        alive = survives(each)
+        survivors += alive
+        print(f"{'survives' if alive else 'stopped':9} {each.what} ({each.file}; {each.tests})", flush=True)
+    print(f"{survivors} of {len(chosen)} survive")
+    return 1 if survivors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
