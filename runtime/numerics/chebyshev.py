@@ -27,9 +27,8 @@ def lobatto(n: int) -> np.ndarray:
 
 
 def coefficients(values: np.ndarray) -> np.ndarray:
-    """Chebyshev coefficients (n + 1, q) of the interpolant through ``values`` (n + 1, q) at ``lobatto(n)``."""
-    n = values.shape[0] - 1
-    return _transform(n) @ values
+    """Chebyshev coefficients (..., n + 1, q) of the interpolants through ``values`` (..., n + 1, q) at ``lobatto(n)``."""
+    return _transform(values.shape[-2] - 1) @ values
 
 
 @lru_cache
@@ -85,6 +84,26 @@ def evaluate(coefficients: np.ndarray, t) -> np.ndarray:
     """Chebyshev sums of ``coefficients`` (n + 1, q) at ``t`` in [0, 1] (m,), shape (m, q)."""
     angle = np.arccos(np.clip(2 * np.asarray(t, float) - 1, -1.0, 1.0))
     return np.cos(angle[:, None] * np.arange(coefficients.shape[0])) @ coefficients
+
+
+def evaluate_each(table: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """Chebyshev sums of a ``table`` (m, n + 1, q), each at its own ``x`` (m, nodes) in [-1, 1], (m, nodes, q)."""
+    twice = 2 * x[:, :, None]
+    one = two = np.zeros((*x.shape, table.shape[2]))
+    for k in range(table.shape[1] - 1, 0, -1):
+        one, two = table[:, None, k] + twice * one - two, one
+    return table[:, None, 0] + x[:, :, None] * one - two
+
+
+@lru_cache
+def _differentiation(n: int) -> np.ndarray:
+    """Matrix from n Chebyshev coefficients to those of the derivative over [-1, 1], the last one zero."""
+    return np.concatenate([np.polynomial.chebyshev.chebder(np.eye(n)), np.zeros((1, n))]) if n > 1 else np.zeros((1, 1))
+
+
+def derivatives(table: np.ndarray) -> np.ndarray:
+    """Coefficients (..., n, q) of the derivatives over [-1, 1] of the series ``table`` (..., n, q)."""
+    return _differentiation(table.shape[-2]) @ table
 
 
 def clenshaw(table: np.ndarray, which: np.ndarray, x: np.ndarray) -> np.ndarray:

@@ -41,6 +41,18 @@ def mapped(t):
     return t * t * (3 - 2 * t)
 
 
+def mapped_slope(t):
+    """Derivative of ``mapped``."""
+    return 6 * t * (1 - t)
+
+
+@lru_cache
+def gauss(n: int) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes and weights of Gauss and Legendre on [0, 1]."""
+    x, w = np.polynomial.legendre.leggauss(n)
+    return 0.5 * (x + 1), 0.5 * w
+
+
 @lru_cache
 def interior_nodes(n: int) -> np.ndarray:
     """Interior Clenshaw-Curtis nodes on (0, 1)."""
@@ -57,7 +69,7 @@ def mapped_weights(n: int) -> np.ndarray:
     angle = 2 * np.outer(j, m) * np.pi / n
     weights = (2 / n) * (1 - (b * np.cos(angle) / (4 * m**2 - 1)).sum(axis=1)) / 2
     t = interior_nodes(n)
-    return weights * 6 * t * (1 - t)
+    return weights * mapped_slope(t)
 
 
 @lru_cache

@@ -11,9 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...numerics.quadrature import gauss, mapped, mapped_slope
+from ...numerics.rules import Changes, by_rules
 from ...orbit.foundation import Foundation
 from .law import Laws
-from .means import Changes, Level, gauss, mapped, mapped_slope
+from .means import Level
 from .panels import Span
 from .peaks import Peaks
 
@@ -58,23 +60,9 @@ class Carrier:
             if kind[1]:
                 out[some], errors[some, 0] = self._sums(columns, *RULES[kind[0]]), most[some]
             else:
-                out[some], errors[some] = self._settled(columns, goal[some], RULES[kind[0] :], at_once)
-        return out, errors
-
-    def _settled(self, columns, goal, rules, at_once):
-        """Sums by as many of the ``rules`` as it takes for ``goal``, and their errors, (m, q)."""
-        out, errors = np.zeros(goal.shape), np.zeros(goal.shape)
-        left, changes = np.arange(goal.shape[0]), Changes(_SURE, at_once, fastest=_FASTEST)
-        for rule in rules:
-            new = self._sums(columns, *rule)
-            miss = changes.after(new)
-            done = (miss <= _QUADRATURE * goal[left]).all(axis=1) | (rule == rules[-1])
-            out[left[done]], errors[left[done]] = new[done], miss[done]
-            left = left[~done]
-            if not left.size:
-                break
-            changes.keep(~done)
-            columns = columns.at(np.flatnonzero(~done))
+                changes = Changes(_SURE, at_once, fastest=_FASTEST)
+                sums = lambda left, rule, of=columns: self._sums(of.at(left), *rule)  # noqa: E731
+                out[some], errors[some] = by_rules(sums, RULES[kind[0] :], _QUADRATURE * goal[some], changes)
         return out, errors
 
     def _columns(self, group, d, allowed) -> _Columns:

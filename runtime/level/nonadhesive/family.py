@@ -10,12 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from functools import lru_cache
 
 import numpy as np
 
 from ...inputs.surface import Level
-from ...numerics.chebyshev import coefficients, interpolation_errors, lobatto
+from ...numerics.chebyshev import coefficients, derivatives, evaluate_each, interpolation_errors, lobatto
 from ...orbit.foundation import Foundation
 
 #: nodes of the first attempt and of the last
@@ -71,33 +70,14 @@ class Family:
             which, place = np.unique(group[some], return_inverse=True)
             table = np.array([self.series[g] for g in which])
             if slopes:
-                table = np.concatenate((table, _derivatives(table)), axis=2)
+                table = np.concatenate((table, derivatives(table)), axis=2)
             x = 2 * xi[some] / self.top[group[some], None] - 1
-            out[some] = evaluated(table[place], np.clip(x, -1.0, 1.0))
+            out[some] = evaluate_each(table[place], np.clip(x, -1.0, 1.0))
         if slopes:
             # by s: twice the derivative over [0, 1] that was a derivative over [-1, 1]
             by_s = self.s_sat[group, None] * np.sin(2 * xi) * 0.5 * self.top[group, None]
             out[..., _Q:] /= np.maximum(by_s, np.finfo(float).tiny)[..., None]
         return out
-
-
-@lru_cache
-def _differentiation(n: int) -> np.ndarray:
-    """Matrix from n Chebyshev coefficients to those of the derivative, the last one zero."""
-    return np.concatenate([np.polynomial.chebyshev.chebder(np.eye(n)), np.zeros((1, n))]) if n > 1 else np.zeros((1, 1))
-
-
-def _derivatives(table):
-    return _differentiation(table.shape[1]) @ table
-
-
-def evaluated(table: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Chebyshev sums of ``table`` (m, n + 1, q) at ``x`` (m, nodes) in [-1, 1], (m, nodes, q)."""
-    twice = 2 * x[:, :, None]
-    one = two = np.zeros((*x.shape, table.shape[2]))
-    for k in range(table.shape[1] - 1, 0, -1):
-        one, two = table[:, None, k] + twice * one - two, one
-    return table[:, None, 0] + x[:, :, None] * one - two
 
 
 def family(
@@ -128,7 +108,7 @@ def family(
         slopes = np.abs(np.divide(np.diff(values, axis=1), step, out=np.zeros((*step.shape[:2], _Q)), where=step > 0)).max(axis=1)
         # that of the width grows like a root towards s = 0, where few strips are
         slopes[:, 2] = np.divide(_ROOT * values[:, -1, 2], s[:, -1], out=np.zeros(left.size), where=s[:, -1] > 0)
-        sampled = _errors(coefficients_over(samples), np.concatenate((goal.min(axis=1, keepdims=True), goal), axis=1))
+        sampled = _errors(coefficients(samples), np.concatenate((goal.min(axis=1, keepdims=True), goal), axis=1))
         error = _errors(over, goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 16 * _EPS * greatest
         error += 4 * _EPS * (s_sat[left] * s[:, -1])[:, None]
         done = (error <= goal).all(axis=1) | (n == _LAST)
@@ -216,22 +196,12 @@ class _Sampling:
         return out
 
 
-def coefficients_over(samples):
-    """Chebyshev coefficients (m, n + 1, q) of samples at ``lobatto(n)``."""
-    return _transform(samples.shape[1]) @ samples
-
-
-@lru_cache
-def _transform(nodes: int) -> np.ndarray:
-    return coefficients(np.eye(nodes))
-
-
 def _resampled(s, values, s_sat):
     """Coefficients over xi/xi_top of what is sampled over the width of contact at ``lobatto(n)``, where the strips are
     ``s``."""
     n = s.shape[1] - 1
-    both = coefficients_over(np.concatenate((s[:, :, None], values), axis=2))
-    place, rise = both[:, :, :1], _derivatives(both[:, :, :1])
+    both = coefficients(np.concatenate((s[:, :, None], values), axis=2))
+    place, rise = both[:, :, :1], derivatives(both[:, :, :1])
     top = _xi(s[:, -1], s_sat)[:, None]
     goal = s_sat[:, None] * np.sin(top * lobatto(n)) ** 2
     # x in [-1, 1] at which s is the goal; the root of s is nearly linear in it
@@ -241,9 +211,9 @@ def _resampled(s, values, s_sat):
     )
     low, high = np.full_like(x, -1.0), np.full_like(x, 1.0)
     for _ in range(_STEPS):
-        miss = evaluated(place, x)[:, :, 0] - goal
+        miss = evaluate_each(place, x)[:, :, 0] - goal
         low, high = np.where(miss < 0, x, low), np.where(miss < 0, high, x)
-        slope = evaluated(rise, x)[:, :, 0]
+        slope = evaluate_each(rise, x)[:, :, 0]
         new = x - np.divide(miss, slope, out=np.full_like(x, np.inf), where=slope > 0)
         new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
         moved = np.abs(new - x).max()
@@ -252,4 +222,4 @@ def _resampled(s, values, s_sat):
         if moved <= _CLOSE:
             break
     x[:, 0], x[:, -1] = -1.0, 1.0
-    return coefficients_over(evaluated(both[:, :, 1:], x))
+    return coefficients(evaluate_each(both[:, :, 1:], x))

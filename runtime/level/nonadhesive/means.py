@@ -9,19 +9,17 @@ to h, and takes the root out of the integrand at the crest.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
+from ...numerics.quadrature import gauss
+from ...numerics.rules import Changes, by_rules
 from .family import Family
 
 #: nodes of the rules tried in turn; the second is what penetrations are looked for with
 _RULES = (8, 12, 18, 27, 40, 60, 90)
-#: share of what is allowed that a sum over nodes may miss, the fastest that its changes are believed to fall, and how
-#: much more than a change is feared
-_QUADRATURE, _FASTEST, _SURE = 0.5, 0.25, 2.0
-#: share of the roughest quantity's first change, both relative, that every other one is taken to have at least
-_SHARED = 0.1
+#: share of what is allowed that a sum over nodes may miss, and how much more than a change is feared
+_QUADRATURE, _SURE = 0.5, 2.0
 #: a level's sum is not believed to gain more than this from rule to rule
 _PACE = 0.3
 #: penetrations are looked for to this, or pressures to that, or to this share of what is not known of them, what is left
@@ -37,56 +35,6 @@ _LEAST = 1e-60
 #: sampled to the next
 CANCELLED, _WAVES = 0.3, 5.0
 _EPS = np.finfo(float).eps
-
-
-@lru_cache
-def gauss(n: int) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes and weights of Gauss and Legendre on [0, 1]."""
-    x, w = np.polynomial.legendre.leggauss(n)
-    return 0.5 * (x + 1), 0.5 * w
-
-
-def mapped(t):
-    """Place of ``t`` in [0, 1] that takes roots at either end."""
-    return t * t * (3 - 2 * t)
-
-
-def mapped_slope(t):
-    """Slope of ``mapped``."""
-    return 6 * t * (1 - t)
-
-
-class Changes:
-    """What sums by finer and finer rules change, and so what the last one may miss. A change that is small by chance,
-    as they are where an integrand has a layer or a kink, is not believed; ``sure``: how much more than a change is
-    feared; ``pace``: no more than this is believed to be gained from rule to rule; ``fastest``: nor are changes to
-    fall faster."""
-
-    def __init__(self, sure: float, at_once: bool = False, pace: float = 1.0, fastest: float = _FASTEST):
-        self.sure, self.at_once, self.pace, self.fastest = sure, at_once, pace, fastest
-        self.sums, self.change = None, None
-
-    def after(self, sums: np.ndarray) -> np.ndarray:
-        """Error of the ``sums`` (m, q) by the next rule; of the first change nothing is concluded, unless it is
-        believed ``at_once``."""
-        if self.sums is None:
-            self.sums = sums
-            return np.full_like(sums, np.inf)
-        change, last = np.abs(sums - self.sums), self.change
-        self.sums, self.change = sums, change
-        if last is None and self.at_once:
-            # alone it may be small by chance: all quantities change where one does
-            roughest = np.divide(change, np.abs(sums), out=np.zeros_like(change), where=sums != 0).max(axis=1, keepdims=True)
-            return self.sure * np.maximum(change, _SHARED * roughest * np.abs(sums))
-        if last is None:
-            return np.full_like(sums, np.inf)
-        pace = np.divide(change, last, out=np.ones_like(change), where=last > change)
-        return self.sure * np.maximum(change, self.fastest * last) * np.maximum(pace, self.pace)
-
-    def keep(self, which) -> None:
-        """Go on with the rows ``which``."""
-        self.sums = self.sums[which]
-        self.change = None if self.change is None else self.change[which]
 
 
 @dataclass(frozen=True)
@@ -169,17 +117,9 @@ class Level:
         self, group: np.ndarray, d: np.ndarray, goal: np.ndarray, slopes: bool = False
     ) -> tuple[np.ndarray, np.ndarray]:
         """Means with as many nodes as it takes for ``goal`` (m, 3), and their errors (m, 3), all told."""
-        out, errors = np.zeros((d.size, 5 if slopes else 3)), np.zeros((d.size, 3))
-        left, changes = np.arange(d.size), Changes(_SURE, pace=_PACE)
-        for n in _RULES:
-            new = self.means(group[left], d[left], n, slopes)
-            miss = changes.after(new[:, :3])
-            done = (miss <= _QUADRATURE * goal[left]).all(axis=1) | (n == _RULES[-1])
-            out[left[done]], errors[left[done]] = new[done], miss[done]
-            left = left[~done]
-            if not left.size:
-                break
-            changes.keep(~done)
+        out, errors = by_rules(
+            lambda left, n: self.means(group[left], d[left], n, slopes), _RULES, _QUADRATURE * goal, Changes(_SURE, pace=_PACE)
+        )
         return out, errors + self.errors(group) + _TOLD * goal + _EPS * (1 + 16 * np.abs(out[:, :3]))
 
     def errors(self, group) -> np.ndarray:

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...numerics.quadrature import gauss, mapped, mapped_slope
 from .family import Family
-from .means import gauss, mapped, mapped_slope
 from .peaks import Peaks
 
 #: looks at where the greatest pressures of strips pass a break, and steps towards it

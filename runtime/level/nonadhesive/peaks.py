@@ -6,10 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...numerics.chebyshev import lobatto
+from ...numerics.chebyshev import coefficients, evaluate_each, lobatto
+from ...numerics.quadrature import mapped
 from ...orbit.foundation import Foundation
-from .family import coefficients_over, evaluated
-from .means import mapped
 
 #: widths, and looks at each contact
 _WIDTHS, _LOOKS = 16, 33
@@ -33,7 +32,7 @@ class Peaks:
         """Greatest pressures and their places in contacts that are the ``share`` (m, nodes) of the period, those of row
         i at the velocity ``group[i]``."""
         x = np.clip(2 * share / self.top[group, None] - 1, -1.0, 1.0)
-        values = evaluated(self.series[group], x)
+        values = evaluate_each(self.series[group], x)
         return share * np.maximum(values[:, :, 0], 0.0), np.clip(values[:, :, 1], 0.0, 1.0)
 
 
@@ -43,7 +42,7 @@ def peaks_of(foundation: Foundation, rate: np.ndarray, top: np.ndarray) -> tuple
     share = np.clip(top[:, None] * lobatto(_WIDTHS), _LEAST, 1 - _LEAST)
     greatest, place = peak(foundation, np.repeat(rate, _WIDTHS + 1), share.ravel())
     samples = np.stack((greatest.reshape(share.shape) / share, place.reshape(share.shape)), axis=2)
-    return Peaks(top, coefficients_over(samples)), share.size
+    return Peaks(top, coefficients(samples)), share.size
 
 
 def peak(foundation: Foundation, rate: np.ndarray, share: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...numerics.chebyshev import interpolation_errors, lobatto
-from .family import coefficients_over, trimmed
+from ...numerics.chebyshev import coefficients, interpolation_errors, lobatto
+from .family import trimmed
 from .law import pressures
 
 #: nodes of a piece, tried in turn
@@ -31,7 +31,7 @@ class Tried:
         self.goal = np.full((friction.size, values.shape[2]), max(rtol, _CONTACT))
         self.goal[:, 0] = _INTERPOLATION * friction
         self.goal[:, 1::3] = self.goal[:, :1]
-        self.coefficients = coefficients_over(self.total)
+        self.coefficients = coefficients(self.total)
         alone = np.swapaxes(self.coefficients, 1, 2).reshape(-1, n + 1, 1)
         miss = interpolation_errors(alone, 0.1 * self.goal.reshape(-1, 1)).reshape(friction.size, -1)
         # between values that hardly differ there is little to miss
