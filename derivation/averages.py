@@ -10,7 +10,7 @@ import sympy as sp
 from . import stable
 from .check import REPRODUCED, Check, Derived, derived, zero
 from .flows import Flows
-from .functions import Formula, either, written_out
+from .functions import Formula, either, loss_mean, written_out
 from .kernel import Kernel
 from .regime import Regime
 from .sequences import ADHESION, CONTACT, FREE, NOTHING, PERIOD, Span
@@ -154,23 +154,37 @@ def _stable_means(regime: Regime) -> tuple[sp.Expr, sp.Expr]:
     """Candidates: w (without contact p, which is zero or -p_0) summed and the work of p, zone by zone.
 
     Where nothing is free the traction acts everywhere and does no work over a period: pressures are counted from -p_0,
-    which is the same strip raised by p_0.
+    which is the same strip raised by p_0. So they are where contact, entered at -p_0, is too short to lose it.
     """
-    raised = NOTHING if any(zone.kind == FREE for zone in regime.zones) else p_0
-    touches = any(zone.kind == CONTACT for zone in regime.zones)
-    total = work = NOTHING
+    contact = [zone for zone in regime.zones if zone.kind == CONTACT]
+    total = NOTHING
+    for zone in regime.zones:
+        if zone in contact:
+            total += stable.PROFILE_INTEGRAL(zone.first, zone.last, D)
+        elif contact:
+            total += stable.RELAXATION_INTEGRAL(zone.first, zone.last, zone.displacement, zone.load, beta)
+        else:
+            total += zone.load * (zone.last - zone.first)
+    plain, raised = _work(regime, NOTHING), _work(regime, p_0)
+    if all(zone.kind != FREE for zone in regime.zones):
+        work = raised
+    elif contact and contact[0].entry == NOTHING:
+        work = either(2 * loss_mean(contact[0].last - contact[0].first, alpha), raised, plain)
+    else:
+        work = plain
+    return total / PERIOD, work / PERIOD
+
+
+def _work(regime: Regime, raised: sp.Expr) -> sp.Expr:
+    """The work of p, with pressures counted from -raised."""
+    work = (raised - p_0) * adhesive_rise(regime.zones)
     for zone in regime.zones:
         if zone.kind == CONTACT:
             pressure = sp.expand(zone.entry - p_0 + raised)
-            total += stable.PROFILE_INTEGRAL(zone.first, zone.last, D)
             work += stable.CONTACT_WORK(zone.first, zone.last, pressure, D + raised, alpha, beta, L)
-        else:
-            if touches:
-                total += stable.RELAXATION_INTEGRAL(zone.first, zone.last, zone.displacement, zone.load, beta)
-            else:
-                total += zone.load * (zone.last - zone.first)
-            work += NOTHING if zone.kind == ADHESION else (zone.load + raised) * stable.PROFILE_RISE(zone.first, zone.last)
-    return total / PERIOD, (work + (raised - p_0) * adhesive_rise(regime.zones)) / PERIOD
+        elif zone.kind == FREE:
+            work += raised * stable.PROFILE_RISE(zone.first, zone.last)
+    return work
 
 
 def adhesive_rise(zones: Sequence[Span]) -> sp.Expr:

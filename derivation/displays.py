@@ -13,15 +13,18 @@ from typing import Any
 
 import mpmath
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from . import half_space
 from .check import Check, DerivationError, Derived
 from .exact import RELATIONS
 from .flows import Flows
 from .functions import stack_sum, written_out
+from .multilevel import pressure, slope_x, tau_below
+from .paper.words import strips
 from .reader import Of, Prefix, Unreadable, statements
 from .strip import TIMES
-from .surface import AMPLITUDE, PENETRATION
+from .surface import AMPLITUDE, HEIGHT, PENETRATION, mean_over_wave
 from .symbols import (
     A,
     D,
@@ -61,6 +64,7 @@ from .symbols import (
 
 READ = "the display reads as what was proven"
 Binding = Callable[[list[sp.Expr], Mapping[str, Any]], dict[str, Any]]
+Same = Callable[[str, sp.Expr, sp.Expr], None]
 POINTS, DIGITS, CLOSE = 3, 30, sp.Float("1e-20", 30)
 STATED = {
     "admissibility": "conditions on the operators",
@@ -79,12 +83,6 @@ STATED = {
     "means_afc": "definitions of the means",
     "means_af": "definitions of the means",
     "means_ac": "definitions of the means",
-    "equilibrium": "a definition of the mean",
-    "contact area": "a sum over unspecified strips",
-    "local stress": "an unspecified pressure",
-    "means over a level": "a definition of the means",
-    "local shear": "an unspecified law",
-    "carried friction": "an unspecified law",
     "foundation law": "printed from the proven law",
     "moving frame": "printed from the proven law",
     "levels in complete contact together": "a sum over unspecified harmonics",
@@ -101,21 +99,29 @@ def displays(steps: Iterable[Derived], flows: Flows, field: sp.Expr) -> dict[str
     found: dict[str, Check] = {}
     words = vocabulary(flows, field)
     for step in steps:
-        if step.name not in STATED:
+        if step.name in LEVELS:
+            found[step.name] = of_levels(step)
+        elif step.name not in STATED:
             found[step.name] = read_back(step, words | bound(step, words))
-        elif step.name in PRINTED and step.latex != sp.latex(step.value):
-            raise DerivationError(step.name, READ)
+        elif step.name in PRINTED:
+            require_printed(step)
     return found
 
 
-def read_back(step: Derived, names: Mapping[str, Any]) -> Check:
-    """Compare the display of one step with what it derived."""
+def require_printed(step: Derived) -> None:
+    """Raise :class:`DerivationError` unless the display is what SymPy prints of every value of the step."""
+    if not all(sp.latex(value) in step.latex for value in flat(step.value)):
+        raise DerivationError(step.name, READ)
+
+
+def read_back(step: Derived, names: Mapping[str, Any], same: Same | None = None) -> Check:
+    """Compare the display of one step with what it derived. ``same`` raises an error unless two sides are one."""
+    same = same or _same
     try:
         read = statements(step.latex, names)
     except Unreadable as problem:
         raise DerivationError(step.name, f"the display can be read: {problem}") from problem
-    values = _flat(step.value)
-    alone = iter(values)
+    alone = iter(flat(step.value))
     for statement in read:
         sides = statement.sides
         if len(sides) == 1 or step.name.startswith("regime "):  # a value by itself; a boundary equation, value = 0
@@ -123,13 +129,17 @@ def read_back(step: Derived, names: Mapping[str, Any]) -> Check:
         if any(sign not in ("=", r"\ge") for sign in statement.signs) or sides[1] is None:
             raise DerivationError(step.name, f"the display {step.latex!r} is a chain of equations, or the values in order")
         for side in sides[1:]:
-            _same(step.name, sides[0], side)
+            same(step.name, sides[0], side)
     return Check(READ, f"{DIGITS} digits")
 
 
 def _same(name: str, one: sp.Expr, other: sp.Expr) -> None:
-    difference = _definite(one) - _definite(other)
     size = _definite(one)
+    difference = size - _definite(other)
+    if difference == 0:
+        return
+    if difference.atoms(AppliedUndef):  # a function that stands for itself, such as the pressure of Eq. 7
+        raise DerivationError(name, READ, difference)
     draw = random.Random(name)
     symbols = sorted(difference.free_symbols | size.free_symbols, key=str)
     for _ in range(POINTS):
@@ -162,9 +172,14 @@ def _definite(expression: sp.Expr) -> sp.Expr:
     return one_level.doit(integrals=False).subs(TIMES).subs(RELATIONS).subs(k, 2 * sp.pi / l)
 
 
-def _flat(value: Any) -> list[sp.Expr]:
+def of_levels(step: Derived) -> Check:
+    """Compare the display of a step of Eq. 7 or 9 to 14, which is the same on any foundation, with what it derived."""
+    return read_back(step, LEVELS[step.name](step.value))
+
+
+def flat(value: Any) -> list[sp.Expr]:
     if isinstance(value, (tuple, list, sp.Tuple)):
-        return [part for item in value for part in _flat(item)]
+        return [part for item in value for part in flat(item)]
     return [value] if isinstance(value, sp.Basic) else []
 
 
@@ -190,7 +205,7 @@ def vocabulary(flows: Flows, field: sp.Expr) -> dict[str, Any]:
 
 def bound(step: Derived, words: Mapping[str, Any]) -> dict[str, Any]:
     """The names that stand for the step's own value, or mean something of their own in it."""
-    values = _flat(step.value)
+    values = flat(step.value)
     for prefix, binding in BINDINGS.items():
         if step.name.startswith(prefix):
             return binding(values, words)
@@ -261,10 +276,6 @@ def _least(values: list[sp.Expr], words: Mapping[str, Any]) -> dict[str, Any]:
             "p_sat,i": own, "P_i+1": below, "P_i": needed}  # fmt: skip
 
 
-def _coefficient(values: list[sp.Expr], words: Mapping[str, Any]) -> dict[str, Any]:
-    return {r"\mu": values[0], r"\tau_1": sp.Symbol("tau_1", real=True)}
-
-
 def _under_a_wave(values: list[sp.Expr], words: Mapping[str, Any]) -> dict[str, Any]:
     w = sp.Symbol("w", positive=True)
     return half_space.NAMES | {"w": w, "p": values[0] * w}
@@ -276,6 +287,64 @@ def _of_a_level(values: list[sp.Expr], words: Mapping[str, Any]) -> dict[str, An
     return half_space.NAMES | {"c": values[0], "E": lambda place: modulus, "K": lambda place: K_level}
 
 
+CELL = {"l": l, "x": x, "y": y, "f": HEIGHT, r"\pi": sp.pi}
+ON_WAVE = {k: 2 * sp.pi / l}
+
+
+def _load(value: sp.Expr) -> dict[str, Any]:
+    whole = lambda body, *variables: sp.Integral(body, *variables)  # noqa: E731
+    return CELL | {r"\barp": value, "p": sp.Function("p"), r"iint \Omega": whole}
+
+
+def _area(value: sp.Expr) -> dict[str, Any]:
+    """Strips whose contact is linear in cos ky, which their middles sum exactly."""
+    ahead, behind = ((m + n * sp.cos(k * y)).subs(ON_WAVE) for m, n in (sp.symbols("m n"), sp.symbols("m' n'")))
+    area = value.replace(sp.Function("length"), lambda place: (ahead + behind).subs(y, place))
+    at_strip = {y: sp.Symbol("y_j", real=True)}
+    return CELL | strips(2) | {"A": area.doit(), "a_j": ahead.subs(at_strip), "b_j": behind.subs(at_strip)}
+
+
+def _means(value: tuple[sp.Expr, sp.Expr]) -> dict[str, Any]:
+    own = {rf"\bar{mean}_j": sp.Function(f"{name}_j")(y) for mean, name in (("p", "p"), (r"\tau", "tau"))}
+    return CELL | own | {r"\barp": value[0], r"\bar\tau": value[1]}
+
+
+def _stress(value: sp.Expr) -> dict[str, Any]:
+    return CELL | {r"\tau": lambda *place: value.subs(ON_WAVE), "p": lambda *place: pressure}
+
+
+def _shear(value: sp.Expr) -> dict[str, Any]:
+    return CELL | {r"\tau_M-1": lambda *place: value, "p": pressure, "f_x": slope_x, r"\tau_M": lambda local: tau_below}
+
+
+def _carried(value: sp.Expr) -> dict[str, Any]:
+    """A pressure over the whole cell, and a law that is no straight line; in a strip, contact from x = -a to b."""
+    behind, ahead = sp.symbols("x_a x_b", positive=True)
+    field = lambda phase: 2 + sp.cos(phase) - sp.sin(phase) / 3  # noqa: E731
+    law = lambda local: local**2 + 3  # noqa: E731
+    along = lambda *phase: field(*phase) if phase else field(-k * x)  # noqa: E731
+    cell = lambda body, *variables: l**2 * mean_over_wave(mean_over_wave(body, x), y)  # noqa: E731
+    own = mean_over_wave(mean_over_wave(field(-k * x) * sp.diff(HEIGHT, x) + law(field(-k * x)), x), y)
+    derived_part = value.replace(sp.Function("tau_M"), law).replace(sp.Function("p"), field)
+    derived_part = derived_part.subs({s_0: -k * ahead, s_1: k * behind})
+    return CELL | {r"\bar\tau_M-1": own, "f_x": sp.diff(HEIGHT, x), "p": along, r"\tau_M": law, "k": k, "a": behind, "b": ahead,
+                   "s": s, "iint": cell, r"iint \text{contact}": cell, "C_j": derived_part}  # fmt: skip
+
+
+def _coefficient(value: sp.Expr) -> dict[str, Any]:
+    return {r"\mu": value, r"\tau_1": sp.Symbol("tau_1", real=True), "p_1": p_nominal}
+
+
+LEVELS: dict[str, Callable[[Any], dict[str, Any]]] = {
+    "equilibrium": _load,
+    "contact area": _area,
+    "local stress": _stress,
+    "means over a level": _means,
+    "local shear": _shear,
+    "carried friction": _carried,
+    "friction coefficient": _coefficient,
+}
+"""Eq. 7 and 9 to 14: what the symbols of their displays mean, the derived value among them."""
 BINDINGS: dict[str, Binding] = {
     "half-space under a wave": _under_a_wave,
     "foundation that stands for a half-space": _of_a_level,
@@ -307,7 +376,6 @@ BINDINGS: dict[str, Binding] = {
     "Eq. 16 as printed": _named(r"\textderived", r"\textprinted"),
     "friction balance": _energies,
     "onset_slope": _named("T'"),
-    "friction coefficient": _coefficient,
     "least pressure": _least,
 }
 """By the beginning of a step's name."""

@@ -195,11 +195,11 @@ def carried_record(by: Callable, checks: Sequence[Check], emitted: tuple[str, ..
         by,
         sp.Integral(sp.Function("tau_M")(sp.Function("p")(s)), (s, s_0, s_1)) / PERIOD,
         name="carried friction",
-        statement="What level M carries is averaged over the contact of level M-1 alone; in a strip that is the integral of its "
-        "law over the contact zone. The law jumps at pull-off and bends at saturation, so the zone is cut where p passes "
-        "these pressures and no quadrature goes across.",
+        statement="What level M carries is averaged over the contact of level M-1 alone; in a strip, from x = -a to b, that is "
+        "C_j, the integral of its law over the contact zone. The law jumps at pull-off and bends at saturation, so the zone is "
+        "cut where p passes these pressures and no quadrature goes across.",
         latex=r"\bar\tau_{M-1} = \frac{1}{l^2} \iint p\,f_x\,dx\,dy + \frac{1}{l^2} \iint_{\text{contact}} \tau_M[p]\,dx\,dy,"
-        r"\quad \frac{1}{l} \int_{-a}^{b} \tau_M[p]\,dx = \frac{1}{2\pi} \int_b^a \tau_M[p(s)]\,ds",
+        r"\quad C_j = \frac{1}{l} \int_{-a}^{b} \tau_M[p]\,dx = \frac{1}{2\pi} \int_{-kb}^{ka} \tau_M[p(s)]\,ds",
         checks=checks,
         paper="Eq. 13",
         status=CORRECTED,

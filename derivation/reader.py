@@ -17,7 +17,7 @@ import sympy as sp
 TOKEN = re.compile(r"\\\\|\\[A-Za-z]+|\\[,;!: {}|]|\d+|\S")
 SKIPPED = {r"\,", r"\;", r"\!", r"\:", r"\ ", r"\left", r"\right", r"\displaystyle", "&"}
 OPEN, CLOSE = {"(": ")", "[": "]", "{": "}", r"\{": r"\}"}, {")", "]", "}", r"\}"}
-RELATIONS = {"=", r"\le", r"\ge", r"\leq", r"\geq", "<", ">", r"\ne"}
+RELATIONS = {"=", r"\le", r"\ge", r"\leq", r"\geq", "<", ">", r"\to"}
 SPACES = {r"\quad", r"\qquad", r"\\"}
 ACCENTS = {r"\bar", r"\mathrm", r"\text", r"\operatorname", r"\dot", r"\mathit"}
 FUNCTIONS: dict[str, Callable[..., sp.Expr]] = {
@@ -25,7 +25,7 @@ FUNCTIONS: dict[str, Callable[..., sp.Expr]] = {
 }  # fmt: skip
 FRACTIONS = {r"\frac", r"\tfrac", r"\dfrac"}
 INTEGRALS = {r"\int": 1, r"\iint": 2, r"\oint": 1}
-STOPS = {"+", "-", ",", "/", "&", *RELATIONS, *SPACES, *CLOSE, r"\Rightarrow", r"\cdot", r"\times"}
+STOPS = {"+", "-", ",", "/", "&", "|", *RELATIONS, *SPACES, *CLOSE, r"\Rightarrow", r"\cdot", r"\times"}
 
 
 class Unreadable(ValueError):
@@ -209,8 +209,10 @@ class _Reader:
         if token == r"\sqrt":
             self.take()
             return sp.sqrt(self.script())
-        if token == r"\sum":
+        if token in (r"\sum", r"\prod"):
             return self.summed()
+        if token == "|":
+            return self.modulus()
         if token in INTEGRALS:
             return self.integral()
         if token in FUNCTIONS:
@@ -228,9 +230,20 @@ class _Reader:
             return sp.Max(*self.arguments())
         return self.name()
 
+    def modulus(self) -> sp.Expr:
+        """``|K|``."""
+        self.take("|")
+        value = self.sum()
+        self.take("|")
+        return sp.Abs(value)
+
     def partial(self) -> sp.Expr:
-        r"""``\partial g/\partial s_0``; a function is taken at the phase that ``names["end"]`` gives."""
+        r"""``\partial g/\partial s_0`` or ``\partial_{s_0} g``; a function is taken at the phase that ``names["end"]`` gives."""
         self.take()
+        differentiated = self.names.get("partial", sp.diff)
+        if self._takes("_"):
+            variable = self.script()
+            return differentiated(self.name(), variable)
         key = self._key()
         function = self.names.get(key)
         if function is None:
@@ -238,7 +251,7 @@ class _Reader:
         value = function if isinstance(function, sp.Expr) else function(self.names["end"])
         self.take("/")
         self.take(r"\partial")
-        return sp.diff(value, self.name())
+        return differentiated(value, self.name())
 
     def limit(self) -> sp.Expr:
         self.take()
@@ -307,17 +320,21 @@ class _Reader:
         if "/" in of:
             return None
         self.at = end + 3
+        if not of and f"d/d{self.peek()}" in self.names:  # stands for itself, in an operator
+            key = f"d/d{self.take()}"
+            self.take("}")
+            return self.names[key]
         variable = self.name()
         self.take("}")
         function = _Reader(of, self.names).sum() if of else self.factor()
         return sp.Derivative(function, variable)
 
     def summed(self) -> sp.Expr:
-        self.take()
+        kind = self.take().lstrip("\\")
         self.take("_")
         index, first, last = self._range()
-        body = self.product()
-        over = self.names[f"sum over {index}"]
+        body = self.factor() if kind == "prod" else self.product()
+        over = self.names[f"{kind} over {index}"]
         return over(body, first, last)
 
     def _range(self) -> tuple[str, sp.Expr | None, sp.Expr | None]:
@@ -426,7 +443,7 @@ class _Reader:
         base = self.take()
         if base in ACCENTS:
             base += self._raw()
-        elif base == r"\Delta" and self.peek() == "z":
+        elif base == r"\Delta" and any(name.startswith(base + (self.peek() or " ")) for name in self.names):
             base += self.take()
         elif not re.fullmatch(r"[A-Za-z]|\\[A-Za-z]+", base):
             raise Unreadable(f"{' '.join(self.tokens)!r}: {base!r} is not understood")

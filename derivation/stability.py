@@ -6,11 +6,11 @@ import sympy as sp
 
 from . import stable
 from .check import Derived, derived, zero
-from .functions import Formula, decay, quotient, written_out
+from .functions import Formula, decay, either, quotient, written_out
 from .kernel import Kernel
 from .regime import Regime
 from .sequences import CONTACT
-from .symbols import D, L, alpha, beta, gap_0, p, p_0, q_0, s_0, s_1
+from .symbols import D, J, L, alpha, beta, chi, gap_0, p, p_0, q_0, s_0, s_1
 
 
 def shift_of_events() -> Derived:
@@ -74,16 +74,18 @@ def onset_slope(regime: Regime) -> Kernel:
     product *= forgotten
     # What a zone is left with is what the next is entered with, except at a step of p: pair each zone's exit with the
     # next zone's entry.
-    formula_result = forgotten
+    formula_result = direct = forgotten
     for below, above in zip(lower, upper[1:] + upper[:1], strict=True):
         if sp.expand(below - above) != 0:
-            formula_result *= quotient(above, below)
+            ratio = quotient(_step(above - below), below)  # where it is small, 1 + ratio keeps its digits; else the quotient
+            formula_result *= either(2 * sp.Abs(ratio), 1 + ratio, quotient(above, below))
+            direct *= quotient(above, below)
     formula = Formula(name, regime.args, formula_result)
     checks = [
         zero(
             name,
             "the product over the zones, telescoped",
-            written_out(formula_result) - written_out(product),
+            [written_out(form) - written_out(product) for form in (formula_result, direct)],
             phases=regime.edges,
         )
     ]
@@ -96,11 +98,16 @@ def onset_slope(regime: Regime) -> Kernel:
             name=name,
             statement="A shift of the onset fades over contact with alpha and over the rest of the period with beta, "
             "and is scaled where p steps. The orbit is stable when T' < 1; T' = 1 is a fold.",
-            latex="T' = " + r" \cdot ".join(sp.latex(written_out(part)) for part in sp.Mul.make_args(formula_result)),
+            latex="T' = " + r" \cdot ".join(sp.latex(written_out(part)) for part in sp.Mul.make_args(direct)),
             checks=checks,
             emitted=(name,),
         ),
     )
+
+
+def _step(change: sp.Expr) -> sp.Expr:
+    """What a load steps by, without cancellation where J is nearly 1."""
+    return sp.factor(change).subs({J * chi - 1: -(L * chi + 1 - chi), J - 1: -L})
 
 
 def _same_phase(edge: sp.Expr) -> sp.Expr:

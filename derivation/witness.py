@@ -73,9 +73,13 @@ Point = dict[sp.Symbol, mpmath.mpf]
 
 def witnesses(regimes: Sequence[Regime]) -> Derived:
     r"""Solutions and roots that are none, :math:`0 < g \le \delta_0,\ q \ge 0,\ g > \delta_0`, against the inequalities."""
-    checks = [check for regime in regimes for check in _of_regime(regime)]
+    return record(witnesses, [check for regime in regimes for check in _of_regime(regime)])
+
+
+def record(by: Callable[..., Derived], checks: Sequence[Check]) -> Derived:
+    """The record of what ``by`` found at the roots."""
     return derived(
-        witnesses,
+        by,
         None,
         name=NAME,
         statement="At roots of the boundary equations in numbers, solutions and others, the inequalities say what the fields "
@@ -158,12 +162,12 @@ def _satisfied(regime: Regime, inequality: Inequality, point: Point) -> bool:
     turns = unknown - set(point) - {s}
     if turns:  # at the end of every arc in which the second relation holds, unless the third
         (turn,) = turns
-        return any(_true(other, point) for other in rest[1:]) or all(
-            _true(first, {**point, turn: place}) for place in _ends_of_arcs(regime, rest[0], point)
+        return any(true(other, point) for other in rest[1:]) or all(
+            true(first, {**point, turn: place}) for place in _ends_of_arcs(regime, rest[0], point)
         )
     if len(inequality.relations) == 3:  # the first if the second, else the third
-        return _true(first if _true(rest[0], point) else rest[1], point)
-    return all(_true(relation, point) for relation in inequality.relations)
+        return true(first if true(rest[0], point) else rest[1], point)
+    return all(true(relation, point) for relation in inequality.relations)
 
 
 def _ends_of_arcs(regime: Regime, condition: Relation, point: Point) -> list[mpmath.mpf]:
@@ -171,12 +175,12 @@ def _ends_of_arcs(regime: Regime, condition: Relation, point: Point) -> list[mpm
     (zone,) = [zone for zone in regime.zones if zone.kind == ADHESION]
     first, last = (_value(edge, point) for edge in (zone.first, zone.last))
     places = [first + (last - first) * n / (4 * SAMPLES) for n in range(4 * SAMPLES + 1)]
-    holding = [_true(condition, {**point, s: place}) for place in places]
+    holding = [true(condition, {**point, s: place}) for place in places]
     ends = [place for place, now, after in zip(places, holding, [*holding[1:], False], strict=True) if now and not after]
     return ends
 
 
-def _true(relation: Relation, point: Point) -> bool:
+def true(relation: Relation, point: Point) -> bool:
     values = [_value(side, point) for side in relation.sides]
     compare = {
         "<=": lambda a, b: a <= b, ">=": lambda a, b: a >= b, "<": lambda a, b: a < b, ">": lambda a, b: a > b,

@@ -23,10 +23,10 @@ FILES = ("__init__.py", "stable.py", "modes.py", *(f"{name}.py" for name in NAME
 PAGES = ("audit/index.html", *(f"audit/{name}.{kind}" for name in NAMES for kind in ("html", "json")))
 EMIT = """
 import hashlib, json
-from hystrip.derivation import KELVIN_VOIGT, STANDARD_LINEAR_SOLID, derive_any
+from hystrip.derivation import KELVIN_VOIGT, derive_any
 from hystrip.derivation.emit import emit
 from hystrip.derivation.drift import audit_texts
-derived = tuple(map(derive_any, (STANDARD_LINEAR_SOLID, KELVIN_VOIGT)))
+derived = (derive_any(KELVIN_VOIGT),)
 files = emit(derived)
 files |= audit_texts(derived, files, {}, {})
 print(json.dumps({name: hashlib.sha256(text.encode()).hexdigest() for name, text in files.items()}))
@@ -101,15 +101,18 @@ def test_a_certificate_for_another_solver_is_drift(copy: Path) -> None:
 
 
 def test_text_does_not_depend_on_the_hash_seed() -> None:
-    """One process with a seed of its own, against this one."""
+    """One process with a seed of its own, against this one.
+
+    Of the short derivation alone: this process has a seed of its own, too, and holds all models against what is checked in.
+    """
     seed = "0" if os.environ.get("PYTHONHASHSEED") != "0" else "4242"
     environment = {**os.environ, "PYTHONHASHSEED": seed}
     other = subprocess.run([sys.executable, "-c", EMIT], env=environment, stdout=subprocess.PIPE, text=True, check=True).stdout
-    made = tuple(each for each in derivations() if each.model.name != "generalised")
+    made = tuple(each for each in derivations() if each.model.name == "kelvin_voigt")
     files = emit(made)
     files |= audit_texts(made, files, {}, {})
     assert json.loads(other) == {name: hashlib.sha256(text.encode()).hexdigest() for name, text in files.items()}
-    assert {"standard_linear_solid.py", "audit/kelvin_voigt.html"} <= files.keys()
+    assert {"kelvin_voigt.py", "audit/kelvin_voigt.html"} <= files.keys()
 
 
 def test_writing_leaves_the_old_file_if_it_fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

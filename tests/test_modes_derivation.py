@@ -28,7 +28,7 @@ from hystrip.derivation import (
     regenerate,
     stored_bounds,
 )
-from hystrip.derivation.certificates import certified_names, measure
+from hystrip.derivation.certificates import certified_names, certify, measure
 from hystrip.derivation.certificates.material import measure_material
 from hystrip.derivation.certificates.regimes import measure_regimes
 from hystrip.derivation.certificates.whole import whole_kernels
@@ -96,7 +96,7 @@ def test_steps_carry_equations_and_functions(name: str) -> None:
     assert all(step.checks for step in made.steps)
     emitted = {function for step in made.steps for function in step.emitted}
     missing = {function for function in emitted if not hasattr(SOLVERS[name], function)}
-    assert missing <= {"means_afc", "state_afc"}  # without snap
+    assert missing <= {"means_afc", "state_afc", "jacobian_afc", "return_map_afc"}  # without snap
 
 
 CHANGED = [
@@ -158,7 +158,7 @@ def test_every_emitted_function_has_a_bound(name: str) -> None:
 
 def test_a_solver_for_any_number_is_measured_from_one_to_thirty() -> None:
     stored = json.loads((generated_folder() / "certificates.json").read_text(encoding="utf-8"))["models"]
-    assert stored["generalised"]["modes"] == [1, 2, 3, 5, 8, 15, 30] and stored["kelvin_voigt"]["modes"] == [1]
+    assert stored["generalised"]["modes"] == [1, 2, 3, 5, 8, 30] and stored["kelvin_voigt"]["modes"] == [1]
 
 
 class Still:
@@ -274,7 +274,8 @@ MODEL = prony_model("my_rubber")
 '''
 
 
-def test_a_model_file_becomes_a_solver_folder(tmp_path: Path) -> None:
+def test_a_model_file_becomes_a_solver_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(certify, "MODES", (1,))  # how accurate it is with more is measured for the solver that ships
     file = tmp_path / "my_model.py"
     file.write_text(FILE, encoding="utf-8")
     seen: list[tuple[int, int]] = []

@@ -11,7 +11,11 @@ TOOLS = Path(__file__).resolve().parents[1] / "tools"
 sys.path.insert(0, str(TOOLS))
 from mutants_derivation import MUTANTS, refused_by  # noqa: E402
 
-QUICK = [each for each in MUTANTS if each.run in ("displays", "tags") or each.by in ("admissibility", "moving frame", "closures")]
+QUICK = [
+    each
+    for each in MUTANTS
+    if each.run in ("displays", "levels", "tags") or each.by in ("admissibility", "moving frame", "closures")
+]
 
 
 def test_there_are_enough_of_every_kind() -> None:

@@ -22,6 +22,7 @@ from .point import ZERO, Point, rounded
 PHASES = (d, b, a, c, s, s_0, s_1)
 EDGES = PHASES[:4]
 PERIOD = 2 * math.pi
+TURN = sp.Symbol("pi", positive=True)  # pi, where it is an input that is known to its own digits
 NARROW = 1e-9  # the narrowest zone
 LEVELS = 5  # of a stack, at most
 Random = random.Random
@@ -36,38 +37,42 @@ def signed(draw: Random, low: float, high: float) -> float:
     return draw.choice((-1.0, 1.0)) * log(draw, low, high)
 
 
-TRACTION = "0 or 1e-9 .. 1e9"
+FAR = (-30, 48)  # decades of a length or pressure of a strip, in its amplitude: groups are admitted up to 1e18 times 1 + beta
+WIDE = "1e-30 .. 1e48"
+SI = (-20, 20)  # decades of inputs in SI
+SI_WIDE = "1e-20 .. 1e20"
+TRACTION = f"0 or {WIDE}"
 DOMAIN: dict[str, Range] = {
     "D": (
-        lambda r: r.choice((0.0, signed(r, -9, 6), 1.0 + signed(r, -9, 0), r.uniform(-2.0, 3.0))),
-        "0, +-1e-9 .. 1e6, and near 1",
+        lambda r: r.choice((0.0, signed(r, *FAR), signed(r, -9, 6), 1.0 + signed(r, -9, 0), r.uniform(-2.0, 3.0))),
+        f"0, +-{WIDE}, and near 1",
     ),
-    "p_0": (lambda r: r.choice((0.0, log(r, -9, 9), log(r, -2, 1))), TRACTION),
-    "delta_0": (lambda r: r.choice((log(r, -9, 6), log(r, -2, 1))), "1e-9 .. 1e6"),
+    "p_0": (lambda r: r.choice((0.0, log(r, *FAR), log(r, -9, 9), log(r, -2, 1))), TRACTION),
+    "delta_0": (lambda r: r.choice((log(r, *FAR), log(r, -9, 6), log(r, -2, 1))), WIDE),
     "chi": (lambda r: r.choice((0.0, 1.0)), "0 and 1"),
-    "p": (lambda r: r.choice((0.0, -log(r, -9, 9), -log(r, -2, 1))), "0 or -p_0"),
-    "gap_0": (lambda r: r.choice((0.0, log(r, -9, 6), signed(r, -3, 1))), "0, 1e-9 .. 1e6, -10 .. 10"),
-    "q_0": (lambda r: r.choice((0.0, 0.0, signed(r, -9, 9))), "0, +-1e-9 .. 1e9"),
-    "p_in": (lambda r: r.choice((0.0, -log(r, -9, 9), signed(r, -3, 3))), "0, -1e-9 .. -1e9, +-1e-3 .. 1e3"),
-    "lag_0": (lambda r: signed(r, -9, 9), "+-1e-9 .. 1e9"),
-    "w_0": (lambda r: signed(r, -9, 6), "+-1e-9 .. 1e6"),
-    "excess": (lambda r: r.choice((0.0, log(r, -9, 9))), "0, 1e-9 .. 1e9"),
-    "kV": (lambda r: r.choice((0.0, log(r, -6, 12))), "0, 1e-6 .. 1e12 1/s"),
-    "K": (lambda r: log(r, 3, 15), "1e3 .. 1e15 Pa/m"),
-    "T_eps": (lambda r: log(r, -9, 6), "1e-9 .. 1e6 s"),
-    "T_sigma": (lambda r: r.choice((0.0, 1.0, log(r, -9, 0))), "0, 1e-9 T_eps .. T_eps"),  # of T_eps
-    "l": (lambda r: log(r, -10, 0), "1e-10 .. 1 m"),
-    "h": (lambda r: log(r, -12, 0), "1e-12 .. 1 m"),
-    "V": (lambda r: r.choice((0.0, log(r, -12, 3), log(r, -9, 2))), "0, 1e-12 .. 1e3 m/s"),
-    "p_1": (lambda r: log(r, -3, 12), "1e-3 .. 1e12 Pa"),
+    "p": (lambda r: r.choice((0.0, -log(r, *FAR), -log(r, -9, 9), -log(r, -2, 1))), "0 or -p_0"),
+    "gap_0": (lambda r: r.choice((0.0, log(r, *FAR), log(r, -9, 6), signed(r, -3, 1))), f"0, {WIDE}, -10 .. 10"),
+    "q_0": (lambda r: r.choice((0.0, 0.0, signed(r, -9, 9), signed(r, *FAR))), f"0, +-{WIDE}"),
+    "p_in": (lambda r: r.choice((0.0, -log(r, *FAR), -log(r, -9, 9), signed(r, -3, 3))), f"0, -({WIDE}), +-1e-3 .. 1e3"),
+    "lag_0": (lambda r: r.choice((signed(r, -9, 9), signed(r, *FAR))), f"+-{WIDE}"),
+    "w_0": (lambda r: r.choice((signed(r, -9, 6), signed(r, *FAR))), f"+-{WIDE}"),
+    "excess": (lambda r: r.choice((0.0, log(r, -9, 9), log(r, *FAR))), f"0, {WIDE}"),
+    "kV": (lambda r: r.choice((0.0, log(r, -30, 30))), "0, 1e-30 .. 1e30 1/s"),
+    "K": (lambda r: log(r, *SI), f"{SI_WIDE} Pa/m"),
+    "T_eps": (lambda r: log(r, *SI), f"{SI_WIDE} s"),
+    "T_sigma": (lambda r: r.choice((0.0, 1.0, log(r, -30, 0))), "0, 1e-30 T_eps .. T_eps"),  # of T_eps
+    "l": (lambda r: log(r, *SI), f"{SI_WIDE} m"),
+    "h": (lambda r: log(r, *SI), f"{SI_WIDE} m"),
+    "V": (lambda r: r.choice((0.0, log(r, *SI), log(r, -9, 2))), f"0, {SI_WIDE} m/s"),
+    "p_1": (lambda r: log(r, *SI), f"{SI_WIDE} Pa"),
 }
-OF_STATES = (lambda r: r.choice((0.0, signed(r, -9, 6), signed(r, -2, 1))), "0, +-1e-9 .. 1e6, each mode by itself")
+OF_STATES = (lambda r: r.choice((0.0, signed(r, *FAR), signed(r, -9, 6), signed(r, -2, 1))), f"0, +-{WIDE}, each mode by itself")
 WORDS = {
     **{name: words for name, (_, words) in DOMAIN.items()},
-    "alpha, beta": "beta 0, 1e-12 .. 1e15; J = alpha/beta 0, 1e-12 .. 1, 1 - 1e-12 .. 1",
+    "alpha, beta": "beta 0, 1e-30 .. 1e30; J = alpha/beta 0, 1e-30 .. 1, 1 - 1e-16 .. 1",
     "phases": "the first anywhere in a period, near a crest or valley within 1e-9; widths 1e-9 .. 2 pi",
     "m": "1 to 30 interlaced times (of a model for any number of them), spread over 2 to 12 decades, some within 1e-9 of their "
-    "neighbours, the least 0; k V 0, 1e-8 .. 1e9",
+    "neighbours, the least 0; k V 0, 1e-30 .. 1e22, the longest time times k V up to 1e30",
     "states": OF_STATES[1],
 }
 
@@ -103,7 +108,7 @@ def drawn(args: Sequence[sp.Symbol], seed: str, modes: int = 0, moving: bool = F
     if T_sigma in exact:
         exact[T_sigma] = mpmath.mpf(float(exact[T_eps] * exact[T_sigma]))
     given = {symbol: rounded(value) for symbol, value in exact.items()}
-    return Point(exact, given, tuple(edges), modes or None, coupled)
+    return Point(exact | {TURN: +mpmath.pi}, given, tuple(edges), modes or None, coupled)
 
 
 def _phases(draw: Random, edges: Sequence[sp.Symbol]) -> dict[sp.Symbol, mpmath.mpf]:
@@ -123,10 +128,10 @@ def _phases(draw: Random, edges: Sequence[sp.Symbol]) -> dict[sp.Symbol, mpmath.
 
 def _one_time(draw: Random, args: Sequence[sp.Symbol]) -> tuple[sp.Symbol, dict[sp.Symbol, mpmath.mpf]]:
     """The independent one of J and L, and all four exactly."""
-    time = mpmath.mpf(draw.choice((0.0, log(draw, -12, 15), log(draw, -2, 2), log(draw, -8, 9), log(draw, -2, 2)))) or ZERO
+    time = mpmath.mpf(draw.choice((0.0, log(draw, -30, 30), log(draw, -2, 2), log(draw, -8, 9), log(draw, -2, 2)))) or ZERO
     snap = args[0] == d and b not in args and a in args  # needs an instantaneous compliance
     kind = draw.choice((J, J, L, L, 1 if snap else 0, 1))
-    ratio = mpmath.mpf(log(draw, -12, 0))
+    ratio = mpmath.mpf(log(draw, *draw.choice(((-16, 0) if kind is L else (-30, 0), (-6, 0)))))
     if kind is L:
         return L, {beta: time, L: ratio, J: 1 - ratio, alpha: (1 - ratio) * time}
     ratio = ratio if kind is J else mpmath.mpf(kind) or ZERO
@@ -137,7 +142,11 @@ def _material(draw: Random, modes: int, moving: bool, dashpots: bool | None) -> 
     """Interlaced times as sums of positive steps over many decades, near-equal ones among them; the rest follows exactly."""
     dashpot = draw.random() < 0.15 if dashpots is None else dashpots
     spread = draw.choice((1.0, 3.0, 6.0))
-    speed = mpmath.mpf(draw.choice((log(draw, -2, 2) if moving else ZERO, log(draw, -8, 9), log(draw, -2, 2), log(draw, -2, 2))))
+    speed = mpmath.mpf(
+        draw.choice(
+            (log(draw, -2, 2) if moving else ZERO, log(draw, -30, 22), log(draw, -8, 9), log(draw, -2, 2), log(draw, -2, 2))
+        )
+    )
     position, times = mpmath.mpf(0), []
     for number in range(2 * modes):
         step = log(draw, -spread, spread) * (draw.choice((1.0, 1.0, 1.0, 1e-9)) if number else not dashpot)

@@ -14,7 +14,7 @@ from ..modes.symbols import MATERIAL, m
 from ..symbols import J, L, alpha, beta, h, l
 from .scaled import Scaled
 
-ZERO = mpmath.mpf(10) ** -90  # stands for a vanishing speed or time: the derived forms divide by it
+ZERO = mpmath.mpf(10) ** -110  # stands for a vanishing speed or time: the derived forms divide by it
 VANISHING = ZERO * 10**24  # what is smaller was made from it
 STEP = mpmath.mpf(10) ** -60  # relative change of an input
 Values = dict[sp.Symbol, Any]

@@ -46,7 +46,7 @@ def measure_regimes(
                 for index in range(points_at(count, points)):
                     # a snap into contact needs an instantaneous compliance
                     point = drawn(args, f"{regime.sequence} {index}", count, dashpots=False if regime.sequence == "afc" else None)
-                    truth = Composition(regime, blocks, point).functions(agreed=count <= AGREED_UP_TO and index < 3)
+                    truth = Composition(regime, blocks, point).functions(agreed=count <= AGREED_UP_TO and index < 1)
                     given = [point.argument(symbol, solver) for symbol in args]
                     for kind in KINDS:
                         with np.errstate(all="raise", under="ignore"):

@@ -32,14 +32,14 @@ def whole_kernels(derivation: ModesDerivation) -> tuple[Kernel, ...]:
         _kernel("at_speed", (m, kV), (*(kV * time for time in (alpha, beta, eta)), S, J, J_0, enter, leave, share)),
         *([_kernel("prony", (K, m), (K / S, alpha), springs=True)] if springs else []),
         _kernel("retardation", (K, m), (J_0 / K, J / K, beta)),
-        _kernel("level_saturation_penetration", level, complete.penetration.value.subs(of_level)),
-        _kernel("level_saturation_pressure", level, complete.pressure.value.subs(of_level)),
-        _kernel("level_saturation_friction", (K, m, l, h, V), complete.friction.value.subs(of_level)),
-        _kernel("saturated_stack_friction", (K, m, l, h, V, p_nominal), complete.stack.value.subs(of_level)),
+        _kernel("level_saturation_penetration", level, complete.penetration.value.subs(of_level), moving=True),
+        _kernel("level_saturation_pressure", level, complete.pressure.value.subs(of_level), moving=True),
+        _kernel("level_saturation_friction", (K, m, l, h, V), complete.friction.value.subs(of_level), moving=True),
+        _kernel("saturated_stack_friction", (K, m, l, h, V, p_nominal), complete.stack.value.subs(of_level), moving=True),
         _kernel("means_c", (m, p_0, delta_0, D), means),
         *(_kernel(f"means_{r.sequence}", (m, p_0, delta_0, D), (r.zones[0].pressure, sp.Integer(0))) for r in at_rest),
     )
 
 
-def _kernel(name: str, args: tuple[sp.Symbol, ...], exact: Any, springs: bool = False) -> Kernel:
-    return Kernel(Formula(name, args, exact), exact, None, moving=springs, springs=springs)
+def _kernel(name: str, args: tuple[sp.Symbol, ...], exact: Any, moving: bool = False, springs: bool = False) -> Kernel:
+    return Kernel(Formula(name, args, exact), exact, None, moving=moving or springs, springs=springs)

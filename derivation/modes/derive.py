@@ -7,14 +7,17 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..basis import Basis
-from ..check import Derived
+from ..check import Check, Derived
 from ..conditions import zone_conditions
 from ..derive import _records as records
 from ..further import FOR_ANY_NUMBER, further
 from ..kernel import Kernel
-from ..model import Model
+from ..model import Model, Roots
+from ..paper.tags import require_tags
 from ..strip import adhesion_law, strip_profile
 from .averages import strip_means
+from .chain import chain_rule
+from .displays import displays
 from .flows import mode_flows, u
 from .functions import RegimeFunction, level_functions, period_map
 from .jumps import closures, jump_law
@@ -24,10 +27,11 @@ from .regimes import ModeRegime, mode_regimes
 from .saturated import Complete, complete_contact
 from .states import dimensionless_groups, partial_fractions
 from .states import states as point_states
+from .witness import witnesses
 from .zones import contact, gap, passages, profile, relaxation, states
 
 Progress = Callable[[str], None]
-STAGES = ("model", "flows", "edge conditions", "zones", "complete contact", "regimes", "means", "levels")
+STAGES = ("model", "flows", "edge conditions", "zones", "complete contact", "regimes", "means", "levels", "print")
 
 
 @dataclass(frozen=True)
@@ -42,6 +46,7 @@ class ModesDerivation:
     regimes: tuple[ModeRegime, ...]
     sections: tuple[tuple[str, tuple[Kernel, ...]], ...]
     stages: tuple[Any, ...]
+    displayed: dict[str, Check]  # by step: its LaTeX read back and compared
 
     @property
     def steps(self) -> tuple[Derived, ...]:
@@ -79,6 +84,7 @@ def derive_modes(model: Model, progress: Progress | None = None) -> ModesDerivat
     sections.append(("Complete contact", complete.kernels))
     done("complete contact")
     regimes = mode_regimes(model.springy, complete.threshold.value)
+    solutions = witnesses(regimes, flows)
     done("regimes")
     sections += further(FOR_ANY_NUMBER, Basis(flows, complete, regimes))
     means = strip_means()
@@ -98,8 +104,13 @@ def derive_modes(model: Model, progress: Progress | None = None) -> ModesDerivat
         tuple(kernels for _, kernels in sections),
         complete,
         regimes,
+        solutions,
         means,
         period,
+        chain_rule(period),
         upwards,
     )
-    return ModesDerivation(model, closure, complete, of_level, means, regimes, tuple(sections), stages)
+    read = displays(records(stages), flows, isinstance(model.series, Roots))
+    require_tags(records(stages))
+    done("print")
+    return ModesDerivation(model, closure, complete, of_level, means, regimes, tuple(sections), stages, read)

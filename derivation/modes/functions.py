@@ -123,7 +123,7 @@ def period_map() -> Derived:
         name=name,
         statement="A period is an affine map of the state, and R z = c is the state that it returns. What is forgotten is "
         "accumulated, not what is kept: slow modes forget little, and that little keeps its digits.",
-        latex=r"z \to z + c - R z,\quad c = c_2 + c_1 - R_2 c_1,\quad R = R_1 + R_2 - R_2 R_1,\qquad R z = c",
+        latex=rf"c = {sp.latex(drive)},\quad R = {sp.latex(forget)}",
         checks=[zero(name, "for matrices, which do not commute", sp.expand(twice - (state + drive - forget * state)))],
         status=BEYOND,
         emitted=tuple(f"state_{sequence}" for sequence in ("acaf", "afc", "af", "ac")),
@@ -157,16 +157,16 @@ def regime_functions(regime: ModeRegime, means: Derived) -> tuple[RegimeFunction
             slopes,
             f"Derivatives of residual_{sequence} by the edges, the state moving along.",
             r"R\,\partial z = \partial c - \partial R\,z",
-            by,
-            algorithm="the chain rule over the zones, modes.edge_slopes",
+            "modes.chain.chain_rule",
+            algorithm="the loop over the zones, modes.edge_slopes",
         ),
         RegimeFunction(
             turn,
             f"Derivative of the state before {first} by that one period earlier. "
             "An orbit is stable if its spectral radius is below 1.",
             r"\partial z(s + 2\pi)/\partial z(s)",
-            by,
-            algorithm="the chain rule over the zones and their events, modes.monodromy",
+            "modes.chain.chain_rule",
+            algorithm="the loop over the zones and their events, modes.monodromy",
         ),
         RegimeFunction(
             _means(regime, args, state),

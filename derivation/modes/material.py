@@ -78,7 +78,7 @@ def prony_series(model: Model) -> Derived:
         name=name,
         statement="The foundation is a spring K beside branches, each a dashpot (displacement e_i) in line with a spring K_i. A "
         "branch without spring, tau_i = 0, is a bare dashpot.",
-        latex=r"\frac{p}{w}(s) = K\left(1 + \sum_i \frac{\eta_i s}{1 + \tau_i s}\right),\quad \eta_i = \frac{K_i \tau_i}{K}",
+        latex=r"K^*(s) = K\left(1 + \sum_i \frac{\eta_i s}{1 + \tau_i s}\right),\quad \eta_i = \frac{K_i \tau_i}{K}",
         checks=checks,
     )
 

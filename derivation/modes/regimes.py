@@ -174,7 +174,7 @@ def _partial(by, sequence, onset, admissible) -> ModeRegime:
         name=name,
         statement=f"{with_edges(sequence, edges)}. The state at the first edge follows from them by one linear system, "
         "the edges from one event each.",
-        latex=r"z = \text{drive} - (\text{forget} - 1) z,\qquad \text{" + "; ".join(_meanings(zones, edges)) + "}",
+        latex=r"R z = c,\qquad \text{" + "; ".join(_meanings(zones, edges)) + "}",
         checks=[obeys_jump_law(name, zones, J_0, "[w] = J_0 [p]"), _period(name, zones)],
         status=BEYOND,
         emitted=tuple(f"{kind}_{sequence}" for kind in ("state", "residual", "jacobian", "return_map")),

@@ -217,8 +217,8 @@ def states() -> Derived:
         name=name,
         statement="Three sets of n numbers describe the state of a material point. Under a constant pressure the z_j "
         "decouple, in contact the f_i; matrices that hold no time, only ratios of times, lead from one to the other.",
-        latex=r"f = -N (z - J p),\ N_{ij} = \frac{\eta_i}{\beta_j - \alpha_i};\quad z - J p = -M f,\ "
-        r"M_{ji} = \frac{J_j\beta_j}{\beta_j - \alpha_i};\quad z = G e,\ G_{ji} = \frac{J_j\eta_i}{\beta_j - \alpha_i}",
+        latex=r"f = -N (z - J p),\quad N_{ij} = \frac{\eta_i}{\beta_j - \alpha_i},\quad z - J p = -M f,\quad "
+        r"M_{ji} = \frac{J_j\beta_j}{\beta_j - \alpha_i},\quad z = G e,\quad G_{ji} = \frac{J_j\eta_i}{\beta_j - \alpha_i}",
         checks=checks,
     )
 

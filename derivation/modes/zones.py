@@ -60,7 +60,7 @@ def states() -> tuple[Kernel, ...]:
 
 
 def relaxation(flows: ModeFlows) -> tuple[Kernel, ...]:
-    r"""z under a constant pressure: after, change, rate, and :math:`\int w\,ds`."""
+    r"""z under a constant pressure: after, change, rate, and, for Eq. 11, :math:`\int w\,ds`."""
     flow = flows.relaxation.value
     after = flow.subs(s, s_1)
     primitive = sp.integrate(sp.expand(flow), s)
@@ -123,7 +123,7 @@ def gap(flows: ModeFlows) -> tuple[Kernel, ...]:
 
 
 def contact(flows: ModeFlows) -> tuple[Kernel, ...]:
-    r"""Overstress and pressure in contact, the change of z, and the work :math:`\int p\,u'\,ds`."""
+    r"""Overstress and pressure in contact, the change of z, and, for Eq. 11, the work :math:`\int p\,u'\,ds`."""
     flow = flows.contact.value
     after = flow.subs(s, s_1)
     lagging = sp.integrate(sp.expand(flow), s)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import inspect
 import re
+from collections.abc import Mapping
 from importlib.metadata import version
 from typing import Any
 
@@ -66,7 +67,7 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
         "equations": paper.equations(derivation.steps, derivation.comparisons),
         "misprints": misprints.misprints(derivation.steps),
         "small": [list(row) for row in misprints.SMALL],
-        "stages": stages(derivation.steps, computed, displayed(derivation)),
+        "stages": stages(derivation.steps, computed, displayed(derivation, UNREAD)),
         "regimes": [_regime(regime, computed) for regime in derivation.regimes],
         "domains": [list(row) for row in WORDS.items()],
         "functions": functions_table(computed, derivation.steps, certificates),
@@ -89,21 +90,19 @@ def identity(files: dict[str, str]) -> dict[str, Any]:
     }
 
 
-def displayed(derivation: Derivation) -> dict[str, str]:
+def displayed(derivation: Any, unread: Mapping[str, str]) -> dict[str, str]:
     """What is said of the display of each step: read back and compared, or why there is nothing to compare."""
     read = {name: f"{check.claim}: {check.outcome}" for name, check in derivation.displayed.items()}
-    return {name: f"nothing to compare in the display: {what}" for name, what in UNREAD.items()} | read
+    return {name: f"nothing to compare in the display: {what}" for name, what in unread.items()} | read
 
 
-def stages(
-    steps: tuple[Derived, ...], computed: dict[str, sources.Source], displays: dict[str, str] | None = None
-) -> list[dict[str, Any]]:
+def stages(steps: tuple[Derived, ...], computed: dict[str, sources.Source], displays: Mapping[str, str]) -> list[dict[str, Any]]:
     """The steps by the module that derives them. ``displays``: what is said of the display of each step."""
     found: dict[str, list[dict[str, Any]]] = {}
     known = {step.name for step in steps}
     for step in steps:
         found.setdefault(step.function.rpartition(".")[0], []).append(
-            _step(step, computed, known) | {"display": (displays or {}).get(step.name, "")}
+            _step(step, computed, known) | {"display": displays.get(step.name, "")}
         )
     return [{"module": module, "title": sources.title(module), "steps": steps} for module, steps in found.items()]
 
@@ -186,10 +185,16 @@ def regime_entry(
 
 
 def functions_table(
-    computed: dict[str, sources.Source], steps: tuple[Derived, ...], certificates: dict[str, Any]
+    computed: dict[str, sources.Source],
+    steps: tuple[Derived, ...],
+    certificates: dict[str, Any],
+    parts: Mapping[str, str] | None = None,
 ) -> list[dict[str, Any]]:
-    """Every emitted function: derived, by which steps, or an algorithm; its bound in ulp and the domain that was measured."""
-    proven: dict[str, list[str]] = {}
+    """Every emitted function: derived, by which steps, or an algorithm; its bound in ulp and the domain that was measured.
+
+    ``parts``: functions that only name what others of a step are made of, and that step.
+    """
+    proven: dict[str, list[str]] = {name: [step] for name, step in (parts or {}).items()}
     for step in steps:
         for name in step.emitted:
             proven.setdefault(name, []).append(step.name)

@@ -8,6 +8,8 @@ import sympy as sp
 
 from ..certificates import WORDS
 from ..check import Derived
+from ..model import Roots
+from ..modes import displays
 from ..modes.derive import ModesDerivation
 from ..modes.regimes import ModeRegime
 from ..modes.symbols import J_0
@@ -34,6 +36,8 @@ def modes_content(derivation: ModesDerivation, files: dict[str, str], certificat
     computed = sources.generated(module, files[module])
     helpers = sources.generated("stable.py", files["stable.py"])
     functions = {step.function for step in derivation.steps}
+    passages = {f"passages_{regime.sequence}": regime.derived.name for regime in derivation.regimes if regime.edges}
+    unread = displays.unread(isinstance(derivation.model.series, Roots))
     return {
         "model": derivation.model.name,
         "title": derivation.model.title,
@@ -45,10 +49,10 @@ def modes_content(derivation: ModesDerivation, files: dict[str, str], certificat
         "equations": paper.equations(derivation.steps),
         "misprints": _misprints(derivation.steps),
         "small": [],
-        "stages": content.stages(derivation.steps, computed),
+        "stages": content.stages(derivation.steps, computed, content.displayed(derivation, unread)),
         "regimes": [_regime(regime, computed, derivation.closures.value) for regime in derivation.regimes],
         "domains": [list(row) for row in WORDS.items()],
-        "functions": content.functions_table(computed, derivation.steps, certificates),
+        "functions": content.functions_table(computed, derivation.steps, certificates, passages),
         "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
         "method": [list(row) for row in content.METHOD],
         "sources": {

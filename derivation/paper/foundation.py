@@ -12,7 +12,7 @@ from ..reader import Statement, rows, statements
 from ..strip import Strip, traction
 from ..symbols import delta_0, p_0, x
 from .printed import PRINTED
-from .record import Comparison, compared, step
+from .record import Comparison, compared, read_back, step
 from .words import MATERIAL
 
 opening = sp.Symbol("delta", positive=True)
@@ -77,11 +77,12 @@ def adhesion() -> tuple[Comparison, Comparison]:
             3,
             (r"\gamma = p_0 \delta_0",),
             [
+                read_back(3, (r"\gamma = p_0 \delta_0",), MATERIAL | {r"\gamma": work}),
                 zero(
                     step(3),
                     "both sides of the print, and the derived work of separation, are one",
                     [work - first, product - first],
-                )
+                ),
             ],
             ("adhesion law",),
             REPRODUCED,

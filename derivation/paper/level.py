@@ -13,18 +13,22 @@ from ..reader import statements
 from ..surface import mean_over_wave
 from ..symbols import V, k, l, x, y
 from .printed import PRINTED
-from .record import Comparison, compared, refuted, step
-from .words import WAVE, field, level, strips, surface
+from .record import Comparison, compared, read_back, refuted, step
+from .words import CELL, WAVE, field, level, strips, surface
 
 
 def load(pressure: sp.Expr) -> Comparison:
     r"""Eq. 7. ``pressure``: Eq. 15 in SI, of complete contact, where the integral can be done."""
     names = level("i", **{r"\barp_i": over_cell(pressure) / l**2, "p_i": field(pressure), r"iint \Omega_i": _integral})
     (printed,) = statements(PRINTED[7], names)
-    checks = [zero(step(7), "as printed, with Eq. 15 for p, it is the mean over x and y", printed.sides[0] - printed.sides[1])]
-    return compared(
-        7, (r"\bar p = \frac{1}{l^2} \iint_{\Omega^c \cup \Omega^a} p(x, y)\,dx\,dy",), checks, ("equilibrium",), REPRODUCED
-    )
+    derived = (r"\bar p = \frac{1}{l^2} \iint_{\Omega^c \cup \Omega^a} p(x, y)\,dx\,dy",)
+    checks = [
+        zero(step(7), "as printed, with Eq. 15 for p, it is the mean over x and y", printed.sides[0] - printed.sides[1]),
+        read_back(
+            7, derived, CELL | {r"\barp": names[r"\barp_i"], "p": field(pressure), r"iint \Omega^c\cup\Omega^a": _integral}
+        ),
+    ]
+    return compared(7, derived, checks, ("equilibrium",), REPRODUCED)
 
 
 def area() -> Comparison:
@@ -50,7 +54,10 @@ def area() -> Comparison:
             printed.sides[1] - whole.subs(even),
         )
     )
-    return compared(9, (r"A = 2 \Delta \sum_{j=1}^{N} (a_j + b_j),\quad l = 2 N \Delta",), checks, ("contact area",), REPRODUCED)
+    derived = (r"A = 2 \Delta \sum_{j=1}^{N} (a_j + b_j),\quad l = 2 N \Delta",)
+    own = CELL | strips(2) | {"A": whole.subs(even), "a_j": length(y_j) / 3, "b_j": 2 * length(y_j) / 3}
+    checks.append(read_back(9, derived, own))
+    return compared(9, derived, checks, ("contact area",), REPRODUCED)
 
 
 def stress(derived_stress: sp.Expr) -> Comparison:
@@ -86,12 +93,17 @@ def means(pressure: sp.Expr) -> Comparison:
     claim = "their friction is too large by 4/(3 N): 1.3 % with the paper's N = 100"
     excess = [printed - exact * (1 + sp.Rational(4, 3 * n)) for n, (printed, exact) in zip((2, 3), friction, strict=True)]
     checks.append(zero(step(11), claim, excess))
+    derived = (
+        r"\bar p = \frac{2 \Delta}{l^2} \sum_{j=1}^{N} \int_{-l/2}^{l/2} p(x, y_j)\,dx \to \frac{1}{l^2} \iint p(x, y)\,dx\,dy",
+        r"\bar\tau = \frac{2 \Delta}{l^2} \sum_{j=1}^{N} \int_{-l/2}^{l/2} \tau(x, y_j)\,dx "
+        r"\to \frac{1}{l^2} \iint \tau(x, y)\,dx\,dy",
+    )
+    fields = {"p": field(pressure), r"\tau": field(shear), "iint": _integral}
+    own = {r"\barp": over_cell(pressure) / l**2, r"\bar\tau": over_cell(shear) / l**2}
+    checks.append(read_back(11, derived, CELL | strips(2) | fields | own))
     return compared(
         11,
-        (
-            r"\bar p = \frac{2 \Delta}{l^2} \sum_{j=1}^{N} \int_{-l/2}^{l/2} p\,dx \to \frac{1}{l^2} \iint p\,dx\,dy",
-            r"\bar\tau = \frac{2 \Delta}{l^2} \sum_{j=1}^{N} \int_{-l/2}^{l/2} \tau\,dx \to \frac{1}{l^2} \iint \tau\,dx\,dy",
-        ),
+        derived,
         checks,
         ("means over a level", "means_c", "means_acaf", "means_afc", "means_af", "means_ac", "means_a", "means_f"),
         REPRODUCED,

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
 
-from ..check import CORRECTED, STATUSES, Check, DerivationError
+from ..check import CORRECTED, STATUSES, Check, DerivationError, zero
 from ..exact import is_zero
+from ..reader import Unreadable, statements
 from .printed import PRINTED, SUBJECTS
 
 
@@ -51,6 +54,22 @@ def refuted(name: str, claim: str, residual: Any) -> Check:
     if is_zero(sp.sympify(residual)):
         raise DerivationError(name, f"the print is wrong in this: {claim}")
     return Check(claim, FALSE)
+
+
+def read_back(number: int, derived: tuple[str, ...], names: Mapping[str, Any]) -> Check:
+    """Verify that every derived line, typed as it is, reads as equations that hold with what ``names`` stands for."""
+    claim = "the derived form, read back, holds with what was derived"
+    for line in derived:
+        try:
+            read = statements(re.sub(r"\\quad\\text\{[^}]*\}", "", line), names)
+        except Unreadable as problem:
+            raise DerivationError(step(number), f"the derived form can be read: {problem}") from problem
+        for statement in read:
+            first, *others = (sp.sympify(side).doit() for side in statement.sides)
+            if not others:
+                raise DerivationError(step(number), f"the derived form {line!r} is an equation")
+            zero(step(number), claim, [first - other for other in others])
+    return Check(claim, "exact zero")
 
 
 def step(number: int) -> str:

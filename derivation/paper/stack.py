@@ -14,8 +14,8 @@ from ..strip import Strip
 from ..symbols import D_level, K, T_sigma, V, h, l, p_nominal, x, y
 from .level import over_cell
 from .printed import PRINTED
-from .record import Comparison, compared, refuted, step
-from .words import field, level, strips, surface, y_j
+from .record import Comparison, compared, read_back, refuted, step
+from .words import CELL, field, level, strips, surface, y_j
 
 law = sp.Function("tau_M")
 lower = {h: sp.Symbol("h_2", positive=True), l: sp.Symbol("l_2", positive=True)}
@@ -27,14 +27,17 @@ def shear(derived_shear: sp.Expr) -> Comparison:
     (printed,) = statements(PRINTED[12], _carrying("M-1", r"\bar\tau_M", lambda *place: pressure))
     here = printed.sides[1].doit()
     ours = derived_shear.subs({slope_x: sp.diff(surface(x, y_j), x), tau_below: law(pressure)})
-    checks = [
-        zero(step(12), "in contact it is, as printed, the stress of the derivation", here - ours),
-        refuted(step(12), NOTHING, here.subs(pressure, 0)),
-    ]
     derived = (
         r"\tau_{M-1} = p\,\frac{\partial f}{\partial x} + \tau_M[p]\quad\text{in contact}",
         r"\tau_{M-1} = p\,\frac{\partial f}{\partial x}\quad\text{outside it}",
     )
+    own = CELL | {"f": surface(x, y_j), "p": pressure, r"\tau_M": law}
+    checks = [
+        zero(step(12), "in contact it is, as printed, the stress of the derivation", here - ours),
+        read_back(12, derived[:1], own | {r"\tau_M-1": ours}),
+        read_back(12, derived[1:], own | {r"\tau_M-1": derived_shear.subs({slope_x: sp.diff(surface(x, y_j), x), tau_below: 0})}),
+        refuted(step(12), NOTHING, here.subs(pressure, 0)),
+    ]
     return compared(12, derived, checks, ("local shear",), CORRECTED, CONTACT_ALONE)
 
 
@@ -43,18 +46,22 @@ def carried(complete: sp.Expr, one_level: sp.Expr) -> Comparison:
     names = _carrying("M-1", r"\bar\tau_M", field(complete), one_level.subs(lower)) | strips(2)
     free = _carrying("M-1", r"\bar\tau_M", lambda *place: sp.Integer(0)) | strips(2)
     (full,), (nothing,) = (statements(PRINTED[13], words) for words in (names, free))
-    checks = [
-        zero(
-            step(13),
-            "in complete contact it is, as printed, the level's own tau_sat and the law below",
-            full.sides[1] - one_level - one_level.subs(lower),
-        ),
-        refuted(step(13), NOTHING, nothing.sides[1]),
-    ]
     derived = (
         r"\bar\tau_{M-1} = \frac{1}{l^2} \iint p\,\frac{\partial f}{\partial x}\,dx\,dy "
         r"+ \frac{1}{l^2} \iint_{\Omega^c} \tau_M[p]\,dx\,dy",
     )
+    both = one_level + one_level.subs(lower)
+    cell = lambda body, *variables: over_cell(body.doit())  # noqa: E731
+    own = {"f": surface(), "p": complete, r"\tau_M": lambda local: one_level.subs(lower), "iint": cell, r"iint \Omega^c": cell}
+    checks = [
+        read_back(13, derived, CELL | own | {r"\bar\tau_M-1": both}),
+        zero(
+            step(13),
+            "in complete contact it is, as printed, the level's own tau_sat and the law below",
+            full.sides[1] - both,
+        ),
+        refuted(step(13), NOTHING, nothing.sides[1]),
+    ]
     return compared(13, derived, checks, ("carried friction",), CORRECTED, CONTACT_ALONE)
 
 
@@ -67,12 +74,13 @@ def coefficient(complete: sp.Expr, one_level: sp.Expr) -> Comparison:
     free = _carrying("1", r"\bar\tau_2", lambda *place: sp.Integer(0)) | more | strips(2)
     (full,), (nothing,) = (statements(PRINTED[14], words) for words in (names, free))
     both = (one_level + one_level.subs(lower)) / load
+    derived = (r"\mu = \frac{\bar\tau_1}{\bar p_1}\quad\text{with Eq. 13 over the contact}",)
     checks = [
+        read_back(14, derived, {r"\mu": both, r"\bar\tau_1": one_level + one_level.subs(lower), r"\barp_1": load}),
         zero(step(14), "its second side is tau_1/p_1", full.sides[1] - tau_1 / load),
         zero(step(14), "two levels in complete contact: as printed it is Eq. 16, corrected", full.sides[2] - both),
         refuted(step(14), NOTHING, nothing.sides[2]),
     ]
-    derived = (r"\mu = \frac{\bar\tau_1}{\bar p_1},\quad \bar\tau_1\ \text{by Eq. 13 over the contact}",)
     return compared(14, derived, checks, ("friction coefficient",), CORRECTED, CONTACT_ALONE)
 
 

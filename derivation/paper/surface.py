@@ -13,8 +13,8 @@ from ..sequences import ADHESION, FREE, Span
 from ..surface import AMPLITUDE, HEIGHT, PENETRATION
 from ..symbols import D_level, h, l, p_0, s, x, y
 from .printed import PRINTED
-from .record import Comparison, compared, refuted, step
-from .words import WAVE, level, surface, y_j
+from .record import Comparison, compared, read_back, refuted, step
+from .words import CELL, MATERIAL, WAVE, level, surface, y_j
 
 
 def shape() -> Comparison:
@@ -68,7 +68,14 @@ def conditions(derived_gap: sp.Expr) -> Comparison:
     unknown = sp.Function("w")(s)
     (derived_w,) = sp.solve(derived_gap, unknown)
     loads = [Span(kind, s, s, sp.Integer(0), sp.Integer(0)).load for kind in (ADHESION, FREE)]
+    derived = (
+        r"w = D - f = " + sp.latex(sp.expand(D_level - surface())) + r"\quad\text{in contact}",
+        f"p = {sp.latex(loads[0])}" + r"\quad\text{in adhesion}",
+        f"p = {sp.latex(loads[1])}" + r"\quad\text{outside both}",
+    )
+    height = {"w": (AMPLITUDE * derived_w).subs(WAVE), "D": D_level, "f": surface(), "h": h}
     checks = [
+        read_back(6, derived[:1], MATERIAL | CELL | height),
         refuted(step(6), "in contact w = f + D, as printed, closes the gap", printed - (AMPLITUDE * derived_w).subs(WAVE)),
         zero(
             step(6),
@@ -78,11 +85,4 @@ def conditions(derived_gap: sp.Expr) -> Comparison:
         zero(step(6), "in adhesion p = -p_0, as printed", [adhesion.sides[1] - loads[0], loads[0] + p_0]),
         zero(step(6), "outside both p = 0, as printed", outside.sides[1] - loads[1]),
     ]
-    derived = (
-        r"w = D - f = " + sp.latex(sp.expand(D_level - surface())) + r"\quad\text{in contact}",
-        f"p = {sp.latex(loads[0])}"
-        + r"\quad\text{in adhesion},\quad "
-        + f"p = {sp.latex(loads[1])}"
-        + r"\quad\text{outside both}",
-    )
     return compared(6, derived, checks, ("zone conditions", "strip profile", "strip problem"), CORRECTED, SIGN_OF_6)

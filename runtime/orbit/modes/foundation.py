@@ -22,8 +22,8 @@ from .fields import fields
 from .nonadhesive import ModeWaves
 from .problem import ModeStrips
 
-#: beyond this k V tau its square overflows
-_GROUP_LIMIT = 1e150
+#: up to this the emitted functions are certified (the domain in generated/certificates.json)
+_GROUP_LIMIT = 1e30
 
 
 class ManyTimes:

@@ -1,0 +1,227 @@
+"""Roots of the boundary equations with two relaxation times, in numbers: as :mod:`..witness`, from the flows of the modes.
+
+The state that returns after a period is found from what a period makes of states, zone after zone; what a root is, is seen
+from the gap and the pressure along the zones. The inequalities of a regime take no part in that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+
+import mpmath
+import numpy as np
+import sympy as sp
+
+from ..check import Check, Derived, holds
+from ..inequality import Inequality, Relation
+from ..sequences import ADHESION, CONTACT
+from ..symbols import D, alpha, beta, delta_0, p, p_0, s, s_0
+from ..witness import NAME, record, true
+from .flows import ModeFlows, u
+from .regimes import ModeRegime, ModeZone, gap_at, gap_slope, pressure_slope
+from .saturated import R
+from .states import exact_modes
+from .symbols import J_0, J, enter, eta, f_0, leave, z_0
+
+SAMPLES, SLACK, STEP = 48, 1e-9, 1e-7
+# tau_1, lambda_1, tau_2, lambda_2, p_0, delta_0, D; edges to start from; whether the root is a solution
+ROOTS: dict[str, tuple[tuple[tuple[float, ...], tuple[float, ...], bool], ...]] = {
+    "acaf": (
+        ((0.0845, 1.87, 2.13, 2.37, 1.23, 0.0569, 1.46), (-1.974, -1.97, 1.356, 1.718), True),
+        ((0.102, 0.31, 0.353, 5.97, 1.74, 0.437, 0.298), (-1.334, -0.999, 0.479, 1.402), True),
+        ((0.0595, 0.121, 0.128, 0.476, 0.235, 0.415, 0.534), (-1.52, 1.337, 1.337, 1.756), False),
+        ((0.0503, 0.274, 0.951, 3.77, 0.0916, 0.354, 0.599), (-1.407, -1.063, 0.6, 0.105), False),
+    ),
+    "afc": (
+        ((0.272, 0.616, 0.711, 6.0, 1.97, 0.0251, 1.41), (-1.443, 0.927, 1.012), True),
+        ((0.298, 0.505, 0.835, 5.35, 2.76, 0.125, 0.2), (-0.944, 1.102, 1.385), True),
+        ((0.0514, 0.287, 2.03, 2.53, 0.0668, 0.119, 0.191), (-0.807, 0.511, 0.819), False),
+        ((0.0898, 0.175, 1.93, 2.96, 0.177, 0.0504, 0.971), (1.592, 1.605, 1.673), False),
+    ),
+    "af": (
+        ((0.153, 0.976, 1.01, 1.51, 0.0779, 0.678, -0.41), (-0.752, 0.827), True),
+        ((0.0595, 0.2, 1.21, 2.62, 0.146, 0.281, 0.51), (-1.377, 1.485), False),
+        ((0.126, 0.168, 0.244, 1.36, 0.9, 0.0973, 0.387), (1.031, 1.346), False),
+        ((0.135, 0.151, 0.846, 1.25, 0.167, 0.625, -0.463), (0.577, 0.765), False),
+    ),
+    "ac": (
+        ((0.836, 0.906, 1.01, 5.67, 1.2, 1.51, 0.291), (-1.529, 0.991), True),
+        ((0.145, 1.49, 4.03, 5.99, 0.119, 0.373, 0.674), (-1.232, 0.521), False),
+        ((0.0979, 0.957, 1.55, 2.8, 0.17, 0.424, 0.916), (-1.523, 0.691), False),
+        ((0.129, 0.98, 1.79, 1.91, 0.327, 0.607, 0.113), (-5.232, -1.852), False),
+    ),
+    "c": (((0.3, 0.5, 0.8, 2.0, 0.5, 0.4, 4.0), (), True), ((0.3, 0.5, 0.8, 2.0, 0.5, 0.4, 1.5), (), False)),
+    "a": (
+        ((0.3, 0.5, 0.8, 2.0, 0.5, 2.5, -0.7), (), True),
+        ((0.3, 0.5, 0.8, 2.0, 0.5, 2.5, -0.2), (), False),
+        ((0.3, 0.5, 0.8, 2.0, 0.5, 1.5, -0.7), (), False),
+    ),
+    "f": (
+        ((0.3, 0.5, 0.8, 2.0, 0.5, 0.4, -0.7), (), True),
+        ((0.3, 0.5, 0.8, 2.0, 0.5, 0.4, -0.2), (), False),
+        ((0.3, 0.5, 0.8, 2.0, 0.0, 0.4, -0.2), (), True),
+        ((0.3, 0.5, 0.8, 2.0, 0.0, 0.4, 0.2), (), False),
+    ),
+}
+Edges = dict[sp.Symbol, float]
+Place = tuple[ModeZone, float, float, np.ndarray]  # a zone, its ends, the state in which it is entered
+
+
+class Foundation:
+    """A foundation with two modes under a strip: its numbers, and its flows as functions."""
+
+    def __init__(self, flows: ModeFlows, groups: Sequence[float]):
+        *times, traction, reach, depth = groups
+        modes = exact_modes(list(map(mpmath.mpf, times[0::2])), list(map(mpmath.mpf, times[1::2])))
+        self.m = {symbol: np.array(value, dtype=float) for symbol, value in modes.items()}
+        self.given = {p_0: traction, delta_0: reach, D: depth, J_0: float(self.m[J_0])}
+        self.relaxed = sp.lambdify((s, s_0, z_0, p, J, beta), flows.relaxation.value, "numpy")
+        self.lagged = sp.lambdify((s, s_0, f_0, alpha, eta), flows.contact.value, "numpy")
+        self.profile = sp.lambdify(s, u.subs(D, depth), "numpy")
+
+    def number(self, expression: sp.Expr, edges: Edges | None = None) -> float:
+        values = {**self.given, **(edges or {})}
+        expression = sp.sympify(expression)
+        wanted = tuple(sorted(expression.free_symbols, key=str))
+        return float(_function(expression, wanted)(*(values[symbol] for symbol in wanted)))
+
+    def at(self, zone: ModeZone, start: float, state: np.ndarray, phase: float) -> tuple[float, np.ndarray]:
+        """(gap, or pressure above -p_0 in contact; z) at a phase of a zone that was entered at ``start`` with z = ``state``."""
+        m, load = self.m, self.number(zone.pressure)
+        if zone.kind != CONTACT:
+            after = self.relaxed(phase, start, state, load, m[J], m[beta])
+            return m[J_0] * load + after.sum() - self.profile(phase), after
+        overstress = self.lagged(phase, start, -m[enter] @ (state - m[J] * load), m[alpha], m[eta])
+        load = self.profile(phase) + overstress.sum()
+        return load + self.given[p_0], m[J] * load - m[leave] @ overstress
+
+    def zones(self, regime: ModeRegime, edges: Edges) -> list[Place]:
+        """Every zone, its ends and the state in which it is entered, on the orbit that returns."""
+        ends = [(edges[zone.first], self.number(zone.last, edges)) for zone in regime.zones]
+
+        def through(state: np.ndarray) -> list[np.ndarray]:
+            states = [state]
+            for zone, (start, end) in zip(regime.zones, ends, strict=True):
+                states.append(self.at(zone, start, states[-1], end)[1])
+            return states
+
+        size = len(self.m[J])
+        from_rest = through(np.zeros(size))[-1]
+        kept = np.column_stack([through(row)[-1] - from_rest for row in np.eye(size)])
+        states = through(np.linalg.solve(np.eye(size) - kept, from_rest))
+        return [(zone, *span, state) for zone, span, state in zip(regime.zones, ends, states, strict=False)]
+
+    def missed(self, regime: ModeRegime, edges: Edges) -> np.ndarray:
+        """What is left of the boundary equations: the onset, then what every zone but the last leaves to its exit."""
+        places = self.zones(regime, edges)
+        _, start, _, state = places[0]
+        onset = self.m[J_0] * self.number(regime.onset_pressure) + state.sum() - self.profile(start)
+        left = [onset - self.number(regime.onset_gap)]
+        for zone, start, end, state in places[:-1]:
+            entered = self.number(zone.entry) - self.at(zone, start, state, start)[0]  # none, if the orbit is one
+            left.append(self.at(zone, start, state, end)[0] + entered - self.number(zone.exit))
+        return np.array(left)
+
+    def refined(self, regime: ModeRegime, start: Sequence[float]) -> Edges:
+        """The root near ``start``, by Newton; raises :class:`ArithmeticError` if there is none."""
+        edges = np.array(start)
+        named = lambda values: dict(zip(regime.edges, values, strict=True))  # noqa: E731
+        for _ in range(30):
+            left = self.missed(regime, named(edges))
+            moved = [self.missed(regime, named(edges + STEP * row)) for row in np.eye(len(edges))]
+            change = np.linalg.solve(np.column_stack([(each - left) / STEP for each in moved]), left)
+            edges = edges - change
+            if np.abs(change).max() < 1e-11:
+                return named(edges)
+        raise ArithmeticError(f"no root of {regime.sequence} near {start}")
+
+    def fits(self, regime: ModeRegime, edges: Edges) -> bool:
+        """Whether the fields are those of a solution."""
+        if not regime.edges:
+            return all(low - SLACK <= value <= high + SLACK for value, low, high in self._at_rest(regime))
+        places = self.zones(regime, edges)
+        if any(end < start for _, start, end, _ in places) or places[-1][2] > places[0][1] + 2 * np.pi + SLACK:
+            return False
+        if regime.sequence == "afc" and self.given[delta_0] > self.given[J_0] * self.given[p_0]:
+            return False
+        for zone, start, end, state in places:
+            low, high = self._allowed(zone)
+            phases = start + (end - start) * (np.arange(SAMPLES) + 0.5) / SAMPLES
+            if not all(low - SLACK <= self.at(zone, start, state, phase)[0] <= high + SLACK for phase in phases):
+                return False
+        return True
+
+    def _allowed(self, zone: ModeZone) -> tuple[float, float]:
+        if zone.kind == CONTACT:
+            return 0, np.inf
+        reach = self.given[delta_0] if self.given[p_0] > 0 else 0
+        return (0, reach) if zone.kind == ADHESION and self.given[p_0] > 0 else (0 if zone.kind == ADHESION else reach, np.inf)
+
+    def _at_rest(self, regime: ModeRegime) -> list[tuple[float, float, float]]:
+        """Of a regime without edges, what is seen along a period and what is allowed of it."""
+        (zone,) = regime.zones
+        phases = 2 * np.pi * np.arange(SAMPLES) / SAMPLES
+        if zone.kind == CONTACT:
+            lagging = [self.lagged(phase, -1e3 * self.m[alpha].max(), 0, self.m[alpha], self.m[eta]).sum() for phase in phases]
+            seen = [self.profile(phase) + lag + self.given[p_0] for phase, lag in zip(phases, lagging, strict=True)]
+        else:
+            seen = [self.number(zone.pressure) - self.profile(phase) for phase in phases]
+        return [(value, *self._allowed(zone)) for value in seen]
+
+    def satisfies(self, regime: ModeRegime, inequality: Inequality, edges: Edges) -> bool:
+        first, *rest = inequality.relations
+        point = {**self.given, **edges, R: abs(1 + (1j * self.m[eta] / (1 + 1j * self.m[alpha])).sum())}
+        if not regime.edges:  # a relation, or one if the second holds and the third if not
+            return true(first if not rest or true(rest[0], point) else rest[1], point)
+        if any(sp.sympify(side).has(gap_at) for side in first.sides):  # for phases in a range, unless
+            low, _, high = (self.number(side, {**edges, s: 0.0}) for side in rest[0].sides)
+            phases = low + (high - low) * (np.arange(SAMPLES) + 0.5) / SAMPLES
+            return any(true(other, point) for other in rest[1:]) or all(
+                true(self._seen(first, regime, edges, phase), point) for phase in phases
+            )
+        return all(true(self._seen(each, regime, edges, 0.0), point) for each in inequality.relations)
+
+    def _seen(self, relation: Relation, regime: ModeRegime, edges: Edges, phase: float) -> Relation:
+        """The relation with the gap, and slopes just before an edge, in numbers."""
+        places = self.zones(regime, edges)
+
+        def slope(edge: sp.Symbol) -> float:
+            zone, start, _, state = next(place for place in places if sp.sympify(place[0].last).has(edge))
+            end = self.number(zone.last, edges)
+            return (self.at(zone, start, state, end)[0] - self.at(zone, start, state, end - STEP)[0]) / STEP
+
+        def gap(_: sp.Symbol) -> float:
+            zone, start, _, state = next(place for place in places if place[0].kind != CONTACT and place[1] <= phase <= place[2])
+            return self.at(zone, start, state, phase)[0]
+
+        seen: dict[type, Callable] = {gap_slope: slope, pressure_slope: slope, gap_at: gap}
+        sides = []
+        for side in map(sp.sympify, relation.sides):
+            for function, value in seen.items():
+                side = side.replace(function, lambda edge, value=value: sp.Float(value(edge)))
+            sides.append(side)
+        return Relation(relation.sign, tuple(sides))
+
+
+@lru_cache
+def _function(expression: sp.Expr, symbols: tuple[sp.Symbol, ...]) -> Callable[..., float]:
+    return sp.lambdify(symbols, expression, "math")
+
+
+def witnesses(regimes: Sequence[ModeRegime], flows: ModeFlows) -> Derived:
+    r"""Solutions and roots that are none, :math:`0 < g \le \delta_0,\ p \ge -p_0,\ g > \delta_0`, against the inequalities."""
+    return record(witnesses, [check for regime in regimes for check in _of_regime(regime, flows)])
+
+
+def _of_regime(regime: ModeRegime, flows: ModeFlows) -> list[Check]:
+    checks = []
+    for number, (groups, start, solution) in enumerate(ROOTS[regime.sequence], start=1):
+        foundation = Foundation(flows, groups)
+        edges = foundation.refined(regime, start) if regime.edges else {}
+        kind = "a solution" if solution else "no solution"
+        what = f"{regime.sequence}, root {number}: the fields show {kind}"
+        checks.append(holds(NAME, what, foundation.fits(regime, edges) is solution))
+        said = all(foundation.satisfies(regime, inequality, edges) for inequality in regime.admissible)
+        checks.append(holds(NAME, f"{regime.sequence}, root {number}: so do the inequalities", said is solution))
+    return checks
