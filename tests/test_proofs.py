@@ -12,7 +12,8 @@ from hystrip.orbit import balance, exclusion
 from hystrip.orbit.engine import solve_strips
 from hystrip.orbit.groups import Strips, adhesive_cycle
 from hystrip.orbit.march import Orbit, march
-from hystrip.orbit.outermost import Outermost
+from hystrip.orbit.outermost import Outermost, outermost
+from hystrip.orbit.reach import saturates
 from hystrip.orbit.regimes import CODE
 from hystrip.orbit.search import isolate
 
@@ -163,3 +164,25 @@ def test_a_contact_too_short_to_be_solved_for_is_not_passed_over():
     assert strip.regime == "ac"
     assert strip.p_mean == pytest.approx(-1.9953655684318486e-16, rel=1e-11)
     assert strip.contact_fraction < 1e-6 and strip.adhesion_fraction == pytest.approx(1, abs=1e-6)
+
+
+def test_bounds_on_all_orbits_hold_for_strips_that_snap_into_contact():
+    """For every onset that a foundation can come to that was free as the load harmonic rose through ``-p_0``."""
+    s = strips(5, 4000, "pressed")
+    s = replace(s, chi=np.ones(s.size), snaps=None, p_0=np.maximum(s.p_0, 1.001 * s.delta_0 / s.J))
+    s = s.take(np.flatnonzero((s.beta < 300) & ~saturates(kernel, s)))
+    cycle = adhesive_cycle(kernel, s)
+    assert cycle.direct.all()
+    bounds = outermost(kernel, cycle)
+    assert np.isnan(bounds.a[~bounds.released]).all() and np.isnan(bounds.c[~bounds.released]).all()
+    index = np.flatnonzero(bounds.released & (cycle.half_d > 0))
+    cycle, s, seen = cycle.take(index), s.take(index), 0
+    for share in (0.9, 0.5, 0.0, -0.5):
+        x, first = cycle.centre - share * cycle.half_d, cycle.centre - cycle.half_b
+        before = (kernel.profile(x, s.D) + s.delta_0) * np.exp((x - first) / s.beta)
+        met = before >= kernel.profile(first, s.D) + s.delta_0
+        orbit, _ = march(kernel, cycle, x)
+        assert not orbit.engaged[met].any()
+        assert (orbit.a <= bounds.a[index] + 1e-9)[met].all() and (orbit.c <= bounds.c[index] + 1e-9)[met].all()
+        seen += np.count_nonzero(met)
+    assert seen > 200

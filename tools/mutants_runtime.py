@@ -79,7 +79,7 @@ MUTANTS = (
         "orbit/outermost.py",
         "excess_entry(b, cycle.q_on, s.p_0",
         "excess_entry(b, 0.0, s.p_0",
-        "test_proofs.py test_extremal.py",
+        "test_proofs.py",
     ),
     Mutant(
         "twice as much is excluded",

@@ -81,7 +81,9 @@ def outermost(kernel, cycle: Cycle) -> Outermost:
     ]
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         a, c, released, spent = _release(kernel, part, part.centre - part.half_b, *start)
-        out.a[index], out.c[index], out.released[index] = a, c, released
+        # where one of the two was not found neither bounds anything
+        out.a[index], out.c[index] = np.where(released, a, np.nan), np.where(released, c, np.nan)
+        out.released[index] = released
         out.evaluations[index] += spent
         go = np.flatnonzero(released)
         if go.size:
