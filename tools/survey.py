@@ -120,7 +120,11 @@ def survey(seed: int, numbers: list[int], demos: float, say: Callable[[str], Non
     timed = [solve(demonstration(), _PATIENCE) for _ in range(_REFERENCES)]
     demo = min(seconds for seconds, *_ in timed)
     say(f"the demonstration: {demo:.2f} s")
-    answers = {number: solve(draw(seed, number), demos * demo) for number in numbers}
+    answers = {}
+    for number in numbers:
+        answers[number] = solve(draw(seed, number), demos * demo)
+        if not math.isfinite(answers[number][0]):  # at once: whoever waits may look into it
+            say(f"did not end: python tools/survey.py --seed {seed} --only {number}")
     times = np.array([seconds / demo for seconds, *_ in answers.values()])
     wrong = {number: problem for number, (*_, problem) in answers.items() if problem}
     open_ = [number for number, (seconds, converged, _, problem) in answers.items() if not (converged or problem)]
