@@ -41,7 +41,7 @@ def test_the_orbit_of_a_width_is_the_strip_that_the_search_finds(name):
     material = MATERIALS[name]
     phi = np.concatenate((np.linspace(0.02, 0.98, 13), [1e-3, 1 - 1e-3]))
     V, phi = (v.ravel() for v in np.meshgrid(SPEEDS, phi))
-    orbits = foundation_of(material).waves(LEVEL.k * V).orbits(2 * np.pi * phi)
+    orbits = foundation_of(material).waves(LEVEL.k * V).orbits(2 * np.pi * phi).sure()
     A = 1e-7
     strips = hystrip.solve_strip(material, NONE, l=LENGTH, A=A, D=orbits.D * A, V=V, edge=closure(material))
     size = 1 + orbits.D

@@ -26,13 +26,20 @@ _ROUNDING = 1e-9
 @dataclass(frozen=True)
 class Orbits:
     """Strips in partial contact, arrays (N,), in units of A and K A: penetration ``D``, entry ``b`` and exit ``a``,
-    means of pressure and of friction (times kA)."""
+    means of pressure and of friction (times kA). ``certified``: the equations hold, the strip carries pressure."""
 
     D: np.ndarray
     b: np.ndarray
     a: np.ndarray
     p_mean: np.ndarray
     tau_mean: np.ndarray
+    certified: np.ndarray
+
+    def sure(self) -> Orbits:
+        """These; ``SolverError`` if one of them is not certified."""
+        if not self.certified.all():
+            raise SolverError("a strip without adhesion was not certified")
+        return self
 
 
 class Waves(ABC):
@@ -67,8 +74,7 @@ class Waves(ABC):
         return at
 
     def orbits(self, width: np.ndarray, means: bool = True) -> Orbits:
-        """The strips whose contact is so wide, radians between 0 and 2 pi, (N,); their ``means`` are nan if not wanted. Raises
-        ``SolverError`` where the equations do not hold, or a strip carries no pressure."""
+        """The strips whose contact is so wide, radians between 0 and 2 pi, (N,); their ``means`` are nan if not wanted."""
         N, none = width.size, np.zeros(width.size)
         # all at once: with D alone, and without it what multiplies cos m, and sin m
         middles, D = np.repeat((0.0, 0.0, 0.5 * np.pi), N), np.repeat((_HUGE, 0.0, 0.0), N)
@@ -84,9 +90,8 @@ class Waves(ABC):
         D = -(left * penetrate).sum(axis=0) / (penetrate * penetrate).sum(axis=0)
         p_mean, tau_mean = self.means(b, a, D) if means else np.full((2, N), np.nan)
         missed, size = np.abs(left + penetrate * D), np.abs(penetrate).max(axis=0) * (1 + np.abs(D))
-        if not ((missed <= _ROUNDING * size).all(axis=0) & (D > 0) & ~(p_mean <= 0)).all():
-            raise SolverError("a strip without adhesion was not certified")
-        return Orbits(D, b, a, p_mean, tau_mean)
+        certified = (missed <= _ROUNDING * size).all(axis=0) & (D > 0) & ~(p_mean <= 0)
+        return Orbits(D, b, a, p_mean, tau_mean, certified)
 
 
 class SingleWaves(Waves):

@@ -114,7 +114,7 @@ class Carrier:
             orbits = waves.orbits(width, means=False)
             missed = at.s.ravel() - orbits.D
         self.strips += width.size
-        pressure = waves.pressure(orbits)
+        pressure = waves.pressure(orbits.sure())
         crest = peaks.at(group[at.column], width.reshape(at.u.shape) / (2 * np.pi))[1].ravel()
         edges, top = _passages(pressure, crest, self.laws.breaks[group[column]] / (0.5 * self.pressure * u[:, None]))
         weight *= width / (2 * np.pi)

@@ -168,7 +168,7 @@ class _Sampling:
         row, node = np.nonzero((phi > 0) & ~complete)
         if row.size:
             which = g[row]
-            orbits = self.foundation.waves(self.rate[which]).orbits(2 * np.pi * phi[row, node])
+            orbits = self.foundation.waves(self.rate[which]).orbits(2 * np.pi * phi[row, node]).sure()
             np.add.at(self.strips, which, 1)
             out[row, node] = np.stack((orbits.D, orbits.p_mean, orbits.tau_mean, phi[row, node]), axis=1)
         return out
