@@ -10,14 +10,14 @@ import numpy as np
 from .inputs.adhesion import Dugdale
 from .inputs.surface import Level
 from .level.build import build_laws
-from .level.carried import CarriedByLaws, peak_pressure
 from .level.effort import WorkCounters
 from .level.error_budget import error_budget
 from .level.inverse import Inverse, cut_penetration, invert
+from .level.lower_levels import LowerLevelLaws, peak_pressure
 from .level.means import level_means
 from .level.nonadhesive.surface import NonadhesiveSurface
 from .level.saturated import SaturatedLevel, saturated_friction, saturated_level
-from .level.strips import QUANTITIES, Columns
+from .level.strips import QUANTITIES, LevelBatch
 from .level.table import LawTable
 from .orbit.foundation import foundation_of
 from .orbit.materials import Material
@@ -84,12 +84,12 @@ class Surface:
         level = self.levels[0]
         return 1e-3 * (self.at_level(0).K * level.h + self.adhesion.p_0) * level.h / level.l
 
-    def columns(self, i: int, V, D=None, carry=None, group=None) -> Columns:
+    def columns(self, i: int, V, D=None, carry=None, group=None) -> LevelBatch:
         """Columns of level ``i``."""
         D = np.zeros(V.size) if D is None else D
         # the curves behind the laws of lower levels are interpolated over D: equal strips would make steps of them
         strips = self.strips if i == 0 else None
-        return Columns(
+        return LevelBatch(
             self.at_level(i), self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, strips, work=self.work
         )
 
@@ -283,7 +283,7 @@ class _Solve:
         self.out.p[index[off]] = load[off]
         return out
 
-    def _carry(self, stack: Stack, V, group, columns: Columns) -> CarriedByLaws:
+    def _carry(self, stack: Stack, V, group, columns: LevelBatch) -> LowerLevelLaws:
         """Laws of level 2, built from the smallest level upwards, each as far as the level above reaches."""
         surface = self.surface
         p_max = np.full(V.size, -np.inf)
@@ -312,7 +312,7 @@ class _Solve:
             )
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error
             scales = np.concatenate((level_columns.scales[1:], [_NO_SCALE]))
-            carry = CarriedByLaws(LawTable(laws), surface.rtol, scales)
+            carry = LowerLevelLaws(LawTable(laws), surface.rtol, scales)
         return carry
 
     def _write(self, index, root: Inverse, means):

@@ -140,7 +140,7 @@ def test_a_line_of_the_runtime_that_is_gone_is_named(monkeypatch: pytest.MonkeyP
     file, function, piece = places.RUNTIME[step.function][0]
     assert places.carried_out(step)[0].text.startswith("total")
     monkeypatch.setitem(places.RUNTIME, step.function, ((file, function, piece + " gone"),))
-    with pytest.raises(DerivationError, match="'carried friction' failed: runtime/level/carried.py: _contributions"):
+    with pytest.raises(DerivationError, match="'carried friction' failed: runtime/level/lower_levels.py: _contributions"):
         places.carried_out(step)
 
 

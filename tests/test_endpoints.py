@@ -10,50 +10,51 @@ import hystrip
 from hystrip.level import curve
 from hystrip.level.breaks import breakpoints
 from hystrip.level.curve import interpolate, smooth_intervals
-from hystrip.level.ends import with_gentle_ends
+from hystrip.level.endpoint_regularity import with_endpoint_regularity
 from hystrip.level.interval import Interval
 from hystrip.level.means import level_means
-from hystrip.level.strips import Columns, saturation_depth
+from hystrip.level.strips import LevelBatch, saturation_depth
 from hystrip.numerics.chebyshev import evaluate, flat_ended, lobatto
-from hystrip.numerics.endpoints import GENTLE, STEEP, Grading
+from hystrip.numerics.endpoints import GENTLE, STEEP, EndpointMap
 
 POWERS = [(a, b) for a in (GENTLE, STEEP) for b in (GENTLE, STEEP)]
 
 
 @pytest.mark.parametrize(("low", "high"), POWERS)
 def test_shares_begin_and_end_like_the_powers(low, high):
-    grading, t = Grading(low, high), np.array([1e-6, 2e-6])
-    start, end = grading.share(t), 1 - grading.share(1 - 1e3 * t)
+    endpoint_map, t = EndpointMap(low, high), np.array([1e-6, 2e-6])
+    start, end = endpoint_map.share(t), 1 - endpoint_map.share(1 - 1e3 * t)
     assert np.diff(np.log(start)) == pytest.approx(low * np.log(2), rel=1e-4)
     assert np.diff(np.log(end)) == pytest.approx(high * np.log(2), rel=1e-2)
-    assert (grading.share(np.array([0.0, 1.0])) == [0, 1]).all() and (np.diff(grading.share(np.linspace(0, 1, 999))) > 0).all()
+    assert (endpoint_map.share(np.array([0.0, 1.0])) == [0, 1]).all()
+    assert (np.diff(endpoint_map.share(np.linspace(0, 1, 999))) > 0).all()
 
 
 @pytest.mark.parametrize(("low", "high"), [*POWERS, (1, 1)])
 def test_parameters_belong_to_shares(low, high):
-    grading, t = Grading(low, high), np.concatenate((np.linspace(0, 0.99, 200), [1e-9, 1e-4]))
-    assert grading.parameter(grading.share(t)) == pytest.approx(t, abs=1e-7)
+    endpoint_map, t = EndpointMap(low, high), np.concatenate((np.linspace(0, 0.99, 200), [1e-9, 1e-4]))
+    assert endpoint_map.parameter(endpoint_map.share(t)) == pytest.approx(t, abs=1e-7)
 
 
-def _missed(function, grading, n):
+def _missed(function, endpoint_map, n):
     """Error of the interpolant through n - 1 nodes of a function of the share."""
     t = np.linspace(0, 1, 1001)
-    found = evaluate(flat_ended(n) @ function(grading.share(lobatto(n)[1:-1]))[:, None], t)[:, 0]
-    return np.abs(found - function(grading.share(t))).max()
+    found = evaluate(flat_ended(n) @ function(endpoint_map.share(lobatto(n)[1:-1]))[:, None], t)[:, 0]
+    return np.abs(found - function(endpoint_map.share(t))).max()
 
 
 def test_ends_are_as_smooth_as_their_powers_make_them():
     """A square root asks for the steep end, a square root of a cube for the gentle one; what is smooth has more digits there."""
     root, cube = lambda s: np.sqrt(s) * np.exp(-s), lambda s: (1 - s) ** 1.5 * np.exp(s)
-    assert _missed(root, Grading(STEEP, GENTLE), 24) < 1e-9 and _missed(root, Grading(GENTLE, GENTLE), 24) > 1e-4
-    assert _missed(cube, Grading(GENTLE, GENTLE), 16) < 1e-8
-    assert _missed(np.exp, Grading(GENTLE, GENTLE), 12) < 1e-2 * _missed(np.exp, Grading(STEEP, STEEP), 12)
+    assert _missed(root, EndpointMap(STEEP, GENTLE), 24) < 1e-9 and _missed(root, EndpointMap(GENTLE, GENTLE), 24) > 1e-4
+    assert _missed(cube, EndpointMap(GENTLE, GENTLE), 16) < 1e-8
+    assert _missed(np.exp, EndpointMap(GENTLE, GENTLE), 12) < 1e-2 * _missed(np.exp, EndpointMap(STEEP, STEEP), 12)
 
 
 def _columns():
     material, adhesion = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
     V = np.array([1e-2])
-    return Columns(material, adhesion, hystrip.Level(l=500e-9, h=100e-9), "continuous", "unloading", V, np.zeros(1))
+    return LevelBatch(material, adhesion, hystrip.Level(l=500e-9, h=100e-9), "continuous", "unloading", V, np.zeros(1))
 
 
 def test_a_crest_that_clings_all_along_ends_gently_and_one_that_lets_go_does_not():
@@ -61,7 +62,7 @@ def test_a_crest_that_clings_all_along_ends_gently_and_one_that_lets_go_does_not
     top = saturation_depth(columns)
     (row,), (crest,) = smooth_intervals(columns, top)
     where_gentle = {
-        (round(i.low * 1e9), round(i.high * 1e9)): (i.gentle_low, i.gentle_high) for i in with_gentle_ends(columns, row)
+        (round(i.low * 1e9), round(i.high * 1e9)): (i.smooth_low, i.smooth_high) for i in with_endpoint_regularity(columns, row)
     }
     held = [i for i in row if i.low >= crest]
     # discrete adhesion zones between the end of the crest and the beginning of saturated adhesion, which lasts to saturation
@@ -73,16 +74,16 @@ def test_a_cut_is_no_end():
     columns = _columns()
     (points,), _ = breakpoints(columns, saturation_depth(columns))
     whole = Interval(0, points[-2], points[-1])
-    (cut,) = with_gentle_ends(columns, [replace(whole, high=0.5 * (whole.low + whole.high))])
-    assert cut.gentle_high
+    (cut,) = with_endpoint_regularity(columns, [replace(whole, high=0.5 * (whole.low + whole.high))])
+    assert cut.smooth_high
 
 
 def test_a_wrong_guess_costs_no_digits(monkeypatch):
     columns = _columns()
     (row,), (crest,) = smooth_intervals(columns, saturation_depth(columns))
     hard = next(i for i in row if i.low >= crest)
-    gently = lambda _, intervals: [replace(i, gentle_low=True, gentle_high=True) for i in intervals]  # noqa: E731
-    monkeypatch.setattr(curve, "with_gentle_ends", gently)
+    gently = lambda _, intervals: [replace(i, smooth_low=True, smooth_high=True) for i in intervals]  # noqa: E731
+    monkeypatch.setattr(curve, "with_endpoint_regularity", gently)
     (pieces,) = interpolate(columns, np.array([1e-5]), [hard], np.zeros(1, int))
     assert len(pieces) > 1
     for piece in pieces:

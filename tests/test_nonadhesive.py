@@ -12,7 +12,7 @@ from hystrip.level.means import level_means
 from hystrip.level.nonadhesive.family import family
 from hystrip.level.nonadhesive.means import Level as Means
 from hystrip.level.nonadhesive.means import cells
-from hystrip.level.strips import Columns
+from hystrip.level.strips import LevelBatch
 from hystrip.orbit.foundation import foundation_of
 
 K, T_EPS = 1e9, 1e-2
@@ -89,7 +89,7 @@ def test_means_are_those_of_panels(name):
         D = HEIGHT * np.array([-0.1, 1e-3, 0.2, 0.97, 1 + 0.05 * (s_sat / 2 - 1), 1 + 0.7 * (s_sat / 2 - 1), s_sat / 2 + 0.1])
         # where all strips are alike panels see rounding
         D = D[np.abs(D / HEIGHT - 1) > 1e-12]
-        columns = Columns(material, NONE, LEVEL, closure(material), "unloading", np.full(D.size, V), D)
+        columns = LevelBatch(material, NONE, LEVEL, closure(material), "unloading", np.full(D.size, V), D)
         reference = level_means(columns, np.full(D.size, 1e-10))
         scales = np.abs(reference.values) + columns.floors
         for rtol in (1e-3, 1e-6, 1e-9):

@@ -8,7 +8,7 @@ from hystrip.level.averages import average
 from hystrip.level.boundaries import located, thresholds
 from hystrip.level.changes import Changes
 from hystrip.level.plane import BOUNDARIES, Boundary
-from hystrip.level.strips import Columns
+from hystrip.level.strips import LevelBatch
 from hystrip.orbit.regimes import CODE
 
 K = 1e9
@@ -26,7 +26,7 @@ def _random(seed, branch, several=False):
     if several:
         edge, times = "constitutive", np.geomspace(1e-2, 1e-12, 5)
         material = hystrip.Prony(K, list(K * 10 ** rng.uniform(-1, 1, 5)), list(times))
-    return Columns(material, adhesion, hystrip.Level(l=length, h=h), edge, branch, V, np.zeros(3))
+    return LevelBatch(material, adhesion, hystrip.Level(l=length, h=h), edge, branch, V, np.zeros(3))
 
 
 @pytest.mark.parametrize("several", [False, True], ids=["one time", "times over ten decades"])
@@ -75,7 +75,7 @@ def test_both_points_are_found_where_a_curve_turns():
     """Free strips between crest and valley appear as a fold turns: penetrations next to there cross it twice."""
     material, adhesion = hystrip.StandardLinearSolid(K, 1e-2, 1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
     level, V = hystrip.Level(l=10e-6, h=1e-6), np.full(24, 1e-2)
-    columns = Columns(material, adhesion, level, "continuous", "unloading", V, np.linspace(0.36, 0.38, 24) * level.h)
+    columns = LevelBatch(material, adhesion, level, "continuous", "unloading", V, np.linspace(0.36, 0.38, 24) * level.h)
     average(columns, np.full(24, 1e-4))
     turn = 0.382436550468  # located by the strips that let go first
     near = columns.at(np.zeros(6, int), (turn - np.geomspace(1e-3, 1e-9, 6)) * level.h)
@@ -93,9 +93,10 @@ def test_a_curve_that_is_known_does_not_hide_a_thin_zone_next_to_it():
     level, rtol = hystrip.Level(l=10e-6, h=1e-6), 1e-4
     D, one = np.linspace(-0.066, -0.045, 12) * level.h, np.full(1, 1e-3)
     alone = [
-        average(Columns(material, adhesion, level, "continuous", "unloading", one, D[[k]]), np.full(1, rtol)) for k in range(12)
+        average(LevelBatch(material, adhesion, level, "continuous", "unloading", one, D[[k]]), np.full(1, rtol))
+        for k in range(12)
     ]
-    columns = Columns(material, adhesion, level, "continuous", "unloading", np.repeat(one, 12), D)
+    columns = LevelBatch(material, adhesion, level, "continuous", "unloading", np.repeat(one, 12), D)
     average(columns, np.full(12, rtol))
     release = next(points for boundary, points in columns.crossings.points.items() if boundary.event == "release")
     columns.crossings.points = {Boundary("ac", "release"): release}  # the fold next to it is forgotten

@@ -9,13 +9,13 @@ import pytest
 import hystrip
 from hystrip.generated import standard_linear_solid as kernel
 from hystrip.orbit import balance, exclusion
+from hystrip.orbit.closed_form_exclusion import saturates
 from hystrip.orbit.engine import solve_strips
 from hystrip.orbit.groups import Strips, adhesive_cycle
 from hystrip.orbit.march import Orbit, march
-from hystrip.orbit.outermost import Outermost, outermost
-from hystrip.orbit.reach import saturates
+from hystrip.orbit.orbit_bounds import OrbitBounds, orbit_bounds
 from hystrip.orbit.regimes import CODE
-from hystrip.orbit.search import isolate
+from hystrip.orbit.search import isolate_extremal
 
 SCANNED = 300
 
@@ -61,7 +61,7 @@ def crossed_before(cycle, x):
 
 def proven(cycle, orbit):
     """By the balance of a period, and by bounds on the events of earlier onsets."""
-    start, end = exclusion.onsets_within(cycle, Outermost.blank(cycle.size))
+    start, end = exclusion.onsets_within(cycle, OrbitBounds.blank(cycle.size))
     known = exclusion.closed(kernel, cycle, orbit)
     by_bounds, _ = exclusion._cleared(kernel, cycle, known, 1.0, cycle.centre - cycle.half_d)
     return balance.first(kernel, cycle, orbit, start, end)[0], by_bounds
@@ -80,11 +80,11 @@ def test_no_orbit_out_of_reach_is_said_to_be_out_of_balance():
     cycle, orbit = known_orbits(strips(4, 40_000, "hanging"), unloading=True)
     s, onset = cycle.strips, -orbit.x
     for width in (0.0, 1e-4, 1e-2, 0.3):
-        surplus = balance.surplus(
+        balance_bound = balance.balance_bound(
             kernel, balance.at_rest(kernel, cycle), np.maximum(onset - width, 0), np.minimum(onset + width, np.pi)
         )
-        assert (surplus <= 0).all()
-    room = -balance.surplus(kernel, balance.at_rest(kernel, cycle), onset, onset) / (1 + np.abs(s.D) + s.p_0)
+        assert (balance_bound <= 0).all()
+    room = -balance.balance_bound(kernel, balance.at_rest(kernel, cycle), onset, onset) / (1 + np.abs(s.D) + s.p_0)
     assert onset.size > 3000 and np.median(room[s.beta > 3e3]) < 0.01
 
 
@@ -103,9 +103,9 @@ def test_no_orbit_is_said_to_be_out_of_balance_beside_a_less_engaged_one():
         part, here, onset = cycle.take(use), known.take(use), -orbit.x[use]
         reference = balance.beside(kernel, part, here, end[use])
         for width in (0.0, 1e-4, 1e-2, 0.3):
-            surplus = balance.surplus(kernel, reference, np.maximum(onset - width, -here.x), onset + width)
-            assert (surplus <= 0).all()
-        start, _ = exclusion.onsets_within(part, Outermost.blank(use.size))
+            balance_bound = balance.balance_bound(kernel, reference, np.maximum(onset - width, -here.x), onset + width)
+            assert (balance_bound <= 0).all()
+        start, _ = exclusion.onsets_within(part, OrbitBounds.blank(use.size))
         proven, _ = balance.first(kernel, part, here, start, end[use])
         assert proven.any() == (known is not marches)
 
@@ -114,7 +114,7 @@ def test_strips_said_not_to_hang_have_no_such_orbit():
     s = strips(6, 30_000, "hanging")
     cycle = adhesive_cycle(kernel, s)
     solved = solve_strips(kernel, s, unloading=True)
-    none, _ = balance.none_hangs(kernel, cycle)
+    none, _ = balance.exclude_out_of_reach(kernel, cycle)
     assert set(solved.code[none]) <= {CODE[code] for code in ("f", "a", "ac", "c")}
     free = (solved.code == CODE["f"]) & (s.beta > balance.SLOW)
     assert none[free].mean() > 0.85 and free.sum() > 5000
@@ -136,7 +136,7 @@ def test_next_to_the_end_of_a_branch_stable_onsets_lie_where_they_are_sought_and
         assert np.all((lo <= -orbit.x) & (-orbit.x <= hi))
     for lower in (0.0, 0.003, 0.01, 0.03, 0.1):
         cycle = adhesive_cycle(kernel, replace(s, D=high - lower * (s.p_0 + np.abs(high))))
-        none, found = balance.none_hangs(kernel, cycle)[0], isolate(kernel, cycle, last=False).found
+        none, found = balance.exclude_out_of_reach(kernel, cycle)[0], isolate_extremal(kernel, cycle, last=False).found
         assert not (none & found).any()
     assert none.sum() > 500
 
@@ -173,7 +173,7 @@ def test_bounds_on_all_orbits_hold_for_strips_that_snap_into_contact():
     s = s.take(np.flatnonzero((s.beta < 300) & ~saturates(kernel, s)))
     cycle = adhesive_cycle(kernel, s)
     assert cycle.direct.all()
-    bounds = outermost(kernel, cycle)
+    bounds = orbit_bounds(kernel, cycle)
     assert np.isnan(bounds.a[~bounds.released]).all() and np.isnan(bounds.c[~bounds.released]).all()
     index = np.flatnonzero(bounds.released & (cycle.half_d > 0))
     cycle, s, seen = cycle.take(index), s.take(index), 0

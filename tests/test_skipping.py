@@ -6,7 +6,7 @@ import pytest
 import hystrip
 from hystrip.level.effort import WorkCounters
 from hystrip.level.inverse import cut_penetration
-from hystrip.level.strips import Columns
+from hystrip.level.strips import LevelBatch
 from hystrip.multilevel import Surface
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
@@ -88,7 +88,7 @@ def test_no_penetration_above_the_cut_carries_less(edge, branch):
     D = np.linspace(-0.1, 3, 25) * level.h
     v = hystrip.solve_level(MATERIAL, WEAK, level, V=2e-3, D=D, edge=edge, branch=branch, rtol=1e-4)
     assert (v.p_mean >= MATERIAL.K * (D - 0.75 * level.h) * (1 - 1e-12) - 1e-9).all()
-    columns = Columns(MATERIAL, WEAK, level, edge, branch, np.full(D.size, 2e-3), D)
+    columns = LevelBatch(MATERIAL, WEAK, level, edge, branch, np.full(D.size, 2e-3), D)
     assert (cut_penetration(columns, v.p_mean, np.full(D.size, np.inf)) >= D).all()
 
 

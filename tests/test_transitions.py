@@ -5,11 +5,11 @@ import pytest
 import surfaces
 
 import hystrip
-from hystrip.level.appearance import Island, island, vanishing
 from hystrip.level.breaks import breakpoints, breaks_on, first_contact
 from hystrip.level.curve import Interval, interpolate
+from hystrip.level.interior_breaks import IsolatedRegime, island, locate_vanishing
 from hystrip.level.means import level_means
-from hystrip.level.strips import Columns, saturation_depth
+from hystrip.level.strips import LevelBatch, saturation_depth
 from hystrip.orbit.regimes import CODE
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
@@ -19,7 +19,7 @@ SMALL = hystrip.Level(l=500e-9, h=100e-9)
 
 def _columns(V, edge="continuous", branch="unloading", adhesion=WEAK, level=SMALL, material=MATERIAL):
     V = np.atleast_1d(V).astype(float)
-    return Columns(material, adhesion, level, edge, branch, V, np.zeros(V.size))
+    return LevelBatch(material, adhesion, level, edge, branch, V, np.zeros(V.size))
 
 
 @pytest.mark.parametrize("branch", ["unloading", "loading"])
@@ -81,8 +81,8 @@ def test_the_curve_of_a_scene_with_narrow_zones_converges(number, inside, allowe
 def test_an_island_vanishes_where_its_strips_do():
     scene = _random(0)
     columns = _columns(scene.velocity[2:], scene.edge, scene.branch, scene.adhesion, scene.levels[0], scene.material)
-    seen = Island(0, CODE["f"], 2.5728, 2.6259, 1.4170062189113333e-07, 1.4203712327079623e-07)
-    (D,) = vanishing(columns, [seen], np.zeros(1, int), roughly=False)
+    seen = IsolatedRegime(0, CODE["f"], 2.5728, 2.6259, 1.4170062189113333e-07, 1.4203712327079623e-07)
+    (D,) = locate_vanishing(columns, [seen], np.zeros(1, int), roughly=False)
     across = np.linspace(seen.low, seen.high, 5001)
     for side, there in ((-1e-6, True), (1e-6, False)):
         at = columns.at(np.zeros(across.size, int), np.full(across.size, D * (1 + side)))

@@ -43,19 +43,19 @@ MUTANTS = (
     ),
     Mutant(
         "a misplaced jump costs nothing",
-        "level/carried.py",
+        "level/lower_levels.py",
         "return table.jumps[g, j] * np.minimum",
         "return 0 * table.jumps[g, j] * np.minimum",
-        "test_carried.py",
+        "test_lower_levels.py",
     ),
     Mutant(
         "a tenth of a law's error in what it carries",
         "level/table.py",
         "errors = self._error[:, which]",
         "errors = 0.1 * self._error[:, which]",
-        "test_carried.py",
+        "test_lower_levels.py",
     ),
-    Mutant("a tenth of a law's error in its own estimate", "level/law.py", "1.5 * error", "0.1 * error", "test_carried.py"),
+    Mutant("a tenth of a law's error in its own estimate", "level/law.py", "1.5 * error", "0.1 * error", "test_lower_levels.py"),
     Mutant("the tie of a snap is a matter of rounding", "orbit/groups.py", "_TIE = 4 *", "_TIE = -4 *", "test_limits.py"),
     Mutant(
         "speed is infinite too early", "orbit/groups.py", "STANDS_STILL = 1e12", "STANDS_STILL = 1e4", "test_extreme_velocity.py"
@@ -76,7 +76,7 @@ MUTANTS = (
     ),
     Mutant(
         "bounds on snapped contacts begin without pressure",
-        "orbit/outermost.py",
+        "orbit/orbit_bounds.py",
         "excess_entry(b, cycle.q_on, s.p_0",
         "excess_entry(b, 0.0, s.p_0",
         "test_proofs.py",

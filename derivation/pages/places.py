@@ -17,14 +17,14 @@ from pathlib import Path
 from ..check import DerivationError, Derived
 
 CARRIED = (
-    ("level/carried.py", "_contributions", "total[saturated, :-1] +="),
-    ("level/carried.py", "_attempt", "best = width"),
+    ("level/lower_levels.py", "_contributions", "total[saturated, :-1] +="),
+    ("level/lower_levels.py", "_attempt", "best = width"),
 )
 RUNTIME: dict[str, tuple[tuple[str, str, str], ...]] = {
     "strip.adhesion_law": (("inputs/adhesion.py", "Dugdale.__init__", "p * delta"),),
     "strip.dimensionless_groups": (("orbit/si.py", "dimensionless", "alpha, beta ="),),
     "jumps.closures": (("orbit/groups.py", "adhesive_cycle", "jump ="),),
-    "saturated.threshold": (("orbit/reach.py", "saturates", "return s.D - 1 + s.p_0 >="),),
+    "saturated.threshold": (("orbit/closed_form_exclusion.py", "saturates", "return s.D - 1 + s.p_0 >="),),
     "multilevel.means_over_a_level": (
         ("level/means.py", "level_means", "return average("),
         ("level/means.py", "equal_strips", "mean = values.mean"),

@@ -22,14 +22,14 @@ def data() -> dict[str, Any]:
     """
     from ..level.branches import branches
     from ..level.curve import trace
-    from ..level.strips import Columns, saturation_depth
+    from ..level.strips import LevelBatch, saturation_depth
     from ..scene import load_scene
 
     scene = load_scene("paper_fig3")
     V = np.sort(np.atleast_1d(scene.velocity))
     rows: list[tuple] = []
     for branch in ("unloading", "loading"):
-        columns = Columns(scene.material, scene.adhesion, scene.levels[0], scene.edge, branch, V, np.zeros(V.size))
+        columns = LevelBatch(scene.material, scene.adhesion, scene.levels[0], scene.edge, branch, V, np.zeros(V.size))
         saturated = saturation_depth(columns)
         # the threshold decides the unloading orbit only; coming from no contact, all of the surface is met when the edge is
         top = saturated if branch == "unloading" else np.maximum(saturated, 1.5 * scene.levels[0].h)

@@ -22,7 +22,7 @@ from .changes import Changes, locate_changes
 from .effort import AVERAGE_LIMIT
 
 if TYPE_CHECKING:
-    from .strips import Columns
+    from .strips import LevelBatch
 
 _FIRST, _LAST = 8, 64
 #: nodes of a panel in saturated contact, where strips take no search: its sum may as well be exact
@@ -76,7 +76,7 @@ class _Panels:
         return self.high - self.low
 
 
-def average(columns: Columns, rtol: np.ndarray) -> Averages:
+def average(columns: LevelBatch, rtol: np.ndarray) -> Averages:
     """Means ``(1/pi) int_0^pi`` of the strips of every state to ``rtol (|value| + floor)``, ``rtol`` (n,)."""
     n, q = columns.size, columns.scales.size
     work = _Work(columns, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
@@ -96,7 +96,7 @@ def average(columns: Columns, rtol: np.ndarray) -> Averages:
 
 @dataclass
 class _Work:
-    columns: Columns
+    columns: LevelBatch
     rtol: np.ndarray
     values: np.ndarray
     errors: np.ndarray
@@ -194,9 +194,9 @@ class _Work:
         """What is ``known`` at the first nodes of panels, and their thetas, with one more at either end: what is known beyond the
         outermost node, where nothing is what is known there."""
         theta = panels.low[:, None] + panels.width[:, None] * mapped(interior_nodes(_FIRST))
-        number, outermost = np.stack((panels.first, panels.last), axis=1), theta[:, [0, -1]]
+        number, orbit_bounds = np.stack((panels.first, panels.last), axis=1), theta[:, [0, -1]]
         place = self.beside[1][number]
-        beyond = (number >= 0) & (np.stack((outermost[:, 0] - place[:, 0], place[:, 1] - outermost[:, 1]), axis=1) > 0)
+        beyond = (number >= 0) & (np.stack((orbit_bounds[:, 0] - place[:, 0], place[:, 1] - orbit_bounds[:, 1]), axis=1) > 0)
         out = []
         for inner, ends in zip((*known, theta), (*self.ends, self.beside[1]), strict=True):
             outer = inner[:, [0, -1]]

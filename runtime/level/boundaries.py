@@ -20,7 +20,7 @@ from .changes import Changes
 from .plane import BOUNDARIES, Boundary, Points
 
 if TYPE_CHECKING:
-    from .strips import Columns
+    from .strips import LevelBatch
 
 #: columns of the edges of a strip
 _COLUMN = {"d": 0, "b": 1, "a": 2, "c": 3}
@@ -32,7 +32,7 @@ _RANK = np.array([{"c": 0, "a": 1, "ac": 1, "af": 3, "f": 4}.get(sequence, 2) fo
 _ENGAGED = np.array([CODE["ac"], CODE["a"], CODE["c"]])
 
 
-def straight(columns: Columns) -> list[tuple[np.ndarray, np.ndarray]]:
+def straight(columns: LevelBatch) -> list[tuple[np.ndarray, np.ndarray]]:
     """Straight curves ``A = a + b E`` of the plane, (a, b) of shape (n,) each: thresholds in closed form for every state.
 
     Saturated contact, loss of touch, contact in a gap that adheres throughout, and the greatest and the least pressure of
@@ -51,7 +51,7 @@ def straight(columns: Columns) -> list[tuple[np.ndarray, np.ndarray]]:
     return found
 
 
-def thresholds(columns: Columns) -> tuple[np.ndarray, np.ndarray]:
+def thresholds(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
     """States and thetas (k,) at which strips pass a threshold in closed form."""
     E, h, P = columns.D - columns.level.h, columns.level.h, columns.stretch
     lines = straight(columns)
@@ -76,14 +76,14 @@ def thresholds(columns: Columns) -> tuple[np.ndarray, np.ndarray]:
     return state, theta[kind, state]
 
 
-def theta_of(columns: Columns, A) -> np.ndarray:
+def theta_of(columns: LevelBatch, A) -> np.ndarray:
     """``k y`` of the strips with amplitude ``A``, m."""
     # a level without height has one strip, the crest
     h = columns.level.h
     return 2 * np.arccos(np.sqrt(np.clip(2 * A / h, 0.0, 1.0))) if h > 0 else np.zeros(np.shape(A))
 
 
-def equations(columns: Columns, code: np.ndarray, other: np.ndarray) -> list[tuple[Boundary, np.ndarray]]:
+def equations(columns: LevelBatch, code: np.ndarray, other: np.ndarray) -> list[tuple[Boundary, np.ndarray]]:
     """Boundaries at which an orbit with ``code`` may give way to one with ``other``, both (m,): each with the rows it is for.
 
     Orbits are ordered: pressed deeper a strip is more engaged. So unloading leaves an orbit that is engaged all along only where
@@ -105,7 +105,7 @@ def equations(columns: Columns, code: np.ndarray, other: np.ndarray) -> list[tup
     return found
 
 
-def located(columns: Columns, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str) -> tuple[np.ndarray, np.ndarray]:
+def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str) -> tuple[np.ndarray, np.ndarray]:
     """Where regimes that meet between two strips of the plane do, by the equation of an orbit that ends there; or where its
     greatest pressure passes a break of the law below.
 
@@ -137,7 +137,7 @@ def located(columns: Columns, changes: Changes, A: np.ndarray, E: np.ndarray, un
     return place, found
 
 
-def _by_threshold(columns: Columns, changes: Changes, A, E, unknown: str) -> tuple[np.ndarray, np.ndarray]:
+def _by_threshold(columns: LevelBatch, changes: Changes, A, E, unknown: str) -> tuple[np.ndarray, np.ndarray]:
     """Where saturated contact ends when unloading, where free strips are touched when loading, and where the extreme pressures of
     saturated contact, ``K (E + A (1 +- R))``, pass a break of the law below; and which changes are of that kind."""
     code, m = changes.codes % len(CODE), changes.size
@@ -196,7 +196,7 @@ def passed_breaks(changes: Changes) -> tuple[Changes, np.ndarray]:
     return Changes.joined([changes.take(one), parts]), np.concatenate((one, parent))
 
 
-def _peaks(columns: Columns, changes: Changes, code) -> list[tuple[Boundary, np.ndarray, np.ndarray, np.ndarray]]:
+def _peaks(columns: LevelBatch, changes: Changes, code) -> list[tuple[Boundary, np.ndarray, np.ndarray, np.ndarray]]:
     """Changes at which nothing happens but that the greatest pressure passes one break: boundaries, their rows; and pressures and
     numbers of breaks, of every change."""
     over = changes.heights > 0

@@ -33,7 +33,7 @@ class Branch:
 
     ``cells``: its quantities over u, ``p = p_low + (p_high - p_low) graded(u)``, in which they are smooth where they are over the
     piece's own parameter, and where the curve turns.
-    ``soft_low``, ``soft_high``: the law goes on smoothly beyond that end, in another branch.
+    ``inner_low``, ``inner_high``: the law goes on smoothly beyond that end, in another branch.
     """
 
     piece: Piece
@@ -42,8 +42,8 @@ class Branch:
     p_low: float
     p_high: float
     cells: Cells | None = None
-    soft_low: bool = False
-    soft_high: bool = False
+    inner_low: bool = False
+    inner_high: bool = False
 
     def values(self, p: np.ndarray) -> np.ndarray:
         """Quantities at the pressures ``p`` (m,), shape (m, q)."""
@@ -108,11 +108,11 @@ def _standing_out(rows: list[list[Branch]], unloading: bool) -> list[list[Branch
         reached = _reached([part for part, *_ in cut], np.array([p for _, p, _ in cut]))
         for (part, p, before), t in zip(cut, reached.tolist(), strict=True):
             if unloading and t > part.t_low:
-                soft = part.soft_high and meets(part, part.p_high - p)
-                before.append(replace(part, t_high=t, p_high=p, soft_high=soft))
+                soft = part.inner_high and meets(part, part.p_high - p)
+                before.append(replace(part, t_high=t, p_high=p, inner_high=soft))
             elif not unloading and t < part.t_high:
-                soft = part.soft_low and meets(part, p - part.p_low)
-                before.append(replace(part, t_low=t, p_low=p, soft_low=soft))
+                soft = part.inner_low and meets(part, p - part.p_low)
+                before.append(replace(part, t_low=t, p_low=p, inner_low=soft))
     return kept
 
 
@@ -134,7 +134,7 @@ def _rising(pieces: Sequence[Piece]) -> list[list[Branch]]:
     parts: list[list[Branch]] = [[] for _ in pieces]
     for k in np.flatnonzero((high > low) & (p_high > p_low))[::-1]:
         piece = pieces[which[k]]
-        soft = piece.soft_low and low[k] == 0.0, piece.soft_high and high[k] == 1.0
+        soft = piece.inner_low and low[k] == 0.0, piece.inner_high and high[k] == 1.0
         parts[which[k]].append(Branch(piece, *(float(v[k]) for v in (low, high, p_low, p_high)), None, *soft))
     return parts
 

@@ -11,13 +11,13 @@ import numpy as np
 
 from .boundaries import located
 from .changes import Changes, locate_changes
-from .strips import Columns
+from .strips import LevelBatch
 
 _SCAN = 48
 _EPS = np.finfo(float).eps
 
 
-def first_contact(columns: Columns) -> float:
+def first_contact(columns: LevelBatch) -> float:
     """A penetration at and below which every strip of the level is free."""
     a = columns.adhesion
     reach = a.delta_0 if a.p_0 > 0 else 0.0
@@ -27,7 +27,7 @@ def first_contact(columns: Columns) -> float:
     return -(2 * a.p_0 / columns.material.K + reach) * (1 + 1e-9)
 
 
-def let_go(columns: Columns) -> float:
+def saturated_adhesion_limit(columns: LevelBatch) -> float:
     """Penetration down to which strips cling by adhesion all along when unloading, +inf if none ever does.
 
     A strip at rest at ``w = -p_0/K`` reaches over its valley while ``D_j - 2 A >= -p_0/K - delta_0``; ``D_j - 2 A = D - h`` on
@@ -39,17 +39,17 @@ def let_go(columns: Columns) -> float:
     return columns.level.h - a.p_0 / columns.material.K - a.delta_0
 
 
-def threshold_width(columns: Columns, top):
+def threshold_width(columns: LevelBatch, top):
     """Distance in D from a threshold below which rounding may decide it the other way."""
     a = columns.adhesion
     return 64 * _EPS * (columns.level.h + np.abs(top) + 2 * a.p_0 / columns.material.K + a.delta_0)
 
 
-def breakpoints(columns: Columns, top: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:
+def breakpoints(columns: LevelBatch, top: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:
     """Penetrations between first contact and ``top`` (n,) where the curve may not be smooth, ascending, ends included, of every
     column; and the lowest at which its crest changes regime (inf: none), (n,)."""
     inside, touched = breaks_on(columns, np.arange(columns.size), _scan(columns, top))
-    last = let_go(columns)
+    last = saturated_adhesion_limit(columns)
     out = []
     for r, points in enumerate(inside):
         start = min(touched[r], last) if np.isfinite(touched[r]) else first_contact(columns)
@@ -58,7 +58,7 @@ def breakpoints(columns: Columns, top: np.ndarray) -> tuple[list[np.ndarray], np
     return out, touched
 
 
-def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:
+def breaks_on(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:
     """Breaks between the first and the last of the penetrations ``D`` (m, points) of each ``column`` (m,), by the changes they
     show.
 
@@ -93,7 +93,7 @@ def breaks_on(columns: Columns, column: np.ndarray, D: np.ndarray) -> tuple[list
     return out, touched
 
 
-def _of_valley(columns: Columns) -> np.ndarray:
+def _of_valley(columns: LevelBatch) -> np.ndarray:
     """Penetrations (n, k) at which the flat strip of the valley makes contact, adheres, or passes a break of the law below with
     its pressure ``K (D - h)``; inf where there are fewer."""
     h, reach = columns.level.h, columns.adhesion.delta_0 if columns.stretch > 0 else 0.0
@@ -104,7 +104,7 @@ def _of_valley(columns: Columns) -> np.ndarray:
     return np.concatenate((own, h + columns.carry.breaks(columns.group) / columns.material.K), axis=1)
 
 
-def _scan(columns: Columns, top):
+def _scan(columns: LevelBatch, top):
     """Penetrations at which to look, (n, m): dense where regimes follow one another, geometric above, for saturation may be far
     up."""
     a = columns.adhesion

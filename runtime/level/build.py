@@ -8,11 +8,11 @@ from .curve import trace
 from .error_budget import ErrorBudget
 from .inverse import cut_penetration
 from .law import Law, laws_of
-from .strips import Columns
+from .strips import LevelBatch
 
 
 def build_laws(
-    columns: Columns,
+    columns: LevelBatch,
     rtol: np.ndarray,
     p_full: np.ndarray,
     D_full: np.ndarray,

@@ -12,7 +12,7 @@ from . import plane
 from .plane import Boundary, Points
 
 if TYPE_CHECKING:
-    from .strips import Columns
+    from .strips import LevelBatch
 
 #: how far beyond the outermost points that are known of a curve it is expected to go on, as a share of their distance
 _BEYOND = 0.5
@@ -29,7 +29,7 @@ class Crossings:
 
     points: dict[Boundary, Points] = field(default_factory=dict)
 
-    def remember(self, columns: Columns, boundary: Boundary, points: Points) -> None:
+    def remember(self, columns: LevelBatch, boundary: Boundary, points: Points) -> None:
         known = self.points.get(boundary)
         if known is not None:
             points = Points.joined(known, points)
@@ -40,7 +40,7 @@ class Crossings:
         fresh = np.append(True, ~_together(points) | (np.diff(place) != 0))
         self.points[boundary] = points.take(np.flatnonzero(fresh))
 
-    def expected(self, columns: Columns) -> tuple[np.ndarray, np.ndarray]:
+    def expected(self, columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
         """Columns and amplitudes (k,), m, at which ``columns`` cross what is known of the curves, by Newton from between the two
         points nearest on each, or from the parabola through three where the curve turns."""
         E = columns.D - columns.level.h

@@ -11,16 +11,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..numerics.chebyshev import flat_ended, interpolation_errors, lobatto
-from .appearance import is_inside, island, vanishing
 from .breaks import breakpoints, threshold_width
 from .effort import CURVE_LIMIT
-from .ends import with_gentle_ends
+from .endpoint_regularity import with_endpoint_regularity
 from .error_budget import ErrorBudget
+from .interior_breaks import is_inside, island, locate_vanishing
 from .interval import Interval
 from .piece import Piece
 from .reentrant import reentrant_parts
 from .sampling import MEAN, Batch
-from .strips import Columns, saturation_depth
+from .strips import LevelBatch, saturation_depth
 
 _FIRST, _LAST = 6, 96
 _ROUNDS = 40
@@ -55,7 +55,7 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Sought:
+class PressureQuery:
     """Pressures ``p`` (Pa, per column) of which it is asked where the curve passes them, to an error ``goal`` (Pa) of the
     pressure there."""
 
@@ -69,7 +69,7 @@ class Sought:
 
 
 def trace(
-    columns: Columns, rtol: np.ndarray, top: np.ndarray | None = None, follow: bool = False, budget: ErrorBudget | None = None
+    columns: LevelBatch, rtol: np.ndarray, top: np.ndarray | None = None, follow: bool = False, budget: ErrorBudget | None = None
 ) -> list[Curve]:
     """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``; of
     ``frictional`` columns pressure only as well as it takes for friction over pressure to be known to that.
@@ -93,7 +93,7 @@ def trace(
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
 
 
-def smooth_intervals(columns: Columns, top: np.ndarray) -> tuple[list[list[Interval]], np.ndarray]:
+def smooth_intervals(columns: LevelBatch, top: np.ndarray) -> tuple[list[list[Interval]], np.ndarray]:
     """For every column the intervals between the breaks of its curve, ascending; and where the crest lets go (inf: never seen),
     (n,)."""
     inside = threshold_width(columns, top)
@@ -106,31 +106,31 @@ def smooth_intervals(columns: Columns, top: np.ndarray) -> tuple[list[list[Inter
 
 
 def interpolate(
-    columns: Columns,
+    columns: LevelBatch,
     rtol: np.ndarray,
     intervals: list[Interval],
     strips: np.ndarray,
-    sought: Sought | None = None,
+    query: PressureQuery | None = None,
     budget: ErrorBudget | None = None,
     ceiling: np.ndarray | None = None,
 ) -> list[list[Piece]]:
     """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work.
 
-    ``sought``: nothing counts but where the pressure passes a given one. ``budget``: how much the pressures of an interval count,
+    ``query``: nothing counts but where the pressure passes a given one. ``budget``: how much the pressures of an interval count,
     those above the ``ceiling`` (Pa, per column) not at all.
     """
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
-    if sought is None:
-        intervals = with_gentle_ends(columns, intervals)
+    if query is None:
+        intervals = with_endpoint_regularity(columns, intervals)
     for k in range(_ROUNDS):
         if not intervals:
             break
         limit = CURVE_LIMIT if k + 1 < _ROUNDS else -1
-        intervals = _round(columns, rtol, intervals, pieces, strips, sought, budget, ceiling, limit)
+        intervals = _round(columns, rtol, intervals, pieces, strips, query, budget, ceiling, limit)
     return pieces
 
 
-def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, sought, budget, ceiling, limit) -> list[Interval]:
+def _round(columns: LevelBatch, rtol, intervals: list[Interval], pieces, strips, query, budget, ceiling, limit) -> list[Interval]:
     """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not. Columns
     with more ``strips`` than the ``limit`` are taken as they are, with the spread of their values as error."""
     batch = Batch(columns, rtol, intervals, strips)
@@ -150,9 +150,9 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
         # where next to nothing changes there is little to miss, whatever nobody marked there
         spread = np.ptp(batch.values, axis=1)
         error = np.minimum(error, 2 * spread)
-        if sought is not None:
+        if query is not None:
             goal = np.full_like(goal, np.inf)
-            goal[:, 0] = sought.goals(batch.column, batch.values[:, :, 0])
+            goal[:, 0] = query.goals(batch.column, batch.values[:, :, 0])
         elif columns.frictional:
             goal[:, 0] = _pressure_goal(batch.values, goal)
         # what the means leave of it
@@ -166,25 +166,25 @@ def _round(columns: Columns, rtol, intervals: list[Interval], pieces, strips, so
             error[ended], done = np.maximum(error, spread)[ended], done | ended
         for k in np.flatnonzero(done):
             i, bound = batch.intervals[k], error[k] + _ROUNDED * rounding[k] + batch.errors[k].max(axis=0)
-            pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.soft_low, i.soft_high, i.grading))
+            pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.inner_low, i.inner_high, i.endpoint_map))
         # coefficients fall geometrically: where twice the nodes would not do, halves are better
         missed = error / goal
         hopeless = ~done & (missed * np.minimum(missed / before, _PACE) ** 2 > 1).any(axis=1)
-        split = _islands(columns, batch, n, ~done, strips, sought is not None) if n > 2 * _FIRST else {}
+        split = _isolated_regimes(columns, batch, n, ~done, strips, query is not None) if n > 2 * _FIRST else {}
         for k, D_break in split.items():
-            parts += batch.ungentle(k).split(D_break, False)
+            parts += batch.without_regularity(k).split(D_break, False)
         done[list(split)] = True
         for k in np.flatnonzero(hopeless & ~done):
-            parts += batch.ungentle(k).halves
+            parts += batch.without_regularity(k).halves
         keep = np.flatnonzero(~done & ~hopeless)
         batch.keep(keep)
         before = np.maximum(missed[keep], np.finfo(float).tiny)
     for k in range(len(batch.intervals)):
-        parts += batch.ungentle(k).halves
+        parts += batch.without_regularity(k).halves
     return parts
 
 
-def _rounding(columns: Columns, batch: Batch, n: int, c) -> np.ndarray:
+def _rounding(columns: LevelBatch, batch: Batch, n: int, c) -> np.ndarray:
     """What the rounding of D makes of the coefficients ``c``, (intervals, q): next to a break where the means are like square
     roots it tells."""
     ends = np.stack(((-1.0) ** np.arange(n + 1) @ c, c.sum(axis=1)), axis=1)
@@ -204,7 +204,7 @@ def _pressure_goal(values, goal):
     return np.maximum(goal[:, 0], pressure * np.minimum(share, _COARSEST))
 
 
-def _islands(columns: Columns, batch: Batch, n: int, which, strips, roughly: bool) -> dict[int, float]:
+def _isolated_regimes(columns: LevelBatch, batch: Batch, n: int, which, strips, roughly: bool) -> dict[int, float]:
     """Breaks inside intervals: penetrations at which something appears or vanishes between two nodes, away from the crest."""
     seen = {}
     for k in np.flatnonzero(which):
@@ -214,5 +214,5 @@ def _islands(columns: Columns, batch: Batch, n: int, which, strips, roughly: boo
             seen[int(k)] = found
     if not seen:
         return {}
-    breaks = dict(zip(seen, vanishing(columns, list(seen.values()), strips, roughly).tolist(), strict=True))
+    breaks = dict(zip(seen, locate_vanishing(columns, list(seen.values()), strips, roughly).tolist(), strict=True))
     return {k: D for k, D in breaks.items() if is_inside(D, batch.intervals[k].low, batch.intervals[k].high)}

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..numerics.quadrature import interior_nodes, mapped, mapped_weights
-from .strips import Columns
+from .strips import LevelBatch
 
 #: strips across the cell and points along each contact: shares are needed to a factor of two or so
 _STRIPS, _POINTS = 24, 32
@@ -49,7 +49,7 @@ class ErrorBudget:
         return max(least * min(width, 1.0), 1.0)
 
 
-def error_budget(columns: Columns, group: np.ndarray) -> ErrorBudget:
+def error_budget(columns: LevelBatch, group: np.ndarray) -> ErrorBudget:
     """Share of the surface of ``columns`` (n,) on which each pressure is met; ``group`` (n,): the law that each uses."""
     n = columns.size
     theta = np.pi * (np.arange(_STRIPS) + 0.5) / _STRIPS

@@ -13,12 +13,12 @@ import numpy as np
 
 from .branches import Branch, rising
 from .breaks import breaks_on, first_contact, threshold_width
-from .curve import Sought, interpolate
+from .curve import PressureQuery, interpolate
 from .effort import CURVE_LIMIT
 from .interval import Interval
 from .means import level_means
 from .monotone import enclosed
-from .strips import Columns
+from .strips import LevelBatch
 
 #: accuracy of the first look, of the pressure's scale, and how much finer each further one is
 _COARSE, _FINER = 2e-3, 0.03
@@ -48,7 +48,7 @@ class Inverse:
         return Inverse(self.D[index], self.slope[index], self.doubt[index], self.undecided[index])
 
 
-def cut_penetration(columns: Columns, p_max: np.ndarray, full: np.ndarray) -> np.ndarray:
+def cut_penetration(columns: LevelBatch, p_max: np.ndarray, full: np.ndarray) -> np.ndarray:
     """A penetration from which the level carries more than ``p_max`` (Pa, (n,)) on either branch, at most ``full`` (m, (n,)).
 
     Averaged over a period Eq. 5 says ``p_mean = K w_mean`` (the steps of w and p cancel), and w is nowhere below the profile: so
@@ -59,7 +59,7 @@ def cut_penetration(columns: Columns, p_max: np.ndarray, full: np.ndarray) -> np
     return np.minimum(p_max / columns.material.K + 0.75 * level.h + 1e-9 * (level.h + np.abs(p_max) / columns.material.K), full)
 
 
-def invert(columns: Columns, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
+def invert(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
     """Largest penetration (``unloading``) or smallest (``loading``) at which each column carries ``p`` (Pa, (n,)), below
     saturation.
 
@@ -96,7 +96,7 @@ class _Root:
 class _Descent:
     """All columns go along their curves together, one piece each at a time."""
 
-    def __init__(self, columns: Columns, p, top, rtol):
+    def __init__(self, columns: LevelBatch, p, top, rtol):
         self.columns, self.p, self.rtol = columns, p, rtol
         self.unloading = columns.branch == "unloading"
         scale = columns.scales[0]
@@ -106,7 +106,7 @@ class _Descent:
         bottom = first_contact(columns)
         # the next one last; ``unbroken`` ones are known to hold no break
         # at the top the curve is but cut, or saturates
-        every = (Interval(i, bottom, D, gentle_high=True) for i, D in enumerate(top))
+        every = (Interval(i, bottom, D, smooth_high=True) for i, D in enumerate(top))
         self.waiting = [self._parts(interval) if interval.high > bottom else [] for interval in every]
         self.unbroken: set[Interval] = set()
 
@@ -128,7 +128,7 @@ class _Descent:
             now = self._next()
             if not now:
                 return roots
-            pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), now, strips, Sought(self.p, goal))
+            pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), now, strips, PressureQuery(self.p, goal))
             for interval in now:
                 i = interval.column
                 row = sorted(pieces[i], key=lambda piece: -piece.low if self.unloading else piece.low)
@@ -159,8 +159,8 @@ class _Descent:
         parts, rest = [], interval
         for D in breaks:
             if D - inside > rest.low:
-                parts.append(replace(rest, high=D - inside, soft_high=False, gentle_high=False))
-            rest = replace(rest, low=min(D + inside, rest.high), soft_low=False, gentle_low=False)
+                parts.append(replace(rest, high=D - inside, inner_high=False, smooth_high=False))
+            rest = replace(rest, low=min(D + inside, rest.high), inner_low=False, smooth_low=False)
         parts.append(rest)
         parts = [part for part in parts if part.high > part.low]
         self.unbroken.update(parts)
@@ -202,7 +202,7 @@ class _Descent:
         return None
 
 
-def _refine(columns: Columns, p, near, rtol):
+def _refine(columns: LevelBatch, p, near, rtol):
     """Penetrations, d(tau)/dp and how uncertain that is at the roots ``near`` these (arrays of the fields of ``_Root``): Newton
     with the slope of the coarse curve, then of the last two averages."""
     D, slope, friction_slope, low, high = near
@@ -235,7 +235,7 @@ def _refine(columns: Columns, p, near, rtol):
     return D, friction_slope, doubt
 
 
-def _bracketed(columns: Columns, p, index, low, high, rtol):
+def _bracketed(columns: LevelBatch, p, index, low, high, rtol):
     """Root of p_mean(D) - p in each bracket: false position with halving of stale ends (Illinois), averages ever finer."""
     goal = p[index]
     scale = 1e-3 * columns.scales[0]

@@ -63,7 +63,7 @@ class Law:
     @cached_property
     def breaks(self) -> np.ndarray:
         """Pressures at which the law jumps or is not smooth, ascending, from pull-off to saturation."""
-        ends = [b.p_low for b in self.branches if not b.soft_low] + [b.p_high for b in self.branches if not b.soft_high]
+        ends = [b.p_low for b in self.branches if not b.inner_low] + [b.p_high for b in self.branches if not b.inner_high]
         ends = np.unique([e for e in [*ends, self.pull_off, self.p_sat] if -np.inf < e <= self.p_sat])
         # branches that follow one another meet to rounding
         apart = np.diff(ends, append=np.inf) > 1e-12 * np.abs(ends).max(initial=0.0)
@@ -88,8 +88,8 @@ class Law:
             # a branch is left at one of its ends, and that tells where the law goes over to the next one
             left, entered = (b.p_low, b.p_high) if self.unloading else (b.p_high, b.p_low)
             errors[np.abs(p - left) <= aside] = b.piece.error[0]
-            outermost = (np.abs(p - entered) <= aside) & (errors == 0)
-            errors[outermost] = b.piece.error[0]
+            orbit_bounds = (np.abs(p - entered) <= aside) & (errors == 0)
+            errors[orbit_bounds] = b.piece.error[0]
         return jumps, errors
 
     def __call__(self, p: np.ndarray) -> np.ndarray:

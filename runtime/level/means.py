@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from .averages import Averages, average
-from .strips import Columns
+from .strips import LevelBatch
 
 
-def level_means(columns: Columns, rtol: np.ndarray) -> Averages:
+def level_means(columns: LevelBatch, rtol: np.ndarray) -> Averages:
     """Means of ``strips.QUANTITIES`` for every column, to ``rtol (|value| + floor)`` each; ``rtol`` of shape (n,)."""
     if columns.strips is not None:
         return equal_strips(columns, columns.strips)
     return average(columns, rtol)
 
 
-def equal_strips(columns: Columns, strips: int) -> Averages:
+def equal_strips(columns: LevelBatch, strips: int) -> Averages:
     """The paper's average over ``2 N`` equal strips of the cell (Eq. 11): midpoints; the halves are mirror images.
 
     The error estimate is the difference to the sum over every third strip, whose thirds share their midpoints, where N is a

@@ -10,14 +10,14 @@ from __future__ import annotations
 import numpy as np
 
 from .means import level_means
-from .strips import Columns
+from .strips import LevelBatch
 
 #: penetrations of the first look, and of the second one close around the root
 _FIRST, _SECOND = 9, 5
 _ROUGH, _FINE, _WINDOW = 0.05, 1e-6, 0.02
 
 
-def enclosed(columns: Columns, p: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def enclosed(columns: LevelBatch, p: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Penetrations near those that carry ``p`` > 0 (Pa, (n,)), the slopes d(p)/dD and d(tau)/dp there, and the ends of brackets
     of the roots."""
     K, h = columns.material.K, columns.level.h
@@ -35,7 +35,7 @@ def enclosed(columns: Columns, p: np.ndarray) -> tuple[np.ndarray, np.ndarray, n
     return D_root, slope, friction_slope, low, high
 
 
-def _curve(columns: Columns, D, rtol):
+def _curve(columns: LevelBatch, D, rtol):
     """Logarithms of penetration and pressure, and friction, at the penetrations ``D`` (n, m), each (n, m)."""
     rows = np.repeat(np.arange(D.shape[0]), D.shape[1])
     values = level_means(columns.at(rows, D.ravel()), np.full(D.size, rtol)).values

@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from ..numerics.chebyshev import evaluate
-from ..numerics.endpoints import Grading
+from ..numerics.endpoints import EndpointMap
 
 
 def graded(t):
@@ -29,20 +29,20 @@ def parameter(share):
 class Piece:
     """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t; ``error`` bounds each of them, (q,).
 
-    ``soft_low``, ``soft_high``: the curve goes on smoothly beyond that end, in another piece. ``grading``: what t is.
+    ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end, in another piece. ``endpoint_map``: what t is.
     """
 
     low: float
     high: float
     coefficients: np.ndarray
     error: np.ndarray
-    soft_low: bool = False
-    soft_high: bool = False
-    grading: Grading = Grading()
+    inner_low: bool = False
+    inner_high: bool = False
+    endpoint_map: EndpointMap = EndpointMap()
 
     def penetration(self, t):
         """D at t."""
-        return self.low + (self.high - self.low) * self.grading.share(t)
+        return self.low + (self.high - self.low) * self.endpoint_map.share(t)
 
     def values(self, t) -> np.ndarray:
         """Quantities at t (m,), shape (m, q)."""

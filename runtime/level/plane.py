@@ -17,7 +17,7 @@ import numpy as np
 from ..orbit.foundation import foundation_of
 
 if TYPE_CHECKING:
-    from .strips import Columns
+    from .strips import LevelBatch
 
 TWO_PI = 2 * np.pi
 #: Newton: iterations at most; a step of the edges this small leaves an error of its square; the largest step taken whole
@@ -68,7 +68,7 @@ class Points:
         return cls(*(np.concatenate((getattr(one, f.name), getattr(two, f.name)), axis=-1) for f in fields(cls)))
 
 
-def locate(columns: Columns, boundary: Boundary, start: Points, unknown: str) -> tuple[Points, np.ndarray]:
+def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str) -> tuple[Points, np.ndarray]:
     """Points of a curve by Newton from ``start``, with ``unknown`` "A" or "E" and the other one kept; and which were found.
 
     ``start`` holds orbits of the boundary's sequence nearby. Points that are not found are no numbers to be used.
@@ -110,7 +110,7 @@ def _moved(edges: np.ndarray, step: np.ndarray) -> np.ndarray:
 class _System:
     """Boundary equations of a sequence and the equation of an event, with their derivatives by edges and A or E."""
 
-    def __init__(self, columns: Columns, boundary: Boundary, start: Points):
+    def __init__(self, columns: LevelBatch, boundary: Boundary, start: Points):
         self.columns, self.boundary, self.velocity = columns, boundary, start.velocity
         self.stretch = start.pressure / columns.material.K
         foundation = foundation_of(columns.material)

@@ -16,7 +16,7 @@ from .error_budget import ErrorBudget
 from .interval import Interval
 from .means import level_means
 from .sampling import MEAN
-from .strips import Columns
+from .strips import LevelBatch
 
 #: accuracy of the look, and its nodes; narrower intervals, as a share of the column's, have fewer
 _ROUGH, _MANY, _FEW, _NARROW = 5e-3, 16, 4, 0.05
@@ -27,7 +27,7 @@ _UNTOLD = 0.01
 
 
 def reentrant_parts(
-    columns: Columns, rtol, intervals: list[Interval], least: np.ndarray, strips, budget: ErrorBudget | None
+    columns: LevelBatch, rtol, intervals: list[Interval], least: np.ndarray, strips, budget: ErrorBudget | None
 ) -> list[Interval]:
     """The parts of the ``intervals`` that unloading may come to after the pressures ``least`` (Pa, per column), as far as they
     count for the ``budget``."""
@@ -52,15 +52,15 @@ def reentrant_parts(
                 friction = np.abs(values[nodes][:, columns.frictions]).max(axis=0).sum()
                 tolerance_factor = budget.tolerance_factor(column, floor[run].min(), before[run].max(), friction)
             if _UNTOLD * tolerance_factor * rtol[column] < 1.0:
-                soft = look.soft_low or first > 0, look.soft_high or last < p.size - 1
+                soft = look.inner_low or first > 0, look.inner_high or last < p.size - 1
                 low, high = D[first] if first > 0 else look.low, D[last] if last < p.size - 1 else look.high
-                part = replace(look, low=float(low), high=float(high), soft_low=soft[0], soft_high=soft[1], even=False)
+                part = replace(look, low=float(low), high=float(high), inner_low=soft[0], inner_high=soft[1], even=False)
                 out.append(replace(part, tolerance_factor=tolerance_factor))
         met[column] = min(met[column], (p + error).min())
     return out
 
 
-def _looks(columns: Columns, intervals: list[Interval], strips) -> list[tuple[Interval, np.ndarray, np.ndarray, np.ndarray]]:
+def _looks(columns: LevelBatch, intervals: list[Interval], strips) -> list[tuple[Interval, np.ndarray, np.ndarray, np.ndarray]]:
     """The intervals, as they were seen, with penetrations, means (nodes, q), and how far the pressures may be off (nodes)."""
     whole = np.zeros(columns.size)
     for i in intervals:

@@ -11,7 +11,7 @@ from ..numerics.quadrature import interleaved
 from .error_budget import ErrorBudget
 from .interval import Interval
 from .means import level_means
-from .strips import Columns
+from .strips import LevelBatch
 
 #: share of the error allowed that each mean may have
 MEAN = 0.4
@@ -20,7 +20,7 @@ MEAN = 0.4
 class Batch:
     """Intervals that are sampled together on nested nodes: means and errors (intervals, nodes, q), and the zones met at each."""
 
-    def __init__(self, columns: Columns, rtol, intervals: list[Interval], strips):
+    def __init__(self, columns: LevelBatch, rtol, intervals: list[Interval], strips):
         self.columns, self.rtol, self.strips = columns, rtol, strips
         self.intervals = intervals
         self.values = self.errors = None
@@ -68,9 +68,9 @@ class Batch:
         self.values, self.errors = interleaved(values, self.values), interleaved(errors, self.errors)
         self.zones = [_alternating(old, new) for old, new in zip(self.zones, zones, strict=True)]
 
-    def ungentle(self, k: int) -> Interval:
+    def without_regularity(self, k: int) -> Interval:
         """Interval ``k``; as its nodes are not enough, what only seemed to end gently is no longer taken to."""
-        return replace(self.intervals[k], gentle_low=False, gentle_high=False)
+        return replace(self.intervals[k], smooth_low=False, smooth_high=False)
 
     def keep(self, index) -> None:
         """Go on with the intervals ``index`` alone."""

@@ -23,7 +23,7 @@ from .law import Law
 from .means import level_means
 from .nonadhesive.points import family_means
 from .saturated import saturated_level
-from .strips import QUANTITIES, Columns
+from .strips import QUANTITIES, LevelBatch
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -132,7 +132,7 @@ def solve_level(
     V, load = (np.broadcast_to(v, shape).ravel() for v in (V, load))
     work = WorkCounters()
     inputs = Inputs(material, adhesion, level, V.reshape(shape), edge, branch, rtol, strips)
-    columns = Columns(material, adhesion, level, edge, branch, V, load, strips=strips, work=work)
+    columns = LevelBatch(material, adhesion, level, edge, branch, V, load, strips=strips, work=work)
     of = _means_at_pressure(columns, load, rtol) if D is None else _means_at_penetration(columns, rtol)
     values, errors = of.values, of.errors
     floors = np.where(of.pulled_off[:, None], np.inf, columns.floors)
@@ -164,7 +164,7 @@ class _Means:
     pulled_off: np.ndarray
 
 
-def _means_at_penetration(columns: Columns, rtol: float) -> _Means:
+def _means_at_penetration(columns: LevelBatch, rtol: float) -> _Means:
     n = columns.size
     families = family_means(columns, np.full(n, rtol))
     values, errors, rest = families.values, families.errors, np.flatnonzero(~families.certain)
@@ -174,7 +174,7 @@ def _means_at_penetration(columns: Columns, rtol: float) -> _Means:
     return _Means(columns.D, values, errors, np.zeros(n, bool))
 
 
-def _means_at_pressure(columns: Columns, p: np.ndarray, rtol: float) -> _Means:
+def _means_at_pressure(columns: LevelBatch, p: np.ndarray, rtol: float) -> _Means:
     material, level, V = columns.material, columns.level, columns.V
     s = saturated_level(material, columns.adhesion, level, V, columns.branch)
     D = np.where(p >= s.p_sat, p / material.K + 0.75 * level.h, np.nan)
@@ -232,7 +232,7 @@ def friction_law(
         raise InputError("V", V, "a single number: a finite number >= 0 (m/s)")
     top = None if below is None else np.array([number("below", below, "Pa")])
     work = WorkCounters()
-    columns = Columns(material, adhesion, level, edge, branch, V.reshape(1), np.zeros(1), work=work)
+    columns = LevelBatch(material, adhesion, level, edge, branch, V.reshape(1), np.zeros(1), work=work)
     law = _laws(columns, rtol, top)[0]
     built = law.p_sat if below is None or below >= law.p_top else float(below)
     if built < law.p_sat and law.pull_off >= built:
@@ -251,7 +251,7 @@ def friction_law(
     return FrictionLaw(pull_off, law.p_sat, float(law.saturated[1]), built, law.friction_error, converged, law)
 
 
-def _laws(columns: Columns, rtol: float, top) -> list[Law]:
+def _laws(columns: LevelBatch, rtol: float, top) -> list[Law]:
     n = columns.size
     s = saturated_level(columns.material, columns.adhesion, columns.level, columns.V, columns.branch)
     saturated = np.stack([s.p_sat, s.tau_sat, np.ones(n), np.zeros(n)], axis=1)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
 
 
-class Carry(Protocol):
+class LowerLevels(Protocol):
     """What the levels below contribute in the contact of a strip."""
 
     scales: np.ndarray
@@ -44,7 +44,7 @@ class Carry(Protocol):
 
 
 @dataclass(frozen=True)
-class Columns:
+class LevelBatch:
     """Pairs of velocity and penetration at which one level is averaged; ``V`` and ``D`` of shape (n,).
 
     ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
@@ -60,14 +60,14 @@ class Columns:
     branch: str
     V: np.ndarray
     D: np.ndarray
-    carry: Carry | None = None
+    carry: LowerLevels | None = None
     group: np.ndarray | None = None
     strips: int | None = None
     frictional: bool = False
     work: WorkCounters = field(default_factory=WorkCounters, compare=False)
     crossings: Crossings = field(default_factory=Crossings, compare=False)
 
-    def at(self, index, D) -> Columns:
+    def at(self, index, D) -> LevelBatch:
         """The columns ``index`` at other penetrations ``D``."""
         group = None if self.group is None else self.group[index]
         return replace(self, V=self.V[index], D=D, group=group)
@@ -173,6 +173,6 @@ class SolvedStrips:
         return np.column_stack([self.p_mean, self.tau_mean, s.contact_fraction, s.adhesion_fraction])
 
 
-def saturation_depth(columns: Columns) -> np.ndarray:
+def saturation_depth(columns: LevelBatch) -> np.ndarray:
     """Penetration from which the whole level is in contact, m; shape (n,)."""
     return saturated_level(columns.material, columns.adhesion, columns.level, columns.V, columns.branch).D_sat

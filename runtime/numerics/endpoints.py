@@ -17,7 +17,7 @@ _NEWTON = 8
 
 
 @dataclass(frozen=True)
-class Grading:
+class EndpointMap:
     """Shares of an interval over t, both in [0, 1]: like ``t^low`` next to 0 and ``1 - (1 - t)^high`` next to 1."""
 
     low: int = STEEP

@@ -67,7 +67,7 @@ _LEAST = 0.05
 #: onsets before this phase are next to the valley; contact is sought by this much further than is estimated
 _VALLEY, _BEYOND = 2.5, 1.05
 #: contact is taken to end by so much earlier than is estimated
-_SHY = 0.01
+_MARGIN = 0.01
 
 
 @dataclass(slots=True)
@@ -144,13 +144,13 @@ def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, n
     return proven, spent
 
 
-def none_hangs(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
+def exclude_out_of_reach(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
     """Which cycles of strips out of reach, ``D <= -delta_0``, that cannot stay engaged are proven to have no most engaged orbit
     with an onset; and the evaluations spent on each."""
     none, spent = np.zeros(cycle.size, bool), np.ones(cycle.size)
     with np.errstate(all="ignore"):
         guess, reference = _held_best(cycle), at_rest(kernel, cycle)
-        least = surplus(kernel, reference, guess, guess)
+        least = balance_bound(kernel, reference, guess, guess)
         index = np.flatnonzero(least > _WORTH * cycle.strips.p_0)
         if index.size:
             lo, hi = _stable_within(kernel, cycle.among(index), guess[index])
@@ -333,7 +333,7 @@ def _closed(beta, lag, gap, lo):
     return np.where((way >= 0) & (risen >= gap), lo - way, -np.inf)
 
 
-def surplus(kernel, reference: _Reference, lo, hi):
+def balance_bound(kernel, reference: _Reference, lo, hi):
     """Lower bound of the balance of all orbits with an onset between -hi and -lo, less that of the reference."""
     r = reference
     # contact, at least: the pressure of complete contact, and what fades of its difference to the one at -t
@@ -341,7 +341,7 @@ def surplus(kernel, reference: _Reference, lo, hi):
     t = _contact(r, lo, low)
     possible, t = np.isfinite(t), np.minimum(t, TWO_PI)
     sin_t, cos_t = _sine_cosine(t)
-    e = np.minimum(np.maximum(r.contact_end(t, sin_t, cos_t) - _SHY, 0.0), r.turned)
+    e = np.minimum(np.maximum(r.contact_end(t, sin_t, cos_t) - _MARGIN, 0.0), r.turned)
     sin_e, cos_e = _sine_cosine(e)
     mean = r.D - 1 + r.p_0
     begins = mean + r.storage * cos_t + r.loss * sin_t
@@ -395,7 +395,7 @@ def _excluded(kernel, reference: _Reference, lo, hi, parts=None) -> tuple[np.nda
             lo = lo[pieces] + place * width
             hi, part = lo + width, reference.take(index)
         spent += np.bincount(index, minlength=n)
-        left = surplus(kernel, part, lo, hi)
+        left = balance_bound(kernel, part, lo, hi)
         open_ = np.flatnonzero(~(left > 0))
         if not open_.size:
             return proven, spent

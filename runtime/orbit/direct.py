@@ -6,13 +6,13 @@ more extremal one exists; all else is left to ``search``.
 
 import numpy as np
 
-from .balance import SLOW, none_hangs
+from .balance import SLOW, exclude_out_of_reach
 from .certificate import attracting, edges_admissible
 from .chain import CONVERGED, follow
 from .exclusion import alone
 from .groups import Cycle
 from .march import FROZEN, Orbit
-from .outermost import Outermost
+from .orbit_bounds import OrbitBounds
 from .refine import refined
 from .solved import orbit_of
 from .start import start
@@ -47,7 +47,7 @@ def certified(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[O
     return orbit, good, spent
 
 
-def extremal(kernel, cycle: Cycle, last: bool, bounds: Outermost):
+def extremal(kernel, cycle: Cycle, last: bool, bounds: OrbitBounds):
     """Extremal orbits with a free part, where they can be had without a search.
 
     Returns, for n cycles: a certified orbit of each (x NaN where there is none), its sequence (``""`` if none), which are proven
@@ -66,7 +66,7 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: Outermost):
     if not last:
         hanging = np.flatnonzero(possible & (s.D <= -s.delta_0) & (s.beta > SLOW))
         if hanging.size:
-            none[hanging], found.evaluations[hanging] = none_hangs(kernel, cycle.among(hanging))
+            none[hanging], found.evaluations[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
             possible &= ~none
     found.attempt("acaf", np.flatnonzero(possible & ~cycle.direct))
     found.attempt("afc", np.flatnonzero(possible & cycle.direct))
@@ -78,7 +78,7 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: Outermost):
 class _Found:
     """Orbits found so far: the most extremal one of each cycle, its sequence, whether it is proven to be extremal, work."""
 
-    def __init__(self, kernel, cycle: Cycle, last: bool, bounds: Outermost):
+    def __init__(self, kernel, cycle: Cycle, last: bool, bounds: OrbitBounds):
         self.kernel, self.cycle, self.last, self.bounds = kernel, cycle, last, bounds
         self.orbit = Orbit.blank(cycle.size)
         self.sequence = np.full(cycle.size, "", dtype="<U4")

@@ -7,10 +7,10 @@ iterates from infinitely far fall to the least engaged one, and there is no long
 
 * Always engaged states contract onto one candidate: saturated contact, saturated adhesion, or contact with saturated
   adhesion. If its inequalities hold it is the most engaged orbit; nothing more engaged exists.
-  Where it is not, bounds on all orbits (``outermost``) mostly tell without solving for it.
+  Where it is not, bounds on all orbits (``orbit_bounds``) mostly tell without solving for it.
 * Every other orbit but the free one has an onset phase and is a zero of the onset map's defect ``r``. The first (or last) of
   them is had from Newton with a proof that it is alone on its side (``direct``), or else from a search that passes over none
-  (``sought``).
+  (``isolated_orbits``).
 * The free orbit is the least engaged one, where it is admissible: ``D <= -delta_0`` (``D <= 0`` without adhesion).
 
 ``unloading`` asks in the order engaged, first zero, free; ``loading`` in the order free, last zero, engaged.
@@ -21,14 +21,14 @@ from dataclasses import replace
 import numpy as np
 
 from .certificate import greatest_gap
+from .closed_form_exclusion import may_cling, saturates
 from .direct import certified, extremal
 from .groups import Cycle, Strips, adhesive_cycle, bare_cycle
+from .isolated_orbits import isolated_orbits
 from .march import Orbit
-from .outermost import FAST, Outermost, outermost
-from .reach import may_cling, saturates
+from .orbit_bounds import FAST, OrbitBounds, orbit_bounds
 from .regimes import CODE
 from .solved import Record, Solved
-from .sought import sought
 from .start import start
 
 #: Strips solved at a time: their working arrays stay in the cache, and memory stays bounded.
@@ -41,7 +41,7 @@ _SHIFTS = (8, 64, 512)
 def solve_strips(kernel, strips: Strips, unloading: bool) -> Solved:
     """Solve a batch with the generated ``kernel``; ``certified`` is false for every strip that must not be used."""
     solved = Solved.empty(strips.size)
-    left: list[tuple[np.ndarray, Orbit, Outermost]] = []
+    left: list[tuple[np.ndarray, Orbit, OrbitBounds]] = []
     for first in range(0, strips.size, CHUNK):
         part = np.arange(first, min(first + CHUNK, strips.size))
         batch = _Batch(kernel, strips.take(part), unloading)
@@ -55,13 +55,13 @@ def solve_strips(kernel, strips: Strips, unloading: bool) -> Solved:
     return solved
 
 
-def _search(kernel, strips: Strips, solved: Solved, unloading: bool, left: list[tuple[np.ndarray, Orbit, Outermost]]) -> None:
+def _search(kernel, strips: Strips, solved: Solved, unloading: bool, left: list[tuple[np.ndarray, Orbit, OrbitBounds]]) -> None:
     """Solve the strips that are ``left`` by marches and by the search, and empty that list."""
     if left:
         index, known, bounds = zip(*left, strict=True)
         index = np.concatenate(index)
         left.clear()
-        found = _Batch(kernel, strips.take(index), unloading, Orbit.joined(known), Outermost.joined(bounds)).solve()
+        found = _Batch(kernel, strips.take(index), unloading, Orbit.joined(known), OrbitBounds.joined(bounds)).solve()
         found.evaluations += solved.evaluations[index]
         solved.put(index, found)
 
@@ -89,12 +89,12 @@ class _Batch:
     """One pass over a batch. Without ``known`` what Newton and the thresholds decide, the rest being left ``open``; with it
     (orbits that are known, x NaN where none is) everything else is searched for."""
 
-    def __init__(self, kernel, strips: Strips, unloading: bool, known: Orbit | None = None, bounds: Outermost | None = None):
+    def __init__(self, kernel, strips: Strips, unloading: bool, known: Orbit | None = None, bounds: OrbitBounds | None = None):
         self.kernel, self.strips, self.unloading = kernel, strips, unloading
         self.searching = known is not None
         self.known = known or Orbit.blank(strips.size)
         self.record = Record(kernel, strips)
-        self.bounds = bounds or Outermost.blank(strips.size)
+        self.bounds = bounds or OrbitBounds.blank(strips.size)
         self._open: list[np.ndarray] = []
 
     @property
@@ -151,7 +151,7 @@ class _Batch:
         released = np.zeros(index.size, bool)
         ask = np.flatnonzero(ask & (s.beta <= FAST))
         if ask.size:
-            bounds = outermost(self.kernel, adhesive_cycle(self.kernel, s.among(ask)))
+            bounds = orbit_bounds(self.kernel, adhesive_cycle(self.kernel, s.among(ask)))
             released[ask] = bounds.released
             self.bounds.put(index[ask], bounds)
             self.record.solved.evaluations[index[ask]] += bounds.evaluations
@@ -175,7 +175,7 @@ class _Batch:
         return index[none]
 
     def _sought(self, index, cycle: Cycle):
-        result = sought(self.kernel, cycle, last=not self.unloading, known=self.known.take(index))
+        result = isolated_orbits(self.kernel, cycle, last=not self.unloading, known=self.known.take(index))
         self.record.solved.evaluations[index] += result.evaluations
         for sequence, pick in result.of(cycle).items():
             self.record.solved.code[index[pick]] = CODE[sequence]
@@ -224,7 +224,7 @@ class _Batch:
         if rest.size and not self.searching:
             self._open.append(index[rest])
         elif rest.size:
-            result = sought(self.kernel, cycle.among(rest), last=False)
+            result = isolated_orbits(self.kernel, cycle.among(rest), last=False)
             self.record.solved.evaluations[index[rest]] += result.evaluations
             orbit.put(rest, result.orbit)
             found[rest] = result.certified

@@ -6,7 +6,7 @@ are ordered: from an earlier onset contact begins earlier, contact and adhesion 
 edges are enough for every inequality used, and a bound is verified by the sign of one event, so nothing is solved
 for.
 
-Mostly bounds at one onset x0 are enough, at the end of the arc or where ``outermost`` has moved it: R falls strictly
+Mostly bounds at one onset x0 are enough, at the end of the arc or where ``orbit_bounds`` has moved it: R falls strictly
 wherever F is not too small (``sensitivity.steep_margin``), and between there and x0 too little to use up the r of x0.
 Otherwise x0 is moved on: r cannot vanish sooner than bounds on its slope between x0 and x* allow (``search.reach_on``).
 
@@ -21,7 +21,7 @@ from . import balance
 from .bound import bound, close_enough
 from .groups import Cycle
 from .march import TWO_PI, Orbit, march
-from .outermost import Outermost
+from .orbit_bounds import OrbitBounds
 from .search import reach_back, reach_on
 from .sensitivity import slope_bounds, steep_margin
 
@@ -32,7 +32,7 @@ _LEAST = 1e-290
 _ROUNDS, _STUCK = 3, 0.1
 
 
-def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
+def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: OrbitBounds) -> tuple[np.ndarray, np.ndarray]:
     """Which orbits are proven to be the first (``last``: last) of their onset arc, and the event evaluations spent on each.
 
     ``bounds`` on all orbits: no onset lies before them, so it is enough that R falls from there on.
@@ -59,7 +59,7 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, last: bool, bounds: Outermost) -> 
     return proven, spent
 
 
-def onsets_within(cycle: Cycle, bounds: Outermost) -> tuple[np.ndarray, np.ndarray]:
+def onsets_within(cycle: Cycle, bounds: OrbitBounds) -> tuple[np.ndarray, np.ndarray]:
     """Phases before which no orbit has its onset, and after which its adhesion does not end."""
     return np.fmax(cycle.centre - cycle.half_d, bounds.x), np.fmin(cycle.centre + TWO_PI - cycle.half_c, bounds.c)
 

@@ -53,7 +53,7 @@ class SearchResult:
         return part
 
 
-def isolate(kernel, cycle: Cycle, last: bool, known: Orbit | None = None) -> SearchResult:
+def isolate_extremal(kernel, cycle: Cycle, last: bool, known: Orbit | None = None) -> SearchResult:
     """Isolate the first (``last=False``) or last zero of r on the onset arc of every cycle, or prove that there is none.
 
     ``known``: periodic orbits (r = 0) of some of the cycles, x NaN for the others; nothing beyond them is looked at.

@@ -23,7 +23,7 @@ from .chain import EDGES, TWO_PI
 from .groups import Cycle, Strips
 
 if TYPE_CHECKING:
-    from .outermost import Outermost
+    from .orbit_bounds import OrbitBounds
 
 #: log10 of beta
 DECADES = (-2.0, -1.0, 0.0, 1.0, 2.0, 3.0)
@@ -50,7 +50,7 @@ def onset_guess(cycle: Cycle, kind: str = "adhesive") -> np.ndarray:
     return cycle.centre + np.interp(np.log10(np.maximum(cycle.strips.beta, _LEAST)), DECADES, ONSET[kind]) * cycle.half_d
 
 
-def start(kernel, cycle: Cycle, sequence: str, bounds: Outermost | None = None) -> np.ndarray:
+def start(kernel, cycle: Cycle, sequence: str, bounds: OrbitBounds | None = None) -> np.ndarray:
     """Edges (k, n) in the order of ``chain.EDGES`` for cycles taken to follow ``sequence``; the ``bounds`` on all orbits where
     known."""
     s = cycle.strips

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...errors import SolverError
 from ...orbit.foundation import foundation_of
-from ..strips import Columns
+from ..strips import LevelBatch
 from .family import are_families, family
 from .means import Level
 
@@ -28,7 +28,7 @@ class FamilyMeans:
     certain: np.ndarray
 
 
-def family_means(columns: Columns, rtol: np.ndarray, p: np.ndarray | None = None) -> FamilyMeans:
+def family_means(columns: LevelBatch, rtol: np.ndarray, p: np.ndarray | None = None) -> FamilyMeans:
     """Means of the level alone at the columns' penetrations, or at the pressures ``p`` > 0 (Pa) below saturation, to
     ``rtol (|value| + floor)``."""
     level, K, n = columns.level, columns.material.K, columns.size

@@ -19,7 +19,7 @@ from .march import TWO_PI, Period, march
 from .order import ENGAGED, FREE, ORBIT, UNRESOLVED
 from .polish import polish
 from .problem import ModeStrips
-from .propagation import Order, least_gains, propagation, solve_order
+from .propagation import Order, least_monodromy, propagation, solve_order
 
 #: rounds of bounding states, and those in which Newton's method starts from them. Of 6,000 random strips with 2 and 8 times
 #: 65 % take one round, 97 % four; what is left after eight is next to a fold, and goes on with windows
@@ -113,7 +113,7 @@ class _Rounds:
             proven = contracts(part, there, lower, upper)
             out.kind[i[known[proven]]] = ORBIT
             ended[known[proven]] = True
-            bound = propagation(part, there, lower, least_gains(part, there, lower, upper, alike(lower, upper)))
+            bound = propagation(part, there, lower, least_monodromy(part, there, lower, upper, alike(lower, upper)))
             move[:, known] = np.maximum(move[:, known], _valid(solve_order(bound, r[:, known])))
             room = np.maximum(self.sign * there.to_e(self.state[:, i[known]] - out.z[:, i[known]]), 0.0)
             move[:, known] = np.minimum(move[:, known], room)

@@ -48,7 +48,7 @@ import numpy as np
 
 from .march import Period, march
 from .problem import ModeStrips
-from .propagation import Order, exact_gains, least_gains, propagation, solve_order
+from .propagation import Order, exact_monodromy, least_monodromy, propagation, solve_order
 
 #: edges of the two ends of a window that is left to Newton's method agree to this
 NARROW = 1e-6
@@ -144,7 +144,7 @@ def _step(kernel, st: _State, i, near: Period, sign: float, out: Approach):
     r = np.maximum(sign * order.to_e(near.dz), 0.0)
     plain = propagation(s, order, near, None) if sub.floor is None else sub.floor
     sure = _valid(solve_order(plain, r))
-    exact = propagation(s, order, near, exact_gains(s, near))
+    exact = propagation(s, order, near, exact_monodromy(s, near))
     window = np.minimum(_window(sure, solve_order(exact, r), sub.reach), sub.room)
     window = np.maximum(window, np.minimum(sub.least * scale * _inward(exact), sub.room))
     far = march(kernel, s, sub.engaged, sub.z + sign * order.to_z(window), sub.start)
@@ -153,7 +153,7 @@ def _step(kernel, st: _State, i, near: Period, sign: float, out: Approach):
     alike = (
         (near.engaged == far.engaged) & (lower.onsets == 1) & (upper.onsets == 1) & (lower.releases == 1) & (upper.releases == 1)
     )
-    bound = propagation(s, order, lower, least_gains(s, order, lower, upper, alike))
+    bound = propagation(s, order, lower, least_monodromy(s, order, lower, upper, alike))
     inner = _valid(solve_order(bound, r))
     wanted = np.max(np.divide(inner, window, out=np.zeros_like(inner), where=window > 0), axis=0)
     inner = inner / np.maximum(wanted, 1.0)

@@ -60,7 +60,7 @@ class Order:
 
 
 @dataclass(slots=True)
-class Gains:
+class Monodromy:
     """Rank-one terms at the onset and the release, each ``gain (column . rate) (row . g)^T``: gain (N,), column and row
     (n, N) or 1.
 
@@ -74,12 +74,12 @@ class Gains:
     release: np.ndarray
     release_column: np.ndarray
     release_row: np.ndarray
-    by_modes: tuple[Across, Across] | None = None
+    by_modes: tuple[Saltation, Saltation] | None = None
     between: np.ndarray | None = None
 
 
 @dataclass(slots=True)
-class Across:
+class Saltation:
     """A gain that acts on the state at the start of the gap zone that its event ends, and is felt at the end of the one
     it begins.
 
@@ -91,15 +91,15 @@ class Across:
     column: np.ndarray
 
 
-def exact_gains(s: ModeStrips, period: Period) -> Gains:
+def exact_monodromy(s: ModeStrips, period: Period) -> Monodromy:
     """Gains at the events of a march that meets each at most once."""
     one = np.ones((1, 1))
     onset = _ratio(s.jump_on, -period.slope_onset)
     release = _ratio(s.step, period.slope_release)
-    return Gains(onset, one, one, release, one, one)
+    return Monodromy(onset, one, one, release, one, one)
 
 
-def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period, alike: np.ndarray) -> Gains:
+def least_monodromy(s: ModeStrips, order: Order, lower: Period, upper: Period, alike: np.ndarray) -> Monodromy:
     """Lower bounds of the gains of every state between those of two marches; 0 but where these are ``alike`` and meet
     each event once.
 
@@ -114,7 +114,7 @@ def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period, alike
     steep_on = np.fmin(_steepest_onset(s, order, lower, upper), slopes_by_modes(s, order, lower, upper, True)[1])
     steep_off = np.fmin(_steepest_release(s, order, lower, upper), slopes_by_modes(s, order, lower, upper, False)[1])
     onset, release = (np.where(alike, gain, 0.0) for gain in (_ratio(s.jump_on, steep_on), _ratio(s.step, steep_off)))
-    pair = _across(s, order, lower, upper, onset, True), _across(s, order, lower, upper, release, False)
+    pair = _saltation(s, order, lower, upper, onset, True), _saltation(s, order, lower, upper, release, False)
     taken = [each.gain > 0 for each in pair]
     events = np.sort(np.stack([lower.onset, upper.onset]), axis=0), np.sort(np.stack([lower.release, upper.release]), axis=0)
     gaps = [np.maximum(one[0] - other[1], 0.0) for one, other in (events, events[::-1])]
@@ -122,11 +122,11 @@ def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period, alike
     span = np.where(later, events[0][1] - events[1][0], events[1][1] - events[0][0])
     kicked = order.to_z(np.broadcast_to(order.rate, (s.modes, s.size)))
     between = np.maximum(_least_sum(kicked, s, np.where(later, gaps[0], gaps[1]), np.nan_to_num(span)), 0.0)
-    return Gains(np.where(taken[0], 0.0, onset), shrink(late), fading(late),
+    return Monodromy(np.where(taken[0], 0.0, onset), shrink(late), fading(late),
                  np.where(taken[1], 0.0, release), fading(early), shrink(early), pair, between)  # fmt: skip
 
 
-def _across(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, onset: bool) -> Across:
+def _saltation(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, onset: bool) -> Saltation:
     name = "onset" if onset else "release"
     event = np.sort(np.stack([getattr(lower, name), getattr(upper, name)]), axis=0)
     start, end, smooth = getattr(lower, f"from_{name}"), getattr(lower, f"until_{name}"), getattr(lower, f"smooth_{name}")
@@ -140,7 +140,7 @@ def _across(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, ons
     kicked = order.to_z(np.broadcast_to(order.rate, (s.modes, s.size)))
     row = np.stack([_least_sum(np.broadcast_to(order.share[:, k], kicked.shape), s, *before) for k in range(s.modes)])
     column = np.stack([_least_sum(order.back[i] * kicked, s, *after) for i in range(s.modes)])
-    return Across(np.where(inside, gain, 0.0), np.maximum(row, 0.0), np.maximum(column, 0.0))
+    return Saltation(np.where(inside, gain, 0.0), np.maximum(row, 0.0), np.maximum(column, 0.0))
 
 
 def closing_times(s: ModeStrips, order: Order, lower: Period, upper: Period):
@@ -181,7 +181,7 @@ def _least_sum(amplitudes, s: ModeStrips, short, long):
     return (amplitudes * np.where(amplitudes > 0, np.exp(-long * rate), np.exp(-short * rate))).sum(axis=0)
 
 
-def propagation(s: ModeStrips, order: Order, period: Period, gains: Gains | None) -> np.ndarray:
+def propagation(s: ModeStrips, order: Order, period: Period, gains: Monodromy | None) -> np.ndarray:
     """Derivative of the period map less the identity, (N, n, n), with the given gains or none."""
     n, N = s.modes, period.dz.shape[1]
     change = np.zeros((N, n, n))

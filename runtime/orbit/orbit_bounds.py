@@ -35,7 +35,7 @@ _SOON = 0.1
 
 
 @dataclass(slots=True)
-class Outermost:
+class OrbitBounds:
     """Bounds on all orbits of n cycles, arrays (n,): contact ends before ``a``, adhesion before ``c`` and begins after ``x``
     (NaN: no bound).
 
@@ -50,27 +50,27 @@ class Outermost:
     evaluations: np.ndarray
 
     @classmethod
-    def blank(cls, n: int) -> "Outermost":
+    def blank(cls, n: int) -> "OrbitBounds":
         """No bounds."""
         return cls(*(np.full(n, np.nan) for _ in range(3)), np.zeros(n, bool), np.zeros(n, bool), np.zeros(n))
 
     @classmethod
-    def joined(cls, parts: Sequence["Outermost"]) -> "Outermost":
+    def joined(cls, parts: Sequence["OrbitBounds"]) -> "OrbitBounds":
         """The bounds of all ``parts``, one after another."""
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in cls.__slots__))
 
-    def put(self, index: np.ndarray, other: "Outermost") -> None:
+    def put(self, index: np.ndarray, other: "OrbitBounds") -> None:
         for name in self.__slots__:
             getattr(self, name)[index] = getattr(other, name)
 
-    def take(self, index: np.ndarray) -> "Outermost":
-        return Outermost(*[getattr(self, name)[index] for name in self.__slots__])
+    def take(self, index: np.ndarray) -> "OrbitBounds":
+        return OrbitBounds(*[getattr(self, name)[index] for name in self.__slots__])
 
 
-def outermost(kernel, cycle: Cycle) -> Outermost:
+def orbit_bounds(kernel, cycle: Cycle) -> OrbitBounds:
     """Bounds for cycles of strips that are not in saturated contact."""
     n = cycle.size
-    out = Outermost.blank(n)
+    out = OrbitBounds.blank(n)
     index = np.flatnonzero((cycle.half_b > 0) & (cycle.half_b < np.pi))
     if not index.size:
         return out

@@ -9,12 +9,12 @@ from scipy.integrate import quad
 
 import hystrip
 from hystrip.level.branches import rising
-from hystrip.level.carried import _CANCELLED as CANCELLED
-from hystrip.level.carried import CarriedByLaws
 from hystrip.level.law import Law
+from hystrip.level.lower_levels import _CANCELLED as CANCELLED
+from hystrip.level.lower_levels import LowerLevelLaws
 from hystrip.level.piece import Piece, graded
 from hystrip.level.resample import resampled
-from hystrip.level.strips import Columns
+from hystrip.level.strips import LevelBatch
 from hystrip.level.table import LawTable
 from hystrip.numerics.chebyshev import coefficients, lobatto
 
@@ -63,12 +63,12 @@ def table():
 
 @pytest.fixture(scope="module")
 def carry():
-    return CarriedByLaws(table(), RTOL, SCALES)
+    return LowerLevelLaws(table(), RTOL, SCALES)
 
 
 def _solved(V, material=SLS, edge="continuous", branch="unloading", shares=(0.2, 0.6, 2.0, 10.0)):
     D = np.repeat(np.array(shares) * LARGE.h, 8)
-    columns = Columns(material, WEAK, LARGE, edge, branch, np.full(D.size, V), D)
+    columns = LevelBatch(material, WEAK, LARGE, edge, branch, np.full(D.size, V), D)
     return columns, np.tile(np.linspace(0.0, 2.8, 8), len(shares))
 
 
@@ -148,7 +148,7 @@ def _stepwise(at, low, high, known_to=(0.0, 0.0)):
     branches = resampled([part for piece in pieces for part in rising(piece)], np.full((2, 4), 1e-9))
     branches = [replace(b, piece=replace(b.piece, error=error)) for b in branches]
     saturated = np.array([BREAKS[2], high, 1.0, 0.0])
-    return CarriedByLaws(LawTable([Law(branches, BREAKS[0], BREAKS[2], saturated, BREAKS[2], error, 0, True)]), RTOL, SCALES)
+    return LowerLevelLaws(LawTable([Law(branches, BREAKS[0], BREAKS[2], saturated, BREAKS[2], error, 0, True)]), RTOL, SCALES)
 
 
 def _carried(law, V=2e-3):

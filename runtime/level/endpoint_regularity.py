@@ -14,7 +14,7 @@ import numpy as np
 
 from ..orbit.regimes import CODE
 from .interval import Interval
-from .strips import Columns
+from .strips import LevelBatch
 
 #: distance from an end on both sides at which strips are looked at, as a share of the interval
 _BESIDE = 1e-9
@@ -22,9 +22,9 @@ _ENGAGED = np.array([CODE["c"], CODE["ac"], CODE["a"]])
 _STEADY = np.array([CODE["c"], CODE["a"]])
 
 
-def with_gentle_ends(columns: Columns, intervals: list[Interval]) -> list[Interval]:
-    """The intervals, with ``gentle_low`` and ``gentle_high`` where they seem so."""
-    ends = [(k, high) for k, i in enumerate(intervals) for high in (False, True) if not (i.soft_high if high else i.soft_low)]
+def with_endpoint_regularity(columns: LevelBatch, intervals: list[Interval]) -> list[Interval]:
+    """The intervals, with ``smooth_low`` and ``smooth_high`` where they seem so."""
+    ends = [(k, high) for k, i in enumerate(intervals) for high in (False, True) if not (i.inner_high if high else i.inner_low)]
     if not ends:
         return intervals
     which, high = np.array([k for k, _ in ends]), np.array([high for _, high in ends])
@@ -45,5 +45,5 @@ def with_gentle_ends(columns: Columns, intervals: list[Interval]) -> list[Interv
     whole &= own_edge & ((edge == beyond_edge) | np.isin(edge, _STEADY) & np.isin(beyond_edge, _STEADY))
     out = list(intervals)
     for k, upper in zip(which[whole], high[whole], strict=True):
-        out[k] = replace(out[k], **{"gentle_high" if upper else "gentle_low": True})
+        out[k] = replace(out[k], **{"smooth_high" if upper else "smooth_low": True})
     return out

@@ -12,7 +12,7 @@ import numpy as np
 
 from .boundaries import located
 from .changes import Changes, locate_changes
-from .strips import Columns
+from .strips import LevelBatch
 
 #: points across an island, and how often they are drawn closer to where it vanishes
 _ACROSS, _ROUNDS, _FEW = 9, 5, 2
@@ -27,7 +27,7 @@ _UNSEEN = 4.0
 
 
 @dataclass
-class Island:
+class IsolatedRegime:
     """Strips with ``code`` between the thetas ``low`` and ``high`` at penetration ``present``, none of them at ``absent``."""
 
     column: int
@@ -38,7 +38,7 @@ class Island:
     absent: float
 
 
-def island(column: int, D: np.ndarray, zones: list[np.ndarray], negligible: float) -> Island | None:
+def island(column: int, D: np.ndarray, zones: list[np.ndarray], negligible: float) -> IsolatedRegime | None:
     """The first change in the sequence of codes along y between two of the nodes ``D``; None if there is none.
 
     ``zones``: ``Averages.zones`` at the nodes; those no wider than ``negligible`` don't count.
@@ -56,7 +56,7 @@ def island(column: int, D: np.ndarray, zones: list[np.ndarray], negligible: floa
         code, low, high = one[min(same, len(one) - 1)]
         if high - low <= max(_UNSEEN * _blind(two, same), negligible):
             continue
-        return Island(column, int(code), low, high, *ends)
+        return IsolatedRegime(column, int(code), low, high, *ends)
     return None
 
 
@@ -68,7 +68,7 @@ def _blind(zones: np.ndarray, place: int) -> float:
     return 0.0
 
 
-def vanishing(columns: Columns, islands: list[Island], strips: np.ndarray, roughly: bool) -> np.ndarray:
+def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips: np.ndarray, roughly: bool) -> np.ndarray:
     """Penetrations at which the islands have shrunk to nothing, all at once; ``strips`` (per column) counts the work.
     NaN: it is not absent at all.
 
@@ -104,7 +104,7 @@ def vanishing(columns: Columns, islands: list[Island], strips: np.ndarray, rough
     return np.where(lasting, np.nan, present + top * way)
 
 
-def _ends(columns: Columns, column, code, theta, present, absent, width, strips) -> tuple[np.ndarray, np.ndarray]:
+def _ends(columns: LevelBatch, column, code, theta, present, absent, width, strips) -> tuple[np.ndarray, np.ndarray]:
     """Penetration between ``present`` and ``absent`` at which each strip (islands, across) loses the island's code, NaN where it
     has not got it or keeps it; and which keep it."""
     shape = theta.shape

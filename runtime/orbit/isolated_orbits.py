@@ -8,11 +8,11 @@ from .certificate import edges_admissible, stable
 from .groups import Cycle
 from .march import Orbit, between, lies_between
 from .refine import refined
-from .search import SearchResult, isolate, locate
+from .search import SearchResult, isolate_extremal, locate
 
 
 @dataclass(slots=True)
-class Sought:
+class IsolatedOrbits:
     """Outcome for n cycles: the extremal orbit, whether there is one, whether it passed its certificate, whether the search
     came to an end, and the evaluations spent."""
 
@@ -29,16 +29,16 @@ class Sought:
         return {sequence: np.flatnonzero(self.found & kind) for sequence, kind in kinds.items()}
 
 
-def sought(kernel, cycle: Cycle, last: bool, known: Orbit | None = None) -> Sought:
-    """The first (``last``: last) orbit on the onset arc of every cycle. ``known``: see ``search.isolate``."""
-    return at_zeros(kernel, cycle, isolate(kernel, cycle, last, known))
+def isolated_orbits(kernel, cycle: Cycle, last: bool, known: Orbit | None = None) -> IsolatedOrbits:
+    """The first (``last``: last) orbit on the onset arc of every cycle. ``known``: see ``search.isolate_extremal``."""
+    return at_zeros(kernel, cycle, isolate_extremal(kernel, cycle, last, known))
 
 
-def at_zeros(kernel, cycle: Cycle, result: SearchResult) -> Sought:
+def at_zeros(kernel, cycle: Cycle, result: SearchResult) -> IsolatedOrbits:
     """The orbits that are isolated, located and certified."""
     orbit, failed, spent = _located(kernel, cycle, result)
     certified = result.found & ~failed & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
-    return Sought(orbit, result.found, certified, ~result.unresolved, result.evaluations + spent)
+    return IsolatedOrbits(orbit, result.found, certified, ~result.unresolved, result.evaluations + spent)
 
 
 def _located(kernel, cycle: Cycle, result: SearchResult) -> tuple[Orbit, np.ndarray, np.ndarray]:

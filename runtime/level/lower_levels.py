@@ -15,7 +15,7 @@ import numpy as np
 from ..numerics.quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
 from ..orbit.contact import Contact
 from .parts import Parts, around, between
-from .strips import Columns, SolvedStrips
+from .strips import LevelBatch, SolvedStrips
 from .table import LawTable
 
 TWO_PI = 2 * np.pi
@@ -53,7 +53,7 @@ _MANY = _Nodes(16, 32, lambda t: t**4 * (35 - t * (84 - t * (70 - 20 * t))), lam
 
 
 @dataclass(frozen=True)
-class CarriedByLaws:
+class LowerLevelLaws:
     """Contributions of the next level down. ``table`` holds its law for each group; the last column is an error estimate of
     friction.
 
@@ -65,12 +65,12 @@ class CarriedByLaws:
     scales: np.ndarray
 
     def breaks(self, group: np.ndarray) -> np.ndarray:
-        """See ``strips.Carry``."""
+        """See ``strips.LowerLevels``."""
         return self.table.breaks[group]
 
     def crossed(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """See ``strips.Carry``: how many breaks the greatest pressure exceeds, and how many the pressure exceeds all along (or at
-        entry)."""
+        """See ``strips.LowerLevels``: how many breaks the greatest pressure exceeds, and how many the pressure exceeds all
+        along (or at entry)."""
         crossed = np.zeros(group.size, int)
         index, contact = strips.touching
         if index.size:
@@ -80,7 +80,7 @@ class CarriedByLaws:
         return crossed
 
     def heights(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """See ``strips.Carry``."""
+        """See ``strips.LowerLevels``."""
         out = np.full((group.size, 2 * self.table.breaks.shape[1]), np.nan)
         index, contact = strips.touching
         if index.size:
@@ -89,7 +89,7 @@ class CarriedByLaws:
         return out
 
     def over_contact(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """See ``strips.Carry``. The contributions are the law's quantities from friction on, then their error."""
+        """See ``strips.LowerLevels``. The contributions are the law's quantities from friction on, then their error."""
         carried = np.zeros((group.size, self.scales.size))
         index, contact = strips.touching
         if index.size:
@@ -223,7 +223,7 @@ def _by_strip(values, strip):
     return np.stack([np.bincount(strip, row)[strip] for row in values])
 
 
-def peak_pressure(columns: Columns) -> np.ndarray:
+def peak_pressure(columns: LevelBatch) -> np.ndarray:
     """Greatest local pressure of each column, Pa, (n,): at its crest, the most engaged strip; -inf without contact."""
     strips = columns.solve(np.arange(columns.size), np.zeros(columns.size))
     peak = np.full(columns.size, -np.inf)
