@@ -56,3 +56,14 @@ def tampered(folder: Path, file: str, before: str, after: str) -> ModuleType:
         return importlib.import_module(name)
     finally:
         sys.path.remove(str(folder))
+
+
+def altered(file: str, before: str, after: str) -> ModuleType:
+    """One module of the derivation in which ``before``, found exactly once in ``file``, reads ``after``; no other is changed."""
+    text = (SOURCES / file).read_text(encoding="utf-8")
+    assert text.count(before) == 1, f"{before!r} is in {file} {text.count(before)} times"
+    name = f"{hystrip.derivation.__name__}.altered_{next(_copies)}"
+    module = sys.modules[name] = ModuleType(name)
+    module.__package__ = hystrip.derivation.__name__
+    exec(compile(text.replace(before, after), str(SOURCES / file), "exec"), vars(module))
+    return module

@@ -24,6 +24,8 @@ from hystrip.derivation.pages.pictures import ADHESION, CONTACT, missed, scenes,
 from hystrip.derivation.paper.printed import PRINTED
 from hystrip.generated import standard_linear_solid
 
+pytestmark = pytest.mark.xdist_group("derivation")
+
 PAGE = "audit/standard_linear_solid.html"
 REPOSITORY = (generated_folder().parent / "pyproject.toml").is_file()  # not an installed wheel
 

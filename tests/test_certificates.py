@@ -14,6 +14,8 @@ from hystrip.derivation.certificates import measure
 from hystrip.derivation.drift import AIM, CERTIFICATES, bounds_of
 from hystrip.generated import stable, standard_linear_solid
 
+pytestmark = pytest.mark.xdist_group("derivation")
+
 NAMES = sorted(stored_bounds()["standard_linear_solid"])
 
 

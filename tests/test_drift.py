@@ -18,6 +18,8 @@ from hystrip.derivation.certificates import certified_names
 from hystrip.derivation.drift import CERTIFICATES, MEASURED, audit_texts, compare, write_files
 from hystrip.derivation.emit import emit
 
+pytestmark = pytest.mark.xdist_group("derivation")
+
 NAMES = [model.name for model in MODELS]
 FILES = ("__init__.py", "stable.py", "modes.py", *(f"{name}.py" for name in NAMES))
 PAGES = ("audit/index.html", *(f"audit/{name}.{kind}" for name in NAMES for kind in ("html", "json")))

@@ -41,6 +41,8 @@ from hystrip.derivation.modes.symbols import J_0, J, enter, eta, leave, share
 from hystrip.derivation.symbols import K
 from hystrip.generated import generalised, kelvin_voigt, modes
 
+pytestmark = pytest.mark.xdist_group("derivation")
+
 SOLVERS = {solver.MODEL: solver for solver in (kelvin_voigt, generalised)}
 
 

@@ -24,8 +24,8 @@ def executed(report):
 
 
 def spread(arguments):
-    """Options that use all cores, unless the caller says how many."""
-    return [] if any(a.startswith("-n") for a in arguments) else ["-n", "auto"]
+    """Options that use all cores, unless the caller says how many; tests that need the derivation share one."""
+    return [] if any(a.startswith("-n") for a in arguments) else ["-n", "auto", "--dist", "loadgroup"]
 
 
 def main(arguments):
