@@ -80,10 +80,10 @@ def test_no_orbit_out_of_reach_is_said_to_be_out_of_balance():
     cycle, orbit = known_orbits(strips(4, 40_000, "hanging"), unloading=True)
     s, onset = cycle.strips, -orbit.x
     for width in (0.0, 1e-4, 1e-2, 0.3):
-        balance_bound = balance.balance_bound(
+        surplus = balance.balance_bound(
             kernel, balance.at_rest(kernel, cycle), np.maximum(onset - width, 0), np.minimum(onset + width, np.pi)
         )
-        assert (balance_bound <= 0).all()
+        assert (surplus <= 0).all()
     room = -balance.balance_bound(kernel, balance.at_rest(kernel, cycle), onset, onset) / (1 + np.abs(s.D) + s.p_0)
     assert onset.size > 3000 and np.median(room[s.beta > 3e3]) < 0.01
 
@@ -103,8 +103,8 @@ def test_no_orbit_is_said_to_be_out_of_balance_beside_a_less_engaged_one():
         part, here, onset = cycle.take(use), known.take(use), -orbit.x[use]
         reference = balance.beside(kernel, part, here, end[use])
         for width in (0.0, 1e-4, 1e-2, 0.3):
-            balance_bound = balance.balance_bound(kernel, reference, np.maximum(onset - width, -here.x), onset + width)
-            assert (balance_bound <= 0).all()
+            surplus = balance.balance_bound(kernel, reference, np.maximum(onset - width, -here.x), onset + width)
+            assert (surplus <= 0).all()
         start, _ = exclusion.onsets_within(part, OrbitBounds.blank(use.size))
         proven, _ = balance.first(kernel, part, here, start, end[use])
         assert proven.any() == (known is not marches)

@@ -194,9 +194,9 @@ class _Work:
         """What is ``known`` at the first nodes of panels, and their thetas, with one more at either end: what is known beyond the
         outermost node, where nothing is what is known there."""
         theta = panels.low[:, None] + panels.width[:, None] * mapped(interior_nodes(_FIRST))
-        number, orbit_bounds = np.stack((panels.first, panels.last), axis=1), theta[:, [0, -1]]
+        number, outermost = np.stack((panels.first, panels.last), axis=1), theta[:, [0, -1]]
         place = self.beside[1][number]
-        beyond = (number >= 0) & (np.stack((orbit_bounds[:, 0] - place[:, 0], place[:, 1] - orbit_bounds[:, 1]), axis=1) > 0)
+        beyond = (number >= 0) & (np.stack((outermost[:, 0] - place[:, 0], place[:, 1] - outermost[:, 1]), axis=1) > 0)
         out = []
         for inner, ends in zip((*known, theta), (*self.ends, self.beside[1]), strict=True):
             outer = inner[:, [0, -1]]

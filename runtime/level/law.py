@@ -88,8 +88,8 @@ class Law:
             # a branch is left at one of its ends, and that tells where the law goes over to the next one
             left, entered = (b.p_low, b.p_high) if self.unloading else (b.p_high, b.p_low)
             errors[np.abs(p - left) <= aside] = b.piece.error[0]
-            orbit_bounds = (np.abs(p - entered) <= aside) & (errors == 0)
-            errors[orbit_bounds] = b.piece.error[0]
+            outermost = (np.abs(p - entered) <= aside) & (errors == 0)
+            errors[outermost] = b.piece.error[0]
         return jumps, errors
 
     def __call__(self, p: np.ndarray) -> np.ndarray:
