@@ -39,8 +39,8 @@ def signed(draw: Random, low: float, high: float) -> float:
 
 FAR = (-30, 48)  # decades of a length or pressure of a strip, in its amplitude: groups are admitted up to 1e18 times 1 + beta
 WIDE = "1e-30 .. 1e48"
-SI = (-20, 20)  # decades of inputs in SI
-SI_WIDE = "1e-20 .. 1e20"
+SI = (-40, 40)  # decades of inputs in SI: no input may be beyond
+SI_WIDE = "1e-40 .. 1e40"
 TRACTION = f"0 or {WIDE}"
 DOMAIN: dict[str, Range] = {
     "D": (
