@@ -19,7 +19,8 @@ derivative, then ``x + (I - M)^-1 (P(x) - x)`` is still below (above) the orbit.
 from dataclasses import dataclass
 from typing import Any
 
-from mpmath import mp
+import numpy as np
+from mpmath import fp, mp
 
 from .march import edges_of
 from .orbits import LOADING, UNLOADING, Unresolved
@@ -30,6 +31,10 @@ _GUARD = 40
 #: how close the ordered iteration has to come before Newton's method may end it
 _CLOSE = mp.mpf("1e-5")
 _SWEEPS = 4000
+#: to which a start for Newton's method is found in double precision
+_CLOSE_ENOUGH = 1e-8
+#: modes up to which a spectral radius is found to all digits
+_FEW = 3
 
 
 @dataclass(frozen=True)
@@ -48,7 +53,9 @@ class ModesSolution:
 
 class Foundation:
     """Relative moduli and times, and the modes of the gap: times ``lambdas``, ``z = sum weight_j v_j``, ``v = S e``,
-    ``e = back v``."""
+    ``e = back v``. ``context``: what computes with them, mpmath's floating-point numbers of many digits (or of 16)."""
+
+    context = mp
 
     def __init__(self, theta, m):
         self.theta, self.m = [mp.mpf(t) for t in theta], [mp.mpf(v) for v in m]
@@ -75,21 +82,34 @@ class Foundation:
         # under a constant pressure p each v_j tends to j_j p
         self.j = [mp.fsum(self.S[k, i] / self.theta[i] for i in range(n)) * self.J * self.lambdas[k] for k in range(n)]
 
+    def rounded(self):
+        """The same to double precision."""
+        near = object.__new__(Foundation)
+        near.context, near.n, near.J = fp, self.n, float(self.J)
+        for name in ("theta", "m", "lambdas", "weight", "j"):
+            setattr(near, name, [float(v) for v in getattr(self, name)])
+        near.S, near.back = fp.matrix(self.S), fp.matrix(self.back)
+        return near
+
 
 class ModesStrip:
     """Dimensionless strip: a ``Foundation``, ``P0 = p_0/(K A)``, ``Delta = delta_0/A``, ``delta = D/A``."""
 
     def __init__(self, foundation, P0, Delta, delta):
-        self.foundation = foundation
-        self.P0, self.Delta, self.delta = mp.mpf(P0), mp.mpf(Delta), mp.mpf(delta)
+        self.foundation, self.context = foundation, foundation.context
+        self.P0, self.Delta, self.delta = (self.context.mpf(value) for value in (P0, Delta, delta))
         self.mean = self.delta - 1
         self.J = foundation.J
         self.step = self.J * self.P0
         if self.P0 == 0:
-            self.Delta = mp.zero
+            self.Delta = self.context.zero
 
     def u(self, s):
-        return self.mean + mp.cos(s)
+        return self.mean + self.context.cos(s)
+
+    def rounded(self):
+        """The same to double precision."""
+        return ModesStrip(self.foundation.rounded(), self.P0, self.Delta, self.delta)
 
 
 # -- first crossings ---------------------------------------------------------------------------------------------------
@@ -98,9 +118,9 @@ class ModesStrip:
 class Event:
     """``G(s) = constant + a cos s + b sin s + sum c_i exp(-(s - start)/T_i)``, and its first zero if it starts >= 0."""
 
-    def __init__(self, start, constant, a, b, terms):
-        self.start, self.constant, self.a, self.b, self.terms = start, constant, a, b, terms
-        self.amplitude = mp.hypot(a, b)
+    def __init__(self, context, start, constant, a, b, terms):
+        self.context, self.start, self.constant, self.a, self.b, self.terms = context, start, constant, a, b, terms
+        self.amplitude = context.sqrt(a * a + b * b)
 
     def __call__(self, s):
         return self._parts(s)[0]
@@ -111,12 +131,13 @@ class Event:
     def _parts(self, s):
         """Value, a lower bound of the slope at all later phases but for curvature ``amplitude``, the slope, its
         curvature bound."""
-        cosine, sine = mp.cos_sin(s)
+        exp = self.context.exp
+        cosine, sine = self.context.cos_sin(s)
         value = self.constant + self.a * cosine + self.b * sine
         base = -self.a * sine + self.b * cosine
         slope, bound = base, self.amplitude
         for c, T in self.terms:
-            term = c * mp.exp(-(s - self.start) / T)
+            term = c * exp(-(s - self.start) / T)
             value += term
             slope -= term / T
             if c > 0:
@@ -131,7 +152,8 @@ class Event:
         From a point where G > 0 it steps as far as lower bounds of G stay positive: it approaches the first zero and
         cannot pass it.
         """
-        s, tolerance = self.start, mp.mpf(10) ** (14 - mp.dps)
+        s, mp = self.start, self.context
+        tolerance = 1e-14 if mp is fp else mp.mpf(10) ** (14 - mp.dps)
         for _ in range(20000):
             if s >= end:
                 return None
@@ -140,14 +162,14 @@ class Event:
                 if s > self.start or slope < 0:
                     return s  # by rounding, at the start or next to the zero
                 value = mp.zero  # a zone begins on the zero of the event that ended the one before
-            step = max(_reach(value, base, self.amplitude), _reach(value, slope, bound))
+            step = max(_reach(mp, value, base, self.amplitude), _reach(mp, value, slope, bound))
             if step < tolerance:
                 return s + step if s + step < end else None
             s += step
         raise ArithmeticError("first crossing did not converge")
 
 
-def _reach(value, slope, curvature):
+def _reach(mp, value, slope, curvature):
     """Positive zero of ``value + slope t - curvature t^2/2``."""
     root = mp.sqrt(slope * slope + 2 * curvature * value)
     if slope > 0:
@@ -170,7 +192,7 @@ class Zone:
 
 def zone_of(strip, engaged, e, s):
     """Zone of a point with this memory at phase s, and whether it is engaged there."""
-    f = strip.foundation
+    f, mp = strip.foundation, strip.context
     y = f.J * mp.fsum(m * each for m, each in zip(f.m, e, strict=True)) - strip.u(s)
     if strip.P0 == 0:
         return ("c" if y < 0 else "f"), True
@@ -182,7 +204,7 @@ def zone_of(strip, engaged, e, s):
 
 def advance(strip, letter, start, e, end):
     """Dashpot displacements at ``end`` within one zone, and the event functions of the zone: (event, next zone)."""
-    f = strip.foundation
+    f, mp = strip.foundation, strip.context
     if letter == "c":
         rest = lambda i, s: strip.mean + (mp.cos(s) + f.theta[i] * mp.sin(s)) / (1 + f.theta[i] ** 2)  # noqa: E731
         off = [e[i] - rest(i, start) for i in range(f.n)]
@@ -191,7 +213,7 @@ def advance(strip, letter, start, e, end):
             out = mp.fsum(m * t / (1 + t * t) for m, t in zip(f.m, f.theta, strict=True))
             terms = [(-m * c, t) for m, c, t in zip(f.m, off, f.theta, strict=True)]
             # p = mean + in_phase cos - out sin - sum m off exp
-            excess = Event(start, strip.mean + strip.P0, in_phase, -out, terms)
+            excess = Event(mp, start, strip.mean + strip.P0, in_phase, -out, terms)
             return [(excess, "f" if strip.P0 == 0 else "a")]
         return mp.matrix([rest(i, end) + off[i] * mp.exp(-(end - start) / f.theta[i]) for i in range(f.n)])
     p = -strip.P0 if letter == "a" else mp.zero
@@ -201,7 +223,7 @@ def advance(strip, letter, start, e, end):
         # gap = w - u, w = p + sum weight off exp (J + sum weight j = 1)
         terms = [(weight * c, t) for weight, c, t in zip(f.weight, off, f.lambdas, strict=True)]
         level = lambda L, sign: Event(  # noqa: E731
-            start, sign * (p - strip.mean - L), -sign, mp.zero, [(sign * c, t) for c, t in terms]
+            mp, start, sign * (p - strip.mean - L), -sign, mp.zero, [(sign * c, t) for c, t in terms]
         )
         if letter == "f":
             following = "c" if strip.P0 == 0 or strip.step >= strip.Delta else "a"
@@ -211,23 +233,33 @@ def advance(strip, letter, start, e, end):
     return f.back * mp.matrix(grown)
 
 
-def propagator(strip, letter, length):
-    """Derivative of the displacements at the end of a zone of this length by those at its start."""
-    f = strip.foundation
-    if letter == "c":
-        return mp.diag([mp.exp(-length / t) for t in f.theta])
-    return f.back * mp.diag([mp.exp(-length / t) for t in f.lambdas]) * f.S
+def propagated(strip, letter, length, before):
+    """What a zone of this length makes of the derivatives ``before`` (n, columns) of the displacements at its start."""
+    f, mp = strip.foundation, strip.context
+    times = f.theta if letter == "c" else f.lambdas
+    kept = [mp.exp(-length / t) for t in times]
+    rows = before.tolist() if letter == "c" else _product(mp, f.S.tolist(), before.tolist())
+    rows = [[k * v for v in row] for k, row in zip(kept, rows, strict=True)]
+    return mp.matrix(rows if letter == "c" else _product(mp, f.back.tolist(), rows))
 
 
-def period(strip, engaged, e, start):
-    """Follow a point for one turn: zones met, engaged at the end, displacements at the end, derivative of the map with
-    and without the gains at release and onset (the latter bounds the former from below)."""
-    f = strip.foundation
+def _product(mp, left, right):
+    """Product of two matrices, lists of rows."""
+    if mp is fp:
+        return (np.array(left) @ np.array(right)).tolist()
+    columns = list(zip(*right, strict=True))
+    return [[mp.fdot(zip(row, column, strict=True)) for column in columns] for row in left]
+
+
+def period(strip, engaged, e, start, gains=True):
+    """Follow a point for one turn: zones met, engaged at the end, displacements at the end, derivative of the map, and whether
+    it was never released. Without the ``gains`` at release and onset the derivative is bounded from below."""
+    f, mp = strip.foundation, strip.context
     n = f.n
     end = start + 2 * mp.pi
     letter, engaged = zone_of(strip, engaged, e, start)
     zones, s = [], start
-    exact, least = mp.eye(n), mp.eye(n)
+    change = mp.eye(n)
     never_released = engaged
     for _ in range(60):
         first, following = None, None
@@ -240,29 +272,28 @@ def period(strip, engaged, e, start):
         stop = end if first is None else first
         zones.append(Zone(letter, s, stop, e))
         e = advance(strip, letter, s, e, stop)
-        factor = propagator(strip, letter, stop - s)
-        exact, least = factor * exact, factor * least
+        change = propagated(strip, letter, stop - s, change)
         if first is None:
             break
         if strip.P0 > 0 and ("f" in (letter, following)):
             # w steps: the later (earlier) the event, the longer the dashpots feel the lower (higher) w
             jump = strip.step if following == "a" or letter == "a" else min(strip.step, strip.Delta)
             gain = jump / abs(cause.slope(first))
-            row = mp.matrix([[f.J * m for m in f.m]])
-            column = mp.matrix([1 / t for t in f.theta])
-            exact = exact + (gain * column) * (row * exact)
+            if gains:
+                row = _product(mp, [[f.J * m for m in f.m]], change.tolist())
+                change = change + mp.matrix(_product(mp, [[gain / t] for t in f.theta], row))
             never_released = False
         engaged = strip.P0 == 0 or following != "f"
         letter, s = following, stop
     else:
         raise ArithmeticError("too many zones in one period")
-    return zones, engaged, e, exact, least, never_released and engaged
+    return zones, engaged, e, change, never_released and engaged
 
 
 # -- the extremal orbit ------------------------------------------------------------------------------------------------
 
 
-def _solve(M, r):
+def _solve(mp, M, r):
     """``(I - M)^-1 r``."""
     return mp.lu_solve(mp.eye(M.rows) - M, r)
 
@@ -271,20 +302,22 @@ def _size(strip):
     return 1 + abs(strip.delta) + strip.P0 + strip.Delta
 
 
-def always_engaged(strip, start):
+def always_engaged(strip, start, e=None):
     """The one orbit of the strip that is never released: displacements at ``start`` and zones, as ``period`` gives them.
 
-    Raised by P0 it is a strip without traction. Its map is convex and contracts, so Newton's method rises to its fixed point.
+    Raised by P0 it is a strip without traction. Its map is convex and contracts, so Newton's method rises to its fixed point,
+    from wherever it starts.
     """
-    n = strip.foundation.n
+    n, mp = strip.foundation.n, strip.context
     bare = ModesStrip(strip.foundation, 0, 0, strip.delta + strip.P0)
-    e = mp.matrix([bare.delta - 1] * n)
+    e = mp.matrix([bare.delta - 1] * n) if e is None else e + mp.matrix([strip.P0] * n)
+    limit = _CLOSE_ENOUGH if mp is fp else mp.mpf(10) ** (20 - mp.dps)
     for _ in range(500):
-        zones, _, after, _, least, _ = period(bare, True, e, start)
-        step = _solve(least, after - e)
+        zones, _, after, least, _ = period(bare, True, e, start, gains=False)
+        step = _solve(mp, least, after - e)
         e = e + step
-        if mp.norm(step, mp.inf) < mp.mpf(10) ** (20 - mp.dps) * _size(strip):
-            zones = period(bare, True, e, start)[0]
+        if mp.norm(step, mp.inf) < limit * _size(strip):
+            zones = period(bare, True, e, start, gains=False)[0]
             lowered = [Zone(z.letter.replace("f", "a"), z.start, z.end, z.e - mp.matrix([strip.P0] * n)) for z in zones]
             return e - mp.matrix([strip.P0] * n), lowered, least
     raise Unresolved("always engaged orbit did not converge")
@@ -292,65 +325,108 @@ def always_engaged(strip, start):
 
 def stays_engaged(strip, zones):
     """Whether the gap of an always engaged orbit never exceeds Delta."""
-    turn = 2 * mp.pi
     for zone in zones:
         if zone.letter == "a":
             released = advance(strip, "a", zone.start, zone.e, None)[1][0]
             if released(zone.start) < 0 or released.first_zero(zone.end) is not None:
                 return False
-    return bool(turn)
+    return True
 
 
 def extremal(strip, branch):
-    """Zones of the extremal orbit from phase pi on, displacements there, and the derivative of its period map."""
-    start, n = +mp.pi, strip.foundation.n
+    """Zones of the extremal orbit from phase pi on, displacements there, and the derivative of its period map.
+
+    The orbit is found to double precision, and followed to the end from there; where that fails, from the start.
+    """
+    start, rough = +mp.pi, strip.rounded()
+    if strip.P0 == 0 and strip.delta <= 0:
+        return _free(strip, start)
+    try:
+        guess = mp.matrix(always_engaged(rough, float(start))[0])
+    except (Unresolved, ArithmeticError):
+        guess = None
+    lowest, zones, least = always_engaged(strip, start, guess)
     if strip.P0 == 0:
-        if strip.delta <= 0:
-            return _free(strip, start)
-        e, zones, least = always_engaged(strip, start)
         zones = [Zone(z.letter.replace("a", "f"), z.start, z.end, z.e) for z in zones]
-        return zones, e, least
-    lowest, zones, least = always_engaged(strip, start)
+        return zones, lowest, least
     admissible = stays_engaged(strip, zones)
     if branch == UNLOADING and admissible:
         return zones, lowest, least
     if branch == LOADING and strip.delta <= -strip.Delta:
         return _free(strip, start)
+    try:
+        found = _first(rough, branch, fp.matrix(lowest), float(start))
+        if isinstance(found, tuple):
+            orbit = _newton(strip, found[0], mp.matrix(found[1]), start, found[2])
+            found = _confirmed(strip, orbit, mp.matrix(found[1]))
+    except (Unresolved, ArithmeticError):
+        found = None
+    if found is None:
+        found = _first(strip, branch, lowest, start)
+        if isinstance(found, tuple):
+            found = _newton(strip, found[0], found[1], start, found[2])
+    if found == "free":
+        return _free(strip, start)
+    if found == "engaged":
+        if not admissible:
+            raise Unresolved("engaged all along, but the engaged orbit is not admissible")
+        return zones, lowest, least
+    return found
+
+
+def _confirmed(strip, orbit, near):
+    """An orbit where it is ``near`` enough, else None."""
+    close = orbit is not None and mp.norm(orbit[1] - near, mp.inf) < _CLOSE * _size(strip)
+    return orbit if close else None
+
+
+def _first(strip, branch, lowest, start):
+    """The first orbit by ordered iteration from ``lowest`` upwards (unloading) or from above: "free", "engaged", or whether it is
+    engaged at ``start``, its displacements there, and the letters of its zones."""
+    n, mp = strip.foundation.n, strip.context
     # below (unloading) or above (loading) every orbit
     engaged = branch == UNLOADING
     e = lowest if engaged else mp.matrix([max(strip.delta, 0)] * n)
+    if not engaged:
+        least = _longest(strip, lowest, start)
     scale, last = _size(strip), None
+    still = 1e-14 if mp is fp else mp.mpf(10) ** (25 - mp.dps)
     for _ in range(_SWEEPS):
-        zones, after_engaged, after, exact, bound, never_released = period(strip, engaged, e, start)
+        zones, after_engaged, after, bound, never_released = period(strip, engaged, e, start, gains=False)
+        letters = [zone.letter for zone in zones]
         if branch == LOADING:
             if never_released:
-                if not admissible:
-                    raise Unresolved("engaged all along, but the engaged orbit is not admissible")
-                _, zones, least = always_engaged(strip, start)
-                return zones, lowest, least
+                return "engaged"
             bound = least  # contact of the most engaged orbit: none has more
-        elif strip.delta <= -strip.Delta and all(zone.letter == "f" for zone in zones):
-            return _free(strip, start)
+        elif strip.delta <= -strip.Delta and all(letter == "f" for letter in letters):
+            return "free"
         if after_engaged == engaged:
-            newton = _newton(strip, engaged, e, start, [zone.letter for zone in zones])
-            if newton is not None and mp.norm(newton[1] - e, mp.inf) < _CLOSE * scale:
-                return newton
+            newton = _newton(strip, engaged, e, start, letters)
+            if newton is not None and mp.norm(newton[1] - e, mp.inf) < float(_CLOSE) * scale:
+                return engaged, newton[1], letters
             last = e
-            e = e + _solve(bound, after - e)
+            e = e + _solve(mp, bound, after - e)
         else:
             engaged, e = after_engaged, after
-        if last is not None and mp.norm(last - e, mp.inf) < mp.mpf(10) ** (25 - mp.dps) * scale:
+        if last is not None and mp.norm(last - e, mp.inf) < still * scale:
             raise Unresolved("iteration stands still away from an orbit: a graze")
     raise Unresolved("ordered iteration too slow: a fold is near")
 
 
+def _longest(strip, lowest, start):
+    """Derivative of the period map along the orbit that is never released, from its state ``lowest`` at ``start``."""
+    bare = ModesStrip(strip.foundation, 0, 0, strip.delta + strip.P0)
+    return period(bare, True, lowest + strip.context.matrix([strip.P0] * strip.foundation.n), start, gains=False)[3]
+
+
 def _newton(strip, engaged, e, start, letters):
     """Newton's method on the period map; None unless it converges within the same zones."""
-    limit = mp.mpf(10) ** (18 - mp.dps) * _size(strip)
+    mp = strip.context
+    limit = (_CLOSE_ENOUGH if mp is fp else mp.mpf(10) ** (18 - mp.dps)) * _size(strip)
     for _ in range(12):
         try:
-            zones, after_engaged, after, exact, _, _ = period(strip, engaged, e, start)
-            step = _solve(exact, after - e)
+            zones, after_engaged, after, exact, _ = period(strip, engaged, e, start)
+            step = _solve(mp, exact, after - e)
         except ZeroDivisionError:
             return None
         if after_engaged != engaged or [zone.letter for zone in zones] != letters:
@@ -358,7 +434,7 @@ def _newton(strip, engaged, e, start, letters):
         e = e + step
         if mp.norm(step, mp.inf) < limit:
             return (zones, e, exact) if radius(exact) < 1 else None
-        if mp.norm(step, mp.inf) > _CLOSE * 100 * _size(strip):
+        if mp.norm(step, mp.inf) > float(_CLOSE) * 100 * _size(strip):
             return None
     return None
 
@@ -367,13 +443,15 @@ def radius(matrix):
     """Spectral radius."""
     if matrix.rows == 1:
         return abs(matrix[0, 0])
-    return max(abs(value) for value in mp.eig(matrix, left=False, right=False))
+    if matrix.ctx is fp or matrix.rows > _FEW:
+        return max(abs(np.linalg.eigvals(np.array(matrix.tolist(), float))))
+    return max(abs(value) for value in matrix.ctx.eig(matrix, left=False, right=False))
 
 
 def _free(strip, start):
     zero = mp.zeros(strip.foundation.n, 1)
     end = start + 2 * mp.pi
-    return [Zone("f", start, end, zero)], zero, propagator(strip, "f", end - start)
+    return [Zone("f", start, end, zero)], zero, propagated(strip, "f", end - start, mp.eye(strip.foundation.n))
 
 
 # -- public ------------------------------------------------------------------------------------------------------------

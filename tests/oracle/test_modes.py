@@ -93,7 +93,7 @@ def test_extremal_orbits_are_where_plain_iteration_ends(seed):
             engaged = branch == "unloading"
             e = mp.matrix([-20 if engaged else 20] * 2)
             for _ in range(200):
-                zones, engaged, after, _, _, _ = modes.period(strip, engaged, e, +mp.pi)
+                zones, engaged, after, _, _ = modes.period(strip, engaged, e, +mp.pi)
                 moved, e = mp.norm(after - e, mp.inf), after
                 if moved < 1e-13:
                     break
