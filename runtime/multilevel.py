@@ -15,6 +15,7 @@ from .level.error_budget import error_budget
 from .level.inverse import Inverse, cut_penetration, invert
 from .level.lower_levels import LowerLevelLaws, peak_pressure
 from .level.means import level_means
+from .level.merge import merged
 from .level.nonadhesive.surface import NonadhesiveSurface
 from .level.saturated import SaturatedLevel, saturated_friction, saturated_level
 from .level.strips import QUANTITIES, LevelBatch
@@ -30,6 +31,8 @@ _BLOCK = 256
 #: trailing levels are left out whose friction, and whose pressure of saturation, are below this part of what counts: a tenth of a
 #: tolerance is not missed, and no scene of up to a dozen similar levels has any
 _TRAILING = 0.1
+#: part of the friction of level 1 that the frictions of all lower levels together may err relative to, beside themselves
+_SHARED = 0.2
 #: laws are built this much finer than what is asked of the result
 _FINER = 0.5
 
@@ -228,8 +231,8 @@ class _Solve:
         if not index.size:
             return
         columns = surface.columns(0, V[group], D)
-        carry = self._carry(stack, V, group, columns) if self.M > 1 else None
-        columns = surface.columns(0, V[group], D, carry, group)
+        if self.M > 1:
+            columns = self._carrying(stack, V, group, columns)
         means = level_means(columns, np.full(index.size, 0.5 * surface.rtol))
         self._write(index, found.take(touching), means)
 
@@ -283,12 +286,15 @@ class _Solve:
         self.out.p[index[off]] = load[off]
         return out
 
-    def _carry(self, stack: Stack, V, group, columns: LevelBatch) -> LowerLevelLaws:
-        """Laws of level 2, built from the smallest level upwards, each as far as the level above reaches."""
+    def _carrying(self, stack: Stack, V, group, columns: LevelBatch) -> LevelBatch:
+        """The columns of level 1 with the laws of level 2, built from the smallest level upwards, each as far as the level above
+        reaches."""
         surface = self.surface
         p_max = np.full(V.size, -np.inf)
         np.maximum.at(p_max, group, peak_pressure(columns))
         ceilings, budgets = [], [error_budget(columns, group)]
+        friction = np.full(V.size, np.inf)
+        np.minimum.at(friction, group, _SHARED / (self.M - 1) * budgets[0].friction)
         for i in range(1, self.M):
             ceilings.append(p_max)
             if i + 1 < self.M:
@@ -299,11 +305,13 @@ class _Solve:
         carry = None
         groups = np.arange(V.size)
         for i in range(self.M - 1, 0, -1):
-            level_columns = replace(surface.columns(i, V, None, carry, groups if carry else None), frictional=True)
+            level_columns = surface.columns(i, V, None, carry, groups if carry else None)
+            level_columns = replace(level_columns, frictional=True, friction=friction)
             saturated = stack.means(i)
+            rtol = np.full(V.size, _FINER * surface.rtol)
             laws = build_laws(
                 level_columns,
-                np.full(V.size, _FINER * surface.rtol),
+                rtol,
                 stack.p_full[i],
                 stack.D_full[i],
                 saturated,
@@ -312,8 +320,8 @@ class _Solve:
             )
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error
             scales = np.concatenate((level_columns.scales[1:], [_NO_SCALE]))
-            carry = LowerLevelLaws(LawTable(laws), surface.rtol, scales)
-        return carry
+            carry = LowerLevelLaws(LawTable(merged(laws, rtol, level_columns.floors)), surface.rtol, scales, friction)
+        return replace(columns, carry=carry, group=group, friction=friction[group])
 
     def _write(self, index, root: Inverse, means):
         out, values, errors, slopes = self.out, means.values, means.errors, root.slope

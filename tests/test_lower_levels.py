@@ -12,6 +12,7 @@ from hystrip.level.branches import rising
 from hystrip.level.law import Law
 from hystrip.level.lower_levels import _CANCELLED as CANCELLED
 from hystrip.level.lower_levels import LowerLevelLaws
+from hystrip.level.merge import merged
 from hystrip.level.piece import Piece, graded
 from hystrip.level.resample import resampled
 from hystrip.level.strips import LevelBatch
@@ -63,7 +64,7 @@ def table():
 
 @pytest.fixture(scope="module")
 def carry():
-    return LowerLevelLaws(table(), RTOL, SCALES)
+    return LowerLevelLaws(table(), RTOL, SCALES, np.zeros(1))
 
 
 def _solved(V, material=SLS, edge="continuous", branch="unloading", shares=(0.2, 0.6, 2.0, 10.0)):
@@ -148,16 +149,26 @@ def _stepwise(at, low, high, known_to=(0.0, 0.0)):
     branches = resampled([part for piece in pieces for part in rising(piece)], np.full((2, 4), 1e-9))
     branches = [replace(b, piece=replace(b.piece, error=error)) for b in branches]
     saturated = np.array([BREAKS[2], high, 1.0, 0.0])
-    return LowerLevelLaws(LawTable([Law(branches, BREAKS[0], BREAKS[2], saturated, BREAKS[2], error, 0, True)]), RTOL, SCALES)
+    return Law(branches, BREAKS[0], BREAKS[2], saturated, BREAKS[2], error, 0, True)
 
 
 def _carried(law, V=2e-3):
     columns, theta = _solved(V, shares=(0.2, 0.6))
     strips = columns.solve(np.arange(columns.size), theta)
+    law = LowerLevelLaws(LawTable([law]), RTOL, SCALES, np.zeros(1))
     index, contact = strips.touching
     inside = (contact.p_peak > BREAKS[1] + 500) & (contact.p_peak < BREAKS[2])
     assert inside.sum() >= 3
     return law.over_contact(strips, np.zeros(columns.size, int))[index[inside]]
+
+
+def test_branches_of_a_law_are_merged_where_a_smooth_one_is_as_good():
+    law, p = _stepwise(BREAKS[1], 2e4, 2.0005e4), np.linspace(BREAKS[0], BREAKS[2], 999)[1:-1]
+    for rtol, count in ((1e-2, 1), (1e-3, 2)):
+        (one,) = merged([law], np.array([rtol]), np.array([[0.0, 0.0, np.inf, np.inf]]))
+        assert len(one.branches) == count
+        added = one.branches[0].piece.error[1] - law.branches[0].piece.error[1]
+        assert np.abs(one(p) - law(p))[:, 1].max() <= added <= 0.2 * rtol * 2e4
 
 
 def test_a_misplaced_jump_of_a_law_is_in_the_error():

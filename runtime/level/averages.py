@@ -219,7 +219,7 @@ class _Work:
         sums = width * (mapped_weights(n) @ values)
         rounding = 4 * _EPS * width * np.abs(values).max(axis=1, initial=0.0)
         floors = self.columns.floors
-        noise = 0.1 * self.rtol[panels.state, None] * floors
+        noise = 0.1 * (self.rtol[:, None] * floors)[panels.state]
         error = width * sum_errors(values, noise) + rounding
         # what is not accepted yet counts for the size of the result, not for the result
         total = self.values.copy()

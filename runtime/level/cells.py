@@ -39,10 +39,12 @@ def cells_of(
     function: Callable[[np.ndarray, np.ndarray], np.ndarray],
     tolerance: np.ndarray,
     measure: Callable[[np.ndarray], np.ndarray],
+    smallest: int = 1,
 ) -> list[Cells]:
     """Several functions of [0, 1], each to its ``tolerance`` (functions, q).
 
     ``function``: (which (m,), x (m,)) -> (m, q). ``measure``: how much of what is averaged over lies below an x, 0 to 1.
+    ``smallest``: slots of the smallest cells.
     """
     transform, nodes, count = coefficients(np.eye(_DEGREE + 1)), lobatto(_DEGREE), tolerance.shape[0]
     which, start = np.repeat(np.arange(count), 2), np.tile([0, SLOTS // 2], count)
@@ -53,8 +55,8 @@ def cells_of(
         c = transform @ function(np.repeat(which, nodes.size), x.ravel()).reshape(*x.shape, -1)
         last = np.abs(c[:, -2:]).max(axis=1)
         done = (last <= _NEGLIGIBLE * tolerance[which]).all(axis=1)
-        if size == 1:
-            share = measure((start + 1) / SLOTS) - measure(start / SLOTS)
+        if size == smallest:
+            share = measure((start + size) / SLOTS) - measure(start / SLOTS)
             np.add.at(error, which[~done], share[~done, None] * last[~done] / _NEGLIGIBLE)
             done[:] = True
         found.append((which[done], c[done], start[done], np.full(np.count_nonzero(done), size)))

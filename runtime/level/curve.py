@@ -137,14 +137,14 @@ def _round(columns: LevelBatch, rtol, intervals: list[Interval], pieces, strips,
     batch.sample(_FIRST)
     if budget is not None:
         batch.weigh(budget, ceiling)
-    floor = columns.floors
+    floors = columns.floors
     parts: list[Interval] = []
     n, before = _FIRST, np.inf
     while batch.intervals and n < _LAST:
         n *= 2
         batch.sample(n)
         c = batch.coefficients
-        goal = batch.accuracy[:, None] * (np.abs(batch.values).min(axis=1) + floor)
+        goal = batch.accuracy[:, None] * (np.abs(batch.values).min(axis=1) + floors[batch.column])
         rounding = _rounding(columns, batch, n, c)
         error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1), rounding)
         # where next to nothing changes there is little to miss, whatever nobody marked there

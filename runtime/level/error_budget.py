@@ -68,4 +68,4 @@ def error_budget(columns: LevelBatch, group: np.ndarray) -> ErrorBudget:
     order = np.argsort(p, axis=1)
     p, share = (np.take_along_axis(v, order, axis=1) for v in (p, share))
     friction = np.abs(strips.tau_mean.reshape(n, _STRIPS).mean(axis=1))
-    return ErrorBudget(group, p, np.cumsum(share, axis=1), friction + columns.floors[1])
+    return ErrorBudget(group, p, np.cumsum(share, axis=1), friction + columns.floors[:, 1])

@@ -57,12 +57,14 @@ class LowerLevelLaws:
     """Contributions of the next level down. ``table`` holds its law for each group; the last column is an error estimate of
     friction.
 
-    ``scales`` (q,): natural scales of the contributions. ``rtol``: accuracy of the averages that they go into.
+    ``scales`` (q,): natural scales of the contributions. ``rtol``: accuracy of the averages that they go into;
+    ``friction`` (groups,): see ``LevelBatch``.
     """
 
     table: LawTable
     rtol: float
     scales: np.ndarray
+    friction: np.ndarray
 
     def breaks(self, group: np.ndarray) -> np.ndarray:
         """See ``strips.LowerLevels``."""
@@ -151,7 +153,7 @@ class LowerLevelLaws:
 
     def _attempt(self, contact: Contact, group, parts: Parts, total, nodes: _Nodes, last: bool = False) -> Parts:
         """Integrate on doubled ``nodes`` what converges; returns what does not (or takes it as it is)."""
-        frictions, floor = self.table.frictions, 1e-3 * self.scales[self.table.frictions, None]
+        frictions = self.table.frictions
         values, n = None, nodes.first
         while parts.size:
             t = interior_nodes(n)
@@ -166,6 +168,7 @@ class LowerLevelLaws:
             strip = parts.rows - parts.rows.min()
             size = np.abs(total[parts.rows][:, frictions].T) + _by_strip(np.abs(best[frictions]), strip)
             spread = contact.a[parts.rows] - contact.b[parts.rows]
+            floor = np.maximum(1e-3 * self.scales[frictions, None], self.friction[group[parts.rows]])
             allowed = _SHARE * self.rtol * (spread * floor + size) * parts.share
             friction = law[frictions]
             integrand = np.multiply(friction.T, steepness[:, None], order="C")

@@ -42,9 +42,9 @@ class Batch:
 
     def weigh(self, budget: ErrorBudget, ceiling: np.ndarray | None) -> None:
         """Let intervals be as coarse as what is asked of their pressures allows."""
-        p, frictions = self.values[:, :, 0], self.columns.frictions
+        p, frictions, floors = self.values[:, :, 0], self.columns.frictions, self.columns.floors[self.column]
         # what an accuracy is relative to, of its own friction and all that it carries
-        friction = (np.abs(self.values[:, :, frictions]).min(axis=1) + self.columns.floors[frictions]).sum(axis=1)
+        friction = (np.abs(self.values[:, :, frictions]).min(axis=1) + floors[:, frictions]).sum(axis=1)
         high = p.max(axis=1) if ceiling is None else np.minimum(p.max(axis=1), ceiling[self.column])
         ranges = zip(self.intervals, p.min(axis=1), high, friction, strict=True)
         factors = [(i, max(i.tolerance_factor, budget.tolerance_factor(i.column, *of))) for i, *of in ranges]

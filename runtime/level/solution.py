@@ -243,7 +243,7 @@ def friction_law(
         # contact begins at zero pressure, and there is none at it
         pull_off, law = 0.0, replace(law, pull_off=np.finfo(float).tiny)
     greatest = np.abs(law(law.supports)[:, 1]).max(initial=0.0)
-    converged = bool(not work.limits and law.friction_error <= rtol * (greatest + columns.floors[1]))
+    converged = bool(not work.limits and law.friction_error <= rtol * (greatest + columns.floors[0, 1]))
     if not converged:
         reason = f"V {float(V):g}: {work.reason(float(V))}"
         message = f"the friction law did not converge to rtol = {rtol:g}; {reason} (see error_estimate)"

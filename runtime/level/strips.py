@@ -49,8 +49,9 @@ class LevelBatch:
 
     ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
     laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels. ``frictional``: it is for
-    pressure and friction that the averages are made; fractions need be accurate against 1 only. ``crossings``: points located of
-    the curves that divide the plane of strips, shared by all that is made of these columns.
+    pressure and friction that the averages are made; fractions need be accurate against 1 only. ``friction`` (n,): Pa, that
+    the accuracy of any friction may be relative to as well as to its own size, for it adds to others. ``crossings``: points
+    located of the curves that divide the plane of strips, shared by all that is made of these columns.
     """
 
     material: Material
@@ -64,13 +65,14 @@ class LevelBatch:
     group: np.ndarray | None = None
     strips: int | None = None
     frictional: bool = False
+    friction: np.ndarray | None = None
     work: WorkCounters = field(default_factory=WorkCounters, compare=False)
     crossings: Crossings = field(default_factory=Crossings, compare=False)
 
     def at(self, index, D) -> LevelBatch:
         """The columns ``index`` at other penetrations ``D``."""
-        group = None if self.group is None else self.group[index]
-        return replace(self, V=self.V[index], D=D, group=group)
+        group, friction = (None if v is None else v[index] for v in (self.group, self.friction))
+        return replace(self, V=self.V[index], D=D, group=group, friction=friction)
 
     @property
     def size(self) -> int:
@@ -85,12 +87,13 @@ class LevelBatch:
 
     @property
     def floors(self) -> np.ndarray:
-        """What is added to the size of each quantity where an accuracy is relative."""
-        floors = 1e-3 * self.scales
+        """What is added to the size of each quantity where an accuracy is relative, (n, q)."""
+        floors = np.tile(1e-3 * self.scales, (self.size, 1))
         if self.frictional:
-            own, carried = len(QUANTITIES), floors.size - 1
-            fractions = [2, 3, *(i for i in range(own, carried) if (i - own) % 3)]
-            floors[fractions] = 1.0
+            own, carried = len(QUANTITIES), floors.shape[1] - 1
+            floors[:, [2, 3, *(i for i in range(own, carried) if (i - own) % 3)]] = 1.0
+        if self.friction is not None:
+            floors[:, self.frictions] = np.maximum(floors[:, self.frictions], self.friction[:, None])
         return floors
 
     def solve(self, column: np.ndarray, theta: np.ndarray) -> SolvedStrips:

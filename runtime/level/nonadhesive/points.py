@@ -39,7 +39,7 @@ def family_means(columns: LevelBatch, rtol: np.ndarray, p: np.ndarray | None = N
     unit = np.array((K * level.h, K * level.h * level.k * level.h, 1.0))
     V, group = np.unique(columns.V, return_inverse=True)
     load = columns.D / level.h if p is None else p / unit[0]
-    floors = columns.floors[:3]
+    floors = columns.floors[0, :3]
     D, finer = load.copy(), np.ones(n)
     for _ in range(_ATTEMPTS):
         left = np.flatnonzero(~certain)
