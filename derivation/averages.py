@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from . import stable
-from .check import REPRODUCED, Check, Derived, derived, zero
+from .check import Check, Derived, derived, zero
 from .flows import Flows
 from .functions import Formula, either, loss_mean, written_out
 from .kernel import Kernel
@@ -41,7 +41,6 @@ def contact_integrals(flows: Flows) -> Derived:
         latex=r"\int_{s_0}^{s_1} p\,ds,\quad \int_{s_0}^{s_1} u\,ds,\quad \int_{s_0}^{s_1} p\,u'\,ds",
         checks=checks,
         paper="Eq. 11",
-        status=REPRODUCED,
         emitted=("profile_integral", "contact_work"),
     )
 
@@ -58,7 +57,6 @@ def relaxation_integrals(flows: Flows) -> Derived:
         latex=r"\int_{s_0}^{s_1} p\,ds = p\,(s_1 - s_0),\quad \int_{s_0}^{s_1} w\,ds,\quad p\,[u]_{s_0}^{s_1}",
         checks=checks,
         paper="Eq. 11",
-        status=REPRODUCED,
         emitted=("relaxation_integral", "profile_rise"),
     )
 
@@ -121,7 +119,6 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
         latex=r"\bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds",
         checks=checks,
         paper="Eq. 11",
-        status=REPRODUCED,
         emitted=(name,),
     )
     return Kernel(formula, exact, record)
@@ -144,7 +141,6 @@ def constant_means(regime: Regime) -> Kernel:
         latex=rf"\bar p = {sp.latex(zone.load)},\quad \bar\tau = 0",
         checks=checks,
         paper="Eq. 11",
-        status=REPRODUCED,
         emitted=(name,),
     )
     return Kernel(formula, exact, record)

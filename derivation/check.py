@@ -78,11 +78,15 @@ def derived(
     latex: str,
     checks: tuple[Check, ...] | list[Check],
     paper: str = "",
-    status: str = BEYOND,
+    status: str = "",
     correction: str = "",
     emitted: tuple[str, ...] = (),
 ) -> Derived:
-    """Assemble a :class:`Derived`; it must have passed at least one check."""
+    """Assemble a :class:`Derived`; it must have passed at least one check.
+
+    ``status``: that of the paper's equation, or, without one, beyond the paper; to be given where the print needs a correction.
+    """
+    status = status or (REPRODUCED if paper else BEYOND)
     if not checks:
         raise DerivationError(name, "has no check")
     if status not in STATUSES or (status == CORRECTED) != bool(correction):

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from .check import BEYOND, CORRECTED, Derived, derived, holds, zero
+from .check import CORRECTED, Derived, derived, holds, zero
 from .regime import Regime
 from .strip import TIMES, Strip
 from .surface import AMPLITUDE, HEIGHT, PENETRATION
@@ -123,7 +123,6 @@ def strip_problem(strip: Strip, discrete: Regime) -> Derived:
         latex=r"g(d) = \delta_0,\quad g(b) = 0,\quad p(b) = -p_0,\quad p(-a) = -p_0,\quad g(-c) = \delta_0,\quad "
         r"[w]_d = -\chi J_0 p_0,\quad [w]_{-c} = \chi J_0 p_0,\quad w(x + l) = w(x)",
         checks=checks,
-        status=BEYOND,
         emitted=("residual_acaf",),
     )
 

@@ -134,7 +134,6 @@ def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
                      in_half_angles(composed[1] - exact[1].subs(tilted), *ANGLES), phases=(s_0, s_1)),
             ],
             paper="Eq. 15",
-            status="reproduced",
             emitted=(name,),
         ),
     )  # fmt: skip

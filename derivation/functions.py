@@ -8,6 +8,7 @@ that SymPy derived.
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -16,163 +17,111 @@ import sympy as sp
 
 
 class Helper(sp.Function):
-    """A stable helper function. ``meaning`` is its mathematical definition."""
+    """A function that stands for itself in a formula. ``meaning`` is its mathematical definition, where it has one."""
 
-    @classmethod
-    def meaning(cls, *args: sp.Expr) -> sp.Expr:
+    @staticmethod
+    def meaning(*args: sp.Expr) -> sp.Expr:
         raise NotImplementedError
 
 
-class decay(Helper):
-    nargs = 2
-
-    @classmethod
-    def meaning(cls, tau, T):
-        return sp.exp(-tau / T)
-
-
-class decay_loss(Helper):
-    nargs = 2
-
-    @classmethod
-    def meaning(cls, tau, T):
-        return sp.exp(-tau / T) - 1
+def helper(meaning: Callable[..., sp.Expr]) -> type[Helper]:
+    """The helper of the name, the arguments and the meaning of a function."""
+    count = len(inspect.signature(meaning).parameters)
+    inside = {"nargs": count, "meaning": staticmethod(meaning), "__doc__": meaning.__doc__, "__module__": meaning.__module__}
+    return type(meaning.__name__, (Helper,), inside)
 
 
-class decay_rate(Helper):
-    nargs = 2
-
-    @classmethod
-    def meaning(cls, tau, T):
-        return sp.exp(-tau / T) / T
+@helper
+def decay(tau, T):
+    return sp.exp(-tau / T)
 
 
-class decay_mean(Helper):
-    nargs = 2
-
-    @classmethod
-    def meaning(cls, tau, T):
-        return T / tau * (1 - sp.exp(-tau / T))
+@helper
+def decay_loss(tau, T):
+    return sp.exp(-tau / T) - 1
 
 
-class loss_mean(Helper):
-    nargs = 2
-
-    @classmethod
-    def meaning(cls, tau, T):
-        return 1 - T / tau * (1 - sp.exp(-tau / T))
+@helper
+def decay_rate(tau, T):
+    return sp.exp(-tau / T) / T
 
 
-class loss_mean_twice(Helper):
-    nargs = 2
-
-    @classmethod
-    def meaning(cls, tau, T):
-        return 1 - 2 * T / tau * (1 - T / tau * (1 - sp.exp(-tau / T)))
+@helper
+def decay_mean(tau, T):
+    return T / tau * (1 - sp.exp(-tau / T))
 
 
-class expm1(Helper):
+@helper
+def loss_mean(tau, T):
+    return 1 - T / tau * (1 - sp.exp(-tau / T))
+
+
+@helper
+def loss_mean_twice(tau, T):
+    return 1 - 2 * T / tau * (1 - T / tau * (1 - sp.exp(-tau / T)))
+
+
+@helper
+def expm1(x):
     """exp(x) - 1; NumPy's own."""
-
-    nargs = 1
-
-    @classmethod
-    def meaning(cls, x):
-        return sp.exp(x) - 1
+    return sp.exp(x) - 1
 
 
-class divisible(Helper):
+@helper
+def divisible(T):
     """A relaxation time that can be divided by, also where it vanishes."""
-
-    nargs = 1
-
-    @classmethod
-    def meaning(cls, T):
-        return T
+    return T
 
 
-class per_time(Helper):
+@helper
+def per_time(x, T):
     """x/T; 0 where T = 0."""
-
-    nargs = 2
-
-    @classmethod
-    def meaning(cls, x, T):
-        return x / T
+    return x / T
 
 
-class sine_deficit(Helper):
-    nargs = 1
-
-    @classmethod
-    def meaning(cls, angle):
-        return angle - sp.sin(angle)
+@helper
+def sine_deficit(angle):
+    return angle - sp.sin(angle)
 
 
-class sine_lag(Helper):
+@helper
+def sine_lag(tau, T):
     """sin(tau) less its lag over the same time, the integral of exp(-t/T)."""
-
-    nargs = 2
-
-    @classmethod
-    def meaning(cls, tau, T):
-        return sp.sin(tau) - T * (1 - sp.exp(-tau / T))
+    return sp.sin(tau) - T * (1 - sp.exp(-tau / T))
 
 
-class either(Helper):
+@helper
+def either(width, short, wide):
     """A form for short zones and one for wide ones, proven to be the same by whoever has both."""
-
-    nargs = 3
-
-    @classmethod
-    def meaning(cls, width, short, wide):
-        return short
+    return short
 
 
-class versine(Helper):
-    nargs = 1
-
-    @classmethod
-    def meaning(cls, angle):
-        return 1 - sp.cos(angle)
+@helper
+def versine(angle):
+    return 1 - sp.cos(angle)
 
 
-class hypot(Helper):
-    nargs = 2
-
-    @classmethod
-    def meaning(cls, one, other):
-        return sp.sqrt(one**2 + other**2)
+@helper
+def hypot(one, other):
+    return sp.sqrt(one**2 + other**2)
 
 
-class quotient(Helper):
+@helper
+def quotient(upper, lower):
     """A ratio whose denominator may vanish: infinite there."""
-
-    nargs = 2
-
-    @classmethod
-    def meaning(cls, upper, lower):
-        return upper / lower
+    return upper / lower
 
 
-class arc_half(Helper):
+@helper
+def arc_half(to_top, to_bottom):
     """Half width of the arc where a cosine is above a level, from twice its distances to 1 and to -1 (times any scale)."""
-
-    nargs = 2
-
-    @classmethod
-    def meaning(cls, to_top, to_bottom):
-        return sp.acos((to_bottom - to_top) / (to_bottom + to_top))
+    return sp.acos((to_bottom - to_top) / (to_bottom + to_top))
 
 
-class stack_sum(Helper):
+@helper
+def stack_sum(term):
     """Sum over the levels, which lie along the last axis."""
-
-    nargs = 1
-
-    @classmethod
-    def meaning(cls, term):
-        return cls(term)
+    return stack_sum(term)
 
 
 HELPERS = (

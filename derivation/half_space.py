@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from .check import BEYOND, Derived, derived, zero
+from .check import Derived, derived, zero
 from .surface import HEIGHT, mean_over_wave
 from .symbols import V, k, l, x, y
 
@@ -51,7 +51,6 @@ def stiffness_under_a_wave() -> Derived:
         "itself. With a constant Poisson ratio the same holds for a complex modulus.",
         latex=r"\frac{p}{w} = \frac{E\,q}{2\,(1 - \nu^2)}",
         checks=checks,
-        status=BEYOND,
     )
 
 
@@ -90,7 +89,6 @@ def foundation_of_a_level(stiffness: sp.Expr) -> Derived:
         "In partial contact it is an approximation: points of the foundation do not feel their neighbours.",
         latex=r"K(i\omega) = c\,\frac{\pi}{l}\,\frac{E(i\omega)}{1 - \nu^2},\quad c = \frac{1/2 + \sqrt{2}/4}{3/4}",
         checks=checks,
-        status=BEYOND,
     )
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from .check import BEYOND, DerivationError, Derived, derived, holds, zero
+from .check import DerivationError, Derived, derived, holds, zero
 from .strip import TIMES, Strip
 from .symbols import J, chi, s
 
@@ -51,7 +51,6 @@ def jump_law(strip: Strip) -> Derived:
         "gives the step of w.",
         latex=r"\int_{0^-}^{0^+}(w + \beta w' - p - \alpha p')\,ds = \beta [w] - \alpha [p] = 0 \;\Rightarrow\; [w] = J [p]",
         checks=checks,
-        status=BEYOND,
     )
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import sympy as sp
 
 from .averages import ZoneIntegrals
-from .check import REPRODUCED, Derived, derived, zero
+from .check import Derived, derived, zero
 from .functions import written_out
 from .regime import Regime
 from .sequences import ADHESION, CONTACT, PERIOD
@@ -58,7 +58,6 @@ def balance_of_load(by: Callable, touching: Sequence[Any], unbalanced: Sequence[
         latex=r"\bar p = \frac{1}{l^2} \iint_{\Omega} p(x, y)\,dx\,dy",
         checks=checks,
         paper="Eq. 7",
-        status=REPRODUCED,
         emitted=tuple(f"means_{regime.sequence}" for regime in touching),
     )
 
@@ -108,7 +107,6 @@ def contact_area(regimes: Sequence[Any]) -> Derived:
         latex=r"A = 2 \Delta \sum_{j=1}^{N} (a_j + b_j),\quad l = 2 N \Delta",
         checks=checks,
         paper="Eq. 9",
-        status=REPRODUCED,
     )
 
 

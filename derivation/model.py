@@ -8,7 +8,7 @@ from typing import Any
 
 import sympy as sp
 
-from .check import BEYOND, CORRECTED, REPRODUCED, Check, DerivationError, Derived, derived, holds, zero
+from .check import BEYOND, CORRECTED, Check, DerivationError, Derived, derived, holds, zero
 from .membership import constant_coefficients
 from .symbols import rate
 
@@ -153,7 +153,6 @@ def law_record(by: Callable[..., Any], law: Any, latex: str, checks: list[Check]
         latex=latex,
         checks=checks,
         paper="Eq. 1",
-        status=REPRODUCED,
     )
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import sympy as sp
 
 from . import stable
-from .check import BEYOND, REPRODUCED, Check, Derived, derived, holds, zero
+from .check import Check, Derived, derived, holds, zero
 from .flows import Flows
 from .functions import Formula
 from .kernel import Kernel, kernel
@@ -111,7 +111,6 @@ def field_kernels(flows: Flows, modulus: tuple[sp.Expr, sp.Expr]) -> tuple[Kerne
             r"p_{sat} = D - 1 + \frac{(1 + \alpha\beta)\cos s - (\beta - \alpha)\sin s}{1 + \alpha^2}",
             *own,
             paper="Eq. 15",
-            status=REPRODUCED,
         ),
         kernel(
             field_kernels,
@@ -155,7 +154,6 @@ def means(flows: Flows, pressure: sp.Expr) -> Kernel:
             latex=r"\bar p = D - 1,\quad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds = \frac{L\beta}{2(1 + \alpha^2)}",
             checks=checks,
             paper="Eq. 11",
-            status=REPRODUCED,
             emitted=(name,),
         ),
     )
@@ -193,5 +191,4 @@ def threshold_record(by: Callable[..., Any], R: sp.Expr, ratio: str, checks: lis
         statement="A strip is in complete contact when the least pressure of Eq. 15 is not below -p_0.",
         latex=rf"D_j \ge A(1 + {ratio}) - p_0/K",
         checks=checks,
-        status=BEYOND,
     )

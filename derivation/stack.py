@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from .check import BEYOND, Derived, derived, holds, zero
+from .check import Derived, derived, holds, zero
 from .level import TIMES, WAVE, Level
 from .saturated import MODULUS, Saturated
 from .strip import Strip
@@ -65,7 +65,6 @@ def least_pressure(threshold: sp.Expr, saturation: sp.Expr) -> Derived:
         latex=r"\min p = p_i - \tfrac14 K h_i (2 R_i - 1),\quad P_M = p_{sat,M},\quad "
         r"P_i = \max\left(p_{sat,i},\ P_{i+1} + \tfrac14 K h_i (2 R_i - 1)\right)",
         checks=checks,
-        status=BEYOND,
         emitted=("level_saturation_pressure",),
     )
 
@@ -111,6 +110,5 @@ def levels_together(strip: Strip, one_level: sp.Expr) -> Derived:
         latex=r"\bar\tau = \tfrac12 \sum_n n k A_n^2\,\mathrm{Im}\,K^*(i n k V),\quad "
         r"\bar\tau = \sum_i \tau_{sat}(h_i, l_i)",
         checks=checks,
-        status=BEYOND,
         emitted=("saturated_stack_friction",),
     )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from .check import BEYOND, REPRODUCED, Derived, derived, zero
+from .check import Derived, derived, zero
 from .model import Foundation
 from .surface import AMPLITUDE, HEIGHT, PENETRATION
 from .symbols import A, D, D_j, D_level, J, K, L, T_eps, T_sigma, V, alpha, beta, delta_0, k, p_0, s, t, x
@@ -67,7 +67,6 @@ def adhesion_law() -> Derived:
         latex=r"p = -p_0\ (0 < g \le \delta_0),\quad p = 0\ (g > \delta_0),\qquad \gamma = \int p_0\,dg = p_0 \delta_0",
         checks=checks,
         paper="Eq. 2, 3",
-        status=REPRODUCED,
     )
 
 
@@ -93,7 +92,6 @@ def strip_profile() -> Derived:
         latex=r"u(s) = D - 1 + \cos s,\quad A = \tfrac h4 (1 + \cos k y),\quad D_j = D - \tfrac h2 (1 - \cos k y)",
         checks=checks,
         paper="Eq. 4, 8",
-        status=REPRODUCED,
         emitted=("profile", "profile_slope", "profile_rise"),
     )
 
@@ -119,7 +117,6 @@ def moving_frame(foundation: Foundation) -> Derived:
         latex=sp.latex(equation),
         checks=checks,
         paper="Eq. 5",
-        status=REPRODUCED,
     )
 
 
@@ -152,7 +149,6 @@ def dimensionless_groups(foundation: Foundation) -> Derived:
         latex=r"w + \beta w' = p + \alpha p',\quad \alpha = k V T_\sigma,\quad \beta = k V T_\epsilon,"
         r"\quad J = T_\sigma/T_\epsilon,\quad L = 1 - J",
         checks=checks,
-        status=BEYOND,
     )
 
 

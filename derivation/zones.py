@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from . import stable
-from .check import BEYOND, derived, zero
+from .check import derived, zero
 from .contact import contact, contact_state
 from .flows import Flows
 from .jumps import Jumps
@@ -93,7 +93,6 @@ def load(flows: Flows) -> tuple[Kernel, ...]:
             "has at a zero a slope of the sign of that harmonic: its upward and downward zeros lie in these arcs.",
             latex=r"\text{centre} = -\arctan\beta,\quad \text{half} = \arccos\frac{1 - D - e}{\sqrt{1 + \beta^2}}",
             checks=checks,
-            status=BEYOND,
             emitted=(name,),
         ),
     )

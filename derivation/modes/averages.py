@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..check import REPRODUCED, Derived, derived
+from ..check import Derived, derived
 from .states import J_j, p, summed, w
 from .symbols import J_0
 
@@ -35,6 +35,5 @@ def strip_means() -> Derived:
         latex=r"\bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds",
         checks=checks,
         paper="Eq. 11",
-        status=REPRODUCED,
         emitted=tuple(f"means_{sequence}" for sequence in ("acaf", "afc", "af", "ac", "a", "f")),
     )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..check import BEYOND, Derived, derived, zero
+from ..check import Derived, derived, zero
 
 eps = sp.Symbol("epsilon")  # a small number
 z, dz, q, q_0, q_1, r_dz, r_z, r_0, r_1 = sp.symbols("z dz q q_0 q_1 r_dz r_z r_0z r_1z", commutative=False)
@@ -93,7 +93,6 @@ def chain_rule(period: Derived) -> Derived:
         latex=r"dz \to dz - R\,dz + m,\quad m = \partial_{s_0}\Delta z\,ds_0 + \partial_{s_1}\Delta z\,ds_1;\qquad "
         r"m = m_2 + m_1 - R_2 m_1;\qquad R\,dz = m",
         checks=checks,
-        status=BEYOND,
         emitted=tuple(f"{kind}_{sequence}" for kind in ("jacobian", "return_map") for sequence in ("acaf", "afc", "af", "ac")),
     )
 

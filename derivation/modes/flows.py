@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..check import REPRODUCED, Derived, derived, zero
+from ..check import Derived, derived, zero
 from ..flows import solved
 from ..symbols import D, alpha, beta, p, s, s_0
 from .symbols import J, eta, f_0, z_0
@@ -46,7 +46,6 @@ def relaxation_flow() -> Derived:
         latex="z_j(s) = J_j p + (z_{j,0} - J_j p)\\,e^{-(s - s_0)/\\beta_j},\\quad w = J_0 p + \\sum_j z_j",
         checks=checks,
         paper="Eq. 5",
-        status=REPRODUCED,
         emitted=("relaxation_after",),
     )
 
@@ -69,6 +68,5 @@ def contact_flow() -> Derived:
         r"f_{sat,i} = \eta_i\frac{\alpha_i \cos s - \sin s}{1 + \alpha_i^2},\quad p = u + \sum_i f_i",
         checks=checks,
         paper="Eq. 5, 15",
-        status=REPRODUCED,
         emitted=("overstress_after", "contact_pressure"),
     )

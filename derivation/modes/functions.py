@@ -14,7 +14,7 @@ from typing import Any
 import sympy as sp
 
 from ..averages import adhesive_rise
-from ..check import BEYOND, Derived, derived, zero
+from ..check import Derived, derived, zero
 from ..functions import Call, Formula, Helper, stack_sum
 from ..sequences import ADHESION, CONTACT, PERIOD
 from ..stable import PROFILE, PROFILE_INTEGRAL, PROFILE_RISE, PROFILE_SLOPE
@@ -125,7 +125,6 @@ def period_map() -> Derived:
         "accumulated, not what is kept: slow modes forget little, and that little keeps its digits.",
         latex=rf"c = {sp.latex(drive)},\quad R = {sp.latex(forget)}",
         checks=[zero(name, "for matrices, which do not commute", sp.expand(twice - (state + drive - forget * state)))],
-        status=BEYOND,
         emitted=tuple(f"state_{sequence}" for sequence in ("acaf", "afc", "af", "ac")),
     )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..check import BEYOND, DerivationError, Derived, derived, holds, zero
+from ..check import DerivationError, Derived, derived, holds, zero
 from ..model import Model
 from ..symbols import alpha, beta, s
 from .symbols import J_0, J, S, eta
@@ -45,7 +45,6 @@ def jump_law() -> Derived:
         latex=r"\int_{0^-}^{0^+}(z_j + \beta_j z_j' - J_j p)\,ds = \beta_j [z_j] = 0,\quad "
         r"\int_{0^-}^{0^+}(f_i + \alpha_i f_i' - \eta_i w')\,ds = \alpha_i [f_i] - \eta_i [w] = 0\;\Rightarrow\; [w] = J_0 [p]",
         checks=checks,
-        status=BEYOND,
     )
 
 

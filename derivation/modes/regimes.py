@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..check import BEYOND, Check, Derived, derived, zero
+from ..check import Check, Derived, derived, zero
 from ..inequality import Inequality, relation, require
 from ..regime import in_order
 from ..regimes import out_of_reach, within_reach
@@ -176,7 +176,6 @@ def _partial(by, sequence, onset, admissible) -> ModeRegime:
         "the edges from one event each.",
         latex=r"R z = c,\qquad \text{" + "; ".join(_meanings(zones, edges)) + "}",
         checks=[obeys_jump_law(name, zones, J_0, "[w] = J_0 [p]"), _period(name, zones)],
-        status=BEYOND,
         emitted=tuple(f"{kind}_{sequence}" for kind in ("state", "residual", "jacobian", "return_map")),
     )
     return ModeRegime(sequence, TITLES[sequence], zones, edges, *onset, admissible, record)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..check import CORRECTED, REPRODUCED, Check, Derived, derived, holds, zero
+from ..check import CORRECTED, Check, Derived, derived, holds, zero
 from ..functions import stack_sum
 from ..kernel import Kernel, kernel
 from ..level import AMPLITUDE, MISPRINT, PENETRATION, over_strips
@@ -107,7 +107,6 @@ def field_kernels(flows: ModeFlows) -> tuple[Kernel, ...]:
             r"f_{sat,i} = \eta_i\frac{\alpha_i \cos s - \sin s}{1 + \alpha_i^2}",
             *own,
             paper="Eq. 15",
-            status=REPRODUCED,
         ),
         kernel(
             field_kernels,
@@ -116,7 +115,6 @@ def field_kernels(flows: ModeFlows) -> tuple[Kernel, ...]:
             "Pressure of complete contact.",
             r"p_{sat} = u + \sum_i f_{sat,i}",
             paper="Eq. 15",
-            status=REPRODUCED,
         ),
     )
 
@@ -151,7 +149,6 @@ def saturated_means() -> Derived:
         latex=r"\bar p = D - 1,\quad \bar\tau = \tfrac12 \mathrm{Im}\,K^*(ikV)/K",
         checks=checks,
         paper="Eq. 11",
-        status=REPRODUCED,
         emitted=("means_c",),
     )
 
@@ -195,7 +192,6 @@ def saturation_pressure(penetration: sp.Expr) -> Derived:
         latex=r"p_{sat} = \tfrac14 K h (2R - 1) - p_0",
         checks=checks,
         paper="Eq. 11",
-        status=REPRODUCED,
         emitted=(name,),
     )
 
@@ -213,7 +209,6 @@ def saturation_friction() -> Derived:
         latex=r"\tau_{sat} = \frac{3\pi}{32} \frac{h^2}{l}\,\mathrm{Im}\,K^*(ikV)",
         checks=checks,
         paper="Eq. 10, 11",
-        status=REPRODUCED,
         emitted=(name,),
     )
 

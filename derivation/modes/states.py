@@ -16,7 +16,7 @@ import mpmath
 import numpy as np
 import sympy as sp
 
-from ..check import BEYOND, REPRODUCED, Check, DerivationError, Derived, derived, holds, zero
+from ..check import Check, DerivationError, Derived, derived, holds, zero
 from ..model import rate
 from ..symbols import alpha, beta
 from .symbols import J_0, J, S, enter, eta, leave, share
@@ -95,7 +95,6 @@ def dimensionless_groups() -> Derived:
         latex=r"\prod_{j}\left(1 + \beta_j \frac{d}{ds}\right) w = \prod_{i}\left(1 + \alpha_i \frac{d}{ds}\right) p",
         checks=checks,
         paper="Eq. 5",
-        status=REPRODUCED,
     )
 
 
@@ -157,7 +156,6 @@ def partial_fractions() -> Derived:
         r"J_j \beta_j = \left(\sum_i \frac{\eta_i}{(\beta_j - \alpha_i)^2}\right)^{-1},\quad "
         r"J_0 = \prod_i \frac{\alpha_i}{\beta_i}",
         checks=checks,
-        status=BEYOND,
     )
 
 

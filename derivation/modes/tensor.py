@@ -6,7 +6,7 @@ from typing import Any
 
 import sympy as sp
 
-from ..functions import Helper, stack_sum
+from ..functions import Helper, helper, stack_sum
 from .symbols import MATRICES
 
 
@@ -19,49 +19,33 @@ class total(Helper):
         of_all = rf"\sum \left({printer.doprint(self.args[0])}\right)"
         return of_all if exp is None else rf"\left({of_all}\right)^{{{exp}}}"
 
-    @classmethod
-    def meaning(cls, term):
-        return cls(term)
+    @staticmethod
+    def meaning(term):
+        return total(term)
 
 
-class across(Helper):
+@helper
+def across(matrix, vector):
     """A matrix times a vector, both along the mode axis."""
-
-    nargs = 2
-
-    @classmethod
-    def meaning(cls, matrix, vector):
-        return cls(matrix, vector)
+    return across(matrix, vector)
 
 
-class back(Helper):
+@helper
+def back(matrix, vector):
     """A vector times a matrix: across with the transposed matrix."""
-
-    nargs = 2
-
-    @classmethod
-    def meaning(cls, matrix, vector):
-        return cls(matrix, vector)
+    return back(matrix, vector)
 
 
-class sandwich(Helper):
+@helper
+def sandwich(left, vector, right):
     """matrix diag(vector) matrix."""
-
-    nargs = 3
-
-    @classmethod
-    def meaning(cls, left, vector, right):
-        return cls(left, vector, right)
+    return sandwich(left, vector, right)
 
 
-class diagonal(Helper):
+@helper
+def diagonal(vector):
     """The matrix with a vector on its diagonal."""
-
-    nargs = 1
-
-    @classmethod
-    def meaning(cls, vector):
-        return cls(vector)
+    return diagonal(vector)
 
 
 SUMS = (total, across, back, sandwich, diagonal)
