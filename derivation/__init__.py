@@ -9,12 +9,12 @@ A model given by its Prony series, with any number of relaxation times, goes thr
 """
 
 from .check import Check, DerivationError, Derived
-from .derive import Derivation, derive
-from .dispatch import derive_any
+from .derive import derive
 from .drift import CertificateError, Drift, check, generated_folder, regenerate, stored_bounds
 from .model import Model, Parameter, Roots, Series
 from .model_file import load_model
 from .models import GENERALISED, KELVIN_VOIGT, MODELS, STANDARD_LINEAR_SOLID, operator_model, prony_model
+from .outcome import Derivation
 from .pages.publish import AuditError, audit
 
 __all__ = [
@@ -36,7 +36,6 @@ __all__ = [
     "audit",
     "check",
     "derive",
-    "derive_any",
     "generated_folder",
     "load_model",
     "operator_model",

@@ -89,8 +89,7 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
     sum_p, sum_w, sum_tau = sums
     formula = Formula(name, regime.args, _stable_means(regime))
     stated = formula.written_out(formula.args)
-    touches = any(zone.kind == CONTACT for zone in regime.zones)
-    exact = ((sum_w if touches else sum_p) / PERIOD, sum_tau / PERIOD)
+    exact = ((sum_w if regime.touches else sum_p) / PERIOD, sum_tau / PERIOD)
     checks = [
         zero(
             name,
@@ -113,7 +112,7 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
         statement=f"Means of a strip: {regime.title}. The mean pressure is computed "
         + (
             "as the mean of w, equal to it on a closed orbit, because that sum holds no large terms that cancel."
-            if touches
+            if regime.touches
             else "from the adhesion zone alone, where the pressure is constant."
         ),
         latex=r"\bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds",

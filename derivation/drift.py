@@ -20,11 +20,12 @@ from types import ModuleType
 from typing import Any
 
 from .certificates import SCALE, WORDS, Certificate, certificates_of, certified_names, domain, modes_of
-from .dispatch import AnyDerivation, derive_any, stages_of
+from .derive import derive, stages_of
 from .emit import INTERFACE, emit, input_hash
 from .model import Model
 from .model_file import require_names
 from .models import MODELS
+from .outcome import Derivation
 from .pages import audit_files
 
 CERTIFICATES = "certificates.json"
@@ -103,7 +104,7 @@ def regenerate(
     target = Path(out_dir) if out_dir is not None else generated_folder()
     require_folder(target)
     say = _Progress(progress, sum(len(stages_of(model)) + SHARES for model in chosen) + 2)
-    derivations = tuple(derive_any(model, say) for model in chosen)
+    derivations = tuple(derive(model, say) for model in chosen)
     files = emit(derivations)
     say("emission")
     with tempfile.TemporaryDirectory() as aside:
@@ -114,7 +115,11 @@ def regenerate(
             solver = _loaded(folder, derivation.model.name)
             measured = _counted(certificates_of(derivation, solver), len(certified_names(derivation)), say)
             rows = bounds_of(derivation.model.name, measured, stored, accept or {})
-            certificates[derivation.model.name] = {"interface": INTERFACE, "modes": list(modes_of(derivation)), "functions": rows}
+            certificates[derivation.model.name] = {
+                "interface": INTERFACE,
+                "modes": list(modes_of(derivation.model)),
+                "functions": rows,
+            }
     files[CERTIFICATES] = _certificates_text(certificates)
     known = read_measured(target) or read_measured(generated_folder())
     measured = {name: known[name] for name in certificates if name in known}
@@ -143,7 +148,7 @@ def check(
     folder = Path(generated) if generated is not None else generated_folder()
     chosen = tuple(models) if models is not None else MODELS
     say = _Progress(progress, sum(len(stages_of(model)) for model in chosen))
-    derivations = tuple(derive_any(model, say) for model in chosen)
+    derivations = tuple(derive(model, say) for model in chosen)
     texts = emit(derivations)
     texts |= audit_texts(derivations, texts, _readable_certificates(folder), read_measured(folder))
     return compare(folder, texts, {d.model.name: certified_names(d) for d in derivations})
@@ -198,7 +203,7 @@ def _measured_drift(folder: Path) -> list[Drift]:
 
 
 def audit_texts(
-    derivations: Iterable[AnyDerivation], texts: dict[str, str], certificates: dict[str, Any], measured: dict[str, Any]
+    derivations: Iterable[Derivation], texts: dict[str, str], certificates: dict[str, Any], measured: dict[str, Any]
 ) -> dict[str, str]:
     """Text of the audit's pages and tables, by path in the folder of generated files."""
     solvers = {name: text for name, text in texts.items() if name.endswith(".py")}

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import subprocess
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +12,10 @@ import jinja2
 import sympy as sp
 
 from .check import DerivationError
-from .derive import Derivation
-from .modes.emit import template_values
-from .text import FunctionText, function_text, helpers_used
+from .modes.emit import template_values, written
+from .outcome import Derivation
+from .sequences import Row
+from .text import function_text, helpers_used
 
 INTERFACE = 1
 HERE = Path(__file__).parent
@@ -38,66 +38,52 @@ PARAMETER_MEANINGS = (
 )
 
 
-@dataclass(frozen=True)
-class Section:
-    title: str
-    functions: tuple[FunctionText, ...]
-
-
 def emit(derivations: tuple[Derivation, ...]) -> dict[str, str]:
     """Text of every generated Python file, by its path in the output folder."""
     files = {"stable.py": stable_text()}
     if any(derivation.model.series for derivation in derivations):
         files["modes.py"] = _render("modes", "every model with a Prony series")
     for derivation in derivations:
-        text = modes_text(derivation) if derivation.model.series else model_text(derivation)
-        files[f"{derivation.model.name}.py"] = text
+        files[f"{derivation.model.name}.py"] = model_text(derivation)
     files["__init__.py"] = package_text(tuple(derivation.model.name for derivation in derivations))
     return {name: formatted(text) for name, text in sorted(files.items())}
 
 
 def model_text(derivation: Derivation) -> str:
-    sections = tuple(
-        Section(title, tuple(function_text(kernel.formula, kernel.derived) for kernel in kernels))
+    model, several = derivation.model, bool(derivation.model.series)
+    own = template_values(derivation) if several else _of_one_time(derivation)
+    function = written if several else function_text
+    sections = [
+        {"title": title, "functions": [function(kernel.formula, kernel.derived) for kernel in kernels]}
         for title, kernels in derivation.sections
-    )
-    used = helpers_used(kernel.formula for _, kernels in derivation.sections for kernel in kernels)
-    emitted = {function.name for section in sections for function in section.functions}
+    ]
     return _render(
-        "model",
-        derivation.model.name,
-        title=derivation.model.title,
-        model=derivation.model.name,
+        "modes_model" if several else "model",
+        model.name,
+        title=model.title,
+        model=model.name,
         interface=INTERFACE,
-        parameters=PARAMETER_MEANINGS,
-        material=derivation.model.parameters,
-        helpers=used,
+        material=model.parameters,
         sections=sections,
-        regimes=[_regime_data(regime, emitted) for regime in derivation.regimes],
+        regimes=[_row(regime) for regime in derivation.regimes],
+        **own,
     )
 
 
-def modes_text(derivation: Any) -> str:
-    return _render("modes_model", derivation.model.name, interface=INTERFACE, **template_values(derivation))
+def _of_one_time(derivation: Derivation) -> dict[str, Any]:
+    return {"parameters": PARAMETER_MEANINGS, "helpers": helpers_used(kernel.formula for kernel in derivation.kernels)}
 
 
-def _regime_data(regime: Any, emitted: set[str]) -> dict[str, Any]:
-    def name(kind: str) -> str:
-        candidate = f"{kind}_{regime.sequence}"
-        return candidate if candidate in emitted else "None"
-
-    edgeless = not regime.edges
+def _row(regime: Row) -> dict[str, Any]:
+    """A row of the table of regimes, in words; the names of its functions are the template's."""
     return {
         "sequence": regime.sequence,
         "title": regime.title,
-        "zones": [
-            (z.kind, "" if edgeless else str(z.first), "" if edgeless else str(z.last).replace("*", " ")) for z in regime.zones
-        ],
+        "zones": [(z.kind, *(str(end).replace("*", " ") for end in (z.first, z.last))) for z in regime.zones],
         "edges": [str(edge) for edge in regime.edges],
         "closures": regime.closures,
         "equations": [label for label, _ in regime.equations],
         "admissible": [inequality.code for inequality in regime.admissible],
-        **{kind: name(kind) for kind in ("residual", "jacobian", "means", "onset_slope")},
     }
 
 

@@ -21,7 +21,7 @@ def equilibrium(regimes: Sequence[Regime], means: Mapping[str, sp.Expr], integra
 
     ``means``: those of the strips of each regime, by the name of their function.
     """
-    touching = [regime for regime in regimes if any(zone.kind == CONTACT for zone in regime.zones)]
+    touching = [regime for regime in regimes if regime.touches]
     unbalanced = [_unbalanced(regime, means[f"means_{regime.sequence}"][0], integrals) for regime in touching]
     return balance_of_load(equilibrium, touching, unbalanced)
 

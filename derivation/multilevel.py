@@ -171,7 +171,7 @@ def carried_friction(strip: Strip, regimes: Sequence[Regime]) -> Derived:
     .. math:: \bar\tau_{M-1} = \frac{1}{l^2}\iint p\,f_x\,dx\,dy + \frac{1}{l^2}\iint_{contact} \tau_M[p]\,dx\,dy
     """
     name = "carried friction"
-    touching = [regime for regime in regimes if any(zone.kind == CONTACT for zone in regime.zones)]
+    touching = [regime for regime in regimes if regime.touches]
     checks = [
         zero(
             name,

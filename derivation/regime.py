@@ -14,21 +14,10 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from . import stable
-from .check import BEYOND, REPRODUCED, Check, Derived, derived, zero
+from .check import BEYOND, REPRODUCED, Check, derived, zero
 from .functions import Formula, written_out
 from .inequality import Inequality, relation, require
-from .sequences import (
-    ADHESION,
-    CONTACT,
-    EQUATIONS,
-    NOTHING,
-    PERIOD,
-    TITLES,
-    Span,
-    edgeless_record,
-    obeys_jump_law,
-    with_edges,
-)
+from .sequences import CONTACT, EQUATIONS, NOTHING, PERIOD, Row, Span, edgeless_record, in_order, obeys_jump_law, with_edges
 from .symbols import PARAMETERS, D, J, L, alpha, beta, p_0, s_1
 
 PERIODIC = ("period", "the changes of z over the period sum to zero, so that the gap falls to delta_0 again at d + 2 pi")
@@ -64,10 +53,9 @@ class Zone(Span):
 
     def approach(self, edge: sp.Symbol) -> Inequality:
         """How the state must come to the edge where the zone ends: its slope there has the sign of ``drive - exit``."""
-        rises = self.kind == ADHESION and self.exit != NOTHING
         what = "the pressure" if self.kind == CONTACT else "the gap"
-        slope = relation(">=" if rises else "<=", self.drive(edge) - self.exit, 0)
-        return require(slope, sentence=f"{what} {'rises' if rises else 'falls'} at {edge}: {{}}")
+        slope = relation(">=" if self.rises else "<=", self.drive(edge) - self.exit, 0)
+        return require(slope, sentence=f"{what} {'rises' if self.rises else 'falls'} at {edge}: {{}}")
 
     @property
     def displacement(self) -> sp.Expr:
@@ -76,18 +64,11 @@ class Zone(Span):
 
 
 @dataclass(frozen=True)
-class Regime:
-    """One row of the regime table. ``sequence`` names the zones in order: f free, a adhesion, c contact."""
+class Regime(Row):
+    """A row for one relaxation time, with its boundary equations."""
 
-    sequence: str
-    title: str
-    zones: tuple[Zone, ...]
-    edges: tuple[sp.Symbol, ...]
-    equations: tuple[tuple[str, sp.Expr], ...]
-    jacobian: tuple[tuple[sp.Expr, ...], ...]
-    admissible: tuple[Inequality, ...]
-    closures: tuple[int, ...]
-    derived: Derived
+    equations: tuple[tuple[str, sp.Expr], ...] = ()
+    jacobian: tuple[tuple[sp.Expr, ...], ...] = ()
 
     @property
     def args(self) -> tuple[sp.Symbol, ...]:
@@ -116,7 +97,7 @@ def edgeless(by: Callable, sequence: str, kind: str, admissible: tuple[Inequalit
         change = stable.RELAXATION_INCREMENT(zone.first, zone.last, zone.load - zone.load, beta)
         latex = f"w = p = {sp.latex(zone.load)}"
     record = edgeless_record(by, sequence, latex, change)
-    return Regime(sequence, TITLES[sequence], (zone,), (), (), (), admissible, (0, 1), record)
+    return Regime(sequence, (zone,), admissible, (0, 1), record)
 
 
 def partial(
@@ -153,12 +134,7 @@ def partial(
         emitted=(f"residual_{sequence}", f"jacobian_{sequence}"),
     )
     required = (*admissible, *approaches, in_order(*edges))
-    return Regime(sequence, TITLES[sequence], zones, edges, equations, jacobian, required, closures, record)
-
-
-def in_order(*edges: sp.Symbol) -> Inequality:
-    """The edges follow one another within a period."""
-    return require(relation("<=", *edges, edges[0] + PERIOD))
+    return Regime(sequence, zones, required, closures, record, equations, jacobian)
 
 
 def _slopes_have_the_sign_of_what_drives(name: str, zones: tuple[Zone, ...]) -> Check:

@@ -14,6 +14,7 @@ import sympy as sp
 
 from . import stable
 from .check import REPRODUCED, Check, Derived, derived, zero
+from .inequality import Inequality, relation, require
 from .symbols import D, a, b, c, d, delta_0, p_0
 
 PERIOD = 2 * sp.pi
@@ -50,10 +51,49 @@ class Span:
         """The constant pressure of an adhesion or free zone."""
         return -p_0 if self.kind == ADHESION else NOTHING
 
+    @property
+    def pressure(self) -> sp.Expr:
+        """Pressure on entry, which in a gap lasts."""
+        return self.entry - p_0 if self.kind == CONTACT else self.load
+
+    @property
+    def missing(self) -> sp.Expr:
+        """What entry and exit leave for the change over the zone: the equation is ``missing + change = 0``."""
+        return sp.expand(self.entry - self.exit)
+
+    @property
+    def rises(self) -> bool:
+        """Whether its state comes to the exit from below: the gap that reaches delta_0; contact begins and ends from above."""
+        return self.kind == ADHESION and self.exit != NOTHING
+
     def fields(self, edge: sp.Expr, state: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
         """(w, p) at an edge, from the state of this zone there."""
         height = stable.PROFILE(edge, D)
         return (height, state - p_0) if self.kind == CONTACT else (height + state, self.load)
+
+
+@dataclass(frozen=True)
+class Row:
+    """One row of the regime table. ``sequence`` names the zones in order: f free, a adhesion, c contact."""
+
+    sequence: str
+    zones: tuple[Any, ...]
+    admissible: tuple[Inequality, ...]
+    closures: tuple[int, ...]
+    derived: Derived
+
+    @property
+    def title(self) -> str:
+        return TITLES[self.sequence]
+
+    @property
+    def edges(self) -> tuple[sp.Symbol, ...]:
+        """The unknown edges: where each zone begins, but of a single zone that goes all round."""
+        return tuple(zone.first for zone in self.zones) if len(self.zones) > 1 else ()
+
+    @property
+    def touches(self) -> bool:
+        return any(zone.kind == CONTACT for zone in self.zones)
 
 
 Zone = TypeVar("Zone", bound=Span)
@@ -77,6 +117,11 @@ def zones_of(sequence: str, zone: Callable[..., Zone], step: sp.Expr, compliance
 def with_edges(sequence: str, edges: Iterable[sp.Symbol]) -> str:
     """The beginning of what is said of a regime with edges."""
     return f"{_capitalised(sequence)}: unknown edges {', '.join(map(str, edges))}"
+
+
+def in_order(*edges: sp.Symbol) -> Inequality:
+    """The edges follow one another within a period."""
+    return require(relation("<=", *edges, edges[0] + PERIOD))
 
 
 def edgeless_record(by: Callable[..., Any], sequence: str, latex: str, change: sp.Expr) -> Derived:

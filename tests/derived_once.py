@@ -11,8 +11,7 @@ from pathlib import Path
 from types import ModuleType
 
 import hystrip.derivation
-from hystrip.derivation import MODELS, STANDARD_LINEAR_SOLID, Derivation, derive, derive_any, generated_folder
-from hystrip.derivation.dispatch import AnyDerivation
+from hystrip.derivation import MODELS, STANDARD_LINEAR_SOLID, Derivation, derive, generated_folder
 from hystrip.derivation.drift import CERTIFICATES, audit_texts, read_certificates, read_measured
 from hystrip.derivation.emit import emit
 
@@ -26,9 +25,9 @@ def derivation() -> Derivation:
 
 
 @functools.cache
-def derivations() -> tuple[AnyDerivation, ...]:
+def derivations() -> tuple[Derivation, ...]:
     """Of every model that ships."""
-    return tuple(derivation() if model is STANDARD_LINEAR_SOLID else derive_any(model) for model in MODELS)
+    return tuple(derivation() if model is STANDARD_LINEAR_SOLID else derive(model) for model in MODELS)
 
 
 @functools.cache

@@ -15,7 +15,7 @@ import pytest
 import sympy as sp
 from derived_once import altered, derivation, tampered
 
-from hystrip.derivation import STANDARD_LINEAR_SOLID, DerivationError, Model, Parameter, derive, derive_any
+from hystrip.derivation import STANDARD_LINEAR_SOLID, DerivationError, Model, Parameter, derive
 from hystrip.derivation.check import CORRECTED, REPRODUCED, STATUSES, derived, zero
 from hystrip.derivation.exact import is_zero
 from hystrip.derivation.flows import contact_flow
@@ -302,16 +302,16 @@ t = sp.Symbol("t", positive=True)
 )
 def test_a_model_outside_the_class_is_refused_with_the_reason_and_the_way_out(Q: tuple, P: tuple, reason: str) -> None:
     with pytest.raises(DerivationError, match=f"{reason}.*prony_model"):
-        derive_any(_model(Q, P))
+        derive(_model(Q, P))
 
 
 def test_what_belongs_to_operator_model_is_told_so() -> None:
     with pytest.raises(DerivationError, match="belongs to operator_model: its operators are of order 2"):
-        derive_any(_model((1, 3 * T_eps, 2 * T_eps**2), (1 / K, 2 * T_eps / K, T_eps**2 / (2 * K))))
+        derive(_model((1, 3 * T_eps, 2 * T_eps**2), (1 / K, 2 * T_eps / K, T_eps**2 / (2 * K))))
     eta = sp.Symbol("eta", positive=True)
     one = Model("test", "test", (Parameter(K, "K", "Pa/m", ""), Parameter(eta, "eta", "s", "")), (1, eta), (1 / K, 0))
     with pytest.raises(DerivationError, match="belongs to operator_model: it has one relaxation time in parameters of its own"):
-        derive_any(one)
+        derive(one)
 
 
 def test_admissible_models_pass() -> None:

@@ -20,7 +20,7 @@ from hystrip.derivation import (
     Model,
     Parameter,
     Series,
-    derive_any,
+    derive,
     generated_folder,
     load_model,
     operator_model,
@@ -31,11 +31,10 @@ from hystrip.derivation import (
 from hystrip.derivation.certificates import certified_names, certify, measure
 from hystrip.derivation.certificates.material import measure_material
 from hystrip.derivation.certificates.regimes import measure_regimes
-from hystrip.derivation.certificates.whole import whole_kernels
 from hystrip.derivation.drift import AIM, SHARES
 from hystrip.derivation.emit import emit
-from hystrip.derivation.modes.derive import STAGES
 from hystrip.derivation.modes.jumps import closures
+from hystrip.derivation.modes.several_times import STAGES
 from hystrip.derivation.modes.states import exact_modes
 from hystrip.derivation.modes.symbols import J_0, J, enter, eta, leave, share
 from hystrip.derivation.symbols import K
@@ -130,7 +129,7 @@ CHANGED = [
 def test_a_changed_sign_does_not_come_through(tmp_path: Path, file: str, before: str, after: str, step: str) -> None:
     wrong = tampered(tmp_path, file, before, after)
     with pytest.raises(wrong.DerivationError) as caught:
-        wrong.derive_any(wrong.GENERALISED)
+        wrong.derive(wrong.GENERALISED)
     assert caught.value.step == step
 
 
@@ -142,10 +141,10 @@ def test_functions_stay_below_their_bounds(name: str) -> None:
     """At a few points; all of them are measured by every regeneration."""
     made, solver, bounds = of(name), SOLVERS[name], stored_bounds()[name]
     modes = (2, 6) if made.model.modes is None else (made.model.modes,)
-    kernels = (*whole_kernels(made), *made.kernels)
+    kernels = (*made.whole, *made.kernels)
     certificates = [measure(kernel, solver, modes, points=6) for kernel in kernels]
     certificates += [measure_material(made.model, made.model.series, solver, modes, points=6)]
-    certificates += measure_regimes(made.regimes, made.kernels, solver, modes[:1], points=2)
+    certificates += measure_regimes(made.composed, made.kernels, solver, modes[:1], points=2)
     assert sorted(certificate.name for certificate in certificates) == sorted(bounds)
     for certificate in certificates:
         assert certificate.worst <= bounds[certificate.name], f"{certificate.worst} ulp at {certificate.where}"
@@ -185,7 +184,7 @@ class Still:
 def test_derivatives_that_leave_something_out_are_found_out() -> None:
     worst = {
         each.name: each.worst
-        for each in measure_regimes(of("generalised").regimes, of("generalised").kernels, Still(), (2,), points=6)
+        for each in measure_regimes(of("generalised").composed, of("generalised").kernels, Still(), (2,), points=6)
     }
     assert worst["jacobian_ac"] > 1e6 and worst["return_map_ac"] > 1e6
     assert all(each <= AIM for name, each in worst.items() if name not in ("jacobian_ac", "return_map_ac"))
@@ -211,7 +210,7 @@ OF_ONE = (Parameter(G, "G", "Pa/m", "stiffness"), Parameter(T_1, "T_1", "s", "ti
 
 
 def test_a_model_given_by_operators_finds_its_times() -> None:
-    made = derive_any(
+    made = derive(
         operator_model("two_times", OF_ONE, (1, 3 * T_1 + 3 * T_2, T_1 * T_2), (1 / G, (T_1 + T_2) / G, T_1 * T_2 / (2 * G)))
     )
     assert made.model.modes == 2
@@ -241,7 +240,7 @@ def test_a_model_given_by_operators_finds_its_times() -> None:
 )
 def test_operators_that_make_no_passive_solid_are_refused_with_the_reason(Q, P, reason: str) -> None:
     with pytest.raises(DerivationError, match=rf"model 'bad' is refused: .*{reason}"):
-        derive_any(operator_model("bad", (), Q, P))
+        derive(operator_model("bad", (), Q, P))
 
 
 @pytest.mark.parametrize(
@@ -263,7 +262,7 @@ def test_a_series_with_a_sign_that_is_not_known_is_refused() -> None:
     tau = sp.Symbol("tau", positive=True)
     model = Model("bad", "Bad", KELVIN_VOIGT.parameters, KELVIN_VOIGT.Q, KELVIN_VOIGT.P, series=Series(K, unknown * tau / K, tau))
     with pytest.raises(DerivationError, match="passive: eta_i"):
-        derive_any(model)
+        derive(model)
 
 
 # -- a user's model -----------------------------------------------------------------------------------------------------------
@@ -277,7 +276,7 @@ MODEL = prony_model("my_rubber")
 
 
 def test_a_model_file_becomes_a_solver_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(certify, "MODES", (1,))  # how accurate it is with more is measured for the solver that ships
+    monkeypatch.setattr(certify, "COUNTS", (1,))  # how accurate it is with more is measured for the solver that ships
     file = tmp_path / "my_model.py"
     file.write_text(FILE, encoding="utf-8")
     seen: list[tuple[int, int]] = []

@@ -178,9 +178,9 @@ def test_wheel_derives_and_emits_the_same_bytes(installed):
     """One small model: the derivation finds its templates there; that its sources are the tree's is tested above, and what they
     emit in test_drift."""
     code = """
-from hystrip.derivation import KELVIN_VOIGT, derive_any
+from hystrip.derivation import KELVIN_VOIGT, derive
 from hystrip.derivation.emit import emit
-for name, text in emit((derive_any(KELVIN_VOIGT),)).items():
+for name, text in emit((derive(KELVIN_VOIGT),)).items():
     if name != "__init__.py":  # it lists the models
         open(name, "w", encoding="utf-8", newline="").write(text)
 """

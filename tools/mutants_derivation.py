@@ -107,22 +107,22 @@ MUTANTS: tuple[Mutant, ...] = (
     m(
         "inequality",
         "regime.py",
-        'relation(">=" if rises else "<="',
-        'relation("<=" if rises else ">="',
+        'relation(">=" if self.rises else "<="',
+        'relation("<=" if self.rises else ">="',
         "inequalities of admissibility",
         "inequalities",
     ),
     m(
         "inequality",
-        "regime.py",
-        "rises = self.kind == ADHESION and self.exit != NOTHING",
-        "rises = self.kind == ADHESION",
+        "sequences.py",
+        "return self.kind == ADHESION and self.exit != NOTHING",
+        "return self.kind == ADHESION",
         "inequalities of admissibility",
         "inequalities",
     ),
     m(
         "inequality",
-        "regime.py",
+        "sequences.py",
         'relation("<=", *edges, edges[0] + PERIOD)',
         'relation(">=", *edges, edges[0] + PERIOD)',
         "inequalities of admissibility",
@@ -434,7 +434,7 @@ def refused_by(mutant: Mutant) -> str:
 
 
 def whole(package: ModuleType) -> None:
-    package.derive_any(package.STANDARD_LINEAR_SOLID)
+    package.derive(package.STANDARD_LINEAR_SOLID)
 
 
 def early(package: ModuleType) -> tuple[Any, Any, Any]:
@@ -491,7 +491,7 @@ def levels(package: ModuleType) -> None:
 
 
 def modes(package: ModuleType) -> None:
-    package.derive_any(package.GENERALISED)
+    package.derive(package.GENERALISED)
 
 
 def tags(package: ModuleType) -> None:
@@ -504,15 +504,15 @@ def tags(package: ModuleType) -> None:
 
 def certificates(package: ModuleType) -> str:
     """What is emitted by the copy, measured against the true derivation."""
-    from hystrip.derivation import derive_any, stored_bounds
+    from hystrip.derivation import derive, stored_bounds
     from hystrip.derivation.certificates import measure
 
-    made = package.derive_any(package.STANDARD_LINEAR_SOLID)
+    made = package.derive(package.STANDARD_LINEAR_SOLID)
     drift = part(package, "drift")
     with tempfile.TemporaryDirectory() as aside:
         folder = drift._staged(Path(aside), part(package, "emit").emit((made,)))
         solver = drift._loaded(folder, made.model.name)
-        kernels = {kernel.formula.name: kernel for kernel in derive_any(made.model).kernels}
+        kernels = {kernel.formula.name: kernel for kernel in derive(made.model).kernels}
         for name in CERTIFIED:
             if measure(kernels[name], solver, points=60).worst > stored_bounds()[made.model.name][name]:
                 return f"certificate of {name}"

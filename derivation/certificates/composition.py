@@ -16,9 +16,9 @@ import numpy as np
 import sympy as sp
 
 from ..check import DerivationError
-from ..modes.regimes import ModeRegime, ModeZone
+from ..modes.regimes import ModeRegime
 from ..modes.symbols import f_0, z, z_0
-from ..sequences import CONTACT
+from ..sequences import CONTACT, Span
 from ..symbols import p, p_in, s, s_0, s_1
 from .measure import FLOOR
 from .point import Point
@@ -96,18 +96,18 @@ class Composition:
         symbols, evaluate = _evaluator(sp.sympify(expression))
         return mpmath.mpf(evaluate(*(self.point.values[symbol] for symbol in symbols)))
 
-    def _edges(self, zone: ModeZone) -> dict[sp.Symbol, Any]:
+    def _edges(self, zone: Span) -> dict[sp.Symbol, Any]:
         return {s_0: zone.first, s_1: zone.last}
 
-    def _overstress(self, zone: ModeZone, state: Scaled) -> Scaled:
+    def _overstress(self, zone: Span, state: Scaled) -> Scaled:
         return self._block("overstress", {p: zone.pressure}, (z, state))
 
-    def _increment(self, zone: ModeZone, state: Scaled) -> Scaled:
+    def _increment(self, zone: Span, state: Scaled) -> Scaled:
         if zone.kind == CONTACT:
             return self._block("contact_increment", self._edges(zone), (f_0, self._overstress(zone, state)))
         return self._block("relaxation_increment", {**self._edges(zone), p: zone.pressure}, (z_0, state))
 
-    def _change(self, zone: ModeZone, state: Scaled) -> Scaled:
+    def _change(self, zone: Span, state: Scaled) -> Scaled:
         if zone.kind == CONTACT:
             return self._block("excess_change", self._edges(zone), (f_0, self._overstress(zone, state)))
         return self._block("gap_change", {**self._edges(zone), p: zone.pressure}, (z_0, state))
@@ -131,7 +131,7 @@ class Composition:
             forget = forget + lost - lost @ forget
         return forget.solved(drive)
 
-    def _along(self, state: Scaled) -> Iterator[tuple[ModeZone, Scaled]]:
+    def _along(self, state: Scaled) -> Iterator[tuple[Span, Scaled]]:
         """Every zone and the state in which it is entered."""
         for number, zone in enumerate(self.regime.zones):
             yield zone, state
@@ -151,7 +151,6 @@ class Composition:
         return sum(terms[1:], terms[0])
 
     def means(self, state: Scaled) -> Scaled:
-        touches = any(zone.kind == CONTACT for zone in self.regime.zones)
         height = work = Scaled.of([mpmath.mpf(0)])
         for zone, entered in self._along(state):
             edges = self._edges(zone)
@@ -161,7 +160,7 @@ class Composition:
             else:
                 load = self._value(zone.pressure)
                 q = self._block("profile_rise", edges) * Scaled.of([load])
-                if touches:
+                if self.regime.touches:
                     w = self._block("relaxation_integral", {**edges, p: zone.pressure}, (z_0, entered))
                 else:
                     w = Scaled.of([load * self._value(zone.last - zone.first)])

@@ -21,7 +21,7 @@ DIGITS = 420  # the worst cancellation of a derived form on this grid costs abou
 FLOOR = mpmath.mpf(10) ** -40  # least scale: below it lie only remains of the stand-in, and decays that underflow
 POINTS = 200  # of the grid, for a function of one relaxation time
 POINTS_OF_REGIME = 80  # of a function of a whole regime, whose reference costs more
-MODES = (1, 2, 3, 5, 8, 30)  # numbers of relaxation times at which a solver for any number is measured
+COUNTS = (1, 2, 3, 5, 8, 30)  # numbers of relaxation times at which a solver for any number is measured
 
 
 @dataclass(frozen=True)

@@ -24,21 +24,19 @@ AGREED_UP_TO = 2  # modes; how derivatives are put together does not depend on t
 
 def regime_names(regimes: Sequence[ModeRegime]) -> list[str]:
     """Names of the functions that :func:`measure_regimes` measures."""
-    return [f"{kind}_{regime.sequence}" for regime in regimes if regime.edges for kind in KINDS]
+    return [f"{kind}_{regime.sequence}" for regime in regimes for kind in KINDS]
 
 
 def measure_regimes(
     regimes: Sequence[ModeRegime], kernels: Sequence[Kernel], solver: Any, modes: Sequence[int], points: int = POINTS
 ) -> Iterator[Certificate]:
-    """Measure every function of every regime with edges, as ``solver`` computes it.
+    """Measure every function of ``regimes``, which have edges, as ``solver`` computes it.
 
     Raises :class:`DerivationError` where a derivative, as the emitted functions put it together, is not that of the zones.
     """
     with mpmath.workdps(DIGITS):
         blocks = {k.formula.name: Reference(k.exact) for k in kernels if k.formula.name in BLOCKS}
     for regime in regimes:
-        if not regime.edges:
-            continue
         args = (*regime.edges, m, p_0, delta_0, D)
         worst = {kind: Worst(f"{kind}_{regime.sequence}", args) for kind in KINDS}
         with mpmath.workdps(DIGITS):

@@ -8,12 +8,11 @@ import sympy as sp
 
 from ..functions import Formula
 from ..model import Model, Parameter, Roots, Series
+from ..outcome import Derivation
 from ..printing import results, source
 from ..text import flat, function_text, helpers_used
-from .derive import ModesDerivation
-from .functions import ALGORITHMS, regime_functions, rest_functions
+from .functions import ALGORITHMS
 from .material import series_of
-from .regimes import ModeRegime
 from .symbols import MATERIAL as FIELDS
 from .tensor import SUMS
 
@@ -23,36 +22,26 @@ FROM_MODES = ("Modes", "for_batch", "scaled")
 FROM_STABLE = ("quotient", "stack_sum")
 
 
-def template_values(derivation: ModesDerivation) -> dict[str, Any]:
-    """What the template of a model with n modes is rendered with."""
+def template_values(derivation: Derivation) -> dict[str, Any]:
+    """What the template of a model with n modes is rendered with beside what every model has."""
     model, series = derivation.model, series_of(derivation.model)
     arrays = [] if isinstance(series, Roots) else [source(symbol) for symbol in series.arrays]
-    regimes = [each for regime in derivation.regimes if regime.edges for each in regime_functions(regime, derivation.means)]
-    regimes = [*rest_functions(derivation.regimes, derivation.means), *regimes]
-    formulas = [each.formula for each in (*derivation.kernels, *derivation.levels, *regimes)]
+    formulas = [each.formula for each in (*derivation.kernels, *derivation.of_level, *derivation.of_regimes)]
     sums = {type(f).__name__ for f in _functions(formulas) if isinstance(f, (*SUMS, *ALGORITHMS))}
     checked = [_checked(parameter, arrays, model.modes is None) for parameter in model.parameters]
     material, builders = _modes_of_material(model, series)
     validators = {text.partition("(")[0] for _, text in checked}
     return {
-        "title": model.title,
-        "model": model.name,
         "n": model.modes,
-        "closures": derivation.closures.value,
-        "material": model.parameters,
+        "closures": derivation.regimes[0].closures,
         "arrays": arrays,
         "checked": checked,
         "modes_of_material": material,
         "series": next(step for step in derivation.steps if step.name == "Prony series"),
         "sums": sorted({*sums, *FROM_MODES, *validators, *builders}, key=lambda n: (n.islower(), n)),
         "helpers": sorted({*helpers_used(formulas), *FROM_STABLE}),
-        "sections": [
-            {"title": title, "functions": [_function(kernel.formula, kernel.derived) for kernel in kernels]}
-            for title, kernels in derivation.sections
-        ],
-        "functions": [_function(each.formula, each) for each in regimes],
-        "levels": [_function(each.formula, each) for each in derivation.levels],
-        "regimes": [_regime(regime) for regime in derivation.regimes],
+        "functions": [written(each.formula, each) for each in derivation.of_regimes],
+        "levels": [written(each.formula, each) for each in derivation.of_level],
     }
 
 
@@ -60,8 +49,9 @@ def _checked(parameter: Parameter, arrays: list[str], any_number: bool) -> tuple
     """A parameter's name and the call that checks it, by what its symbol assumes."""
     name = parameter.name
     if name in arrays:
-        count = "MODES" if not any_number or name == arrays[0] else f"len({arrays[0]})"
-        return name, f'per_mode("{name}", {name}, {count})'
+        if any_number and name != arrays[0]:
+            return name, f'per_mode("{name}", {name}, len({arrays[0]}))'
+        return name, f'per_mode("{name}", {name}, MODES)'
     bound = (
         "positive"
         if parameter.symbol.is_positive and name == "K"
@@ -82,7 +72,8 @@ def _modes_of_material(model: Model, series: Series | Roots) -> tuple[str, tuple
     return f"{source(series.K)}, spectrum({', '.join(f'first_mode({part})' for part in stated)})", ("first_mode", "spectrum")
 
 
-def _function(formula: Formula, record: Any) -> Any:
+def written(formula: Formula, record: Any) -> Any:
+    """A formula as the text of a function, in which what is no argument is a field of the material m."""
     inside = {symbol: named for symbol, named in OF_THE_STRIP.items() if symbol not in formula.args}
     steps = tuple((label, _renamed(term, inside)) for label, term in _needed(formula))
     return function_text(Formula(formula.name, formula.args, _renamed(formula.result, inside), steps), record)
@@ -106,14 +97,3 @@ def _renamed(value: Any, names: dict[sp.Symbol, sp.Symbol]) -> Any:
 def _functions(formulas: list[Formula]) -> set[Any]:
     terms = [term for formula in formulas for term in (*(step for _, step in formula.steps), *flat(formula.result))]
     return {f for term in terms for f in sp.sympify(term).atoms(sp.Function)}
-
-
-def _regime(regime: ModeRegime) -> dict[str, Any]:
-    return {
-        "sequence": regime.sequence,
-        "title": regime.title,
-        "edges": [str(edge) for edge in regime.edges],
-        "labels": [label for label, _ in regime.equations] if regime.edges else [],
-        "zones": [(zone.kind, str(zone.first), str(zone.last).replace("*", " ")) for zone in regime.zones],
-        "admissible": [inequality.code for inequality in regime.admissible],
-    }

@@ -16,11 +16,11 @@ import sympy as sp
 from ..averages import adhesive_rise
 from ..check import Derived, derived, zero
 from ..functions import Call, Formula, Helper, stack_sum
-from ..sequences import ADHESION, CONTACT, PERIOD
+from ..sequences import ADHESION, CONTACT, PERIOD, Span
 from ..stable import PROFILE, PROFILE_INTEGRAL, PROFILE_RISE, PROFILE_SLOPE
 from ..symbols import D, K, V, delta_0, h, l, p_0, p_nominal
 from . import stable
-from .regimes import ModeRegime, ModeZone
+from .regimes import ModeRegime
 from .saturated import R_LOSS, Complete, R
 from .symbols import m
 from .tensor import generic
@@ -89,6 +89,12 @@ def level_functions(complete: Complete) -> tuple[RegimeFunction, ...]:
         residuals = [generic(one) - generic(other) for one, other in zip(stated, _parts(record.value), strict=True)]
         zero(record.name, f"{formula.name}: the emitted form is the derived expression", residuals)
     return tuple(RegimeFunction(formula, r.statement, r.latex, r.function, r.paper) for r, formula in rows)
+
+
+def all_functions(regimes: Sequence[ModeRegime], means: Derived) -> tuple[RegimeFunction, ...]:
+    """What is emitted for the regimes."""
+    of_edges = (each for regime in regimes if regime.edges for each in regime_functions(regime, means))
+    return (*rest_functions(regimes, means), *of_edges)
 
 
 def rest_functions(regimes: Sequence[ModeRegime], means: Derived) -> tuple[RegimeFunction, ...]:
@@ -177,7 +183,7 @@ def regime_functions(regime: ModeRegime, means: Derived) -> tuple[RegimeFunction
     )
 
 
-def _map(zone: ModeZone) -> sp.Expr:
+def _map(zone: Span) -> sp.Expr:
     """The zone as an affine map of the state."""
     of = stable.CONTACT_MAP if zone.kind == CONTACT else stable.RELAXATION_MAP
     return of(zone.first, zone.last, zone.pressure, m)
@@ -244,9 +250,8 @@ def _means(regime: ModeRegime, args: tuple[sp.Symbol, ...], state: Formula) -> F
     Where nothing is free the traction acts everywhere and does no work over a period: pressures count from -p_0.
     """
     name = f"means_{regime.sequence}"
-    touches = any(zone.kind == CONTACT for zone in regime.zones)
-    raised = p_0 if touches and all(zone.kind in (CONTACT, ADHESION) for zone in regime.zones) else sp.Integer(0)
-    entered, steps = _entries(regime, args, state) if touches else ([None] * len(regime.zones), [])
+    raised = p_0 if regime.touches and all(zone.kind in (CONTACT, ADHESION) for zone in regime.zones) else sp.Integer(0)
+    entered, steps = _entries(regime, args, state) if regime.touches else ([None] * len(regime.zones), [])
     height = work = sp.Integer(0)
     for zone, entry in zip(regime.zones, entered, strict=True):
         if zone.kind == CONTACT:
@@ -255,7 +260,7 @@ def _means(regime: ModeRegime, args: tuple[sp.Symbol, ...], state: Formula) -> F
             continue
         if zone.kind != ADHESION:
             work += (zone.pressure + raised) * PROFILE_RISE(zone.first, zone.last)
-        if touches:
+        if regime.touches:
             height += stable.RELAXATION_INTEGRAL(zone.first, zone.last, entry, zone.pressure, m)
         else:
             height += zone.pressure * (zone.last - zone.first)

@@ -22,7 +22,7 @@ def mode_levels(flows: ModeFlows, complete: Complete, regimes: tuple[ModeRegime,
     """Eq. 7 and 9 to 14 for a foundation with n relaxation times."""
     storage = sp.Symbol("storage", real=True)
     pressure = D - 1 + storage * sp.cos(s) - R_LOSS * sp.sin(s)  # Eq. 15, as in complete.threshold
-    touching = tuple(regime for regime in regimes if regime.edges and any(z.kind == CONTACT for z in regime.zones))
+    touching = tuple(regime for regime in regimes if regime.edges and regime.touches)
     return Multilevel(
         equilibrium(touching),
         contact_area(touching),

@@ -6,13 +6,13 @@ are eliminated by the linear condition that it returns after a period. What is l
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import sympy as sp
 
-from ..check import Check, Derived, derived, zero
+from ..check import BEYOND, Check, derived, zero
 from ..inequality import Inequality, relation, require
-from ..regime import in_order
 from ..regimes import out_of_reach, within_reach
 from ..sequences import (
     ADHESION,
@@ -21,9 +21,10 @@ from ..sequences import (
     FREE,
     NOTHING,
     PERIOD,
-    TITLES,
+    Row,
     Span,
     edgeless_record,
+    in_order,
     obeys_jump_law,
     with_edges,
     zones_of,
@@ -33,111 +34,66 @@ from .symbols import J_0
 
 gap_at, gap_slope, pressure_slope = (sp.Function(name) for name in ("g", "g'", "p'"))
 falls, rises = "<=", ">="
-ONSET = ("onset", "the gap falls to delta_0 at d")
-ONSET_OF_CONTACT = ("contact_begins", "the gap closes at b")
+ONSET = {  # by the first edge
+    d: ("onset", "the gap falls to delta_0 at d"),
+    b: ("contact_begins", "the gap closes at b"),
+}
 
 
 @dataclass(frozen=True)
-class ModeZone(Span):
-    """A zone; the linear maps of its state and of what it adds to z are kernels."""
+class ModeRegime(Row):
+    """A row for n modes: the state at the first edge is met at the end of the last zone."""
 
     @property
-    def pressure(self) -> sp.Expr:
-        """Pressure on entry, which in a gap lasts."""
-        return self.entry - p_0 if self.kind == CONTACT else self.load
+    def onset_pressure(self) -> sp.Expr:
+        return self.zones[-1].load
 
     @property
-    def missing(self) -> sp.Expr:
-        """What entry and exit leave for the change over the zone: the equation is ``missing + change = 0``."""
-        return sp.expand(self.entry - self.exit)
-
-
-@dataclass(frozen=True)
-class ModeRegime:
-    """One row of the regime table."""
-
-    sequence: str
-    title: str
-    zones: tuple[ModeZone, ...]
-    edges: tuple[sp.Symbol, ...]
-    onset_pressure: sp.Expr  # p on the side where the state at the first edge is met
-    onset_gap: sp.Expr  # the gap there
-    admissible: tuple[Inequality, ...]
-    derived: Derived
+    def onset_gap(self) -> sp.Expr:
+        return self.zones[-1].exit
 
     @property
     def equations(self) -> tuple[tuple[str, str], ...]:
         """(label, meaning) of each boundary equation."""
-        first = ONSET if self.edges[0] == d else ONSET_OF_CONTACT
-        return (first, *(EQUATIONS[zone.last] for zone in self.zones[:-1]))
+        return _equations(self.zones) if self.edges else ()
 
 
-def mode_regimes(snaps: bool, threshold: sp.Expr) -> tuple[ModeRegime, ...]:
+def mode_regimes(snaps: bool, closures: tuple[int, ...], threshold: sp.Expr) -> tuple[ModeRegime, ...]:
     """Every regime; without instantaneous compliance no point snaps into contact. ``threshold``: of D for complete contact."""
-    trailing = (trailing_adhesion(),) if snaps else ()
-    return (discrete_adhesion(), *trailing, adhesion_only(), saturated_adhesion(), *edgeless(threshold))
+    trailing = (trailing_adhesion(closures),) if snaps else ()
+    partial = (discrete_adhesion(closures), *trailing, adhesion_only(closures), saturated_adhesion(closures))
+    return (*partial, *edgeless(closures, threshold))
 
 
-def discrete_adhesion() -> ModeRegime:
+def discrete_adhesion(closures: tuple[int, ...]) -> ModeRegime:
     r"""Partial contact between two adhesion zones. w steps by :math:`\mp J_0 p_0` at d and c."""
-    return _partial(
-        discrete_adhesion,
-        "acaf",
-        (NOTHING, delta_0),
-        (_approached((falls, d), (falls, b), (rises, c)), _pressure_falls(), in_order(d, b, a, c)),
-    )
+    return _partial(discrete_adhesion, "acaf", closures)
 
 
-def trailing_adhesion() -> ModeRegime:
+def trailing_adhesion(closures: tuple[int, ...]) -> ModeRegime:
     r"""Snap-in at d: the states are continuous, w steps by :math:`-\delta_0`, so contact is entered at :math:`-\delta_0/J_0`."""
-    return _partial(
-        trailing_adhesion,
-        "afc",
-        (NOTHING, delta_0),
-        (
-            require(relation("<=", delta_0 - J_0 * p_0, 0), sentence="w steps over the gap: {}"),
-            _approached((falls, d), (rises, c)),
-            _pressure_falls(),
-            in_order(d, a, c),
-        ),
-    )
+    steps_over = require(relation("<=", delta_0 - J_0 * p_0, 0), sentence="w steps over the gap: {}")
+    return _partial(trailing_adhesion, "afc", closures, snap=(steps_over,))
 
 
-def adhesion_only() -> ModeRegime:
+def adhesion_only(closures: tuple[int, ...]) -> ModeRegime:
     r"""No contact; adhesion from d to c."""
-    return _partial(
-        adhesion_only,
-        "af",
-        (NOTHING, delta_0),
-        (
-            _approached((falls, d), (rises, c)),
-            require(relation(">=", gap_at(s), 0), relation("<=", d, s, c), sentence="the gap stays open: {} for {}"),
-            in_order(d, c),
-        ),
-    )
+    stays = require(relation(">=", gap_at(s), 0), relation("<=", d, s, c), sentence="the gap stays open: {} for {}")
+    return _partial(adhesion_only, "af", closures, stays=(stays,))
 
 
-def saturated_adhesion() -> ModeRegime:
+def saturated_adhesion(closures: tuple[int, ...]) -> ModeRegime:
     r"""Partial contact, the whole gap at :math:`-p_0`; with :math:`p_0 = 0` this is contact without adhesion ('cf')."""
-    return _partial(
-        saturated_adhesion,
-        "ac",
-        (-p_0, NOTHING),
-        (
-            _approached((falls, b)),
-            require(
-                relation("<=", gap_at(s), delta_0),
-                relation("<=", a, s, b + PERIOD),
-                relation("==", p_0, 0),
-                sentence="the gap stays within reach: {} for {}, unless {}",
-            ),
-            _pressure_falls(),
-            in_order(b, a),
-        ),
+    stays = require(
+        relation("<=", gap_at(s), delta_0),
+        relation("<=", a, s, b + PERIOD),
+        relation("==", p_0, 0),
+        sentence="the gap stays within reach: {} for {}, unless {}",
     )
+    return _partial(saturated_adhesion, "ac", closures, stays=(stays,))
 
 
-def edgeless(threshold: sp.Expr) -> tuple[ModeRegime, ...]:
+def edgeless(closures: tuple[int, ...], threshold: sp.Expr) -> tuple[ModeRegime, ...]:
     """No edge: complete contact, everything at -p_0, nothing."""
     saturated = require(relation(">=", D, threshold), sentence="{}, where R is modulus_ratio")
     rows = (
@@ -147,26 +103,22 @@ def edgeless(threshold: sp.Expr) -> tuple[ModeRegime, ...]:
     )
     found = []
     for sequence, kind, latex, admissible in rows:
-        zone = ModeZone(kind, s, s + PERIOD, NOTHING, NOTHING)
+        zone = Span(kind, s, s + PERIOD, NOTHING, NOTHING)
         change = zone.fields(s + PERIOD, NOTHING)[1] - zone.fields(s, NOTHING)[1]
-        record = edgeless_record(edgeless, sequence, latex, change)
-        found.append(ModeRegime(sequence, TITLES[sequence], (zone,), (), NOTHING, NOTHING, admissible, record))
+        found.append(ModeRegime(sequence, (zone,), admissible, closures, edgeless_record(edgeless, sequence, latex, change)))
     return tuple(found)
 
 
-def _approached(*edges: tuple[str, sp.Symbol]) -> Inequality:
-    """How the gap comes to an edge, in the zone that ends there."""
-    words = (f"the gap {'falls' if sign == falls else 'rises'} just before {edge}: {{}}" for sign, edge in edges)
-    return require(*(relation(sign, gap_slope(edge), 0) for sign, edge in edges), sentence="; ".join(words))
-
-
-def _pressure_falls() -> Inequality:
-    return require(relation(falls, pressure_slope(a), 0), sentence="the pressure falls just before a: {}")
-
-
-def _partial(by, sequence, onset, admissible) -> ModeRegime:
+def _partial(
+    by: Callable[..., ModeRegime],
+    sequence: str,
+    closures: tuple[int, ...],
+    snap: tuple[Inequality, ...] = (),
+    stays: tuple[Inequality, ...] = (),
+) -> ModeRegime:
+    """A regime with edges. ``snap``, ``stays``: what it must satisfy besides the slopes at its edges and their order."""
     name = f"regime {sequence}"
-    zones = zones_of(sequence, ModeZone, J_0 * p_0, J_0)
+    zones = zones_of(sequence, Span, J_0 * p_0, J_0)
     edges = tuple(zone.first for zone in zones)
     record = derived(
         by,
@@ -174,22 +126,36 @@ def _partial(by, sequence, onset, admissible) -> ModeRegime:
         name=name,
         statement=f"{with_edges(sequence, edges)}. The state at the first edge follows from them by one linear system, "
         "the edges from one event each.",
-        latex=r"R z = c,\qquad \text{" + "; ".join(_meanings(zones, edges)) + "}",
+        latex=r"R z = c,\qquad \text{" + "; ".join(meaning for _, meaning in _equations(zones)) + "}",
         checks=[obeys_jump_law(name, zones, J_0, "[w] = J_0 [p]"), _period(name, zones)],
+        status=BEYOND,
         emitted=tuple(f"{kind}_{sequence}" for kind in ("state", "residual", "jacobian", "return_map")),
     )
-    return ModeRegime(sequence, TITLES[sequence], zones, edges, *onset, admissible, record)
+    admissible = (*snap, _gap_approaches(zones), *stays, *_pressure_falls(zones), in_order(*edges))
+    return ModeRegime(sequence, zones, admissible, closures, record)
 
 
-def _meanings(zones: tuple[ModeZone, ...], edges: tuple[sp.Symbol, ...]) -> list[str]:
-    first = ONSET if edges[0] == d else ONSET_OF_CONTACT
-    return [first[1], *(EQUATIONS[zone.last][1] for zone in zones[:-1])]
+def _equations(zones: tuple[Span, ...]) -> tuple[tuple[str, str], ...]:
+    return (ONSET[zones[0].first], *(EQUATIONS[zone.last] for zone in zones[:-1]))
 
 
-def _period(name: str, zones: tuple[ModeZone, ...]) -> Check:
+def _gap_approaches(zones: tuple[Span, ...]) -> Inequality:
+    """How the gap comes to the edge where each zone outside contact ends, the one before the first edge first."""
+    ends = [(zones[0].first, zones[-1]), *((zone.last, zone) for zone in zones[:-1] if zone.kind != CONTACT)]
+    words = (f"the gap {'rises' if zone.rises else 'falls'} just before {edge}: {{}}" for edge, zone in ends)
+    slopes = (relation(rises if zone.rises else falls, gap_slope(edge), 0) for edge, zone in ends)
+    return require(*slopes, sentence="; ".join(words))
+
+
+def _pressure_falls(zones: tuple[Span, ...]) -> tuple[Inequality, ...]:
+    """So it does where contact ends."""
+    ends = (zone.last for zone in zones if zone.kind == CONTACT)
+    return tuple(
+        require(relation(falls, pressure_slope(end), 0), sentence=f"the pressure falls just before {end}: {{}}") for end in ends
+    )
+
+
+def _period(name: str, zones: tuple[Span, ...]) -> Check:
     """The zones follow each other and close after one period."""
     ends = [zone.last - zone.first for zone in zones]
     return zero(name, "the zones are one period long", sp.Add(*ends) - PERIOD)
-
-
-__all__ = ["D", "ModeRegime", "ModeZone", "mode_regimes"]

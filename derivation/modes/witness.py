@@ -15,11 +15,11 @@ import sympy as sp
 
 from ..check import Check, Derived, holds
 from ..inequality import Inequality, Relation
-from ..sequences import ADHESION, CONTACT
+from ..sequences import ADHESION, CONTACT, Span
 from ..symbols import D, alpha, beta, delta_0, p, p_0, s, s_0
 from ..witness import NAME, record, true
 from .flows import ModeFlows, u
-from .regimes import ModeRegime, ModeZone, gap_at, gap_slope, pressure_slope
+from .regimes import ModeRegime, gap_at, gap_slope, pressure_slope
 from .saturated import R
 from .states import exact_modes
 from .symbols import J_0, J, enter, eta, f_0, leave, z_0
@@ -65,7 +65,7 @@ ROOTS: dict[str, tuple[tuple[tuple[float, ...], tuple[float, ...], bool], ...]] 
     ),
 }
 Edges = dict[sp.Symbol, float]
-Place = tuple[ModeZone, float, float, np.ndarray]  # a zone, its ends, the state in which it is entered
+Place = tuple[Span, float, float, np.ndarray]  # a zone, its ends, the state in which it is entered
 
 
 class Foundation:
@@ -86,7 +86,7 @@ class Foundation:
         wanted = tuple(sorted(expression.free_symbols, key=str))
         return float(_function(expression, wanted)(*(values[symbol] for symbol in wanted)))
 
-    def at(self, zone: ModeZone, start: float, state: np.ndarray, phase: float) -> tuple[float, np.ndarray]:
+    def at(self, zone: Span, start: float, state: np.ndarray, phase: float) -> tuple[float, np.ndarray]:
         """(gap, or pressure above -p_0 in contact; z) at a phase of a zone that was entered at ``start`` with z = ``state``."""
         m, load = self.m, self.number(zone.pressure)
         if zone.kind != CONTACT:
@@ -152,7 +152,7 @@ class Foundation:
                 return False
         return True
 
-    def _allowed(self, zone: ModeZone) -> tuple[float, float]:
+    def _allowed(self, zone: Span) -> tuple[float, float]:
         if zone.kind == CONTACT:
             return 0, np.inf
         reach = self.given[delta_0] if self.given[p_0] > 0 else 0

@@ -13,32 +13,19 @@ import sympy as sp
 
 from ..certificates import WORDS
 from ..check import Derived
-from ..derive import Derivation
-from ..displays import STATED as UNREAD
-from ..emit import INTERFACE, PARAMETER_MEANINGS, input_hash
-from ..functions import HELPERS, written_out
+from ..emit import INTERFACE, input_hash
+from ..functions import HELPERS
+from ..outcome import Derivation
 from ..paper.tags import numbers
-from ..regime import EQUATIONS, PERIODIC, Regime
-from . import misprints, paper, places, sources
+from ..sequences import Row
+from . import one_time, paper, places, several_times, sources
 from .latex import widest
+from .wording import Wording, plainly
 
 LONG = 130  # operations from which a value is only read in the generated function
 PAPER = 108  # characters of a piece too wide for a sheet
 STATED = ("regime ", "onset_slope_")  # steps whose equation is the value written out already
 TOOLS = ("sympy", "jinja2", "ruff", "latex2mathml")
-MEANINGS = dict([*EQUATIONS.values(), PERIODIC])
-FIELDS = (
-    ("s = -k x", "phase: grows in the time of a material point, which meets decreasing x"),
-    ("u(s)", "rigid profile, with the crest at s = 0; w = u in contact"),
-    ("w(s),\\quad p(s)", "displacement of the foundation and pressure on it"),
-    ("g = w - u", "gap"),
-    ("q = p + p_0", "pressure above the traction of adhesion; zero where contact ends"),
-    ("z = w - J p", "what a material point carries across a step of p"),
-    (
-        "H(s) = u + \\beta u'",
-        "load harmonic, forcing in the code: p + alpha p' in contact, and it drives the gap too",
-    ),
-)
 METHOD = (
     ("check.zero", "A claim with the outcome exact zero has passed here; one that does not raises an error that names the step."),
     ("exact.is_zero", "Zero is decided on a polynomial in algebraically independent quantities, which vanishes or does not; no "
@@ -52,6 +39,7 @@ CLOSURES = {0: "continuous", 1: "constitutive"}
 
 def content(derivation: Derivation, files: dict[str, str], certificates: dict[str, Any]) -> dict[str, Any]:
     """Everything on a model's page but what is measured. ``files``: the emitted texts; ``certificates``: rows by function."""
+    own = (several_times if derivation.model.series else one_time).wording(derivation)
     module = f"{derivation.model.name}.py"
     computed = sources.generated(module, files[module])
     helpers = sources.generated("stable.py", files["stable.py"])
@@ -61,20 +49,20 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
         "title": derivation.model.title,
         "paper": paper.TITLE,
         "identity": identity(files),
-        "fields": [list(row) for row in FIELDS],
-        "parameters": [list(row) for row in PARAMETER_MEANINGS],
+        "fields": [list(row) for row in own.fields],
+        "parameters": [list(row) for row in own.parameters],
         "material": [[p.name, p.unit, p.meaning] for p in derivation.model.parameters],
         "equations": paper.equations(derivation.steps, derivation.comparisons),
-        "misprints": misprints.misprints(derivation.steps),
-        "small": [list(row) for row in misprints.SMALL],
-        "stages": stages(derivation.steps, computed, displayed(derivation, UNREAD)),
-        "regimes": [_regime(regime, computed) for regime in derivation.regimes],
+        "misprints": own.misprints,
+        "small": [list(row) for row in own.small],
+        "stages": stages(derivation.steps, computed, displayed(derivation, own.unread)),
+        "regimes": [_regime(regime, own, computed) for regime in derivation.regimes],
         "domains": [list(row) for row in WORDS.items()],
-        "functions": functions_table(computed, derivation.steps, certificates),
+        "functions": functions_table(computed, derivation.steps, certificates, own.parts),
         "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
         "method": [list(row) for row in METHOD],
-        "sources": {name: text(sources.deriving(name)) for name in sorted({*functions, *(name for name, _ in METHOD)})},
-        "generated": {name: text(source) for name, source in (computed | helpers).items()},
+        "sources": {name: _text(sources.deriving(name)) for name in sorted({*functions, *(name for name, _ in METHOD)})},
+        "generated": {name: _text(source) for name, source in (computed | helpers).items()},
         "helpers": helpers_table(helpers),
         "measured": "measured.json",
     }
@@ -90,7 +78,7 @@ def identity(files: dict[str, str]) -> dict[str, Any]:
     }
 
 
-def displayed(derivation: Any, unread: Mapping[str, str]) -> dict[str, str]:
+def displayed(derivation: Derivation, unread: Mapping[str, str]) -> dict[str, str]:
     """What is said of the display of each step: read back and compared, or why there is nothing to compare."""
     read = {name: f"{check.claim}: {check.outcome}" for name, check in derivation.displayed.items()}
     return {name: f"nothing to compare in the display: {what}" for name, what in unread.items()} | read
@@ -134,16 +122,11 @@ def _values(step: Derived) -> list[str]:
     parts = [part for part in _flat(step.value) if isinstance(part, sp.Basic)]
     if not parts or step.name.startswith(STATED) or sum(sp.count_ops(part) for part in parts) > LONG:
         return []
-    texts = [_latex(part) for part in parts]
+    texts = [plainly(part) for part in parts]
     if max(map(widest, texts)) > PAPER:
         return []
     plain = step.latex.replace(r"\tfrac", r"\frac")
     return [] if texts == [step.latex] or _unbraced(plain).endswith(f"= {_unbraced(texts[0])}") else texts
-
-
-def _latex(term: sp.Expr) -> str:
-    """An expression with helpers and calls written out; a fraction far wider above than below as a product, to be cut."""
-    return sp.latex(written_out(term), long_frac_ratio=8)
 
 
 def _unbraced(latex: str) -> str:
@@ -155,29 +138,18 @@ def _flat(value: Any) -> list[Any]:
     return [part for item in value for part in _flat(item)] if isinstance(value, (tuple, list, sp.Tuple)) else [value]
 
 
-def _regime(regime: Regime, computed: dict[str, sources.Source]) -> dict[str, Any]:
-    equations = [[MEANINGS[label], f"{_latex(term)} = 0"] for label, term in regime.equations]
-    return regime_entry(regime, regime.closures, equations, ("residual", "jacobian", "means", "onset_slope"), computed)
-
-
-def regime_entry(
-    regime: Any,
-    closures: tuple[int, ...],
-    equations: list[list[str]],
-    kinds: tuple[str, ...],
-    computed: dict[str, sources.Source],
-) -> dict[str, Any]:
-    """A row of a table of regimes. ``kinds``: of functions that may compute something of it."""
+def _regime(regime: Row, own: Wording, computed: dict[str, sources.Source]) -> dict[str, Any]:
+    """A row of the table of regimes."""
     zones = [] if not regime.edges else [[z.kind, sp.latex(z.first), sp.latex(z.last)] for z in regime.zones]
-    names = [f"{kind}_{regime.sequence}" for kind in kinds]
+    names = [f"{kind}_{regime.sequence}" for kind in own.kinds]
     return {
         "sequence": regime.sequence,
         "title": regime.title,
         "zones": zones,
         "kind": regime.zones[0].kind,
         "unknowns": [str(edge) for edge in regime.edges],
-        "closures": [CLOSURES[closure] for closure in closures],
-        "equations": equations,
+        "closures": [CLOSURES[closure] for closure in regime.closures],
+        "equations": own.conditions(regime),
         "admissible": [inequality.prose for inequality in regime.admissible],
         "step": regime.derived.name,
         "computed_by": [name for name in names if name in computed],
@@ -188,13 +160,13 @@ def functions_table(
     computed: dict[str, sources.Source],
     steps: tuple[Derived, ...],
     certificates: dict[str, Any],
-    parts: Mapping[str, str] | None = None,
+    parts: Mapping[str, str],
 ) -> list[dict[str, Any]]:
     """Every emitted function: derived, by which steps, or an algorithm; its bound in ulp and the domain that was measured.
 
     ``parts``: functions that only name what others of a step are made of, and that step.
     """
-    proven: dict[str, list[str]] = {name: [step] for name, step in (parts or {}).items()}
+    proven: dict[str, list[str]] = {name: [step] for name, step in parts.items()}
     for step in steps:
         for name in step.emitted:
             proven.setdefault(name, []).append(step.name)
@@ -231,5 +203,5 @@ def helpers_table(computed: dict[str, sources.Source]) -> list[dict[str, Any]]:
     return rows
 
 
-def text(source: sources.Source) -> dict[str, Any]:
+def _text(source: sources.Source) -> dict[str, Any]:
     return {"file": source.file, "line": source.line, "text": source.text}

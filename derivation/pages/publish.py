@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..certificates import certified_names
-from ..dispatch import derive_any, stages_of
+from ..derive import derive, stages_of
 from ..drift import (
     AUDIT,
     CERTIFICATES,
@@ -55,7 +55,7 @@ def audit(
         if progress is not None:
             progress(done, total)
 
-    derivations = tuple(derive_any(model, say) for model in chosen)
+    derivations = tuple(derive(model, say) for model in chosen)
     texts = emit(derivations)
     say()
     stale = [name for name, text in texts.items() if not _same(installed / name, text)]

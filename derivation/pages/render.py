@@ -11,10 +11,9 @@ from typing import Any
 import jinja2
 from markupsafe import Markup, escape
 
-from ..derive import Derivation
+from ..outcome import Derivation
 from .content import content, identity
 from .latex import mathml
-from .modes_content import modes_content
 
 INDEX = "index.html"
 TEMPLATES = Path(__file__).parents[1] / "templates"
@@ -33,8 +32,7 @@ def audit_files(
     models = []
     for derivation in derivations:
         name = derivation.model.name
-        of_model = modes_content if derivation.model.series else content
-        told = of_model(derivation, files, certificates.get(name, {}).get("functions", {}))
+        told = content(derivation, files, certificates.get(name, {}).get("functions", {}))
         pages[f"{name}.json"] = json.dumps(told, indent=1, sort_keys=True) + "\n"
         pages[f"{name}.html"] = _render("page", page=told, measured=measured.get(name, {}))
         models.append(told)

@@ -1,4 +1,4 @@
-"""What the audit says of a model with n relaxation times: the same plain data as for one, from its own objects."""
+"""What the page of a model with n relaxation times says in words."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ from typing import Any
 
 import sympy as sp
 
-from ..certificates import WORDS
 from ..check import Derived
 from ..model import Roots
-from ..modes import displays
-from ..modes.derive import ModesDerivation
+from ..modes.displays import unread
 from ..modes.regimes import ModeRegime
 from ..modes.symbols import J_0
+from ..outcome import Derivation
 from ..sequences import CONTACT
-from . import content, misprints, paper, sources
+from . import misprints
+from .wording import Wording
 
-FIELDS = (
+PARAMETERS = (
     ("alpha", "k V tau_i, relaxation times"),
     ("beta", "k V lambda_j, retardation times, between and above them"),
     ("eta", "k V K_i tau_i/K, branch viscosities"),
@@ -30,38 +30,15 @@ FIELDS = (
 )
 
 
-def modes_content(derivation: ModesDerivation, files: dict[str, str], certificates: dict[str, Any]) -> dict[str, Any]:
-    """Everything on a model's page but what is measured."""
-    module = f"{derivation.model.name}.py"
-    computed = sources.generated(module, files[module])
-    helpers = sources.generated("stable.py", files["stable.py"])
-    functions = {step.function for step in derivation.steps}
-    passages = {f"passages_{regime.sequence}": regime.derived.name for regime in derivation.regimes if regime.edges}
-    unread = displays.unread(isinstance(derivation.model.series, Roots))
-    return {
-        "model": derivation.model.name,
-        "title": derivation.model.title,
-        "paper": paper.TITLE,
-        "identity": content.identity(files),
-        "fields": [],
-        "parameters": [list(row) for row in FIELDS],
-        "material": [[p.name, p.unit, p.meaning] for p in derivation.model.parameters],
-        "equations": paper.equations(derivation.steps),
-        "misprints": _misprints(derivation.steps),
-        "small": [],
-        "stages": content.stages(derivation.steps, computed, content.displayed(derivation, unread)),
-        "regimes": [_regime(regime, computed, derivation.closures.value) for regime in derivation.regimes],
-        "domains": [list(row) for row in WORDS.items()],
-        "functions": content.functions_table(computed, derivation.steps, certificates, passages),
-        "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
-        "method": [list(row) for row in content.METHOD],
-        "sources": {
-            name: content.text(sources.deriving(name)) for name in sorted({*functions, *(name for name, _ in content.METHOD)})
-        },
-        "generated": {name: content.text(source) for name, source in (computed | helpers).items()},
-        "helpers": content.helpers_table(helpers),
-        "measured": "measured.json",
-    }
+def wording(derivation: Derivation) -> Wording:
+    return Wording(
+        PARAMETERS,
+        _misprints(derivation.steps),
+        unread(isinstance(derivation.model.series, Roots)),
+        ("state", "residual", "jacobian", "means", "return_map"),
+        _conditions,
+        parts={f"passages_{regime.sequence}": regime.derived.name for regime in derivation.composed},
+    )
 
 
 def _misprints(steps: tuple[Derived, ...]) -> list[dict[str, Any]]:
@@ -96,13 +73,9 @@ def _row(
     }
 
 
-def _regime(regime: ModeRegime, computed: dict[str, sources.Source], closures: tuple[int, ...]) -> dict[str, Any]:
-    equations = _conditions(regime) if regime.edges else []
-    kinds = ("state", "residual", "jacobian", "means", "return_map")
-    return content.regime_entry(regime, closures, equations, kinds, computed)
-
-
 def _conditions(regime: ModeRegime) -> list[list[str]]:
+    if not regime.edges:
+        return []
     first = sp.latex(regime.edges[0])
     elastic = sp.latex(J_0 * regime.onset_pressure) + " + " if regime.onset_pressure != 0 else ""
     gap = f" - {sp.latex(regime.onset_gap)}" if regime.onset_gap != 0 else ""

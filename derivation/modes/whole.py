@@ -2,32 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import sympy as sp
 
 from ..functions import Formula
 from ..kernel import Kernel
-from ..modes.derive import ModesDerivation
-from ..modes.saturated import R_LOSS, R
-from ..modes.symbols import J_0, J, S, enter, eta, leave, m, share
 from ..symbols import D, K, V, alpha, beta, delta_0, h, l, p_0, p_nominal
+from .regimes import ModeRegime
+from .saturated import R_LOSS, Complete, R
+from .symbols import J_0, J, S, enter, eta, leave, m, share
 
 kV = sp.Symbol("kV", nonnegative=True)
 
 
-def whole_kernels(derivation: ModesDerivation) -> tuple[Kernel, ...]:
-    """Functions whose bodies stand in the template, with their exact values."""
-    complete = derivation.complete
+def whole_kernels(complete: Complete, regimes: Sequence[ModeRegime], springs: bool) -> tuple[Kernel, ...]:
+    """Their exact values. ``springs``: every branch has one."""
     exact = {kernel.formula.name: kernel.exact for kernel in complete.kernels}
     passing = {symbol: symbol * 2 * sp.pi * V / l for symbol in (alpha, beta, eta)}  # a level's wave, times in seconds
     of_level = {
         symbol: value.subs(passing, simultaneous=True) for symbol, value in ((R, exact["modulus_ratio"]), (R_LOSS, exact["loss"]))
     }
     level = (K, m, p_0, l, h, V)
-    springs = derivation.model.springy
     means = tuple(mean.subs(R_LOSS, exact["loss"]) for mean in complete.means.value)
-    at_rest = (regime for regime in derivation.regimes if regime.sequence in ("a", "f"))
+    at_rest = (regime for regime in regimes if regime.sequence in ("a", "f"))
     return (
         _kernel("at_speed", (m, kV), (*(kV * time for time in (alpha, beta, eta)), S, J, J_0, enter, leave, share)),
         *([_kernel("prony", (K, m), (K / S, alpha), springs=True)] if springs else []),

@@ -1,0 +1,125 @@
+"""The derivation for one relaxation time, stage after stage."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from .averages import constant_means, strip_means, zone_integrals
+from .basis import Basis
+from .conditions import conditions
+from .displays import displays
+from .energy import friction_balance, power_balance
+from .events import excess_event, gap_event
+from .flows import flows
+from .functions import Call
+from .further import FOR_ONE_TIME, further
+from .half_space import half_space
+from .jumps import jumps
+from .kernel import Kernel
+from .level import level
+from .links import links
+from .model import Model, foundation, require_admissible
+from .multilevel import multilevel
+from .outcome import Derivation, Progress, Stages, records
+from .paper import comparisons
+from .paper.tags import require_all, require_tags
+from .regime import Regime
+from .regimes import regimes
+from .saturated import saturated
+from .stability import onset_slope, shift_of_events
+from .stack import stack
+from .strip import strip
+from .witness import witnesses
+from .zones import zones
+
+STAGES = (
+    "model",
+    "strip",
+    "flows",
+    "edge conditions",
+    "zones",
+    "complete contact",
+    "regimes",
+    "means",
+    "stability",
+    "levels",
+    "print",
+)
+
+
+def derive(model: Model, progress: Progress | None = None) -> Derivation:
+    """Derive and verify everything that follows from the two operators of ``model``.
+
+    ``progress`` is called with the name of each stage of ``STAGES`` when it is done.
+    """
+    stages = Stages(progress)
+    require_admissible(model)
+    ground = foundation(model)
+    stages.done("model", ground)
+    one_strip = strip(ground)
+    stages.done("strip", one_strip)
+    flow = flows(one_strip)
+    stages.done("flows", flow)
+    jump = jumps(one_strip)
+    stages.done("edge conditions", jump)
+    zone = zones(flow, jump)
+    events = (*gap_event(flow), *excess_event(flow))
+    chain = links(flow)
+    stages.done("zones", zone, events, chain)
+    full = saturated(flow)
+    whole = level(full)
+    stages.done("complete contact", full, whole)
+    table = regimes(zone, full.threshold.value)
+    partial = [regime for regime in table if regime.edges]
+    systems = tuple(k for regime in partial for k in system_kernels(regime, zone.kernels))
+    stages.done("regimes", conditions(one_strip, table[0]), table, witnesses(table), systems)
+    integrals = zone_integrals(flow)
+    still = tuple(constant_means(regime) for regime in table if regime.sequence in ("a", "f"))
+    means = tuple(strip_means(regime, integrals) for regime in partial)
+    balances = (power_balance(flow), *(friction_balance(regime) for regime in partial))
+    stages.done("means", integrals, means, still, balances)
+    slopes = tuple(onset_slope(regime) for regime in partial)
+    stages.done("stability", shift_of_events(), slopes)
+    upwards = multilevel(one_strip, full, whole, partial, means, integrals)
+    stages.done("levels", upwards, stack(one_strip, full, whole), half_space())
+    more = further(FOR_ONE_TIME, Basis(flow, full, table))
+    sections = (
+        ("Rigid profile, load, zones", zone.kernels),
+        ("Events: value and slope, for root finding in a zone whose entry is evaluated once", events),
+        ("Links: value and derivatives by both edges, for Newton on the chain of edges", chain),
+        ("Complete contact", full.kernels),
+        ("Boundary equations of each regime, and their derivatives by the unknown edges", systems),
+        ("Means of pressure and friction", (full.means, *still, *means)),
+        ("Slope of the onset-to-onset map", slopes),
+        ("A whole level in complete contact, and a stack of them: SI units", whole.kernels),
+        *more,
+    )
+    exact = {kernel.formula.name: kernel.exact for _, kernels in sections for kernel in kernels}
+    steps = tuple(records([*stages.made, more]))
+    printed = comparisons(one_strip, exact, {step.name: step.value for step in steps})
+    read = displays(steps, flow, exact["saturated_pressure"])
+    require_tags(steps)
+    require_all(steps)
+    stages.done("print", more)
+    return Derivation(model, tuple(stages.made), table, sections, read, printed)
+
+
+def system_kernels(regime: Regime, zone_kernels: tuple[Kernel, ...]) -> tuple[Kernel, Kernel]:
+    """Boundary equations and Jacobian to emit, with the exact expressions they compute: the derived flows put in."""
+    by_name = {kernel.formula.name: kernel for kernel in zone_kernels}
+
+    def as_derived(call: Call) -> sp.Expr:
+        kernel = by_name[call.formula.name]
+        return kernel.exact.subs(dict(zip(kernel.formula.args, call.args, strict=True)), simultaneous=True)
+
+    parts = tuple(
+        tuple(part.replace(lambda e: isinstance(e, Call), as_derived) for part in sp.Add.make_args(term))
+        for _, term in regime.equations
+    )
+    exact = tuple(sp.Add(*equation) for equation in parts)
+    slopes = tuple(tuple(sp.diff(part, edge) for part in equation) for equation in parts for edge in regime.edges)
+    matrix = tuple(tuple(sp.diff(term, edge) for edge in regime.edges) for term in exact)
+    return (
+        Kernel(regime.residual_formula, exact, regime.derived, parts),
+        Kernel(regime.jacobian_formula, matrix, regime.derived, slopes),
+    )

@@ -1,0 +1,63 @@
+"""What the derivation of a model comes to: its stages, the kernels to emit, and every verified quantity."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields, is_dataclass
+from typing import Any
+
+from .check import Check, Derived
+from .kernel import Kernel
+from .model import Model
+from .paper import Comparison
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Derivation:
+    """Everything derived for one model. ``sections`` holds the kernels to emit; ``steps`` every verified quantity."""
+
+    model: Model
+    stages: tuple[Any, ...]
+    regimes: tuple[Any, ...]
+    sections: tuple[tuple[str, tuple[Kernel, ...]], ...]
+    displayed: dict[str, Check]  # by step: its LaTeX read back and compared
+    comparisons: tuple[Comparison, ...] = ()  # of the paper's equations; none for another foundation
+    composed: tuple[Any, ...] = ()  # regimes with edges whose functions are put together from kernels, for several times
+    of_level: tuple[Any, ...] = ()  # such functions of a level,
+    of_regimes: tuple[Any, ...] = ()  # and of the regimes
+    whole: tuple[Kernel, ...] = ()  # what those of a level and the functions of the template have to come to
+
+    @property
+    def steps(self) -> tuple[Derived, ...]:
+        """Every derived quantity once, in the order of the derivation."""
+        return tuple({id(record): record for record in records(self.stages)}.values())
+
+    @property
+    def kernels(self) -> tuple[Kernel, ...]:
+        return tuple(kernel for _, kernels in self.sections for kernel in kernels)
+
+
+class Stages:
+    """Collects what the stages of a derivation make, in order, and reports each when it is done."""
+
+    def __init__(self, progress: Progress | None):
+        self.made: list[Any] = []
+        self._progress = progress or (lambda stage: None)
+
+    def done(self, stage: str, *made: Any) -> None:
+        self.made += made
+        self._progress(stage)
+
+
+def records(value: Any) -> Iterator[Derived]:
+    """Every derived quantity in what a stage made."""
+    if isinstance(value, Derived):
+        yield value
+    elif isinstance(value, (tuple, list)):
+        for item in value:
+            yield from records(item)
+    elif is_dataclass(value) and not isinstance(value, type):
+        for item in fields(value):
+            yield from records(getattr(value, item.name))
