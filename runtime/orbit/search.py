@@ -22,11 +22,14 @@ from .march import TWO_PI, Orbit, march, next_onset
 from .sensitivity import SlopeBounds, onset_margin, slope_bounds, slope_excess
 
 _EPS = np.finfo(float).eps
-_MAX_STEPS = 4000
-#: probes of one frontier at a time, from round to round. Most searches end in a few rounds, where one probe at a time is best
-#: (three cost 10 % more on loading). The few that go on next to a fold make small batches, where eight cost as much as one: half
-#: the time of two constitutive levels. Not by the size of the batch: what a strip comes out as must not depend on that
-_PROBES = (1, 1, 2, 4, 8)
+#: every round divides what it leaves by two at least
+_MAX_ROUNDS = 200
+#: parts into which an interval is divided, from round to round. Most searches end in two rounds, those next to a fold or a graze
+#: do not, and are few: then a round costs the same whatever the parts. Not by the size of the batch: what a strip comes out as
+#: must not depend on that
+_PARTS = (1, 2, 4, 16)
+#: scale of the finest mesh, in parts of its interval
+_FINEST = 1e-9
 #: retardation times after which a displacement is gone, to the smallest number
 FORGOTTEN = 750
 
@@ -80,13 +83,11 @@ class _Search:
         index = self._without_memory(np.flatnonzero(self.cycle.half_d > 0))
         if index.size:
             index, frontier, stop = self._start(index)
-            beyond = stop.take(np.arange(index.size))
-            step = np.abs(stop.x - frontier.x)
-            for k in range(_MAX_STEPS):
+            beyond = stop
+            for k in range(_MAX_ROUNDS):
                 if not index.size:
                     break
-                probes = _PROBES[min(k, len(_PROBES) - 1)]
-                index, frontier, step, stop, beyond = self._advance(index, frontier, step, stop, beyond, probes)
+                index, frontier, beyond, stop = self._advance(index, frontier, beyond, stop, _PARTS[min(k, len(_PARTS) - 1)])
             self.result.unresolved[index] = True
         return self.result
 
@@ -156,64 +157,49 @@ class _Search:
         result.put(moved[valid], inner.take(valid))
         return result
 
-    def _advance(self, index, frontier, step, stop, beyond, count: int):
-        """Probe ahead of each frontier, ``count`` times, then exclude, bracket or take a shorter step."""
+    def _advance(self, index, frontier: Orbit, beyond: Orbit, stop: Orbit, count: int):
+        """Divide the interval from each frontier to the onset ``beyond`` into ``count`` parts; exclude them, and what is left up
+        to ``stop``, one after another, until one is not excluded: it brackets an orbit, or is divided in the next round."""
         n = index.size
-        target, probes, excluded, unique = self._probed(index, frontier, step, stop, beyond, count)
-        # the first interval that is not excluded; all before it are left behind
-        first = np.where(excluded.all(axis=0), count, excluded.argmin(axis=0))
-        every = np.arange(n)
-        ended = (first == count) & (target[-1] == stop.x)
-        here, before = np.minimum(first, count - 1), np.maximum(first - 1, 0)
-        at = lambda which, j: which.take(j * n + every)  # noqa: E731
-        probe, behind = at(probes, here), at(probes, before)
-        origin = np.where(first > 0, target[before, every], frontier.x)
-        width = np.abs(target[here, every] - origin)
-        step = np.where(first == count, 2 * np.abs(target[-1] - frontier.x), 0.5 * width)
-        moved = np.flatnonzero(first > 0)
-        frontier.put(moved, behind.take(moved))
-        found = (first < count) & unique[here, every]
-        bracketed = np.flatnonzero(found)
-        inner, outer = probe.take(bracketed), frontier.take(bracketed)
+        inner = _mesh(frontier, beyond, self._slope(index, frontier), self._slope(index, beyond), self.sign, count)
+        every = np.tile(np.arange(n), count - 1)
+        points = [frontier, beyond, stop]
+        if count > 1:
+            earlier, later = (beyond, frontier) if self.last else (frontier, beyond)
+            points.insert(1, self.march(index[every], inner.ravel(), earlier.take(every), later.take(every)))
+        points = Orbit.joined(points)
+        here, there = points.take(slice(0, -n)), points.take(slice(n, None))
+        excluded, unique = self._judged(np.tile(index, count + 1), here, there)
+        excluded, unique = excluded.reshape(count + 1, n), unique.reshape(count + 1, n)
+        ended = excluded.all(axis=0)
+        first = np.where(ended, count, excluded.argmin(axis=0)) * n + np.arange(n)
+        found = np.flatnonzero(unique.ravel()[first] & ~ended)
+        outer, inner = here.take(first[found]), there.take(first[found])
         left, right = (inner, outer) if self.last else (outer, inner)
         # an orbit at the last bit before the strip stays engaged: the nearest one that is released stands for it
         squeezed = np.flatnonzero(left.engaged)
         left.put(squeezed, right.take(squeezed))
-        self._isolated(index[bracketed], left, right)
-        passed = first == count
-        beyond.put(np.flatnonzero(passed), stop.take(np.flatnonzero(passed)))
-        beyond.put(np.flatnonzero(~passed), probe.take(np.flatnonzero(~passed)))
-        keep = np.flatnonzero(~found & ~ended)
-        return index[keep], frontier.take(keep), step[keep], stop.take(keep), beyond.take(keep)
+        self._isolated(index[found], left, right)
+        ended[found] = True
+        keep = np.flatnonzero(~ended)
+        return index[keep], here.take(first[keep]), there.take(first[keep]), stop.take(keep)
 
-    def _probed(self, index, frontier, step, stop, beyond, count: int):
-        """Probes at ``step`` ahead of each frontier, at half of it, a quarter and so on: where they lead (count, n), the marches
-        from there, and of the interval before each whether it is excluded, and whether it holds exactly one zero."""
-        n = index.size
-        span = self.sign * (stop.x - frontier.x)
-        share = 0.5 ** np.arange(count - 1, -1, -1.0)[:, None]
-        target = frontier.x + self.sign * share * np.minimum(step, span)
-        target[-1] = np.where(step >= span, stop.x, target[-1])
-        every = np.tile(np.arange(n), count)
-        index, x = index[every], target.ravel()
-        probe = stop.take(every)
-        fresh = np.flatnonzero(x != stop.x[every])
-        if fresh.size:
-            ends = frontier.take(every[fresh]), beyond.take(every[fresh])
-            earlier, later = ends[::-1] if self.last else ends
-            probe.put(fresh, self.march(index[fresh], x[fresh], earlier, later))
-        before = frontier
-        if count > 1:
-            before = Orbit.joined([frontier, probe.take(np.arange(n * (count - 1)))])
-        changes = (self.sign * probe.r <= 0) & ~probe.engaged
-        tiny = np.abs(x - before.x) <= 4 * _EPS * np.maximum(np.abs(x), np.abs(before.x))
-        left, right = (probe, before) if self.last else (before, probe)
+    def _slope(self, index, orbit: Orbit) -> np.ndarray:
+        """Derivative of r by the onset, NaN where the strip stays engaged."""
+        with np.errstate(invalid="ignore"):
+            return np.where(orbit.engaged, np.nan, _residual_slope(self.kernel, self.cycle.take(index), orbit))
+
+    def _judged(self, index, here: Orbit, there: Orbit) -> tuple[np.ndarray, np.ndarray]:
+        """Which intervals from ``here``, behind which all is excluded, to ``there`` hold no zero of r, and which exactly one."""
+        left, right = (there, here) if self.last else (here, there)
+        changes = (self.sign * there.r <= 0) & ~there.engaged & (there.x != here.x)
+        tiny = np.abs(there.x - here.x) <= 4 * _EPS * np.maximum(np.abs(there.x), np.abs(here.x))
         excluded, unique = right.engaged | (tiny & ~changes), changes & tiny
         open_ = np.flatnonzero(~excluded & ~unique)
         proof = self._weigh(index[open_], left.take(open_), right.take(open_), changes[open_])
         excluded[open_[proof & ~changes[open_]]] = True
         unique[open_[proof & changes[open_]]] = True
-        return target, probe, excluded.reshape(count, n), unique.reshape(count, n)
+        return excluded, unique
 
     def _weigh(self, index, left: Orbit, right: Orbit, changes) -> np.ndarray:
         """Proof that an interval holds exactly one zero (where the sign of r changes) or none (where it does not)."""
@@ -233,6 +219,22 @@ class _Search:
         self.result.found[index] = True
         self.result.left.put(index, left)
         self.result.right.put(index, right)
+
+
+def _mesh(here: Orbit, there: Orbit, slope_here, slope_there, sign: float, count: int) -> np.ndarray:
+    """Onsets (count - 1, n) that divide intervals: finer next to where a parabola through both slopes puts the least
+    ``sign * r``, in proportion to the distance from there, down to where the parabola is twice its least value (or has its
+    zeros)."""
+    width = there.x - here.x
+    one, two = sign * slope_here * width, sign * slope_there * width
+    turns = (one < 0) & (two > 0)
+    one, bend, r = np.where(turns, one, 0.0), np.where(turns, two - one, 1.0), np.where(turns, here.r, 0.0)
+    place = np.where(turns, -one / bend, 0.5)
+    least = sign * r + 0.5 * one * place
+    scale = np.where(turns, np.maximum(np.sqrt(2 * np.abs(least) / bend), _FINEST), 1.0)
+    low, high = np.arcsinh(-place / scale), np.arcsinh((1 - place) / scale)
+    share = np.arange(1, count)[:, None] / count
+    return here.x + width * np.clip(place + scale * np.sinh(low + share * (high - low)), 0.0, 1.0)
 
 
 def locate(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[Orbit, np.ndarray, np.ndarray]:
