@@ -171,6 +171,14 @@ def test_branches_of_a_law_are_merged_where_a_smooth_one_is_as_good():
         assert np.abs(one(p) - law(p))[:, 1].max() <= added <= 0.2 * rtol * 2e4
 
 
+def test_where_a_law_is_small_so_is_what_its_averages_err_by():
+    law = _stepwise(BREAKS[1], 20.0, 6e4)
+    for k, b in enumerate(law.branches):
+        law.branches[k] = replace(b, piece=replace(b.piece, error=np.full(4, 50.0), least_error=np.full(4, 0.5), relative=1e-3))
+    _, errors = LawTable([law])(np.zeros(2, int), np.arange(2), np.array([[BREAKS[1] - 1, BREAKS[1] + 1]]))
+    assert errors[0] == pytest.approx(np.array([[0.52, 50.0]]), rel=1e-9)
+
+
 def test_a_misplaced_jump_of_a_law_is_in_the_error():
     """A break that is known to 20 Pa may stand 20 Pa further on."""
     one, other = _carried(_stepwise(BREAKS[1], 2e4, 6e4, (20.0, 0.0))), _carried(_stepwise(BREAKS[1] + 20, 2e4, 6e4))

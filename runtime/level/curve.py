@@ -165,8 +165,11 @@ def _round(columns: LevelBatch, rtol, intervals: list[Interval], pieces, strips,
             columns.work.limit_reached(V, columns.level.l, "the curve over penetration did not converge")
             error[ended], done = np.maximum(error, spread)[ended], done | ended
         for k in np.flatnonzero(done):
-            i, bound = batch.intervals[k], error[k] + _ROUNDED * rounding[k] + batch.errors[k].max(axis=0)
-            pieces[i.column].append(Piece(i.low, i.high, c[k], bound, i.inner_low, i.inner_high, i.endpoint_map))
+            i, size = batch.intervals[k], np.abs(batch.values[k])
+            relative = (batch.errors[k] / (size + floors[i.column])).max(axis=0)
+            series, soft = error[k] + _ROUNDED * rounding[k], (i.inner_low, i.inner_high)
+            bound, least = series + batch.errors[k].max(axis=0), series + relative * floors[i.column]
+            pieces[i.column].append(Piece(i.low, i.high, c[k], bound, *soft, i.endpoint_map, least, relative))
         # coefficients fall geometrically: where twice the nodes would not do, halves are better
         missed = error / goal
         hopeless = ~done & (missed * np.minimum(missed / before, _PACE) ** 2 > 1).any(axis=1)

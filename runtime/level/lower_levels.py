@@ -194,7 +194,7 @@ class LowerLevelLaws:
             if rows.size:
                 p = contact.pressure(rows, low + width * nodes.along(place)[:, None])
                 values, errors = self.table(group[rows], parts.interval[some], p)
-                out[:, : place.size, some] = np.concatenate((p[None], values, np.broadcast_to(errors, (2, *p.shape))))
+                out[:, : place.size, some] = np.concatenate((p[None], values, errors))
         out[:, t.size - half :, uneven:] = out[:, :half, uneven:][:, ::-1]
         return out
 

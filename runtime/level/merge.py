@@ -33,7 +33,7 @@ def merged(laws: Sequence[Law], rtol: np.ndarray, floors: np.ndarray) -> list[La
     table = LawTable(laws)
     rows = [list(law.branches) for law in laws]
     # errors before merging: what one merger adds is not added again by the next
-    before = [[b.piece.error for b in row] for row in rows]
+    before = [[b.piece for b in row] for row in rows]
     opens = [[True] * (len(row) - 1) for row in rows]
     while True:
         pairs = [(i, k) for i, row in enumerate(opens) for k in _apart(row)]
@@ -45,9 +45,9 @@ def merged(laws: Sequence[Law], rtol: np.ndarray, floors: np.ndarray) -> list[La
                 opens[i][k] = False
                 continue
             low, high = rows[i][k : k + 2]
-            before[i][k : k + 2] = [np.maximum(*before[i][k : k + 2])]
-            one = replace(low, p_high=high.p_high, inner_high=high.inner_high, cells=cells)
-            rows[i][k : k + 2] = [replace(one, piece=replace(one.piece, error=before[i][k] + error))]
+            before[i][k : k + 2] = [before[i][k].with_errors_of(before[i][k + 1])]
+            piece = before[i][k].erring(error)
+            rows[i][k : k + 2] = [replace(low, p_high=high.p_high, inner_high=high.inner_high, cells=cells, piece=piece)]
             del opens[i][k]
     return [replace(law, branches=row) for law, row in zip(laws, rows, strict=True)]
 

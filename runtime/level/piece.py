@@ -5,7 +5,9 @@ there, which says what it is at the end: the ends are no nodes. They are breaks,
 a strip is on.
 """
 
-from dataclasses import dataclass
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -30,6 +32,7 @@ class Piece:
     """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t; ``error`` bounds each of them, (q,).
 
     ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end, in another piece. ``endpoint_map``: what t is.
+    ``least_error`` (as ``error`` if None), ``relative``: no quantity errs by more than that and a share of its own size, (q,).
     """
 
     low: float
@@ -39,6 +42,23 @@ class Piece:
     inner_low: bool = False
     inner_high: bool = False
     endpoint_map: EndpointMap = EndpointMap()
+    least_error: np.ndarray | None = None
+    relative: np.ndarray | float = 0.0
+
+    @property
+    def least_errors(self) -> np.ndarray:
+        """``least_error``, (q,)."""
+        return self.error if self.least_error is None else self.least_error
+
+    def erring(self, more: np.ndarray) -> Piece:
+        """The same with errors larger by ``more`` (q,)."""
+        least = None if self.least_error is None else self.least_error + more
+        return replace(self, error=self.error + more, least_error=least)
+
+    def with_errors_of(self, other: Piece) -> Piece:
+        """The same with errors that cover those of the ``other`` too."""
+        least, share = np.maximum(self.least_errors, other.least_errors), np.maximum(self.relative, other.relative)
+        return replace(self, error=np.maximum(self.error, other.error), least_error=least, relative=share)
 
     def penetration(self, t):
         """D at t."""

@@ -30,9 +30,7 @@ def resampled(branches: Sequence[Branch], tolerance: np.ndarray) -> list[Branch]
         return inverse.quantities(which, inverse.parameter(which, inverse.low[which] + inverse.span[which] * graded(u)))
 
     cells = cells_of(quantities, tolerance, graded)
-    return [
-        replace(b, cells=c, piece=replace(b.piece, error=b.piece.error + c.error)) for b, c in zip(branches, cells, strict=True)
-    ]
+    return [replace(b, cells=c, piece=b.piece.erring(c.error)) for b, c in zip(branches, cells, strict=True)]
 
 
 class Inverse:

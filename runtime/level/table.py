@@ -37,8 +37,13 @@ class LawTable:
         self._upper = _padded([np.array([b.p_high for b in law.branches]) for law in laws], np.inf)
         every = [b for law in laws for b in law.branches]
         self._low, self._high = np.array([b.p_low for b in every]), np.array([b.p_high for b in every])
-        error = np.array([b.piece.error for b in every]).reshape(len(every), -1)
-        self._error = np.stack((error[:, 1 + self.frictions].sum(axis=1), error[:, 0])) if every else np.zeros((2, 0))
+        columns = 1 + self.frictions
+        if every:
+            self._pressure_error = np.array([b.piece.error[0] for b in every])
+            # what is left where there is no friction, and how it grows with that
+            self._least_error = np.array([b.piece.least_errors[columns].sum() for b in every])
+            self._most_error = np.array([b.piece.error[columns].sum() for b in every])
+            self._share = np.array([np.max((b.piece.relative + 0 * b.piece.error)[columns]) for b in every])
         cells = [b.cells for b in every]
         first = np.cumsum([0, *(c.start.size for c in cells)])
         joined = lambda values: np.concatenate(values) if cells else np.zeros(0)  # noqa: E731
@@ -57,7 +62,7 @@ class LawTable:
         return (self._start[:, None] + np.minimum(count, self._last[:, None]) for count in ends)
 
     def __call__(self, group: np.ndarray, interval: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Quantities after pressure (q - 1, nodes, m), and errors of friction and pressure (2, nodes or 1, m).
+        """Quantities after pressure (q - 1, nodes, m), and errors of friction and pressure (2, nodes, m).
 
         At pressures ``p`` (nodes, m) of the laws ``group`` (m,), between their breaks ``interval`` (m,) and the next ones.
         """
@@ -71,8 +76,10 @@ class LawTable:
         cell = self._cell[which * SLOTS + slot(u)]
         x = within(u, self._from[cell], self._size[cell])
         out = clenshaw(self._coefficients, cell, x)
-        errors = self._error[:, which]
-        return out, errors if which.ndim > 1 else errors[:, None]
+        friction = np.abs(out[self.frictions]).sum(axis=0)
+        errors = self._least_error[which] + self._share[which] * friction
+        errors = np.minimum(errors, self._most_error[which])
+        return out, np.stack((errors, np.broadcast_to(self._pressure_error[which], p.shape)))
 
 
 def _padded(rows, value):
