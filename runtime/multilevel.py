@@ -9,11 +9,12 @@ import numpy as np
 
 from .inputs.adhesion import Dugdale
 from .inputs.surface import Level
+from .level.across import peak_pressure, strips_across
 from .level.build import build_laws
 from .level.effort import WorkCounters
 from .level.error_budget import error_budget
 from .level.inverse import Inverse, cut_penetration, invert
-from .level.lower_levels import LowerLevelLaws, peak_pressure
+from .level.lower_levels import LowerLevelLaws
 from .level.means import level_means
 from .level.merge import merged
 from .level.nonadhesive.surface import NonadhesiveSurface
@@ -291,8 +292,9 @@ class _Solve:
         reaches."""
         surface = self.surface
         p_max = np.full(V.size, -np.inf)
-        np.maximum.at(p_max, group, peak_pressure(columns))
-        ceilings, budgets = [], [error_budget(columns, group)]
+        across = strips_across(columns)
+        np.maximum.at(p_max, group, peak_pressure(columns, across))
+        ceilings, budgets = [], [error_budget(columns, group, across)]
         friction = np.full(V.size, np.inf)
         np.minimum.at(friction, group, _SHARED / (self.M - 1) * budgets[0].friction)
         for i in range(1, self.M):
@@ -300,7 +302,8 @@ class _Solve:
             if i + 1 < self.M:
                 plain = surface.columns(i, V)
                 D = cut_penetration(plain, p_max, stack.D_full[i])
-                p_max = peak_pressure(surface.columns(i, V, D))
+                highest = surface.columns(i, V, D)
+                p_max = peak_pressure(highest, strips_across(highest))
                 budgets.append(None)
         carry = None
         groups = np.arange(V.size)

@@ -12,10 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..numerics.quadrature import interior_nodes, mapped, mapped_weights
-from .strips import LevelBatch
+from .across import STRIPS
+from .strips import LevelBatch, SolvedStrips
 
-#: strips across the cell and points along each contact: shares are needed to a factor of two or so
-_STRIPS, _POINTS = 24, 32
+#: points along each contact: shares are needed to a factor of two or so
+_POINTS = 32
 #: a share is not known any better than this: one point of one contact has about a thousandth
 _FINEST = 1e-6
 #: parts of a law that may each err by what the whole is allowed: mostly one or two branches are used
@@ -49,23 +50,22 @@ class ErrorBudget:
         return max(least * min(width, 1.0), 1.0)
 
 
-def error_budget(columns: LevelBatch, group: np.ndarray) -> ErrorBudget:
-    """Share of the surface of ``columns`` (n,) on which each pressure is met; ``group`` (n,): the law that each uses."""
+def error_budget(columns: LevelBatch, group: np.ndarray, strips: SolvedStrips) -> ErrorBudget:
+    """Share of the surface of ``columns`` (n,) on which each pressure is met, from their ``strips_across``; ``group`` (n,): the
+    law that each uses."""
     n = columns.size
-    theta = np.pi * (np.arange(_STRIPS) + 0.5) / _STRIPS
-    strips = columns.solve(np.repeat(np.arange(n), _STRIPS), np.tile(theta, n))
-    touching = np.flatnonzero(strips.solved.contact_fraction > 0)
+    index, contact = strips.touching
     t, weights = mapped(interior_nodes(_POINTS)), mapped_weights(_POINTS)
     # no contact is pulled at harder than this
-    p, share = np.full((n * _STRIPS, t.size), -columns.adhesion.p_0), np.zeros((n * _STRIPS, t.size))
-    if touching.size:
-        contact = strips.foundation.contact(strips.strips, strips.solved, strips.scales, touching)
-        rows, width = np.arange(touching.size), contact.a - contact.b
+    p, share = np.full((strips.p_mean.size, t.size), -columns.adhesion.p_0), np.zeros((strips.p_mean.size, t.size))
+    if index.size:
+        rows, width = np.arange(index.size), contact.a - contact.b
         phase = contact.b[:, None] + width[:, None] * t
-        p[touching] = contact.pressure(np.repeat(rows, t.size), phase.ravel()).reshape(phase.shape)
-        share[touching] = width[:, None] * weights / (2 * np.pi * _STRIPS)
-    p, share = p.reshape(n, -1), share.reshape(n, -1)
+        p[index] = contact.pressure(np.repeat(rows, t.size), phase.ravel()).reshape(phase.shape)
+        share[index] = width[:, None] * weights / (2 * np.pi * STRIPS)
+    # crest and valley are none of the equal strips
+    p, share = (v.reshape(n, -1, t.size)[:, 1:-1].reshape(n, -1) for v in (p, share))
     order = np.argsort(p, axis=1)
     p, share = (np.take_along_axis(v, order, axis=1) for v in (p, share))
-    friction = np.abs(strips.tau_mean.reshape(n, _STRIPS).mean(axis=1))
+    friction = np.abs(strips.tau_mean.reshape(n, -1)[:, 1:-1].mean(axis=1))
     return ErrorBudget(group, p, np.cumsum(share, axis=1), friction + columns.floors[:, 1])

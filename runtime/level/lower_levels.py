@@ -15,7 +15,7 @@ import numpy as np
 from ..numerics.quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
 from ..orbit.contact import Contact
 from .parts import Parts, around, between
-from .strips import LevelBatch, SolvedStrips
+from .strips import SolvedStrips
 from .table import LawTable
 
 TWO_PI = 2 * np.pi
@@ -224,13 +224,3 @@ def _summed(weights, values):
 def _by_strip(values, strip):
     """Sums (q, parts) of ``values`` over the parts of the same strip."""
     return np.stack([np.bincount(strip, row)[strip] for row in values])
-
-
-def peak_pressure(columns: LevelBatch) -> np.ndarray:
-    """Greatest local pressure of each column, Pa, (n,): at its crest, the most engaged strip; -inf without contact."""
-    strips = columns.solve(np.arange(columns.size), np.zeros(columns.size))
-    peak = np.full(columns.size, -np.inf)
-    index, contact = strips.touching
-    if index.size:
-        peak[index] = contact.p_peak
-    return peak
