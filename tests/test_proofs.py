@@ -60,10 +60,9 @@ def crossed_before(cycle, x):
 
 
 def proven(cycle, orbit):
-    """By the balance of a period, and by bounds on the events of earlier onsets."""
+    """By the balance of a period, and by bounds on all orbits."""
     start, end = exclusion.onsets_within(cycle, OrbitBounds.blank(cycle.size))
-    known = exclusion.closed(kernel, cycle, orbit)
-    by_bounds, _ = exclusion._cleared(kernel, cycle, known, 1.0, cycle.centre - cycle.half_d)
+    by_bounds = exclusion._falls_from(kernel, cycle, orbit, orbit_bounds(kernel, cycle))
     return balance.first(kernel, cycle, orbit, start, end)[0], by_bounds
 
 
@@ -72,7 +71,7 @@ def test_the_first_orbit_is_proven_to_be_the_first(where):
     cycle, orbit = known_orbits(strips(1, 4000, where), unloading=True)
     assert np.isnan(crossed_before(cycle, orbit.x)).all()
     by_balance, by_bounds = proven(cycle, orbit)
-    assert by_balance.mean() > 0.9 and by_bounds.mean() > 0.85 and (by_balance | by_bounds).mean() > 0.97
+    assert by_balance.mean() > 0.9 and by_bounds.mean() > 0.5 and (by_balance | by_bounds).mean() > 0.99
 
 
 def test_no_orbit_out_of_reach_is_said_to_be_out_of_balance():
@@ -97,7 +96,7 @@ def test_no_orbit_is_said_to_be_out_of_balance_beside_a_less_engaged_one():
     x = orbit.x + (np.minimum(0, cycle.centre + cycle.half_d) - orbit.x) * rng.random(cycle.size)
     marches, _ = march(kernel, cycle, x)
     end = cycle.centre + 2 * np.pi - cycle.half_c
-    for known, enough in ((exclusion.closed(kernel, cycle, orbit), 5000), (marches, 100)):
+    for known, enough in ((orbit, 5000), (marches, 100)):
         use = np.flatnonzero(~known.engaged & ~np.isnan(known.b) & (known.r >= 0))
         assert use.size > enough
         part, here, onset = cycle.take(use), known.take(use), -orbit.x[use]
@@ -120,7 +119,7 @@ def test_strips_said_not_to_hang_have_no_such_orbit():
     assert none[free].mean() > 0.85 and free.sum() > 5000
 
 
-def test_next_to_the_end_of_a_branch_stable_onsets_lie_where_they_are_sought_and_none_is_passed_over():
+def test_next_to_the_end_of_a_branch_no_orbit_out_of_reach_is_passed_over():
     """Strips that hang as low as an orbit with an onset allows, to a thousandth, and lower by up to a tenth."""
     s = strips(8, 12_000, "hanging")
     s = s.take(np.flatnonzero(solve_strips(kernel, s, unloading=True).code == CODE["acaf"]))
@@ -129,11 +128,7 @@ def test_next_to_the_end_of_a_branch_stable_onsets_lie_where_they_are_sought_and
         middle = 0.5 * (low + high)
         there = solve_strips(kernel, replace(s, D=middle), unloading=True).code == CODE["acaf"]
         low, high = np.where(there, low, middle), np.where(there, middle, high)
-    cycle, orbit = known_orbits(replace(s, D=high), unloading=True)
-    assert orbit.x.size == s.size > 800
-    for factor in (0.5, 1.0, 2.0):
-        lo, hi = balance._stable_within(kernel, cycle, np.minimum(factor * balance._held_best(cycle), np.pi))
-        assert np.all((lo <= -orbit.x) & (-orbit.x <= hi))
+    assert s.size > 800
     for lower in (0.0, 0.003, 0.01, 0.03, 0.1):
         cycle = adhesive_cycle(kernel, replace(s, D=high - lower * (s.p_0 + np.abs(high))))
         none, found = balance.exclude_out_of_reach(kernel, cycle)[0], isolate_extremal(kernel, cycle, last=False).found
@@ -148,7 +143,7 @@ def test_what_has_an_orbit_before_it_is_not_proven_to_have_none():
     before = ~np.isnan(onset)
     assert before.sum() > 40
     # from there on it turns forward again at an unstable orbit
-    suspects = balance._suspects(kernel, cycle, exclusion.closed(kernel, cycle, orbit))
+    suspects = balance._suspects(kernel, cycle, orbit)
     assert (suspects <= -onset)[before].all()
     by_balance, by_bounds = proven(cycle, orbit)
     assert not (by_balance & before).any() and not (by_bounds & before).any()

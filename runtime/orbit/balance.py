@@ -24,9 +24,6 @@ negative: a and c lie between 0 and pi.
   adheres after its contact w falls from where that ended, on or behind the crest; so it is at most u(e) after any phase e up to
   which contact is certain to last. As V grows towards the valley, V(lo) stands for V(xi).
 
-Where nothing is always engaged, the most engaged orbit is what more engaged states fall to: if it has an onset, the slope T' of
-the onset map is not above one there.
-
 If l is an orbit or a march that meets contact, suppose that there is an orbit with an earlier onset.
 
 * From there to l every onset leads to contact and to the end of adhesion, as it does for both, so r is continuous. It
@@ -46,22 +43,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .groups import Cycle, Strips
+from .groups import ROUNDING, Cycle, Strips
 from .march import TWO_PI, Orbit
 from .sensitivity import fading, gains, onset_margin, release_margin
 
-_EPS = np.finfo(float).eps
 #: beta above which the balance of a period is asked first: a faster foundation is judged better by its bounds
 SLOW = 30.0
 #: what the bound loses over an interval, in p_0 times its width; by how much finer than that asks for it is divided, into how
 #: many parts at most, and how often
 _LOSS, _AMPLY, _MOST, _ROUNDS = 2.1, 1.5, 12, 4
-#: less surplus than this, in p_0, where an orbit out of reach is held best is not worth dividing for
-_WORTH = 0.01
-#: rounds of the guess where an orbit out of reach is held best
-_GUESSES, _EARLIEST, _LATEST = 2, 0.05, 2.3
-#: parts of the phases, or sines, at which the slope of the onset map is thought to be one
-_LOWER = 0.95
+#: parts in which all onsets of a strip out of reach are asked at first: 2 or 8 cost as much
+_FIRST = 4
 #: least sine that is divided by
 _LEAST = 0.05
 #: onsets before this phase are next to the valley; contact is sought by this much further than is estimated
@@ -145,25 +137,16 @@ def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, n
 
 
 def exclude_out_of_reach(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
-    """Which cycles of strips out of reach, ``D <= -delta_0``, that cannot stay engaged are proven to have no most engaged orbit
-    with an onset; and the evaluations spent on each."""
-    none, spent = np.zeros(cycle.size, bool), np.ones(cycle.size)
+    """Which cycles of strips out of reach, ``D <= -delta_0``, that cannot stay engaged are proven to have no orbit with an onset;
+    and the evaluations spent on each."""
+    crest = np.zeros(cycle.size)
     with np.errstate(all="ignore"):
-        guess, reference = _held_best(cycle), at_rest(kernel, cycle)
-        least = balance_bound(kernel, reference, guess, guess)
-        index = np.flatnonzero(least > _WORTH * cycle.strips.p_0)
-        if index.size:
-            lo, hi = _stable_within(kernel, cycle.among(index), guess[index])
-            part = reference.take(index)
-            parts = _parts(_LOSS * part.p_0 * np.maximum(hi - lo, 0.0), least[index])
-            none[index], used = _excluded(kernel, part, lo, np.maximum(lo, hi), np.maximum(parts, 1))
-            spent[index] += used + 2
-    return none, spent
+        return _excluded(kernel, at_rest(kernel, cycle), crest, crest + np.pi, np.full(cycle.size, _FIRST))
 
 
 def beside(kernel, cycle: Cycle, known: Orbit, end) -> _Reference:
     """Orbits or marches with contact as references; adhesion does not ``end`` after."""
-    s, noise = cycle.strips, _noise(cycle.strips)
+    s, noise = cycle.strips, cycle.strips.noise()
     w_c = kernel.profile(known.c, s.D) + s.delta_0 + cycle.jump
     return _Reference(
         *_groups(kernel, cycle),
@@ -199,13 +182,9 @@ def at_rest(kernel, cycle: Cycle) -> _Reference:
         a=zero,
         turn=zero,
         end=zero + np.pi,
-        noise=_noise(cycle.strips),
+        noise=cycle.strips.noise(),
         sines=zero,
     )
-
-
-def _noise(s: Strips):
-    return 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
 
 
 def _groups(kernel, cycle: Cycle):
@@ -213,48 +192,6 @@ def _groups(kernel, cycle: Cycle):
     modulus = kernel.storage(s.alpha, s.beta), kernel.loss(s.alpha, s.beta, s.L)
     ends = cycle.centre + TWO_PI - cycle.half_b
     return s.alpha, s.beta, s.L, s.p_0, s.delta_0, s.D, *modulus, cycle.gap_on, cycle.jump, ends
-
-
-def _held_best(cycle: Cycle):
-    """About the onset, less its sign, with which a strip is held best on a foundation that stands still in a gap."""
-    s, pull = cycle.strips, gains(cycle)[1]
-    xi, glassy = np.ones(cycle.size), s.L * s.beta / s.alpha
-    for _ in range(_GUESSES):
-        a = np.arccos(np.clip(np.cos(xi) + s.delta_0, -1.0, 1.0))
-        sine, weight = np.sin(xi), np.pi + glassy * a
-        slope = np.cos(xi) * weight + glassy * sine**2 / np.maximum(np.sin(a), _LEAST)
-        xi = np.clip(np.where(slope > 0, xi - (sine * weight - pull) / slope, _LATEST), _EARLIEST, _LATEST)
-    return xi
-
-
-def _stable_within(kernel, cycle: Cycle, guess):
-    """Phases between which lies -x of every orbit with ``T' <= 1`` of a strip out of reach.
-
-    Contact begins where w has fallen from the onset to u, and ends before ``cos a = cos c + delta_0``, since w falls from there.
-    """
-    s = cycle.strips
-    onset, release = gains(cycle)
-    # low onsets: F and M grow with xi and c up to the middle of their arcs
-    lo = np.minimum(_LOWER * guess, np.minimum(-cycle.centre, cycle.centre + np.pi))
-    height = _versine(lo) + _noise(s)
-    c = _arc(height + cycle.jump + (height - s.D - s.delta_0) * np.expm1(TWO_PI / s.beta))
-    begun = np.minimum(_arc(height - cycle.gap_on + lo / s.beta * s.p_0), lo)
-    longest = begun + _arc(_versine(c) - s.delta_0 + _noise(s))
-    lo = np.where((c < cycle.centre + np.pi) & _unstable(kernel, cycle, lo, c, longest), lo, 0.0)
-    # high onsets: they fall beyond it, and c is more than xi
-    sine = np.minimum(_LOWER * (onset + release) / (TWO_PI * (1 + s.L * s.beta / s.alpha)), 1.0)
-    hi = np.maximum(np.pi - np.arcsin(sine), np.maximum(-cycle.centre, cycle.centre + np.pi))
-    return lo, np.where(_unstable(kernel, cycle, hi, hi, TWO_PI), hi, np.pi)
-
-
-def _unstable(kernel, cycle: Cycle, xi, c, longest):
-    """Where ``T' > 1`` if F and M are at most what they are for an onset at -xi and an end of adhesion at c, and contact is no
-    longer than ``longest``."""
-    onset, release = gains(cycle)
-    F, M = onset_margin(kernel, cycle, -xi), release_margin(kernel, cycle, c)
-    blur = _noise(cycle.strips) + 64 * _EPS * cycle.strips.beta
-    gain = np.log1p(onset / (np.maximum(F, 0.0) + blur)) + np.log1p(release / (np.maximum(M, 0.0) + blur))
-    return gain > (1 + 64 * _EPS) * fading(cycle, longest)
 
 
 def _arc(height):
@@ -284,7 +221,7 @@ def _suspects(kernel, cycle: Cycle, known: Orbit):
     F, M = onset_margin(kernel, cycle, known.x), release_margin(kernel, cycle, known.c)
     onset, release = gains(cycle)
     at_onset, at_release = np.log1p(onset / F), np.log1p(release / M)
-    share = fading(cycle, known.a - known.b) * (1 - 64 * _EPS) / (at_onset + at_release)
+    share = fading(cycle, known.a - known.b) * (1 - ROUNDING) / (at_onset + at_release)
     fits = (F > 0) & (M > 0) & (share > 1)
     least_F, least_M = (
         gain / np.expm1(np.minimum(share * log, 700.0)) for gain, log in ((onset, at_onset), (release, at_release))
@@ -294,7 +231,7 @@ def _suspects(kernel, cycle: Cycle, known: Orbit):
     # free flow from the end of adhesion, over no longer a way than from the known one
     w_c = kernel.profile(last, s.D) + s.delta_0 + cycle.jump
     free = known.x + TWO_PI - known.c
-    later = _arc(_versine(last) - cycle.jump - np.maximum(w_c * kernel.decay_loss(free, s.beta), 0.0) - _noise(s))
+    later = _arc(_versine(last) - cycle.jump - np.maximum(w_c * kernel.decay_loss(free, s.beta), 0.0) - s.noise())
     # it leads on to x, which moves with c by no less than where M is least and F is greatest
     F = np.where(known.x < cycle.centre, F, s.D - 1 + np.hypot(1, s.beta) + s.delta_0)
     moved = (last - known.c) * (least_M + release) / F * kernel.decay(free, s.beta) - known.x
@@ -346,7 +283,7 @@ def balance_bound(kernel, reference: _Reference, lo, hi):
     mean = r.D - 1 + r.p_0
     begins = mean + r.storage * cos_t + r.loss * sin_t
     late = mean + r.storage * cos_e - r.loss * sin_e + (r.q_on - begins) * kernel.decay(e + t, r.alpha)
-    blur = 128 * _EPS * (1 + r.beta + (1 + r.alpha) * (np.abs(late) + np.abs(mean)))
+    blur = 2 * ROUNDING * (1 + r.beta + (1 + r.alpha) * (np.abs(late) + np.abs(mean)))
     summed = mean * (e + t) + sin_e + sin_t + r.beta * (cos_e - cos_t)
     pressed = np.where(t > 0, np.maximum(summed - r.alpha * late - blur - r.pressed, 0.0), 0.0)
     holds = (t > 0) & (late > blur)

@@ -7,13 +7,10 @@ zones between them stay within their gaps, and when it is stable: an extremal or
 
 import numpy as np
 
-from .groups import Cycle, Strips
+from .groups import ROUNDING, Cycle, Strips
 from .march import TWO_PI, Orbit
 from .sensitivity import onset_margin, slope_excess
 
-_EPS = np.finfo(float).eps
-#: Slack of a forcing's sign at an edge, in units of rounding of the largest term; edges at grazing sit at zero.
-_SLACK = 64 * _EPS
 #: Near a fold the slope of the onset map approaches one like the square root of the distance; rounding blurs it.
 STABLE = 1e-6
 
@@ -22,8 +19,8 @@ def edges_admissible(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     """Every edge lies in the arc of its event, in order, within one period; and the contact that is not met stays open."""
     s = cycle.strips
     contact = ~np.isnan(orbit.b)
-    slack = _SLACK * (1 + np.abs(s.D) + s.beta + s.p_0 + s.delta_0)
-    turn = _SLACK * TWO_PI
+    slack = ROUNDING * (1 + np.abs(s.D) + s.beta + s.p_0 + s.delta_0)
+    turn = ROUNDING * TWO_PI
     ok = kernel.forcing(orbit.x, s.D, s.beta) + s.delta_0 >= -slack
     b, a = np.where(contact, orbit.b, orbit.x), np.where(contact, orbit.a, orbit.c)
     ok &= ~contact | (cycle.direct | (kernel.forcing(b, s.D, s.beta) + s.p_0 >= -slack))
@@ -36,7 +33,7 @@ def edges_admissible(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     for share in (0.5, 1.0):
         phase = orbit.x[open_] + share * (end[open_] - orbit.x[open_])
         gap = kernel.gap_after(orbit.x[open_], phase, cycle.gap_on[open_], -s.p_0[open_], s.D[open_], s.beta[open_])
-        ok[open_] &= gap >= -_SLACK * (1 + np.abs(s.D) + s.p_0 + s.delta_0)[open_]
+        ok[open_] &= gap >= -s.noise()[open_]
     return ok
 
 
@@ -45,7 +42,7 @@ def stable(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     log_slope, N = slope_excess(kernel, cycle, orbit)
     F = onset_margin(kernel, cycle, orbit.x)
     # a foundation without memory meets its onset at the very end of the arc, where F is rounding
-    return (log_slope <= STABLE) | (N - F <= _SLACK * (1 + np.abs(cycle.strips.D) + cycle.strips.delta_0))
+    return (log_slope <= STABLE) | (N - F <= ROUNDING * (1 + np.abs(cycle.strips.D) + cycle.strips.delta_0))
 
 
 def attracting(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:

@@ -26,6 +26,5 @@ def saturates(kernel, s: Strips) -> np.ndarray:
 def may_cling(kernel, s: Strips) -> np.ndarray:
     """Which strips may have an orbit that is always engaged; the others are proven to have none but saturated contact."""
     S, margin = s.D + s.p_0, s.D + s.p_0 - 2 + s.delta_0
-    noise = 64 * _EPS * (1 + np.abs(s.D) + s.p_0 + s.delta_0)
-    bounded = s.L * (S - 1) * kernel.decay(TWO_PI, s.beta) <= (margin + noise) * kernel.decay_mean(TWO_PI, s.beta)
+    bounded = s.L * (S - 1) * kernel.decay(TWO_PI, s.beta) <= (margin + s.noise()) * kernel.decay_mean(TWO_PI, s.beta)
     return (2 - s.D - s.p_0 <= s.delta_0) & bounded

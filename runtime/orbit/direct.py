@@ -85,7 +85,8 @@ class _Found:
         self.proven, self.evaluations = np.zeros(cycle.size, bool), np.zeros(cycle.size)
 
     def attempt(self, sequence: str, pick) -> None:
-        """Newton for the cycles ``pick``, and the proof that what it finds is extremal."""
+        """Newton for the cycles ``pick``, and the proof that what it finds is the first orbit; the last one is the search's to
+        prove."""
         if not pick.size:
             return
         part, limits = self.cycle.among(pick), self.bounds.take(pick)
@@ -94,9 +95,10 @@ class _Found:
         here = np.flatnonzero(good)
         if not here.size:
             return
-        sure, used = alone(self.kernel, part.among(here), orbit.take(here), self.last, limits.take(here))
-        pick = pick[here]
-        self.evaluations[pick] += used
+        sure, pick = np.zeros(here.size, bool), pick[here]
+        if not self.last:
+            sure, used = alone(self.kernel, part.among(here), orbit.take(here), limits.take(here))
+            self.evaluations[pick] += used
         # of two orbits that are known the more extremal one is worth keeping
         found = self.orbit.x[pick]
         nearer = ~(found >= orbit.x[here]) if self.last else ~(found <= orbit.x[here])

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 TWO_PI = 2 * np.pi
+#: rounding of a sum of a few terms, in the largest of them: 64 times that of one operation
+ROUNDING = 64 * np.finfo(float).eps
 #: roundings of J_0 p_0 (a product and two quotients) within which it equals delta_0
 _TIE = 4 * np.finfo(float).eps
 #: alpha from which a strip is taken as the limit of a foundation that stands still: pressures differ from it by 1/alpha of the
@@ -48,6 +50,10 @@ class Strips:
     @property
     def size(self) -> int:
         return self.D.size
+
+    def noise(self) -> np.ndarray:
+        """What rounding may change in a displacement, (n,): every bound keeps this distance."""
+        return ROUNDING * (1 + np.abs(self.D) + self.p_0 + self.delta_0)
 
 
 @dataclass(frozen=True, slots=True)

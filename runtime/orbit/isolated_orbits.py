@@ -45,7 +45,8 @@ def _located(kernel, cycle: Cycle, result: SearchResult) -> tuple[Orbit, np.ndar
     """Orbits at the isolated zeros, which of them failed to converge, and the evaluations spent on each."""
     orbit = result.left.take(np.arange(cycle.size))
     failed, spent = result.unresolved.copy(), np.zeros(cycle.size)
-    pick = np.flatnonzero(result.found)
+    # a bracket without width is the orbit itself
+    pick = np.flatnonzero(result.found & (result.left.x < result.right.x))
     if not pick.size:
         return orbit, failed, spent
     left, right, cycle = result.left.take(pick), result.right.take(pick), cycle.take(pick)

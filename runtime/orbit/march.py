@@ -11,9 +11,8 @@ import numpy as np
 
 from .bound import rows
 from .crossing import crossing
-from .groups import TWO_PI, Cycle
+from .groups import ROUNDING, TWO_PI, Cycle
 
-_EPS = np.finfo(float).eps
 #: alpha from which a period moves the foundation by so little that rounding blurs what joins one edge to the next
 FROZEN = 1e6
 
@@ -91,8 +90,7 @@ def _release_grazing(kernel, cycle: Cycle, orbit: Orbit, index) -> None:
     contact = ~np.isnan(b)
     start, c = np.where(contact, a, x), part.centre + TWO_PI - part.half_c
     gap = kernel.gap_after(start, np.maximum(c, start), np.where(contact, 0.0, part.gap_on), -s.p_0, s.D, s.beta)
-    noise = 16 * _EPS * (1 + np.abs(s.D) + s.p_0 + s.delta_0)
-    open_ = (c > start) & (c <= x + TWO_PI) & (gap >= s.delta_0 - noise)
+    open_ = (c > start) & (c <= x + TWO_PI) & (gap >= s.delta_0 - s.noise())
     pick = np.flatnonzero(open_)
     if not pick.size:
         return
@@ -101,35 +99,6 @@ def _release_grazing(kernel, cycle: Cycle, orbit: Orbit, index) -> None:
     pick, index = pick[rises], index[pick[rises]]
     orbit.c[index], orbit.engaged[index] = c[pick], False
     orbit.r[index], orbit.w_end[index] = r[rises], w_end[rises]
-
-
-def next_onset(kernel, cycle: Cycle, orbit: Orbit) -> tuple[np.ndarray, np.ndarray]:
-    """Onset phase of the period that follows, less 2 pi: the onset map. NaN where the strip is engaged or misses the onset.
-
-    Also returns the event evaluations each took.
-    """
-    s = cycle.strips
-    x = np.full(orbit.x.shape, np.nan)
-    spent = np.zeros(x.shape)
-    end = cycle.centre + cycle.half_d + TWO_PI
-    index = np.flatnonzero(~orbit.engaged)
-
-    if not index.size:
-        return x, spent
-    i = index
-    entry = kernel.gap_entry(orbit.c[i], s.delta_0[i] + cycle.jump[i], np.zeros(i.size), s.D[i], s.beta[i])
-    gap = _Event(kernel.gap_event, entry, s.delta_0[i])
-    start = np.maximum(end - 2 * cycle.half_d, np.where(orbit.engaged, -np.inf, orbit.c))
-    meets = _happens(gap, start[index], end[index], index, np.zeros(index.size, bool), spent)
-    index, gap = index[meets], gap.take(meets)
-    here = orbit.x[index] + TWO_PI
-    start = start[index]
-    early = orbit.r[index] < 0
-    low, high = np.where(early, start, here), np.where(early, here, end[index])
-    found, used = crossing(gap, low, np.maximum(low, high))
-    x[index] = found - TWO_PI
-    spent[index] += used
-    return x, spent
 
 
 def between(left: Orbit, right: Orbit) -> Orbit:
@@ -146,7 +115,7 @@ def lies_between(orbit: Orbit, left: Orbit, right: Orbit, blur) -> np.ndarray:
     ok = np.ones(orbit.x.shape, bool)
     for edge in ("x", "b", "a", "c"):
         value, one, two = (getattr(o, edge) for o in (orbit, left, right))
-        slack = 64 * _EPS * TWO_PI + blur
+        slack = ROUNDING * TWO_PI + blur
         ok &= np.isnan(one) | ((value >= np.minimum(one, two) - slack) & (value <= np.maximum(one, two) + slack))
     return ok
 

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .bound import bound, close_enough
-from .groups import Cycle
+from .groups import ROUNDING, Cycle
 from .march import TWO_PI
 from .start import onset_guess
 
@@ -93,19 +93,14 @@ def orbit_bounds(kernel, cycle: Cycle) -> OrbitBounds:
     return out
 
 
-def _noise(cycle: Cycle):
-    s = cycle.strips
-    return 64 * _EPS * (1 + np.abs(s.D) + s.delta_0 + s.p_0)
-
-
 def _release(kernel, cycle: Cycle, b, a, c):
     """Later ends of contact begun at b and of adhesion, sought from a and c, where both were found, and the evaluations spent."""
-    s, noise = cycle.strips, _noise(cycle)
+    s, noise = cycle.strips, cycle.strips.noise()
     spent, turned = np.zeros(cycle.size), cycle.centre + TWO_PI
     close = close_enough(s.beta)
     entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
     near, far = np.maximum(b, cycle.centre + cycle.half_b), turned - cycle.half_b
-    blur, start = noise + 64 * _EPS * entry[4], np.clip(a, near, far)
+    blur, start = noise + ROUNDING * entry[4], np.clip(a, near, far)
     a, ends = bound(kernel.excess_event, entry, 0.0, 1.0, start, far, 1.0, blur, close, spent, near)
     entry = kernel.gap_entry(a, 0.0, -s.p_0, s.D, s.beta)
     near, far = np.maximum(a, cycle.centre + cycle.half_c), turned - cycle.half_c
@@ -120,7 +115,7 @@ def _onset(kernel, cycle: Cycle, c, x):
 
     Also which cycles miss it, and the evaluations spent.
     """
-    s, noise = cycle.strips, _noise(cycle)
+    s, noise = cycle.strips, cycle.strips.noise()
     spent = np.ones(cycle.size)
     entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
     far = np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)

@@ -17,8 +17,8 @@ exactly one zero, a stable orbit. All other intervals are halved.
 
 import numpy as np
 
-from .groups import Cycle
-from .march import TWO_PI, Orbit, march, next_onset
+from .groups import ROUNDING, Cycle
+from .march import TWO_PI, Orbit, march
 from .sensitivity import SlopeBounds, onset_margin, slope_bounds, slope_excess
 
 _EPS = np.finfo(float).eps
@@ -112,50 +112,24 @@ class _Search:
         return np.setdiff1d(index, quick[forgets])
 
     def _start(self, index):
-        """Both ends of the arc, moved inward by the onset map itself: every fixed point of a monotone map lies between the
-        images."""
+        """Marches from both ends of the arc; a known orbit stands for the far one."""
         cycle = self.cycle.take(index)
-        near = cycle.centre + self.sign * -cycle.half_d
-        far = cycle.centre + self.sign * cycle.half_d
-        frontier = self.march(index, near)
+        frontier = self.march(index, cycle.centre - self.sign * cycle.half_d)
         # r has the other sign at the very start only where the orbit sits there, to rounding, or where the strip stays
         # engaged through the period: from the last onset on, then, from every onset
         at_start = self.sign * frontier.r <= 0
-        accepted = np.flatnonzero(at_start & ~frontier.engaged)
-        self._isolated(index[accepted], frontier.take(accepted), frontier.take(accepted))
-        keep = np.flatnonzero(~at_start | (frontier.engaged & (not self.last)))
-        index, frontier, cycle, far = index[keep], frontier.take(keep), cycle.take(keep), far[keep]
         stop = self.known.take(index)
+        # rounding may push a known orbit past the end
+        accepted = np.flatnonzero((at_start & ~frontier.engaged) | (~at_start & (self.sign * (stop.x - frontier.x) <= 0)))
+        self._isolated(index[accepted], frontier.take(accepted), frontier.take(accepted))
+        keep = ~at_start | (frontier.engaged & (not self.last))
+        keep[accepted] = False
+        keep = np.flatnonzero(keep)
+        index, frontier, stop, cycle = index[keep], frontier.take(keep), stop.take(keep), cycle.take(keep)
         open_ = np.flatnonzero(np.isnan(stop.x))
         if open_.size:
-            stop.put(open_, self.march(index[open_], far[open_]))
-        first = frontier
-        frontier = self._inward(index, first, cycle, stop)
-        if open_.size:
-            stop.put(open_, self._inward(index[open_], stop.take(open_), cycle.take(open_), first.take(open_)))
-        # rounding may push the ends past each other: the orbit lies between them
-        crossed = np.flatnonzero(self.sign * (stop.x - frontier.x) <= 0)
-        if crossed.size:
-            self._isolated(index[crossed], frontier.take(crossed), frontier.take(crossed))
-        keep = np.flatnonzero(self.sign * (stop.x - frontier.x) > 0)
-        return index[keep], frontier.take(keep), stop.take(keep)
-
-    def _inward(self, index, orbit: Orbit, cycle: Cycle, other: Orbit) -> Orbit:
-        """The orbit from the image of an end, where it lies further in."""
-        image, spent = next_onset(self.kernel, cycle, orbit)
-        self.result.evaluations[index] += spent
-        toward = np.sign(other.x - orbit.x)
-        moved = np.flatnonzero((toward * (image - orbit.x) > 0) & (toward * (other.x - image) > 0))
-        if not moved.size:
-            return orbit
-        ends = orbit.take(moved), other.take(moved)
-        earlier, later = ends if toward[moved][0] > 0 else ends[::-1]
-        inner = self.march(index[moved], image[moved], earlier, later)
-        # the image of a fixed point's outer side stays on that side; only rounding, close to the orbit, can say otherwise
-        valid = np.flatnonzero(inner.r * orbit.r[moved] > 0)
-        result = orbit.take(np.arange(index.size))
-        result.put(moved[valid], inner.take(valid))
-        return result
+            stop.put(open_, self.march(index[open_], (cycle.centre + self.sign * cycle.half_d)[open_]))
+        return index, frontier, stop
 
     def _advance(self, index, frontier: Orbit, beyond: Orbit, stop: Orbit, count: int):
         """Divide the interval from each frontier to the onset ``beyond`` into ``count`` parts; exclude them, and what is left up
@@ -175,6 +149,8 @@ class _Search:
         first = np.where(ended, count, excluded.argmin(axis=0)) * n + np.arange(n)
         found = np.flatnonzero(unique.ravel()[first] & ~ended)
         outer, inner = here.take(first[found]), there.take(first[found])
+        known = np.flatnonzero(inner.r == 0)  # the orbit itself
+        outer.put(known, inner.take(known))
         left, right = (inner, outer) if self.last else (outer, inner)
         # an orbit at the last bit before the strip stays engaged: the nearest one that is released stands for it
         squeezed = np.flatnonzero(left.engaged)
@@ -352,7 +328,7 @@ def _stays_above(kernel, cycle: Cycle, left: Orbit, x_right, N_min):
     half = kernel.forcing_arc(s.delta_0 - N_min, s.D, s.beta)[1]
     turn = np.clip(cycle.centre + half, left.x, x_right)
     above = np.ones(left.x.shape, bool)
-    noise = 16 * _EPS * (1 + np.abs(s.D) + s.delta_0 + np.abs(left.r) + N_min)
+    noise = ROUNDING * (1 + np.abs(s.D) + s.delta_0 + np.abs(left.r) + N_min)
     for phase in (turn, x_right):
         above &= kernel.gap_after(left.x, phase, s.delta_0 + left.r, N_min, s.D, s.beta) > s.delta_0 + noise
     return above
@@ -364,5 +340,5 @@ def _stays_below(kernel, cycle: Cycle, x_left, right: Orbit, N_min):
     half = kernel.forcing_arc(s.delta_0 - N_min, s.D, s.beta)[1]
     turn = np.clip(cycle.centre - half, x_left, right.x)
     lag = kernel.profile(turn, s.D) + s.delta_0 - N_min
-    noise = 16 * _EPS * (1 + np.abs(s.D) + s.delta_0 + np.abs(right.w_end) + N_min)
+    noise = ROUNDING * (1 + np.abs(s.D) + s.delta_0 + np.abs(right.w_end) + N_min)
     return right.w_end - N_min + noise < lag * kernel.decay(right.x - turn, s.beta)

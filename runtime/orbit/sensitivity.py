@@ -15,10 +15,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .groups import Cycle
+from .groups import ROUNDING, Cycle
 from .march import TWO_PI, Orbit
 
-_EPS = np.finfo(float).eps
 #: least relaxation time that is divided by
 _LEAST = 1e-290
 
@@ -89,17 +88,17 @@ def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds
     return SlopeBounds(fall, rise, (log_max < 0) | (N_max < F_min), N_min)
 
 
-def steep_margin(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> np.ndarray:
-    """The F beyond which R falls strictly at every onset between those of ``left`` and ``right``; inf if that is unknown.
+def steep_margin(kernel, cycle: Cycle, latest, right: Orbit) -> np.ndarray:
+    """The F beyond which R falls strictly at every onset before that of ``right`` from which adhesion ends before ``latest``, inf
+    if that is unknown.
 
-    Of the edges of ``left`` only the end of adhesion counts. In between contact is longer than in ``right`` and adhesion ends
-    between the two c, where M is least at one of them: ``log T' <= log B + log(1 + s_x/F)`` with a B that does not depend on the
-    onset, negative where ``F > s_x/(1/B - 1)``.
+    There contact is longer than in ``right`` and adhesion ends between the two phases, where M is least at one of them:
+    ``log T' <= log B + log(1 + s_x/F)`` with a B that does not depend on the onset, negative where ``F > s_x/(1/B - 1)``.
     """
-    M = np.minimum(*(release_margin(kernel, cycle, orbit.c) for orbit in (left, right)))
+    M = np.minimum(release_margin(kernel, cycle, latest), release_margin(kernel, cycle, right.c))
     onset, release = gains(cycle)
     # the rounding of the terms of log B, which may cancel
-    log_B = np.log1p(_over(release, M)) - (1 - 64 * _EPS) * fading(cycle, contact_length(right.b, right.a))
+    log_B = np.log1p(_over(release, M)) - (1 - ROUNDING) * fading(cycle, contact_length(right.b, right.a))
     return np.divide(onset, np.expm1(np.minimum(-log_B, 700.0)), out=np.full(onset.shape, np.inf), where=log_B < 0)
 
 
