@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.polynomial.chebyshev import chebder
 
-from ..orbit.crossing import crossing
+from ..numerics.roots import falling_root
 from .cells import Cells
 from .curve import Curve
 from .piece import Piece, parameter
@@ -162,7 +162,7 @@ def _reached(parts: Sequence[Branch], p: np.ndarray) -> np.ndarray:
         return p[which] - value, -slope
 
     t_low, t_high, p_low, p_high = np.array([(part.t_low, part.t_high, part.p_low, part.p_high) for part in parts]).T
-    t, _ = crossing(missing, t_low, t_high)
+    t, _ = falling_root(missing, t_low, t_high)
     return np.where(p <= p_low, t_low, np.where(p >= p_high, t_high, t))
 
 
@@ -205,7 +205,7 @@ class _Pressures:
             _, first, second = self(which[sub], t).T
             return -sign * first, -sign * second
 
-        return crossing(slope, _TURNS[np.maximum(near - 1, 0)], _TURNS[np.minimum(near + 1, _TURNS.size - 1)])[0]
+        return falling_root(slope, _TURNS[np.maximum(near - 1, 0)], _TURNS[np.minimum(near + 1, _TURNS.size - 1)])[0]
 
 
 def _polynomials(t, size: int) -> np.ndarray:

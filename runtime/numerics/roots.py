@@ -9,7 +9,6 @@ Recipes", section 9.4): it ends for every function, and like Newton's method or 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,35 +19,24 @@ _MOST = 2200
 _TINY = 1e-290
 
 
-@dataclass(frozen=True)
-class Roots:
-    """Roots ``x``, final brackets ``low`` and ``high``, ``evaluations``, all of the shape of the brackets given."""
-
-    x: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
-    evaluations: np.ndarray
-
-
 def falling_root(
     function: Callable[[np.ndarray, np.ndarray], np.ndarray | tuple[np.ndarray, np.ndarray]],
     low: np.ndarray,
     high: np.ndarray,
     guess: np.ndarray | None = None,
-    tolerance: np.ndarray | float = 0.0,
-) -> Roots:
-    """Where functions fall through zero, each between ``low`` (m,), where it is positive, and ``high`` (m,), where it is not.
+    tolerance: float = 0.0,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Where functions fall through zero, each between ``low`` (m,), where it is positive, and ``high`` (m,), where it is not;
+    and the evaluations each took, (m,).
 
     ``function(x, index)`` returns the values at ``x`` of the members ``index``, all (k,), or a tuple of values and slopes. The
     signs at the ends are the caller's word: the ends are not evaluated. Where there are several roots one of them is found.
-    Ends at two roundings of x, or at ``tolerance`` (m,) in x, whichever is larger. A bracket without width is its own root.
+    Ends at two roundings of x, or at ``tolerance`` in x, whichever is larger. A bracket without width is its own root.
     """
-    low, high = np.array(low, float), np.array(high, float)
-    limit = np.broadcast_to(np.asarray(tolerance, float), low.shape)
     x = 0.5 * (low + high) if guess is None else np.clip(guess, low, high)
-    out = Roots(np.where(high > low, x, high), low, high, np.zeros(low.shape, int))
+    result, spent = np.where(high > low, x, high), np.zeros(low.shape)
     live = np.flatnonzero(high > low)
-    x, lo, hi, limit = x[live], low[live], high[live], limit[live]
+    x, lo, hi = x[live], low[live], high[live]
     before = hi - lo  # the step before, or the bracket
     correction = np.zeros(live.size)  # the step before if it was no bisection, else 0
     last = None  # the point before and its value, for the secant
@@ -56,39 +44,39 @@ def falling_root(
         if not live.size:
             break
         found = function(x, live)
-        value, slope = found if isinstance(found, tuple) else (found, _secant(last, x, found))
         newton = isinstance(found, tuple)
-        out.evaluations[live] += 1
+        value, slope = found if newton else (found, _secant(last, x, found))
+        spent[live] += 1
         positive = value > 0
         last, lo, hi = (x, value), np.where(positive, x, lo), np.where(positive, hi, x)
-        # neither a slope of the wrong sign nor one that over- or underflowed says anything
+        # a slope of the wrong sign, or one that over- or underflowed, sends the step outside the bracket: bisection then
         usable = (slope < 0) & (slope > -np.inf) & (np.abs(slope) > _TINY * np.abs(value))
         step = np.divide(-value, slope, out=np.full_like(value, np.inf), where=usable)
-        small = np.maximum(2 * _EPS * np.maximum(np.abs(lo), np.abs(hi)), limit)
+        small = np.maximum(2 * _EPS * np.maximum(np.abs(lo), np.abs(hi)), tolerance)
         if not newton:
             # a small step may be that of a steep secant: only a narrow bracket tells, and steps that are not too small make one
             step = np.copysign(np.maximum(np.abs(step), 0.5 * small), step)
         new, size = x + step, np.abs(step)
         bisected = ~((new >= lo) & (new <= hi)) | (size > 0.5 * before)
         new = np.where(bisected, 0.5 * (lo + hi), new)
-        # next to the root the next step of Newton's would be this one times the square of the last ratio of steps
-        ratio = np.divide(size, correction, out=np.ones_like(size), where=correction > size)
-        settled = ~bisected & (size * ratio * ratio <= small) & newton
         exact = value == 0
-        done = exact | settled | (hi - lo <= small)
+        done = exact | (hi - lo <= small)
+        if newton:
+            # next to the root the next step would be this one times the square of the last ratio of steps
+            ratio = np.divide(size, correction, out=np.ones_like(size), where=correction > size)
+            done |= ~bisected & (size * ratio * ratio <= small)
         x = np.where(exact, x, new)
         before, correction = np.where(bisected, hi - lo, size), np.where(bisected, 0.0, size)
         if done.any():
-            at = live[done]
-            out.x[at], out.low[at], out.high[at] = x[done], lo[done], hi[done]
+            result[live[done]] = x[done]
             going = np.flatnonzero(~done)
-            live, x, lo, hi, limit = live[going], x[going], lo[going], hi[going], limit[going]
+            live, x, lo, hi = live[going], x[going], lo[going], hi[going]
             before, correction, last = before[going], correction[going], tuple(v[going] for v in last)
-    out.x[live], out.low[live], out.high[live] = x, lo, hi
-    return out
+    result[live] = x
+    return result, spent
 
 
-def rising_root(function: Callable, low: np.ndarray, high: np.ndarray, guess=None, tolerance=0.0) -> Roots:
+def rising_root(function: Callable, low, high, guess=None, tolerance: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
     """``falling_root`` of functions that are not positive at ``low`` and positive at ``high``."""
 
     def negative(x, index):

@@ -1,7 +1,7 @@
 """What a strip must satisfy before it is returned.
 
 A small residual proves nothing: a wrong orbit balances too. An orbit is accepted when its edges lie in the arcs in which
-the events they stand for can happen at all (then each is the first crossing, see ``crossing``), in one period, when the
+the events they stand for can happen at all (then each is the first crossing, see ``march``), in one period, when the
 zones between them stay within their gaps, and when it is stable: an extremal orbit is, one in between is not.
 """
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .crossing import crossing
+from ..numerics.roots import falling_root
 from .regimes import CODE
 from .solved import Solved
 
@@ -103,7 +103,7 @@ class Contact(ABC):
         # as far along as on a parabola about the peak; at exit the excess is zero
         peak, least = self.p_peak[i] / self.unit[i] + self.s.p_0[i], np.where(upward, self.q_b[i], 0.0)
         share = np.divide(peak - goal[i], peak - least, out=np.zeros(i.size), where=peak > least)
-        found, _ = crossing(excess, low, high, self.top[i] + (outer - self.top[i]) * np.sqrt(np.clip(share, 0.0, 1.0)))
+        found, _ = falling_root(excess, low, high, self.top[i] + (outer - self.top[i]) * np.sqrt(np.clip(share, 0.0, 1.0)))
         up[rising], down[falling] = found[upward], found[~upward]
         return up, down
 
@@ -144,7 +144,7 @@ class SingleContact(Contact):
             bend = -amplitude[sub] * np.cos(phase - centre[sub])
             return np.where(remembers[sub], behind, rise), np.where(remembers[sub], steepens, bend)
 
-        return crossing(lag, self.b[part], self.a[part])[0]
+        return falling_root(lag, self.b[part], self.a[part])[0]
 
 
 def passages(level: np.ndarray, mean: np.ndarray, amplitude: np.ndarray, centre: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -31,24 +31,20 @@ class IsolatedOrbits:
 
 def isolated_orbits(kernel, cycle: Cycle, last: bool, known: Orbit | None = None) -> IsolatedOrbits:
     """The first (``last``: last) orbit on the onset arc of every cycle. ``known``: see ``search.isolate_extremal``."""
-    return at_zeros(kernel, cycle, isolate_extremal(kernel, cycle, last, known))
-
-
-def at_zeros(kernel, cycle: Cycle, result: SearchResult) -> IsolatedOrbits:
-    """The orbits that are isolated, located and certified."""
-    orbit, failed, spent = _located(kernel, cycle, result)
-    certified = result.found & ~failed & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
+    result = isolate_extremal(kernel, cycle, last, known)
+    orbit, spent = _located(kernel, cycle, result)
+    certified = result.found & ~result.unresolved & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
     return IsolatedOrbits(orbit, result.found, certified, ~result.unresolved, result.evaluations + spent)
 
 
-def _located(kernel, cycle: Cycle, result: SearchResult) -> tuple[Orbit, np.ndarray, np.ndarray]:
-    """Orbits at the isolated zeros, which of them failed to converge, and the evaluations spent on each."""
+def _located(kernel, cycle: Cycle, result: SearchResult) -> tuple[Orbit, np.ndarray]:
+    """Orbits at the isolated zeros, and the evaluations spent on each."""
     orbit = result.left.take(np.arange(cycle.size))
-    failed, spent = result.unresolved.copy(), np.zeros(cycle.size)
+    spent = np.zeros(cycle.size)
     # a bracket without width is the orbit itself
     pick = np.flatnonzero(result.found & (result.left.x < result.right.x))
     if not pick.size:
-        return orbit, failed, spent
+        return orbit, spent
     left, right, cycle = result.left.take(pick), result.right.take(pick), cycle.take(pick)
     orbit.put(pick, between(left, right))
     # Newton on the boundary equations, from in between, may stand in for the march where it stays in between
@@ -64,11 +60,10 @@ def _located(kernel, cycle: Cycle, result: SearchResult) -> tuple[Orbit, np.ndar
             rest[here[inside]] = False
     rest = np.flatnonzero(rest)
     if rest.size:
-        at_zero, missed, used = locate(kernel, cycle.take(rest), left.take(rest), right.take(rest))
+        at_zero, used = locate(kernel, cycle.take(rest), left.take(rest), right.take(rest))
         orbit.put(pick[rest], at_zero)
-        failed[pick[rest]] |= missed
         spent[pick[rest]] += used
-    return orbit, failed, spent
+    return orbit, spent
 
 
 def _kinds(cycle: Cycle, left: Orbit, right: Orbit) -> dict[str, np.ndarray]:

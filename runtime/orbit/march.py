@@ -2,6 +2,10 @@
 
 The march is the return map of the strip on the phase x of its onset. It is not iterated: its sign, and bounds on its
 slope, drive the search for the extremal orbit (``search``).
+
+Every event of a strip (gap closes, gap reaches delta_0, pressure falls to -p_0) is a zero of a function F with
+``F + T F' = one harmonic of the phase``. At a zero the slope of F has the sign of that harmonic, so F crosses zero at most once
+inside the arc where the harmonic keeps its sign: the arc is a bracket, in which safeguarded Newton cannot find a wrong zero.
 """
 
 from collections.abc import Sequence
@@ -9,10 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..numerics.roots import falling_root
 from .bound import rows
-from .crossing import crossing
 from .groups import ROUNDING, TWO_PI, Cycle
 
+#: edges this close to the crest are on it: the bracket of one that is on it would be halved a thousand times
+LEAST_PHASE = 1e-60
 #: alpha from which a period moves the foundation by so little that rounding blurs what joins one edge to the next
 FROZEN = 1e6
 
@@ -136,14 +142,14 @@ class _Known:
         self.guess = first + share * (second - first)
 
     def crossing(self, event, low, high, index):
-        """``crossing`` for the elements ``index``, in the narrower of the brackets."""
+        """``falling_root`` for the elements ``index``, in the narrower of the brackets."""
         if not self.sure.any():
-            return crossing(event, low, high)
+            return falling_root(event, low, high, tolerance=LEAST_PHASE)
         sure = self.sure[index]
         low = np.where(sure, np.clip(self.low[index], low, high), low)
         high = np.where(sure, np.clip(self.high[index], low, high), high)
         guess = np.where(sure, self.guess[index], 0.5 * (low + high))
-        return crossing(event, low, high, guess)
+        return falling_root(event, low, high, guess, LEAST_PHASE)
 
 
 def _happens(event, start, end, index, sure, spent):

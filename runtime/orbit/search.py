@@ -17,6 +17,7 @@ exactly one zero, a stable orbit. All other intervals are halved.
 
 import numpy as np
 
+from ..numerics.roots import falling_root
 from .groups import ROUNDING, Cycle
 from .march import TWO_PI, Orbit, march
 from .sensitivity import SlopeBounds, onset_margin, slope_bounds, slope_excess
@@ -213,42 +214,30 @@ def _mesh(here: Orbit, there: Orbit, slope_here, slope_there, sign: float, count
     return here.x + width * np.clip(place + scale * np.sinh(low + share * (high - low)), 0.0, 1.0)
 
 
-def locate(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[Orbit, np.ndarray, np.ndarray]:
+def locate(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[Orbit, np.ndarray]:
     """The one zero of r between the onsets of ``left`` and ``right`` by safeguarded Newton on the march.
 
-    Returns the orbits, which of them did not converge, and the event evaluations spent on each.
+    Returns the orbits and the event evaluations spent on each.
     """
-    low, high = left.take(np.arange(cycle.size)), right.take(np.arange(cycle.size))
-    best = left.take(np.arange(cycle.size))
-    spent = np.zeros(cycle.size)
-    share = left.r / np.where(left.r > right.r, left.r - right.r, 1.0)
-    x = np.clip(left.x + (right.x - left.x) * share, left.x, right.x)
-    width = right.x - left.x
-    active = np.flatnonzero(width > 0)
-    for _ in range(200):
-        if not active.size:
-            break
-        sub = cycle.take(active)
-        orbit, used = march(kernel, sub, x[active], low.take(active), high.take(active))
-        spent[active] += used
-        best.put(active, orbit)
+    every = np.arange(cycle.size)
+    low, high, best, spent = left.take(every), right.take(every), left.take(every), np.zeros(cycle.size)
+
+    def residual(x, index):
+        part = cycle.take(index)
+        orbit, used = march(kernel, part, x, low.take(index), high.take(index))
+        spent[index] += used
+        best.put(index, orbit)
         after = orbit.r > 0
-        low.put(active[after], orbit.take(after))
-        high.put(active[~after], orbit.take(~after))
-        lo, hi = low.x[active], high.x[active]
-        slope = _residual_slope(kernel, sub, orbit)
-        step = np.divide(-orbit.r, slope, out=np.full_like(slope, np.inf), where=slope < 0)
-        new = orbit.x + step
-        poor = ~((new >= lo) & (new <= hi)) | (np.abs(step) > 0.5 * width[active])
-        new = np.where(poor, 0.5 * (lo + hi), new)
-        width[active] = np.where(poor, hi - lo, np.abs(step))
-        tolerance = 2 * _EPS * np.maximum(np.abs(lo), np.abs(hi))
-        done = (orbit.r == 0) | (hi - lo <= tolerance) | (~poor & (np.abs(step) <= tolerance))
-        x[active] = np.where(orbit.r == 0, orbit.x, new)
-        active = active[~done]
-    failed = np.zeros(cycle.size, bool)
-    failed[active] = True
-    return best, failed, spent
+        low.put(index[after], orbit.take(after))
+        high.put(index[~after], orbit.take(~after))
+        return orbit.r, _residual_slope(kernel, part, orbit)
+
+    share = left.r / np.where(left.r > right.r, left.r - right.r, 1.0)
+    x, _ = falling_root(residual, left.x, right.x, left.x + (right.x - left.x) * share)
+    orbit, used = march(kernel, cycle, x, low, high)
+    released = np.flatnonzero(~orbit.engaged)
+    best.put(released, orbit.take(released))
+    return best, spent + used
 
 
 def _residual_slope(kernel, cycle: Cycle, orbit: Orbit):

@@ -6,11 +6,6 @@ contact is glassy: the edges lie alike about the crest, ``cos a = 1 - D + W``, `
 means of p and w are the same where
 
     -pi (D - 1 + cos a) - p_0 c + (beta - alpha)/alpha (sin a - a cos a) = 0.
-
-Where it snaps into contact w steps by J p_0 and it is z = w - J p that stands still, at Z = D - 1 + y: ``cos x = y - delta_0``,
-``cos a = y - J p_0``, ``cos c = cos a - delta_0``, and
-
-    L ((sin a + sin x - y (a + x))/J - p_0 (c - a)) = 2 pi (D - 1 + y).
 """
 
 from __future__ import annotations
@@ -39,10 +34,6 @@ _LEAST = 1e-9
 #: alpha above which the edges are those of a foundation that stands still; rounds of Newton for them, from a long contact,
 #: and the shortest
 _SLOWLY, _ROUNDS, _LONG, _SHORT = 1.4, 4, 2.0, 0.02
-#: where the balance of a strip that snaps into contact is steepest, as a share of the way between its folds
-_UPWARD = 0.4
-#: the same where the whole gap adheres, up to where the saturated field hardly pulls; by how much contact is turned, over alpha
-_SLOWER, _HARDLY, _MIDDLE, _TURNED = 8.0, 0.03, 1.9, 0.8
 
 
 def onset_guess(cycle: Cycle, kind: str = "adhesive") -> np.ndarray:
@@ -77,9 +68,9 @@ def start(kernel, cycle: Cycle, sequence: str, bounds: OrbitBounds | None = None
         if bounds is not None:
             edges["c"] = np.where(np.isnan(bounds.x), edges["c"], np.maximum(bounds.c, last))
     starts = np.array([edges[edge] for edge in EDGES[sequence]])
-    slow = np.flatnonzero(s.alpha > _SLOWLY) if sequence in ("acaf", "afc") else ()
+    slow = np.flatnonzero(s.alpha > _SLOWLY) if sequence == "acaf" else ()
     if len(slow):
-        starts[:, slow] = (_standing_still if sequence == "acaf" else _standing_still_snapped)(s.take(slow))
+        starts[:, slow] = _standing_still(s.take(slow))
     return starts
 
 
@@ -100,26 +91,6 @@ def _standing_still(s: Strips) -> np.ndarray:
     return np.array([-c, -a, a, c])
 
 
-def _standing_still_snapped(s: Strips) -> np.ndarray:
-    """Edges (3, n) of strips that snap into contact and in which nothing relaxes within a period.
-
-    The balance falls along y between the folds of the most and the least engaged orbit, where Newton starts."""
-    step = s.J * s.p_0
-    low, high = step + s.delta_0 - 1, 1 + s.delta_0
-    edges = lambda y: [np.arccos(np.clip(v, -1.0, 1.0)) for v in (y - s.delta_0, y - step, y - step - s.delta_0)]  # noqa: E731
-    y = low + _UPWARD * (high - low)
-    for _ in range(_ROUNDS + 2):
-        x, a, c = edges(y)
-        balance = s.L * ((np.sin(a) + np.sin(x) - y * (a + x)) / s.J - s.p_0 * (c - a)) - 2 * np.pi * (s.D - 1 + y)
-        grazed = s.delta_0 / (s.J * np.maximum(np.sin(x), _LEAST)) + s.p_0 / np.maximum(np.sin(c), _LEAST)
-        slope = s.L * (grazed - (a + x) / s.J) - 2 * np.pi
-        falling = slope < 0
-        new = y - np.divide(balance, slope, out=np.zeros_like(y), where=falling)
-        y = np.clip(np.where(falling, new, 0.5 * (y + low + _UPWARD * (high - low))), 0.9 * low + 0.1 * y, 0.9 * high + 0.1 * y)
-    x, a, c = edges(y)
-    return np.array([-x, a, c])
-
-
 def _nearly_complete(kernel, cycle: Cycle, edges: dict[str, np.ndarray]) -> None:
     """Where the saturated field hardly pulls, contact ends as it begins to and is closed again soon after."""
     s = cycle.strips
@@ -130,18 +101,3 @@ def _nearly_complete(kernel, cycle: Cycle, edges: dict[str, np.ndarray]) -> None
     a = np.pi - np.arctan(s.beta) + np.arctan(s.alpha) - half
     edges["a"] = np.where(near, a, edges["a"])
     edges["x"] = np.where(near, a - TWO_PI + (2 + _WIDER * half + _QUICKLY / (1 + s.alpha) ** 3) * half, edges["x"])
-    slow = np.flatnonzero((s.alpha > _SLOWER) & (pull > _HARDLY))
-    if slow.size:
-        a, turned = _always_adhering(s.take(slow)), _TURNED / s.alpha[slow]
-        edges["x"][slow], edges["a"][slow] = -a - turned, a - turned
-
-
-def _always_adhering(s: Strips) -> np.ndarray:
-    """Where contact ends if nothing relaxes within a period and the whole gap adheres: the balance grows with a."""
-    weight = s.L * s.beta / (np.pi * s.alpha)
-    a = np.full(s.size, _MIDDLE)
-    for _ in range(_ROUNDS):
-        cosine, sine = np.cos(a), np.sin(a)
-        balance = weight * (sine - a * cosine) - (s.D - 1 + cosine)
-        a = np.clip(a - balance / (sine * (1 + weight * a)), 0.5 * a, 0.5 * (a + np.pi))
-    return a

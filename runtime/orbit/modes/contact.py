@@ -11,8 +11,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...numerics.roots import falling_root
 from ..contact import Contact
-from ..crossing import crossing
 from ..regimes import CODE, ZONES
 from ..solved import Solved
 from .fields import zones_of
@@ -51,5 +51,5 @@ class ModeContact(Contact):
         def slope(phase, sub):
             return self._excess(part[on[sub]], phase)[1], np.zeros(sub.size)
 
-        top[on], _ = crossing(slope, top[on], self.a[part[on]])
+        top[on], _ = falling_root(slope, top[on], self.a[part[on]])
         return top
