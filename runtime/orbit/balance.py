@@ -43,6 +43,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .batch import Batch
 from .groups import ROUNDING, Cycle, Strips
 from .march import TWO_PI, Orbit
 from .sensitivity import fading, gains, onset_margin, release_margin
@@ -56,14 +57,12 @@ _LOSS, _AMPLY, _MOST, _ROUNDS = 2.1, 1.5, 12, 4
 _FIRST = 4
 #: least sine that is divided by
 _LEAST = 0.05
-#: onsets before this phase are next to the valley; contact is sought by this much further than is estimated
-_VALLEY, _BEYOND = 2.5, 1.05
 #: contact is taken to end by so much earlier than is estimated
 _MARGIN = 0.01
 
 
 @dataclass(slots=True)
-class _Reference:
+class _Reference(Batch):
     """What the bounds need of n strips and their references, arrays (n,).
 
     ``storage``, ``loss``: of complete contact. ``turned``: end of the arc where contact ends. ``q_on``: excess pressure as
@@ -97,9 +96,6 @@ class _Reference:
     end: np.ndarray
     noise: np.ndarray
     sines: np.ndarray
-
-    def take(self, index):
-        return type(self)(*[getattr(self, name)[index] for name in _Reference.__slots__])
 
     def contact_end(self, t, sine, cosine):
         """About where a contact ends that begins at ``-t``, of this sine and cosine."""
@@ -254,20 +250,7 @@ def _contact(reference: _Reference, lo, versine):
     t = _arc(rise)
     most = _arc(rise - lag * np.expm1((t - lo) / r.beta))
     least = -lag * np.expm1(np.minimum(most - lo, 0.0) / r.beta)
-    t = np.maximum(_arc(rise + least), -r.b)
-    beyond = np.flatnonzero(lo > _VALLEY)
-    if beyond.size:
-        t[beyond] = np.maximum(t[beyond], _closed(r.beta[beyond], lag[beyond], r.gap_on[beyond], lo[beyond]))
-    return np.where(lag > 0, t, np.inf)
-
-
-def _closed(beta, lag, gap, lo):
-    """The same for onsets beyond the valley, or next to it: a phase that is verified, -inf where it is not."""
-    (sine, cosine), rate = _sine_cosine(lo), lag / beta
-    slope, bend = sine + rate, -cosine - rate / beta
-    way = 2 * _BEYOND * gap / (slope + np.sqrt(np.maximum(slope**2 + 2 * bend * gap, 0.0)))
-    risen = 2 * np.sin(0.5 * way) * np.sin(lo - 0.5 * way) - lag * np.expm1(-way / beta)
-    return np.where((way >= 0) & (risen >= gap), lo - way, -np.inf)
+    return np.where(lag > 0, np.maximum(_arc(rise + least), -r.b), np.inf)
 
 
 def balance_bound(kernel, reference: _Reference, lo, hi):

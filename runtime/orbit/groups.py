@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .batch import Batch
+
 TWO_PI = 2 * np.pi
 #: rounding of a sum of a few terms, in the largest of them: 64 times that of one operation
 ROUNDING = 64 * np.finfo(float).eps
@@ -15,7 +17,7 @@ STANDS_STILL = 1e12
 
 
 @dataclass(frozen=True, slots=True)
-class Strips:
+class Strips(Batch):
     """Dimensionless groups of a batch of strips, each an array of shape (n,).
 
     Lengths are divided by the amplitude A, pressures by K A. ``alpha = k V T_sigma``, ``beta = k V T_eps``,
@@ -39,25 +41,13 @@ class Strips:
             snaps = (self.chi > 0) & snaps_in(self.J * self.p_0, self.delta_0)
             object.__setattr__(self, "snaps", np.broadcast_to(snaps, self.D.shape))
 
-    def take(self, index: np.ndarray) -> "Strips":
-        """The strips at ``index``."""
-        return type(self)(*[getattr(self, name)[index] for name in self.__slots__])
-
-    def among(self, index: np.ndarray) -> "Strips":
-        """The strips at ``index``, which ascends and repeats nothing: themselves where these are all."""
-        return self if index.size == self.size else self.take(index)
-
-    @property
-    def size(self) -> int:
-        return self.D.size
-
     def noise(self) -> np.ndarray:
         """What rounding may change in a displacement, (n,): every bound keeps this distance."""
         return ROUNDING * (1 + np.abs(self.D) + self.p_0 + self.delta_0)
 
 
 @dataclass(frozen=True, slots=True)
-class Cycle:
+class Cycle(Batch):
     """One period that starts at an onset of contact or adhesion, as constants of the march; arrays of shape (n,).
 
     Attributes:
@@ -82,18 +72,6 @@ class Cycle:
     half_d: np.ndarray
     half_b: np.ndarray
     half_c: np.ndarray
-
-    def take(self, index: np.ndarray) -> "Cycle":
-        """The cycles at ``index``."""
-        return type(self)(self.strips.take(index), *[getattr(self, name)[index] for name in self.__slots__[1:]])
-
-    def among(self, index: np.ndarray) -> "Cycle":
-        """The cycles at ``index``, which ascends and repeats nothing: themselves where these are all."""
-        return self if index.size == self.size else self.take(index)
-
-    @property
-    def size(self) -> int:
-        return self.centre.size
 
 
 def slowed(alpha) -> np.ndarray:

@@ -8,12 +8,12 @@ Every event of a strip (gap closes, gap reaches delta_0, pressure falls to -p_0)
 inside the arc where the harmonic keeps its sign: the arc is a bracket, in which safeguarded Newton cannot find a wrong zero.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..numerics.roots import falling_root
+from .batch import Batch
 from .bound import rows
 from .groups import ROUNDING, TWO_PI, Cycle
 
@@ -24,7 +24,7 @@ FROZEN = 1e6
 
 
 @dataclass(slots=True)
-class Orbit:
+class Orbit(Batch):
     """A march from the onset x; arrays of shape (n,).
 
     Attributes:
@@ -47,19 +47,6 @@ class Orbit:
     def blank(cls, n: int) -> "Orbit":
         """n places for orbits, none of them known."""
         return cls(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), *(np.full(n, np.nan) for _ in range(2)))
-
-    @classmethod
-    def joined(cls, parts: Sequence["Orbit"]) -> "Orbit":
-        """The orbits of all ``parts``, one after another."""
-        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in cls.__slots__))
-
-    def take(self, index: np.ndarray | slice) -> "Orbit":
-        return Orbit(*[getattr(self, name)[index] for name in self.__slots__])
-
-    def put(self, index: np.ndarray, other: "Orbit") -> None:
-        """Overwrite the elements ``index`` with ``other``."""
-        for name in self.__slots__:
-            getattr(self, name)[index] = getattr(other, name)
 
 
 def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, later: Orbit | None = None):

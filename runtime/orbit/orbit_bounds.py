@@ -17,11 +17,11 @@ The three phases are not solved for. Each is replaced by a later a, a later c, a
 contact that is held longer, and adhesion that is held longer, only leave the state more engaged than it is.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from .batch import Batch
 from .bound import bound, close_enough
 from .groups import ROUNDING, Cycle
 from .march import TWO_PI
@@ -35,7 +35,7 @@ _SOON = 0.1
 
 
 @dataclass(slots=True)
-class OrbitBounds:
+class OrbitBounds(Batch):
     """Bounds on all orbits of n cycles, arrays (n,): contact ends before ``a``, adhesion before ``c`` and begins after ``x``
     (NaN: no bound).
 
@@ -53,18 +53,6 @@ class OrbitBounds:
     def blank(cls, n: int) -> "OrbitBounds":
         """No bounds."""
         return cls(*(np.full(n, np.nan) for _ in range(3)), np.zeros(n, bool), np.zeros(n, bool), np.zeros(n))
-
-    @classmethod
-    def joined(cls, parts: Sequence["OrbitBounds"]) -> "OrbitBounds":
-        """The bounds of all ``parts``, one after another."""
-        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in cls.__slots__))
-
-    def put(self, index: np.ndarray, other: "OrbitBounds") -> None:
-        for name in self.__slots__:
-            getattr(self, name)[index] = getattr(other, name)
-
-    def take(self, index: np.ndarray) -> "OrbitBounds":
-        return OrbitBounds(*[getattr(self, name)[index] for name in self.__slots__])
 
 
 def orbit_bounds(kernel, cycle: Cycle) -> OrbitBounds:

@@ -49,13 +49,6 @@ class SearchResult:
         self.marches = np.zeros(n, int)
         self.evaluations = np.zeros(n)
 
-    def take(self, index: np.ndarray) -> "SearchResult":
-        part = SearchResult(index.size)
-        for name in ("found", "unresolved", "marches", "evaluations"):
-            setattr(part, name, getattr(self, name)[index])
-        part.left, part.right = self.left.take(index), self.right.take(index)
-        return part
-
 
 def isolate_extremal(kernel, cycle: Cycle, last: bool, known: Orbit | None = None) -> SearchResult:
     """Isolate the first (``last=False``) or last zero of r on the onset arc of every cycle, or prove that there is none.

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .batch import Batch
 from .groups import Strips
 from .march import TWO_PI, Orbit
 from .regimes import CODE, EQUATIONS
@@ -12,7 +13,7 @@ UNDECIDED = -1
 
 
 @dataclass(slots=True)
-class Solved:
+class Solved(Batch):
     """Solutions of a batch, arrays of shape (n,): regime code (``regimes.CODE``), edges as phases (NaN where absent),
     dimensionless means and fractions, work, and which strips passed their certificate."""
 
@@ -32,13 +33,6 @@ class Solved:
     def empty(cls, n: int) -> "Solved":
         nan = [np.full(n, np.nan) for _ in range(8)]
         return cls(np.full(n, UNDECIDED, np.int8), *nan, np.zeros(n, bool), np.zeros(n))
-
-    def take(self, index) -> "Solved":
-        return Solved(*[getattr(self, name)[index] for name in self.__slots__])
-
-    def put(self, index, other: "Solved") -> None:
-        for name in self.__slots__:
-            getattr(self, name)[index] = getattr(other, name)
 
 
 class Record:

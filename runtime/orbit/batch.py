@@ -1,0 +1,38 @@
+"""Records of arrays, one element for each strip: some of the strips, and several records joined."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Self
+
+import numpy as np
+
+
+class Batch:
+    """Base of dataclasses whose fields are arrays (n,), or such records themselves."""
+
+    __slots__ = ()
+
+    def take(self, index) -> Self:
+        """The elements at ``index``: whatever an array takes as one."""
+        return type(self)(*[getattr(self, name)[index] for name in self.__dataclass_fields__])
+
+    __getitem__ = take
+
+    def among(self, index: np.ndarray) -> Self:
+        """The elements at ``index``, which ascends and repeats nothing: the record itself where these are all."""
+        return self if index.size == self.size else self.take(index)
+
+    def put(self, index, other: Self) -> None:
+        """Overwrite the elements ``index`` with ``other``."""
+        for name in self.__dataclass_fields__:
+            getattr(self, name)[index] = getattr(other, name)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Self]) -> Self:
+        """The elements of all ``parts``, one part after another."""
+        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in cls.__dataclass_fields__))
+
+    @property
+    def size(self) -> int:
+        return getattr(self, next(iter(self.__dataclass_fields__))).size
