@@ -11,7 +11,7 @@ from . import stable
 from .check import Check, Derived, derived, zero
 from .flows import Flows
 from .functions import Formula, either, loss_mean, written_out
-from .kernel import Kernel
+from .kernel import Kernel, kernel
 from .regime import Regime
 from .sequences import ADHESION, CONTACT, FREE, NOTHING, PERIOD, Span
 from .symbols import PARAMETERS, D, L, alpha, beta, p, p_0, q_0, s, s_0, s_1, w_0
@@ -87,8 +87,6 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
             parts = [e.subs({**edges, **state}, simultaneous=True) for e in integrals.relaxation.value]
         sums = [total + written_out(part) for total, part in zip(sums, parts, strict=True)]
     sum_p, sum_w, sum_tau = sums
-    formula = Formula(name, regime.args, _stable_means(regime))
-    stated = formula.written_out(formula.args)
     exact = ((sum_w if regime.touches else sum_p) / PERIOD, sum_tau / PERIOD)
     checks = [
         zero(
@@ -103,24 +101,22 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
             sum(written_out(stable.PROFILE_RISE(zone.first, zone.last)) for zone in regime.zones),
             phases=regime.edges,
         ),
-        zero(name, "the stable forms equal the averages", [stated[0] - exact[0], stated[1] - exact[1]], phases=regime.edges),
     ]
-    record = derived(
-        strip_means,
-        exact,
-        name=name,
-        statement=f"Means of a strip: {regime.title}. The mean pressure is computed "
-        + (
-            "as the mean of w, equal to it on a closed orbit, because that sum holds no large terms that cancel."
-            if regime.touches
-            else "from the adhesion zone alone, where the pressure is constant."
-        ),
-        latex=r"\bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds",
-        checks=checks,
-        paper="Eq. 11",
-        emitted=(name,),
+    why = (
+        "as the mean of w, equal to it on a closed orbit, because that sum holds no large terms that cancel."
+        if regime.touches
+        else "from the adhesion zone alone, where the pressure is constant."
     )
-    return Kernel(formula, exact, record)
+    return kernel(
+        strip_means,
+        Formula(name, regime.args, _stable_means(regime)),
+        exact,
+        f"Means of a strip: {regime.title}. The mean pressure is computed {why}",
+        r"\bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds",
+        *checks,
+        phases=regime.edges,
+        paper="Eq. 11",
+    )
 
 
 def constant_means(regime: Regime) -> Kernel:
@@ -129,20 +125,15 @@ def constant_means(regime: Regime) -> Kernel:
     (zone,) = regime.zones
     u = stable.PROFILE(s, D)
     mean_tau = sp.integrate(zone.load * sp.diff(written_out(u), s), (s, 0, PERIOD)) / PERIOD
-    exact = (zone.load, mean_tau)
-    formula = Formula(name, PARAMETERS, (zone.load, NOTHING))
-    checks = [zero(name, "a constant pressure does no work over a period", mean_tau)]
-    record = derived(
+    return kernel(
         constant_means,
-        exact,
-        name=name,
-        statement=f"Means of a strip: {regime.title}.",
-        latex=rf"\bar p = {sp.latex(zone.load)},\quad \bar\tau = 0",
-        checks=checks,
+        Formula(name, PARAMETERS, (zone.load, NOTHING)),
+        (zone.load, mean_tau),
+        f"Means of a strip: {regime.title}.",
+        rf"\bar p = {sp.latex(zone.load)},\quad \bar\tau = 0",
+        zero(name, "a constant pressure does no work over a period", mean_tau),
         paper="Eq. 11",
-        emitted=(name,),
     )
-    return Kernel(formula, exact, record)
 
 
 def _stable_means(regime: Regime) -> tuple[sp.Expr, sp.Expr]:

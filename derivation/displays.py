@@ -8,7 +8,7 @@ a condition, a definition or an integral over fields that are not in closed form
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from typing import Any
 
 import mpmath
@@ -92,19 +92,26 @@ PRINTED = ("foundation law", "moving frame")  # of the above, those whose displa
 
 
 def displays(steps: Iterable[Derived], flows: Flows, field: sp.Expr) -> dict[str, Check]:
-    """The check of every display that says something, by step. ``field``: Eq. 15 in a strip.
+    """The check of every display that says something, by step. ``field``: Eq. 15 in a strip."""
+    words = vocabulary(flows, field)
+    return checked(steps, STATED, PRINTED, lambda step: read_back(step, words | bound(step, words)))
+
+
+def checked(
+    steps: Iterable[Derived], stated: Container[str], printed: Container[str], read: Callable[[Derived], Check]
+) -> dict[str, Check]:
+    """What ``read`` finds, by step, but of those that have nothing to compare; ``printed``: of these, what SymPy prints.
 
     Raises :class:`DerivationError`, which names the step, for a display that reads as something else or cannot be read.
     """
     found: dict[str, Check] = {}
-    words = vocabulary(flows, field)
     for step in steps:
         if step.name in LEVELS:
             found[step.name] = of_levels(step)
-        elif step.name not in STATED:
-            found[step.name] = read_back(step, words | bound(step, words))
-        elif step.name in PRINTED:
+        elif step.name in printed:
             require_printed(step)
+        elif step.name not in stated:
+            found[step.name] = read(step)
     return found
 
 
@@ -212,7 +219,7 @@ def bound(step: Derived, words: Mapping[str, Any]) -> dict[str, Any]:
     return {}
 
 
-def _named(*keys: str) -> Binding:
+def named(*keys: str) -> Binding:
     return lambda values, words: dict(zip(keys, values, strict=False))
 
 
@@ -348,7 +355,7 @@ LEVELS: dict[str, Callable[[Any], dict[str, Any]]] = {
 BINDINGS: dict[str, Binding] = {
     "half-space under a wave": _under_a_wave,
     "foundation that stands for a half-space": _of_a_level,
-    "instantaneous compliance": _named("J_0"),
+    "instantaneous compliance": named("J_0"),
     "strip profile": _shape,
     "dimensionless groups": _motion,
     "contact flow": _function("p"),
@@ -356,26 +363,26 @@ BINDINGS: dict[str, Binding] = {
     "gap flow": _function("g"),
     "internal state": _motion,
     "power balance": _motion,
-    "forcing_arc": _named(r"\textcentre", r"\texthalf"),
+    "forcing_arc": named(r"\textcentre", r"\texthalf"),
     "relaxation_increment": _lagging,
     "contact_pressure": _in_contact,
     "contact_increment": _in_contact,
     "contact_work": _entered,
-    "gap_event": _named("g", "g'"),
+    "gap_event": named("g", "g'"),
     "excess_entry": _as_one_harmonic,
     "gap_link": _at_end("g"),
     "excess_link": _at_end("q"),
     "saturated_pressure": _function("p_sat"),
     "means_c": lambda values, words: {r"\barp": values[0], r"\bar\tau": values[1], "p": words["p_sat"]},
-    "means_": _named(r"\barp", r"\bar\tau"),
+    "means_": named(r"\barp", r"\bar\tau"),
     "saturation threshold": _threshold,
-    "level_saturation_penetration": _named("D_sat"),
-    "level_saturation_pressure": _named("p_sat"),
-    "level_saturation_friction": _named(r"\tau_sat"),
-    "saturated_stack_friction": _named(r"\mu"),
-    "Eq. 16 as printed": _named(r"\textderived", r"\textprinted"),
+    "level_saturation_penetration": named("D_sat"),
+    "level_saturation_pressure": named("p_sat"),
+    "level_saturation_friction": named(r"\tau_sat"),
+    "saturated_stack_friction": named(r"\mu"),
+    "Eq. 16 as printed": named(r"\textderived", r"\textprinted"),
     "friction balance": _energies,
-    "onset_slope": _named("T'"),
+    "onset_slope": named("T'"),
     "least pressure": _least,
 }
 """By the beginning of a step's name."""

@@ -13,12 +13,11 @@ from __future__ import annotations
 import sympy as sp
 
 from . import stable
-from .check import Check, Derived, derived, zero
+from .check import derived, zero
 from .exact import in_half_angles
 from .flows import Flows
-from .functions import Formula
-from .kernel import Kernel
-from .symbols import D, alpha, beta, gap_0, p, p_0, q_0, s, s_0, s_1
+from .kernel import Kernel, pair
+from .symbols import D, alpha, beta, p_0, q_0, s, s_0, s_1
 
 _phase = sp.Symbol("phi", positive=True)
 ANGLES = (s_0, s_1, _phase)
@@ -27,47 +26,22 @@ ANGLES = (s_0, s_1, _phase)
 def gap_event(flows: Flows) -> tuple[Kernel, Kernel]:
     r""":math:`(g, g')` at :math:`s_1` from :math:`s_0/2,\ \beta/2,\ D - p,\ (u(s_0) + g_0 - p)/\beta`."""
     g = flows.gap.value.subs(s, s_1)
-    exact = (g, sp.diff(g, s_1))
-    lag = flows.strip.u.subs(s, s_0) + gap_0 - p
-    constants = (gap_0, s_0 / 2, beta / 2, D - p, lag / beta)
-    composed = _applied(stable.GAP_EVENT, s_1, constants)
-    return _pair(
-        exact,
+    return pair(
+        gap_event,
         (stable.GAP_ENTRY, stable.GAP_EVENT),
-        derived(
-            gap_event,
-            constants,
-            name="gap_entry",
-            statement="Constants of gap_event in a zone entered at s_0 with gap_0 under the constant pressure p. For beta = 0 "
+        (g, sp.diff(g, s_1)),
+        (
+            "Constants of gap_event in a zone entered at s_0 with gap_0 under the constant pressure p. For beta = 0 "
             "the last is 0 and the third the least time that can be divided by.",
-            latex=r"g_0,\quad \tfrac{s_0}{2},\quad \tfrac{\beta}{2},\quad D - p,\quad \frac{u(s_0) + g_0 - p}{\beta}",
-            checks=_agree("gap_entry", stable.GAP_ENTRY, constants),
-            emitted=("gap_entry",),
-        ),
-        derived(
-            gap_event,
-            exact,
-            name="gap_event",
-            statement="Gap and its slope at s_1, from the constants of gap_entry. Same as gap_after and gap_after_slope; "
+            "Gap and its slope at s_1, from the constants of gap_entry. Same as gap_after and gap_after_slope; "
             "s_1 must not be before s_0.",
-            latex=r"g = \left(g_0 - [u]_{s_0}^{s_1}\right) e^{-(s_1 - s_0)/\beta} + (u(s_1) - p)\left(e^{-(s_1 - s_0)/\beta} "
-            r"- 1\right),\quad g' = \sin s_1 - \frac{u(s_0) + g_0 - p}{\beta} e^{-(s_1 - s_0)/\beta}",
-            checks=[
-                zero(
-                    "gap_event",
-                    "gap_event after gap_entry is the derived gap",
-                    in_half_angles(composed[0] - exact[0], *ANGLES),
-                    phases=(s_0, s_1),
-                ),
-                zero(
-                    "gap_event",
-                    "and its derivative by s_1",
-                    in_half_angles(composed[1] - exact[1], *ANGLES),
-                    phases=(s_0, s_1),
-                ),
-            ],
-            emitted=("gap_event",),
         ),
+        (
+            r"g_0,\quad \tfrac{s_0}{2},\quad \tfrac{\beta}{2},\quad D - p,\quad \frac{u(s_0) + g_0 - p}{\beta}",
+            r"g = \left(g_0 - [u]_{s_0}^{s_1}\right) e^{-(s_1 - s_0)/\beta} + (u(s_1) - p)\left(e^{-(s_1 - s_0)/\beta} "
+            r"- 1\right),\quad g' = \sin s_1 - \frac{u(s_0) + g_0 - p}{\beta} e^{-(s_1 - s_0)/\beta}",
+        ),
+        halved=(s_0, s_1),
     )
 
 
@@ -82,7 +56,7 @@ def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
     modulus = 1 / shrunk
     transient = q_0 - p_0 - (D - 1 + modulus * sp.cos(s_0 + _phase))
     constants = (q_0, s_0 / 2, alpha / 2, _phase / 2, 2 * modulus, D + p_0 - 1 + modulus, transient / alpha)
-    composed = _applied(stable.EXCESS_EVENT, s_1, constants)
+    composed = stable.EXCESS_EVENT.written_out((s_1, *constants))
     tangent = (beta - alpha) / (1 + alpha * beta)
     R_squared = (1 + beta**2) / (1 + alpha**2)
     loss = (beta - alpha) / (1 + alpha**2)
@@ -105,9 +79,8 @@ def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
             stated[6] * alpha - (q_0 - stated[5] + R * (1 - sp.cos(s_0 + 2 * stated[3]))),
         ),
     ]
-    return _pair(
-        exact,
-        (stable.EXCESS_ENTRY, stable.EXCESS_EVENT),
+    chain = (stable.EXCESS_ENTRY, stable.EXCESS_EVENT)
+    records = (
         derived(
             excess_event,
             constants,
@@ -137,17 +110,4 @@ def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
             emitted=(name,),
         ),
     )  # fmt: skip
-
-
-def _applied(event: Formula, phase: sp.Symbol, constants: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...]:
-    return event.written_out((phase, *constants))
-
-
-def _agree(step: str, formula: Formula, constants: tuple[sp.Expr, ...]) -> list[Check]:
-    stated = formula.written_out(formula.args)
-    return [zero(step, "the emitted constants are these", [a - b for a, b in zip(stated, constants, strict=True)])]
-
-
-def _pair(exact: tuple, chain: tuple[Formula, Formula], entry: Derived, event: Derived) -> tuple[Kernel, Kernel]:
-    """Two kernels, both measured as the one function that they are together."""
-    return Kernel(chain[0], exact, entry, chain=chain), Kernel(chain[1], exact, event, chain=chain)
+    return tuple(Kernel(formula, exact, record, chain=chain) for formula, record in zip(chain, records, strict=True))

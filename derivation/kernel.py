@@ -9,6 +9,7 @@ from typing import Any
 import sympy as sp
 
 from .check import Check, DerivationError, Derived, derived, zero
+from .exact import in_half_angles
 from .functions import Formula, written_out
 from .modes.symbols import S, eta
 from .modes.tensor import EVERY_SUM, generic
@@ -36,13 +37,24 @@ class Kernel:
         return (first, s_1, *rest)
 
 
-def same(name: str, stated: Any, exact: Any, phases: tuple[sp.Symbol, ...] = (s_0, s_1), claim: str = "") -> Check:
-    """The stable form equals the derived expression, identically: what stands under the same sum over modes is the same."""
+def same(
+    name: str,
+    stated: Any,
+    exact: Any,
+    phases: tuple[sp.Symbol, ...] = (s_0, s_1),
+    halved: tuple[sp.Symbol, ...] = (),
+    claim: str = "",
+) -> Check:
+    """The stable form equals the derived expression, identically: what stands under the same sum over modes is the same.
+
+    ``halved``: angles of which a form takes halves.
+    """
     residuals = []
     for one, other in zip(_flat(stated), _flat(exact), strict=True):
         if {f.func for f in sp.sympify(one).atoms(*EVERY_SUM)} != {f.func for f in sp.sympify(other).atoms(*EVERY_SUM)}:
             raise DerivationError(name, "both forms sum over the modes in the same way", one - other)
-        residuals.append((generic(sp.sympify(one)) - generic(sp.sympify(other))).subs(S, alpha / eta))
+        residual = (generic(sp.sympify(one)) - generic(sp.sympify(other))).subs(S, alpha / eta)
+        residuals.append(in_half_angles(residual, *halved))
     return zero(name, claim or f"{name}: the stable form equals the derived expression", residuals, phases=phases)
 
 
@@ -54,10 +66,12 @@ def kernel(
     latex: str,
     *extra: Check,
     moving: bool = False,
+    phases: tuple[sp.Symbol, ...] = (s_0, s_1),
+    halved: tuple[sp.Symbol, ...] = (),
     **options: Any,
 ) -> Kernel:
-    """Prove ``formula`` equal to ``exact`` and record it under the function ``by`` that derived it."""
-    checks = [same(formula.name, formula.written_out(formula.args), exact), *extra]
+    """Prove ``formula`` equal to ``exact`` and record it under the function ``by`` that derived it; ``extra``: its own checks."""
+    checks = [same(formula.name, formula.written_out(formula.args), exact, phases, halved), *extra]
     record = derived(
         by, exact, name=formula.name, statement=statement, latex=latex, checks=checks, emitted=(formula.name,), **options
     )
@@ -70,12 +84,14 @@ def pair(
     exact: Any,
     statements: tuple[str, str],
     latex: tuple[str, str],
+    halved: tuple[sp.Symbol, ...] = (),
 ) -> tuple[Kernel, Kernel]:
     """An entry and its event, proven equal to ``exact`` together, and measured as the one function that they are."""
     entry, event = chain
     constants = tuple(written_out(part) for part in entry.written_out(entry.args))
     composed = event.written_out((s_1, *constants))
-    check = same(event.name, composed, exact, claim=f"{event.name} after {entry.name} is the derived value and its slope")
+    claim = f"{event.name} after {entry.name} is the derived value and its slope"
+    check = same(event.name, composed, exact, halved=halved, claim=claim)
     records = (
         derived(by, value, name=formula.name, statement=said, latex=shown, checks=[check], emitted=(formula.name,))
         for formula, value, said, shown in zip(chain, (constants, exact), statements, latex, strict=True)

@@ -11,8 +11,7 @@ import sympy as sp
 
 from .check import CORRECTED, Check, Derived, derived, holds, zero
 from .functions import Formula, hypot, stack_sum
-from .kernel import Kernel
-from .modes.tensor import generic
+from .kernel import Kernel, kernel
 from .saturated import MODULUS, Saturated
 from .surface import AMPLITUDE, HEIGHT, PENETRATION, mean_over_wave
 from .symbols import A, D, D_j, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, s, x, y
@@ -76,13 +75,13 @@ def saturation_penetration(threshold: sp.Expr) -> Kernel:
         h / 2 * (1 + ratio) - p_0 / K,
         _RATIO,
     )
-    return _kernel(
+    return kernel(
         saturation_penetration,
         formula,
         si,
-        checks,
         "Penetration from which every strip of a level is in complete contact.",
         r"D_{sat} = \frac h2 (1 + R) - \frac{p_0}{K},\quad R = \sqrt{\frac{1 + (kVT_\epsilon)^2}{1 + (kVT_\sigma)^2}}",
+        *checks,
     )
 
 
@@ -101,13 +100,13 @@ def saturation_pressure(penetration: sp.Expr, mean_p: sp.Expr) -> Kernel:
     checks = [
         zero(name, "the level's mean pressure in complete contact is K (D - 3h/4)", mean - K * (D_level - sp.Rational(3, 4) * h))
     ]
-    return _kernel(
+    return kernel(
         saturation_pressure,
         formula,
         exact,
-        checks,
         "Nominal pressure from which a level is in complete contact.",
         r"p_{sat} = \tfrac14 K h (2R - 1) - p_0",
+        *checks,
         paper="Eq. 11",
     )
 
@@ -125,13 +124,13 @@ def saturation_friction(mean_tau: sp.Expr) -> Kernel:
         _SLENDER,
     )
     checks = [zero(name, "it is 3 pi^2/16 K V (T_eps - T_sigma) h^2/(l^2 + 4 pi^2 V^2 T_sigma^2)", exact - stated)]
-    return _kernel(
+    return kernel(
         saturation_friction,
         formula,
         exact,
-        checks,
         "Friction of a level in complete contact.",
         r"\tau_{sat} = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma) h^2}{l^2 + 4\pi^2 V^2 T_\sigma^2}",
+        *checks,
         paper="Eq. 10-11",
     )
 
@@ -164,14 +163,14 @@ def stack_friction(one_level: sp.Expr, field: sp.Expr) -> Kernel:
             sp.simplify(summed - sum(one_level.subs(level) for level in levels) / p_nominal),
         ),
     ]
-    return _kernel(
+    return kernel(
         stack_friction,
         formula,
         exact,
-        checks,
         "Friction coefficient when every level is in complete contact. The levels lie along the last axis of l and h, against "
         "which all but p_1 broadcasts.",
         r"\mu = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma)}{p_1} \sum_i \frac{h_i^2}{l_i^2 + 4\pi^2 V^2 T_\sigma^2}",
+        *checks,
         paper="Eq. 16",
         status=CORRECTED,
         correction=MISPRINT,
@@ -248,15 +247,6 @@ def _at_least_one() -> bool:
     excess = sp.Symbol("T_delta", nonnegative=True)
     above = sp.factor(((beta**2 - alpha**2) / (1 + alpha**2)).subs(beta, alpha + excess))
     return bool(above.is_nonnegative)
-
-
-def _kernel(by, formula: Formula, exact: sp.Expr, checks, statement, latex, **options) -> Kernel:
-    name = formula.name
-    residual = sp.simplify(generic(formula.written_out(formula.args)) - generic(exact))
-    checks = [*checks, zero(name, f"{name}: the stable form equals the derived expression", residual)]
-    return Kernel(
-        formula, exact, derived(by, exact, name=name, statement=statement, latex=latex, checks=checks, emitted=(name,), **options)
-    )
 
 
 __all__ = ["A", "D_j", "Level", "level"]

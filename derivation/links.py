@@ -9,11 +9,9 @@ from __future__ import annotations
 import sympy as sp
 
 from . import stable
-from .check import derived, zero
-from .exact import in_half_angles
 from .flows import Flows
 from .functions import Formula
-from .kernel import Kernel
+from .kernel import Kernel, kernel
 from .symbols import p_0, s, s_0, s_1
 
 
@@ -40,14 +38,5 @@ def links(flows: Flows) -> tuple[Kernel, Kernel]:
 
 
 def _link(formula: Formula, value: sp.Expr, statement: str, latex: str) -> Kernel:
-    name = formula.name
     exact = (value, sp.diff(value, s_0), sp.diff(value, s_1))
-    claims = ("the value is the derived one", "its derivative by s_0", "its derivative by s_1")
-    computed = formula.written_out(formula.args)
-    checks = [
-        zero(name, claim, in_half_angles(c - e, s_0, s_1), phases=(s_0, s_1))
-        for claim, c, e in zip(claims, computed, exact, strict=True)
-    ]
-    return Kernel(
-        formula, exact, derived(links, exact, name=name, statement=statement, latex=latex, checks=checks, emitted=(name,))
-    )
+    return kernel(links, formula, exact, statement, latex, halved=(s_0, s_1))

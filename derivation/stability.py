@@ -7,7 +7,7 @@ import sympy as sp
 from . import stable
 from .check import Derived, derived, zero
 from .functions import Formula, decay, either, quotient, written_out
-from .kernel import Kernel
+from .kernel import Kernel, kernel
 from .regime import Regime
 from .sequences import CONTACT
 from .symbols import D, J, L, alpha, beta, chi, gap_0, p, p_0, q_0, s_0, s_1
@@ -80,28 +80,15 @@ def onset_slope(regime: Regime) -> Kernel:
             ratio = quotient(_step(above - below), below)  # where it is small, 1 + ratio keeps its digits; else the quotient
             formula_result *= either(2 * sp.Abs(ratio), 1 + ratio, quotient(above, below))
             direct *= quotient(above, below)
-    formula = Formula(name, regime.args, formula_result)
-    checks = [
-        zero(
-            name,
-            "the product over the zones, telescoped",
-            [written_out(form) - written_out(product) for form in (formula_result, direct)],
-            phases=regime.edges,
-        )
-    ]
-    return Kernel(
-        formula,
+    return kernel(
+        onset_slope,
+        Formula(name, regime.args, formula_result),
         written_out(product),
-        derived(
-            onset_slope,
-            product,
-            name=name,
-            statement="A shift of the onset fades over contact with alpha and over the rest of the period with beta, "
-            "and is scaled where p steps. The orbit is stable when T' < 1; T' = 1 is a fold.",
-            latex="T' = " + r" \cdot ".join(sp.latex(written_out(part)) for part in sp.Mul.make_args(direct)),
-            checks=checks,
-            emitted=(name,),
-        ),
+        "A shift of the onset fades over contact with alpha and over the rest of the period with beta, "
+        "and is scaled where p steps. The orbit is stable when T' < 1; T' = 1 is a fold.",
+        "T' = " + r" \cdot ".join(sp.latex(written_out(part)) for part in sp.Mul.make_args(direct)),
+        zero(name, "the product over the zones, telescoped", written_out(direct) - written_out(product), phases=regime.edges),
+        phases=regime.edges,
     )
 
 

@@ -9,15 +9,16 @@ from random starts; here they are refined and verified.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
+from typing import Any
 
 import mpmath
 import sympy as sp
 
-from .check import Check, Derived, derived, holds
+from .check import Derived, derived, holds
 from .functions import written_out
 from .inequality import Inequality, Relation
 from .regime import Regime
@@ -73,11 +74,19 @@ Point = dict[sp.Symbol, mpmath.mpf]
 
 def witnesses(regimes: Sequence[Regime]) -> Derived:
     r"""Solutions and roots that are none, :math:`0 < g \le \delta_0,\ q \ge 0,\ g > \delta_0`, against the inequalities."""
-    return record(witnesses, [check for regime in regimes for check in _of_regime(regime)])
+    with mpmath.workdps(DIGITS):
+        return compared(witnesses, regimes, ROOTS, _judged)
 
 
-def record(by: Callable[..., Derived], checks: Sequence[Check]) -> Derived:
-    """The record of what ``by`` found at the roots."""
+def compared(by: Callable[..., Derived], regimes: Sequence[Any], roots: Mapping[str, Sequence[Any]], judged: Callable) -> Derived:
+    """What ``by`` found at the roots; ``judged``: whether the fields of a root fit, and what the inequalities say of it."""
+    checks = []
+    for regime in regimes:
+        for number, (groups, start, solution) in enumerate(roots[regime.sequence], start=1):
+            fits, said = judged(regime, groups, start)
+            root, kind = f"{regime.sequence}, root {number}", "a solution" if solution else "no solution"
+            checks.append(holds(NAME, f"{root}: the fields show {kind}", fits is solution))
+            checks.append(holds(NAME, f"{root}: so do the inequalities", said is solution))
     return derived(
         by,
         None,
@@ -90,17 +99,16 @@ def record(by: Callable[..., Derived], checks: Sequence[Check]) -> Derived:
     )
 
 
-def _of_regime(regime: Regime) -> list[Check]:
-    checks = []
-    with mpmath.workdps(DIGITS):
-        for number, (groups, start, solution) in enumerate(ROOTS[regime.sequence], start=1):
-            point = _refined(regime, groups, start)
-            kind = "a solution" if solution else "no solution"
-            what = f"{regime.sequence}, root {number}: the fields show {kind}"
-            checks.append(holds(NAME, what, _fields_fit(regime, point) is solution))
-            said = all(_satisfied(regime, inequality, point) for inequality in regime.admissible)
-            checks.append(holds(NAME, f"{regime.sequence}, root {number}: so do the inequalities", said is solution))
-    return checks
+def allowed(kind: str, traction: Any, reach: Any) -> tuple[Any, Any]:
+    """Between what the gap, in contact the pressure above -p_0, must lie; without traction the reach plays no part."""
+    if kind == CONTACT or not traction > 0:
+        return 0, mpmath.inf
+    return (0, reach) if kind == ADHESION else (reach, mpmath.inf)
+
+
+def _judged(regime: Regime, groups: tuple[str, ...], start: tuple[str, ...]) -> tuple[bool, bool]:
+    point = _refined(regime, groups, start)
+    return _fields_fit(regime, point), all(_satisfied(regime, inequality, point) for inequality in regime.admissible)
 
 
 def _refined(regime: Regime, groups: tuple[str, ...], start: tuple[str, ...]) -> Point:
@@ -133,7 +141,7 @@ def _fields_fit(regime: Regime, point: Point) -> bool:
         return False
     for zone, first, last in zip(regime.zones, places, [*places[1:], places[0] + 2 * mpmath.pi], strict=True):
         state = _evaluator(replace(zone, last=s_1).after(), (s_1, *point))
-        low, high = {CONTACT: (0, mpmath.inf), ADHESION: (0, point[delta_0])}.get(zone.kind, (point[delta_0], mpmath.inf))
+        low, high = allowed(zone.kind, point[p_0], point[delta_0])
         for n in range(SAMPLES):
             value = state(first + (last - first) * (n + mpmath.mpf(0.5)) / SAMPLES, *point.values())
             if not low - SLACK <= value <= high + SLACK:
@@ -145,15 +153,12 @@ def _steady_field_fits(regime: Regime, point: Point) -> bool:
     """Complete contact by its field, the gap of a foundation at rest by the profile, over a period."""
     (zone,) = regime.zones
     phases = [2 * mpmath.pi * n / SAMPLES for n in range(SAMPLES)]
-    at = [{**point, s: phase} for phase in phases]
     if zone.kind == CONTACT:
-        field = SATURATED_PRESSURE.written_out(SATURATED_PRESSURE.args)
-        return all(_value(field + p_0, each) >= -SLACK for each in at)
-    gaps = [_value(zone.load - (zone.displacement - zone.entry).subs(zone.first, s), each) for each in at]
-    if zone.kind == ADHESION:
-        return all(-SLACK <= gap <= point[delta_0] + SLACK for gap in gaps)
-    reach = point[delta_0] if point[p_0] > 0 else 0
-    return all(gap >= reach - SLACK for gap in gaps)
+        seen = SATURATED_PRESSURE.written_out(SATURATED_PRESSURE.args) + p_0
+    else:
+        seen = zone.load - (zone.displacement - zone.entry).subs(zone.first, s)
+    low, high = allowed(zone.kind, point[p_0], point[delta_0])
+    return all(low - SLACK <= _value(seen, {**point, s: phase}) <= high + SLACK for phase in phases)
 
 
 def _satisfied(regime: Regime, inequality: Inequality, point: Point) -> bool:

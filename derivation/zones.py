@@ -29,7 +29,7 @@ def zones(flows: Flows, jumps: Jumps) -> Zones:
         flows,
         jumps,
         (
-            *rigid_profile(flows),
+            *rigid_profile(flows.strip.u),
             *load(flows),
             *gap(flows),
             *relaxation(flows),
@@ -39,9 +39,8 @@ def zones(flows: Flows, jumps: Jumps) -> Zones:
     )
 
 
-def rigid_profile(flows: Flows) -> tuple[Kernel, ...]:
+def rigid_profile(u: sp.Expr) -> tuple[Kernel, ...]:
     r""":math:`u(s)`, :math:`u'(s)`, :math:`u(s_1)-u(s_0)`, :math:`\int u\,ds`."""
-    u = flows.strip.u
     integral = sp.integrate(u, s)
     check = zero("profile_integral", "the antiderivative differentiates to u", sp.diff(integral, s) - u)
     return (

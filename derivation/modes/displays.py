@@ -15,7 +15,7 @@ import sympy as sp
 
 from .. import displays as one_time
 from ..check import Check, DerivationError, Derived
-from ..displays import POINTS, READ, Binding, read_back, require_printed
+from ..displays import POINTS, READ, Binding, checked, named, read_back
 from ..model import rate
 from ..multilevel import WAVE
 from ..reader import Of, Prefix
@@ -47,20 +47,9 @@ OF_ROOTS = "conditions on the roots of the operators"
 
 
 def displays(steps: Iterable[Derived], flows: ModeFlows, roots: bool) -> dict[str, Check]:
-    """The check of every display that says something, by step. ``roots``: the series is that of given operators.
-
-    Raises :class:`DerivationError`, which names the step, for a display that reads as something else or cannot be read.
-    """
+    """The check of every display that says something, by step. ``roots``: the series is that of given operators."""
     words = vocabulary(flows)
-    found: dict[str, Check] = {}
-    for step in steps:
-        if step.name in one_time.LEVELS:
-            found[step.name] = one_time.of_levels(step)
-        elif step.name in PRINTED:
-            require_printed(step)
-        elif step.name not in unread(roots):
-            found[step.name] = read_back(step, words | bound(step, words), _same)
-    return found
+    return checked(steps, unread(roots), PRINTED, lambda step: read_back(step, words | bound(step, words), _same))
 
 
 def unread(roots: bool) -> dict[str, str]:
@@ -122,10 +111,6 @@ def _matrix(matrix: sp.Symbol) -> Prefix:
 def bound(step: Derived, words: Mapping[str, Any]) -> dict[str, Any]:
     """The names that stand for the step's own value, or mean something of their own in it."""
     return BINDINGS[step.name](one_time.flat(step.value), words) if step.name in BINDINGS else {}
-
-
-def _named(*keys: str) -> Binding:
-    return lambda values, words: dict(zip(keys, values, strict=False))
 
 
 def _law(values: list[sp.Expr], words: Mapping[str, Any]) -> dict[str, Any]:
@@ -237,17 +222,17 @@ BINDINGS: dict[str, Binding] = {
     "strip profile": lambda values, words: {"u": Of(s, values[0]), "A": AMPLITUDE, "D_j": PENETRATION},
     "relaxation flow": _relaxing,
     "contact flow": _pressed,
-    "displacement": _named("w"),
-    "overstress": _named("f"),
-    "retarded": _named("z"),
+    "displacement": named("w"),
+    "overstress": named("f"),
+    "retarded": named("z"),
     "dashpots": _dashpots,
     "relaxation_after": _relaxing,
     "relaxation_increment": _creeping,
-    "relaxation_rate": _named("z_j'"),
+    "relaxation_rate": named("z_j'"),
     "gap_after": _gap,
     "gap_event": _gap,
     "overstress_after": _pressed,
-    "contact_pressure": _named("p"),
+    "contact_pressure": named("p"),
     "excess_change": _in_contact,
     "contact_increment": _in_contact,
     "contact_work": _in_contact,
@@ -256,9 +241,9 @@ BINDINGS: dict[str, Binding] = {
     "contact_map": _map(contact=True),
     "relaxation_passage": lambda values, words: _passing(values, words, contact=False),
     "contact_passage": lambda values, words: _passing(values, words, contact=True),
-    "modulus_ratio": _named("R"),
-    "saturated_overstress": _named("f_sat,i"),
-    "saturated_pressure": _named("p_sat"),
+    "modulus_ratio": named("R"),
+    "saturated_overstress": named("f_sat,i"),
+    "saturated_pressure": named("p_sat"),
     "saturation threshold": _threshold,
     "means of a strip": _means,
     "means_c": _complete,

@@ -9,6 +9,7 @@ from ..model import Model, Roots
 from ..outcome import Derivation, Progress, Stages, records
 from ..paper.tags import require_tags
 from ..strip import adhesion_law, strip_profile
+from ..zones import rigid_profile
 from .averages import strip_means
 from .chain import chain_rule
 from .displays import displays
@@ -23,7 +24,7 @@ from .states import dimensionless_groups, partial_fractions
 from .states import states as point_states
 from .whole import whole_kernels
 from .witness import witnesses
-from .zones import contact, gap, passages, profile, relaxation, states
+from .zones import contact, gap, passages, relaxation, states
 
 STAGES = ("model", "flows", "edge conditions", "zones", "complete contact", "regimes", "means", "levels", "print")
 
@@ -42,7 +43,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     closure = closures(model)
     stages.done("edge conditions", jump_law(), closure)
     sections = [
-        ("Rigid profile", profile()),
+        ("Rigid profile", rigid_profile(u)),
         ("States of a material point", states()),
         ("Gap zones: constant pressure", (*relaxation(flows), *gap(flows))),
         ("Contact zones", contact(flows)),

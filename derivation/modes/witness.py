@@ -13,11 +13,11 @@ import mpmath
 import numpy as np
 import sympy as sp
 
-from ..check import Check, Derived, holds
+from ..check import Derived
 from ..inequality import Inequality, Relation
-from ..sequences import ADHESION, CONTACT, Span
+from ..sequences import CONTACT, Span
 from ..symbols import D, alpha, beta, delta_0, p, p_0, s, s_0
-from ..witness import NAME, record, true
+from ..witness import allowed, compared, true
 from .flows import ModeFlows, u
 from .regimes import ModeRegime, gap_at, gap_slope, pressure_slope
 from .saturated import R
@@ -146,17 +146,11 @@ class Foundation:
         if regime.sequence == "afc" and self.given[delta_0] > self.given[J_0] * self.given[p_0]:
             return False
         for zone, start, end, state in places:
-            low, high = self._allowed(zone)
+            low, high = allowed(zone.kind, self.given[p_0], self.given[delta_0])
             phases = start + (end - start) * (np.arange(SAMPLES) + 0.5) / SAMPLES
             if not all(low - SLACK <= self.at(zone, start, state, phase)[0] <= high + SLACK for phase in phases):
                 return False
         return True
-
-    def _allowed(self, zone: Span) -> tuple[float, float]:
-        if zone.kind == CONTACT:
-            return 0, np.inf
-        reach = self.given[delta_0] if self.given[p_0] > 0 else 0
-        return (0, reach) if zone.kind == ADHESION and self.given[p_0] > 0 else (0 if zone.kind == ADHESION else reach, np.inf)
 
     def _at_rest(self, regime: ModeRegime) -> list[tuple[float, float, float]]:
         """Of a regime without edges, what is seen along a period and what is allowed of it."""
@@ -167,7 +161,7 @@ class Foundation:
             seen = [self.profile(phase) + lag + self.given[p_0] for phase, lag in zip(phases, lagging, strict=True)]
         else:
             seen = [self.number(zone.pressure) - self.profile(phase) for phase in phases]
-        return [(value, *self._allowed(zone)) for value in seen]
+        return [(value, *allowed(zone.kind, self.given[p_0], self.given[delta_0])) for value in seen]
 
     def satisfies(self, regime: ModeRegime, inequality: Inequality, edges: Edges) -> bool:
         first, *rest = inequality.relations
@@ -211,17 +205,11 @@ def _function(expression: sp.Expr, symbols: tuple[sp.Symbol, ...]) -> Callable[.
 
 def witnesses(regimes: Sequence[ModeRegime], flows: ModeFlows) -> Derived:
     r"""Solutions and roots that are none, :math:`0 < g \le \delta_0,\ p \ge -p_0,\ g > \delta_0`, against the inequalities."""
-    return record(witnesses, [check for regime in regimes for check in _of_regime(regime, flows)])
 
-
-def _of_regime(regime: ModeRegime, flows: ModeFlows) -> list[Check]:
-    checks = []
-    for number, (groups, start, solution) in enumerate(ROOTS[regime.sequence], start=1):
+    def judged(regime: ModeRegime, groups: tuple[float, ...], start: tuple[float, ...]) -> tuple[bool, bool]:
         foundation = Foundation(flows, groups)
         edges = foundation.refined(regime, start) if regime.edges else {}
-        kind = "a solution" if solution else "no solution"
-        what = f"{regime.sequence}, root {number}: the fields show {kind}"
-        checks.append(holds(NAME, what, foundation.fits(regime, edges) is solution))
         said = all(foundation.satisfies(regime, inequality, edges) for inequality in regime.admissible)
-        checks.append(holds(NAME, f"{regime.sequence}, root {number}: so do the inequalities", said is solution))
-    return checks
+        return foundation.fits(regime, edges), said
+
+    return compared(witnesses, regimes, ROOTS, judged)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sympy as sp
 
-from .. import stable as one_mode
 from ..check import zero
 from ..kernel import Kernel, kernel, pair
 from ..symbols import p, p_0, p_in, s, s_0, s_1
@@ -14,26 +13,6 @@ from .symbols import J_0, J, S, enter, eta, f, f_0, leave, share, z, z_0
 from .tensor import across, back, diagonal, sandwich, total
 
 u_0, u_1 = u.subs(s, s_0), u.subs(s, s_1)
-
-
-def profile() -> tuple[Kernel, ...]:
-    r"""Rigid profile :math:`u = D - 1 + \cos s`, its slope, rise and integral."""
-    integral = sp.integrate(u, s)
-    return (
-        kernel(profile, one_mode.PROFILE, u, "Rigid profile of the strip.", r"u(s) = D - 1 + \cos s"),
-        kernel(profile, one_mode.PROFILE_SLOPE, sp.diff(u, s), "Its slope.", r"u'(s) = -\sin s"),
-        kernel(
-            profile, one_mode.PROFILE_RISE, u_1 - u_0, "Its rise between two phases, without cancellation.", r"u(s_1) - u(s_0)"
-        ),
-        kernel(
-            profile,
-            one_mode.PROFILE_INTEGRAL,
-            integral.subs(s, s_1) - integral.subs(s, s_0),
-            "Its integral: the displacement summed over a contact zone.",
-            r"\int_{s_0}^{s_1} u\,ds",
-            zero("profile_integral", "the antiderivative differentiates to u", sp.diff(integral, s) - u),
-        ),
-    )
 
 
 def states() -> tuple[Kernel, ...]:
