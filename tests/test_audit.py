@@ -12,15 +12,16 @@ import numpy as np
 import pytest
 from derived_once import audited, derivation, derivations, tampered
 
+import hystrip.commands.measurements.two_levels as comparison
 import hystrip.derivation.pages.publish as publish
-import hystrip.derivation.pages.two_levels as comparison
+from hystrip.commands.measurements import readings
+from hystrip.commands.measurements.measured import measured
+from hystrip.commands.measurements.pictures import ADHESION, CONTACT, missed, scenes, solved
 from hystrip.derivation import MODELS, AuditError, DerivationError, generated_folder
 from hystrip.derivation.drift import read_measured
 from hystrip.derivation.emit import input_hash
-from hystrip.derivation.pages import places, readings
+from hystrip.derivation.pages import places
 from hystrip.derivation.pages.latex import pieces
-from hystrip.derivation.pages.measured import measured
-from hystrip.derivation.pages.pictures import ADHESION, CONTACT, missed, scenes, solved
 from hystrip.derivation.paper.printed import PRINTED
 from hystrip.generated import standard_linear_solid
 
@@ -227,7 +228,7 @@ def test_figure_7_is_demonstrated() -> None:
 def test_the_measured_figures_are_those_of_the_solver(monkeypatch: pytest.MonkeyPatch) -> None:
     stored = read_measured(generated_folder())["standard_linear_solid"]
     for table in ("two_levels", "readings"):  # measured for longer than a test may take
-        monkeypatch.setattr(f"hystrip.derivation.pages.measured.{table}", dict)
+        monkeypatch.setattr(f"hystrip.commands.measurements.measured.{table}", dict)
     fresh = measured("standard_linear_solid")
     for regime, pictures in fresh["pictures"].items():
         assert [p["caption"].split(",")[0] for p in pictures] == [p["caption"].split(",")[0] for p in stored["pictures"][regime]]

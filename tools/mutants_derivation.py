@@ -470,7 +470,7 @@ def printed(package: ModuleType) -> None:
 
 def displayed(package: ModuleType) -> None:
     strip, flows, full = early(package)
-    kernels = (*part(package, "zones").rigid_profile(flows), *full.kernels, *part(package, "level").level(full).kernels)
+    kernels = (*part(package, "zones").rigid_profile(strip.u), *full.kernels, *part(package, "level").level(full).kernels)
     steps = [flows.contact, flows.relaxation, flows.gap, *(kernel.derived for kernel in kernels)]
     field = next(kernel.exact for kernel in full.kernels if kernel.formula.name == "saturated_pressure")
     part(package, "displays").displays(steps, flows, field)

@@ -23,8 +23,6 @@ from ..drift import (
 from ..emit import emit
 from ..model import Model
 from ..models import MODELS
-from .measured import measured
-from .pictures import MATERIALS
 from .render import audit_files
 
 KEPT = ("figure_6",)  # tools/figure6.py
@@ -38,8 +36,11 @@ def audit(
     out_dir: str | os.PathLike[str] | None = None,
     models: Iterable[Model] | None = None,
     progress: Callable[[int, int], None] | None = None,
+    measure: Callable[[str], dict[str, Any] | None] = lambda model: None,
 ) -> list[Path]:
     """Derive, verify and write the audit into ``out_dir`` (the generated folder's own); returns the files written.
+
+    ``measure``: pictures and measured figures of a model, by its name, if there are any.
 
     Raises :class:`DerivationError` at the first step that does not verify, and :class:`AuditError` unless the installed
     solver and its certificates are those of this derivation.
@@ -63,7 +64,7 @@ def audit(
     stale += [record.path for record in certificate_drift(installed, functions)]
     if stale:
         raise AuditError(f"{', '.join(stale)} in {installed} is not what the derivation emits; run `hystrip regenerate` first")
-    found = {model.name: measured(model.name) for model in chosen if model.name in MATERIALS}
+    found = {model.name: figures for model in chosen if (figures := measure(model.name)) is not None}
     for name, tables in kept(read_measured(installed)).items():
         if name in found:
             found[name]["tables"] |= tables

@@ -27,11 +27,13 @@ def command(
     import hystrip.derivation
     import hystrip.generated
 
+    from .measurements.measured import measured
+
     folder = out if out is not None else Path(hystrip.generated.__file__).parent / "audit"
     refuse_unwritable(folder, "--out")
     try:
         with progress("auditing") as report:
-            hystrip.derivation.audit(folder, progress=report)
+            hystrip.derivation.audit(folder, progress=report, measure=measured)
     except (hystrip.derivation.DerivationError, hystrip.derivation.AuditError) as problem:
         say(f"hystrip: {problem}", err=True)
         raise typer.Exit(1) from None

@@ -11,20 +11,24 @@ from typing import Any
 
 import numpy as np
 
-from ..models import STANDARD_LINEAR_SOLID
-from .pictures import picture, scenes, solved
+from .pictures import MATERIALS, picture, scenes, solved
 from .readings import readings
 from .two_levels import two_levels
 from .worked import worked
 
 TOOLS = ("matplotlib", "mpmath", "numpy", "scipy")
 RATIOS = (1.1, 1.5, 2.0, 10.0, 100.0)  # T_eps/T_sigma
-OWN = STANDARD_LINEAR_SOLID.name  # the paper's
+OWN = "standard_linear_solid"  # the paper's
 NODES = 60  # Gauss points in each zone
 
 
-def measured(model: str) -> dict[str, Any]:
-    """Pictures by regime, tables by name, and the versions that made them. The tables are those of the paper's foundation."""
+def measured(model: str) -> dict[str, Any] | None:
+    """Pictures by regime, tables by name, and the versions that made them; None for a model of which nothing is drawn.
+
+    The tables are those of the paper's foundation.
+    """
+    if model not in MATERIALS:
+        return None
     pictures: dict[str, list[dict[str, Any]]] = {}
     tables: dict[str, Any] = {}
     if model == OWN:

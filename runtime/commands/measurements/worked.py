@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from ..sequences import CONTACT, Span, zones_of
-from ..symbols import PARAMETERS, J, chi, p_0
+from hystrip.derivation.sequences import CONTACT, Span, zones_of
+from hystrip.derivation.symbols import PARAMETERS, J, chi, p_0
+
 from .pictures import scenes, solved
 
 OWN = "standard_linear_solid"
