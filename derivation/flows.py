@@ -71,7 +71,6 @@ def relaxation_flow(strip: Strip) -> Derived:
         latex="w(s) = " + sp.latex(displacement),
         checks=checks,
         paper="Eq. 5",
-        emitted=("displacement_after",),
     )
 
 

@@ -65,7 +65,6 @@ def kernel(
     statement: str,
     latex: str,
     *extra: Check,
-    moving: bool = False,
     phases: tuple[sp.Symbol, ...] = (s_0, s_1),
     halved: tuple[sp.Symbol, ...] = (),
     **options: Any,
@@ -75,7 +74,7 @@ def kernel(
     record = derived(
         by, exact, name=formula.name, statement=statement, latex=latex, checks=checks, emitted=(formula.name,), **options
     )
-    return Kernel(formula, exact, record, moving=moving)
+    return Kernel(formula, exact, record)
 
 
 def pair(

@@ -126,11 +126,6 @@ GAP_AFTER_START = Formula(
     PROFILE_SLOPE(s_0) * decay(s_1 - s_0, beta) + lag * decay_rate(s_1 - s_0, beta),
     (_lag,),
 )
-DISPLACEMENT_AFTER = Formula(
-    "displacement_after",
-    (s_0, s_1, w_0, p, beta),
-    w_0 * decay(s_1 - s_0, beta) - p * decay_loss(s_1 - s_0, beta),
-)
 RELAXATION_INCREMENT = Formula("relaxation_increment", (s_0, s_1, lag_0, beta), lag_0 * decay_loss(s_1 - s_0, beta))
 RELAXATION_INCREMENT_SLOPE = Formula("relaxation_increment_slope", (s_0, s_1, lag_0, beta), -lag_0 * decay_rate(s_1 - s_0, beta))
 RELAXATION_INTEGRAL = Formula(

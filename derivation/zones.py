@@ -138,13 +138,6 @@ def relaxation(flows: Flows) -> tuple[Kernel, ...]:
     return (
         kernel(
             relaxation,
-            stable.DISPLACEMENT_AFTER,
-            after,
-            "Displacement under a constant pressure.",
-            r"w(s_1) = w_0 + (w_0 - p)(e^{-(s_1-s_0)/\beta} - 1)",
-        ),
-        kernel(
-            relaxation,
             stable.RELAXATION_INCREMENT,
             change,
             "Change of w, and of z, over an adhesion or free zone entered with the lag w - p.",

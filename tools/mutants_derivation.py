@@ -343,7 +343,7 @@ MUTANTS: tuple[Mutant, ...] = (
     m("modes", "modes/stable.py", "-diagonal(lost), -J * p * lost)", "-diagonal(lost), J * p * lost)", "relaxation_map", "modes"),
     m("modes", "modes/chain.py", "(c_0 - R_0 * state) * start", "(c_0 + R_0 * state) * start", "chain rule", "modes"),
     m("modes", "modes/chain.py", "(q_0 + r_0) * ds_0", "(q_0 - r_0) * ds_0", "chain rule", "modes"),
-    m("display", "modes/zones.py", r"z_j(s_1) = J_j p + (", r"z_j(s_1) = J_j p - (", "relaxation_after", "modes"),
+    m("display", "modes/flows.py", r"z_j(s) = J_j p + (", r"z_j(s) = J_j p - (", "relaxation flow", "modes"),
     m("display", "modes/zones.py", r"f = -N (z - J p),", r"f = N (z - J p),", "overstress", "modes"),
     m("display", "modes/zones.py", r"\eta_i \Delta e_i = \int", r"\Delta e_i = \int", "contact_increment", "modes"),
     m("display", "modes/states.py", r"J_j \beta_j = \left(", r"J_j = \left(", "partial fractions", "modes"),

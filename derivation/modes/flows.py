@@ -46,7 +46,6 @@ def relaxation_flow() -> Derived:
         latex="z_j(s) = J_j p + (z_{j,0} - J_j p)\\,e^{-(s - s_0)/\\beta_j},\\quad w = J_0 p + \\sum_j z_j",
         checks=checks,
         paper="Eq. 5",
-        emitted=("relaxation_after",),
     )
 
 

@@ -41,7 +41,7 @@ from ..stable import (
     width,
 )
 from ..symbols import D, alpha, beta, p, p_0, p_in, s, s_0, s_1
-from .symbols import J_0, J, S, enter, eta, f, f_0, leave, m, share, z, z_0
+from .symbols import J_0, J, S, enter, eta, f, f_0, m, share, z, z_0
 from .tensor import across, back, diagonal, sandwich, total
 
 response, level, time, rates, moved, turn, rate_end, rate_start = sp.symbols(
@@ -60,15 +60,12 @@ _response = (*_unit, (response, eta * unit**2))
 
 DISPLACEMENT = Formula("displacement", (z, p, m), J_0 * p + total(z))
 OVERSTRESS = Formula("overstress", (z, p, m), -across(enter, z - J * p))
-RELAXED = Formula("retarded", (f, p, m), J * p - across(leave, f))
 DASHPOTS = Formula("dashpots", (z, p, m), J_0 * p + total(z) + S * across(enter, z - J * p))
 
 # -- adhesion and free gap: constant pressure --------------------------------------------------------------------------
 
 _gap_zone = (s_0, s_1, z_0, p, m)
-RELAXATION_AFTER = Formula("relaxation_after", _gap_zone, z_0 * decay(width, beta) - J * p * decay_loss(width, beta), (WIDTH,))
 RELAXATION_INCREMENT = Formula("relaxation_increment", _gap_zone, (z_0 - J * p) * decay_loss(s_1 - s_0, beta))
-RELAXATION_RATE = Formula("relaxation_rate", (z, p, m), per_time(J * p - z, beta))
 RELAXATION_INTEGRAL = Formula(
     "relaxation_integral",
     _gap_zone,

@@ -9,7 +9,7 @@ from ..kernel import Kernel, kernel, pair
 from ..symbols import p, p_0, p_in, s, s_0, s_1
 from . import stable
 from .flows import ModeFlows, u
-from .symbols import J_0, J, S, enter, eta, f, f_0, leave, share, z, z_0
+from .symbols import J_0, J, S, enter, eta, f, f_0, share, z, z_0
 from .tensor import across, back, diagonal, sandwich, total
 
 u_0, u_1 = u.subs(s, s_0), u.subs(s, s_1)
@@ -27,38 +27,22 @@ def states() -> tuple[Kernel, ...]:
             "Overstress of every branch, where w and p belong together.",
             r"f = -N (z - J p),\quad N_{ij} = \frac{\eta_i}{\beta_j - \alpha_i}",
         ),
-        kernel(
-            states,
-            stable.RELAXED,
-            J * p - across(leave, f),
-            "Retardation displacements, from the overstresses.",
-            r"z = J p - M f,\quad M_{ji} = \frac{J_j \beta_j}{\beta_j - \alpha_i}",
-        ),
         kernel(states, stable.DASHPOTS, J_0 * p + total(z) + S * across(enter, lag), "Dashpot displacements.", r"e = w - S f"),
     )
 
 
 def relaxation(flows: ModeFlows) -> tuple[Kernel, ...]:
-    r"""z under a constant pressure: after, change, rate, and, for Eq. 11, :math:`\int w\,ds`."""
+    r"""z under a constant pressure: its change, and, for Eq. 11, :math:`\int w\,ds`."""
     flow = flows.relaxation.value
     after = flow.subs(s, s_1)
     primitive = sp.integrate(sp.expand(flow), s)
     return (
         kernel(
             relaxation,
-            stable.RELAXATION_AFTER,
-            after,
-            "Retardation displacements under a constant pressure.",
-            r"z_j(s_1) = J_j p + (z_{j,0} - J_j p) e^{-(s_1 - s_0)/\beta_j}",
-        ),
-        kernel(relaxation, stable.RELAXATION_INCREMENT, after - z_0, "Their change.", r"z_j(s_1) - z_j(s_0)"),
-        kernel(
-            relaxation,
-            stable.RELAXATION_RATE,
-            sp.diff(flow, s).subs({s: s_0, z_0: z}),
-            "Their rate; 0 where beta = 0.",
-            r"z_j' = (J_j p - z_j)/\beta_j",
-            moving=True,
+            stable.RELAXATION_INCREMENT,
+            after - z_0,
+            "Change of z under a constant pressure.",
+            r"z_j(s_1) - z_j(s_0)",
         ),
         kernel(
             relaxation,

@@ -24,102 +24,91 @@ def misprints(steps: tuple[Derived, ...]) -> list[dict[str, Any]]:
     ]
 
 
+def row(what: str, printed: str, step: Derived | None, equations: tuple[int, ...] = (), **more: Any) -> dict[str, Any]:
+    """A misprint or silence as the ``step`` that answers it has it, if ``more`` does not say otherwise."""
+    said = {"here": step.statement, "latex": step.latex, "why": step.correction, "steps": [step.name]} if step else {"latex": ""}
+    told = {"equations": list(equations), "what": what, "printed": printed, "shown": "", "table": None, "measured": ""}
+    return told | said | more
+
+
 def sign_of_equation_6(step: Derived) -> dict[str, Any]:
     """Depth under crest and valley with either sign."""
     crest, valley = {x: 0, y: 0}, {x: sp.pi / k, y: 0}
     rows = []
     for form, w in (("w = f + D, as printed", HEIGHT + D_level), ("w = D - f", D_level - HEIGHT)):
         rows.append([form, *(f"${sp.latex(sp.expand(sp.simplify(w.subs(place))))}$" for place in (crest, valley))])
-    return {
-        "equations": [6],
-        "what": "Sign in Eq. 6",
-        "printed": "w = f + D",
-        "here": "w = D - f",
-        "shown": f"As printed the foundation is deepest under the valley, {rows[0][2]}; it is under the crest, {rows[1][1]}.",
-        "latex": step.latex,
-        "why": step.correction,
-        "steps": [step.name],
-        "table": {"head": ["", "w under the crest", "w under the valley"], "rows": rows},
-        "measured": "",
-    }
+    return row(
+        "Sign in Eq. 6",
+        "w = f + D",
+        step,
+        (6,),
+        here="w = D - f",
+        shown=f"As printed the foundation is deepest under the valley, {rows[0][2]}; it is under the crest, {rows[1][1]}.",
+        table={"head": ["", "w under the crest", "w under the valley"], "rows": rows},
+    )
 
 
 def stiffness(step: Derived, *others: str) -> dict[str, Any]:
     """What K read as the one and as the other would mean. ``others``: further steps that show it."""
     K_number, pressure = sp.Integer(10) ** 9, sp.Integer(100)
     right, wrong = _figure(pressure / K_number), _figure(pressure * K_number)
-    return {
-        "equations": [1],
-        "what": "K called a compliance",
-        "printed": "K is introduced as the elastic compliance of the foundation.",
-        "here": step.statement,
-        "shown": f"Under 100 Pa a foundation with K = 1e9 yields {right} m, not {wrong} m.",
-        "latex": step.latex,
-        "why": "At rest Eq. 1 reads p = K w: K is a stiffness per area, in Pa/m, and the compliance is 1/K.",
-        "steps": [step.name, *others],
-        "table": {
+    return row(
+        "K called a compliance",
+        "K is introduced as the elastic compliance of the foundation.",
+        step,
+        (1,),
+        shown=f"Under 100 Pa a foundation with K = 1e9 yields {right} m, not {wrong} m.",
+        why="At rest Eq. 1 reads p = K w: K is a stiffness per area, in Pa/m, and the compliance is 1/K.",
+        steps=[step.name, *others],
+        table={
             "head": ["K = 1e9 read as", "displacement under 100 Pa"],
             "rows": [["stiffness, Pa/m", f"{right} m"], ["compliance, m/Pa", f"{wrong} m"]],
         },
-        "measured": "",
-    }
+    )
 
 
+JUMPS = "What w does where p steps"
 SILENT = "Nothing is said of the edges d and -c, where the traction begins and ends."
 
 
 def _closure(step: Derived, law: Derived) -> dict[str, Any]:
-    return {
-        "equations": [],
-        "what": "What w does where p steps",
-        "printed": SILENT,
-        "here": step.statement,
-        "shown": "",
-        "latex": step.latex,
-        "why": law.statement + " Keeping w continuous instead leaves the instantaneous response to the step out; the energy "
+    return row(
+        JUMPS,
+        SILENT,
+        step,
+        why=law.statement + " Keeping w continuous instead leaves the instantaneous response to the step out; the energy "
         "balance then holds only with the correction X of the friction balance.",
-        "steps": [law.name, "internal state", step.name, "power balance", "friction balance acaf"],
-        "table": None,
-        "measured": "balance",
-    }
+        steps=[law.name, "internal state", step.name, "power balance", "friction balance acaf"],
+        measured="balance",
+    )
 
 
 def _contact_alone(step: Derived) -> dict[str, Any]:
-    return {
-        "equations": [12, 13, 14],
-        "what": "Eq. 12 to 14: the whole cell, or the contact alone",
-        "printed": "The stress of the lower level is added at every point, and both integrals of Eq. 13 and 14 run "
-        "over the cell.",
-        "here": "It is added where the level above is in contact.",
-        "shown": "",
-        "latex": step.latex,
-        "why": step.correction,
-        "steps": [step.name, "carried friction", "friction coefficient"],
-        "table": None,
-        "measured": "readings",
-    }
+    return row(
+        "Eq. 12 to 14: the whole cell, or the contact alone",
+        "The stress of the lower level is added at every point, and both integrals of Eq. 13 and 14 run over the cell.",
+        step,
+        (12, 13, 14),
+        here="It is added where the level above is in contact.",
+        steps=[step.name, "carried friction", "friction coefficient"],
+        measured="readings",
+    )
 
 
 def _unloading() -> dict[str, Any]:
-    return {
-        "equations": [],
-        "what": "Which of several solutions is meant",
-        "printed": "Where the friction of a level over its nominal pressure is ambiguous, its upper part is taken, "
-        "which the text says "
+    return row(
+        "Which of several solutions is meant",
+        "Where the friction of a level over its nominal pressure is ambiguous, its upper part is taken, which the text says "
         "is the stable solution at unloading. Of several solutions for a strip at one penetration nothing is said.",
-        "here": "For a strip, the most engaged periodic orbit, the limit from an arbitrarily deeply pressed contact; "
-        "for a level, the "
-        "largest penetration that carries the nominal pressure. The least engaged orbit is the limit from a free "
-        "surface far below, "
-        "and can be asked for.",
-        "shown": "",
-        "latex": "",
-        "why": "The map of a material point's state over one period preserves order, so both exist, and every other periodic "
+        None,
+        here="For a strip, the most engaged periodic orbit, the limit from an arbitrarily deeply pressed contact; for a level, "
+        "the largest penetration that carries the nominal pressure. The least engaged orbit is the limit from a free surface far "
+        "below, and can be asked for.",
+        why="The map of a material point's state over one period preserves order, so both exist, and every other periodic "
         "orbit lies between them. An orbit is stable where the slope of the onset-to-onset map is below 1.",
-        "steps": ["shift of an event", "onset_slope_acaf", "onset_slope_af"],
-        "table": None,
-        "measured": "branches",
-    }
+        steps=["shift of an event", "onset_slope_acaf", "onset_slope_af"],
+        measured="branches",
+    )
 
 
 FIGURE_7 = {"K": "1e9", "T_eps": "1/100", "T_sigma": "1/10000", "p_1": "5e6"}
@@ -139,26 +128,24 @@ def _equation_16(step: Derived) -> dict[str, Any]:
         other = {**scene, K: scene[K] / MICRO, **{symbol: scene[symbol] * MICRO for symbol in (l, h, V)}}
         terms = (true.subs(scene), true.subs(other), printed.subs(scene), printed.subs(other))
         rows.append([str(number), *map(_figure, (scene[l], scene[h], scene[V], *terms, terms[2] / terms[0]))])
-    return {
-        "equations": [16],
-        "what": "Eq. 16: power of h, factor, dimensions, upper limit",
-        "printed": PRINTED_16,
-        "here": "Factor 3 pi^2/16, h_i squared, and a sum up to M: M counts the levels, N the strips of one level.",
-        "shown": f"Fig. 7: the levels' own peaks are {', '.join(row[4] for row in rows)}; as printed, with lengths in m, "
-        f"{', '.join(row[6] for row in rows)}.",
-        "latex": step.latex,
-        "why": step.correction,
-        "steps": ["saturated_stack_friction", step.name, "levels in complete contact together",
-                  "least pressure in complete contact"],
-        "table": {
+    return row(
+        "Eq. 16: power of h, factor, dimensions, upper limit",
+        PRINTED_16,
+        step,
+        (16,),
+        here="Factor 3 pi^2/16, h_i squared, and a sum up to M: M counts the levels, N the strips of one level.",
+        shown=f"Fig. 7: the levels' own peaks are {', '.join(line[4] for line in rows)}; as printed, with lengths in m, "
+        f"{', '.join(line[6] for line in rows)}.",
+        steps=["saturated_stack_friction", step.name, "levels in complete contact together",
+               "least pressure in complete contact"],
+        table={
             "caption": "Fig. 7, nominal pressure 5 MPa: each level's friction coefficient at its own peak. As printed, the third "
             "level would be the highest, where the paper's text says that the first is, and the number depends on the unit.",
             "head": ["level", "l, m", "h, m", "V at the peak, m/s", "mu, lengths in m", "in µm", "mu as printed, lengths in m",
                      "in µm", "printed/true, in m"],
             "rows": rows,
         },
-        "measured": "",
-    }  # fmt: skip
+    )  # fmt: skip
 
 
 SMALL = (

@@ -44,33 +44,14 @@ def wording(derivation: Derivation) -> Wording:
 def _misprints(steps: tuple[Derived, ...]) -> list[dict[str, Any]]:
     """Misprints and silences that bear on every model; what concerns one relaxation time alone is on the paper's own page."""
     by_name = {step.name: step for step in steps}
-    closures, stack = by_name["closures"], by_name["saturated_stack_friction"]
+    law, closures, stack = (by_name[name] for name in ("jump law", "closures", "saturated_stack_friction"))
     own = "In numbers for Fig. 7, and with its dimensions: page of the standard linear solid, the paper's own foundation."
     return [
         misprints.sign_of_equation_6(by_name["zone conditions"]),
         misprints.stiffness(by_name["relaxed stiffness"]),
-        _row(
-            [], "What w does where p steps", misprints.SILENT, closures, by_name["jump law"].statement, ["jump law", "closures"]
-        ),
-        _row([16], "Eq. 16: power of h, factor, upper limit", misprints.PRINTED_16, stack, stack.correction, [stack.name], own),
+        misprints.row(misprints.JUMPS, misprints.SILENT, closures, why=law.statement, steps=[law.name, closures.name]),
+        misprints.row("Eq. 16: power of h, factor, upper limit", misprints.PRINTED_16, stack, (16,), shown=own),
     ]
-
-
-def _row(
-    equations: list[int], what: str, printed: str, step: Derived, why: str, steps: list[str], shown: str = ""
-) -> dict[str, Any]:
-    return {
-        "equations": equations,
-        "what": what,
-        "printed": printed,
-        "here": step.statement,
-        "shown": shown,
-        "latex": step.latex,
-        "why": why,
-        "steps": steps,
-        "table": None,
-        "measured": "",
-    }
 
 
 def _conditions(regime: ModeRegime) -> list[list[str]]:
