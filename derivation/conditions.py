@@ -89,10 +89,10 @@ def strip_problem(strip: Strip, discrete: Regime) -> Derived:
 
     def gap_at(place: sp.Expr, since: sp.Symbol, gap: sp.Expr, load: sp.Expr) -> sp.Expr:
         """Gap at ``place`` after a zone at the pressure ``load`` that was entered at ``since`` with ``gap``."""
-        w = _solved(name, lambda unknown: _equation_5(strip, unknown, load), since, profile.subs(x, since) + gap)
+        w = _solved(name, lambda unknown: strip.misses(unknown, load), since, profile.subs(x, since) + gap)
         return (w - profile).subs(x, place)
 
-    pressure = _solved(name, lambda unknown: _equation_5(strip, profile, unknown), begins, -p_0)
+    pressure = _solved(name, lambda unknown: strip.misses(profile, unknown), begins, -p_0)
     asked = (
         gap_at(begins, onset, delta_0 - step, -p_0),
         pressure.subs(x, ends) + p_0,
@@ -125,13 +125,6 @@ def strip_problem(strip: Strip, discrete: Regime) -> Derived:
         checks=checks,
         emitted=("residual_acaf",),
     )
-
-
-def _equation_5(strip: Strip, w: sp.Expr, p: sp.Expr) -> sp.Expr:
-    """Eq. 5, left minus right side, for fields of x."""
-    equation = strip.moving_frame.value
-    fields = {sp.Function("w")(x): w, sp.Function("p")(x): p}
-    return (equation.lhs - equation.rhs).subs(fields).doit()
 
 
 def _solved(name: str, law: Callable[[sp.Expr], sp.Expr], since: sp.Symbol, value: sp.Expr) -> sp.Expr:

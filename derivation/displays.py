@@ -19,12 +19,12 @@ from . import half_space
 from .check import Check, DerivationError, Derived
 from .exact import RELATIONS
 from .flows import Flows
-from .functions import stack_sum, written_out
+from .functions import flat, stack_sum, written_out
 from .multilevel import pressure, slope_x, tau_below
 from .paper.words import strips
 from .reader import Of, Prefix, Unreadable, statements
 from .strip import TIMES
-from .surface import AMPLITUDE, HEIGHT, PENETRATION, mean_over_wave
+from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell
 from .symbols import (
     A,
     D,
@@ -117,7 +117,7 @@ def checked(
 
 def require_printed(step: Derived) -> None:
     """Raise :class:`DerivationError` unless the display is what SymPy prints of every value of the step."""
-    if not all(sp.latex(value) in step.latex for value in flat(step.value)):
+    if not all(sp.latex(value) in step.latex for value in values_of(step)):
         raise DerivationError(step.name, READ)
 
 
@@ -128,7 +128,7 @@ def read_back(step: Derived, names: Mapping[str, Any], same: Same | None = None)
         read = statements(step.latex, names)
     except Unreadable as problem:
         raise DerivationError(step.name, f"the display can be read: {problem}") from problem
-    alone = iter(flat(step.value))
+    alone = iter(values_of(step))
     for statement in read:
         sides = statement.sides
         if len(sides) == 1 or step.name.startswith("regime "):  # a value by itself; a boundary equation, value = 0
@@ -176,7 +176,7 @@ def _quadrature(body: sp.Expr, over: sp.Tuple, point: Mapping[sp.Symbol, sp.Rati
 
 def _definite(expression: sp.Expr) -> sp.Expr:
     one_level = written_out(sp.sympify(expression)).replace(stack_sum, lambda term: term)
-    return one_level.doit(integrals=False).subs(TIMES).subs(RELATIONS).subs(k, 2 * sp.pi / l)
+    return one_level.doit(integrals=False).subs(TIMES).subs(RELATIONS).subs(WAVE)
 
 
 def of_levels(step: Derived) -> Check:
@@ -184,10 +184,9 @@ def of_levels(step: Derived) -> Check:
     return read_back(step, LEVELS[step.name](step.value))
 
 
-def flat(value: Any) -> list[sp.Expr]:
-    if isinstance(value, (tuple, list, sp.Tuple)):
-        return [part for item in value for part in flat(item)]
-    return [value] if isinstance(value, sp.Basic) else []
+def values_of(step: Derived) -> list[sp.Expr]:
+    """The expressions that a step derived, in order."""
+    return [part for part in flat(step.value) if isinstance(part, sp.Basic)]
 
 
 def vocabulary(flows: Flows, field: sp.Expr) -> dict[str, Any]:
@@ -212,7 +211,7 @@ def vocabulary(flows: Flows, field: sp.Expr) -> dict[str, Any]:
 
 def bound(step: Derived, words: Mapping[str, Any]) -> dict[str, Any]:
     """The names that stand for the step's own value, or mean something of their own in it."""
-    values = flat(step.value)
+    values = values_of(step)
     for prefix, binding in BINDINGS.items():
         if step.name.startswith(prefix):
             return binding(values, words)
@@ -295,7 +294,6 @@ def _of_a_level(values: list[sp.Expr], words: Mapping[str, Any]) -> dict[str, An
 
 
 CELL = {"l": l, "x": x, "y": y, "f": HEIGHT, r"\pi": sp.pi}
-ON_WAVE = {k: 2 * sp.pi / l}
 
 
 def _load(value: sp.Expr) -> dict[str, Any]:
@@ -305,7 +303,7 @@ def _load(value: sp.Expr) -> dict[str, Any]:
 
 def _area(value: sp.Expr) -> dict[str, Any]:
     """Strips whose contact is linear in cos ky, which their middles sum exactly."""
-    ahead, behind = ((m + n * sp.cos(k * y)).subs(ON_WAVE) for m, n in (sp.symbols("m n"), sp.symbols("m' n'")))
+    ahead, behind = ((m + n * sp.cos(k * y)).subs(WAVE) for m, n in (sp.symbols("m n"), sp.symbols("m' n'")))
     area = value.replace(sp.Function("length"), lambda place: (ahead + behind).subs(y, place))
     at_strip = {y: sp.Symbol("y_j", real=True)}
     return CELL | strips(2) | {"A": area.doit(), "a_j": ahead.subs(at_strip), "b_j": behind.subs(at_strip)}
@@ -317,7 +315,7 @@ def _means(value: tuple[sp.Expr, sp.Expr]) -> dict[str, Any]:
 
 
 def _stress(value: sp.Expr) -> dict[str, Any]:
-    return CELL | {r"\tau": lambda *place: value.subs(ON_WAVE), "p": lambda *place: pressure}
+    return CELL | {r"\tau": lambda *place: value.subs(WAVE), "p": lambda *place: pressure}
 
 
 def _shear(value: sp.Expr) -> dict[str, Any]:
@@ -330,8 +328,8 @@ def _carried(value: sp.Expr) -> dict[str, Any]:
     field = lambda phase: 2 + sp.cos(phase) - sp.sin(phase) / 3  # noqa: E731
     law = lambda local: local**2 + 3  # noqa: E731
     along = lambda *phase: field(*phase) if phase else field(-k * x)  # noqa: E731
-    cell = lambda body, *variables: l**2 * mean_over_wave(mean_over_wave(body, x), y)  # noqa: E731
-    own = mean_over_wave(mean_over_wave(field(-k * x) * sp.diff(HEIGHT, x) + law(field(-k * x)), x), y)
+    cell = lambda body, *variables: l**2 * mean_over_cell(body)  # noqa: E731
+    own = mean_over_cell(field(-k * x) * sp.diff(HEIGHT, x) + law(field(-k * x)))
     derived_part = value.replace(sp.Function("tau_M"), law).replace(sp.Function("p"), field)
     derived_part = derived_part.subs({s_0: -k * ahead, s_1: k * behind})
     return CELL | {r"\bar\tau_M-1": own, "f_x": sp.diff(HEIGHT, x), "p": along, r"\tau_M": law, "k": k, "a": behind, "b": ahead,

@@ -38,7 +38,7 @@ SHARES = 40  # in which the certificates of a model are reported; a stage of its
 Report = Callable[[int, int], None]
 
 
-class _Progress:
+class Progress:
     """Counts finished stages for a caller that wants (done, total)."""
 
     def __init__(self, report: Report | None, total: int):
@@ -50,7 +50,7 @@ class _Progress:
             self._report(self._done, self._total)
 
 
-def _counted(certificates: Iterable[Certificate], count: int, say: _Progress) -> Iterator[Certificate]:
+def _counted(certificates: Iterable[Certificate], count: int, say: Progress) -> Iterator[Certificate]:
     """The ``count`` certificates of a model, reported in so many shares as they are made."""
     reported = 0
     for number, certificate in enumerate(certificates, start=1):
@@ -103,7 +103,7 @@ def regenerate(
     require_names(chosen)
     target = Path(out_dir) if out_dir is not None else generated_folder()
     require_folder(target)
-    say = _Progress(progress, sum(len(stages_of(model)) + SHARES for model in chosen) + 2)
+    say = Progress(progress, sum(len(stages_of(model)) + SHARES for model in chosen) + 2)
     derivations = tuple(derive(model, say) for model in chosen)
     files = emit(derivations)
     say("emission")
@@ -147,7 +147,7 @@ def check(
     """Compare the folder of generated files with what the derivation emits now; an empty list means no drift."""
     folder = Path(generated) if generated is not None else generated_folder()
     chosen = tuple(models) if models is not None else MODELS
-    say = _Progress(progress, sum(len(stages_of(model)) for model in chosen))
+    say = Progress(progress, sum(len(stages_of(model)) for model in chosen))
     derivations = tuple(derive(model, say) for model in chosen)
     texts = emit(derivations)
     texts |= audit_texts(derivations, texts, _readable_certificates(folder), read_measured(folder))

@@ -204,6 +204,11 @@ def written_out(expression: sp.Expr) -> sp.Expr:
     return expression.replace(lambda e: isinstance(e, Helper), lambda e: e.meaning(*e.args))
 
 
+def flat(value: Any) -> list[Any]:
+    """What nested tuples hold, in order; of anything else, itself."""
+    return [part for item in value for part in flat(item)] if isinstance(value, (tuple, list, sp.Tuple)) else [value]
+
+
 def _map(result: Any, function: Callable[[sp.Expr], sp.Expr]) -> Any:
     if isinstance(result, tuple):
         return tuple(_map(part, function) for part in result)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from .check import Derived, derived, zero
-from .surface import HEIGHT, mean_over_wave
+from .surface import HEIGHT, mean_over_cell
 from .symbols import V, k, l, x, y
 
 E, nu, q, z, P = sp.symbols("E nu q z P", positive=True)
@@ -58,19 +58,24 @@ def foundation_of_a_level(stiffness: sp.Expr) -> Derived:
     r""":math:`K(i\omega) = c\,\frac{\pi}{l}\,\frac{E(i\omega)}{1 - \nu^2}`, :math:`c = \frac{1/2 + \sqrt2/4}{3/4}`."""
     name = "foundation that stands for a half-space"
     waves = _waves()
-    slope = sum(sp.diff(wave, x) for wave, _ in waves)
+    shape = sum(wave for wave, _ in waves)
+    slope = sp.diff(shape, x)
     # w = D - f and w_t = V f_x: p = storage w + (loss/omega) w_t with omega = k V, for every wave with its own stiffness
     pressure = sum(
         stiffness.subs({E: storage, q: size}) * -wave + stiffness.subs({E: loss, q: size}) / (k * V) * V * sp.diff(wave, x)
         for wave, size in waves
     )
-    rubbing = sp.simplify(mean_over_wave(mean_over_wave(pressure * slope, x), y))
+    rubbing = sp.simplify(mean_over_cell(pressure * slope))
     K_loss = sp.Symbol("K_loss", positive=True)
-    local = mean_over_wave(mean_over_wave((-sum(wave for wave, _ in waves) + K_loss / k * slope) * slope, x), y)
+    local = mean_over_cell((-shape + K_loss / k * slope) * slope)
     K = sp.solve(local - rubbing, K_loss)[0].subs(k, 2 * sp.pi / l)
     c = (sp.Rational(1, 2) + sp.sqrt(2) / 4) / sp.Rational(3, 4)
     checks = [
-        zero(name, "the waves are those of Eq. 4, less its mean", sp.expand(HEIGHT - sum(wave for wave, _ in waves)) - _mean()),
+        zero(
+            name,
+            "the waves are those of Eq. 4, less its mean",
+            sp.expand(HEIGHT - shape - mean_over_cell(HEIGHT)),
+        ),
         zero(name, "each wave has its wavenumber", [sp.diff(f, x, 2) + sp.diff(f, y, 2) + size**2 * f for f, size in waves]),
         zero(name, "friction needs the loss modulus alone", sp.diff(rubbing, storage)),
         zero(
@@ -99,10 +104,6 @@ def _waves() -> list[tuple[sp.Expr, sp.Expr]]:
     return [(term, sizes[term.has(x), term.has(y)]) for term in terms if term.has(x) or term.has(y)]
 
 
-def _mean() -> sp.Expr:
-    return mean_over_wave(mean_over_wave(HEIGHT, x), y)
-
-
 def _alone(stiffness: sp.Expr, wave: sp.Expr, size: sp.Expr) -> sp.Expr:
     """Friction of one wave by itself."""
-    return mean_over_wave(mean_over_wave(stiffness.subs({E: loss, q: size}) / k * sp.diff(wave, x) ** 2, x), y)
+    return mean_over_cell(stiffness.subs({E: loss, q: size}) / k * sp.diff(wave, x) ** 2)

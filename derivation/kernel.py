@@ -10,7 +10,7 @@ import sympy as sp
 
 from .check import Check, DerivationError, Derived, derived, zero
 from .exact import in_half_angles
-from .functions import Formula, written_out
+from .functions import Formula, flat, written_out
 from .modes.symbols import S, eta
 from .modes.tensor import EVERY_SUM, generic
 from .symbols import alpha, s_0, s_1
@@ -50,7 +50,7 @@ def same(
     ``halved``: angles of which a form takes halves.
     """
     residuals = []
-    for one, other in zip(_flat(stated), _flat(exact), strict=True):
+    for one, other in zip(flat(stated), flat(exact), strict=True):
         if {f.func for f in sp.sympify(one).atoms(*EVERY_SUM)} != {f.func for f in sp.sympify(other).atoms(*EVERY_SUM)}:
             raise DerivationError(name, "both forms sum over the modes in the same way", one - other)
         residual = (generic(sp.sympify(one)) - generic(sp.sympify(other))).subs(S, alpha / eta)
@@ -96,7 +96,3 @@ def pair(
         for formula, value, said, shown in zip(chain, (constants, exact), statements, latex, strict=True)
     )
     return tuple(Kernel(formula, exact, record, chain=chain) for formula, record in zip(chain, records, strict=True))
-
-
-def _flat(result: Any) -> list[Any]:
-    return [e for part in result for e in _flat(part)] if isinstance(result, (tuple, list)) else [result]

@@ -13,15 +13,16 @@ from .check import CORRECTED, Check, Derived, derived, holds, zero
 from .functions import Formula, hypot, stack_sum
 from .kernel import Kernel, kernel
 from .saturated import MODULUS, Saturated
-from .surface import AMPLITUDE, HEIGHT, PENETRATION, mean_over_wave
+from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell, mean_over_wave
 from .symbols import A, D, D_j, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, s, x, y
 
 _si = (K, T_eps, T_sigma)
+R = sp.Symbol("R", positive=True)
+"""|K*|/K of the wave of a level."""
 ratio, pulsation, creep, slender = sp.symbols("ratio pulsation creep slender", positive=True)
 _SLENDER = ((creep, V * (T_eps - T_sigma)), (slender, h / l), (alpha, 2 * sp.pi * V * T_sigma / l))
 _RATIO = ((pulsation, 2 * sp.pi * V / l), (ratio, hypot(1, pulsation * T_eps) / hypot(1, pulsation * T_sigma)))
 TIMES = {alpha: k * V * T_sigma, beta: k * V * T_eps, L: 1 - T_sigma / T_eps}
-WAVE = {k: 2 * sp.pi / l}
 
 
 @dataclass(frozen=True)
@@ -53,32 +54,40 @@ def over_strips(quantity: sp.Expr) -> sp.Expr:
     return sp.simplify(mean_over_wave(quantity, y))
 
 
+def of_every_strip(name: str, threshold: sp.Expr, at_least_one: Check) -> tuple[sp.Expr, list[Check]]:
+    """Penetration from which every strip of a level is saturated, and why. ``threshold``: D_j/A of a strip, by its R >= 1."""
+    over_one, cosine = sp.Symbol("R_minus_1", nonnegative=True), sp.Symbol("cosine", real=True)
+    scaled = threshold.subs(p_0, p_0 / (K * AMPLITUDE))  # which is in K A
+    needed = sp.expand(AMPLITUDE * scaled + h / 2 * (1 - sp.cos(k * y)))  # D of the level
+    slope = sp.diff(needed.subs(sp.cos(k * y), cosine), cosine).subs(R, 1 + over_one)
+    exact = needed.subs(y, 0)
+    return exact, [
+        at_least_one,
+        zero(name, "the penetration a strip needs is linear in cos ky", sp.diff(slope, cosine)),
+        holds(name, "and grows with it: the middle strip, y = 0, is the last to saturate", sp.factor(slope).is_nonnegative),
+        zero(name, "there it is h/2 (1 + R) - p_0/K", exact - (h / 2 * (1 + R) - p_0 / K)),
+    ]
+
+
+def load_of_strips(mean_p: sp.Expr) -> sp.Expr:
+    """Eq. 11: mean pressure of a level in complete contact. ``mean_p``: of a strip, in K A."""
+    return over_strips(sp.expand(sp.simplify(K * AMPLITUDE * mean_p.subs(D, PENETRATION / AMPLITUDE))))
+
+
+def friction_of_strips(mean_tau: sp.Expr) -> sp.Expr:
+    """Eq. 11: mean friction of a level. ``mean_tau``: of a strip, in K A times k A, and in SI otherwise."""
+    return over_strips(K * AMPLITUDE * k * AMPLITUDE * mean_tau).subs(WAVE)
+
+
 def saturation_penetration(threshold: sp.Expr) -> Kernel:
     r"""Every strip is saturated when :math:`D \ge \frac h2 (1 + R) - p_0/K`."""
     name = "level_saturation_penetration"
-    R = sp.Symbol("R", positive=True)
-    over_one = sp.Symbol("R_minus_1", nonnegative=True)  # R >= 1, since beta >= alpha
-    scaled = threshold.subs(MODULUS, R)  # D_j/A, with p_0 in K A
-    needed = sp.expand(AMPLITUDE * scaled.subs(p_0, p_0 / (K * AMPLITUDE)) + h / 2 * (1 - sp.cos(k * y)))  # D of the level
-    cosine = sp.Symbol("cosine", real=True)
-    slope = sp.diff(needed.subs(sp.cos(k * y), cosine), cosine).subs(R, 1 + over_one)
-    exact = needed.subs(y, 0)
-    checks = [
-        holds(name, "R >= 1: R^2 - 1 = (beta^2 - alpha^2)/(1 + alpha^2) >= 0", _at_least_one()),
-        zero(name, "the penetration a strip needs is linear in cos ky", sp.diff(slope, cosine)),
-        holds(name, "and grows with it: the middle strip, y = 0, is the last to saturate", sp.factor(slope).is_nonnegative),
-    ]
-    si = exact.subs(R, MODULUS).subs(TIMES).subs(WAVE)
-    formula = Formula(
-        name,
-        (*_si, p_0, l, h, V),
-        h / 2 * (1 + ratio) - p_0 / K,
-        _RATIO,
-    )
+    at_least_one = holds(name, "R >= 1: R^2 - 1 = (beta^2 - alpha^2)/(1 + alpha^2) >= 0", _at_least_one())
+    exact, checks = of_every_strip(name, threshold.subs(MODULUS, R), at_least_one)
     return kernel(
         saturation_penetration,
-        formula,
-        si,
+        Formula(name, (*_si, p_0, l, h, V), h / 2 * (1 + ratio) - p_0 / K, _RATIO),
+        exact.subs(R, MODULUS).subs(TIMES).subs(WAVE),
         "Penetration from which every strip of a level is in complete contact.",
         r"D_{sat} = \frac h2 (1 + R) - \frac{p_0}{K},\quad R = \sqrt{\frac{1 + (kVT_\epsilon)^2}{1 + (kVT_\sigma)^2}}",
         *checks,
@@ -88,25 +97,14 @@ def saturation_penetration(threshold: sp.Expr) -> Kernel:
 def saturation_pressure(penetration: sp.Expr, mean_p: sp.Expr) -> Kernel:
     r"""Eq. 11 there: :math:`p_{sat} = K h (2R - 1)/4 - p_0`."""
     name = "level_saturation_pressure"
-    strip_p = K * AMPLITUDE * mean_p.subs(D, PENETRATION / AMPLITUDE)
-    mean = over_strips(sp.expand(sp.simplify(strip_p)))
-    exact = mean.subs(k, 2 * sp.pi / l).subs(D_level, penetration)
-    formula = Formula(
-        name,
-        (*_si, p_0, l, h, V),
-        K * h / 4 * (2 * ratio - 1) - p_0,
-        _RATIO,
-    )
-    checks = [
-        zero(name, "the level's mean pressure in complete contact is K (D - 3h/4)", mean - K * (D_level - sp.Rational(3, 4) * h))
-    ]
+    mean = load_of_strips(mean_p)
     return kernel(
         saturation_pressure,
-        formula,
-        exact,
+        Formula(name, (*_si, p_0, l, h, V), K * h / 4 * (2 * ratio - 1) - p_0, _RATIO),
+        mean.subs(WAVE).subs(D_level, penetration),
         "Nominal pressure from which a level is in complete contact.",
         r"p_{sat} = \tfrac14 K h (2R - 1) - p_0",
-        *checks,
+        zero(name, "the level's mean pressure in complete contact is K (D - 3h/4)", mean - K * (D_level - sp.Rational(3, 4) * h)),
         paper="Eq. 11",
     )
 
@@ -114,8 +112,7 @@ def saturation_pressure(penetration: sp.Expr, mean_p: sp.Expr) -> Kernel:
 def saturation_friction(mean_tau: sp.Expr) -> Kernel:
     r"""Eq. 10, 11: :math:`\tau_{sat} = \frac{3\pi^2}{16}\frac{K V (T_\epsilon - T_\sigma) h^2}{l^2 + 4\pi^2V^2T_\sigma^2}`."""
     name = "level_saturation_friction"
-    strip_tau = K * AMPLITUDE * k * AMPLITUDE * mean_tau.subs(TIMES)  # in units of K A times k A
-    exact = sp.factor(over_strips(strip_tau).subs(WAVE))
+    exact = sp.factor(friction_of_strips(mean_tau.subs(TIMES)))
     stated = sp.Rational(3, 16) * sp.pi**2 * K * V * (T_eps - T_sigma) * h**2 / (l**2 + 4 * sp.pi**2 * V**2 * T_sigma**2)
     formula = Formula(
         name,
@@ -146,7 +143,7 @@ def stack_friction(one_level: sp.Expr, field: sp.Expr) -> Kernel:
         _SLENDER,
     )
     pressed = in_si(field)
-    load, shear = (mean_over_wave(mean_over_wave(part, x), y) for part in (pressed, pressed * sp.diff(HEIGHT, x)))
+    load, shear = (mean_over_cell(part) for part in (pressed, pressed * sp.diff(HEIGHT, x)))
     labels = dict(formula.steps)
     levels = [{symbol: sp.Symbol(f"{symbol}_{i}", positive=True) for symbol in (h, l)} for i in (1, 2, 3)]
     summed = formula.result.replace(stack_sum, lambda term: sum(term.xreplace(labels).subs(level) for level in levels))

@@ -12,7 +12,7 @@ from .check import Derived, derived, zero
 from .functions import written_out
 from .regime import Regime
 from .sequences import ADHESION, CONTACT, PERIOD
-from .surface import HEIGHT, mean_over_wave
+from .surface import HEIGHT, mean_over_cell, mean_over_wave
 from .symbols import D_level, K, a, b, beta, k, l, p_0, q_0, s_0, s_1, x, y
 
 
@@ -30,8 +30,8 @@ def balance_of_load(by: Callable, touching: Sequence[Any], unbalanced: Sequence[
     """Eq. 7 as derived by ``by``; ``unbalanced``: of each regime that touches, what its zones carry less 2 pi mean p."""
     name = "equilibrium"
     relaxed = D_level - HEIGHT  # w at rest
-    stored = mean_over_wave(mean_over_wave(K * relaxed**2 / 2, x), y)
-    carried = mean_over_wave(mean_over_wave(K * relaxed, x), y)
+    stored = mean_over_cell(K * relaxed**2 / 2)
+    carried = mean_over_cell(K * relaxed)
     checks = [
         zero(
             name,

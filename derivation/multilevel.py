@@ -15,13 +15,13 @@ from .averages import ZoneIntegrals
 from .check import CORRECTED, Check, Derived, derived, zero
 from .functions import stack_sum
 from .kernel import Kernel
-from .level import WAVE, Level, in_si, over_strips
+from .level import Level, in_si, over_strips
 from .load import contact_area, equilibrium
 from .regime import Regime
 from .saturated import Saturated
 from .sequences import ADHESION, CONTACT, FREE, PERIOD
 from .strip import Strip
-from .surface import AMPLITUDE, HEIGHT, PENETRATION, mean_over_wave
+from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell, mean_over_wave
 from .symbols import D, D_level, J, K, L, V, beta, h, k, l, p_0, p_nominal, s, s_0, s_1, t, x, y
 
 tau_below, slope_x, pressure, unknown = sp.symbols("tau_M f_x p tau", real=True)
@@ -216,7 +216,7 @@ def friction_coefficient(field: sp.Expr, one_level: sp.Expr, stack: sp.Expr, own
     pressed = in_si(field)
     shear = pressed * sp.diff(HEIGHT, x) + one_level.subs(lower)  # Eq. 12 in complete contact, where the law below is constant
     both = stack.replace(stack_sum, lambda term: sum(term.subs(level) for level in (upper, lower)))
-    load, friction = (mean_over_wave(mean_over_wave(part, x), y).subs(WAVE).subs(upper) for part in (pressed, shear))
+    load, friction = (mean_over_cell(part).subs(WAVE).subs(upper) for part in (pressed, shear))
     checks = [
         zero(
             name,

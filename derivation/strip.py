@@ -31,6 +31,12 @@ class Strip:
     def u(self) -> sp.Expr:
         return self.profile.value
 
+    def misses(self, w: sp.Expr, p: sp.Expr) -> sp.Expr:
+        """Left minus right side of Eq. 5 for fields of x, in SI."""
+        equation = self.moving_frame.value
+        fields = {sp.Function("w")(x): w, sp.Function("p")(x): p}
+        return (equation.lhs - equation.rhs).subs(fields).doit()
+
     def law(self, w: sp.Expr, p: sp.Expr) -> sp.Expr:
         """Left minus right side of the law for ``w(s)`` and ``p(s)``: zero on a motion."""
         return _apply(self.operator_w, w) - _apply(self.operator_p, p)

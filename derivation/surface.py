@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from .symbols import D_level, h, k, x, y
+from .symbols import D_level, h, k, l, x, y
 
 HEIGHT = h - h / 4 * (sp.cos(k * x) + 1) * (sp.cos(k * y) + 1)
 """Eq. 4: f(x, y), how far the rigid surface stands back from its crest."""
@@ -14,6 +14,15 @@ PENETRATION = D_level - h / 2 * (1 - sp.cos(k * y))
 """Eq. 8: D_j(y), the strip's own penetration."""
 
 
+WAVE = {k: 2 * sp.pi / l}
+"""The wave number by the wavelength."""
+
+
 def mean_over_wave(quantity: sp.Expr, along: sp.Symbol) -> sp.Expr:
     """Mean over one wavelength along x or y."""
     return sp.integrate(sp.expand(quantity), (along, 0, 2 * sp.pi / k)) * k / (2 * sp.pi)
+
+
+def mean_over_cell(quantity: sp.Expr) -> sp.Expr:
+    """Mean over one wavelength both ways."""
+    return mean_over_wave(mean_over_wave(quantity, x), y)

@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from .functions import HELPERS, Formula
+from .functions import HELPERS, Formula, flat
 from .printing import RENAMED, results, source
 
 WIDTH = 110  # of a docstring's lines
@@ -59,7 +59,3 @@ def helpers_used(formulas: Iterable[Formula]) -> list[str]:
         for term in terms:
             found |= {type(f).__name__ for f in sp.sympify(term).atoms(sp.Function) if isinstance(f, HELPERS)}
     return sorted(found - set(RENAMED))
-
-
-def flat(result: Any) -> list[sp.Expr]:
-    return [e for part in result for e in flat(part)] if isinstance(result, tuple) else [result]

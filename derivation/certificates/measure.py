@@ -10,10 +10,11 @@ import mpmath
 import numpy as np
 import sympy as sp
 
+from ..functions import flat
 from ..kernel import Kernel
 from .grid import EDGES, TURN, drawn
 from .point import Point
-from .reference import Reference, flat
+from .reference import Reference
 from .scaled import Scaled
 
 EPS = 2.0**-52

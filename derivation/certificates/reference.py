@@ -13,7 +13,7 @@ import mpmath
 import numpy as np
 import sympy as sp
 
-from ..functions import stack_sum, written_out
+from ..functions import flat, stack_sum, written_out
 from ..modes.symbols import MATRICES
 from ..modes.tensor import EVERY_SUM, across, diagonal, is_matrix, sandwich, total
 from .point import STEP, Point
@@ -129,7 +129,3 @@ def _outermost(expression: sp.Expr) -> set[sp.Expr]:
     if isinstance(expression, EVERY_SUM):
         return {expression}
     return set().union(*map(_outermost, expression.args))
-
-
-def flat(result: Any) -> list[Any]:
-    return [e for part in result for e in flat(part)] if isinstance(result, (tuple, list)) else [result]

@@ -16,14 +16,14 @@ import sympy as sp
 from .. import displays as one_time
 from ..check import Check, DerivationError, Derived
 from ..displays import POINTS, READ, Binding, checked, named, read_back
+from ..level import R
 from ..model import rate
-from ..multilevel import WAVE
 from ..reader import Of, Prefix
-from ..surface import AMPLITUDE, PENETRATION
+from ..surface import AMPLITUDE, PENETRATION, WAVE
 from ..symbols import A, D, D_j, K, V, alpha, beta, h, k, l, p, p_0, p_in, p_nominal, s, s_0, s_1, x, y
 from .flows import ModeFlows, u
 from .numbers import BRANCHES, DIGITS, OTHER, RETARDATION, along, applied, product_along, sample, slope, value
-from .saturated import R_LOSS, R
+from .saturated import R_LOSS
 from .states import alpha_i, alpha_k, beta_i, beta_k, eta_i
 from .symbols import J_0, J, S, enter, eta, f, f_0, leave, share, z, z_0
 from .tensor import across, total
@@ -110,7 +110,7 @@ def _matrix(matrix: sp.Symbol) -> Prefix:
 
 def bound(step: Derived, words: Mapping[str, Any]) -> dict[str, Any]:
     """The names that stand for the step's own value, or mean something of their own in it."""
-    return BINDINGS[step.name](one_time.flat(step.value), words) if step.name in BINDINGS else {}
+    return BINDINGS[step.name](one_time.values_of(step), words) if step.name in BINDINGS else {}
 
 
 def _law(values: list[sp.Expr], words: Mapping[str, Any]) -> dict[str, Any]:

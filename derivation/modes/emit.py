@@ -6,11 +6,11 @@ from typing import Any
 
 import sympy as sp
 
-from ..functions import Formula
+from ..functions import Formula, flat
 from ..model import Model, Parameter, Roots, Series
 from ..outcome import Derivation
 from ..printing import results, source
-from ..text import flat, function_text, helpers_used
+from ..text import function_text, helpers_used
 from .functions import ALGORITHMS
 from .material import series_of
 from .symbols import MATERIAL as FIELDS

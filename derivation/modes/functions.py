@@ -16,12 +16,13 @@ import sympy as sp
 from ..averages import adhesive_rise
 from ..check import Derived, derived, zero
 from ..functions import Call, Formula, Helper, stack_sum
+from ..level import R
 from ..sequences import ADHESION, CONTACT, PERIOD, Span
 from ..stable import PROFILE, PROFILE_INTEGRAL, PROFILE_RISE, PROFILE_SLOPE
 from ..symbols import D, K, V, delta_0, h, l, p_0, p_nominal
 from . import stable
 from .regimes import ModeRegime
-from .saturated import R_LOSS, Complete, R
+from .saturated import R_LOSS, Complete
 from .symbols import m
 from .tensor import generic
 

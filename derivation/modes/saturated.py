@@ -9,15 +9,15 @@ import sympy as sp
 from ..check import CORRECTED, Check, Derived, derived, holds, zero
 from ..functions import stack_sum
 from ..kernel import Kernel, kernel
-from ..level import AMPLITUDE, MISPRINT, PENETRATION, over_strips
+from ..level import MISPRINT, R, friction_of_strips, load_of_strips, of_every_strip
 from ..saturated import threshold_record
-from ..symbols import D, K, alpha, h, k, l, p_0, p_nominal, s, y
+from ..symbols import D, D_level, K, alpha, h, l, p_0, p_nominal, s
 from . import stable
 from .flows import ModeFlows, u
 from .symbols import eta, f_0
 from .tensor import total
 
-R, R_LOSS = sp.symbols("R loss", positive=True)
+R_LOSS = sp.Symbol("loss", positive=True)
 
 
 @dataclass(frozen=True)
@@ -35,20 +35,13 @@ class Complete:
 
 
 def complete_contact(flows: ModeFlows) -> Complete:
-    modulus = complex_modulus()
-    means = saturated_means()
-    penetration = saturation_penetration()
-    friction = saturation_friction()
-    return Complete(
-        modulus,
-        (*modulus_kernels(), *field_kernels(flows)),
-        threshold(),
-        means,
-        penetration,
-        saturation_pressure(penetration.value),
-        friction,
-        stack_friction(friction.value),
-    )
+    least, means = threshold(), saturated_means()
+    mean_p, mean_tau = means.value
+    penetration = saturation_penetration(least.value)
+    pressure = saturation_pressure(penetration.value, mean_p)
+    friction = saturation_friction(mean_tau)
+    kernels = (*modulus_kernels(), *field_kernels(flows))
+    return Complete(complex_modulus(), kernels, least, means, penetration, pressure, friction, stack_friction(friction.value))
 
 
 def complex_modulus() -> Derived:
@@ -153,20 +146,12 @@ def saturated_means() -> Derived:
     )
 
 
-def saturation_penetration() -> Derived:
+def saturation_penetration(threshold: sp.Expr) -> Derived:
     r"""Every strip is saturated when :math:`D \ge \frac h2 (1 + R) - p_0/K`."""
     name = "level_saturation_penetration"
-    over_one, cosine = sp.Symbol("R_minus_1", nonnegative=True), sp.Symbol("cosine", real=True)
-    needed = sp.expand(AMPLITUDE * (1 + R - p_0 / (K * AMPLITUDE)) + h / 2 * (1 - sp.cos(k * y)))
-    slope = sp.diff(needed.subs(sp.cos(k * y), cosine), cosine)
-    exact = needed.subs(y, 0)
     storage, loss = sp.symbols("storage_minus_1 loss", nonnegative=True)
-    checks = [
-        holds(name, "R >= 1: the storage is at least 1", sp.expand((1 + storage) ** 2 + loss**2 - 1).is_nonnegative),
-        zero(name, "the penetration a strip needs is linear in cos ky", sp.diff(slope, cosine)),
-        holds(name, "and grows with it: the middle strip is the last", sp.factor(slope.subs(R, 1 + over_one)).is_nonnegative),
-        zero(name, "there it is h/2 (1 + R) - p_0/K", exact - (h / 2 * (1 + R) - p_0 / K)),
-    ]
+    above = sp.expand((1 + storage) ** 2 + loss**2 - 1)
+    exact, checks = of_every_strip(name, threshold, holds(name, "R >= 1: the storage is at least 1", above.is_nonnegative))
     return derived(
         saturation_penetration,
         exact,
@@ -178,11 +163,10 @@ def saturation_penetration() -> Derived:
     )
 
 
-def saturation_pressure(penetration: sp.Expr) -> Derived:
+def saturation_pressure(penetration: sp.Expr, mean_p: sp.Expr) -> Derived:
     r"""Eq. 11 there: :math:`p_{sat} = K h (2R - 1)/4 - p_0`."""
     name = "level_saturation_pressure"
-    mean = over_strips(sp.expand(K * (PENETRATION - AMPLITUDE)))
-    exact = mean.subs(sp.Symbol("D", real=True), penetration)
+    exact = load_of_strips(mean_p).subs(D_level, penetration)
     checks = [zero(name, "p_sat = K h (2 R - 1)/4 - p_0", exact - (K * h / 4 * (2 * R - 1) - p_0))]
     return derived(
         saturation_pressure,
@@ -196,10 +180,10 @@ def saturation_pressure(penetration: sp.Expr) -> Derived:
     )
 
 
-def saturation_friction() -> Derived:
+def saturation_friction(mean_tau: sp.Expr) -> Derived:
     r"""Eq. 10, 11: :math:`\tau_{sat} = \frac{3\pi}{32}\frac{h^2}{l}\,\mathrm{Im}\,K^*`."""
     name = "level_saturation_friction"
-    exact = over_strips(K * k * AMPLITUDE**2 * R_LOSS / 2).subs(k, 2 * sp.pi / l)
+    exact = friction_of_strips(mean_tau)
     checks = [zero(name, "it is 3 pi/32 h^2/l Im K*", exact - sp.Rational(3, 32) * sp.pi * K * h**2 / l * R_LOSS)]
     return derived(
         saturation_friction,

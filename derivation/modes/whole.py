@@ -9,9 +9,10 @@ import sympy as sp
 
 from ..functions import Formula
 from ..kernel import Kernel
+from ..level import R
 from ..symbols import D, K, V, alpha, beta, delta_0, h, l, p_0, p_nominal
 from .regimes import ModeRegime
-from .saturated import R_LOSS, Complete, R
+from .saturated import R_LOSS, Complete
 from .symbols import J_0, J, S, enter, eta, leave, m, share
 
 kV = sp.Symbol("kV", nonnegative=True)

@@ -15,12 +15,12 @@ import sympy as sp
 
 from ..check import Derived
 from ..inequality import Inequality, Relation
+from ..level import R
 from ..sequences import CONTACT, Span
 from ..symbols import D, alpha, beta, delta_0, p, p_0, s, s_0
 from ..witness import allowed, compared, true
 from .flows import ModeFlows, u
 from .regimes import ModeRegime, gap_at, gap_slope, pressure_slope
-from .saturated import R
 from .states import exact_modes
 from .symbols import J_0, J, enter, eta, f_0, leave, z_0
 

@@ -14,7 +14,7 @@ import sympy as sp
 from ..certificates import WORDS
 from ..check import Derived
 from ..emit import INTERFACE, input_hash
-from ..functions import HELPERS
+from ..functions import HELPERS, flat
 from ..outcome import Derivation
 from ..paper.tags import numbers
 from ..sequences import Row
@@ -119,7 +119,7 @@ def _step(step: Derived, computed: dict[str, sources.Source], known: set[str]) -
 
 def _values(step: Derived) -> list[str]:
     """LaTeX of the derived value, printed by SymPy; empty where it is too long to read or the equation above says as much."""
-    parts = [part for part in _flat(step.value) if isinstance(part, sp.Basic)]
+    parts = [part for part in flat(step.value) if isinstance(part, sp.Basic)]
     if not parts or step.name.startswith(STATED) or sum(sp.count_ops(part) for part in parts) > LONG:
         return []
     texts = [plainly(part) for part in parts]
@@ -132,10 +132,6 @@ def _values(step: Derived) -> list[str]:
 def _unbraced(latex: str) -> str:
     """Indices of one sign without braces, as one writes them by hand."""
     return re.sub(r"_\{(\w)\}", r"_\1", latex)
-
-
-def _flat(value: Any) -> list[Any]:
-    return [part for item in value for part in _flat(item)] if isinstance(value, (tuple, list, sp.Tuple)) else [value]
 
 
 def _regime(regime: Row, own: Wording, computed: dict[str, sources.Source]) -> dict[str, Any]:

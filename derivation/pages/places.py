@@ -42,6 +42,8 @@ ENTERS: dict[str, tuple[str, ...]] = {
     "model.relaxed_stiffness": ("dimensionless groups",),
     "model.instantaneous_compliance": ("dimensionless groups", "jump law"),
     "strip.moving_frame": ("dimensionless groups", "strip problem"),
+    "flows.relaxation_flow": ("gap flow", "relaxation_increment", "relaxation_integral"),
+    "modes.flows.relaxation_flow": ("gap_after", "relaxation_increment", "relaxation_integral"),
     "jumps.jump_law": ("closures",),
     "jumps.internal_state": ("contact_increment", "relaxation_increment", "regime acaf"),
     "saturated.complex_modulus": ("storage", "loss", "modulus_ratio", "saturated_pressure"),

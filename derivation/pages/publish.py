@@ -13,6 +13,7 @@ from ..drift import (
     AUDIT,
     CERTIFICATES,
     MEASURED,
+    Progress,
     certificate_drift,
     dumped,
     generated_folder,
@@ -48,14 +49,7 @@ def audit(
     chosen = tuple(models) if models is not None else MODELS
     installed = generated_folder()
     target = Path(out_dir) if out_dir is not None else installed / AUDIT
-    total, done = sum(len(stages_of(model)) for model in chosen) + 2, 0
-
-    def say(stage: str = "") -> None:
-        nonlocal done
-        done += 1
-        if progress is not None:
-            progress(done, total)
-
+    say = Progress(progress, sum(len(stages_of(model)) for model in chosen) + 2)
     derivations = tuple(derive(model, say) for model in chosen)
     texts = emit(derivations)
     say()

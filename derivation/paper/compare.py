@@ -9,9 +9,9 @@ import sympy as sp
 
 from ..level import in_si
 from ..strip import Strip
+from ..surface import WAVE
 from . import foundation, level, stack, surface
 from .record import Comparison
-from .words import WAVE
 
 
 def comparisons(strip: Strip, exact: Mapping[str, sp.Expr], steps: Mapping[str, Any]) -> tuple[Comparison, ...]:

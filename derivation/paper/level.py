@@ -7,14 +7,14 @@ from typing import Any
 
 import sympy as sp
 
-from ..check import REPRODUCED, Check, zero
+from ..check import Check, zero
 from ..multilevel import yielding
 from ..reader import statements
-from ..surface import mean_over_wave
+from ..surface import WAVE, mean_over_cell
 from ..symbols import V, k, l, x, y
 from .printed import PRINTED
 from .record import Comparison, compared, read_back, refuted, step
-from .words import CELL, WAVE, field, level, strips, surface
+from .words import CELL, field, level, strips, surface
 
 
 def load(pressure: sp.Expr) -> Comparison:
@@ -28,7 +28,7 @@ def load(pressure: sp.Expr) -> Comparison:
             7, derived, CELL | {r"\barp": names[r"\barp_i"], "p": field(pressure), r"iint \Omega^c\cup\Omega^a": _integral}
         ),
     ]
-    return compared(7, derived, checks, ("equilibrium",), REPRODUCED)
+    return compared(7, derived, checks, ("equilibrium",))
 
 
 def area() -> Comparison:
@@ -57,7 +57,7 @@ def area() -> Comparison:
     derived = (r"A = 2 \Delta \sum_{j=1}^{N} (a_j + b_j),\quad l = 2 N \Delta",)
     own = CELL | strips(2) | {"A": whole.subs(even), "a_j": length(y_j) / 3, "b_j": 2 * length(y_j) / 3}
     checks.append(read_back(9, derived, own))
-    return compared(9, derived, checks, ("contact area",), REPRODUCED)
+    return compared(9, derived, checks, ("contact area",))
 
 
 def stress(derived_stress: sp.Expr) -> Comparison:
@@ -72,7 +72,7 @@ def stress(derived_stress: sp.Expr) -> Comparison:
         zero(step(10), "as printed it is the stress of the derivation", (printed.sides[0] - printed.sides[1]).doit()),
         zero(step(10), "and the power p w_t of the pressure over V", (printed.sides[1] - power).doit()),
     ]
-    return compared(10, (r"\tau(x, y) = " + sp.latex(tau.subs(y_j, y)),), checks, ("local stress",), REPRODUCED)
+    return compared(10, (r"\tau(x, y) = " + sp.latex(tau.subs(y_j, y)),), checks, ("local stress",))
 
 
 def means(pressure: sp.Expr) -> Comparison:
@@ -106,7 +106,6 @@ def means(pressure: sp.Expr) -> Comparison:
         derived,
         checks,
         ("means over a level", "means_c", "means_acaf", "means_afc", "means_af", "means_ac", "means_a", "means_f"),
-        REPRODUCED,
     )
 
 
@@ -133,4 +132,4 @@ def _integral(body: sp.Expr, *variables: sp.Symbol) -> sp.Expr:
 def over_cell(body: sp.Expr) -> sp.Expr:
     """Integral over the cell, by means over both waves."""
     waves = body.subs(l, 2 * sp.pi / k)
-    return (mean_over_wave(mean_over_wave(waves, x), y)).subs(WAVE) * l**2
+    return mean_over_cell(waves).subs(WAVE) * l**2

@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from ..check import CORRECTED, STATUSES, Check, DerivationError, zero
+from ..check import CORRECTED, REPRODUCED, Check, DerivationError, zero
 from ..exact import is_zero
 from ..reader import Unreadable, statements
 from .printed import PRINTED, SUBJECTS
@@ -34,14 +34,13 @@ def compared(
     derived: tuple[str, ...],
     checks: list[Check],
     steps: tuple[str, ...],
-    status: str,
     correction: str = "",
 ) -> Comparison:
     """Assemble a comparison; an equation with a correction must show what is wrong with the printed form."""
-    name = step(number)
-    if status not in STATUSES or (status == CORRECTED) != bool(correction) or not checks:
-        raise DerivationError(name, f"status {status!r} does not fit its correction {correction!r} or its {len(checks)} checks")
-    if status == CORRECTED and not any(check.outcome == FALSE for check in checks):
+    name, status = step(number), CORRECTED if correction else REPRODUCED
+    if not checks:
+        raise DerivationError(name, "has no check")
+    if correction and not any(check.outcome == FALSE for check in checks):
         raise DerivationError(name, "a correction is needed because a claim of the printed form is refuted, and says which")
     return Comparison(number, SUBJECTS[number], PRINTED[number], derived, tuple(checks), status, correction, steps)
 

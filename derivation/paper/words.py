@@ -7,10 +7,9 @@ from typing import Any
 
 import sympy as sp
 
-from ..surface import HEIGHT
-from ..symbols import D_level, K, T_eps, T_sigma, V, delta_0, h, k, l, p_0, x, y
+from ..surface import HEIGHT, WAVE
+from ..symbols import D_level, K, T_eps, T_sigma, V, delta_0, h, l, p_0, x, y
 
-WAVE = {k: 2 * sp.pi / l}
 y_j = sp.Symbol("y_j", real=True)
 height = HEIGHT.subs(WAVE)
 
