@@ -8,9 +8,18 @@ models with a Prony series.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
-from .basis import Basis
+
+@dataclass(frozen=True)
+class Basis:
+    """The flows of the zones, complete contact, and the table of regimes; :mod:`.flows`, :mod:`.saturated`, :mod:`.regimes`."""
+
+    flows: Any
+    saturated: Any
+    regimes: tuple[Any, ...]
+
 
 Section = tuple[str, Callable[[Basis], tuple[Any, ...]]]
 

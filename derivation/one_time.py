@@ -5,14 +5,13 @@ from __future__ import annotations
 import sympy as sp
 
 from .averages import constant_means, strip_means, zone_integrals
-from .basis import Basis
 from .conditions import conditions
 from .displays import displays
 from .energy import friction_balance, power_balance
 from .events import excess_event, gap_event
 from .flows import flows
 from .functions import Call
-from .further import FOR_ONE_TIME, further
+from .further import FOR_ONE_TIME, Basis, further
 from .half_space import half_space
 from .jumps import jumps
 from .kernel import Kernel

@@ -28,6 +28,21 @@ INTEGRALS = {r"\int": 1, r"\iint": 2, r"\oint": 1}
 STOPS = {"+", "-", ",", "/", "&", "|", *RELATIONS, *SPACES, *CLOSE, r"\Rightarrow", r"\cdot", r"\times"}
 
 
+ATOMS = {  # by the token that begins it, the method that reads it
+    **dict.fromkeys(OPEN, "group"),
+    **dict.fromkeys(FRACTIONS, "fraction"),
+    **dict.fromkeys(INTEGRALS, "integral"),
+    **dict.fromkeys(FUNCTIONS, "function"),
+    **dict.fromkeys((r"\sum", r"\prod"), "summed"),
+    "[": "bracket",
+    "|": "modulus",
+    r"\sqrt": "root",
+    r"\max": "greatest",
+    r"\partial": "partial",
+    r"\lim": "limit",
+}
+
+
 class Unreadable(ValueError):
     """LaTeX with something in it that has no meaning here."""
 
@@ -134,26 +149,22 @@ class _Reader:
         return token
 
     def sum(self) -> sp.Expr:
-        total = sp.Integer(0)
+        total = self._signed()
+        while self.peek() in ("+", "-"):
+            total += self._signed()
+        return total
+
+    def _signed(self) -> sp.Expr:
         sign = -1 if self._takes("-") else 1
         self._takes("+")
-        while True:
-            total += sign * self.product()
-            if self._takes("+"):
-                sign = 1
-            elif self._takes("-"):
-                sign = -1
-            else:
-                return total
+        return sign * self.product()
 
     def product(self) -> sp.Expr:
         value = self.factor()
         while True:
             if self._takes("/"):
                 value /= self.factor()
-            elif self._takes(r"\cdot") or self._takes(r"\times"):
-                value *= self.factor()
-            elif self._begins():
+            elif self._takes(r"\cdot") or self._takes(r"\times") or self._begins():
                 value *= self.factor()
             else:
                 return value
@@ -200,35 +211,20 @@ class _Reader:
         token = self.peek()
         if token.isdigit():
             return sp.Integer(self.take())
-        if token == "[":
-            return self.bracket()
-        if token in OPEN:
-            return self.group()
-        if token in FRACTIONS:
-            return self.fraction()
-        if token == r"\sqrt":
-            self.take()
-            return sp.sqrt(self.script())
-        if token in (r"\sum", r"\prod"):
-            return self.summed()
-        if token == "|":
-            return self.modulus()
-        if token in INTEGRALS:
-            return self.integral()
-        if token in FUNCTIONS:
-            return self.function()
+        if token in ATOMS:
+            return getattr(self, ATOMS[token])()
         if token == "e" and self.peek(1) == "^":
-            self.take()
-            self.take()
+            self.at += 2
             return sp.exp(self.script())
-        if token == r"\partial":
-            return self.partial()
-        if token == r"\lim":
-            return self.limit()
-        if token == r"\max":
-            self.take()
-            return sp.Max(*self.arguments())
         return self.name()
+
+    def root(self) -> sp.Expr:
+        self.take()
+        return sp.sqrt(self.script())
+
+    def greatest(self) -> sp.Expr:
+        self.take()
+        return sp.Max(*self.arguments())
 
     def modulus(self) -> sp.Expr:
         """``|K|``."""
@@ -338,12 +334,7 @@ class _Reader:
         return over(body, first, last)
 
     def _range(self) -> tuple[str, sp.Expr | None, sp.Expr | None]:
-        if self.peek() == "{":
-            end = self._matching()
-            inside = self.tokens[self.at + 1 : end]
-            self.at = end + 1
-        else:
-            inside = [self.take()]
+        inside = self._inside()
         if "=" not in inside:
             return inside[0], None, None
         first = _Reader(inside[2:], self.names).sum()
@@ -355,7 +346,7 @@ class _Reader:
         domain = limits = None
         if self.peek() == "_" and kind == r"\iint":
             self.take()
-            domain = self._raw()
+            domain = "".join(self._inside())
         elif self.peek() == "_":
             limits = self.limits()
         self.differentials.append(True)
@@ -373,14 +364,12 @@ class _Reader:
             raise Unreadable(f"{' '.join(self.tokens)!r}: an integral without limits or differential")
         return sp.Integral(body, (variables[0], *limits))
 
-    def _raw(self) -> str:
-        """The tokens of a group or a single token, joined."""
+    def _inside(self) -> list[str]:
+        """The tokens of a group, or a single one."""
         if self.peek() != "{":
-            return self.take()
-        end = self._matching()
-        text = "".join(self.tokens[self.at + 1 : end])
-        self.at = end + 1
-        return text
+            return [self.take()]
+        start, self.at = self.at + 1, self._matching() + 1
+        return self.tokens[start : self.at - 1]
 
     def function(self) -> sp.Expr:
         function = FUNCTIONS[self.take()]
@@ -389,9 +378,7 @@ class _Reader:
 
     def argument(self) -> sp.Expr:
         """A bracket, or the factors up to a sign or another function."""
-        if self.peek() == "{" and self.peek(1) == "(":  # \sin{\left(s \right)}
-            return self.group()
-        if self.peek() == "(":
+        if self.peek() == "(" or self.peek() == "{" and self.peek(1) == "(":  # \sin{\left(s \right)}
             return self.group()
         value = self.factor()
         while self._begins() and self.peek() not in FUNCTIONS and self.peek() not in OPEN:
@@ -411,7 +398,7 @@ class _Reader:
     def _indexed(self, key: str) -> sp.Expr:
         while self.peek() == "_" and key.startswith("["):
             self.take()
-            key += "_" + self._raw()
+            key += "_" + "".join(self._inside())
         primes = 0
         while self._takes("'"):
             primes += 1
@@ -431,10 +418,7 @@ class _Reader:
         brace = self.peek() == "{" and self.peek(1) == "("  # w{\left(t \right)}
         if brace:
             self.take()
-        if self.peek() in ("(", "["):
-            value = value(*self.arguments())
-        else:
-            value = value()
+        value = value(*(self.arguments() if self.peek() in ("(", "[") else ()))
         if brace:
             self.take("}")
         return value
@@ -442,7 +426,7 @@ class _Reader:
     def _key(self) -> str:
         base = self.take()
         if base in ACCENTS:
-            base += self._raw()
+            base += "".join(self._inside())
         elif base == r"\Delta" and any(name.startswith(base + (self.peek() or " ")) for name in self.names):
             base += self.take()
         elif not re.fullmatch(r"[A-Za-z]|\\[A-Za-z]+", base):
@@ -452,7 +436,7 @@ class _Reader:
             base += "*"
         if self.peek() == "_":
             self.take()
-            base += "_" + self._raw()
+            base += "_" + "".join(self._inside())
             if self.peek() == "^" and f"{base}^{self.peek(1)}" in self.names:
                 self.at += 2
                 base += "^" + self.peek(-1)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from ..basis import Basis
 from ..conditions import zone_conditions
-from ..further import FOR_ANY_NUMBER, further
+from ..further import FOR_ANY_NUMBER, Basis, further
 from ..model import Model, Roots
 from ..outcome import Derivation, Progress, Stages, records
 from ..paper.tags import require_tags
