@@ -1,4 +1,4 @@
-"""What is asked of a strip: the conditions in its zones and at its edges, once more in the paper's variables x and SI.
+"""The problem of a strip: the conditions in its zones and at its edges, once more in the paper's variables x and SI.
 
 The regimes are derived in the phase ``s = -k x`` and without dimensions. Here the strip's problem is stated as the paper
 states it, Eq. 5 is solved in x with the conditions at d, b, -a and -c, and the same boundary equations have to come out.
@@ -93,7 +93,7 @@ def strip_problem(strip: Strip, discrete: Regime) -> Derived:
         return (w - profile).subs(x, place)
 
     pressure = _solved(name, lambda unknown: strip.misses(profile, unknown), begins, -p_0)
-    asked = (
+    left = (
         gap_at(begins, onset, delta_0 - step, -p_0),
         pressure.subs(x, ends) + p_0,
         gap_at(leaves, ends, sp.Integer(0), -p_0) - delta_0,
@@ -103,7 +103,7 @@ def strip_problem(strip: Strip, discrete: Regime) -> Derived:
     unit = (A, K * A, A, A)  # of a gap, of a pressure
     residuals = [
         _dimensionless(condition, places) / size - zone.misses()
-        for condition, size, zone in zip(asked, unit, discrete.zones, strict=True)
+        for condition, size, zone in zip(left, unit, discrete.zones, strict=True)
     ]
     checks = [
         zero(
@@ -116,7 +116,7 @@ def strip_problem(strip: Strip, discrete: Regime) -> Derived:
     ]
     return derived(
         strip_problem,
-        asked,
+        left,
         name=name,
         statement="The steady law in each zone and the conditions at its edges determine a, b, c and d. The pressure is "
         "continuous at b and -a and steps by p_0 at d and -c, where w is continuous or steps too.",

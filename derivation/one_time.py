@@ -24,11 +24,11 @@ from .paper import comparisons
 from .paper.tags import require_all, require_tags
 from .regime import Regime
 from .regimes import regimes
+from .sample_roots import sample_roots
 from .saturated import saturated
 from .stability import onset_slope, shift_of_events
 from .stack import stack
 from .strip import strip
-from .witness import witnesses
 from .zones import zones
 
 STAGES = (
@@ -71,7 +71,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     table = regimes(zone, full.threshold.value)
     partial = [regime for regime in table if regime.edges]
     systems = tuple(k for regime in partial for k in system_kernels(regime, zone.kernels))
-    stages.done("regimes", conditions(one_strip, table[0]), table, witnesses(table), systems)
+    stages.done("regimes", conditions(one_strip, table[0]), table, sample_roots(table), systems)
     integrals = zone_integrals(flow)
     still = tuple(constant_means(regime) for regime in table if regime.sequence in ("a", "f"))
     means = tuple(strip_means(regime, integrals) for regime in partial)

@@ -28,7 +28,7 @@ def regimes(zones: Zones, threshold: sp.Expr) -> tuple[Regime, ...]:
         adhesion_only(ratio),
         saturated_adhesion(ratio),
         complete_contact(threshold),
-        clinging(),
+        adhesion_everywhere(),
         separated(),
     )
 
@@ -103,9 +103,9 @@ def complete_contact(threshold: sp.Expr) -> Regime:
     return edgeless(complete_contact, "c", CONTACT, (require(relation(">=", D, threshold)),))
 
 
-def clinging() -> Regime:
+def adhesion_everywhere() -> Regime:
     r"""No edge: the whole gap at :math:`-p_0`, at rest at :math:`w = -p_0`."""
-    return edgeless(clinging, "a", ADHESION, within_reach())
+    return edgeless(adhesion_everywhere, "a", ADHESION, within_reach())
 
 
 def separated() -> Regime:

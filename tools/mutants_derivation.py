@@ -446,13 +446,13 @@ def early(package: ModuleType) -> tuple[Any, Any, Any]:
 
 
 def inequalities(package: ModuleType) -> None:
-    """The table of regimes against its witnesses; what proves its equations is left out, they are not changed."""
+    """The table of regimes at its sample roots; what proves its equations is left out, they are not changed."""
     strip, flows, full = early(package)
     passed = part(package, "check").Check("left out", "exact zero")
     for module in ("regime", "sequences"):
         part(package, module).zero = lambda *arguments, **options: passed
     zones = part(package, "zones").Zones(flows, part(package, "jumps").jumps(strip), ())
-    part(package, "witness").witnesses(part(package, "regimes").regimes(zones, full.threshold.value))
+    part(package, "sample_roots").sample_roots(part(package, "regimes").regimes(zones, full.threshold.value))
 
 
 def printed(package: ModuleType) -> None:

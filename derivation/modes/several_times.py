@@ -18,11 +18,11 @@ from .jumps import closures, jump_law
 from .levels import mode_levels
 from .material import admissibility, foundation_law, prony_series, relaxed_stiffness
 from .regimes import mode_regimes
+from .sample_roots import sample_roots
 from .saturated import complete_contact
 from .states import dimensionless_groups, partial_fractions
 from .states import states as point_states
 from .whole import whole_kernels
-from .witness import witnesses
 from .zones import contact, gap, passages, relaxation, states
 
 STAGES = ("model", "flows", "edge conditions", "zones", "complete contact", "regimes", "means", "levels", "print")
@@ -52,7 +52,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     complete = complete_contact(flows)
     stages.done("complete contact", complete.kernels, complete)
     table = mode_regimes(model.springy, closure.value, complete.threshold.value)
-    stages.done("regimes", table, witnesses(table, flows))
+    stages.done("regimes", table, sample_roots(table, flows))
     means, period = strip_means(), period_map()
     stages.done("means", means, period, chain_rule(period))
     stages.done("levels", mode_levels(flows, complete, table))

@@ -26,9 +26,9 @@ def misprints(steps: tuple[Derived, ...]) -> list[dict[str, Any]]:
 
 def row(what: str, printed: str, step: Derived | None, equations: tuple[int, ...] = (), **more: Any) -> dict[str, Any]:
     """A misprint or silence as the ``step`` that answers it has it, if ``more`` does not say otherwise."""
-    said = {"here": step.statement, "latex": step.latex, "why": step.correction, "steps": [step.name]} if step else {"latex": ""}
-    told = {"equations": list(equations), "what": what, "printed": printed, "shown": "", "table": None, "measured": ""}
-    return told | said | more
+    own = {"here": step.statement, "latex": step.latex, "why": step.correction, "steps": [step.name]} if step else {"latex": ""}
+    common = {"equations": list(equations), "what": what, "printed": printed, "shown": "", "table": None, "measured": ""}
+    return common | own | more
 
 
 def sign_of_equation_6(step: Derived) -> dict[str, Any]:

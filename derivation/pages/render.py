@@ -32,10 +32,10 @@ def audit_files(
     models = []
     for derivation in derivations:
         name = derivation.model.name
-        told = content(derivation, files, certificates.get(name, {}).get("functions", {}))
-        pages[f"{name}.json"] = json.dumps(told, indent=1, sort_keys=True) + "\n"
-        pages[f"{name}.html"] = _render("page", page=told, measured=measured.get(name, {}))
-        models.append(told)
+        page = content(derivation, files, certificates.get(name, {}).get("functions", {}))
+        pages[f"{name}.json"] = json.dumps(page, indent=1, sort_keys=True) + "\n"
+        pages[f"{name}.html"] = _render("page", page=page, measured=measured.get(name, {}))
+        models.append(page)
     pages[INDEX] = _render("index", models=models, identity=about)
     return pages
 

@@ -1,4 +1,4 @@
-"""Roots of the boundary equations with two relaxation times, in numbers: as :mod:`..witness`, from the flows of the modes.
+"""Roots of the boundary equations with two relaxation times, in numbers, from the flows of the modes.
 
 The state that returns after a period is found from what a period makes of states, zone after zone; what a root is, is seen
 from the gap and the pressure along the zones. The inequalities of a regime take no part in that.
@@ -16,9 +16,9 @@ import sympy as sp
 from ..check import Derived
 from ..inequality import Inequality, Relation
 from ..level import R
+from ..sample_roots import allowed, compared, true
 from ..sequences import CONTACT, Span
 from ..symbols import D, alpha, beta, delta_0, p, p_0, s, s_0
-from ..witness import allowed, compared, true
 from .flows import ModeFlows, u
 from .regimes import ModeRegime, gap_at, gap_slope, pressure_slope
 from .states import exact_modes
@@ -203,13 +203,13 @@ def _function(expression: sp.Expr, symbols: tuple[sp.Symbol, ...]) -> Callable[.
     return sp.lambdify(symbols, expression, "math")
 
 
-def witnesses(regimes: Sequence[ModeRegime], flows: ModeFlows) -> Derived:
+def sample_roots(regimes: Sequence[ModeRegime], flows: ModeFlows) -> Derived:
     r"""Solutions and roots that are none, :math:`0 < g \le \delta_0,\ p \ge -p_0,\ g > \delta_0`, against the inequalities."""
 
     def judged(regime: ModeRegime, groups: tuple[float, ...], start: tuple[float, ...]) -> tuple[bool, bool]:
         foundation = Foundation(flows, groups)
         edges = foundation.refined(regime, start) if regime.edges else {}
-        said = all(foundation.satisfies(regime, inequality, edges) for inequality in regime.admissible)
-        return foundation.fits(regime, edges), said
+        admitted = all(foundation.satisfies(regime, inequality, edges) for inequality in regime.admissible)
+        return foundation.fits(regime, edges), admitted
 
-    return compared(witnesses, regimes, ROOTS, judged)
+    return compared(sample_roots, regimes, ROOTS, judged)

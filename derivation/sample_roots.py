@@ -72,10 +72,10 @@ ROOTS: dict[str, tuple[tuple[tuple[str, ...], tuple[str, ...], bool], ...]] = {
 Point = dict[sp.Symbol, mpmath.mpf]
 
 
-def witnesses(regimes: Sequence[Regime]) -> Derived:
+def sample_roots(regimes: Sequence[Regime]) -> Derived:
     r"""Solutions and roots that are none, :math:`0 < g \le \delta_0,\ q \ge 0,\ g > \delta_0`, against the inequalities."""
     with mpmath.workdps(DIGITS):
-        return compared(witnesses, regimes, ROOTS, _judged)
+        return compared(sample_roots, regimes, ROOTS, _judged)
 
 
 def compared(by: Callable[..., Derived], regimes: Sequence[Any], roots: Mapping[str, Sequence[Any]], judged: Callable) -> Derived:
@@ -83,10 +83,10 @@ def compared(by: Callable[..., Derived], regimes: Sequence[Any], roots: Mapping[
     checks = []
     for regime in regimes:
         for number, (groups, start, solution) in enumerate(roots[regime.sequence], start=1):
-            fits, said = judged(regime, groups, start)
+            fits, admitted = judged(regime, groups, start)
             root, kind = f"{regime.sequence}, root {number}", "a solution" if solution else "no solution"
             checks.append(holds(NAME, f"{root}: the fields show {kind}", fits is solution))
-            checks.append(holds(NAME, f"{root}: so do the inequalities", said is solution))
+            checks.append(holds(NAME, f"{root}: so do the inequalities", admitted is solution))
     return derived(
         by,
         None,
