@@ -175,7 +175,8 @@ class _Batch:
         return index[none]
 
     def _sought(self, index, cycle: Cycle):
-        result = isolated_orbits(self.kernel, cycle, last=not self.unloading, known=self.known.take(index))
+        known, earliest = self.known.take(index), self.bounds.x[index]
+        result = isolated_orbits(self.kernel, cycle, not self.unloading, known, earliest)
         self.record.solved.evaluations[index] += result.evaluations
         for sequence, pick in result.of(cycle).items():
             self.record.solved.code[index[pick]] = CODE[sequence]

@@ -50,21 +50,23 @@ class SearchResult:
         self.evaluations = np.zeros(n)
 
 
-def isolate_extremal(kernel, cycle: Cycle, last: bool, known: Orbit | None = None) -> SearchResult:
+def isolate_extremal(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, earliest=np.nan) -> SearchResult:
     """Isolate the first (``last=False``) or last zero of r on the onset arc of every cycle, or prove that there is none.
 
     ``known``: periodic orbits (r = 0) of some of the cycles, x NaN for the others; nothing beyond them is looked at.
+    ``earliest``: onsets before which no orbit has its own, NaN where there is no such bound.
     """
-    return _Search(kernel, cycle, last, known).run()
+    return _Search(kernel, cycle, last, known, earliest).run()
 
 
 class _Search:
     """State of a batch of searches. The frontier advances from one end of the arc; all behind it is excluded."""
 
-    def __init__(self, kernel, cycle: Cycle, last: bool, known: Orbit | None):
+    def __init__(self, kernel, cycle: Cycle, last: bool, known: Orbit | None, earliest):
         self.kernel, self.cycle, self.last = kernel, cycle, last
         self.known = known or Orbit.blank(cycle.size)
         self.sign = -1.0 if last else 1.0  # sign of r on the excluded side
+        self.start = cycle.centre + cycle.half_d if last else np.fmax(cycle.centre - cycle.half_d, earliest)
         self.result = SearchResult(cycle.size)
 
     def march(self, index, x, earlier=None, later=None):
@@ -108,7 +110,12 @@ class _Search:
     def _start(self, index):
         """Marches from both ends of the arc; a known orbit stands for the far one."""
         cycle = self.cycle.take(index)
-        frontier = self.march(index, cycle.centre - self.sign * cycle.half_d)
+        frontier = self.march(index, self.start[index])
+        # before all orbits r is positive: where rounding says otherwise the bound on them is not used
+        end = cycle.centre - self.sign * cycle.half_d
+        blurred = np.flatnonzero((self.sign * frontier.r <= 0) & ~frontier.engaged & (frontier.x != end))
+        if blurred.size:
+            frontier.put(blurred, self.march(index[blurred], end[blurred]))
         # r has the other sign at the very start only where the orbit sits there, to rounding, or where the strip stays
         # engaged through the period: from the last onset on, then, from every onset
         at_start = self.sign * frontier.r <= 0
