@@ -19,13 +19,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .problem import pick
-
 NONE, LOWER, UPPER, LOST = 0, 1, 2, -1
 #: a step this small is below what the phase can be known to
 _TOLERANCE = 2e-15
 _ROUNDINGS, _SMALL = 4 * np.finfo(float).eps, 1e-8
 _MAX_STEPS = 600
+#: height that stands for none
+_NO_LIMIT = 1e200
 
 
 @dataclass(slots=True)
@@ -40,9 +40,31 @@ class Field:
     c: np.ndarray
     r: np.ndarray
 
-    def take(self, index) -> Field:
-        one = self.start[index], self.constant[index], self.a[index], self.b[index]
-        return Field(*one, self.c[:, index], pick(self.r, index))
+    def amplitudes(self) -> np.ndarray:
+        """Of the positive terms, their rates and the rates of those, then of the negative terms, (6, n, N)."""
+        above = np.maximum(self.c, 0.0)
+        falling, rising = above * self.r, (self.c - above) * self.r
+        return np.stack((above, falling, falling * self.r, self.c - above, rising, rising * self.r))
+
+
+@dataclass(slots=True)
+class _Ahead:
+    """Fields on their way: strips ``index``, where each is ``now``, up to where it goes, upper limit, and the field's parts."""
+
+    index: np.ndarray
+    now: np.ndarray
+    end: np.ndarray
+    height: np.ndarray
+    start: np.ndarray
+    constant: np.ndarray
+    a: np.ndarray
+    b: np.ndarray
+    size: np.ndarray
+    r: np.ndarray
+    terms: np.ndarray
+
+    def take(self, rest) -> _Ahead:
+        return _Ahead(*(getattr(self, name)[..., rest] for name in self.__slots__))
 
 
 def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
@@ -53,55 +75,52 @@ def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
     """
     n = end.size
     s, which, slope_there, spent = field.start.copy(), np.full(n, LOST), np.zeros(n), np.zeros(n)
-    active, here, now, limit, top = np.arange(n), field, field.start.copy(), end, height
-    size = np.hypot(here.a, here.b)
-    for _ in range(_MAX_STEPS):
-        if not active.size:
+    go = _Ahead(np.arange(n), field.start, end, np.minimum(height, _NO_LIMIT), field.start, field.constant, field.a, field.b,
+                np.hypot(field.a, field.b), field.r, field.amplitudes())  # fmt: skip
+    for number in range(_MAX_STEPS):
+        if not go.index.size:
             break
-        step, low_first, slope, margin = _safe_step(here, now, top, size)
-        spent[active] += 1
+        step, low_first, slope, margin = _safe_step(go, number == 0)
+        spent[go.index] += 1
         # a margin of a few roundings, still shrinking, is none: steps too small to change it would never end
-        lost_in_rounding = (margin <= _ROUNDINGS * (np.abs(here.constant) + size)) & (step <= _SMALL) & (low_first == (slope < 0))
-        reached = (step <= _TOLERANCE * np.maximum(1.0, np.abs(now))) | lost_in_rounding
-        after = now + step
-        beyond = after >= limit
+        lost_in_rounding = (
+            (margin <= _ROUNDINGS * (np.abs(go.constant) + go.size)) & (step <= _SMALL) & (low_first == (slope < 0))
+        )
+        reached = (step <= _TOLERANCE * np.maximum(1.0, np.abs(go.now))) | lost_in_rounding
+        go.now = go.now + step
+        beyond = go.now >= go.end
         done = reached | beyond
         if done.any():
-            i = active[done]
-            s[i] = np.where(beyond[done], limit[done], after[done])
+            i = go.index[done]
+            s[i] = np.where(beyond[done], go.end[done], go.now[done])
             which[i] = np.where(beyond[done], NONE, np.where(low_first[done], LOWER, UPPER))
             slope_there[i] = slope[done]
-            rest = np.flatnonzero(~done)
-            active, here, after, limit, top, size = active[rest], here.take(rest), after[rest], limit[rest], top[rest], size[rest]
-        now = after
+            go = go.take(np.flatnonzero(~done))
     return s, which, slope_there, spent
 
 
-def _safe_step(f: Field, s, height, size):
-    """A step over which the field stays in its range, whether the lower limit bounds it, the field's slope at ``s`` and
+def _safe_step(f: _Ahead, first: bool):
+    """A step over which the field stays in its range, whether the lower limit bounds it, the field's slope where it is and
     its distance from that limit."""
-    cosine, sine = np.cos(s), np.sin(s)
-    lag = s - f.start
-    term = f.c * np.exp(-lag * f.r)
-    above = np.maximum(term, 0.0)
-    rate = f.r * term
-    rate_above = f.r * above
+    cosine, sine = np.cos(f.now), np.sin(f.now)
+    above, fast, bend, below, slow, lift = np.einsum("kiN,iN->kN", f.terms, np.exp((f.start - f.now) * f.r))
     harmonic = f.b * cosine - f.a * sine
-    value = f.constant + f.a * cosine + f.b * sine + term.sum(axis=0)
-    fast, slow = rate_above.sum(axis=0), (rate - rate_above).sum(axis=0)
+    value = f.constant + f.a * cosine + f.b * sine + above + below
     slope = harmonic - fast - slow
-    bend = (f.r * rate_above).sum(axis=0)
-    bend_below = bend - (f.r * rate).sum(axis=0)
-    # a zone begins on the very limit that ended the zone before, and leads away from it
-    at_start = lag == 0
-    low = np.where(at_start & (slope > 0), np.maximum(value, 0.0), value)
-    bounded = np.isfinite(height)
-    room = np.where(bounded, height, 1.0) - value
-    room = np.where(at_start & (slope < 0), np.maximum(room, 0.0), room)
+    low, room = value, f.height - value
+    if first:
+        # a zone begins on the very limit that ended the zone before, and leads away from it
+        low = np.where(slope > 0, np.maximum(low, 0.0), low)
+        room = np.where(slope < 0, np.maximum(room, 0.0), room)
     # to either limit by either parabola, all four at once: with few strips the number of calls is what counts
-    gaps, rates = np.stack((low, low, room, room)), np.stack((harmonic - fast, slope, slow - harmonic, -slope))
-    reach = _reach(gaps, rates, size + np.stack((np.zeros(s.shape), np.maximum(bend_below, 0.0), np.zeros(s.shape), bend)))
-    step, up = np.maximum(reach[0], reach[1]), np.where(bounded, np.maximum(reach[2], reach[3]), np.inf)
+    gaps, rates, curvatures = np.empty((3, 4, value.size))
+    gaps[:2], gaps[2:] = low, room
+    rates[0], rates[1], rates[2], rates[3] = harmonic - fast, slope, slow - harmonic, -slope
+    curvatures[:] = f.size
+    curvatures[1] -= lift
+    curvatures[3] += bend
+    reach = _reach(gaps, rates, curvatures)
+    step, up = np.maximum(reach[0], reach[1]), np.maximum(reach[2], reach[3])
     down = step <= up
     return np.minimum(step, up), down, slope, np.where(down, low, room)
 
@@ -114,4 +133,4 @@ def _reach(value, slope, curvature):
     rising = slope > 0
     divisor = np.where(rising, curvature, root - slope)
     step = np.divide(np.where(rising, slope + root, 2 * safe), divisor, out=np.full(safe.shape, np.inf), where=divisor > 0)
-    return np.where(value < 0, 0.0, np.where((value == 0) & ~rising, 0.0, step))
+    return np.where((value < 0) | (value == 0) & ~rising, 0.0, step)
