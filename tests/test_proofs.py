@@ -62,7 +62,8 @@ def crossed_before(cycle, x):
 def proven(cycle, orbit):
     """By the balance of a period, and by bounds on all orbits."""
     start, end = exclusion.onsets_within(cycle, OrbitBounds.blank(cycle.size))
-    by_bounds = exclusion._falls_from(kernel, cycle, orbit, orbit_bounds(kernel, cycle))
+    bounds = orbit_bounds(kernel, cycle)
+    by_bounds = exclusion.falls_from(kernel, cycle, orbit, bounds.x, bounds.c, np.nan)
     return balance.first(kernel, cycle, orbit, start, end)[0], by_bounds
 
 

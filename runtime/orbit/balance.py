@@ -48,8 +48,8 @@ from .groups import ROUNDING, Cycle
 from .march import TWO_PI, Orbit
 from .sensitivity import fading, gains, onset_margin, release_margin
 
-#: beta above which the balance of a period is asked: below it proves next to nothing; 1 and 4 cost the same, 30 some 4 % more
-SLOW = 4.0
+#: beta above which the balance of a period is asked: below it one march from the bound on all onsets proves as much
+SLOW = 30.0
 #: what the bound loses over an interval, in p_0 times its width; by how much finer than that asks for it is divided, into how
 #: many parts at most, and how often
 _LOSS, _AMPLY, _MOST, _ROUNDS = 2.1, 1.5, 12, 4

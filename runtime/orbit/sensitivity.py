@@ -98,7 +98,7 @@ def steep_margin(kernel, cycle: Cycle, latest, right: Orbit) -> np.ndarray:
     M = np.minimum(release_margin(kernel, cycle, latest), release_margin(kernel, cycle, right.c))
     onset, release = gains(cycle)
     # the rounding of the terms of log B, which may cancel
-    log_B = np.log1p(_over(release, M)) - (1 - ROUNDING) * fading(cycle, contact_length(right.b, right.a))
+    log_B = np.log1p(over(release, M)) - (1 - ROUNDING) * fading(cycle, contact_length(right.b, right.a))
     return np.divide(onset, np.expm1(np.minimum(-log_B, 700.0)), out=np.full(onset.shape, np.inf), where=log_B < 0)
 
 
@@ -122,9 +122,9 @@ def gains(cycle: Cycle):
 def _log_slope(cycle: Cycle, length, F, M):
     """``log T'``: -inf where nothing of the onset is remembered, +inf where the onset or the end of adhesion grazes."""
     s = cycle.strips
-    memory = _over(TWO_PI + 0 * length, s.beta) + _over(length * s.L, s.alpha)
+    memory = over(TWO_PI + 0 * length, s.beta) + over(length * s.L, s.alpha)
     onset, release = gains(cycle)
-    gain = np.log1p(_over(onset, F)) + np.log1p(_over(release, M))
+    gain = np.log1p(over(onset, F)) + np.log1p(over(release, M))
     return np.where(np.isinf(memory), -np.inf, gain - np.where(np.isinf(memory), 0.0, memory))
 
 
@@ -134,10 +134,10 @@ def _numerator(kernel, cycle: Cycle, length, F, M):
     onset, release = gains(cycle)
     damping = kernel.decay(TWO_PI, s.beta) * kernel.decay(length * s.L, s.alpha)
     factor = damping * np.maximum(F + onset, 0.0)
-    return np.multiply(factor, 1 + _over(release, M), out=np.zeros_like(factor), where=factor > 0)
+    return np.multiply(factor, 1 + over(release, M), out=np.zeros_like(factor), where=factor > 0)
 
 
-def _over(numerator, denominator):
+def over(numerator, denominator):
     """``numerator/denominator`` for ``numerator >= 0``: 0 if it is 0, inf where the denominator is not positive or too small."""
     out = np.where(numerator > 0, np.inf, 0.0)
     return np.divide(
