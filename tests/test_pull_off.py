@@ -50,3 +50,21 @@ def test_rims_count_with_the_friction_that_they_carry():
     point = {"pressure": 1.51, "velocity": [0.04407], "edge": "constitutive"}
     rough, fine = (hystrip.solve(material, adhesion, levels, rtol=rtol, **point) for rtol in (1e-3, 1e-4))
     assert abs(rough.tau - fine.tau)[0] <= (rough.tau_error + fine.tau_error)[0]
+
+
+@pytest.mark.parametrize(
+    ("p_0", "delta_0", "V", "edge"), [(2500.0, 1e-8, 3e-4, "continuous"), (900.0, 3e-8, 1e-3, "constitutive")]
+)
+def test_loading_carries_no_pressure_below_its_pull_off(p_0, delta_0, V, edge):
+    """A pressure that the curve falls past before it rises, and one that it never comes to, say what the law of friction says."""
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-3)
+    adhesion, levels = hystrip.Dugdale(p_0=p_0, delta_0=delta_0), [hystrip.Level(1e-5, 1e-6), hystrip.Level(1e-6, 1e-9)]
+    how = {"edge": edge, "branch": "loading"}
+    law = hystrip.friction_law(material, adhesion, levels[0], V=V, rtol=1e-3, below=1.0, **how)
+    p = law.pull_off * np.array([0.5, 0.98, 1.02, 2.0])
+    found = hystrip.solve_level(material, adhesion, levels[0], V=V, pressure=p, rtol=1e-3, **how)
+    assert found.tau_mean == pytest.approx(law(p), rel=1e-3)
+    assert found.p_mean == pytest.approx(p, rel=1e-4)
+    assert found.pulled_off.tolist() == [False, False, True, True] and found.converged.all()
+    both = hystrip.solve(material, adhesion, levels, velocity=V, pressure=p[2:], rtol=1e-2, **how)
+    assert both.pulled_off.all() and not both.mu.any()

@@ -72,7 +72,7 @@ def branches_of(curves: Sequence[Curve], unloading: bool) -> list[list[Branch]]:
     rows = [[part for _ in curve.pieces for part in next(found)] for curve in curves]  # from high D to low D
     if unloading:
         return [row[::-1] for row in _standing_out(rows, unloading)]
-    return _standing_out([_certain(row[::-1]) for row in rows], unloading)
+    return _standing_out([loaded(row[::-1]) for row in rows], unloading)
 
 
 def rising(piece: Piece) -> list[Branch]:
@@ -85,10 +85,11 @@ def meets(part: Branch, overlap: float) -> bool:
     return overlap <= 2 * part.piece.error[0] + 64 * _EPS * (abs(part.p_low) + abs(part.p_high))
 
 
-def _certain(parts: list[Branch]) -> list[Branch]:
-    """While the first strips cling the pressure falls with D: what seems to rise there is known to, or it does not count."""
-    certain = (k for k, part in enumerate(parts) if part.p_high - part.p_low > 2 * part.piece.error[0])
-    return parts[next(certain, 0) :]
+def loaded(parts: list[Branch]) -> list[Branch]:
+    """Of parts in order of rising D those that loading follows: as the first strips cling the pressure falls below zero, and what
+    rises before it is least is left again."""
+    back = next((k for k, part in enumerate(parts) if part.p_high >= 0), len(parts) - 1)
+    return parts[min(range(back + 1), key=lambda k: parts[k].p_low, default=0) :]
 
 
 def _standing_out(rows: list[list[Branch]], unloading: bool) -> list[list[Branch]]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .branches import Branch, rising
+from .branches import Branch, loaded, rising
 from .breaks import breaks_on, first_contact, threshold_width
 from .curve import PressureQuery, interpolate
 from .effort import CURVE_LIMIT
@@ -30,6 +30,8 @@ _LOOKS = 12
 _DOUBT = 2.0
 _NEWTON, _STEPS = 6, 60
 _CLOSE = 0.3
+#: place of a pressure that loading never comes to carry
+_PULLED_OFF = -1
 _EPS = np.finfo(float).eps
 
 
@@ -103,6 +105,8 @@ class _Descent:
         self.scale, self.finest = np.abs(p) + scale, rtol * (np.abs(p) + 1e-3 * scale)
         self.inside = threshold_width(columns, top)
         self.undecided = np.zeros(p.size, bool)
+        #: loading: intervals below zero pressure, and what rises in them, until it is known where it is least
+        self.hanging: list[list[tuple[Interval, list[Branch]]]] = [[] for _ in p]
         bottom = first_contact(columns)
         # the next one last; ``unbroken`` ones are known to hold no break
         # at the top the curve is but cut, or saturates
@@ -133,14 +137,22 @@ class _Descent:
                 i = interval.column
                 row = sorted(pieces[i], key=lambda piece: -piece.low if self.unloading else piece.low)
                 parts = [part for piece in row for part in self._along(piece)]
+                along, hanging = [interval], self.p[i] < 0 and not self.unloading
+                if hanging:
+                    self.hanging[i].append((interval, parts))
+                    parts = [part for _, some in self.hanging[i] for part in some]
+                    if self.waiting[i] and not any(part.p_high >= 0 for part in parts):
+                        continue
+                    parts = loaded(parts)
+                    along, self.hanging[i] = [other for other, _ in self.hanging[i]], []
                 root, doubtful = self._first(parts, self.p[i], goal[i] > self.finest[i])
                 if doubtful and strips[i] > CURVE_LIMIT:
                     self.undecided[i] = True
                     root, doubtful = self._first(parts, self.p[i], False)
                 if doubtful:
                     goal[i] = max(_FINER * goal[i], self.finest[i])
-                    self.waiting[i].append(interval)
-                elif root is not None:
+                    self.waiting[i] += along[::-1]
+                elif root is not None or hanging:
                     roots[i], self.waiting[i] = root, []
 
     def _next(self) -> list[Interval]:
@@ -177,7 +189,7 @@ class _Descent:
             around = {self._passing(parts, p, -_DOUBT), index, self._passing(parts, p, _DOUBT)}
             if len(around) > 1:
                 return None, True
-        if index is None:
+        if index is None or index == _PULLED_OFF:
             return None, False
         part = parts[index]
         edge = part.t_high if self.unloading else part.t_low
@@ -197,6 +209,8 @@ class _Descent:
     def _passing(self, parts, p, doubts) -> int | None:
         for k, part in enumerate(parts):
             shifted = p + doubts * part.piece.error[0]
+            if k == 0 and shifted < min(part.p_low, 0.0) and not self.unloading:
+                return _PULLED_OFF
             if part.p_low < shifted if self.unloading else part.p_high >= shifted:
                 return k
         return None
