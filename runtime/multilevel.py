@@ -32,7 +32,7 @@ _BLOCK = 256
 #: trailing levels are left out whose friction, and whose pressure of saturation, are below this part of what counts: a tenth of a
 #: tolerance is not missed, and no scene of up to a dozen similar levels has any
 _TRAILING = 0.1
-#: part of the friction of level 1 that the frictions of all lower levels together may err relative to, beside themselves
+#: part of the friction in contact of level 1 that frictions of all lower levels may err relative to, beside themselves
 _SHARED = 0.2
 #: laws are built this much finer than what is asked of the result
 _FINER = 0.5
@@ -296,7 +296,7 @@ class _Solve:
         np.maximum.at(p_max, group, peak_pressure(columns, across))
         ceilings, budgets = [], [error_budget(columns, group, across)]
         friction = np.full(V.size, np.inf)
-        np.minimum.at(friction, group, _SHARED / (self.M - 1) * budgets[0].friction)
+        np.minimum.at(friction, group, _SHARED / (self.M - 1) * budgets[0].friction_in_contact)
         for i in range(1, self.M):
             ceilings.append(p_max)
             if i + 1 < self.M:
@@ -304,7 +304,7 @@ class _Solve:
                 D = cut_penetration(plain, p_max, stack.D_full[i])
                 highest = surface.columns(i, V, D)
                 p_max = peak_pressure(highest, strips_across(highest))
-                budgets.append(None)
+                budgets.append(budgets[0].further_down(2 * (self.M - 1)))
         carry = None
         groups = np.arange(V.size)
         for i in range(self.M - 1, 0, -1):

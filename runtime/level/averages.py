@@ -17,7 +17,7 @@ import numpy as np
 
 from ..numerics.quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
 from ..orbit.regimes import CODE
-from .boundaries import located, may_hide_another, passed_breaks, theta_of, thresholds
+from .boundaries import hides_another, located, may_hide_another, passed_breaks, theta_of, thresholds
 from .changes import Changes, locate_changes
 from .effort import AVERAGE_LIMIT
 
@@ -143,7 +143,10 @@ class _Work:
     def refine(self, panels: _Panels) -> _Panels:
         """Sum up what converges under doubling; return what has to be divided."""
         later, n = [], _FIRST
+        fresh = self.ends is None
         known = self._at_nodes(panels, interior_nodes(n))
+        if fresh:
+            self._look_beside_thresholds(panels, known[0])
         while panels.size:
             mixed = (known[0] != known[0][:, :1]).any(axis=1)
             if n == _FIRST:
@@ -189,6 +192,22 @@ class _Work:
         if self.ends is None:
             self.ends = [v[m:] for v in answers]
         return [v[:m] for v in answers]
+
+    def _look_beside_thresholds(self, panels: _Panels, codes) -> None:
+        """Strips to either side of thresholds where the ``codes`` of the panels that meet do not follow one another: a third
+        zone may be narrower than the first step."""
+        order = np.lexsort((panels.low, panels.state))
+        left, right = order[:-1], order[1:]
+        unknown = (panels.last[left] < 0) & (panels.first[right] < 0) & (panels.high[left] == panels.low[right])
+        doubtful = unknown & (panels.state[left] == panels.state[right]) & hides_another(codes[left, -1], codes[right, 0])
+        left, right = left[doubtful], right[doubtful]
+        if not left.size:
+            return
+        state, aside = panels.state[left], (np.pi - self.valley)[panels.state[left]]
+        places = np.tile(state, 2), np.concatenate((panels.high[left] - aside, panels.low[right] + aside))
+        panels.last[left], panels.first[right] = self.beside[1].size + np.arange(2 * left.size).reshape(2, -1)
+        self.ends = [np.concatenate(pair) for pair in zip(self.ends, self._evaluated(*places), strict=True)]
+        self.beside = tuple(np.concatenate(pair) for pair in zip(self.beside, places, strict=True))
 
     def _outer(self, panels: _Panels, known) -> tuple[np.ndarray, ...]:
         """What is ``known`` at the first nodes of panels, and their thetas, with one more at either end: what is known beyond the

@@ -175,9 +175,14 @@ def _by_threshold(columns: LevelBatch, changes: Changes, A, E, unknown: str) -> 
     return np.clip(place, low, high), known & (place >= low - slack) & (place <= high + slack)
 
 
+def hides_another(code: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Codes of regimes, (m,) both, that do not follow one another as a strip is drawn out: a third may lie between."""
+    return np.abs(_RANK[code % len(CODE)] - _RANK[other % len(CODE)]) > 1
+
+
 def may_hide_another(changes: Changes) -> np.ndarray:
-    """Changes (m,) between regimes that do not follow one another as a strip is drawn out: a third may lie between."""
-    return np.abs(np.diff(_RANK[changes.codes % len(CODE)], axis=1)[:, 0]) > 1
+    """Changes (m,) between such regimes."""
+    return hides_another(*changes.codes.T)
 
 
 def passed_breaks(changes: Changes) -> tuple[Changes, np.ndarray]:

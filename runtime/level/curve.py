@@ -137,14 +137,13 @@ def _round(columns: LevelBatch, rtol, intervals: list[Interval], pieces, strips,
     batch.sample(_FIRST)
     if budget is not None:
         batch.weigh(budget, ceiling)
-    floors = columns.floors
     parts: list[Interval] = []
     n, before = _FIRST, np.inf
     while batch.intervals and n < _LAST:
         n *= 2
         batch.sample(n)
-        c = batch.coefficients
-        goal = batch.accuracy[:, None] * (np.abs(batch.values).min(axis=1) + floors[batch.column])
+        c, floors = batch.coefficients, batch.floors
+        goal = batch.accuracy[:, None] * (np.abs(batch.values).min(axis=1) + floors)
         rounding = _rounding(columns, batch, n, c)
         error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1), rounding)
         # where next to nothing changes there is little to miss, whatever nobody marked there
@@ -166,9 +165,9 @@ def _round(columns: LevelBatch, rtol, intervals: list[Interval], pieces, strips,
             error[ended], done = np.maximum(error, spread)[ended], done | ended
         for k in np.flatnonzero(done):
             i, size = batch.intervals[k], np.abs(batch.values[k])
-            relative = (batch.errors[k] / (size + floors[i.column])).max(axis=0)
+            relative = (batch.errors[k] / (size + floors[k])).max(axis=0)
             series, soft = error[k] + _ROUNDED * rounding[k], (i.inner_low, i.inner_high)
-            bound, least = series + batch.errors[k].max(axis=0), series + relative * floors[i.column]
+            bound, least = series + batch.errors[k].max(axis=0), series + relative * floors[k]
             pieces[i.column].append(Piece(i.low, i.high, c[k], bound, *soft, i.endpoint_map, least, relative))
         # coefficients fall geometrically: where twice the nodes would not do, halves are better
         missed = error / goal
@@ -178,12 +177,12 @@ def _round(columns: LevelBatch, rtol, intervals: list[Interval], pieces, strips,
             parts += batch.without_regularity(k).split(D_break, False)
         done[list(split)] = True
         for k in np.flatnonzero(hopeless & ~done):
-            parts += batch.without_regularity(k).halves
+            parts += batch.halves(k, missed[k])
         keep = np.flatnonzero(~done & ~hopeless)
         batch.keep(keep)
         before = np.maximum(missed[keep], np.finfo(float).tiny)
     for k in range(len(batch.intervals)):
-        parts += batch.without_regularity(k).halves
+        parts += batch.halves(k, before[k])
     return parts
 
 

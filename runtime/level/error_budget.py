@@ -7,7 +7,7 @@ it gives (``carried``).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,6 +19,8 @@ from .strips import LevelBatch, SolvedStrips
 _POINTS = 32
 #: a share is not known any better than this: one point of one contact has about a thousandth
 _FINEST = 1e-6
+#: contact is not known to be any less
+_LEAST_CONTACT = 1e-3
 #: parts of a law that may each err by what the whole is allowed: mostly one or two branches are used
 _PARTS = 2
 #: no law is coarser than this, times what is asked: beyond, at the finest tolerance too, nothing is asked at all
@@ -28,13 +30,30 @@ _COARSEST_FACTOR = 1e6
 @dataclass(frozen=True)
 class ErrorBudget:
     """Pressures of points of the level above. ``group`` (n,): the law that a point asks; ``p`` (n, m), Pa, ascending in every
-    row, with the ``share`` (n, m) of the surface on which the pressure is at most that; ``friction`` (n,): Pa of friction that an
-    error is held against."""
+    row (NaN: not known), with the ``share`` (n, m) of the surface on which the pressure is at most that;
+    ``friction`` (n,): Pa of friction that an error is held against."""
 
     group: np.ndarray
     p: np.ndarray
     share: np.ndarray
     friction: np.ndarray
+
+    @property
+    def friction_in_contact(self) -> np.ndarray:
+        """Mean of the friction over the contact alone, where lower levels add to it, (n,), Pa."""
+        return self.friction / np.maximum(self.share[:, -1], _LEAST_CONTACT)
+
+    def further_down(self, levels: int) -> ErrorBudget:
+        """For one of so many ``levels``, where it is not known what pressures are met: each may be on all of the contact."""
+        contact = np.maximum(self.share[:, -1:], _LEAST_CONTACT)
+        return replace(self, p=np.full((self.group.size, 1), np.nan), share=contact, friction=self.friction / levels)
+
+    def _met(self, i: int, low: float, high: float) -> float:
+        """Share of the surface of point ``i`` on which the pressure lies between ``low`` and ``high``, Pa."""
+        if np.isnan(self.p[i, 0]):
+            return float(self.share[i, 0])
+        below, above = np.interp((low, high), self.p[i], self.share[i])
+        return float(above - below)
 
     def tolerance_factor(self, group: int, low: float, high: float, friction: float) -> float:
         """How much coarser than what is asked of the whole a law may be between the pressures ``low`` and ``high`` (Pa), where
@@ -43,8 +62,7 @@ class ErrorBudget:
             return _COARSEST_FACTOR
         least = _COARSEST_FACTOR
         for i in np.flatnonzero(self.group == group):
-            below, above = np.interp((low, high), self.p[i], self.share[i])
-            part = _PARTS * max(above - below, _FINEST) * friction
+            part = _PARTS * max(self._met(i, low, high), _FINEST) * friction
             least = min(least, self.friction[i] / part) if part > 0 else least
         width = (high - low) / max(abs(low), abs(high)) if np.isfinite(high) else 1.0
         return max(least * min(width, 1.0), 1.0)

@@ -33,7 +33,23 @@ class Batch:
     @property
     def accuracy(self) -> np.ndarray:
         """What is asked of each interval."""
-        return self.rtol[self.column] * np.array([i.tolerance_factor for i in self.intervals])
+        return self.rtol[self.column] * self._factors
+
+    @property
+    def _factors(self) -> np.ndarray:
+        return np.array([i.tolerance_factor for i in self.intervals])
+
+    @property
+    def floors(self) -> np.ndarray:
+        """``LevelBatch.floors`` of the columns of the intervals, (intervals, q)."""
+        return self._at(np.arange(len(self.intervals)), self.column).floors
+
+    def _at(self, interval: np.ndarray, D: np.ndarray) -> LevelBatch:
+        columns = self.columns.at(self.column[interval], D)
+        if columns.friction is None:
+            return columns
+        # what errors of friction may be beside a share of its size is no larger where that share is
+        return replace(columns, friction=columns.friction / self._factors[interval])
 
     @property
     def coefficients(self) -> np.ndarray:
@@ -42,7 +58,8 @@ class Batch:
 
     def weigh(self, budget: ErrorBudget, ceiling: np.ndarray | None) -> None:
         """Let intervals be as coarse as what is asked of their pressures allows."""
-        p, frictions, floors = self.values[:, :, 0], self.columns.frictions, self.columns.floors[self.column]
+        p, frictions = self.values[:, :, 0], self.columns.frictions
+        floors = replace(self.columns, friction=None).floors[self.column]
         # what an accuracy is relative to, of its own friction and all that it carries
         friction = (np.abs(self.values[:, :, frictions]).min(axis=1) + floors[:, frictions]).sum(axis=1)
         high = p.max(axis=1) if ceiling is None else np.minimum(p.max(axis=1), ceiling[self.column])
@@ -56,8 +73,10 @@ class Batch:
         nodes = lobatto(n)[1:-1]
         t = nodes if first else nodes[::2]
         D = np.concatenate([i.penetrations(t) for i in self.intervals])
-        rows = np.repeat(self.column, t.size)
-        means = level_means(self.columns.at(rows, D), MEAN * np.repeat(self.accuracy, t.size))
+        rows, number = np.repeat(self.column, t.size), np.repeat(np.arange(len(self.intervals)), t.size)
+        means = level_means(
+            self._at(number, D), MEAN * np.repeat(self.accuracy * [i.mean_factor for i in self.intervals], t.size)
+        )
         np.add.at(self.strips, rows, means.strips)
         shape = (len(self.intervals), t.size, -1)
         values, errors = means.values.reshape(shape), means.errors.reshape(shape)
@@ -67,6 +86,10 @@ class Batch:
             return
         self.values, self.errors = interleaved(values, self.values), interleaved(errors, self.errors)
         self.zones = [_alternating(old, new) for old, new in zip(self.zones, zones, strict=True)]
+
+    def halves(self, k: int, missed: np.ndarray) -> list[Interval]:
+        """Interval ``k``, which ``missed`` what is asked of its quantities by these factors (q,), in two."""
+        return self.without_regularity(k).missing(float(missed.max())).halves
 
     def without_regularity(self, k: int) -> Interval:
         """Interval ``k``; as its nodes are not enough, what only seemed to end gently is no longer taken to."""
