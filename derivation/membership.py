@@ -28,11 +28,15 @@ PIPELINE = (
 
 
 def require_member(model: Model) -> None:
-    """Raise :class:`DerivationError` for a foundation outside the class, or one that its constructor cannot carry."""
+    """Raise :class:`DerivationError` for a foundation outside the class."""
     reasons = outside(model)
     if reasons:
         raise DerivationError("model", f"{model.name!r} is outside the class that is derived: {'; '.join(reasons)}. {WAY_OUT}")
-    if model.series is None and (model.modes != 1 or T_eps not in model.Q[1].free_symbols):
+
+
+def require_constructor(model: Model) -> None:
+    """Raise :class:`DerivationError` for a model without a series that is not in the paper's symbols."""
+    if model.modes != 1 or T_eps not in model.Q[1].free_symbols:
         raise DerivationError("model", f"{model.name!r} belongs to operator_model: {_shape(model)}. {PIPELINE}")
 
 

@@ -17,6 +17,7 @@ from .jumps import jumps
 from .kernel import Kernel
 from .level import level
 from .links import links
+from .membership import require_constructor
 from .model import Model, foundation, require_admissible
 from .multilevel import multilevel
 from .outcome import Derivation, Progress, Stages, records
@@ -53,6 +54,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     """
     stages = Stages(progress)
     require_admissible(model)
+    require_constructor(model)
     ground = foundation(model)
     stages.done("model", ground)
     one_strip = strip(ground)
