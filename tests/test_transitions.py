@@ -127,3 +127,13 @@ def test_a_panel_next_to_the_flat_edge_may_be_narrower_than_what_is_left_out_the
     assert means.strips.max() < 150 and np.isfinite(means.errors).all()
     for zones in means.zones:
         assert (zones[:, 1] < zones[:, 2]).all() and (zones[1:, 1] >= zones[:-1, 2]).all()
+
+
+def test_a_narrow_zone_next_to_a_threshold_is_seen():
+    """Contact in a band of a two-thousandth of the period, between free strips and saturated adhesion without contact."""
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1.0764e-5)
+    of = material, hystrip.Dugdale(gamma=9.32819e-11, delta_0=1.19442e-11), hystrip.Level(l=1.36351e-07, h=8.8108e-09)
+    even = hystrip.solve_level(*of, V=3.32204e-05, D=9.898e-10, strips=20_000).p_mean
+    for rtol in (1e-1, 1e-3):
+        found = hystrip.solve_level(*of, V=3.32204e-05, D=9.898e-10, rtol=rtol)
+        assert found.p_mean == pytest.approx(even, abs=1e-3)

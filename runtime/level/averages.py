@@ -33,6 +33,8 @@ _ROUNDS, _CROWD = 40, 150
 _SHARE, _SLIVER = 0.4, 0.03
 #: how far from the valley the strip next to it is, in parts of the accuracy; what does not count is asked for to any accuracy
 _VALLEY, _ANY = 0.01, 0.1
+#: how far from a threshold a strip is that tells of a narrow zone: narrower ones are of no account at any accuracy worth having
+_NEXT = 1e-6
 #: share of it below which no panel's error is claimed to be: a layer may be too thin to show at its nodes
 _LEAST = 1e-5
 _EPS = np.finfo(float).eps
@@ -203,7 +205,8 @@ class _Work:
         left, right = left[doubtful], right[doubtful]
         if not left.size:
             return
-        state, aside = panels.state[left], (np.pi - self.valley)[panels.state[left]]
+        state = panels.state[left]
+        aside = np.minimum(np.pi - self.valley, _NEXT)[state]
         places = np.tile(state, 2), np.concatenate((panels.high[left] - aside, panels.low[right] + aside))
         panels.last[left], panels.first[right] = self.beside[1].size + np.arange(2 * left.size).reshape(2, -1)
         self.ends = [np.concatenate(pair) for pair in zip(self.ends, self._evaluated(*places), strict=True)]
