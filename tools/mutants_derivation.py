@@ -374,7 +374,7 @@ MUTANTS: tuple[Mutant, ...] = (
         "status",
         "level.py",
         "status=CORRECTED,\n        correction=MISPRINT,\n    )\n\n\nMISPRINT",
-        "status=REPRODUCED,\n        correction=MISPRINT,\n    )\n\n\nMISPRINT",
+        "correction=MISPRINT,\n    )\n\n\nMISPRINT",
         "saturated_stack_friction",
     ),
     # templates and certificates
