@@ -28,12 +28,12 @@ _CLOSE, _MET, _BLURRED, _STEPS = 1e-5, 1e-7, 1e-2, 60
 #: penetrations that are looked at first
 _LOOKS = 32
 #: share of what is allowed below which no error is claimed to be
-_TOLD = 1e-3
+_TOLD = 5e-4
 #: least penetration in heights
 _LEAST = 1e-60
 #: what is left in a level's mean of the greatest error of its strips, and of errors that change sign from one strip
 #: sampled to the next
-CANCELLED, _WAVES = 0.3, 5.0
+CANCELLED, _WAVES = 0.2, 3.4
 _EPS = np.finfo(float).eps
 
 

@@ -14,8 +14,9 @@ NODES = (16, 32, 64, 128)
 _INTERPOLATION, _TRIMMED = 1.0, 0.03
 #: contact fractions are interpolated no finer than this, and on no more nodes
 _CONTACT, _FOR_CONTACT = 1e-5, 16
-#: how much more than the estimated error of a law is feared
-_SURE = 2.0
+#: how much more than the estimated error of a law is feared, and what is left of it in a mean over contacts: along a piece errors
+#: change sign
+_SURE, _CANCELLED = 2.0, 0.3
 #: slopes of a law are looked at over steps of at least this share of the pressure
 _STEP = 1e-3
 
@@ -49,7 +50,7 @@ class Tried:
         all of a piece."""
         kept, lost = trimmed(self.coefficients[k, :, 1:], _TRIMMED * self.goal[k, 1:])
         series = np.pad(kept, ((0, 0), (0, 1)))
-        series[0, -1] = _SURE * self.miss[k, 0] + worst + lost[::3].sum()
+        series[0, -1] = _CANCELLED * (_SURE * self.miss[k, 0] + worst + lost[::3].sum())
         return series
 
     def most(self, k: int) -> float:
