@@ -44,7 +44,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .batch import Batch
-from .groups import ROUNDING, Cycle
+from .groups import ROUNDING, Cycle, Strips
 from .march import TWO_PI, Orbit
 from .sensitivity import fading, gains, onset_margin, release_margin
 
@@ -67,8 +67,9 @@ class _Reference(Batch):
 
     ``storage``, ``loss``: of complete contact. ``turned``: end of the arc where contact ends. ``q_on``: excess pressure as
     contact begins. ``x``, ``c``: onset and end of adhesion of the reference, 0 for a foundation at rest, as are ``b``, ``a``,
-    its contact, and ``pressed``, its Q. ``level``: omega less ``u + delta_0`` at the crest. ``kept``: ``beta r``. ``least``: of
-    the sum of ``w_l - w_y``. ``end``: adhesion does not end after. ``noise``: of a displacement. ``sines``: of -x and c, summed.
+    its contact, and ``pressed``, its Q. ``turn``: by how much later contact ends if it begins earlier by one. ``level``:
+    omega less ``u + delta_0`` at the crest. ``kept``: ``beta r``. ``least``: of the sum of ``w_l - w_y``. ``end``: adhesion
+    does not end after. ``noise``: of a displacement. ``sines``: of -x and c, summed.
     """
 
     alpha: np.ndarray
@@ -91,13 +92,14 @@ class _Reference(Batch):
     pressed: np.ndarray
     b: np.ndarray
     a: np.ndarray
+    turn: np.ndarray
     end: np.ndarray
     noise: np.ndarray
     sines: np.ndarray
 
     def contact_end(self, t, sine, cosine):
-        """About where a contact ends that begins at ``-t``, of this sine and cosine: with that of the reference."""
-        return self.a
+        """About where a contact ends that begins at ``-t``, of this sine and cosine."""
+        return self.a + self.turn * (t + self.b)
 
 
 class _Rest(_Reference):
@@ -153,6 +155,7 @@ def beside(kernel, cycle: Cycle, known: Orbit, end) -> _Reference:
         pressed=_sum(s, known.b, known.a),
         b=known.b,
         a=known.a,
+        turn=_turn(kernel, s, known),
         end=end,
         noise=noise,
         sines=np.sin(known.c) - np.sin(known.x),
@@ -173,6 +176,7 @@ def at_rest(kernel, cycle: Cycle) -> _Reference:
         pressed=zero,
         b=zero,
         a=zero,
+        turn=zero,
         end=zero + np.pi,
         noise=cycle.strips.noise(),
         sines=zero,
@@ -229,6 +233,12 @@ def _suspects(kernel, cycle: Cycle, known: Orbit):
     moved = (last - known.c) * (least_M + release) / F * kernel.decay(free, s.beta) - known.x
     later = np.where(known.r == 0, np.maximum(later, moved), later)
     return np.where(fits, np.minimum(arc, later), -known.x)
+
+
+def _turn(kernel, s: Strips, known: Orbit):
+    """By how much later contact ends, if it begins earlier by one."""
+    one, two = (kernel.forcing(edge, s.D, s.beta) + s.p_0 for edge in (known.b, known.a))
+    return np.clip(-one / two, 0.0, 1.0) * kernel.decay(known.a - known.b, s.alpha)
 
 
 def _contact(reference: _Reference, lo, versine):

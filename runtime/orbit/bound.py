@@ -2,11 +2,17 @@
 
 import numpy as np
 
-#: distance to the zero, as estimated at a phase, at which it is close enough; finer on slow foundations costs more than it proves
-_CLOSE = 0.05
+#: a slow foundation changes little over a period: bounds are to be that much closer; distance to the zero, as estimated there
+_CLOSE, _SLOW = 0.05, 6.0
 #: bounds are sought beyond the linear estimate by this share of the way to it, or its square where that is less
 _BEYOND = 0.3
 _TRIES = 12
+POWER = 1.0
+
+
+def close_enough(beta):
+    """Distance from the zero at which bounds for strips of these beta are good enough."""
+    return _CLOSE * (6.0 / np.maximum(beta, 6.0)) ** POWER
 
 
 def rows(size: int, *values) -> np.ndarray:
@@ -17,18 +23,20 @@ def rows(size: int, *values) -> np.ndarray:
     return out
 
 
-def bound(event, entry, offset, rising: float, start, arc, side: float, noise):
-    """A phase of the ``arc`` (near, far) that is beyond the event's zero, if possible no further than ``_CLOSE``; whether one was
-    found; and the evaluations spent, all (n,).
+def bound(event, entry, offset, rising, start, far, side, noise, close, spent, near=None):
+    """A phase between ``start`` and ``far`` that is beyond the event's zero, if possible no further than ``close``; and whether
+    one was found.
 
     The event function, ``rising`` times (value - offset), is positive before its zero and negative after. ``side`` > 0 seeks a
-    phase after it, ``side`` < 0 a phase before it, from ``start``; ``noise`` is what rounding changes in the value.
+    phase after it (``start`` lies before), ``side`` < 0 a phase before it. With ``near``, the end of the arc opposite to ``far``,
+    ``start`` may be anywhere in between.
     """
-    result, found, spent = start.copy(), np.zeros(start.shape, bool), np.zeros(start.shape)
-    state = rows(start.size, start, *arc, offset, noise, *entry)
+    near = start if near is None else near
+    result, found = start.copy(), np.zeros(start.shape, bool)
+    state = rows(start.size, start, near, far, close, offset, noise, *entry)
     index, tries = np.arange(start.size), 0
     while True:
-        x, near, far, level, blur, *rest = state
+        x, near, far, close, level, blur, *rest = state
         value, slope = event(x, *rest)
         value, slope = rising * (value - level), rising * slope
         tries += 1
@@ -41,11 +49,11 @@ def bound(event, entry, offset, rising: float, start, arc, side: float, noise):
         result[index[here]], found[index[here]] = x[here], True
         state[1] = np.where(good, near, x)
         state[2] = np.where(good, x, far)
-        going = np.flatnonzero(~(good & (size <= _CLOSE)) & (state[1] != state[2]))
+        going = np.flatnonzero(~(good & (size <= close)) & (state[1] != state[2]))
         if not going.size or tries == _TRIES:
-            return result, found, spent
+            return result, found
         # beyond the estimate, and beyond what rounding blurs (where nothing is remembered the bound is the known edge itself)
-        x = x + ahead + side * (np.minimum(_BEYOND * size, size * size + 0.5 * _CLOSE) - 4 * blur / slope)
+        x = x + ahead + side * (np.minimum(_BEYOND * size, size * size + 0.5 * close) - 4 * blur / slope)
         inside = (x > np.minimum(state[1], state[2])) & (x < np.maximum(state[1], state[2]))
         state[0] = np.where(inside, x, 0.5 * (state[1] + state[2]))
         state[0] = np.where(good | inside | (tries < 3), state[0], state[2])

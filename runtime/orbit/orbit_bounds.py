@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .batch import Batch
-from .bound import bound
+from .bound import bound, close_enough
 from .groups import ROUNDING, Cycle
 from .march import TWO_PI
 from .start import onset_guess
@@ -84,17 +84,18 @@ def orbit_bounds(kernel, cycle: Cycle) -> OrbitBounds:
 def _release(kernel, cycle: Cycle, b, a, c):
     """Later ends of contact begun at b and of adhesion, sought from a and c, where both were found, and the evaluations spent."""
     s, noise = cycle.strips, cycle.strips.noise()
-    turned = cycle.centre + TWO_PI
+    spent, turned = np.zeros(cycle.size), cycle.centre + TWO_PI
+    close = close_enough(s.beta)
     entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
     near, far = np.maximum(b, cycle.centre + cycle.half_b), turned - cycle.half_b
     blur, start = noise + ROUNDING * entry[4], np.clip(a, near, far)
-    a, ends, spent = bound(kernel.excess_event, entry, 0.0, 1.0, start, (near, far), 1.0, blur)
+    a, ends = bound(kernel.excess_event, entry, 0.0, 1.0, start, far, 1.0, blur, close, spent, near)
     entry = kernel.gap_entry(a, 0.0, -s.p_0, s.D, s.beta)
     near, far = np.maximum(a, cycle.centre + cycle.half_c), turned - cycle.half_c
     ends &= near < far
     start = np.clip(c, near, np.maximum(near, far))
-    c, opens, used = bound(kernel.gap_event, entry, s.delta_0, -1.0, start, (near, far), 1.0, noise)
-    return a, c, ends & opens, spent + used
+    c, opens = bound(kernel.gap_event, entry, s.delta_0, -1.0, start, far, 1.0, noise, close, spent, near)
+    return a, c, ends & opens, spent
 
 
 def _onset(kernel, cycle: Cycle, c, x):
@@ -103,6 +104,7 @@ def _onset(kernel, cycle: Cycle, c, x):
     Also which cycles miss it, and the evaluations spent.
     """
     s, noise = cycle.strips, cycle.strips.noise()
+    spent = np.ones(cycle.size)
     entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
     far = np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
     near = np.maximum(cycle.centre + TWO_PI + cycle.half_d, far)
@@ -110,5 +112,6 @@ def _onset(kernel, cycle: Cycle, c, x):
     # a surface out of reach of the undeformed foundation is not met if nothing is left of w that would change its gap
     left = np.abs(kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(far - c, s.beta)
     missed |= (s.D <= -s.delta_0) & (left < 0.25 * _EPS * s.delta_0)
-    x, found, spent = bound(kernel.gap_event, entry, s.delta_0, 1.0, np.clip(x + TWO_PI, far, near), (near, far), -1.0, noise)
-    return np.where(found & ~missed, x - TWO_PI, np.nan), missed, spent + 1
+    start, close = np.clip(x + TWO_PI, far, near), close_enough(s.beta)
+    x, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, start, far, -1.0, noise, close, spent, near)
+    return np.where(found & ~missed, x - TWO_PI, np.nan), missed, spent
