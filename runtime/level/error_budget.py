@@ -2,7 +2,7 @@
 
 Goal-oriented: a law's error counts as much as the part of the surface on which it is used. That part is had from a plain sum over
 the strips of the level above; it deals out accuracy and enters no result, and what a law lacks shows in the error of the friction
-it gives (``carried``).
+it gives (``lower_levels``).
 """
 
 from __future__ import annotations

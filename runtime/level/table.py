@@ -43,7 +43,7 @@ class LawTable:
             # what is left where there is no friction, and how it grows with that
             self._least_error = np.array([b.piece.least_errors[columns].sum() for b in every])
             self._most_error = np.array([b.piece.error[columns].sum() for b in every])
-            self._share = np.array([np.max((b.piece.relative + 0 * b.piece.error)[columns]) for b in every])
+            self._share = np.array([np.broadcast_to(b.piece.relative, b.piece.error.shape)[columns].max() for b in every])
         cells = [b.cells for b in every]
         first = np.cumsum([0, *(c.start.size for c in cells)])
         joined = lambda values: np.concatenate(values) if cells else np.zeros(0)  # noqa: E731
