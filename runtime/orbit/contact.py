@@ -130,21 +130,25 @@ class SingleContact(Contact):
         return self.kernel.excess_after(*self._arguments(rows, phase))
 
     def _top(self, part: np.ndarray) -> np.ndarray:
-        """Where ``p = H``."""
-        s, remembers = self.s.take(part), self.s.alpha[part] > _MEMORY
-        amplitude, centre = self.amplitude[part], self.centre[part]
+        return phase_of_peak(self.kernel, self.a[part], *(v for k, v in enumerate(self._arguments(part, self.b[part])) if k != 1))
 
-        def lag(phase, sub):
-            D, beta = s.D[sub], s.beta[sub]
-            value, rise = self._excess(part[sub], phase)
-            # alpha p' = H - p falls through zero once: from entry, where p is below H, to exit; without memory rounding is all of
-            # it
-            behind = self.kernel.forcing(phase, D, beta) + s.p_0[sub] - value
-            steepens = self.kernel.profile_slope(phase) - beta * np.cos(phase) - rise
-            bend = -amplitude[sub] * np.cos(phase - centre[sub])
-            return np.where(remembers[sub], behind, rise), np.where(remembers[sub], steepens, bend)
 
-        return falling_root(lag, self.b[part], self.a[part])[0]
+def phase_of_peak(kernel: ModuleType, end, start, q_on, p_0, D, alpha, beta, L) -> np.ndarray:
+    """Phases of the greatest pressure in partial contacts from ``start`` to ``end``, where ``p = H``, (m,)."""
+    remembers = alpha > _MEMORY
+    storage, loss = kernel.storage(alpha, beta), kernel.loss(alpha, beta, L)
+    amplitude, centre = np.hypot(storage, loss), -np.arctan2(loss, storage)
+
+    def lag(phase, sub):
+        arguments = start[sub], phase, q_on[sub], p_0[sub], D[sub], alpha[sub], beta[sub], L[sub]
+        value, rise = kernel.excess_after(*arguments), kernel.excess_after_slope(*arguments)
+        # alpha p' = H - p falls through zero once: from entry, where p is below H, to exit; without memory rounding is all of it
+        behind = kernel.forcing(phase, D[sub], beta[sub]) + p_0[sub] - value
+        steepens = kernel.profile_slope(phase) - beta[sub] * np.cos(phase) - rise
+        bend = -amplitude[sub] * np.cos(phase - centre[sub])
+        return np.where(remembers[sub], behind, rise), np.where(remembers[sub], steepens, bend)
+
+    return falling_root(lag, start, end)[0]
 
 
 def passages(level: np.ndarray, mean: np.ndarray, amplitude: np.ndarray, centre: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -7,7 +7,7 @@ from types import ModuleType
 import numpy as np
 
 from ..inputs.material import StandardLinearSolid
-from .contact import SingleContact
+from .contact import SingleContact, phase_of_peak
 from .fields import fields
 from .groups import TWO_PI, slowed
 from .nonadhesive import SingleWaves
@@ -74,12 +74,11 @@ class SingleTime:
         return self.kernel.gap_after(first, np.maximum(centre + half, first), delta_0 - J * chi * p_0, -p_0, D, beta)
 
     def peak(self, sequence, edges, arguments, pressure):
-        """Where the load harmonic falls through a pressure, a pressure of that turns."""
         alpha, beta, J, L, p_0, delta_0, D, _ = arguments
-        centre, half = self.kernel.forcing_arc(-pressure, D, beta)
-        start = edges[0 if sequence in ("ac", "cf", "afc") else 1]
+        place = 0 if sequence in ("ac", "cf", "afc") else 1
         q_on = p_0 - delta_0 / J if sequence == "afc" else 0 * D
-        return self.kernel.excess_after(start, np.maximum(centre + half, start), q_on, p_0, D, alpha, beta, L) - p_0 - pressure
+        top = phase_of_peak(self.kernel, edges[place + 1], edges[place], q_on, p_0, D, alpha, beta, L)
+        return self.kernel.excess_after(edges[place], top, q_on, p_0, D, alpha, beta, L) - p_0 - pressure
 
     def waves(self, rate):
         m, one = self.material, np.ones(rate.size)
