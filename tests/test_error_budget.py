@@ -10,7 +10,8 @@ from hystrip.level.cells import cells_of
 from hystrip.level.curve import Curve
 from hystrip.level.error_budget import ErrorBudget
 from hystrip.level.law import Law
-from hystrip.level.piece import Piece
+from hystrip.level.piece import Errors, Piece
+from hystrip.level.segment import segments_of
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
@@ -104,13 +105,13 @@ def test_cells_say_what_they_miss():
 def _branch(p_low, p_high, error):
     """A branch along which pressure and three other quantities rise evenly."""
     middle, half = 0.5 * (p_high + p_low), 0.5 * (p_high - p_low)
-    return rising(Piece(p_low, p_high, np.array([[middle] * 4, [half] * 4]), np.full(4, error)))[0]
+    return rising(Piece(p_low, p_high, np.array([[middle] * 4, [half] * 4]), Errors.constant(np.full(4, error))))[0]
 
 
 @pytest.mark.parametrize("unloading", [True, False])
 def test_a_break_is_known_as_well_as_the_branch_that_ends_there(unloading):
     lower, upper = _branch(-1.0, 1.0, 1e-2), _branch(1.0, 2.0, 1e-6)
-    law = Law([lower, upper], -1.0, 2.0, np.zeros(4), 2.0, np.zeros(4), 0, unloading)
+    law = Law(segments_of([lower, upper], np.ones((2, 4))), -1.0, 2.0, np.zeros(4), 2.0, 0, unloading)
     errors = dict(zip(law.breaks, law.at_breaks()[1], strict=True))
     assert errors[1.0] == (1e-6 if unloading else 1e-2)
     assert errors[-1.0] == 1e-2 and errors[2.0] == 1e-6
@@ -121,8 +122,8 @@ def test_loading_does_not_begin_where_the_curve_only_seems_to_rise():
     ripple = np.zeros((10, 4))
     ripple[[0, 1, 9]] = np.array([-40.0, -40.0, 0.6])[:, None]
     falling, rise = (
-        Piece(-1.0, 0.0, ripple, np.full(4, 2.0)),
-        Piece(0.0, 1.0, np.array([[10.0] * 4, [90.0] * 4]), np.full(4, 1e-6)),
+        Piece(-1.0, 0.0, ripple, Errors.constant(np.full(4, 2.0))),
+        Piece(0.0, 1.0, np.array([[10.0] * 4, [90.0] * 4]), Errors.constant(np.full(4, 1e-6))),
     )
     assert len(rising(falling)) > 0
     (branch,) = branches(Curve([rise, falling], 1.0, 0), unloading=False)

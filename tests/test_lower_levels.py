@@ -13,8 +13,8 @@ from hystrip.level.law import Law
 from hystrip.level.lower_levels import _CANCELLED as CANCELLED
 from hystrip.level.lower_levels import LowerLevelLaws
 from hystrip.level.merge import merged
-from hystrip.level.piece import Piece, graded
-from hystrip.level.resample import resampled
+from hystrip.level.piece import Errors, Piece, graded
+from hystrip.level.segment import segments_of
 from hystrip.level.strips import LevelBatch
 from hystrip.level.table import LawTable
 from hystrip.numerics.chebyshev import coefficients, lobatto
@@ -52,14 +52,14 @@ def _piece(low, high, law):
     t = lobatto(64)
     share, rest = graded(t), graded(1 - t)
     values = np.stack((low + (high - low) * share, law(share, rest), share, rest), axis=1)
-    return Piece(low, high, coefficients(values), np.zeros(4))
+    return Piece(low, high, coefficients(values), Errors.constant(np.zeros(4)))
 
 
 def table():
     pieces = [_piece(BREAKS[0], BREAKS[1], _lower), _piece(BREAKS[1], BREAKS[2], _upper)]
-    branches = resampled([part for piece in pieces for part in rising(piece)], np.full((2, 4), [1e-8, 1e-8, 1e-13, 1e-13]))
+    segments = segments_of([part for piece in pieces for part in rising(piece)], np.full((2, 4), [1e-8, 1e-8, 1e-13, 1e-13]))
     saturated = np.array([BREAKS[2], 1e5, 1.0, 0.0])
-    return LawTable([Law(branches, BREAKS[0], BREAKS[2], saturated, BREAKS[2], np.zeros(4), 0, True)])
+    return LawTable([Law(segments, BREAKS[0], BREAKS[2], saturated, BREAKS[2], 0, True)])
 
 
 @pytest.fixture(scope="module")
@@ -146,10 +146,10 @@ def _stepwise(at, low, high, known_to=(0.0, 0.0)):
         _piece(BREAKS[0], at, lambda share, rest: low + 0 * share),
         _piece(at, BREAKS[2], lambda share, rest: high + 0 * share),
     ]
-    branches = resampled([part for piece in pieces for part in rising(piece)], np.full((2, 4), 1e-9))
-    branches = [replace(b, piece=replace(b.piece, error=error)) for b in branches]
+    segments = segments_of([part for piece in pieces for part in rising(piece)], np.full((2, 4), 1e-9))
+    segments = [replace(s, errors=Errors.constant(error)) for s in segments]
     saturated = np.array([BREAKS[2], high, 1.0, 0.0])
-    return Law(branches, BREAKS[0], BREAKS[2], saturated, BREAKS[2], error, 0, True)
+    return Law(segments, BREAKS[0], BREAKS[2], saturated, BREAKS[2], 0, True)
 
 
 def _carried(law, V=2e-3):
@@ -162,19 +162,19 @@ def _carried(law, V=2e-3):
     return law.over_contact(strips, np.zeros(columns.size, int))[index[inside]]
 
 
-def test_branches_of_a_law_are_merged_where_a_smooth_one_is_as_good():
+def test_segments_of_a_law_are_merged_where_a_smooth_one_is_as_good():
     law, p = _stepwise(BREAKS[1], 2e4, 2.0005e4), np.linspace(BREAKS[0], BREAKS[2], 999)[1:-1]
     for rtol, count in ((1e-2, 1), (1e-3, 2)):
         (one,) = merged([law], np.array([rtol]), np.array([[0.0, 0.0, np.inf, np.inf]]))
-        assert len(one.branches) == count
-        added = one.branches[0].piece.error[1] - law.branches[0].piece.error[1]
+        assert len(one.segments) == count
+        added = one.segments[0].errors.most[1] - law.segments[0].errors.most[1]
         assert np.abs(one(p) - law(p))[:, 1].max() <= added <= 0.2 * rtol * 2e4
 
 
 def test_where_a_law_is_small_so_is_what_its_averages_err_by():
     law = _stepwise(BREAKS[1], 20.0, 6e4)
-    for k, b in enumerate(law.branches):
-        law.branches[k] = replace(b, piece=replace(b.piece, error=np.full(4, 50.0), least_error=np.full(4, 0.5), relative=1e-3))
+    for k, s in enumerate(law.segments):
+        law.segments[k] = replace(s, errors=Errors(*np.outer((50.0, 0.5, 1e-3), np.ones(4))))
     _, errors = LawTable([law])(np.zeros(2, int), np.arange(2), np.array([[BREAKS[1] - 1, BREAKS[1] + 1]]))
     assert errors[0] == pytest.approx(np.array([[0.52, 50.0]]), rel=1e-9)
 
@@ -193,6 +193,6 @@ def test_the_error_of_a_law_is_in_the_error_of_what_it_carries():
     assert (moved > 10.0).all() and (moved * CANCELLED <= 1.02 * one[:, -1]).all()
 
 
-def test_the_error_of_a_law_is_no_less_than_that_of_its_branches():
+def test_the_error_of_a_law_is_no_less_than_that_of_its_segments():
     law = hystrip.friction_law(SLS, WEAK, hystrip.Level(500e-9, 100e-9), V=1e-3, rtol=1e-3)
-    assert law.error_estimate >= max(b.piece.error[1] for b in law._law.branches) > 0
+    assert law.error_estimate >= max(s.errors.most[1] for s in law._law.segments) > 0

@@ -75,7 +75,7 @@ def test_the_curve_of_a_scene_with_narrow_zones_converges(number, inside, allowe
     for piece in pieces:
         t = np.array([0.21, 0.47, 0.83])
         true = level_means(columns.at(np.zeros(t.size, int), piece.penetration(t)), np.full(t.size, 1e-7)).values
-        assert (np.abs(piece.values(t) - true)[:, :2] <= 2 * piece.error[:2]).all()
+        assert (np.abs(piece.values(t) - true)[:, :2] <= 2 * piece.errors.most[:2]).all()
 
 
 def test_an_island_vanishes_where_its_strips_do():

@@ -10,15 +10,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.polynomial.chebyshev import chebder
 
+from ..numerics.chebyshev import Series, derivatives
 from ..numerics.roots import falling_root
-from .cells import Cells
 from .curve import Curve
-from .piece import Piece, parameter
-from .resample import Inverse
+from .piece import Errors, Piece, parameter
+
+if TYPE_CHECKING:
+    from .segment import Segment
 
 _GRID = np.linspace(0, 1, 65)
 #: parameters at which turns are looked for: one may hide next to an end, where every piece is flat
@@ -31,9 +34,7 @@ _EPS = np.finfo(float).eps
 class Branch:
     """A monotone part of a curve: piece and parameters between which pressure rises from ``p_low`` to ``p_high``.
 
-    ``cells``: its quantities over u, ``p = p_low + (p_high - p_low) graded(u)``, in which they are smooth where they are over the
-    piece's own parameter, and where the curve turns.
-    ``inner_low``, ``inner_high``: the law goes on smoothly beyond that end, in another branch.
+    ``inner_low``, ``inner_high``: the curve goes on smoothly, and rising, beyond that end.
     """
 
     piece: Piece
@@ -41,24 +42,17 @@ class Branch:
     t_high: float
     p_low: float
     p_high: float
-    cells: Cells | None = None
     inner_low: bool = False
     inner_high: bool = False
 
-    def values(self, p: np.ndarray) -> np.ndarray:
-        """Quantities at the pressures ``p`` (m,), shape (m, q)."""
-        if self.cells is None:
-            return self.piece.values(self.parameter(p))
-        share = np.clip((p - self.p_low) / (self.p_high - self.p_low), 0.0, 1.0)
-        return self.cells(parameter(share))
-
-    def parameter(self, p: np.ndarray) -> np.ndarray:
-        """t at which the pressure is ``p`` (m,), clipped to the branch."""
-        return Inverse([self]).parameter(np.zeros(p.size, int), p)
+    @property
+    def errors(self) -> Errors:
+        """Those of its piece."""
+        return self.piece.errors
 
     def reaches(self, p: float) -> float:
         """t at which the one pressure ``p`` is reached, clipped to the branch."""
-        return float(_reached([self], np.array([p]))[0])
+        return float(Inverse([self])(np.zeros(1, int), np.array([p]))[0])
 
 
 def branches(curve: Curve, unloading: bool) -> list[Branch]:
@@ -80,9 +74,9 @@ def rising(piece: Piece) -> list[Branch]:
     return _rising([piece])[0]
 
 
-def meets(part: Branch, overlap: float) -> bool:
+def meets(part: Branch | Segment, overlap: float) -> bool:
     """Whether a part overlaps its neighbour by no more than the curve is uncertain: then they are one."""
-    return overlap <= 2 * part.piece.error[0] + 64 * _EPS * (abs(part.p_low) + abs(part.p_high))
+    return overlap <= 2 * part.errors.most[0] + 64 * _EPS * (abs(part.p_low) + abs(part.p_high))
 
 
 def loaded(parts: list[Branch]) -> list[Branch]:
@@ -106,7 +100,9 @@ def _standing_out(rows: list[list[Branch]], unloading: bool) -> list[list[Branch
                 before.append(part)
             elif part.p_low < bound < part.p_high:
                 cut.append((part, bound, before))
-        reached = _reached([part for part, *_ in cut], np.array([p for _, p, _ in cut]))
+        if not cut:
+            continue
+        reached = Inverse([part for part, *_ in cut])(np.arange(len(cut)), np.array([p for _, p, _ in cut]))
         for (part, p, before), t in zip(cut, reached.tolist(), strict=True):
             if unloading and t > part.t_low:
                 soft = part.inner_high and meets(part, part.p_high - p)
@@ -121,22 +117,22 @@ def _rising(pieces: Sequence[Piece]) -> list[list[Branch]]:
     """``rising`` of many pieces."""
     if not pieces:
         return []
-    pressures = _Pressures(pieces)
-    rises = _seen_rising(pressures.at_turns())
+    pressures = _pressures(pieces)
+    rises = _seen_rising(np.array([piece.coefficients[:, 0] @ _at_turns(len(piece.coefficients)) for piece in pieces]))
     last = _TURNS.size - 1
     outside = np.zeros((len(pieces), 1), int)
     change = np.diff(rises.astype(int), axis=1, prepend=outside, append=outside)
     (which, first), end = np.nonzero(change > 0), np.nonzero(change < 0)[1]
     low, high = np.zeros(which.size), np.ones(which.size)
     turns, tops = np.flatnonzero(first > 0), np.flatnonzero(end < last)
-    low[turns] = pressures.turns(which[turns], first[turns], 1.0)
-    high[tops] = pressures.turns(which[tops], end[tops], -1.0)
-    p_low, p_high = (pressures(which, t)[:, 0] for t in (low, high))
+    low[turns] = _turns(pressures, which[turns], first[turns], 1.0)
+    high[tops] = _turns(pressures, which[tops], end[tops], -1.0)
+    p_low, p_high = (pressures(which, t)[0] for t in (low, high))
     parts: list[list[Branch]] = [[] for _ in pieces]
     for k in np.flatnonzero((high > low) & (p_high > p_low))[::-1]:
         piece = pieces[which[k]]
         soft = piece.inner_low and low[k] == 0.0, piece.inner_high and high[k] == 1.0
-        parts[which[k]].append(Branch(piece, *(float(v[k]) for v in (low, high, p_low, p_high)), None, *soft))
+        parts[which[k]].append(Branch(piece, *(float(v[k]) for v in (low, high, p_low, p_high)), *soft))
     return parts
 
 
@@ -152,63 +148,54 @@ def _seen_rising(p: np.ndarray) -> np.ndarray:
     return rises
 
 
-def _reached(parts: Sequence[Branch], p: np.ndarray) -> np.ndarray:
-    """t at which each part reaches its pressure ``p`` (n,), clipped to the part."""
-    if not parts:
-        return np.empty(0)
-    pressures = _Pressures([part.piece for part in parts])
-
-    def missing(t, which):
-        value, slope, _ = pressures(which, t).T
-        return p[which] - value, -slope
-
-    t_low, t_high, p_low, p_high = np.array([(part.t_low, part.t_high, part.p_low, part.p_high) for part in parts]).T
-    t, _ = falling_root(missing, t_low, t_high)
-    return np.where(p <= p_low, t_low, np.where(p >= p_high, t_high, t))
+@lru_cache
+def _at_turns(size: int) -> np.ndarray:
+    """Chebyshev polynomials at ``_TURNS``, (size, turns)."""
+    return np.cos(np.arange(size)[:, None] * np.arccos(2 * _TURNS - 1))
 
 
-class _Pressures:
-    """Pressure along many pieces, with its first two derivatives by t: those with as many coefficients stand together."""
+def _turns(pressures: Series, which: np.ndarray, near: np.ndarray, sign: float) -> np.ndarray:
+    """t of the pieces ``which`` next to point ``near`` of ``_TURNS`` from which on the slope of the pressure has this ``sign``,
+    all (m,). At an end of a piece its slope says nothing: it is not asked there."""
 
-    def __init__(self, pieces: Sequence[Piece]):
-        self._size = np.array([piece.coefficients.shape[0] for piece in pieces])
-        self._rank, self._tables = np.empty(self._size.size, int), {}
-        for size in np.unique(self._size).tolist():
-            members = np.flatnonzero(self._size == size)
-            self._rank[members] = np.arange(members.size)
-            p = np.stack([pieces[i].coefficients[:, 0] for i in members], axis=1)
-            slope = np.pad(2 * chebder(p), ((0, 1), (0, 0)))
-            self._tables[size] = np.stack((p, slope, np.pad(2 * chebder(slope), ((0, 1), (0, 0)))), axis=2).swapaxes(0, 1)
+    def slope(t, sub):
+        _, first, second = pressures(which[sub], t)
+        return -sign * first, -sign * second
 
-    def __call__(self, which: np.ndarray, t: np.ndarray) -> np.ndarray:
-        """Pressure and derivatives (m, 3) of the pieces ``which`` at ``t``, both (m,)."""
-        out = np.empty((which.size, 3))
-        for size, table in self._tables.items():
-            rows = np.flatnonzero(self._size[which] == size)
-            # one by one: what is found does not depend on what is asked with it
-            out[rows] = (_polynomials(t[rows], size)[:, None] @ table[self._rank[which[rows]]])[:, 0]
-        return out
-
-    def at_turns(self) -> np.ndarray:
-        """Pressures at ``_TURNS``, (pieces, turns)."""
-        out = np.empty((self._size.size, _TURNS.size))
-        for size, table in self._tables.items():
-            out[self._size == size] = (_polynomials(_TURNS, size) @ table[:, :, :1])[:, :, 0]
-        return out
-
-    def turns(self, which: np.ndarray, near: np.ndarray, sign: float) -> np.ndarray:
-        """t next to point ``near`` of ``_TURNS`` from which on the slope of the pressure has this ``sign``, all (m,).
-
-        At an end of a piece its slope says nothing: it is not asked there.
-        """
-
-        def slope(t, sub):
-            _, first, second = self(which[sub], t).T
-            return -sign * first, -sign * second
-
-        return falling_root(slope, _TURNS[np.maximum(near - 1, 0)], _TURNS[np.minimum(near + 1, _TURNS.size - 1)])[0]
+    return falling_root(slope, _TURNS[np.maximum(near - 1, 0)], _TURNS[np.minimum(near + 1, _TURNS.size - 1)])[0]
 
 
-def _polynomials(t, size: int) -> np.ndarray:
-    """Chebyshev polynomials (m, size) at ``t`` in [0, 1] (m,)."""
-    return np.cos(np.arccos(np.clip(2 * t - 1, -1.0, 1.0))[:, None] * np.arange(size))
+def _pressures(pieces: Sequence[Piece]) -> Series:
+    """Pressure along each piece, with its first two derivatives by t."""
+    every = []
+    for piece in pieces:
+        p = piece.coefficients[:, :1]
+        slope = 2 * derivatives(p)
+        every.append(np.concatenate((p, slope, 2 * derivatives(slope)), axis=1))
+    return Series(every)
+
+
+class Inverse:
+    """Parameters at which branches reach pressures."""
+
+    def __init__(self, parts: Sequence[Branch]):
+        self._pressures = _pressures([part.piece for part in parts])
+        self._ends = np.array([(part.t_low, part.t_high, part.p_low, part.p_high) for part in parts])
+        largest = [np.abs(part.piece.coefficients[:, 0]).sum() for part in parts]
+        self._rounding = 16 * _EPS * np.maximum(largest, np.abs(self._ends[:, 2:]).max(axis=1))
+
+    def __call__(self, which: np.ndarray, p: np.ndarray) -> np.ndarray:
+        """t at which the branches ``which`` reach the pressures ``p``, clipped to the branch; all (m,)."""
+        t_low, t_high, p_low, p_high = self._ends[which].T
+
+        def missing(t, sub):
+            value, slope, _ = self._pressures(which[sub], t)
+            off = p[sub] - value
+            # next to a flat end rounding would send what is there already anywhere
+            return np.where(np.abs(off) > self._rounding[which[sub]], off, 0.0), -slope
+
+        share = np.divide(p - p_low, p_high - p_low, out=np.zeros_like(p), where=p_high > p_low)
+        # over this t is all but linear, also where the curve turns
+        guess = t_low + (t_high - t_low) * parameter(np.clip(share, 0.0, 1.0))
+        t, _ = falling_root(missing, t_low, t_high, guess)
+        return np.where(p <= p_low, t_low, np.where(p >= p_high, t_high, t))

@@ -17,7 +17,7 @@ from .endpoint_regularity import with_endpoint_regularity
 from .error_budget import ErrorBudget
 from .interior_breaks import is_inside, island, locate_vanishing
 from .interval import Interval
-from .piece import Piece
+from .piece import Errors, Piece
 from .reentrant import reentrant_parts
 from .sampling import MEAN, Batch
 from .strips import LevelBatch, saturation_depth
@@ -86,7 +86,7 @@ def trace(
     below, above = [i for i in intervals if hangs(i)], [i for i in intervals if not hangs(i)]
     pieces = interpolate(columns, rtol, above, strips, budget=budget)
     if below:
-        least = np.array([min((piece.first(_GRID)[0].min() for piece in row), default=np.inf) for row in pieces])
+        least = np.array([min((piece.values(_GRID)[:, 0].min() for piece in row), default=np.inf) for row in pieces])
         comes = reentrant_parts(columns, rtol, below, least, strips, budget)
         for row, more in zip(pieces, interpolate(columns, rtol, comes, strips, budget=budget, ceiling=least), strict=True):
             row += more
@@ -167,8 +167,8 @@ def _round(columns: LevelBatch, rtol, intervals: list[Interval], pieces, strips,
             i, size = batch.intervals[k], np.abs(batch.values[k])
             relative = (batch.errors[k] / (size + floors[k])).max(axis=0)
             series, soft = error[k] + _ROUNDED * rounding[k], (i.inner_low, i.inner_high)
-            bound, least = series + batch.errors[k].max(axis=0), series + relative * floors[k]
-            pieces[i.column].append(Piece(i.low, i.high, c[k], bound, *soft, i.endpoint_map, least, relative))
+            errors = Errors(series + batch.errors[k].max(axis=0), series + relative * floors[k], relative)
+            pieces[i.column].append(Piece(i.low, i.high, c[k], errors, *soft, i.endpoint_map))
         # coefficients fall geometrically: where twice the nodes would not do, halves are better
         missed = error / goal
         hopeless = ~done & (missed * np.minimum(missed / before, _PACE) ** 2 > 1).any(axis=1)

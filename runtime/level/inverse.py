@@ -207,10 +207,10 @@ class _Descent:
         return _Root(float(part.piece.penetration(t)), slope, friction_slope, low, high), False
 
     def _passing(self, parts, p, doubts) -> int | None:
-        if not self.unloading and parts and p + doubts * parts[0].piece.error[0] < min(parts[0].p_low, 0.0):
+        if not self.unloading and parts and p + doubts * parts[0].errors.most[0] < min(parts[0].p_low, 0.0):
             return _PULLED_OFF
         for k, part in enumerate(parts):
-            shifted = p + doubts * part.piece.error[0]
+            shifted = p + doubts * part.errors.most[0]
             if part.p_low < shifted if self.unloading else part.p_high >= shifted:
                 return k
         return None

@@ -1,6 +1,7 @@
 """Friction law of a level: what it carries at a given nominal pressure, on one branch of loading.
 
-The law is a stack of monotone branches in disjoint intervals of pressure (``branches.py``); it may jump between them.
+The law is a stack of smooth segments in disjoint intervals of pressure, at first one for each branch of the curve
+(``branches.py``); it may jump between them.
 """
 
 from __future__ import annotations
@@ -11,20 +12,20 @@ from functools import cached_property
 
 import numpy as np
 
-from .branches import Branch, branches_of, meets
+from .branches import branches_of, meets
 from .curve import Curve
-from .resample import resampled
+from .segment import Segment, segments_of
 
-#: pressures of a branch at which its size is looked at: it is monotone in pressure, and friction over pressure has few humps
+#: pressures of a segment at which its size is looked at: it is monotone in pressure, and friction over pressure has few humps
 _SUPPORTS = 17
 
 
-def _joined(kept: list[Branch], p_sat: float) -> list[Branch]:
-    """The branches, those stretched that end next to where another begins, or at saturation, but for their errors: there is one
+def _joined(kept: list[Segment], p_sat: float) -> list[Segment]:
+    """The segments, those stretched that end next to where another begins, or at saturation, but for their errors: there is one
     break of the law, not two."""
-    ends = [*(b.p_low for b in kept[1:]), p_sat]
+    ends = [*(s.p_low for s in kept[1:]), p_sat]
     return [
-        replace(b, p_high=end) if meets(b, abs(end - b.p_high)) else b for b, end in zip(kept, ends[: len(kept)], strict=True)
+        replace(s, p_high=end) if meets(s, abs(end - s.p_high)) else s for s, end in zip(kept, ends[: len(kept)], strict=True)
     ]
 
 
@@ -33,19 +34,17 @@ class Law:
     """Means of a level over nominal pressure at one velocity.
 
     Attributes:
-        branches: in order of rising pressure. pull_off: below it there is no contact.
+        segments: in order of rising pressure. pull_off: below it there is no contact.
         p_sat: pressure of saturated contact; ``saturated`` are the means there (from there on constant, but for pressure).
         p_top: largest pressure the law was built for (``p_sat``, unless it was cut below that).
-        error: bound of the interpolation error of each quantity, (q,).
         unloading: the branch of loading it follows.
     """
 
-    branches: list[Branch]
+    segments: list[Segment]
     pull_off: float
     p_sat: float
     saturated: np.ndarray
     p_top: float
-    error: np.ndarray
     strips: int
     unloading: bool
 
@@ -58,21 +57,22 @@ class Law:
     @property
     def friction_error(self) -> float:
         """Bound of the interpolation error of friction, its own and what it carries, Pa."""
-        return float(self.error[1 + self.friction_columns].sum())
+        error = np.max([s.errors.most[1 + self.friction_columns] for s in self.segments], axis=0, initial=0.0)
+        return float((1.5 * error).sum())
 
     @cached_property
     def breaks(self) -> np.ndarray:
         """Pressures at which the law jumps or is not smooth, ascending, from pull-off to saturation."""
-        ends = [b.p_low for b in self.branches if not b.inner_low] + [b.p_high for b in self.branches if not b.inner_high]
+        ends = [s.p_low for s in self.segments if not s.inner_low] + [s.p_high for s in self.segments if not s.inner_high]
         ends = np.unique([e for e in [*ends, self.pull_off, self.p_sat] if -np.inf < e <= self.p_sat])
-        # branches that follow one another meet to rounding
+        # segments that follow one another meet to rounding
         apart = np.diff(ends, append=np.inf) > 1e-12 * np.abs(ends).max(initial=0.0)
         return ends[apart]
 
     @property
     def supports(self) -> np.ndarray:
-        """Pressures across every branch, from end to end, for the size of what they hold."""
-        inside = [np.linspace(b.p_low, b.p_high, _SUPPORTS) for b in self.branches]
+        """Pressures across every segment, from end to end, for the size of what they hold."""
+        inside = [np.linspace(s.p_low, s.p_high, _SUPPORTS) for s in self.segments]
         return np.concatenate([*inside, [self.p_sat]])
 
     def at_breaks(self) -> tuple[np.ndarray, np.ndarray]:
@@ -80,16 +80,16 @@ class Law:
         p = self.breaks
         errors = np.zeros(p.size)
         columns = 1 + self.friction_columns
-        # just to either side: what the law says there belongs to one branch each
+        # just to either side: what the law says there belongs to one segment each
         aside = 1e-9 * (np.abs(p) + np.abs(p).max(initial=0.0))
         above, below = np.split(self(np.concatenate((p + aside, p - aside)))[:, columns], 2)
         jumps = np.abs(above - below).sum(axis=1)
-        for b in self.branches:
-            # a branch is left at one of its ends, and that tells where the law goes over to the next one
-            left, entered = (b.p_low, b.p_high) if self.unloading else (b.p_high, b.p_low)
-            errors[np.abs(p - left) <= aside] = b.piece.error[0]
+        for s in self.segments:
+            # a segment is left at one of its ends, and that tells where the law goes over to the next one
+            left, entered = (s.p_low, s.p_high) if self.unloading else (s.p_high, s.p_low)
+            errors[np.abs(p - left) <= aside] = s.errors.most[0]
             outermost = (np.abs(p - entered) <= aside) & (errors == 0)
-            errors[outermost] = b.piece.error[0]
+            errors[outermost] = s.errors.most[0]
         return jumps, errors
 
     def __call__(self, p: np.ndarray) -> np.ndarray:
@@ -99,14 +99,14 @@ class Law:
         high = p >= self.p_sat
         out[high, 1:] = self.saturated[1:]
         rest = np.flatnonzero(~high & (p >= self.pull_off))
-        if not rest.size or not self.branches:
+        if not rest.size or not self.segments:
             return out
-        upper = np.array([b.p_high for b in self.branches])
-        which = np.minimum(np.searchsorted(upper, p[rest]), len(self.branches) - 1)
-        for i, branch in enumerate(self.branches):
+        upper = np.array([s.p_high for s in self.segments])
+        which = np.minimum(np.searchsorted(upper, p[rest]), len(self.segments) - 1)
+        for i, segment in enumerate(self.segments):
             here = rest[which == i]
             if here.size:
-                out[here] = branch.values(p[here])
+                out[here] = segment(p[here])
         return out
 
 
@@ -114,16 +114,12 @@ def laws_of(curves: Sequence[Curve], unloading: bool, p_sat: np.ndarray, saturat
     """The friction laws along one branch of loading of traced curves. ``p_sat``, ``cut`` (n,): pressures of saturation, and
     whether a curve ends before it; ``saturated`` (n, q): means there."""
     kept = branches_of(curves, unloading)
-    flat = [b for row in kept for b in row]
     least = np.repeat(1e-15 * np.abs(saturated), [len(row) for row in kept], axis=0)
-    errors = np.array([b.piece.error for b in flat]).reshape(least.shape)
-    fine = iter(resampled(flat, np.maximum(errors, least)))
+    flat = [b for row in kept for b in row]
+    every = iter(segments_of(flat, np.maximum(np.reshape([b.errors.most for b in flat], least.shape), least)))
     out = []
     for i, (curve, row) in enumerate(zip(curves, kept, strict=True)):
-        error = np.max([b.piece.error for b in row], axis=0) if row else np.zeros(saturated.shape[1])
-        joined = _joined([next(fine) for _ in row], p_sat[i])
-        pull_off, p_top = (row[0].p_low if row else p_sat[i]), (joined[-1].p_high if cut[i] and row else p_sat[i])
-        out.append(
-            Law(joined, float(pull_off), float(p_sat[i]), saturated[i], float(p_top), 1.5 * error, curve.strips, unloading)
-        )
+        segments = _joined([next(every) for _ in row], p_sat[i])
+        pull_off, p_top = (row[0].p_low if row else p_sat[i]), (segments[-1].p_high if cut[i] and row else p_sat[i])
+        out.append(Law(segments, float(pull_off), float(p_sat[i]), saturated[i], float(p_top), curve.strips, unloading))
     return out

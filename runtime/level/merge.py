@@ -1,4 +1,4 @@
-"""Neighbouring branches of a friction law as one, where a smooth function is as good as both.
+"""Neighbouring segments of a friction law as one, where a smooth function is as good as both.
 
 Every break of a law leaves kinks behind in the laws of all levels above, three for one and ever weaker ones; each costs panels
 over x, over y and over penetration. What is no larger than a law may err is no break.
@@ -11,29 +11,29 @@ from dataclasses import replace
 
 import numpy as np
 
-from .branches import Branch
 from .cells import SLOTS, Cells, cells_of
 from .law import Law
 from .piece import graded, parameter
+from .segment import Segment
 from .table import LawTable
 
 #: part of what a law may err that merging may take: laws err by less than a tenth of that
 _SHARE = 0.2
 #: slots of the smallest cell: a function that takes smaller ones is not smooth enough for few nodes to see all of it
 _FINEST = SLOTS // 16
-#: parameters at which a merged branch is held against the law, and how much more than there is feared
+#: parameters at which a merged segment is held against the law, and how much more than there is feared
 _CHECKS, _SAFE = np.linspace(0, 1, 130)[1:-1], 1.5
 #: how far to either side of a joint its jump is looked at, of all parameters
 _BESIDE = 1e-6
 
 
 def merged(laws: Sequence[Law], rtol: np.ndarray, floors: np.ndarray) -> list[Law]:
-    """The laws with as few branches as stand for them to a part of ``rtol (|value| + floors)``, ``rtol`` (n,) and ``floors``
+    """The laws with as few segments as stand for them to a part of ``rtol (|value| + floors)``, ``rtol`` (n,) and ``floors``
     (n, q); what that adds to their errors is added."""
     table = LawTable(laws)
-    rows = [list(law.branches) for law in laws]
+    rows = [list(law.segments) for law in laws]
     # errors before merging: what one merger adds is not added again by the next
-    before = [[b.piece for b in row] for row in rows]
+    before = [[s.errors for s in row] for row in rows]
     opens = [[True] * (len(row) - 1) for row in rows]
     while True:
         pairs = [(i, k) for i, row in enumerate(opens) for k in _apart(row)]
@@ -45,11 +45,11 @@ def merged(laws: Sequence[Law], rtol: np.ndarray, floors: np.ndarray) -> list[La
                 opens[i][k] = False
                 continue
             low, high = rows[i][k : k + 2]
-            before[i][k : k + 2] = [before[i][k].with_errors_of(before[i][k + 1])]
-            piece = before[i][k].erring(error)
-            rows[i][k : k + 2] = [replace(low, p_high=high.p_high, inner_high=high.inner_high, cells=cells, piece=piece)]
+            before[i][k : k + 2] = [before[i][k].covering(before[i][k + 1])]
+            errors = before[i][k].plus(error)
+            rows[i][k : k + 2] = [Segment(low.p_low, high.p_high, cells, errors, low.inner_low, high.inner_high)]
             del opens[i][k]
-    return [replace(law, branches=row) for law, row in zip(laws, rows, strict=True)]
+    return [replace(law, segments=row) for law, row in zip(laws, rows, strict=True)]
 
 
 def _apart(opens: list[bool]) -> list[int]:
@@ -61,8 +61,8 @@ def _apart(opens: list[bool]) -> list[int]:
     return out
 
 
-def _fits(table: LawTable, pairs: list[tuple[int, Branch, Branch]], rtol, floors) -> list[tuple[Cells | None, np.ndarray]]:
-    """Cells that stand for both branches of each pair (law, low, high), with the error that brings; None where there are none."""
+def _fits(table: LawTable, pairs: list[tuple[int, Segment, Segment]], rtol, floors) -> list[tuple[Cells | None, np.ndarray]]:
+    """Cells that stand for both segments of each pair (law, low, high), with the error that brings; None where there are none."""
     law = np.array([i for i, *_ in pairs])
     low, joint, high = (np.array(v) for v in zip(*((a.p_low, a.p_high, b.p_high) for _, a, b in pairs), strict=True))
 

@@ -7,8 +7,7 @@ a strip is on.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -28,37 +27,42 @@ def parameter(share):
 
 
 @dataclass(frozen=True)
+class Errors:
+    """Bounds of the errors of quantities, (q,) each: none errs by more than ``most``, nor by more than ``least`` and the share
+    ``relative`` of its own size."""
+
+    most: np.ndarray
+    least: np.ndarray
+    relative: np.ndarray
+
+    @classmethod
+    def constant(cls, error: np.ndarray) -> Errors:
+        """The same whatever the size of a quantity, (q,)."""
+        return cls(error, error, np.zeros_like(error))
+
+    def plus(self, more: np.ndarray) -> Errors:
+        """Larger by ``more`` (q,)."""
+        return Errors(self.most + more, self.least + more, self.relative)
+
+    def covering(self, other: Errors) -> Errors:
+        """Bounds of both."""
+        return Errors(*(np.maximum(getattr(self, f.name), getattr(other, f.name)) for f in fields(self)))
+
+
+@dataclass(frozen=True)
 class Piece:
-    """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t; ``error`` bounds each of them, (q,).
+    """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t, and their ``errors``.
 
     ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end, in another piece. ``endpoint_map``: what t is.
-    ``least_error`` (as ``error`` if None), ``relative``: no quantity errs by more than that and a share of its own size, (q,).
     """
 
     low: float
     high: float
     coefficients: np.ndarray
-    error: np.ndarray
+    errors: Errors
     inner_low: bool = False
     inner_high: bool = False
     endpoint_map: EndpointMap = EndpointMap()
-    least_error: np.ndarray | None = None
-    relative: np.ndarray | float = 0.0
-
-    @property
-    def least_errors(self) -> np.ndarray:
-        """``least_error``, (q,)."""
-        return self.error if self.least_error is None else self.least_error
-
-    def erring(self, more: np.ndarray) -> Piece:
-        """The same with errors larger by ``more`` (q,)."""
-        least = None if self.least_error is None else self.least_error + more
-        return replace(self, error=self.error + more, least_error=least)
-
-    def with_errors_of(self, other: Piece) -> Piece:
-        """The same with errors that cover those of the ``other`` too."""
-        least, share = np.maximum(self.least_errors, other.least_errors), np.maximum(self.relative, other.relative)
-        return replace(self, error=np.maximum(self.error, other.error), least_error=least, relative=share)
 
     def penetration(self, t):
         """D at t."""
@@ -67,14 +71,3 @@ class Piece:
     def values(self, t) -> np.ndarray:
         """Quantities at t (m,), shape (m, q)."""
         return evaluate(self.coefficients, t)
-
-    def first(self, t) -> tuple[np.ndarray, np.ndarray]:
-        """The first quantity (pressure) and its derivative with respect to t."""
-        both = evaluate(self.first_coefficients, t)
-        return both[:, 0], both[:, 1]
-
-    @cached_property
-    def first_coefficients(self) -> np.ndarray:
-        """Coefficients of the first quantity and of its derivative with respect to t, (n + 1, 2)."""
-        c = self.coefficients[:, 0]
-        return np.stack((c, np.append(2 * np.polynomial.chebyshev.chebder(c), 0.0)), axis=1)

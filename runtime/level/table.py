@@ -31,33 +31,32 @@ class LawTable:
         sides = [law.at_breaks() for law in laws]
         self.jumps = _padded([jumps for jumps, _ in sides], 0.0)
         self.break_error = _padded([errors for _, errors in sides], 0.0)
-        counts = [len(law.branches) for law in laws]
+        counts = [len(law.segments) for law in laws]
         self._start = np.concatenate(([0], np.cumsum(counts)[:-1]))
         self._last = np.maximum(np.array(counts) - 1, 0)
-        self._upper = _padded([np.array([b.p_high for b in law.branches]) for law in laws], np.inf)
-        every = [b for law in laws for b in law.branches]
-        self._low, self._high = np.array([b.p_low for b in every]), np.array([b.p_high for b in every])
+        self._upper = _padded([np.array([s.p_high for s in law.segments]) for law in laws], np.inf)
+        every = [s for law in laws for s in law.segments]
+        self._low, self._high = np.array([s.p_low for s in every]), np.array([s.p_high for s in every])
         columns = 1 + self.frictions
-        if every:
-            self._pressure_error = np.array([b.piece.error[0] for b in every])
-            # what is left where there is no friction, and how it grows with that
-            self._least_error = np.array([b.piece.least_errors[columns].sum() for b in every])
-            self._most_error = np.array([b.piece.error[columns].sum() for b in every])
-            self._share = np.array([np.broadcast_to(b.piece.relative, b.piece.error.shape)[columns].max() for b in every])
-        cells = [b.cells for b in every]
+        self._pressure_error = np.array([s.errors.most[0] for s in every])
+        # what is left where there is no friction, and how it grows with that
+        self._least_error = np.array([s.errors.least[columns].sum() for s in every])
+        self._most_error = np.array([s.errors.most[columns].sum() for s in every])
+        self._share = np.array([s.errors.relative[columns].max() for s in every])
+        cells = [s.cells for s in every]
         first = np.cumsum([0, *(c.start.size for c in cells)])
         joined = lambda values: np.concatenate(values) if cells else np.zeros(0)  # noqa: E731
         self._from, self._size = joined([c.start for c in cells]), joined([c.size for c in cells])
         self._cell = joined([c.of + at for c, at in zip(cells, first[:-1], strict=True)]).astype(np.intp)
         every = np.concatenate([c.coefficients[:, :, 1:] for c in cells], axis=1) if cells else np.zeros((1, 0, 0))
         self._coefficients = np.ascontiguousarray(every.swapaxes(1, 2))
-        self._first, self._final = self._branches_between()
+        self._first, self._final = self._segments_between()
         # what is not known of a law beyond the pressure that it was built for is about as much as it ever carries
-        self._top = np.array([law.p_top if law.branches else np.inf for law in laws])
+        self._top = np.array([law.p_top if law.segments else np.inf for law in laws])
         self._most = np.array([np.abs(law(law.supports)[:, 1 + self.frictions]).max(axis=0).sum() for law in laws])
 
-    def _branches_between(self):
-        """The first and the last branch between each break and the next, (groups, B) both."""
+    def _segments_between(self):
+        """The first and the last segment between each break and the next, (groups, B) both."""
         breaks = np.concatenate((self.breaks, np.full((self.breaks.shape[0], 1), np.inf)), axis=1)
         apart = _SAME * np.abs(np.where(np.isfinite(breaks), breaks, 0.0)).max(axis=1, keepdims=True)
         below = lambda p: np.count_nonzero(self._upper[:, None] < p[:, :, None], axis=2)  # noqa: E731
@@ -70,7 +69,7 @@ class LawTable:
         At pressures ``p`` (nodes, m) of the laws ``group`` (m,), between their breaks ``interval`` (m,) and the next ones.
         """
         which, final = self._first[group, interval], self._final[group, interval]
-        # mostly there is one branch between two breaks
+        # mostly there is one segment between two breaks
         for _ in range((final - which).max(initial=0)):
             which = which + ((which < final) & (p > self._high[which]))
         low = self._low[which]

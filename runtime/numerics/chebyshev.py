@@ -6,6 +6,7 @@ many series are by the recurrence of Clenshaw, "A note on the summation of Cheby
 118).
 """
 
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -18,6 +19,8 @@ _GEOMETRIC = 0.01
 #: how much of the last coefficient a sum of the rest is at least and at most, and how much more than that sum is feared: a sum
 #: that falls by a power is up to three times one that falls geometrically at first
 _FASTEST, _SLOWEST, _SAFE = 0.5, 32.0, 3.0
+#: sums at a time: what is known of them stays in the cache
+_CHUNK = 4096
 
 
 @lru_cache
@@ -118,3 +121,26 @@ def clenshaw(table: np.ndarray, which: np.ndarray, x: np.ndarray) -> np.ndarray:
     np.subtract(np.multiply(x, one, out=product), two, out=two)
     two += np.take(table[0], which, axis=1, out=here, mode="clip")
     return two
+
+
+class Series:
+    """Chebyshev series over t in [0, 1], coefficients (n_i + 1, q) each: those with as many are summed together."""
+
+    def __init__(self, coefficients: Sequence[np.ndarray]):
+        self._size, self._q = np.array([len(c) for c in coefficients]), coefficients[0].shape[1] if coefficients else 0
+        self._rank, self._tables = np.empty(self._size.size, int), {}
+        for size in np.unique(self._size).tolist():
+            members = np.flatnonzero(self._size == size)
+            self._rank[members] = np.arange(members.size)
+            self._tables[size] = np.stack([coefficients[i] for i in members], axis=2)
+
+    def __call__(self, which: np.ndarray, t: np.ndarray) -> np.ndarray:
+        """Sums (q, m) of the members ``which`` (m,) at ``t`` (m,)."""
+        out = np.empty((self._q, which.size))
+        sizes = self._size[which]
+        for size, table in self._tables.items():
+            rows = np.flatnonzero(sizes == size)
+            for start in range(0, rows.size, _CHUNK):
+                some = rows[start : start + _CHUNK]
+                out[:, some] = clenshaw(table, self._rank[which[some]], 2 * t[some] - 1)
+        return out
