@@ -138,15 +138,15 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
 
 
 def _by_threshold(columns: LevelBatch, changes: Changes, A, E, unknown: str) -> tuple[np.ndarray, np.ndarray]:
-    """Where saturated contact ends when unloading, where free strips are touched when loading, and where the extreme pressures of
-    saturated contact, ``K (E + A (1 +- R))``, pass a break of the law below; and which changes are of that kind."""
+    """Where saturated contact opens to a gap that adheres, where free strips are touched when loading, and where the extreme
+    pressures of saturated contact, ``K (E + A (1 +- R))``, pass a break of the law below; and which changes are of that kind."""
     code, m = changes.codes % len(CODE), changes.size
     R = foundation_of(columns.material).modulus_ratio(columns.level.k * columns.V)
     contact = code == CODE["c"]
     # E + factor A = constant
     factor, constant = 1 - R, np.full(m, -columns.stretch)
     partial = np.isin(code, [CODE["ac"], CODE["cf"]])
-    known = contact.any(axis=1) & partial.any(axis=1) & (columns.branch == "unloading")
+    known = contact.any(axis=1) & partial.any(axis=1)
     if columns.branch == "loading" or columns.stretch == 0:
         touched = (code == CODE["f"]).any(axis=1) & ~(code == CODE["f"]).all(axis=1)
         reach = columns.adhesion.delta_0 if columns.stretch > 0 else 0.0

@@ -44,6 +44,9 @@ class Contact(ABC):
         self.p_peak = self.pressure(every, self.top)
         entered = self.b + 1e-12 * (self.a - self.b)
         self.p_least = self.pressure(every, np.where(self.full, self.centre - np.pi, entered))
+        # the same for all, to the last digit, where it does not step
+        rises = ~self.full & (compliance > 0)
+        self.p_least[rises] = ((self.q_b - self.s.p_0) * self.unit)[rises]
 
     @abstractmethod
     def _foundation(self) -> tuple:
