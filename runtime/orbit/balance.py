@@ -52,7 +52,7 @@ from .sensitivity import fading, gains, onset_margin, release_margin
 SLOW = 30.0
 #: what the bound loses over an interval, in p_0 times its width; by how much finer than that asks for it is divided, into how
 #: many parts at most, and how often
-_LOSS, _AMPLY, _MOST, _ROUNDS = 2.1, 1.5, 12, 4
+_LOSS, _AMPLY, _MOST, _ROUNDS = 2.1, 1.5, 12, 8
 #: parts in which all onsets of a strip out of reach are asked at first: 2 or 8 cost as much
 _FIRST = 4
 #: least sine that is divided by
@@ -135,9 +135,26 @@ def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, n
 def exclude_out_of_reach(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
     """Which cycles of strips out of reach, ``D <= -delta_0``, that cannot stay engaged are proven to have no orbit with an onset;
     and the evaluations spent on each."""
-    crest = np.zeros(cycle.size)
+    none = np.zeros(cycle.size, bool)
     with np.errstate(all="ignore"):
-        return _excluded(kernel, at_rest(kernel, cycle), crest, crest + np.pi, np.full(cycle.size, _FIRST))
+        reference = at_rest(kernel, cycle)
+        held = _held_best(cycle)
+        open_ = np.flatnonzero(balance_bound(kernel, reference, held, held) > 0)
+        part, crest, spent = reference.take(open_), np.zeros(open_.size), np.ones(cycle.size)
+        none[open_], used = _excluded(kernel, part, crest, crest + np.pi, np.full(open_.size, _FIRST))
+    spent[open_] += used
+    return none, spent
+
+
+def _held_best(cycle: Cycle):
+    """About the onset, less its sign, from which a strip out of reach is held best: a step of Newton on a foundation that stands
+    still in a gap. Nineteen of twenty strips of which nothing can be proven show it there."""
+    s = cycle.strips
+    sine, cosine, glassy = np.sin(1.0), np.cos(1.0), s.L * s.beta / s.alpha
+    a = np.arccos(np.minimum(cosine + s.delta_0, 1.0))
+    weight = np.pi + glassy * a
+    slope = cosine * weight + glassy * sine**2 / np.maximum(np.sin(a), _LEAST)
+    return np.clip(1.0 - (sine * weight - gains(cycle)[1]) / slope, 0.0, np.pi)
 
 
 def beside(kernel, cycle: Cycle, known: Orbit, end) -> _Reference:

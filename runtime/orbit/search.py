@@ -25,10 +25,10 @@ from .sensitivity import SlopeBounds, onset_margin, slope_bounds, slope_excess
 _EPS = np.finfo(float).eps
 #: every round divides what it leaves by two at least
 _MAX_ROUNDS = 200
-#: parts into which an interval is divided, from round to round. Most searches end in two rounds, those next to a fold or a graze
-#: do not, and are few: then a round costs the same whatever the parts. Not by the size of the batch: what a strip comes out as
-#: must not depend on that
-_PARTS = (1, 2, 4, 16)
+#: parts into which an interval is divided from the second round on. Most searches end in two rounds; of the others, next to a fold
+#: or a graze, a round costs about the same whatever the parts: 4 to 10 do alike. The same for every batch: what a strip comes out
+#: as must not depend on its size
+_PARTS = 6
 #: scale of the finest mesh, in parts of its interval
 _FINEST = 1e-9
 #: retardation times after which a displacement is gone, to the smallest number
@@ -83,7 +83,7 @@ class _Search:
             for k in range(_MAX_ROUNDS):
                 if not index.size:
                     break
-                index, frontier, beyond, stop = self._advance(index, frontier, beyond, stop, _PARTS[min(k, len(_PARTS) - 1)])
+                index, frontier, beyond, stop = self._advance(index, frontier, beyond, stop, _PARTS if k else 1)
             self.result.unresolved[index] = True
         return self.result
 
