@@ -17,11 +17,10 @@ from ..solved import Solved
 from .certificate import enclosed, marched, stable
 from .engaged import engaged
 from .extremal import ROWS, extremal, highest_state, in_order, lowest_state
-from .march import TWO_PI, march
+from .march import TWO_PI
 from .order import ENGAGED, FREE, NARROW, ORBIT, UNRESOLVED, approach
 from .polish import arguments, polish
 from .problem import ModeStrips
-from .propagation import Order, propagation
 
 #: strips solved at a time: what a call of NumPy costs is shared by more of them than 2,048 (2 to 3 times faster with two times),
 #: and memory stays bounded (with 15 times 30 MB a matrix)
@@ -134,11 +133,7 @@ class _Batch:
     def _thorough(self, index, z, engaged):
         """The same by windows between two states, closed in on the first orbit however slowly."""
         s, start = self.strips.take(index), self.start[index]
-        floor = None
-        if not self.unloading:
-            low = march(self.kernel, s, np.ones(index.size, bool), lowest_state(self.kernel, s, start), start)
-            floor = propagation(s, Order.of(self.kernel, s), low, None)
-        found = approach(self.kernel, s, z, engaged, start, self.unloading, floor)
+        found = approach(self.kernel, s, z, engaged, start, self.unloading)
         self._found(index, found)
         self._free(index[found.kind == FREE])
         held = index[found.kind == ENGAGED]

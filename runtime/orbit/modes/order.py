@@ -35,9 +35,18 @@ is the order of ``orbit.engine``.
 Acceleration. Let M be a lower bound of the derivative of P between x and every orbit above it, ``r = P(x) - x >= 0``.
 Then every orbit ``e* >= x`` obeys ``e* - x = P(e*) - x >= r + M (e* - x)``, so ``e* >= x + (I - M)^-1 r``, which again
 is mapped upwards. Jumps of P are upwards and only add. Such M: the contacts of x itself are the longest there are, and
-the gains at onset and release are not negative. Where M holds in a window ``[x, x + Delta]`` only, the step is cut to
-stay inside; if ``r + M Delta >= Delta`` the whole window holds no orbit. From above all is mirrored. A window whose far
-end is mapped inwards holds the extremal orbit: it is left to ``polish`` when it is narrow.
+the gains at onset and release are not negative.
+
+Chains. Let x lie below all orbits, and P map every point of a path that rises from x strictly upwards. Then all orbits lie
+above the path's end: the last point of the path below an orbit e would be mapped below P(e) = e, further up the path. On the
+straight piece from x_k to x_(k+1) that is so where
+
+    P(x_k) - x_k + (M_k - I) (x_(k+1) - x_k) > 0
+
+with a lower bound M_k of the derivative between the two; the bracket is linear along the piece, and positive at its start. All
+states of a chain are marched at once. So even where orbits are about to appear, and the map next to the identity, the strip is
+past them in a few steps. From above all is mirrored. The first orbit lies before the first state that is mapped inwards: it is
+left to ``polish`` when the two are near and the map contracts between them, or nearer still.
 """
 
 from __future__ import annotations
@@ -46,18 +55,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .contraction import alike, contracts
 from .march import Period, march
 from .problem import ModeStrips
 from .propagation import Order, exact_monodromy, least_monodromy, propagation, solve_order
 
-#: edges of the two ends of a window that is left to Newton's method agree to this
-NARROW = 1e-6
-#: steps after which a strip is given up: 9,600 random strips with 2 and 8 times took 15 at most, levels with 14 times 37; where
-#: rounding decides the signs there is no end
-_STEPS = 250
-_EPS = np.finfo(float).eps
+#: edges of the two ends of a window that is left to Newton's method agree to this; to that, where the map contracts in it
+NARROW, _NEAR = 1e-6, 1e-3
+#: steps after which a strip is given up; where rounding decides the signs there is no end
+_STEPS = 100
 #: least width of a window, in units of the strip's lengths: what rounding leaves of the sign of P(y) - y
 _LEAST, _WIDEST = 1e-12, 1e-5
+#: states of a chain, in Newton's steps. Those end short of a simple orbit, and half-way to a double one, where orbits are about
+#: to appear: the map less the identity is a parabola there, and its tangent stays positive over less than half of the way. Beyond
+#: it grows, so that states may lie ever further apart
+_NEARER = 2 - 2 * 0.75 ** np.arange(1.0, 17)
+_AHEAD = np.sort(np.concatenate(([0.0, 0.125, 0.5, 0.95, 1.0], _NEARER, 4 - _NEARER[::3], 2 + 2.0 ** np.arange(1.0, 6))))
+_AWAY = np.append(0.0, 1.6 ** np.arange(-4.0, len(_AHEAD) - 5))
 
 ENGAGED, FREE, ORBIT, UNRESOLVED = 0, 1, 2, -1
 
@@ -74,31 +88,10 @@ class Approach:
     steps: np.ndarray
 
 
-def approach(kernel, s: ModeStrips, z, engaged, start, rising: bool, floor: np.ndarray | None) -> Approach:
-    """Iterate from the states ``z`` (n, N) at the phases ``start``, below (``rising``) or above every orbit, to the first one.
-
-    ``floor``: for falling iterates, a lower bound of the map's derivative less the identity, (N, n, n): that along a contact as
-    long as any in between.
-    """
-    N = s.size
-    out = Approach(np.full(N, UNRESOLVED), np.full((4, N), np.nan), np.full((4, N), np.nan), np.zeros(N), np.zeros(N, int))
-    order = Order.of(kernel, s)
-    other = np.broadcast_to(np.maximum(s.D, 0.0) if rising else -s.p_0, z.shape)
-    room = np.maximum((1.0 if rising else -1.0) * (other - order.to_e(z)), 0.0)
-    state = _State(np.arange(N), s, order, engaged.copy(), z.copy(), np.array(start, float), floor, np.full(N, 8.0),
-                   np.full(N, _LEAST), room, other)  # fmt: skip
-    for _ in range(_STEPS):
-        if not state.index.size:
-            break
-        state = _advance(kernel, state, rising, out)
-    return out
-
-
 @dataclass(slots=True)
 class _State:
-    """Strips still on their way. ``reach``: factor by which a window may exceed the plain step; ``least``: its least
-    width; ``room``: distance to a state known to lie beyond the orbit, in e; ``other``: the one known from the
-    start."""
+    """Strips still on their way. ``least``: least width of a window; ``room``: distance to a state known to lie beyond the
+    orbit, in e; ``other``: the one known from the start."""
 
     index: np.ndarray
     s: ModeStrips
@@ -106,16 +99,28 @@ class _State:
     engaged: np.ndarray
     z: np.ndarray
     start: np.ndarray
-    floor: np.ndarray | None
-    reach: np.ndarray
     least: np.ndarray
     room: np.ndarray
     other: np.ndarray
 
     def take(self, i) -> _State:
-        floor = None if self.floor is None else self.floor[i]
-        return _State(self.index[i], self.s.take(i), self.order.take(i), self.engaged[i], self.z[:, i], self.start[i], floor,
-                      self.reach[i], self.least[i], self.room[:, i], self.other[:, i])  # fmt: skip
+        return _State(self.index[i], self.s.take(i), self.order.take(i), self.engaged[i], self.z[:, i], self.start[i],
+                      self.least[i], self.room[:, i], self.other[:, i])  # fmt: skip
+
+
+def approach(kernel, s: ModeStrips, z, engaged, start, rising: bool) -> Approach:
+    """Iterate from the states ``z`` (n, N) at the phases ``start``, below (``rising``) or above every orbit, to the first one."""
+    N = s.size
+    out = Approach(np.full(N, UNRESOLVED), np.full((4, N), np.nan), np.full((4, N), np.nan), np.zeros(N), np.zeros(N, int))
+    order = Order.of(kernel, s)
+    other = np.broadcast_to(np.maximum(s.D, 0.0) if rising else -s.p_0, z.shape)
+    room = np.maximum((1.0 if rising else -1.0) * (other - order.to_e(z)), 0.0)
+    st = _State(np.arange(N), s, order, engaged.copy(), z.copy(), np.array(start, float), np.full(N, _LEAST), room, other)
+    for _ in range(_STEPS):
+        if not st.index.size:
+            break
+        st = _advance(kernel, st, rising, out)
+    return out
 
 
 def _advance(kernel, st: _State, rising: bool, out: Approach) -> _State:
@@ -124,72 +129,94 @@ def _advance(kernel, st: _State, rising: bool, out: Approach) -> _State:
     out.evaluations[st.index] += near.evaluations
     out.steps[st.index] += 1
     # the ends of the iteration that need no orbit with both an onset and a release
-    out.kind[st.index[near.never_free & (not rising)]] = ENGAGED
-    out.kind[st.index[near.never_engaged & rising & (st.s.D <= -st.s.delta_0)]] = FREE
-    ended = near.lost | (near.never_free & (not rising)) | (near.never_engaged & rising & (st.s.D <= -st.s.delta_0))
-    switched = (near.engaged != st.engaged) & ~ended
-    i = np.flatnonzero(switched)
+    held = near.never_free & (not rising)
+    lets = near.never_engaged & rising & (st.s.D <= -st.s.delta_0)
+    out.kind[st.index[held]], out.kind[st.index[lets]] = ENGAGED, FREE
+    ended = near.lost | held | lets
+    i = np.flatnonzero((near.engaged != st.engaged) & ~ended)
     st.z[:, i] += near.dz[:, i]
-    st.engaged[i] = near.engaged[i]
     st.room[:, i] = np.maximum(sign * (st.other[:, i] - st.order.take(i).to_e(st.z[:, i])), 0.0)
-    i = np.flatnonzero(~ended & ~switched)
-    if i.size:
-        ended[i] |= _step(kernel, st, i, near.take(i), sign, out)
+    on = np.flatnonzero((near.engaged == st.engaged) & ~ended)
+    st.engaged[i] = near.engaged[i]
+    if on.size:
+        ended[on] |= _climb(kernel, st, on, near.take(on), sign, out)
     return st.take(np.flatnonzero(~ended))
 
 
-def _step(kernel, st: _State, i, near: Period, sign: float, out: Approach):
-    """Move the states ``i`` (not engaged anew or released at the section); returns which have ended."""
-    sub = st.take(i)
-    s, order = sub.s, sub.order
-    scale = s.size_of_lengths
-    r = np.maximum(sign * order.to_e(near.dz), 0.0)
-    plain = propagation(s, order, near, None) if sub.floor is None else sub.floor
-    sure = _valid(solve_order(plain, r))
-    exact = propagation(s, order, near, exact_monodromy(s, near))
-    window = np.minimum(_window(sure, solve_order(exact, r), sub.reach), sub.room)
-    window = np.maximum(window, np.minimum(sub.least * scale * _inward(exact), sub.room))
-    far = march(kernel, s, sub.engaged, sub.z + sign * order.to_z(window), sub.start)
-    out.evaluations[sub.index] += far.evaluations
-    lower, upper = (near, far) if sign > 0 else (far, near)
-    alike = (
-        (near.engaged == far.engaged) & (lower.onsets == 1) & (upper.onsets == 1) & (lower.releases == 1) & (upper.releases == 1)
-    )
-    bound = propagation(s, order, lower, least_monodromy(s, order, lower, upper, alike))
-    inner = _valid(solve_order(bound, r))
-    wanted = np.max(np.divide(inner, window, out=np.zeros_like(inner), where=window > 0), axis=0)
-    inner = inner / np.maximum(wanted, 1.0)
-    mapped = r + window + np.einsum("Nij,jN->iN", bound, window)
-    clear = np.all(mapped > window, axis=0) & ~far.lost
-    step = np.maximum(np.where(far.lost, 0.0, inner), sure)
-    step = np.where(clear, np.maximum(step, window), step)
-    beyond = sign * order.to_e(far.dz)
-    turned = (far.engaged == sub.engaged) & np.all(beyond <= 0, axis=0) & ~far.lost & ~clear
-    back = _valid(solve_order(bound, np.maximum(-beyond, 0.0)))
-    room = np.where(turned, np.maximum(window - back, step), sub.room)
-    ends = _edges(lower), _edges(upper)
-    inside = turned | np.all(window >= sub.room, axis=0)
-    done = inside & alike & (lower.contacts == upper.contacts) & (lower.contacts <= 1) & _close(*ends)
+def _climb(kernel, st: _State, i, near: Period, sign: float, out: Approach):
+    """Move the states ``i`` (not engaged anew or released at the section) along a chain; returns which have ended."""
+    sub, N = st.take(i), i.size
+    s, order, every = sub.s, sub.order, np.arange(N)
+    distance = _chain(sub, near, sign)
+    count = distance.shape[1]
+    many = np.tile(every, count)
+    strips, there, away = s.take(many), order.take(many), distance.reshape(len(distance), -1)
+    marches = march(kernel, strips, sub.engaged[many], sub.z[:, many] + sign * there.to_z(away), sub.start[many])
+    np.add.at(out.evaluations, sub.index[many], marches.evaluations)
+    moves = sign * there.to_e(marches.dz)
+    stays = (marches.engaged == sub.engaged[many]) & ~marches.lost
+
+    def ends(k, j):
+        """Lower and upper ones of the marches ``k`` and of those beyond, ``j``."""
+        one, two = marches.take(k), marches.take(j)
+        return (one, two) if sign > 0 else (two, one)
+
+    def slope(k, along=None):
+        lower, upper = ends(k, k + N)
+        least = least_monodromy(strips.take(k), there.take(k), lower, upper, alike(lower, upper))
+        return propagation(strips.take(k), there.take(k), lower, least, along)
+
+    grow = (stays & np.all(moves >= 0, axis=0)).reshape(count, N)
+    link = np.flatnonzero(np.cumprod(grow[:-1] & grow[1:], axis=0).ravel())
+    clear = np.zeros((count - 1) * N, bool)
+    if link.size:
+        step = away[:, link + N] - away[:, link]
+        left = moves[:, link] + slope(link, step)[:, :, 0].T
+        clear[link] = np.all((left > 0) | (step == 0), axis=0)
+    reached = np.cumprod(clear.reshape(count - 1, N), axis=0).sum(axis=0)
+    last = reached * N + every
+    moved = away[:, last]
+    # where no link is clear: by what the bound over the first one tells of a part of it
+    k = np.flatnonzero((reached == 0) & ~marches.lost[every + N])
+    if k.size:
+        inner = _valid(solve_order(slope(k), np.maximum(moves[:, k], 0.0)))
+        width = away[:, k + N]
+        wanted = np.max(np.divide(inner, width, out=np.zeros_like(inner), where=width > 0), axis=0)
+        moved[:, k] = np.maximum(inner / np.maximum(wanted, 1.0), np.minimum(np.maximum(moves[:, k], 0.0), sub.room[:, k]))
+    # the first state that is mapped inwards, or is known to lie beyond the orbit
+    beyond = stays & np.all(moves <= 0, axis=0) | np.all(away >= sub.room[:, many], axis=0)
+    beyond = beyond.reshape(count, N) & (np.arange(count)[:, None] > reached)
+    inside, first = beyond.any(axis=0), beyond.argmax(axis=0) * N + every
+    lower, upper = ends(last, np.where(inside, first, last))
+    edges = _edges(lower), _edges(upper)
+    done = inside & alike(lower, upper) & (lower.contacts == upper.contacts) & (lower.contacts <= 1)
+    wide = np.flatnonzero(done & ~_close(*edges, NARROW) & _close(*edges, _NEAR))
+    done &= _close(*edges, NARROW)
+    if wide.size:
+        done[wide] = contracts(s.take(wide), order.take(wide), lower.take(wide), upper.take(wide))
     at = sub.index[done]
     out.kind[at] = ORBIT
-    out.lower[:, at], out.upper[:, at] = ends[0][:, done], ends[1][:, done]
-    st.z[:, i] += sign * order.to_z(step)
-    st.room[:, i] = np.maximum(room - step, 0.0)
-    small = ~turned & np.all(window <= 2 * sub.least * scale, axis=0)
-    st.least[i] = np.where(small, np.minimum(4 * sub.least, _WIDEST), sub.least)
-    st.reach[i] = np.where(clear | (wanted > 1), 2 * sub.reach, np.maximum(0.5 * sub.reach, 2.0))
+    out.lower[:, at], out.upper[:, at] = edges[0][:, done], edges[1][:, done]
+    st.z[:, i] += sign * order.to_z(moved)
+    st.room[:, i] = np.maximum(np.where(inside, away[:, first], sub.room) - moved, 0.0)
     # rounding alone decides the signs here, whatever the width: not to be certified
+    small = (reached == 0) & np.all(away[:, every + N] <= 2 * sub.least * s.size_of_lengths, axis=0)
+    st.least[i] = np.where(small, 4 * sub.least, sub.least)
     return done | (small & (sub.least >= _WIDEST))
 
 
-def _window(sure, newton, reach):
-    """Width of the window to look at: a little more than Newton's step where that makes sense, at most ``reach`` times
-    the sure step."""
-    widest = reach * sure
-    good = np.all(np.isfinite(newton) & (newton >= sure * (1 - 1e-6)), axis=0)
-    ratio = np.divide(widest, newton, out=np.full(sure.shape, np.inf), where=(newton > 0) & good)
-    factor = np.minimum(1.25, ratio.min(axis=0))
-    return np.where(good, np.maximum(factor * np.where(good, newton, 0.0), sure), widest)
+def _chain(st: _State, near: Period, sign: float) -> np.ndarray:
+    """Distances (n, count, N) of the states of a chain from the bounding ones, ascending from 0."""
+    r = np.maximum(sign * st.order.to_e(near.dz), 0.0)
+    exact = propagation(st.s, st.order, near, exact_monodromy(st.s, near))
+    newton = solve_order(exact, r)
+    ahead = np.all((newton >= 0) & (newton <= st.room), axis=0)
+    direction = np.where(ahead | np.all(newton >= 0, axis=0), newton, np.where(np.all(newton <= 0, axis=0), -newton, r))
+    farthest = np.divide(st.room, direction, out=np.full(r.shape, np.inf), where=direction > 0).min(axis=0)
+    chain = np.where(ahead, _AHEAD[:, None], _AWAY[:, None] * np.minimum(1.0, farthest / _AWAY[-1])) * direction[:, None]
+    least = st.least * st.s.size_of_lengths * _inward(exact)
+    chain[:, 1:] = np.maximum(chain[:, 1:], least[:, None])
+    return np.minimum(chain, st.room[:, None])
 
 
 def _inward(change):
@@ -212,6 +239,6 @@ def _edges(p: Period):
     return np.array([p.onset, p.entry, p.exit, p.release])
 
 
-def _close(one, two):
+def _close(one, two, apart):
     """Edges of the two ends agree, NaN with NaN."""
-    return np.all((np.abs(one - two) <= NARROW) | (np.isnan(one) & np.isnan(two)), axis=0)
+    return np.all((np.abs(one - two) <= apart) | (np.isnan(one) & np.isnan(two)), axis=0)

@@ -120,8 +120,8 @@ def least_monodromy(s: ModeStrips, order: Order, lower: Period, upper: Period, a
     gaps = [np.maximum(one[0] - other[1], 0.0) for one, other in (events, events[::-1])]
     later = events[0][0] > events[1][1]
     span = np.where(later, events[0][1] - events[1][0], events[1][1] - events[0][0])
-    kicked = order.to_z(np.broadcast_to(order.rate, (s.modes, s.size)))
-    between = np.maximum(_least_sum(kicked, s, np.where(later, gaps[0], gaps[1]), np.nan_to_num(span)), 0.0)
+    times = np.where(later, gaps[0], gaps[1]), np.nan_to_num(span)
+    between = np.maximum(_least_sums(np.ones((1, s.modes)), _kick(s), s, *times)[0], 0.0)
     return Monodromy(np.where(taken[0], 0.0, onset), shrink(late), fading(late),
                  np.where(taken[1], 0.0, release), fading(early), shrink(early), pair, between)  # fmt: skip
 
@@ -137,9 +137,8 @@ def _saltation(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, 
         closing, closes = closing_times(s, order, lower, upper)
         after, inside = np.where(holds & closes, closing, after), inside | holds & closes
     before = np.where(inside, event - start, 0.0)
-    kicked = order.to_z(np.broadcast_to(order.rate, (s.modes, s.size)))
-    row = np.stack([_least_sum(np.broadcast_to(order.share[:, k], kicked.shape), s, *before) for k in range(s.modes)])
-    column = np.stack([_least_sum(order.back[i] * kicked, s, *after) for i in range(s.modes)])
+    row = _least_sums(np.swapaxes(order.share, 0, 1), np.ones((s.modes, s.size)), s, *before)
+    column = _least_sums(order.back, _kick(s), s, *after)
     return Saltation(np.where(inside, gain, 0.0), np.maximum(row, 0.0), np.maximum(column, 0.0))
 
 
@@ -175,23 +174,31 @@ def closing_times(s: ModeStrips, order: Order, lower: Period, upper: Period):
     return times, known & found[1] & np.isfinite(times).all(axis=0)
 
 
-def _least_sum(amplitudes, s: ModeStrips, short, long):
-    """Lower bound of ``sum_j amplitude_j exp(-t/beta_j)`` for t from ``short`` to ``long``."""
+def _kick(s: ModeStrips):
+    """Rates of the gap's modes (n, N) where w steps by one."""
+    return np.broadcast_to(s.m.J * rates(s.m.beta) / s.m.J_0, (s.modes, s.size))
+
+
+def _least_sums(matrix, amplitudes, s: ModeStrips, short, long):
+    """Lower bounds of ``sum_j matrix_ij amplitude_j exp(-t/beta_j)`` for t from ``short`` to ``long``."""
     rate = rates(s.m.beta)
-    return (amplitudes * np.where(amplitudes > 0, np.exp(-long * rate), np.exp(-short * rate))).sum(axis=0)
+    rising, falling = np.maximum(matrix, 0.0), np.minimum(matrix, 0.0)
+    sums = [np.einsum("ij...,j...->i...", part, amplitudes * np.exp(-t * rate)) for part, t in ((rising, long), (falling, short))]
+    return sums[0] + sums[1]
 
 
-def propagation(s: ModeStrips, order: Order, period: Period, gains: Monodromy | None) -> np.ndarray:
-    """Derivative of the period map less the identity, (N, n, n), with the given gains or none."""
+def propagation(s: ModeStrips, order: Order, period: Period, gains: Monodromy | None, along=None) -> np.ndarray:
+    """Derivative of the period map less the identity, (N, n, n), with the given gains or none; ``along`` deviations (n, N) alone
+    (N, n, 1)."""
     n, N = s.modes, period.dz.shape[1]
-    change = np.zeros((N, n, n))
-    eye = np.eye(n)
+    ahead = np.broadcast_to(np.eye(n), (N, n, n)) if along is None else along.T[:, :, None]
+    change = np.zeros(ahead.shape)
     share, back = np.moveaxis(order.share, -1, 0), np.moveaxis(order.back, -1, 0)
-    pending = [np.zeros((N, n)), np.zeros((N, n))]  # rows of the gains by modes whose second zone has not ended
+    pending = [np.zeros((N, change.shape[2])) for _ in range(2)]  # rows of the gains by modes whose second zone has not ended
     waiting = [np.zeros(N, bool), np.zeros(N, bool)]
     for zone in period.zones:
         i, length = zone.index, zone.end - zone.start
-        X = eye + change[i]
+        X = ahead[i] + change[i]
         ripe = [each[i] for each in waiting]
         contact = zone.letter == CONTACT
         times = np.where(contact, pick(s.m.alpha, i), pick(s.m.beta, i))
@@ -220,17 +227,17 @@ def propagation(s: ModeStrips, order: Order, period: Period, gains: Monodromy | 
         if gains is not None:
             onset = np.flatnonzero((zone.letter == FREE) & (zone.following >= 0))
             release = np.flatnonzero((zone.letter == ADHESION) & (zone.following == FREE))
-            _gain(change, eye, order, i[onset], gains.onset, gains.onset_column, gains.onset_row)
-            _gain(change, eye, order, i[release], gains.release, gains.release_column, gains.release_row)
+            _gain(change, ahead, order, i[onset], gains.onset, gains.onset_column, gains.onset_row)
+            _gain(change, ahead, order, i[release], gains.release, gains.release_column, gains.release_row)
     return change
 
 
-def _gain(change, eye, order: Order, i, gain, column, row):
+def _gain(change, ahead, order: Order, i, gain, column, row):
     if not i.size:
         return
     left = (gain[i] * pick(column, i) * pick(order.rate, i)).T
     right = (pick(row, i) * pick(order.g, i)).T
-    change[i] += left[:, :, None] * (right[:, None, :] @ (eye + change[i]))
+    change[i] += left[:, :, None] * (right[:, None, :] @ (ahead[i] + change[i]))
 
 
 def solve_order(change: np.ndarray, r: np.ndarray) -> np.ndarray:
