@@ -113,7 +113,7 @@ class _Batch:
                 self._first(index[held[rest]], z[:, rest], np.ones(rest.size, bool), False)
         left = np.flatnonzero((found.kind == UNRESOLVED) | ((found.kind == ENGAGED) & (not ask)))
         if left.size:
-            self._thorough(index[left], found.z[:, left], found.engaged[left])
+            self._thorough(index[left], found.z[:, left], found.engaged[left], found.beyond[:, left])
 
     def _always_engaged(self, index, sequence, near=None):
         """Solve the always engaged orbits of the strips ``index``; write those that are orbits of the strip.
@@ -130,10 +130,10 @@ class _Batch:
         self._write(index[k], "ac", sequence, s.take(k).raised(), edges[:, k])
         return z, known
 
-    def _thorough(self, index, z, engaged):
+    def _thorough(self, index, z, engaged, beyond):
         """The same by windows between two states, closed in on the first orbit however slowly."""
         s, start = self.strips.take(index), self.start[index]
-        found = approach(self.kernel, s, z, engaged, start, self.unloading)
+        found = approach(self.kernel, s, z, engaged, start, self.unloading, beyond)
         self._found(index, found)
         self._free(index[found.kind == FREE])
         held = index[found.kind == ENGAGED]

@@ -21,9 +21,9 @@ from .polish import polish
 from .problem import ModeStrips
 from .propagation import Order, least_monodromy, propagation, solve_order
 
-#: rounds of bounding states, and those in which Newton's method starts from them: after one period a bounding state is free where
-#: the orbits are, before that nothing can be proven (with starts in rounds 0, 2, 5 a fifth to a tenth more calls of NumPy)
-_ROUNDS, _STARTS = 8, (1, 4)
+#: rounds of bounding states, and the one in which Newton's method starts from them: after one period a bounding state is free
+#: where the orbits are, before that nothing can be proven
+_ROUNDS, _START = 5, 1
 #: how far Newton's method may take an edge from where it starts, radians: further away other regimes begin
 _FURTHEST = 1.5
 _CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
@@ -38,14 +38,15 @@ SEQUENCES = ("", "acaf", "afc", "af")
 @dataclass(slots=True)
 class Extremal:
     """Outcome for N strips: ``kind`` (see ``order``); orbits by ``edges`` (4, N) in the order d, b, a, c, of the regime
-    ``sequence`` (place in ``SEQUENCES``); of strips unresolved the bounding state ``z`` and whether it is ``engaged``;
-    evaluations; the marches that were ``held`` engaged all along."""
+    ``sequence`` (place in ``SEQUENCES``); of strips unresolved the bounding state ``z``, whether it is ``engaged``, and
+    displacements e of an orbit or ``beyond`` all, (n, N); evaluations; the marches that were ``held`` engaged all along."""
 
     kind: np.ndarray
     edges: np.ndarray
     sequence: np.ndarray
     z: np.ndarray
     engaged: np.ndarray
+    beyond: np.ndarray
     evaluations: np.ndarray
     held: Period
 
@@ -65,8 +66,9 @@ def highest_state(kernel, s: ModeStrips) -> np.ndarray:
 
 def extremal(kernel, s: ModeStrips, start, z, engaged, rising: bool) -> Extremal:
     """The first orbit above (``rising``) or below the states ``z`` (n, N) at the phases ``start``."""
+    beyond = np.broadcast_to(np.maximum(s.D, 0.0) if rising else -s.p_0, z.shape).copy()
     out = Extremal(np.full(s.size, UNRESOLVED), np.full((4, s.size), np.nan), np.zeros(s.size, int), z.copy(), engaged.copy(),
-                   np.zeros(s.size), Period.blank(s.modes, s.size))  # fmt: skip
+                   beyond, np.zeros(s.size), Period.blank(s.modes, s.size))  # fmt: skip
     work = _Rounds(kernel, s, np.array(start, float), out, rising)
     for number in range(_ROUNDS):
         if not work.active.size:
@@ -84,7 +86,6 @@ class _Rounds:
         self.found = np.zeros(s.size, bool)
         self.period, self.low = (Period.blank(s.modes, s.size) for _ in range(2))
         self.marched = np.zeros(s.size, bool)
-        self.state = np.zeros_like(out.z)
 
     def round(self, number: int) -> None:
         """March once from every bounding state; decide what that decides, and move the others."""
@@ -100,9 +101,8 @@ class _Rounds:
         out.held.put(i[k], near.take(k))
         ended = held | lets | near.lost
         changed = (near.engaged != out.engaged[i]) & ~ended
-        if number in _STARTS:
-            again = number in _STARTS[-2:]  # what has been found by now may not be the first orbit
-            self._newton(i, s, near, np.flatnonzero(~ended & (again | ~self.found[i])))
+        if number == _START:
+            self._newton(i, s, near, np.flatnonzero(~ended))
         known = np.flatnonzero(self.found[i] & ~ended)
         r = np.maximum(self.sign * order.to_e(near.dz), 0.0)
         move = r.copy()
@@ -115,7 +115,7 @@ class _Rounds:
             ended[known[proven]] = True
             bound = propagation(part, there, lower, least_monodromy(part, there, lower, upper, alike(lower, upper)))
             move[:, known] = np.maximum(move[:, known], _valid(solve_order(bound, r[:, known])))
-            room = np.maximum(self.sign * there.to_e(self.state[:, i[known]] - out.z[:, i[known]]), 0.0)
+            room = np.maximum(self.sign * (out.beyond[:, i[known]] - there.to_e(out.z[:, i[known]])), 0.0)
             move[:, known] = np.minimum(move[:, known], room)
         alone = np.flatnonzero(~self.found[i] & ~ended & ~changed)
         if alone.size:
@@ -172,7 +172,7 @@ class _Rounds:
         if not index.size:
             return
         self.found[index] = True
-        self.state[:, index] = z[:, ok]
+        self.out.beyond[:, index] = self.order.take(index).to_e(z[:, ok])
         self.out.sequence[index] = number
         self.out.edges[np.array(ROWS[sequence])[:, None], index] = solved[:, k]
         self.period.put(index, period.take(np.flatnonzero(ok)))

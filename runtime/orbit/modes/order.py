@@ -90,8 +90,8 @@ class Approach:
 
 @dataclass(slots=True)
 class _State:
-    """Strips still on their way. ``least``: least width of a window; ``room``: distance to a state known to lie beyond the
-    orbit, in e; ``other``: the one known from the start."""
+    """Strips still on their way. ``near``: the period from their states; ``least``: least width of a window; ``room``: distance
+    to a state known to lie beyond the orbit, in e; ``beyond``: the one known from the start."""
 
     index: np.ndarray
     s: ModeStrips
@@ -99,23 +99,33 @@ class _State:
     engaged: np.ndarray
     z: np.ndarray
     start: np.ndarray
+    near: Period
     least: np.ndarray
     room: np.ndarray
-    other: np.ndarray
+    beyond: np.ndarray
 
     def take(self, i) -> _State:
         return _State(self.index[i], self.s.take(i), self.order.take(i), self.engaged[i], self.z[:, i], self.start[i],
-                      self.least[i], self.room[:, i], self.other[:, i])  # fmt: skip
+                      self.near.take(i), self.least[i], self.room[:, i], self.beyond[:, i])  # fmt: skip
+
+    def march(self, kernel, i, out: Approach) -> None:
+        """Follow the states ``i`` for a period."""
+        near = march(kernel, self.s.take(i), self.engaged[i], self.z[:, i], self.start[i])
+        out.evaluations[self.index[i]] += near.evaluations
+        self.near.put(i, near)
 
 
-def approach(kernel, s: ModeStrips, z, engaged, start, rising: bool) -> Approach:
-    """Iterate from the states ``z`` (n, N) at the phases ``start``, below (``rising``) or above every orbit, to the first one."""
+def approach(kernel, s: ModeStrips, z, engaged, start, rising: bool, beyond) -> Approach:
+    """Iterate from the states ``z`` (n, N) at the phases ``start``, below (``rising``) or above every orbit, to the first one.
+
+    ``beyond``: displacements e of an orbit, or of a state beyond all, (n, N)."""
     N = s.size
     out = Approach(np.full(N, UNRESOLVED), np.full((4, N), np.nan), np.full((4, N), np.nan), np.zeros(N), np.zeros(N, int))
     order = Order.of(kernel, s)
-    other = np.broadcast_to(np.maximum(s.D, 0.0) if rising else -s.p_0, z.shape)
-    room = np.maximum((1.0 if rising else -1.0) * (other - order.to_e(z)), 0.0)
-    st = _State(np.arange(N), s, order, engaged.copy(), z.copy(), np.array(start, float), np.full(N, _LEAST), room, other)
+    room = np.maximum((1.0 if rising else -1.0) * (beyond - order.to_e(z)), 0.0)
+    st = _State(np.arange(N), s, order, engaged.copy(), z.copy(), np.array(start, float), Period.blank(s.modes, N),
+                np.full(N, _LEAST), room, beyond)  # fmt: skip
+    st.march(kernel, st.index, out)
     for _ in range(_STEPS):
         if not st.index.size:
             break
@@ -125,8 +135,7 @@ def approach(kernel, s: ModeStrips, z, engaged, start, rising: bool) -> Approach
 
 def _advance(kernel, st: _State, rising: bool, out: Approach) -> _State:
     sign = 1.0 if rising else -1.0
-    near = march(kernel, st.s, st.engaged, st.z, st.start)
-    out.evaluations[st.index] += near.evaluations
+    near = st.near
     out.steps[st.index] += 1
     # the ends of the iteration that need no orbit with both an onset and a release
     held = near.never_free & (not rising)
@@ -135,19 +144,21 @@ def _advance(kernel, st: _State, rising: bool, out: Approach) -> _State:
     ended = near.lost | held | lets
     i = np.flatnonzero((near.engaged != st.engaged) & ~ended)
     st.z[:, i] += near.dz[:, i]
-    st.room[:, i] = np.maximum(sign * (st.other[:, i] - st.order.take(i).to_e(st.z[:, i])), 0.0)
+    st.room[:, i] = np.maximum(sign * (st.beyond[:, i] - st.order.take(i).to_e(st.z[:, i])), 0.0)
     on = np.flatnonzero((near.engaged == st.engaged) & ~ended)
     st.engaged[i] = near.engaged[i]
     if on.size:
-        ended[on] |= _climb(kernel, st, on, near.take(on), sign, out)
+        ended[on] |= _climb(kernel, st, on, sign, out)
+    if i.size:
+        st.march(kernel, i, out)
     return st.take(np.flatnonzero(~ended))
 
 
-def _climb(kernel, st: _State, i, near: Period, sign: float, out: Approach):
+def _climb(kernel, st: _State, i, sign: float, out: Approach):
     """Move the states ``i`` (not engaged anew or released at the section) along a chain; returns which have ended."""
     sub, N = st.take(i), i.size
     s, order, every = sub.s, sub.order, np.arange(N)
-    distance = _chain(sub, near, sign)
+    distance = _chain(sub, sign)
     count = distance.shape[1]
     many = np.tile(every, count)
     strips, there, away = s.take(many), order.take(many), distance.reshape(len(distance), -1)
@@ -177,38 +188,44 @@ def _climb(kernel, st: _State, i, near: Period, sign: float, out: Approach):
     last = reached * N + every
     moved = away[:, last]
     # where no link is clear: by what the bound over the first one tells of a part of it
-    k = np.flatnonzero((reached == 0) & ~marches.lost[every + N])
-    if k.size:
-        inner = _valid(solve_order(slope(k), np.maximum(moves[:, k], 0.0)))
-        width = away[:, k + N]
+    short = np.flatnonzero(reached == 0)
+    if short.size:
+        width, gone = away[:, short + N], np.maximum(moves[:, short], 0.0)
+        inner = np.where(marches.lost[short + N], 0.0, _valid(solve_order(slope(short), gone)))
         wanted = np.max(np.divide(inner, width, out=np.zeros_like(inner), where=width > 0), axis=0)
-        moved[:, k] = np.maximum(inner / np.maximum(wanted, 1.0), np.minimum(np.maximum(moves[:, k], 0.0), sub.room[:, k]))
+        moved[:, short] = np.maximum(inner / np.maximum(wanted, 1.0), np.minimum(gone, sub.room[:, short]))
     # the first state that is mapped inwards, or is known to lie beyond the orbit
     beyond = stays & np.all(moves <= 0, axis=0) | np.all(away >= sub.room[:, many], axis=0)
     beyond = beyond.reshape(count, N) & (np.arange(count)[:, None] > reached)
     inside, first = beyond.any(axis=0), beyond.argmax(axis=0) * N + every
-    lower, upper = ends(last, np.where(inside, first, last))
+    done = np.zeros(N, bool)
+    pair = np.flatnonzero(inside)
+    lower, upper = ends(last[pair], first[pair])
     edges = _edges(lower), _edges(upper)
-    done = inside & alike(lower, upper) & (lower.contacts == upper.contacts) & (lower.contacts <= 1)
-    wide = np.flatnonzero(done & ~_close(*edges, NARROW) & _close(*edges, _NEAR))
-    done &= _close(*edges, NARROW)
-    if wide.size:
-        done[wide] = contracts(s.take(wide), order.take(wide), lower.take(wide), upper.take(wide))
+    shared = alike(lower, upper) & (lower.contacts == upper.contacts) & (lower.contacts <= 1)
+    done[pair] = shared & _close(*edges, NARROW)
+    near = np.flatnonzero(shared & ~done[pair] & _close(*edges, _NEAR))
+    if near.size:
+        k = pair[near]
+        done[k] = contracts(s.take(k), order.take(k), lower.take(near), upper.take(near))
     at = sub.index[done]
     out.kind[at] = ORBIT
-    out.lower[:, at], out.upper[:, at] = edges[0][:, done], edges[1][:, done]
+    out.lower[:, at], out.upper[:, at] = edges[0][:, done[pair]], edges[1][:, done[pair]]
     st.z[:, i] += sign * order.to_z(moved)
     st.room[:, i] = np.maximum(np.where(inside, away[:, first], sub.room) - moved, 0.0)
+    st.near.put(i, marches.take(last))
+    if short.size:
+        st.march(kernel, i[short], out)
     # rounding alone decides the signs here, whatever the width: not to be certified
     small = (reached == 0) & np.all(away[:, every + N] <= 2 * sub.least * s.size_of_lengths, axis=0)
     st.least[i] = np.where(small, 4 * sub.least, sub.least)
     return done | (small & (sub.least >= _WIDEST))
 
 
-def _chain(st: _State, near: Period, sign: float) -> np.ndarray:
+def _chain(st: _State, sign: float) -> np.ndarray:
     """Distances (n, count, N) of the states of a chain from the bounding ones, ascending from 0."""
-    r = np.maximum(sign * st.order.to_e(near.dz), 0.0)
-    exact = propagation(st.s, st.order, near, exact_monodromy(st.s, near))
+    r = np.maximum(sign * st.order.to_e(st.near.dz), 0.0)
+    exact = propagation(st.s, st.order, st.near, exact_monodromy(st.s, st.near))
     newton = solve_order(exact, r)
     ahead = np.all((newton >= 0) & (newton <= st.room), axis=0)
     direction = np.where(ahead | np.all(newton >= 0, axis=0), newton, np.where(np.all(newton <= 0, axis=0), -newton, r))

@@ -12,8 +12,10 @@ _ITERATIONS = 12
 #: steps larger than this are corrections, whatever the one before was
 _ROUNDING_LIMITED = 1e-7
 _EPS = np.finfo(float).eps
-#: a step expected to be this small is not taken; steps as large as that after so many lead nowhere
-_SETTLED, _LOST, _LOST_AFTER = 2 * _EPS, 0.1, 4
+#: a step expected to be this small is not taken; steps as large as that after so many, or that hardly shrink, lead nowhere
+_SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * _EPS, 0.1, 4, 0.7
+#: after a step as small as this, and so much smaller than the one before, the derivatives are good for all further ones
+_KNOWN, _FASTER = 1e-3, 0.1
 
 
 @dataclass(slots=True)
@@ -39,13 +41,15 @@ def polish(kernel, sequence: str, strips: ModeStrips, edges: np.ndarray, low: np
     edges = edges.copy()
     N = strips.size
     last, attainable, spent = np.full(N, np.inf), np.full(N, np.inf), np.zeros(N)
-    active = np.arange(N)
+    active, inverse, rate = np.arange(N), np.empty((N, len(edges), len(edges))), np.full(N, np.inf)
     for iteration in range(_ITERATIONS):
         s, before = strips.take(active), last[active]
         here = edges[:, active]
-        matrix = _matrix(jacobian(*here, *arguments(s)), here)
-        inverse = _inverse(matrix)
-        step = -np.einsum("Nij,jN->iN", inverse, np.array(np.broadcast_arrays(*residual(*here, *arguments(s)))))
+        fresh = np.flatnonzero((before > _KNOWN) | (rate[active] > _FASTER))
+        if fresh.size:
+            inverse[active[fresh]] = _inverse(_matrix(jacobian(*here[:, fresh], *arguments(s.take(fresh))), here[:, fresh]))
+        inverted = inverse[active]
+        step = -np.einsum("Nij,jN->iN", inverted, np.array(np.broadcast_arrays(*residual(*here, *arguments(s)))))
         spent[active] += 1
         size = np.abs(step).max(axis=0)
         # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction
@@ -55,12 +59,14 @@ def polish(kernel, sequence: str, strips: ModeStrips, edges: np.ndarray, low: np
         edges[:, moved] = np.clip(new, low[:, moved], high[:, moved])
         last[moved] = size[better]
         noise = _noise(kernel, len(edges), s)
-        attainable[moved] = np.einsum("Nij,jN->iN", np.abs(inverse), noise).max(axis=0)[better]
-        # steps that shrink quadratically: the next one need not be taken
-        ahead = size * np.divide(size, before, out=np.ones_like(size), where=(size < before) & np.isfinite(before))
+        attainable[moved] = np.einsum("Nij,jN->iN", np.abs(inverted), noise).max(axis=0)[better]
+        # steps that shrink as fast again: the next one need not be taken
+        rate[active] = np.divide(size, before, out=np.ones_like(size), where=(size < before) & np.isfinite(before))
+        ahead = size * rate[active]
         settled = ahead <= _SETTLED
         last[active[better & settled]] = ahead[better & settled]
-        active = active[better & ~settled & ((iteration < _LOST_AFTER) | (size < _LOST))]
+        on = (size < _LOST) & ((size < _SHRINKS * before) | (size < _ROUNDING_LIMITED)) | (iteration < _LOST_AFTER)
+        active = active[better & ~settled & on]
         if not active.size:
             break
     return Polished(edges, last, attainable, spent)
