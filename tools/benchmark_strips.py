@@ -25,12 +25,16 @@ import numpy as np
 
 import hystrip
 from hystrip.orbit.solution import SEQUENCES
-from hystrip.orbit.start import CONTACT_END, DECADES, ONSET, RELEASE, SLOW
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 DELTA_0 = 1e-8
 PER_LEVEL = 100
 TWO_PI = 2 * math.pi
+#: where the script starts from, medians over random strips: place of the onset in its arc, -1 to 1, by log10 of beta; the end of
+#: contact behind the start of its arc, as a share of it, on slow foundations; and that of adhesion
+DECADES = (-2.0, -1.0, 0.0, 1.0, 2.0, 3.0)
+ONSET = {"adhesive": (-0.99, -0.9, -0.4, -0.05, -0.1, -0.15), "bare": (-0.99, -0.95, -0.7, -0.4, -0.25, -0.15), "af": (0.9,) * 6}
+CONTACT_END, SLOW, RELEASE = 0.45, 60.0, 0.1
 
 
 def levels(number, rng, alpha=None):

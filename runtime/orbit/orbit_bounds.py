@@ -25,7 +25,6 @@ from .batch import Batch
 from .bound import bound, close_enough
 from .groups import ROUNDING, Cycle
 from .march import TWO_PI
-from .start import onset_guess
 
 _EPS = np.finfo(float).eps
 #: beta above which a foundation remembers too much of the most engaged state for bounds from it to say anything
@@ -76,7 +75,7 @@ def orbit_bounds(kernel, cycle: Cycle) -> OrbitBounds:
         go = np.flatnonzero(released)
         if go.size:
             index, part = index[go], part.among(go)
-            out.x[index], out.missed[index], spent = _onset(kernel, part, c[go], onset_guess(part))
+            out.x[index], out.missed[index], spent = _onset(kernel, part, c[go])
             out.evaluations[index] += spent
     return out
 
@@ -98,8 +97,8 @@ def _release(kernel, cycle: Cycle, b, a, c):
     return a, c, ends & opens, spent
 
 
-def _onset(kernel, cycle: Cycle, c, x):
-    """Onsets (less 2 pi) before the next one of cycles released at c, sought from x, NaN where none was found.
+def _onset(kernel, cycle: Cycle, c):
+    """Onsets (less 2 pi) before the next one of cycles released at c, NaN where none was found.
 
     Also which cycles miss it, and the evaluations spent.
     """
@@ -112,6 +111,8 @@ def _onset(kernel, cycle: Cycle, c, x):
     # a surface out of reach of the undeformed foundation is not met if nothing is left of w that would change its gap
     left = np.abs(kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(far - c, s.beta)
     missed |= (s.D <= -s.delta_0) & (left < 0.25 * _EPS * s.delta_0)
-    start, close = np.clip(x + TWO_PI, far, near), close_enough(s.beta)
+    # where a foundation that stands still meets it
+    start = np.clip(TWO_PI - np.arccos(np.clip(np.cos(c) + cycle.jump, -1.0, 1.0)), far, near)
+    close = close_enough(s.beta)
     x, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, start, far, -1.0, noise, close, spent, near)
     return np.where(found & ~missed, x - TWO_PI, np.nan), missed, spent

@@ -1,11 +1,15 @@
-"""Rough edges to start Newton from. A start that leads astray costs a search, never a wrong orbit.
+"""Rough edges to start Newton from: those of a foundation that stands still while it is out of contact, what all others tend to
+as ``beta`` grows, and are near to at any speed. A start that leads astray costs a search, never a wrong orbit.
 
-Mostly they are where the edges typically lie in their arcs, by how slow the foundation is: medians over random
-strips, nothing more. If nothing relaxes within a period, the foundation stands still at w = W in every gap and
-contact is glassy: the edges lie alike about the crest, ``cos a = 1 - D + W``, ``cos c = cos a - delta_0``, and the
-means of p and w are the same where
+Then w is the same at the end of contact as at the next onset; from one of a period's edges follow all, and that one from the
+balance ``mean(w) = mean(p)``, which holds at any speed (the equation of the foundation, integrated over a period). In
+contact, which is short then, p follows w with the glassy modulus: ``p = -p_0 + (u - u(a))/J``. With ``U = u(a)``, or the height
+at which w stands where there is no contact:
 
-    -pi (D - 1 + cos a) - p_0 c + (beta - alpha)/alpha (sin a - a cos a) = 0.
+    cos a = 1 - D + U,  cos c = cos a - delta_0,  cos x = cos c + chi J p_0,  b = -a, or b = x where contact begins at once,
+    2 pi U + chi J p_0 (2 pi - |x| - c) + p_0 (c + |x|) = (L/J) (sin a - sin b - (a - b) cos a).
+
+The left side less the right falls with the edge at a stable orbit; it rises before and after, next to folds.
 """
 
 from __future__ import annotations
@@ -14,90 +18,102 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .chain import EDGES, TWO_PI
-from .groups import Cycle, Strips
+from .chain import TWO_PI
+from .groups import Cycle
 
 if TYPE_CHECKING:
     from .orbit_bounds import OrbitBounds
 
-#: log10 of beta
-DECADES = (-2.0, -1.0, 0.0, 1.0, 2.0, 3.0)
-#: place of the onset in its arc, -1 to 1: with adhesion, without, and where adhesion never leads to contact
-ONSET = {"adhesive": (-0.99, -0.9, -0.4, -0.05, -0.1, -0.15), "bare": (-0.99, -0.95, -0.7, -0.4, -0.25, -0.15), "af": (0.9,) * 6}
-#: share of its arc that the end of contact lies behind the start of it, long after the forcing turned
-CONTACT_END, SLOW = 0.45, 60.0
-RELEASE = 0.1
+_LEAST = 1e-9
+#: rounds of Newton for the edge, and the largest one they begin at: ``a sin a`` has its maximum there
+_ROUNDS, _LONG = 4, 2.03
 #: contact all but complete, in parts of the pressure's amplitude; by how much the width of its gap is more than where the
 #: saturated field pulls, in parts of that squared, and on a foundation that relaxes at once
 _NEARLY, _WIDER, _QUICKLY = 0.6, 0.27, 0.8
-_LEAST = 1e-9
-#: alpha above which the edges are those of a foundation that stands still; rounds of Newton for them, from a long contact,
-#: and the shortest
-_SLOWLY, _ROUNDS, _LONG, _SHORT = 1.4, 4, 2.0, 0.02
-
-
-def onset_guess(cycle: Cycle, kind: str = "adhesive") -> np.ndarray:
-    """Onset phases, (n,)."""
-    return cycle.centre + np.interp(np.log10(np.maximum(cycle.strips.beta, _LEAST)), DECADES, ONSET[kind]) * cycle.half_d
 
 
 def start(kernel, cycle: Cycle, sequence: str, bounds: OrbitBounds | None = None) -> np.ndarray:
-    """Edges (k, n) in the order of ``chain.EDGES`` for cycles taken to follow ``sequence``; the ``bounds`` on all orbits where
-    known."""
-    s = cycle.strips
-    centre, turned = cycle.centre, cycle.centre + TWO_PI
-    x = onset_guess(cycle, "bare" if sequence in ("ac", "cf") else sequence if sequence == "af" else "adhesive")
+    """Edges (k, n), in the order of ``chain.EDGES``, for cycles taken to follow ``sequence``: of the stable orbit of a foundation
+    that stands still if there is one, else some near its fold. Where adhesion pulls so hard that w moves by more than the
+    amplitude in a period, those of the ``bounds`` on all orbits, if there are any."""
+    edges = _standing_still(kernel, cycle, sequence)
     if bounds is not None:
-        x = np.where(np.isnan(bounds.x), x, bounds.x)
-    edges = {"x": x}
-    last = x
-    if "b" in EDGES[sequence]:
-        end = np.maximum(centre + cycle.half_b, x)
-        closing = np.maximum(kernel.forcing(x, s.D, s.beta) + s.p_0 + cycle.gap_on, _LEAST)
-        edges["b"] = last = x + np.minimum(cycle.gap_on * np.maximum(s.beta, _LEAST) / closing, 0.5 * (end - x))
-    if "a" in EDGES[sequence]:
-        share = CONTACT_END * s.beta / (s.beta + SLOW) + 1e-3
-        edges["a"] = last = np.maximum(centre + cycle.half_b + share * (TWO_PI - 2 * cycle.half_b), last)
-        if bounds is not None:
-            edges["a"] = last = np.where(np.isnan(bounds.x), last, np.maximum(bounds.a, last))
+        s = cycle.strips
+        pulled = np.flatnonzero(~np.isnan(bounds.x) & (TWO_PI * s.p_0 > s.beta))
+        if pulled.size:
+            edges[:, pulled] = _bounding(kernel, cycle.among(pulled), sequence, bounds.take(pulled))
+    return edges
+
+
+def _bounding(kernel, cycle: Cycle, sequence: str, bounds: OrbitBounds) -> np.ndarray:
+    """The edges that bound those of all orbits; contact begins as soon as the gap is closed at the pace it has at the onset."""
+    s, x = cycle.strips, bounds.x
+    pace = np.maximum(kernel.forcing(x, s.D, s.beta) + s.p_0 + cycle.gap_on, _LEAST)
+    b = x + np.minimum(cycle.gap_on * s.beta / pace, 0.5 * np.maximum(cycle.centre + cycle.half_b - x, 0.0))
+    a = np.maximum(b, bounds.a)
+    c = np.maximum(a, bounds.c)
+    return np.array({"acaf": (x, b, a, c), "afc": (x, a, c), "af": (x, c)}[sequence])
+
+
+def _standing_still(kernel, cycle: Cycle, sequence: str) -> np.ndarray:
+    if sequence == "af":
+        c = _without_contact(cycle)
+        return np.array([-_onset(cycle, c), c])
+    a = _contact(cycle)
     if sequence in ("ac", "cf"):
-        _nearly_complete(kernel, cycle, edges)
-    if "c" in EDGES[sequence]:
-        low = np.maximum(last, centre + cycle.half_c)
-        edges["c"] = low + RELEASE * np.maximum(turned - cycle.half_c - low, 0.0)
-        if bounds is not None:
-            edges["c"] = np.where(np.isnan(bounds.x), edges["c"], np.maximum(bounds.c, last))
-    starts = np.array([edges[edge] for edge in EDGES[sequence]])
-    slow = np.flatnonzero(s.alpha > _SLOWLY) if sequence == "acaf" else ()
-    if len(slow):
-        starts[:, slow] = _standing_still(s.take(slow))
-    return starts
+        return _nearly_complete(kernel, cycle, -a, a)
+    c = _release(cycle, a)
+    x = _onset(cycle, c)
+    return np.array([-x, -a, a, c] if sequence == "acaf" else [-x, a, c])
 
 
-def _standing_still(s: Strips) -> np.ndarray:
-    """Edges (4, n) of strips in which nothing relaxes within a period."""
-    glassy = s.L * s.beta / s.alpha
+def _release(cycle: Cycle, a):
+    return np.arccos(np.maximum(np.cos(a) - cycle.strips.delta_0, -1.0))
+
+
+def _onset(cycle: Cycle, c):
+    return np.arccos(np.minimum(np.cos(c) + cycle.jump, 1.0))
+
+
+def _without_contact(cycle: Cycle) -> np.ndarray:
+    """Phase c where no contact is made: ``pi (D - 1 + cos c + delta_0) + p c = 0``, with the onset as far before the crest."""
+    s = cycle.strips
+    pull = (s.p_0 - cycle.jump) / np.pi
+    level = s.D - 1 + s.delta_0 + cycle.jump
+    c = np.arccos(np.clip(-level - 0.5 * np.pi * pull, -1.0, 1.0))
+    low = np.arcsin(np.minimum(pull, 1.0))
+    for _ in range(_ROUNDS):
+        slope = np.minimum(pull - np.sin(c), -_LEAST)
+        c = np.clip(c - (level + np.cos(c) + pull * c) / slope, low, np.pi - low)
+    return c
+
+
+def _contact(cycle: Cycle) -> np.ndarray:
+    """Phase a of the end of contact, from a longer contact."""
+    s = cycle.strips
+    pull = s.p_0 - cycle.jump
+    # on a foundation without instantaneous compliance contact lasts about beta^-1/2
+    glassy = s.L / (s.J + np.maximum(s.beta, _LEAST) ** -1.5)
     longest = np.arccos(np.clip(s.delta_0 - 1, -1.0, 1.0))
-    a = np.minimum(_LONG, 0.9 * longest)
+    a = np.minimum(np.cbrt(3 * np.pi * np.maximum(s.D + s.p_0, 0.0) / (0.65 * glassy + np.pi)), np.minimum(_LONG, 0.9 * longest))
     for _ in range(_ROUNDS):
         cosine, sine = np.cos(a), np.sin(a)
-        c = np.arccos(np.maximum(cosine - s.delta_0, -1.0))
-        balance = glassy * (sine - a * cosine) - np.pi * (s.D - 1 + cosine) - s.p_0 * c
-        slope = sine * (np.pi + glassy * a - s.p_0 / np.maximum(np.sin(c), _LEAST))
-        rising = slope > 0
-        step = np.divide(balance, slope, out=np.zeros_like(a), where=rising)
-        a = np.clip(np.where(rising, a - step, 0.5 * (a + longest)), _SHORT, 0.98 * longest)
-    c = np.arccos(np.maximum(np.cos(a) - s.delta_0, -1.0))
-    return np.array([-c, -a, a, c])
+        c = _release(cycle, a)
+        value = np.pi * (s.D - 1 + cosine + cycle.jump) + pull * c - glassy * (sine - a * cosine)
+        slope = sine * (np.pi + glassy * a - pull / np.maximum(np.sin(c), _LEAST))
+        falls = slope > 0
+        step = np.divide(value, slope, out=np.zeros_like(a), where=falls)
+        a = np.clip(np.where(falls, a + step, 0.5 * (a + longest)), 1e-3 * a, 0.98 * longest)
+    return a
 
 
-def _nearly_complete(kernel, cycle: Cycle, edges: dict[str, np.ndarray]) -> None:
-    """Where the saturated field hardly pulls, contact ends as it begins to and is closed again soon after."""
+def _nearly_complete(kernel, cycle: Cycle, x, a) -> np.ndarray:
+    """Edges (2, n) of strips without adhesion: where the saturated field hardly pulls, contact ends as it begins to and is closed
+    again soon after; elsewhere at x and a."""
     s = cycle.strips
-    ratio = kernel.modulus_ratio(s.alpha, s.beta)
-    pull = 1 - (s.D - 1) / ratio
+    pull = 1 - (s.D - 1) / kernel.modulus_ratio(s.alpha, s.beta)
     near = pull < _NEARLY
     half = 2 * np.arcsin(np.sqrt(np.clip(pull / 2, 0.0, 1.0)))
-    a = np.pi - np.arctan(s.beta) + np.arctan(s.alpha) - half
-    edges["a"] = np.where(near, a, edges["a"])
-    edges["x"] = np.where(near, a - TWO_PI + (2 + _WIDER * half + _QUICKLY / (1 + s.alpha) ** 3) * half, edges["x"])
+    end = np.pi - np.arctan(s.beta) + np.arctan(s.alpha) - half
+    closed = end - TWO_PI + (2 + _WIDER * half + _QUICKLY / (1 + s.alpha) ** 3) * half
+    return np.array([np.where(near, closed, x), np.where(near, end, a)])
