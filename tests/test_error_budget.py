@@ -9,6 +9,8 @@ from hystrip.level.branches import branches, rising
 from hystrip.level.cells import cells_of
 from hystrip.level.curve import Curve
 from hystrip.level.error_budget import ErrorBudget
+from hystrip.level.interval import Interval
+from hystrip.level.inverse import _Walk
 from hystrip.level.law import Law
 from hystrip.level.piece import Errors, Piece
 from hystrip.level.segment import segments_of
@@ -111,7 +113,7 @@ def _branch(p_low, p_high, error):
 @pytest.mark.parametrize("unloading", [True, False])
 def test_a_break_is_known_as_well_as_the_branch_that_ends_there(unloading):
     lower, upper = _branch(-1.0, 1.0, 1e-2), _branch(1.0, 2.0, 1e-6)
-    law = Law(segments_of([lower, upper], np.ones((2, 4))), -1.0, 2.0, np.zeros(4), 2.0, 0, unloading)
+    law = Law(segments_of([lower, upper], np.ones((2, 4))), -1.0, 2.0, np.zeros(4), np.inf, 0, unloading)
     errors = dict(zip(law.breaks, law.at_breaks()[1], strict=True))
     assert errors[1.0] == (1e-6 if unloading else 1e-2)
     assert errors[-1.0] == 1e-2 and errors[2.0] == 1e-6
@@ -128,3 +130,16 @@ def test_loading_does_not_begin_where_the_curve_only_seems_to_rise():
     assert len(rising(falling)) > 0
     (branch,) = branches(Curve([rise, falling], 1.0, 0), unloading=False)
     assert branch.p_low == pytest.approx(-80.0) and branch.p_high == pytest.approx(100.0)
+
+
+@pytest.mark.parametrize("unloading", [True, False])
+@pytest.mark.parametrize("at_once", [True, False])
+def test_a_pressure_in_a_jump_of_the_curve_has_the_friction_of_a_mixture(unloading, at_once):
+    """From 1 to 3 Pa the curve jumps at D = 1, its friction from 1 to 5 Pa."""
+    line = lambda *ends: np.array([np.mean(ends, axis=0), 0.5 * np.subtract(*ends[::-1])])  # noqa: E731
+    none = Errors.constant(np.zeros(2))
+    pieces = [Piece(0.0, 1.0, line((0, 0), (1, 1)), none), Piece(1.0, 2.0, line((3, 5), (4, 6)), none)]
+    walk = _Walk(unloading, 2.0, 1e-6, 1e-6, None, Interval(0, 0.0, 2.0))
+    for some in [pieces] if at_once else [[piece] for piece in (pieces[::-1] if unloading else pieces)]:
+        walk.go_on(Interval(0, some[0].low, some[-1].high), some, False)
+    assert walk.root.D == pytest.approx(1.0) and walk.root.friction_slope == pytest.approx(2.0)

@@ -59,7 +59,7 @@ def table():
     pieces = [_piece(BREAKS[0], BREAKS[1], _lower), _piece(BREAKS[1], BREAKS[2], _upper)]
     segments = segments_of([part for piece in pieces for part in rising(piece)], np.full((2, 4), [1e-8, 1e-8, 1e-13, 1e-13]))
     saturated = np.array([BREAKS[2], 1e5, 1.0, 0.0])
-    return LawTable([Law(segments, BREAKS[0], BREAKS[2], saturated, BREAKS[2], 0, True)])
+    return LawTable([Law(segments, BREAKS[0], BREAKS[2], saturated, np.inf, 0, True)])
 
 
 @pytest.fixture(scope="module")
@@ -149,7 +149,7 @@ def _stepwise(at, low, high, known_to=(0.0, 0.0)):
     segments = segments_of([part for piece in pieces for part in rising(piece)], np.full((2, 4), 1e-9))
     segments = [replace(s, errors=Errors.constant(error)) for s in segments]
     saturated = np.array([BREAKS[2], high, 1.0, 0.0])
-    return Law(segments, BREAKS[0], BREAKS[2], saturated, BREAKS[2], 0, True)
+    return Law(segments, BREAKS[0], BREAKS[2], saturated, np.inf, 0, True)
 
 
 def _carried(law, V=2e-3):
@@ -160,6 +160,15 @@ def _carried(law, V=2e-3):
     inside = (contact.p_peak > BREAKS[1] + 500) & (contact.p_peak < BREAKS[2])
     assert inside.sum() >= 3
     return law.over_contact(strips, np.zeros(columns.size, int))[index[inside]]
+
+
+def test_what_a_law_was_cut_below_is_in_the_error():
+    """Cut so low that nothing of it is left, a law carries nothing as far as is known."""
+    whole = _stepwise(BREAKS[1], 0.0, 6e4)
+    cut = replace(whole, segments=[], pull_off=whole.p_sat, p_top=BREAKS[1])
+    one, other = _carried(whole), _carried(cut)
+    assert not other[:, 0].any() and (one[:, 0] > 10.0).all()
+    assert (one[:, 0] <= 1.001 * other[:, -1]).all()
 
 
 def test_segments_of_a_law_are_merged_where_a_smooth_one_is_as_good():

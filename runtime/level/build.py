@@ -25,8 +25,7 @@ def build_laws(
     ``p_full``, ``D_full`` (n,): where the level, and all it carries, is saturated; ``saturated`` (n, q): means there. ``p_max``
     (n,): greatest pressure that will be asked for, or None for the whole law. ``budget``: how much its pressures count.
     """
-    top = (
-        D_full if p_max is None else np.where(p_max < p_full, cut_penetration(columns, np.minimum(p_max, p_full), D_full), D_full)
-    )
+    p_max = np.full(columns.size, np.inf) if p_max is None else np.maximum(p_max, -columns.adhesion.p_0)
+    top = cut_penetration(columns, p_max, D_full)
     curves = trace(columns, rtol, top, follow=True, budget=budget)
-    return laws_of(curves, columns.branch == "unloading", p_full, saturated, top < D_full)
+    return laws_of(curves, columns.branch == "unloading", p_full, saturated, np.where(top < D_full, p_max, np.inf))

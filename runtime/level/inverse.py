@@ -17,7 +17,7 @@ from .curve import PressureQuery, interpolate
 from .effort import CURVE_LIMIT
 from .interval import Interval
 from .means import level_means
-from .monotone import enclosed
+from .piece import Piece
 from .strips import LevelBatch
 
 #: accuracy of the first look, of the pressure's scale, and how much finer each further one is
@@ -28,8 +28,10 @@ _NEXT = 0.3
 _LOOKS = 12
 #: how much more than the estimated error of the interpolation a turn has to keep away from the pressure
 _DOUBT = 2.0
-_NEWTON, _STEPS = 6, 60
-_CLOSE = 0.3
+#: steps of Newton's method, and of that with bisection; and the share of what is allowed that a pressure may be off
+_NEWTON, _STEPS, _CLOSE = 6, 60, 0.3
+#: accuracy of averages on the way to a root that nothing is known of
+_ROUGH = 1e-2
 #: place of a pressure that loading never comes to carry
 _PULLED_OFF = -1
 _EPS = np.finfo(float).eps
@@ -70,23 +72,27 @@ def invert(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) ->
     D, slope, doubt = np.full(p.size, np.nan), np.zeros(p.size), np.zeros(p.size)
     columns = replace(columns, frictional=True)
     if not columns.adhesion.p_0 > 0:
+        # orbits are in the order of w, which rises with D, no faster: there is one root, and no turn to look for; and w lies
+        # between the profile, 3 h/4 below its crests on average, and these
         loaded = np.flatnonzero(p > 0)
-        if loaded.size:
-            some = columns.at(loaded, D[loaded])
-            D[loaded], slope[loaded], doubt[loaded] = _refine(some, p[loaded], enclosed(some, p[loaded]), rtol)
+        rise = np.full(loaded.size, columns.material.K)
+        low, high = p[loaded] / rise, p[loaded] / rise + 0.75 * columns.level.h
+        D[loaded] = high
+        for accuracy in (max(rtol, _ROUGH), rtol):
+            near = D[loaded], rise, slope[loaded], low.copy(), high.copy()
+            D[loaded], slope[loaded], doubt[loaded] = _refine(columns.at(loaded, low), p[loaded], near, accuracy)
         return Inverse(D, slope, doubt, np.zeros(p.size, bool))
-    descent = _Descent(columns, p, cut_penetration(columns, p, full), rtol)
-    roots = descent.run()
+    roots, undecided = _Descent(columns, p, cut_penetration(columns, p, full), rtol).run()
     found = np.array([i for i, root in enumerate(roots) if root is not None], int)
     if found.size:
         near = [np.array([getattr(roots[i], name) for i in found]) for name in ("D", "slope", "friction_slope", "low", "high")]
         D[found], slope[found], doubt[found] = _refine(columns.at(found, D[found]), p[found], near, rtol)
-    return Inverse(D, slope, doubt, descent.undecided)
+    return Inverse(D, slope, doubt, undecided)
 
 
 @dataclass(frozen=True)
 class _Root:
-    """Where a coarse curve passes the pressure: on ``part``, whose pressures enclose it, or (None) in the jump at ``D``."""
+    """Where a coarse curve passes the pressure: between the penetrations ``low`` and ``high``, or (nan) in the jump at ``D``."""
 
     D: float
     slope: float = 0.0
@@ -98,25 +104,76 @@ class _Root:
 class _Descent:
     """All columns go along their curves together, one piece each at a time."""
 
-    def __init__(self, columns: LevelBatch, p, top, rtol):
-        self.columns, self.p, self.rtol = columns, p, rtol
-        self.unloading = columns.branch == "unloading"
-        scale = columns.scales[0]
-        self.scale, self.finest = np.abs(p) + scale, rtol * (np.abs(p) + 1e-3 * scale)
+    def __init__(self, columns: LevelBatch, p: np.ndarray, top: np.ndarray, rtol: float):
+        self.columns, self.p = columns, p
+        self.scale = np.abs(p) + columns.scales[0]
+        finest = rtol * (np.abs(p) + 1e-3 * columns.scales[0])
         self.inside = threshold_width(columns, top)
-        self.undecided = np.zeros(p.size, bool)
-        #: loading: intervals below zero pressure, and what rises in them, until it is known where it is least
-        self.hanging: list[list[tuple[Interval, list[Branch]]]] = [[] for _ in p]
-        bottom = first_contact(columns)
-        # the next one last; ``unbroken`` ones are known to hold no break
+        bottom, width = first_contact(columns), _NEXT * columns.level.h
         # at the top the curve is but cut, or saturates
-        every = (Interval(i, bottom, D, smooth_high=True) for i, D in enumerate(top))
-        self.waiting = [self._parts(interval) if interval.high > bottom else [] for interval in every]
+        every = [Interval(i, bottom, D, smooth_high=True) for i, D in enumerate(top)]
+        self.walks = [
+            _Walk(columns.branch == "unloading", *of, width if interval.high > bottom else None, interval)
+            for *of, interval in zip(p, np.maximum(_COARSE * self.scale, finest), finest, every, strict=True)
+        ]
+        #: intervals that are known to hold no break
         self.unbroken: set[Interval] = set()
 
-    def _parts(self, interval: Interval) -> list[Interval]:
+    def run(self) -> tuple[list[_Root | None], np.ndarray]:
+        """Where each column carries its pressure (None: nowhere), and which are undecided."""
+        strips = np.zeros(self.p.size, int)
+        while now := self._next():
+            goal = np.array([walk.goal for walk in self.walks])
+            pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), now, strips, PressureQuery(self.p, goal))
+            for interval in now:
+                i = interval.column
+                self.walks[i].go_on(interval, pieces[i], bool(strips[i] > CURVE_LIMIT))
+        return [walk.root for walk in self.walks], np.array([walk.undecided for walk in self.walks])
+
+    def _next(self) -> list[Interval]:
+        """The next interval of every column, taken from those that wait, free of breaks."""
+        rows = [walk.waiting for walk in self.walks]
+        fresh = [row.pop() for row in rows if row and row[-1] not in self.unbroken]
+        if fresh:
+            share = np.linspace(0, 1, _LOOKS)
+            D = np.array([i.low + (i.high - i.low) * share for i in fresh])
+            found, _ = breaks_on(self.columns, np.array([i.column for i in fresh]), D)
+            for interval, breaks in zip(fresh, found, strict=True):
+                parts = self._between(interval, breaks)
+                self.unbroken.update(parts)
+                self.walks[interval.column].waits(parts)
+        return [row.pop() for row in rows if row]
+
+    def _between(self, interval: Interval, breaks: np.ndarray) -> list[Interval]:
+        """The parts of an interval between its breaks, ascending."""
+        parts, rest, inside = [], interval, self.inside[interval.column]
+        for D in breaks:
+            if D - inside > rest.low:
+                parts.append(replace(rest, high=D - inside, inner_high=False, smooth_high=False))
+            rest = replace(rest, low=min(D + inside, rest.high), inner_low=False, smooth_low=False)
+        return [part for part in (*parts, rest) if part.high > part.low]
+
+
+class _Walk:
+    """One column along its curve, from the end its branch comes from to where it first passes the pressure ``p``.
+
+    ``goal``: error of the curve's pressure that it may have so far, at last ``finest``, Pa. ``width``: of the first part that is
+    looked at, m; None if there is no curve.
+    """
+
+    def __init__(self, unloading: bool, p: float, goal: float, finest: float, width: float | None, interval: Interval):
+        self.unloading, self.p, self.goal, self.finest = unloading, p, goal, finest
+        #: intervals ahead, the next one last
+        self.waiting = [] if width is None else self._growing(interval, width)
+        #: loading to less than no pressure: what was gone along until it is known where the curve is least, and rises there
+        self.held: list[tuple[Interval, list[Branch]]] = []
+        self.passed: Branch | None = None
+        self.root: _Root | None = None
+        self.undecided = False
+
+    def _growing(self, rest: Interval, width: float) -> list[Interval]:
         """An interval in parts that grow from the end at which the branch arrives; the last one first."""
-        parts, rest, width = [], interval, _NEXT * self.columns.level.h
+        parts = []
         while rest.high - rest.low > 2 * width:
             lower, upper = rest.split(rest.high - width if self.unloading else rest.low + width, soft=True)
             rest, part = (lower, upper) if self.unloading else (upper, lower)
@@ -124,79 +181,51 @@ class _Descent:
             width *= 2
         return [rest, *parts[::-1]]
 
-    def run(self) -> list[_Root | None]:
-        roots: list[_Root | None] = [None] * self.p.size
-        goal = np.maximum(_COARSE * self.scale, self.finest)
-        strips = np.zeros(self.p.size, int)
-        while True:
-            now = self._next()
-            if not now:
-                return roots
-            pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), now, strips, PressureQuery(self.p, goal))
-            for interval in now:
-                i = interval.column
-                row = sorted(pieces[i], key=lambda piece: -piece.low if self.unloading else piece.low)
-                parts = [part for piece in row for part in self._along(piece)]
-                along, hanging = [interval], self.p[i] < 0 and not self.unloading
-                if hanging:
-                    self.hanging[i].append((interval, parts))
-                    parts = [part for _, some in self.hanging[i] for part in some]
-                    if self.waiting[i] and not any(part.p_high >= 0 for part in parts):
-                        continue
-                    parts = loaded(parts)
-                    along, self.hanging[i] = [other for other, _ in self.hanging[i]], []
-                root, doubtful = self._first(parts, self.p[i], goal[i] > self.finest[i])
-                if doubtful and strips[i] > CURVE_LIMIT:
-                    self.undecided[i] = True
-                    root, doubtful = self._first(parts, self.p[i], False)
-                if doubtful:
-                    goal[i] = max(_FINER * goal[i], self.finest[i])
-                    self.waiting[i] += along[::-1]
-                elif root is not None or hanging:
-                    roots[i], self.waiting[i] = root, []
+    def waits(self, ascending: list[Interval]) -> None:
+        """These intervals are next."""
+        self.waiting += ascending if self.unloading else ascending[::-1]
 
-    def _next(self) -> list[Interval]:
-        """The next interval of every column, taken from those that wait, free of breaks."""
-        fresh = [row.pop() for row in self.waiting if row and row[-1] not in self.unbroken]
-        if fresh:
-            share = np.linspace(0, 1, _LOOKS)
-            D = np.array([i.low + (i.high - i.low) * share for i in fresh])
-            found, _ = breaks_on(self.columns, np.array([i.column for i in fresh]), D)
-            for interval, breaks in zip(fresh, found, strict=True):
-                self._put(interval, breaks)
-        return [row.pop() for row in self.waiting if row]
+    def go_on(self, interval: Interval, pieces: list[Piece], exhausted: bool) -> None:
+        """Along the ``pieces`` of an interval; where the work is not ``exhausted`` these may be asked for again, finer."""
+        every = [part for piece in pieces for part in rising(piece)]
+        parts = sorted(every, key=lambda part: (part.piece.low, part.t_low), reverse=self.unloading)
+        along, clings = [interval], self.p < 0 and not self.unloading
+        if clings:
+            self.held.append((interval, parts))
+            parts = [part for _, some in self.held for part in some]
+            if self.waiting and not any(part.p_high >= 0 for part in parts):
+                return
+            parts, along, self.held = loaded(parts), [other for other, _ in self.held], []
+        if self.goal > self.finest and len({self._passing(parts, doubts) for doubts in (-_DOUBT, 0.0, _DOUBT)}) > 1:
+            if not exhausted:
+                self.goal = max(_FINER * self.goal, self.finest)
+                self.waiting += along[::-1]
+                return
+            self.undecided = True
+        self.root = self._root(parts)
+        if self.root is not None or clings:
+            self.waiting = []
+        elif parts:
+            self.passed = parts[-1]
 
-    def _put(self, interval: Interval, breaks) -> None:
-        i, inside = interval.column, self.inside[interval.column]
-        parts, rest = [], interval
-        for D in breaks:
-            if D - inside > rest.low:
-                parts.append(replace(rest, high=D - inside, inner_high=False, smooth_high=False))
-            rest = replace(rest, low=min(D + inside, rest.high), inner_low=False, smooth_low=False)
-        parts.append(rest)
-        parts = [part for part in parts if part.high > part.low]
-        self.unbroken.update(parts)
-        self.waiting[i] += parts if self.unloading else parts[::-1]
+    def _passing(self, parts: list[Branch], doubts: float) -> int | None:
+        """The first part that goes past the pressure, if that is so many errors of the curve greater."""
+        if not self.unloading and parts and self.p + doubts * parts[0].errors.most[0] < min(parts[0].p_low, 0.0):
+            return _PULLED_OFF
+        for k, part in enumerate(parts):
+            shifted = self.p + doubts * part.errors.most[0]
+            if part.p_low < shifted if self.unloading else part.p_high >= shifted:
+                return k
+        return None
 
-    def _along(self, piece) -> list[Branch]:
-        parts = rising(piece)
-        return parts if self.unloading else parts[::-1]
-
-    def _first(self, parts: list[Branch], p: float, refinable: bool) -> tuple[_Root | None, bool]:
-        """The first part that goes past the pressure, as a root, and whether the error of the curve leaves open which it is."""
-        index = self._passing(parts, p, 0.0)
-        if refinable:
-            around = {self._passing(parts, p, -_DOUBT), index, self._passing(parts, p, _DOUBT)}
-            if len(around) > 1:
-                return None, True
+    def _root(self, parts: list[Branch]) -> _Root | None:
+        index = self._passing(parts, 0.0)
         if index is None or index == _PULLED_OFF:
-            return None, False
+            return None
         part = parts[index]
-        edge = part.t_high if self.unloading else part.t_low
-        outside = p > part.p_high if self.unloading else p < part.p_low
-        if outside:  # between two pieces the curve jumps over the pressure
-            return _Root(float(part.piece.penetration(edge))), False
-        t = part.reaches(p)
+        if self.p > part.p_high if self.unloading else self.p < part.p_low:
+            return self._in_jump(parts[index - 1] if index else self.passed or part, part)
+        t = part.reaches(self.p)
         step = 1e-4 * (part.t_high - part.t_low)
         ends = np.clip([t - step, t + step], part.t_low, part.t_high)
         values, D = part.piece.values(ends), part.piece.penetration(ends)
@@ -204,99 +233,49 @@ class _Descent:
         slope = rise[0] / wide if wide > 0 else 0.0
         friction_slope = rise[1] / rise[0] if rise[0] > 0 else 0.0
         low, high = (float(part.piece.penetration(e)) for e in (part.t_low, part.t_high))
-        return _Root(float(part.piece.penetration(t)), slope, friction_slope, low, high), False
+        return _Root(float(part.piece.penetration(t)), slope, friction_slope, low, high)
 
-    def _passing(self, parts, p, doubts) -> int | None:
-        if not self.unloading and parts and p + doubts * parts[0].errors.most[0] < min(parts[0].p_low, 0.0):
-            return _PULLED_OFF
-        for k, part in enumerate(parts):
-            shifted = p + doubts * part.errors.most[0]
-            if part.p_low < shifted if self.unloading else part.p_high >= shifted:
-                return k
-        return None
+    def _in_jump(self, before: Branch, after: Branch) -> _Root:
+        """A curve that jumps over the pressure carries it at the jump, where strips of both sides can stand side by side: as more
+        of them have changed over, friction goes from that of one side to that of the other, evenly as far as is known."""
+        t_before, t_after = (before.t_low, after.t_high) if self.unloading else (before.t_high, after.t_low)
+        ends = [part.piece.values(np.array([t]))[0] for part, t in ((before, t_before), (after, t_after))]
+        pressure, friction = (ends[1] - ends[0])[:2]
+        slope = friction / pressure if pressure else 0.0
+        return _Root(float(after.piece.penetration(t_after)), friction_slope=slope)
 
 
 def _refine(columns: LevelBatch, p, near, rtol):
     """Penetrations, d(tau)/dp and how uncertain that is at the roots ``near`` these (arrays of the fields of ``_Root``): Newton
-    with the slope of the coarse curve, then of the last two averages."""
+    with the slope of the coarse curve, then of the last two averages; bisection where that does not settle."""
     D, slope, friction_slope, low, high = near
     # nothing but the coarse curve says what it is
     doubt = np.abs(friction_slope)
     goal = _CLOSE * rtol * (np.abs(p) + 1e-3 * columns.scales[0])
     active = np.flatnonzero((slope > 0) & (high > low))
     known = None
-    for _ in range(_NEWTON):
+    for k in range(_STEPS):
         if not active.size:
-            return D, friction_slope, doubt
+            break
         values = level_means(columns.at(active, D[active]), np.full(active.size, rtol)).values
-        miss = values[:, 0] - p[active]
+        here, miss, late = D[active], values[:, 0] - p[active], np.full(active.size, k >= _NEWTON)
+        low[active], high[active] = np.where(miss < 0, here, low[active]), np.where(miss < 0, high[active], here)
         if known is not None:
             rows = np.searchsorted(known[0], active)
-            moved, rise, rub = D[active] - known[1][rows], values[:, 0] - known[2][rows], values[:, 1] - known[3][rows]
+            moved, rise, rub = here - known[1][rows], values[:, 0] - known[2][rows], values[:, 1] - known[3][rows]
             better = moved * rise > 0
-            slope[active[better]] = (rise[better]) / moved[better]
+            slope[active[better]] = rise[better] / moved[better]
             secant = rub[better] / rise[better]
             doubt[active[better]] = np.abs(secant - friction_slope[active[better]])
             friction_slope[active[better]] = secant
+            late &= np.abs(miss) > 0.5 * np.abs(known[2][rows] - p[active])
         going = np.abs(miss) > goal[active]
-        known = tuple(v[going] for v in (active, D[active], values[:, 0], values[:, 1]))
+        known = tuple(v[going] for v in (active, here, values[:, 0], values[:, 1]))
         # what is close enough takes the step too: the average made there afterwards is next to the pressure
-        D[active] = np.clip(D[active] - miss / slope[active], low[active], high[active])
-        active = active[going]
-    if active.size:
-        D[active], friction_slope[active] = _bracketed(columns, p, active, low[active], high[active], rtol)
-        doubt[active] = np.abs(friction_slope[active])
+        new = np.clip(here - miss / slope[active], low[active], high[active])
+        D[active] = np.where(late, 0.5 * (low + high)[active], new)
+        wide = (high - low)[active] > 8 * _EPS * np.maximum(np.abs(here), columns.level.h)
+        active = active[going & wide]
+        if not wide.all():
+            known = tuple(v[wide[going]] for v in known)
     return D, friction_slope, doubt
-
-
-def _bracketed(columns: LevelBatch, p, index, low, high, rtol):
-    """Root of p_mean(D) - p in each bracket: false position with halving of stale ends (Illinois), averages ever finer."""
-    goal = p[index]
-    scale = 1e-3 * columns.scales[0]
-    n = index.size
-
-    def sample(pick, D, accuracy):
-        values = level_means(columns.at(index[pick], D), np.full(pick.size, accuracy)).values
-        return values[:, 0] - goal[pick], values[:, 1]
-
-    every = np.arange(n)
-    ends = [low.copy(), high.copy()]
-    value, tau = zip(*(sample(every, D, rtol) for D in ends), strict=True)
-    value, tau = [v.copy() for v in value], [t.copy() for t in tau]
-    weight = [v.copy() for v in value]
-    root, slope = low.copy(), np.zeros(n)
-    # an end on the wrong side by the coarse scan's error is the root itself, to that accuracy: widen it
-    active = every[(value[0] * value[1] < 0)]
-    for side in (0, 1):
-        exact = value[side] == 0
-        root[exact] = ends[side][exact]
-    stray = every[(value[0] * value[1] > 0)]
-    if stray.size:
-        best = np.where(np.abs(value[0]) < np.abs(value[1]), ends[0], ends[1])
-        root[stray] = best[stray]
-    last = np.full(n, -1)
-    for _ in range(_STEPS):
-        if not active.size:
-            break
-        a, b, wa, wb = ends[0][active], ends[1][active], weight[0][active], weight[1][active]
-        D = (a * wb - b * wa) / (wb - wa)
-        edge = np.minimum(a, b) + 1e-3 * np.abs(b - a), np.maximum(a, b) - 1e-3 * np.abs(b - a)
-        D = np.clip(D, *edge)
-        v, t = sample(active, D, rtol)
-        side = np.where(v * value[0][active] > 0, 0, 1)
-        for k in (0, 1):
-            mine = active[side == k]
-            other = 1 - k
-            run = last[mine] == k
-            weight[other][mine[run]] *= 0.5
-            for store, new in ((ends, D), (value, v), (weight, v), (tau, t)):
-                store[k][mine] = new[side == k]
-        last[active] = side
-        root[active] = D
-        rise = value[1][active] - value[0][active]
-        slope[active] = np.divide(tau[1][active] - tau[0][active], rise, out=np.zeros(active.size), where=np.abs(rise) > 0)
-        done = (np.abs(v) <= 0.3 * rtol * (np.abs(goal[active]) + scale)) | (
-            np.abs(ends[1] - ends[0])[active] <= 8 * _EPS * np.maximum(np.abs(D), columns.level.h)
-        )
-        active = active[~done]
-    return root, slope

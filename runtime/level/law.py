@@ -36,7 +36,7 @@ class Law:
     Attributes:
         segments: in order of rising pressure. pull_off: below it there is no contact.
         p_sat: pressure of saturated contact; ``saturated`` are the means there (from there on constant, but for pressure).
-        p_top: largest pressure the law was built for (``p_sat``, unless it was cut below that).
+        p_top: largest pressure the law is known for (inf, unless it was cut below ``p_sat``).
         unloading: the branch of loading it follows.
     """
 
@@ -110,9 +110,9 @@ class Law:
         return out
 
 
-def laws_of(curves: Sequence[Curve], unloading: bool, p_sat: np.ndarray, saturated: np.ndarray, cut: np.ndarray) -> list[Law]:
-    """The friction laws along one branch of loading of traced curves. ``p_sat``, ``cut`` (n,): pressures of saturation, and
-    whether a curve ends before it; ``saturated`` (n, q): means there."""
+def laws_of(curves: Sequence[Curve], unloading: bool, p_sat: np.ndarray, saturated: np.ndarray, p_max: np.ndarray) -> list[Law]:
+    """The friction laws along one branch of loading of traced curves. ``p_sat`` (n,): pressures of saturation, ``saturated``
+    (n, q): means there; ``p_max`` (n,): pressures to which a curve was cut, below saturation, inf for the others."""
     kept = branches_of(curves, unloading)
     least = np.repeat(1e-15 * np.abs(saturated), [len(row) for row in kept], axis=0)
     flat = [b for row in kept for b in row]
@@ -120,6 +120,7 @@ def laws_of(curves: Sequence[Curve], unloading: bool, p_sat: np.ndarray, saturat
     out = []
     for i, (curve, row) in enumerate(zip(curves, kept, strict=True)):
         segments = _joined([next(every) for _ in row], p_sat[i])
-        pull_off, p_top = (row[0].p_low if row else p_sat[i]), (segments[-1].p_high if cut[i] and row else p_sat[i])
+        pull_off = row[0].p_low if row else p_sat[i]
+        p_top = segments[-1].p_high if row and p_max[i] < np.inf else p_max[i]
         out.append(Law(segments, float(pull_off), float(p_sat[i]), saturated[i], float(p_top), curve.strips, unloading))
     return out

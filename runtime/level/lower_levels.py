@@ -123,6 +123,11 @@ class LowerLevelLaws:
             total[crossing, -1] += self._misplaced(contact, group, j, np.flatnonzero(crossing), up, down)
         if parts:
             self._integrate(contact, group, Parts.joined(parts).sharing(), total)
+        # what is not known of a law beyond the pressure that it was built for is about as much as it ever carries
+        beyond = contact.p_peak > table.top[group]
+        if beyond.any():
+            up, down = contact.passes(table.top[group], beyond)
+            total[beyond, -1] += ((down - up) * table.most[group])[beyond]
         return total
 
     def _misplaced(self, contact: Contact, group, j, rows, up, down):

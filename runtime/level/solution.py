@@ -234,7 +234,7 @@ def friction_law(
     work = WorkCounters()
     columns = LevelBatch(material, adhesion, level, edge, branch, V.reshape(1), np.zeros(1), work=work)
     law = _laws(columns, rtol, top)[0]
-    built = law.p_sat if below is None or below >= law.p_top else float(below)
+    built = law.p_sat if below is None or below >= law.p_sat else float(below)
     if built < law.p_sat and law.pull_off >= built:
         # nothing is carried up to there: what can be is seen above
         law = _laws(columns, rtol, None)[0]

@@ -19,7 +19,8 @@ class LawTable:
     """Laws stacked by group; ``breaks`` (groups, B), padded with inf, ``p_sat`` (groups,), ``saturated`` (groups, q).
 
     ``jumps`` (groups, B): change of friction, its own and what it carries, at each break; ``break_error`` (groups, B): how well
-    the break's pressure is known, Pa. ``frictions``: where those frictions stand among the quantities after pressure.
+    the break's pressure is known, Pa. ``frictions``: where those frictions stand among the quantities after pressure. ``top``,
+    ``most`` (groups,): the pressure up to which a law is known, and the greatest of its frictions, Pa.
     """
 
     def __init__(self, laws: Sequence[Law]):
@@ -51,9 +52,9 @@ class LawTable:
         every = np.concatenate([c.coefficients[:, :, 1:] for c in cells], axis=1) if cells else np.zeros((1, 0, 0))
         self._coefficients = np.ascontiguousarray(every.swapaxes(1, 2))
         self._first, self._final = self._segments_between()
-        # what is not known of a law beyond the pressure that it was built for is about as much as it ever carries
-        self._top = np.array([law.p_top if law.segments else np.inf for law in laws])
-        self._most = np.array([np.abs(law(law.supports)[:, 1 + self.frictions]).max(axis=0).sum() for law in laws])
+        top = np.array([law.p_top for law in laws])
+        self.top = top + _SAME * np.where(np.isfinite(top), np.abs(top), 0.0)
+        self.most = np.array([np.abs(law(law.supports)[:, 1 + self.frictions]).max(axis=0).sum() for law in laws])
 
     def _segments_between(self):
         """The first and the last segment between each break and the next, (groups, B) both."""
@@ -81,9 +82,6 @@ class LawTable:
         friction = np.abs(out[self.frictions]).sum(axis=0)
         errors = self._least_error[which] + self._share[which] * friction
         errors = np.minimum(errors, self._most_error[which])
-        beyond = p > (self._top + _SAME * np.abs(self._top))[group]
-        if beyond.any():
-            errors = errors + np.where(beyond, self._most[group], 0.0)
         return out, np.stack((errors, np.broadcast_to(self._pressure_error[which], p.shape)))
 
 
