@@ -226,7 +226,7 @@ class _Solve:
         index, group = index[left], group[left]
         if not index.size:
             return
-        found = self._penetrations(stack, V, index, group)
+        found = self._penetrations(V, index, group)
         touching = np.flatnonzero(np.isfinite(found.D))
         index, group, D = index[touching], group[touching], found.D[touching]
         if not index.size:
@@ -248,12 +248,11 @@ class _Solve:
         mine = np.flatnonzero((load > 0) & (load < full))
         if not mine.size:
             return every
-        p_sat = [own.p_sat for own in stack.own]
         stiffness = [surface.at_level(i).K for i in range(self.M)]
         floor = surface.friction_floor
         foundation, p_0 = foundation_of(surface.at_level(0)), surface.adhesion.p_0
         families = NonadhesiveSurface(
-            foundation, stiffness, surface.levels, p_0, V, p_sat, stack.p_full, floor, surface.rtol, surface.work
+            foundation, stiffness, surface.levels, p_0, V, stack.p_full, floor, surface.rtol, surface.work
         )
         found = families.solve(group[mine], load[mine], self.by_pressure)
         sure = found.certain
@@ -262,26 +261,12 @@ class _Solve:
         out.tau[:, at], out.contact[:, at] = found.tau[:, sure], found.contact[:, sure]
         return np.setdiff1d(every, mine[sure])
 
-    def _penetrations(self, stack: Stack, V, index, group) -> Inverse:
+    def _penetrations(self, V, index, group) -> Inverse:
         """Penetration of each point (NaN below pull-off) and the slope d(tau)/dp of level 1 there."""
         load = self.load[index]
         if not self.by_pressure:
             return Inverse(load.copy(), *np.zeros((2, index.size)), np.zeros(index.size, bool))
-        surface, own = self.surface, stack.own[0]
-        out = Inverse(np.full(index.size, np.nan), *np.zeros((2, index.size)), np.zeros(index.size, bool))
-        K, h = surface.at_level(0).K, surface.levels[0].h
-        saturated = load >= own.p_sat[group]
-        out.D[saturated] = load[saturated] / K + 0.75 * h
-        rest = np.flatnonzero(~saturated)
-        if rest.size:
-            columns = surface.columns(0, V[group[rest]])
-            found = invert(columns, load[rest], own.D_sat[group[rest]], 0.5 * surface.rtol)
-            out.D[rest], out.slope[rest], out.doubt[rest], out.undecided[rest] = (
-                found.D,
-                found.slope,
-                found.doubt,
-                found.undecided,
-            )
+        out = invert(self.surface.columns(0, V[group]), load, 0.5 * self.surface.rtol)
         off = np.isnan(out.D)
         self.out.pulled_off[index[off]] = True
         self.out.p[index[off]] = load[off]

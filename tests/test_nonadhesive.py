@@ -11,7 +11,7 @@ import hystrip.level.nonadhesive.surface
 from hystrip.level.means import level_means
 from hystrip.level.nonadhesive.family import family
 from hystrip.level.nonadhesive.means import Level as Means
-from hystrip.level.nonadhesive.means import cells
+from hystrip.level.nonadhesive.span import Span
 from hystrip.level.strips import LevelBatch
 from hystrip.orbit.foundation import foundation_of
 
@@ -69,13 +69,14 @@ def test_the_nodes_of_a_cell_know_its_area_and_its_mean_amplitude(d):
     """With the strips in complete contact, or out of contact, the weights make up the whole cell."""
     s_sat = np.array([11.0])
     for n in (40, 60):
-        at = cells(np.array([d]), s_sat, n)
-        end = np.pi if d <= 1 else at.complete[0]
+        span = Span(np.array([d]), s_sat)
+        u, s, weight = span.nodes(n)
+        end = span.complete[0]
         outside = 2 * np.arcsin(np.sqrt(d)) if d < 1 else end
-        assert abs(at.weight.sum() - outside / np.pi) <= 1e-11
+        assert abs(weight.sum() - outside / np.pi) <= 1e-11
         mean = (outside + np.sin(outside)) / (2 * np.pi)
-        assert abs((at.weight * at.u).sum() - mean) <= 1e-11
-        assert (at.s > 0).all() and (at.s <= 11 * (1 + 1e-12)).all() and np.abs(at.u * (2 - at.s) - 2 * (1 - d)).max() <= 1e-12
+        assert abs((weight * u).sum() - mean) <= 1e-11
+        assert (s > 0).all() and (s <= 11 * (1 + 1e-12)).all() and np.abs(u * (2 - s) - 2 * (1 - d)).max() <= 1e-12
 
 
 @pytest.mark.parametrize("name", MATERIALS)

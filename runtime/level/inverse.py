@@ -7,7 +7,7 @@ piece is interpolated again, finer.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from .effort import CURVE_LIMIT
 from .interval import Interval
 from .means import level_means
 from .piece import Piece
+from .saturated import saturated_level
 from .strips import LevelBatch
 
 #: accuracy of the first look, of the pressure's scale, and how much finer each further one is
@@ -49,7 +50,12 @@ class Inverse:
 
     def take(self, index) -> Inverse:
         """Those at ``index``."""
-        return Inverse(self.D[index], self.slope[index], self.doubt[index], self.undecided[index])
+        return Inverse(*(getattr(self, f.name)[index] for f in fields(self)))
+
+    def put(self, index, found: Inverse) -> None:
+        """Write those ``found`` at ``index``."""
+        for f in fields(self):
+            getattr(self, f.name)[index] = getattr(found, f.name)
 
 
 def cut_penetration(columns: LevelBatch, p_max: np.ndarray, full: np.ndarray) -> np.ndarray:
@@ -63,25 +69,38 @@ def cut_penetration(columns: LevelBatch, p_max: np.ndarray, full: np.ndarray) ->
     return np.minimum(p_max / columns.material.K + 0.75 * level.h + 1e-9 * (level.h + np.abs(p_max) / columns.material.K), full)
 
 
-def invert(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
-    """Largest penetration (``unloading``) or smallest (``loading``) at which each column carries ``p`` (Pa, (n,)), below
-    saturation.
+def invert(columns: LevelBatch, p: np.ndarray, rtol: float) -> Inverse:
+    """Largest penetration (``unloading``) or smallest (``loading``) at which each column carries ``p`` (Pa, (n,)).
 
-    ``full`` (n,): penetration of saturated contact. The root is refined with averages to ``rtol``.
+    The root is refined with averages to ``rtol``.
     """
+    level, K = columns.level, columns.material.K
+    saturated = saturated_level(columns.material, columns.adhesion, level, columns.V, columns.branch)
+    out = Inverse(np.where(p >= saturated.p_sat, p / K + 0.75 * level.h, np.nan), *np.zeros((2, p.size)), np.zeros(p.size, bool))
+    # without adhesion there is no contact at no pressure
+    rest = np.flatnonzero((p < saturated.p_sat) & ((p > 0) | (columns.adhesion.p_0 > 0)))
+    if rest.size:
+        search = _with_adhesion if columns.adhesion.p_0 > 0 else _without_adhesion
+        found = search(replace(columns, frictional=True).at(rest, np.zeros(rest.size)), p[rest], saturated.D_sat[rest], rtol)
+        out.put(rest, found)
+    return out
+
+
+def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
+    """``invert`` at p > 0 without adhesion. Orbits are in the order of w, which rises with D, no faster: there is one root, and
+    no turn to look for; and w lies between the profile, 3 h/4 below its crests on average, and these."""
+    rise, friction_slope = np.full(p.size, columns.material.K), np.zeros(p.size)
+    low, high = p / rise, np.minimum(p / rise + 0.75 * columns.level.h, full)
+    D = high.copy()
+    for accuracy in (max(rtol, _ROUGH), rtol):
+        near = D, rise, friction_slope, low.copy(), high.copy()
+        D, friction_slope, doubt = _refine(columns, p, near, accuracy)
+    return Inverse(D, friction_slope, doubt, np.zeros(p.size, bool))
+
+
+def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
+    """``invert`` with adhesion."""
     D, slope, doubt = np.full(p.size, np.nan), np.zeros(p.size), np.zeros(p.size)
-    columns = replace(columns, frictional=True)
-    if not columns.adhesion.p_0 > 0:
-        # orbits are in the order of w, which rises with D, no faster: there is one root, and no turn to look for; and w lies
-        # between the profile, 3 h/4 below its crests on average, and these
-        loaded = np.flatnonzero(p > 0)
-        rise = np.full(loaded.size, columns.material.K)
-        low, high = p[loaded] / rise, p[loaded] / rise + 0.75 * columns.level.h
-        D[loaded] = high
-        for accuracy in (max(rtol, _ROUGH), rtol):
-            near = D[loaded], rise, slope[loaded], low.copy(), high.copy()
-            D[loaded], slope[loaded], doubt[loaded] = _refine(columns.at(loaded, low), p[loaded], near, accuracy)
-        return Inverse(D, slope, doubt, np.zeros(p.size, bool))
     roots, undecided = _Descent(columns, p, cut_penetration(columns, p, full), rtol).run()
     found = np.array([i for i, root in enumerate(roots) if root is not None], int)
     if found.size:

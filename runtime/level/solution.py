@@ -133,9 +133,9 @@ def solve_level(
     work = WorkCounters()
     inputs = Inputs(material, adhesion, level, V.reshape(shape), edge, branch, rtol, strips)
     columns = LevelBatch(material, adhesion, level, edge, branch, V, load, strips=strips, work=work)
-    of = _means_at_pressure(columns, load, rtol) if D is None else _means_at_penetration(columns, rtol)
-    values, errors = of.values, of.errors
-    floors = np.where(of.pulled_off[:, None], np.inf, columns.floors)
+    D, values, errors = _means(columns, load if D is None else None, rtol)
+    pulled_off = np.isnan(D)
+    floors = np.where(pulled_off[:, None], np.inf, columns.floors)
     converged = (errors <= rtol * (np.abs(values) + floors)).all(axis=1)
     if strips is None and not converged.all():
         lost = np.flatnonzero(~converged)
@@ -144,64 +144,38 @@ def solve_level(
         warnings.warn(f"{missed}; the first: {first} (see error_estimate)", ConvergenceWarning, stacklevel=2)
     one = lambda v: v.reshape(shape)  # noqa: E731
     return LevelSolution(
-        one(of.D),
+        one(D),
         *(one(v) for v in values.T),
         error_estimate=errors.T.reshape(len(QUANTITIES), *shape),
-        pulled_off=one(of.pulled_off),
+        pulled_off=one(pulled_off),
         converged=one(converged),
         strips=work.solved + work.decided,
         inputs=inputs,
     )
 
 
-@dataclass(frozen=True)
-class _Means:
-    """Penetrations (n,), means and errors (n, 4), and which points lie below pull-off."""
-
-    D: np.ndarray
-    values: np.ndarray
-    errors: np.ndarray
-    pulled_off: np.ndarray
-
-
-def _means_at_penetration(columns: LevelBatch, rtol: float) -> _Means:
+def _means(columns: LevelBatch, p: np.ndarray | None, rtol: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Penetrations (n,), NaN below pull-off, means and errors (n, 4), at the columns' penetrations or at the pressures ``p``."""
     n = columns.size
-    families = family_means(columns, np.full(n, rtol))
+    families = family_means(columns, np.full(n, rtol), p)
     values, errors, rest = families.values, families.errors, np.flatnonzero(~families.certain)
-    if rest.size:
-        means = level_means(columns.at(rest, columns.D[rest]), np.full(rest.size, rtol))
+    D = columns.D if p is None else families.D
+    if rest.size and p is None:
+        means = level_means(columns.at(rest, D[rest]), np.full(rest.size, rtol))
         values[rest], errors[rest] = means.values, means.errors
-    return _Means(columns.D, values, errors, np.zeros(n, bool))
-
-
-def _means_at_pressure(columns: LevelBatch, p: np.ndarray, rtol: float) -> _Means:
-    material, level, V = columns.material, columns.level, columns.V
-    s = saturated_level(material, columns.adhesion, level, V, columns.branch)
-    D = np.where(p >= s.p_sat, p / material.K + 0.75 * level.h, np.nan)
-    slopes = np.zeros(p.size)
-    values, errors = np.zeros((2, p.size, len(QUANTITIES)))
-    known, undecided = np.zeros((2, p.size), bool)
-    part = np.flatnonzero((p > 0) & (p < s.p_sat))
-    families = family_means(columns.at(part, D[part]), np.full(part.size, rtol), p[part])
-    sure = part[families.certain]
-    D[sure], values[sure], errors[sure], known[sure] = (
-        v[families.certain] for v in (families.D, families.values, families.errors, families.certain)
-    )
-    rest = np.flatnonzero((p < s.p_sat) & ~known)
-    if rest.size:
-        found = invert(columns.at(rest, D[rest]), p[rest], s.D_sat[rest], 0.3 * rtol)
-        D[rest], slopes[rest], undecided[rest] = found.D, found.slope, found.undecided
-    off = np.isnan(D)
-    on = np.flatnonzero(~off & ~known)
-    values[off, 0] = p[off]
-    if on.size:
-        means = level_means(columns.at(on, D[on]), np.full(on.size, rtol))
-        values[on], errors[on] = means.values, means.errors
-    miss = np.abs(values[on, 0] - p[on])
-    errors[on, 0] += miss
-    errors[on, 1] += np.abs(slopes[on]) * errors[on, 0]
-    errors[undecided] += np.abs(values[undecided])
-    return _Means(D, values, errors, off)
+    elif rest.size:
+        found = invert(columns.at(rest, D[rest]), p[rest], 0.3 * rtol)
+        D[rest], values[rest, 0] = found.D, p[rest]
+        touching = ~np.isnan(found.D)
+        if touching.any():
+            found, on = found.take(touching), rest[touching]
+            means = level_means(columns.at(on, D[on]), np.full(on.size, rtol))
+            miss = np.abs(means.values[:, 0] - p[on])
+            values[on], errors[on] = means.values, means.errors
+            errors[on, 0] += miss
+            errors[on, 1] += np.abs(found.slope) * errors[on, 0]
+            errors[on[found.undecided]] += np.abs(values[on[found.undecided]])
+    return D, values, errors
 
 
 def friction_law(

@@ -16,8 +16,9 @@ from ...numerics.rules import Changes, by_rules
 from ...orbit.foundation import Foundation
 from .law import Laws
 from .means import Level
-from .panels import Span
+from .panels import ends_of, panels
 from .peaks import Peaks
+from .span import Span
 
 #: nodes over a panel of strips and over each part of a contact, tried in turn
 RULES = ((3, 4), (4, 5), (7, 8), (11, 12), (16, 18), (24, 28), (36, 42), (54, 64), (81, 96))
@@ -48,7 +49,7 @@ class Carrier:
         """What columns at ``d = D/h`` carry (m, q), to ``goal`` (m, q), and the errors of the sums (m, q): the first
         change from rule to rule may be small by chance, and is believed only if ``at_once``."""
         out, errors = np.zeros((d.size, self.laws.full.shape[1])), np.zeros((d.size, self.laws.full.shape[1]))
-        allowed, most = goal[:, :-1:3].min(axis=1), self.laws.most[group]
+        allowed, most = goal[:, :-1:2].min(axis=1), self.laws.most[group]
         # each column by itself: what else is in the batch makes no difference
         first = (allowed[:, None] < _SHARP * most[:, None]).sum(axis=1) if at_once else np.zeros(d.size, int)
         # whatever the sums are, friction that small may be missed
@@ -71,7 +72,7 @@ class Carrier:
         part = np.flatnonzero(d < 0.5 * f.s_sat[group])
         if part.size:
             breaks = self.laws.breaks[group[part]] / (0.5 * self.pressure)
-            known = Span(d[part], f.s_sat[group[part]]).ends(f, self.peaks, group[part], breaks)
+            known = ends_of(Span(d[part], f.s_sat[group[part]]), f, self.peaks, group[part], breaks)
             ends = np.zeros((d.size, known.shape[1]))
             ends[part] = known
         return _Columns(group, d, allowed, ends)
@@ -99,7 +100,7 @@ class Carrier:
     def _partial(self, columns, strips, nodes):
         """Strips in partial contact."""
         f, peaks, group = self.level.family, self.peaks, columns.group
-        at = Span(columns.d, f.s_sat[group]).panels(columns.ends, strips)
+        at = panels(Span(columns.d, f.s_sat[group]), columns.ends, strips)
         column, u, weight = np.repeat(at.column, strips), at.u.ravel(), at.weight.ravel()
         waves = self.foundation.waves(self.rate[group[column]])
         known = f.values(group[at.column], at.s, slopes=True)

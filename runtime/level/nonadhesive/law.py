@@ -45,8 +45,7 @@ class Laws:
     part the sharpest of them, ascending, inf for none; from ``p_full`` (G,) on everything below is saturated, with the
     means ``full`` (G, q). ``top`` (G,): as far as the law goes, beyond it stays what it is there; ``steepest``
     (G,): the greatest slope of friction, own and carried, over pressure; ``most`` (G,): what it never exceeds.
-    Quantities: friction, contact, adhesion of the level, then of each below; the last one bounds the error of all
-    friction, Pa."""
+    Quantities: friction and contact of the level, then of each below; the last one bounds the error of all friction, Pa."""
 
     pieces: list[Piece]
     breaks: np.ndarray

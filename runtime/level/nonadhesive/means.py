@@ -1,10 +1,4 @@
-"""Means of a level without adhesion at any penetration, as integrals over its strips of functions that are known.
-
-With ``u = cos^2(theta/2)`` a strip has the amplitude ``h u/2`` and ``s = 2 - 2 (1 - D/h)/u``. Where the crests of the
-cell's edge are out of reach, D < h, contact ends at u = 1 - D/h; else the strips of small u are in complete contact,
-from ``s = s_sat`` on. Substituting hyperbolic functions for ``u/|1 - D/h|`` makes all scales alike however near D is
-to h, and takes the root out of the integrand at the crest.
-"""
+"""Means of a level without adhesion at any load, as integrals over its strips of functions that are known."""
 
 from __future__ import annotations
 
@@ -12,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...numerics.quadrature import gauss
 from ...numerics.rules import Changes, by_rules
 from .family import Family
+from .span import Span
 
 #: nodes of the rules tried in turn; the second is what penetrations are looked for with
 _RULES = (8, 12, 18, 27, 40, 60, 90)
@@ -29,58 +23,12 @@ _CLOSE, _MET, _BLURRED, _STEPS = 1e-5, 1e-7, 1e-2, 60
 _LOOKS = 32
 #: share of what is allowed below which no error is claimed to be
 _TOLD = 5e-4
-#: least penetration in heights
-_LEAST = 1e-60
+#: slope of friction over pressure, k h, that is never reached
+_STEEPEST = 2.0
 #: what is left in a level's mean of the greatest error of its strips, and of errors that change sign from one strip
 #: sampled to the next
 CANCELLED, _WAVES = 0.2, 3.4
 _EPS = np.finfo(float).eps
-
-
-@dataclass(frozen=True)
-class Cells:
-    """The strips in partial contact of columns at d = D/h (m,), as nodes (m, n): share ``u`` and penetration ``s`` of
-    each, and its ``weight`` in the mean over the cell; and ``complete`` (m,), the angle theta from which on contact is
-    complete."""
-
-    u: np.ndarray
-    s: np.ndarray
-    weight: np.ndarray
-    complete: np.ndarray
-
-
-def cells(d: np.ndarray, s_sat: np.ndarray, n: int) -> Cells:
-    """Nodes for 0 < d < s_sat/2, (m,). At d = 1 all strips are alike, s = 2."""
-    y, w = gauss(n)
-    u, s, weight = (np.empty((d.size, n)) for _ in range(3))
-    complete = np.full(d.size, np.pi)
-    # squares of what is smaller underflow
-    d = np.maximum(d, _LEAST)
-    i = np.flatnonzero(d < 1)
-    if i.size:
-        end = np.arcsinh(np.sqrt(d[i] / (1 - d[i])))[:, None]
-        rest = end * (1 - y) ** 2
-        eta = end - rest
-        u[i] = (1 - d[i])[:, None] * np.cosh(eta) ** 2
-        s[i] = 2 * np.tanh(eta) ** 2
-        weight[i] = w * 4 / np.pi * end * (1 - y) * np.sinh(eta) / np.sqrt(np.sinh(rest) * np.sinh(end + eta))
-    i = np.flatnonzero(d == 1)
-    if i.size:
-        u[i], s[i], weight[i] = np.cos(0.5 * np.pi * y) ** 2, 2.0, w
-    i = np.flatnonzero(d > 1)
-    if i.size:
-        excess = d[i, None] - 1
-        start = np.minimum(2 * excess / (s_sat[i, None] - 2), 1.0)
-        first, end = np.arcsinh(np.sqrt(start / excess)), np.arcsinh(np.sqrt(1 / excess))
-        # at saturation nothing but rounding is left of them
-        width = np.maximum(end - first, 4 * _EPS * end)
-        rest = width * (1 - y) ** 2 * (1 + 2 * y)
-        eta = end - rest
-        square = np.sinh(eta) ** 2
-        u[i], s[i] = excess * square, 2 + 2 / square
-        weight[i] = w * 12 / np.pi * width * y * (1 - y) * np.cosh(eta) / np.sqrt(np.sinh(rest) * np.sinh(end + eta))
-        complete[i] = 2 * np.arccos(np.sqrt(start[:, 0]))
-    return Cells(u, s, weight, complete)
 
 
 @dataclass(frozen=True)
@@ -93,15 +41,14 @@ class Level:
         """Mean pressure (K h), friction (K h kh), contact fraction of the columns at ``d`` (m,), and with ``slopes``
         those of the first two by d."""
         f = self.family
-        at = cells(d, f.s_sat[group], n)
-        values = f.values(group, at.s, slopes)
-        A = 0.5 * at.u
+        span = Span(d, f.s_sat[group])
+        u, s, weight = span.nodes(n)
+        values = f.values(group, s, slopes)
+        A = 0.5 * u
         out = np.empty((d.size, 5 if slopes else 3))
-        powers = (A, A * A, None, None, A)
-        for j, (value, power) in enumerate(zip((0, 1, 2, 3, 4) if slopes else (0, 1, 2), powers, strict=False)):
-            weight = at.weight if power is None else at.weight * power
-            out[:, j] = (weight * values[:, :, value]).sum(axis=1)
-        return out + self._complete(at.complete, d, f.full[group, 1], slopes)
+        for j, power in enumerate((A, A * A, 1.0, 1.0, A)[: out.shape[1]]):
+            out[:, j] = (weight * power * values[:, :, j]).sum(axis=1)
+        return out + self._complete(span.complete, d, f.full[group, 1], slopes)
 
     def _complete(self, theta, d, friction, slopes):
         """The share of the strips in complete contact, beyond ``theta``: ``p = D_j - A``."""
@@ -130,9 +77,40 @@ class Level:
         share = np.concatenate((0.25 * left, 0.09375 * left, np.full_like(left, 0.5)), axis=1)
         return self.family.errors[group] * share
 
+    def at(
+        self, group: np.ndarray, load: np.ndarray, by_pressure: bool, goal: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Penetrations, means and errors (m, 3), to ``goal`` (m, 3), at any load: d, or the pressure, which is then met."""
+        d = self.penetrations(group, load) if by_pressure else load.copy()
+        values, errors = (
+            np.stack((d - 0.75, 0.09375 * self.family.full[group, 1], np.ones(d.size)), axis=1),
+            np.zeros((d.size, 3)),
+        )
+        values[d <= 0] = 0.0
+        part = np.flatnonzero((d > 0) & (d < 0.5 * self.family.s_sat[group]))
+        if part.size:
+            means, errors[part] = self.sure_means(group[part], d[part], goal[part], by_pressure)
+            if by_pressure:
+                rise = np.where(means[:, 3] > 0, means[:, 3], np.inf)
+                # friction is pressure times slope: where means of next to nothing vary by chance they say nothing else
+                slope = np.clip(means[:, 4] / rise, -_STEEPEST, _STEEPEST)
+                lift = load[part] - means[:, 0]
+                d[part] += lift / rise
+                means[:, 0], means[:, 1] = load[part], means[:, 1] + slope * lift
+                errors[part, 1] += np.abs(slope) * (errors[part, 0] + _EPS)
+            values[part] = means[:, :3]
+        return d, values, errors
+
     def penetrations(self, group: np.ndarray, p: np.ndarray) -> np.ndarray:
-        """d at which the mean pressure (K h) is ``p`` (m,), between 0 and that of saturation: Newton on the root of
-        the pressure, which is nearly linear."""
+        """d at which the mean pressure (K h) is ``p`` (m,), nowhere below none."""
+        d = np.where(p > 0, p + 0.75, 0.0)
+        part = np.flatnonzero((p > 0) & (d < 0.5 * self.family.s_sat[group]))
+        if part.size:
+            d[part] = self._partly(group[part], p[part])
+        return d
+
+    def _partly(self, group, p):
+        """``penetrations`` between none and that of saturation: Newton on the root of the pressure, which is nearly linear."""
         low, high = p.copy(), np.minimum(p + 0.75, 0.5 * self.family.s_sat[group])
         d = np.clip(self._looked_up(group, p), low, high)
         left = np.arange(p.size)
@@ -155,7 +133,7 @@ class Level:
         return d
 
     def _looked_up(self, group, p):
-        """About what ``penetrations`` finds, from a few of them."""
+        """About what ``_partly`` finds, from a few of them."""
         which, row = np.unique(group, return_inverse=True)
         most = np.zeros(which.size)
         np.maximum.at(most, row, p)

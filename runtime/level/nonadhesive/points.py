@@ -29,8 +29,8 @@ class FamilyMeans:
 
 
 def family_means(columns: LevelBatch, rtol: np.ndarray, p: np.ndarray | None = None) -> FamilyMeans:
-    """Means of the level alone at the columns' penetrations, or at the pressures ``p`` > 0 (Pa) below saturation, to
-    ``rtol (|value| + floor)``."""
+    """Means of the level alone at the columns' penetrations, or at the pressures ``p`` (Pa) where they are between zero and that
+    of saturation, to ``rtol (|value| + floor)``."""
     level, K, n = columns.level, columns.material.K, columns.size
     D, values, errors, certain = columns.D.copy(), np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n, bool)
     foundation = foundation_of(columns.material)
@@ -39,10 +39,12 @@ def family_means(columns: LevelBatch, rtol: np.ndarray, p: np.ndarray | None = N
     unit = np.array((K * level.h, K * level.h * level.k * level.h, 1.0))
     V, group = np.unique(columns.V, return_inverse=True)
     load = columns.D / level.h if p is None else p / unit[0]
+    s_sat = 1 + np.broadcast_to(foundation.modulus_ratio(level.k * columns.V), n)
+    mine = np.full(n, True) if p is None else (load > 0) & (load < 0.5 * s_sat - 0.75)
     floors = columns.floors[0, :3]
     D, finer = load.copy(), np.ones(n)
     for _ in range(_ATTEMPTS):
-        left = np.flatnonzero(~certain)
+        left = np.flatnonzero(mine & ~certain)
         if not left.size:
             break
         which, row = np.unique(group[left], return_inverse=True)
@@ -55,17 +57,9 @@ def family_means(columns: LevelBatch, rtol: np.ndarray, p: np.ndarray | None = N
             break
         at = Level(known)
         columns.work.solved += int(known.strips.sum())
-        d = load[left] if p is None else at.penetrations(row, load[left])
-        solved, missed = _at(at, row, d, rtol[left], floors / unit, p is not None)
-        if p is not None:
-            rise = np.where(solved[:, 3] > 0, solved[:, 3], 1.0)
-            lift = load[left] - solved[:, 0]
-            d = d + np.where(solved[:, 3] > 0, lift / rise, 0.0)
-            by_pressure = solved[:, 4] / rise
-            solved[:, 1] += by_pressure * lift
-            solved[:, 0] = load[left]
-            missed[:, 1] += np.abs(by_pressure) * missed[:, 0]
-        D[left], values[left], errors[left] = d, solved[:, :3] * unit, missed * unit
+        goal = rtol[left, None] * (floors / unit)
+        D[left], means, missed = at.at(row, load[left], p is not None, goal)
+        values[left], errors[left] = means * unit, missed * unit
         allowed = rtol[left, None] * (np.abs(values[left]) + floors)
         certain[left] = (errors[left] <= allowed).all(axis=1)
         finer[left] *= _FINER
@@ -82,17 +76,3 @@ def _family(columns, foundation, V, load, row, by_penetration, floors, rtol):
     size = np.zeros(V.size) if by_penetration else 0.5 * np.minimum(least, 1.0)
     s_top = np.where(crest < 1, 2 * np.maximum(crest, 0.0), np.inf)
     return family(foundation, columns.level.k * V, s_top, size, _SHARES * floors / _SHARES[0], _SHARES[0] * rtol)
-
-
-def _at(level: Level, group, d, rtol, floors, slopes):
-    """Means and errors at ``d``, whatever it is."""
-    out, errors = np.zeros((d.size, 5)), np.zeros((d.size, 3))
-    s_sat = level.family.s_sat[group]
-    full = d >= 0.5 * s_sat
-    out[full] = np.stack((d - 0.75, level.family.full[group, 1] * 0.09375, *np.ones((2, d.size)), np.zeros(d.size)), axis=1)[full]
-    some = np.flatnonzero((d > 0) & ~full)
-    if some.size:
-        goal = rtol[some, None] * np.broadcast_to(floors, (some.size, 3))
-        found, errors[some] = level.sure_means(group[some], d[some], goal, slopes)
-        out[some, : found.shape[1]] = found
-    return out, errors

@@ -26,8 +26,8 @@ _VALUES, _STRIPS = 0.6, 2.0
 _SHARES, _COARSE = 1e-4, 1e-2
 #: an accuracy in parts of the greatest friction from which on a law is only parted where it is least smooth
 _BLUNT = 1e-4
-#: slope of friction over pressure, k h, that is never reached
-_STEEPEST = 2.0
+#: nodes for pressures at which a law is parted
+_AT_EDGES = 18
 #: by how much more a greatest pressure is allowed for
 _BETWEEN = 1.02
 _EPS = np.finfo(float).eps
@@ -49,8 +49,8 @@ class Wanted:
 
 @dataclass(frozen=True)
 class Found:
-    """Columns (m,) of a level: penetration in its height, pressure (Pa), ``values`` (m, q): friction (Pa), contact,
-    adhesion of the level and of each below, and the error of all friction, Pa."""
+    """Columns (m,) of a level: penetration in its height, pressure (Pa), ``values`` (m, q): friction (Pa) and
+    contact of the level and of each below, and the error of all friction, Pa."""
 
     d: np.ndarray
     p: np.ndarray
@@ -61,8 +61,8 @@ class FamilyStack:
     """The levels at velocities ``V`` (G,), each with its family as far as pressures up to ``p_max`` (Pa, (G,)) on
     level 1 need it.
 
-    ``stiffness``: K of each level's foundation, Pa/m. ``p_sat``, ``p_full`` (levels, G): saturation of each level by itself,
-    and with all below it. ``d_max`` (G,), where that is what is known of level 1: penetrations in its height.
+    ``stiffness``: K of each level's foundation, Pa/m. ``p_full`` (levels, G): saturation of each level with all below it.
+    ``d_max`` (G,), where that is what is known of level 1: penetrations in its height.
     """
 
     def __init__(
@@ -73,20 +73,18 @@ class FamilyStack:
         V,
         p_max,
         d_max,
-        p_sat,
         p_full,
         wanted: Wanted,
         work: WorkCounters,
     ):
         self.foundation, self.waves, self.V, self.p_full, self.wanted, self.work = foundation, levels, V, p_full, wanted, work
-        self.p_sat = p_sat
-        self.groups = np.arange(V.size)
         self.units = [K * level.h for K, level in zip(stiffness, levels, strict=True)]
         self.levels = self._levels(p_max, d_max)
         self.peaks = self._peaks()
-        self.ceilings = [p_max]
+        self.ceilings, every = [p_max], np.arange(V.size)
         for i in range(len(levels) - 1):
-            d = d_max if i == 0 and d_max is not None else self._penetrations(i, self.groups, self.ceilings[i])
+            known = i == 0 and d_max is not None
+            d = d_max if known else self.levels[i].penetrations(every, self.ceilings[i] / self.units[i])
             self.ceilings.append(self._greatest(i, d))
 
     def _friction_unit(self, i):
@@ -139,15 +137,6 @@ class FamilyStack:
             self.work.solved += part.size
         return self.units[i] * out
 
-    def _penetrations(self, i, group, p):
-        """d of level i at pressures ``p`` (m,), Pa."""
-        at, unit = self.levels[i], self.units[i]
-        d = np.where(p > 0, p / unit + 0.75, 0.0)
-        part = np.flatnonzero((p > 0) & (p < self.p_sat[i][group]))
-        if part.size:
-            d[part] = at.penetrations(group[part], p[part] / unit)
-        return d
-
     def laws(self) -> Laws | None:
         """Of level 2 with all that it carries; None where there is none."""
         laws = None
@@ -159,62 +148,45 @@ class FamilyStack:
         """Level i over the ``laws`` of the next one."""
         return Carrier(self.foundation, self.levels[i], self.peaks[i], self.waves[i].k * self.V, self.units[i], laws)
 
-    def at(self, i, group, p, laws: Laws | None, d=None) -> Found:
-        """Level i over the ``laws`` of the next one at pressures ``p`` (m,), Pa, or (None) at penetrations ``d`` (m,)
-        in its height."""
+    def at(self, i, group, load, laws: Laws | None, by_pressure: bool = True) -> Found:
+        """Level i over the ``laws`` of the next one at pressures ``load`` (m,), Pa, or at penetrations (m,) in its height."""
         level, unit, friction = self.levels[i], self.units[i], self._friction_unit(i)
-        d = self._penetrations(i, group, p) if d is None else d.copy()
-        own, pressure = np.zeros((d.size, 3)), unit * (d - 0.75) if p is None else p
-        s_sat, full = level.family.s_sat[group], level.family.full[group, 1]
-        error, missed = np.zeros(d.size), np.zeros(d.size)
-        own[:, 0] = 0.09375 * full * friction
-        own[:, 1] = 1.0
-        part = np.flatnonzero((d < 0.5 * s_sat) & (d > 0))
-        own[d <= 0] = 0.0
-        pressure = np.where(d > 0, pressure, 0.0)
         allowed = _VALUES * self.wanted.of(i)[group]
-        if part.size:
-            g = group[part]
-            goal = np.stack((*(2 * [allowed[part] / friction]), np.full(part.size, self.wanted.rtol)), axis=1)
-            means, errors = level.sure_means(g, d[part], goal, True)
-            rise = np.where(means[:, 3] > 0, means[:, 3], np.inf)
-            # friction is pressure times slope: where means of next to nothing vary by chance they say nothing else
-            by_pressure = np.clip(means[:, 4] / rise, -_STEEPEST, _STEEPEST)
-            lift = 0.0 if p is None else p[part] / unit - means[:, 0]
-            d[part] += lift / rise
-            own[part, 0], own[part, 1] = (means[:, 1] + by_pressure * lift) * friction, means[:, 2]
-            pressure[part] = unit * (means[:, 0] + lift)
-            error[part] = friction * (errors[:, 1] + (0.0 if p is None else np.abs(by_pressure) * (errors[:, 0] + _EPS)))
-            missed[part] = 0.0 if p is None else errors[:, 0]
+        goal = np.stack((*(2 * [allowed / friction]), np.full(load.size, self.wanted.rtol)), axis=1)
+        d, means, errors = level.at(group, load / unit if by_pressure else load, by_pressure, goal)
+        pressure = np.where(d > 0, load if by_pressure else unit * means[:, 0], 0.0)
+        own = np.stack((friction * means[:, 1], means[:, 2]), axis=1)
+        error, missed = friction * errors[:, 1], errors[:, 0] if by_pressure else 0.0
         if laws is None:
             return Found(d, pressure, np.column_stack((own, error)))
         carrier = self.carrier(i, laws)
         # contact counts on as much of the surface as friction does
         share = max(self.wanted.rtol, _SHARES) * (self.wanted.of(i) / self.wanted.friction)[group]
         goal = np.broadcast_to(np.minimum(share, _COARSE)[:, None], (d.size, laws.full.shape[1])).copy()
-        goal[:, :-1:3], goal[:, -1] = allowed[:, None], np.inf
+        goal[:, :-1:2], goal[:, -1] = allowed[:, None], np.inf
         carried, errors = carrier.carried(group, d, goal, at_once=i > 0)
         self.work.solved += carrier.strips
-        error += errors[:, :-1:3].sum(axis=1) + carried[:, -1]
+        error += errors[:, :-1:2].sum(axis=1) + carried[:, -1]
         # local pressures are as uncertain as a strip's means, and change friction by the law's slope
         error += own[:, 1] * (CANCELLED * level.family.errors[group, 0] + missed) * unit * laws.steepest[group]
         return Found(d, pressure, np.column_stack((own, carried[:, :-1], error)))
 
     def _sharp(self, i):
         """Where the friction of level i with all that it carries counts enough for its lesser breaks to matter, (G,)."""
-        return self.wanted.of(i) < _BLUNT * self._saturated(i)[:, ::3].sum(axis=1)
+        return self.wanted.of(i) < _BLUNT * self._saturated(i)[:, :-1:2].sum(axis=1)
 
     def _law(self, i, below: Laws | None) -> Laws:
-        unit, top = self.units[i], self.ceilings[i]
-        edge = np.minimum(self._at_height(i), self.p_sat[i])
-        own = np.minimum([edge, self.p_sat[i], self.p_full[i]], top).T
+        top, p_sat = self.ceilings[i], self.units[i] * (0.5 * self.levels[i].family.s_sat - 0.75)
+        own = np.minimum([np.minimum(self._at(i, np.ones((self.V.size, 1)))[:, 0], p_sat), p_sat, self.p_full[i]], top).T
         ends, sharp = own, self._sharp(i)
         if below is not None and sharp.any():
-            met = np.minimum(np.where(sharp[:, None], self._met(i, below), np.inf), own[:, 2:])
+            # where the pressure at the edges of the cells, all one, passes a break of the law below
+            met = self._at(i, 1 + np.where(sharp[:, None], below.breaks, np.inf) / self.units[i])
+            met = np.minimum(met, own[:, 2:])
             ends = np.concatenate((own, met), axis=1)
         ends = np.sort(np.concatenate((np.zeros((self.V.size, 1)), ends), axis=1), axis=1)
         # ends that are next to one another are one
-        near = np.diff(ends, axis=1) <= 1e-6 * np.minimum(ends[:, 1:], unit)
+        near = np.diff(ends, axis=1) <= 1e-6 * np.minimum(ends[:, 1:], self.units[i])
         for j in np.flatnonzero(near.any(axis=0)):
             ends[near[:, j], j + 1] = ends[near[:, j], j]
         pieces, steepest, most = self._pieces(i, ends, below)
@@ -222,46 +194,30 @@ class FamilyStack:
         breaks = np.where(own < np.where(np.isinf(p_full), top, np.inf)[:, None], own, np.inf)
         return Laws(pieces, breaks, p_full, self._saturated(i), top, steepest, most)
 
-    def _met(self, i, below: Laws):
-        """Pressures at which that at the edges of the cells of level i, all one, passes a break of the law below, (G, k)."""
-        at, unit = self.levels[i], self.units[i]
-        d = 1 + below.breaks / unit
+    def _at(self, i, d):
+        """Pressures of level i at penetrations ``d`` (G, k) in its height, inf where that is, Pa."""
         row, column = np.nonzero(np.isfinite(d))
-        p = np.full(d.shape, np.inf)
-        x = d[row, column]
-        pressure, part = x - 0.75, x < 0.5 * at.family.s_sat[row]
+        x, out = d[row, column], np.full(d.shape, np.inf)
+        pressure, part = x - 0.75, x < 0.5 * self.levels[i].family.s_sat[row]
         if part.any():
-            pressure[part] = at.means(row[part], x[part], 18)[:, 0]
-        p[row, column] = pressure * unit
-        return p
-
-    def _at_height(self, i):
-        """Pressure at D = h."""
-        level = self.levels[i]
-        reached = self.ceilings[i] / self.units[i] + 0.75 >= 1
-        out = np.full(self.V.size, np.inf)
-        g = np.flatnonzero(reached)
-        if g.size:
-            flat = level.family.s_sat[g] <= 2
-            means = level.means(g, np.ones(g.size), 12)
-            out[g] = np.where(flat, self.p_sat[i][g], means[:, 0] * self.units[i])
+            pressure[part] = self.levels[i].means(row[part], x[part], _AT_EDGES)[:, 0]
+        out[row, column] = pressure * self.units[i]
         return out
 
     def _saturated(self, i):
-        one, none = np.ones(self.V.size), np.zeros(self.V.size)
         columns = []
         for j in range(i, len(self.waves)):
-            columns += [0.09375 * self.levels[j].family.full[:, 1] * self._friction_unit(j), one, none]
-        return np.stack((*columns, none), axis=1)
+            columns += [0.09375 * self.levels[j].family.full[:, 1] * self._friction_unit(j), np.ones(self.V.size)]
+        return np.stack((*columns, np.zeros(self.V.size)), axis=1)
 
     def _pieces(self, i, ends, below):
         """Pieces between the ``ends`` (G, pieces + 1) of each law, all together; and of each law the
         greatest slope of friction, and a bound of its size, (G,)."""
-        G, J, q = self.V.size, ends.shape[1] - 1, 3 * (len(self.waves) - i) + 1
+        G, J, q = self.V.size, ends.shape[1] - 1, 2 * (len(self.waves) - i) + 1
         group, piece = np.nonzero(np.diff(ends, axis=1) > 0)
         low, high = ends[group, piece], ends[group, piece + 1]
         series: list[np.ndarray] = [np.zeros((1, q))] * group.size
-        steep, most = np.zeros(G), self._saturated(i)[:, ::3].sum(axis=1)
+        steep, most = np.zeros(G), self._saturated(i)[:, :-1:2].sum(axis=1)
         left, values, worst = np.arange(group.size), None, np.zeros(group.size)
         for n in NODES:
             omega = lobatto(n) if values is None else lobatto(n)[1::2]

@@ -42,7 +42,7 @@ class Points:
 @dataclass(frozen=True)
 class NonadhesiveSurface:
     """What points of a surface have in common. ``stiffness``: K of each level's foundation, Pa/m, all of the times of
-    ``foundation``. ``p_sat``, ``p_full`` (levels, G) at the velocities ``V`` (G,): see
+    ``foundation``. ``p_full`` (levels, G) at the velocities ``V`` (G,): see
     ``FamilyStack``; ``floor``: friction, Pa, that counts beside its own size where ``rtol`` is relative. With an
     adhesive traction ``p_0``, Pa, no point is solved."""
 
@@ -51,7 +51,6 @@ class NonadhesiveSurface:
     levels: Sequence[Wavy]
     p_0: float
     V: np.ndarray
-    p_sat: Sequence[np.ndarray]
     p_full: Sequence[np.ndarray]
     floor: float
     rtol: float
@@ -106,16 +105,15 @@ class NonadhesiveSurface:
             self.V[which],
             most,
             d_max,
-            take(self.p_sat),
             take(self.p_full),
             wanted,
             self.work,
         )
-        found = stack.at(0, row, load if by_pressure else None, stack.laws(), None if by_pressure else load / self.levels[0].h)
-        friction, error = found.values[:, :-1:3], found.values[:, -1]
+        found = stack.at(0, row, load if by_pressure else load / self.levels[0].h, stack.laws(), by_pressure)
+        friction, error = found.values[:, :-1:2], found.values[:, -1]
         total = self.floor + friction.sum(axis=1)
         out.D[index], out.p[index], out.error[index] = found.d * self.levels[0].h, found.p, error
-        out.tau[:levels, index], out.contact[:levels, index] = friction.T, found.values[:, 1:-1:3].T
+        out.tau[:levels, index], out.contact[:levels, index] = friction.T, found.values[:, 1:-1:2].T
         # a friction that nothing is told of is left to the general path: relative to it, not to the floor, it may be sure
         told = (error <= _DIGIT * (total - self.floor)) | (self.V[group] == 0)
         out.certain[index] = (error <= self.rtol * total) & told & (levels == len(self.levels))

@@ -22,16 +22,16 @@ _STEP = 1e-3
 
 
 class Tried:
-    """Pieces through the ``values`` (m, n + 1, q) at ``lobatto(n)``: friction, contact, adhesion of each level, and the error of
+    """Pieces through the ``values`` (m, n + 1, q) at ``lobatto(n)``: friction and contact of each level, and the error of
     all friction; which is known to ``friction`` (m,), Pa, everything else to ``rtol``."""
 
     def __init__(self, n: int, values: np.ndarray, friction: np.ndarray, rtol: float):
         self.n = n
         #: all friction first
-        self.total = np.concatenate((values[:, :, :-1:3].sum(axis=2, keepdims=True), values[:, :, :-1]), axis=2)
+        self.total = np.concatenate((values[:, :, :-1:2].sum(axis=2, keepdims=True), values[:, :, :-1]), axis=2)
         self.goal = np.full((friction.size, values.shape[2]), max(rtol, _CONTACT))
         self.goal[:, 0] = _INTERPOLATION * friction
-        self.goal[:, 1::3] = self.goal[:, :1]
+        self.goal[:, 1::2] = self.goal[:, :1]
         self.coefficients = coefficients(self.total)
         alone = np.swapaxes(self.coefficients, 1, 2).reshape(-1, n + 1, 1)
         miss = interpolation_errors(alone, 0.1 * self.goal.reshape(-1, 1)).reshape(friction.size, -1)
@@ -42,7 +42,7 @@ class Tried:
     def done(self) -> np.ndarray:
         """Which need no more nodes, or get none, (m,)."""
         known = self.miss <= self.goal
-        friction = known[:, 0] & known[:, 1::3].all(axis=1)
+        friction = known[:, 0] & known[:, 1::2].all(axis=1)
         return known.all(axis=1) | (self.n == NODES[-1]) | (friction & (self.n >= _FOR_CONTACT))
 
     def series(self, k: int, worst: float) -> np.ndarray:
@@ -50,7 +50,7 @@ class Tried:
         all of a piece."""
         kept, lost = trimmed(self.coefficients[k, :, 1:], _TRIMMED * self.goal[k, 1:])
         series = np.pad(kept, ((0, 0), (0, 1)))
-        series[0, -1] = _CANCELLED * (_SURE * self.miss[k, 0] + worst + lost[::3].sum())
+        series[0, -1] = _CANCELLED * (_SURE * self.miss[k, 0] + worst + lost[::2].sum())
         return series
 
     def most(self, k: int) -> float:
