@@ -40,7 +40,7 @@ def as_input(groups, closure, orbit):
     b, a, c = *ends["c"], ends["f"][0]
     shift = 2 * np.pi * np.round((x - cycle.centre[0]) / (2 * np.pi))
     edges = [np.array([v - shift]) for v in (x, b, a, c)]
-    return cycle, Orbit(*edges, np.zeros(1, bool), np.zeros(1), np.full(1, np.nan))
+    return cycle, Orbit(*edges, np.zeros(1, bool), np.zeros(1))
 
 
 def residual(groups, closure, orbit):

@@ -44,8 +44,7 @@ def known_orbits(s: Strips, unloading: bool):
     index = np.flatnonzero(solved.code == CODE["acaf"])
     cycle = adhesive_cycle(kernel, s.take(index))
     zero, x = np.zeros(index.size), solved.d[index]
-    w_end = kernel.profile(x, cycle.strips.D) + cycle.strips.delta_0
-    return cycle, Orbit(x, solved.b[index], solved.a[index], solved.c[index], zero > 0, zero, w_end)
+    return cycle, Orbit(x, solved.b[index], solved.a[index], solved.c[index], zero > 0, zero)
 
 
 def crossed_before(cycle, x):
@@ -55,7 +54,7 @@ def crossed_before(cycle, x):
     shares = (np.arange(SCANNED) + 0.5) / SCANNED
     onsets = low + 0.999 * shares[:, None] * (x - low)
     orbit, _ = march(kernel, cycle.take(np.tile(np.arange(cycle.size), SCANNED)), onsets.ravel())
-    back = ~orbit.engaged & (orbit.r < -1e-12 * (1 + np.abs(orbit.w_end)))
+    back = ~orbit.engaged & (orbit.r < -1e-12 * np.tile(1 + np.abs(cycle.strips.D), SCANNED))
     return np.fmax.reduce(np.where(back, onsets.ravel(), np.nan).reshape(SCANNED, -1))
 
 

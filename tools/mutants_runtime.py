@@ -84,8 +84,8 @@ MUTANTS = (
     Mutant(
         "twice as much is excluded",
         "orbit/search.py",
-        "(near + far > width)",
-        "(2 * (near + far) > width)",
+        "near + far > width",
+        "2 * (near + far) > width",
         "test_proofs.py test_extremal.py test_reference_strips.py",
     ),
     Mutant(

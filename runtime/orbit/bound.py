@@ -2,17 +2,17 @@
 
 import numpy as np
 
-#: a slow foundation changes little over a period: bounds are to be that much closer; distance to the zero, as estimated there
+#: distance from the zero, as estimated there, at which bounds are close enough: less on foundations slower than this beta, which
+#: change less over a period
 _CLOSE, _SLOW = 0.05, 6.0
 #: bounds are sought beyond the linear estimate by this share of the way to it, or its square where that is less
 _BEYOND = 0.3
 _TRIES = 12
-POWER = 1.0
 
 
 def close_enough(beta):
     """Distance from the zero at which bounds for strips of these beta are good enough."""
-    return _CLOSE * (6.0 / np.maximum(beta, 6.0)) ** POWER
+    return _CLOSE * _SLOW / np.maximum(beta, _SLOW)
 
 
 def rows(size: int, *values) -> np.ndarray:

@@ -17,9 +17,6 @@ from .refine import refined
 from .solved import orbit_of
 from .start import start
 
-#: traction that lifts the foundation less than the wave is high: then the most engaged orbit may not reach contact
-_LOW = 1.0
-
 
 def certified(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[Orbit, np.ndarray, np.ndarray]:
     """Orbits of ``sequence`` that Newton finds from ``edges`` (k, n), which are certified, and the evaluations of each."""
@@ -68,10 +65,11 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: OrbitBounds):
         if hanging.size:
             none[hanging], found.evaluations[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
             possible &= ~none
-    found.attempt("acaf", np.flatnonzero(possible & ~cycle.direct))
+    # along every orbit w is at least -p_0: a crest that does not come as deep makes no contact
+    touches = s.D + s.p_0 > s.noise()
+    found.attempt("acaf", np.flatnonzero(possible & ~cycle.direct & touches))
     found.attempt("afc", np.flatnonzero(possible & cycle.direct))
-    low = possible & ~cycle.direct & (last | (s.p_0 < _LOW))
-    found.attempt("af", np.flatnonzero(low & ~found.proven))
+    found.attempt("af", np.flatnonzero(possible & ~cycle.direct & ~found.proven & (last | ~touches)))
     return found.orbit, found.sequence, found.proven, none, found.evaluations
 
 

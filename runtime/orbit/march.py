@@ -32,7 +32,6 @@ class Orbit(Batch):
         engaged: still in contact or adhesion when the onset phase comes round again; then r is -inf.
         r: gap to the threshold of the next onset at ``x + 2 pi``; positive: the next onset comes later than x,
             negative: it came earlier, zero: x belongs to a periodic orbit.
-        w_end: free displacement at ``x + 2 pi``.
     """
 
     x: np.ndarray
@@ -41,12 +40,11 @@ class Orbit(Batch):
     c: np.ndarray
     engaged: np.ndarray
     r: np.ndarray
-    w_end: np.ndarray
 
     @classmethod
     def blank(cls, n: int) -> "Orbit":
         """n places for orbits, none of them known."""
-        return cls(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), *(np.full(n, np.nan) for _ in range(2)))
+        return cls(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), np.full(n, np.nan))
 
 
 def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, later: Orbit | None = None):
@@ -60,14 +58,14 @@ def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, lat
     a = _contact_ends(kernel, cycle, x, b, spent, _Known(x, earlier, later, "a"))
     c = _adhesion_ends(kernel, cycle, x, b, a, spent, _Known(x, earlier, later, "c"))
     engaged = np.isnan(c)
-    r, w_end = np.full(x.shape, -np.inf), np.full(x.shape, np.nan)
+    r = np.full(x.shape, -np.inf)
     free = np.flatnonzero(~engaged)
     if free.size:
-        r[free], w_end[free] = closing(kernel, cycle.among(free), x[free], b[free], a[free], c[free])
+        r[free] = closing(kernel, cycle.among(free), x[free], b[free], a[free], c[free])
     grazed = np.flatnonzero(engaged & (cycle.strips.alpha > FROZEN) & ~np.isposinf(a) & ~cycle.bare & (cycle.half_c < np.pi))
     if grazed.size:
-        _release_grazing(kernel, cycle, Orbit(x, b, a, c, engaged, r, w_end), grazed)
-    return Orbit(x.copy(), b, a, c, engaged, r, w_end), spent
+        _release_grazing(kernel, cycle, Orbit(x, b, a, c, engaged, r), grazed)
+    return Orbit(x.copy(), b, a, c, engaged, r), spent
 
 
 def _release_grazing(kernel, cycle: Cycle, orbit: Orbit, index) -> None:
@@ -87,11 +85,10 @@ def _release_grazing(kernel, cycle: Cycle, orbit: Orbit, index) -> None:
     pick = np.flatnonzero(open_)
     if not pick.size:
         return
-    r, w_end = closing(kernel, part.take(pick), x[pick], b[pick], a[pick], c[pick])
+    r = closing(kernel, part.take(pick), x[pick], b[pick], a[pick], c[pick])
     rises = r > 0
     pick, index = pick[rises], index[pick[rises]]
-    orbit.c[index], orbit.engaged[index] = c[pick], False
-    orbit.r[index], orbit.w_end[index] = r[rises], w_end[rises]
+    orbit.c[index], orbit.engaged[index], orbit.r[index] = c[pick], False, r[rises]
 
 
 def between(left: Orbit, right: Orbit) -> Orbit:
@@ -99,7 +96,7 @@ def between(left: Orbit, right: Orbit) -> Orbit:
     fall = left.r - right.r
     share = np.clip(np.divide(left.r, fall, out=np.full(fall.shape, 0.5), where=np.isfinite(fall) & (fall > 0)), 0, 1)
     mixed = [(1 - share) * getattr(left, e) + share * getattr(right, e) for e in ("x", "b", "a", "c")]
-    return Orbit(*mixed, left.engaged.copy(), left.r.copy(), left.w_end.copy())
+    return Orbit(*mixed, left.engaged.copy(), left.r.copy())
 
 
 def lies_between(orbit: Orbit, left: Orbit, right: Orbit, blur) -> np.ndarray:
@@ -246,7 +243,7 @@ def _adhesion_ends(kernel, cycle: Cycle, x, b, a, spent, known: _Known):
 
 
 def closing(kernel, cycle: Cycle, x, b, a, c):
-    """Sum of the increments of z over the period (small when beta is large, and then still exact), and w at its end."""
+    """Sum of the increments of z over the period: small when beta is large, and then still exact."""
     s = cycle.strips
     r = np.zeros(x.shape)
     contact = ~np.isnan(b)
@@ -261,5 +258,4 @@ def closing(kernel, cycle: Cycle, x, b, a, c):
     i = np.flatnonzero(contact & ~cycle.bare)
     r[i] += kernel.relaxation_increment(a[i], c[i], kernel.profile(a[i], s.D[i]) + s.p_0[i], s.beta[i])
     w_c = kernel.profile(c, s.D) + s.delta_0 + cycle.jump
-    r += kernel.relaxation_increment(c, end, w_c, s.beta)
-    return r, w_c * kernel.decay(end - c, s.beta)
+    return r + kernel.relaxation_increment(c, end, w_c, s.beta)

@@ -4,33 +4,26 @@ The return map of a material point preserves order (see ``solve``), so the onset
 upward. Hence the most engaged orbit with a free part is the first zero of ``r`` from the left, and the least engaged the
 last one. A zero is skipped by no one: an interval is left behind only when a bound excludes every zero in it.
 
-Exclusion. Write ``R(x) = r(x) exp(x/beta)``; then ``beta R' = exp(x/beta)(N - F)``, ``F = H + delta_0``. On an interval
-with ``N >= N_min`` two bounds follow from the left end, where r > 0:
-
-* comparison: r stays above the gap of a foundation that relaxes towards ``N_min`` from the left end (sharp at small beta);
-* linear: ``r exp(..) >= r_left - fall (exp((x - x_left)/beta) - 1)``, ``fall >= F - N`` (sharp at large beta, where it does not
-  cancel);
-
-and their mirror images from the right end. Where ``N < F`` throughout, R falls strictly: a change of sign brackets
-exactly one zero, a stable orbit. All other intervals are halved.
+Exclusion. Write ``R(x) = r(x) exp(x/beta)``; then ``beta R' = exp(x/beta)(N - F)``, ``F = H + delta_0``. From the left end of an
+interval, where r > 0, ``r exp(..) >= r_left - fall (exp((x - x_left)/beta) - 1)`` with ``fall >= F - N``; and likewise from the
+right end. Where ``N < F`` throughout, R falls strictly: a change of sign brackets exactly one zero, a stable orbit. All other
+intervals are divided.
 """
 
 import numpy as np
 
 from ..numerics.roots import falling_root
-from .groups import ROUNDING, Cycle
+from .groups import Cycle
 from .march import TWO_PI, Orbit, march
 from .sensitivity import SlopeBounds, onset_margin, slope_bounds, slope_excess
 
 _EPS = np.finfo(float).eps
 #: every round divides what it leaves by two at least
 _MAX_ROUNDS = 200
-#: parts into which an interval is divided from the second round on. Most searches end in two rounds; of the others, next to a fold
+#: parts into which an interval is divided from the second round on. Most searches end in two; of the others, next to a fold
 #: or a graze, a round costs about the same whatever the parts: 4 to 10 do alike. The same for every batch: what a strip comes out
 #: as must not depend on its size
 _PARTS = 6
-#: scale of the finest mesh, in parts of its interval
-_FINEST = 1e-9
 #: retardation times after which a displacement is gone, to the smallest number
 FORGOTTEN = 750
 
@@ -136,7 +129,7 @@ class _Search:
         """Divide the interval from each frontier to the onset ``beyond`` into ``count`` parts; exclude them, and what is left up
         to ``stop``, one after another, until one is not excluded: it brackets an orbit, or is divided in the next round."""
         n = index.size
-        inner = _mesh(frontier, beyond, self._slope(index, frontier), self._slope(index, beyond), self.sign, count)
+        inner = frontier.x + (beyond.x - frontier.x) * (np.arange(1, count)[:, None] / count)
         every = np.tile(np.arange(n), count - 1)
         points = [frontier, beyond, stop]
         if count > 1:
@@ -161,11 +154,6 @@ class _Search:
         keep = np.flatnonzero(~ended)
         return index[keep], here.take(first[keep]), there.take(first[keep]), stop.take(keep)
 
-    def _slope(self, index, orbit: Orbit) -> np.ndarray:
-        """Derivative of r by the onset, NaN where the strip stays engaged."""
-        with np.errstate(invalid="ignore"):
-            return np.where(orbit.engaged, np.nan, _residual_slope(self.kernel, self.cycle.take(index), orbit))
-
     def _judged(self, index, here: Orbit, there: Orbit) -> tuple[np.ndarray, np.ndarray]:
         """Which intervals from ``here``, behind which all is excluded, to ``there`` hold no zero of r, and which exactly one."""
         left, right = (there, here) if self.last else (here, there)
@@ -187,31 +175,13 @@ class _Search:
             left = _released(self.kernel, cycle, left)
             # up to the unknown onset from which it is released nothing adds to w
             top = onset_margin(self.kernel, cycle, cycle.centre)
-            bounds = SlopeBounds(
-                np.where(left.engaged, top, bounds.fall), bounds.rise, bounds.falls, np.where(left.engaged, 0.0, bounds.N_min)
-            )
-        return np.where(changes, unique, excluded(self.kernel, cycle, left, right, bounds, self.last))
+            bounds = SlopeBounds(np.where(left.engaged, top, bounds.fall), bounds.rise, bounds.falls)
+        return np.where(changes, unique, excluded(cycle.strips.beta, left, right, bounds, self.last))
 
     def _isolated(self, index, left: Orbit, right: Orbit):
         self.result.found[index] = True
         self.result.left.put(index, left)
         self.result.right.put(index, right)
-
-
-def _mesh(here: Orbit, there: Orbit, slope_here, slope_there, sign: float, count: int) -> np.ndarray:
-    """Onsets (count - 1, n) that divide intervals: finer next to where a parabola through both slopes puts the least
-    ``sign * r``, in proportion to the distance from there, down to where the parabola is twice its least value (or has its
-    zeros)."""
-    width = there.x - here.x
-    one, two = sign * slope_here * width, sign * slope_there * width
-    turns = (one < 0) & (two > 0)
-    one, bend, r = np.where(turns, one, 0.0), np.where(turns, two - one, 1.0), np.where(turns, here.r, 0.0)
-    place = np.where(turns, -one / bend, 0.5)
-    least = sign * r + 0.5 * one * place
-    scale = np.where(turns, np.maximum(np.sqrt(2 * np.abs(least) / bend), _FINEST), 1.0)
-    low, high = np.arcsinh(-place / scale), np.arcsinh((1 - place) / scale)
-    share = np.arange(1, count)[:, None] / count
-    return here.x + width * np.clip(place + scale * np.sinh(low + share * (high - low)), 0.0, 1.0)
 
 
 def locate(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[Orbit, np.ndarray]:
@@ -252,41 +222,27 @@ def _residual_slope(kernel, cycle: Cycle, orbit: Orbit):
 
 
 def _released(kernel, cycle: Cycle, orbit: Orbit) -> Orbit:
-    """Where the orbit stays engaged, the least w that a later onset can end with: adhesion ends last, by grazing.
+    """Where the orbit stays engaged, the march of a later onset that ends with the least w: adhesion ends last, by grazing.
 
-    Adhesion ends earlier and w is larger the later the onset, so this r bounds from below every orbit that does end.
+    Adhesion ends earlier and w is larger the later the onset, so this r bounds from below that of every orbit that does end.
     """
     s = cycle.strips
     c = cycle.centre + TWO_PI - cycle.half_c
-    end = orbit.x + TWO_PI
-    w_c = kernel.profile(c, s.D) + s.delta_0 + cycle.jump
-    r = kernel.gap_after(c, end, s.delta_0 + cycle.jump, 0.0 * c, s.D, s.beta) - s.delta_0
-    w_end = w_c * kernel.decay(end - c, s.beta)
+    r = kernel.gap_after(c, orbit.x + TWO_PI, s.delta_0 + cycle.jump, 0.0 * c, s.D, s.beta) - s.delta_0
     pick = orbit.engaged
-    return Orbit(
-        orbit.x,
-        orbit.b,
-        orbit.a,
-        np.where(pick, c, orbit.c),
-        pick,
-        np.where(pick, r, orbit.r),
-        np.where(pick, w_end, orbit.w_end),
-    )
+    return Orbit(orbit.x, orbit.b, orbit.a, np.where(pick, c, orbit.c), pick, np.where(pick, r, orbit.r))
 
 
-def excluded(kernel, cycle: Cycle, left: Orbit, right: Orbit, bounds: SlopeBounds, last: bool) -> np.ndarray:
+def excluded(beta, left: Orbit, right: Orbit, bounds: SlopeBounds, last: bool) -> np.ndarray:
     """True where the bounds leave no zero of r between two onsets at which r has the sign of the excluded side."""
     width = right.x - left.x
-    beta = cycle.strips.beta
     if last:
         near = reach_back(beta, -right.r, bounds.fall)
         far = np.where(left.engaged, 0.0, reach_on(beta, np.where(left.engaged, 0.0, -left.r), bounds.rise))
-        compared = _stays_below(kernel, cycle, left.x, right, bounds.N_min)
     else:
         near = reach_on(beta, left.r, bounds.fall)
         far = reach_back(beta, right.r, bounds.rise)
-        compared = _stays_above(kernel, cycle, left, right.x, bounds.N_min)
-    return compared | (near + far > width)
+    return near + far > width
 
 
 def _ratio(margin, rate):
@@ -305,29 +261,3 @@ def reach_back(beta, margin, rate):
     ratio = _ratio(np.maximum(margin, 0.0), rate)
     inside = ratio < 1
     return np.where(inside, -beta * np.log1p(-np.where(inside, ratio, 0.0)), np.inf)
-
-
-def _stays_above(kernel, cycle: Cycle, left: Orbit, x_right, N_min):
-    """r > 0 on the interval: the comparison gap, relaxing towards N_min, does not reach delta_0.
-
-    The comparison gap crosses delta_0 downward only where H > N_min - delta_0, an arc about the centre, so it is
-    enough to look at the end of that arc and of the interval.
-    """
-    s = cycle.strips
-    half = kernel.forcing_arc(s.delta_0 - N_min, s.D, s.beta)[1]
-    turn = np.clip(cycle.centre + half, left.x, x_right)
-    above = np.ones(left.x.shape, bool)
-    noise = ROUNDING * (1 + np.abs(s.D) + s.delta_0 + np.abs(left.r) + N_min)
-    for phase in (turn, x_right):
-        above &= kernel.gap_after(left.x, phase, s.delta_0 + left.r, N_min, s.D, s.beta) > s.delta_0 + noise
-    return above
-
-
-def _stays_below(kernel, cycle: Cycle, x_left, right: Orbit, N_min):
-    """r < 0 on the interval, the mirror image of ``_stays_above``: compared at the onset that is hardest to exclude."""
-    s = cycle.strips
-    half = kernel.forcing_arc(s.delta_0 - N_min, s.D, s.beta)[1]
-    turn = np.clip(cycle.centre - half, x_left, right.x)
-    lag = kernel.profile(turn, s.D) + s.delta_0 - N_min
-    noise = ROUNDING * (1 + np.abs(s.D) + s.delta_0 + np.abs(right.w_end) + N_min)
-    return right.w_end - N_min + noise < lag * kernel.decay(right.x - turn, s.beta)

@@ -24,13 +24,12 @@ _LEAST = 1e-290
 
 @dataclass(frozen=True, slots=True)
 class SlopeBounds:
-    """Over an interval: how fast R can fall and rise at most (``N - F`` from below and above, as rates >= 0), whether it falls
-    strictly, and a lower bound of N."""
+    """Over an interval: how fast R can fall and rise at most (``N - F`` from below and above, as rates >= 0), and whether it
+    falls strictly."""
 
     fall: np.ndarray
     rise: np.ndarray
     falls: np.ndarray
-    N_min: np.ndarray
 
 
 def slope_excess(kernel, cycle: Cycle, orbit: Orbit) -> tuple[np.ndarray, np.ndarray]:
@@ -85,7 +84,7 @@ def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds
     rise = np.minimum(
         np.multiply(F_max, growth, out=np.zeros_like(F_max), where=(growth > 0) & (F_max > 0)), np.maximum(N_max - F_min, 0.0)
     )
-    return SlopeBounds(fall, rise, (log_max < 0) | (N_max < F_min), N_min)
+    return SlopeBounds(fall, rise, (log_max < 0) | (N_max < F_min))
 
 
 def steep_margin(kernel, cycle: Cycle, latest, right: Orbit) -> np.ndarray:

@@ -95,4 +95,4 @@ def orbit_of(sequence: str, edges: np.ndarray) -> Orbit:
     absent = np.full(edges.shape[1], np.nan)
     places = {"acaf": (0, 1, 2, 3), "afc": (0, 0, 1, 2), "af": (0, None, None, 1), "ac": (0, 0, 1, 1), "cf": (0, 0, 1, 1)}
     x, b, a, c = (absent if place is None else edges[place] for place in places[sequence])
-    return Orbit(x.copy(), b.copy(), a.copy(), c.copy(), np.zeros(x.size, bool), np.zeros(x.size), absent.copy())
+    return Orbit(x.copy(), b.copy(), a.copy(), c.copy(), np.zeros(x.size, bool), np.zeros(x.size))
