@@ -47,7 +47,7 @@ def test_located_points_are_where_regimes_meet(branch, several):
         codes, values, heights, edges = map(pair, answers)
         changes = Changes(line, D[node], D[node + 1], codes, heights, edges, values)
         E = np.stack((changes.low, changes.high), axis=1) - h
-        place, found = located(columns.at(line, changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
+        place, found, _ = located(columns.at(line, changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
         asked, told = asked + line.size, told + int(found.sum())
         kinds |= set(columns.crossings.points)
         below, above = (crest(line[found], place[found] + h + shift * h)[0] for shift in (-1e-6, 1e-6))

@@ -232,7 +232,7 @@ class _Work:
         columns, level = self.columns.at(state[parent], self.columns.D[state[parent]]), self.columns.level
         theta = np.stack((each.low, each.high), axis=1)
         E = np.broadcast_to((columns.D - level.h)[:, None], theta.shape)
-        A, found = located(columns, each, level.amplitude(theta), E, "A")
+        A, found, _ = located(columns, each, level.amplitude(theta), E, "A")
         told = np.bincount(parent[~found], minlength=changes.size)[parent] == 0
         return parent[told], theta_of(columns, A[told])
 

@@ -105,21 +105,24 @@ def equations(columns: LevelBatch, code: np.ndarray, other: np.ndarray) -> list[
     return found
 
 
-def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str) -> tuple[np.ndarray, np.ndarray]:
+def located(
+    columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str
+) -> tuple[np.ndarray, np.ndarray, list[tuple[Boundary, np.ndarray, Points]]]:
     """Where regimes that meet between two strips of the plane do, by the equation of an orbit that ends there; or where its
     greatest pressure passes a break of the law below.
 
     ``A`` and ``E`` (m, 2) of the ends of the ``changes``; ``unknown`` "A" or "E": the coordinate they differ in. ``columns``: the
-    state of each. Returns that coordinate, and which were found (m,); the points are remembered."""
+    state of each. Returns that coordinate, which were found (m,), and points of curves that they are: boundary, changes, points.
+    These are remembered."""
+    curves = []
     place, found = _by_threshold(columns, changes, A, E, unknown)
     ends = A if unknown == "A" else E
     low, high = ends.min(axis=1), ends.max(axis=1)
     code = changes.codes % len(CODE)
     for side in (0, 1):
         none = np.zeros(changes.size)
-        kinds = [(b, rows, none, none.astype(int)) for b, rows in equations(columns, code[:, side], code[:, 1 - side])]
-        if columns.carry is not None:
-            kinds += _peaks(columns, changes, code)
+        kinds = [] if columns.carry is None else _peaks(columns, changes, code)
+        kinds += [(b, rows, none, none.astype(int)) for b, rows in equations(columns, code[:, side], code[:, 1 - side])]
         for boundary, rows, pressure, index in kinds:
             rows = rows[~found[rows]]
             if not rows.size:
@@ -133,8 +136,9 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
             good &= (at > low[rows]) & (at < high[rows])
             place[rows[good]], found[rows[good]] = at[good], True
             if good.any():
-                columns.crossings.remember(columns, boundary, got.take(np.flatnonzero(good)))
-    return place, found
+                curves.append((boundary, rows[good], got.take(np.flatnonzero(good))))
+                columns.crossings.remember(columns, boundary, curves[-1][2])
+    return place, found, curves
 
 
 def _by_threshold(columns: LevelBatch, changes: Changes, A, E, unknown: str) -> tuple[np.ndarray, np.ndarray]:

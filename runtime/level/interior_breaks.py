@@ -7,11 +7,13 @@ that grows like the square root of the distance in D, and the level's means with
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import reduce
 
 import numpy as np
 
 from .boundaries import located
 from .changes import Changes, locate_changes
+from .plane import Boundary, Points, turning_point
 from .strips import LevelBatch
 
 #: points across an island, and how often they are drawn closer to where it vanishes
@@ -73,45 +75,65 @@ def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips:
     NaN: it is not absent at all.
 
     At a fixed theta the island's code ends at some penetration, located like any transition; the island vanishes at the extreme
-    of these over theta, where they lie on a parabola: at its vertex they tell it to second order. ``roughly``: to a few digits
-    only.
+    of these over theta: where the curve turns on which they lie, or at the vertex of their parabola, drawn closer and closer,
+    where no curve is known. ``roughly``: to a few digits only.
     """
-    here = np.arange(len(islands))
-    column = np.array([i.column for i in islands])
-    code, present, absent, low, high = (
-        np.array([getattr(i, name) for i in islands]) for name in ("code", "present", "absent", "low", "high")
+    number, out = np.arange(len(islands)), np.full(len(islands), np.nan)
+    column, code, present, absent, low, high = (
+        np.array([getattr(i, name) for i in islands]) for name in ("column", "code", "present", "absent", "low", "high")
     )
-    way = absent - present
-    top, lasting = np.zeros(here.size), np.zeros(here.size, bool)
     for attempt in range(_FEW if roughly else _ROUNDS):
+        here, way = np.arange(number.size), absent - present
         theta = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, _ACROSS)
         width = np.maximum(
             np.abs(way) * _FIRST_WIDTH * _SHARPER**attempt, 16 * _EPS * np.maximum(np.abs(absent), columns.level.h)
         )
-        ends, still = _ends(columns, column, code, theta, present, absent, width, strips)
-        lasting |= still.any(axis=1)
+        ends, still, curves = _ends(columns, column, code, theta, present, absent, width, strips)
         share = (ends - present[:, None]) / way[:, None]
         share = np.where(np.isnan(share), 0.0, share)
-        best = np.clip(np.argmax(share, axis=1), 1, _ACROSS - 2)
+        last = np.argmax(share, axis=1)
+        best = np.clip(last, 1, _ACROSS - 2)
         left, centre, right = (share[here, best + k] for k in (-1, 0, 1))
         bend = left - 2 * centre + right
-        at = np.divide(0.5 * (left - right), bend, out=np.zeros(here.size), where=bend < 0)
-        top = np.where(bend < 0, centre + 0.25 * (right - left) * at, share.max(axis=1))
+        at = np.clip(np.divide(0.5 * (left - right), bend, out=np.zeros(here.size), where=bend < 0), -1.0, 1.0)
+        top = np.where(bend < 0, centre + at * (0.5 * (right - left) + 0.5 * bend * at), share.max(axis=1))
         # where the code lasts longest there is the vertex, or it is at an end
         low, high = theta[here, best - 1], theta[here, best + 1]
-        if lasting.all():
+        turn = np.where(last == best, _turns(columns, curves, here * _ACROSS + best, theta.ravel()), ends[here, last])
+        known = (turn - present) / way
+        told = (known >= share.max(axis=1)) & (known < 1) & np.isin(here * _ACROSS + last, list(curves))
+        out[number] = np.where(still.any(axis=1), np.nan, np.where(told, turn, present + top * way))
+        left = ~told & ~still.any(axis=1)
+        if not left.any():
             break
-    return np.where(lasting, np.nan, present + top * way)
+        number, column, code, present, absent, low, high = (v[left] for v in (number, column, code, present, absent, low, high))
+    return out
 
 
-def _ends(columns: LevelBatch, column, code, theta, present, absent, width, strips) -> tuple[np.ndarray, np.ndarray]:
+def _turns(columns: LevelBatch, curves: dict[int, tuple[Boundary, Points]], line: np.ndarray, theta: np.ndarray) -> np.ndarray:
+    """Penetrations (m,) at which the curves turn that the strips ``line`` (m,) met, of those at ``theta``; NaN: not found."""
+    out = np.full(line.size, np.nan)
+    A = columns.level.amplitude(theta)
+    reach = np.minimum(np.abs(A[line - 1] - A[line]), np.abs(A[line + 1] - A[line]))
+    for boundary in {curves[i][0] for i in line.tolist() if i in curves}:
+        at = np.array([k for k, i in enumerate(line.tolist()) if i in curves and curves[i][0] == boundary])
+        start = reduce(Points.joined, (curves[i][1] for i in line[at].tolist()))
+        turn, found = turning_point(columns, boundary, start, reach[at])
+        out[at[found]] = turn.E[found] + columns.level.h
+    return out
+
+
+def _ends(
+    columns: LevelBatch, column, code, theta, present, absent, width, strips
+) -> tuple[np.ndarray, np.ndarray, dict[int, tuple[Boundary, Points]]]:
     """Penetration between ``present`` and ``absent`` at which each strip (islands, across) loses the island's code, NaN where it
-    has not got it or keeps it; and which keep it."""
+    has not got it or keeps it; which keep it; and by strip the point of a curve that was met last."""
     shape = theta.shape
     every = np.arange(theta.size)
     row, theta = every // shape[1], theta.ravel()
     start, stop = present[row], absent[row]
     amplitude, h = columns.level.amplitude(theta), columns.level.h
+    curves: dict[int, tuple[Boundary, Points]] = {}
 
     def probe(line, D):
         np.add.at(strips, column[row[line]], 1)
@@ -121,7 +143,11 @@ def _ends(columns: LevelBatch, column, code, theta, present, absent, width, stri
     def equation(changes):
         line = changes.line
         E = np.stack((changes.low, changes.high), axis=1) - h
-        place, found = located(columns.at(column[row[line]], changes.low), changes, np.tile(amplitude[line, None], 2), E, "E")
+        place, found, met = located(
+            columns.at(column[row[line]], changes.low), changes, np.tile(amplitude[line, None], 2), E, "E"
+        )
+        for boundary, which, points in met:
+            curves.update((line[i], (boundary, points.take([k]))) for k, i in enumerate(which.tolist()))
         told = np.flatnonzero(found)
         return told, place[told] + h
 
@@ -133,7 +159,7 @@ def _ends(columns: LevelBatch, column, code, theta, present, absent, width, stri
     out = np.full(theta.size, np.nan)
     still = (codes[:, 1] == code[row]).reshape(shape)
     if not at.size:
-        return out.reshape(shape), still
+        return out.reshape(shape), still, curves
     falls = (stop < start)[at]
     ends = [np.where(falls.reshape(-1, *[1] * (v.ndim - 1)), v[at, ::-1], v[at]) for v in ends]
     changes = Changes(at, np.minimum(start, stop)[at], np.maximum(start, stop)[at], *ends)
@@ -142,7 +168,7 @@ def _ends(columns: LevelBatch, column, code, theta, present, absent, width, stri
     order = np.argsort(np.where((stop < start)[found.line], -found.low, found.low))
     for i in order[::-1]:
         out[found.line[i]] = found.low[i] if stop[found.line[i]] > start[found.line[i]] else found.high[i]
-    return out.reshape(shape), still
+    return out.reshape(shape), still, curves
 
 
 def is_inside(D_break: float, low: float, high: float) -> bool:

@@ -25,6 +25,8 @@ _ITERATIONS, _SMALL, _LONGEST = 16, 1e-8, 0.5
 #: differences that stand for derivatives: of A or E, a share of it, the root of the rounding; of edges, further, as the
 #: determinant of zones of 1e-8 radians keeps 8 digits: Newton's method then gains 5 digits a step. A zone's are a share of it
 _STEP, _FAR, _SHARE, _LEAST = 1.5e-8, 1e-5, 1e-2, 1e-13
+#: distances of the points of a parabola: its vertex is off by the fourth power of them, and each is as good a start as the last
+_CLOSER = (1.0, 1 / 16, 1 / 256)
 #: a zone shrinks at most to this share in a step: fast modes make zones of 1e-8 radians whose edges move by far more than that
 _SHRINKS = 0.1
 
@@ -97,6 +99,27 @@ def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str)
         active = active[~done]
     found &= (np.diff(edges, axis=0) >= -_SMALL).all(axis=0) & (edges[-1] <= edges[0] + TWO_PI)
     return Points(start.velocity, plane["A"], plane["E"], edges, start.pressure, start.index), found
+
+
+def turning_point(columns: LevelBatch, boundary: Boundary, start: Points, reach: np.ndarray) -> tuple[Points, np.ndarray]:
+    """Where curves turn in E: the vertex of the parabola through three points of each, ever closer to one another, from ``start``
+    (n,) on the curves and within ``reach`` (n,) of A at first; and which were found."""
+    n, found = start.A.size, np.ones(start.A.size, bool)
+    for closer in _CLOSER:
+        side = closer * reach
+        three = Points.joined(Points.joined(start, start), start)
+        three.A = np.concatenate((start.A - side, start.A, start.A + side))
+        three, good = locate(columns, boundary, three, "E")
+        found &= good.reshape(3, n).all(axis=0)
+        low, middle, high = three.E.reshape(3, n)
+        bend = low - 2 * middle + high
+        with np.errstate(divide="ignore", invalid="ignore"):  # a straight line has no vertex
+            share = 0.5 * (low - high) / bend
+        found &= np.abs(share * side) <= reach
+        share = np.where(found, share, 0.0)
+        start = three.take(np.arange(n, 2 * n))
+        start.A, start.E = start.A + share * side, middle + 0.25 * (high - low) * share
+    return start, found
 
 
 def _moved(edges: np.ndarray, step: np.ndarray) -> np.ndarray:
