@@ -8,12 +8,12 @@ import pytest
 
 import hystrip
 from hystrip.generated import standard_linear_solid as kernel
-from hystrip.orbit import balance, exclusion
+from hystrip.orbit import balance, balance_exclusion, exclusion
 from hystrip.orbit.closed_form_exclusion import saturates
 from hystrip.orbit.engine import solve_strips
 from hystrip.orbit.groups import Strips, adhesive_cycle
 from hystrip.orbit.march import Orbit, march
-from hystrip.orbit.orbit_bounds import OrbitBounds, orbit_bounds
+from hystrip.orbit.orbit_bounds import FAST, OrbitBounds, orbit_bounds
 from hystrip.orbit.regimes import CODE
 from hystrip.orbit.search import isolate_extremal
 
@@ -63,7 +63,7 @@ def proven(cycle, orbit):
     start, end = exclusion.onsets_within(cycle, OrbitBounds.blank(cycle.size))
     bounds = orbit_bounds(kernel, cycle)
     by_bounds = exclusion.falls_from(kernel, cycle, orbit, bounds.x, bounds.c, np.nan)
-    return balance.first(kernel, cycle, orbit, start, end)[0], by_bounds
+    return balance_exclusion.first(kernel, cycle, orbit, start, end)[0], by_bounds
 
 
 @pytest.mark.parametrize("where", ["hanging", "pressed"])
@@ -105,7 +105,7 @@ def test_no_orbit_is_said_to_be_out_of_balance_beside_a_less_engaged_one():
             surplus = balance.balance_bound(kernel, reference, np.maximum(onset - width, -here.x), onset + width)
             assert (surplus <= 0).all()
         start, _ = exclusion.onsets_within(part, OrbitBounds.blank(use.size))
-        proven, _ = balance.first(kernel, part, here, start, end[use])
+        proven, _ = balance_exclusion.first(kernel, part, here, start, end[use])
         assert proven.any() == (known is not marches)
 
 
@@ -113,9 +113,9 @@ def test_strips_said_not_to_hang_have_no_such_orbit():
     s = strips(6, 30_000, "hanging")
     cycle = adhesive_cycle(kernel, s)
     solved = solve_strips(kernel, s, unloading=True)
-    none, _ = balance.exclude_out_of_reach(kernel, cycle)
+    none, _ = balance_exclusion.exclude_out_of_reach(kernel, cycle)
     assert set(solved.code[none]) <= {CODE[code] for code in ("f", "a", "ac", "c")}
-    free = (solved.code == CODE["f"]) & (s.beta > balance.SLOW)
+    free = (solved.code == CODE["f"]) & (s.beta > FAST)
     assert none[free].mean() > 0.85 and free.sum() > 5000
 
 
@@ -131,7 +131,7 @@ def test_next_to_the_end_of_a_branch_no_orbit_out_of_reach_is_passed_over():
     assert s.size > 800
     for lower in (0.0, 0.003, 0.01, 0.03, 0.1):
         cycle = adhesive_cycle(kernel, replace(s, D=high - lower * (s.p_0 + np.abs(high))))
-        none, found = balance.exclude_out_of_reach(kernel, cycle)[0], isolate_extremal(kernel, cycle, last=False).found
+        none, found = balance_exclusion.exclude_out_of_reach(kernel, cycle)[0], isolate_extremal(kernel, cycle, last=False).found
         assert not (none & found).any()
     assert none.sum() > 500
 
@@ -143,7 +143,7 @@ def test_what_has_an_orbit_before_it_is_not_proven_to_have_none():
     before = ~np.isnan(onset)
     assert before.sum() > 40
     # from there on it turns forward again at an unstable orbit
-    suspects = balance._suspects(kernel, cycle, orbit)
+    suspects = balance_exclusion._suspects(kernel, cycle, orbit)
     assert (suspects <= -onset)[before].all()
     by_balance, by_bounds = proven(cycle, orbit)
     assert not (by_balance & before).any() and not (by_bounds & before).any()

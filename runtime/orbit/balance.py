@@ -1,4 +1,4 @@
-"""Proof by the balance of one period that a strip has no orbit of some kind, in closed form.
+"""Lower bound, in closed form, of the balance of one period of all orbits with an onset in some interval.
 
 Every orbit obeys ``beta z' = p - w``, so that p and w have the same mean. Let l be a reference: a periodic orbit with a slope of
 the onset map below one, the march of one period with ``r >= 0`` (then ``beta r`` is the sum of its p - w), or the foundation at
@@ -23,20 +23,6 @@ negative: a and c lie between 0 and pi.
   If it adheres before its contact w has fallen since the onset, and before ``-t`` u is no more either: V(xi) again. If it
   adheres after its contact w falls from where that ended, on or behind the crest; so it is at most u(e) after any phase e up to
   which contact is certain to last. As V grows towards the valley, V(lo) stands for V(xi).
-
-If l is an orbit or a march that meets contact, suppose that there is an orbit with an earlier onset.
-
-* From there to l every onset leads to contact and to the end of adhesion, as it does for both, so r is continuous. It
-  is positive just before l. Where it last vanishes before l it does not fall: there is an orbit y before l at which
-  the slope of the map is not below one.
-* Contact is longer in y than in l, adhesion ends later, and it ends where free flow leads on to y itself. So (``sensitivity``)
-
-      log T'(y) <= log(1 + s_x/F(y)) + log(1 + s_c/M(c)) - 2 pi/beta - (a - b) L/alpha,
-
-  a and b those of l, which is negative unless F or M is smaller at y than some number each, that is unless y lies
-  before a phase known in closed form. There the balance decides.
-
-Where it does not for a whole interval of xi the interval is divided.
 """
 
 from dataclasses import dataclass
@@ -46,15 +32,7 @@ import numpy as np
 from .batch import Batch
 from .groups import ROUNDING, Cycle, Strips
 from .march import TWO_PI, Orbit
-from .sensitivity import fading, gains, onset_margin, release_margin
 
-#: beta above which the balance of a period is asked: below it one march from the bound on all onsets proves as much
-SLOW = 30.0
-#: what the bound loses over an interval, in p_0 times its width; by how much finer than that asks for it is divided, into how
-#: many parts at most, and how often
-_LOSS, _AMPLY, _MOST, _ROUNDS = 2.1, 1.5, 12, 8
-#: parts in which all onsets of a strip out of reach are asked at first: 2 or 8 cost as much
-_FIRST = 4
 #: least sine that is divided by
 _LEAST = 0.05
 #: contact is taken to end by so much earlier than is estimated
@@ -62,7 +40,7 @@ _MARGIN = 0.01
 
 
 @dataclass(slots=True)
-class _Reference(Batch):
+class Reference(Batch):
     """What the bounds need of n strips and their references, arrays (n,).
 
     ``storage``, ``loss``: of complete contact. ``turned``: end of the arc where contact ends. ``q_on``: excess pressure as
@@ -102,7 +80,7 @@ class _Reference(Batch):
         return self.a + self.turn * (t + self.b)
 
 
-class _Rest(_Reference):
+class _Rest(Reference):
     """A foundation at rest."""
 
     __slots__ = ()
@@ -114,54 +92,11 @@ class _Rest(_Reference):
         return t + 2 * (lifted - relaxed) / (self.beta * np.maximum(sine, _LEAST))
 
 
-def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, np.ndarray]:
-    """Which of the ``known`` orbits or marches, r >= 0, have no orbit before them; and the evaluations spent on each.
-
-    ``start``, ``end``: no onset lies before, and adhesion does not end after.
-    """
-    proven, spent = np.zeros(cycle.size, bool), np.zeros(cycle.size)
-    # an orbit without contact has no Q to compare
-    index = np.flatnonzero(~np.isnan(known.b) & (known.x <= 0))
-    if index.size:
-        cycle, known, start, end = cycle.among(index), known.take(index), start[index], end[index]
-        with np.errstate(all="ignore"):
-            suspects = np.maximum(_suspects(kernel, cycle, known), -known.x)
-            reference = beside(kernel, cycle, known, end)
-            latest = np.maximum(-start, suspects)
-            proven[index], spent[index] = _excluded(kernel, reference, suspects, latest)
-    return proven, spent
-
-
-def exclude_out_of_reach(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
-    """Which cycles of strips out of reach, ``D <= -delta_0``, that cannot stay engaged are proven to have no orbit with an onset;
-    and the evaluations spent on each."""
-    none = np.zeros(cycle.size, bool)
-    with np.errstate(all="ignore"):
-        reference = at_rest(kernel, cycle)
-        held = _held_best(cycle)
-        open_ = np.flatnonzero(balance_bound(kernel, reference, held, held) > 0)
-        part, crest, spent = reference.take(open_), np.zeros(open_.size), np.ones(cycle.size)
-        none[open_], used = _excluded(kernel, part, crest, crest + np.pi, np.full(open_.size, _FIRST))
-    spent[open_] += used
-    return none, spent
-
-
-def _held_best(cycle: Cycle):
-    """About the onset, less its sign, from which a strip out of reach is held best: a step of Newton on a foundation that stands
-    still in a gap. Nineteen of twenty strips of which nothing can be proven show it there."""
-    s = cycle.strips
-    sine, cosine, glassy = np.sin(1.0), np.cos(1.0), s.L * s.beta / s.alpha
-    a = np.arccos(np.minimum(cosine + s.delta_0, 1.0))
-    weight = np.pi + glassy * a
-    slope = cosine * weight + glassy * sine**2 / np.maximum(np.sin(a), _LEAST)
-    return np.clip(1.0 - (sine * weight - gains(cycle)[1]) / slope, 0.0, np.pi)
-
-
-def beside(kernel, cycle: Cycle, known: Orbit, end) -> _Reference:
+def beside(kernel, cycle: Cycle, known: Orbit, end) -> Reference:
     """Orbits or marches with contact as references; adhesion does not ``end`` after."""
     s, noise = cycle.strips, cycle.strips.noise()
     w_c = kernel.profile(known.c, s.D) + s.delta_0 + cycle.jump
-    return _Reference(
+    return Reference(
         *_groups(kernel, cycle),
         q_on=cycle.q_on,
         x=known.x,
@@ -179,7 +114,7 @@ def beside(kernel, cycle: Cycle, known: Orbit, end) -> _Reference:
     )
 
 
-def at_rest(kernel, cycle: Cycle) -> _Reference:
+def at_rest(kernel, cycle: Cycle) -> Reference:
     """The foundation at rest as reference."""
     zero = np.zeros(cycle.size)
     return _Rest(
@@ -207,12 +142,12 @@ def _groups(kernel, cycle: Cycle):
     return s.alpha, s.beta, s.L, s.p_0, s.delta_0, s.D, *modulus, cycle.gap_on, cycle.jump, ends
 
 
-def _arc(height):
+def arc_versine(height):
     """Phase where ``1 - cos`` is this much, at most pi."""
     return 2 * np.arcsin(np.sqrt(np.minimum(np.maximum(0.5 * height, 0.0), 1.0)))
 
 
-def _versine(phase):
+def versine(phase):
     return 2 * np.sin(0.5 * phase) ** 2
 
 
@@ -228,53 +163,29 @@ def _sum(s, b, a):
     return (s.D - 1 + s.p_0) * (a - b) + np.sin(a) - np.sin(b) + s.beta * (np.cos(a) - np.cos(b))
 
 
-def _suspects(kernel, cycle: Cycle, known: Orbit):
-    """The phase -x before which an orbit y must lie by its slope; that of the known one where nothing is known."""
-    s = cycle.strips
-    F, M = onset_margin(kernel, cycle, known.x), release_margin(kernel, cycle, known.c)
-    onset, release = gains(cycle)
-    at_onset, at_release = np.log1p(onset / F), np.log1p(release / M)
-    share = fading(cycle, known.a - known.b) * (1 - ROUNDING) / (at_onset + at_release)
-    fits = (F > 0) & (M > 0) & (share > 1)
-    least_F, least_M = (
-        gain / np.expm1(np.minimum(share * log, 700.0)) for gain, log in ((onset, at_onset), (release, at_release))
-    )
-    arc = kernel.forcing_arc(s.delta_0 - least_F, s.D, s.beta)[1] - cycle.centre
-    last = cycle.centre + TWO_PI - kernel.forcing_arc(s.p_0 + s.delta_0 + least_M, s.D, s.beta)[1]
-    # free flow from the end of adhesion, over no longer a way than from the known one
-    w_c = kernel.profile(last, s.D) + s.delta_0 + cycle.jump
-    free = known.x + TWO_PI - known.c
-    later = _arc(_versine(last) - cycle.jump - np.maximum(w_c * kernel.decay_loss(free, s.beta), 0.0) - s.noise())
-    # it leads on to x, which moves with c by no less than where M is least and F is greatest
-    F = np.where(known.x < cycle.centre, F, s.D - 1 + np.hypot(1, s.beta) + s.delta_0)
-    moved = (last - known.c) * (least_M + release) / F * kernel.decay(free, s.beta) - known.x
-    later = np.where(known.r == 0, np.maximum(later, moved), later)
-    return np.where(fits, np.minimum(arc, later), -known.x)
-
-
 def _turn(kernel, s: Strips, known: Orbit):
     """By how much later contact ends, if it begins earlier by one."""
     one, two = (kernel.forcing(edge, s.D, s.beta) + s.p_0 for edge in (known.b, known.a))
     return np.clip(-one / two, 0.0, 1.0) * kernel.decay(known.a - known.b, s.alpha)
 
 
-def _contact(reference: _Reference, lo, versine):
+def _contact(reference: Reference, lo, versine):
     """Phase t, so that contact begins before -t if the onset is not after -lo, of this ``versine``; 0 where it may not begin, inf
     where no orbit may have such an onset: its w would be less than -p_0."""
     r = reference
     rise = versine - r.gap_on - r.noise
     lag = np.maximum(r.p_0 + r.D - rise, 0.0)
-    t = _arc(rise)
-    most = _arc(rise - lag * np.expm1((t - lo) / r.beta))
+    t = arc_versine(rise)
+    most = arc_versine(rise - lag * np.expm1((t - lo) / r.beta))
     least = -lag * np.expm1(np.minimum(most - lo, 0.0) / r.beta)
-    return np.where(lag > 0, np.maximum(_arc(rise + least), -r.b), np.inf)
+    return np.where(lag > 0, np.maximum(arc_versine(rise + least), -r.b), np.inf)
 
 
-def balance_bound(kernel, reference: _Reference, lo, hi):
+def balance_bound(kernel, reference: Reference, lo, hi):
     """Lower bound of the balance of all orbits with an onset between -hi and -lo, less that of the reference."""
     r = reference
     # contact, at least: the pressure of complete contact, and what fades of its difference to the one at -t
-    low = _versine(lo)
+    low = versine(lo)
     t = _contact(r, lo, low)
     possible, t = np.isfinite(t), np.minimum(t, TWO_PI)
     sin_t, cos_t = _sine_cosine(t)
@@ -294,14 +205,14 @@ def balance_bound(kernel, reference: _Reference, lo, hi):
     if turned.size:
         near = lo.copy()
         near[turned] = TWO_PI - hi[turned]
-        low[turned] = _versine(near[turned])
-    high = _versine(np.minimum(hi, np.pi)) + r.noise
+        low[turned] = versine(near[turned])
+    high = versine(np.minimum(hi, np.pi)) + r.noise
     later = np.maximum(r.c, near)
     free = np.maximum(TWO_PI - lo - np.where(low > crest, later, r.c), 0.0)
     out = high - crest
-    c = np.minimum(_arc(high + r.jump + np.maximum(out, 0.0) * np.expm1(free / r.beta)), r.end)
+    c = np.minimum(arc_versine(high + r.jump + np.maximum(out, 0.0) * np.expm1(free / r.beta)), r.end)
     free = np.maximum(TWO_PI - hi - c, 0.0)
-    c = np.where(out < 0, np.minimum(_arc(high + r.jump + out * np.expm1(free / r.beta)), c), c)
+    c = np.where(out < 0, np.minimum(arc_versine(high + r.jump + out * np.expm1(free / r.beta)), c), c)
     longer = np.maximum(hi + r.x, 0.0) + np.maximum(c - r.c, 0.0)
     free = np.maximum(TWO_PI - hi - c, 0.0)
     # displacement, at least
@@ -313,41 +224,3 @@ def balance_bound(kernel, reference: _Reference, lo, hi):
     apart += np.maximum(steep, 0.0) * (r.beta * np.expm1(free / r.beta) - free)
     least = r.kept + pressed - r.p_0 * longer + np.maximum(apart, r.least) - TWO_PI * r.noise
     return np.where(possible, least, np.inf)
-
-
-def _excluded(kernel, reference: _Reference, lo, hi, parts=None) -> tuple[np.ndarray, np.ndarray]:
-    """Where no orbit has an onset between -hi and -lo, asked in so many ``parts``, (n,), to begin with; and the evaluations.
-
-    Over an interval the bound loses as much as engagement grows, which tells how fine a part that fails has to be divided, or
-    that it cannot succeed.
-    """
-    n = lo.size
-    proven, spent = np.ones(n, bool), np.zeros(n)
-    index, part = np.arange(n), reference
-    for _ in range(_ROUNDS):
-        if parts is not None:
-            pieces = np.repeat(np.arange(index.size), parts)
-            place = np.arange(pieces.size) - np.repeat(np.cumsum(parts) - parts, parts)
-            index, width = index[pieces], ((hi - lo) / parts)[pieces]
-            lo = lo[pieces] + place * width
-            hi, part = lo + width, reference.take(index)
-        spent += np.bincount(index, minlength=n)
-        left = balance_bound(kernel, part, lo, hi)
-        open_ = np.flatnonzero(~(left > 0))
-        if not open_.size:
-            return proven, spent
-        index, lo, hi, left = index[open_], lo[open_], hi[open_], left[open_]
-        loss = _LOSS * reference.p_0[index] * (hi - lo)
-        proven[index[~(left + loss > 0)]] = False
-        going = np.flatnonzero(proven[index])
-        if not going.size:
-            return proven, spent
-        index, lo, hi, loss = index[going], lo[going], hi[going], loss[going]
-        parts = _parts(loss, left[going] + loss)
-    proven[index] = False
-    return proven, spent
-
-
-def _parts(loss, least):
-    """Into how many parts to divide an interval over which the bound loses so much, from about ``least``."""
-    return np.minimum(np.ceil(_AMPLY * loss / least), _MOST).astype(int)

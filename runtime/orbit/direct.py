@@ -6,13 +6,13 @@ more extremal one exists; all else is left to ``search``.
 
 import numpy as np
 
-from .balance import SLOW, exclude_out_of_reach
+from .balance_exclusion import exclude_out_of_reach
 from .certificate import attracting, edges_admissible
 from .chain import CONVERGED, follow
 from .exclusion import alone
 from .groups import Cycle
 from .march import FROZEN, Orbit
-from .orbit_bounds import OrbitBounds
+from .orbit_bounds import FAST, OrbitBounds
 from .refine import refined
 from .solved import orbit_of
 from .start import start
@@ -61,7 +61,7 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: OrbitBounds):
     none = ~arc | bounds.missed
     found = _Found(kernel, cycle, last, bounds)
     if not last:
-        hanging = np.flatnonzero(possible & (s.D <= -s.delta_0) & (s.beta > SLOW))
+        hanging = np.flatnonzero(possible & (s.D <= -s.delta_0) & (s.beta > FAST))
         if hanging.size:
             none[hanging], found.evaluations[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
             possible &= ~none

@@ -9,20 +9,20 @@ ever accepted for lack of a counterexample.
 
 import numpy as np
 
-from . import balance
+from .balance_exclusion import first
 from .groups import Cycle
 from .march import TWO_PI, Orbit, march
-from .orbit_bounds import OrbitBounds
+from .orbit_bounds import FAST, OrbitBounds
 from .sensitivity import over, steep_margin
 
 
 def alone(kernel, cycle: Cycle, orbit: Orbit, bounds: OrbitBounds) -> tuple[np.ndarray, np.ndarray]:
     """Which orbits are proven to be the first of their onset arc, and the event evaluations spent on each."""
     proven, spent = falls_from(kernel, cycle, orbit, bounds.x, bounds.c, np.nan), np.zeros(cycle.size)
-    rest = np.flatnonzero(~proven & (cycle.strips.beta > balance.SLOW))
+    rest = np.flatnonzero(~proven & (cycle.strips.beta > FAST))
     if rest.size:
         part = cycle.among(rest)
-        proven[rest], spent[rest] = balance.first(kernel, part, orbit.take(rest), *onsets_within(part, bounds.take(rest)))
+        proven[rest], spent[rest] = first(kernel, part, orbit.take(rest), *onsets_within(part, bounds.take(rest)))
     rest = np.flatnonzero(~proven)
     if rest.size:
         part = cycle.among(rest)
