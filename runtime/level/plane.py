@@ -89,6 +89,10 @@ def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str)
         usable = np.isfinite(step).all(axis=0)
         active, step, size = active[usable], step[:, usable], size[usable]
         damping = np.minimum(1.0, _LONGEST / np.maximum(size, 1e-300))
+        # the zone behind the last edge, too, changes by a factor at most
+        rest, grows = TWO_PI - (edges[-1] - edges[0])[active], -damping * step[1:k].sum(axis=0)
+        most = rest * np.where(grows > 0, 1 / _SHRINKS - 1, 1 - _SHRINKS)
+        damping *= np.where((rest > 0) & (np.abs(grows) > most), most / np.maximum(np.abs(grows), 1e-300), 1.0)
         edges[:, active] = _moved(edges[:, active], damping * step[:k])
         moved = damping * step[k]
         if unknown == "A":
