@@ -32,10 +32,6 @@ _BLOCK = 256
 #: trailing levels are left out whose friction, and whose pressure of saturation, are below this part of what counts: a tenth of a
 #: tolerance is not missed, and no scene of up to a dozen similar levels has any
 _TRAILING = 0.1
-#: part of the friction in contact of level 1 that frictions of all lower levels may err relative to, beside themselves
-_SHARED = 0.2
-#: laws are built this much finer than what is asked of the result
-_FINER = 0.5
 
 
 @dataclass
@@ -273,43 +269,32 @@ class _Solve:
         return out
 
     def _carrying(self, stack: Stack, V, group, columns: LevelBatch) -> LevelBatch:
-        """The columns of level 1 with the laws of level 2, built from the smallest level upwards, each as far as the level above
-        reaches."""
-        surface = self.surface
-        p_max = np.full(V.size, -np.inf)
+        """The columns of level 1 with the laws of level 2, built from the smallest level upwards."""
+        surface, carry, groups = self.surface, None, np.arange(V.size)
         across = strips_across(columns)
+        accuracy = error_budget(columns, group, across).of_laws(self.M - 1, V.size, surface.rtol)
+        p_max = np.full(V.size, -np.inf)
         np.maximum.at(p_max, group, peak_pressure(columns, across))
-        ceilings, budgets = [], [error_budget(columns, group, across)]
-        friction = np.full(V.size, np.inf)
-        np.minimum.at(friction, group, _SHARED / (self.M - 1) * budgets[0].friction_in_contact)
-        for i in range(1, self.M):
-            ceilings.append(p_max)
-            if i + 1 < self.M:
-                plain = surface.columns(i, V)
-                D = cut_penetration(plain, p_max, stack.D_full[i])
-                highest = surface.columns(i, V, D)
-                p_max = peak_pressure(highest, strips_across(highest))
-                budgets.append(budgets[0].further_down(2 * (self.M - 1)))
-        carry = None
-        groups = np.arange(V.size)
+        reached = self._reached(stack, V, p_max)
+        rtol = np.full(V.size, accuracy.rtol)
         for i in range(self.M - 1, 0, -1):
-            level_columns = surface.columns(i, V, None, carry, groups if carry else None)
-            level_columns = replace(level_columns, frictional=True, friction=friction)
-            saturated = stack.means(i)
-            rtol = np.full(V.size, _FINER * surface.rtol)
-            laws = build_laws(
-                level_columns,
-                rtol,
-                stack.p_full[i],
-                stack.D_full[i],
-                saturated,
-                ceilings[i - 1],
-                budgets[i - 1],
-            )
+            level = surface.columns(i, V, None, carry, groups if carry else None)
+            level = replace(level, frictional=True, friction=accuracy.friction)
+            saturated = stack.p_full[i], stack.D_full[i], stack.means(i)
+            laws = build_laws(level, rtol, *saturated, reached[i - 1], accuracy.budgets[i - 1])
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error
-            scales = np.concatenate((level_columns.scales[1:], [_NO_SCALE]))
-            carry = LowerLevelLaws(LawTable(merged(laws, rtol, level_columns.floors)), surface.rtol, scales, friction)
-        return replace(columns, carry=carry, group=group, friction=friction[group])
+            scales = np.concatenate((level.scales[1:], [_NO_SCALE]))
+            carry = LowerLevelLaws(LawTable(merged(laws, rtol, level.floors)), surface.rtol, scales, accuracy.friction)
+        return replace(columns, carry=carry, group=group, friction=accuracy.friction[group])
+
+    def _reached(self, stack: Stack, V, p_max) -> list[np.ndarray]:
+        """Greatest pressures (groups,) that the laws of level 2 and below are asked for, those of level 2 up to ``p_max``."""
+        out = [p_max]
+        for i in range(1, self.M - 1):
+            D = cut_penetration(self.surface.columns(i, V), out[-1], stack.D_full[i])
+            highest = self.surface.columns(i, V, D)
+            out.append(peak_pressure(highest, strips_across(highest)))
+        return out
 
     def _write(self, index, root: Inverse, means):
         out, values, errors, slopes = self.out, means.values, means.errors, root.slope
@@ -320,16 +305,12 @@ class _Solve:
             miss = self.load[index] - p
             p = self.load[index]
         out.p[index] = p
-        tau, contact, adhesion, error = values[:, 1] + slopes * miss, values[:, 2], values[:, 3], errors[:, 1]
-        out.tau[0, index], out.contact[0, index], out.adhesion[0, index] = tau, contact, adhesion
-        error = error + np.abs(slopes) * errors[:, 0] + root.doubt * np.abs(miss)
-        at = _OWN
-        for i in range(1, self.M):
-            out.tau[i, index], out.contact[i, index], out.adhesion[i, index] = values[:, at], values[:, at + 1], values[:, at + 2]
-            error = error + errors[:, at]
-            at += 3
-        for _ in range(1, self.M):
-            error = error + np.abs(values[:, at])
-            at += 1
+        # what is carried follows its own, three for each level below, then an error for each
+        count = _OWN + 3 * (self.M - 1)
+        for quantity, rows in enumerate((out.tau, out.contact, out.adhesion), start=1):
+            rows[:, index] = values[:, [quantity, *range(_OWN + quantity - 1, count, 3)]].T
+        out.tau[0, index] += slopes * miss
+        error = errors[:, [1, *range(_OWN, count, 3)]].sum(axis=1) + np.abs(values[:, count:]).sum(axis=1)
+        error += np.abs(slopes) * errors[:, 0] + root.doubt * np.abs(miss)
         # another part of the curve may carry anything
         out.error[index] = error + np.where(root.undecided, np.abs(out.tau[:, index]).sum(axis=0), 0.0)

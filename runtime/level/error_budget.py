@@ -1,4 +1,14 @@
-"""Error budget of a law: how coarse it may be at each pressure, by the share of the surface on which that pressure is met.
+"""Error budget: how accurate every quantity of every level has to be. All that decides it, in one place:
+
+- A quantity is asked for to ``rtol (|value| + floor)``; its floor is ``LevelBatch.floors``: a thousandth of its natural scale, 1
+  for fractions where only pressure and friction count, and for frictions ``LevelBatch.friction`` where that is more.
+- Level 1 gets the ``rtol`` of the result, halved in ``multilevel``, as its laws err too.
+- Laws of lower levels get what ``of_laws`` says: half of ``rtol``, relative also to a share of the friction in contact of
+  level 1, which they all add to.
+- A piece of a law may be coarser by ``ErrorBudget.tolerance_factor``, the fewer points meet its pressures; ``merge`` may take a
+  part of what a law may err, ``lower_levels`` integrates to a part of what the mean over strips may.
+- Of what an interval of a curve may err its means get a part, ``sampling.MEAN``; where halving it does not help, less:
+  ``Interval.missing``.
 
 Goal-oriented: a law's error counts as much as the part of the surface on which it is used. That part is had from a plain sum over
 the strips of the level above; it deals out accuracy and enters no result, and what a law lacks shows in the error of the friction
@@ -21,6 +31,10 @@ _POINTS = 32
 _FINEST = 1e-6
 #: contact is not known to be any less
 _LEAST_CONTACT = 1e-3
+#: part of the friction in contact of level 1 that frictions of all lower levels may err relative to, beside themselves
+_SHARED = 0.2
+#: laws are built this much finer than what is asked of the result
+_FINER = 0.5
 #: parts of a law that may each err by what the whole is allowed: mostly one or two branches are used
 _PARTS = 2
 #: no law is coarser than this, times what is asked: beyond, at the finest tolerance too, nothing is asked at all
@@ -48,6 +62,12 @@ class ErrorBudget:
         contact = np.maximum(self.share[:, -1:], _LEAST_CONTACT)
         return replace(self, p=np.full((self.group.size, 1), np.nan), share=contact, friction=self.friction / levels)
 
+    def of_laws(self, levels: int, groups: int, rtol: float) -> LawAccuracy:
+        """What is asked of the laws of so many ``levels`` below the one whose pressures these are, for a result to ``rtol``."""
+        friction = np.full(groups, np.inf)
+        np.minimum.at(friction, self.group, _SHARED / levels * self.friction_in_contact)
+        return LawAccuracy(_FINER * rtol, friction, [self] + [self.further_down(2 * levels)] * (levels - 1))
+
     def _met(self, i: int, low: float, high: float) -> float:
         """Share of the surface of point ``i`` on which the pressure lies between ``low`` and ``high``, Pa."""
         if np.isnan(self.p[i, 0]):
@@ -66,6 +86,16 @@ class ErrorBudget:
             least = min(least, self.friction[i] / part) if part > 0 else least
         width = (high - low) / max(abs(low), abs(high)) if np.isfinite(high) else 1.0
         return max(least * min(width, 1.0), 1.0)
+
+
+@dataclass(frozen=True)
+class LawAccuracy:
+    """Laws are to be known to ``rtol``, of their own size or of the ``friction`` (groups,), Pa; ``budgets``: of each level, where
+    less will do."""
+
+    rtol: float
+    friction: np.ndarray
+    budgets: list[ErrorBudget]
 
 
 def error_budget(columns: LevelBatch, group: np.ndarray, strips: SolvedStrips) -> ErrorBudget:
