@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...numerics.quadrature import gauss, mapped, mapped_slope
+from ...numerics.roots import false_position
 from ...numerics.rules import Changes, by_rules
 from ...orbit.foundation import Foundation
 from .law import Laws
@@ -120,12 +121,10 @@ class Carrier:
         edges, top = _passages(pressure, crest, self.laws.breaks[group[column]] / (0.5 * self.pressure * u[:, None]))
         weight *= width / (2 * np.pi)
         parts = _Parts.between(edges, top & np.isfinite(self.laws.p_full[group[column]]))
-        x, w = parts.nodes(nodes)
-        p = pressure(x, parts.row) * (0.5 * self.pressure * u[parts.row, None])
-        total = self.laws.averages(group, np.repeat(column[parts.row], nodes), p.ravel(), (weight[parts.row, None] * w).ravel())
+        unit = 0.5 * self.pressure * u[:, None]
+        total = self._over(parts, group, column, weight, lambda x, row: unit[row] * pressure(x, row), nodes)
         total[:, -1] += np.bincount(column, weight * u * np.abs(missed), minlength=group.size) * steepest
-        # where the pressure saturates all below there is nothing to sum
-        return total + np.bincount(column, weight * parts.saturated, minlength=group.size)[:, None] * self.laws.full[group]
+        return total
 
     def _complete(self, group, d, strips, nodes):
         """Strips in complete contact: one harmonic of the phase about the mean."""
@@ -154,12 +153,20 @@ class Carrier:
         # from the peak down: above the highest break first
         edges = np.concatenate((np.zeros((u.size, 1)), passed[:, ::-1], np.ones((u.size, 1))), axis=1)
         parts = _Parts.between(edges, np.isfinite(self.laws.p_full[group[column]]), 0)
+
+        def pressure(x, row):
+            return self.pressure * np.maximum(mean[row, None] + swing[row, None] * np.cos(np.pi * x), 0.0)
+
+        return self._over(parts, group, column, weight, pressure, nodes)
+
+    def _over(self, parts, group, column, weight, pressure, nodes):
+        """Sums (m, q) of the laws ``group`` (m,) over ``parts`` of contacts that count by ``weight`` (N,) for the ``column`` (N,)
+        each; ``pressure``: at shares (k, n) of the contacts (k,), Pa."""
         x, w = parts.nodes(nodes)
-        p = np.maximum(mean[parts.row, None] + swing[parts.row, None] * np.cos(np.pi * x), 0.0)
-        total = self.laws.averages(
-            group, np.repeat(column[parts.row], nodes), self.pressure * p.ravel(), (weight[parts.row, None] * w).ravel()
-        )
-        return total + np.bincount(column, weight * parts.saturated, minlength=d.size)[:, None] * self.laws.full[group]
+        p, weights = pressure(x, parts.row), weight[parts.row, None] * w
+        total = self.laws.averages(group, np.repeat(column[parts.row], nodes), p.ravel(), weights.ravel())
+        # where the pressure saturates all below there is nothing to sum
+        return total + np.bincount(column, weight * parts.saturated, minlength=group.size)[:, None] * self.laws.full[group]
 
 
 @dataclass(frozen=True)
@@ -222,15 +229,13 @@ def _passages(pressure, crest, breaks) -> tuple[np.ndarray, np.ndarray]:
     outer = np.concatenate((entry[row[late]], np.zeros(row.size)))
     # the root of what is missing to the top is nearly linear in the distance from the crest
     short = lambda p: np.sqrt(np.maximum(1 - p / top[rows], 0.0))  # noqa: E731
-    target, low, high = short(breaks[rows, order]), np.zeros(rows.size), np.ones(rows.size)
-    f_low, f_high = -target, short(outer) - target
-    middle = low
-    for _ in range(_STEPS if rows.size else 0):
-        middle = (low * f_high - high * f_low) / np.where(f_high > f_low, f_high - f_low, 1.0)
-        f = short(pressure((crest[rows] + (far - crest[rows]) * middle)[:, None], rows)[:, 0]) - target
-        less = f <= 0
-        f_high, f_low = np.where(less, 0.5 * f_high, f), np.where(less, f, 0.5 * f_low)
-        low, high = np.where(less, middle, low), np.where(less, high, middle)
+    target = short(breaks[rows, order])
+
+    def missing(share):
+        return short(pressure((crest[rows] + (far - crest[rows]) * share)[:, None], rows)[:, 0]) - target
+
+    ends = np.zeros(rows.size), np.ones(rows.size), -target, short(outer) - target
+    middle = false_position(missing, *ends, _STEPS) if rows.size else target
     edges[rows, np.where(far > 0, 2 * B - order, 1 + order)] = crest[rows] + (far - crest[rows]) * middle
     rising = np.maximum.accumulate(edges, axis=1)
     return rising, breaks[:, -1] < top

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...numerics.quadrature import gauss, mapped, mapped_slope
+from ...numerics.roots import false_position
 from .family import Family
 from .peaks import Peaks
 from .span import Span
@@ -61,12 +62,7 @@ def _passed(span, length, family, peaks, group, breaks):
     # what is never saturated is never passed
     breaks = np.minimum(breaks, _BEYOND)
     f_low, f_high = f_low - breaks, f_high - breaks
-    middle = np.where(f_low >= 0, low, high)
     met = (f_low < 0) & (f_high > 0)
-    for _ in range(_STEPS):
-        middle = np.where(met, (low * f_high - high * f_low) / np.where(met, f_high - f_low, 1.0), middle)
-        f = greatest(middle) - breaks
-        less = f <= 0
-        low, high = np.where(less, middle, low), np.where(less, high, middle)
-        f_low, f_high = np.where(less, f, 0.5 * f_low), np.where(less, 0.5 * f_high, f)
-    return middle
+    # what is not met is next to one end: both ends are that
+    low, high = np.where(met | (f_low >= 0), low, high), np.where(met | (f_low < 0), high, low)
+    return false_position(lambda eta: greatest(eta) - breaks, low, high, f_low, f_high, _STEPS)
