@@ -23,7 +23,7 @@ import numpy as np
 from .certificate import greatest_gap
 from .closed_form_exclusion import may_cling, saturates
 from .direct import certified, extremal
-from .groups import Cycle, Strips, adhesive_cycle, bare_cycle
+from .groups import EPS, Cycle, Strips, adhesive_cycle, bare_cycle
 from .isolated_orbits import isolated_orbits
 from .march import Orbit
 from .orbit_bounds import FAST, OrbitBounds, orbit_bounds
@@ -33,7 +33,6 @@ from .start import start
 
 #: Strips solved at a time: their working arrays stay in the cache, and memory stays bounded.
 CHUNK = 32768
-_EPS = np.finfo(float).eps
 #: distances in roundings of D at which a strip on the end of a branch is settled
 _SHIFTS = (8, 64, 512)
 
@@ -77,7 +76,7 @@ def _settle(kernel, strips: Strips, solved: Solved, unloading: bool) -> None:
         if not index.size:
             return
         these = strips.take(index)
-        shift = roundings * _EPS * (1 + np.abs(these.D) + these.p_0 + these.delta_0)
+        shift = roundings * EPS * (1 + np.abs(these.D) + these.p_0 + these.delta_0)
         nearby = replace(these, D=these.D + (shift if unloading else -shift))
         again = _Batch(kernel, nearby, unloading, Orbit.blank(index.size)).solve()
         again.evaluations += solved.evaluations[index]

@@ -7,10 +7,10 @@ import numpy as np
 from .batch import Batch
 
 TWO_PI = 2 * np.pi
-#: rounding of a sum of a few terms, in the largest of them: 64 times that of one operation
-ROUNDING = 64 * np.finfo(float).eps
-#: roundings of J_0 p_0 (a product and two quotients) within which it equals delta_0
-_TIE = 4 * np.finfo(float).eps
+#: rounding of one operation, and of a sum of a few terms, in the largest of them
+EPS = np.finfo(float).eps
+ROUNDING = 64 * EPS
+_TIE = 4 * EPS  #: roundings of J_0 p_0, a product and two quotients, within which it equals delta_0
 #: alpha from which a strip is taken as the limit of a foundation that stands still: pressures differ from it by 1/alpha of the
 #: glassy pressure, and what a period changes is lost in the rounding of the edges soon after (1e14)
 STANDS_STILL = 1e12

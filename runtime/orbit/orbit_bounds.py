@@ -23,10 +23,9 @@ import numpy as np
 
 from .batch import Batch
 from .bound import bound, close_enough
-from .groups import ROUNDING, Cycle
+from .groups import EPS, ROUNDING, Cycle
 from .march import TWO_PI
 
-_EPS = np.finfo(float).eps
 #: beta above which a foundation remembers too much of the most engaged state for bounds from it to say much: the balance of a
 #: period (``balance``) is asked instead. 30 to 300 cost about the same
 FAST = 60.0
@@ -111,7 +110,7 @@ def _onset(kernel, cycle: Cycle, c):
     missed = kernel.gap_event(near, *entry)[0] - s.delta_0 > noise
     # a surface out of reach of the undeformed foundation is not met if nothing is left of w that would change its gap
     left = np.abs(kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(far - c, s.beta)
-    missed |= (s.D <= -s.delta_0) & (left < 0.25 * _EPS * s.delta_0)
+    missed |= (s.D <= -s.delta_0) & (left < 0.25 * EPS * s.delta_0)
     # where a foundation that stands still meets it
     start = np.clip(TWO_PI - np.arccos(np.clip(np.cos(c) + cycle.jump, -1.0, 1.0)), far, near)
     close = close_enough(s.beta)

@@ -8,12 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .groups import Strips
+from .groups import EPS, Strips
 
 _ITERATIONS = 20
 #: steps larger than this are corrections, whatever the one before was
 _ROUNDING_LIMITED = 1e-6
-_EPS = np.finfo(float).eps
 
 
 @dataclass(slots=True)
@@ -61,7 +60,7 @@ def polish(kernel, sequence: str, strips: Strips, edges: np.ndarray, bounds=(-np
         last[moved] = size[better]
         slopes = _kept(slopes, matrix, moved, better)
         stalls[active[~better]] += 1
-        going = np.flatnonzero((stalls[active] < 2) & (size > 4 * _EPS * np.max(np.abs(new), axis=0)))
+        going = np.flatnonzero((stalls[active] < 2) & (size > 4 * EPS * np.max(np.abs(new), axis=0)))
         if not going.size:
             break
         if going.size < active.size:
@@ -123,8 +122,8 @@ def _noise(kernel, sequence: str, s: Strips):
     size = 1 + np.abs(s.D) + s.p_0
     slow = 2 * np.pi / (2 * np.pi + s.beta)
     R = kernel.modulus_ratio(s.alpha, s.beta)
-    gap = _EPS * (1 + s.delta_0 + (size + s.delta_0) * slow)
-    excess = _EPS * (R + (size + R) * 2 * np.pi / (2 * np.pi + s.alpha))
-    closing = _EPS * (size + s.delta_0) * slow
+    gap = EPS * (1 + s.delta_0 + (size + s.delta_0) * slow)
+    excess = EPS * (R + (size + R) * 2 * np.pi / (2 * np.pi + s.alpha))
+    closing = EPS * (size + s.delta_0) * slow
     chain = {"acaf": (gap, excess, gap), "afc": (excess, gap), "af": (gap,), "ac": (excess,)}[sequence]
     return (*chain, closing)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .chain import CONVERGED, tighten
-from .groups import Cycle
+from .groups import EPS, Cycle
 from .march import Orbit
 from .polish import polish
 from .regimes import EQUATIONS
@@ -11,7 +11,6 @@ from .solved import edges_of, orbit_of
 
 #: Corrections may be this many times what rounding leaves uncertain, which itself must not be worse than near a fold.
 _ROUNDINGS, _COARSEST = 32, 1e-6
-_EPS = np.finfo(float).eps
 
 
 def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, ends=None, blurred: bool = True):
@@ -30,7 +29,7 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, ends=None, blurre
     limit = np.where(blurred & found.stalled, _ROUNDINGS * np.minimum(found.attainable, _COARSEST), 0.0)
     edges, correction = found.edges, found.correction
     if sequence in ("ac", "cf"):
-        loose = np.flatnonzero((correction <= CONVERGED + limit) & (found.attainable > _EPS * (_ROUNDINGS + cycle.strips.beta)))
+        loose = np.flatnonzero((correction <= CONVERGED + limit) & (found.attainable > EPS * (_ROUNDINGS + cycle.strips.beta)))
         if loose.size:
             closer, last = tighten(kernel, cycle.take(loose), sequence, edges[:, loose])
             moved = np.abs(closer - edges[:, loose]).max(axis=0)

@@ -13,11 +13,10 @@ intervals are divided.
 import numpy as np
 
 from ..numerics.roots import falling_root
-from .groups import Cycle
+from .groups import EPS, Cycle
 from .march import TWO_PI, Orbit, march
-from .sensitivity import SlopeBounds, onset_margin, slope_bounds, slope_excess
+from .sensitivity import SlopeBounds, onset_margin, over, slope_bounds, slope_excess
 
-_EPS = np.finfo(float).eps
 #: every round divides what it leaves by two at least
 _MAX_ROUNDS = 200
 #: parts into which an interval is divided from the second round on. Most searches end in two; of the others, next to a fold
@@ -158,7 +157,7 @@ class _Search:
         """Which intervals from ``here``, behind which all is excluded, to ``there`` hold no zero of r, and which exactly one."""
         left, right = (there, here) if self.last else (here, there)
         changes = (self.sign * there.r <= 0) & ~there.engaged & (there.x != here.x)
-        tiny = np.abs(there.x - here.x) <= 4 * _EPS * np.maximum(np.abs(there.x), np.abs(here.x))
+        tiny = np.abs(there.x - here.x) <= 4 * EPS * np.maximum(np.abs(there.x), np.abs(here.x))
         excluded, unique = right.engaged | (tiny & ~changes), changes & tiny
         open_ = np.flatnonzero(~excluded & ~unique)
         proof = self._weigh(index[open_], left.take(open_), right.take(open_), changes[open_])
@@ -245,19 +244,14 @@ def excluded(beta, left: Orbit, right: Orbit, bounds: SlopeBounds, last: bool) -
     return near + far > width
 
 
-def _ratio(margin, rate):
-    """``margin/rate``, inf where it would overflow."""
-    return np.divide(margin, rate, out=np.full_like(margin, np.inf), where=rate > 1e-290 * margin)
-
-
 def reach_on(beta, margin, rate):
     """Distance in the direction of travel over which ``margin - rate (exp(x/beta) - 1)`` stays positive."""
-    ratio = _ratio(np.maximum(margin, 0.0), rate)
+    ratio = over(np.maximum(margin, 0.0), rate)
     return np.where(np.isinf(ratio), np.inf, beta * np.log1p(np.where(np.isinf(ratio), 0.0, ratio)))
 
 
 def reach_back(beta, margin, rate):
     """Distance against the direction of travel over which ``margin - rate (1 - exp(-x/beta))`` stays positive."""
-    ratio = _ratio(np.maximum(margin, 0.0), rate)
+    ratio = over(np.maximum(margin, 0.0), rate)
     inside = ratio < 1
     return np.where(inside, -beta * np.log1p(-np.where(inside, ratio, 0.0)), np.inf)
