@@ -23,7 +23,7 @@ from .propagation import Order, least_monodromy, propagation, solve_order
 
 #: rounds of bounding states, and the one in which Newton's method starts from them: after one period a bounding state is free
 #: where the orbits are, before that nothing can be proven
-_ROUNDS, _START = 5, 1
+_ROUNDS, _START = 6, 1
 #: how far Newton's method may take an edge from where it starts, radians: further away other regimes begin
 _FURTHEST = 1.5
 _CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6

@@ -21,7 +21,7 @@ from .problem import ModeStrips, pick, rates
 
 #: how much earlier or later than in the two marches contact may begin, as a share of the time from onset to contact: a wider
 #: range costs digits of the bound
-_SHARES = (1e-7, 1e-5, 1e-3, 1e-2, 0.1, 0.5)
+_SHARES = (1e-5, 1e-2, 0.5)
 
 
 @dataclass(slots=True)
@@ -64,8 +64,7 @@ class Monodromy:
     """Rank-one terms at the onset and the release, each ``gain (column . rate) (row . g)^T``: gain (N,), column and row
     (n, N) or 1.
 
-    ``by_modes``: terms of ``across`` in place of these, where those hold; ``between``: lower bound of how the first of
-    the two acts through the second.
+    ``by_modes``: terms of ``across`` in place of these, where those hold.
     """
 
     onset: np.ndarray
@@ -75,7 +74,6 @@ class Monodromy:
     release_column: np.ndarray
     release_row: np.ndarray
     by_modes: tuple[Saltation, Saltation] | None = None
-    between: np.ndarray | None = None
 
 
 @dataclass(slots=True)
@@ -111,19 +109,12 @@ def least_monodromy(s: ModeStrips, order: Order, lower: Period, upper: Period, a
     gamma = np.broadcast_to(order.gamma, late.shape)
     fading = lambda width: np.exp(-width * order.rate)  # noqa: E731
     shrink = lambda width: np.exp(-width * gamma)[None]  # noqa: E731
-    steep_on = np.fmin(_steepest_onset(s, order, lower, upper), slopes_by_modes(s, order, lower, upper, True)[1])
-    steep_off = np.fmin(_steepest_release(s, order, lower, upper), slopes_by_modes(s, order, lower, upper, False)[1])
+    steep_on, steep_off = (slopes_by_modes(s, order, lower, upper, onset)[1] for onset in (True, False))
     onset, release = (np.where(alike, gain, 0.0) for gain in (_ratio(s.jump_on, steep_on), _ratio(s.step, steep_off)))
     pair = _saltation(s, order, lower, upper, onset, True), _saltation(s, order, lower, upper, release, False)
     taken = [each.gain > 0 for each in pair]
-    events = np.sort(np.stack([lower.onset, upper.onset]), axis=0), np.sort(np.stack([lower.release, upper.release]), axis=0)
-    gaps = [np.maximum(one[0] - other[1], 0.0) for one, other in (events, events[::-1])]
-    later = events[0][0] > events[1][1]
-    span = np.where(later, events[0][1] - events[1][0], events[1][1] - events[0][0])
-    times = np.where(later, gaps[0], gaps[1]), np.nan_to_num(span)
-    between = np.maximum(_least_sums(np.ones((1, s.modes)), _kick(s), s, *times)[0], 0.0)
     return Monodromy(np.where(taken[0], 0.0, onset), shrink(late), fading(late),
-                 np.where(taken[1], 0.0, release), fading(early), shrink(early), pair, between)  # fmt: skip
+                 np.where(taken[1], 0.0, release), fading(early), shrink(early), pair)  # fmt: skip
 
 
 def _saltation(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, onset: bool) -> Saltation:
@@ -216,9 +207,6 @@ def propagation(s: ModeStrips, order: Order, period: Period, gains: Monodromy | 
                 new = np.flatnonzero(ends[k] & (across.gain[i] > 0))
                 at = i[new]
                 row = (across.row[:, at].T[:, None, :] @ X[new])[:, 0]
-                other = gains.by_modes[1 - k]
-                through = np.where(ripe[1 - k][new], other.gain[at] * gains.between[at], 0.0)
-                row += through[:, None] * pending[1 - k][at]
                 pending[k][at], waiting[k][at] = row, True
             for k, across in enumerate(gains.by_modes):
                 at = i[ripe[k]]
@@ -269,34 +257,6 @@ def _ratio(step, slope):
 def _width(first, second):
     """Distance from an event to a later one; 0 where either is missing (the gain is 0 there)."""
     return np.nan_to_num(np.maximum(second - first, 0.0))
-
-
-def _steepest_onset(s: ModeStrips, order: Order, lower: Period, upper: Period):
-    """Upper bound of the rate at which the gap falls to the onset:
-    ``-sin d - gamma (u + delta_0) + sum (g_i/alpha_i) e_i(d)``."""
-    weight = order.g * order.rate
-    low, high = lower.onset, np.maximum(upper.onset, lower.onset)
-    last = order.to_e(upper.z_onset)
-    w = s.D - 1 + s.delta_0 + _least_cosine(low, high)
-    kept = np.exp(-(high - low) * order.rate)
-    before = np.divide(last - w * (1 - kept), kept, out=np.full(last.shape, np.inf), where=kept > 1e-290)
-    e = np.where(w >= last, last, before)
-    gamma = order.gamma
-    return _harmonic_max(-gamma, -1.0, low, high) - gamma * (s.D - 1 + s.delta_0) + (weight * e).sum(axis=0)
-
-
-def _steepest_release(s: ModeStrips, order: Order, lower: Period, upper: Period):
-    """Upper bound of the rate at which the gap grows to the release:
-    ``sin c + gamma (u + delta_0) - sum (g_i/alpha_i) e_i(c)``."""
-    weight = order.g * order.rate
-    low, high = np.minimum(upper.release, lower.release), lower.release
-    last = order.to_e(lower.z_release)
-    w = s.D - 1 + s.delta_0 - _least_cosine(low + np.pi, high + np.pi)
-    kept = np.exp(-(high - low) * order.rate)
-    before = np.divide(last - w * (1 - kept), kept, out=np.full(last.shape, -np.inf), where=kept > 1e-290)
-    e = np.where(w <= last, last, before)
-    gamma = order.gamma
-    return _harmonic_max(gamma, 1.0, low, high) + gamma * (s.D - 1 + s.delta_0) - (weight * e).sum(axis=0)
 
 
 def slopes_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period, onset: bool):
@@ -381,10 +341,6 @@ def _extreme(e, floor, ceiling, kept, at_end, sign):
     before = np.where(sign * (away - e) >= 0, e, before)
     value = np.where(at_end, before, after)
     return np.clip(value, np.minimum(floor, e), np.maximum(ceiling, e))
-
-
-def _least_cosine(low, high):
-    return -_harmonic_max(-1.0, 0.0, low, high)
 
 
 def _harmonic_max(a, b, low, high):
