@@ -1,8 +1,8 @@
 """Friction law of a level: what it carries at a given nominal pressure, on one branch of loading.
 
 The law is a stack of smooth segments in disjoint intervals of pressure, at first one for each branch of the curve
-(``branches.py``); it may jump between them. Between segments whose pressures do not meet, where the curve itself jumps, it is what
-it is at the beginning of the next one.
+(``branches.py``); it may jump between them. Between segments whose pressures do not meet, where the curve itself jumps, it is
+what it is at the beginning of the next one.
 """
 
 from __future__ import annotations
