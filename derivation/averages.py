@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from . import stable
-from .check import Check, Derived, derived, zero
+from .check import Claim, Derived, derived, zero
 from .flows import Flows
 from .functions import Formula, either, loss_mean, written_out
 from .kernel import Kernel, kernel
@@ -26,57 +26,44 @@ class ZoneIntegrals:
 
 
 def zone_integrals(flows: Flows) -> ZoneIntegrals:
-    return ZoneIntegrals(contact_integrals(flows), relaxation_integrals(flows))
+    return ZoneIntegrals(integrals_over_contact(flows), integrals_over_gaps(flows))
 
 
-def contact_integrals(flows: Flows) -> Derived:
-    r"""What Eq. 11 sums over a contact zone: :math:`\int p\,ds,\ \int u\,ds,\ \int p\,u'\,ds`."""
+def integrals_over_contact(flows: Flows) -> Derived:
+    r"""Eq. 11: What a contact zone adds to the sums of pressure, displacement and friction.
+
+    .. math:: \int_{s_0}^{s_1} p\,ds,\quad \int_{s_0}^{s_1} u\,ds,\quad \int_{s_0}^{s_1} p\,u'\,ds
+    """
     u, pressure = flows.strip.u, flows.contact.value
-    value, checks = _integrated("integrals over contact", (pressure, u, pressure * sp.diff(u, s)))
-    return derived(
-        contact_integrals,
-        value,
-        name="integrals over contact",
-        statement="What a contact zone adds to the sums of pressure, displacement and friction.",
-        latex=r"\int_{s_0}^{s_1} p\,ds,\quad \int_{s_0}^{s_1} u\,ds,\quad \int_{s_0}^{s_1} p\,u'\,ds",
-        checks=checks,
-        paper="Eq. 11",
-        emitted=("profile_integral", "contact_work"),
-    )
+    value, checks = _integrated((pressure, u, pressure * sp.diff(u, s)))
+    return derived(integrals_over_contact, value, checks, emitted=("profile_integral", "contact_work"))
 
 
-def relaxation_integrals(flows: Flows) -> Derived:
-    r"""What Eq. 11 sums over an adhesion or free zone: :math:`p\,(s_1-s_0),\ \int w\,ds,\ p\,[u]`."""
+def integrals_over_gaps(flows: Flows) -> Derived:
+    r"""Eq. 11: What a zone at constant pressure adds. Adhesion counts in both means.
+
+    .. math:: \int_{s_0}^{s_1} p\,ds = p\,(s_1 - s_0),\quad \int_{s_0}^{s_1} w\,ds,\quad p\,[u]_{s_0}^{s_1}
+    """
     u, displacement = flows.strip.u, flows.relaxation.value
-    value, checks = _integrated("integrals over adhesion and free gap", (p, displacement, p * sp.diff(u, s)))
-    return derived(
-        relaxation_integrals,
-        value,
-        name="integrals over adhesion and free gap",
-        statement="What a zone at constant pressure adds. Adhesion counts in both means.",
-        latex=r"\int_{s_0}^{s_1} p\,ds = p\,(s_1 - s_0),\quad \int_{s_0}^{s_1} w\,ds,\quad p\,[u]_{s_0}^{s_1}",
-        checks=checks,
-        paper="Eq. 11",
-        emitted=("relaxation_integral", "profile_rise"),
-    )
+    value, checks = _integrated((p, displacement, p * sp.diff(u, s)))
+    return derived(integrals_over_gaps, value, checks, emitted=("relaxation_integral", "profile_rise"))
 
 
-def _integrated(name: str, integrands: tuple[sp.Expr, ...]) -> tuple[tuple[sp.Expr, ...], list[Check]]:
+def _integrated(integrands: tuple[sp.Expr, ...]) -> tuple[tuple[sp.Expr, ...], list[Claim]]:
     """Definite integrals from s_0 to s_1, term by term, each antiderivative differentiated back."""
     values, residuals = [], []
     for integrand in map(sp.expand, integrands):
         primitive = sp.Add(*(sp.integrate(term, s) for term in sp.Add.make_args(integrand)))
         residuals.append(sp.diff(primitive, s) - integrand)
         values.append(primitive.subs(s, s_1) - primitive.subs(s, s_0))
-    return tuple(values), [zero(name, "every antiderivative differentiates back to its integrand", residuals, phases=(s_0, s))]
+    return tuple(values), [zero("every antiderivative differentiates back to its integrand", residuals, phases=(s_0, s))]
 
 
 def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
-    r"""Eq. 11, over one period of s:
+    r"""Eq. 11: Means of a strip over one period of s.
 
-    .. math:: \bar p = \frac1{2\pi}\oint p\,ds = \frac1{2\pi}\oint w\,ds,\qquad \bar\tau = \frac1{2\pi}\oint p\,u'\,ds
+    .. math:: \bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds
     """
-    name = f"means_{regime.sequence}"
     sums = [NOTHING, NOTHING, NOTHING]  # of p, w, p u'
     for zone in regime.zones:
         edges = {s_0: zone.first, s_1: zone.last}
@@ -90,13 +77,11 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
     exact = ((sum_w if regime.touches else sum_p) / PERIOD, sum_tau / PERIOD)
     checks = [
         zero(
-            name,
             "int p ds = int w ds + beta times the closing balance: mean p = mean w on an orbit",
             sum_p - sum_w - beta * regime.closing,
             phases=regime.edges,
         ),
         zero(
-            name,
             "over a period the profile rises by nothing",
             sum(written_out(stable.PROFILE_RISE(zone.first, zone.last)) for zone in regime.zones),
             phases=regime.edges,
@@ -109,30 +94,26 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
     )
     return kernel(
         strip_means,
-        Formula(name, regime.args, _stable_means(regime)),
+        Formula(f"means_{regime.sequence}", regime.args, _stable_means(regime)),
         exact,
-        f"Means of a strip: {regime.title}. The mean pressure is computed {why}",
-        r"\bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds",
         *checks,
+        statement=f"Means of a strip: {regime.title}. The mean pressure is computed {why}",
         phases=regime.edges,
-        paper="Eq. 11",
     )
 
 
 def constant_means(regime: Regime) -> Kernel:
-    r"""Eq. 11 at rest, :math:`w = p` constant: :math:`\bar p = p,\ \bar\tau = 0`."""
-    name = f"means_{regime.sequence}"
+    r"""Eq. 11: At rest :math:`w = p` is constant: :math:`\bar p = p,\ \bar\tau = 0`."""
     (zone,) = regime.zones
     u = stable.PROFILE(s, D)
     mean_tau = sp.integrate(zone.load * sp.diff(written_out(u), s), (s, 0, PERIOD)) / PERIOD
     return kernel(
         constant_means,
-        Formula(name, PARAMETERS, (zone.load, NOTHING)),
+        Formula(f"means_{regime.sequence}", PARAMETERS, (zone.load, NOTHING)),
         (zone.load, mean_tau),
-        f"Means of a strip: {regime.title}.",
-        rf"\bar p = {sp.latex(zone.load)},\quad \bar\tau = 0",
-        zero(name, "a constant pressure does no work over a period", mean_tau),
-        paper="Eq. 11",
+        zero("a constant pressure does no work over a period", mean_tau),
+        statement=f"Means of a strip: {regime.title}.",
+        latex=rf"\bar p = {sp.latex(zone.load)},\quad \bar\tau = 0",
     )
 
 

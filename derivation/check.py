@@ -1,23 +1,25 @@
 """What a check is, what a derived quantity is, and the error that a failing check raises.
 
-A quantity is derived by one function, which verifies it on the spot and returns it as a :class:`Derived`: the value, the
-sentence and the equation a reader wants to see, the paper's equation number, and the checks that it passed. A check that
+A quantity is derived by one function, whose docstring says what it is and shows the equation (:mod:`.said`). The function hands
+its value and what it claims of it to :func:`derived`, which verifies every claim and returns a :class:`Derived`. A claim that
 does not come out exactly zero raises :class:`DerivationError` with the name of the step, so nothing unverified goes on.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
 from .exact import is_zero
+from .said import said
 
 REPRODUCED = "reproduced"
 CORRECTED = "reproduced with a correction"
 BEYOND = "beyond the paper"
 PACKAGE = f"{__name__.rpartition('.')[0]}."
 STATUSES = (REPRODUCED, CORRECTED, BEYOND)
+EXACT = "exact zero"
 
 
 class DerivationError(Exception):
@@ -38,6 +40,17 @@ class Check:
 
 
 @dataclass(frozen=True)
+class Claim(Check):
+    """What is to be verified: ``verify`` raises an error, with the name of a step, unless it holds."""
+
+    verify: Callable[[str], None]
+
+    def verified(self, step: str) -> Check:
+        self.verify(step)
+        return Check(self.claim, self.outcome)
+
+
+@dataclass(frozen=True)
 class Derived:
     """A derived quantity with everything that an audit needs to know about it."""
 
@@ -53,46 +66,47 @@ class Derived:
     emitted: tuple[str, ...] = field(default=())  # names of the generated functions that compute it
 
 
-def zero(step: str, claim: str, residual: Any, **options: Any) -> Check:
-    """Verify that ``residual`` (an expression or a sequence of them) vanishes identically."""
+def zero(claim: str, residual: Any, outcome: str = EXACT, **options: Any) -> Claim:
+    """The claim that ``residual`` (an expression or a sequence of them) vanishes identically."""
     parts = residual if isinstance(residual, (tuple, list)) else (residual,)
-    for part in parts:
-        if not is_zero(part, **options):
-            raise DerivationError(step, claim, part)
-    return Check(claim, "exact zero")
+
+    def verify(step: str) -> None:
+        for part in parts:
+            if not is_zero(part, **options):
+                raise DerivationError(step, claim, part)
+
+    return Claim(claim, outcome, verify)
 
 
-def holds(step: str, claim: str, truth: Any) -> Check:
-    """Verify a statement that is true or false."""
-    if not bool(truth):
-        raise DerivationError(step, claim)
-    return Check(claim, "holds")
+def holds(claim: str, truth: Any) -> Claim:
+    """The claim of a statement that is true or false."""
+
+    def verify(step: str) -> None:
+        if not bool(truth):
+            raise DerivationError(step, claim)
+
+    return Claim(claim, "holds", verify)
 
 
-def derived(
-    by: Callable[..., Any],
-    value: Any,
-    *,
-    name: str,
-    statement: str,
-    latex: str,
-    checks: tuple[Check, ...] | list[Check],
-    paper: str = "",
-    status: str = "",
-    correction: str = "",
-    emitted: tuple[str, ...] = (),
-) -> Derived:
-    """Assemble a :class:`Derived`; it must have passed at least one check.
+def derived(by: Callable[..., Any], value: Any, claims: Iterable[Claim], name: str = "", **options: Any) -> Derived:
+    """Verify the ``claims``, at least one, of what the function ``by`` derived, and record them.
 
-    ``status``: that of the paper's equation, or, without one, beyond the paper; to be given where the print needs a correction.
+    The step has the name of the function unless another is given. What it states, its equation and the paper's number
+    stand in the docstring; the ``options`` ``statement``, ``latex`` and ``paper`` go before it. Others:
+    ``correction``, what is wrong in the print; ``emitted``, names of generated functions; ``status``, if not that of
+    the paper's equation, or beyond the paper.
     """
-    status = status or (REPRODUCED if paper else BEYOND)
+    name = name or by.__name__.replace("_", " ")
+    statement, latex, paper = said(by, name)
+    correction = options.get("correction", "")
+    status = CORRECTED if correction else REPRODUCED if options.get("paper", paper) else BEYOND
+    own = {"statement": statement, "latex": latex, "paper": paper, "status": status} | options
+    checks = tuple(claim.verified(name) for claim in claims)
     if not checks:
         raise DerivationError(name, "has no check")
-    if status not in STATUSES or (status == CORRECTED) != bool(correction):
-        raise DerivationError(name, f"status {status!r} does not fit its correction {correction!r}")
-    function = f"{by.__module__.removeprefix(PACKAGE)}.{by.__name__}"
-    return Derived(value, name, statement, latex, paper, status, tuple(checks), function, correction, emitted)
+    if own["status"] not in STATUSES or (own["status"] == CORRECTED) != bool(correction):
+        raise DerivationError(name, f"status {own['status']!r} does not fit its correction {correction!r}")
+    return Derived(value, name, checks=checks, function=f"{by.__module__.removeprefix(PACKAGE)}.{by.__name__}", **own)
 
 
 def _shortened(residual: Any, limit: int = 200) -> str:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from .check import CORRECTED, Derived, derived, holds, zero
+from .check import Derived, derived, holds, zero
 from .regime import Regime
 from .strip import TIMES, Strip
 from .surface import AMPLITUDE, HEIGHT, PENETRATION
@@ -41,36 +41,24 @@ SIGN_OF_6 = (
 
 
 def zone_conditions(u: sp.Expr) -> Derived:
-    r"""Eq. 6, all three lines, with the gap :math:`g = w - (D - f)`:
+    r"""Eq. 6: Every point of a strip is in contact, where w is given and the pressure must not fall below -p_0, or
+    out of it, where the pressure is given by the gap and the gap must stay in its range.
 
-    .. math:: g = 0,\ p \ge -p_0; \qquad 0 < g \le \delta_0,\ p = -p_0; \qquad g > \delta_0,\ p = 0
+    .. math:: g = w - (D - f),\quad \{g = 0,\ p \ge -p_0\},\quad \{0 < g \le \delta_0,\ p = -p_0\},\quad \{g > \delta_0,\ p =
+        0\}
     """
-    name = "zone conditions"
     displacement = sp.Function("w")(s)  # in units of A
     gap = AMPLITUDE * displacement - (D_level - HEIGHT)
     in_strip = AMPLITUDE * (displacement - u.subs({D: PENETRATION / AMPLITUDE, s: -k * x}))
     checks = [
-        zero(name, "in the strip at y the gap is A (w - u)", sp.simplify(gap - in_strip)),
-        zero(name, "it is zero where Eq. 6 holds, w = D - f", gap.subs(displacement, (D_level - HEIGHT) / AMPLITUDE)),
+        zero("in the strip at y the gap is A (w - u)", sp.simplify(gap - in_strip)),
+        zero("it is zero where Eq. 6 holds, w = D - f", gap.subs(displacement, (D_level - HEIGHT) / AMPLITUDE)),
         holds(
-            name,
             "the printed w = f + D is deepest in the valleys of the surface: its cos kx term has the other sign",
             _along(D_level + HEIGHT) == -_along(D_level - HEIGHT) != 0,
         ),
     ]
-    return derived(
-        zone_conditions,
-        gap,
-        name=name,
-        statement="Every point of a strip is in contact, where w is given and the pressure must not fall below -p_0, or out of "
-        "it, where the pressure is given by the gap and the gap must stay in its range.",
-        latex=r"g = w - (D - f),\quad \{g = 0,\ p \ge -p_0\},\quad \{0 < g \le \delta_0,\ p = -p_0\},\quad "
-        r"\{g > \delta_0,\ p = 0\}",
-        checks=checks,
-        paper="Eq. 6",
-        status=CORRECTED,
-        correction=SIGN_OF_6,
-    )
+    return derived(zone_conditions, gap, checks, correction=SIGN_OF_6)
 
 
 def _along(height: sp.Expr) -> sp.Expr:
@@ -78,21 +66,22 @@ def _along(height: sp.Expr) -> sp.Expr:
 
 
 def strip_problem(strip: Strip, discrete: Regime) -> Derived:
-    r"""Between Eq. 8 and 10, Eq. 5 with the conditions of a strip:
+    r"""The steady law in each zone and the conditions at its edges determine a, b, c and d. The pressure is
+    continuous at b and -a and steps by p_0 at d and -c, where w is continuous or steps too.
 
-    .. math:: g(d) = \delta_0,\quad g(b) = 0,\ p(b) = -p_0,\quad p(-a) = -p_0,\quad g(-c) = \delta_0,\quad w(x + l) = w(x)
+    .. math:: g(d) = \delta_0,\quad g(b) = 0,\quad p(b) = -p_0,\quad p(-a) = -p_0,\quad g(-c) = \delta_0,\quad [w]_d = -\chi J_0
+        p_0,\quad [w]_{-c} = \chi J_0 p_0,\quad w(x + l) = w(x)
     """
-    name = "strip problem"
     profile = D_j - A * (1 - sp.cos(k * x))
     onset, begins, ends, leaves = sp.symbols("x_d x_b x_a x_c", real=True)  # where d, b, -a, -c stand
     step = chi * strip.foundation.J_0 * p_0  # of w where the traction begins; it steps back where the traction ends
 
     def gap_at(place: sp.Expr, since: sp.Symbol, gap: sp.Expr, load: sp.Expr) -> sp.Expr:
         """Gap at ``place`` after a zone at the pressure ``load`` that was entered at ``since`` with ``gap``."""
-        w = _solved(name, lambda unknown: strip.misses(unknown, load), since, profile.subs(x, since) + gap)
+        w = _solved(lambda unknown: strip.misses(unknown, load), since, profile.subs(x, since) + gap)
         return (w - profile).subs(x, place)
 
-    pressure = _solved(name, lambda unknown: strip.misses(profile, unknown), begins, -p_0)
+    pressure = _solved(lambda unknown: strip.misses(profile, unknown), begins, -p_0)
     left = (
         gap_at(begins, onset, delta_0 - step, -p_0),
         pressure.subs(x, ends) + p_0,
@@ -107,34 +96,23 @@ def strip_problem(strip: Strip, discrete: Regime) -> Derived:
     ]
     checks = [
         zero(
-            name,
             "Eq. 5 solved in x and SI with these conditions gives the boundary equations of the regime acaf",
             residuals,
             phases=discrete.edges,
         ),
-        holds(name, "d > b > -a > -c in x is d < b < a < c in s", _falling(places)),
+        holds("d > b > -a > -c in x is d < b < a < c in s", _falling(places)),
     ]
-    return derived(
-        strip_problem,
-        left,
-        name=name,
-        statement="The steady law in each zone and the conditions at its edges determine a, b, c and d. The pressure is "
-        "continuous at b and -a and steps by p_0 at d and -c, where w is continuous or steps too.",
-        latex=r"g(d) = \delta_0,\quad g(b) = 0,\quad p(b) = -p_0,\quad p(-a) = -p_0,\quad g(-c) = \delta_0,\quad "
-        r"[w]_d = -\chi J_0 p_0,\quad [w]_{-c} = \chi J_0 p_0,\quad w(x + l) = w(x)",
-        checks=checks,
-        emitted=("residual_acaf",),
-    )
+    return derived(strip_problem, left, checks, emitted=("residual_acaf",))
 
 
-def _solved(name: str, law: Callable[[sp.Expr], sp.Expr], since: sp.Symbol, value: sp.Expr) -> sp.Expr:
+def _solved(law: Callable[[sp.Expr], sp.Expr], since: sp.Symbol, value: sp.Expr) -> sp.Expr:
     """The solution of the law that has the ``value`` at ``since``."""
     unknown = sp.Function("f")(x)
     general = sp.dsolve(sp.Eq(sp.expand(law(unknown)), 0), unknown).rhs
     (constant,) = general.free_symbols - law(unknown).free_symbols
     (found,) = sp.solve(general.subs(x, since) - value, constant)
     solution = general.subs(constant, found)
-    zero(name, "the law holds", sp.simplify(law(solution)))
+    zero("the law holds", sp.simplify(law(solution))).verified("strip problem")
     return solution
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from . import stable
-from .check import Check, zero
+from .check import Claim, zero
 from .flows import Flows
 from .functions import Formula
 from .kernel import Kernel, kernel
@@ -13,32 +13,53 @@ from .symbols import J, beta, p_0, p_in, q_0, s, s_0, s_1
 
 
 def contact(flows: Flows) -> tuple[Kernel, ...]:
-    r""":math:`q = p + p_0` in contact, and its derivatives."""
+    r""":math:`q = p + p_0` in contact, and its derivatives.
+
+    excess_after: Pressure above -p_0 in contact, when it was q_0 at s_0.
+
+    .. math:: q(s_1) = (q_0 + [p_{sat}]_{s_0}^{s_1})\,e^{-(s_1 - s_0)/\alpha} - (p_0 + p_{sat}(s_1))\,(e^{-(s_1 - s_0)/\alpha} -
+        1)
+
+    excess_after_slope: Derivative of excess_after by s_1.
+
+    .. math:: \partial q/\partial s_1
+
+    excess_after_start: Derivative of excess_after by s_0, with q_0 held.
+
+    .. math:: \partial q/\partial s_0
+
+    contact_pressure: Contact pressure.
+
+    .. math:: p(s_1) = q(s_1) - p_0
+    """
     pressure = flows.contact.value.subs(s, s_1)
     q = pressure + p_0
-    latex = (
-        r"q(s_1) = (q_0 + [p_{sat}]_{s_0}^{s_1})\,e^{-(s_1 - s_0)/\alpha} - (p_0 + p_{sat}(s_1))\,(e^{-(s_1 - s_0)/\alpha} - 1)"
-    )
     return (
-        kernel(contact, stable.EXCESS_AFTER, q, "Pressure above -p_0 in contact, when it was q_0 at s_0.", latex),
-        kernel(
-            contact, stable.EXCESS_AFTER_SLOPE, sp.diff(q, s_1), "Derivative of excess_after by s_1.", r"\partial q/\partial s_1"
-        ),
-        kernel(
-            contact,
-            stable.EXCESS_AFTER_START,
-            sp.diff(q, s_0),
-            "Derivative of excess_after by s_0, with q_0 held.",
-            r"\partial q/\partial s_0",
-        ),
-        kernel(contact, stable.CONTACT_PRESSURE, pressure, "Contact pressure.", r"p(s_1) = q(s_1) - p_0"),
+        kernel(contact, stable.EXCESS_AFTER, q),
+        kernel(contact, stable.EXCESS_AFTER_SLOPE, sp.diff(q, s_1)),
+        kernel(contact, stable.EXCESS_AFTER_START, sp.diff(q, s_0)),
+        kernel(contact, stable.CONTACT_PRESSURE, pressure),
     )
 
 
 def contact_state(flows: Flows) -> tuple[Kernel, ...]:
     r""":math:`\Delta z = [u] - J[p]` over contact, equal to :math:`\frac1\beta\int(p-u)\,ds`.
 
-    The work that Eq. 11 sums is :math:`\int p\,u'\,ds`.
+    contact_increment: Change of z = w - J p over contact.
+
+    .. math:: \Delta z = [u]_{s_0}^{s_1} - J [p]_{s_0}^{s_1} = \frac1\beta \int_{s_0}^{s_1} (p - u)\,ds
+
+    contact_increment_slope: Derivative of contact_increment by s_1.
+
+    .. math:: \partial \Delta z/\partial s_1
+
+    contact_increment_start: Derivative of contact_increment by s_0, with q_0 held.
+
+    .. math:: \partial \Delta z/\partial s_0
+
+    contact_work, Eq. 11: Work of the contact pressure on the rigid profile, entered at the pressure p_in.
+
+    .. math:: \int_{s_0}^{s_1} p\,u'\,ds
     """
     u, pressure = flows.strip.u, flows.contact.value
     rise = u.subs(s, s_1) - u.subs(s, s_0)
@@ -49,46 +70,28 @@ def contact_state(flows: Flows) -> tuple[Kernel, ...]:
     work_rate = sp.expand(pressure.subs(q_0, p_0 + p_in) * sp.diff(u, s))
     work = sp.Add(*(sp.integrate(term, s) for term in sp.Add.make_args(work_rate)))
     total = work.subs(s, s_1) - work.subs(s, s_0)
-    name = "contact_increment"
     return (
         kernel(
             contact_state,
             stable.CONTACT_INCREMENT,
             change,
-            "Change of z = w - J p over contact.",
-            r"\Delta z = [u]_{s_0}^{s_1} - J [p]_{s_0}^{s_1} = \frac1\beta \int_{s_0}^{s_1} (p - u)\,ds",
-            zero(name, "the antiderivative of p - u differentiates back", sp.diff(lagging, s) - integrand),
-            zero(name, "int (p - w) ds = beta (z(s_1) - z(s_0)): the balance of z", balance, phases=(s_0, s_1)),
+            zero("the antiderivative of p - u differentiates back", sp.diff(lagging, s) - integrand),
+            zero("int (p - w) ds = beta (z(s_1) - z(s_0)): the balance of z", balance, phases=(s_0, s_1)),
         ),
-        kernel(
-            contact_state,
-            stable.CONTACT_INCREMENT_SLOPE,
-            sp.diff(change, s_1),
-            "Derivative of contact_increment by s_1.",
-            r"\partial \Delta z/\partial s_1",
-        ),
-        kernel(
-            contact_state,
-            stable.CONTACT_INCREMENT_START,
-            sp.diff(change, s_0),
-            "Derivative of contact_increment by s_0, with q_0 held.",
-            r"\partial \Delta z/\partial s_0",
-        ),
+        kernel(contact_state, stable.CONTACT_INCREMENT_SLOPE, sp.diff(change, s_1)),
+        kernel(contact_state, stable.CONTACT_INCREMENT_START, sp.diff(change, s_0)),
         kernel(
             contact_state,
             stable.CONTACT_WORK,
             total,
-            "Work of the contact pressure on the rigid profile, entered at the pressure p_in.",
-            r"\int_{s_0}^{s_1} p\,u'\,ds",
             _short_and_wide(),
-            zero("contact_work", "the antiderivative differentiates to p u'", sp.diff(work, s) - work_rate, phases=(s_0, s)),
-            paper="Eq. 11",
+            zero("the antiderivative differentiates to p u'", sp.diff(work, s) - work_rate, phases=(s_0, s)),
         ),
     )
 
 
-def _short_and_wide() -> Check:
+def _short_and_wide() -> Claim:
     """Both forms of the integral of (1 - exp(-t/alpha)) u' over the zone are the same."""
     args, steps = stable.CONTACT_WORK.args, stable.CONTACT_WORK.steps
     short, wide = (Formula("form", args, form, steps).written_out(args) for form in (stable.SHORT, stable.WIDE))
-    return zero("contact_work", "the form for short zones is that for wide ones", short - wide, phases=(s_0, s_1))
+    return zero("the form for short zones is that for wide ones", short - wide, phases=(s_0, s_1))

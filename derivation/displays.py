@@ -78,7 +78,7 @@ STATED = {
     "regime a": "a condition",
     "regime f": "a condition",
     "integrals over contact": "integrals over a zone",
-    "integrals over adhesion and free gap": "integrals over a zone",
+    "integrals over gaps": "integrals over a zone",
     "means_acaf": "definitions of the means",
     "means_afc": "definitions of the means",
     "means_af": "definitions of the means",

@@ -18,27 +18,21 @@ from .symbols import J, L, beta, chi, delta_0, p, p_0, s, s_0
 
 
 def power_balance(flows: Flows) -> Derived:
-    r"""On every motion :math:`p\,w' = \frac{\beta}{L} z'^2 + \Phi'`, :math:`\Phi = \frac{z^2}{2L} + \frac{J p^2}{2}`."""
-    name = "power balance"
+    r"""The power that enters the foundation is lost in its dashpot, never negative, or stored in its two springs.
+
+    .. math:: p\,w' = \frac{\beta}{L}\,z'^2 + \frac{d}{ds}\left(\frac{z^2}{2L} + \frac{J p^2}{2}\right)
+    """
     residuals = []
     for w, pressure in ((flows.strip.u, flows.contact.value), (flows.relaxation.value, p)):
         z = w - J * pressure
         stored = z**2 / (2 * L) + J * pressure**2 / 2
         residuals.append(pressure * sp.diff(w, s) - beta / L * sp.diff(z, s) ** 2 - sp.diff(stored, s))
-    checks = [zero(name, "in contact, and under a constant pressure", residuals, phases=(s_0, s))]
-    return derived(
-        power_balance,
-        None,
-        name=name,
-        statement="The power that enters the foundation is lost in its dashpot, never negative, or stored in its two springs.",
-        latex=r"p\,w' = \frac{\beta}{L}\,z'^2 + \frac{d}{ds}\left(\frac{z^2}{2L} + \frac{J p^2}{2}\right)",
-        checks=checks,
-    )
+    checks = [zero("in contact, and under a constant pressure", residuals, phases=(s_0, s))]
+    return derived(power_balance, None, checks)
 
 
 def friction_balance(regime: Regime) -> Derived:
     r""":math:`2\pi\bar\tau = E + X`: loss of one cycle, and what the steps of p leave."""
-    name = f"friction balance {regime.sequence}"
     heights = {zone.first: sp.Symbol(f"u_{zone.first}", real=True) for zone in regime.zones}
     extra = sp.Integer(0)
     for zone in regime.zones:
@@ -54,31 +48,30 @@ def friction_balance(regime: Regime) -> Derived:
         continuous, constitutive = -J * p_0 * (onset - release) / (1 - J), J * p_0**2
         claim = "constitutive: X = p_0^2/K_g, what a detachment costs at the glassy modulus"
         checks += [
-            zero(name, "continuous: X = -(J/L) p_0 (w_d - w_c)", sp.factor(extra.subs(chi, 0) - continuous)),
-            zero(name, claim, sp.factor(extra.subs(chi, 1) - constitutive)),
+            zero("continuous: X = -(J/L) p_0 (w_d - w_c)", sp.factor(extra.subs(chi, 0) - continuous)),
+            zero(claim, sp.factor(extra.subs(chi, 1) - constitutive)),
         ]
         latex = r"X = (1 - \chi)\left[-\tfrac{J}{L}\,p_0\,(w_d - w_c)\right] + \chi J p_0^2"
     elif regime.sequence == "afc":
         work = p_0 * delta_0 + p_0**2 / (2 * stiff) - stiff * delta_0**2 / 2
         checks += [
-            zero(name, "X = p_0 delta_0 + p_0^2/(2 K_g) - K_g delta_0^2/2", sp.factor(extra - work)),
+            zero("X = p_0 delta_0 + p_0^2/(2 K_g) - K_g delta_0^2/2", sp.factor(extra - work)),
             holds(
-                name,
                 "the snap costs nothing when it only just happens: both forms of X agree at J p_0 = delta_0",
                 sp.factor((work - J * p_0**2).subs(delta_0, J * p_0)) == 0,
             ),
         ]
         latex = r"X = p_0 \delta_0 + \frac{p_0^2}{2 K_g} - \frac{K_g \delta_0^2}{2}"
     else:
-        checks += [zero(name, "nothing detaches: X = 0, the friction is the loss", extra)]
+        checks += [zero("nothing detaches: X = 0, the friction is the loss", extra)]
         latex = "X = 0"
     return derived(
         friction_balance,
         extra,
-        name=name,
+        checks,
+        name=f"friction balance {regime.sequence}",
         statement=f"Mean friction against loss: {regime.title}. E is the dashpot's loss of one cycle, X the rest.",
         latex=rf"2\pi\bar\tau = E + X,\quad E = \frac{{\beta}}{{L}}\oint z'^2 ds,\quad {latex}",
-        checks=checks,
     )
 
 

@@ -13,10 +13,10 @@ from __future__ import annotations
 import sympy as sp
 
 from . import stable
-from .check import derived, zero
+from .check import zero
 from .exact import in_half_angles
 from .flows import Flows
-from .kernel import Kernel, pair
+from .kernel import Kernel, chained, pair
 from .symbols import D, alpha, beta, p_0, q_0, s, s_0, s_1
 
 _phase = sp.Symbol("phi", positive=True)
@@ -24,32 +24,39 @@ ANGLES = (s_0, s_1, _phase)
 
 
 def gap_event(flows: Flows) -> tuple[Kernel, Kernel]:
-    r""":math:`(g, g')` at :math:`s_1` from :math:`s_0/2,\ \beta/2,\ D - p,\ (u(s_0) + g_0 - p)/\beta`."""
+    r""":math:`(g, g')` at :math:`s_1`, from constants of the entry.
+
+    gap_entry: Constants of gap_event in a zone entered at s_0 with gap_0 under the constant pressure p. For beta = 0
+    the last is 0 and the third the least time that can be divided by.
+
+    .. math:: g_0,\quad \tfrac{s_0}{2},\quad \tfrac{\beta}{2},\quad D - p,\quad \frac{u(s_0) + g_0 - p}{\beta}
+
+    gap_event: Gap and its slope at s_1, from the constants of gap_entry. Same as gap_after and gap_after_slope; s_1 must not be
+    before s_0.
+
+    .. math:: g = \left(g_0 - [u]_{s_0}^{s_1}\right) e^{-(s_1 - s_0)/\beta} + (u(s_1) - p)\left(e^{-(s_1 - s_0)/\beta} -
+        1\right),\quad g' = \sin s_1 - \frac{u(s_0) + g_0 - p}{\beta} e^{-(s_1 - s_0)/\beta}
+    """
     g = flows.gap.value.subs(s, s_1)
-    return pair(
-        gap_event,
-        (stable.GAP_ENTRY, stable.GAP_EVENT),
-        (g, sp.diff(g, s_1)),
-        (
-            "Constants of gap_event in a zone entered at s_0 with gap_0 under the constant pressure p. For beta = 0 "
-            "the last is 0 and the third the least time that can be divided by.",
-            "Gap and its slope at s_1, from the constants of gap_entry. Same as gap_after and gap_after_slope; "
-            "s_1 must not be before s_0.",
-        ),
-        (
-            r"g_0,\quad \tfrac{s_0}{2},\quad \tfrac{\beta}{2},\quad D - p,\quad \frac{u(s_0) + g_0 - p}{\beta}",
-            r"g = \left(g_0 - [u]_{s_0}^{s_1}\right) e^{-(s_1 - s_0)/\beta} + (u(s_1) - p)\left(e^{-(s_1 - s_0)/\beta} "
-            r"- 1\right),\quad g' = \sin s_1 - \frac{u(s_0) + g_0 - p}{\beta} e^{-(s_1 - s_0)/\beta}",
-        ),
-        halved=(s_0, s_1),
-    )
+    return pair(gap_event, (stable.GAP_ENTRY, stable.GAP_EVENT), (g, sp.diff(g, s_1)), halved=(s_0, s_1))
 
 
 def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
-    r""":math:`(q, q')` at :math:`s_1`, with Eq. 15 as :math:`p_{sat} = D - 1 + R\cos(s + \varphi)`."""
+    r""":math:`(q, q')` at :math:`s_1`, from constants of the entry, with the saturated field as one harmonic.
+
+    excess_entry: Constants of excess_event in a contact entered at s_0 with q_0. For alpha = 0 the last is 0 and the third the
+    least time that can be divided by.
+
+    .. math:: q_0,\quad \tfrac{s_0}{2},\quad \tfrac{\alpha}{2},\quad \tfrac{\varphi}{2},\quad 2R,\quad D + p_0 - 1 + R,\quad
+        \frac{q_0 - p_0 - p_{sat}(s_0)}{\alpha}
+
+    excess_event, Eq. 15: Pressure above -p_0 in contact and its slope at s_1, from the constants of excess_entry. Same as
+    excess_after and excess_after_slope; s_1 must not be before s_0.
+
+    .. math:: p_{sat}(s) = D - 1 + R\cos(s + \varphi),\quad R\,e^{i\varphi} = \frac{1 + i\beta}{1 + i\alpha}
+    """
     q = flows.contact.value.subs(s, s_1) + p_0
     exact = (q, sp.diff(q, s_1))
-    name = "excess_event"
     # Rational in alpha and tan(phi): beta = tan(arctan(alpha) + phi), R = sqrt((1 + beta^2)/(1 + alpha^2)).
     shrunk = sp.cos(_phase) - alpha * sp.sin(_phase)
     tilted = {beta: (alpha * sp.cos(_phase) + sp.sin(_phase)) / shrunk}
@@ -62,52 +69,28 @@ def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
     loss = (beta - alpha) / (1 + alpha**2)
     stated = stable.EXCESS_ENTRY.written_out(stable.EXCESS_ENTRY.args)
     R = sp.sqrt(1 + beta**2) / sp.sqrt(1 + alpha**2)
-    phase_check = [
-        zero(name, "tan(phi) = (beta - alpha)/(1 + alpha beta)", sp.tan(2 * stated[3]) - tangent),
-        zero(name, "beta = tan(arctan(alpha) + phi)", (alpha + tangent) / (1 - alpha * tangent) - beta),
-        zero(name, "R^2 = (1 + beta^2)/(1 + alpha^2) is what that makes of 1/(cos phi - alpha sin phi)^2",
-             ((1 + tangent**2) / (1 - alpha * tangent) ** 2) - R_squared),
-        zero(name, "R^2 - 1 = loss (alpha + beta), so that R - 1 need not cancel", R_squared - 1 - loss * (alpha + beta)),
-    ]  # fmt: skip
-    rest = [
-        zero("excess_entry", "q_0, s_0/2, alpha/2", [a - b for a, b in zip(stated[:3], constants[:3], strict=True)]),
-        zero("excess_entry", "2 R", stated[4] - 2 * R),
-        zero("excess_entry", "D + p_0 - 1 + R", (stated[5] - (D + p_0)) * (1 + R) - loss * (alpha + beta)),
+    one_harmonic = [
+        zero("tan(phi) = (beta - alpha)/(1 + alpha beta)", sp.tan(2 * stated[3]) - tangent),
+        zero("beta = tan(arctan(alpha) + phi)", (alpha + tangent) / (1 - alpha * tangent) - beta),
         zero(
-            "excess_entry",
+            "R^2 = (1 + beta^2)/(1 + alpha^2) is what that makes of 1/(cos phi - alpha sin phi)^2",
+            ((1 + tangent**2) / (1 - alpha * tangent) ** 2) - R_squared,
+        ),
+        zero("R^2 - 1 = loss (alpha + beta), so that R - 1 need not cancel", R_squared - 1 - loss * (alpha + beta)),
+    ]
+    entry = [
+        zero("q_0, s_0/2, alpha/2", [a - b for a, b in zip(stated[:3], constants[:3], strict=True)]),
+        zero("2 R", stated[4] - 2 * R),
+        zero("D + p_0 - 1 + R", (stated[5] - (D + p_0)) * (1 + R) - loss * (alpha + beta)),
+        zero(
             "q_0 - p_0 - p_sat(s_0), over alpha, with p_sat(s_0) as the harmonic",
             stated[6] * alpha - (q_0 - stated[5] + R * (1 - sp.cos(s_0 + 2 * stated[3]))),
         ),
     ]
-    chain = (stable.EXCESS_ENTRY, stable.EXCESS_EVENT)
-    records = (
-        derived(
-            excess_event,
-            constants,
-            name="excess_entry",
-            statement="Constants of excess_event in a contact entered at s_0 with q_0. For alpha = 0 the last is 0 and the third "
-            "the least time that can be divided by.",
-            latex=r"q_0,\quad \tfrac{s_0}{2},\quad \tfrac{\alpha}{2},\quad \tfrac{\varphi}{2},\quad 2R,\quad D + p_0 - 1 + R,"
-            r"\quad \frac{q_0 - p_0 - p_{sat}(s_0)}{\alpha}",
-            checks=rest,
-            emitted=("excess_entry",),
-        ),
-        derived(
-            excess_event,
-            exact,
-            name=name,
-            statement="Pressure above -p_0 in contact and its slope at s_1, from the constants of excess_entry. Same as "
-            "excess_after and excess_after_slope; s_1 must not be before s_0.",
-            latex=r"p_{sat}(s) = D - 1 + R\cos(s + \varphi),\quad R\,e^{i\varphi} = \frac{1 + i\beta}{1 + i\alpha}",
-            checks=[
-                *phase_check,
-                zero(name, "excess_event after excess_entry is the derived q",
-                     in_half_angles(composed[0] - exact[0].subs(tilted), *ANGLES), phases=(s_0, s_1)),
-                zero(name, "and its derivative by s_1",
-                     in_half_angles(composed[1] - exact[1].subs(tilted), *ANGLES), phases=(s_0, s_1)),
-            ],
-            paper="Eq. 15",
-            emitted=(name,),
-        ),
-    )  # fmt: skip
-    return tuple(Kernel(formula, exact, record, chain=chain) for formula, record in zip(chain, records, strict=True))
+    left = [in_half_angles(one - other.subs(tilted), *ANGLES) for one, other in zip(composed, exact, strict=True)]
+    event = [
+        *one_harmonic,
+        zero("excess_event after excess_entry is the derived q", left[0], phases=(s_0, s_1)),
+        zero("and its derivative by s_1", left[1], phases=(s_0, s_1)),
+    ]
+    return chained(excess_event, (stable.EXCESS_ENTRY, stable.EXCESS_EVENT), exact, (constants, entry), (exact, event))

@@ -32,66 +32,44 @@ def flows(strip: Strip) -> Flows:
 
 
 def contact_flow(strip: Strip) -> Derived:
-    r"""Eq. 5 with w given, that is Eq. 15 and its transient:
+    r"""Eq. 5: In contact w = u is given and the law is an equation for p: the saturated field plus a transient that dies out over
+    alpha.
 
-    .. math:: p = p_{sat}(s) + (p(s_0) - p_{sat}(s_0))\,e^{-(s-s_0)/\alpha}
+    .. math:: p(s) = p_{sat}(s) + (p(s_0) - p_{sat}(s_0))\,e^{-(s-s_0)/\alpha}
     """
-    name = "contact flow"
-    pressure = solved(name, lambda unknown: strip.law(strip.u, unknown), entry=q_0 - p_0)
+    pressure = solved("contact flow", lambda unknown: strip.law(strip.u, unknown), entry=q_0 - p_0)
     checks = [
-        zero(name, "the law holds with w = u", strip.law(strip.u, pressure)),
-        zero(name, "the zone is entered at the pressure q_0 - p_0", pressure.subs(s, s_0) - (q_0 - p_0)),
+        zero("the law holds with w = u", strip.law(strip.u, pressure)),
+        zero("the zone is entered at the pressure q_0 - p_0", pressure.subs(s, s_0) - (q_0 - p_0)),
     ]
-    return derived(
-        contact_flow,
-        pressure,
-        name=name,
-        statement="In contact w = u is given and the law is an equation for p: the saturated field plus a transient that "
-        "dies out over alpha.",
-        latex="p(s) = " + sp.latex(pressure),
-        checks=checks,
-        paper="Eq. 5",
-        emitted=("excess_after", "contact_pressure"),
-    )
+    return derived(contact_flow, pressure, checks, emitted=("excess_after", "contact_pressure"))
 
 
 def relaxation_flow(strip: Strip) -> Derived:
-    r"""Eq. 5 with p given, adhesion :math:`p=-p_0` or free :math:`p=0`: :math:`w = p + (w_0 - p)\,e^{-(s-s_0)/\beta}`."""
-    name = "relaxation flow"
-    displacement = solved(name, lambda unknown: strip.law(unknown, p), entry=w_0)
+    r"""Eq. 5: Out of contact p is constant, -p_0 within the reach of adhesion and 0 beyond it, and w creeps towards p.
+
+    .. math:: w(s) = p + (w_0 - p)\,e^{-(s-s_0)/\beta}
+    """
+    displacement = solved("relaxation flow", lambda unknown: strip.law(unknown, p), entry=w_0)
     checks = [
-        zero(name, "the law holds under the constant pressure p", strip.law(displacement, p)),
-        zero(name, "the zone is entered with w_0", displacement.subs(s, s_0) - w_0),
+        zero("the law holds under the constant pressure p", strip.law(displacement, p)),
+        zero("the zone is entered with w_0", displacement.subs(s, s_0) - w_0),
     ]
-    return derived(
-        relaxation_flow,
-        displacement,
-        name=name,
-        statement="Out of contact p is constant, -p_0 within the reach of adhesion and 0 beyond it, and w creeps towards p.",
-        latex="w(s) = " + sp.latex(displacement),
-        checks=checks,
-        paper="Eq. 5",
-    )
+    return derived(relaxation_flow, displacement, checks)
 
 
 def gap_flow(strip: Strip, displacement: sp.Expr) -> Derived:
-    r""":math:`g = w - u`, which obeys :math:`g + \beta g' = p - H`, :math:`H = u + \beta u'`."""
-    name = "gap flow"
+    r"""The gap between the foundation and the rigid profile is driven by the single harmonic H = u + beta u'.
+
+    .. math:: g + \beta g' = p - H,\quad H = u + \beta u'
+    """
     gap = displacement.subs(w_0, strip.u.subs(s, s_0) + gap_0) - strip.u
     forcing = strip.law(strip.u, sp.Integer(0))
     checks = [
-        zero(name, "the gap obeys g + beta g' = p - H", strip.law(gap, p) + forcing),
-        zero(name, "the zone is entered with gap_0", gap.subs(s, s_0) - gap_0),
+        zero("the gap obeys g + beta g' = p - H", strip.law(gap, p) + forcing),
+        zero("the zone is entered with gap_0", gap.subs(s, s_0) - gap_0),
     ]
-    return derived(
-        gap_flow,
-        gap,
-        name=name,
-        statement="The gap between the foundation and the rigid profile is driven by the single harmonic H = u + beta u'.",
-        latex="g(s) = " + sp.latex(gap, symbol_names={gap_0: "g_{0}"}),
-        checks=checks,
-        emitted=("gap_after",),
-    )
+    return derived(gap_flow, gap, checks, emitted=("gap_after",))
 
 
 def solved(name: str, law: Callable[[sp.Expr], sp.Expr], entry: sp.Expr) -> sp.Expr:

@@ -21,7 +21,11 @@ def half_space() -> tuple[Derived, Derived]:
 
 
 def stiffness_under_a_wave() -> Derived:
-    r""":math:`p = \frac{E q}{2 (1 - \nu^2)} w` for a pressure :math:`\cos qx` on an elastic half-space without shear on top."""
+    r"""A pressure wave of wavenumber q, in whatever direction, presses an isotropic half-space in proportion to itself. With a
+    constant Poisson ratio the same holds for a complex modulus.
+
+    .. math:: \frac{p}{w} = \frac{E\,q}{2\,(1 - \nu^2)}
+    """
     name = "half-space under a wave"
     # Airy's function of plane strain in z > 0, with p = P cos qx on z = 0; it and its stresses vanish in the depth
     airy = P / q**2 * (1 + q * z) * sp.exp(-q * z) * sp.cos(q * x)
@@ -34,28 +38,21 @@ def stiffness_under_a_wave() -> Derived:
     stiffness = sp.simplify(P * sp.cos(q * x) / w)
     laplace = lambda f: sp.diff(f, x, 2) + sp.diff(f, z, 2)  # noqa: E731
     checks = [
-        zero(name, "the stress function is biharmonic", sp.simplify(laplace(laplace(airy)))),
-        zero(
-            name, "on top the pressure is P cos qx and there is no shear", [s_z.subs(z, 0) + P * sp.cos(q * x), s_xz.subs(z, 0)]
-        ),
-        zero(
-            name, "the displacements have this shear", sp.simplify(sp.diff(down, x) + sp.diff(along, z) - 2 * (1 + nu) / E * s_xz)
-        ),
-        zero(name, "p = E q/(2 (1 - nu^2)) w", stiffness - E * q / (2 * (1 - nu**2))),
+        zero("the stress function is biharmonic", sp.simplify(laplace(laplace(airy)))),
+        zero("on top the pressure is P cos qx and there is no shear", [s_z.subs(z, 0) + P * sp.cos(q * x), s_xz.subs(z, 0)]),
+        zero("the displacements have this shear", sp.simplify(sp.diff(down, x) + sp.diff(along, z) - 2 * (1 + nu) / E * s_xz)),
+        zero("p = E q/(2 (1 - nu^2)) w", stiffness - E * q / (2 * (1 - nu**2))),
     ]
-    return derived(
-        stiffness_under_a_wave,
-        stiffness,
-        name=name,
-        statement="A pressure wave of wavenumber q, in whatever direction, presses an isotropic half-space in proportion to "
-        "itself. With a constant Poisson ratio the same holds for a complex modulus.",
-        latex=r"\frac{p}{w} = \frac{E\,q}{2\,(1 - \nu^2)}",
-        checks=checks,
-    )
+    return derived(stiffness_under_a_wave, stiffness, checks, name=name)
 
 
 def foundation_of_a_level(stiffness: sp.Expr) -> Derived:
-    r""":math:`K(i\omega) = c\,\frac{\pi}{l}\,\frac{E(i\omega)}{1 - \nu^2}`, :math:`c = \frac{1/2 + \sqrt2/4}{3/4}`."""
+    r"""A half-space under the three waves of Eq. 4 (cos kx, cos ky, and cos kx cos ky, whose wavenumber is sqrt(2) k) in complete
+    contact rubs like a foundation of this stiffness. All rates alike: it holds for every relaxation time. In partial contact it
+    is an approximation: points of the foundation do not feel their neighbours.
+
+    .. math:: K(i\omega) = c\,\frac{\pi}{l}\,\frac{E(i\omega)}{1 - \nu^2},\quad c = \frac{1/2 + \sqrt{2}/4}{3/4}
+    """
     name = "foundation that stands for a half-space"
     waves = _waves()
     shape = sum(wave for wave, _ in waves)
@@ -71,30 +68,15 @@ def foundation_of_a_level(stiffness: sp.Expr) -> Derived:
     K = sp.solve(local - rubbing, K_loss)[0].subs(k, 2 * sp.pi / l)
     c = (sp.Rational(1, 2) + sp.sqrt(2) / 4) / sp.Rational(3, 4)
     checks = [
+        zero("the waves are those of Eq. 4, less its mean", sp.expand(HEIGHT - shape - mean_over_cell(HEIGHT))),
+        zero("each wave has its wavenumber", [sp.diff(f, x, 2) + sp.diff(f, y, 2) + size**2 * f for f, size in waves]),
+        zero("friction needs the loss modulus alone", sp.diff(rubbing, storage)),
         zero(
-            name,
-            "the waves are those of Eq. 4, less its mean",
-            sp.expand(HEIGHT - shape - mean_over_cell(HEIGHT)),
+            "waves of different wavenumber do not rub on one another", rubbing - sum(_alone(stiffness, *each) for each in waves)
         ),
-        zero(name, "each wave has its wavenumber", [sp.diff(f, x, 2) + sp.diff(f, y, 2) + size**2 * f for f, size in waves]),
-        zero(name, "friction needs the loss modulus alone", sp.diff(rubbing, storage)),
-        zero(
-            name,
-            "waves of different wavenumber do not rub on one another",
-            rubbing - sum(_alone(stiffness, *each) for each in waves),
-        ),
-        zero(name, "K = c (pi/l) E/(1 - nu^2) with c = (1/2 + sqrt(2)/4)/(3/4)", K - c * sp.pi / l * loss / (1 - nu**2)),
+        zero("K = c (pi/l) E/(1 - nu^2) with c = (1/2 + sqrt(2)/4)/(3/4)", K - c * sp.pi / l * loss / (1 - nu**2)),
     ]
-    return derived(
-        foundation_of_a_level,
-        c,
-        name=name,
-        statement="A half-space under the three waves of Eq. 4 (cos kx, cos ky, and cos kx cos ky, whose wavenumber is sqrt(2) "
-        "k) in complete contact rubs like a foundation of this stiffness. All rates alike: it holds for every relaxation time. "
-        "In partial contact it is an approximation: points of the foundation do not feel their neighbours.",
-        latex=r"K(i\omega) = c\,\frac{\pi}{l}\,\frac{E(i\omega)}{1 - \nu^2},\quad c = \frac{1/2 + \sqrt{2}/4}{3/4}",
-        checks=checks,
-    )
+    return derived(foundation_of_a_level, c, checks, name=name)
 
 
 def _waves() -> list[tuple[sp.Expr, sp.Expr]]:

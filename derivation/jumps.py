@@ -26,8 +26,11 @@ def jumps(strip: Strip) -> Jumps:
 
 
 def jump_law(strip: Strip) -> Derived:
-    r"""Across a step: :math:`\beta [w] = \alpha [p]`, so :math:`[w] = J [p]`."""
-    name = "jump law"
+    r"""Read as an equation between distributions, the law integrated over a vanishing interval around a step of p
+    gives the step of w.
+
+    .. math:: \int_{0^-}^{0^+}(w + \beta w' - p - \alpha p')\,ds = \beta [w] - \alpha [p] = 0 \;\Rightarrow\; [w] = J [p]
+    """
     before_w, before_p, step_w, step_p = sp.symbols("w_minus p_minus step_w step_p", real=True)
     eps = sp.Symbol("eps", positive=True)
     w = before_w + step_w * sp.Heaviside(s)
@@ -36,64 +39,42 @@ def jump_law(strip: Strip) -> Derived:
     balance = sp.expand(sp.limit(across, eps, 0))
     solutions = sp.solve(balance, step_w)
     if len(solutions) != 1:
-        raise DerivationError(name, f"one step of w for a step of p, not {solutions}")
+        raise DerivationError("jump law", f"one step of w for a step of p, not {solutions}")
     ratio = sp.cancel(solutions[0] / step_p)
     instantaneous = (strip.foundation.J_0 * strip.foundation.K).subs(TIMES)
     checks = [
-        zero(name, "the singular part of the law vanishes", balance.subs(step_w, ratio * step_p)),
-        zero(name, "[w]/[p] is the instantaneous compliance J", [ratio - J, ratio - instantaneous]),
+        zero("the singular part of the law vanishes", balance.subs(step_w, ratio * step_p)),
+        zero("[w]/[p] is the instantaneous compliance J", [ratio - J, ratio - instantaneous]),
     ]
-    return derived(
-        jump_law,
-        ratio,
-        name=name,
-        statement="Read as an equation between distributions, the law integrated over a vanishing interval around a step of p "
-        "gives the step of w.",
-        latex=r"\int_{0^-}^{0^+}(w + \beta w' - p - \alpha p')\,ds = \beta [w] - \alpha [p] = 0 \;\Rightarrow\; [w] = J [p]",
-        checks=checks,
-    )
+    return derived(jump_law, ratio, checks)
 
 
 def internal_state(strip: Strip) -> Derived:
-    r""":math:`z = w - J p` obeys :math:`\beta z' = p - w`: no derivative of p, so z is continuous in time."""
-    name = "internal state"
+    r"""The state that a material point carries from zone to zone.
+
+    .. math:: z = w - J p,\qquad \beta z' = p - w
+    """
     w, p = sp.Function("w")(s), sp.Function("p")(s)
     z = w - J * p
     solved = sp.solve(strip.law(w, p), sp.diff(w, s))[0]
     beta = strip.operator_w[1]
     residual = (beta * sp.diff(z, s)).subs(sp.diff(w, s), solved) - (p - w)
-    return derived(
-        internal_state,
-        z,
-        name=name,
-        statement="The state that a material point carries from zone to zone.",
-        latex=r"z = w - J p,\qquad \beta z' = p - w",
-        checks=[zero(name, "beta z' = p - w on every motion", residual)],
-    )
+    return derived(internal_state, z, [zero("beta z' = p - w on every motion", residual)])
 
 
 def closures(ratio: sp.Expr) -> Derived:
-    r"""Both closures in one: :math:`[w] = \chi J [p]`; :math:`\chi = 0` keeps w continuous, :math:`\chi = 1` is the jump law."""
-    name = "closures"
+    r"""The paper does not say what w does where p steps. Its vanishing friction at very high speed needs w continuous; the law
+    itself asks for a step. One symbol selects.
+
+    .. math:: [w] = \chi J [p],\qquad \chi = 0:\ \text{continuous},\quad \chi = 1:\ \text{constitutive}
+    """
     step = sp.Symbol("step_p", real=True)
     step_w = chi * J * step
     step_z = step_w - J * step
     checks = [
-        zero(name, "chi = 1 is the jump law: z is continuous", [step_w.subs(chi, 1) - ratio * step, step_z.subs(chi, 1)]),
-        zero(name, "chi = 0 keeps w continuous", step_w.subs(chi, 0)),
-        zero(
-            name,
-            "over a period the steps of z cancel: p falls by p_0 at d and rises by p_0 at c",
-            step_z + step_z.subs(step, -step),
-        ),
-        holds(name, "with T_sigma = 0 (J = 0) the two are one", step_w.subs(J, 0) == 0),
+        zero("chi = 1 is the jump law: z is continuous", [step_w.subs(chi, 1) - ratio * step, step_z.subs(chi, 1)]),
+        zero("chi = 0 keeps w continuous", step_w.subs(chi, 0)),
+        zero("over a period the steps of z cancel: p falls by p_0 at d and rises by p_0 at c", step_z + step_z.subs(step, -step)),
+        holds("with T_sigma = 0 (J = 0) the two are one", step_w.subs(J, 0) == 0),
     ]
-    return derived(
-        closures,
-        step_w,
-        name=name,
-        statement="The paper does not say what w does where p steps. Its vanishing friction at very high speed needs "
-        "w continuous; the law itself asks for a step. One symbol selects.",
-        latex=r"[w] = \chi J [p],\qquad \chi = 0:\ \text{continuous},\quad \chi = 1:\ \text{constitutive}",
-        checks=checks,
-    )
+    return derived(closures, step_w, checks)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy as sp
 
-from .check import Check, DerivationError, Derived, derived, zero
+from .check import Claim, DerivationError, Derived, derived, zero
 from .exact import in_half_angles
 from .functions import Formula, flat, written_out
 from .modes.symbols import S, eta
@@ -38,13 +38,8 @@ class Kernel:
 
 
 def same(
-    name: str,
-    stated: Any,
-    exact: Any,
-    phases: tuple[sp.Symbol, ...] = (s_0, s_1),
-    halved: tuple[sp.Symbol, ...] = (),
-    claim: str = "",
-) -> Check:
+    name: str, stated: Any, exact: Any, phases: tuple[sp.Symbol, ...] = (s_0, s_1), halved: tuple[sp.Symbol, ...] = ()
+) -> Claim:
     """The stable form equals the derived expression, identically: what stands under the same sum over modes is the same.
 
     ``halved``: angles of which a form takes halves.
@@ -55,44 +50,40 @@ def same(
             raise DerivationError(name, "both forms sum over the modes in the same way", one - other)
         residual = (generic(sp.sympify(one)) - generic(sp.sympify(other))).subs(S, alpha / eta)
         residuals.append(in_half_angles(residual, *halved))
-    return zero(name, claim or f"{name}: the stable form equals the derived expression", residuals, phases=phases)
+    return zero(f"{name}: the stable form equals the derived expression", residuals, phases=phases)
 
 
 def kernel(
     by: Callable[..., Any],
     formula: Formula,
     exact: Any,
-    statement: str,
-    latex: str,
-    *extra: Check,
+    *claims: Claim,
     phases: tuple[sp.Symbol, ...] = (s_0, s_1),
     halved: tuple[sp.Symbol, ...] = (),
     **options: Any,
 ) -> Kernel:
-    """Prove ``formula`` equal to ``exact`` and record it under the function ``by`` that derived it; ``extra``: its own checks."""
-    checks = [same(formula.name, formula.written_out(formula.args), exact, phases, halved), *extra]
-    record = derived(
-        by, exact, name=formula.name, statement=statement, latex=latex, checks=checks, emitted=(formula.name,), **options
-    )
-    return Kernel(formula, exact, record)
+    """Prove ``formula`` equal to ``exact`` and record it under the function ``by`` that derived it, with its own ``claims``."""
+    name = formula.name
+    proven = same(name, formula.written_out(formula.args), exact, phases, halved)
+    return Kernel(formula, exact, derived(by, exact, [proven, *claims], name, emitted=(name,), **options))
 
 
 def pair(
-    by: Callable[..., Any],
-    chain: tuple[Formula, Formula],
-    exact: Any,
-    statements: tuple[str, str],
-    latex: tuple[str, str],
-    halved: tuple[sp.Symbol, ...] = (),
+    by: Callable[..., Any], chain: tuple[Formula, Formula], exact: Any, halved: tuple[sp.Symbol, ...] = ()
 ) -> tuple[Kernel, Kernel]:
     """An entry and its event, proven equal to ``exact`` together, and measured as the one function that they are."""
     entry, event = chain
     constants = tuple(written_out(part) for part in entry.written_out(entry.args))
-    composed = event.written_out((s_1, *constants))
-    claim = f"{event.name} after {entry.name} is the derived value and its slope"
-    check = same(event.name, composed, exact, halved=halved, claim=claim)
-    records = (
-        derived(by, value, name=formula.name, statement=said, latex=shown, checks=[check], emitted=(formula.name,))
-        for formula, value, said, shown in zip(chain, (constants, exact), statements, latex, strict=True)
+    composed = same(event.name, event.written_out((s_1, *constants)), exact, halved=halved)
+    claim = replace(composed, claim=f"{event.name} after {entry.name} is the derived value and its slope")
+    return chained(by, chain, exact, (constants, [claim]), (exact, [claim]))
+
+
+def chained(
+    by: Callable[..., Any], chain: tuple[Formula, Formula], exact: Any, *records: tuple[Any, Any]
+) -> tuple[Kernel, Kernel]:
+    """The kernels of an entry and its event; ``records``: the value and the claims of each."""
+    return tuple(
+        Kernel(formula, exact, derived(by, value, claims, formula.name, emitted=(formula.name,)), chain=chain)
+        for formula, (value, claims) in zip(chain, records, strict=True)
     )
-    return tuple(Kernel(formula, exact, record, chain=chain) for formula, record in zip(chain, records, strict=True))

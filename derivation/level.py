@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from .check import CORRECTED, Check, Derived, derived, holds, zero
+from .check import Claim, Derived, derived, holds, zero
 from .functions import Formula, hypot, stack_sum
 from .kernel import Kernel, kernel
 from .saturated import MODULUS, Saturated
@@ -54,7 +54,7 @@ def over_strips(quantity: sp.Expr) -> sp.Expr:
     return sp.simplify(mean_over_wave(quantity, y))
 
 
-def of_every_strip(name: str, threshold: sp.Expr, at_least_one: Check) -> tuple[sp.Expr, list[Check]]:
+def of_every_strip(threshold: sp.Expr, at_least_one: Claim) -> tuple[sp.Expr, list[Claim]]:
     """Penetration from which every strip of a level is saturated, and why. ``threshold``: D_j/A of a strip, by its R >= 1."""
     over_one, cosine = sp.Symbol("R_minus_1", nonnegative=True), sp.Symbol("cosine", real=True)
     scaled = threshold.subs(p_0, p_0 / (K * AMPLITUDE))  # which is in K A
@@ -63,9 +63,9 @@ def of_every_strip(name: str, threshold: sp.Expr, at_least_one: Check) -> tuple[
     exact = needed.subs(y, 0)
     return exact, [
         at_least_one,
-        zero(name, "the penetration a strip needs is linear in cos ky", sp.diff(slope, cosine)),
-        holds(name, "and grows with it: the middle strip, y = 0, is the last to saturate", sp.factor(slope).is_nonnegative),
-        zero(name, "there it is h/2 (1 + R) - p_0/K", exact - (h / 2 * (1 + R) - p_0 / K)),
+        zero("the penetration a strip needs is linear in cos ky", sp.diff(slope, cosine)),
+        holds("and grows with it: the middle strip, y = 0, is the last to saturate", sp.factor(slope).is_nonnegative),
+        zero("there it is h/2 (1 + R) - p_0/K", exact - (h / 2 * (1 + R) - p_0 / K)),
     ]
 
 
@@ -80,37 +80,41 @@ def friction_of_strips(mean_tau: sp.Expr) -> sp.Expr:
 
 
 def saturation_penetration(threshold: sp.Expr) -> Kernel:
-    r"""Every strip is saturated when :math:`D \ge \frac h2 (1 + R) - p_0/K`."""
+    r"""Penetration from which every strip of a level is in complete contact.
+
+    .. math:: D_{sat} = \frac h2 (1 + R) - \frac{p_0}{K},\quad R = \sqrt{\frac{1 + (kVT_\epsilon)^2}{1 + (kVT_\sigma)^2}}
+    """
     name = "level_saturation_penetration"
-    at_least_one = holds(name, "R >= 1: R^2 - 1 = (beta^2 - alpha^2)/(1 + alpha^2) >= 0", _at_least_one())
-    exact, checks = of_every_strip(name, threshold.subs(MODULUS, R), at_least_one)
+    at_least_one = holds("R >= 1: R^2 - 1 = (beta^2 - alpha^2)/(1 + alpha^2) >= 0", _at_least_one())
+    exact, checks = of_every_strip(threshold.subs(MODULUS, R), at_least_one)
     return kernel(
         saturation_penetration,
         Formula(name, (*_si, p_0, l, h, V), h / 2 * (1 + ratio) - p_0 / K, _RATIO),
         exact.subs(R, MODULUS).subs(TIMES).subs(WAVE),
-        "Penetration from which every strip of a level is in complete contact.",
-        r"D_{sat} = \frac h2 (1 + R) - \frac{p_0}{K},\quad R = \sqrt{\frac{1 + (kVT_\epsilon)^2}{1 + (kVT_\sigma)^2}}",
         *checks,
     )
 
 
 def saturation_pressure(penetration: sp.Expr, mean_p: sp.Expr) -> Kernel:
-    r"""Eq. 11 there: :math:`p_{sat} = K h (2R - 1)/4 - p_0`."""
+    r"""Eq. 11: Nominal pressure from which a level is in complete contact.
+
+    .. math:: p_{sat} = \tfrac14 K h (2R - 1) - p_0
+    """
     name = "level_saturation_pressure"
     mean = load_of_strips(mean_p)
     return kernel(
         saturation_pressure,
         Formula(name, (*_si, p_0, l, h, V), K * h / 4 * (2 * ratio - 1) - p_0, _RATIO),
         mean.subs(WAVE).subs(D_level, penetration),
-        "Nominal pressure from which a level is in complete contact.",
-        r"p_{sat} = \tfrac14 K h (2R - 1) - p_0",
-        zero(name, "the level's mean pressure in complete contact is K (D - 3h/4)", mean - K * (D_level - sp.Rational(3, 4) * h)),
-        paper="Eq. 11",
+        zero("the level's mean pressure in complete contact is K (D - 3h/4)", mean - K * (D_level - sp.Rational(3, 4) * h)),
     )
 
 
 def saturation_friction(mean_tau: sp.Expr) -> Kernel:
-    r"""Eq. 10, 11: :math:`\tau_{sat} = \frac{3\pi^2}{16}\frac{K V (T_\epsilon - T_\sigma) h^2}{l^2 + 4\pi^2V^2T_\sigma^2}`."""
+    r"""Eq. 10, 11: Friction of a level in complete contact.
+
+    .. math:: \tau_{sat} = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma) h^2}{l^2 + 4\pi^2 V^2 T_\sigma^2}
+    """
     name = "level_saturation_friction"
     exact = sp.factor(friction_of_strips(mean_tau.subs(TIMES)))
     stated = sp.Rational(3, 16) * sp.pi**2 * K * V * (T_eps - T_sigma) * h**2 / (l**2 + 4 * sp.pi**2 * V**2 * T_sigma**2)
@@ -120,20 +124,16 @@ def saturation_friction(mean_tau: sp.Expr) -> Kernel:
         3 * sp.pi**2 / 16 * K * creep * slender**2 / (1 + alpha**2),
         _SLENDER,
     )
-    checks = [zero(name, "it is 3 pi^2/16 K V (T_eps - T_sigma) h^2/(l^2 + 4 pi^2 V^2 T_sigma^2)", exact - stated)]
-    return kernel(
-        saturation_friction,
-        formula,
-        exact,
-        "Friction of a level in complete contact.",
-        r"\tau_{sat} = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma) h^2}{l^2 + 4\pi^2 V^2 T_\sigma^2}",
-        *checks,
-        paper="Eq. 10-11",
-    )
+    checks = [zero("it is 3 pi^2/16 K V (T_eps - T_sigma) h^2/(l^2 + 4 pi^2 V^2 T_sigma^2)", exact - stated)]
+    return kernel(saturation_friction, formula, exact, *checks)
 
 
 def stack_friction(one_level: sp.Expr, field: sp.Expr) -> Kernel:
-    r"""Eq. 16, corrected: :math:`\mu = \frac1{p_1}\sum_i \tau_{sat}(h_i, l_i)`. ``field``: Eq. 15 in a strip."""
+    r"""Eq. 16: Friction coefficient when every level is in complete contact. The levels lie along the last axis of l
+    and h, against which all but p_1 broadcasts.
+
+    .. math:: \mu = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma)}{p_1} \sum_i \frac{h_i^2}{l_i^2 + 4\pi^2 V^2 T_\sigma^2}
+    """
     name = "saturated_stack_friction"
     exact = stack_sum(one_level) / p_nominal
     formula = Formula(
@@ -148,30 +148,17 @@ def stack_friction(one_level: sp.Expr, field: sp.Expr) -> Kernel:
     levels = [{symbol: sp.Symbol(f"{symbol}_{i}", positive=True) for symbol in (h, l)} for i in (1, 2, 3)]
     summed = formula.result.replace(stack_sum, lambda term: sum(term.xreplace(labels).subs(level) for level in levels))
     checks = [
-        zero(name, "Eq. 15 in Eq. 10, averaged over the cell, is tau_sat", sp.simplify(shear.subs(WAVE) - one_level)),
+        zero("Eq. 15 in Eq. 10, averaged over the cell, is tau_sat", sp.simplify(shear.subs(WAVE) - one_level)),
         zero(
-            name,
             "pressed deeper by dD a level in complete contact carries K dD more and has the same friction: the levels add",
             [sp.diff(load, D_level) - K, sp.simplify(sp.diff(shear, D_level))],
         ),
         zero(
-            name,
             "three levels: the emitted sum is that of their friction coefficients",
             sp.simplify(summed - sum(one_level.subs(level) for level in levels) / p_nominal),
         ),
     ]
-    return kernel(
-        stack_friction,
-        formula,
-        exact,
-        "Friction coefficient when every level is in complete contact. The levels lie along the last axis of l and h, against "
-        "which all but p_1 broadcasts.",
-        r"\mu = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma)}{p_1} \sum_i \frac{h_i^2}{l_i^2 + 4\pi^2 V^2 T_\sigma^2}",
-        *checks,
-        paper="Eq. 16",
-        status=CORRECTED,
-        correction=MISPRINT,
-    )
+    return kernel(stack_friction, formula, exact, *checks, correction=MISPRINT)
 
 
 MISPRINT = (
@@ -181,9 +168,9 @@ MISPRINT = (
 
 
 def printed_equation_16(one_level: sp.Expr) -> Derived:
-    r"""Eq. 16 as printed, per level:
+    r"""Eq. 16: What is wrong with Eq. 16 as printed, and by what factor.
 
-    .. math:: \pi^2\,\frac{K V (T_\epsilon - T_\sigma)}{p_1}\,\frac{h_i}{l_i^2 + 4\pi^2V^2T_\sigma^2}
+    .. math:: \frac{\text{printed}}{\text{derived}} = \frac{16}{3 h_i}
     """
     name = "Eq. 16 as printed"
     true = one_level / p_nominal
@@ -200,37 +187,22 @@ def printed_equation_16(one_level: sp.Expr) -> Derived:
         "level 2": (sp.Rational(5, 10**7), sp.Rational(1, 10**7)),
         "level 3": (sp.Rational(5, 10**9), sp.Rational(5, 10**9)),
     }
-    checks: list[Check] = [
-        zero(name, "the derived form does not depend on the unit of length", scaled_true - 1),
+    checks: list[Claim] = [
+        zero("the derived form does not depend on the unit of length", scaled_true - 1),
+        zero("the printed form does: in a unit of length smaller by lambda it is smaller by lambda", scaled_printed - 1 / unit),
+        zero("each printed term is 16/(3 h) times the derived one", printed / true - sp.Rational(16, 3) / h),
+        zero("each level's friction peaks at V = l/(2 pi T_sigma)", peak.subs(V, speed)),
         zero(
-            name,
-            "the printed form does: in a unit of length smaller by lambda it is smaller by lambda",
-            scaled_printed - 1 / unit,
-        ),
-        zero(name, "each printed term is 16/(3 h) times the derived one", printed / true - sp.Rational(16, 3) / h),
-        zero(name, "each level's friction peaks at V = l/(2 pi T_sigma)", peak.subs(V, speed)),
-        zero(
-            name,
             "the peaks go like h^2/l; as printed they would go like h/l",
             [sp.diff(peaks["true"] * l / h**2, v) for v in (h, l)] + [sp.diff(peaks["printed"] * l / h, v) for v in (h, l)],
         ),
         holds(
-            name,
             "Fig. 7: its text says that level 1 has the highest peak; h^2/l has (1 : 0.2 : 0.05), h/l the reverse order",
             _peak_orders(paper_scene),
         ),
     ]
     return derived(
-        printed_equation_16,
-        (true, printed),
-        name=name,
-        statement="What is wrong with Eq. 16 as printed, and by what factor.",
-        latex=r"\frac{\text{printed}}{\text{derived}} = \frac{16}{3 h_i}",
-        checks=checks,
-        paper="Eq. 16",
-        status=CORRECTED,
-        correction=MISPRINT,
-        emitted=("saturated_stack_friction",),
+        printed_equation_16, (true, printed), checks, name=name, correction=MISPRINT, emitted=("saturated_stack_friction",)
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import sympy as sp
@@ -16,31 +16,24 @@ from .surface import HEIGHT, mean_over_cell, mean_over_wave
 from .symbols import D_level, K, a, b, beta, k, l, p_0, q_0, s_0, s_1, x, y
 
 
-def equilibrium(regimes: Sequence[Regime], means: Mapping[str, sp.Expr], integrals: ZoneIntegrals) -> Derived:
-    r"""Eq. 7: :math:`\bar p = \frac{1}{l^2}\iint_{\Omega} p\,dx\,dy`, over contact and adhesion, the first half of Eq. 11.
+def equilibrium(touching: Sequence[Any], unbalanced: Sequence[sp.Expr]) -> Derived:
+    r"""Eq. 7: The nominal pressure balances what the surface carries: the pressure in contact and the traction of
+    adhesion, summed over both, per area of the cell. Outside both the pressure is zero.
 
-    ``means``: those of the strips of each regime, by the name of their function.
+    .. math:: \bar p = \frac{1}{l^2} \iint_{\Omega} p(x, y)\,dx\,dy
+
+    ``unbalanced``: of each regime in contact (:func:`unbalanced`), what its zones carry less 2 pi mean p.
     """
-    touching = [regime for regime in regimes if regime.touches]
-    unbalanced = [_unbalanced(regime, means[f"means_{regime.sequence}"][0], integrals) for regime in touching]
-    return balance_of_load(equilibrium, touching, unbalanced)
-
-
-def balance_of_load(by: Callable, touching: Sequence[Any], unbalanced: Sequence[sp.Expr]) -> Derived:
-    """Eq. 7 as derived by ``by``; ``unbalanced``: of each regime that touches, what its zones carry less 2 pi mean p."""
-    name = "equilibrium"
     relaxed = D_level - HEIGHT  # w at rest
     stored = mean_over_cell(K * relaxed**2 / 2)
     carried = mean_over_cell(K * relaxed)
-    checks = [
+    claims = [
         zero(
-            name,
             "virtual work: pressing the relaxed foundation deeper by dD stores the integral of p times dD",
             sp.diff(stored, D_level) - carried,
         ),
         *(
             zero(
-                name,
                 f"{regime.sequence}: contact carries 2 pi mean p and p_0 times the width in adhesion; outside both "
                 f"there is no load",
                 left,
@@ -49,20 +42,11 @@ def balance_of_load(by: Callable, touching: Sequence[Any], unbalanced: Sequence[
             for regime, left in zip(touching, unbalanced, strict=True)
         ),
     ]
-    return derived(
-        by,
-        sp.Integral(sp.Function("p")(x, y), x, y) / l**2,
-        name=name,
-        statement="The nominal pressure balances what the surface carries: the pressure in contact and the traction of adhesion, "
-        "summed over both, per area of the cell. Outside both the pressure is zero.",
-        latex=r"\bar p = \frac{1}{l^2} \iint_{\Omega} p(x, y)\,dx\,dy",
-        checks=checks,
-        paper="Eq. 7",
-        emitted=tuple(f"means_{regime.sequence}" for regime in touching),
-    )
+    value = sp.Integral(sp.Function("p")(x, y), x, y) / l**2
+    return derived(equilibrium, value, claims, emitted=tuple(f"means_{regime.sequence}" for regime in touching))
 
 
-def _unbalanced(regime: Regime, mean_p: sp.Expr, integrals: ZoneIntegrals) -> sp.Expr:
+def unbalanced(regime: Regime, mean_p: sp.Expr, integrals: ZoneIntegrals) -> sp.Expr:
     """Pressure summed over contact, against the mean pressure that is emitted; the closing balance is zero on an orbit."""
     summed = adhesion = sp.Integer(0)
     for zone in regime.zones:
@@ -75,8 +59,11 @@ def _unbalanced(regime: Regime, mean_p: sp.Expr, integrals: ZoneIntegrals) -> sp
 
 
 def contact_area(regimes: Sequence[Any]) -> Derived:
-    r"""Eq. 9: :math:`A = 2\Delta\sum_{j=1}^{N} (a_j + b_j)`, with :math:`l = 2N\Delta`."""
-    name = "contact area"
+    r"""Eq. 9: The contact area of a level is the sum over its strips of the contact length a + b times the width of a strip; over
+    l^2 it is the fraction of the nominal area in contact.
+
+    .. math:: A = 2 \Delta \sum_{j=1}^{N} (a_j + b_j),\quad l = 2 N \Delta
+    """
     length = sp.Function("length")
     ends = {a: k * sp.Symbol("x_a", positive=True), b: -k * sp.Symbol("x_b", positive=True)}  # contact from x = -a to b
     widths = []
@@ -86,28 +73,15 @@ def contact_area(regimes: Sequence[Any]) -> Derived:
                 between = (zone.last - zone.first).subs(ends) / k
                 widths.append(between - sp.Symbol("x_a", positive=True) - sp.Symbol("x_b", positive=True))
     checks = [
-        zero(name, "the contact zone from phase b to phase a is a + b long in x", widths),
-        zero(name, "the surface is the same at y and -y: half a cell counts twice", HEIGHT.subs(y, -y) - HEIGHT),
+        zero("the contact zone from phase b to phase a is a + b long in x", widths),
+        zero("the surface is the same at y and -y: half a cell counts twice", HEIGHT.subs(y, -y) - HEIGHT),
+        zero("complete contact, a + b = l in every strip: the whole cell", [_area(lambda _: l, n) - l**2 for n in (1, 2, 5)]),
         zero(
-            name, "complete contact, a + b = l in every strip: the whole cell", [_area(lambda _: l, n) - l**2 for n in (1, 2, 5)]
-        ),
-        zero(
-            name,
             "strips represented by their middles: a length linear in cos ky is summed to its integral over the cell",
             [_area(_linear, n) - l * mean_over_wave(_linear(y), y).subs(k, 2 * sp.pi / l) for n in (2, 3)],
         ),
     ]
-    return derived(
-        contact_area,
-        sp.Integral(length(y), (y, 0, l)),
-        name=name,
-        statement="The contact area of a level is the sum over its strips of the contact length a + b times the width "
-        "of a strip; "
-        "over l^2 it is the fraction of the nominal area in contact.",
-        latex=r"A = 2 \Delta \sum_{j=1}^{N} (a_j + b_j),\quad l = 2 N \Delta",
-        checks=checks,
-        paper="Eq. 9",
-    )
+    return derived(contact_area, sp.Integral(length(y), (y, 0, l)), checks)
 
 
 def _linear(place: sp.Expr) -> sp.Expr:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from .check import Check, DerivationError, holds
+from .check import Claim, DerivationError, holds
 from .symbols import T_eps, rate
 
 if TYPE_CHECKING:
@@ -61,10 +61,10 @@ def outside(model: Model) -> list[str]:
     return reasons
 
 
-def constant_coefficients(name: str, model: Model) -> Check:
-    """Verify that both operators hold constants of the material alone."""
+def constant_coefficients(model: Model) -> Claim:
+    """The claim that both operators hold constants of the material alone."""
     claim = "both operators have constant coefficients: nothing in them but parameters of the material"
-    return holds(name, claim, not outside(model))
+    return holds(claim, not outside(model))
 
 
 def _shape(model: Model) -> str:

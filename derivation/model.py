@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import sympy as sp
 
-from .check import BEYOND, CORRECTED, Check, DerivationError, Derived, derived, holds, zero
+from .check import Claim, DerivationError, Derived, derived, holds, zero
 from .membership import constant_coefficients
 from .symbols import rate
 
@@ -118,79 +116,59 @@ def foundation(model: Model) -> Foundation:
 
 
 def foundation_law(model: Model) -> Derived:
-    r"""Eq. 1: :math:`w + T_\epsilon \dot w = (p + T_\sigma \dot p)/K`, the model's two operators."""
-    name = "foundation law"
+    r"""Eq. 1: The foundation is local: at each material point its displacement w and pressure p obey one linear equation in time.
+
+    .. math:: w + T_\epsilon \dot w = (p + T_\sigma \dot p)/K
+    """
     time = sp.Symbol("t", real=True)
     w, p = sp.Function("w")(time), sp.Function("p")(time)
-    checks = [constant_coefficients(name, model)]
+    checks = [constant_coefficients(model)]
     equation = sp.Eq(_applied(model.Q, w, time), _applied(model.P, p, time))
-    return law_record(foundation_law, equation, sp.latex(equation), checks)
+    return derived(foundation_law, equation, checks, latex=sp.latex(equation))
 
 
 def relaxed_stiffness(model: Model) -> Derived:
-    r"""Eq. 1 at rest: :math:`p = K w`. The paper calls K an elastic compliance; it is a stiffness per area."""
-    name = "relaxed stiffness"
+    r"""Eq. 1: At rest p = K w, so K is a stiffness per area (Pa/m).
+
+    .. math:: K = \lim_{\omega\to 0} K^*(i\omega)
+    """
     stiffness = sp.limit(model.transfer(), rate, 0)
     load = sp.Symbol("p", positive=True)
     at_rest = model.Q[0] * (load / stiffness) - model.P[0] * load
     softer = sp.diff(load / stiffness, model.parameters[0].symbol)
     checks = [
-        zero(name, "w = p/K is at rest under the constant pressure p", at_rest),
-        holds(name, "a larger K deforms less: K is a stiffness", softer.is_negative),
+        zero("w = p/K is at rest under the constant pressure p", at_rest),
+        holds("a larger K deforms less: K is a stiffness", softer.is_negative),
     ]
     latex = rf"K = \lim_{{\omega\to 0}} K^*(i\omega) = {sp.latex(stiffness)}"
-    return stiffness_record(relaxed_stiffness, stiffness, latex, checks)
+    return derived(relaxed_stiffness, stiffness, checks, latex=latex, correction=NO_COMPLIANCE)
 
 
-def law_record(by: Callable[..., Any], law: Any, latex: str, checks: list[Check], order: str = "") -> Derived:
-    """The record of Eq. 1; ``order``: what is said of the order of the law."""
-    return derived(
-        by,
-        law,
-        name="foundation law",
-        statement="The foundation is local: at each material point its displacement w and pressure p obey one linear "
-        f"equation in time{order}.",
-        latex=latex,
-        checks=checks,
-        paper="Eq. 1",
-    )
-
-
-def stiffness_record(by: Callable[..., Any], stiffness: sp.Expr, latex: str, checks: list[Check]) -> Derived:
-    """The record of K, which the paper calls a compliance."""
-    return derived(
-        by,
-        stiffness,
-        name="relaxed stiffness",
-        statement="At rest p = K w, so K is a stiffness per area (Pa/m).",
-        latex=latex,
-        checks=checks,
-        paper="Eq. 1",
-        status=CORRECTED,
-        correction="The paper calls K the elastic compliance of the foundation. Its own law gives p = K w at rest: K is a "
-        "stiffness. Read as a compliance it would invert every pressure.",
-    )
+NO_COMPLIANCE = (
+    "The paper calls K the elastic compliance of the foundation. Its own law gives p = K w at rest: K is a stiffness. Read as a "
+    "compliance it would invert every pressure."
+)
 
 
 def instantaneous_compliance(model: Model) -> Derived:
-    r"""Response to a step: :math:`J_0 = \lim_{s\to\infty} P(s)/Q(s) = T_\sigma/(K T_\epsilon)`."""
-    name = "instantaneous compliance"
+    r"""A sudden pressure step is answered at once by a step of displacement, J_0 times as large.
+
+    .. math:: J_0 = \lim_{s\to\infty} P(s)/Q(s) = T_\sigma/(K T_\epsilon)
+    """
     compliance = sp.limit(1 / model.transfer(), rate, sp.oo)
     top = len(model.Q) - 1
-    checks = [zero(name, "J_0 Q_n = P_n: the highest derivatives balance", compliance * model.Q[top] - model.P[top])]
+    checks = [zero("J_0 Q_n = P_n: the highest derivatives balance", compliance * model.Q[top] - model.P[top])]
     if top == 1:
-        checks.append(_creep(name, model, compliance))
+        checks.append(_creep(model, compliance))
     return derived(
         instantaneous_compliance,
         compliance,
-        name=name,
-        statement="A sudden pressure step is answered at once by a step of displacement, J_0 times as large.",
+        checks,
         latex=rf"J_0 = \lim_{{s\to\infty}} \frac{{P(s)}}{{Q(s)}} = {sp.latex(compliance)}",
-        checks=checks,
     )
 
 
-def _creep(name: str, model: Model, compliance: sp.Expr) -> Check:
+def _creep(model: Model, compliance: sp.Expr) -> Claim:
     """The law solved by SymPy under a pressure that is put on at once."""
     time, load = sp.symbols("t p", positive=True)
     w = sp.Function("w")
@@ -198,24 +176,17 @@ def _creep(name: str, model: Model, compliance: sp.Expr) -> Check:
     crept = sp.dsolve(law, w(time), ics={w(0): compliance * load}).rhs
     claim = "put under p at once, w creeps from J_0 p to p/K, with 1/K = P(0)/Q(0)"
     left = [crept.subs(time, 0) - compliance * load, sp.limit(crept, time, sp.oo) - load / model.transfer(sp.Integer(0))]
-    return zero(name, claim, left)
+    return zero(claim, left)
 
 
 def admissibility(model: Model) -> Derived:
-    r"""Solid-like, stable, passive: :math:`0 < Q(0)/P(0) < \infty`, roots left of 0, :math:`\mathrm{Im}\,K^*(i\omega) \ge 0`."""
-    name = "admissibility"
+    r"""The model carries a constant load at rest, forgets its past, and never gives out energy in a cycle.
+
+    .. math:: 0 < K < \infty,\quad \mathrm{Re}\,s_i < 0,\quad \mathrm{Im}\,K^*(i\omega) \ge 0
+    """
     reasons = inadmissible(model)
-    checks = tuple(
-        holds(name, claim, not [r for r in reasons if r.startswith(claim)]) for claim in ("solid-like", "stable", "passive")
-    )
-    return derived(
-        admissibility,
-        True,
-        name=name,
-        statement="The model carries a constant load at rest, forgets its past, and never gives out energy in a cycle.",
-        latex=r"0 < K < \infty,\quad \mathrm{Re}\,s_i < 0,\quad \mathrm{Im}\,K^*(i\omega) \ge 0",
-        checks=checks,
-    )
+    checks = tuple(holds(claim, not [r for r in reasons if r.startswith(claim)]) for claim in ("solid-like", "stable", "passive"))
+    return derived(admissibility, True, checks)
 
 
 def inadmissible(model: Model) -> list[str]:
@@ -270,8 +241,6 @@ def _nonnegative(coefficient: sp.Expr) -> bool:
 
 
 __all__ = [
-    "BEYOND",
-    "Check",
     "Foundation",
     "Model",
     "Parameter",

@@ -6,17 +6,17 @@ power of sliding, what a strip carries in its contact, and the coefficient, whic
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import sympy as sp
 
 from .averages import ZoneIntegrals
-from .check import CORRECTED, Check, Derived, derived, zero
+from .check import Claim, Derived, derived, zero
 from .functions import stack_sum
 from .kernel import Kernel
 from .level import Level, in_si, over_strips
-from .load import contact_area, equilibrium
+from .load import contact_area, equilibrium, unbalanced
 from .regime import Regime
 from .saturated import Saturated
 from .sequences import ADHESION, CONTACT, FREE, PERIOD
@@ -50,13 +50,14 @@ def multilevel(
 ) -> Multilevel:
     exact = {kernel.formula.name: kernel.exact for kernel in (*saturated.kernels, *whole.kernels, *means)}
     field = exact["saturated_pressure"]
+    touching = [regime for regime in regimes if regime.touches]
     return Multilevel(
-        equilibrium(regimes, exact, integrals),
+        equilibrium(touching, [unbalanced(regime, exact[f"means_{regime.sequence}"][0], integrals) for regime in touching]),
         contact_area(regimes),
         local_stress(strip.u, field, dashpot_loss(strip.u, field)),
         means_over_a_level(field, saturated.means.exact),
         local_shear(),
-        carried_friction(strip, regimes),
+        carried_friction(passed_once(strip, touching), ("excess_after", "excess_after_slope")),
         friction_coefficient(field, exact["level_saturation_friction"], exact["saturated_stack_friction"]),
     )
 
@@ -67,95 +68,71 @@ def dashpot_loss(u: sp.Expr, field: sp.Expr) -> sp.Expr:
 
 
 def local_stress(u: sp.Expr, field: sp.Expr, lost: sp.Expr) -> Derived:
-    r"""Eq. 10: :math:`\tau(x, y) = p\,f_x`, the shear at a point of one level.
+    r"""Eq. 10: The pressure acts on the slope of the surface: per nominal area it resists the motion with p f_x. In front of a
+    crest, f_x > 0, pressure resists; behind it, pressure drives and the traction of adhesion resists.
+
+    .. math:: \tau(x, y) = p(x, y)\,\frac{\partial f}{\partial x}
 
     ``field``: Eq. 15 in a strip; ``lost``: what the dashpots lose with it in a period.
     """
-    name = "local stress"
     slope = sp.diff(HEIGHT, x)
     stress = pressure * slope
     work = sp.integrate(sp.expand(field * sp.diff(u, s)), (s, 0, PERIOD))
     checks = [
-        zero(name, "a point of the foundation in contact yields at the rate w_t = V f_x", yielding() - V * slope),
+        zero("a point of the foundation in contact yields at the rate w_t = V f_x", yielding() - V * slope),
         zero(
-            name,
             "it is the stress whose power V tau is the power p w_t of the pressure on the foundation",
             sp.solve(V * unknown - pressure * yielding(), unknown)[0] - stress,
         ),
-        zero(name, "in a strip f_x is k A u': its mean is that of p u'", slope - k * AMPLITUDE * sp.diff(u, s).subs(s, -k * x)),
-        zero(name, "in complete contact its work over a period is what the dashpots lose", work - lost),
+        zero("in a strip f_x is k A u': its mean is that of p u'", slope - k * AMPLITUDE * sp.diff(u, s).subs(s, -k * x)),
+        zero("in complete contact its work over a period is what the dashpots lose", work - lost),
     ]
-    return derived(
-        local_stress,
-        stress,
-        name=name,
-        statement="The pressure acts on the slope of the surface: per nominal area it resists the motion with p f_x. In front of "
-        "a crest, f_x > 0, pressure resists; behind it, pressure drives and the traction of adhesion resists.",
-        latex=r"\tau(x, y) = p(x, y)\,\frac{\partial f}{\partial x}",
-        checks=checks,
-        paper="Eq. 10",
-    )
+    return derived(local_stress, stress, checks)
 
 
 def means_over_a_level(pressure: sp.Expr, means: tuple[sp.Expr, sp.Expr]) -> Derived:
-    r"""Eq. 11: :math:`\bar p = \frac1l \int_0^l \bar p_j\,dy`, :math:`\bar\tau = \frac1l \int_0^l \bar\tau_j\,dy`.
+    r"""Eq. 11: A level's means of pressure and friction are those of its strips averaged over y. The strips do not act on one
+    another, because the foundation is local.
+
+    .. math:: \bar p = \frac1l \int_0^l \bar p_j\,dy,\quad \bar\tau = \frac1l \int_0^l \bar\tau_j\,dy
 
     ``pressure`` and ``means`` of a strip in complete contact, for which both can be integrated.
     """
-    name = "means over a level"
     in_strip = {D: PENETRATION / AMPLITUDE, s: -k * x}
     strip_p = sp.expand(sp.simplify(K * AMPLITUDE * means[0].subs(in_strip)))
     strip_tau = K * AMPLITUDE * k * AMPLITUDE * means[1]
     cell = mean_over_wave(mean_over_wave(sp.simplify(K * AMPLITUDE * pressure.subs(in_strip)), y), x)
     checks = [
         zero(
-            name,
             "complete contact: the strips' mean pressure, averaged over y, is that of Eq. 15 over the cell",
             over_strips(strip_p) - cell,
         ),
         zero(
-            name,
             "equal strips represented by their middles: 2 N = 4 and 6 already give both means of complete contact exactly",
             [_equal_strips(mean, number) - over_strips(mean) for mean in (strip_p, strip_tau) for number in (2, 3)],
         ),
     ]
     return derived(
-        means_over_a_level,
-        tuple(sp.Integral(sp.Function(f"{mean}_j")(y), (y, 0, l)) / l for mean in ("p", "tau")),
-        name=name,
-        statement="A level's means of pressure and friction are those of its strips averaged over y. The strips do not act on "
-        "one another, because the foundation is local.",
-        latex=r"\bar p = \frac1l \int_0^l \bar p_j\,dy,\quad \bar\tau = \frac1l \int_0^l \bar\tau_j\,dy",
-        checks=checks,
-        paper="Eq. 11",
+        means_over_a_level, tuple(sp.Integral(sp.Function(f"{mean}_j")(y), (y, 0, l)) / l for mean in ("p", "tau")), checks
     )
 
 
 def local_shear() -> Derived:
-    r"""Eq. 12: :math:`\tau_{M-1}(x, y) = p\,f_x + \tau_M[p]` in contact."""
-    name = "local shear"
+    r"""Eq. 12: Where level M-1 is in contact, two things oppose the motion: its pressure on its own slope, and the friction of
+    level M, for which the local pressure is the nominal one, because its wavelength is much smaller. In an adhesion zone, at p
+    = -p_0, only the first is left: the levels below carry nothing there.
+
+    .. math:: \tau_{M-1}(x, y) = p\,f_x + \tau_M[p]
+    """
     shear = pressure * slope_x + tau_below
     resisted = pressure * yielding() + V * tau_below  # power per area: of the pressure, and lost on the levels below
     checks = [
         zero(
-            name,
             "it is the shear whose power V tau is that of the pressure on the foundation and that lost on the levels below",
             sp.solve(V * unknown - resisted, unknown)[0] - shear.subs(slope_x, sp.diff(HEIGHT, x)),
         ),
     ]
-    return derived(
-        local_shear,
-        shear,
-        name=name,
-        statement="Where level M-1 is in contact, two things oppose the motion: its pressure on its own slope, and the friction "
-        "of level M, for which the local pressure is the nominal one, because its wavelength is much smaller. In an adhesion "
-        "zone, at p = -p_0, only the first is left: the levels below carry nothing there.",
-        latex=r"\tau_{M-1}(x, y) = p\,f_x + \tau_M[p]",
-        checks=checks,
-        paper="Eq. 12",
-        status=CORRECTED,
-        correction=CONTACT_ALONE,
-    )
+    return derived(local_shear, shear, checks, correction=CONTACT_ALONE)
 
 
 CONTACT_ALONE = (
@@ -165,53 +142,43 @@ CONTACT_ALONE = (
 )
 
 
-def carried_friction(strip: Strip, regimes: Sequence[Regime]) -> Derived:
-    r"""Eq. 13:
-
-    .. math:: \bar\tau_{M-1} = \frac{1}{l^2}\iint p\,f_x\,dx\,dy + \frac{1}{l^2}\iint_{contact} \tau_M[p]\,dx\,dy
-    """
-    name = "carried friction"
-    touching = [regime for regime in regimes if regime.touches]
-    checks = [
+def passed_once(strip: Strip, touching: Sequence[Regime]) -> list[Claim]:
+    """What Eq. 13 asks of a foundation with one relaxation time, and what its printed form has in excess."""
+    return [
         zero(
-            name,
             "in contact p - p* is driven by one harmonic, H - p*, for every p*: p passes p* at most once up and once down",
             _above_a_pressure(strip),
         ),
         zero(
-            name,
             "over the whole cell the printed form has more: tau_M[0] times the free part, tau_M[-p_0] times the part in adhesion",
             [_beyond_contact(regime) for regime in touching],
         ),
     ]
-    return carried_record(carried_friction, checks, ("excess_after", "excess_after_slope"))
 
 
-def carried_record(by: Callable, checks: Sequence[Check], emitted: tuple[str, ...]) -> Derived:
-    """Eq. 13 as derived by ``by``, whose checks say what its foundation answers for."""
-    return derived(
-        by,
-        sp.Integral(sp.Function("tau_M")(sp.Function("p")(s)), (s, s_0, s_1)) / PERIOD,
-        name="carried friction",
-        statement="What level M carries is averaged over the contact of level M-1 alone; in a strip, from x = -a to b, that is "
-        "C_j, the integral of its law over the contact zone. The law jumps at pull-off and bends at saturation, so the zone is "
-        "cut where p passes these pressures and no quadrature goes across.",
-        latex=r"\bar\tau_{M-1} = \frac{1}{l^2} \iint p\,f_x\,dx\,dy + \frac{1}{l^2} \iint_{\text{contact}} \tau_M[p]\,dx\,dy,"
-        r"\quad C_j = \frac{1}{l} \int_{-a}^{b} \tau_M[p]\,dx = \frac{1}{2\pi} \int_{-kb}^{ka} \tau_M[p(s)]\,ds",
-        checks=checks,
-        paper="Eq. 13",
-        status=CORRECTED,
-        correction=CONTACT_ALONE,
-        emitted=emitted,
-    )
+def carried_friction(claims: Sequence[Claim], emitted: tuple[str, ...]) -> Derived:
+    r"""Eq. 13: What level M carries is averaged over the contact of level M-1 alone; in a strip, from x = -a to b,
+    that is C_j, the integral of its law over the contact zone. The law jumps at pull-off and bends at saturation, so
+    the zone is cut where p passes these pressures and no quadrature goes across.
+
+    .. math:: \bar\tau_{M-1} = \frac{1}{l^2} \iint p\,f_x\,dx\,dy + \frac{1}{l^2} \iint_{\text{contact}}
+        \tau_M[p]\,dx\,dy,\quad C_j = \frac{1}{l} \int_{-a}^{b} \tau_M[p]\,dx = \frac{1}{2\pi} \int_{-kb}^{ka}
+        \tau_M[p(s)]\,ds
+
+    ``claims``: what its foundation answers for.
+    """
+    value = sp.Integral(sp.Function("tau_M")(sp.Function("p")(s)), (s, s_0, s_1)) / PERIOD
+    return derived(carried_friction, value, claims, correction=CONTACT_ALONE, emitted=emitted)
 
 
 def friction_coefficient(field: sp.Expr, one_level: sp.Expr, stack: sp.Expr, own: Sequence[sp.Symbol] = (h, l)) -> Derived:
-    r"""Eq. 14: :math:`\mu = \tau_1/p_1`, with :math:`\tau_1` from the recursion of Eq. 13.
+    r"""Eq. 14: The shear of the largest level, which holds what all levels contribute, over its nominal pressure. The
+    load is that of the largest level: the smaller ones enter through the shear alone.
+
+    .. math:: \mu = \frac{\tau_1}{p_1}
 
     ``field``: Eq. 15 in a strip; ``own``: what differs by level.
     """
-    name = "friction coefficient"
     upper, lower = ({symbol: sp.Symbol(f"{symbol}_{i}", positive=True) for symbol in own} for i in (1, 2))
     pressed = in_si(field)
     shear = pressed * sp.diff(HEIGHT, x) + one_level.subs(lower)  # Eq. 12 in complete contact, where the law below is constant
@@ -219,7 +186,6 @@ def friction_coefficient(field: sp.Expr, one_level: sp.Expr, stack: sp.Expr, own
     load, friction = (mean_over_cell(part).subs(WAVE).subs(upper) for part in (pressed, shear))
     checks = [
         zero(
-            name,
             "Eq. 12 with Eq. 15 on level 1 and the law of level 2, averaged over the cell and divided by its load: "
             "Eq. 16, corrected",
             sp.simplify(friction / load - both.subs(p_nominal, load)),
@@ -228,13 +194,7 @@ def friction_coefficient(field: sp.Expr, one_level: sp.Expr, stack: sp.Expr, own
     return derived(
         friction_coefficient,
         sp.Symbol("tau_1", real=True) / p_nominal,
-        name="friction coefficient",
-        statement="The shear of the largest level, which holds what all levels contribute, over its nominal pressure. The load "
-        "is that of the largest level: the smaller ones enter through the shear alone.",
-        latex=r"\mu = \frac{\tau_1}{p_1}",
-        checks=checks,
-        paper="Eq. 14",
-        status=CORRECTED,
+        checks,
         correction=CONTACT_ALONE,
         emitted=("saturated_stack_friction",),
     )

@@ -22,12 +22,12 @@ from .model import Model, foundation, require_admissible
 from .multilevel import multilevel
 from .outcome import Derivation, Progress, Stages, records
 from .paper import comparisons
-from .paper.tags import require_all, require_tags
+from .paper.tags import require_all, require_status, require_tags
 from .regime import Regime
 from .regimes import regimes
 from .sample_roots import sample_roots
 from .saturated import saturated
-from .stability import onset_slope, shift_of_events
+from .stability import onset_slope, shift_of_an_event
 from .stack import stack
 from .strip import strip
 from .zones import zones
@@ -80,7 +80,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     balances = (power_balance(flow), *(friction_balance(regime) for regime in partial))
     stages.done("means", integrals, means, still, balances)
     slopes = tuple(onset_slope(regime) for regime in partial)
-    stages.done("stability", shift_of_events(), slopes)
+    stages.done("stability", shift_of_an_event(), slopes)
     upwards = multilevel(one_strip, full, whole, partial, means, integrals)
     stages.done("levels", upwards, stack(one_strip, full, whole), half_space())
     more = further(FOR_ONE_TIME, Basis(flow, full, table))
@@ -101,6 +101,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     read = displays(steps, flow, exact["saturated_pressure"])
     require_tags(steps)
     require_all(steps)
+    require_status(steps, printed)
     stages.done("print", more)
     return Derivation(model, tuple(stages.made), table, sections, read, printed)
 

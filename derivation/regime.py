@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from . import stable
-from .check import BEYOND, REPRODUCED, Check, derived, zero
+from .check import BEYOND, REPRODUCED, Claim, derived, zero
 from .functions import Formula, written_out
 from .inequality import Inequality, relation, require
 from .sequences import CONTACT, EQUATIONS, NOTHING, PERIOD, Row, Span, edgeless_record, in_order, obeys_jump_law, with_edges
@@ -109,7 +109,6 @@ def partial(
     closures: tuple[int, ...] = (0, 1),
 ) -> Regime:
     """A regime with unknown edges. ``admissible``: what it must satisfy besides the slopes at its edges and their order."""
-    name = f"regime {sequence}"
     edges = tuple(zone.first for zone in zones)
     ends = (*edges[1:], edges[0])
     approaches = (zone.approach(edge) for zone, edge in zip(zones, ends, strict=True))
@@ -117,19 +116,19 @@ def partial(
     equations = (*events, (PERIODIC[0], sp.Add(*(zone.increment() for zone in zones))))
     jacobian = tuple(tuple(sp.diff(term, edge) for edge in edges) for _, term in equations)
     checks = [
-        obeys_jump_law(name, zones, ratio, "[w] = chi J [p]"),
-        _closing_is_periodicity(name, zones, events, equations[-1][1], edges),
-        _jacobian_is_derivative(name, equations, jacobian, edges),
-        _slopes_have_the_sign_of_what_drives(name, zones),
+        obeys_jump_law(zones, ratio, "[w] = chi J [p]"),
+        _closing_is_periodicity(zones, events, equations[-1][1], edges),
+        _jacobian_is_derivative(equations, jacobian, edges),
+        _slopes_have_the_sign_of_what_drives(zones),
     ]
     meaning = [EQUATIONS[zone.last][1] for zone in zones[:-1]] + [PERIODIC[1]]
     record = derived(
         by,
         tuple(term for _, term in equations),
-        name=name,
+        checks,
+        f"regime {sequence}",
         statement=f"{with_edges(sequence, edges)}; {'; '.join(meaning)}.",
         latex=r"\\ ".join(f"{sp.latex(written_out(term))} = 0" for _, term in equations),
-        checks=checks,
         status=BEYOND if closures == (1,) else REPRODUCED,
         emitted=(f"residual_{sequence}", f"jacobian_{sequence}"),
     )
@@ -137,33 +136,32 @@ def partial(
     return Regime(sequence, zones, required, closures, record, equations, jacobian)
 
 
-def _slopes_have_the_sign_of_what_drives(name: str, zones: tuple[Zone, ...]) -> Check:
+def _slopes_have_the_sign_of_what_drives(zones: tuple[Zone, ...]) -> Claim:
     residuals = []
     for zone in zones:
         state = written_out(replace(zone, last=s_1).after())
         time = alpha if zone.kind == CONTACT else beta
         residuals.append(time * sp.diff(state, s_1) + state - written_out(zone.drive(s_1)))
     firsts = tuple(zone.first for zone in zones)
-    return zero(name, "at an edge the slope times its time is drive - exit: its sign", residuals, phases=(*firsts, s_1))
+    return zero("at an edge the slope times its time is drive - exit: its sign", residuals, phases=(*firsts, s_1))
 
 
-def _closing_is_periodicity(name, zones, events, closing, edges) -> Check:
+def _closing_is_periodicity(zones, events, closing, edges) -> Claim:
     """Sum of increments = sum over zones of what w - J p misses at the zone's end: zero with the events iff periodic."""
     direct = zones[-1].misses()
     weights = [-J if zone.kind == CONTACT else 1 for zone in zones[:-1]]
     combined = sp.Add(direct, *(weight * term for weight, (_, term) in zip(weights, events, strict=True)))
     return zero(
-        name,
         "given the other equations, the closing balance is the gap condition one period after the first edge",
         closing - combined,
         phases=edges,
     )
 
 
-def _jacobian_is_derivative(name, equations, jacobian, edges) -> Check:
+def _jacobian_is_derivative(equations, jacobian, edges) -> Claim:
     residuals = [
         sp.diff(written_out(term), edge) - written_out(entry)
         for (_, term), row in zip(equations, jacobian, strict=True)
         for edge, entry in zip(edges, row, strict=True)
     ]
-    return zero(name, "the stable Jacobian equals SymPy's derivative of the equations", residuals, phases=edges)
+    return zero("the stable Jacobian equals SymPy's derivative of the equations", residuals, phases=edges)

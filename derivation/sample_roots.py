@@ -85,17 +85,16 @@ def compared(by: Callable[..., Derived], regimes: Sequence[Any], roots: Mapping[
         for number, (groups, start, solution) in enumerate(roots[regime.sequence], start=1):
             fits, admitted = judged(regime, groups, start)
             root, kind = f"{regime.sequence}, root {number}", "a solution" if solution else "no solution"
-            checks.append(holds(NAME, f"{root}: the fields show {kind}", fits is solution))
-            checks.append(holds(NAME, f"{root}: so do the inequalities", admitted is solution))
+            checks.append(holds(f"{root}: the fields show {kind}", fits is solution))
+            checks.append(holds(f"{root}: so do the inequalities", admitted is solution))
     return derived(
         by,
         None,
-        name=NAME,
-        statement="At roots of the boundary equations in numbers, solutions and others, the inequalities say what the fields "
-        "show.",
+        checks,
+        NAME,
+        statement="At roots of the boundary equations in numbers, solutions and others, inequalities say what the fields show.",
         latex=r"\text{inequalities} \iff 0 < g \le \delta_0\ \text{in adhesion},\quad g > \delta_0\ \text{beyond},\quad "
         r"p \ge -p_0\ \text{in contact}",
-        checks=checks,
     )
 
 

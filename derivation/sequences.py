@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 import sympy as sp
 
 from . import stable
-from .check import REPRODUCED, Check, Derived, derived, zero
+from .check import REPRODUCED, Claim, Derived, derived, zero
 from .inequality import Inequality, relation, require
 from .symbols import D, a, b, c, d, delta_0, p_0
 
@@ -126,27 +126,26 @@ def in_order(*edges: sp.Symbol) -> Inequality:
 
 def edgeless_record(by: Callable[..., Any], sequence: str, latex: str, change: sp.Expr) -> Derived:
     """The record of a regime without edges, whose field is steady: its ``change`` vanishes."""
-    name = f"regime {sequence}"
     return derived(
         by,
         sequence,
-        name=name,
+        [zero("the field is steady", change)],
+        f"regime {sequence}",
         statement=f"{_capitalised(sequence)}: no unknown edge.",
         latex=latex,
-        checks=[zero(name, "the field is steady", change)],
         status=REPRODUCED,
         emitted=(f"means_{sequence}",),
     )
 
 
-def obeys_jump_law(name: str, zones: Sequence[Span], ratio: sp.Expr, law: str) -> Check:
+def obeys_jump_law(zones: Sequence[Span], ratio: sp.Expr, law: str) -> Claim:
     """At every edge, from the exit of one zone to the entry of the next: ``[w] = ratio [p]``, as ``law`` says."""
     residuals = []
     for before, after in zip(zones, (*zones[1:], zones[0]), strict=True):
         w_before, p_before = before.fields(before.last, before.exit)
         w_after, p_after = after.fields(after.first, after.entry)
         residuals.append(w_after - w_before - ratio * (p_after - p_before))
-    return zero(name, f"every edge obeys the jump law, {law}", residuals)
+    return zero(f"every edge obeys the jump law, {law}", residuals)
 
 
 def _capitalised(sequence: str) -> str:

@@ -13,18 +13,19 @@ from .sequences import CONTACT
 from .symbols import D, J, L, alpha, beta, chi, gap_0, p, p_0, q_0, s_0, s_1
 
 
-def shift_of_events() -> Derived:
-    r"""A zone whose entry shifts at a fixed entry state is left later:
+def shift_of_an_event() -> Derived:
+    r"""The derivatives of a zone's flow F by its two edges are loads: what drives the event function there. The edge
+    where the zone ends moves by minus their quotient.
 
-    .. math:: ds_1 = -\frac{\partial F/\partial s_0}{\partial F/\partial s_1}\,ds_0
+    .. math:: \frac{\partial g/\partial s_0}{\partial g/\partial s_1} = -\frac{H(s_0) + g_0 - p}{H(s_1) + g(s_1) - p}\,e^{-(s_1
+        - s_0)/\beta},\quad \frac{\partial q/\partial s_0}{\partial q/\partial s_1} = -\frac{H(s_0) + p_0 - q_0}{H(s_1) + p_0 -
+        q(s_1)}\,e^{-(s_1 - s_0)/\alpha}
     """
-    name = "shift of an event"
     gap = stable.GAP_AFTER(s_0, s_1, gap_0, p, D, beta)
     pressure = stable.EXCESS_AFTER(s_0, s_1, q_0, p_0, D, alpha, beta, L)
     load_0, load_1 = stable.FORCING(s_0, D, beta), stable.FORCING(s_1, D, beta)
     checks = [
         zero(
-            name,
             "adhesion and free gap: beta dg/ds_0 = (H_0 + gap_0 - p) exp(-(s_1 - s_0)/beta), beta dg/ds_1 = -(H_1 + g - p)",
             [
                 beta * sp.diff(gap, s_0) - (load_0 + gap_0 - p) * decay(s_1 - s_0, beta),
@@ -33,7 +34,6 @@ def shift_of_events() -> Derived:
             phases=(s_0, s_1),
         ),
         zero(
-            name,
             "contact: alpha dq/ds_0 = -(H_0 + p_0 - q_0) exp(-(s_1 - s_0)/alpha), alpha dq/ds_1 = H_1 + p_0 - q",
             [
                 alpha * sp.diff(pressure, s_0) + (load_0 + p_0 - q_0) * decay(s_1 - s_0, alpha),
@@ -42,23 +42,15 @@ def shift_of_events() -> Derived:
             phases=(s_0, s_1),
         ),
     ]
-    return derived(
-        shift_of_events,
-        None,
-        name=name,
-        statement="The derivatives of a zone's flow F by its two edges are loads: what drives the event function there. The edge "
-        "where the zone ends moves by minus their quotient.",
-        latex=r"\frac{\partial g/\partial s_0}{\partial g/\partial s_1} = "
-        r"-\frac{H(s_0) + g_0 - p}{H(s_1) + g(s_1) - p}\,e^{-(s_1 - s_0)/\beta},"
-        r"\quad \frac{\partial q/\partial s_0}{\partial q/\partial s_1} = "
-        r"-\frac{H(s_0) + p_0 - q_0}{H(s_1) + p_0 - q(s_1)}\,e^{-(s_1 - s_0)/\alpha}",
-        checks=checks,
-    )
+    return derived(shift_of_an_event, None, checks)
 
 
 def onset_slope(regime: Regime) -> Kernel:
-    r""":math:`T' = \prod_{\text{zones}} \frac{ds_{last}}{ds_{first}}`: loads telescope except where p steps."""
-    name = f"onset_slope_{regime.sequence}"
+    r"""A shift of the onset fades over contact with alpha and over the rest of the period with beta, and is scaled where p steps.
+    The orbit is stable when T' < 1; T' = 1 is a fold.
+
+    .. math:: T' = \prod_{\text{zones}} \frac{ds_{last}}{ds_{first}}
+    """
     product: sp.Expr = sp.Integer(1)
     forgotten: sp.Expr = sp.Integer(1)
     upper, lower = [], []
@@ -82,12 +74,10 @@ def onset_slope(regime: Regime) -> Kernel:
             direct *= quotient(above, below)
     return kernel(
         onset_slope,
-        Formula(name, regime.args, formula_result),
+        Formula(f"onset_slope_{regime.sequence}", regime.args, formula_result),
         written_out(product),
-        "A shift of the onset fades over contact with alpha and over the rest of the period with beta, "
-        "and is scaled where p steps. The orbit is stable when T' < 1; T' = 1 is a fold.",
-        "T' = " + r" \cdot ".join(sp.latex(written_out(part)) for part in sp.Mul.make_args(direct)),
-        zero(name, "the product over the zones, telescoped", written_out(direct) - written_out(product), phases=regime.edges),
+        zero("the product over the zones, telescoped", written_out(direct) - written_out(product), phases=regime.edges),
+        latex="T' = " + r" \cdot ".join(sp.latex(written_out(part)) for part in sp.Mul.make_args(direct)),
         phases=regime.edges,
     )
 

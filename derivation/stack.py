@@ -33,9 +33,11 @@ def stack(strip: Strip, saturated: Saturated, whole: Level) -> Stack:
 
 
 def least_pressure(threshold: sp.Expr, saturation: sp.Expr) -> Derived:
-    r"""Where Eq. 16 holds: :math:`\min p = p_i - \tfrac14 K h_i (2R_i - 1)`, which must reach :math:`P_{i+1}`:
+    r"""Level i and all below it are in complete contact from the nominal pressure P_i on: its least local pressure must not fall
+    below -p_0, nor below what the level under it needs. Eq. 16 holds from P_1 on.
 
-    .. math:: P_M = p_{sat,M},\qquad P_i = \max\left(p_{sat,i},\ P_{i+1} + \tfrac14 K h_i (2R_i - 1)\right)
+    .. math:: \min p = p_i - \tfrac14 K h_i (2 R_i - 1),\quad P_M = p_{sat,M},\quad P_i = \max\left(p_{sat,i},\ P_{i+1} +
+        \tfrac14 K h_i (2 R_i - 1)\right)
     """
     name = "least pressure in complete contact"
     symbol, over_one, cosine = sp.Symbol("R", positive=True), sp.Symbol("R_minus_1", nonnegative=True), sp.Symbol("c", real=True)
@@ -47,30 +49,23 @@ def least_pressure(threshold: sp.Expr, saturation: sp.Expr) -> Derived:
     drop = K * h * (2 * symbol - 1) / 4
     at_saturation = least.subs(symbol, MODULUS.subs(TIMES).subs(WAVE)).subs(p_nominal, saturation)
     checks = [
-        zero(name, "the least pressure of a strip is linear in cos ky", sp.diff(over_y, cosine, 2)),
+        zero("the least pressure of a strip is linear in cos ky", sp.diff(over_y, cosine, 2)),
         holds(
-            name,
             "and falls with it: it is least in the middle strip, y = 0",
             sp.factor(sp.diff(over_y, cosine).subs(symbol, 1 + over_one)).is_nonpositive,
         ),
-        zero(name, "there it is p_i - K h (2 R - 1)/4", least - p_nominal + drop),
-        zero(name, "at p_i = p_sat it is -p_0", sp.simplify(at_saturation + p_0)),
+        zero("there it is p_i - K h (2 R - 1)/4", least - p_nominal + drop),
+        zero("at p_i = p_sat it is -p_0", sp.simplify(at_saturation + p_0)),
     ]
-    return derived(
-        least_pressure,
-        least,
-        name=name,
-        statement="Level i and all below it are in complete contact from the nominal pressure P_i on: its least local pressure "
-        "must not fall below -p_0, nor below what the level under it needs. Eq. 16 holds from P_1 on.",
-        latex=r"\min p = p_i - \tfrac14 K h_i (2 R_i - 1),\quad P_M = p_{sat,M},\quad "
-        r"P_i = \max\left(p_{sat,i},\ P_{i+1} + \tfrac14 K h_i (2 R_i - 1)\right)",
-        checks=checks,
-        emitted=("level_saturation_pressure",),
-    )
+    return derived(least_pressure, least, checks, name=name, emitted=("level_saturation_pressure",))
 
 
 def levels_together(strip: Strip, one_level: sp.Expr) -> Derived:
-    r"""Complete contact on any profile: :math:`\bar\tau = \frac12 \sum_n n k A_n^2\,\mathrm{Im}\,K^*(i n k V)`."""
+    r"""In complete contact the whole surface can be treated at once, without a recursion and without the assumption that the
+    wavelengths are far apart. The levels add exactly, with the factor 3 pi^2/16 and the square of h.
+
+    .. math:: \bar\tau = \tfrac12 \sum_n n k A_n^2\,\mathrm{Im}\,K^*(i n k V),\quad \bar\tau = \sum_i \tau_{sat}(h_i, l_i)
+    """
     name = "levels in complete contact together"
     transfer, wave_numbers = strip.foundation.model.transfer, (1, RATIO)  # in units of k
     amplitudes = sp.symbols(" ".join(f"A_{n}" for n in wave_numbers), real=True)
@@ -90,23 +85,9 @@ def levels_together(strip: Strip, one_level: sp.Expr) -> Derived:
     averaged = mean_over_wave(stated.subs(harmonics), y)
     levels = sum(one_level.subs(l, 2 * sp.pi / k).subs(level, simultaneous=True) for level in own)
     checks = [
-        zero(
-            name,
-            "each harmonic answers with its own K*: Eq. 5 holds",
-            sp.simplify(strip.misses(w, p)),
-        ),
-        zero(name, "the mean of p f_x is the sum over the harmonics: products of different ones vanish", friction - stated),
-        zero(name, f"two levels with l_1 = {RATIO} l_2 on top of one another are two such harmonics", sp.diff(rest, x)),
-        zero(name, "and their exact friction is the sum of both tau_sat: what Eq. 12 to 14 give", sp.simplify(averaged - levels)),
+        zero("each harmonic answers with its own K*: Eq. 5 holds", sp.simplify(strip.misses(w, p))),
+        zero("the mean of p f_x is the sum over the harmonics: products of different ones vanish", friction - stated),
+        zero(f"two levels with l_1 = {RATIO} l_2 on top of one another are two such harmonics", sp.diff(rest, x)),
+        zero("and their exact friction is the sum of both tau_sat: what Eq. 12 to 14 give", sp.simplify(averaged - levels)),
     ]
-    return derived(
-        levels_together,
-        stated,
-        name=name,
-        statement="In complete contact the whole surface can be treated at once, without a recursion and without the assumption "
-        "that the wavelengths are far apart. The levels add exactly, with the factor 3 pi^2/16 and the square of h.",
-        latex=r"\bar\tau = \tfrac12 \sum_n n k A_n^2\,\mathrm{Im}\,K^*(i n k V),\quad "
-        r"\bar\tau = \sum_i \tau_{sat}(h_i, l_i)",
-        checks=checks,
-        emitted=("saturated_stack_friction",),
-    )
+    return derived(levels_together, stated, checks, name=name, emitted=("saturated_stack_friction",))

@@ -56,55 +56,41 @@ def traction(gap: sp.Expr) -> sp.Piecewise:
 
 
 def adhesion_law() -> Derived:
-    r"""Eq. 2, 3: traction :math:`-p_0` for gaps up to :math:`\delta_0`, none beyond; :math:`\gamma = p_0 \delta_0`."""
-    name = "adhesion law"
+    r"""Eq. 2, 3: Dugdale's adhesion: a constant traction within a short range of the surface.
+
+    .. math:: p = -p_0\ (0 < g \le \delta_0),\quad p = 0\ (g > \delta_0),\qquad \gamma = \int p_0\,dg = p_0 \delta_0
+    """
     opening, far = sp.symbols("g g_1", positive=True)
     work = -sp.integrate(traction(opening), (opening, 0, far))
     energy = sp.simplify(work.subs(far, delta_0 + t**2 + 1))
     checks = [
-        zero(name, "the work that separates a unit area beyond delta_0 is p_0 delta_0", energy - p_0 * delta_0),
-        zero(name, "and half of that at half of the range", work.subs(far, delta_0 / 2) - p_0 * delta_0 / 2),
+        zero("the work that separates a unit area beyond delta_0 is p_0 delta_0", energy - p_0 * delta_0),
+        zero("and half of that at half of the range", work.subs(far, delta_0 / 2) - p_0 * delta_0 / 2),
     ]
-    return derived(
-        adhesion_law,
-        p_0 * delta_0,
-        name=name,
-        statement="Dugdale's adhesion: a constant traction within a short range of the surface.",
-        latex=r"p = -p_0\ (0 < g \le \delta_0),\quad p = 0\ (g > \delta_0),\qquad \gamma = \int p_0\,dg = p_0 \delta_0",
-        checks=checks,
-        paper="Eq. 2, 3",
-    )
+    return derived(adhesion_law, p_0 * delta_0, checks)
 
 
 def strip_profile() -> Derived:
-    r"""Eq. 4, 8:
+    r"""Eq. 4, 8: In contact the foundation follows the rigid surface, w = D - f. In the strip at y this is a cosine
+    of amplitude A about the strip's own penetration D_j.
 
-    .. math:: w = D - f = D_j - A(1 - \cos kx),\quad A = \tfrac h4(1 + \cos ky),\quad D_j = D - \tfrac h2(1 - \cos ky)
+    .. math:: u(s) = D - 1 + \cos s,\quad A = \tfrac h4 (1 + \cos k y),\quad D_j = D - \tfrac h2 (1 - \cos k y)
     """
-    name = "strip profile"
     target = PENETRATION - AMPLITUDE * (1 - sp.cos(k * x))
     u = D - 1 + sp.cos(s)
     scaled = (D_j - A * (1 - sp.cos(k * x))).subs({D_j: A * D, x: -s / k}) / A
     checks = [
-        zero(name, "w = D - f is D_j - A (1 - cos kx) with the A and D_j of Eq. 8", D_level - HEIGHT - target),
-        zero(name, "in units of A and with s = -k x the profile is u = D - 1 + cos s", scaled - u),
+        zero("w = D - f is D_j - A (1 - cos kx) with the A and D_j of Eq. 8", D_level - HEIGHT - target),
+        zero("in units of A and with s = -k x the profile is u = D - 1 + cos s", scaled - u),
     ]
-    return derived(
-        strip_profile,
-        u,
-        name=name,
-        statement="In contact the foundation follows the rigid surface, w = D - f. In the strip at y this is a cosine of "
-        "amplitude A about the strip's own penetration D_j.",
-        latex=r"u(s) = D - 1 + \cos s,\quad A = \tfrac h4 (1 + \cos k y),\quad D_j = D - \tfrac h2 (1 - \cos k y)",
-        checks=checks,
-        paper="Eq. 4, 8",
-        emitted=("profile", "profile_slope", "profile_rise"),
-    )
+    return derived(strip_profile, u, checks, emitted=("profile", "profile_slope", "profile_rise"))
 
 
 def moving_frame(foundation: Foundation) -> Derived:
-    r"""Eq. 5: steady in the frame of the surface, :math:`w - V T_\epsilon w_x = (p - V T_\sigma p_x)/K`."""
-    name = "moving frame"
+    r"""Eq. 5: In the frame of the surface, which slides in +x, the fields are steady; a material point passes towards -x.
+
+    .. math:: w - V T_\epsilon w_x = (p - V T_\sigma p_x)/K
+    """
     model = foundation.model
     fixed = sp.Symbol("X", real=True)
     w, p = sp.Function("w"), sp.Function("p")
@@ -113,25 +99,18 @@ def moving_frame(foundation: Foundation) -> Derived:
     claimed = _in_space(model.Q, w(x)) - _in_space(model.P, p(x))
     tried = {w: sp.Lambda(x, sp.exp(3 * x) + x**3), p: sp.Lambda(x, sp.sin(2 * x) + x**2)}
     difference = moved.subs(tried).doit() - claimed.subs(tried).doit().subs(frame)
-    checks = [zero(name, "a field that moves with the surface, w(X - V t), obeys d/dt = -V d/dx", sp.expand(difference))]
+    checks = [zero("a field that moves with the surface, w(X - V t), obeys d/dt = -V d/dx", sp.expand(difference))]
     equation = sp.Eq(_in_space(model.Q, w(x)), _in_space(model.P, p(x)))
-    return derived(
-        moving_frame,
-        equation,
-        name=name,
-        statement="In the frame of the surface, which slides in +x, the fields are steady; a material point passes towards -x.",
-        latex=sp.latex(equation),
-        checks=checks,
-        paper="Eq. 5",
-    )
+    return derived(moving_frame, equation, checks, latex=sp.latex(equation))
 
 
 def dimensionless_groups(foundation: Foundation) -> Derived:
-    r"""With :math:`s = -kx`, lengths in A, pressures in KA:
+    r"""Everything about a strip follows from alpha, beta, p_0/(K A), delta_0/A and D_j/A. J = K J_0 and L = 1 - J are kept beside
+    alpha and beta, because neither can be had from them at V = 0 or without cancellation.
 
-    .. math:: w + \beta w' = p + \alpha p',\quad \alpha = kVT_\sigma,\quad \beta = kVT_\epsilon
+    .. math:: w + \beta w' = p + \alpha p',\quad \alpha = k V T_\sigma,\quad \beta = k V T_\epsilon,\quad J =
+        T_\sigma/T_\epsilon,\quad L = 1 - J
     """
-    name = "dimensionless groups"
     model = foundation.model
     # d/dt = -V d/dx = k V d/ds; p is in units of K A, w in units of A, and the law is divided by A.
     operator_w = tuple(sp.cancel((q * (k * V) ** n).subs(TIMES)) for n, q in enumerate(model.Q))
@@ -142,20 +121,11 @@ def dimensionless_groups(foundation: Foundation) -> Derived:
     ours = _apply(operator_w, sp.exp(-2 * s)) - _apply(operator_p, sp.cos(s))
     compliance = (foundation.J_0 * foundation.K).subs(TIMES)
     checks = [
-        zero(name, "the SI law of the moving frame, divided by A, is the law in s", (si / A).subs(x, -s / k).subs(TIMES) - ours),
-        zero(name, "K J_0 = alpha/beta = J", compliance - J),
-        zero(name, "beta - alpha = L beta with L = 1 - J", beta - alpha - L * beta),
+        zero("the SI law of the moving frame, divided by A, is the law in s", (si / A).subs(x, -s / k).subs(TIMES) - ours),
+        zero("K J_0 = alpha/beta = J", compliance - J),
+        zero("beta - alpha = L beta with L = 1 - J", beta - alpha - L * beta),
     ]
-    return derived(
-        dimensionless_groups,
-        (operator_w, operator_p),
-        name=name,
-        statement="Everything about a strip follows from alpha, beta, p_0/(K A), delta_0/A and D_j/A. J = K J_0 and L = 1 - J "
-        "are kept beside alpha and beta, because neither can be had from them at V = 0 or without cancellation.",
-        latex=r"w + \beta w' = p + \alpha p',\quad \alpha = k V T_\sigma,\quad \beta = k V T_\epsilon,"
-        r"\quad J = T_\sigma/T_\epsilon,\quad L = 1 - J",
-        checks=checks,
-    )
+    return derived(dimensionless_groups, (operator_w, operator_p), checks)
 
 
 def _apply(operator: tuple[sp.Expr, ...], function: sp.Expr) -> sp.Expr:

@@ -40,129 +40,123 @@ def zones(flows: Flows, jumps: Jumps) -> Zones:
 
 
 def rigid_profile(u: sp.Expr) -> tuple[Kernel, ...]:
-    r""":math:`u(s)`, :math:`u'(s)`, :math:`u(s_1)-u(s_0)`, :math:`\int u\,ds`."""
+    r""":math:`u(s)`, :math:`u'(s)`, :math:`u(s_1)-u(s_0)`, :math:`\int u\,ds`.
+
+    profile: Rigid profile of the strip.
+
+    .. math:: u(s) = D - 1 + \cos s
+
+    profile_slope: Slope of the rigid profile.
+
+    .. math:: u'(s) = -\sin s
+
+    profile_rise: Rise of the rigid profile between two phases, without cancellation.
+
+    .. math:: u(s_1) - u(s_0) = -2 \sin\tfrac{s_0 + s_1}{2} \sin\tfrac{s_1 - s_0}{2}
+
+    profile_integral: Integral of the rigid profile: the displacement summed over a contact zone.
+
+    .. math:: \int_{s_0}^{s_1} u\,ds
+    """
     integral = sp.integrate(u, s)
-    check = zero("profile_integral", "the antiderivative differentiates to u", sp.diff(integral, s) - u)
+    check = zero("the antiderivative differentiates to u", sp.diff(integral, s) - u)
     return (
-        kernel(rigid_profile, stable.PROFILE, u, "Rigid profile of the strip.", r"u(s) = D - 1 + \cos s"),
-        kernel(rigid_profile, stable.PROFILE_SLOPE, sp.diff(u, s), "Slope of the rigid profile.", r"u'(s) = -\sin s"),
-        kernel(
-            rigid_profile,
-            stable.PROFILE_RISE,
-            u.subs(s, s_1) - u.subs(s, s_0),
-            "Rise of the rigid profile between two phases, without cancellation.",
-            r"u(s_1) - u(s_0) = -2 \sin\tfrac{s_0 + s_1}{2} \sin\tfrac{s_1 - s_0}{2}",
-        ),
-        kernel(
-            rigid_profile,
-            stable.PROFILE_INTEGRAL,
-            integral.subs(s, s_1) - integral.subs(s, s_0),
-            "Integral of the rigid profile: the displacement summed over a contact zone.",
-            r"\int_{s_0}^{s_1} u\,ds",
-            check,
-        ),
+        kernel(rigid_profile, stable.PROFILE, u),
+        kernel(rigid_profile, stable.PROFILE_SLOPE, sp.diff(u, s)),
+        kernel(rigid_profile, stable.PROFILE_RISE, u.subs(s, s_1) - u.subs(s, s_0)),
+        kernel(rigid_profile, stable.PROFILE_INTEGRAL, integral.subs(s, s_1) - integral.subs(s, s_0), check),
     )
 
 
 def load(flows: Flows) -> tuple[Kernel, ...]:
-    r""":math:`H = u + \beta u'`, and the arc where :math:`H + e > 0`."""
+    r""":math:`H = u + \beta u'`, and the arc where :math:`H + e > 0`.
+
+    forcing: The load harmonic, which drives every event.
+
+    .. math:: H(s) = u + \beta u'
+
+    forcing_arc: H + e > 0 exactly for |s - centre| < half, modulo 2 pi. An event function F with F + T F' = +-(H + e) has at a
+    zero a slope of the sign of that harmonic: its upward and downward zeros lie in these arcs.
+
+    .. math:: \text{centre} = -\arctan\beta,\quad \text{half} = \arccos\frac{1 - D - e}{\sqrt{1 + \beta^2}}
+    """
     H = flows.strip.law(flows.strip.u, sp.Integer(0))
-    forcing = kernel(load, stable.FORCING, H, "The load harmonic, which drives every event.", r"H(s) = u + \beta u'")
+    forcing = kernel(load, stable.FORCING, H)
     centre, half = (-sp.atan(beta), (1 - D - excess) / sp.sqrt(1 + beta**2))
     angle = sp.Symbol("theta", real=True)
     around = sp.expand_trig(sp.expand(H.subs(s, angle - sp.atan(beta))))
     harmonic = D - 1 + sp.sqrt(1 + beta**2) * sp.cos(angle)
-    name = "forcing_arc"
     stated = stable.FORCING_ARC.written_out(stable.FORCING_ARC.args)
     checks = [
-        zero(name, "about s = -arctan(beta), H is D - 1 + sqrt(1 + beta^2) cos", sp.radsimp(sp.expand(around - harmonic))),
-        zero(
-            name, "H + e vanishes where that cosine is (1 - D - e)/sqrt(1 + beta^2)", harmonic.subs(sp.cos(angle), half) + excess
-        ),
-        zero(name, "the stable form says the same", [stated[0] - centre, sp.radsimp(sp.cos(stated[1]) - half)]),
+        zero("about s = -arctan(beta), H is D - 1 + sqrt(1 + beta^2) cos", sp.radsimp(sp.expand(around - harmonic))),
+        zero("H + e vanishes where that cosine is (1 - D - e)/sqrt(1 + beta^2)", harmonic.subs(sp.cos(angle), half) + excess),
+        zero("the stable form says the same", [stated[0] - centre, sp.radsimp(sp.cos(stated[1]) - half)]),
     ]
-    arc = Kernel(
-        stable.FORCING_ARC,
-        (centre, sp.acos(half)),
-        derived(
-            load,
-            (centre, sp.acos(half)),
-            name=name,
-            statement="H + e > 0 exactly for |s - centre| < half, modulo 2 pi. An event function F with F + T F' = +-(H + e) "
-            "has at a zero a slope of the sign of that harmonic: its upward and downward zeros lie in these arcs.",
-            latex=r"\text{centre} = -\arctan\beta,\quad \text{half} = \arccos\frac{1 - D - e}{\sqrt{1 + \beta^2}}",
-            checks=checks,
-            emitted=(name,),
-        ),
-    )
-    return forcing, arc
+    exact = (centre, sp.acos(half))
+    record = derived(load, exact, checks, name="forcing_arc", emitted=("forcing_arc",))
+    return forcing, Kernel(stable.FORCING_ARC, exact, record)
 
 
 def gap(flows: Flows) -> tuple[Kernel, ...]:
-    r""":math:`g(s_1) = g_0 - [u] + (u(s_0) + g_0 - p)(e^{-(s_1-s_0)/\beta} - 1)` and its derivatives."""
+    r""":math:`g(s_1) = g_0 - [u] + (u(s_0) + g_0 - p)(e^{-(s_1-s_0)/\beta} - 1)` and its derivatives.
+
+    gap_after: Gap at s_1 when it was gap_0 at s_0 and the pressure is the constant p since.
+
+    .. math:: g(s_1) = (g_0 - [u]_{s_0}^{s_1})\,e^{-(s_1 - s_0)/\beta} + (u(s_1) - p)\,(e^{-(s_1 - s_0)/\beta} - 1)
+
+    gap_change: Change of the gap since s_0, for zones too short to change it much.
+
+    .. math:: g(s_1) - g_0
+
+    gap_after_slope: Derivative of gap_after by s_1.
+
+    .. math:: \partial g/\partial s_1
+
+    gap_after_start: Derivative of gap_after by s_0, with gap_0 held.
+
+    .. math:: \partial g/\partial s_0
+    """
     g = flows.gap.value.subs(s, s_1)
     return (
-        kernel(
-            gap,
-            stable.GAP_AFTER,
-            g,
-            "Gap at s_1 when it was gap_0 at s_0 and the pressure is the constant p since.",
-            r"g(s_1) = (g_0 - [u]_{s_0}^{s_1})\,e^{-(s_1 - s_0)/\beta} + (u(s_1) - p)\,(e^{-(s_1 - s_0)/\beta} - 1)",
-        ),
-        kernel(
-            gap,
-            stable.GAP_CHANGE,
-            g - gap_0,
-            "Change of the gap since s_0, for zones too short to change it much.",
-            r"g(s_1) - g_0",
-        ),
-        kernel(gap, stable.GAP_AFTER_SLOPE, sp.diff(g, s_1), "Derivative of gap_after by s_1.", r"\partial g/\partial s_1"),
-        kernel(
-            gap,
-            stable.GAP_AFTER_START,
-            sp.diff(g, s_0),
-            "Derivative of gap_after by s_0, with gap_0 held.",
-            r"\partial g/\partial s_0",
-        ),
+        kernel(gap, stable.GAP_AFTER, g),
+        kernel(gap, stable.GAP_CHANGE, g - gap_0),
+        kernel(gap, stable.GAP_AFTER_SLOPE, sp.diff(g, s_1)),
+        kernel(gap, stable.GAP_AFTER_START, sp.diff(g, s_0)),
     )
 
 
 def relaxation(flows: Flows) -> tuple[Kernel, ...]:
-    r""":math:`w(s_1)`, its change, and :math:`\int w\,ds` (Eq. 11), under a constant pressure."""
+    r""":math:`w(s_1)`, its change, and :math:`\int w\,ds` (Eq. 11), under a constant pressure.
+
+    relaxation_increment: Change of w, and of z, over an adhesion or free zone entered with the lag w - p.
+
+    .. math:: \Delta z = (w_0 - p)(e^{-(s_1-s_0)/\beta} - 1)
+
+    relaxation_increment_slope: Derivative of relaxation_increment by s_1.
+
+    .. math:: \partial \Delta z/\partial s_1
+
+    relaxation_integral, Eq. 11: Displacement summed over the zone: a convex combination of w_0 and p, so nothing cancels.
+
+    .. math:: \int_{s_0}^{s_1} w\,ds
+    """
     w = flows.relaxation.value
     after = w.subs(s, s_1)
     change = (after - w_0).subs(w_0, p + lag_0)
     integral = sp.integrate(sp.expand(w), s)
     total = integral.subs(s, s_1) - integral.subs(s, s_0)
-    name = "relaxation_integral"
     return (
-        kernel(
-            relaxation,
-            stable.RELAXATION_INCREMENT,
-            change,
-            "Change of w, and of z, over an adhesion or free zone entered with the lag w - p.",
-            r"\Delta z = (w_0 - p)(e^{-(s_1-s_0)/\beta} - 1)",
-        ),
-        kernel(
-            relaxation,
-            stable.RELAXATION_INCREMENT_SLOPE,
-            sp.diff(change, s_1),
-            "Derivative of relaxation_increment by s_1.",
-            r"\partial \Delta z/\partial s_1",
-        ),
+        kernel(relaxation, stable.RELAXATION_INCREMENT, change),
+        kernel(relaxation, stable.RELAXATION_INCREMENT_SLOPE, sp.diff(change, s_1)),
         kernel(
             relaxation,
             stable.RELAXATION_INTEGRAL,
             total,
-            "Displacement summed over the zone: a convex combination of w_0 and p, so nothing cancels.",
-            r"\int_{s_0}^{s_1} w\,ds",
-            zero(name, "the antiderivative differentiates to w", sp.diff(integral, s) - w),
+            zero("the antiderivative differentiates to w", sp.diff(integral, s) - w),
             zero(
-                name,
                 "int (p - w) ds = beta (w(s_1) - w_0): the balance of z",
                 p * (s_1 - s_0) - total - beta * (after - w_0),
                 phases=(s_0, s_1),
             ),
-            paper="Eq. 11",
         ),
     )

@@ -208,8 +208,10 @@ def _late(module, name: str):
         "means_acaf": lambda: module.strip_means(regimes[0], integrals),
         "power balance": lambda: module.power_balance(stage("Flows")),
         "strip problem": lambda: module.strip_problem(strip, regimes[0]),
-        "equilibrium": lambda: module.equilibrium(regimes, exact, integrals),
-        "shift of an event": lambda: module.shift_of_events(),
+        "equilibrium": lambda: module.equilibrium(
+            regimes[:1], [module.unbalanced(regimes[0], exact["means_acaf"][0], integrals)]
+        ),
+        "shift of an event": lambda: module.shift_of_an_event(),
         "zone conditions": lambda: module.zone_conditions(strip.u),
         "means over a level": lambda: module.means_over_a_level(field, exact["means_c"]),
         "local stress": lambda: module.local_stress(strip.u, field, module.dashpot_loss(strip.u, field)),
@@ -263,9 +265,9 @@ def test_zero_is_proven_and_not_guessed() -> None:
 
 def test_a_failing_check_names_its_step() -> None:
     with pytest.raises(DerivationError, match="step 'some step' failed: one is nothing"):
-        zero("some step", "one is nothing", sp.Integer(1))
+        zero("one is nothing", sp.Integer(1)).verified("some step")
     with pytest.raises(DerivationError, match="has no check"):
-        derived(test_a_failing_check_names_its_step, None, name="idle", statement="", latex="", checks=[])
+        derived(test_a_failing_check_names_its_step, None, [])
 
 
 def _model(Q, P) -> Model:

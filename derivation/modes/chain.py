@@ -35,11 +35,14 @@ class Zone:
 
 
 def chain_rule(period: Derived) -> Derived:
-    r""":math:`dz \to dz - R\,dz + m`, zone by zone, with :math:`m = \partial_{s_0}\Delta z\,ds_0 + \partial_{s_1}\Delta z\,ds_1`.
+    r"""The derivative of zones in turn is that of each, in turn: modes.edge_slopes carries it over a period for every edge, and
+    closes it with the state that returns; modes.monodromy carries a disturbance of the state, every event moving along.
+
+    .. math:: dz \to dz - R\,dz + m,\quad m = \partial_{s_0}\Delta z\,ds_0 + \partial_{s_1}\Delta z\,ds_1;\qquad m = m_2 + m_1 -
+        R_2 m_1;\qquad R\,dz = m
 
     ``period``: two zones as one, :mod:`.functions`.
     """
-    name = "chain rule"
     first, second = Zone(1), Zone(2)
     halfway = first.left_by(z)
     m_1, m_2 = first.by_edges(z), second.by_edges(halfway)
@@ -57,27 +60,19 @@ def chain_rule(period: Derived) -> Derived:
     (onset,) = sp.solve(by_state + onset_slope * ds_0, ds_0)
     checks = [
         zero(
-            name,
             "through one zone dz -> dz - R dz + m",
             sp.expand(_first_order(first.left_by_moved(z + eps * dz)) - (dz - first.forget * dz + m_1)),
         ),
         zero(
-            name,
             "through two zones it is of the same form: R of the period map, and m composed as drives are; so for any number",
             sp.expand(through - (dz - lost * dz + moved)),
         ),
+        zero("the state that returns, R z = c, moves by R dz = m of the whole period", sp.expand(closing - (lost * dz - moved))),
         zero(
-            name,
-            "the state that returns, R z = c, moves by R dz = m of the whole period",
-            sp.expand(closing - (lost * dz - moved)),
-        ),
-        zero(
-            name,
             "a boundary equation changes by what its event does: r dz + (q_0 + r_0 z) ds_0 + (q_1 + r_1 z) ds_1",
             sp.expand(_first_order(event) - (r_dz + (q_0 + r_0) * ds_0 + (q_1 + r_1) * ds_1)),
         ),
         zero(
-            name,
             "where nothing but the state is disturbed the event at the end of a zone moves along: "
             "ds_1 = -(r dz + its derivative by s_0 times ds_0) / that by s_1; at the onset, by the slope of the gap before it",
             [shift + (by_state + by_start * ds_0) / by_end, onset + by_state / onset_slope],
@@ -86,13 +81,7 @@ def chain_rule(period: Derived) -> Derived:
     return derived(
         chain_rule,
         (lost * dz, moved),
-        name=name,
-        statement="The derivative of zones in turn is that of each, in turn: modes.edge_slopes carries it over a period for "
-        "every edge, and closes it with the state that returns; modes.monodromy carries a disturbance of the state, every event "
-        "moving along.",
-        latex=r"dz \to dz - R\,dz + m,\quad m = \partial_{s_0}\Delta z\,ds_0 + \partial_{s_1}\Delta z\,ds_1;\qquad "
-        r"m = m_2 + m_1 - R_2 m_1;\qquad R\,dz = m",
-        checks=checks,
+        checks,
         emitted=tuple(f"{kind}_{sequence}" for kind in ("jacobian", "return_map") for sequence in ("acaf", "afc", "af", "ac")),
     )
 

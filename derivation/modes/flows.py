@@ -31,41 +31,28 @@ def mode_flows() -> ModeFlows:
 
 
 def relaxation_flow() -> Derived:
-    r"""Eq. 5, adhesion :math:`p=-p_0` or free :math:`p=0`: :math:`z_j = J_j p + (z_{j,0} - J_j p)\,e^{-(s-s_0)/\beta_j}`."""
-    name = "relaxation flow"
-    flow = solved(name, lambda unknown: unknown + beta * sp.diff(unknown, s) - J * p, entry=z_0)
+    r"""Eq. 5: Out of contact p is constant, and every retardation displacement creeps towards its share J_j p by itself.
+
+    .. math:: z_j(s) = J_j p + (z_{j,0} - J_j p)\,e^{-(s - s_0)/\beta_j},\quad w = J_0 p + \sum_j z_j
+    """
+    flow = solved("relaxation flow", lambda unknown: unknown + beta * sp.diff(unknown, s) - J * p, entry=z_0)
     checks = [
-        zero(name, "the law of the mode holds under the constant pressure p", flow + beta * sp.diff(flow, s) - J * p),
-        zero(name, "the zone is entered with z_0", flow.subs(s, s_0) - z_0),
+        zero("the law of the mode holds under the constant pressure p", flow + beta * sp.diff(flow, s) - J * p),
+        zero("the zone is entered with z_0", flow.subs(s, s_0) - z_0),
     ]
-    return derived(
-        relaxation_flow,
-        flow,
-        name=name,
-        statement="Out of contact p is constant, and every retardation displacement creeps towards its share J_j p by itself.",
-        latex="z_j(s) = J_j p + (z_{j,0} - J_j p)\\,e^{-(s - s_0)/\\beta_j},\\quad w = J_0 p + \\sum_j z_j",
-        checks=checks,
-        paper="Eq. 5",
-    )
+    return derived(relaxation_flow, flow, checks)
 
 
 def contact_flow() -> Derived:
-    r"""Eq. 5, 15 and its transients, :math:`w = u`: :math:`p = u + \sum_i f_i`, :math:`\alpha_i f_i' + f_i = \eta_i u'`."""
-    name = "contact flow"
-    flow = solved(name, lambda unknown: unknown + alpha * sp.diff(unknown, s) - eta * sp.diff(u, s), entry=f_0)
+    r"""Eq. 5, 15: In contact w = u is given, and the overstress of every branch follows it by itself: a harmonic, and a transient
+    that dies out over alpha_i.
+
+    .. math:: f_i(s) = f_{sat,i}(s) + (f_{i,0} - f_{sat,i}(s_0))\,e^{-(s - s_0)/\alpha_i},\quad f_{sat,i} = \eta_i\frac{\alpha_i
+        \cos s - \sin s}{1 + \alpha_i^2},\quad p = u + \sum_i f_i
+    """
+    flow = solved("contact flow", lambda unknown: unknown + alpha * sp.diff(unknown, s) - eta * sp.diff(u, s), entry=f_0)
     checks = [
-        zero(name, "the law of the branch holds with w = u", flow + alpha * sp.diff(flow, s) - eta * sp.diff(u, s)),
-        zero(name, "the zone is entered with f_0", flow.subs(s, s_0) - f_0),
+        zero("the law of the branch holds with w = u", flow + alpha * sp.diff(flow, s) - eta * sp.diff(u, s)),
+        zero("the zone is entered with f_0", flow.subs(s, s_0) - f_0),
     ]
-    return derived(
-        contact_flow,
-        flow,
-        name=name,
-        statement="In contact w = u is given, and the overstress of every branch follows it by itself: a harmonic, and "
-        "a transient that dies out over alpha_i.",
-        latex=r"f_i(s) = f_{sat,i}(s) + (f_{i,0} - f_{sat,i}(s_0))\,e^{-(s - s_0)/\alpha_i},\quad "
-        r"f_{sat,i} = \eta_i\frac{\alpha_i \cos s - \sin s}{1 + \alpha_i^2},\quad p = u + \sum_i f_i",
-        checks=checks,
-        paper="Eq. 5, 15",
-        emitted=("overstress_after", "contact_pressure"),
-    )
+    return derived(contact_flow, flow, checks, emitted=("overstress_after", "contact_pressure"))

@@ -118,8 +118,11 @@ def _parts(value: Any) -> tuple[sp.Expr, ...]:
 
 
 def period_map() -> Derived:
-    r"""Two zones in turn, :math:`z \to z + c_k - R_k z`, are one: :math:`c = c_2 + c_1 - R_2 c_1,\ R = R_1 + R_2 - R_2 R_1`."""
-    name = "period map"
+    r"""A period is an affine map of the state, and R z = c is the state that it returns. What is forgotten is
+    accumulated, not what is kept: slow modes forget little, and that little keeps its digits.
+
+    .. math:: z \to z + c_k - R_k z,\quad c = c_2 + c_1 - R_2 c_1,\ R = R_1 + R_2 - R_2 R_1
+    """
     state, drive_1, drive_2, forget_1, forget_2 = sp.symbols("z c_1 c_2 R_1 R_2", commutative=False)
     after = state + drive_1 - forget_1 * state
     twice = after + drive_2 - forget_2 * after
@@ -127,11 +130,8 @@ def period_map() -> Derived:
     return derived(
         period_map,
         (drive, forget),
-        name=name,
-        statement="A period is an affine map of the state, and R z = c is the state that it returns. What is forgotten is "
-        "accumulated, not what is kept: slow modes forget little, and that little keeps its digits.",
+        [zero("for matrices, which do not commute", sp.expand(twice - (state + drive - forget * state)))],
         latex=rf"c = {sp.latex(drive)},\quad R = {sp.latex(forget)}",
-        checks=[zero(name, "for matrices, which do not commute", sp.expand(twice - (state + drive - forget * state)))],
         emitted=tuple(f"state_{sequence}" for sequence in ("acaf", "afc", "af", "ac")),
     )
 

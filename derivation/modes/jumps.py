@@ -11,11 +11,13 @@ from .symbols import J_0, J, S, eta
 
 
 def jump_law() -> Derived:
-    r"""Across an edge, from the law of every mode and of every branch:
+    r"""The law of every mode and of every branch, read as an equation between distributions, integrated over a vanishing interval
+    around a step of p: every retardation displacement, and with it every dashpot displacement, is continuous; w steps by J_0
+    [p].
 
-    .. math:: \beta_j [z_j] = 0,\quad \alpha_i [f_i] = \eta_i [w]\;\Rightarrow\; [z_j] = [e_i] = 0,\quad [w] = J_0 [p]
+    .. math:: \int_{0^-}^{0^+}(z_j + \beta_j z_j' - J_j p)\,ds = \beta_j [z_j] = 0,\quad \int_{0^-}^{0^+}(f_i + \alpha_i f_i' -
+        \eta_i w')\,ds = \alpha_i [f_i] - \eta_i [w] = 0\;\Rightarrow\; [w] = J_0 [p]
     """
-    name = "jump law"
     steps = step_w, step_p, step_z, step_f = sp.symbols("step_w step_p step_z step_f", real=True)
     w, p, z, f = (before + step * sp.Heaviside(s) for before, step in zip(sp.symbols("w p z f", real=True), steps, strict=True))
     eps = sp.Symbol("eps", positive=True)
@@ -27,30 +29,22 @@ def jump_law() -> Derived:
     of_branch = across(f + alpha * sp.diff(f, s) - eta * sp.diff(w, s))
     solutions = sp.solve(of_mode, step_z), sp.solve(of_branch, step_f)
     if [len(found) for found in solutions] != [1, 1]:
-        raise DerivationError(name, f"one step of z and one of f, not {solutions}")
+        raise DerivationError("jump law", f"one step of z and one of f, not {solutions}")
     (z_steps,), (f_steps,) = solutions
     total = sp.Symbol("sum_z", real=True)  # of the z_j, each of which is continuous
     checks = [
-        zero(name, "a retardation displacement is continuous, whatever p does", z_steps),
-        zero(name, "and so is a dashpot's, e = w - S f with S = alpha/eta", (step_w - S * f_steps).subs(S, alpha / eta)),
-        zero(name, "w = J_0 p + sum z_j: [w] = J_0 [p]", (J_0 * step_p + total * z_steps) - J_0 * step_p),
+        zero("a retardation displacement is continuous, whatever p does", z_steps),
+        zero("and so is a dashpot's, e = w - S f with S = alpha/eta", (step_w - S * f_steps).subs(S, alpha / eta)),
+        zero("w = J_0 p + sum z_j: [w] = J_0 [p]", (J_0 * step_p + total * z_steps) - J_0 * step_p),
     ]
-    return derived(
-        jump_law,
-        J_0,
-        name=name,
-        statement="The law of every mode and of every branch, read as an equation between distributions, integrated over a "
-        "vanishing interval around a step of p: every retardation displacement, and with it every dashpot displacement, is "
-        "continuous; w steps by J_0 [p].",
-        latex=r"\int_{0^-}^{0^+}(z_j + \beta_j z_j' - J_j p)\,ds = \beta_j [z_j] = 0,\quad "
-        r"\int_{0^-}^{0^+}(f_i + \alpha_i f_i' - \eta_i w')\,ds = \alpha_i [f_i] - \eta_i [w] = 0\;\Rightarrow\; [w] = J_0 [p]",
-        checks=checks,
-    )
+    return derived(jump_law, J_0, checks)
 
 
 def closures(model: Model) -> Derived:
-    r"""``constitutive``, :math:`[z_j] = 0`, determines the states; ``continuous``, :math:`[w] = 0`, where it says the same."""
-    name = "closures"
+    r"""``constitutive`` determines the states; ``continuous``, :math:`[w] = 0`, where it says the same.
+
+    .. math:: [w] = J_0 [p],\quad [z_j] = 0
+    """
     modes = model.modes or 2  # any number: two stand for several
     steps = sp.symbols(f"step_z:{modes}", real=True)
     step_w = sp.Add(*steps)  # at given p: w continuous asks that this vanishes
@@ -68,9 +62,7 @@ def closures(model: Model) -> Derived:
     return derived(
         closures,
         allowed,
-        name=name,
+        [holds(claim, holding)],
         statement="The paper does not say what w does where p steps. Its vanishing friction at very high speed needs w "
         f"continuous; the law itself asks for a step. {why}",
-        latex=r"[w] = J_0 [p],\quad [z_j] = 0",
-        checks=[holds(name, claim, holding)],
     )

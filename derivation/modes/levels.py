@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..check import Derived, zero
-from ..load import balance_of_load, contact_area
-from ..multilevel import Multilevel, carried_record, friction_coefficient, local_shear, local_stress, means_over_a_level
+from ..check import Claim, zero
+from ..load import contact_area, equilibrium
+from ..multilevel import Multilevel, carried_friction, friction_coefficient, local_shear, local_stress, means_over_a_level
 from ..sequences import ADHESION, CONTACT, PERIOD
 from ..symbols import D, alpha, h, l, p_0, s, s_0
 from .flows import ModeFlows, u
@@ -24,45 +24,33 @@ def mode_levels(flows: ModeFlows, complete: Complete, regimes: tuple[ModeRegime,
     pressure = D - 1 + storage * sp.cos(s) - R_LOSS * sp.sin(s)  # Eq. 15, as in complete.threshold
     touching = tuple(regime for regime in regimes if regime.edges and regime.touches)
     return Multilevel(
-        equilibrium(touching),
+        equilibrium(touching, [_unbalanced(regime) for regime in touching]),
         contact_area(touching),
         local_stress(u, pressure, sp.pi * R_LOSS),
         means_over_a_level(pressure, complete.means.value),
         local_shear(),
-        carried_friction(flows),
+        carried_friction(passed_once(flows), ("excess_event",)),
         friction_coefficient(pressure, complete.friction.value, complete.stack.value, (h, l, R_LOSS)),
     )
 
 
-def carried_friction(flows: ModeFlows) -> Derived:
-    r"""Eq. 13:
-
-    .. math:: \bar\tau_{M-1} = \frac{1}{l^2}\iint p\,f_x\,dx\,dy + \frac{1}{l^2}\iint_{contact} \tau_M[p]\,dx\,dy
-    """
-    name = "carried friction"
+def passed_once(flows: ModeFlows) -> list[Claim]:
+    """What Eq. 13 asks of the foundation: in contact the pressure passes any value at most once either way."""
     flow = flows.contact.value
     harmonic = flow.replace(sp.exp, lambda exponent: sp.Integer(0))
     creep = u - alpha / eta * harmonic  # of a dashpot in complete contact: e = w - S f, S = alpha/eta
-    checks = [
+    return [
         zero(
-            name,
             "in complete contact a dashpot follows the profile, alpha e' + e = u; elsewhere w, which is nowhere below u: "
             "its e is nowhere below that of complete contact, and f nowhere above",
             alpha * sp.diff(creep, s) + creep - u,
         ),
         zero(
-            name,
             "in contact f falls short of complete contact by a decaying exponential; p is one harmonic less such terms, all "
             "positive, so p passes any p* at most once up and once down",
             flow - harmonic - (f_0 - harmonic.subs(s, s_0)) * sp.exp(-(s - s_0) / alpha),
         ),
     ]
-    return carried_record(carried_friction, checks, ("excess_event",))
-
-
-def equilibrium(touching: tuple[ModeRegime, ...]) -> Derived:
-    r"""Eq. 7: :math:`\bar p = \frac{1}{l^2}\iint_{\Omega} p\,dx\,dy`, over contact and adhesion."""
-    return balance_of_load(equilibrium, touching, [_unbalanced(regime) for regime in touching])
 
 
 def _unbalanced(regime: ModeRegime) -> sp.Expr:

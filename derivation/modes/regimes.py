@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..check import BEYOND, Check, derived, zero
+from ..check import BEYOND, Claim, derived, zero
 from ..inequality import Inequality, relation, require
 from ..regimes import out_of_reach, within_reach
 from ..sequences import (
@@ -117,17 +117,16 @@ def _partial(
     stays: tuple[Inequality, ...] = (),
 ) -> ModeRegime:
     """A regime with edges. ``snap``, ``stays``: what it must satisfy besides the slopes at its edges and their order."""
-    name = f"regime {sequence}"
     zones = zones_of(sequence, Span, J_0 * p_0, J_0)
     edges = tuple(zone.first for zone in zones)
     record = derived(
         by,
         sequence,
-        name=name,
+        [obeys_jump_law(zones, J_0, "[w] = J_0 [p]"), _period(zones)],
+        f"regime {sequence}",
         statement=f"{with_edges(sequence, edges)}. The state at the first edge follows from them by one linear system, "
         "the edges from one event each.",
         latex=r"R z = c,\qquad \text{" + "; ".join(meaning for _, meaning in _equations(zones)) + "}",
-        checks=[obeys_jump_law(name, zones, J_0, "[w] = J_0 [p]"), _period(name, zones)],
         status=BEYOND,
         emitted=tuple(f"{kind}_{sequence}" for kind in ("state", "residual", "jacobian", "return_map")),
     )
@@ -155,7 +154,7 @@ def _pressure_falls(zones: tuple[Span, ...]) -> tuple[Inequality, ...]:
     )
 
 
-def _period(name: str, zones: tuple[Span, ...]) -> Check:
+def _period(zones: tuple[Span, ...]) -> Claim:
     """The zones follow each other and close after one period."""
     ends = [zone.last - zone.first for zone in zones]
-    return zero(name, "the zones are one period long", sp.Add(*ends) - PERIOD)
+    return zero("the zones are one period long", sp.Add(*ends) - PERIOD)

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..check import CORRECTED, Check, Derived, derived, holds, zero
+from ..check import Claim, Derived, derived, holds, zero
 from ..functions import stack_sum
 from ..kernel import Kernel, kernel
 from ..level import MISPRINT, R, friction_of_strips, load_of_strips, of_every_strip
-from ..saturated import threshold_record
+from ..saturated import saturation_threshold
 from ..symbols import D, D_level, K, alpha, h, l, p_0, p_nominal, s
 from . import stable
 from .flows import ModeFlows, u
@@ -45,176 +45,138 @@ def complete_contact(flows: ModeFlows) -> Complete:
 
 
 def complex_modulus() -> Derived:
-    r""":math:`\frac{K^*(ikV)}{K} = 1 + \sum_i \frac{i\eta_i}{1 + i\alpha_i}`, the operators at s = i."""
-    name = "complex modulus"
+    r"""Stiffness against a displacement that oscillates at the rate k V at which the strip's wave passes.
+
+    .. math:: \frac{K^*(ikV)}{K} = 1 + \sum_i \frac{\eta_i \alpha_i}{1 + \alpha_i^2} + i \sum_i \frac{\eta_i}{1 + \alpha_i^2}
+    """
     term = sp.I * eta / (1 + sp.I * alpha)
     motion = sp.exp(sp.I * s)  # of w, and term times it of f
     real, imaginary = (sp.simplify(part) for part in sp.expand_complex(term).as_real_imag())
     checks = [
         zero(
-            name,
             "a branch answers w = exp(i s) with the overstress i eta/(1 + i alpha) w",
             sp.simplify((term + alpha * term * sp.I - eta * sp.I) * motion),
         ),
-        zero(name, "every branch adds eta alpha/(1 + alpha^2) to the storage", real - eta * alpha / (1 + alpha**2)),
-        zero(name, "and eta/(1 + alpha^2) to the loss", imaginary - eta / (1 + alpha**2)),
+        zero("every branch adds eta alpha/(1 + alpha^2) to the storage", real - eta * alpha / (1 + alpha**2)),
+        zero("and eta/(1 + alpha^2) to the loss", imaginary - eta / (1 + alpha**2)),
     ]
-    return derived(
-        complex_modulus,
-        (real, imaginary),
-        name=name,
-        statement="Stiffness against a displacement that oscillates at the rate k V at which the strip's wave passes.",
-        latex=r"\frac{K^*(ikV)}{K} = 1 + \sum_i \frac{\eta_i \alpha_i}{1 + \alpha_i^2} + i \sum_i \frac{\eta_i}{1 + \alpha_i^2}",
-        checks=checks,
-        emitted=("storage", "loss", "modulus_ratio"),
-    )
+    return derived(complex_modulus, (real, imaginary), checks, emitted=("storage", "loss", "modulus_ratio"))
 
 
 def modulus_kernels() -> tuple[Kernel, ...]:
-    r"""Storage, loss and :math:`R = |K^*|/K`."""
+    r"""Storage, loss and :math:`R = |K^*|/K`.
+
+    storage: Real part of K*/K.
+
+    .. math:: 1 + \sum_i \frac{\eta_i \alpha_i}{1 + \alpha_i^2}
+
+    loss: Imaginary part of K*/K.
+
+    .. math:: \sum_i \frac{\eta_i}{1 + \alpha_i^2}
+
+    modulus_ratio: Modulus of K*/K.
+
+    .. math:: R = |K^*(ikV)|/K
+    """
     real, imaginary = 1 + total(eta * alpha / (1 + alpha**2)), total(eta / (1 + alpha**2))
     return (
-        kernel(modulus_kernels, stable.STORAGE, real, "Real part of K*/K.", r"1 + \sum_i \frac{\eta_i \alpha_i}{1 + \alpha_i^2}"),
-        kernel(modulus_kernels, stable.LOSS, imaginary, "Imaginary part of K*/K.", r"\sum_i \frac{\eta_i}{1 + \alpha_i^2}"),
-        kernel(modulus_kernels, stable.MODULUS_RATIO, sp.sqrt(real**2 + imaginary**2), "Modulus of K*/K.", r"R = |K^*(ikV)|/K"),
+        kernel(modulus_kernels, stable.STORAGE, real),
+        kernel(modulus_kernels, stable.LOSS, imaginary),
+        kernel(modulus_kernels, stable.MODULUS_RATIO, sp.sqrt(real**2 + imaginary**2)),
     )
 
 
 def field_kernels(flows: ModeFlows) -> tuple[Kernel, ...]:
-    r"""Eq. 15: :math:`p_{sat} = u + \sum_i f_{sat,i}`."""
-    name = "saturated_overstress"
+    r"""Eq. 15: :math:`p_{sat} = u + \sum_i f_{sat,i}`.
+
+    saturated_overstress, Eq. 15: Overstress of every branch in complete contact.
+
+    .. math:: f_{sat,i} = \eta_i\frac{\alpha_i \cos s - \sin s}{1 + \alpha_i^2}
+
+    saturated_pressure, Eq. 15: Pressure of complete contact.
+
+    .. math:: p_{sat} = u + \sum_i f_{sat,i}
+    """
     # What the contact flow leaves behind when its transients have died out.
     harmonic = flows.contact.value.replace(sp.exp, lambda exponent: sp.Integer(0))
     eq_15 = sp.re(sp.expand_complex(sp.I * eta / (1 + sp.I * alpha) * sp.exp(sp.I * s)))
-    own: tuple[Check, ...] = (
-        holds(name, "nothing of the entry is left", not harmonic.has(f_0)),
-        zero(name, "it has the period 2 pi", harmonic.subs(s, s + 2 * sp.pi) - harmonic),
-        zero(name, "it is Eq. 15: one harmonic, weighted by the branch's part of K*", harmonic - eq_15, phases=(s,)),
+    own: tuple[Claim, ...] = (
+        holds("nothing of the entry is left", not harmonic.has(f_0)),
+        zero("it has the period 2 pi", harmonic.subs(s, s + 2 * sp.pi) - harmonic),
+        zero("it is Eq. 15: one harmonic, weighted by the branch's part of K*", harmonic - eq_15, phases=(s,)),
     )
     return (
-        kernel(
-            field_kernels,
-            stable.SATURATED_OVERSTRESS,
-            harmonic,
-            "Overstress of every branch in complete contact.",
-            r"f_{sat,i} = \eta_i\frac{\alpha_i \cos s - \sin s}{1 + \alpha_i^2}",
-            *own,
-            paper="Eq. 15",
-        ),
-        kernel(
-            field_kernels,
-            stable.SATURATED_PRESSURE,
-            u + total(harmonic),
-            "Pressure of complete contact.",
-            r"p_{sat} = u + \sum_i f_{sat,i}",
-            paper="Eq. 15",
-        ),
+        kernel(field_kernels, stable.SATURATED_OVERSTRESS, harmonic, *own),
+        kernel(field_kernels, stable.SATURATED_PRESSURE, u + total(harmonic)),
     )
 
 
 def threshold() -> Derived:
-    r"""Complete contact needs :math:`\min p_{sat} \ge -p_0`: :math:`D \ge 1 + R - p_0`."""
-    name = "saturation threshold"
+    """Of D for complete contact: the pressure is one harmonic, whatever makes up its storage and loss."""
     lag = sp.Symbol("lag", real=True)
-    storage, loss = R * sp.cos(lag), R * sp.sin(lag)
-    field = D - 1 + storage * sp.cos(s) - loss * sp.sin(s)
-    checks = [
-        zero(name, "p_sat = D - 1 + R cos(s + arg K*)", sp.expand_trig(D - 1 + R * sp.cos(s + lag)) - field, phases=(s,)),
-    ]
-    return threshold_record(threshold, R, "|K^*|/K", checks)
+    field = D - 1 + R * sp.cos(lag) * sp.cos(s) - R * sp.sin(lag) * sp.sin(s)
+    harmonic = sp.expand_trig(D - 1 + R * sp.cos(s + lag))
+    return saturation_threshold(R, "|K^*|/K", [zero("p_sat = D - 1 + R cos(s + arg K*)", harmonic - field, phases=(s,))])
 
 
 def saturated_means() -> Derived:
-    r"""Eq. 11 in complete contact: :math:`\bar p = D - 1`, :math:`\bar\tau = \frac12\mathrm{Im}\,K^*/K`."""
+    r"""Eq. 11: Means of pressure and friction of a strip in complete contact.
+
+    .. math:: \bar p = D - 1,\quad \bar\tau = \tfrac12 \mathrm{Im}\,K^*(ikV)/K
+    """
     name = "means_c"
     storage, loss = sp.Symbol("storage", real=True), R_LOSS
     pressure = D - 1 + storage * sp.cos(s) - loss * sp.sin(s)
     mean = [sp.integrate(sp.expand(q), (s, 0, 2 * sp.pi)) / (2 * sp.pi) for q in (pressure, pressure * sp.diff(u, s), u)]
     checks = [
-        zero(name, "mean p = mean w over a period", mean[0] - mean[2]),
-        zero(name, "mean friction = loss/2", mean[1] - loss / 2),
+        zero("mean p = mean w over a period", mean[0] - mean[2]),
+        zero("mean friction = loss/2", mean[1] - loss / 2),
     ]
-    return derived(
-        saturated_means,
-        (mean[0], mean[1]),
-        name=name,
-        statement="Means of pressure and friction of a strip in complete contact.",
-        latex=r"\bar p = D - 1,\quad \bar\tau = \tfrac12 \mathrm{Im}\,K^*(ikV)/K",
-        checks=checks,
-        paper="Eq. 11",
-        emitted=("means_c",),
-    )
+    return derived(saturated_means, (mean[0], mean[1]), checks, name=name, emitted=("means_c",))
 
 
 def saturation_penetration(threshold: sp.Expr) -> Derived:
-    r"""Every strip is saturated when :math:`D \ge \frac h2 (1 + R) - p_0/K`."""
+    r"""Penetration from which every strip of a level is in complete contact.
+
+    .. math:: D_{sat} = \frac h2 (1 + R) - \frac{p_0}{K}
+    """
     name = "level_saturation_penetration"
     storage, loss = sp.symbols("storage_minus_1 loss", nonnegative=True)
     above = sp.expand((1 + storage) ** 2 + loss**2 - 1)
-    exact, checks = of_every_strip(name, threshold, holds(name, "R >= 1: the storage is at least 1", above.is_nonnegative))
-    return derived(
-        saturation_penetration,
-        exact,
-        name=name,
-        statement="Penetration from which every strip of a level is in complete contact.",
-        latex=r"D_{sat} = \frac h2 (1 + R) - \frac{p_0}{K}",
-        checks=checks,
-        emitted=(name,),
-    )
+    exact, checks = of_every_strip(threshold, holds("R >= 1: the storage is at least 1", above.is_nonnegative))
+    return derived(saturation_penetration, exact, checks, name=name, emitted=(name,))
 
 
 def saturation_pressure(penetration: sp.Expr, mean_p: sp.Expr) -> Derived:
-    r"""Eq. 11 there: :math:`p_{sat} = K h (2R - 1)/4 - p_0`."""
+    r"""Eq. 11: Nominal pressure from which a level is in complete contact.
+
+    .. math:: p_{sat} = \tfrac14 K h (2R - 1) - p_0
+    """
     name = "level_saturation_pressure"
     exact = load_of_strips(mean_p).subs(D_level, penetration)
-    checks = [zero(name, "p_sat = K h (2 R - 1)/4 - p_0", exact - (K * h / 4 * (2 * R - 1) - p_0))]
-    return derived(
-        saturation_pressure,
-        exact,
-        name=name,
-        statement="Nominal pressure from which a level is in complete contact.",
-        latex=r"p_{sat} = \tfrac14 K h (2R - 1) - p_0",
-        checks=checks,
-        paper="Eq. 11",
-        emitted=(name,),
-    )
+    checks = [zero("p_sat = K h (2 R - 1)/4 - p_0", exact - (K * h / 4 * (2 * R - 1) - p_0))]
+    return derived(saturation_pressure, exact, checks, name=name, emitted=(name,))
 
 
 def saturation_friction(mean_tau: sp.Expr) -> Derived:
-    r"""Eq. 10, 11: :math:`\tau_{sat} = \frac{3\pi}{32}\frac{h^2}{l}\,\mathrm{Im}\,K^*`."""
+    r"""Eq. 10, 11: Friction of a level in complete contact.
+
+    .. math:: \tau_{sat} = \frac{3\pi}{32} \frac{h^2}{l}\,\mathrm{Im}\,K^*(ikV)
+    """
     name = "level_saturation_friction"
     exact = friction_of_strips(mean_tau)
-    checks = [zero(name, "it is 3 pi/32 h^2/l Im K*", exact - sp.Rational(3, 32) * sp.pi * K * h**2 / l * R_LOSS)]
-    return derived(
-        saturation_friction,
-        exact,
-        name=name,
-        statement="Friction of a level in complete contact.",
-        latex=r"\tau_{sat} = \frac{3\pi}{32} \frac{h^2}{l}\,\mathrm{Im}\,K^*(ikV)",
-        checks=checks,
-        paper="Eq. 10, 11",
-        emitted=(name,),
-    )
+    checks = [zero("it is 3 pi/32 h^2/l Im K*", exact - sp.Rational(3, 32) * sp.pi * K * h**2 / l * R_LOSS)]
+    return derived(saturation_friction, exact, checks, name=name, emitted=(name,))
 
 
 def stack_friction(friction: sp.Expr) -> Derived:
-    r"""Eq. 16: :math:`\mu = \frac1{p_1}\sum_i \tau_{sat,i}`, with n relaxation times."""
+    r"""Eq. 16: Friction coefficient when every level is in complete contact: the levels add.
+
+    .. math:: \mu = \frac{3\pi}{32\,p_1} \sum_i \frac{h_i^2}{l_i}\,\mathrm{Im}\,K^*(ik_iV)
+    """
     name = "saturated_stack_friction"
     times = sp.symbols("alpha beta", positive=True)
     one_time = (times[1] - times[0]) / (1 + times[0] ** 2)
     stated = sp.Rational(3, 16) * sp.pi**2 * K * h**2 * (times[1] - times[0]) / (2 * sp.pi * l * (1 + times[0] ** 2))
-    checks = [
-        zero(name, "with one relaxation time each term is that of Eq. 16 as corrected", friction.subs(R_LOSS, one_time) - stated)
-    ]
-    return derived(
-        stack_friction,
-        stack_sum(friction) / p_nominal,
-        name=name,
-        statement="Friction coefficient when every level is in complete contact: the levels add.",
-        latex=r"\mu = \frac{3\pi}{32\,p_1} \sum_i \frac{h_i^2}{l_i}\,\mathrm{Im}\,K^*(ik_iV)",
-        checks=checks,
-        paper="Eq. 16",
-        status=CORRECTED,
-        correction=MISPRINT,
-        emitted=(name,),
-    )
+    checks = [zero("with one relaxation time each term is that of Eq. 16 as corrected", friction.subs(R_LOSS, one_time) - stated)]
+    return derived(stack_friction, stack_sum(friction) / p_nominal, checks, name=name, correction=MISPRINT, emitted=(name,))

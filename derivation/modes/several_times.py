@@ -6,10 +6,10 @@ from ..conditions import zone_conditions
 from ..further import FOR_ANY_NUMBER, Basis, further
 from ..model import Model, Roots
 from ..outcome import Derivation, Progress, Stages, records
-from ..paper.tags import require_tags
+from ..paper.tags import require_all, require_tags
 from ..strip import adhesion_law, strip_profile
 from ..zones import rigid_profile
-from .averages import strip_means
+from .averages import means_of_a_strip
 from .chain import chain_rule
 from .displays import displays
 from .flows import mode_flows, u
@@ -53,7 +53,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     stages.done("complete contact", complete.kernels, complete)
     table = mode_regimes(model.springy, closure.value, complete.threshold.value)
     stages.done("regimes", table, sample_roots(table, flows))
-    means, period = strip_means(), period_map()
+    means, period = means_of_a_strip(), period_map()
     stages.done("means", means, period, chain_rule(period))
     stages.done("levels", mode_levels(flows, complete, table))
     more = further(FOR_ANY_NUMBER, Basis(flows, complete, table))
@@ -61,6 +61,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     steps = tuple(records([*stages.made, more]))
     read = displays(steps, flows, isinstance(model.series, Roots))
     require_tags(steps)
+    require_all(steps)
     stages.done("print", more)
     return Derivation(
         model,

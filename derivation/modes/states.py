@@ -16,7 +16,7 @@ import mpmath
 import numpy as np
 import sympy as sp
 
-from ..check import Check, DerivationError, Derived, derived, holds, zero
+from ..check import EXACT, Claim, DerivationError, Derived, derived, holds, zero
 from ..model import rate
 from ..symbols import alpha, beta
 from .symbols import J_0, J, S, enter, eta, leave, share
@@ -43,67 +43,54 @@ OVERSTRESSED = (f_i, p - w)
 
 
 def summed(
-    name: str,
     claim: str,
     term: sp.Expr,
     combination: Sequence[tuple[sp.Expr | int, tuple[sp.Expr, sp.Expr]]],
     total: sp.Expr,
     over: set[sp.Symbol] = OF_BRANCH,
-) -> Check:
+) -> Claim:
     """The sum of ``term`` is ``total``: it is a ``combination`` of known sums, with coefficients that are the same for all."""
     if any(sp.sympify(coefficient).free_symbols & over for coefficient, _ in combination):
-        raise DerivationError(name, f"{claim}: the coefficients are the same for all that are summed")
-    zero(name, f"{claim}, term by term", term - sum(coefficient * known for coefficient, (known, _) in combination))
-    zero(name, claim, sum(coefficient * value for coefficient, (_, value) in combination) - total)
-    return Check(claim, "exact zero, term by term under the sum, for any n")
+        raise DerivationError("sum over modes", f"{claim}: the coefficients are the same for all that are summed")
+    by_term = term - sum(coefficient * known for coefficient, (known, _) in combination)
+    left = sum(coefficient * value for coefficient, (_, value) in combination) - total
+    return zero(claim, [by_term, left], outcome=f"{EXACT}, term by term under the sum, for any n")
 
 
 def dimensionless_groups() -> Derived:
-    r"""Eq. 5, :math:`p = w + \sum_i f_i,\ \alpha_i f_i' + f_i = \eta_i w'`, as one law of order n:
+    r"""Eq. 5: In the frame of the surface d/dt = k V d/ds. Lengths in A, pressures in K A; the roots of the operators are
+    -1/alpha_i and -1/beta_j, with alpha_i = k V tau_i and beta_j = k V lambda_j. A polynomial of degree n is known by its n
+    roots and its value at 0.
 
-    .. math:: \prod_j (1 + \beta_j \partial_s)\,w = \prod_i (1 + \alpha_i \partial_s)\,p
+    .. math:: \prod_{j}\left(1 + \beta_j \frac{d}{ds}\right) w = \prod_{i}\left(1 + \alpha_i \frac{d}{ds}\right) p
     """
-    name = "dimensionless groups"
     speed, time, viscosity = sp.symbols("speed tau eta", positive=True)  # k V, and a branch in seconds
     in_time = viscosity * rate / (1 + time * rate)
     pole, other = 1 + alpha_i * rate, 1 + alpha_k * rate
     checks = [
         zero(
-            name,
             "d/dt = k V d/ds: a branch keeps its form, with alpha_i = k V tau_i and eta_i = k V times that in seconds",
             in_time.subs(rate, speed * rate) - BRANCH.subs({alpha_i: speed * time, eta_i: speed * viscosity}, simultaneous=True),
         ),
         holds(
-            name,
             "times prod (1 + alpha_i d/ds) every branch is a polynomial of degree n: its pole is one of the factors",
             sp.degree(sp.cancel(BRANCH * pole * other), rate) == sp.degree(sp.expand(pole * other), rate),
         ),
-        zero(name, "which is 0 at rest: Q = P (1 + sum) is 1 there", BRANCH.subs(rate, 0)),
+        zero("which is 0 at rest: Q = P (1 + sum) is 1 there", BRANCH.subs(rate, 0)),
         zero(
-            name,
-            "Q vanishes at the n roots -1/beta_j: Q = prod (1 + beta_j d/ds), of degree n",
-            BRANCH.subs(rate, -1 / beta_j) + ENTER,
+            "Q vanishes at the n roots -1/beta_j: Q = prod (1 + beta_j d/ds), of degree n", BRANCH.subs(rate, -1 / beta_j) + ENTER
         ),
     ]
-    return derived(
-        dimensionless_groups,
-        (BRANCH, 1 + beta_j * rate),
-        name=name,
-        statement="In the frame of the surface d/dt = k V d/ds. Lengths in A, pressures in K A; the roots of the operators are "
-        "-1/alpha_i and -1/beta_j, with alpha_i = k V tau_i and beta_j = k V lambda_j. A polynomial of degree n is known by "
-        "its n roots and its value at 0.",
-        latex=r"\prod_{j}\left(1 + \beta_j \frac{d}{ds}\right) w = \prod_{i}\left(1 + \alpha_i \frac{d}{ds}\right) p",
-        checks=checks,
-        paper="Eq. 5",
-    )
+    return derived(dimensionless_groups, (BRANCH, 1 + beta_j * rate), checks)
 
 
 def partial_fractions() -> Derived:
-    r"""Both series of the law:
+    r"""Interlaced times make every branch viscosity and every compliance positive. Nothing cancels: a viscosity is a product of
+    differences, a compliance one over a sum of positive terms.
 
-    .. math:: \frac QP = 1 + \sum_i \frac{\eta_i s}{1 + \alpha_i s},\qquad \frac PQ = J_0 + \sum_j \frac{J_j}{1 + \beta_j s}
+    .. math:: \eta_i = (\beta_i - \alpha_i)\prod_{k \ne i}\frac{\beta_k - \alpha_i}{\alpha_k - \alpha_i},\quad J_j \beta_j =
+        \left(\sum_i \frac{\eta_i}{(\beta_j - \alpha_i)^2}\right)^{-1},\quad J_0 = \prod_i \frac{\alpha_i}{\beta_i}
     """
-    name = "partial fractions"
     slope = sp.diff(BRANCH, rate).subs(rate, -1 / beta_j)
     residue = sp.limit(J_j / (1 + beta_j * rate) * (rate + 1 / beta_j), rate, -1 / beta_j)
     factor = (1 + beta_k * rate) / (1 + alpha_k * rate)
@@ -114,31 +101,23 @@ def partial_fractions() -> Derived:
     above = OTHERS.subs({alpha_k: alpha_i + step_1, beta_k: alpha_i + step_1 + step_2}, simultaneous=True)
     checks = [
         summed(
-            name,
             "P/Q has at -1/beta_j the residue 1/(Q/P)': J_j beta_j = 1/sum_i eta_i/(beta_j - alpha_i)^2",
             residue * slope,
             [(J_j * beta_j, NORMAL)],
             sp.Integer(1),
         ),
         zero(
-            name,
             "at high rates a factor (1 + beta s)/(1 + alpha s) tends to beta/alpha: J_0 = prod alpha_i/beta_i",
             sp.limit(factor, rate, sp.oo) - beta_k / alpha_k,
         ),
-        zero(name, "at rest P/Q = 1: J_0 + sum J_j = 1", factor.subs(rate, 0) - 1),
+        zero("at rest P/Q = 1: J_0 + sum J_j = 1", factor.subs(rate, 0) - 1),
         zero(
-            name,
             "eta_i is a product of differences: the residue of the branch at -1/alpha_i is -eta_i/alpha_i^2",
             of_branch + eta_i / alpha_i**2,
         ),
-        zero(name, "that of its own factor is -(beta_i - alpha_i)/alpha_i^2", own + OWN / alpha_i**2),
-        zero(
-            name,
-            "and every other factor is there (beta_k - alpha_i)/(alpha_k - alpha_i)",
-            factor.subs(rate, -1 / alpha_i) - OTHERS,
-        ),
+        zero("that of its own factor is -(beta_i - alpha_i)/alpha_i^2", own + OWN / alpha_i**2),
+        zero("and every other factor is there (beta_k - alpha_i)/(alpha_k - alpha_i)", factor.subs(rate, -1 / alpha_i) - OTHERS),
         holds(
-            name,
             "interlaced times: every factor is positive, for slower and for faster k; so are eta_i, and J_j, one over a sum of "
             "positive terms",
             sp.factor(below).is_positive
@@ -146,26 +125,16 @@ def partial_fractions() -> Derived:
             and sp.factor(NORM * (beta_j - alpha_i) ** 2).is_positive,
         ),
     ]
-    return derived(
-        partial_fractions,
-        (OWN, OTHERS, NORM),
-        name=name,
-        statement="Interlaced times make every branch viscosity and every compliance positive. Nothing cancels: a viscosity is a "
-        "product of differences, a compliance one over a sum of positive terms.",
-        latex=r"\eta_i = (\beta_i - \alpha_i)\prod_{k \ne i}\frac{\beta_k - \alpha_i}{\alpha_k - \alpha_i},\quad "
-        r"J_j \beta_j = \left(\sum_i \frac{\eta_i}{(\beta_j - \alpha_i)^2}\right)^{-1},\quad "
-        r"J_0 = \prod_i \frac{\alpha_i}{\beta_i}",
-        checks=checks,
-    )
+    return derived(partial_fractions, (OWN, OTHERS, NORM), checks)
 
 
 def states() -> Derived:
-    r"""States of a material point: retardation displacements z_j, overstresses f_i, dashpot displacements e_i.
+    r"""Three sets of n numbers describe the state of a material point. Under a constant pressure the z_j decouple, in contact the
+    f_i; matrices that hold no time, only ratios of times, lead from one to the other.
 
-    .. math:: w = J_0 p + \sum_j z_j,\quad \beta_j z_j' + z_j = J_j p;\qquad
-        p = w + \sum_i f_i,\quad \alpha_i f_i' + f_i = \eta_i w'
+    .. math:: f = -N (z - J p),\quad N_{ij} = \frac{\eta_i}{\beta_j - \alpha_i},\quad z - J p = -M f,\quad M_{ji} =
+        \frac{J_j\beta_j}{\beta_j - \alpha_i},\quad z = G e,\quad G_{ji} = \frac{J_j\eta_i}{\beta_j - \alpha_i}
     """
-    name = "states"
     other = {beta_j: beta_k}
     entering_k = (ENTER.subs(other), sp.Integer(1))
     apart = J_j * beta_j / (beta_j - beta_k)
@@ -174,10 +143,9 @@ def states() -> Derived:
     e_i = w - alpha_i / eta_i * f_i
     pole = (J_j * alpha_i / (beta_j - alpha_i), J_0)  # P/Q, in its partial fractions, vanishes at -1/alpha_i
     checks = [
-        summed(name, "leave enter = 1: on the diagonal", LEAVE * ENTER, [(J_j * beta_j, NORMAL)], sp.Integer(1)),
-        summed(name, "and beside it", LEAVE * ENTER.subs(other), [(apart, entering_k), (-apart, ENTERING)], sp.Integer(0)),
+        summed("leave enter = 1: on the diagonal", LEAVE * ENTER, [(J_j * beta_j, NORMAL)], sp.Integer(1)),
+        summed("and beside it", LEAVE * ENTER.subs(other), [(apart, entering_k), (-apart, ENTERING)], sp.Integer(0)),
         summed(
-            name,
             "z_j = J_j p - sum_i leave_ji f_i obeys beta_j z_j' + z_j = J_j p where alpha_i f_i' + f_i = eta_i w' and "
             "p = w + sum f_i",
             rates.subs(df_i, (eta_i * dw - f_i) / alpha_i),
@@ -185,40 +153,17 @@ def states() -> Derived:
             -J_j * beta_j * dw,
         ),
         summed(
-            name,
             "z = share e, e_i = w - S_i f_i",
             SHARE * e_i,
             [(J_j * w, ENTERING), (J_j, OVERSTRESSED), (-1, (LEAVE * f_i, sp.Symbol("left")))],
             J_j * p - sp.Symbol("left"),
         ),
-        zero(name, "a dashpot follows w: alpha_i e_i' + e_i = w", _dashpot(e_i)),
-        zero(name, "P/Q vanishes at -1/alpha_i: the sum over j of J_j alpha_i/(beta_j - alpha_i) is J_0", at_pole + pole[0]),
-        summed(
-            name,
-            "the columns of leave sum to 1",
-            LEAVE,
-            [(1, (J_j, 1 - J_0)), (1, pole)],
-            sp.Integer(1),
-            over={beta_j, J_j},
-        ),
-        summed(
-            name,
-            "so w = J_0 p + sum z_j, z_j = J_j p - sum_i leave_ji f_i",
-            -f_i,
-            [(-1, OVERSTRESSED)],
-            w - (J_0 + (1 - J_0)) * p,
-        ),
+        zero("a dashpot follows w: alpha_i e_i' + e_i = w", _dashpot(e_i)),
+        zero("P/Q vanishes at -1/alpha_i: the sum over j of J_j alpha_i/(beta_j - alpha_i) is J_0", at_pole + pole[0]),
+        summed("the columns of leave sum to 1", LEAVE, [(1, (J_j, 1 - J_0)), (1, pole)], sp.Integer(1), over={beta_j, J_j}),
+        summed("so w = J_0 p + sum z_j, z_j = J_j p - sum_i leave_ji f_i", -f_i, [(-1, OVERSTRESSED)], w - (J_0 + (1 - J_0)) * p),
     ]
-    return derived(
-        states,
-        (ENTER, LEAVE, SHARE),
-        name=name,
-        statement="Three sets of n numbers describe the state of a material point. Under a constant pressure the z_j "
-        "decouple, in contact the f_i; matrices that hold no time, only ratios of times, lead from one to the other.",
-        latex=r"f = -N (z - J p),\quad N_{ij} = \frac{\eta_i}{\beta_j - \alpha_i},\quad z - J p = -M f,\quad "
-        r"M_{ji} = \frac{J_j\beta_j}{\beta_j - \alpha_i},\quad z = G e,\quad G_{ji} = \frac{J_j\eta_i}{\beta_j - \alpha_i}",
-        checks=checks,
-    )
+    return derived(states, (ENTER, LEAVE, SHARE), checks)
 
 
 def _dashpot(e_i: sp.Expr) -> sp.Expr:

@@ -16,77 +16,119 @@ u_0, u_1 = u.subs(s, s_0), u.subs(s, s_1)
 
 
 def states() -> tuple[Kernel, ...]:
-    r""":math:`w = J_0 p + \sum z_j`, and the other coordinates of the same state."""
+    r""":math:`w = J_0 p + \sum z_j`, and the other coordinates of the same state.
+
+    displacement: Displacement of a material point.
+
+    .. math:: w = J_0 p + \sum_j z_j
+
+    overstress: Overstress of every branch, where w and p belong together.
+
+    .. math:: f = -N (z - J p),\quad N_{ij} = \frac{\eta_i}{\beta_j - \alpha_i}
+
+    dashpots: Dashpot displacements.
+
+    .. math:: e = w - S f
+    """
     lag = z - J * p
     return (
-        kernel(states, stable.DISPLACEMENT, J_0 * p + total(z), "Displacement of a material point.", r"w = J_0 p + \sum_j z_j"),
-        kernel(
-            states,
-            stable.OVERSTRESS,
-            -across(enter, lag),
-            "Overstress of every branch, where w and p belong together.",
-            r"f = -N (z - J p),\quad N_{ij} = \frac{\eta_i}{\beta_j - \alpha_i}",
-        ),
-        kernel(states, stable.DASHPOTS, J_0 * p + total(z) + S * across(enter, lag), "Dashpot displacements.", r"e = w - S f"),
+        kernel(states, stable.DISPLACEMENT, J_0 * p + total(z)),
+        kernel(states, stable.OVERSTRESS, -across(enter, lag)),
+        kernel(states, stable.DASHPOTS, J_0 * p + total(z) + S * across(enter, lag)),
     )
 
 
 def relaxation(flows: ModeFlows) -> tuple[Kernel, ...]:
-    r"""z under a constant pressure: its change, and, for Eq. 11, :math:`\int w\,ds`."""
+    r"""z under a constant pressure: its change, and, for Eq. 11, :math:`\int w\,ds`.
+
+    relaxation_increment: Change of z under a constant pressure.
+
+    .. math:: z_j(s_1) - z_j(s_0)
+
+    relaxation_integral, Eq. 11: Displacement summed over the zone.
+
+    .. math:: \int_{s_0}^{s_1} w\,ds
+    """
     flow = flows.relaxation.value
     after = flow.subs(s, s_1)
     primitive = sp.integrate(sp.expand(flow), s)
     return (
-        kernel(
-            relaxation,
-            stable.RELAXATION_INCREMENT,
-            after - z_0,
-            "Change of z under a constant pressure.",
-            r"z_j(s_1) - z_j(s_0)",
-        ),
+        kernel(relaxation, stable.RELAXATION_INCREMENT, after - z_0),
         kernel(
             relaxation,
             stable.RELAXATION_INTEGRAL,
             J_0 * p * (s_1 - s_0) + total(primitive.subs(s, s_1) - primitive.subs(s, s_0)),
-            "Displacement summed over the zone.",
-            r"\int_{s_0}^{s_1} w\,ds",
-            zero("relaxation_integral", "the antiderivative differentiates to z", sp.diff(primitive, s) - flow, phases=(s_0, s)),
-            paper="Eq. 11",
+            zero("the antiderivative differentiates to z", sp.diff(primitive, s) - flow, phases=(s_0, s)),
         ),
     )
 
 
 def gap(flows: ModeFlows) -> tuple[Kernel, ...]:
-    r""":math:`g = w - u` under a constant pressure."""
+    r""":math:`g = w - u` under a constant pressure.
+
+    gap_after: Gap at s_1 under the constant pressure p since s_0.
+
+    .. math:: g = p - u(s_1) + \sum_j (z_{j,0} - J_j p) e^{-(s_1 - s_0)/\beta_j}
+
+    gap_change: Its change since s_0, for zones too short to change it much.
+
+    .. math:: g(s_1) - g(s_0)
+
+    gap_entry: Constants of gap_event in a zone entered at s_0 with z_0 under the constant pressure p. Those with one
+    value per mode come last: amplitudes, times that can be divided by, rates.
+
+    .. math:: s_0,\quad D - p,\quad z_0 - J p,\quad \beta,\quad (z_0 - J p)/\beta
+
+    gap_event: Gap and its slope at s_1, from the constants of gap_entry. s_1 must not be before s_0.
+
+    .. math:: g = p - u(s_1) + \sum_j (z_{j,0} - J_j p) e^{-(s_1 - s_0)/\beta_j}
+    """
     after = flows.relaxation.value.subs(s, s_1)
     g = J_0 * p + total(after) - u_1
     change = total(after - z_0) - (u_1 - u_0)
     # J_0 = 1 - sum J: what is left of w long after the entry is p.
     level = p + total(after - J * p) - u_1
     slope = total(sp.diff(after, s_1)) - sp.diff(u_1, s_1)
-    latex = r"g = p - u(s_1) + \sum_j (z_{j,0} - J_j p) e^{-(s_1 - s_0)/\beta_j}"
-    events = pair(
-        gap,
-        (stable.GAP_ENTRY, stable.GAP_EVENT),
-        (level, slope),
-        (
-            "Constants of gap_event in a zone entered at s_0 with z_0 under the constant pressure p. Those with one value per "
-            "mode come last: amplitudes, times that can be divided by, rates.",
-            "Gap and its slope at s_1, from the constants of gap_entry. s_1 must not be before s_0.",
-        ),
-        (r"s_0,\quad D - p,\quad z_0 - J p,\quad \beta,\quad (z_0 - J p)/\beta", latex),
-    )
     return (
-        kernel(gap, stable.GAP_AFTER, g, "Gap at s_1 under the constant pressure p since s_0.", latex),
-        kernel(
-            gap, stable.GAP_CHANGE, change, "Its change since s_0, for zones too short to change it much.", r"g(s_1) - g(s_0)"
-        ),
-        *events,
+        kernel(gap, stable.GAP_AFTER, g),
+        kernel(gap, stable.GAP_CHANGE, change),
+        *pair(gap, (stable.GAP_ENTRY, stable.GAP_EVENT), (level, slope)),
     )
 
 
 def contact(flows: ModeFlows) -> tuple[Kernel, ...]:
-    r"""Overstress and pressure in contact, the change of z, and, for Eq. 11, the work :math:`\int p\,u'\,ds`."""
+    r"""Overstress and pressure in contact, the change of z, and, for Eq. 11, the work :math:`\int p\,u'\,ds`.
+
+    overstress_after: Overstress of every branch in contact, when it was f_0 at s_0.
+
+    .. math:: f_i(s_1) = f_{sat,i}(s_1) + (f_{i,0} - f_{sat,i}(s_0)) e^{-(s_1 - s_0)/\alpha_i}
+
+    contact_pressure: Contact pressure.
+
+    .. math:: p = u + \sum_i f_i
+
+    excess_change: Change of the contact pressure since s_0.
+
+    .. math:: p(s_1) - p(s_0)
+
+    contact_increment: Change of the retardation displacements over contact: what the dashpots creep, shared out.
+
+    .. math:: \Delta z = G\,\Delta e,\quad \eta_i \Delta e_i = \int_{s_0}^{s_1} f_i\,ds
+
+    contact_work, Eq. 11: Work of the contact pressure on the rigid profile.
+
+    .. math:: \int_{s_0}^{s_1} p\,u'\,ds
+
+    excess_entry: Constants of excess_event in a contact entered at s_0 with the overstresses f_0.
+
+    .. math:: s_0,\quad D + p_0,\quad f_0,\quad \frac{\eta}{1 + \alpha^2},\quad \alpha,\quad \alpha,\quad \frac{f_0 -
+        f_{sat}(s_0)}{\alpha}
+
+    excess_event: Pressure above -p_0 in contact and its slope at s_1, from the constants of excess_entry. s_1 must not be before
+    s_0.
+
+    .. math:: q = p_0 + u(s_1) + \sum_i f_i(s_1)
+    """
     flow = flows.contact.value
     after = flow.subs(s, s_1)
     lagging = sp.integrate(sp.expand(flow), s)
@@ -96,60 +138,50 @@ def contact(flows: ModeFlows) -> tuple[Kernel, ...]:
     own = sp.integrate(sp.expand(u * sp.diff(u, s)), s)
     excess = p_0 + u_1 + total(after)
     slope = sp.diff(u_1, s_1) + total(sp.diff(after, s_1))
-    events = pair(
-        contact,
-        (stable.EXCESS_ENTRY, stable.EXCESS_EVENT),
-        (excess, slope),
-        (
-            "Constants of excess_event in a contact entered at s_0 with the overstresses f_0.",
-            "Pressure above -p_0 in contact and its slope at s_1, from the constants of excess_entry. s_1 must not be "
-            "before s_0.",
-        ),
-        (
-            r"s_0,\quad D + p_0,\quad f_0,\quad \frac{\eta}{1 + \alpha^2},\quad \alpha,\quad \alpha,\quad "
-            r"\frac{f_0 - f_{sat}(s_0)}{\alpha}",
-            r"q = p_0 + u(s_1) + \sum_i f_i(s_1)",
-        ),
-    )
     return (
-        kernel(
-            contact,
-            stable.OVERSTRESS_AFTER,
-            after,
-            "Overstress of every branch in contact, when it was f_0 at s_0.",
-            r"f_i(s_1) = f_{sat,i}(s_1) + (f_{i,0} - f_{sat,i}(s_0)) e^{-(s_1 - s_0)/\alpha_i}",
-        ),
-        kernel(contact, stable.CONTACT_PRESSURE, u + total(f), "Contact pressure.", r"p = u + \sum_i f_i"),
-        kernel(
-            contact,
-            stable.EXCESS_CHANGE,
-            u_1 - u_0 + total(after - f_0),
-            "Change of the contact pressure since s_0.",
-            r"p(s_1) - p(s_0)",
-        ),
+        kernel(contact, stable.OVERSTRESS_AFTER, after),
+        kernel(contact, stable.CONTACT_PRESSURE, u + total(f)),
+        kernel(contact, stable.EXCESS_CHANGE, u_1 - u_0 + total(after - f_0)),
         kernel(
             contact,
             stable.CONTACT_INCREMENT,
             across(share, creep),
-            "Change of the retardation displacements over contact: what the dashpots creep, shared out.",
-            r"\Delta z = G\,\Delta e,\quad \eta_i \Delta e_i = \int_{s_0}^{s_1} f_i\,ds",
-            zero("contact_increment", "the antiderivative differentiates to f", sp.diff(lagging, s) - flow, phases=(s_0, s)),
+            zero("the antiderivative differentiates to f", sp.diff(lagging, s) - flow, phases=(s_0, s)),
         ),
         kernel(
             contact,
             stable.CONTACT_WORK,
             own.subs(s, s_1) - own.subs(s, s_0) + total(work.subs(s, s_1) - work.subs(s, s_0)),
-            "Work of the contact pressure on the rigid profile.",
-            r"\int_{s_0}^{s_1} p\,u'\,ds",
-            zero("contact_work", "the antiderivative differentiates to f u'", sp.diff(work, s) - rate, phases=(s_0, s)),
-            paper="Eq. 11",
+            zero("the antiderivative differentiates to f u'", sp.diff(work, s) - rate, phases=(s_0, s)),
         ),
-        *events,
+        *pair(contact, (stable.EXCESS_ENTRY, stable.EXCESS_EVENT), (excess, slope)),
     )
 
 
 def passages(flows: ModeFlows) -> tuple[Kernel, ...]:
-    """A zone as an affine map of the state, and with all its derivatives: what the edge equations of a regime are made of."""
+    r"""A zone as an affine map of the state, and with all its derivatives: what the edge equations of a regime are made of.
+
+    relaxation_map: A gap zone as an affine map of the state: z(s_1) - z_0 = drive - forget z_0.
+
+    .. math:: \Delta z = c - R z_0
+
+    contact_map: A contact zone, entered at the pressure p_in, as an affine map of the state.
+
+    .. math:: \Delta z = c - R z_0
+
+    relaxation_passage: Passage through a gap zone and its derivatives. In this order: change of z; what of z_0 is forgotten, as a
+    matrix; its derivatives by s_0 and by s_1; change of the gap; its derivatives by z_0, s_0, s_1.
+
+    .. math:: \Delta z,\quad R,\quad \partial_{s_0}\Delta z,\quad \partial_{s_1}\Delta z,\quad \Delta g,\quad
+        \partial_{z_0} \Delta g,\quad \partial_{s_0} \Delta g,\quad \partial_{s_1} \Delta g
+
+    contact_passage: Passage through a contact zone, entered at the pressure p_in, and its derivatives. In this order:
+    change of z; what of z_0 is forgotten, as a matrix; its derivatives by s_0 and by s_1; change of the pressure; its
+    derivatives by z_0, s_0, s_1.
+
+    .. math:: \Delta z,\quad R,\quad \partial_{s_0}\Delta z,\quad \partial_{s_1}\Delta z,\quad \Delta p,\quad
+        \partial_{z_0} \Delta p,\quad \partial_{s_0} \Delta p,\quad \partial_{s_1} \Delta p
+    """
     gap_flow = flows.relaxation.value.subs(s, s_1)
     contact_flow = flows.contact.value
     lagging = sp.integrate(sp.expand(contact_flow), s)
@@ -181,39 +213,11 @@ def passages(flows: ModeFlows) -> tuple[Kernel, ...]:
         -sp.diff(u_0, s_0) + total(sp.diff(pressed, s_0).subs(entered)),
         sp.diff(u_1, s_1) + total(sp.diff(pressed, s_1).subs(entered)),
     )
-    meaning = "In this order: change of z; what of z_0 is forgotten, as a matrix; its derivatives by s_0 and by s_1; change of "
     return (
+        kernel(passages, stable.RELAXATION_MAP, (-diagonal(sp.diff(change_z, z_0)), change_z.subs(zero_state))),
         kernel(
-            passages,
-            stable.RELAXATION_MAP,
-            (-diagonal(sp.diff(change_z, z_0)), change_z.subs(zero_state)),
-            "A gap zone as an affine map of the state: z(s_1) - z_0 = drive - forget z_0.",
-            r"\Delta z = c - R z_0",
+            passages, stable.CONTACT_MAP, (sandwich(share, by_f, enter), across(share, creep.subs(f_0, across(enter, J) * p_in)))
         ),
-        kernel(
-            passages,
-            stable.CONTACT_MAP,
-            (sandwich(share, by_f, enter), across(share, creep.subs(f_0, across(enter, J) * p_in))),
-            "A contact zone, entered at the pressure p_in, as an affine map of the state.",
-            r"\Delta z = c - R z_0",
-        ),
-        kernel(
-            passages,
-            stable.RELAXATION_PASSAGE,
-            relaxation_terms,
-            f"Passage through a gap zone and its derivatives. {meaning}the gap; its derivatives by z_0, s_0, s_1.",
-            r"\Delta z,\quad R,\quad \partial_{s_0}\Delta z,\quad \partial_{s_1}\Delta z,\quad \Delta g,\quad "
-            r"\partial_{z_0} \Delta g,\quad \partial_{s_0} \Delta g,\quad "
-            r"\partial_{s_1} \Delta g",
-        ),
-        kernel(
-            passages,
-            stable.CONTACT_PASSAGE,
-            contact_terms,
-            f"Passage through a contact zone, entered at the pressure p_in, and its derivatives. {meaning}the pressure; its "
-            "derivatives by z_0, s_0, s_1.",
-            r"\Delta z,\quad R,\quad \partial_{s_0}\Delta z,\quad \partial_{s_1}\Delta z,\quad \Delta p,\quad "
-            r"\partial_{z_0} \Delta p,\quad \partial_{s_0} \Delta p,\quad "
-            r"\partial_{s_1} \Delta p",
-        ),
+        kernel(passages, stable.RELAXATION_PASSAGE, relaxation_terms),
+        kernel(passages, stable.CONTACT_PASSAGE, contact_terms),
     )

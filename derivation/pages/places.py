@@ -16,23 +16,21 @@ from pathlib import Path
 
 from ..check import DerivationError, Derived
 
-CARRIED = (
-    ("level/lower_levels.py", "_contributions", "total[saturated, :-1] +="),
-    ("level/lower_levels.py", "_attempt", "best = width"),
-)
 RUNTIME: dict[str, tuple[tuple[str, str, str], ...]] = {
     "strip.adhesion_law": (("inputs/adhesion.py", "Dugdale.__init__", "p * delta"),),
     "strip.dimensionless_groups": (("orbit/si.py", "dimensionless", "alpha, beta ="),),
     "jumps.closures": (("orbit/groups.py", "adhesive_cycle", "jump ="),),
-    "saturated.threshold": (("orbit/closed_form_exclusion.py", "saturates", "return s.D - 1 + s.p_0 >="),),
+    "saturated.saturation_threshold": (("orbit/closed_form_exclusion.py", "saturates", "return s.D - 1 + s.p_0 >="),),
     "multilevel.means_over_a_level": (
         ("level/means.py", "level_means", "return average("),
         ("level/means.py", "equal_strips", "mean = values.mean"),
     ),
     "load.contact_area": (("orbit/solved.py", "Record.orbits", "contact = np.clip("),),
     "multilevel.local_shear": (("level/strips.py", "_values", "np.concatenate((strips.values, carried)"),),
-    "multilevel.carried_friction": CARRIED,
-    "modes.levels.carried_friction": CARRIED,
+    "multilevel.carried_friction": (
+        ("level/lower_levels.py", "_contributions", "total[saturated, :-1] +="),
+        ("level/lower_levels.py", "_attempt", "best = width"),
+    ),
     "multilevel.friction_coefficient": (("solve.py", "_result", "mu = np.divide"),),
     "half_space.foundation_of_a_level": (("inputs/half_space.py", "_foundation", "per_modulus = SHAPE"),),
     "stack.least_pressure": (("multilevel.py", "saturated", "needed = "),),
@@ -51,7 +49,7 @@ ENTERS: dict[str, tuple[str, ...]] = {
     "multilevel.local_stress": ("local shear", "integrals over contact"),
     "energy.power_balance": ("friction balance acaf",),
     "half_space.stiffness_under_a_wave": ("foundation that stands for a half-space",),
-    "stability.shift_of_events": ("onset_slope_acaf", "onset_slope_af"),
+    "stability.shift_of_an_event": ("onset_slope_acaf", "onset_slope_af"),
 }
 MEASURED = {"multilevel.friction_coefficient": "two_levels"}  # a table of the measured figures that shows the runtime at it
 

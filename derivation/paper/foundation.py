@@ -12,7 +12,7 @@ from ..reader import Statement, rows, statements
 from ..strip import Strip, traction
 from ..symbols import delta_0, p_0, x
 from .printed import PRINTED
-from .record import Comparison, compared, read_back, step
+from .record import Comparison, compared, read_back
 from .words import MATERIAL
 
 opening = sp.Symbol("delta", positive=True)
@@ -29,7 +29,7 @@ def law(foundation: Foundation) -> Comparison:
     return compared(
         1,
         (foundation.operators.latex,),
-        [zero(step(1), "as printed it is the law of the model, w + T_eps w_t = (p + T_sigma p_t)/K", left.doit())],
+        [zero("as printed it is the law of the model, w + T_eps w_t = (p + T_sigma p_t)/K", left.doit())],
         ("foundation law", "relaxed stiffness", "instantaneous compliance"),
     )
 
@@ -43,7 +43,7 @@ def moving(strip: Strip) -> Comparison:
     return compared(
         5,
         (strip.moving_frame.latex,),
-        [zero(step(5), "as printed it is Eq. 1 for fields that move with the surface", left.doit())],
+        [zero("as printed it is Eq. 1 for fields that move with the surface", left.doit())],
         ("moving frame", "contact flow", "relaxation flow"),
     )
 
@@ -63,7 +63,6 @@ def adhesion() -> tuple[Comparison, Comparison]:
             (r"p = -p_a(g) = " + sp.latex(traction(sp.Symbol("g", positive=True))),),
             [
                 zero(
-                    step(2),
                     "the pressure in a gap is -p_a of the print, within delta_0, at it and beyond",
                     [_at(printed, gap) + _at(traction(opening), gap) for gap in gaps],
                 )
@@ -74,12 +73,8 @@ def adhesion() -> tuple[Comparison, Comparison]:
             3,
             (r"\gamma = p_0 \delta_0",),
             [
-                read_back(3, (r"\gamma = p_0 \delta_0",), MATERIAL | {r"\gamma": work}),
-                zero(
-                    step(3),
-                    "both sides of the print, and the derived work of separation, are one",
-                    [work - first, product - first],
-                ),
+                read_back((r"\gamma = p_0 \delta_0",), MATERIAL | {r"\gamma": work}),
+                zero("both sides of the print, and the derived work of separation, are one", [work - first, product - first]),
             ],
             ("adhesion law",),
         ),

@@ -7,13 +7,13 @@ from typing import Any
 
 import sympy as sp
 
-from ..check import Check, zero
+from ..check import Claim, zero
 from ..multilevel import yielding
 from ..reader import statements
 from ..surface import WAVE, mean_over_cell
 from ..symbols import V, k, l, x, y
 from .printed import PRINTED
-from .record import Comparison, compared, read_back, refuted, step
+from .record import Comparison, compared, read_back, refuted
 from .words import CELL, field, level, strips, surface
 
 
@@ -23,10 +23,8 @@ def load(pressure: sp.Expr) -> Comparison:
     (printed,) = statements(PRINTED[7], names)
     derived = (r"\bar p = \frac{1}{l^2} \iint_{\Omega^c \cup \Omega^a} p(x, y)\,dx\,dy",)
     checks = [
-        zero(step(7), "as printed, with Eq. 15 for p, it is the mean over x and y", printed.sides[0] - printed.sides[1]),
-        read_back(
-            7, derived, CELL | {r"\barp": names[r"\barp_i"], "p": field(pressure), r"iint \Omega^c\cup\Omega^a": _integral}
-        ),
+        zero("as printed, with Eq. 15 for p, it is the mean over x and y", printed.sides[0] - printed.sides[1]),
+        read_back(derived, CELL | {r"\barp": names[r"\barp_i"], "p": field(pressure), r"iint \Omega^c\cup\Omega^a": _integral}),
     ]
     return compared(7, derived, checks, ("equilibrium",))
 
@@ -34,13 +32,11 @@ def load(pressure: sp.Expr) -> Comparison:
 def area() -> Comparison:
     r"""Eq. 9."""
     length = sp.Function("length")
-    checks: list[Check] = []
+    checks: list[Claim] = []
     for number in (1, 3):
         names = level("i", A_i=l**2, **{"a_i^j": l / 3, "b_i^j": 2 * l / 3}) | strips(number)
         (printed,) = statements(PRINTED[9], names)
-        checks.append(
-            zero(step(9), f"N = {number}: strips all in contact, a + b = l, make the whole cell", printed.sides[1] - l**2)
-        )
+        checks.append(zero(f"N = {number}: strips all in contact, a + b = l, make the whole cell", printed.sides[1] - l**2))
     y_j = sp.Symbol("y_j", real=True)
     names = level("i", A_i=l**2, **{"a_i^j": length(y_j), "b_i^j": sp.Integer(0)}) | strips(2)
     (printed,) = statements(PRINTED[9], names)
@@ -49,14 +45,13 @@ def area() -> Comparison:
     whole = sum(part * l / 4 for part in both)
     checks.append(
         zero(
-            step(9),
             "N = 2: as printed it is the area of all four strips of the cell, the same at y and -y",
             printed.sides[1] - whole.subs(even),
         )
     )
     derived = (r"A = 2 \Delta \sum_{j=1}^{N} (a_j + b_j),\quad l = 2 N \Delta",)
     own = CELL | strips(2) | {"A": whole.subs(even), "a_j": length(y_j) / 3, "b_j": 2 * length(y_j) / 3}
-    checks.append(read_back(9, derived, own))
+    checks.append(read_back(derived, own))
     return compared(9, derived, checks, ("contact area",))
 
 
@@ -69,8 +64,8 @@ def stress(derived_stress: sp.Expr) -> Comparison:
     (printed,) = statements(PRINTED[10], names)
     power = (pressure * yielding() / V).subs(WAVE).subs(y, y_j)
     checks = [
-        zero(step(10), "as printed it is the stress of the derivation", (printed.sides[0] - printed.sides[1]).doit()),
-        zero(step(10), "and the power p w_t of the pressure over V", (printed.sides[1] - power).doit()),
+        zero("as printed it is the stress of the derivation", (printed.sides[0] - printed.sides[1]).doit()),
+        zero("and the power p w_t of the pressure over V", (printed.sides[1] - power).doit()),
     ]
     return compared(10, (r"\tau(x, y) = " + sp.latex(tau.subs(y_j, y)),), checks, ("local stress",))
 
@@ -78,21 +73,20 @@ def stress(derived_stress: sp.Expr) -> Comparison:
 def means(pressure: sp.Expr) -> Comparison:
     r"""Eq. 11, as sums over N strips. ``pressure``: Eq. 15 in SI."""
     shear = pressure * sp.diff(surface(), x)
-    checks: list[Check] = []
+    checks: list[Claim] = []
     for number in (2, 3):
         for mean, (printed, exact) in zip(("p", "tau"), _sums(pressure, shear, strips(number)), strict=True):
             claim = (
                 f"N = {number}, strips at their middles: the printed sum for {mean} is the mean over the cell, in "
                 f"complete contact"
             )
-            checks.append(zero(step(11), claim, printed - exact))
+            checks.append(zero(claim, printed - exact))
     friction = [_sums(pressure, shear, _edges(number))[1] for number in (2, 3)]
     printed, exact = friction[0]
-    checks.append(refuted(step(11), "so it is for strips at their lower edges, y_1 = 0, which the print does not exclude",
-                          printed - exact))  # fmt: skip
+    checks.append(refuted("so it is for strips at their lower edges, y_1 = 0, which the print does not exclude", printed - exact))
     claim = "their friction is too large by 4/(3 N): 1.3 % with the paper's N = 100"
     excess = [printed - exact * (1 + sp.Rational(4, 3 * n)) for n, (printed, exact) in zip((2, 3), friction, strict=True)]
-    checks.append(zero(step(11), claim, excess))
+    checks.append(zero(claim, excess))
     derived = (
         r"\bar p = \frac{2 \Delta}{l^2} \sum_{j=1}^{N} \int_{-l/2}^{l/2} p(x, y_j)\,dx \to \frac{1}{l^2} \iint p(x, y)\,dx\,dy",
         r"\bar\tau = \frac{2 \Delta}{l^2} \sum_{j=1}^{N} \int_{-l/2}^{l/2} \tau(x, y_j)\,dx "
@@ -100,7 +94,7 @@ def means(pressure: sp.Expr) -> Comparison:
     )
     fields = {"p": field(pressure), r"\tau": field(shear), "iint": _integral}
     own = {r"\barp": over_cell(pressure) / l**2, r"\bar\tau": over_cell(shear) / l**2}
-    checks.append(read_back(11, derived, CELL | strips(2) | fields | own))
+    checks.append(read_back(derived, CELL | strips(2) | fields | own))
     return compared(
         11,
         derived,

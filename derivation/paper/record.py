@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from ..check import CORRECTED, REPRODUCED, Check, DerivationError, zero
+from ..check import CORRECTED, EXACT, REPRODUCED, Check, Claim, DerivationError, zero
 from ..exact import is_zero
 from ..reader import Unreadable, statements
 from .printed import PRINTED, SUBJECTS
@@ -30,47 +30,45 @@ class Comparison:
 
 
 def compared(
-    number: int,
-    derived: tuple[str, ...],
-    checks: list[Check],
-    steps: tuple[str, ...],
-    correction: str = "",
+    number: int, derived: tuple[str, ...], claims: list[Claim], steps: tuple[str, ...], correction: str = ""
 ) -> Comparison:
-    """Assemble a comparison; an equation with a correction must show what is wrong with the printed form."""
-    name, status = step(number), CORRECTED if correction else REPRODUCED
+    """Verify the claims of a comparison; one with a correction must show what is wrong with the printed form."""
+    name, status = f"print of Eq. {number}", CORRECTED if correction else REPRODUCED
+    checks = tuple(claim.verified(name) for claim in claims)
     if not checks:
         raise DerivationError(name, "has no check")
     if correction and not any(check.outcome == FALSE for check in checks):
         raise DerivationError(name, "a correction is needed because a claim of the printed form is refuted, and says which")
-    return Comparison(number, SUBJECTS[number], PRINTED[number], derived, tuple(checks), status, correction, steps)
+    return Comparison(number, SUBJECTS[number], PRINTED[number], derived, checks, status, correction, steps)
 
 
 FALSE = "not so"
 
 
-def refuted(name: str, claim: str, residual: Any) -> Check:
-    """Verify that a claim of the print does not hold: its residual does not vanish identically."""
-    if is_zero(sp.sympify(residual)):
-        raise DerivationError(name, f"the print is wrong in this: {claim}")
-    return Check(claim, FALSE)
+def refuted(claim: str, residual: Any) -> Claim:
+    """The claim of the print that does not hold: its residual does not vanish identically."""
+
+    def verify(step: str) -> None:
+        if is_zero(sp.sympify(residual)):
+            raise DerivationError(step, f"the print is wrong in this: {claim}")
+
+    return Claim(claim, FALSE, verify)
 
 
-def read_back(number: int, derived: tuple[str, ...], names: Mapping[str, Any]) -> Check:
-    """Verify that every derived line, typed as it is, reads as equations that hold with what ``names`` stands for."""
+def read_back(derived: tuple[str, ...], names: Mapping[str, Any]) -> Claim:
+    """The claim that every derived line, typed as it is, reads as equations that hold with what ``names`` stands for."""
     claim = "the derived form, read back, holds with what was derived"
-    for line in derived:
-        try:
-            read = statements(re.sub(r"\\quad\\text\{[^}]*\}", "", line), names)
-        except Unreadable as problem:
-            raise DerivationError(step(number), f"the derived form can be read: {problem}") from problem
-        for statement in read:
-            first, *others = (sp.sympify(side).doit() for side in statement.sides)
-            if not others:
-                raise DerivationError(step(number), f"the derived form {line!r} is an equation")
-            zero(step(number), claim, [first - other for other in others])
-    return Check(claim, "exact zero")
 
+    def verify(step: str) -> None:
+        for line in derived:
+            try:
+                read = statements(re.sub(r"\\quad\\text\{[^}]*\}", "", line), names)
+            except Unreadable as problem:
+                raise DerivationError(step, f"the derived form can be read: {problem}") from problem
+            for statement in read:
+                first, *others = (sp.sympify(side).doit() for side in statement.sides)
+                if not others:
+                    raise DerivationError(step, f"the derived form {line!r} is an equation")
+                zero(claim, [first - other for other in others]).verified(step)
 
-def step(number: int) -> str:
-    """The name under which a comparison fails."""
-    return f"print of Eq. {number}"
+    return Claim(claim, EXACT, verify)

@@ -14,7 +14,7 @@ from ..strip import Strip
 from ..symbols import D_level, K, T_sigma, V, h, l, p_nominal, x, y
 from .level import over_cell
 from .printed import PRINTED
-from .record import Comparison, compared, read_back, refuted, step
+from .record import Comparison, compared, read_back, refuted
 from .words import CELL, field, level, strips, surface, y_j
 
 law = sp.Function("tau_M")
@@ -33,10 +33,10 @@ def shear(derived_shear: sp.Expr) -> Comparison:
     )
     own = CELL | {"f": surface(x, y_j), "p": pressure, r"\tau_M": law}
     checks = [
-        zero(step(12), "in contact it is, as printed, the stress of the derivation", here - ours),
-        read_back(12, derived[:1], own | {r"\tau_M-1": ours}),
-        read_back(12, derived[1:], own | {r"\tau_M-1": derived_shear.subs({slope_x: sp.diff(surface(x, y_j), x), tau_below: 0})}),
-        refuted(step(12), NOTHING, here.subs(pressure, 0)),
+        zero("in contact it is, as printed, the stress of the derivation", here - ours),
+        read_back(derived[:1], own | {r"\tau_M-1": ours}),
+        read_back(derived[1:], own | {r"\tau_M-1": derived_shear.subs({slope_x: sp.diff(surface(x, y_j), x), tau_below: 0})}),
+        refuted(NOTHING, here.subs(pressure, 0)),
     ]
     return compared(12, derived, checks, ("local shear",), CONTACT_ALONE)
 
@@ -54,13 +54,9 @@ def carried(complete: sp.Expr, one_level: sp.Expr) -> Comparison:
     cell = lambda body, *variables: over_cell(body.doit())  # noqa: E731
     own = {"f": surface(), "p": complete, r"\tau_M": lambda local: one_level.subs(lower), "iint": cell, r"iint \Omega^c": cell}
     checks = [
-        read_back(13, derived, CELL | own | {r"\bar\tau_M-1": both}),
-        zero(
-            step(13),
-            "in complete contact it is, as printed, the level's own tau_sat and the law below",
-            full.sides[1] - both,
-        ),
-        refuted(step(13), NOTHING, nothing.sides[1]),
+        read_back(derived, CELL | own | {r"\bar\tau_M-1": both}),
+        zero("in complete contact it is, as printed, the level's own tau_sat and the law below", full.sides[1] - both),
+        refuted(NOTHING, nothing.sides[1]),
     ]
     return compared(13, derived, checks, ("carried friction",), CONTACT_ALONE)
 
@@ -76,10 +72,10 @@ def coefficient(complete: sp.Expr, one_level: sp.Expr) -> Comparison:
     both = (one_level + one_level.subs(lower)) / load
     derived = (r"\mu = \frac{\bar\tau_1}{\bar p_1}\quad\text{with Eq. 13 over the contact}",)
     checks = [
-        read_back(14, derived, {r"\mu": both, r"\bar\tau_1": one_level + one_level.subs(lower), r"\barp_1": load}),
-        zero(step(14), "its second side is tau_1/p_1", full.sides[1] - tau_1 / load),
-        zero(step(14), "two levels in complete contact: as printed it is Eq. 16, corrected", full.sides[2] - both),
-        refuted(step(14), NOTHING, nothing.sides[2]),
+        read_back(derived, {r"\mu": both, r"\bar\tau_1": one_level + one_level.subs(lower), r"\barp_1": load}),
+        zero("its second side is tau_1/p_1", full.sides[1] - tau_1 / load),
+        zero("two levels in complete contact: as printed it is Eq. 16, corrected", full.sides[2] - both),
+        refuted(NOTHING, nothing.sides[2]),
     ]
     return compared(14, derived, checks, ("friction coefficient",), CONTACT_ALONE)
 
@@ -89,13 +85,9 @@ def complete_contact(strip: Strip, complete: sp.Expr) -> Comparison:
     (statement,) = statements(joined(PRINTED[15]), level("i", p_i=lambda *place: sp.Symbol("p"), D=D_level))
     printed = statement.sides[1].subs(y_j, y)
     checks = [
-        zero(step(15), "as printed it satisfies Eq. 5 with w = D - f", strip.misses(D_level - surface(), printed)),
-        refuted(
-            step(15),
-            "as printed it satisfies Eq. 5 with w = f + D, the print of Eq. 6",
-            strip.misses(surface() + D_level, printed),
-        ),
-        zero(step(15), "and it is the derived field, in SI", printed - complete),
+        zero("as printed it satisfies Eq. 5 with w = D - f", strip.misses(D_level - surface(), printed)),
+        refuted("as printed it satisfies Eq. 5 with w = f + D, the print of Eq. 6", strip.misses(surface() + D_level, printed)),
+        zero("and it is the derived field, in SI", printed - complete),
     ]
     return compared(
         15,
@@ -114,7 +106,7 @@ def _arranged(complete: sp.Expr) -> sp.Expr:
     parts = [sp.factor(turned.diff(each) * below) for each in (cosine, sine)]
     rest = sp.factor(turned.subs({cosine: 0, sine: 0}))
     arranged = rest + (parts[0] * sp.cos(2 * sp.pi * x / l) + parts[1] * sp.sin(2 * sp.pi * x / l)) / below
-    zero(step(15), "the derived field, arranged", arranged - wave)
+    zero("the derived field, arranged", arranged - wave).verified("print of Eq. 15")
     return arranged
 
 
@@ -129,11 +121,11 @@ def all_complete(one_level: sp.Expr) -> Comparison:
     other = {h: unit * h, l: unit * l, V: unit * V, K: K / unit}  # lengths in a unit smaller by lambda
     indexed = {symbol: sp.Symbol(f"{symbol}_i", positive=True) for symbol in (h, l)}
     checks = [
-        refuted(step(16), "a printed term is what Eq. 15 gives in Eq. 10 and 11", printed - true),
-        zero(step(16), "it is that times 16/(3 h_i): pi^2 for 3 pi^2/16, and h_i for its square", printed / true - 16 / (3 * h)),
-        refuted(step(16), "a printed term is a number, whatever the unit of "
+        refuted("a printed term is what Eq. 15 gives in Eq. 10 and 11", printed - true),
+        zero("it is that times 16/(3 h_i): pi^2 for 3 pi^2/16, and h_i for its square", printed / true - 16 / (3 * h)),
+        refuted("a printed term is a number, whatever the unit of "
         "length", printed.subs(other, simultaneous=True) - printed),
-        zero(step(16), "the derived term is", true.subs(other, simultaneous=True) - true),
+        zero("the derived term is", true.subs(other, simultaneous=True) - true),
     ]  # fmt: skip
     derived = (r"\mu = \sum_{i=1}^{M} " + sp.latex(sp.factor(true.subs(indexed))),)
     steps = (

@@ -13,7 +13,7 @@ from ..sequences import ADHESION, FREE, Span
 from ..surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE
 from ..symbols import D_level, h, l, p_0, s, x, y
 from .printed import PRINTED
-from .record import Comparison, compared, read_back, refuted, step
+from .record import Comparison, compared, read_back, refuted
 from .words import CELL, MATERIAL, level, surface, y_j
 
 
@@ -22,9 +22,8 @@ def shape() -> Comparison:
     (printed,) = statements(PRINTED[4], level("i"))
     stated = printed.sides[1]
     checks = [
-        zero(step(4), "as printed it is the surface of the derivation", stated - surface()),
+        zero("as printed it is the surface of the derivation", stated - surface()),
         zero(
-            step(4),
             "it stands back by nothing at the crest, by h in the valley",
             [stated.subs({x: 0, y: 0}), stated.subs({x: l / 2, y: 0}) - h],
         ),
@@ -37,13 +36,9 @@ def penetration() -> Comparison:
     names = level("i", **{"D_i^j": _crest_of_the_strip()})
     (printed,) = statements(PRINTED[8], names)
     checks = [
-        zero(step(8), "as printed it is D - f at x = 0 of the strip, by Eq. 4 as printed", printed.sides[1] - printed.sides[0]),
-        zero(step(8), "and the D_j of the derivation", printed.sides[1] - PENETRATION.subs(WAVE).subs(y, y_j)),
-        refuted(
-            step(8),
-            "it is f + D at x = 0, as Eq. 6 would have it",
-            printed.sides[1] - surface(sp.Integer(0), y_j) - D_level,
-        ),
+        zero("as printed it is D - f at x = 0 of the strip, by Eq. 4 as printed", printed.sides[1] - printed.sides[0]),
+        zero("and the D_j of the derivation", printed.sides[1] - PENETRATION.subs(WAVE).subs(y, y_j)),
+        refuted("it is f + D at x = 0, as Eq. 6 would have it", printed.sides[1] - surface(sp.Integer(0), y_j) - D_level),
     ]
     return compared(
         8,
@@ -74,14 +69,10 @@ def conditions(derived_gap: sp.Expr) -> Comparison:
     )
     height = {"w": (AMPLITUDE * derived_w).subs(WAVE), "D": D_level, "f": surface(), "h": h}
     checks = [
-        read_back(6, derived[:1], MATERIAL | CELL | height),
-        refuted(step(6), "in contact w = f + D, as printed, closes the gap", printed - (AMPLITUDE * derived_w).subs(WAVE)),
-        zero(
-            step(6),
-            "with the other sign of f it does: w = D - f",
-            (printed - 2 * surface()) - (AMPLITUDE * derived_w).subs(WAVE),
-        ),
-        zero(step(6), "in adhesion p = -p_0, as printed", [adhesion.sides[1] - loads[0], loads[0] + p_0]),
-        zero(step(6), "outside both p = 0, as printed", outside.sides[1] - loads[1]),
+        read_back(derived[:1], MATERIAL | CELL | height),
+        refuted("in contact w = f + D, as printed, closes the gap", printed - (AMPLITUDE * derived_w).subs(WAVE)),
+        zero("with the other sign of f it does: w = D - f", (printed - 2 * surface()) - (AMPLITUDE * derived_w).subs(WAVE)),
+        zero("in adhesion p = -p_0, as printed", [adhesion.sides[1] - loads[0], loads[0] + p_0]),
+        zero("outside both p = 0, as printed", outside.sides[1] - loads[1]),
     ]
     return compared(6, derived, checks, ("zone conditions", "strip profile", "strip problem"), SIGN_OF_6)
