@@ -10,12 +10,14 @@ A model given by its Prony series, with any number of relaxation times, goes thr
 
 from .check import Check, DerivationError, Derived
 from .derive import derive
-from .drift import CertificateError, Drift, check, generated_folder, regenerate, stored_bounds
+from .drift import Drift, check
+from .folder import generated_folder, stored_bounds
 from .model import Model, Parameter, Roots, Series
 from .model_file import load_model
 from .models import GENERALISED, KELVIN_VOIGT, MODELS, STANDARD_LINEAR_SOLID, operator_model, prony_model
 from .outcome import Derivation
 from .pages.publish import AuditError, audit
+from .regenerate import CertificateError, regenerate
 
 __all__ = [
     "GENERALISED",

@@ -13,8 +13,8 @@ from .flows import Flows
 from .functions import Formula, either, loss_mean, written_out
 from .kernel import Kernel, kernel
 from .regime import Regime
-from .sequences import ADHESION, CONTACT, FREE, NOTHING, PERIOD, Span
-from .symbols import PARAMETERS, D, L, alpha, beta, p, p_0, q_0, s, s_0, s_1, w_0
+from .sequences import ADHESION, CONTACT, FREE, NOTHING, PERIOD, Row, Span
+from .symbols import D, L, alpha, beta, p, p_0, q_0, s, s_0, s_1, w_0
 
 
 @dataclass(frozen=True)
@@ -102,14 +102,14 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
     )
 
 
-def constant_means(regime: Regime) -> Kernel:
+def constant_means(regime: Row, args: tuple[sp.Symbol, ...]) -> Kernel:
     r"""Eq. 11: At rest :math:`w = p` is constant: :math:`\bar p = p,\ \bar\tau = 0`."""
     (zone,) = regime.zones
     u = stable.PROFILE(s, D)
     mean_tau = sp.integrate(zone.load * sp.diff(written_out(u), s), (s, 0, PERIOD)) / PERIOD
     return kernel(
         constant_means,
-        Formula(f"means_{regime.sequence}", PARAMETERS, (zone.load, NOTHING)),
+        Formula(f"means_{regime.sequence}", args, (zone.load, NOTHING)),
         (zone.load, mean_tau),
         zero("a constant pressure does no work over a period", mean_tau),
         statement=f"Means of a strip: {regime.title}.",

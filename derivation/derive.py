@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import ModuleType
+
 from . import one_time
 from .membership import require_member
 from .model import Model
@@ -11,7 +13,7 @@ from .outcome import Derivation, Progress
 
 def stages_of(model: Model) -> tuple[str, ...]:
     """Names of the stages that :func:`derive` reports."""
-    return several_times.STAGES if model.series else one_time.STAGES
+    return _stages(model).STAGES
 
 
 def derive(model: Model, progress: Progress | None = None) -> Derivation:
@@ -20,4 +22,9 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     ``progress`` is called with the name of each stage when it is done.
     """
     require_member(model)
-    return (several_times if model.series else one_time).derive(model, progress)
+    return _stages(model).derive(model, progress)
+
+
+def _stages(model: Model) -> ModuleType:
+    """The list of stages that a model goes through."""
+    return several_times if model.series else one_time

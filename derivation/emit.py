@@ -41,7 +41,7 @@ PARAMETER_MEANINGS = (
 def emit(derivations: tuple[Derivation, ...]) -> dict[str, str]:
     """Text of every generated Python file, by its path in the output folder."""
     files = {"stable.py": stable_text()}
-    if any(derivation.model.series for derivation in derivations):
+    if any(derivation.kind == "several_times" for derivation in derivations):
         files["modes.py"] = _render("modes", "every model with a Prony series")
     for derivation in derivations:
         files[f"{derivation.model.name}.py"] = model_text(derivation)
@@ -50,15 +50,14 @@ def emit(derivations: tuple[Derivation, ...]) -> dict[str, str]:
 
 
 def model_text(derivation: Derivation) -> str:
-    model, several = derivation.model, bool(derivation.model.series)
-    own = template_values(derivation) if several else _of_one_time(derivation)
-    function = written if several else function_text
+    model = derivation.model
+    template, values, function = KINDS[derivation.kind]
     sections = [
         {"title": title, "functions": [function(kernel.formula, kernel.derived) for kernel in kernels]}
         for title, kernels in derivation.sections
     ]
     return _render(
-        "modes_model" if several else "model",
+        template,
         model.name,
         title=model.title,
         model=model.name,
@@ -66,12 +65,16 @@ def model_text(derivation: Derivation) -> str:
         material=model.parameters,
         sections=sections,
         regimes=[_row(regime) for regime in derivation.regimes],
-        **own,
+        **values(derivation),
     )
 
 
 def _of_one_time(derivation: Derivation) -> dict[str, Any]:
     return {"parameters": PARAMETER_MEANINGS, "helpers": helpers_used(kernel.formula for kernel in derivation.kernels)}
+
+
+KINDS = {"one_time": ("model", _of_one_time, function_text), "several_times": ("modes_model", template_values, written)}
+"""Of each kind of derivation the template, its further values, and a formula as the text of a function."""
 
 
 def _row(regime: Row) -> dict[str, Any]:
@@ -150,7 +153,7 @@ def input_hash() -> str:
     digest = hashlib.sha256()
     for path in sorted(HERE.rglob("*")):
         parts = path.relative_to(HERE).parts
-        if path.suffix in (".py", ".jinja") and not {"__pycache__", "pages", "audit"} & set(parts):
+        if path.suffix in (".py", ".jinja", ".toml") and not {"__pycache__", "pages", "audit"} & set(parts):
             digest.update("/".join(parts).encode() + b"\0" + path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
     return digest.hexdigest()[:32]
 
@@ -173,6 +176,3 @@ def formatted(text: str) -> str:
     """The text as the pinned formatter lays it out, independent of any configuration file around."""
     options = ("--isolated", "--line-length", "120", "--target-version", "py311", "--stdin-filename", "generated.py", "-")
     return _ruff("format", *options, text=text)
-
-
-__all__ = ["INTERFACE", "emit", "input_hash"]

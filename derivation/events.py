@@ -12,15 +12,75 @@ from __future__ import annotations
 
 import sympy as sp
 
-from . import stable
 from .check import zero
 from .exact import in_half_angles
 from .flows import Flows
+from .functions import Formula, divisible, expm1, per_time, versine
 from .kernel import Kernel, chained, pair
-from .symbols import D, alpha, beta, p_0, q_0, s, s_0, s_1
+from .stable import LABELLED_LOSS, MODULUS_RATIO, STORAGE, level, loss_factor, middle, steepness
+from .symbols import D, L, alpha, beta, gap_0, p, p_0, q_0, s, s_0, s_1
 
+start, time, turn, back, late, sine, twice = sp.symbols("start time turn back late sine twice", real=True)
+lead, ahead, double, steep, top, ratio = sp.symbols("lead ahead double steep top ratio", real=True)
+lag_rate, transient_rate, decayed, lapsed = sp.symbols("lag_rate transient_rate decayed lapsed", real=True)
 _phase = sp.Symbol("phi", positive=True)
 ANGLES = (s_0, s_1, _phase)
+
+# Few operations, since a root finder asks for them at many phases of one zone.
+# The exponent is back/time, with time > 0: no cut-off is needed while s_1 >= s_0. Both exp and expm1 are taken, since
+# 1 + expm1 would lose a large gap_0 or q_0 long after the entry.
+
+_times = ((turn, s_1 / 2), (back, start - turn), (late, back / time), (decayed, sp.exp(late)), (lapsed, expm1(late)))
+GAP_ENTRY = Formula(
+    "gap_entry",
+    (s_0, gap_0, p, D, beta),
+    (gap_0, s_0 / 2, divisible(beta) / 2, level, per_time(level + gap_0 - versine(s_0), beta)),
+    ((level, D - p),),
+)
+GAP_EVENT = Formula(
+    "gap_event",
+    (s_1, gap_0, start, time, level, lag_rate),
+    (
+        (gap_0 - 2 * (sp.sin(back) * sp.sin(middle))) * decayed + (level - twice * sine) * lapsed,
+        twice * sp.cos(turn) - lag_rate * decayed,
+    ),
+    (*_times, (middle, start + turn), (sine, sp.sin(turn)), (twice, 2 * sine)),
+)
+EXCESS_ENTRY = Formula(
+    "excess_entry",
+    (s_0, q_0, p_0, D, alpha, beta, L),
+    (
+        q_0,
+        s_0 / 2,
+        divisible(alpha) / 2,
+        lead,
+        2 * ratio,
+        top,
+        per_time(q_0 - top + ratio * versine(s_0 + 2 * lead), alpha),
+    ),
+    (
+        (ratio, MODULUS_RATIO(alpha, beta)),
+        LABELLED_LOSS,
+        (lead, sp.atan(loss_factor / STORAGE(alpha, beta)) / 2),
+        (steepness, (alpha + beta) / (1 + ratio)),
+        (top, D + p_0 + loss_factor * steepness),
+    ),
+)
+EXCESS_EVENT = Formula(
+    "excess_event",
+    (s_1, q_0, start, time, lead, double, top, transient_rate),
+    (
+        (q_0 + double * sp.sin(back) * sp.sin(middle)) * decayed - (top - steep * sine) * lapsed,
+        -(steep * sp.cos(ahead) + transient_rate * decayed),
+    ),
+    (
+        *_times,
+        (ahead, lead + turn),
+        (middle, back + 2 * ahead),
+        (sine, sp.sin(ahead)),
+        (steep, double * sine),
+    ),
+)
 
 
 def gap_event(flows: Flows) -> tuple[Kernel, Kernel]:
@@ -38,7 +98,7 @@ def gap_event(flows: Flows) -> tuple[Kernel, Kernel]:
         1\right),\quad g' = \sin s_1 - \frac{u(s_0) + g_0 - p}{\beta} e^{-(s_1 - s_0)/\beta}
     """
     g = flows.gap.value.subs(s, s_1)
-    return pair(gap_event, (stable.GAP_ENTRY, stable.GAP_EVENT), (g, sp.diff(g, s_1)), halved=(s_0, s_1))
+    return pair(gap_event, (GAP_ENTRY, GAP_EVENT), (g, sp.diff(g, s_1)), halved=(s_0, s_1))
 
 
 def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
@@ -63,11 +123,11 @@ def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
     modulus = 1 / shrunk
     transient = q_0 - p_0 - (D - 1 + modulus * sp.cos(s_0 + _phase))
     constants = (q_0, s_0 / 2, alpha / 2, _phase / 2, 2 * modulus, D + p_0 - 1 + modulus, transient / alpha)
-    composed = stable.EXCESS_EVENT.written_out((s_1, *constants))
+    composed = EXCESS_EVENT.written_out((s_1, *constants))
     tangent = (beta - alpha) / (1 + alpha * beta)
     R_squared = (1 + beta**2) / (1 + alpha**2)
     loss = (beta - alpha) / (1 + alpha**2)
-    stated = stable.EXCESS_ENTRY.written_out(stable.EXCESS_ENTRY.args)
+    stated = EXCESS_ENTRY.written_out(EXCESS_ENTRY.args)
     R = sp.sqrt(1 + beta**2) / sp.sqrt(1 + alpha**2)
     one_harmonic = [
         zero("tan(phi) = (beta - alpha)/(1 + alpha beta)", sp.tan(2 * stated[3]) - tangent),
@@ -93,4 +153,4 @@ def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
         zero("excess_event after excess_entry is the derived q", left[0], phases=(s_0, s_1)),
         zero("and its derivative by s_1", left[1], phases=(s_0, s_1)),
     ]
-    return chained(excess_event, (stable.EXCESS_ENTRY, stable.EXCESS_EVENT), exact, (constants, entry), (exact, event))
+    return chained(excess_event, (EXCESS_ENTRY, EXCESS_EVENT), exact, (constants, entry), (exact, event))

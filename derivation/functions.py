@@ -24,6 +24,13 @@ class Helper(sp.Function):
         raise NotImplementedError
 
 
+class Scaling(Helper):
+    """An argument whose parts stand in a formula under names of their own: ``scaled`` says what each is."""
+
+    def scaled(self) -> dict[sp.Symbol, sp.Expr]:
+        raise NotImplementedError
+
+
 def helper(meaning: Callable[..., sp.Expr]) -> type[Helper]:
     """The helper of the name, the arguments and the meaning of a function."""
     count = len(inspect.signature(meaning).parameters)
@@ -124,25 +131,10 @@ def stack_sum(term):
     return stack_sum(term)
 
 
-HELPERS = (
-    decay,
-    decay_loss,
-    decay_rate,
-    decay_mean,
-    loss_mean,
-    loss_mean_twice,
-    expm1,
-    divisible,
-    per_time,
-    sine_deficit,
-    sine_lag,
-    either,
-    versine,
-    hypot,
-    quotient,
-    arc_half,
-    stack_sum,
+HELPERS = tuple(
+    each for each in vars().values() if isinstance(each, type) and (Helper,) == each.__bases__ and each is not Scaling
 )
+"""In the order of their definitions."""
 
 
 @dataclass(frozen=True)
@@ -171,7 +163,14 @@ class Formula:
         for label, term in self.steps:
             labels[label] = written_out(term.xreplace(labels))
         binding = dict(zip(self.args, map(sp.sympify, args), strict=True))
-        return _map(self.result, lambda e: written_out(e.xreplace(labels)).subs(binding, simultaneous=True))
+
+        def bound(e: sp.Expr) -> sp.Expr:
+            e = written_out(e.xreplace(labels)).subs(binding, simultaneous=True)
+            for scaling in (value for value in binding.values() if isinstance(value, Scaling)):
+                e = e.subs(scaling.scaled(), simultaneous=True)
+            return e
+
+        return _map(self.result, bound)
 
 
 class Call(sp.Function):

@@ -14,7 +14,7 @@ from .functions import Formula, hypot, stack_sum
 from .kernel import Kernel, kernel
 from .saturated import MODULUS, Saturated
 from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell, mean_over_wave
-from .symbols import A, D, D_j, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, s, x, y
+from .symbols import D, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, s, x, y
 
 _si = (K, T_eps, T_sigma)
 R = sp.Symbol("R", positive=True)
@@ -33,10 +33,21 @@ class Level:
     comparison: Derived  # Eq. 16 as printed against as derived
 
 
+@dataclass(frozen=True)
+class Wave:
+    """The wave of a level on a foundation, whose |K*|/K is R: derived, and as it is computed."""
+
+    given: tuple[sp.Symbol, ...]  # of the foundation
+    ratio: sp.Expr
+    computed: tuple[tuple[sp.Symbol, sp.Expr], ...]  # steps to ``ratio``
+    at_least_one: Claim  # R >= 1
+
+
 def level(saturated: Saturated) -> Level:
     mean_p, mean_tau = saturated.means.exact
-    penetration = saturation_penetration(saturated.threshold.value)
-    pressure = saturation_pressure(penetration.exact, mean_p)
+    at_least_one = holds("R >= 1: R^2 - 1 = (beta^2 - alpha^2)/(1 + alpha^2) >= 0", _at_least_one())
+    wave = Wave(_si, MODULUS.subs(TIMES).subs(WAVE), _RATIO, at_least_one)
+    penetration, pressure = saturation(wave, saturated.threshold.value.subs(MODULUS, R), mean_p)
     friction = saturation_friction(mean_tau)
     field = next(kernel.exact for kernel in saturated.kernels if kernel.formula.name == "saturated_pressure")
     stack = stack_friction(friction.exact, field)
@@ -79,34 +90,28 @@ def friction_of_strips(mean_tau: sp.Expr) -> sp.Expr:
     return over_strips(K * AMPLITUDE * k * AMPLITUDE * mean_tau).subs(WAVE)
 
 
-def saturation_penetration(threshold: sp.Expr) -> Kernel:
-    r"""Penetration from which every strip of a level is in complete contact.
+def saturation(wave: Wave, threshold: sp.Expr, mean_p: sp.Expr) -> tuple[Kernel, Kernel]:
+    r"""From where on a level is in complete contact. ``threshold``: D of a strip, by its R; ``mean_p``: of a strip.
 
-    .. math:: D_{sat} = \frac h2 (1 + R) - \frac{p_0}{K},\quad R = \sqrt{\frac{1 + (kVT_\epsilon)^2}{1 + (kVT_\sigma)^2}}
-    """
-    name = "level_saturation_penetration"
-    at_least_one = holds("R >= 1: R^2 - 1 = (beta^2 - alpha^2)/(1 + alpha^2) >= 0", _at_least_one())
-    exact, checks = of_every_strip(threshold.subs(MODULUS, R), at_least_one)
-    return kernel(
-        saturation_penetration,
-        Formula(name, (*_si, p_0, l, h, V), h / 2 * (1 + ratio) - p_0 / K, _RATIO),
-        exact.subs(R, MODULUS).subs(TIMES).subs(WAVE),
-        *checks,
-    )
+    level_saturation_penetration: Penetration from which every strip of a level is in complete contact.
 
+    .. math:: D_{sat} = \frac h2 (1 + R) - \frac{p_0}{K},\quad R = |K^*(ikV)|/K
 
-def saturation_pressure(penetration: sp.Expr, mean_p: sp.Expr) -> Kernel:
-    r"""Eq. 11: Nominal pressure from which a level is in complete contact.
+    level_saturation_pressure, Eq. 11: Nominal pressure from which a level is in complete contact.
 
     .. math:: p_{sat} = \tfrac14 K h (2R - 1) - p_0
     """
-    name = "level_saturation_pressure"
+    penetration, claims = of_every_strip(threshold, wave.at_least_one)
     mean = load_of_strips(mean_p)
-    return kernel(
-        saturation_pressure,
-        Formula(name, (*_si, p_0, l, h, V), K * h / 4 * (2 * ratio - 1) - p_0, _RATIO),
-        mean.subs(WAVE).subs(D_level, penetration),
-        zero("the level's mean pressure in complete contact is K (D - 3h/4)", mean - K * (D_level - sp.Rational(3, 4) * h)),
+    of_mean = zero("the level's mean pressure in complete contact is K (D - 3h/4)", mean - K * (D_level - sp.Rational(3, 4) * h))
+
+    def of_level(name: str, result: sp.Expr, exact: sp.Expr, *claims: Claim) -> Kernel:
+        formula = Formula(f"level_saturation_{name}", (*wave.given, p_0, l, h, V), result, wave.computed)
+        return kernel(saturation, formula, exact.subs(WAVE).subs(R, wave.ratio), *claims)
+
+    return (
+        of_level("penetration", h / 2 * (1 + ratio) - p_0 / K, penetration, *claims),
+        of_level("pressure", K * h / 4 * (2 * ratio - 1) - p_0, mean.subs(D_level, penetration), of_mean),
     )
 
 
@@ -216,6 +221,3 @@ def _at_least_one() -> bool:
     excess = sp.Symbol("T_delta", nonnegative=True)
     above = sp.factor(((beta**2 - alpha**2) / (1 + alpha**2)).subs(beta, alpha + excess))
     return bool(above.is_nonnegative)
-
-
-__all__ = ["A", "D_j", "Level", "level"]

@@ -8,10 +8,69 @@ from __future__ import annotations
 
 import sympy as sp
 
-from . import stable
+from .events import back, decayed, lag_rate, lapsed, late, sine, start, transient_rate, turn
 from .flows import Flows
+from .functions import Formula, divisible, expm1, per_time
 from .kernel import Kernel, kernel
-from .symbols import p_0, s, s_0, s_1
+from .stable import LABELLED_LOSS, half, level, loss_factor
+from .symbols import D, L, alpha, beta, gap_0, p, p_0, q_0, s, s_0, s_1
+
+sine_0, cosine_0, cosine, drop, drop_0 = sp.symbols("sine_0 cosine_0 cosine drop drop_0", real=True)
+sine_middle, cosine_middle = sp.symbols("sine_middle cosine_middle", real=True)
+
+# Half angles serve every term; s_1 must not be before s_0, as in the events.
+
+
+def _link(relaxation_time):
+    """Half angles, decay and profile that a link between two edges needs."""
+    return (
+        (start, s_0 / 2),
+        (turn, s_1 / 2),
+        (back, start - turn),
+        (late, 2 * back / divisible(relaxation_time)),
+        (decayed, sp.exp(late)),
+        (lapsed, expm1(late)),
+        (sine_0, sp.sin(start)),
+        (cosine_0, sp.cos(start)),
+        (sine, sp.sin(turn)),
+        (cosine, sp.cos(turn)),
+        (half, sp.sin(back)),
+        (drop_0, 2 * sine_0**2),
+        (drop, 2 * sine**2),
+        (sine_middle, sine_0 * cosine + cosine_0 * sine),
+    )
+
+
+GAP_LINK = Formula(
+    "gap_link",
+    (s_0, s_1, gap_0, p, D, beta),
+    (
+        (gap_0 - 2 * half * sine_middle) * decayed + (level - drop) * lapsed,
+        (lag_rate - 2 * sine_0 * cosine_0) * decayed,
+        2 * sine * cosine - lag_rate * decayed,
+    ),
+    (*_link(beta), (level, D - p), (lag_rate, per_time(gap_0 + level - drop_0, beta))),
+)
+EXCESS_LINK = Formula(
+    "excess_link",
+    (s_0, s_1, q_0, p_0, D, alpha, beta, L),
+    (
+        (q_0 + 2 * half * (sine_middle + loss_factor * (alpha * sine_middle + cosine_middle))) * decayed
+        - (level - drop + loss_factor * (alpha * (1 - drop) - 2 * sine * cosine)) * lapsed,
+        (transient_rate + 2 * sine_0 * cosine_0 + loss_factor * (2 * alpha * sine_0 * cosine_0 + 1 - drop_0)) * decayed,
+        -transient_rate * decayed - 2 * sine * cosine - loss_factor * (2 * alpha * sine * cosine + 1 - drop),
+    ),
+    (
+        *_link(alpha),
+        (cosine_middle, cosine_0 * cosine - sine_0 * sine),
+        LABELLED_LOSS,
+        (level, D + p_0),
+        (
+            transient_rate,
+            per_time(q_0 - level + drop_0 - loss_factor * (alpha * (1 - drop_0) - 2 * sine_0 * cosine_0), alpha),
+        ),
+    ),
+)
 
 
 def links(flows: Flows) -> tuple[Kernel, Kernel]:
@@ -29,7 +88,7 @@ def links(flows: Flows) -> tuple[Kernel, Kernel]:
     """
     gap = flows.gap.value.subs(s, s_1)
     excess = flows.contact.value.subs(s, s_1) + p_0
-    of_both = ((stable.GAP_LINK, gap), (stable.EXCESS_LINK, excess))
+    of_both = ((GAP_LINK, gap), (EXCESS_LINK, excess))
     return tuple(
         kernel(links, formula, (value, sp.diff(value, s_0), sp.diff(value, s_1)), halved=(s_0, s_1)) for formula, value in of_both
     )

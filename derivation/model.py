@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import sympy as sp
@@ -79,10 +80,10 @@ class Model:
         return bool(self.series.time != 0) if isinstance(self.series, Series) else bool(self.P[-1] != 0)
 
     def operator_w(self, step: sp.Expr = rate) -> sp.Expr:
-        return sum((q * step**n for n, q in enumerate(self.Q)), sp.Integer(0))
+        return _at(self.Q, step)
 
     def operator_p(self, step: sp.Expr = rate) -> sp.Expr:
-        return sum((p * step**n for n, p in enumerate(self.P)), sp.Integer(0))
+        return _at(self.P, step)
 
     def transfer(self, step: sp.Expr = rate) -> sp.Expr:
         """Stiffness ``p/w`` of a motion ``exp(rate t)``."""
@@ -123,7 +124,7 @@ def foundation_law(model: Model) -> Derived:
     time = sp.Symbol("t", real=True)
     w, p = sp.Function("w")(time), sp.Function("p")(time)
     checks = [constant_coefficients(model)]
-    equation = sp.Eq(_applied(model.Q, w, time), _applied(model.P, p, time))
+    equation = sp.Eq(applied(model.Q, w, time), applied(model.P, p, time))
     return derived(foundation_law, equation, checks, latex=sp.latex(equation))
 
 
@@ -172,7 +173,7 @@ def _creep(model: Model, compliance: sp.Expr) -> Claim:
     """The law solved by SymPy under a pressure that is put on at once."""
     time, load = sp.symbols("t p", positive=True)
     w = sp.Function("w")
-    law = sp.Eq(_applied(model.Q, w(time), time), model.P[0] * load)
+    law = sp.Eq(applied(model.Q, w(time), time), model.P[0] * load)
     crept = sp.dsolve(law, w(time), ics={w(0): compliance * load}).rhs
     claim = "put under p at once, w creeps from J_0 p to p/K, with 1/K = P(0)/Q(0)"
     left = [crept.subs(time, 0) - compliance * load, sp.limit(crept, time, sp.oo) - load / model.transfer(sp.Integer(0))]
@@ -228,27 +229,14 @@ def _unstable_roots(operator: list[sp.Expr], label: str) -> list[str]:
     return [f"stable: {label} has the root {root}, which does not decay" for root in roots if sp.re(root) >= 0]
 
 
-def _at(operator: list[sp.Expr], step: sp.Expr) -> sp.Expr:
+def _at(operator: Sequence[sp.Expr], step: sp.Expr) -> sp.Expr:
     return sum((c * step**n for n, c in enumerate(operator)), sp.Integer(0))
 
 
-def _applied(operator: tuple[sp.Expr, ...], function: sp.Expr, variable: sp.Symbol) -> sp.Expr:
+def applied(operator: Sequence[sp.Expr], function: sp.Expr, variable: sp.Symbol) -> sp.Expr:
+    """The operator in the derivative by a variable, on a function."""
     return sum((c * sp.diff(function, variable, n) for n, c in enumerate(operator)), sp.Integer(0))
 
 
 def _nonnegative(coefficient: sp.Expr) -> bool:
     return bool(sp.factor(coefficient).is_nonnegative)
-
-
-__all__ = [
-    "Foundation",
-    "Model",
-    "Parameter",
-    "Roots",
-    "Series",
-    "foundation",
-    "inadmissible",
-    "omega",
-    "rate",
-    "require_admissible",
-]

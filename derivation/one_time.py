@@ -6,7 +6,7 @@ import sympy as sp
 
 from .averages import constant_means, strip_means, zone_integrals
 from .conditions import conditions
-from .displays import displays
+from .displays import STATED, displays, of_one_time
 from .energy import friction_balance, power_balance
 from .events import excess_event, gap_event
 from .flows import flows
@@ -23,13 +23,15 @@ from .multilevel import multilevel
 from .outcome import Derivation, Progress, Stages, records
 from .paper import comparisons
 from .paper.tags import require_all, require_status, require_tags
-from .regime import Regime
+from .regime import OneTime, Regime
 from .regimes import regimes
 from .sample_roots import sample_roots
 from .saturated import saturated
 from .stability import onset_slope, shift_of_an_event
 from .stack import stack
 from .strip import strip
+from .symbols import PARAMETERS
+from .vocabulary import BINDINGS, vocabulary
 from .zones import zones
 
 STAGES = (
@@ -63,19 +65,20 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     stages.done("flows", flow)
     jump = jumps(one_strip)
     stages.done("edge conditions", jump)
-    zone = zones(flow, jump)
+    zone = zones(flow)
     events = (*gap_event(flow), *excess_event(flow))
     chain = links(flow)
     stages.done("zones", zone, events, chain)
     full = saturated(flow)
     whole = level(full)
     stages.done("complete contact", full, whole)
-    table = regimes(zone, full.threshold.value)
+    ratio = sp.cancel(jump.closure.value / sp.Symbol("step_p", real=True))  # [w]/[p]
+    table = regimes(OneTime(ratio), full.threshold.value)
     partial = [regime for regime in table if regime.edges]
     systems = tuple(k for regime in partial for k in system_kernels(regime, zone.kernels))
     stages.done("regimes", conditions(one_strip, table[0]), table, sample_roots(table), systems)
     integrals = zone_integrals(flow)
-    still = tuple(constant_means(regime) for regime in table if regime.sequence in ("a", "f"))
+    still = tuple(constant_means(regime, PARAMETERS) for regime in table if regime.sequence in ("a", "f"))
     means = tuple(strip_means(regime, integrals) for regime in partial)
     balances = (power_balance(flow), *(friction_balance(regime) for regime in partial))
     stages.done("means", integrals, means, still, balances)
@@ -98,12 +101,12 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     exact = {kernel.formula.name: kernel.exact for _, kernels in sections for kernel in kernels}
     steps = tuple(records([*stages.made, more]))
     printed = comparisons(one_strip, exact, {step.name: step.value for step in steps})
-    read = displays(steps, flow, exact["saturated_pressure"])
+    read = displays(steps, STATED["one_time"], vocabulary(flow, exact["saturated_pressure"]), BINDINGS, of_one_time)
     require_tags(steps)
     require_all(steps)
     require_status(steps, printed)
     stages.done("print", more)
-    return Derivation(model, tuple(stages.made), table, sections, read, printed)
+    return Derivation("one_time", model, tuple(stages.made), table, sections, read, printed)
 
 
 def system_kernels(regime: Regime, zone_kernels: tuple[Kernel, ...]) -> tuple[Kernel, Kernel]:

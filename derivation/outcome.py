@@ -18,6 +18,7 @@ Progress = Callable[[str], None]
 class Derivation:
     """Everything derived for one model. ``sections`` holds the kernels to emit; ``steps`` every verified quantity."""
 
+    kind: str  # "one_time" or "several_times": which list of stages
     model: Model
     stages: tuple[Any, ...]
     regimes: tuple[Any, ...]
@@ -25,9 +26,8 @@ class Derivation:
     displayed: dict[str, Check]  # by step: its LaTeX read back and compared
     comparisons: tuple[Comparison, ...] = ()  # of the paper's equations; none for another foundation
     composed: tuple[Any, ...] = ()  # regimes with edges whose functions are put together from kernels, for several times
-    of_level: tuple[Any, ...] = ()  # such functions of a level,
-    of_regimes: tuple[Any, ...] = ()  # and of the regimes
-    whole: tuple[Kernel, ...] = ()  # what those of a level and the functions of the template have to come to
+    of_regimes: tuple[Any, ...] = ()  # these functions
+    whole: tuple[Kernel, ...] = ()  # what the functions of the template have to come to
 
     @property
     def steps(self) -> tuple[Derived, ...]:

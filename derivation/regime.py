@@ -16,10 +16,23 @@ import sympy as sp
 from . import stable
 from .check import BEYOND, REPRODUCED, Claim, derived, zero
 from .functions import Formula, written_out
-from .inequality import Inequality, relation, require
-from .sequences import CONTACT, EQUATIONS, NOTHING, PERIOD, Row, Span, edgeless_record, in_order, obeys_jump_law, with_edges
-from .symbols import PARAMETERS, D, J, L, alpha, beta, p_0, s_1
+from .inequality import Inequality, Relation, relation, require
+from .sequences import (
+    CONTACT,
+    EQUATIONS,
+    NOTHING,
+    PERIOD,
+    Row,
+    Span,
+    edgeless_record,
+    obeys_jump_law,
+    required,
+    with_edges,
+    zones_of,
+)
+from .symbols import PARAMETERS, D, J, L, alpha, beta, chi, p_0, s, s_0, s_1
 
+turn = sp.Symbol("e", real=True)  # where the gap is least or greatest
 PERIODIC = ("period", "the changes of z over the period sum to zero, so that the gap falls to delta_0 again at d + 2 pi")
 
 
@@ -88,52 +101,59 @@ class Regime(Row):
         return Formula(f"jacobian_{self.sequence}", self.args, self.jacobian)
 
 
-def edgeless(by: Callable, sequence: str, kind: str, admissible: tuple[Inequality, ...]) -> Regime:
-    """A regime without edges: the same zone all along."""
-    zone = Zone(kind, sp.Symbol("s_0", real=True), sp.Symbol("s_0", real=True) + PERIOD, NOTHING, NOTHING)
-    if kind == CONTACT:
-        change, latex = zone.displacement - stable.PROFILE(zone.first, D), "w = u"
-    else:  # a constant w at rest under its load does not change
-        change = stable.RELAXATION_INCREMENT(zone.first, zone.last, zone.load - zone.load, beta)
-        latex = f"w = p = {sp.latex(zone.load)}"
-    record = edgeless_record(by, sequence, latex, change)
-    return Regime(sequence, (zone,), admissible, (0, 1), record)
+@dataclass(frozen=True)
+class OneTime:
+    """Makes the rows of the table for one relaxation time. ``ratio``: [w]/[p] where p steps."""
 
+    ratio: sp.Expr
+    closures = (0, 1)
+    at_threshold = "{}"
 
-def partial(
-    by: Callable,
-    sequence: str,
-    zones: tuple[Zone, ...],
-    ratio: sp.Expr,
-    admissible: tuple[Inequality, ...] = (),
-    closures: tuple[int, ...] = (0, 1),
-) -> Regime:
-    """A regime with unknown edges. ``admissible``: what it must satisfy besides the slopes at its edges and their order."""
-    edges = tuple(zone.first for zone in zones)
-    ends = (*edges[1:], edges[0])
-    approaches = (zone.approach(edge) for zone, edge in zip(zones, ends, strict=True))
-    events = [(EQUATIONS[zone.last][0], zone.misses()) for zone in zones[:-1]]
-    equations = (*events, (PERIODIC[0], sp.Add(*(zone.increment() for zone in zones))))
-    jacobian = tuple(tuple(sp.diff(term, edge) for edge in edges) for _, term in equations)
-    checks = [
-        obeys_jump_law(zones, ratio, "[w] = chi J [p]"),
-        _closing_is_periodicity(zones, events, equations[-1][1], edges),
-        _jacobian_is_derivative(equations, jacobian, edges),
-        _slopes_have_the_sign_of_what_drives(zones),
-    ]
-    meaning = [EQUATIONS[zone.last][1] for zone in zones[:-1]] + [PERIODIC[1]]
-    record = derived(
-        by,
-        tuple(term for _, term in equations),
-        checks,
-        f"regime {sequence}",
-        statement=f"{with_edges(sequence, edges)}; {'; '.join(meaning)}.",
-        latex=r"\\ ".join(f"{sp.latex(written_out(term))} = 0" for _, term in equations),
-        status=BEYOND if closures == (1,) else REPRODUCED,
-        emitted=(f"residual_{sequence}", f"jacobian_{sequence}"),
-    )
-    required = (*admissible, *approaches, in_order(*edges))
-    return Regime(sequence, zones, required, closures, record, equations, jacobian)
+    @property
+    def step(self) -> sp.Expr:
+        return self.ratio.subs(chi, 1) * p_0
+
+    def zones(self, sequence: str) -> tuple[Zone, ...]:
+        return zones_of(sequence, Zone, self.step if sequence == "afc" else self.ratio * p_0, J)
+
+    def all_along(self, zone: Zone, sign: str, limit: sp.Expr) -> tuple[tuple[Relation, Relation], str]:
+        """The gap is least or greatest where the drive passes the limit."""
+        driven = relation("<" if sign == ">=" else ">", zone.drive(s), limit)
+        return (relation(sign, replace(zone, last=turn).after(), limit), driven), "at the end e of the arc {}"
+
+    def edgeless(self, by: Callable, sequence: str, kind: str, *admissible: Inequality) -> Regime:
+        zone = Zone(kind, s_0, s_0 + PERIOD, NOTHING, NOTHING)
+        if kind == CONTACT:
+            change, latex = zone.displacement - stable.PROFILE(zone.first, D), "w = u"
+        else:  # a constant w at rest under its load does not change
+            change = stable.RELAXATION_INCREMENT(zone.first, zone.last, zone.load - zone.load, beta)
+            latex = f"w = p = {sp.latex(zone.load)}"
+        return Regime(sequence, (zone,), admissible, self.closures, edgeless_record(by, sequence, latex, change))
+
+    def partial(self, by: Callable, sequence: str, *admissible: Inequality, closures: tuple[int, ...] = closures) -> Regime:
+        zones = self.zones(sequence)
+        edges = tuple(zone.first for zone in zones)
+        events = [(EQUATIONS[zone.last][0], zone.misses()) for zone in zones[:-1]]
+        equations = (*events, (PERIODIC[0], sp.Add(*(zone.increment() for zone in zones))))
+        jacobian = tuple(tuple(sp.diff(term, edge) for edge in edges) for _, term in equations)
+        claims = [
+            obeys_jump_law(zones, self.ratio.subs(chi, 1) if closures == (1,) else self.ratio, "[w] = chi J [p]"),
+            _closing_is_periodicity(zones, events, equations[-1][1], edges),
+            _jacobian_is_derivative(equations, jacobian, edges),
+            _slopes_have_the_sign_of_what_drives(zones),
+        ]
+        meaning = [EQUATIONS[zone.last][1] for zone in zones[:-1]] + [PERIODIC[1]]
+        record = derived(
+            by,
+            tuple(term for _, term in equations),
+            claims,
+            f"regime {sequence}",
+            statement=f"{with_edges(sequence, edges)}; {'; '.join(meaning)}.",
+            latex=r"\\ ".join(f"{sp.latex(written_out(term))} = 0" for _, term in equations),
+            status=BEYOND if closures == (1,) else REPRODUCED,
+            emitted=(f"residual_{sequence}", f"jacobian_{sequence}"),
+        )
+        return Regime(sequence, zones, required(zones, admissible), closures, record, equations, jacobian)
 
 
 def _slopes_have_the_sign_of_what_drives(zones: tuple[Zone, ...]) -> Claim:

@@ -1,129 +1,107 @@
-"""The table of regimes of a strip with one relaxation time, each with its zones and its inequalities.
+"""The table of regimes of a strip: the zones of each, and its inequalities, on any foundation.
 
-:func:`.regime.partial` makes the boundary equations of a regime from its zones and checks them.
+How a foundation makes the rows, its :class:`Edges`: :mod:`.regime` for one relaxation time, :mod:`.modes.regimes` for several.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
+from typing import Any, Protocol
 
 import sympy as sp
 
 from . import stable
-from .inequality import Inequality, relation, require
-from .regime import Regime, Zone, edgeless, partial
-from .sequences import ADHESION, CONTACT, FREE, zones_of
-from .symbols import D, J, chi, delta_0, p_0, s
-from .zones import Zones
-
-turn = sp.Symbol("e", real=True)  # where the gap is least or greatest
+from .inequality import Inequality, Relation, relation, require
+from .sequences import ADHESION, CONTACT, FREE, Row, Span
+from .symbols import D, chi, delta_0, p_0
 
 
-def regimes(zones: Zones, threshold: sp.Expr) -> tuple[Regime, ...]:
-    """Stage 5: every regime of a strip. ``threshold``: of D for complete contact."""
-    ratio = sp.cancel(zones.jumps.closure.value / sp.Symbol("step_p", real=True))  # [w]/[p]
+class Edges(Protocol):
+    """How a foundation makes the rows of the table."""
+
+    closures: tuple[int, ...]
+    step: sp.Expr  # of w where the pressure steps by p_0 in a snap into contact
+    at_threshold: str  # what is said of the threshold of complete contact
+
+    def zones(self, sequence: str) -> tuple[Span, ...]:
+        """The zones of a regime with edges."""
+
+    def partial(self, by: Callable[..., Row], sequence: str, *admissible: Inequality, **options: Any) -> Row:
+        """A regime with edges; ``admissible``: what it must satisfy besides the slopes at its edges and their order."""
+
+    def edgeless(self, by: Callable[..., Row], sequence: str, kind: str, *admissible: Inequality) -> Row:
+        """A regime without edges: the same zone all along."""
+
+    def all_along(self, zone: Span, sign: str, limit: sp.Expr) -> tuple[tuple[Relation, Relation], str]:
+        """The gap compared with a limit, and where, with what is said of the latter: all along a zone."""
+
+
+def regimes(edges: Edges, threshold: sp.Expr, snaps: bool = True) -> tuple[Row, ...]:
+    """Every regime of a strip; without instantaneous compliance no point ``snaps`` into contact. ``threshold``: of D."""
     return (
-        discrete_adhesion(ratio),
-        trailing_adhesion(ratio),
-        adhesion_only(ratio),
-        saturated_adhesion(ratio),
-        complete_contact(threshold),
-        adhesion_everywhere(),
-        separated(),
+        discrete_adhesion(edges),
+        *([trailing_adhesion(edges)] if snaps else []),
+        adhesion_only(edges),
+        saturated_adhesion(edges),
+        complete_contact(edges, threshold),
+        adhesion_everywhere(edges),
+        separated(edges),
     )
 
 
-def discrete_adhesion(ratio: sp.Expr) -> Regime:
+def discrete_adhesion(edges: Edges) -> Row:
     r"""Partial contact between two adhesion zones; unknown d, b, a, c. w steps by :math:`\mp\chi J p_0` at d and c:
 
     .. math:: g(b) = 0,\quad p(a) = -p_0,\quad g(c) = \delta_0,\quad g(d + 2\pi) = \delta_0
     """
-    return partial(discrete_adhesion, "acaf", zones_of("acaf", Zone, ratio * p_0, J), ratio)
+    return edges.partial(discrete_adhesion, "acaf")
 
 
-def trailing_adhesion(ratio: sp.Expr) -> Regime:
+def trailing_adhesion(edges: Edges) -> Row:
     r"""Snap-in at d into contact, adhesion from a to c. z is continuous at d, so contact is entered at :math:`-\delta_0/J`:
 
     .. math:: p(a) = -p_0,\quad g(c) = \delta_0,\quad g(d + 2\pi) = \delta_0
     """
-    ratio = ratio.subs(chi, 1)
-    step = ratio * p_0
-    return partial(
-        trailing_adhesion,
-        "afc",
-        zones_of("afc", Zone, step, J),
-        ratio,
-        (require(relation("==", chi, 1)), require(relation("<=", delta_0 - step, 0), sentence="w steps over the gap: {}")),
-        closures=(1,),
-    )
+    constitutive = [require(relation("==", chi, 1))] if 0 in edges.closures else []
+    steps_over = require(relation("<=", delta_0 - edges.step, 0), sentence="w steps over the gap: {}")
+    return edges.partial(trailing_adhesion, "afc", *constitutive, steps_over, closures=(1,))
 
 
-def adhesion_only(ratio: sp.Expr) -> Regime:
+def adhesion_only(edges: Edges) -> Row:
     r"""No contact; adhesion from d to c: :math:`g(c) = \delta_0,\ g(d + 2\pi) = \delta_0`."""
-    adhesion, free = zones_of("af", Zone, ratio * p_0, J)
-    return partial(
-        adhesion_only,
-        "af",
-        (adhesion, free),
-        ratio,
-        (
-            require(
-                relation(">=", replace(adhesion, last=turn).after(), 0),
-                relation("<", adhesion.drive(s), 0),
-                sentence="the gap stays open: {} at the end e of the arc {}",
-            ),
-        ),
-    )
+    adhesion, _ = edges.zones("af")
+    relations, where = edges.all_along(adhesion, ">=", sp.Integer(0))
+    return edges.partial(adhesion_only, "af", require(*relations, sentence=f"the gap stays open: {{}} {where}"))
 
 
-def saturated_adhesion(ratio: sp.Expr) -> Regime:
+def saturated_adhesion(edges: Edges) -> Row:
     r"""Partial contact, the whole gap at :math:`-p_0`; with :math:`p_0 = 0` this is contact without adhesion ('cf'):
 
     .. math:: p(a) = -p_0,\quad g(b + 2\pi) = 0
     """
-    contact, adhesion = zones_of("ac", Zone, ratio * p_0, J)
-    return partial(
-        saturated_adhesion,
-        "ac",
-        (contact, adhesion),
-        ratio,
-        (
-            require(
-                relation("<=", replace(adhesion, last=turn).after(), delta_0),
-                relation(">", adhesion.drive(s), delta_0),
-                relation("==", p_0, 0),
-                sentence="the gap stays within reach: {} at the end e of the arc {}, unless {}",
-            ),
-        ),
-    )
+    _, adhesion = edges.zones("ac")
+    relations, where = edges.all_along(adhesion, "<=", delta_0)
+    within = require(*relations, relation("==", p_0, 0), sentence=f"the gap stays within reach: {{}} {where}, unless {{}}")
+    return edges.partial(saturated_adhesion, "ac", within)
 
 
-def complete_contact(threshold: sp.Expr) -> Regime:
+def complete_contact(edges: Edges, threshold: sp.Expr) -> Row:
     r"""No edge: :math:`w = u` everywhere, from the ``threshold`` of D on."""
-    return edgeless(complete_contact, "c", CONTACT, (require(relation(">=", D, threshold)),))
+    enough = require(relation(">=", D, threshold), sentence=edges.at_threshold)
+    return edges.edgeless(complete_contact, "c", CONTACT, enough)
 
 
-def adhesion_everywhere() -> Regime:
-    r"""No edge: the whole gap at :math:`-p_0`, at rest at :math:`w = -p_0`."""
-    return edgeless(adhesion_everywhere, "a", ADHESION, within_reach())
-
-
-def separated() -> Regime:
-    r"""No edge: :math:`w = 0`."""
-    return edgeless(separated, "f", FREE, (out_of_reach(),))
-
-
-def within_reach() -> tuple[Inequality, Inequality]:
-    """At rest at w = -p_0 the gap is open at the crest, s = 0, and within delta_0 in the valley, s = pi."""
+def adhesion_everywhere(edges: Edges) -> Row:
+    r"""No edge: the whole gap at :math:`-p_0`, at rest at :math:`w = -p_0`, open at the crest and within reach in the valley."""
     crest, valley = (-p_0 - stable.PROFILE(place, D) for place in (sp.Integer(0), sp.pi))
-    return (
-        require(relation(">=", crest, 0), sentence="the gap is open at the crest: {}"),
-        require(relation("<=", valley, delta_0), sentence="and within reach in the valley: {}"),
-    )
+    opened = require(relation(">=", crest, 0), sentence="the gap is open at the crest: {}")
+    reached = require(relation("<=", valley, delta_0), sentence="and within reach in the valley: {}")
+    return edges.edgeless(adhesion_everywhere, "a", ADHESION, opened, reached)
 
 
-def out_of_reach() -> Inequality:
-    """At rest at w = 0 the gap is at least delta_0 at the crest."""
+def separated(edges: Edges) -> Row:
+    r"""No edge: :math:`w = 0`, the crest out of reach."""
     crest = -stable.PROFILE(sp.Integer(0), D)
     near, sticky, bare = relation(">=", crest, delta_0), relation(">", p_0, 0), relation(">=", crest, 0)
-    return require(near, sticky, bare, sentence="the gap at the crest is out of reach: {} if {}, else {}")
+    beyond = require(near, sticky, bare, sentence="the gap at the crest is out of reach: {} if {}, else {}")
+    return edges.edgeless(separated, "f", FREE, beyond)

@@ -3,16 +3,18 @@
 Whether a root is a solution is seen from the fields alone: in adhesion the gap must stay in (0, delta_0], beyond it
 above delta_0, in contact the pressure must not fall below -p_0, and the edges must follow one another. The fields are
 the derived flows between the edges, sampled; the inequalities take no part in that. Every inequality is needed by a
-root that is a solution (reversed, it would refuse it), and roots that are none are refused. The roots were found once
-from random starts; here they are refined and verified.
+root that is a solution (reversed, it would refuse it), and roots that are none are refused. The roots of
+``sample_roots.toml`` were found once from random starts; here they are refined and verified.
 """
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import mpmath
@@ -28,54 +30,14 @@ from .symbols import PARAMETERS, alpha, beta, chi, delta_0, p_0, s, s_1
 
 NAME = "inequalities of admissibility"
 SAMPLES, DIGITS, SLACK = 48, 20, mpmath.mpf("1e-9")
-# alpha/beta, beta, p_0, delta_0, D, chi; edges to start from; whether the root is a solution
-ROOTS: dict[str, tuple[tuple[tuple[str, ...], tuple[str, ...], bool], ...]] = {
-    "acaf": (
-        (("0.121", "3.431", "0.242", "0.498", "0.324", "0"), ("-1.353", "-0.831", "0.51", "1.28"), True),
-        (("0.559", "1.653", "0.069", "0.626", "0.078", "1"), ("-1.271", "-0.512", "0.473", "1.319"), True),
-        (("0.516", "0.446", "1.098", "0.069", "0.07", "1"), ("-0.533", "-1.199", "1.535", "1.651"), False),
-        (("0.332", "2.27", "0.189", "0.054", "0.327", "0"), ("1.184", "1.125", "4.445", "4.388"), False),
-    ),
-    "afc": (
-        (("0.586", "3.611", "0.352", "0.146", "0.48", "1"), ("-1.16", "1.166", "1.33"), True),
-        (("0.24", "0.362", "0.118", "0.022", "-0.005", "1"), ("-0.185", "0.318", "0.421"), True),
-        (("0.057", "4.015", "0.728", "0.045", "1.202", "1"), ("-1.467", "0.702", "0.858"), False),
-        (("0.078", "0.117", "0.29", "0.025", "0.666", "1"), ("1.256", "1.42", "1.497"), False),
-    ),
-    "af": (
-        (("0.159", "0.28", "0.473", "0.949", "-0.742", "1"), ("-0.654", "1.244"), True),
-        (("0.524", "0.387", "0.067", "1.757", "-1.207", "0"), ("-1.105", "1.178"), True),
-        (("0.537", "0.513", "1.276", "0.354", "0.11", "1"), ("-1.008", "2.402"), False),
-        (("0.591", "4.152", "0.139", "0.052", "1.073", "0"), ("-1.749", "1.799"), False),
-        (("0.055", "0.12", "0.186", "0.071", "0.515", "0"), ("-1.143", "1.34"), False),
-    ),
-    "ac": (
-        (("0.339", "1.06", "0.543", "0.126", "1.704", "0"), ("-3.069", "2.243"), True),
-        (("0.159", "0.217", "0.374", "1.609", "0.306", "0"), ("-1.245", "1.073"), True),
-        (("0.168", "3.305", "0.508", "0.196", "0.812", "0"), ("-1.591", "0.898"), False),
-        (("0.456", "0.135", "0.378", "0.042", "1.391", "0"), ("-2.448", "2.367"), False),
-        (("0.259", "2.992", "0.07", "0.33", "1.913", "0"), ("-2.119", "1.382"), False),
-    ),
-    "c": ((("0.3", "2", "0.5", "0.4", "4", "0"), (), True), (("0.3", "2", "0.5", "0.4", "1.5", "0"), (), False)),
-    "a": (
-        (("0.3", "2", "0.5", "2.5", "-0.7", "0"), (), True),
-        (("0.3", "2", "0.5", "2.5", "-0.2", "0"), (), False),
-        (("0.3", "2", "0.5", "1.5", "-0.7", "0"), (), False),
-    ),
-    "f": (
-        (("0.3", "2", "0.5", "0.4", "-0.7", "0"), (), True),
-        (("0.3", "2", "0.5", "0.4", "-0.2", "0"), (), False),
-        (("0.3", "2", "0", "0.4", "-0.2", "0"), (), True),
-        (("0.3", "2", "0", "0.4", "0.2", "0"), (), False),
-    ),
-}
+ROOTS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 Point = dict[sp.Symbol, mpmath.mpf]
 
 
 def sample_roots(regimes: Sequence[Regime]) -> Derived:
     r"""Solutions and roots that are none, :math:`0 < g \le \delta_0,\ q \ge 0,\ g > \delta_0`, against the inequalities."""
     with mpmath.workdps(DIGITS):
-        return compared(sample_roots, regimes, ROOTS, _judged)
+        return compared(sample_roots, regimes, ROOTS["one_time"], _judged)
 
 
 def compared(by: Callable[..., Derived], regimes: Sequence[Any], roots: Mapping[str, Sequence[Any]], judged: Callable) -> Derived:
@@ -105,12 +67,12 @@ def allowed(kind: str, traction: Any, reach: Any) -> tuple[Any, Any]:
     return (0, reach) if kind == ADHESION else (reach, mpmath.inf)
 
 
-def _judged(regime: Regime, groups: tuple[str, ...], start: tuple[str, ...]) -> tuple[bool, bool]:
+def _judged(regime: Regime, groups: Sequence[str], start: Sequence[str]) -> tuple[bool, bool]:
     point = _refined(regime, groups, start)
     return _fields_fit(regime, point), all(_satisfied(regime, inequality, point) for inequality in regime.admissible)
 
 
-def _refined(regime: Regime, groups: tuple[str, ...], start: tuple[str, ...]) -> Point:
+def _refined(regime: Regime, groups: Sequence[str], start: Sequence[str]) -> Point:
     ratio, slow, *rest = map(mpmath.mpf, groups)
     values = dict(zip(PARAMETERS, (ratio * slow, slow, ratio, 1 - ratio, *rest), strict=True))
     if not regime.edges:

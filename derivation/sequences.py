@@ -119,9 +119,11 @@ def with_edges(sequence: str, edges: Iterable[sp.Symbol]) -> str:
     return f"{_capitalised(sequence)}: unknown edges {', '.join(map(str, edges))}"
 
 
-def in_order(*edges: sp.Symbol) -> Inequality:
-    """The edges follow one another within a period."""
-    return require(relation("<=", *edges, edges[0] + PERIOD))
+def required(zones: tuple[Any, ...], admissible: Iterable[Inequality]) -> tuple[Inequality, ...]:
+    """What a regime with edges must satisfy: how the state comes to each edge, and that the edges follow one another."""
+    edges = tuple(zone.first for zone in zones)
+    approaches = (zone.approach(edge) for zone, edge in zip(zones, (*edges[1:], edges[0]), strict=True))
+    return (*admissible, *approaches, require(relation("<=", *edges, edges[0] + PERIOD)))
 
 
 def edgeless_record(by: Callable[..., Any], sequence: str, latex: str, change: sp.Expr) -> Derived:

@@ -25,13 +25,10 @@ from .functions import (
     decay_loss,
     decay_mean,
     decay_rate,
-    divisible,
     either,
-    expm1,
     hypot,
     loss_mean,
     loss_mean_twice,
-    per_time,
     sine_deficit,
     sine_lag,
     versine,
@@ -45,12 +42,7 @@ rise, kept, lost, lost_twice = sp.symbols("rise kept lost lost_twice", real=True
 moment_sin, moment_cos, kept_sin, kept_cos = sp.symbols("moment_sin moment_cos kept_sin kept_cos", real=True)
 part, t_versine, lost_sin, lost_versine = sp.symbols("part t_versine lost_sin lost_versine", real=True)
 ramp, ramp_work = sp.symbols("ramp ramp_work", real=True)
-start, time, turn, back, late, sine, twice = sp.symbols("start time turn back late sine twice", real=True)
-lead, ahead, double, steep, top, ratio = sp.symbols("lead ahead double steep top ratio", real=True)
-lag_rate, transient_rate, decayed, lapsed = sp.symbols("lag_rate transient_rate decayed lapsed", real=True)
 amplitude, steepness, level = sp.symbols("amplitude steepness level", real=True)
-sine_0, cosine_0, cosine, drop, drop_0 = sp.symbols("sine_0 cosine_0 cosine drop drop_0", real=True)
-sine_middle, cosine_middle = sp.symbols("sine_middle cosine_middle", real=True)
 
 HALVES = ((middle, (s_0 + s_1) / 2), (half, (s_1 - s_0) / 2))
 WIDTH = (width, s_1 - s_0)
@@ -83,7 +75,7 @@ STORAGE = Formula("storage", (alpha, beta), unit**2 + alpha_unit * beta_unit, (*
 LOSS = Formula("loss", (alpha, beta, L), L * beta_unit * unit, (_unit[0], (beta_unit, beta * unit)))
 MODULUS_RATIO = Formula("modulus_ratio", (alpha, beta), hypot(1, beta) / hypot(1, alpha))
 
-_loss = (loss_factor, LOSS(alpha, beta, L))
+LABELLED_LOSS = (loss_factor, LOSS(alpha, beta, L))
 SATURATED_PRESSURE = Formula(
     "saturated_pressure",
     (s, D, alpha, beta, L),
@@ -98,7 +90,7 @@ SATURATED_RISE = Formula(
     "saturated_rise",
     (s_0, s_1, alpha, beta, L),
     -2 * sp.sin(half) * (sp.sin(middle) + loss_factor * (alpha * sp.sin(middle) + sp.cos(middle))),
-    (*HALVES, _loss),
+    (*HALVES, LABELLED_LOSS),
 )
 
 # -- adhesion and free gap: constant pressure ---------------------------------------------------------------------------
@@ -253,116 +245,5 @@ CONTACT_WORK = Formula(
         ),
         (ramp, _sd - lost - alpha * _vs),
         (ramp_work, lost_versine - part - sine_deficit(2 * width) / 4 - alpha * _vs**2 / 2),
-    ),
-)
-
-# -- events: few operations, since a root finder asks for them at many phases of one zone ----------------------------------
-# The exponent is back/time, with time > 0: no cut-off is needed while s_1 >= s_0. Both exp and expm1 are taken, since
-# 1 + expm1 would lose a large gap_0 or q_0 long after the entry.
-
-_times = ((turn, s_1 / 2), (back, start - turn), (late, back / time), (decayed, sp.exp(late)), (lapsed, expm1(late)))
-GAP_ENTRY = Formula(
-    "gap_entry",
-    (s_0, gap_0, p, D, beta),
-    (gap_0, s_0 / 2, divisible(beta) / 2, level, per_time(level + gap_0 - versine(s_0), beta)),
-    ((level, D - p),),
-)
-GAP_EVENT = Formula(
-    "gap_event",
-    (s_1, gap_0, start, time, level, lag_rate),
-    (
-        (gap_0 - 2 * (sp.sin(back) * sp.sin(middle))) * decayed + (level - twice * sine) * lapsed,
-        twice * sp.cos(turn) - lag_rate * decayed,
-    ),
-    (*_times, (middle, start + turn), (sine, sp.sin(turn)), (twice, 2 * sine)),
-)
-EXCESS_ENTRY = Formula(
-    "excess_entry",
-    (s_0, q_0, p_0, D, alpha, beta, L),
-    (
-        q_0,
-        s_0 / 2,
-        divisible(alpha) / 2,
-        lead,
-        2 * ratio,
-        top,
-        per_time(q_0 - top + ratio * versine(s_0 + 2 * lead), alpha),
-    ),
-    (
-        (ratio, MODULUS_RATIO(alpha, beta)),
-        _loss,
-        (lead, sp.atan(loss_factor / STORAGE(alpha, beta)) / 2),
-        (steepness, (alpha + beta) / (1 + ratio)),
-        (top, D + p_0 + loss_factor * steepness),
-    ),
-)
-EXCESS_EVENT = Formula(
-    "excess_event",
-    (s_1, q_0, start, time, lead, double, top, transient_rate),
-    (
-        (q_0 + double * sp.sin(back) * sp.sin(middle)) * decayed - (top - steep * sine) * lapsed,
-        -(steep * sp.cos(ahead) + transient_rate * decayed),
-    ),
-    (
-        *_times,
-        (ahead, lead + turn),
-        (middle, back + 2 * ahead),
-        (sine, sp.sin(ahead)),
-        (steep, double * sine),
-    ),
-)
-
-# -- links: value and both derivatives at once, for Newton on the chain of edges -------------------------------------------
-# Half angles serve every term; s_1 must not be before s_0, as in the events.
-
-
-def _link(relaxation_time):
-    """Half angles, decay and profile that a link between two edges needs."""
-    return (
-        (start, s_0 / 2),
-        (turn, s_1 / 2),
-        (back, start - turn),
-        (late, 2 * back / divisible(relaxation_time)),
-        (decayed, sp.exp(late)),
-        (lapsed, expm1(late)),
-        (sine_0, sp.sin(start)),
-        (cosine_0, sp.cos(start)),
-        (sine, sp.sin(turn)),
-        (cosine, sp.cos(turn)),
-        (half, sp.sin(back)),
-        (drop_0, 2 * sine_0**2),
-        (drop, 2 * sine**2),
-        (sine_middle, sine_0 * cosine + cosine_0 * sine),
-    )
-
-
-GAP_LINK = Formula(
-    "gap_link",
-    (s_0, s_1, gap_0, p, D, beta),
-    (
-        (gap_0 - 2 * half * sine_middle) * decayed + (level - drop) * lapsed,
-        (lag_rate - 2 * sine_0 * cosine_0) * decayed,
-        2 * sine * cosine - lag_rate * decayed,
-    ),
-    (*_link(beta), (level, D - p), (lag_rate, per_time(gap_0 + level - drop_0, beta))),
-)
-EXCESS_LINK = Formula(
-    "excess_link",
-    (s_0, s_1, q_0, p_0, D, alpha, beta, L),
-    (
-        (q_0 + 2 * half * (sine_middle + loss_factor * (alpha * sine_middle + cosine_middle))) * decayed
-        - (level - drop + loss_factor * (alpha * (1 - drop) - 2 * sine * cosine)) * lapsed,
-        (transient_rate + 2 * sine_0 * cosine_0 + loss_factor * (2 * alpha * sine_0 * cosine_0 + 1 - drop_0)) * decayed,
-        -transient_rate * decayed - 2 * sine * cosine - loss_factor * (2 * alpha * sine * cosine + 1 - drop),
-    ),
-    (
-        *_link(alpha),
-        (cosine_middle, cosine_0 * cosine - sine_0 * sine),
-        _loss,
-        (level, D + p_0),
-        (
-            transient_rate,
-            per_time(q_0 - level + drop_0 - loss_factor * (alpha * (1 - drop_0) - 2 * sine_0 * cosine_0), alpha),
-        ),
     ),
 )

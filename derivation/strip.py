@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from .check import Derived, derived, zero
-from .model import Foundation
+from .model import Foundation, applied
 from .surface import AMPLITUDE, HEIGHT, PENETRATION
 from .symbols import A, D, D_j, D_level, J, K, L, T_eps, T_sigma, V, alpha, beta, delta_0, k, p_0, s, t, x
 
@@ -39,7 +39,7 @@ class Strip:
 
     def law(self, w: sp.Expr, p: sp.Expr) -> sp.Expr:
         """Left minus right side of the law for ``w(s)`` and ``p(s)``: zero on a motion."""
-        return _apply(self.operator_w, w) - _apply(self.operator_p, p)
+        return applied(self.operator_w, w, s) - applied(self.operator_p, p, s)
 
 
 def strip(foundation: Foundation) -> Strip:
@@ -95,7 +95,7 @@ def moving_frame(foundation: Foundation) -> Derived:
     fixed = sp.Symbol("X", real=True)
     w, p = sp.Function("w"), sp.Function("p")
     frame = {x: fixed - V * t}
-    moved = _in_time(model.Q, w(fixed - V * t)) - _in_time(model.P, p(fixed - V * t))
+    moved = applied(model.Q, w(fixed - V * t), t) - applied(model.P, p(fixed - V * t), t)
     claimed = _in_space(model.Q, w(x)) - _in_space(model.P, p(x))
     tried = {w: sp.Lambda(x, sp.exp(3 * x) + x**3), p: sp.Lambda(x, sp.sin(2 * x) + x**2)}
     difference = moved.subs(tried).doit() - claimed.subs(tried).doit().subs(frame)
@@ -118,7 +118,7 @@ def dimensionless_groups(foundation: Foundation) -> Derived:
     w, p = sp.Function("w"), sp.Function("p")
     fields = {w: sp.Lambda(x, A * sp.exp(2 * k * x)), p: sp.Lambda(x, K * A * sp.cos(k * x))}
     si = (_in_space(model.Q, w(x)) - _in_space(model.P, p(x))).subs(fields).doit()
-    ours = _apply(operator_w, sp.exp(-2 * s)) - _apply(operator_p, sp.cos(s))
+    ours = applied(operator_w, sp.exp(-2 * s), s) - applied(operator_p, sp.cos(s), s)
     compliance = (foundation.J_0 * foundation.K).subs(TIMES)
     checks = [
         zero("the SI law of the moving frame, divided by A, is the law in s", (si / A).subs(x, -s / k).subs(TIMES) - ours),
@@ -128,13 +128,5 @@ def dimensionless_groups(foundation: Foundation) -> Derived:
     return derived(dimensionless_groups, (operator_w, operator_p), checks)
 
 
-def _apply(operator: tuple[sp.Expr, ...], function: sp.Expr) -> sp.Expr:
-    return sum((q * sp.diff(function, s, n) for n, q in enumerate(operator)), sp.Integer(0))
-
-
-def _in_time(operator: tuple[sp.Expr, ...], function: sp.Expr) -> sp.Expr:
-    return sum((q * sp.diff(function, t, n) for n, q in enumerate(operator)), sp.Integer(0))
-
-
 def _in_space(operator: tuple[sp.Expr, ...], function: sp.Expr) -> sp.Expr:
-    return sum((q * (-V) ** n * sp.diff(function, x, n) for n, q in enumerate(operator)), sp.Integer(0))
+    return applied([q * (-V) ** n for n, q in enumerate(operator)], function, x)

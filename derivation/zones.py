@@ -10,7 +10,6 @@ from . import stable
 from .check import derived, zero
 from .contact import contact, contact_state
 from .flows import Flows
-from .jumps import Jumps
 from .kernel import Kernel, kernel
 from .symbols import D, beta, excess, gap_0, lag_0, p, s, s_0, s_1, w_0
 
@@ -20,14 +19,12 @@ class Zones:
     """Stage 4b: the building blocks of every regime."""
 
     flows: Flows
-    jumps: Jumps
     kernels: tuple[Kernel, ...]
 
 
-def zones(flows: Flows, jumps: Jumps) -> Zones:
+def zones(flows: Flows) -> Zones:
     return Zones(
         flows,
-        jumps,
         (
             *rigid_profile(flows.strip.u),
             *load(flows),

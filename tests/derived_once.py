@@ -12,8 +12,9 @@ from types import ModuleType
 
 import hystrip.derivation
 from hystrip.derivation import MODELS, STANDARD_LINEAR_SOLID, Derivation, derive, generated_folder
-from hystrip.derivation.drift import CERTIFICATES, audit_texts, read_certificates, read_measured
+from hystrip.derivation.drift import audit_texts
 from hystrip.derivation.emit import emit
+from hystrip.derivation.folder import CERTIFICATES, read_certificates, read_measured
 
 SOURCES = Path(hystrip.derivation.__file__).parent
 _copies = itertools.count()

@@ -18,8 +18,8 @@ from hystrip.commands.measurements import readings
 from hystrip.commands.measurements.measured import measured
 from hystrip.commands.measurements.pictures import ADHESION, CONTACT, missed, scenes, solved
 from hystrip.derivation import MODELS, AuditError, DerivationError, generated_folder
-from hystrip.derivation.drift import read_measured
 from hystrip.derivation.emit import input_hash
+from hystrip.derivation.folder import read_measured
 from hystrip.derivation.pages import places
 from hystrip.derivation.pages.latex import pieces
 from hystrip.derivation.paper.printed import PRINTED

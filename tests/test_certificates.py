@@ -11,7 +11,8 @@ from derived_once import derivation
 
 from hystrip.derivation import CertificateError, generated_folder, stored_bounds
 from hystrip.derivation.certificates import measure
-from hystrip.derivation.drift import AIM, CERTIFICATES, bounds_of
+from hystrip.derivation.folder import CERTIFICATES
+from hystrip.derivation.regenerate import AIM, bounds_of
 from hystrip.generated import stable, standard_linear_solid
 
 pytestmark = pytest.mark.xdist_group("derivation")
@@ -44,6 +45,13 @@ def test_a_cancelling_form_is_found_out() -> None:
         return np.cos(s_1) - np.cos(s_0)
 
     assert measure(kernel("profile_rise"), SimpleNamespace(profile_rise=naive)).worst > 1e6
+
+
+def test_an_overflow_is_a_failure_that_names_function_and_point() -> None:
+    measured = measure(kernel("profile_rise"), SimpleNamespace(profile_rise=lambda s_0, s_1: np.exp(np.float64(1e4))), points=2)
+    for stored in ({}, {"standard_linear_solid": {"functions": {"profile_rise": {"bound": 2.0}}}}):
+        with pytest.raises(CertificateError, match=r"profile_rise overflows.*'s_0': "):
+            bounds_of("standard_linear_solid", [measured], stored, {"standard_linear_solid.profile_rise": "no reason will do"})
 
 
 def test_a_bound_does_not_grow_by_itself() -> None:

@@ -15,8 +15,9 @@ from derived_once import audited, derivations, emitted
 
 from hystrip.derivation import MODELS, generated_folder
 from hystrip.derivation.certificates import certified_names
-from hystrip.derivation.drift import CERTIFICATES, MEASURED, audit_texts, compare, write_files
+from hystrip.derivation.drift import audit_texts, compare
 from hystrip.derivation.emit import emit
+from hystrip.derivation.folder import CERTIFICATES, MEASURED, write_files
 
 pytestmark = pytest.mark.xdist_group("derivation")
 

@@ -31,12 +31,13 @@ from hystrip.derivation import (
 from hystrip.derivation.certificates import certified_names, certify, measure
 from hystrip.derivation.certificates.material import measure_material
 from hystrip.derivation.certificates.regimes import measure_regimes
-from hystrip.derivation.drift import AIM, SHARES
 from hystrip.derivation.emit import emit
 from hystrip.derivation.modes.jumps import closures
 from hystrip.derivation.modes.several_times import STAGES
 from hystrip.derivation.modes.states import exact_modes
 from hystrip.derivation.modes.symbols import J_0, J, enter, eta, leave, share
+from hystrip.derivation.progress import SHARES
+from hystrip.derivation.regenerate import AIM
 from hystrip.derivation.symbols import K
 from hystrip.generated import generalised, kelvin_voigt, modes
 

@@ -20,7 +20,7 @@ import numpy as np
 import hystrip
 from hystrip.commands.measurements.readings import GAMMA as GIVEN
 from hystrip.commands.measurements.readings import both
-from hystrip.derivation.drift import MEASURED, dumped, generated_folder, read_measured, write_files
+from hystrip.derivation.folder import MEASURED, dumped, generated_folder, read_measured, write_files
 
 MODEL, TABLE = "standard_linear_solid", "figure_6"
 ENERGIES = (0.0, 5e-6, 1.2e-5, 1.8e-5, 2.2e-5, GIVEN, 2.8e-5, 3.1e-5, 3.4e-5, 3.8e-5, 4.4e-5, 5e-5, 7e-5, 1e-4)

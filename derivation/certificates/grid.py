@@ -14,7 +14,7 @@ import numpy as np
 import sympy as sp
 
 from ..modes.states import exact_modes
-from ..modes.symbols import J_0, STATES, m
+from ..modes.symbols import STATES, m
 from ..printing import source
 from ..symbols import J, L, T_eps, T_sigma, a, alpha, b, beta, c, d, h, l, p, p_0, s, s_0, s_1
 from .point import ZERO, Point, rounded
@@ -162,6 +162,3 @@ def domain(args: Sequence[sp.Symbol]) -> list[str]:
     keys += ["m"] if m in args else ["alpha, beta"] if {alpha, beta} & set(args) else []
     keys += ["states"] if set(args) & set(STATES) else []
     return keys + sorted(name for name in names if name in DOMAIN)
-
-
-__all__ = ["DOMAIN", "WORDS", "J_0", "domain", "drawn"]

@@ -13,7 +13,7 @@ import sympy as sp
 from ..model import Model, Series
 from ..modes.states import exact_modes
 from ..modes.symbols import MATERIAL, m
-from .measure import DIGITS, Certificate, Worst, points_at
+from .measure import DIGITS, Certificate, points_at
 from .point import STEP
 from .scaled import Scaled
 
@@ -26,18 +26,21 @@ NEWTON = 5  # steps from there, or from a neighbouring point: each squares what 
 
 def measure_material(model: Model, series: Series, solver: Any, modes: Sequence[int], points: int = POINTS) -> Certificate:
     """Measure ``material_modes`` of a model that states its Prony series."""
-    worst = Worst(NAME, (m,))
+    found = Certificate(NAME, (m,))
     with mpmath.workdps(DIGITS):
         for count in modes:
             material = Material(model, series, count)
             for index in range(points_at(count, points)):
                 given = material.drawn(index)
                 arguments = {key: np.array(value) if isinstance(value, list) else value for key, value in given.items()}
-                with np.errstate(all="raise", under="ignore"):
-                    K, found = solver.material_modes(**arguments)
+
+                def modes(given: Any = arguments) -> tuple[Any, ...]:
+                    K, of_point = solver.material_modes(**given)
+                    return (K, *of_point)
+
                 shown = {f"{key} {k}": v for key, value in given.items() for k, v in enumerate(np.ravel(value).tolist())}
-                worst.see((K, *found), material.scaled(given), shown)
-    return worst.certificate()
+                found.see(modes, material.scaled(given), shown)
+    return found
 
 
 class Material:

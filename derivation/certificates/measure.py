@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import mpmath
@@ -25,38 +26,30 @@ POINTS_OF_REGIME = 80  # of a function of a whole regime, whose reference costs 
 COUNTS = (1, 2, 3, 5, 8, 30)  # numbers of relaxation times at which a solver for any number is measured
 
 
-@dataclass(frozen=True)
-class Certificate:
-    """Worst error of one function, in ulp of its natural scale, and where."""
-
-    name: str
-    worst: float
-    points: int
-    where: dict[str, float]
-    args: tuple[sp.Symbol, ...] = ()
-
-
 @dataclass
-class Worst:
-    """Collects errors of one function."""
+class Certificate:
+    """Worst error of one function, in ulp of its natural scale, and where; collected point by point."""
 
     name: str
     args: tuple[sp.Symbol, ...] = ()
-    ulps: float = 0.0
+    worst: float = 0.0
     where: dict[str, float] = field(default_factory=dict)
     points: int = 0
 
-    def see(self, computed: Any, truth: Scaled, where: dict[str, float]) -> None:
-        """Compare one result of the emitted function, nested as it may be, with its exact value."""
+    def see(self, function: Callable[[], Any], truth: Scaled, where: dict[str, float]) -> None:
+        """Compare a result of the emitted function, nested or not, with its exact value; an overflow is infinitely far off."""
         self.points += 1
         self.where = self.where or where
+        try:
+            with np.errstate(all="raise", under="ignore"):
+                computed = function()
+        except FloatingPointError:
+            self.worst, self.where = np.inf, where
+            return
         for got, true, size in zip(_numbers(computed), np.ravel(truth.value), np.ravel(truth.size), strict=True):
             ulps = float(abs(mpmath.mpf(got) - true) / (max(size, FLOOR) * EPS)) if np.isfinite(got) else np.inf
-            if not ulps <= self.ulps:
-                self.ulps, self.where = ulps, where
-
-    def certificate(self) -> Certificate:
-        return Certificate(self.name, self.ulps, self.points, self.where, self.args)
+            if not ulps <= self.worst:
+                self.worst, self.where = ulps, where
 
 
 def points_at(modes: int, few: int) -> int:
@@ -70,7 +63,7 @@ def measure(kernel: Kernel, solver: Any, modes: Sequence[int] = (), points: int 
     ``modes``: the numbers of relaxation times at which a function of a Prony series is measured; empty for one of a single time.
     ``points``: of the grid, with one relaxation time.
     """
-    worst = Worst(kernel.formula.name, kernel.args)
+    found = Certificate(kernel.formula.name, kernel.args)
     if points is None:
         points = POINTS_OF_REGIME if set(EDGES) & set(kernel.args) else POINTS
         points = points // 8 if modes else points
@@ -81,10 +74,8 @@ def measure(kernel: Kernel, solver: Any, modes: Sequence[int] = (), points: int 
                 point = drawn(
                     kernel.args, f"{kernel.formula.name} {index}", count, kernel.moving, False if kernel.springs else None
                 )
-                with np.errstate(all="raise", under="ignore"):
-                    computed = _computed(kernel, solver, point)
-                worst.see(computed, reference(point), point.shown())
-    return worst.certificate()
+                found.see(partial(_computed, kernel, solver, point), reference(point), point.shown())
+    return found
 
 
 def _with_rest(kernel: Kernel) -> tuple[Any, Any]:

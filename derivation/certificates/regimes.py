@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import Any
 
 import mpmath
-import numpy as np
 
 from ..kernel import Kernel
 from ..modes.regimes import ModeRegime
-from ..modes.symbols import m
-from ..symbols import D, delta_0, p_0
+from ..modes.symbols import OF_STRIP
 from .composition import BLOCKS, Composition
 from .grid import drawn
-from .measure import DIGITS, Certificate, Worst, points_at
+from .measure import DIGITS, Certificate, points_at
 from .reference import Reference
 
 KINDS = ("state", "passages", "residual", "jacobian", "return_map", "means")
@@ -37,8 +36,8 @@ def measure_regimes(
     with mpmath.workdps(DIGITS):
         blocks = {k.formula.name: Reference(k.exact) for k in kernels if k.formula.name in BLOCKS}
     for regime in regimes:
-        args = (*regime.edges, m, p_0, delta_0, D)
-        worst = {kind: Worst(f"{kind}_{regime.sequence}", args) for kind in KINDS}
+        args = (*regime.edges, *OF_STRIP)
+        found = {kind: Certificate(f"{kind}_{regime.sequence}", args) for kind in KINDS}
         with mpmath.workdps(DIGITS):
             for count in modes:
                 for index in range(points_at(count, points)):
@@ -47,8 +46,6 @@ def measure_regimes(
                     truth = Composition(regime, blocks, point).functions(agreed=count <= AGREED_UP_TO and index < 1)
                     given = [point.argument(symbol, solver) for symbol in args]
                     for kind in KINDS:
-                        with np.errstate(all="raise", under="ignore"):
-                            found = getattr(solver, f"{kind}_{regime.sequence}")(*given)
-                        worst[kind].see(found, truth[kind], point.shown())
-        for kind in KINDS:
-            yield worst[kind].certificate()
+                        function = partial(getattr(solver, f"{kind}_{regime.sequence}"), *given)
+                        found[kind].see(function, truth[kind], point.shown())
+        yield from found.values()

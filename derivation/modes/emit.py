@@ -26,7 +26,7 @@ def template_values(derivation: Derivation) -> dict[str, Any]:
     """What the template of a model with n modes is rendered with beside what every model has."""
     model, series = derivation.model, series_of(derivation.model)
     arrays = [] if isinstance(series, Roots) else [source(symbol) for symbol in series.arrays]
-    formulas = [each.formula for each in (*derivation.kernels, *derivation.of_level, *derivation.of_regimes)]
+    formulas = [each.formula for each in (*derivation.kernels, *derivation.of_regimes)]
     sums = {type(f).__name__ for f in _functions(formulas) if isinstance(f, (*SUMS, *ALGORITHMS))}
     checked = [_checked(parameter, arrays, model.modes is None) for parameter in model.parameters]
     material, builders = _modes_of_material(model, series)
@@ -41,7 +41,6 @@ def template_values(derivation: Derivation) -> dict[str, Any]:
         "sums": sorted({*sums, *FROM_MODES, *validators, *builders}, key=lambda n: (n.islower(), n)),
         "helpers": sorted({*helpers_used(formulas), *FROM_STABLE}),
         "functions": [written(each.formula, each) for each in derivation.of_regimes],
-        "levels": [written(each.formula, each) for each in derivation.of_level],
     }
 
 

@@ -9,22 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import sympy as sp
 
 from ..averages import adhesive_rise
 from ..check import Derived, derived, zero
-from ..functions import Call, Formula, Helper, stack_sum
-from ..level import R
+from ..functions import Formula, Helper
 from ..sequences import ADHESION, CONTACT, PERIOD, Span
 from ..stable import PROFILE, PROFILE_INTEGRAL, PROFILE_RISE, PROFILE_SLOPE
-from ..symbols import D, K, V, delta_0, h, l, p_0, p_nominal
+from ..symbols import D, p_0
 from . import stable
 from .regimes import ModeRegime
-from .saturated import R_LOSS, Complete
-from .symbols import m
-from .tensor import generic
+from .symbols import OF_STRIP, m
 
 ORDINALS = ("first", "second", "third", "fourth")
 
@@ -61,60 +57,9 @@ class RegimeFunction:
     algorithm: str = ""
 
 
-class at_speed(Helper):
-    """The modes of a strip that passes at a rate: their times multiplied by it."""
-
-
-def level_functions(complete: Complete) -> tuple[RegimeFunction, ...]:
-    """Complete contact of a strip, and of levels in K* at their own rate k V; their modes have times in seconds."""
-    modes = sp.Symbol("modes")
-    passing = at_speed(modes, 2 * sp.pi * V / l)
-    ratio, loss = stable.MODULUS_RATIO(passing), stable.LOSS(passing)
-    of_level, of_strip = (K, modes, p_0, l, h, V), (m, p_0, delta_0, D)
-    friction = Formula("level_saturation_friction", (K, modes, l, h, V), 3 * sp.pi / 32 * K * h * (h / l) * loss)
-    rows = (
-        (complete.penetration, Formula("level_saturation_penetration", of_level, h / 2 * (1 + ratio) - p_0 / K)),
-        (complete.pressure, Formula("level_saturation_pressure", of_level, K * h * (2 * ratio - 1) / 4 - p_0)),
-        (complete.friction, friction),
-        (
-            complete.stack,
-            Formula("saturated_stack_friction", (*friction.args, p_nominal), stack_sum(friction(*friction.args)) / p_nominal),
-        ),
-        (complete.means, Formula("means_c", of_strip, (D - 1, stable.LOSS(m) / 2))),
-    )
-    meaning = {"modulus_ratio": R, "loss": R_LOSS, friction.name: complete.friction.value}
-    for record, formula in rows:
-        stated = [
-            part.replace(lambda e: isinstance(e, Call), lambda e: meaning[e.formula.name]) for part in _parts(formula.result)
-        ]
-        residuals = [generic(one) - generic(other) for one, other in zip(stated, _parts(record.value), strict=True)]
-        zero(record.name, f"{formula.name}: the emitted form is the derived expression", residuals)
-    return tuple(RegimeFunction(formula, r.statement, r.latex, r.function, r.paper) for r, formula in rows)
-
-
 def all_functions(regimes: Sequence[ModeRegime], means: Derived) -> tuple[RegimeFunction, ...]:
-    """What is emitted for the regimes."""
-    of_edges = (each for regime in regimes if regime.edges for each in regime_functions(regime, means))
-    return (*rest_functions(regimes, means), *of_edges)
-
-
-def rest_functions(regimes: Sequence[ModeRegime], means: Derived) -> tuple[RegimeFunction, ...]:
-    """Means of the regimes at rest, whose pressure is constant: it does no work over a period."""
-    at_rest = [regime for regime in regimes if not regime.edges and regime.zones[0].kind != CONTACT]
-    return tuple(
-        RegimeFunction(
-            Formula(f"means_{r.sequence}", (m, p_0, delta_0, D), (r.zones[0].pressure, sp.Integer(0))),
-            f"Means of pressure and friction of a strip: {r.title}.",
-            means.latex,
-            means.function,
-            means.paper,
-        )
-        for r in at_rest
-    )
-
-
-def _parts(value: Any) -> tuple[sp.Expr, ...]:
-    return value if isinstance(value, tuple) else (value,)
+    """What is emitted for the regimes with edges."""
+    return tuple(each for regime in regimes if regime.edges for each in regime_functions(regime, means))
 
 
 def period_map() -> Derived:
@@ -138,7 +83,7 @@ def period_map() -> Derived:
 
 def regime_functions(regime: ModeRegime, means: Derived) -> tuple[RegimeFunction, ...]:
     """What is emitted for a regime with edges."""
-    sequence, args = regime.sequence, (*regime.edges, m, p_0, delta_0, D)
+    sequence, args = regime.sequence, (*regime.edges, *OF_STRIP)
     by, first = regime.derived.function, regime.edges[0]
     state = Formula(f"state_{sequence}", args, periodic(sp.Tuple(*(_map(zone) for zone in regime.zones))))
     passages = _passages(regime, args, state)

@@ -27,10 +27,10 @@ def mode_levels(flows: ModeFlows, complete: Complete, regimes: tuple[ModeRegime,
         equilibrium(touching, [_unbalanced(regime) for regime in touching]),
         contact_area(touching),
         local_stress(u, pressure, sp.pi * R_LOSS),
-        means_over_a_level(pressure, complete.means.value),
+        means_over_a_level(pressure, complete.mean),
         local_shear(),
         carried_friction(passed_once(flows), ("excess_event",)),
-        friction_coefficient(pressure, complete.friction.value, complete.stack.value, (h, l, R_LOSS)),
+        friction_coefficient(pressure, complete.friction, complete.stack, (h, l, R_LOSS)),
     )
 
 

@@ -15,7 +15,6 @@ import mpmath
 import numpy as np
 import sympy as sp
 
-from ..functions import stack_sum, written_out
 from ..symbols import alpha, beta
 from .states import alpha_i, alpha_k, beta_i, beta_j, beta_k, eta_i, exact_modes
 from .symbols import J_0, J, S, enter, eta, f, f_0, leave, share, z, z_0
@@ -65,56 +64,52 @@ def _on(vector: np.ndarray, axis: int) -> np.ndarray:
     return np.reshape(vector, tuple(-1 if n == axis else 1 for n in range(3)))
 
 
-def value(expression: sp.Expr, point: Sample) -> Any:
+def value(e: Any, point: Sample) -> Any:
     """A number, or an array over the indices that the expression has; a symbol that is no mode's is ``point``'s too."""
-    return _value(written_out(sp.sympify(expression)), point)
-
-
-def _value(e: Any, point: Sample) -> Any:
     if e in point:
         found = point[e]
         return found[:, :, None] if np.ndim(found) == 2 else found
     if isinstance(e, sp.Add):
-        return reduce(add, (_value(term, point) for term in e.args))
+        return reduce(add, (value(term, point) for term in e.args))
     if isinstance(e, sp.Mul):
-        return reduce(mul, (_value(factor, point) for factor in e.args))
+        return reduce(mul, (value(factor, point) for factor in e.args))
     if isinstance(e, sp.Pow):
-        return _value(e.base, point) ** _value(e.exp, point)
+        return value(e.base, point) ** value(e.exp, point)
     if isinstance(e, (sp.NumberSymbol, sp.Number)):
         return e._to_mpmath(mpmath.mp.prec)
     if e == sp.I:
         return mpmath.mpc(0, 1)
-    if isinstance(e, stack_sum):  # of one level
-        return _value(e.args[0], point)
     if isinstance(e, total):
-        terms = _value(e.args[0], point)
+        terms = value(e.args[0], point)
         if np.size(terms) != MODES:
             raise ValueError(f"a sum over the modes of {e.args[0]}")
         return np.sum(terms)
     if isinstance(e, (across, back)):
-        vector = _value(e.args[1] if isinstance(e, across) else e.args[0], point)
-        matrix = _value(e.args[0] if isinstance(e, across) else e.args[1], point)
+        vector = value(e.args[1] if isinstance(e, across) else e.args[0], point)
+        matrix = value(e.args[0] if isinstance(e, across) else e.args[1], point)
         return np.sum(matrix * vector, axis=int(np.argmax(np.shape(vector))), keepdims=True)
     if isinstance(e, (diagonal, sandwich)):  # a matrix stands for what it makes of z_0
-        return _value(applied(e, z_0), point)
+        return value(applied(e, z_0), point)
     if isinstance(e, along):
-        return np.sum(_value(e.args[0], point), axis=int(e.args[1]), keepdims=True)
+        return np.sum(value(e.args[0], point), axis=int(e.args[1]), keepdims=True)
     if isinstance(e, product_along):
-        factors, axis = np.asarray(_value(e.args[0], point), dtype=object), int(e.args[1])
+        factors, axis = np.asarray(value(e.args[0], point), dtype=object), int(e.args[1])
         if axis == OTHER:
             factors = np.where(np.eye(MODES, dtype=bool)[:, None, :], mpmath.mpf(1), factors)
         return np.prod(factors, axis=axis, keepdims=True)
     if isinstance(e, slope):
         return _slope(*e.args, point)
+    if isinstance(e, sp.Max):
+        return max(value(part, point) for part in e.args)
     if isinstance(e, sp.Integral):
         return _integral(*e.args, point)
     if isinstance(e, sp.Function):
         of = getattr(mpmath, FUNCTIONS[type(e)])
-        return np.frompyfunc(of, 1, 1)(_value(e.args[0], point))
+        return np.frompyfunc(of, 1, 1)(value(e.args[0], point))
     raise ValueError(f"{e} has no value here")
 
 
-FUNCTIONS = {sp.exp: "exp", sp.sin: "sin", sp.cos: "cos", sp.atan: "atan", sp.re: "re", sp.im: "im", sp.Abs: "fabs"}
+FUNCTIONS = {each: each.__name__ for each in (sp.exp, sp.sin, sp.cos, sp.tan, sp.atan, sp.acos, sp.re, sp.im)} | {sp.Abs: "fabs"}
 
 
 def _slope(body: sp.Expr, by: sp.Symbol, point: Sample) -> Any:
@@ -125,16 +120,16 @@ def _slope(body: sp.Expr, by: sp.Symbol, point: Sample) -> Any:
     else:
         moves = [np.reshape(np.array([STEP * (n == k) for n in range(MODES)]), np.shape(start)) for k in range(MODES)]
     slopes = [
-        (_value(body, {**point, by: start + move}) - _value(body, {**point, by: start - move})) / (2 * STEP) for move in moves
+        (value(body, {**point, by: start + move}) - value(body, {**point, by: start - move})) / (2 * STEP) for move in moves
     ]
     return np.reshape(np.array(slopes, dtype=object), np.shape(start)) if np.ndim(start) else slopes[0]
 
 
 def _integral(body: sp.Expr, over: sp.Tuple, point: Sample) -> Any:
     variable, low, high = over
-    start, end = _value(low, point), _value(high, point)
+    start, end = value(low, point), value(high, point)
     middle, half = (start + end) / 2, (end - start) / 2
-    return sum(half * weight * _value(body, {**point, variable: middle + half * at}) for at, weight in _nodes(mpmath.mp.prec))
+    return sum(half * weight * value(body, {**point, variable: middle + half * at}) for at, weight in _nodes(mpmath.mp.prec))
 
 
 @cache

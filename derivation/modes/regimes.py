@@ -1,4 +1,4 @@
-"""The table of regimes for n modes: the zones a material point meets, with the states in which they are entered and left.
+"""The rows of the table of regimes for n modes (:mod:`..regimes`).
 
 As for one mode, but the closing condition is not among the equations: the constants of integration, one state of n numbers,
 are eliminated by the linear condition that it returns after a period. What is left are the events at the edges.
@@ -11,25 +11,22 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..check import BEYOND, Claim, derived, zero
-from ..inequality import Inequality, relation, require
-from ..regimes import out_of_reach, within_reach
+from ..check import BEYOND, derived, zero
+from ..inequality import Inequality, Relation, relation, require
 from ..sequences import (
-    ADHESION,
     CONTACT,
     EQUATIONS,
-    FREE,
     NOTHING,
     PERIOD,
     Row,
     Span,
     edgeless_record,
-    in_order,
     obeys_jump_law,
+    required,
     with_edges,
     zones_of,
 )
-from ..symbols import D, a, b, c, d, delta_0, p_0, s
+from ..symbols import b, d, p_0, s
 from .symbols import J_0
 
 gap_at, gap_slope, pressure_slope = (sp.Function(name) for name in ("g", "g'", "p'"))
@@ -58,103 +55,54 @@ class ModeRegime(Row):
         return _equations(self.zones) if self.edges else ()
 
 
-def mode_regimes(snaps: bool, closures: tuple[int, ...], threshold: sp.Expr) -> tuple[ModeRegime, ...]:
-    """Every regime; without instantaneous compliance no point snaps into contact. ``threshold``: of D for complete contact."""
-    trailing = (trailing_adhesion(closures),) if snaps else ()
-    partial = (discrete_adhesion(closures), *trailing, adhesion_only(closures), saturated_adhesion(closures))
-    return (*partial, *edgeless(closures, threshold))
+@dataclass(frozen=True)
+class Zone(Span):
+    """A zone at whose end the state comes to an edge with a slope that its fields show."""
+
+    def approach(self, edge: sp.Symbol) -> Inequality:
+        what, slope = ("the pressure", pressure_slope) if self.kind == CONTACT else ("the gap", gap_slope)
+        sign, verb = (rises, "rises") if self.rises else (falls, "falls")
+        return require(relation(sign, slope(edge), 0), sentence=f"{what} {verb} just before {edge}: {{}}")
 
 
-def discrete_adhesion(closures: tuple[int, ...]) -> ModeRegime:
-    r"""Partial contact between two adhesion zones. w steps by :math:`\mp J_0 p_0` at d and c."""
-    return _partial(discrete_adhesion, "acaf", closures)
+@dataclass(frozen=True)
+class SeveralTimes:
+    """Makes the rows of the table for n modes."""
 
+    closures: tuple[int, ...]
+    step = J_0 * p_0
+    at_threshold = "{}, where R is modulus_ratio"
 
-def trailing_adhesion(closures: tuple[int, ...]) -> ModeRegime:
-    r"""Snap-in at d: the states are continuous, w steps by :math:`-\delta_0`, so contact is entered at :math:`-\delta_0/J_0`."""
-    steps_over = require(relation("<=", delta_0 - J_0 * p_0, 0), sentence="w steps over the gap: {}")
-    return _partial(trailing_adhesion, "afc", closures, snap=(steps_over,))
+    def zones(self, sequence: str) -> tuple[Zone, ...]:
+        return zones_of(sequence, Zone, self.step, J_0)
 
+    def all_along(self, zone: Zone, sign: str, limit: sp.Expr) -> tuple[tuple[Relation, Relation], str]:
+        return (relation(sign, gap_at(s), limit), relation("<=", zone.first, s, zone.last)), "for {}"
 
-def adhesion_only(closures: tuple[int, ...]) -> ModeRegime:
-    r"""No contact; adhesion from d to c."""
-    stays = require(relation(">=", gap_at(s), 0), relation("<=", d, s, c), sentence="the gap stays open: {} for {}")
-    return _partial(adhesion_only, "af", closures, stays=(stays,))
-
-
-def saturated_adhesion(closures: tuple[int, ...]) -> ModeRegime:
-    r"""Partial contact, the whole gap at :math:`-p_0`; with :math:`p_0 = 0` this is contact without adhesion ('cf')."""
-    stays = require(
-        relation("<=", gap_at(s), delta_0),
-        relation("<=", a, s, b + PERIOD),
-        relation("==", p_0, 0),
-        sentence="the gap stays within reach: {} for {}, unless {}",
-    )
-    return _partial(saturated_adhesion, "ac", closures, stays=(stays,))
-
-
-def edgeless(closures: tuple[int, ...], threshold: sp.Expr) -> tuple[ModeRegime, ...]:
-    """No edge: complete contact, everything at -p_0, nothing."""
-    saturated = require(relation(">=", D, threshold), sentence="{}, where R is modulus_ratio")
-    rows = (
-        ("c", CONTACT, "w = u", (saturated,)),
-        ("a", ADHESION, "w = p = -p_0", within_reach()),
-        ("f", FREE, "w = p = 0", (out_of_reach(),)),
-    )
-    found = []
-    for sequence, kind, latex, admissible in rows:
-        zone = Span(kind, s, s + PERIOD, NOTHING, NOTHING)
+    def edgeless(self, by: Callable, sequence: str, kind: str, *admissible: Inequality) -> ModeRegime:
+        zone = Zone(kind, s, s + PERIOD, NOTHING, NOTHING)
+        latex = "w = u" if kind == CONTACT else f"w = p = {sp.latex(zone.load)}"
         change = zone.fields(s + PERIOD, NOTHING)[1] - zone.fields(s, NOTHING)[1]
-        found.append(ModeRegime(sequence, (zone,), admissible, closures, edgeless_record(edgeless, sequence, latex, change)))
-    return tuple(found)
+        return ModeRegime(sequence, (zone,), admissible, self.closures, edgeless_record(by, sequence, latex, change))
+
+    def partial(self, by: Callable, sequence: str, *admissible: Inequality, closures: tuple[int, ...] = ()) -> ModeRegime:
+        zones = self.zones(sequence)
+        record = derived(
+            by,
+            sequence,
+            [
+                obeys_jump_law(zones, J_0, "[w] = J_0 [p]"),
+                zero("the zones are one period long", sp.Add(*(zone.last - zone.first for zone in zones)) - PERIOD),
+            ],
+            f"regime {sequence}",
+            statement=f"{with_edges(sequence, (zone.first for zone in zones))}. The state at the first edge follows from them by "
+            "one linear system, the edges from one event each.",
+            latex=r"R z = c,\qquad \text{" + "; ".join(meaning for _, meaning in _equations(zones)) + "}",
+            status=BEYOND,
+            emitted=tuple(f"{kind}_{sequence}" for kind in ("state", "residual", "jacobian", "return_map")),
+        )
+        return ModeRegime(sequence, zones, required(zones, admissible), self.closures, record)
 
 
-def _partial(
-    by: Callable[..., ModeRegime],
-    sequence: str,
-    closures: tuple[int, ...],
-    snap: tuple[Inequality, ...] = (),
-    stays: tuple[Inequality, ...] = (),
-) -> ModeRegime:
-    """A regime with edges. ``snap``, ``stays``: what it must satisfy besides the slopes at its edges and their order."""
-    zones = zones_of(sequence, Span, J_0 * p_0, J_0)
-    edges = tuple(zone.first for zone in zones)
-    record = derived(
-        by,
-        sequence,
-        [obeys_jump_law(zones, J_0, "[w] = J_0 [p]"), _period(zones)],
-        f"regime {sequence}",
-        statement=f"{with_edges(sequence, edges)}. The state at the first edge follows from them by one linear system, "
-        "the edges from one event each.",
-        latex=r"R z = c,\qquad \text{" + "; ".join(meaning for _, meaning in _equations(zones)) + "}",
-        status=BEYOND,
-        emitted=tuple(f"{kind}_{sequence}" for kind in ("state", "residual", "jacobian", "return_map")),
-    )
-    admissible = (*snap, _gap_approaches(zones), *stays, *_pressure_falls(zones), in_order(*edges))
-    return ModeRegime(sequence, zones, admissible, closures, record)
-
-
-def _equations(zones: tuple[Span, ...]) -> tuple[tuple[str, str], ...]:
+def _equations(zones: tuple[Zone, ...]) -> tuple[tuple[str, str], ...]:
     return (ONSET[zones[0].first], *(EQUATIONS[zone.last] for zone in zones[:-1]))
-
-
-def _gap_approaches(zones: tuple[Span, ...]) -> Inequality:
-    """How the gap comes to the edge where each zone outside contact ends, the one before the first edge first."""
-    ends = [(zones[0].first, zones[-1]), *((zone.last, zone) for zone in zones[:-1] if zone.kind != CONTACT)]
-    words = (f"the gap {'rises' if zone.rises else 'falls'} just before {edge}: {{}}" for edge, zone in ends)
-    slopes = (relation(rises if zone.rises else falls, gap_slope(edge), 0) for edge, zone in ends)
-    return require(*slopes, sentence="; ".join(words))
-
-
-def _pressure_falls(zones: tuple[Span, ...]) -> tuple[Inequality, ...]:
-    """So it does where contact ends."""
-    ends = (zone.last for zone in zones if zone.kind == CONTACT)
-    return tuple(
-        require(relation(falls, pressure_slope(end), 0), sentence=f"the pressure falls just before {end}: {{}}") for end in ends
-    )
-
-
-def _period(zones: tuple[Span, ...]) -> Claim:
-    """The zones follow each other and close after one period."""
-    ends = [zone.last - zone.first for zone in zones]
-    return zero("the zones are one period long", sp.Add(*ends) - PERIOD)

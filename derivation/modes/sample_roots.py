@@ -16,7 +16,7 @@ import sympy as sp
 from ..check import Derived
 from ..inequality import Inequality, Relation
 from ..level import R
-from ..sample_roots import allowed, compared, true
+from ..sample_roots import ROOTS, allowed, compared, true
 from ..sequences import CONTACT, Span
 from ..symbols import D, alpha, beta, delta_0, p, p_0, s, s_0
 from .flows import ModeFlows, u
@@ -25,45 +25,6 @@ from .states import exact_modes
 from .symbols import J_0, J, enter, eta, f_0, leave, z_0
 
 SAMPLES, SLACK, STEP = 48, 1e-9, 1e-7
-# tau_1, lambda_1, tau_2, lambda_2, p_0, delta_0, D; edges to start from; whether the root is a solution
-ROOTS: dict[str, tuple[tuple[tuple[float, ...], tuple[float, ...], bool], ...]] = {
-    "acaf": (
-        ((0.0845, 1.87, 2.13, 2.37, 1.23, 0.0569, 1.46), (-1.974, -1.97, 1.356, 1.718), True),
-        ((0.102, 0.31, 0.353, 5.97, 1.74, 0.437, 0.298), (-1.334, -0.999, 0.479, 1.402), True),
-        ((0.0595, 0.121, 0.128, 0.476, 0.235, 0.415, 0.534), (-1.52, 1.337, 1.337, 1.756), False),
-        ((0.0503, 0.274, 0.951, 3.77, 0.0916, 0.354, 0.599), (-1.407, -1.063, 0.6, 0.105), False),
-    ),
-    "afc": (
-        ((0.272, 0.616, 0.711, 6.0, 1.97, 0.0251, 1.41), (-1.443, 0.927, 1.012), True),
-        ((0.298, 0.505, 0.835, 5.35, 2.76, 0.125, 0.2), (-0.944, 1.102, 1.385), True),
-        ((0.0514, 0.287, 2.03, 2.53, 0.0668, 0.119, 0.191), (-0.807, 0.511, 0.819), False),
-        ((0.0898, 0.175, 1.93, 2.96, 0.177, 0.0504, 0.971), (1.592, 1.605, 1.673), False),
-    ),
-    "af": (
-        ((0.153, 0.976, 1.01, 1.51, 0.0779, 0.678, -0.41), (-0.752, 0.827), True),
-        ((0.0595, 0.2, 1.21, 2.62, 0.146, 0.281, 0.51), (-1.377, 1.485), False),
-        ((0.126, 0.168, 0.244, 1.36, 0.9, 0.0973, 0.387), (1.031, 1.346), False),
-        ((0.135, 0.151, 0.846, 1.25, 0.167, 0.625, -0.463), (0.577, 0.765), False),
-    ),
-    "ac": (
-        ((0.836, 0.906, 1.01, 5.67, 1.2, 1.51, 0.291), (-1.529, 0.991), True),
-        ((0.145, 1.49, 4.03, 5.99, 0.119, 0.373, 0.674), (-1.232, 0.521), False),
-        ((0.0979, 0.957, 1.55, 2.8, 0.17, 0.424, 0.916), (-1.523, 0.691), False),
-        ((0.129, 0.98, 1.79, 1.91, 0.327, 0.607, 0.113), (-5.232, -1.852), False),
-    ),
-    "c": (((0.3, 0.5, 0.8, 2.0, 0.5, 0.4, 4.0), (), True), ((0.3, 0.5, 0.8, 2.0, 0.5, 0.4, 1.5), (), False)),
-    "a": (
-        ((0.3, 0.5, 0.8, 2.0, 0.5, 2.5, -0.7), (), True),
-        ((0.3, 0.5, 0.8, 2.0, 0.5, 2.5, -0.2), (), False),
-        ((0.3, 0.5, 0.8, 2.0, 0.5, 1.5, -0.7), (), False),
-    ),
-    "f": (
-        ((0.3, 0.5, 0.8, 2.0, 0.5, 0.4, -0.7), (), True),
-        ((0.3, 0.5, 0.8, 2.0, 0.5, 0.4, -0.2), (), False),
-        ((0.3, 0.5, 0.8, 2.0, 0.0, 0.4, -0.2), (), True),
-        ((0.3, 0.5, 0.8, 2.0, 0.0, 0.4, 0.2), (), False),
-    ),
-}
 Edges = dict[sp.Symbol, float]
 Place = tuple[Span, float, float, np.ndarray]  # a zone, its ends, the state in which it is entered
 
@@ -71,8 +32,8 @@ Place = tuple[Span, float, float, np.ndarray]  # a zone, its ends, the state in 
 class Foundation:
     """A foundation with two modes under a strip: its numbers, and its flows as functions."""
 
-    def __init__(self, flows: ModeFlows, groups: Sequence[float]):
-        *times, traction, reach, depth = groups
+    def __init__(self, flows: ModeFlows, groups: Sequence[str]):
+        *times, traction, reach, depth = map(float, groups)
         modes = exact_modes(list(map(mpmath.mpf, times[0::2])), list(map(mpmath.mpf, times[1::2])))
         self.m = {symbol: np.array(value, dtype=float) for symbol, value in modes.items()}
         self.given = {p_0: traction, delta_0: reach, D: depth, J_0: float(self.m[J_0])}
@@ -206,10 +167,10 @@ def _function(expression: sp.Expr, symbols: tuple[sp.Symbol, ...]) -> Callable[.
 def sample_roots(regimes: Sequence[ModeRegime], flows: ModeFlows) -> Derived:
     r"""Solutions and roots that are none, :math:`0 < g \le \delta_0,\ p \ge -p_0,\ g > \delta_0`, against the inequalities."""
 
-    def judged(regime: ModeRegime, groups: tuple[float, ...], start: tuple[float, ...]) -> tuple[bool, bool]:
+    def judged(regime: ModeRegime, groups: Sequence[str], start: Sequence[str]) -> tuple[bool, bool]:
         foundation = Foundation(flows, groups)
-        edges = foundation.refined(regime, start) if regime.edges else {}
+        edges = foundation.refined(regime, tuple(map(float, start))) if regime.edges else {}
         admitted = all(foundation.satisfies(regime, inequality, edges) for inequality in regime.admissible)
         return foundation.fits(regime, edges), admitted
 
-    return compared(sample_roots, regimes, ROOTS, judged)
+    return compared(sample_roots, regimes, ROOTS["several_times"], judged)

@@ -2,26 +2,30 @@
 
 from __future__ import annotations
 
+from ..averages import constant_means
 from ..conditions import zone_conditions
+from ..displays import STATED, displays, of_modes
 from ..further import FOR_ANY_NUMBER, Basis, further
 from ..model import Model, Roots
 from ..outcome import Derivation, Progress, Stages, records
 from ..paper.tags import require_all, require_tags
+from ..regimes import regimes
 from ..strip import adhesion_law, strip_profile
 from ..zones import rigid_profile
 from .averages import means_of_a_strip
 from .chain import chain_rule
-from .displays import displays
 from .flows import mode_flows, u
-from .functions import all_functions, level_functions, period_map
+from .functions import all_functions, period_map
 from .jumps import closures, jump_law
 from .levels import mode_levels
 from .material import admissibility, foundation_law, prony_series, relaxed_stiffness
-from .regimes import mode_regimes
+from .regimes import SeveralTimes
 from .sample_roots import sample_roots
 from .saturated import complete_contact
 from .states import dimensionless_groups, partial_fractions
 from .states import states as point_states
+from .symbols import OF_STRIP
+from .vocabulary import BINDINGS, vocabulary
 from .whole import whole_kernels
 from .zones import contact, gap, passages, relaxation, states
 
@@ -50,27 +54,38 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     ]
     stages.done("zones", *(kernels for _, kernels in sections))
     complete = complete_contact(flows)
-    stages.done("complete contact", complete.kernels, complete)
-    table = mode_regimes(model.springy, closure.value, complete.threshold.value)
+    stages.done("complete contact", complete)
+    table = regimes(SeveralTimes(closure.value), complete.threshold.value, model.springy)
     stages.done("regimes", table, sample_roots(table, flows))
     means, period = means_of_a_strip(), period_map()
-    stages.done("means", means, period, chain_rule(period))
+    still = tuple(constant_means(regime, OF_STRIP) for regime in table if regime.sequence in ("a", "f"))
+    stages.done("means", means, still, period, chain_rule(period))
     stages.done("levels", mode_levels(flows, complete, table))
     more = further(FOR_ANY_NUMBER, Basis(flows, complete, table))
-    sections += [("Complete contact", complete.kernels), *more]
+    sections += [
+        ("Complete contact", complete.kernels),
+        *more,
+        ("Means of strips without edges", (complete.means, *still)),
+        ("Complete contact of whole levels, and a stack of them: SI units, modes with times in seconds", complete.level),
+    ]
     steps = tuple(records([*stages.made, more]))
-    read = displays(steps, flows, isinstance(model.series, Roots))
+    read = displays(steps, unread(model), vocabulary(flows), BINDINGS, of_modes)
     require_tags(steps)
     require_all(steps)
     stages.done("print", more)
     return Derivation(
+        "several_times",
         model,
         tuple(stages.made),
         table,
         tuple(sections),
         read,
         composed=tuple(regime for regime in table if regime.edges),
-        of_level=level_functions(complete),
         of_regimes=all_functions(table, means),
-        whole=whole_kernels(complete, table, model.springy),
+        whole=whole_kernels(model.springy),
     )
+
+
+def unread(model: Model) -> dict[str, str]:
+    """What is said of the displays that have nothing to compare."""
+    return STATED["several_times"] | (STATED["roots"] if isinstance(model.series, Roots) else {})

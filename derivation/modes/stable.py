@@ -20,6 +20,7 @@ from ..functions import (
     decay_mean,
     decay_rate,
     divisible,
+    expm1,
     hypot,
     loss_mean,
     per_time,
@@ -204,7 +205,7 @@ EXCESS_EVENT = Formula(
     (
         *HALVES,
         (_decayed, sp.exp((s_0 - s_1) / time)),
-        (_lapsed, stable.expm1((s_0 - s_1) / time)),
+        (_lapsed, expm1((s_0 - s_1) / time)),
         _rise,
         _end,
     ),

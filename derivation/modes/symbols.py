@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..symbols import alpha, beta
+from ..symbols import D, alpha, beta, delta_0, p_0
 
 m = sp.Symbol("m")  # the material of a strip, in the emitted code
 z_0, f_0 = sp.symbols("z_0 f_0", real=True)  # state in which a zone is entered, per mode
@@ -18,6 +18,7 @@ J_0 = sp.Symbol("J_0", nonnegative=True)  # instantaneous compliance
 enter, leave, share = sp.symbols("enter leave share")  # matrices between retardation modes and branches
 
 MATERIAL = (alpha, beta, eta, S, J, J_0, enter, leave, share)
+OF_STRIP = (m, p_0, delta_0, D)
 VECTORS = (alpha, beta, eta, S, J, z_0, f_0, z, f)
 MATRICES = (enter, leave, share)
 STATES = (z_0, f_0, z, f)

@@ -6,8 +6,9 @@ from typing import Any
 
 import sympy as sp
 
-from ..functions import Helper, helper, stack_sum
-from .symbols import MATRICES
+from ..functions import Helper, Scaling, helper, stack_sum
+from ..symbols import alpha, beta
+from .symbols import MATRICES, eta
 
 
 class total(Helper):
@@ -46,6 +47,13 @@ def sandwich(left, vector, right):
 def diagonal(vector):
     """The matrix with a vector on its diagonal."""
     return diagonal(vector)
+
+
+class at_speed(Scaling):
+    """The modes of a strip that passes at a rate: their times multiplied by it."""
+
+    def scaled(self) -> dict[sp.Symbol, sp.Expr]:
+        return {time: self.args[1] * time for time in (alpha, beta, eta)}
 
 
 SUMS = (total, across, back, sandwich, diagonal)

@@ -11,35 +11,29 @@ from typing import Any
 
 import sympy as sp
 
-from ..certificates import WORDS
+from ..certificates import WORDS as DOMAINS
 from ..check import Derived
 from ..emit import INTERFACE, input_hash
 from ..functions import HELPERS, flat
 from ..outcome import Derivation
 from ..paper.tags import numbers
 from ..sequences import Row
-from . import one_time, paper, places, several_times, sources
+from . import paper, places, sources
 from .latex import widest
-from .wording import Wording, plainly
+from .misprints import misprints
+from .wording import WORDING, Wording, plainly
+from .words import WORDS
 
 LONG = 130  # operations from which a value is only read in the generated function
 PAPER = 108  # characters of a piece too wide for a sheet
 STATED = ("regime ", "onset_slope_")  # steps whose equation is the value written out already
 TOOLS = ("sympy", "jinja2", "ruff", "latex2mathml")
-METHOD = (
-    ("check.zero", "A claim with the outcome exact zero has passed here; one that does not raises an error that names the step."),
-    ("exact.is_zero", "Zero is decided on a polynomial in algebraically independent quantities, which vanishes or does not; no "
-     "heuristic simplification takes part."),
-    ("kernel.same", "The form that is computed, chosen for floating point, equals the expression that was derived."),
-    ("regime.partial", "A regime's boundary equations follow from the list of its zones, and are checked, here."),
-    ("regime.edgeless", "A regime without edges is checked here: its field is steady."),
-)  # fmt: skip
 CLOSURES = {0: "continuous", 1: "constitutive"}
 
 
 def content(derivation: Derivation, files: dict[str, str], certificates: dict[str, Any]) -> dict[str, Any]:
     """Everything on a model's page but what is measured. ``files``: the emitted texts; ``certificates``: rows by function."""
-    own = (several_times if derivation.model.series else one_time).wording(derivation)
+    own, words = WORDING[derivation.kind](derivation), WORDS.get(derivation.kind, {})
     module = f"{derivation.model.name}.py"
     computed = sources.generated(module, files[module])
     helpers = sources.generated("stable.py", files["stable.py"])
@@ -47,21 +41,21 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
     return {
         "model": derivation.model.name,
         "title": derivation.model.title,
-        "paper": paper.TITLE,
+        "paper": WORDS["paper"],
         "identity": identity(files),
-        "fields": [list(row) for row in own.fields],
+        "fields": words.get("fields", []),
         "parameters": [list(row) for row in own.parameters],
         "material": [[p.name, p.unit, p.meaning] for p in derivation.model.parameters],
         "equations": paper.equations(derivation.steps, derivation.comparisons),
-        "misprints": own.misprints,
-        "small": [list(row) for row in own.small],
+        "misprints": misprints({step.name: step for step in derivation.steps}, derivation.kind),
+        "small": words.get("small", []),
         "stages": stages(derivation.steps, computed, displayed(derivation, own.unread)),
         "regimes": [_regime(regime, own, computed) for regime in derivation.regimes],
-        "domains": [list(row) for row in WORDS.items()],
+        "domains": [list(row) for row in DOMAINS.items()],
         "functions": functions_table(computed, derivation.steps, certificates, own.parts),
         "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
-        "method": [list(row) for row in METHOD],
-        "sources": {name: _text(sources.deriving(name)) for name in sorted({*functions, *(name for name, _ in METHOD)})},
+        "method": WORDS["method"],
+        "sources": {name: _text(sources.deriving(name)) for name in sorted({*functions, *(name for name, _ in WORDS["method"])})},
         "generated": {name: _text(source) for name, source in (computed | helpers).items()},
         "helpers": helpers_table(helpers),
         "measured": "measured.json",

@@ -10,10 +10,6 @@ from ..paper.printed import SUBJECTS
 from ..paper.record import Comparison
 from ..paper.tags import numbers
 
-TITLE = (
-    "Modeling Sliding Friction of a Multiscale Wavy Surface over a Viscoelastic Foundation Taking into Account Adhesion "
-    "(Makhovskaya, Lubricants 2019, 7, 13)"
-)
 FIRST = {6: ("zone conditions",), 11: ("means over a level",), 15: ("saturated_pressure",)}
 """The step that states an equation, where that is not the first with its number."""
 

@@ -1,57 +1,22 @@
 """Where the runtime carries out what a step says, and which steps a step enters that no function computes by itself.
 
-All by the function that derives the step.
-
-A place is a function of the runtime and a piece of the line that does it. The page quotes the line; one that is gone, or
-no longer the only one, is an error that names the step.
+All by the function that derives the step: ``places.toml``. A place is a function of the runtime and a piece of the line that
+does it. The page quotes the line; one that is gone, or no longer the only one, is an error that names the step.
 """
 
 from __future__ import annotations
 
 import ast
 import importlib.util
+import tomllib
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
 from ..check import DerivationError, Derived
 
-RUNTIME: dict[str, tuple[tuple[str, str, str], ...]] = {
-    "strip.adhesion_law": (("inputs/adhesion.py", "Dugdale.__init__", "p * delta"),),
-    "strip.dimensionless_groups": (("orbit/si.py", "dimensionless", "alpha, beta ="),),
-    "jumps.closures": (("orbit/groups.py", "adhesive_cycle", "jump ="),),
-    "saturated.saturation_threshold": (("orbit/closed_form_exclusion.py", "saturates", "return s.D - 1 + s.p_0 >="),),
-    "multilevel.means_over_a_level": (
-        ("level/means.py", "level_means", "return average("),
-        ("level/means.py", "equal_strips", "mean = values.mean"),
-    ),
-    "load.contact_area": (("orbit/solved.py", "Record.orbits", "contact = np.clip("),),
-    "multilevel.local_shear": (("level/strips.py", "_values", "np.concatenate((strips.values, carried)"),),
-    "multilevel.carried_friction": (
-        ("level/lower_levels.py", "_contributions", "total[saturated, :-1] +="),
-        ("level/lower_levels.py", "_attempt", "best = width"),
-    ),
-    "multilevel.friction_coefficient": (("solve.py", "_result", "mu = np.divide"),),
-    "half_space.foundation_of_a_level": (("inputs/half_space.py", "_foundation", "per_modulus = SHAPE"),),
-    "stack.least_pressure": (("multilevel.py", "saturated", "needed = "),),
-}
-ENTERS: dict[str, tuple[str, ...]] = {
-    "model.foundation_law": ("relaxed stiffness", "moving frame", "complex modulus"),
-    "model.relaxed_stiffness": ("dimensionless groups",),
-    "model.instantaneous_compliance": ("dimensionless groups", "jump law"),
-    "strip.moving_frame": ("dimensionless groups", "strip problem"),
-    "flows.relaxation_flow": ("gap flow", "relaxation_increment", "relaxation_integral"),
-    "modes.flows.relaxation_flow": ("gap_after", "relaxation_increment", "relaxation_integral"),
-    "jumps.jump_law": ("closures",),
-    "jumps.internal_state": ("contact_increment", "relaxation_increment", "regime acaf"),
-    "saturated.complex_modulus": ("storage", "loss", "modulus_ratio", "saturated_pressure"),
-    "conditions.zone_conditions": ("strip problem", "regime acaf"),
-    "multilevel.local_stress": ("local shear", "integrals over contact"),
-    "energy.power_balance": ("friction balance acaf",),
-    "half_space.stiffness_under_a_wave": ("foundation that stands for a half-space",),
-    "stability.shift_of_an_event": ("onset_slope_acaf", "onset_slope_af"),
-}
-MEASURED = {"multilevel.friction_coefficient": "two_levels"}  # a table of the measured figures that shows the runtime at it
+_PLACES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+RUNTIME, ENTERS, MEASURED = _PLACES["runtime"], _PLACES["enters"], _PLACES["measured"]
 
 
 @dataclass(frozen=True)

@@ -9,21 +9,12 @@ from typing import Any
 
 from ..certificates import certified_names
 from ..derive import derive, stages_of
-from ..drift import (
-    AUDIT,
-    CERTIFICATES,
-    MEASURED,
-    Progress,
-    certificate_drift,
-    dumped,
-    generated_folder,
-    read_certificates,
-    read_measured,
-    write_files,
-)
+from ..drift import certificate_drift
 from ..emit import emit
+from ..folder import AUDIT, CERTIFICATES, MEASURED, dumped, generated_folder, read_certificates, read_measured, write_files
 from ..model import Model
 from ..models import MODELS
+from ..progress import Progress
 from .render import audit_files
 
 KEPT = ("figure_6",)  # tools/figure6.py

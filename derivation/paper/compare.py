@@ -35,6 +35,3 @@ def comparisons(strip: Strip, exact: Mapping[str, sp.Expr], steps: Mapping[str, 
         stack.all_complete(one_level),
     )
     return tuple(sorted(found, key=lambda comparison: comparison.number))
-
-
-__all__ = ["Comparison", "comparisons"]

@@ -1,0 +1,105 @@
+"""The folder of generated files: where it is, what stands in it, and how it is written."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import json
+import os
+import shutil
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+CERTIFICATES = "certificates.json"
+AUDIT = "audit"
+MEASURED = f"{AUDIT}/measured.json"  # pictures and measured figures of the pages, which `hystrip audit` makes anew
+
+
+def generated_folder() -> Path:
+    """Where the solvers of the package live."""
+    found = importlib.util.find_spec("hystrip.generated")
+    if found is None or found.origin is None:
+        raise FileNotFoundError("the package hystrip.generated is not installed")
+    return Path(found.origin).parent
+
+
+def require_folder(target: Path) -> None:
+    """Raise an error unless solvers can be written there: a new or empty folder, or one that holds solvers."""
+    if target.is_dir():
+        if any(target.iterdir()) and not (target / CERTIFICATES).is_file():
+            raise FileExistsError(f"{target} holds files, but no solver: name a new folder")
+    elif target.exists():
+        raise FileExistsError(f"{target} is a file: name a folder")
+
+
+def dumped(content: Any) -> str:
+    return json.dumps(content, indent=1, sort_keys=True) + "\n"
+
+
+def read_certificates(path: Path) -> dict[str, Any]:
+    return json.loads(path.read_text(encoding="utf-8"))["models"] if path.exists() else {}
+
+
+def stored_bounds(folder: Path | None = None) -> dict[str, dict[str, float]]:
+    """Bounds in ulp of the natural scale, by model and function."""
+    stored = read_certificates((folder or generated_folder()) / CERTIFICATES)
+    return {model: {name: row["bound"] for name, row in entry["functions"].items()} for model, entry in stored.items()}
+
+
+def read_measured(folder: Path) -> dict[str, Any]:
+    """What was measured and drawn for the pages in a folder of generated files, by model; empty if nothing can be read."""
+    try:
+        stored = json.loads((folder / MEASURED).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return stored if isinstance(stored, dict) else {}
+
+
+@contextmanager
+def importable(files: dict[str, str]) -> Iterator[Callable[[str], ModuleType]]:
+    """Import emitted modules by name from a package that lasts as long as the context and leaves no trace."""
+    with tempfile.TemporaryDirectory(prefix="hystrip_") as aside:
+        package = f"_{Path(aside).name}"
+        write_files(Path(aside) / package, files)
+        sys.path.insert(0, aside)
+        try:
+            yield lambda name: importlib.import_module(f"{package}.{name}")
+        finally:
+            sys.path.remove(aside)
+            for module in [name for name in sys.modules if name.partition(".")[0] == package]:
+                del sys.modules[module]
+
+
+def write_files(folder: Path, files: dict[str, str]) -> list[Path]:
+    """Write each file aside and rename it into place."""
+    return [_write(folder / name, text) for name, text in sorted(files.items())]
+
+
+def write_folder(folder: Path, files: dict[str, str]) -> list[Path]:
+    """Write a new folder aside and rename it into place."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}.") as aside:
+        whole = Path(aside) / folder.name
+        whole.mkdir()
+        write_files(whole, files)
+        os.replace(whole, folder)
+    return [folder / name for name in sorted(files)]
+
+
+def _write(path: Path, text: str) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, aside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(text.encode())
+        shutil.copymode(path, aside) if path.exists() else os.chmod(aside, 0o644)
+        os.replace(aside, path)
+    except BaseException:
+        Path(aside).unlink(missing_ok=True)
+        raise
+    return path
