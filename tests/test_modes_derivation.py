@@ -116,7 +116,7 @@ CHANGED = [
     ("modes/stable.py", "PROFILE_SLOPE(s_1) - total(transient +", "PROFILE_SLOPE(s_1) + total(transient +", "contact_passage"),
     ("modes/stable.py", "-total(rates) - PROFILE_SLOPE(s_1)", "-total(rates) + PROFILE_SLOPE(s_1)", "relaxation_passage"),
     ("modes/stable.py", "-back(enter, lost)", "back(enter, lost)", "contact_passage"),
-    ("sequences.py", "d + PERIOD, delta_0 + step, delta_0)", "d + PERIOD, delta_0, delta_0)", "regime afc"),
+    ("sequences.py", "d + PERIOD, delta_0 + step, delta_0)", "d + PERIOD, delta_0, delta_0)", "regime acaf"),
     ("sequences.py", "p_0 - delta_0 / compliance", "p_0 + delta_0 / compliance", "regime afc"),
     ("modes/saturated.py", "harmonic - eq_15", "harmonic + eq_15", "saturated_overstress"),
     ("modes/levels.py", "u - alpha / eta * harmonic", "u + alpha / eta * harmonic", "carried friction"),
