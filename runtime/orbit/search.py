@@ -19,10 +19,10 @@ from .sensitivity import SlopeBounds, onset_margin, over, slope_bounds, slope_ex
 
 #: every round divides what it leaves by two at least
 _MAX_ROUNDS = 200
-#: parts into which an interval is divided from the second round on. Most searches end in two; of the others, next to a fold
-#: or a graze, a round costs about the same whatever the parts: 4 to 10 do alike. The same for every batch: what a strip comes out
-#: as must not depend on its size
-_PARTS = 6
+#: parts into which an interval is divided, from round to round. Most searches end in two or three; next to a fold or a graze a
+#: round costs about the same whatever the parts: 4 to 10 do alike. The same for every batch: what a strip comes out as must not
+#: depend on its size
+_PARTS = (1, 2, 6)
 #: retardation times after which a displacement is gone, to the smallest number
 FORGOTTEN = 750
 
@@ -75,7 +75,7 @@ class _Search:
             for k in range(_MAX_ROUNDS):
                 if not index.size:
                     break
-                index, frontier, beyond, stop = self._advance(index, frontier, beyond, stop, _PARTS if k else 1)
+                index, frontier, beyond, stop = self._advance(index, frontier, beyond, stop, _PARTS[min(k, len(_PARTS) - 1)])
             self.result.unresolved[index] = True
         return self.result
 
