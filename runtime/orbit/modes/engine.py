@@ -25,6 +25,8 @@ from .problem import ModeStrips
 #: strips solved at a time: what a call of NumPy costs is shared by more of them than 2,048 (2 to 3 times faster with two times),
 #: and memory stays bounded (with 15 times 30 MB a matrix)
 CHUNK = 16384
+#: strips in chains of states at a time: 32 states each
+_CHAINED = 512
 _CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
 _EPS = np.finfo(float).eps
 #: distances in roundings of D at which a strip on the end of a branch is settled
@@ -112,8 +114,8 @@ class _Batch:
             if rest.size and self.unloading:
                 self._first(index[held[rest]], z[:, rest], np.ones(rest.size, bool), False)
         left = np.flatnonzero((found.kind == UNRESOLVED) | ((found.kind == ENGAGED) & (not ask)))
-        if left.size:
-            self._thorough(index[left], found.z[:, left], found.engaged[left], found.beyond[:, left])
+        for few in np.split(left, range(_CHAINED, left.size, _CHAINED)) if left.size else ():
+            self._thorough(index[few], found.z[:, few], found.engaged[few], found.beyond[:, few])
 
     def _always_engaged(self, index, sequence, near=None):
         """Solve the always engaged orbits of the strips ``index``; write those that are orbits of the strip.
