@@ -147,10 +147,10 @@ def _by_threshold(columns: LevelBatch, changes: Changes, A, E, unknown: str) -> 
     code, m = changes.codes % len(CODE), changes.size
     R = foundation_of(columns.material).modulus_ratio(columns.level.k * columns.V)
     contact = code == CODE["c"]
-    # E + factor A = constant
+    unloading = columns.branch == "unloading"
+    # E + factor A = constant; drawn out, what is engaged all along stays so until it opens, whatever it opens to
     factor, constant = 1 - R, np.full(m, -columns.stretch)
-    partial = np.isin(code, [CODE["ac"], CODE["cf"]])
-    known = contact.any(axis=1) & partial.any(axis=1)
+    known = contact.any(axis=1) & (~contact.all(axis=1) if unloading else np.isin(code, [CODE["ac"], CODE["cf"]]).any(axis=1))
     if columns.branch == "loading" or columns.stretch == 0:
         touched = (code == CODE["f"]).any(axis=1) & ~(code == CODE["f"]).all(axis=1)
         reach = columns.adhesion.delta_0 if columns.stretch > 0 else 0.0
@@ -158,7 +158,7 @@ def _by_threshold(columns: LevelBatch, changes: Changes, A, E, unknown: str) -> 
     # a gap that adheres throughout: it closes at its crest, and opens to delta_0 over its valley all along y at once
     adhering = (code == CODE["a"]).any(axis=1)
     closes = adhering & np.isin(code, [CODE["ac"], CODE["c"]]).any(axis=1)
-    opens = adhering & (code == CODE["f"]).any(axis=1) & (columns.branch == "unloading") & (unknown == "E")
+    opens = adhering & ~np.isin(code, _ENGAGED).all(axis=1) & unloading & (unknown == "E")
     factor, known = np.where(closes, 2.0, np.where(opens, 0.0, factor)), known | closes | opens
     constant = np.where(closes, -columns.stretch, np.where(opens, -columns.stretch - columns.adhesion.delta_0, constant))
     if columns.carry is not None:
