@@ -49,6 +49,8 @@ def test_located_points_are_where_regimes_meet(branch, several):
         E = np.stack((changes.low, changes.high), axis=1) - h
         place, found, _ = located(columns.at(line, changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
         asked, told = asked + line.size, told + int(found.sum())
+        # drawn out, what is engaged all along opens by its threshold, whatever it opens to
+        assert branch == "loading" or found[np.isin(codes, [CODE["c"], CODE["a"]]).any(axis=1)].all()
         kinds |= set(columns.crossings.points)
         below, above = (crest(line[found], place[found] + h + shift * h)[0] for shift in (-1e-6, 1e-6))
         wrong += int((below == above).sum())
