@@ -17,7 +17,7 @@ import numpy as np
 
 from ..numerics.quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
 from ..orbit.regimes import CODE
-from .boundaries import hides_another, located, may_hide_another, passed_breaks, theta_of, thresholds
+from .boundaries import hides_another, located, passed_breaks, theta_of, thresholds
 from .changes import Changes, locate_changes
 from .effort import AVERAGE_LIMIT
 
@@ -279,7 +279,7 @@ class _Work:
         def equation(changes):
             return self._by_equation(panels.state[changes.line], changes)
 
-        found, halved = locate_changes(probe, equation, changes, width, may_hide_another)
+        found, halved = locate_changes(probe, equation, changes, width, lambda some: hides_another(*some.codes.T))
         self.columns.work.bisected += halved
         state, sliver = panels.state[found.line], (found.high - found.low)[:, None]
         np.add.at(self.values, state, 0.5 * sliver * found.values.sum(axis=1))

@@ -120,6 +120,7 @@ def located(
     low, high = ends.min(axis=1), ends.max(axis=1)
     code = changes.codes % len(CODE)
     for side in (0, 1):
+        near, at_A, at_E = changes.edges[:, side].copy(), A[:, side].copy(), E[:, side].copy()
         none = np.zeros(changes.size)
         kinds = [] if columns.carry is None else _peaks(columns, changes, code)
         kinds += [(b, rows, none, none.astype(int)) for b, rows in equations(columns, code[:, side], code[:, 1 - side])]
@@ -128,12 +129,15 @@ def located(
             if not rows.size:
                 continue
             names = [_COLUMN[name] for name in EDGES[boundary.sequence]]
-            start = Points(
-                columns.V[rows], A[rows, side], E[rows, side], changes.edges[rows, side][:, names].T, pressure[rows], index[rows]
-            )
+            start = Points(columns.V[rows], at_A[rows], at_E[rows], near[rows][:, names].T, pressure[rows], index[rows])
             got, good = plane.locate(columns, boundary, start, unknown)
             at = getattr(got, unknown)
-            good &= (at > low[rows]) & (at < high[rows])
+            inside = (at > low[rows]) & (at < high[rows])
+            if boundary.event == "fold":  # contact that vanishes tells where to look for that
+                these = inside & ~good & plane.gone(start.edges, got.edges)
+                at_A[rows[these]], at_E[rows[these]] = got.A[these], got.E[these]
+                near[np.ix_(rows[these], names)] = got.edges[:, these].T
+            good &= inside
             place[rows[good]], found[rows[good]] = at[good], True
             if good.any():
                 curves.append((boundary, rows[good], got.take(np.flatnonzero(good))))
@@ -162,8 +166,7 @@ def _by_threshold(columns: LevelBatch, changes: Changes, A, E, unknown: str) -> 
     factor, known = np.where(closes, 2.0, np.where(opens, 0.0, factor)), known | closes | opens
     constant = np.where(closes, -columns.stretch, np.where(opens, -columns.stretch - columns.adhesion.delta_0, constant))
     if columns.carry is not None:
-        over = changes.heights > 0
-        passed = over[:, 0] != over[:, 1]
+        passed = (changes.heights[:, 0] > 0) != (changes.heights[:, 1] > 0)
         breaks = columns.carry.breaks(columns.group) / columns.material.K
         one = contact.all(axis=1) & passed.any(axis=1)
         which = passed.argmax(axis=1)
@@ -182,11 +185,6 @@ def _by_threshold(columns: LevelBatch, changes: Changes, A, E, unknown: str) -> 
 def hides_another(code: np.ndarray, other: np.ndarray) -> np.ndarray:
     """Codes of regimes, (m,) both, that do not follow one another as a strip is drawn out: a third may lie between."""
     return np.abs(_RANK[code % len(CODE)] - _RANK[other % len(CODE)]) > 1
-
-
-def may_hide_another(changes: Changes) -> np.ndarray:
-    """Changes (m,) between such regimes."""
-    return hides_another(*changes.codes.T)
 
 
 def passed_breaks(changes: Changes) -> tuple[Changes, np.ndarray]:
@@ -208,8 +206,7 @@ def passed_breaks(changes: Changes) -> tuple[Changes, np.ndarray]:
 def _peaks(columns: LevelBatch, changes: Changes, code) -> list[tuple[Boundary, np.ndarray, np.ndarray, np.ndarray]]:
     """Changes at which nothing happens but that the greatest pressure passes one break: boundaries, their rows; and pressures and
     numbers of breaks, of every change."""
-    over = changes.heights > 0
-    passed = over[:, 0] != over[:, 1]
+    passed = (changes.heights[:, 0] > 0) != (changes.heights[:, 1] > 0)
     breaks = columns.carry.breaks(columns.group)
     which = passed.argmax(axis=1)
     alone = (code[:, 0] == code[:, 1]) & passed.any(axis=1) & (which < breaks.shape[1])

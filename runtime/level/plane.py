@@ -27,8 +27,9 @@ _ITERATIONS, _SMALL, _LONGEST = 16, 1e-8, 0.5
 _STEP, _FAR, _SHARE, _LEAST = 1.5e-8, 1e-5, 1e-2, 1e-13
 #: distances of the points of a parabola: its vertex is off by the fourth power of them, and each is as good a start as the last
 _CLOSER = (1.0, 1 / 16, 1 / 256)
-#: a zone shrinks at most to this share in a step: fast modes make zones of 1e-8 radians whose edges move by far more than that
-_SHRINKS = 0.1
+#: a zone shrinks at most to this share in a step: fast modes make zones of 1e-8 radians whose edges move by far more than that;
+#: and contact between adhesion zones that shrinks to this share of its first width ends where it closes, not by a fold
+_SHRINKS, _GONE = 0.1, 1e-3
 
 
 @dataclass(frozen=True)
@@ -100,9 +101,14 @@ def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str)
         plane[unknown][active] += moved
         done = size < _SMALL
         found[active[done]] = True
-        active = active[~done]
+        active = active[~done & ~gone(start.edges[:, active], edges[:, active])]
     found &= (np.diff(edges, axis=0) >= -_SMALL).all(axis=0) & (edges[-1] <= edges[0] + TWO_PI)
     return Points(start.velocity, plane["A"], plane["E"], edges, start.pressure, start.index), found
+
+
+def gone(before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """Which contacts between adhesion zones have shrunk to nothing, (n,), by the edges (k, n) of orbits before and after."""
+    return np.diff(after, axis=0)[1] < _GONE * np.diff(before, axis=0)[1] if len(after) == 4 else np.zeros(after.shape[1], bool)
 
 
 def turning_point(columns: LevelBatch, boundary: Boundary, start: Points, reach: np.ndarray) -> tuple[Points, np.ndarray]:
@@ -209,10 +215,6 @@ def _determinant(matrices: np.ndarray, n: int) -> np.ndarray:
 
 def _solved(matrix, value):
     """Solutions of small linear systems (n, k, k) and (n, k); no numbers where one is singular."""
-    try:
-        return np.linalg.solve(matrix, value[:, :, None])[:, :, 0]
-    except np.linalg.LinAlgError:
-        regular = np.abs(np.linalg.det(matrix)) > 0
-        out = np.full(value.shape, np.nan)
-        out[regular] = np.linalg.solve(matrix[regular], value[regular, :, None])[:, :, 0]
-        return out
+    regular, out = np.abs(np.linalg.det(matrix)) > 0, np.full(value.shape, np.nan)
+    out[regular] = np.linalg.solve(matrix[regular], value[regular, :, None])[:, :, 0]
+    return out
