@@ -53,6 +53,27 @@ def test_pressures_nobody_asks_for_are_easiest():
     assert budget(0.5).tolerance_factor(0, 2.0, 1.0, 1.0) > 1e5 and budget(0.5).tolerance_factor(0, 5.0, 6.0, 1e-9) > 1e4
 
 
+def test_fractions_count_as_much_as_the_surface_that_meets_them():
+    assert budget(1.0).fractions(0, -1.0, 1.0) == 1 and budget(0.5).fractions(0, 2.0, 1.0) > 1e5
+    one, tenth = budget(0.1).fractions(0, -1.0, 1.0), budget(0.1).fractions(0, 0.8, 1.0)
+    assert tenth == pytest.approx(10 * one) and one > 1
+
+
+def test_a_fraction_that_hardly_counts_does_not_drive_the_work():
+    """Where saturated adhesion begins to hold, at slow sliding, the adhering fraction goes like a logarithm of the penetration:
+    halving after halving of a law (31,756 strips), on pressures that next to none of the surface meets."""
+    material, adhesion = (
+        hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=5e-7),
+        hystrip.Dugdale(gamma=2.4e-11, delta_0=4e-10),
+    )
+    levels = hystrip.Level(1e-5, 2e-7), hystrip.Level(1.66667e-6, 8.33335e-8)
+    result = hystrip.solve(material, adhesion, levels, pressure=0.6, velocity=3.1831e-6, rtol=1e-3)
+    assert result.converged and result.counts["strips_solved"] < 4000
+    # with every fraction to 1e-3
+    assert np.allclose(result.contact_by_level, [0.04460895, 0.02368630], atol=1e-7)
+    assert np.allclose(result.adhesion_by_level, [0.00117501, 0.00054308], atol=1e-7)
+
+
 def _friction(monkeypatch=None, V=V, rtol=RTOL):
     if monkeypatch is not None:
         # every pressure asked for everywhere: no law is coarser than the result

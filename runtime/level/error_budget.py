@@ -1,7 +1,8 @@
 """Error budget: how accurate every quantity of every level has to be. All that decides it, in one place:
 
-- A quantity is asked for to ``rtol (|value| + floor)``; its floor is ``LevelBatch.floors``: a thousandth of its natural scale, 1
-  for fractions where only pressure and friction count, and for frictions ``LevelBatch.friction`` where that is more.
+- A quantity is asked for to ``rtol (|value| + floor)``; its floor is ``LevelBatch.floors``: a thousandth of its natural scale,
+  for frictions ``LevelBatch.friction`` where that is more. Where only pressure and friction count it is 1 for fractions, and more
+  where few points meet the pressures of a piece (``ErrorBudget.fractions``).
 - Level 1 gets the ``rtol`` of the result, halved in ``multilevel``, as its laws err too.
 - Laws of lower levels get what ``of_laws`` says: half of ``rtol``, relative also to a share of the friction in contact of
   level 1, which they all add to.
@@ -86,6 +87,11 @@ class ErrorBudget:
             least = min(least, self.friction[i] / part) if part > 0 else least
         width = (high - low) / max(abs(low), abs(high)) if np.isfinite(high) else 1.0
         return max(least * min(width, 1.0), 1.0)
+
+    def fractions(self, group: int, low: float, high: float) -> float:
+        """What errors of fractions are relative to between two pressures, Pa: 1 over the share of the surface that meets them."""
+        met = max((self._met(i, low, high) for i in np.flatnonzero(self.group == group)), default=0.0) if high > low else 0.0
+        return max(1 / (_PARTS * max(met, _FINEST)), 1.0)
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,9 @@ _STALLED, _FINER, _FINEST = 0.5, 0.1, 1e-3
 class Interval:
     """An interval of D of one column; ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end; ``smooth_low``,
     ``smooth_high``: it seems to end smoothly enough there. ``tolerance_factor``: how much coarser than what is asked of the
-    column it may be. ``even``: its parameters are shares of it, not graded towards its ends: enough for a look.
-    ``mean_factor``: how much finer its means are than usual. ``missed``: error over goal of what it is a half of."""
+    column it may be; ``fractions``: what errors of fractions are relative to, more than 1 where its pressures are rare.
+    ``even``: its parameters are shares of it, not graded towards its ends: enough for a look. ``mean_factor``: how much finer
+    its means are than usual. ``missed``: error over goal of what it is a half of."""
 
     column: int
     low: float
@@ -28,6 +29,7 @@ class Interval:
     smooth_low: bool = False
     smooth_high: bool = False
     tolerance_factor: float = 1.0
+    fractions: float = 1.0
     even: bool = False
     mean_factor: float = 1.0
     missed: float = np.inf

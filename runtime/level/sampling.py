@@ -45,11 +45,11 @@ class Batch:
         return self._at(np.arange(len(self.intervals)), self.column).floors
 
     def _at(self, interval: np.ndarray, D: np.ndarray) -> LevelBatch:
-        columns = self.columns.at(self.column[interval], D)
-        if columns.friction is None:
-            return columns
-        # what errors of friction may be beside a share of its size is no larger where that share is
-        return replace(columns, friction=columns.friction / self._factors[interval])
+        columns, fractions = self.columns.at(self.column[interval], D), np.array([i.fractions for i in self.intervals])
+        factors = self._factors[interval]
+        # what errors may be beside a share of a friction, or of all surface, is no larger where that share is
+        friction = None if columns.friction is None else columns.friction / factors
+        return replace(columns, friction=friction, fractions=fractions[interval] / factors)
 
     @property
     def coefficients(self) -> np.ndarray:
@@ -64,8 +64,14 @@ class Batch:
         friction = (np.abs(self.values[:, :, frictions]).min(axis=1) + floors[:, frictions]).sum(axis=1)
         high = p.max(axis=1) if ceiling is None else np.minimum(p.max(axis=1), ceiling[self.column])
         ranges = zip(self.intervals, p.min(axis=1), high, friction, strict=True)
-        factors = [(i, max(i.tolerance_factor, budget.tolerance_factor(i.column, *of))) for i, *of in ranges]
-        self.intervals = [replace(i, tolerance_factor=factor) for i, factor in factors]
+        self.intervals = [
+            replace(
+                i,
+                tolerance_factor=max(i.tolerance_factor, budget.tolerance_factor(i.column, *of)),
+                fractions=max(i.fractions, budget.fractions(i.column, *of[:2])),
+            )
+            for i, *of in ranges
+        ]
 
     def sample(self, n: int) -> None:
         """Go on to the interior nodes of ``lobatto(n)``, of which every other one is known, unless they are the first."""

@@ -49,9 +49,9 @@ class LevelBatch:
 
     ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
     laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels. ``frictional``: it is for
-    pressure and friction that the averages are made; fractions need be accurate against 1 only. ``friction`` (n,): Pa, that
-    the accuracy of any friction may be relative to as well as to its own size, for it adds to others. ``crossings``: points
-    located of the curves that divide the plane of strips, shared by all that is made of these columns.
+    pressure and friction that the averages are made; fractions need be accurate against 1 only, or ``fractions`` (n,).
+    ``friction`` (n,): Pa, that the accuracy of any friction may be relative to as well as to its own size, for it adds to others.
+    ``crossings``: points located of the curves that divide the plane of strips, shared by all that is made of these columns.
     """
 
     material: Material
@@ -66,13 +66,15 @@ class LevelBatch:
     strips: int | None = None
     frictional: bool = False
     friction: np.ndarray | None = None
+    fractions: np.ndarray | None = None
     work: WorkCounters = field(default_factory=WorkCounters, compare=False)
     crossings: Crossings = field(default_factory=Crossings, compare=False)
 
     def at(self, index, D) -> LevelBatch:
         """The columns ``index`` at other penetrations ``D``."""
-        group, friction = (None if v is None else v[index] for v in (self.group, self.friction))
-        return replace(self, V=self.V[index], D=D, group=group, friction=friction)
+        names = ("group", "friction", "fractions")
+        given = {name: getattr(self, name)[index] for name in names if getattr(self, name) is not None}
+        return replace(self, V=self.V[index], D=D, **given)
 
     @property
     def size(self) -> int:
@@ -91,7 +93,8 @@ class LevelBatch:
         floors = np.tile(1e-3 * self.scales, (self.size, 1))
         if self.frictional:
             own, carried = len(QUANTITIES), floors.shape[1] - 1
-            floors[:, [2, 3, *(i for i in range(own, carried) if (i - own) % 3)]] = 1.0
+            every = [2, 3, *(i for i in range(own, carried) if (i - own) % 3)]
+            floors[:, every] = 1.0 if self.fractions is None else self.fractions[:, None]
         if self.friction is not None:
             floors[:, self.frictions] = np.maximum(floors[:, self.frictions], self.friction[:, None])
         return floors
