@@ -22,8 +22,9 @@ from sympy.core.function import AppliedUndef
 from .check import Check, DerivationError, Derived
 from .exact import RELATIONS
 from .functions import flat, stack_sum, written_out
+from .latex.reader import statements
+from .latex.tokens import Unreadable
 from .modes.numbers import DIGITS, sample, value
-from .reader import Unreadable, statements
 from .strip import TIMES
 from .surface import WAVE
 from .symbols import alpha, beta, chi

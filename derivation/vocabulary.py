@@ -10,9 +10,9 @@ import sympy as sp
 from . import half_space, symbols
 from .displays import Binding, Names
 from .flows import Flows
+from .latex.terms import Of, Prefix
 from .multilevel import pressure, slope_x, tau_below
 from .paper.words import strips
-from .reader import Of, Prefix
 from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell
 from .symbols import (
     A,

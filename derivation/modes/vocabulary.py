@@ -8,9 +8,9 @@ from typing import Any
 import sympy as sp
 
 from ..displays import Binding, Names
+from ..latex.terms import Of, Prefix
 from ..level import R
 from ..model import rate
-from ..reader import Of, Prefix
 from ..symbols import D, K, alpha, beta, p, p_in, s, s_0, s_1
 from ..vocabulary import LEVELS, ONE_LEVEL, PERIOD, PLAIN, named, threshold
 from .flows import ModeFlows, u

@@ -7,8 +7,9 @@ import re
 import sympy as sp
 
 from ..check import zero
+from ..latex.reader import Statement, statements
+from ..latex.tokens import rows
 from ..model import Foundation
-from ..reader import Statement, rows, statements
 from ..strip import Strip, traction
 from ..symbols import delta_0, p_0, x
 from .printed import PRINTED

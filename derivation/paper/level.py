@@ -8,8 +8,8 @@ from typing import Any
 import sympy as sp
 
 from ..check import Claim, zero
+from ..latex.reader import statements
 from ..multilevel import yielding
-from ..reader import statements
 from ..surface import WAVE, mean_over_cell
 from ..symbols import V, k, l, x, y
 from .printed import PRINTED

@@ -11,7 +11,8 @@ import sympy as sp
 
 from ..check import CORRECTED, EXACT, REPRODUCED, Check, Claim, DerivationError, zero
 from ..exact import is_zero
-from ..reader import Unreadable, statements
+from ..latex.reader import statements
+from ..latex.tokens import Unreadable
 from .printed import PRINTED, SUBJECTS
 
 

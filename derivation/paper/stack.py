@@ -7,9 +7,10 @@ from typing import Any
 import sympy as sp
 
 from ..check import zero
+from ..latex.reader import statements
+from ..latex.tokens import joined
 from ..level import MISPRINT
 from ..multilevel import CONTACT_ALONE, pressure, slope_x, tau_below
-from ..reader import joined, statements
 from ..strip import Strip
 from ..symbols import D_level, K, T_sigma, V, h, l, p_nominal, x, y
 from .level import over_cell

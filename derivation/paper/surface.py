@@ -8,7 +8,8 @@ import sympy as sp
 
 from ..check import zero
 from ..conditions import SIGN_OF_6
-from ..reader import rows, statements
+from ..latex.reader import statements
+from ..latex.tokens import rows
 from ..sequences import ADHESION, FREE, Span
 from ..surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE
 from ..symbols import D_level, h, l, p_0, s, x, y
