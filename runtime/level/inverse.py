@@ -94,7 +94,8 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
     D = high.copy()
     for accuracy in (max(rtol, _ROUGH), rtol):
         near = D, rise, friction_slope, low.copy(), high.copy()
-        D, friction_slope, doubt = _refine(columns, p, near, accuracy)
+        # however little the pressure is, friction goes with it
+        D, friction_slope, doubt = _refine(columns, p, near, accuracy, floor=0.0)
     return Inverse(D, friction_slope, doubt, np.zeros(p.size, bool))
 
 
@@ -105,7 +106,9 @@ def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: f
     found = np.array([i for i, root in enumerate(roots) if root is not None], int)
     if found.size:
         near = [np.array([getattr(roots[i], name) for i in found]) for name in ("D", "slope", "friction_slope", "low", "high")]
-        D[found], slope[found], doubt[found] = _refine(columns.at(found, D[found]), p[found], near, rtol)
+        D[found], slope[found], doubt[found] = _refine(
+            columns.at(found, D[found]), p[found], near, rtol, 1e-3 * columns.scales[0]
+        )
     return Inverse(D, slope, doubt, undecided)
 
 
@@ -264,13 +267,14 @@ class _Walk:
         return _Root(float(after.piece.penetration(t_after)), friction_slope=slope)
 
 
-def _refine(columns: LevelBatch, p, near, rtol):
+def _refine(columns: LevelBatch, p, near, rtol, floor):
     """Penetrations, d(tau)/dp and how uncertain that is at the roots ``near`` these (arrays of the fields of ``_Root``): Newton
-    with the slope of the coarse curve, then of the last two averages; bisection where that does not settle."""
+    with the slope of the coarse curve, then of the last two averages; bisection, of logarithms where a bracket has them, where that
+    does not settle. The pressure is met to a share of ``rtol`` of itself and the ``floor``, Pa."""
     D, slope, friction_slope, low, high = near
     # nothing but the coarse curve says what it is
     doubt = np.abs(friction_slope)
-    goal = _CLOSE * rtol * (np.abs(p) + 1e-3 * columns.scales[0])
+    goal = _CLOSE * rtol * (np.abs(p) + floor)
     active = np.flatnonzero((slope > 0) & (high > low))
     known = None
     for k in range(_STEPS):
@@ -292,9 +296,14 @@ def _refine(columns: LevelBatch, p, near, rtol):
         known = tuple(v[going] for v in (active, here, values[:, 0], values[:, 1]))
         # what is close enough takes the step too: the average made there afterwards is next to the pressure
         new = np.clip(here - miss / slope[active], low[active], high[active])
-        D[active] = np.where(late, 0.5 * (low + high)[active], new)
+        D[active] = np.where(late, _middle(low[active], high[active]), new)
         wide = (high - low)[active] > 8 * _EPS * np.maximum(np.abs(here), columns.level.h)
         active = active[going & wide]
         if not wide.all():
             known = tuple(v[wide[going]] for v in known)
     return D, friction_slope, doubt
+
+
+def _middle(low, high):
+    """Between two penetrations, in the middle of their logarithms where they are above zero."""
+    return np.where(low > 0, np.sqrt(np.maximum(low, 0.0)) * np.sqrt(np.maximum(high, 0.0)), 0.5 * (low + high))
