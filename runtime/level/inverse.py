@@ -269,8 +269,8 @@ class _Walk:
 
 def _refine(columns: LevelBatch, p, near, rtol, floor):
     """Penetrations, d(tau)/dp and how uncertain that is at the roots ``near`` these (arrays of the fields of ``_Root``): Newton
-    with the slope of the coarse curve, then of the last two averages; bisection where that does not settle. The pressure is met to
-    a share of ``rtol`` of itself and the ``floor``, Pa."""
+    with the slope of the coarse curve, then of the last two averages; bisection where that does not settle. The pressure is met
+    to a share of ``rtol`` of itself and the ``floor``, Pa."""
     D, slope, friction_slope, low, high = near
     # nothing but the coarse curve says what it is
     doubt = np.abs(friction_slope)
