@@ -4,12 +4,14 @@ as ``beta`` grows, and are near to at any speed. A start that leads astray costs
 Then w is the same at the end of contact as at the next onset; from one of a period's edges follow all, and that one from the
 balance ``mean(w) = mean(p)``, which holds at any speed (the equation of the foundation, integrated over a period). In
 contact, which is short then, p follows w with the glassy modulus: ``p = -p_0 + (u - u(a))/J``. With ``U = u(a)``, or the height
-at which w stands where there is no contact:
+at which w stands where there is no contact, and contact and adhesion as long before the crest as after it (b = -a, x = -c; it is
+so but for the step of w):
 
-    cos a = 1 - D + U,  cos c = cos a - delta_0,  cos x = cos c + chi J p_0,  b = -a, or b = x where contact begins at once,
-    2 pi U + chi J p_0 (2 pi - |x| - c) + p_0 (c + |x|) = (L/J) (sin a - sin b - (a - b) cos a).
+    cos a = 1 - D + U,  cos c = cos a - delta_0,
+    pi (U + chi J p_0) + (1 - chi J) p_0 c = (L/J) (sin a - a cos a).
 
-The left side less the right falls with the edge at a stable orbit; it rises before and after, next to folds.
+The left side less the right falls with the edge at a stable orbit; it rises before and after, next to folds. The onset itself is
+had from ``cos x = cos c + chi J p_0``; where contact begins at once, b = x.
 """
 
 from __future__ import annotations
@@ -25,8 +27,9 @@ if TYPE_CHECKING:
     from .orbit_bounds import OrbitBounds
 
 _LEAST = 1e-9
-#: rounds of Newton for the edge, and the largest one they begin at: ``a sin a`` has its maximum there
-_ROUNDS, _LONG = 4, 2.03
+#: rounds of Newton for the edge, and the largest a they begin at: ``a sin a`` has its maximum there; up to it ``sin a - a cos a``
+#: is no less than about this part of ``a**3/3``
+_ROUNDS, _LONG, _CUBE = 4, 2.03, 0.65
 #: contact all but complete, in parts of the pressure's amplitude; by how much the width of its gap is more than where the
 #: saturated field pulls, in parts of that squared, and on a foundation that relaxes at once
 _NEARLY, _WIDER, _QUICKLY = 0.6, 0.27, 0.8
@@ -56,6 +59,7 @@ def _bounding(kernel, cycle: Cycle, sequence: str, bounds: OrbitBounds) -> np.nd
 
 
 def _standing_still(kernel, cycle: Cycle, sequence: str) -> np.ndarray:
+    """The edges at which a foundation that stands still is in balance."""
     if sequence == "af":
         c = _without_contact(cycle)
         return np.array([-_onset(cycle, c), c])
@@ -76,7 +80,7 @@ def _onset(cycle: Cycle, c):
 
 
 def _without_contact(cycle: Cycle) -> np.ndarray:
-    """Phase c where no contact is made: ``pi (D - 1 + cos c + delta_0) + p c = 0``, with the onset as far before the crest."""
+    """Phase c where no contact is made: the balance without its right side."""
     s = cycle.strips
     pull = (s.p_0 - cycle.jump) / np.pi
     level = s.D - 1 + s.delta_0 + cycle.jump
@@ -95,7 +99,7 @@ def _contact(cycle: Cycle) -> np.ndarray:
     # on a foundation without instantaneous compliance contact lasts about beta^-1/2
     glassy = s.L / (s.J + np.maximum(s.beta, _LEAST) ** -1.5)
     longest = np.arccos(np.clip(s.delta_0 - 1, -1.0, 1.0))
-    a = np.minimum(np.cbrt(3 * np.pi * np.maximum(s.D + s.p_0, 0.0) / (0.65 * glassy + np.pi)), np.minimum(_LONG, 0.9 * longest))
+    a = np.minimum(np.cbrt(3 * np.pi * np.maximum(s.D + s.p_0, 0.0) / (_CUBE * glassy + np.pi)), np.minimum(_LONG, 0.9 * longest))
     for _ in range(_ROUNDS):
         cosine, sine = np.cos(a), np.sin(a)
         c = _release(cycle, a)
