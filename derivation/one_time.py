@@ -20,6 +20,7 @@ from .links import links
 from .membership import require_constructor
 from .model import Model, foundation, require_admissible
 from .multilevel import multilevel
+from .onset import onset
 from .outcome import Derivation, Progress, Stages, records
 from .paper import comparisons
 from .paper.tags import require_all, require_status, require_tags
@@ -82,8 +83,9 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     means = tuple(strip_means(regime, integrals) for regime in partial)
     balances = (power_balance(flow), *(friction_balance(regime) for regime in partial))
     stages.done("means", integrals, means, still, balances)
+    onsets = onset({regime.sequence: regime for regime in partial})
     slopes = tuple(onset_slope(regime) for regime in partial)
-    stages.done("stability", shift_of_an_event(), slopes)
+    stages.done("stability", shift_of_an_event(), onsets, slopes)
     upwards = multilevel(one_strip, full, whole, partial, means, integrals)
     stages.done("levels", upwards, stack(one_strip, full, whole), half_space())
     more = further(FOR_ONE_TIME, Basis(flow, full, table))
@@ -94,7 +96,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         ("Complete contact", full.kernels),
         ("Boundary equations of each regime, and their derivatives by the unknown edges", systems),
         ("Means of pressure and friction", (full.means, *still, *means)),
-        ("Slope of the onset-to-onset map", slopes),
+        ("Onset of adhesion, and the slope of the map from one onset to the next", (*onsets, *slopes)),
         ("A whole level in complete contact, and a stack of them: SI units", whole.kernels),
         *more,
     )

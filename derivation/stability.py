@@ -8,7 +8,7 @@ from . import stable
 from .check import Derived, derived, zero
 from .functions import Formula, decay, either, quotient, written_out
 from .kernel import Kernel, kernel
-from .regime import Regime
+from .regime import Regime, Zone
 from .sequences import CONTACT
 from .symbols import D, J, L, alpha, beta, chi, gap_0, p, p_0, q_0, s_0, s_1
 
@@ -57,10 +57,10 @@ def onset_slope(regime: Regime) -> Kernel:
     for zone in regime.zones:
         width = zone.last - zone.first
         forgotten *= decay(width, alpha if zone.kind == CONTACT else beta)
-        offset = (lambda state: p_0 - state) if zone.kind == CONTACT else (lambda state, load=zone.load: state - load)
+        entered, left = offsets(zone)
         last = _same_phase(zone.last)
-        upper.append(sp.expand(stable.FORCING(zone.first, D, beta) + offset(zone.entry)))
-        lower.append(sp.expand(stable.FORCING(last, D, beta) + offset(zone.exit)))
+        upper.append(sp.expand(stable.FORCING(zone.first, D, beta) + entered))
+        lower.append(sp.expand(stable.FORCING(last, D, beta) + left))
     for above, below in zip(upper, lower, strict=True):
         product *= above / below
     product *= forgotten
@@ -69,7 +69,8 @@ def onset_slope(regime: Regime) -> Kernel:
     formula_result = direct = forgotten
     for below, above in zip(lower, upper[1:] + upper[:1], strict=True):
         if sp.expand(below - above) != 0:
-            ratio = quotient(_step(above - below), below)  # where it is small, 1 + ratio keeps its digits; else the quotient
+            # where the ratio is small, 1 + ratio keeps its digits; else the quotient
+            ratio = quotient(step_of_load(above - below), below)
             formula_result *= either(2 * sp.Abs(ratio), 1 + ratio, quotient(above, below))
             direct *= quotient(above, below)
     return kernel(
@@ -82,7 +83,14 @@ def onset_slope(regime: Regime) -> Kernel:
     )
 
 
-def _step(change: sp.Expr) -> sp.Expr:
+def offsets(zone: Zone) -> tuple[sp.Expr, sp.Expr]:
+    """What the load of a zone is more than H where it is entered, and where it is left."""
+    if zone.kind == CONTACT:
+        return p_0 - zone.entry, p_0 - zone.exit
+    return zone.entry - zone.load, zone.exit - zone.load
+
+
+def step_of_load(change: sp.Expr) -> sp.Expr:
     """What a load steps by, without cancellation where J is nearly 1."""
     return sp.factor(change).subs({J * chi - 1: -(L * chi + 1 - chi), J - 1: -L})
 

@@ -225,6 +225,8 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "Eq. 16 as printed": named(r"\textderived", r"\textprinted"),
     "friction balance": _energies,
     "onset_slope": named("T'"),
+    "adhesive_onset": named("g_d", "[F]"),
+    "snap_onset": named("q_d", "[F]"),
     "least pressure": _least,
 }
 """By the beginning of a step's name."""

@@ -16,11 +16,12 @@ import sympy as sp
 from ..modes.states import exact_modes
 from ..modes.symbols import STATES, m
 from ..printing import source
-from ..symbols import J, L, T_eps, T_sigma, a, alpha, b, beta, c, d, h, l, p, p_0, s, s_0, s_1
+from ..symbols import J, L, T_eps, T_sigma, a, alpha, b, beta, c, chi, d, h, l, p, p_0, s, s_0, s_1
 from .point import ZERO, Point, rounded
 
 PHASES = (d, b, a, c, s, s_0, s_1)
 EDGES = PHASES[:4]
+GROUPS = {alpha, beta, J, L}  # of one relaxation time, drawn together
 PERIOD = 2 * math.pi
 TURN = sp.Symbol("pi", positive=True)  # pi, where it is an input that is known to its own digits
 NARROW = 1e-9  # the narrowest zone
@@ -86,7 +87,7 @@ def drawn(args: Sequence[sp.Symbol], seed: str, modes: int = 0, moving: bool = F
     edges = [symbol for symbol in PHASES if symbol in args]
     exact: dict[sp.Symbol, object] = dict(_phases(draw, edges))
     coupled = None
-    if {alpha, beta} & set(args) and m not in args:
+    if GROUPS & set(args) and m not in args:
         coupled, material = _one_time(draw, args)
         exact |= material
     if m in args:
@@ -129,7 +130,8 @@ def _phases(draw: Random, edges: Sequence[sp.Symbol]) -> dict[sp.Symbol, mpmath.
 def _one_time(draw: Random, args: Sequence[sp.Symbol]) -> tuple[sp.Symbol, dict[sp.Symbol, mpmath.mpf]]:
     """The independent one of J and L, and all four exactly."""
     time = mpmath.mpf(draw.choice((0.0, log(draw, -30, 30), log(draw, -2, 2), log(draw, -8, 9), log(draw, -2, 2)))) or ZERO
-    snap = args[0] == d and b not in args and a in args  # needs an instantaneous compliance
+    trailing, alone = args[0] == d and b not in args and a in args, not {chi, alpha, beta} & set(args)
+    snap = trailing or alone  # needs an instantaneous compliance
     kind = draw.choice((J, J, L, L, 1 if snap else 0, 1))
     ratio = mpmath.mpf(log(draw, *draw.choice(((-16, 0) if kind is L else (-30, 0), (-6, 0)))))
     if kind is L:
@@ -159,6 +161,6 @@ def domain(args: Sequence[sp.Symbol]) -> list[str]:
     """The keys of ``WORDS`` that say on which domain a function with these arguments is measured."""
     names = [source(symbol) for symbol in args]
     keys = ["phases"] if set(args) & set(PHASES) else []
-    keys += ["m"] if m in args else ["alpha, beta"] if {alpha, beta} & set(args) else []
+    keys += ["m"] if m in args else ["alpha, beta"] if GROUPS & set(args) else []
     keys += ["states"] if set(args) & set(STATES) else []
     return keys + sorted(name for name in names if name in DOMAIN)

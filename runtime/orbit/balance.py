@@ -104,7 +104,7 @@ def beside(kernel, cycle: Cycle, known: Orbit, end) -> Reference:
         level=np.minimum(w_c, w_c * kernel.decay(known.x + TWO_PI - known.c, s.beta)) - s.D - s.delta_0,
         kept=s.beta * (known.r - noise),
         least=np.zeros(cycle.size),
-        pressed=_sum(s, known.b, known.a),
+        pressed=_sum(kernel, s, known.b, known.a),
         b=known.b,
         a=known.a,
         turn=_turn(kernel, s, known),
@@ -158,9 +158,9 @@ def _sine_cosine(phase):
     return tangent * double, double - 1
 
 
-def _sum(s, b, a):
-    """Sum of the pressure over -p_0 from b to a, but for ``-alpha`` times its rise."""
-    return (s.D - 1 + s.p_0) * (a - b) + np.sin(a) - np.sin(b) + s.beta * (np.cos(a) - np.cos(b))
+def _sum(kernel, s, b, a):
+    """Sum of the pressure over -p_0 from b to a, but for ``-alpha`` times its rise: ``p + alpha p' = u + beta u'``."""
+    return kernel.profile_integral(b, a, s.D + s.p_0) + s.beta * kernel.profile_rise(b, a)
 
 
 def _turn(kernel, s: Strips, known: Orbit):

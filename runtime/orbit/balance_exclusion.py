@@ -20,7 +20,7 @@ import numpy as np
 from .balance import Reference, arc_versine, at_rest, balance_bound, beside, versine
 from .groups import ROUNDING, Cycle
 from .march import TWO_PI, Orbit
-from .sensitivity import fading, gains, onset_margin, release_margin
+from .sensitivity import fading, onset_margin, release_margin
 
 #: what the bound loses over an interval, in p_0 times its width; by how much finer than that asks for it is divided, into how
 #: many parts at most, and how often
@@ -69,14 +69,14 @@ def _held_best(cycle: Cycle):
     a = np.arccos(np.minimum(cosine + s.delta_0, 1.0))
     weight = np.pi + glassy * a
     slope = cosine * weight + glassy * sine**2 / np.sin(a)
-    return np.clip(1.0 - (sine * weight - gains(cycle)[1]) / slope, 0.0, np.pi)
+    return np.clip(1.0 - (sine * weight - cycle.release_step) / slope, 0.0, np.pi)
 
 
 def _suspects(kernel, cycle: Cycle, known: Orbit):
     """The phase -x before which an orbit y must lie by its slope; that of the known one where nothing is known."""
     s = cycle.strips
     F, M = onset_margin(kernel, cycle, known.x), release_margin(kernel, cycle, known.c)
-    onset, release = gains(cycle)
+    onset, release = cycle.onset_step, cycle.release_step
     at_onset, at_release = np.log1p(onset / F), np.log1p(release / M)
     share = fading(cycle, known.a - known.b) * (1 - ROUNDING) / (at_onset + at_release)
     fits = (F > 0) & (M > 0) & (share > 1)

@@ -56,7 +56,8 @@ class Cycle(Batch):
         bare: no adhesion: contact ends to free where the pressure vanishes.
         gap_on: gap just after the onset. q_on: excess pressure ``p + p_0`` just after a direct onset.
         jump: step of w where adhesion ends, ``chi J p_0``.
-        slope_on: ``H(onset) + slope_on`` is proportional to the sensitivity of the first edge to the onset.
+        onset_step, release_step: of the load that drives the gap or the excess pressure, where adhesion (or, direct, contact)
+            begins and where adhesion ends.
         centre: phase where the forcing H is largest; half_d, half_b, half_c: half widths of the arcs in which H
             exceeds ``-delta_0``, ``-p_0`` and ``-p_0 - delta_0``.
     """
@@ -67,7 +68,8 @@ class Cycle(Batch):
     gap_on: np.ndarray
     q_on: np.ndarray
     jump: np.ndarray
-    slope_on: np.ndarray
+    onset_step: np.ndarray
+    release_step: np.ndarray
     centre: np.ndarray
     half_d: np.ndarray
     half_b: np.ndarray
@@ -88,18 +90,20 @@ def snaps_in(step, delta_0) -> np.ndarray:
 def adhesive_cycle(kernel, strips: Strips) -> Cycle:
     """Cycle of a strip that is free once per period and meets adhesion (or snaps into contact) at its onset."""
     direct = strips.snaps
-    jump = strips.chi * strips.J * strips.p_0
-    reach = np.divide(strips.delta_0, strips.J, out=np.zeros_like(jump), where=direct)
-    excess = np.array([strips.delta_0, strips.p_0, strips.p_0 + strips.delta_0])
-    centre, (half_d, half_b, half_c) = kernel.forcing_arc(excess, strips.D, strips.beta)
+    p_0, delta_0, J, L = strips.p_0, strips.delta_0, strips.J, strips.L
+    gap, step = kernel.adhesive_onset(p_0, delta_0, J, L, strips.chi)
+    excess, snap = kernel.snap_onset(p_0, delta_0, np.where(direct, J, 1.0), L)
+    arcs = np.array([delta_0, p_0, p_0 + delta_0])
+    centre, (half_d, half_b, half_c) = kernel.forcing_arc(arcs, strips.D, strips.beta)
     return Cycle(
         strips=strips,
         direct=direct,
         bare=np.zeros(strips.size, bool),
-        gap_on=np.where(direct, 0.0, strips.delta_0 - jump),
-        q_on=np.where(direct, np.maximum(strips.p_0 - reach, 0.0), 0.0),
-        jump=jump,
-        slope_on=np.where(direct, reach, strips.delta_0 + (1 - strips.chi * strips.J) * strips.p_0),
+        gap_on=np.where(direct, 0.0, gap),
+        q_on=np.where(direct, np.maximum(excess, 0.0), 0.0),
+        jump=strips.chi * J * p_0,
+        onset_step=np.where(direct, snap, step),
+        release_step=step,
         centre=centre,
         half_d=half_d,
         half_b=half_b,
@@ -117,4 +121,4 @@ def bare_cycle(kernel, strips: Strips) -> Cycle:
     shifted = Strips(strips.alpha, strips.beta, strips.J, strips.L, zero, zero, strips.D + strips.p_0, strips.chi, strips.snaps)
     centre, half = kernel.forcing_arc(zero, shifted.D, shifted.beta)
     yes = np.ones(strips.size, bool)
-    return Cycle(shifted, yes, yes, zero, zero, zero, zero, centre, half, half, half)
+    return Cycle(shifted, yes, yes, zero, zero, zero, zero, zero, centre, half, half, half)

@@ -5,10 +5,10 @@ With R(x) = r(x) exp(x/beta), r from ``march``, the chain rule through the edges
 
 ``T' = exp(-2 pi/beta - (a - b) L/alpha) (1 + s_x/F) (1 + s_c/M)``, ``M = -(H_c + delta_0 + p_0)``,
 
-``s_x`` and ``s_c`` constants of the strip; at a periodic orbit T' is the slope of the map. Along the onset arc b grows, a
-and c fall with x (a later onset is a less engaged orbit), so every factor is bounded by its values at the ends of an interval
-and at the extremum of the one harmonic H. The logarithm of T' is kept beside N: at large beta T' is one but for terms of
-order 1/beta, which N - F would lose to rounding.
+``s_x`` and ``s_c`` the steps of the load at onset and release; at a periodic orbit T' is the slope of the map. Along the onset
+arc b grows, a and c fall with x (a later onset is a less engaged orbit), so every factor is bounded by its values at the ends of
+an interval and at the extremum of the one harmonic H. The logarithm of T' is kept beside N: at large beta T' is one but for terms
+of order 1/beta, which N - F would lose to rounding.
 """
 
 from dataclasses import dataclass
@@ -95,10 +95,9 @@ def steep_margin(kernel, cycle: Cycle, latest, right: Orbit) -> np.ndarray:
     ``log T' <= log B + log(1 + s_x/F)`` with a B that does not depend on the onset, negative where ``F > s_x/(1/B - 1)``.
     """
     M = np.minimum(release_margin(kernel, cycle, latest), release_margin(kernel, cycle, right.c))
-    onset, release = gains(cycle)
     # the rounding of the terms of log B, which may cancel
-    log_B = np.log1p(over(release, M)) - (1 - ROUNDING) * fading(cycle, contact_length(right.b, right.a))
-    return np.divide(onset, np.expm1(np.minimum(-log_B, 700.0)), out=np.full(onset.shape, np.inf), where=log_B < 0)
+    log_B = np.log1p(over(cycle.release_step, M)) - (1 - ROUNDING) * fading(cycle, contact_length(right.b, right.a))
+    return np.divide(cycle.onset_step, np.expm1(np.minimum(-log_B, 700.0)), out=np.full(log_B.shape, np.inf), where=log_B < 0)
 
 
 def contact_length(b, a):
@@ -112,28 +111,20 @@ def fading(cycle: Cycle, length) -> np.ndarray:
     return TWO_PI / np.maximum(s.beta, _LEAST) + np.where(length > 0, length * s.L / np.maximum(s.alpha, _LEAST), 0.0)
 
 
-def gains(cycle: Cycle):
-    """The constants ``s_x = slope_on - delta_0`` and ``s_c = p_0 - jump``."""
-    s = cycle.strips
-    return cycle.slope_on - s.delta_0, np.where(cycle.bare, 0.0, s.p_0 - cycle.jump)
-
-
 def _log_slope(cycle: Cycle, length, F, M):
     """``log T'``: -inf where nothing of the onset is remembered, +inf where the onset or the end of adhesion grazes."""
     s = cycle.strips
     memory = over(TWO_PI + 0 * length, s.beta) + over(length * s.L, s.alpha)
-    onset, release = gains(cycle)
-    gain = np.log1p(over(onset, F)) + np.log1p(over(release, M))
+    gain = np.log1p(over(cycle.onset_step, F)) + np.log1p(over(cycle.release_step, M))
     return np.where(np.isinf(memory), -np.inf, gain - np.where(np.isinf(memory), 0.0, memory))
 
 
 def _numerator(kernel, cycle: Cycle, length, F, M):
     """``N = F T'`` with F multiplied in, so that it stays finite where the onset grazes."""
     s = cycle.strips
-    onset, release = gains(cycle)
     damping = kernel.decay(TWO_PI, s.beta) * kernel.decay(length * s.L, s.alpha)
-    factor = damping * np.maximum(F + onset, 0.0)
-    return np.multiply(factor, 1 + over(release, M), out=np.zeros_like(factor), where=factor > 0)
+    factor = damping * np.maximum(F + cycle.onset_step, 0.0)
+    return np.multiply(factor, 1 + over(cycle.release_step, M), out=np.zeros_like(factor), where=factor > 0)
 
 
 def over(numerator, denominator):

@@ -68,15 +68,15 @@ class SingleTime:
 
     def closing(self, edges, arguments):
         """Where the load harmonic falls through ``-p_0`` a gap of nothing turns."""
-        _, beta, J, _, p_0, delta_0, D, chi = arguments
+        _, beta, J, L, p_0, delta_0, D, chi = arguments
         centre, half = self.kernel.forcing_arc(p_0, D, beta)
-        first = edges[0]
-        return self.kernel.gap_after(first, np.maximum(centre + half, first), delta_0 - J * chi * p_0, -p_0, D, beta)
+        first, (gap, _) = edges[0], self.kernel.adhesive_onset(p_0, delta_0, J, L, chi)
+        return self.kernel.gap_after(first, np.maximum(centre + half, first), gap, -p_0, D, beta)
 
     def peak(self, sequence, edges, arguments, pressure):
         alpha, beta, J, L, p_0, delta_0, D, _ = arguments
         place = 0 if sequence in ("ac", "cf", "afc") else 1
-        q_on = p_0 - delta_0 / J if sequence == "afc" else 0 * D
+        q_on = self.kernel.snap_onset(p_0, delta_0, J, L)[0] if sequence == "afc" else 0 * D
         top = phase_of_peak(self.kernel, edges[place + 1], edges[place], q_on, p_0, D, alpha, beta, L)
         return self.kernel.excess_after(edges[place], top, q_on, p_0, D, alpha, beta, L) - p_0 - pressure
 
