@@ -47,9 +47,9 @@ def test_rims_count_with_the_friction_that_they_carry():
     material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1.9141429755921044e-05)
     adhesion = hystrip.Dugdale(gamma=9.759981476420326e-07, delta_0=1.2313690943960306e-09)
     levels = [hystrip.Level(1e-5, 4.968e-7), hystrip.Level(6.824e-7, 1.7699e-7), hystrip.Level(9.63e-8, 7.048e-9)]
-    point = {"pressure": 1.51, "velocity": [0.04407], "edge": "constitutive"}
-    rough, fine = (hystrip.solve(material, adhesion, levels, rtol=rtol, **point) for rtol in (1e-3, 1e-4))
-    assert abs(rough.tau - fine.tau)[0] <= (rough.tau_error + fine.tau_error)[0]
+    found = hystrip.solve(material, adhesion, levels, pressure=1.51, velocity=[0.04407], edge="constitutive", rtol=1e-3)
+    # at rtol 1e-5 and 1e-6 it is 0.56045177 and 0.56045176
+    assert abs(found.tau[0] - 0.56045176) <= found.tau_error[0] <= 1e-3 * 0.5605
 
 
 @pytest.mark.parametrize(
