@@ -90,7 +90,7 @@ def _suspects(kernel, cycle: Cycle, known: Orbit):
     free = known.x + TWO_PI - known.c
     later = arc_versine(versine(last) - cycle.jump - np.maximum(w_c * kernel.decay_loss(free, s.beta), 0.0) - s.noise())
     # it leads on to x, which moves with c by no less than where M is least and F is greatest
-    F = np.where(known.x < cycle.centre, F, s.D - 1 + np.hypot(1, s.beta) + s.delta_0)
+    F = np.where(known.x < cycle.centre, F, onset_margin(kernel, cycle, cycle.centre))
     moved = (last - known.c) * (least_M + release) / F * kernel.decay(free, s.beta) - known.x
     later = np.where(known.r == 0, np.maximum(later, moved), later)
     return np.where(fits, np.minimum(arc, later), -known.x)

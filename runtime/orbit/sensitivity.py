@@ -5,10 +5,10 @@ With R(x) = r(x) exp(x/beta), r from ``march``, the chain rule through the edges
 
 ``T' = exp(-2 pi/beta - (a - b) L/alpha) (1 + s_x/F) (1 + s_c/M)``, ``M = -(H_c + delta_0 + p_0)``,
 
-``s_x`` and ``s_c`` the steps of the load at onset and release; at a periodic orbit T' is the slope of the map. Along the onset
-arc b grows, a and c fall with x (a later onset is a less engaged orbit), so every factor is bounded by its values at the ends of
-an interval and at the extremum of the one harmonic H. The logarithm of T' is kept beside N: at large beta T' is one but for terms
-of order 1/beta, which N - F would lose to rounding.
+``s_x`` and ``s_c`` the steps of the load at onset and release; at a periodic orbit T' is the slope of the map, which the
+derivation proves (``onset_slope_*``). Along the onset arc b grows, a and c fall with x (a later onset is a less engaged
+orbit), so every factor is bounded by its values at the ends of an interval and at the extremum of the one harmonic H. The
+logarithm of T' is kept beside N: at large beta T' is one but for terms of order 1/beta, which N - F would lose to rounding.
 """
 
 from dataclasses import dataclass
@@ -55,7 +55,6 @@ def release_margin(kernel, cycle: Cycle, c: np.ndarray) -> np.ndarray:
 
 def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds:
     """Bounds over [left.x, right.x]; ``left`` may be engaged (then its edges are replaced by the ends of their arcs)."""
-    s = cycle.strips
     last_a = cycle.centre + TWO_PI - cycle.half_b
     last_c = cycle.centre + TWO_PI - cycle.half_c
     b_left = np.where(np.isnan(left.b) & ~np.isnan(right.b), right.b, left.b)
@@ -64,13 +63,13 @@ def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds
     longest = np.where(left.engaged & np.isnan(left.b) & np.isnan(right.b), 0.0, contact_length(b_left, a_left))
     shortest = contact_length(right.b, right.a)
     F_left, F_right = onset_margin(kernel, cycle, left.x), onset_margin(kernel, cycle, right.x)
-    top = s.D - 1 + np.hypot(1, s.beta) + s.delta_0
+    top = onset_margin(kernel, cycle, cycle.centre)
     F_min = np.minimum(F_left, F_right)
     F_max = np.where((left.x < cycle.centre) & (right.x > cycle.centre), top, np.maximum(F_left, F_right))
     M_left = np.where(left.engaged, 0.0, release_margin(kernel, cycle, c_left))
     M_right = release_margin(kernel, cycle, right.c)
-    deepest = -(s.D - 1 - np.hypot(1, s.beta) + s.delta_0 + s.p_0)
     middle = cycle.centre + np.pi
+    deepest = release_margin(kernel, cycle, middle)
     M_max = np.where((right.c < middle) & (c_left > middle), deepest, np.maximum(M_left, M_right))
     M_min = np.minimum(M_left, M_right)
     # T' falls with F and M, N grows with F
