@@ -13,9 +13,10 @@ from hystrip.orbit.closed_form_exclusion import saturates
 from hystrip.orbit.engine import solve_strips
 from hystrip.orbit.groups import Strips, adhesive_cycle
 from hystrip.orbit.march import Orbit, march
-from hystrip.orbit.orbit_bounds import FAST, OrbitBounds, orbit_bounds
+from hystrip.orbit.orbit_bounds import FAST, OrbitBounds, least_engaged_bounds, orbit_bounds
 from hystrip.orbit.regimes import CODE
 from hystrip.orbit.search import isolate_extremal
+from hystrip.orbit.sensitivity import slope_excess, slope_grows
 
 SCANNED = 300
 
@@ -181,3 +182,63 @@ def test_bounds_on_all_orbits_hold_for_strips_that_snap_into_contact():
         assert (orbit.a <= bounds.a[index] + 1e-9)[met].all() and (orbit.c <= bounds.c[index] + 1e-9)[met].all()
         seen += np.count_nonzero(met)
     assert seen > 200
+
+
+def within_reach(seed: int, n: int) -> Strips:
+    """Strips within reach of the undeformed foundation, infinitely slow to infinitely fast, without instantaneous compliance or
+    relaxation among them, ranges of adhesion up to far beyond the profile."""
+    rng = np.random.default_rng(seed)
+    beta, J = 10 ** rng.uniform(-3, 6, n), np.where(rng.random(n) < 0.15, 0.0, 10 ** -rng.uniform(0, 4, n))
+    J[rng.random(n) < 0.03] = 1.0
+    p_0, delta_0, alpha = 10 ** rng.uniform(-2, 2.5, n), 10 ** rng.uniform(-3, 1.5, n), beta * J
+    ratio = np.hypot(1, beta) / np.hypot(1, alpha)
+    D = -delta_0 + rng.random(n) ** 2 * (delta_0 + 1.1 * (1 + ratio))
+    return Strips(alpha, beta, J, 1 - J, p_0, delta_0, D, (rng.random(n) < 0.5).astype(float))
+
+
+def test_every_orbit_within_reach_is_more_engaged_than_the_least_engaged_state():
+    s = within_reach(1, 6000)
+    cycle, n = adhesive_cycle(kernel, s), 0
+    bounds, certain = least_engaged_bounds(kernel, cycle), cycle.touched
+    for unloading in (True, False):
+        solved = solve_strips(kernel, s, unloading)
+        onset = np.where(np.isnan(solved.d), solved.b, solved.d)
+        index = np.flatnonzero(np.isfinite(solved.c) & (s.D > -s.delta_0))
+        here, solved, onset = bounds.take(index), solved.take(index), onset[index]
+        assert not here.missed.any() and not (onset > here.x + 1e-12).any()
+        assert not (solved.c < here.c - 1e-12).any() and not (solved.a < here.a - 1e-12).any()
+        assert not (np.isnan(solved.b) & certain[index]).any()
+        n += index.size
+    engaged = np.isin(solve_strips(kernel, s, False).code, [CODE["c"], CODE["ac"], CODE["a"]])
+    assert n > 4000 and bounds.missed[engaged].mean() > 0.6
+
+
+def test_the_map_leads_back_from_the_last_onset_and_its_slope_grows_up_to_it():
+    s = within_reach(2, 3000)
+    cycle = adhesive_cycle(kernel, s)
+    cycle = cycle.take(np.flatnonzero((s.D > -s.delta_0) & (cycle.half_d > 0)))
+    n = cycle.size
+    last = cycle.centre + cycle.half_d
+    first = last - 2 * cycle.half_d * np.random.default_rng(3).random(n)
+    many, share = np.tile(np.arange(n), 40), np.linspace(0, 1, 40)[:, None]
+    orbit, _ = march(kernel, cycle.take(many), (first + share * (last - first)).ravel())
+    with np.errstate(all="ignore"):
+        slope = slope_excess(kernel, cycle.take(many), orbit)[0].reshape(40, n)
+        grows = slope_grows(kernel, cycle, orbit.take(slice(0, n))) & ~orbit.engaged[:n]
+        falls = np.diff(slope, axis=0) < -1e-9 * (1 + np.abs(slope[1:]))
+    assert (orbit.r[-n:] < 0).all()
+    # an orbit that does not meet contact where that is certain is none
+    lost = np.isnan(orbit.b.reshape(40, n)[1:]) & cycle.touched
+    assert not (falls & ~lost)[:, grows].any()
+    apart = (orbit.x[:n] < cycle.centre) | (orbit.c[:n] > cycle.centre + np.pi)
+    assert np.count_nonzero(grows & apart) > 200 and np.count_nonzero(grows & ~apart) > 200
+
+
+def test_on_loading_few_orbits_are_left_to_the_search():
+    s = within_reach(4, 6000)
+    solved = solve_strips(kernel, s, unloading=False)
+    index = np.flatnonzero(np.isfinite(solved.c))
+    cycle, solved = adhesive_cycle(kernel, s.take(index)), solved.take(index)
+    zero, x = np.zeros(index.size), np.where(np.isnan(solved.d), solved.b, solved.d)
+    orbit = Orbit(x, solved.b, solved.a, solved.c, zero > 0, zero)
+    assert exclusion.is_last(kernel, cycle, orbit, least_engaged_bounds(kernel, cycle))[0].mean() > 0.93

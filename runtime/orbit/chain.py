@@ -73,15 +73,17 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Chain:
         correction = np.abs(step).max(axis=0)
         converged = sense & (step_size <= _SMALL) & (correction <= 1e3 * _SMALL)
         result = np.where(converged, result + step, result)
-        # a closing link that cancels, on a slow foundation, left more to correct than the square of a step
-        once_more = np.flatnonzero(converged & (correction > CONVERGED))
-        if once_more.size:
-            step, sense = _refined(kernel, cycle.among(once_more), sequence, result[:, once_more])
-            spent[once_more] += 1
+        # next to a fold, or where a closing link cancels, more is left to correct than the square of a step
+        rest = np.flatnonzero(converged & (correction > CONVERGED))
+        while rest.size:
+            step, sense = _refined(kernel, cycle.among(rest), sequence, result[:, rest])
+            spent[rest] += 1
             size = np.abs(step).max(axis=0)
-            closer = np.flatnonzero(sense & (size < correction[once_more]))
-            result[:, once_more[closer]] += step[:, closer]
-            correction[once_more[closer]] = size[closer]
+            closer = np.flatnonzero(sense & (size < 0.5 * correction[rest]))
+            rest = rest[closer]
+            result[:, rest] += step[:, closer]
+            correction[rest] = size[closer]
+            rest = rest[correction[rest] > CONVERGED]
     return Chain(result, converged, np.where(converged, correction, np.inf), spent)
 
 
@@ -166,13 +168,15 @@ def _refined(kernel, cycle: Cycle, sequence: str, edges):
     """A step from the generated boundary equations, whose closing balance keeps its digits however slow the foundation is, and
     where all events are met in the right sense.
 
-    That balance is the sum of the changes of z: of the closing link, of those before it, and of the contact's times -J.
+    That balance is the sum of the changes of z: of the closing link, of those before it, and of the contact's times -J. On a fast
+    foundation, which forgets what is summed, the closing link itself is rounded less.
     """
     s = cycle.strips
-    _, before, after = links(kernel, cycle, sequence, edges)
+    linked, before, after = links(kernel, cycle, sequence, edges)
     residual = getattr(kernel, f"residual_{regimes.EQUATIONS[sequence]}")
     *values, closing = residual(*edges, s.alpha, s.beta, s.J, s.L, s.p_0, s.delta_0, s.D, s.chi)
     contact = {"acaf": 1, "af": None}.get(sequence, 0)
     balance = closing - sum(value * (-s.J if i == contact else 1.0) for i, value in enumerate(values))
+    balance = np.where(s.beta < TWO_PI, linked[-1], balance)
     sense = np.all([sign * slope > 0 for sign, slope in zip(_SENSE[sequence], after, strict=True)], axis=0)
     return _step((*values, balance), before, after), sense

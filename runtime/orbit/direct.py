@@ -9,7 +9,7 @@ import numpy as np
 from .balance_exclusion import exclude_out_of_reach
 from .certificate import attracting, edges_admissible
 from .chain import CONVERGED, follow
-from .exclusion import alone
+from .exclusion import is_first, is_last
 from .groups import Cycle
 from .march import FROZEN, Orbit
 from .orbit_bounds import FAST, OrbitBounds
@@ -48,28 +48,26 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: OrbitBounds):
     """Extremal orbits with a free part, where they can be had without a search.
 
     Returns, for n cycles: a certified orbit of each (x NaN where there is none), its sequence (``""`` if none), which are proven
-    extremal, which cycles are proven to have no such orbit at all, and the evaluations spent. ``bounds`` on all orbits hold for
-    ``last=False`` only.
+    extremal, which cycles are proven to have no such orbit at all, and the evaluations spent. ``bounds`` on all orbits: of the
+    most engaged state, or for ``last`` of the least engaged one.
     """
     s = cycle.strips
-    arc = cycle.half_d > 0
-    if last:
-        # next to saturated contact a less engaged orbit is rare: ask the search, which sees that first
-        possible = arc & (s.D - 1 + s.p_0 < kernel.modulus_ratio(s.alpha, s.beta))
-    else:
-        possible = arc & ~bounds.missed
-    none = ~arc | bounds.missed
+    none = (cycle.half_d <= 0) | bounds.missed
     found = _Found(kernel, cycle, last, bounds)
-    if not last:
-        hanging = np.flatnonzero(possible & (s.D <= -s.delta_0) & (s.beta > FAST))
-        if hanging.size:
-            none[hanging], found.evaluations[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
-            possible &= ~none
     # along every orbit w is at least -p_0: a crest that does not come as deep makes no contact
     touches = s.D + s.p_0 > s.noise()
+    if last:
+        # next to saturated contact a less engaged orbit is rare: ask the search, which sees that first
+        possible = ~none & (s.D - 1 + s.p_0 < kernel.modulus_ratio(s.alpha, s.beta))
+        alone = ~cycle.touched
+    else:
+        hanging = np.flatnonzero(~none & (s.D <= -s.delta_0) & (s.beta > FAST))
+        if hanging.size:
+            none[hanging], found.evaluations[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
+        possible, alone = ~none, ~touches
     found.attempt("acaf", np.flatnonzero(possible & ~cycle.direct & touches))
     found.attempt("afc", np.flatnonzero(possible & cycle.direct))
-    found.attempt("af", np.flatnonzero(possible & ~cycle.direct & ~found.proven & (last | ~touches)))
+    found.attempt("af", np.flatnonzero(possible & ~cycle.direct & ~found.proven & alone))
     return found.orbit, found.sequence, found.proven, none, found.evaluations
 
 
@@ -83,20 +81,19 @@ class _Found:
         self.proven, self.evaluations = np.zeros(cycle.size, bool), np.zeros(cycle.size)
 
     def attempt(self, sequence: str, pick) -> None:
-        """Newton for the cycles ``pick``, and the proof that what it finds is the first orbit; the last one is the search's to
-        prove."""
+        """Newton for the cycles ``pick``, and the proof that what it finds is the most extremal orbit."""
         if not pick.size:
             return
         part, limits = self.cycle.among(pick), self.bounds.take(pick)
-        orbit, good, used = certified(self.kernel, part, sequence, start(self.kernel, part, sequence, limits))
+        edges = start(self.kernel, part, sequence, None if self.last else limits)
+        orbit, good, used = certified(self.kernel, part, sequence, edges)
         self.evaluations[pick] += used
         here = np.flatnonzero(good)
         if not here.size:
             return
-        sure, pick = np.zeros(here.size, bool), pick[here]
-        if not self.last:
-            sure, used = alone(self.kernel, part.among(here), orbit.take(here), limits.take(here))
-            self.evaluations[pick] += used
+        pick, proof = pick[here], is_last if self.last else is_first
+        sure, used = proof(self.kernel, part.among(here), orbit.take(here), limits.take(here))
+        self.evaluations[pick] += used
         # of two orbits that are known the more extremal one is worth keeping
         found = self.orbit.x[pick]
         nearer = ~(found >= orbit.x[here]) if self.last else ~(found <= orbit.x[here])

@@ -26,7 +26,7 @@ from .direct import certified, extremal
 from .groups import EPS, Cycle, Strips, adhesive_cycle, bare_cycle
 from .isolated_orbits import isolated_orbits
 from .march import Orbit
-from .orbit_bounds import FAST, OrbitBounds, orbit_bounds
+from .orbit_bounds import FAST, OrbitBounds, least_engaged_bounds, orbit_bounds
 from .regimes import CODE
 from .solved import Record, Solved
 from .start import start
@@ -162,6 +162,10 @@ class _Batch:
         return (self._sought if self.searching else self._onset_direct)(index, cycle)
 
     def _onset_direct(self, index, cycle: Cycle):
+        if not self.unloading:
+            bounds = least_engaged_bounds(self.kernel, cycle)
+            self.bounds.put(index, bounds)
+            self.record.solved.evaluations[index] += bounds.evaluations
         orbit, sequences, proven, none, spent = extremal(
             self.kernel, cycle, last=not self.unloading, bounds=self.bounds.take(index)
         )
@@ -174,8 +178,8 @@ class _Batch:
         return index[none]
 
     def _sought(self, index, cycle: Cycle):
-        known, earliest = self.known.take(index), self.bounds.x[index]
-        result = isolated_orbits(self.kernel, cycle, not self.unloading, known, earliest)
+        known, limit = self.known.take(index), self.bounds.x[index]
+        result = isolated_orbits(self.kernel, cycle, not self.unloading, known, limit)
         self.record.solved.evaluations[index] += result.evaluations
         for sequence, pick in result.of(cycle).items():
             self.record.solved.code[index[pick]] = CODE[sequence]

@@ -1,10 +1,18 @@
-"""Proof without a search that no more engaged orbit exists beside one that is known.
+"""Proof without a search that no more extremal orbit exists beside one that is known.
 
-A more engaged orbit has an earlier onset, so the unloading orbit at x* is proven by excluding zeros of r between the earliest
-onset and x*. With ``orbit_bounds`` it is enough that R falls strictly (``sensitivity.steep_margin``) all along from the onset
-before which there is none; on a slow foundation the balance of a period is asked (``balance``); and last one march from that
-onset, whose r may be more than R can lose before it falls strictly. What is not proven here is left to ``search``; nothing is
-ever accepted for lack of a counterexample.
+Unloading. A more engaged orbit has an earlier onset, so the unloading orbit at x* is proven by excluding zeros of r between the
+earliest onset and x*. With ``orbit_bounds`` it is enough that R falls strictly (``sensitivity.steep_margin``) all along from the
+onset before which there is none; on a slow foundation the balance of a period is asked (``balance``); and last one march from
+that onset, whose r may be more than R can lose before it falls strictly.
+
+Loading, of a strip within reach, ``D > -delta_0``. A less engaged orbit has a later onset. None has the last one, x_e, nor does
+the map lead on beyond it: there ``H = -delta_0``, so ``z = u + delta_0 = beta sin x_e > 0``, and H is less until the next arc of
+onsets, so that contact, with ``alpha p' + p = H`` and p <= 0 as it begins, has p < 0 like adhesion, and ``beta z' + z = L p``:
+z has fallen when x_e comes round again, and r < 0. Now R falls at a stable orbit and ends below zero. Where the slope T' of the
+onset map grows up to x_e (``sensitivity.slope_grows``), R falls first and rises then: it is negative in between. It is enough if
+R falls strictly up to where T' grows; or up to an onset before which all orbits have theirs (``orbit_bounds``).
+
+What is not proven here is left to ``search``; nothing is ever accepted for lack of a counterexample.
 """
 
 import numpy as np
@@ -13,10 +21,10 @@ from .balance_exclusion import first
 from .groups import Cycle
 from .march import TWO_PI, Orbit, march
 from .orbit_bounds import FAST, OrbitBounds
-from .sensitivity import over, steep_margin
+from .sensitivity import over, slope_grows, steep_margin
 
 
-def alone(kernel, cycle: Cycle, orbit: Orbit, bounds: OrbitBounds) -> tuple[np.ndarray, np.ndarray]:
+def is_first(kernel, cycle: Cycle, orbit: Orbit, bounds: OrbitBounds) -> tuple[np.ndarray, np.ndarray]:
     """Which orbits are proven to be the first of their onset arc, and the event evaluations spent on each."""
     proven, spent = falls_from(kernel, cycle, orbit, bounds.x, bounds.c, np.nan), np.zeros(cycle.size)
     rest = np.flatnonzero(~proven & (cycle.strips.beta > FAST))
@@ -29,6 +37,21 @@ def alone(kernel, cycle: Cycle, orbit: Orbit, bounds: OrbitBounds) -> tuple[np.n
         outer, used = march(kernel, part, onsets_within(part, bounds.take(rest))[0])
         falls = falls_from(kernel, part, orbit.take(rest), outer.x, outer.c, outer.r)
         proven[rest], spent[rest] = ~outer.engaged & falls, spent[rest] + used
+    return proven, spent
+
+
+def is_last(kernel, cycle: Cycle, orbit: Orbit, bounds: OrbitBounds) -> tuple[np.ndarray, np.ndarray]:
+    """Which orbits of strips within reach are proven to be the last of their onset arc, and the evaluations spent on each."""
+    proven, spent = slope_grows(kernel, cycle, orbit), np.zeros(cycle.size)
+    rest = np.flatnonzero(~proven & (cycle.strips.beta <= FAST))
+    if rest.size:
+        part, known = cycle.among(rest), orbit.take(rest)
+        outer, spent[rest] = march(kernel, part, np.fmin(part.centre + part.half_d, bounds.x[rest]))
+        s, margin = part.strips, part.strips.noise() + steep_margin(kernel, part, known.c, outer)
+        sure = np.isfinite(margin) & ~outer.engaged
+        half = kernel.forcing_arc(s.delta_0 - np.where(sure, margin, 0.0), s.D, s.beta)[1]
+        sure &= np.abs(known.x - part.centre) < half
+        proven[rest] = sure & ((outer.x <= part.centre + half) | (known.c <= part.centre + np.pi))
     return proven, spent
 
 

@@ -75,6 +75,11 @@ class Cycle(Batch):
     half_b: np.ndarray
     half_c: np.ndarray
 
+    @property
+    def touched(self) -> np.ndarray:
+        """Where every orbit with an onset meets contact (``orbit_bounds``)."""
+        return self.strips.D > -self.jump
+
 
 def slowed(alpha) -> np.ndarray:
     """Share of its speed at which a strip is solved: 1, or less where it is taken as the limit of infinite speed."""

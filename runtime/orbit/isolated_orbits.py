@@ -29,9 +29,9 @@ class IsolatedOrbits:
         return {sequence: np.flatnonzero(self.found & kind) for sequence, kind in kinds.items()}
 
 
-def isolated_orbits(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, earliest=np.nan) -> IsolatedOrbits:
-    """The first (``last``: last) orbit on the onset arc of every cycle. ``known``, ``earliest``: see ``isolate_extremal``."""
-    result = isolate_extremal(kernel, cycle, last, known, earliest)
+def isolated_orbits(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, limit=np.nan) -> IsolatedOrbits:
+    """The first (``last``: last) orbit on the onset arc of every cycle. ``known``, ``limit``: see ``isolate_extremal``."""
+    result = isolate_extremal(kernel, cycle, last, known, limit)
     orbit, spent = _located(kernel, cycle, result)
     certified = result.found & ~result.unresolved & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
     return IsolatedOrbits(orbit, result.found, certified, ~result.unresolved, result.evaluations + spent)

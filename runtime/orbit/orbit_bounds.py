@@ -1,5 +1,5 @@
 """What no orbit of a strip can exceed: bounds from the most engaged state that it can be in without being in contact all the
-time.
+time, and from the least engaged one.
 
 Contact is left where ``H + p_0 <= 0`` and made where ``H + p_0 >= 0`` (a snap into contact: where ``H + delta_0 >= 0``, and
 ``p_0 > delta_0``). So every orbit but saturated contact is in a gap at the phase where ``H + p_0`` turns positive, and there
@@ -13,8 +13,17 @@ and c, so that
 * every onset lies after x, and
 * there is no onset, hence no orbit with one, if x does not exist.
 
-The three phases are not solved for. Each is replaced by a later a, a later c, an earlier x, verified by the sign of an event:
-contact that is held longer, and adhesion that is held longer, only leave the state more engaged than it is.
+On the other side, in a gap ``z = w - J_0 p`` rises only where it is negative, and contact has ``z <= u + J_0 p_0``. So no orbit
+has ``z > max(D + J_0 p_0, 0)``. (Where w is continuous where p steps, read w for z, and 0 for J_0.)
+
+* Where ``D <= -J_0 p_0`` a free state has ``w <= 0``: every onset lies before the one of a foundation at rest.
+* Where ``D > -J_0 p_0`` a gap at the crest would have to be negative: every orbit with an onset is in contact there (one that
+  snaps into contact is in contact anyway), and stays so at least until ``H + p_0`` turns negative. From contact that ends there,
+  adhesion ends at c and the next onset is met at x: in every orbit adhesion ends after c, every onset lies before x, and there is
+  none if c does not exist.
+
+The phases are not solved for. Each is replaced by one that is further off, verified by the sign of an event: contact or adhesion
+that is held longer (shorter) only leaves the state more (less) engaged than it is.
 """
 
 from dataclasses import dataclass
@@ -36,7 +45,7 @@ _SOON = 0.1
 @dataclass(slots=True)
 class OrbitBounds(Batch):
     """Bounds on all orbits of n cycles, arrays (n,): contact ends before ``a``, adhesion before ``c`` and begins after ``x``
-    (NaN: no bound).
+    (NaN: no bound); of ``least_engaged_bounds``: after, after and before.
 
     ``released``: no orbit is always engaged. ``missed``: none has an onset. ``evaluations``: of events.
     """
@@ -78,6 +87,50 @@ def orbit_bounds(kernel, cycle: Cycle) -> OrbitBounds:
             out.x[index], out.missed[index], spent = _onset(kernel, part, c[go])
             out.evaluations[index] += spent
     return out
+
+
+def least_engaged_bounds(kernel, cycle: Cycle) -> OrbitBounds:
+    """Bounds from the least engaged state of an orbit with an onset, for cycles of strips within reach, ``D > -delta_0``."""
+    s = cycle.strips
+    out = OrbitBounds.blank(cycle.size)
+    touches = cycle.touched
+    reach = 0.5 * (s.D + s.delta_0 - s.noise())
+    out.missed[:] = ~touches & (reach > 1)
+    out.x[:] = np.where(touches, np.nan, -2 * np.arcsin(np.sqrt(np.clip(reach, 0.0, 1.0))))
+    index = np.flatnonzero(touches)
+    if index.size:
+        part = cycle.among(index)
+        a = part.centre + part.half_b
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            c, stays, used = _adhesion_ends(kernel, part, a)
+            x, spent = _latest_onset(kernel, part, c)
+        out.x[index], out.a[index], out.c[index], out.missed[index] = x, a, c, stays
+        out.evaluations[index] = used + spent
+    return out
+
+
+def _adhesion_ends(kernel, cycle: Cycle, a):
+    """Earlier ends of adhesion than that after contact until a, which strips stay engaged, and the evaluations spent."""
+    s, noise, spent = cycle.strips, cycle.strips.noise(), np.ones(cycle.size)
+    entry = kernel.gap_entry(a, 0.0, -s.p_0, s.D, s.beta)
+    low = np.maximum(a, cycle.centre + cycle.half_c)
+    high = np.maximum(cycle.centre + TWO_PI - cycle.half_c, low)
+    stays = (cycle.half_b >= np.pi) | (kernel.gap_event(high, *entry)[0] - s.delta_0 < -noise)
+    # of a foundation that stands still
+    start = np.clip(np.arccos(np.clip(np.cos(a) - s.delta_0, -1.0, 1.0)), low, high)
+    c, found = bound(kernel.gap_event, entry, s.delta_0, -1.0, start, low, -1.0, noise, close_enough(s.beta), spent, high)
+    return np.where(found, c, low), stays, spent
+
+
+def _latest_onset(kernel, cycle: Cycle, c):
+    """Onsets (less 2 pi) after the next one of cycles released at c, NaN where none was found; and the evaluations spent."""
+    s, spent = cycle.strips, np.zeros(cycle.size)
+    entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
+    low = np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
+    high = np.maximum(cycle.centre + TWO_PI + cycle.half_d, low)
+    start = np.clip(TWO_PI - np.arccos(np.clip(np.cos(c) + cycle.jump, -1.0, 1.0)), low, high)
+    x, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, start, high, 1.0, s.noise(), close_enough(s.beta), spent, low)
+    return np.where(found, x - TWO_PI, np.nan), spent
 
 
 def _release(kernel, cycle: Cycle, b, a, c):

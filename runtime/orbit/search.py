@@ -15,7 +15,7 @@ import numpy as np
 from ..numerics.roots import falling_root
 from .groups import EPS, Cycle
 from .march import TWO_PI, Orbit, march
-from .sensitivity import SlopeBounds, onset_margin, over, slope_bounds, slope_excess
+from .sensitivity import SlopeBounds, onset_margin, over, slope_bounds, slope_excess, slope_grows
 
 #: every round divides what it leaves by two at least
 _MAX_ROUNDS = 200
@@ -42,23 +42,23 @@ class SearchResult:
         self.evaluations = np.zeros(n)
 
 
-def isolate_extremal(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, earliest=np.nan) -> SearchResult:
+def isolate_extremal(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, limit=np.nan) -> SearchResult:
     """Isolate the first (``last=False``) or last zero of r on the onset arc of every cycle, or prove that there is none.
 
     ``known``: periodic orbits (r = 0) of some of the cycles, x NaN for the others; nothing beyond them is looked at.
-    ``earliest``: onsets before which no orbit has its own, NaN where there is no such bound.
+    ``limit``: onsets before which (``last``: after which) no orbit has its own, NaN where there is no such bound.
     """
-    return _Search(kernel, cycle, last, known, earliest).run()
+    return _Search(kernel, cycle, last, known, limit).run()
 
 
 class _Search:
     """State of a batch of searches. The frontier advances from one end of the arc; all behind it is excluded."""
 
-    def __init__(self, kernel, cycle: Cycle, last: bool, known: Orbit | None, earliest):
+    def __init__(self, kernel, cycle: Cycle, last: bool, known: Orbit | None, limit):
         self.kernel, self.cycle, self.last = kernel, cycle, last
         self.known = known or Orbit.blank(cycle.size)
         self.sign = -1.0 if last else 1.0  # sign of r on the excluded side
-        self.start = cycle.centre + cycle.half_d if last else np.fmax(cycle.centre - cycle.half_d, earliest)
+        self.start = np.fmin(cycle.centre + cycle.half_d, limit) if last else np.fmax(cycle.centre - cycle.half_d, limit)
         self.result = SearchResult(cycle.size)
 
     def march(self, index, x, earlier=None, later=None):
@@ -175,7 +175,11 @@ class _Search:
             # up to the unknown onset from which it is released nothing adds to w
             top = onset_margin(self.kernel, cycle, cycle.centre)
             bounds = SlopeBounds(np.where(left.engaged, top, bounds.fall), bounds.rise, bounds.falls)
-        return np.where(changes, unique, excluded(cycle.strips.beta, left, right, bounds, self.last))
+        none = excluded(cycle.strips.beta, left, right, bounds, self.last)
+        if self.last:
+            # R falls, then rises, at most: no zero between two signs that are the same
+            none |= ~left.engaged & slope_grows(self.kernel, cycle, left)
+        return np.where(changes, unique, none)
 
     def _isolated(self, index, left: Orbit, right: Orbit):
         self.result.found[index] = True

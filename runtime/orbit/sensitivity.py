@@ -99,6 +99,32 @@ def steep_margin(kernel, cycle: Cycle, latest, right: Orbit) -> np.ndarray:
     return np.divide(cycle.onset_step, np.expm1(np.minimum(-log_B, 700.0)), out=np.full(log_B.shape, np.inf), where=log_B < 0)
 
 
+def slope_grows(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
+    """Where T' grows with the onset, from that of ``orbit`` (not engaged) on until contact, if it is certain, is met no more.
+
+    Contact gets shorter. Of the two factors, that of the onset grows where F falls, behind the centre of its arc, and that of the
+    end of adhesion where M falls as c gets smaller, before the middle of its arc. Elsewhere contact may get shorter fast enough:
+    along adhesion ``db/dx = exp(-(b - x)/beta) (F + s_x)/(H_b + p_0)`` (1 where it begins at once) and
+    ``da/dc = -exp((c - a)/beta) M/(H_a + p_0)``, so that it is enough that
+
+    ``s_x F' <= (L/alpha) F (F + s_x) db/dx``,  ``-s_c M' <= (L/alpha) M (M + s_c) da/dc``
+
+    with F, M and their slopes at x and c, where they are least and steepest, and H as large as it can be.
+    """
+    s, steep = cycle.strips, np.hypot(1, cycle.strips.beta)
+    onset, release = gains(cycle)
+    F, M = onset_margin(kernel, cycle, orbit.x), release_margin(kernel, cycle, orbit.c)
+    before, behind = cycle.centre - orbit.x, orbit.c - cycle.centre - np.pi
+    within = (before <= np.pi / 2) & (behind <= np.pi / 2) & (F > 0) & (M > 0)
+    adheres = cycle.centre + cycle.half_b - orbit.x
+    begins = np.where(cycle.direct, 1.0, (F + onset) * kernel.decay(adheres, s.beta))
+    most = np.where(cycle.direct, 1.0, s.D - 1 + steep + s.p_0)
+    onset_grows = onset * steep * np.sin(before) * s.alpha * most <= s.L * F * (F + onset) * begins
+    most = steep + 1 - s.D - s.p_0
+    release_grows = release * steep * np.sin(behind) * s.alpha * most <= s.L * M**2 * (M + release)
+    return within & ((before <= 0) | (cycle.touched & onset_grows)) & ((behind <= 0) | (cycle.touched & release_grows))
+
+
 def contact_length(b, a):
     """Length of contact, 0 where there is none."""
     return np.where(np.isnan(b), 0.0, np.maximum(a - b, 0.0))
