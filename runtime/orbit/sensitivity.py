@@ -112,16 +112,15 @@ def slope_grows(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     with F, M and their slopes at x and c, where they are least and steepest, and H as large as it can be.
     """
     s, steep = cycle.strips, np.hypot(1, cycle.strips.beta)
-    onset, release = gains(cycle)
     F, M = onset_margin(kernel, cycle, orbit.x), release_margin(kernel, cycle, orbit.c)
     before, behind = cycle.centre - orbit.x, orbit.c - cycle.centre - np.pi
     within = (before <= np.pi / 2) & (behind <= np.pi / 2) & (F > 0) & (M > 0)
     adheres = cycle.centre + cycle.half_b - orbit.x
-    begins = np.where(cycle.direct, 1.0, (F + onset) * kernel.decay(adheres, s.beta))
+    begins = np.where(cycle.direct, 1.0, (F + cycle.onset_step) * kernel.decay(adheres, s.beta))
     most = np.where(cycle.direct, 1.0, s.D - 1 + steep + s.p_0)
-    onset_grows = onset * steep * np.sin(before) * s.alpha * most <= s.L * F * (F + onset) * begins
+    onset_grows = cycle.onset_step * steep * np.sin(before) * s.alpha * most <= s.L * F * (F + cycle.onset_step) * begins
     most = steep + 1 - s.D - s.p_0
-    release_grows = release * steep * np.sin(behind) * s.alpha * most <= s.L * M**2 * (M + release)
+    release_grows = cycle.release_step * steep * np.sin(behind) * s.alpha * most <= s.L * M**2 * (M + cycle.release_step)
     return within & ((before <= 0) | (cycle.touched & onset_grows)) & ((behind <= 0) | (cycle.touched & release_grows))
 
 
