@@ -10,6 +10,7 @@ from hystrip.level.curve import Interval, interpolate
 from hystrip.level.interior_breaks import IsolatedRegime, island, locate_vanishing
 from hystrip.level.means import level_means
 from hystrip.level.strips import LevelBatch, saturation_depth
+from hystrip.level.zones import Zones
 from hystrip.orbit.regimes import CODE
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
@@ -56,8 +57,8 @@ def test_a_zone_narrower_than_the_first_step_counts():
     D = -scene.adhesion.delta_0 + np.array([0.03, 0.1, 0.3, 1.0, 3.0]) * 1e-11
     means = level_means(columns.at(np.zeros(D.size, int), D), np.full(D.size, 1e-5))
     assert (means.values[:, 0] < 0).all() and (np.diff(means.values[:, 0]) < 0).all()
-    widths = np.array([zones[0, 2] for zones in means.zones])
-    assert [zones[0, 0] for zones in means.zones] == [CODE["af"]] * D.size and (np.diff(widths) > 0).all()
+    widths = np.array([zones.high[0] for zones in means.zones])
+    assert [zones.code[0] for zones in means.zones] == [CODE["af"]] * D.size and (np.diff(widths) > 0).all()
 
 
 @pytest.mark.parametrize(("number", "inside", "allowed"), [(4, 8e-7, 3000), (0, 1.418e-7, 12000)])
@@ -81,8 +82,8 @@ def test_the_curve_of_a_scene_with_narrow_zones_converges(number, inside, allowe
 def test_an_island_vanishes_where_its_strips_do():
     scene = _random(0)
     columns = _columns(scene.velocity[2:], scene.edge, scene.branch, scene.adhesion, scene.levels[0], scene.material)
-    seen = IsolatedRegime(0, CODE["f"], 2.5728, 2.6259, 1.4170062189113333e-07, 1.4203712327079623e-07)
-    (D,) = locate_vanishing(columns, [seen], np.zeros(1, int), roughly=False)
+    seen = IsolatedRegime(0, CODE["f"], 2.5728, 2.6259, 1.4170062189113333e-07, 1.4203712327079623e-07, weight=1e3)
+    (D,) = locate_vanishing(columns, [seen], np.zeros(1, int))
     across = np.linspace(seen.low, seen.high, 5001)
     for side, there in ((-1e-6, True), (1e-6, False)):
         at = columns.at(np.zeros(across.size, int), np.full(across.size, D * (1 + side)))
@@ -91,13 +92,20 @@ def test_an_island_vanishes_where_its_strips_do():
 
 
 def test_a_zone_that_hides_in_a_bracket_is_no_island():
-    wide = np.array([[2, 0.0, 1.0], [5, 1.001, 1.003], [7, 1.004, np.pi]])
-    hidden = np.array([[2, 0.0, 1.0], [7, 1.004, np.pi]])
-    plain = np.array([[2, 0.0, 1.002], [7, 1.0020001, np.pi]])
-    D = np.arange(5.0)
-    assert island(0, D, [wide, wide, hidden, hidden, wide], 0.0) is None
-    assert island(0, D, [wide, wide, plain, plain, wide], 0.01) is None
-    assert island(0, D, [wide, wide, plain, plain, wide], 0.0) is not None
+    wide = _zones((2, 0.0, 1.0, 0.0), (5, 1.001, 1.003, 7.0), (7, 1.004, np.pi, 1.0))
+    hidden = _zones((2, 0.0, 1.0, 0.0), (7, 1.004, np.pi, 1.0))
+    plain = _zones((2, 0.0, 1.002, 0.0), (7, 1.0020001, np.pi, 1.0))
+    D, weight = np.arange(5.0), 0.002 / np.pi * 7.0
+    assert island(0, D, [wide, wide, hidden, hidden, wide], np.full(1, weight)) is None
+    assert island(0, D, [wide, wide, plain, plain, wide], np.full(1, 20 * weight)) is None
+    found = island(0, D, [wide, wide, plain, plain, wide], np.full(1, weight))
+    assert (found.code, found.present, found.absent) == (5, 1.0, 2.0) and np.isclose(found.weight, 1.0)
+
+
+def _zones(*rows):
+    """Zones with a code, ends and a value each."""
+    code, low, high, value = np.array(rows).T
+    return Zones(code, low, high, *[value[:, None]] * 3)
 
 
 @pytest.mark.parametrize("T_sigma", [1e-4, 1e-9, 0.0])
@@ -126,7 +134,7 @@ def test_a_panel_next_to_the_flat_edge_may_be_narrower_than_what_is_left_out_the
     means = level_means(columns.at(np.zeros(20, int), D), np.full(20, rtol))
     assert means.strips.max() < 150 and np.isfinite(means.errors).all()
     for zones in means.zones:
-        assert (zones[:, 1] < zones[:, 2]).all() and (zones[1:, 1] >= zones[:-1, 2]).all()
+        assert (zones.low < zones.high).all() and (zones.low[1:] >= zones.high[:-1]).all()
 
 
 def test_a_narrow_zone_next_to_a_threshold_is_seen():

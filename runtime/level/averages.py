@@ -20,6 +20,7 @@ from ..orbit.regimes import CODE
 from .boundaries import hides_another, located, passed_breaks, theta_of, thresholds
 from .changes import Changes, locate_changes
 from .effort import AVERAGE_LIMIT
+from .zones import Zones, zones_of
 
 if TYPE_CHECKING:
     from .strips import LevelBatch
@@ -44,12 +45,12 @@ _EPS = np.finfo(float).eps
 class Averages:
     """Means over the cell: values and errors, (columns, q); strips evaluated for each column.
 
-    ``zones``: for each column the codes met along y, one row (code, low, high) for each run of panels that share it."""
+    ``zones``: of each column, by the codes met along y."""
 
     values: np.ndarray
     errors: np.ndarray
     strips: np.ndarray
-    zones: list[np.ndarray] = field(default_factory=list)
+    zones: list[Zones] = field(default_factory=list)
 
 
 @dataclass
@@ -126,16 +127,9 @@ class _Work:
         inside = np.flatnonzero((state[1:] == state[:-1]) & (np.diff(theta) > 64 * _EPS * np.pi))
         return _Panels(state[inside], theta[inside], theta[inside + 1], after[inside], before[inside + 1])
 
-    def zones(self) -> list[np.ndarray]:
+    def zones(self) -> list[Zones]:
         """See ``Averages.zones``."""
-        state, code, low, high = (np.concatenate(v) for v in zip(*self.accepted, strict=True))
-        order = np.lexsort((low, state))
-        state, code, low, high = state[order], code[order], low[order], high[order]
-        first = np.flatnonzero(np.append(True, (state[1:] != state[:-1]) | (code[1:] != code[:-1])))
-        last = np.append(first[1:], state.size) - 1
-        runs = np.stack((code[first], low[first], high[last]), axis=1)
-        ends = np.searchsorted(state[first], np.arange(self.strips.size + 1))
-        return [runs[start:stop] for start, stop in zip(ends[:-1], ends[1:], strict=True)]
+        return zones_of(self.strips.size, *(np.concatenate(v) for v in zip(*self.accepted, strict=True)))
 
     @property
     def valley(self) -> np.ndarray:
@@ -170,12 +164,17 @@ class _Work:
         later.append(_Panels(panels.state, middle, panels.high, none, panels.last))
         return _Panels.joined(later)
 
+    def _keep(self, panels: _Panels, codes, values, sums) -> None:
+        """Of ``panels`` what their zones are told from."""
+        self.accepted.append((panels.state, codes[:, 0], panels.low, panels.high, values[:, 0], values[:, -1], sums))
+
     def give_up(self, panels: _Panels) -> None:
         """Take panels that do not converge as they are, with the spread of their values as error."""
         codes, values, *_ = self._at_nodes(panels, interior_nodes(_FIRST))
-        self.accepted.append((panels.state, codes[:, 0], panels.low, panels.high))
+        sums = panels.width[:, None] * (mapped_weights(_FIRST) @ values)
+        self._keep(panels, codes, values, sums)
+        np.add.at(self.values, panels.state, sums)
         width = panels.width[:, None]
-        np.add.at(self.values, panels.state, width * (mapped_weights(_FIRST) @ values))
         np.add.at(self.errors, panels.state, width * (values.max(axis=1) - values.min(axis=1)))
 
     def _at_nodes(self, panels: _Panels, t):
@@ -232,7 +231,7 @@ class _Work:
         columns, level = self.columns.at(state[parent], self.columns.D[state[parent]]), self.columns.level
         theta = np.stack((each.low, each.high), axis=1)
         E = np.broadcast_to((columns.D - level.h)[:, None], theta.shape)
-        A, found, _ = located(columns, each, level.amplitude(theta), E, "A")
+        A, found = located(columns, each, level.amplitude(theta), E, "A")
         told = np.bincount(parent[~found], minlength=changes.size)[parent] == 0
         return parent[told], theta_of(columns, A[told])
 
@@ -250,7 +249,7 @@ class _Work:
         done = (error <= _SHARE * goal + 2 * rounding).all(axis=1)
         if n < _COSTLESS and not self.columns.frictional:
             done &= codes[:, 0] % len(CODE) != CODE["c"]
-        self.accepted.append((panels.state[done], codes[done, 0], panels.low[done], panels.high[done]))
+        self._keep(panels.take(done), codes[done], values[done], sums[done])
         np.add.at(self.values, panels.state[done], sums[done])
         np.add.at(self.errors, panels.state[done], (error + _LEAST * goal * (error > 0))[done])
         return done

@@ -105,16 +105,12 @@ def equations(columns: LevelBatch, code: np.ndarray, other: np.ndarray) -> list[
     return found
 
 
-def located(
-    columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str
-) -> tuple[np.ndarray, np.ndarray, list[tuple[Boundary, np.ndarray, Points]]]:
+def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str) -> tuple[np.ndarray, np.ndarray]:
     """Where regimes that meet between two strips of the plane do, by the equation of an orbit that ends there; or where its
     greatest pressure passes a break of the law below.
 
     ``A`` and ``E`` (m, 2) of the ends of the ``changes``; ``unknown`` "A" or "E": the coordinate they differ in. ``columns``: the
-    state of each. Returns that coordinate, which were found (m,), and points of curves that they are: boundary, changes, points.
-    These are remembered."""
-    curves = []
+    state of each. Returns that coordinate and which were found, (m,); the points of curves are remembered."""
     place, found = _by_threshold(columns, changes, A, E, unknown)
     ends = A if unknown == "A" else E
     low, high = ends.min(axis=1), ends.max(axis=1)
@@ -140,9 +136,8 @@ def located(
             good &= inside
             place[rows[good]], found[rows[good]] = at[good], True
             if good.any():
-                curves.append((boundary, rows[good], got.take(np.flatnonzero(good))))
-                columns.crossings.remember(columns, boundary, curves[-1][2])
-    return place, found, curves
+                columns.crossings.remember(columns, boundary, got.take(np.flatnonzero(good)))
+    return place, found
 
 
 def _by_threshold(columns: LevelBatch, changes: Changes, A, E, unknown: str) -> tuple[np.ndarray, np.ndarray]:

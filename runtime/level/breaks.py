@@ -72,7 +72,7 @@ def breaks_on(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tuple[l
 
     def equation(changes):
         E = np.stack((changes.low, changes.high), axis=1) - h
-        place, found, _ = located(columns.at(column[changes.line], changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
+        place, found = located(columns.at(column[changes.line], changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
         told = np.flatnonzero(found)
         return told, place[told] + h
 

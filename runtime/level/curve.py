@@ -34,8 +34,6 @@ _CLEAR = 0.25
 _PACE = 1e3
 #: an interval's pressure is known at least this well
 _COARSEST = 1e-3
-#: width in theta of a zone that may be passed over, over the accuracy asked for
-_NEGLIGIBLE = 0.3
 #: a piece narrower than this, relative to D, is taken as it is
 _NARROWEST = 1e-11
 #: parameters at which a piece is looked at
@@ -172,7 +170,7 @@ def _round(columns: LevelBatch, rtol, intervals: list[Interval], pieces, strips,
         # coefficients fall geometrically: where twice the nodes would not do, halves are better
         missed = error / goal
         hopeless = ~done & (missed * np.minimum(missed / before, _PACE) ** 2 > 1).any(axis=1)
-        split = _isolated_regimes(columns, batch, n, ~done, strips, query is not None) if n > 2 * _FIRST else {}
+        split = _isolated_regimes(columns, batch, n, ~done, goal, strips) if n > 2 * _FIRST else {}
         for k, D_break in split.items():
             parts += batch.without_regularity(k).split(D_break, False)
         done[list(split)] = True
@@ -206,15 +204,15 @@ def _pressure_goal(values, goal):
     return np.maximum(goal[:, 0], pressure * np.minimum(share, _COARSEST))
 
 
-def _isolated_regimes(columns: LevelBatch, batch: Batch, n: int, which, strips, roughly: bool) -> dict[int, float]:
+def _isolated_regimes(columns: LevelBatch, batch: Batch, n: int, which, goal, strips) -> dict[int, float]:
     """Breaks inside intervals: penetrations at which something appears or vanishes between two nodes, away from the crest."""
     seen = {}
     for k in np.flatnonzero(which):
         i = batch.intervals[k]
-        found = island(i.column, i.penetrations(lobatto(n)[1:-1]), batch.zones[k], _NEGLIGIBLE * batch.accuracy[k])
+        found = island(i.column, i.penetrations(lobatto(n)[1:-1]), batch.zones[k], goal[k])
         if found is not None:
             seen[int(k)] = found
     if not seen:
         return {}
-    breaks = dict(zip(seen, locate_vanishing(columns, list(seen.values()), strips, roughly).tolist(), strict=True))
+    breaks = dict(zip(seen, locate_vanishing(columns, list(seen.values()), strips).tolist(), strict=True))
     return {k: D for k, D in breaks.items() if is_inside(D, batch.intervals[k].low, batch.intervals[k].high)}

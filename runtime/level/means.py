@@ -6,6 +6,7 @@ import numpy as np
 
 from .averages import Averages, average
 from .strips import LevelBatch
+from .zones import Zones
 
 
 def level_means(columns: LevelBatch, rtol: np.ndarray) -> Averages:
@@ -29,5 +30,5 @@ def equal_strips(columns: LevelBatch, strips: int) -> Averages:
     # a jump of the integrand shifts the sum by up to one strip's share of it; a kink by less
     errors = np.abs(np.diff(values, axis=1)).max(axis=1, initial=0.0) / strips
     # no transitions are looked for: one zone for all that is known
-    zones = [np.array([[0.0, 0.0, np.pi]])] * columns.size
+    zones = [Zones(np.zeros(1), np.zeros(1), np.full(1, np.pi), *np.zeros((3, 1, mean.shape[1])))] * columns.size
     return Averages(mean, errors, np.full(columns.size, strips), zones=zones)
