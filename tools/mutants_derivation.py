@@ -347,7 +347,7 @@ MUTANTS: tuple[Mutant, ...] = (
         "period map",
         "modes",
     ),
-    m("modes", "modes/stable.py", "-diagonal(lost), -J * p * lost)", "-diagonal(lost), J * p * lost)", "relaxation_map", "modes"),
+    m("modes", "modes/stable.py", "-lost, -J * p * lost)", "-lost, J * p * lost)", "relaxation_map", "modes"),
     m("modes", "modes/chain.py", "(c_0 - R_0 * state) * start", "(c_0 + R_0 * state) * start", "chain rule", "modes"),
     m("modes", "modes/chain.py", "(q_0 + r_0) * ds_0", "(q_0 - r_0) * ds_0", "chain rule", "modes"),
     m("display", "modes/flows.py", r"z_j(s) = J_j p + (", r"z_j(s) = J_j p - (", "relaxation flow", "modes"),

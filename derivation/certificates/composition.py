@@ -22,7 +22,7 @@ from ..sequences import CONTACT, Span
 from ..symbols import p, p_in, s, s_0, s_1
 from .measure import FLOOR
 from .point import Point
-from .reference import Reference
+from .reference import Reference, on_diagonal
 from .scaled import Scaled, inverted
 
 BLOCKS = (
@@ -124,7 +124,8 @@ class Composition:
         for zone in self.regime.zones:
             name, entry = ("contact_map", p_in) if zone.kind == CONTACT else ("relaxation_map", p)
             found = self._block(name, {**self._edges(zone), entry: zone.pressure})
-            maps.append((found[: self.n**2].reshape((self.n, self.n)), found[self.n**2 :]))
+            lost = found[: -self.n]
+            maps.append((_matrix(lost.reshape((self.n, self.n)) if zone.kind == CONTACT else lost), found[-self.n :]))
         forget, drive = maps[0]
         for lost, driven in maps[1:]:
             drive = drive + driven - lost @ drive
@@ -176,7 +177,8 @@ class Composition:
             name, entry = ("contact_passage", p_in) if zone.kind == CONTACT else ("relaxation_passage", p)
             flat = self._block(name, {**self._edges(zone), entry: zone.pressure}, (z_0, entered))
             parts = []
-            for shape in ((n,), (n, n), (n,), (n,), (), (n,), (), ()):
+            lost = (n, n) if zone.kind == CONTACT else (n,)
+            for shape in ((n,), lost, (n,), (n,), (), (n,), (), ()):
                 count = n ** len(shape)
                 parts.append(flat[:count].reshape(shape))
                 flat = flat[count:]
@@ -189,7 +191,7 @@ class Composition:
         nothing = Scaled.of(np.full((self.n, count), mpmath.mpf(0)))
         forget, moved = Scaled.of(np.full((self.n, self.n), mpmath.mpf(0))), nothing
         for k, passage in enumerate(passages):
-            lost = passage[1]
+            lost = _matrix(passage[1])
             forget = forget + lost - lost @ forget
             moved = self._carried(passage, k, count, moved)
         state = forget.solved(moved)
@@ -204,7 +206,7 @@ class Composition:
     def _carried(self, passage: list[Scaled], k: int, count: int, state: Scaled) -> Scaled:
         """Derivatives of the state by the edges, carried through a zone."""
         _, forget, by_start, by_end, *_ = passage
-        after = (state - forget @ state).transposed
+        after = (state - _matrix(forget) @ state).transposed
         return _with(_with(after, k, by_start), (k + 1) % count, by_end).transposed
 
     def return_map(self, passages: list[list[Scaled]]) -> Scaled:
@@ -214,7 +216,7 @@ class Composition:
         shift = -state.sum() / last_slope
         state = state + _outer(last_end, shift)
         for _, forget, by_start, by_end, _, by_state, change_start, change_end in passages:
-            through = state - forget @ state + _outer(by_start, shift)
+            through = state - _matrix(forget) @ state + _outer(by_start, shift)
             shift = -(by_state @ state + change_start * shift) / change_end
             state = through + _outer(by_end, shift)
         return through
@@ -279,6 +281,11 @@ def _with(rows: Scaled, index: int, more: Scaled) -> Scaled:
     value[index] = value[index] + more.value
     size[index] = size[index] + more.size
     return Scaled(value, size)
+
+
+def _matrix(forget: Scaled) -> Scaled:
+    """What a zone forgets: of a gap zone the diagonal is given."""
+    return on_diagonal(forget) if forget.value.ndim == 1 else forget
 
 
 def _outer(column: Scaled, row: Scaled) -> Scaled:

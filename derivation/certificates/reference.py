@@ -15,7 +15,7 @@ import sympy as sp
 
 from ..functions import flat, stack_sum, written_out
 from ..modes.symbols import MATRICES
-from ..modes.tensor import EVERY_SUM, across, diagonal, is_matrix, sandwich, total
+from ..modes.tensor import EVERY_SUM, across, is_matrix, sandwich, total
 from .point import STEP, Point
 from .scaled import Scaled
 
@@ -107,16 +107,13 @@ def _matrix(expression: sp.Expr) -> Evaluated:
         return lambda point: -positive(point)
     if expression in MATRICES:
         return lambda point: Scaled.of(point.values[expression])
-    if isinstance(expression, diagonal):
-        (vector,) = (Together([expression.args[0]]),)
-        return lambda point: _on_diagonal(_spread(vector(point)[0], point))
     if isinstance(expression, sandwich):
         left, vector, right = _matrix(expression.args[0]), Together([expression.args[1]]), _matrix(expression.args[2])
-        return lambda point: (left(point) @ _on_diagonal(_spread(vector(point)[0], point))) @ right(point)
+        return lambda point: (left(point) @ on_diagonal(_spread(vector(point)[0], point))) @ right(point)
     raise ValueError(f"{expression} is no matrix")
 
 
-def _on_diagonal(vector: Scaled) -> Scaled:
+def on_diagonal(vector: Scaled) -> Scaled:
     zero = np.full((len(vector.value),) * 2, mpmath.mpf(0), dtype=object)
     value, size = zero.copy(), zero
     np.fill_diagonal(value, vector.value)

@@ -18,7 +18,7 @@ import sympy as sp
 from ..symbols import alpha, beta
 from .states import alpha_i, alpha_k, beta_i, beta_j, beta_k, eta_i, exact_modes
 from .symbols import J_0, J, S, enter, eta, f, f_0, leave, share, z, z_0
-from .tensor import across, back, diagonal, sandwich, total
+from .tensor import across, back, sandwich, total
 
 MODES, DIGITS = 3, 60
 BRANCHES, RETARDATION, OTHER = range(3)
@@ -88,7 +88,7 @@ def value(e: Any, point: Sample) -> Any:
         vector = value(e.args[1] if isinstance(e, across) else e.args[0], point)
         matrix = value(e.args[0] if isinstance(e, across) else e.args[1], point)
         return np.sum(matrix * vector, axis=int(np.argmax(np.shape(vector))), keepdims=True)
-    if isinstance(e, (diagonal, sandwich)):  # a matrix stands for what it makes of z_0
+    if isinstance(e, sandwich):  # a matrix stands for what it makes of z_0
         return value(applied(e, z_0), point)
     if isinstance(e, along):
         return np.sum(value(e.args[0], point), axis=int(e.args[1]), keepdims=True)
@@ -141,8 +141,6 @@ def applied(matrix: sp.Expr, vector: sp.Expr) -> sp.Expr:
     """A matrix of the derivation times a vector."""
     if isinstance(matrix, sp.Mul) and matrix.could_extract_minus_sign():
         return -applied(-matrix, vector)
-    if isinstance(matrix, diagonal):
-        return matrix.args[0] * vector
     if isinstance(matrix, sandwich):
         return across(matrix.args[0], matrix.args[1] * across(matrix.args[2], vector))
     return across(matrix, vector)

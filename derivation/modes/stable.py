@@ -43,7 +43,7 @@ from ..stable import (
 )
 from ..symbols import D, alpha, beta, p, p_0, p_in, s, s_0, s_1
 from .symbols import J_0, J, S, enter, eta, f, f_0, m, share, z, z_0
-from .tensor import across, back, diagonal, sandwich, total
+from .tensor import across, back, sandwich, total
 
 response, level, time, rates, moved, turn, rate_end, rate_start = sp.symbols(
     "response level time rates moved turn rate_end rate_start", real=True
@@ -80,15 +80,13 @@ GAP_AFTER = Formula(
     (WIDTH,),
 )
 GAP_CHANGE = Formula("gap_change", _gap_zone, total((z_0 - J * p) * decay_loss(s_1 - s_0, beta)) - PROFILE_RISE(s_0, s_1))
-RELAXATION_MAP = Formula(
-    "relaxation_map", (s_0, s_1, p, m), (-diagonal(lost), -J * p * lost), ((lost, decay_loss(s_1 - s_0, beta)),)
-)
+RELAXATION_MAP = Formula("relaxation_map", (s_0, s_1, p, m), (-lost, -J * p * lost), ((lost, decay_loss(s_1 - s_0, beta)),))
 RELAXATION_PASSAGE = Formula(
     "relaxation_passage",
     _gap_zone,
     (
         lag * lost,
-        -diagonal(lost),
+        -lost,
         rates,
         -rates,
         total(lag * lost) - PROFILE_RISE(s_0, s_1),

@@ -43,12 +43,6 @@ def sandwich(left, vector, right):
     return sandwich(left, vector, right)
 
 
-@helper
-def diagonal(vector):
-    """The matrix with a vector on its diagonal."""
-    return diagonal(vector)
-
-
 class at_speed(Scaling):
     """The modes of a strip that passes at a rate: their times multiplied by it."""
 
@@ -56,7 +50,7 @@ class at_speed(Scaling):
         return {time: self.args[1] * time for time in (alpha, beta, eta)}
 
 
-SUMS = (total, across, back, sandwich, diagonal)
+SUMS = (total, across, back, sandwich)
 EVERY_SUM = (*SUMS, stack_sum)
 
 
@@ -65,7 +59,7 @@ def generic(expression: sp.Expr) -> sp.Expr:
     under = sp.Symbol("total", positive=True)
 
     def factor(node: sp.Expr) -> sp.Expr:
-        if isinstance(node, (total, diagonal, stack_sum)):
+        if isinstance(node, (total, stack_sum)):
             return under * node.args[0]
         return sp.Mul(*node.args)
 
@@ -74,4 +68,4 @@ def generic(expression: sp.Expr) -> sp.Expr:
 
 def is_matrix(expression: Any) -> bool:
     plain = -expression if isinstance(expression, sp.Mul) and expression.could_extract_minus_sign() else expression
-    return plain in MATRICES or isinstance(plain, (sandwich, diagonal))
+    return plain in MATRICES or isinstance(plain, sandwich)

@@ -98,7 +98,7 @@ def _in_contact(values: list[sp.Expr], words: Names) -> Names:
 
 
 def _passing(values: list[sp.Expr], words: Names, contact: bool) -> Names:
-    """What a zone does to the state z_0 by its flow; c and R by the change of z from z_0 and from 0."""
+    """What a zone does to the state z_0 by its flow; c and R by the change of z from z_0 and from 0 (of a gap zone diagonal)."""
     if contact:
         overstress = -across(enter, z_0 - J * p_in)
         flow = words["contact"].expression
@@ -108,12 +108,13 @@ def _passing(values: list[sp.Expr], words: Names, contact: bool) -> Names:
         change = words["relaxation"](s_1) - z_0
         event = total(change) - u.subs(s, s_1) + u.subs(s, s_0)
     forgotten = change.subs(z_0, 0) - change
-    return {r"\Deltaz": change, "R": forgotten, r"\Deltag": event, r"\Deltap": event}
+    return {r"\Deltaz": change, "R": forgotten if contact else forgotten / z_0, r"\Deltag": event, r"\Deltap": event}
 
 
 def _map(contact: bool) -> Binding:
     def names(values: list[sp.Expr], words: Names) -> Names:
-        return _passing(values, words, contact) | {"c": values[1], "R": Prefix(lambda state: applied(values[0], state))}
+        forget = lambda state: applied(values[0], state) if contact else values[0] * state  # noqa: E731
+        return _passing(values, words, contact) | {"c": values[1], "R": Prefix(forget)}
 
     return names
 

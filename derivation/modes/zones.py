@@ -10,7 +10,7 @@ from ..symbols import p, p_0, p_in, s, s_0, s_1
 from . import stable
 from .flows import ModeFlows, u
 from .symbols import J_0, J, S, enter, eta, f, f_0, share, z, z_0
-from .tensor import across, back, diagonal, sandwich, total
+from .tensor import across, back, sandwich, total
 
 u_0, u_1 = u.subs(s, s_0), u.subs(s, s_1)
 
@@ -161,7 +161,7 @@ def contact(flows: ModeFlows) -> tuple[Kernel, ...]:
 def passages(flows: ModeFlows) -> tuple[Kernel, ...]:
     r"""A zone as an affine map of the state, and with all its derivatives: what the edge equations of a regime are made of.
 
-    relaxation_map: A gap zone as an affine map of the state: z(s_1) - z_0 = drive - forget z_0.
+    relaxation_map: A gap zone as an affine map of the state: z(s_1) - z_0 = drive - forget z_0, each displacement by itself.
 
     .. math:: \Delta z = c - R z_0
 
@@ -169,8 +169,8 @@ def passages(flows: ModeFlows) -> tuple[Kernel, ...]:
 
     .. math:: \Delta z = c - R z_0
 
-    relaxation_passage: Passage through a gap zone and its derivatives. In this order: change of z; what of z_0 is forgotten, as a
-    matrix; its derivatives by s_0 and by s_1; change of the gap; its derivatives by z_0, s_0, s_1.
+    relaxation_passage: Passage through a gap zone and its derivatives. In this order: change of z; what is
+    forgotten of each z_0; its derivatives by s_0 and by s_1; change of the gap; its derivatives by z_0, s_0, s_1.
 
     .. math:: \Delta z,\quad R,\quad \partial_{s_0}\Delta z,\quad \partial_{s_1}\Delta z,\quad \Delta g,\quad
         \partial_{z_0} \Delta g,\quad \partial_{s_0} \Delta g,\quad \partial_{s_1} \Delta g
@@ -193,7 +193,7 @@ def passages(flows: ModeFlows) -> tuple[Kernel, ...]:
     by_f = sp.diff(creep, f_0)
     relaxation_terms = (
         change_z,
-        -diagonal(sp.diff(change_z, z_0)),
+        -sp.diff(change_z, z_0),
         sp.diff(change_z, s_0),
         sp.diff(change_z, s_1),
         total(change_z) - (u_1 - u_0),
@@ -214,7 +214,7 @@ def passages(flows: ModeFlows) -> tuple[Kernel, ...]:
         sp.diff(u_1, s_1) + total(sp.diff(pressed, s_1).subs(entered)),
     )
     return (
-        kernel(passages, stable.RELAXATION_MAP, (-diagonal(sp.diff(change_z, z_0)), change_z.subs(zero_state))),
+        kernel(passages, stable.RELAXATION_MAP, (-sp.diff(change_z, z_0), change_z.subs(zero_state))),
         kernel(
             passages, stable.CONTACT_MAP, (sandwich(share, by_f, enter), across(share, creep.subs(f_0, across(enter, J) * p_in)))
         ),
