@@ -84,7 +84,7 @@ def orbit_bounds(kernel, cycle: Cycle) -> OrbitBounds:
         go = np.flatnonzero(released)
         if go.size:
             index, part = index[go], part.among(go)
-            out.x[index], out.missed[index], spent = _onset(kernel, part, c[go])
+            out.x[index], out.missed[index], spent = earliest_onset(kernel, part, c[go])
             out.evaluations[index] += spent
     return out
 
@@ -150,7 +150,7 @@ def _release(kernel, cycle: Cycle, b, a, c):
     return a, c, ends & opens, spent
 
 
-def _onset(kernel, cycle: Cycle, c):
+def earliest_onset(kernel, cycle: Cycle, c):
     """Onsets (less 2 pi) before the next one of cycles released at c, NaN where none was found.
 
     Also which cycles miss it, and the evaluations spent.

@@ -15,7 +15,8 @@ import numpy as np
 from ..numerics.roots import falling_root
 from .groups import EPS, Cycle
 from .march import TWO_PI, Orbit, march
-from .sensitivity import SlopeBounds, onset_margin, over, slope_bounds, slope_excess, slope_grows
+from .orbit_bounds import earliest_onset
+from .sensitivity import SlopeBounds, onset_margin, over, slope_bounds, slope_excess
 
 #: every round divides what it leaves by two at least
 _MAX_ROUNDS = 200
@@ -68,7 +69,7 @@ class _Search:
         return orbit
 
     def run(self) -> SearchResult:
-        index = self._without_memory(np.flatnonzero(self.cycle.half_d > 0))
+        index = self._within_reach(self._without_memory(np.flatnonzero(self.cycle.half_d > 0)))
         if index.size:
             index, frontier, stop = self._start(index)
             beyond = stop
@@ -98,6 +99,18 @@ class _Search:
         orbit.r = np.zeros(meets.size)
         self._isolated(quick[meets], orbit, orbit)
         return np.setdiff1d(index, quick[forgets])
+
+    def _within_reach(self, index):
+        """The cycles whose next onset is not missed where adhesion ends as late as it can; no other has an onset. That next one
+        bounds the first."""
+        if self.last or not index.size:
+            return index
+        part = self.cycle.take(index)
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            x, missed, spent = earliest_onset(self.kernel, part, part.centre + TWO_PI - part.half_c)
+        self.result.evaluations[index] += spent
+        self.start[index] = np.fmax(self.start[index], x)
+        return index[~missed]
 
     def _start(self, index):
         """Marches from both ends of the arc; a known orbit stands for the far one."""
@@ -169,17 +182,8 @@ class _Search:
         """Proof that an interval holds exactly one zero (where the sign of r changes) or none (where it does not)."""
         cycle = self.cycle.take(index)
         bounds = slope_bounds(self.kernel, cycle, left, right)
-        unique = ~left.engaged & bounds.falls
-        if not self.last and left.engaged.any():
-            left = _released(self.kernel, cycle, left)
-            # up to the unknown onset from which it is released nothing adds to w
-            top = onset_margin(self.kernel, cycle, cycle.centre)
-            bounds = SlopeBounds(np.where(left.engaged, top, bounds.fall), bounds.rise, bounds.falls)
         none = excluded(cycle.strips.beta, left, right, bounds, self.last)
-        if self.last:
-            # R falls, then rises, at most: no zero between two signs that are the same
-            none |= ~left.engaged & slope_grows(self.kernel, cycle, left)
-        return np.where(changes, unique, none)
+        return np.where(changes, ~left.engaged & bounds.falls, none)
 
     def _isolated(self, index, left: Orbit, right: Orbit):
         self.result.found[index] = True
@@ -222,18 +226,6 @@ def _residual_slope(kernel, cycle: Cycle, orbit: Orbit):
     # without memory r is the gap of the undeformed surface
     steep = -kernel.profile_slope(orbit.x)
     return np.divide(change, s.beta, out=steep, where=s.beta > 1e-12)
-
-
-def _released(kernel, cycle: Cycle, orbit: Orbit) -> Orbit:
-    """Where the orbit stays engaged, the march of a later onset that ends with the least w: adhesion ends last, by grazing.
-
-    Adhesion ends earlier and w is larger the later the onset, so this r bounds from below that of every orbit that does end.
-    """
-    s = cycle.strips
-    c = cycle.centre + TWO_PI - cycle.half_c
-    r = kernel.gap_after(c, orbit.x + TWO_PI, s.delta_0 + cycle.jump, 0.0 * c, s.D, s.beta) - s.delta_0
-    pick = orbit.engaged
-    return Orbit(orbit.x, orbit.b, orbit.a, np.where(pick, c, orbit.c), pick, np.where(pick, r, orbit.r))
 
 
 def excluded(beta, left: Orbit, right: Orbit, bounds: SlopeBounds, last: bool) -> np.ndarray:
