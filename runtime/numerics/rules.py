@@ -1,4 +1,10 @@
-"""Sums by rules with more and more nodes, for many integrals at once, with errors from their changes."""
+"""Sums by rules with more and more nodes, for many integrals at once, with errors extrapolated from their changes.
+
+Of a sequence whose changes fall by a ratio r the last member misses its last change times r/(1 - r): Aitken's process (Brezinski
+& Redivo Zaglia, "Extrapolation Methods", 1991, section 2.3). Rules grow by half or more, so sums that converge geometrically do
+better than that, and those that converge by a power of the nodes do as well. A change may be small by chance, as where an
+integrand has a layer or a kink; r is therefore the largest over all quantities, which share their singularities.
+"""
 
 from __future__ import annotations
 
@@ -7,62 +13,46 @@ from typing import Any
 
 import numpy as np
 
-#: the fastest that changes are believed to fall
-_FASTEST = 0.25
-#: share of the roughest quantity's first change, both relative, that every other one is taken to have at least
-_SHARED = 0.1
-
-
-class Changes:
-    """What sums by finer and finer rules change, and so what the last one may miss. A change that is small by chance,
-    as they are where an integrand has a layer or a kink, is not believed; ``sure``: how much more than a change is
-    feared; ``pace``: no more than this is believed to be gained from rule to rule; ``fastest``: nor are changes to
-    fall faster."""
-
-    def __init__(self, sure: float, at_once: bool = False, pace: float = 1.0, fastest: float = _FASTEST):
-        self.sure, self.at_once, self.pace, self.fastest = sure, at_once, pace, fastest
-        self.sums, self.change = None, None
-
-    def after(self, sums: np.ndarray) -> np.ndarray:
-        """Error of the ``sums`` (m, q) by the next rule; of the first change nothing is concluded, unless it is
-        believed ``at_once``."""
-        if self.sums is None:
-            self.sums = sums
-            return np.full_like(sums, np.inf)
-        change, last = np.abs(sums - self.sums), self.change
-        self.sums, self.change = sums, change
-        if last is None and self.at_once:
-            # alone it may be small by chance: all quantities change where one does
-            roughest = np.divide(change, np.abs(sums), out=np.zeros_like(change), where=sums != 0).max(axis=1, keepdims=True)
-            return self.sure * np.maximum(change, _SHARED * roughest * np.abs(sums))
-        if last is None:
-            return np.full_like(sums, np.inf)
-        pace = np.divide(change, last, out=np.ones_like(change), where=last > change)
-        return self.sure * np.maximum(change, self.fastest * last) * np.maximum(pace, self.pace)
-
-    def keep(self, which: np.ndarray) -> None:
-        """Go on with the rows ``which``."""
-        self.sums = self.sums[which]
-        self.change = None if self.change is None else self.change[which]
+#: how much more is feared than the last change times r: 1/(1 - r) up to r = 2/3
+_SAFE = 3.0
+#: r of a first change, and the share of the roughest quantity's first change, both relative, that every other one is taken to
+#: have at least
+_UNKNOWN, _SHARED = 0.5, 0.1
 
 
 def by_rules(
-    sums: Callable[[np.ndarray, Any], np.ndarray], rules: Sequence, goal: np.ndarray, changes: Changes
+    sums: Callable[[np.ndarray, Any], np.ndarray], rules: Sequence, goal: np.ndarray, fastest: np.ndarray, at_once: bool = False
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Sums (m, q or more) by as many of the ``rules`` as it takes for an error of ``goal`` (m, q), and the errors (m, q).
+    """Sums (m, q or more) by as many of the ``rules`` as it takes for an error of ``goal`` (m, q), and the errors (m, q): from
+    the third rule on, or from the second ``at_once``. No r less than ``fastest`` (m,) is believed.
 
     ``sums(rows, rule)`` returns those of the rows by a rule; the quantities after the first q are taken as they are."""
     left, q = np.arange(len(goal)), goal.shape[1]
     out, errors = np.zeros(goal.shape), np.zeros(goal.shape)
+    old = change = None
     for rule in rules:
         new = sums(left, rule)
         if new.shape[1] > out.shape[1]:
             out = np.zeros((len(goal), new.shape[1]))
-        miss = changes.after(new[:, :q])
+        old, last, change = new[:, :q], change, None if old is None else np.abs(new[:, :q] - old)
+        miss = _left(old, change, last, fastest[left, None], at_once)
         done = (miss <= goal[left]).all(axis=1) | (rule == rules[-1])
         out[left[done]], errors[left[done]] = new[done], miss[done]
         left = left[~done]
         if not left.size:
             break
-        changes.keep(~done)
+        old, change = old[~done], None if change is None else change[~done]
     return out, errors
+
+
+def _left(sums, change, last, fastest, at_once: bool):
+    """Error of ``sums`` (m, q) whose last ``change`` and the one before, ``last``, are these, or None."""
+    if last is not None:
+        change = np.maximum(change, fastest * last)
+        ratio = np.divide(change, last, out=np.ones_like(change), where=last > change)
+        return _SAFE * change * ratio.max(axis=1, keepdims=True)
+    if change is None or not at_once:
+        return np.full_like(sums, np.inf)
+    # alone it may be small by chance: all quantities change where one does
+    roughest = np.divide(change, np.abs(sums), out=np.zeros_like(change), where=sums != 0).max(axis=1, keepdims=True)
+    return _SAFE * _UNKNOWN * np.maximum(change, _SHARED * roughest * np.abs(sums))

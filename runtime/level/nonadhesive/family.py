@@ -22,6 +22,8 @@ _FIRST, _LAST = 8, 512
 #: a family is sampled this far beyond the penetration that is asked for, at most
 _BEYOND = 4.0
 _STEPS, _CLOSE = 12, 1e-9
+#: so many coefficients that are cut off a series are known to whoever asks what they would add
+NEXT = 4
 #: nothing is sampled finer than this many roundings; and the share of what is allowed that is cut off a series
 _FINEST, _TRIMMED = 256, 0.03
 #: slope of the width of contact over s, averaged over a level, in parts of its mean slope
@@ -43,20 +45,32 @@ def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V:
 
 @dataclass(frozen=True)
 class Family:
-    """Strips at velocities (G,): ``s_sat`` (G,), and ``series``, coefficients (n + 1, 3) for each, of mean pressure (K
-    A), mean friction (K A kA) and contact fraction over ``xi/top``; ``errors`` (G, 3) bound each. ``full`` (G, 3): in
-    complete contact, at s_sat."""
+    """Strips at velocities (G,): ``s_sat`` (G,), and ``series``, coefficients (n, 3) for each, of mean pressure (K
+    A), mean friction (K A kA) and contact fraction over ``xi/top``. ``next`` (G, NEXT, 3): the coefficients that would follow
+    up to ``degree`` (G,); ``errors`` (G, 3): bounds of what all others would add. ``full``
+    (G, 3): in complete contact, at s_sat."""
 
     s_sat: np.ndarray
     top: np.ndarray
     series: list[np.ndarray]
+    next: np.ndarray
+    degree: np.ndarray
     errors: np.ndarray
     full: np.ndarray
     strips: np.ndarray
 
+    @property
+    def greatest_errors(self) -> np.ndarray:
+        """Bounds of the errors of all strips, (G, 3)."""
+        return self.errors + np.abs(self.next).sum(axis=1)
+
     def part(self, which: slice) -> Family:
         """The velocities ``which`` alone."""
         return Family(*(getattr(self, field.name)[which] for field in fields(self)))
+
+    def parameter(self, group: np.ndarray, s: np.ndarray) -> np.ndarray:
+        """Where in [0, 1] the series has the strips ``s`` (m, nodes)."""
+        return _xi(s, self.s_sat[group, None]) / self.top[group, None]
 
     def values(self, group: np.ndarray, s: np.ndarray, slopes: bool = False) -> np.ndarray:
         """Quantities of the strips ``s`` (m, nodes), all of row i at the velocity ``group[i]``: (m, nodes, 3), or with
@@ -95,7 +109,16 @@ def family(
     work = _Sampling(foundation, rate, s_sat, full)
     # w is nowhere negative, so contact lies where the profile is below the plane
     phi = np.where(s_top < 2, np.arccos(1 - np.minimum(s_top, 2.0)) / np.pi, 1.0)
-    out = Family(s_sat, np.zeros(G), [np.empty(0)] * G, np.zeros((G, _Q)), full, np.zeros(G, int))
+    out = Family(
+        s_sat,
+        np.zeros(G),
+        [np.empty(0)] * G,
+        np.zeros((G, NEXT, _Q)),
+        np.zeros(G, int),
+        np.zeros((G, _Q)),
+        full,
+        np.zeros(G, int),
+    )
     left, n = np.arange(G), _FIRST
     phi, samples = work.narrowed(left, phi, s_top, n)
     while left.size:
@@ -114,8 +137,11 @@ def family(
         done = (error <= goal).all(axis=1) | (n == _LAST)
         for k in np.flatnonzero(done):
             g = left[k]
-            out.series[g], lost = trimmed(over[k], _TRIMMED * goal[k])
-            out.errors[g] = error[k] + lost
+            out.series[g], _ = trimmed(over[k], _TRIMMED * goal[k])
+            cut = over[k, len(out.series[g]) :]
+            out.next[g, : len(cut)] = cut[:NEXT]
+            out.degree[g] = n
+            out.errors[g] = error[k] + np.abs(cut[NEXT:]).sum(axis=0)
             out.top[g] = _xi(s[k, -1], s_sat[g])
         keep = np.flatnonzero(~done)
         left, phi, samples = left[keep], phi[keep], samples[keep]

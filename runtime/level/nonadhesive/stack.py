@@ -168,7 +168,7 @@ class FamilyStack:
         self.work.solved += carrier.strips
         error += errors[:, :-1:2].sum(axis=1) + carried[:, -1]
         # local pressures are as uncertain as a strip's means, and change friction by the law's slope
-        error += own[:, 1] * (CANCELLED * level.family.errors[group, 0] + missed) * unit * laws.steepest[group]
+        error += own[:, 1] * (CANCELLED * level.family.greatest_errors[group, 0] + missed) * unit * laws.steepest[group]
         return Found(d, pressure, np.column_stack((own, carried[:, :-1], error)))
 
     def _sharp(self, i):
