@@ -320,12 +320,12 @@ def _rates_after_contact(s: ModeStrips, lower: Period, upper: Period, short, lon
         top = response * (m.alpha * np.cos(ends[0]) - np.sin(ends[0]))
         low, high = top - width - np.maximum(*below), top + width - np.minimum(*below)
         rate = rates(m.beta)
-        share = m.leave * rate[:, None]
-        much, little = (np.exp(-t * rate)[:, None] for t in (short, long))
-        one, two = share * low, share * high
-        least, most = np.minimum(one, two), np.maximum(one, two)
-        least = np.where(least > 0, least * little, least * much).sum(axis=(0, 1))
-        most = np.where(most > 0, most * much, most * little).sum(axis=(0, 1))
+        # an overstress by itself moves w one way only, at all times, as the flow is cooperative (``order``): w moves no less than
+        # with the least of each, whatever the signs of the modes that they make up
+        least, most = (np.einsum("ij...,j...->i...", m.leave * rate[:, None], f) for f in (low, high))
+        much, little = np.exp(-short * rate), np.exp(-long * rate)
+        least = (least * np.where(least > 0, little, much)).sum(axis=0)
+        most = (most * np.where(most > 0, much, little)).sum(axis=0)
     return np.where(after, least, -np.inf), np.where(after, most, np.inf)
 
 
