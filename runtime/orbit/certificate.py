@@ -11,7 +11,8 @@ from .groups import ROUNDING, Cycle, Strips
 from .march import TWO_PI, Orbit
 from .sensitivity import onset_margin, slope_excess
 
-#: Near a fold the slope of the onset map approaches one like the square root of the distance; rounding blurs it.
+#: Near a fold the slope of the onset map approaches one like the square root of the distance: rounding blurs it, and the edges,
+#: by no more than this.
 STABLE = 1e-6
 
 

@@ -38,7 +38,7 @@ from .march import TWO_PI
 #: beta above which a foundation remembers too much of the most engaged state for bounds from it to say much: the balance of a
 #: period (``balance``) is asked instead. 30 to 300 cost about the same
 FAST = 60.0
-#: contact and adhesion are taken to end after this share of the arc in which they can
+#: contact is taken to end after this share of the arc in which it can
 _SOON = 0.1
 
 
@@ -65,27 +65,23 @@ class OrbitBounds(Batch):
 
 def orbit_bounds(kernel, cycle: Cycle) -> OrbitBounds:
     """Bounds for cycles of strips that are not in saturated contact."""
-    n = cycle.size
-    out = OrbitBounds.blank(n)
+    out = OrbitBounds.blank(cycle.size)
     index = np.flatnonzero((cycle.half_b > 0) & (cycle.half_b < np.pi))
     if not index.size:
         return out
-    part = cycle.among(index)
-    near = [part.centre + half for half in (part.half_b, part.half_c)]
-    start = [
-        low + _SOON * (part.centre + TWO_PI - half - low) for low, half in zip(near, (part.half_b, part.half_c), strict=True)
-    ]
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        a, c, released, spent = _release(kernel, part, part.centre - part.half_b, *start)
-        # where one of the two was not found neither bounds anything
-        out.a[index], out.c[index] = np.where(released, a, np.nan), np.where(released, c, np.nan)
-        out.released[index] = released
+        part = cycle.among(index)
+        a, spent = _contact_end(kernel, part, part.centre - part.half_b)
         out.evaluations[index] += spent
-        go = np.flatnonzero(released)
-        if go.size:
-            index, part = index[go], part.among(go)
-            out.x[index], out.missed[index], spent = earliest_onset(kernel, part, c[go])
-            out.evaluations[index] += spent
+        go = np.flatnonzero(np.isfinite(a))
+        index, part, a = index[go], part.among(go), a[go]
+        c, _, spent = _adhesion_end(kernel, part, a, 1.0)
+        out.evaluations[index] += spent
+        go = np.flatnonzero(np.isfinite(c))
+        index, part, a, c = index[go], part.among(go), a[go], c[go]
+        out.a[index], out.c[index], out.released[index] = a, c, True
+        out.x[index], out.missed[index], spent = earliest_onset(kernel, part, c)
+        out.evaluations[index] += spent
     return out
 
 
@@ -93,61 +89,19 @@ def least_engaged_bounds(kernel, cycle: Cycle) -> OrbitBounds:
     """Bounds from the least engaged state of an orbit with an onset, for cycles of strips within reach, ``D > -delta_0``."""
     s = cycle.strips
     out = OrbitBounds.blank(cycle.size)
-    touches = cycle.touched
     reach = 0.5 * (s.D + s.delta_0 - s.noise())
-    out.missed[:] = ~touches & (reach > 1)
-    out.x[:] = np.where(touches, np.nan, -2 * np.arcsin(np.sqrt(np.clip(reach, 0.0, 1.0))))
-    index = np.flatnonzero(touches)
-    if index.size:
-        part = cycle.among(index)
-        a = part.centre + part.half_b
-        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            c, stays, used = _adhesion_ends(kernel, part, a)
-            x, spent = _latest_onset(kernel, part, c)
-        out.x[index], out.a[index], out.c[index], out.missed[index] = x, a, c, stays
-        out.evaluations[index] = used + spent
+    out.missed[:] = ~cycle.touched & (reach > 1)
+    out.x[:] = np.where(cycle.touched, np.nan, -2 * np.arcsin(np.sqrt(np.clip(reach, 0.0, 1.0))))
+    index = np.flatnonzero(cycle.touched)
+    part = cycle.among(index)
+    a = part.centre + part.half_b
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        c, stays, spent = _adhesion_end(kernel, part, a, -1.0)
+        c = np.fmax(c, np.maximum(a, part.centre + part.half_c))
+        out.a[index], out.c[index], out.missed[index] = a, c, stays | (part.half_b >= np.pi)
+        x, used = _next_onset(kernel, part, c, 1.0)
+    out.x[index], out.evaluations[index] = x - TWO_PI, spent + used
     return out
-
-
-def _adhesion_ends(kernel, cycle: Cycle, a):
-    """Earlier ends of adhesion than that after contact until a, which strips stay engaged, and the evaluations spent."""
-    s, noise, spent = cycle.strips, cycle.strips.noise(), np.ones(cycle.size)
-    entry = kernel.gap_entry(a, 0.0, -s.p_0, s.D, s.beta)
-    low = np.maximum(a, cycle.centre + cycle.half_c)
-    high = np.maximum(cycle.centre + TWO_PI - cycle.half_c, low)
-    stays = (cycle.half_b >= np.pi) | (kernel.gap_event(high, *entry)[0] - s.delta_0 < -noise)
-    # of a foundation that stands still
-    start = np.clip(np.arccos(np.clip(np.cos(a) - s.delta_0, -1.0, 1.0)), low, high)
-    c, found = bound(kernel.gap_event, entry, s.delta_0, -1.0, start, low, -1.0, noise, close_enough(s.beta), spent, high)
-    return np.where(found, c, low), stays, spent
-
-
-def _latest_onset(kernel, cycle: Cycle, c):
-    """Onsets (less 2 pi) after the next one of cycles released at c, NaN where none was found; and the evaluations spent."""
-    s, spent = cycle.strips, np.zeros(cycle.size)
-    entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
-    low = np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
-    high = np.maximum(cycle.centre + TWO_PI + cycle.half_d, low)
-    start = np.clip(TWO_PI - np.arccos(np.clip(np.cos(c) + cycle.jump, -1.0, 1.0)), low, high)
-    x, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, start, high, 1.0, s.noise(), close_enough(s.beta), spent, low)
-    return np.where(found, x - TWO_PI, np.nan), spent
-
-
-def _release(kernel, cycle: Cycle, b, a, c):
-    """Later ends of contact begun at b and of adhesion, sought from a and c, where both were found, and the evaluations spent."""
-    s, noise = cycle.strips, cycle.strips.noise()
-    spent, turned = np.zeros(cycle.size), cycle.centre + TWO_PI
-    close = close_enough(s.beta)
-    entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
-    near, far = np.maximum(b, cycle.centre + cycle.half_b), turned - cycle.half_b
-    blur, start = noise + ROUNDING * entry[4], np.clip(a, near, far)
-    a, ends = bound(kernel.excess_event, entry, 0.0, 1.0, start, far, 1.0, blur, close, spent, near)
-    entry = kernel.gap_entry(a, 0.0, -s.p_0, s.D, s.beta)
-    near, far = np.maximum(a, cycle.centre + cycle.half_c), turned - cycle.half_c
-    ends &= near < far
-    start = np.clip(c, near, np.maximum(near, far))
-    c, opens = bound(kernel.gap_event, entry, s.delta_0, -1.0, start, far, 1.0, noise, close, spent, near)
-    return a, c, ends & opens, spent
 
 
 def earliest_onset(kernel, cycle: Cycle, c):
@@ -155,17 +109,58 @@ def earliest_onset(kernel, cycle: Cycle, c):
 
     Also which cycles miss it, and the evaluations spent.
     """
-    s, noise = cycle.strips, cycle.strips.noise()
-    spent = np.ones(cycle.size)
+    s = cycle.strips
     entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
-    far = np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
-    near = np.maximum(cycle.centre + TWO_PI + cycle.half_d, far)
-    missed = kernel.gap_event(near, *entry)[0] - s.delta_0 > noise
+    low = np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
+    high = np.maximum(cycle.centre + TWO_PI + cycle.half_d, low)
+    missed = kernel.gap_event(high, *entry)[0] - s.delta_0 > s.noise()
     # a surface out of reach of the undeformed foundation is not met if nothing is left of w that would change its gap
-    left = np.abs(kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(far - c, s.beta)
+    left = np.abs(kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(low - c, s.beta)
     missed |= (s.D <= -s.delta_0) & (left < 0.25 * EPS * s.delta_0)
-    # where a foundation that stands still meets it
-    start = np.clip(TWO_PI - np.arccos(np.clip(np.cos(c) + cycle.jump, -1.0, 1.0)), far, near)
-    close = close_enough(s.beta)
-    x, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, start, far, -1.0, noise, close, spent, near)
-    return np.where(found & ~missed, x - TWO_PI, np.nan), missed, spent
+    x, spent = _next_onset(kernel, cycle, c, -1.0)
+    return np.where(missed, np.nan, x - TWO_PI), missed, spent + 1
+
+
+def _contact_end(kernel, cycle: Cycle, b):
+    """Phases behind the end of contact begun at b, NaN where none was found, and the evaluations spent."""
+    s, spent = cycle.strips, np.zeros(cycle.size)
+    entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
+    low, high = cycle.centre + cycle.half_b, cycle.centre + TWO_PI - cycle.half_b
+    start, blur = low + _SOON * (high - low), s.noise() + ROUNDING * entry[4]
+    a, found = bound(kernel.excess_event, entry, 0.0, 1.0, start, high, 1.0, blur, close_enough(s.beta), spent, low)
+    return np.where(found, a, np.nan), spent
+
+
+def _adhesion_end(kernel, cycle: Cycle, a, side: float):
+    """Phases behind (``side`` 1) or before (-1) the end of adhesion after contact until a, NaN where none was found.
+
+    Also which cycles are certain to stay engaged, and the evaluations spent.
+    """
+    s, spent = cycle.strips, np.ones(cycle.size)
+    low = np.maximum(a, cycle.centre + cycle.half_c)
+    high = np.maximum(low, cycle.centre + TWO_PI - cycle.half_c)
+    over = kernel.gap_event(high, *kernel.gap_entry(a, 0.0, -s.p_0, s.D, s.beta))[0] - s.delta_0
+    c, noise = np.full(cycle.size, np.nan), s.noise()
+    ask = np.flatnonzero((low < high) & (over > noise))
+    s, a, low, high, used = s.take(ask), a[ask], low[ask], high[ask], np.zeros(ask.size)
+    entry = kernel.gap_entry(a, 0.0, -s.p_0, s.D, s.beta)
+    # of a foundation that stands still
+    start = np.clip(np.arccos(np.clip(np.cos(a) - s.delta_0, -1.0, 1.0)), low, high)
+    near, far = (low, high) if side > 0 else (high, low)
+    phase, found = bound(kernel.gap_event, entry, s.delta_0, -1.0, start, far, side, noise[ask], close_enough(s.beta), used, near)
+    c[ask], spent[ask] = np.where(found, phase, np.nan), 1 + used
+    return c, over < -noise, spent
+
+
+def _next_onset(kernel, cycle: Cycle, c, side: float):
+    """Phases behind (``side`` 1) or before (-1) the next onset of cycles released at c, NaN where none was found, and the
+    evaluations spent."""
+    s, spent = cycle.strips, np.zeros(cycle.size)
+    entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
+    low = np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
+    high = np.maximum(cycle.centre + TWO_PI + cycle.half_d, low)
+    # of a foundation that stands still
+    start = np.clip(TWO_PI - np.arccos(np.clip(np.cos(c) + cycle.jump, -1.0, 1.0)), low, high)
+    near, far = (low, high) if side > 0 else (high, low)
+    x, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, start, far, side, s.noise(), close_enough(s.beta), spent, near)
+    return np.where(found, x, np.nan), spent

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .certificate import STABLE
 from .groups import EPS, Strips
 
 _ITERATIONS = 20
-#: steps larger than this are corrections, whatever the one before was
-_ROUNDING_LIMITED = 1e-6
 
 
 @dataclass(slots=True)
@@ -52,8 +51,9 @@ def polish(kernel, sequence: str, strips: Strips, edges: np.ndarray, bounds=(-np
         step, _ = newton(residual(*current, *here), matrix)
         evaluations[active] += 1
         size = np.max(np.abs(step), axis=0)
-        # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction. Once may be chance
-        better = (size < last[active]) | (size > _ROUNDING_LIMITED)
+        # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction. Once may be chance, and one
+        # larger than rounding makes them is a correction, whatever the one before was
+        better = (size < last[active]) | (size > STABLE)
         moved = active[better]
         new = np.clip(np.maximum.accumulate(current + step, axis=0), low[:, active], high[:, active])
         edges[:, moved] = new[:, better]

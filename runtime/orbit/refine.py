@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from .certificate import STABLE
 from .chain import CONVERGED, tighten
 from .groups import EPS, Cycle
 from .march import Orbit
@@ -9,8 +10,8 @@ from .polish import polish
 from .regimes import EQUATIONS
 from .solved import edges_of, orbit_of
 
-#: Corrections may be this many times what rounding leaves uncertain, which itself must not be worse than near a fold.
-_ROUNDINGS, _COARSEST = 32, 1e-6
+#: corrections may be this many times what rounding leaves uncertain
+_ROUNDINGS = 32
 
 
 def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, ends=None, blurred: bool = True):
@@ -26,7 +27,7 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, ends=None, blurre
         bounds = np.minimum(one, two), np.maximum(one, two)
     # the cycle of an always adhering strip is the bare one, shifted: its boundary equations are those of "ac" at p_0 = 0
     found = polish(kernel, EQUATIONS[sequence], cycle.strips, edges_of(sequence, orbit), bounds)
-    limit = np.where(blurred & found.stalled, _ROUNDINGS * np.minimum(found.attainable, _COARSEST), 0.0)
+    limit = np.where(blurred & found.stalled, _ROUNDINGS * np.minimum(found.attainable, STABLE), 0.0)
     edges, correction = found.edges, found.correction
     if sequence in ("ac", "cf"):
         loose = np.flatnonzero((correction <= CONVERGED + limit) & (found.attainable > EPS * (_ROUNDINGS + cycle.strips.beta)))
