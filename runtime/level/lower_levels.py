@@ -49,7 +49,7 @@ class _Nodes:
 _FEW = _Nodes(8, 8, mapped, np.ones_like)
 #: flat like t^4 at both ends, as ``chebyshev.graded`` is: a law that begins at its break like a root, or nearly like ``p log p``,
 #: is smooth in t
-_MANY = _Nodes(16, 32, lambda t: t**4 * (35 - t * (84 - t * (70 - 20 * t))), lambda t: 70 / 3 * (t * (1 - t)) ** 2)
+_MANY = _Nodes(16, 128, lambda t: t**4 * (35 - t * (84 - t * (70 - 20 * t))), lambda t: 70 / 3 * (t * (1 - t)) ** 2)
 
 
 @dataclass(frozen=True)
