@@ -184,15 +184,23 @@ class _Work:
         return tuple(answer.reshape(panels.size, t.size, *answer.shape[1:]) for answer in answers)
 
     def _evaluated(self, state, theta) -> list[np.ndarray]:
-        """Codes, values, heights and edges of strips (m,); the first time also of those next to the ends of panels."""
+        """Codes, values, heights and edges of strips (m,); with them those next to the ends of panels that are not known yet."""
         m = theta.size
-        if self.ends is None:
-            state, theta = np.concatenate((state, self.beside[0])), np.concatenate((theta, self.beside[1]))
+        known = 0 if self.ends is None else self.ends[0].size
+        state, theta = (np.concatenate((v, beside[known:])) for v, beside in zip((state, theta), self.beside, strict=True))
         np.add.at(self.strips, state, 1)
         answers = self.columns.evaluate(state, theta)
-        if self.ends is None:
-            self.ends = [v[m:] for v in answers]
+        fresh = [v[m:] for v in answers]
+        self.ends = fresh if self.ends is None else [np.concatenate(pair) for pair in zip(self.ends, fresh, strict=True)]
         return [v[:m] for v in answers]
+
+    def _next_to(self, state, theta) -> np.ndarray:
+        """Numbers (2, k) of strips next to the places ``theta`` (k,), on both sides: they are solved with whatever is next."""
+        aside = np.pi - self.valley[state]
+        places = np.tile(state, 2), np.clip(np.concatenate((theta - aside, theta + aside)), 0.0, np.pi)
+        number = self.beside[1].size + np.arange(2 * theta.size).reshape(2, -1)
+        self.beside = tuple(np.concatenate(pair) for pair in zip(self.beside, places, strict=True))
+        return number
 
     def _look_beside_thresholds(self, panels: _Panels, codes) -> None:
         """Strips to either side of thresholds where the ``codes`` of the panels that meet do not follow one another: a third
@@ -208,8 +216,8 @@ class _Work:
         aside = np.minimum(np.pi - self.valley, _NEXT)[state]
         places = np.tile(state, 2), np.concatenate((panels.high[left] - aside, panels.low[right] + aside))
         panels.last[left], panels.first[right] = self.beside[1].size + np.arange(2 * left.size).reshape(2, -1)
-        self.ends = [np.concatenate(pair) for pair in zip(self.ends, self._evaluated(*places), strict=True)]
         self.beside = tuple(np.concatenate(pair) for pair in zip(self.beside, places, strict=True))
+        self._evaluated(np.empty(0, int), np.empty(0))
 
     def _outer(self, panels: _Panels, known) -> tuple[np.ndarray, ...]:
         """What is ``known`` at the first nodes of panels, and their thetas, with one more at either end: what is known beyond the
@@ -278,15 +286,19 @@ class _Work:
         def equation(changes):
             return self._by_equation(panels.state[changes.line], changes)
 
-        found, halved = locate_changes(probe, equation, changes, width, lambda some: hides_another(*some.codes.T))
+        found, halved = locate_changes(probe, equation, changes, width, lambda some: np.zeros(some.size, bool))
         self.columns.work.bisected += halved
+        # next to what an equation tells a third zone may be too narrow for nodes
+        doubtful = np.flatnonzero((found.low == found.high) & hides_another(*found.codes.T))
+        before, after = np.full((2, found.size), -1)
+        before[doubtful], after[doubtful] = self._next_to(panels.state[found.line[doubtful]], found.low[doubtful])
         state, sliver = panels.state[found.line], (found.high - found.low)[:, None]
         np.add.at(self.values, state, 0.5 * sliver * found.values.sum(axis=1))
         np.add.at(self.errors, state, 0.5 * sliver * np.abs(found.values[:, 1] - found.values[:, 0]))
         # the parts between the brackets, and the outermost ones
-        every, none = np.arange(panels.size), np.full(found.size, -1)
-        starts, first = np.concatenate((panels.low, found.high)), np.concatenate((panels.first, none))
-        stops, last = np.concatenate((found.low, panels.high)), np.concatenate((none, panels.last))
+        every = np.arange(panels.size)
+        starts, first = np.concatenate((panels.low, found.high)), np.concatenate((panels.first, after))
+        stops, last = np.concatenate((found.low, panels.high)), np.concatenate((before, panels.last))
         order_start = np.lexsort((starts, np.concatenate((every, found.line))))
         order_stop = np.lexsort((stops, np.concatenate((found.line, every))))
         line = np.concatenate((every, found.line))[order_start]
