@@ -19,6 +19,7 @@ from .level import level
 from .links import links
 from .membership import require_constructor
 from .model import Model, foundation, require_admissible
+from .modes.flows import mode_flows
 from .multilevel import multilevel
 from .onset import onset
 from .outcome import Derivation, Progress, Stages, records
@@ -77,7 +78,8 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     table = regimes(OneTime(ratio), full.threshold.value)
     partial = [regime for regime in table if regime.edges]
     systems = tuple(k for regime in partial for k in system_kernels(regime, zone.kernels))
-    stages.done("regimes", conditions(one_strip, table[0]), table, sample_roots(table), systems)
+    roots = sample_roots("one_time", table, mode_flows())
+    stages.done("regimes", conditions(one_strip, table[0]), table, roots, systems)
     integrals = zone_integrals(flow)
     still = tuple(constant_means(regime, PARAMETERS) for regime in table if regime.sequence in ("a", "f"))
     means = tuple(strip_means(regime, integrals) for regime in partial)

@@ -2,154 +2,212 @@
 
 Whether a root is a solution is seen from the fields alone: in adhesion the gap must stay in (0, delta_0], beyond it
 above delta_0, in contact the pressure must not fall below -p_0, and the edges must follow one another. The fields are
-the derived flows between the edges, sampled; the inequalities take no part in that. Every inequality is needed by a
-root that is a solution (reversed, it would refuse it), and roots that are none are refused. The roots of
-``sample_roots.toml`` were found once from random starts; here they are refined and verified.
+the derived flows of the modes between the edges, sampled; with one relaxation time there is one mode. The state that
+returns after a period is found from what a period makes of states, zone after zone. The inequalities take no part in
+that. Every inequality is needed by a root that is a solution (reversed, it would refuse it), and roots that are none are
+refused. The roots of ``sample_roots.toml`` were found once from random starts; here they are refined and verified.
 """
 
 from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
-from functools import lru_cache
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 import mpmath
+import numpy as np
 import sympy as sp
 
 from .check import Derived, derived, holds
 from .functions import written_out
 from .inequality import Inequality, Relation
-from .regime import Regime
-from .sequences import ADHESION, CONTACT
-from .stable import SATURATED_PRESSURE
-from .symbols import PARAMETERS, alpha, beta, chi, delta_0, p_0, s, s_1
+from .level import R
+from .modes.flows import ModeFlows, u
+from .modes.regimes import gap_at, gap_slope, pressure_slope
+from .modes.states import exact_modes
+from .modes.symbols import J_0, J, enter, eta, f_0, leave, z_0
+from .regime import turn
+from .sequences import ADHESION, CONTACT, Row, Span
+from .symbols import PARAMETERS, D, alpha, beta, chi, delta_0, p, p_0, s, s_0
 
-NAME = "inequalities of admissibility"
-SAMPLES, DIGITS, SLACK = 48, 20, mpmath.mpf("1e-9")
+SAMPLES, SLACK, STEP = 48, 1e-9, 1e-7
 ROOTS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-Point = dict[sp.Symbol, mpmath.mpf]
+Numbers = dict[sp.Symbol, float]
+Place = tuple[Span, float, float, np.ndarray]  # a zone, its ends, the state in which it is entered
 
 
-def sample_roots(regimes: Sequence[Regime]) -> Derived:
-    r"""Solutions and roots that are none, :math:`0 < g \le \delta_0,\ q \ge 0,\ g > \delta_0`, against the inequalities."""
-    with mpmath.workdps(DIGITS):
-        return compared(sample_roots, regimes, ROOTS["one_time"], _judged)
+def sample_roots(kind: str, regimes: Sequence[Row], flows: ModeFlows) -> Derived:
+    r"""At roots of the boundary equations in numbers, solutions and others, inequalities say what the fields show.
 
+    .. math:: \text{inequalities} \iff 0 < g \le \delta_0\ \text{in adhesion},\quad g > \delta_0\ \text{beyond},\quad
+        p \ge -p_0\ \text{in contact}
 
-def compared(by: Callable[..., Derived], regimes: Sequence[Any], roots: Mapping[str, Sequence[Any]], judged: Callable) -> Derived:
-    """What ``by`` found at the roots; ``judged``: whether the fields of a root fit, and what the inequalities say of it."""
+    ``kind``: of one time or of several.
+    """
     checks = []
     for regime in regimes:
-        for number, (groups, start, solution) in enumerate(roots[regime.sequence], start=1):
-            fits, admitted = judged(regime, groups, start)
-            root, kind = f"{regime.sequence}, root {number}", "a solution" if solution else "no solution"
-            checks.append(holds(f"{root}: the fields show {kind}", fits is solution))
+        for number, (groups, start, solution) in enumerate(ROOTS[kind][regime.sequence], start=1):
+            foundation = Foundation(flows, *GROUPS[kind](*map(float, groups)))
+            edges = foundation.refined(regime, tuple(map(float, start))) if regime.edges else {}
+            admitted = all(foundation.satisfies(regime, inequality, edges) for inequality in regime.admissible)
+            root, shown = f"{regime.sequence}, root {number}", "a solution" if solution else "no solution"
+            checks.append(holds(f"{root}: the fields show {shown}", foundation.fits(regime, edges) is solution))
             checks.append(holds(f"{root}: so do the inequalities", admitted is solution))
-    return derived(
-        by,
-        None,
-        checks,
-        NAME,
-        statement="At roots of the boundary equations in numbers, solutions and others, inequalities say what the fields show.",
-        latex=r"\text{inequalities} \iff 0 < g \le \delta_0\ \text{in adhesion},\quad g > \delta_0\ \text{beyond},\quad "
-        r"p \ge -p_0\ \text{in contact}",
-    )
+    return derived(sample_roots, None, checks, "inequalities of admissibility")
 
 
-def allowed(kind: str, traction: Any, reach: Any) -> tuple[Any, Any]:
-    """Between what the gap, in contact the pressure above -p_0, must lie; without traction the reach plays no part."""
-    if kind == CONTACT or not traction > 0:
-        return 0, mpmath.inf
-    return (0, reach) if kind == ADHESION else (reach, mpmath.inf)
+def _one_time(ratio: float, slow: float, *rest: float) -> tuple[Sequence[float], Numbers]:
+    """Relaxation and retardation times, and every number that an inequality may ask for."""
+    return (ratio * slow, slow), dict(zip(PARAMETERS, (ratio * slow, slow, ratio, 1 - ratio, *rest), strict=True))
 
 
-def _judged(regime: Regime, groups: Sequence[str], start: Sequence[str]) -> tuple[bool, bool]:
-    point = _refined(regime, groups, start)
-    return _fields_fit(regime, point), all(_satisfied(regime, inequality, point) for inequality in regime.admissible)
+def _several_times(*groups: float) -> tuple[Sequence[float], Numbers]:
+    *times, traction, reach, depth = groups
+    return times, {p_0: traction, delta_0: reach, D: depth, chi: 1.0}
 
 
-def _refined(regime: Regime, groups: Sequence[str], start: Sequence[str]) -> Point:
-    ratio, slow, *rest = map(mpmath.mpf, groups)
-    values = dict(zip(PARAMETERS, (ratio * slow, slow, ratio, 1 - ratio, *rest), strict=True))
-    if not regime.edges:
-        return values
-    equations = [written_out(term) for _, term in regime.equations]
-    residual = sp.lambdify((*regime.edges, *PARAMETERS), equations, "mpmath")
-    found = mpmath.findroot(lambda *edges: residual(*edges, *values.values()), tuple(map(mpmath.mpf, start)))
-    return dict(zip(regime.edges, found, strict=True)) | values
+GROUPS: Mapping[str, Callable[..., tuple[Sequence[float], Numbers]]] = {"one_time": _one_time, "several_times": _several_times}
 
 
-def _value(expression: sp.Expr, point: Point) -> mpmath.mpf:
-    return mpmath.mpf(_evaluator(expression, tuple(point))(*point.values()))
+class Foundation:
+    """A foundation under a strip: its numbers, and its flows as functions."""
 
+    def __init__(self, flows: ModeFlows, times: Sequence[float], given: Numbers):
+        modes = exact_modes(*([mpmath.mpf(time) for time in alternate] for alternate in (times[0::2], times[1::2])))
+        self.m = {symbol: np.array(value, dtype=float) for symbol, value in modes.items()}
+        ratio = abs(1 + (1j * self.m[eta] / (1 + 1j * self.m[alpha])).sum())
+        self.given = {**given, J_0: float(self.m[J_0]), R: float(ratio)}
+        self.relaxed = sp.lambdify((s, s_0, z_0, p, J, beta), flows.relaxation.value, "numpy")
+        self.lagged = sp.lambdify((s, s_0, f_0, alpha, eta), flows.contact.value, "numpy")
+        self.profile = sp.lambdify(s, u.subs(D, given[D]), "numpy")
 
-@lru_cache
-def _evaluator(expression: sp.Expr, symbols: tuple[sp.Symbol, ...]) -> Callable[..., mpmath.mpf]:
-    return sp.lambdify(symbols, written_out(sp.sympify(expression)), "mpmath")
+    def number(self, expression: sp.Expr, more: Numbers | None = None) -> float:
+        symbols, evaluate = _function(sp.sympify(expression))
+        values = {**self.given, **(more or {})}
+        return float(evaluate(*(values[symbol] for symbol in symbols)))
 
+    def at(self, zone: Span, start: float, state: np.ndarray, phase: float) -> tuple[float, np.ndarray]:
+        """(gap, or pressure above -p_0 in contact; z) at a phase of a zone that was entered at ``start`` with z = ``state``."""
+        m, load = self.m, self.number(zone.pressure)
+        if zone.kind != CONTACT:
+            after = self.relaxed(phase, start, state, load, m[J], m[beta])
+            return m[J_0] * load + after.sum() - self.profile(phase), after
+        overstress = self.lagged(phase, start, -m[enter] @ (state - m[J] * load), m[alpha], m[eta])
+        load = self.profile(phase) + overstress.sum()
+        return load + self.given[p_0], m[J] * load - m[leave] @ overstress
 
-def _fields_fit(regime: Regime, point: Point) -> bool:
-    if not regime.edges:
-        return _steady_field_fits(regime, point)
-    places = [point[edge] for edge in regime.edges]
-    if any(later < earlier for earlier, later in pairwise([*places, places[0] + 2 * mpmath.pi])):
-        return False
-    if regime.closures == (1,) and (point[chi] != 1 or point[delta_0] > point[p_0] * point[alpha] / point[beta]):
-        return False
-    for zone, first, last in zip(regime.zones, places, [*places[1:], places[0] + 2 * mpmath.pi], strict=True):
-        state = _evaluator(replace(zone, last=s_1).after(), (s_1, *point))
-        low, high = allowed(zone.kind, point[p_0], point[delta_0])
-        for n in range(SAMPLES):
-            value = state(first + (last - first) * (n + mpmath.mpf(0.5)) / SAMPLES, *point.values())
-            if not low - SLACK <= value <= high + SLACK:
-                return False
-    return True
+    def zones(self, regime: Row, edges: Numbers) -> list[Place]:
+        """Every zone, its ends and the state in which it is entered, on the orbit that returns."""
+        ends = [(edges[zone.first], self.number(zone.last, edges)) for zone in regime.zones]
+        # [z] = [w] - J_0 [p], with [w] = chi J_0 [p]
+        steps = [
+            (self.given[chi] - 1) * self.m[J_0] * self.number(after.pressure - before.fields(before.last, before.exit)[1])
+            for before, after in pairwise([*regime.zones, regime.zones[0]])
+        ]
 
+        def through(state: np.ndarray) -> list[np.ndarray]:
+            states = [state]
+            for zone, (start, end), step in zip(regime.zones, ends, steps, strict=True):
+                states.append(self.at(zone, start, states[-1], end)[1] + step)
+            return states
 
-def _steady_field_fits(regime: Regime, point: Point) -> bool:
-    """Complete contact by its field, the gap of a foundation at rest by the profile, over a period."""
-    (zone,) = regime.zones
-    phases = [2 * mpmath.pi * n / SAMPLES for n in range(SAMPLES)]
-    if zone.kind == CONTACT:
-        seen = SATURATED_PRESSURE.written_out(SATURATED_PRESSURE.args) + p_0
-    else:
-        seen = zone.load - (zone.displacement - zone.entry).subs(zone.first, s)
-    low, high = allowed(zone.kind, point[p_0], point[delta_0])
-    return all(low - SLACK <= _value(seen, {**point, s: phase}) <= high + SLACK for phase in phases)
+        size = len(self.m[J])
+        from_rest = through(np.zeros(size))[-1]
+        kept = np.column_stack([through(row)[-1] - from_rest for row in np.eye(size)])
+        states = through(np.linalg.solve(np.eye(size) - kept, from_rest))
+        return [(zone, *span, state) for zone, span, state in zip(regime.zones, ends, states, strict=False)]
 
+    def missed(self, regime: Row, edges: Numbers) -> np.ndarray:
+        """What is left of the boundary equations: what every zone leaves to its exit."""
+        places = self.zones(regime, edges)
+        return np.array([self.at(zone, start, state, end)[0] - self.number(zone.exit) for zone, start, end, state in places])
 
-def _satisfied(regime: Regime, inequality: Inequality, point: Point) -> bool:
-    first, *rest = inequality.relations
-    unknown = {symbol for relation in inequality.relations for side in relation.sides for symbol in sp.sympify(side).free_symbols}
-    turns = unknown - set(point) - {s}
-    if turns:  # at the end of every arc in which the second relation holds, unless the third
-        (turn,) = turns
-        return any(true(other, point) for other in rest[1:]) or all(
-            true(first, {**point, turn: place}) for place in _ends_of_arcs(regime, rest[0], point)
+    def refined(self, regime: Row, start: Sequence[float]) -> Numbers:
+        """The root near ``start``, by Newton; raises :class:`ArithmeticError` if there is none."""
+        edges = np.array(start)
+        named = lambda values: dict(zip(regime.edges, values, strict=True))  # noqa: E731
+        for _ in range(30):
+            left = self.missed(regime, named(edges))
+            moved = [self.missed(regime, named(edges + STEP * row)) for row in np.eye(len(edges))]
+            change = np.linalg.solve(np.column_stack([(each - left) / STEP for each in moved]), left)
+            edges = edges - change
+            if np.abs(change).max() < 1e-11:
+                return named(edges)
+        raise ArithmeticError(f"no root of {regime.sequence} near {start}")
+
+    def fits(self, regime: Row, edges: Numbers) -> bool:
+        """Whether the fields are those of a solution."""
+        if not regime.edges:
+            return self._within(regime.zones[0], self._at_rest(regime.zones[0]))
+        places = self.zones(regime, edges)
+        if any(end < start for _, start, end, _ in places):
+            return False
+        if regime.sequence == "afc" and (self.given[chi] != 1 or self.given[delta_0] > self.given[J_0] * self.given[p_0]):
+            return False
+        return all(
+            self._within(zone, [self.at(zone, start, state, phase)[0] for phase in _inside(start, end)])
+            for zone, start, end, state in places
         )
-    if len(inequality.relations) == 3:  # the first if the second, else the third
-        return true(first if true(rest[0], point) else rest[1], point)
-    return all(true(relation, point) for relation in inequality.relations)
+
+    def _within(self, zone: Span, seen: Sequence[float]) -> bool:
+        """Whether the gap, in contact the pressure above -p_0, is as it must be; without traction the reach plays no part."""
+        low, high = 0.0, np.inf
+        if zone.kind != CONTACT and self.given[p_0] > 0:
+            low, high = (0.0, self.given[delta_0]) if zone.kind == ADHESION else (self.given[delta_0], np.inf)
+        return all(low - SLACK <= value <= high + SLACK for value in seen)
+
+    def _at_rest(self, zone: Span) -> list[float]:
+        """What is seen along a period of a regime without edges."""
+        phases = 2 * np.pi * np.arange(SAMPLES) / SAMPLES
+        if zone.kind != CONTACT:
+            return [self.number(zone.pressure) - self.profile(phase) for phase in phases]
+        lagging = [self.lagged(phase, -1e3 * self.m[alpha].max(), 0, self.m[alpha], self.m[eta]).sum() for phase in phases]
+        return [self.profile(phase) + lag + self.given[p_0] for phase, lag in zip(phases, lagging, strict=True)]
+
+    def satisfies(self, regime: Row, inequality: Inequality, edges: Numbers) -> bool:
+        places = self.zones(regime, edges) if regime.edges else []
+        first, *rest = inequality.relations
+        if rest and any(side.has(s) for side in rest[0].sides):  # for phases where the second holds, unless the third
+            zone, start, end, _ = next(place for place in places if place[0].kind == ADHESION)
+            held = [(phase, self._true(rest[0], {**edges, s: phase}, places)) for phase in _inside(start, end, 4 * SAMPLES)]
+            phases = [phase for phase, holding in held if holding]
+            if any(side.has(turn) for side in first.sides):  # at the end of every arc of them
+                phases = [phase for (phase, now), (_, after) in pairwise([*held, (end, False)]) if now and not after]
+            return any(self._true(other, edges, places) for other in rest[1:]) or all(
+                self._true(first, {**edges, s: phase, turn: phase}, places) for phase in phases
+            )
+        if len(rest) == 2:  # the first if the second, else the third
+            return self._true(first if self._true(rest[0], edges, places) else rest[1], edges, places)
+        return all(self._true(relation, edges, places) for relation in inequality.relations)
+
+    def _true(self, relation: Relation, point: Numbers, places: Sequence[Place]) -> bool:
+        compare = {"<=": np.less_equal, ">=": np.greater_equal, "<": np.less, ">": np.greater, "==": np.equal}[relation.sign]
+        return all(compare(a, b) for a, b in pairwise(self._seen(side, point, places) for side in relation.sides))
+
+    def _seen(self, side: sp.Expr, point: Numbers, places: Sequence[Place]) -> float:
+        """A side in numbers: the gap at the phase s, and slopes just before an edge, from the fields."""
+
+        def slope(edge: sp.Symbol) -> float:
+            zone, start, end, state = next(place for place in places if sp.sympify(place[0].last).has(edge))
+            return (self.at(zone, start, state, end)[0] - self.at(zone, start, state, end - STEP)[0]) / STEP
+
+        def gap(_: sp.Symbol) -> float:
+            zone, start, _, state = next(each for each in places if each[0].kind != CONTACT and each[1] <= point[s] <= each[2])
+            return self.at(zone, start, state, point[s])[0]
+
+        for function, value in ((gap_slope, slope), (pressure_slope, slope), (gap_at, gap)):
+            side = side.replace(function, lambda edge, value=value: sp.Float(value(edge)))
+        return self.number(side, point)
 
 
-def _ends_of_arcs(regime: Regime, condition: Relation, point: Point) -> list[mpmath.mpf]:
-    """Where the condition ceases to hold, within the gap zone of the regime that is in adhesion."""
-    (zone,) = [zone for zone in regime.zones if zone.kind == ADHESION]
-    first, last = (_value(edge, point) for edge in (zone.first, zone.last))
-    places = [first + (last - first) * n / (4 * SAMPLES) for n in range(4 * SAMPLES + 1)]
-    holding = [true(condition, {**point, s: place}) for place in places]
-    ends = [place for place, now, after in zip(places, holding, [*holding[1:], False], strict=True) if now and not after]
-    return ends
+def _inside(start: float, end: float, samples: int = SAMPLES) -> np.ndarray:
+    return start + (end - start) * (np.arange(samples) + 0.5) / samples
 
 
-def true(relation: Relation, point: Point) -> bool:
-    values = [_value(side, point) for side in relation.sides]
-    compare = {
-        "<=": lambda a, b: a <= b, ">=": lambda a, b: a >= b, "<": lambda a, b: a < b, ">": lambda a, b: a > b,
-        "==": lambda a, b: a == b,
-    }[relation.sign]  # fmt: skip
-    return all(compare(a, b) for a, b in pairwise(values))
+@cache
+def _function(expression: sp.Expr) -> tuple[list[sp.Symbol], Callable[..., float]]:
+    plain = written_out(expression)
+    symbols = sorted(plain.free_symbols, key=str)
+    return symbols, sp.lambdify(symbols, plain, "math")

@@ -455,7 +455,7 @@ def inequalities(package: ModuleType) -> None:
         part(package, module).zero = lambda *arguments, **options: passed
     ratio = part(package, "symbols").chi * part(package, "symbols").J
     table = part(package, "regimes").regimes(part(package, "regime").OneTime(ratio), full.threshold.value)
-    part(package, "sample_roots").sample_roots(table)
+    part(package, "sample_roots").sample_roots("one_time", table, part(package, "modes.flows").mode_flows())
 
 
 def printed(package: ModuleType) -> None:

@@ -10,6 +10,7 @@ from ..model import Model, Roots
 from ..outcome import Derivation, Progress, Stages, records
 from ..paper.tags import require_all, require_tags
 from ..regimes import regimes
+from ..sample_roots import sample_roots
 from ..strip import adhesion_law, strip_profile
 from ..zones import rigid_profile
 from .averages import means_of_a_strip
@@ -20,7 +21,6 @@ from .jumps import closures, jump_law
 from .levels import mode_levels
 from .material import admissibility, foundation_law, prony_series, relaxed_stiffness
 from .regimes import SeveralTimes
-from .sample_roots import sample_roots
 from .saturated import complete_contact
 from .states import dimensionless_groups, partial_fractions
 from .states import states as point_states
@@ -56,7 +56,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     complete = complete_contact(flows)
     stages.done("complete contact", complete)
     table = regimes(SeveralTimes(closure.value), complete.threshold.value, model.springy)
-    stages.done("regimes", table, sample_roots(table, flows))
+    stages.done("regimes", table, sample_roots("several_times", table, flows))
     means, period = means_of_a_strip(), period_map()
     still = tuple(constant_means(regime, OF_STRIP) for regime in table if regime.sequence in ("a", "f"))
     stages.done("means", means, still, period, chain_rule(period))
