@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import sympy as sp
+
 from .check import zero
 from .functions import Formula
 from .kernel import Kernel, kernel
 from .regime import Regime
 from .stability import offsets, step_of_load
 from .symbols import J, L, chi, delta_0, p_0
+
+continuous = sp.Symbol("continuous", real=True)
 
 
 def onset(regimes: Mapping[str, Regime]) -> tuple[Kernel, Kernel]:
@@ -32,7 +36,7 @@ def onset(regimes: Mapping[str, Regime]) -> tuple[Kernel, Kernel]:
     return (
         kernel(
             onset,
-            Formula("adhesive_onset", (p_0, delta_0, J, L, chi), (state, step_of_load(step))),
+            Formula("adhesive_onset", (p_0, delta_0, J, L, chi), (state, p_0 * (continuous + L * chi)), ((continuous, 1 - chi),)),
             (state, step),
             zero("without contact it is the same", [state - alone[0], step - alone[1]]),
             zero("F steps back where adhesion ends", [back["acaf"] + step, back["af"] + step, back["afc"] + step.subs(chi, 1)]),
