@@ -9,6 +9,7 @@ import numpy as np
 
 from .inputs.adhesion import Dugdale
 from .inputs.surface import Level
+from .level.accuracy import Accuracy
 from .level.across import peak_pressure, strips_across
 from .level.build import build_laws
 from .level.effort import WorkCounters
@@ -279,13 +280,13 @@ class _Solve:
         rtol = np.full(V.size, accuracy.rtol)
         for i in range(self.M - 1, 0, -1):
             level = surface.columns(i, V, None, carry, groups if carry else None)
-            level = replace(level, frictional=True, friction=accuracy.friction)
+            level = replace(level, asked=Accuracy(accuracy.friction, fractions=1.0))
             saturated = stack.p_full[i], stack.D_full[i], stack.means(i)
             laws = build_laws(level, rtol, *saturated, reached[i - 1], accuracy.budgets[i - 1])
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error
             scales = np.concatenate((level.scales[1:], [_NO_SCALE]))
             carry = LowerLevelLaws(LawTable(merged(laws, rtol, level.floors)), surface.rtol, scales, accuracy.friction)
-        return replace(columns, carry=carry, group=group, friction=accuracy.friction[group])
+        return replace(columns, carry=carry, group=group, asked=Accuracy(accuracy.friction[group]))
 
     def _reached(self, stack: Stack, V, p_max) -> list[np.ndarray]:
         """Greatest pressures (groups,) that the laws of level 2 and below are asked for, those of level 2 up to ``p_max``."""

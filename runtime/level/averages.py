@@ -255,7 +255,7 @@ class _Work:
         np.add.at(total, panels.state, sums)
         goal = (self.rtol[:, None] * (np.abs(total) + np.pi * floors))[panels.state]
         done = (error <= _SHARE * goal + 2 * rounding).all(axis=1)
-        if n < _COSTLESS and not self.columns.frictional:
+        if n < _COSTLESS and not self.columns.asked.frictional:
             done &= codes[:, 0] % len(CODE) != CODE["c"]
         self._keep(panels.take(done), codes[done], values[done], sums[done])
         np.add.at(self.values, panels.state[done], sums[done])

@@ -150,7 +150,7 @@ def _round(columns: LevelBatch, rtol, intervals: list[Interval], pieces, strips,
         if query is not None:
             goal = np.full_like(goal, np.inf)
             goal[:, 0] = query.goals(batch.column, batch.values[:, :, 0])
-        elif columns.frictional:
+        elif columns.asked.frictional:
             goal[:, 0] = _pressure_goal(batch.values, goal)
         # what the means leave of it
         goal = np.maximum(goal - batch.errors.max(axis=1), _INTERPOLATION * goal)

@@ -1,7 +1,7 @@
 """Error budget: how accurate every quantity of every level has to be. All that decides it, in one place:
 
 - A quantity is asked for to ``rtol (|value| + floor)``; its floor is ``LevelBatch.floors``: a thousandth of its natural scale,
-  for frictions ``LevelBatch.friction`` where that is more. Where only pressure and friction count it is 1 for fractions, and more
+  or what ``Accuracy`` says of frictions and fractions. Where only pressure and friction count that is 1 for fractions, and more
   where few points meet the pressures of a piece (``ErrorBudget.fractions``).
 - Level 1 gets the ``rtol`` of the result, halved in ``multilevel``, as its laws err too.
 - Laws of lower levels get what ``of_laws`` says: half of ``rtol``, relative also to a share of the friction in contact of
@@ -9,7 +9,7 @@
 - A piece of a law may be coarser by ``ErrorBudget.tolerance_factor``, the fewer points meet its pressures; ``merge`` may take a
   part of what a law may err, ``lower_levels`` integrates to a part of what the mean over strips may.
 - Of what an interval of a curve may err its means get a part, ``sampling.MEAN``; where halving it does not help, less:
-  ``Interval.missing``.
+  ``Accuracy.after``.
 
 Goal-oriented: a law's error counts as much as the part of the surface on which it is used. That part is had from a plain sum over
 the strips of the level above; it deals out accuracy and enters no result, and what a law lacks shows in the error of the friction

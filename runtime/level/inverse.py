@@ -81,7 +81,8 @@ def invert(columns: LevelBatch, p: np.ndarray, rtol: float) -> Inverse:
     rest = np.flatnonzero((p < saturated.p_sat) & ((p > 0) | (columns.adhesion.p_0 > 0)))
     if rest.size:
         search = _with_adhesion if columns.adhesion.p_0 > 0 else _without_adhesion
-        found = search(replace(columns, frictional=True).at(rest, np.zeros(rest.size)), p[rest], saturated.D_sat[rest], rtol)
+        asked = replace(columns.asked, fractions=1.0)
+        found = search(replace(columns, asked=asked).at(rest, np.zeros(rest.size)), p[rest], saturated.D_sat[rest], rtol)
         out.put(rest, found)
     return out
 

@@ -46,16 +46,16 @@ def reentrant_parts(
             if last == p.size - 1 and (p - _DOUBT * error)[first:last].min() > met[column]:
                 # the curve goes on from what was met, and rises
                 continue
-            tolerance_factor = 1.0
+            coarser = 1.0
             if budget is not None:
                 # all of the friction is missed where this is left out, its own and what it carries
                 friction = np.abs(values[nodes][:, columns.frictions]).max(axis=0).sum()
-                tolerance_factor = budget.tolerance_factor(column, floor[run].min(), before[run].max(), friction)
-            if _UNTOLD * tolerance_factor * rtol[column] < 1.0:
+                coarser = budget.tolerance_factor(column, floor[run].min(), before[run].max(), friction)
+            if _UNTOLD * coarser * rtol[column] < 1.0:
                 soft = look.inner_low or first > 0, look.inner_high or last < p.size - 1
                 low, high = D[first] if first > 0 else look.low, D[last] if last < p.size - 1 else look.high
                 part = replace(look, low=float(low), high=float(high), inner_low=soft[0], inner_high=soft[1], even=False)
-                out.append(replace(part, tolerance_factor=tolerance_factor))
+                out.append(replace(part, asked=replace(part.asked, coarser=coarser)))
         met[column] = min(met[column], (p + error).min())
     return out
 

@@ -33,11 +33,7 @@ class Batch:
     @property
     def accuracy(self) -> np.ndarray:
         """What is asked of each interval."""
-        return self.rtol[self.column] * self._factors
-
-    @property
-    def _factors(self) -> np.ndarray:
-        return np.array([i.tolerance_factor for i in self.intervals])
+        return self.rtol[self.column] * [i.asked.coarser for i in self.intervals]
 
     @property
     def floors(self) -> np.ndarray:
@@ -45,11 +41,8 @@ class Batch:
         return self._at(np.arange(len(self.intervals)), self.column).floors
 
     def _at(self, interval: np.ndarray, D: np.ndarray) -> LevelBatch:
-        columns, fractions = self.columns.at(self.column[interval], D), np.array([i.fractions for i in self.intervals])
-        factors = self._factors[interval]
-        # what errors may be beside a share of a friction, or of all surface, is no larger where that share is
-        friction = None if columns.friction is None else columns.friction / factors
-        return replace(columns, friction=friction, fractions=fractions[interval] / factors)
+        columns = self.columns.at(self.column[interval], D)
+        return replace(columns, asked=columns.asked.within([i.asked for i in self.intervals], interval))
 
     @property
     def coefficients(self) -> np.ndarray:
@@ -59,17 +52,13 @@ class Batch:
     def weigh(self, budget: ErrorBudget, ceiling: np.ndarray | None) -> None:
         """Let intervals be as coarse as what is asked of their pressures allows."""
         p, frictions = self.values[:, :, 0], self.columns.frictions
-        floors = replace(self.columns, friction=None).floors[self.column]
+        floors = replace(self.columns, asked=replace(self.columns.asked, friction=0.0)).floors[self.column]
         # what an accuracy is relative to, of its own friction and all that it carries
         friction = (np.abs(self.values[:, :, frictions]).min(axis=1) + floors[:, frictions]).sum(axis=1)
         high = p.max(axis=1) if ceiling is None else np.minimum(p.max(axis=1), ceiling[self.column])
         ranges = zip(self.intervals, p.min(axis=1), high, friction, strict=True)
         self.intervals = [
-            replace(
-                i,
-                tolerance_factor=max(i.tolerance_factor, budget.tolerance_factor(i.column, *of)),
-                fractions=max(i.fractions, budget.fractions(i.column, *of[:2])),
-            )
+            replace(i, asked=i.asked.relaxed(budget.tolerance_factor(i.column, *of), budget.fractions(i.column, *of[:2])))
             for i, *of in ranges
         ]
 
@@ -81,7 +70,7 @@ class Batch:
         D = np.concatenate([i.penetrations(t) for i in self.intervals])
         rows, number = np.repeat(self.column, t.size), np.repeat(np.arange(len(self.intervals)), t.size)
         means = level_means(
-            self._at(number, D), MEAN * np.repeat(self.accuracy * [i.mean_factor for i in self.intervals], t.size)
+            self._at(number, D), MEAN * np.repeat(self.accuracy * [i.asked.means for i in self.intervals], t.size)
         )
         np.add.at(self.strips, rows, means.strips)
         shape = (len(self.intervals), t.size, -1)
@@ -95,7 +84,8 @@ class Batch:
 
     def halves(self, k: int, missed: np.ndarray) -> list[Interval]:
         """Interval ``k``, which ``missed`` what is asked of its quantities by these factors (q,), in two."""
-        return self.without_regularity(k).missing(float(missed.max())).halves
+        interval = self.without_regularity(k)
+        return replace(interval, asked=interval.asked.after(float(missed.max()))).halves
 
     def without_regularity(self, k: int) -> Interval:
         """Interval ``k``; as its nodes are not enough, what only seemed to end gently is no longer taken to."""

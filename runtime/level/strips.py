@@ -14,6 +14,7 @@ from ..orbit.foundation import Foundation, foundation_of
 from ..orbit.materials import Material
 from ..orbit.regimes import CODE
 from ..orbit.solved import Solved
+from .accuracy import Accuracy
 from .crossings import Crossings
 from .effort import WorkCounters
 from .saturated import saturated_level
@@ -48,9 +49,8 @@ class LevelBatch:
     """Pairs of velocity and penetration at which one level is averaged; ``V`` and ``D`` of shape (n,).
 
     ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
-    laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels. ``frictional``: it is for
-    pressure and friction that the averages are made; fractions need be accurate against 1 only, or ``fractions`` (n,).
-    ``friction`` (n,): Pa, that the accuracy of any friction may be relative to as well as to its own size, for it adds to others.
+    laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels. ``asked``: how accurate
+    their means have to be beside ``rtol``.
     ``crossings``: points located of the curves that divide the plane of strips, shared by all that is made of these columns.
     """
 
@@ -64,17 +64,14 @@ class LevelBatch:
     carry: LowerLevels | None = None
     group: np.ndarray | None = None
     strips: int | None = None
-    frictional: bool = False
-    friction: np.ndarray | None = None
-    fractions: np.ndarray | None = None
+    asked: Accuracy = Accuracy()
     work: WorkCounters = field(default_factory=WorkCounters, compare=False)
     crossings: Crossings = field(default_factory=Crossings, compare=False)
 
     def at(self, index, D) -> LevelBatch:
         """The columns ``index`` at other penetrations ``D``."""
-        names = ("group", "friction", "fractions")
-        given = {name: getattr(self, name)[index] for name in names if getattr(self, name) is not None}
-        return replace(self, V=self.V[index], D=D, **given)
+        group = None if self.group is None else self.group[index]
+        return replace(self, V=self.V[index], D=D, group=group, asked=self.asked.at(index))
 
     @property
     def size(self) -> int:
@@ -90,14 +87,9 @@ class LevelBatch:
     @property
     def floors(self) -> np.ndarray:
         """What is added to the size of each quantity where an accuracy is relative, (n, q)."""
-        floors = np.tile(1e-3 * self.scales, (self.size, 1))
-        if self.frictional:
-            own, carried = len(QUANTITIES), floors.shape[1] - 1
-            every = [2, 3, *(i for i in range(own, carried) if (i - own) % 3)]
-            floors[:, every] = 1.0 if self.fractions is None else self.fractions[:, None]
-        if self.friction is not None:
-            floors[:, self.frictions] = np.maximum(floors[:, self.frictions], self.friction[:, None])
-        return floors
+        scales, own = self.scales, len(QUANTITIES)
+        fractions = [2, 3, *(i for i in range(own, scales.size - 1) if (i - own) % 3)]
+        return self.asked.floors(scales, self.frictions, fractions, self.size)
 
     def solve(self, column: np.ndarray, theta: np.ndarray) -> SolvedStrips:
         """Strips at ``theta = k y`` of the given columns, both of shape (m,). Raises ``SolverError`` for one not certified."""
