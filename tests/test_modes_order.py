@@ -7,10 +7,11 @@ import pytest
 from hystrip.generated import generalised
 from hystrip.inputs.model import modes_of
 from hystrip.orbit.modes.contraction import upper_bound
+from hystrip.orbit.modes.coordinates import Order
 from hystrip.orbit.modes.engine import solve_modes
 from hystrip.orbit.modes.march import march
 from hystrip.orbit.modes.problem import ModeStrips
-from hystrip.orbit.modes.propagation import Order, exact_monodromy, least_monodromy, propagation
+from hystrip.orbit.modes.propagation import exact_monodromy, least_monodromy, propagation
 from hystrip.orbit.regimes import SEQUENCES
 
 TIMES = (2, 3)

@@ -14,9 +14,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from .coordinates import Order
+from .event_bounds import closing_times, slopes_by_modes
 from .march import TWO_PI, Period
 from .problem import ModeStrips, rates
-from .propagation import Order, closing_times, slopes_by_modes, solve_order
+from .propagation import solve_order
 
 
 def alike(lower: Period, upper: Period) -> np.ndarray:

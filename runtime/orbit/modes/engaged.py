@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from .coordinates import Order
 from .extremal import certified, lowest_state
 from .fields import state_at
 from .march import TWO_PI, Period, march
 from .problem import ModeStrips
-from .propagation import Order, propagation, solve_order
+from .propagation import propagation, solve_order
 
 _STEPS = 80
 #: agreement of the edges with a march of the period

@@ -14,12 +14,13 @@ import numpy as np
 
 from ..regimes import EDGES
 from .contraction import alike, contracts
+from .coordinates import Order
 from .fields import state_at
 from .march import TWO_PI, Period, march
 from .order import ENGAGED, FREE, ORBIT, UNRESOLVED
 from .polish import polish
 from .problem import ModeStrips
-from .propagation import Order, least_monodromy, propagation, solve_order
+from .propagation import least_monodromy, propagation, solve_order
 
 #: rounds of bounding states, and the one in which Newton's method starts from them: after one period a bounding state is free
 #: where the orbits are, before that nothing can be proven

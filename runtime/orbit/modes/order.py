@@ -56,9 +56,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from .contraction import alike, contracts
+from .coordinates import Order
 from .march import Period, march
 from .problem import ModeStrips
-from .propagation import Order, exact_monodromy, least_monodromy, propagation, solve_order
+from .propagation import exact_monodromy, least_monodromy, propagation, solve_order
 
 #: edges of the two ends of a window that is left to Newton's method agree to this; to that, where the map contracts in it
 NARROW, _NEAR = 1e-6, 1e-3
