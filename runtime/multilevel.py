@@ -262,7 +262,7 @@ class _Solve:
         """Penetration of each point (NaN below pull-off) and the slope d(tau)/dp of level 1 there."""
         load = self.load[index]
         if not self.by_pressure:
-            return Inverse(load.copy(), *np.zeros((2, index.size)), np.zeros(index.size, bool))
+            return Inverse(load.copy(), *np.zeros((2, index.size)), *np.zeros((2, index.size), bool))
         out = invert(self.surface.columns(0, V[group]), load, 0.5 * self.surface.rtol)
         off = np.isnan(out.D)
         self.out.pulled_off[index[off]] = True
@@ -313,5 +313,7 @@ class _Solve:
         out.tau[0, index] += slopes * miss
         error = errors[:, [1, *range(_OWN, count, 3)]].sum(axis=1) + np.abs(values[:, count:]).sum(axis=1)
         error += np.abs(slopes) * errors[:, 0] + root.doubt * np.abs(miss)
-        # another part of the curve may carry anything
-        out.error[index] = error + np.where(root.undecided, np.abs(out.tau[:, index]).sum(axis=0), 0.0)
+        # another part of the curve may carry anything; and the other side of a jump any friction of the lower levels
+        friction = np.abs(out.tau[:, index])
+        out.error[index] = error + np.where(root.undecided, friction.sum(axis=0), 0.0)
+        out.error[index] += np.where(root.in_jump & ~root.undecided, friction[1:].sum(axis=0), 0.0)

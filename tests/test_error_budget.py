@@ -1,6 +1,8 @@
 """A law is as accurate as what is asked of it; rims that hold on after the crest are found; laws on cells; whose error a break
 has."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -8,12 +10,14 @@ import hystrip
 from hystrip.level.branches import branches, rising
 from hystrip.level.cells import cells_of
 from hystrip.level.curve import Curve
+from hystrip.level.effort import WorkCounters
 from hystrip.level.error_budget import ErrorBudget
 from hystrip.level.interval import Interval
-from hystrip.level.inverse import _Walk
+from hystrip.level.inverse import Inverse, _Walk
 from hystrip.level.law import Law
 from hystrip.level.piece import Errors, Piece
 from hystrip.level.segment import segments_of
+from hystrip.multilevel import Surface, _Solve
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
@@ -164,3 +168,15 @@ def test_a_pressure_in_a_jump_of_the_curve_has_the_friction_of_a_mixture(unloadi
     for some in [pieces] if at_once else [[piece] for piece in (pieces[::-1] if unloading else pieces)]:
         walk.go_on(Interval(0, some[0].low, some[-1].high), some, False)
     assert walk.root.D == pytest.approx(1.0) and walk.root.friction_slope == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("in_jump", [True, False])
+def test_what_lower_levels_carry_in_a_jump_of_the_curve_is_uncertain(in_jump):
+    """Level 1 meets 1 of 2 Pa next to the jump, where its friction is 3 and that of level 2 is 5 Pa."""
+    surface = Surface(MATERIAL, ADHESION, LEVELS, "continuous", "unloading", 1e-3, True, WorkCounters())
+    solve = _Solve(surface, np.ones(1), np.full(1, 2.0), True)
+    values = np.array([[1.0, 3.0, 0.5, 0.0, 5.0, 0.5, 0.0, 0.0]])
+    root = Inverse(np.ones(1), np.ones(1), np.ones(1), np.zeros(1, bool), np.array([in_jump]))
+    solve._write(np.zeros(1, int), root, SimpleNamespace(values=values, errors=np.zeros_like(values)))
+    assert solve.out.tau[:, 0].tolist() == [4.0, 5.0]
+    assert solve.out.error[0] == (1.0 + 5.0 if in_jump else 1.0)

@@ -41,12 +41,14 @@ _EPS = np.finfo(float).eps
 @dataclass(frozen=True)
 class Inverse:
     """Penetrations that carry given pressures, arrays (n,): ``D`` (NaN below pull-off), the slope d(tau)/dp of the level there,
-    how uncertain the slope is, and which are ``undecided``: the work ended before it was known which part of the curve it is."""
+    how uncertain the slope is; which are ``undecided``: the work ended before it was known which part of the curve it is; and
+    which lie ``in_jump``, where D stands for one side of a curve that jumps over the pressure."""
 
     D: np.ndarray
     slope: np.ndarray
     doubt: np.ndarray
     undecided: np.ndarray
+    in_jump: np.ndarray
 
     def take(self, index) -> Inverse:
         """Those at ``index``."""
@@ -76,7 +78,9 @@ def invert(columns: LevelBatch, p: np.ndarray, rtol: float) -> Inverse:
     """
     level, K = columns.level, columns.material.K
     saturated = saturated_level(columns.material, columns.adhesion, level, columns.V, columns.branch)
-    out = Inverse(np.where(p >= saturated.p_sat, p / K + 0.75 * level.h, np.nan), *np.zeros((2, p.size)), np.zeros(p.size, bool))
+    out = Inverse(
+        np.where(p >= saturated.p_sat, p / K + 0.75 * level.h, np.nan), *np.zeros((2, p.size)), *np.zeros((2, p.size), bool)
+    )
     # without adhesion there is no contact at no pressure
     rest = np.flatnonzero((p < saturated.p_sat) & ((p > 0) | (columns.adhesion.p_0 > 0)))
     if rest.size:
@@ -97,20 +101,21 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
         near = D, rise, friction_slope, low.copy(), high.copy()
         # however little the pressure is, friction goes with it
         D, friction_slope, doubt = _refine(columns, p, near, accuracy, floor=0.0)
-    return Inverse(D, friction_slope, doubt, np.zeros(p.size, bool))
+    return Inverse(D, friction_slope, doubt, *np.zeros((2, p.size), bool))
 
 
 def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
     """``invert`` with adhesion."""
     D, slope, doubt = np.full(p.size, np.nan), np.zeros(p.size), np.zeros(p.size)
     roots, undecided = _Descent(columns, p, cut_penetration(columns, p, full), rtol).run()
+    in_jump = np.array([root is not None and np.isnan(root.low) for root in roots])
     found = np.array([i for i, root in enumerate(roots) if root is not None], int)
     if found.size:
         near = [np.array([getattr(roots[i], name) for i in found]) for name in ("D", "slope", "friction_slope", "low", "high")]
         D[found], slope[found], doubt[found] = _refine(
             columns.at(found, D[found]), p[found], near, rtol, 1e-3 * columns.scales[0]
         )
-    return Inverse(D, slope, doubt, undecided)
+    return Inverse(D, slope, doubt, undecided, in_jump)
 
 
 @dataclass(frozen=True)
