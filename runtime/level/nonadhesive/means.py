@@ -16,7 +16,7 @@ _RULES = (8, 12, 18, 27, 40, 60, 90)
 #: feared to err
 _QUADRATURE, _SURE = 0.5, 2.0
 #: terms of a series from which on it has layers that a few nodes see by chance, and the fastest that sums are believed to
-#: converge then (0.01 told a sixth of an error at 1e-9) and otherwise (of 350 random levels none erred by more than it said)
+#: converge then (0.01 told a sixth of an error at 1e-9) and otherwise (of 500 random levels none erred by more than it said)
 _LAYERED, _FASTEST = 120, (0.25, 0.01)
 #: penetrations are looked for to this, or pressures to that, or to this share of what is not known of them, what is left
 #: being taken up by slopes; and steps
