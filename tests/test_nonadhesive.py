@@ -242,3 +242,12 @@ def test_levels_without_height_and_out_of_contact_are_no_warning(h):
     assert s.p_mean[0] == 0 and s.p_mean[1] == 0 and s.p_mean[2] == pytest.approx(K * (3e-6 - 0.75 * h), rel=0.05)
     r = hystrip.solve(SOFT, NONE, [LEVEL, level], pressure=100.0, velocity=1e-3, rtol=1e-3)
     assert r.mu > 0 and "nan" not in str(r.summary()).lower()
+
+
+@pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS)
+def test_contact_is_that_at_the_pressure_met(material):
+    """Penetrations are looked for to seven digits of the pressure; what is left is taken up by slopes, contact's too."""
+    point = {"V": 2e-3, "edge": "constitutive", "rtol": 1e-9}
+    at = hystrip.solve_level(material, NONE, LEVEL, D=[2e-7, 4e-7, 1.3e-6], **point)
+    found = hystrip.solve_level(material, NONE, LEVEL, pressure=at.p_mean, **point)
+    assert np.all(np.abs(found.contact_fraction - at.contact_fraction) <= 1e-9 * (at.contact_fraction + 1e-3))

@@ -63,10 +63,10 @@ class Crossings:
             return np.empty(0, int), np.empty(0)
         return np.concatenate(states), np.concatenate(amplitudes)
 
-    def turns(self, columns: LevelBatch, A: np.ndarray, E: np.ndarray) -> np.ndarray:
-        """Where in E (m, from and to) a known curve turns that passes both amplitudes ``A`` (m, 2), m, of each of the ``columns``
-        (m,): (m,), NaN where none is known to."""
-        out = np.full(columns.size, np.nan)
+    def turns(self, columns: LevelBatch, A: np.ndarray, E: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Where a known curve turns that passes both amplitudes ``A`` (m, 2), m, of each of the ``columns``: E, m, between the two
+        of ``E`` (m, 2), and the amplitude there, (m,) each; NaN where none is known to."""
+        out, crest = np.full((2, columns.size), np.nan)
         near = columns.level.h / _NEAR
         for boundary, known in self.points.items():
             away = np.abs(known.A - A[:, :, None])
@@ -82,8 +82,8 @@ class Crossings:
                 reach = np.maximum(0.5 * np.abs(A[rows, 0] - A[rows, 1]), _NARROWEST * columns.level.h)
                 turn, found = plane.turning_point(columns, boundary, start, reach)
                 found &= (turn.E - E[rows, 0]) * (turn.E - E[rows, 1]) < 0
-                out[rows[found]] = turn.E[found]
-        return out
+                out[rows[found]], crest[rows[found]] = turn.E[found], turn.A[found]
+        return out, crest
 
 
 def _between(known: Points, velocity, E) -> tuple[np.ndarray, Points]:

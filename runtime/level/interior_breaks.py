@@ -6,10 +6,11 @@ y that grows with the distance in D or its square root, and the level's means wi
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
+from .boundaries import theta_of
 from .strips import LevelBatch
 from .zones import Zones
 
@@ -19,6 +20,8 @@ _ACROSS, _ALONG, _ROUNDS = 12, 8, 20
 #: what an island may add to the means that is left aside, over their goal
 _LEFT = 0.3
 _EPS = np.finfo(float).eps
+#: a turn is held to be where an island vanishes no closer than to this share of its way
+_ASIDE = 1e-9
 #: a break this close to an end of its piece, as a share of it, is left to halving
 _CLOSE = 0.02
 #: a zone narrower than this many brackets of a transition may hide in one
@@ -37,6 +40,11 @@ class IsolatedRegime:
     present: float
     absent: float
     weight: float
+
+
+def _arrays(islands: list[IsolatedRegime]) -> list[np.ndarray]:
+    """Their fields, (m,) each."""
+    return [np.array([getattr(i, field.name) for i in islands]) for field in fields(IsolatedRegime)]
 
 
 def island(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) -> IsolatedRegime | None:
@@ -71,9 +79,19 @@ def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips:
     """Penetrations at which the islands vanish: where the curve turns that goes round them; or, where two curves cut them off,
     where they have shrunk so far that what is left does not tell. NaN: it is not absent at all. All at once; ``strips`` (per
     column) counts the work."""
-    ends = np.array([(i.low, i.high, i.present, i.absent) for i in islands])
-    these = columns.at(np.array([i.column for i in islands]), ends[:, 2])
-    out = columns.level.h + columns.crossings.turns(these, columns.level.amplitude(ends[:, :2]), ends[:, 2:] - columns.level.h)
+    column, code, low, high, present, absent, weight = _arrays(islands)
+    at, theta, h = columns.at(column, present), np.stack((low, high), axis=1), columns.level.h
+    turn, A = columns.crossings.turns(at, columns.level.amplitude(theta), np.stack((present, absent), axis=1) - h)
+    # what goes round it may end before it turns, or beyond: the island is there before, and behind nothing is left that tells, as
+    # its width goes like a square root
+    known, out = np.flatnonzero(np.isfinite(turn)), np.full(len(islands), np.nan)
+    if known.size:
+        aside = ((absent - present) * np.maximum((_LEFT / weight) ** 2, _ASIDE))[known]
+        which, D = np.tile(known, 2), h + np.concatenate((turn[known] - aside, turn[known] + aside))
+        np.add.at(strips, column[which], 1)
+        has = columns.at(column[which], D).codes(np.arange(which.size), theta_of(columns, A[which])) == code[which]
+        vanishes = known[has[: known.size] & ~has[known.size :]]
+        out[vanishes] = h + turn[vanishes]
     left = np.flatnonzero(np.isnan(out))
     out[left] = _followed(columns, [islands[i] for i in left], strips)
     return out
@@ -84,9 +102,7 @@ def _followed(columns: LevelBatch, islands: list[IsolatedRegime], strips: np.nda
     out, number = np.full(len(islands), np.nan), np.arange(len(islands))
     if not islands:
         return out
-    column, code, present, absent, low, high, weight = (
-        np.array([getattr(i, name) for i in islands]) for name in ("column", "code", "present", "absent", "low", "high", "weight")
-    )
+    column, code, low, high, present, absent, weight = _arrays(islands)
     density, start, stop = weight / (high - low), np.zeros(number.size), np.ones(number.size)
     for _ in range(_ROUNDS):
         across = (np.arange(_ACROSS) + 0.5) / _ACROSS

@@ -41,14 +41,15 @@ class Level:
 
     def means(self, group: np.ndarray, d: np.ndarray, n: int, slopes: bool = False) -> np.ndarray:
         """Mean pressure (K h), friction (K h kh), contact fraction of the columns at ``d`` (m,), and with ``slopes``
-        those of the first two by d."""
+        theirs by d."""
         f = self.family
         span = Span(d, f.s_sat[group])
         u, s, weight = span.nodes(n)
         values = f.values(group, s, slopes)
         A = 0.5 * u
-        out = np.empty((d.size, 5 if slopes else 3))
-        for j, power in enumerate((A, A * A, 1.0, 1.0, A)[: out.shape[1]]):
+        powers = (A, A * A, 1.0, 1.0, A, 1 / A) if slopes else (A, A * A, 1.0)
+        out = np.empty((d.size, len(powers)))
+        for j, power in enumerate(powers):
             out[:, j] = (weight * power * values[:, :, j]).sum(axis=1)
         return out + self._complete(span.complete, d, f.full[group, 1], slopes)
 
@@ -59,14 +60,14 @@ class Level:
         u_square = (1.5 * rest - 2 * np.sin(theta) - 0.25 * np.sin(2 * theta)) / (4 * np.pi)
         out = [(d - 1) * rest / np.pi + 0.5 * u, 0.25 * friction * u_square, rest / np.pi]
         if slopes:
-            out += [rest / np.pi, np.zeros_like(rest)]
+            out += [rest / np.pi, np.zeros_like(rest), np.zeros_like(rest)]
         return np.stack(out, axis=1)
 
     def sure_means(
         self, group: np.ndarray, d: np.ndarray, goal: np.ndarray, p: np.ndarray | None = None
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Means with as many nodes as it takes for ``goal`` (m, 3), and their errors (m, 3). With ``p`` (m,) friction is that
-        at these pressures next to those at ``d``, and the slopes of pressure and friction follow."""
+        """Means with as many nodes as it takes for ``goal`` (m, 3), and their errors (m, 3). With ``p`` (m,) friction and
+        contact are those at these pressures next to those at ``d``, and the slopes by d and, of friction, by pressure follow."""
 
         def sums(left, n):
             out = self.means(group[left], d[left], n, p is not None)
@@ -74,7 +75,9 @@ class Level:
                 out[:, 3] = np.where(out[:, 3] > 0, out[:, 3], np.inf)
                 # friction is pressure times slope: where means of next to nothing vary by chance they say nothing else
                 out[:, 4] = np.clip(out[:, 4] / out[:, 3], -_STEEPEST, _STEEPEST)
-                out[:, 1] += out[:, 4] * (p[left] - out[:, 0])
+                lift = p[left] - out[:, 0]
+                out[:, 1] += out[:, 4] * lift
+                out[:, 2] += out[:, 5] / out[:, 3] * lift
             return out
 
         size = np.array([self.family.series[g].shape[0] for g in group])
