@@ -64,8 +64,8 @@ class Crossings:
         return np.concatenate(states), np.concatenate(amplitudes)
 
     def turns(self, columns: LevelBatch, A: np.ndarray, E: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Where a known curve turns that passes both amplitudes ``A`` (m, 2), m, of each of the ``columns``: E, m, between the two
-        of ``E`` (m, 2), and the amplitude there, (m,) each; NaN where none is known to."""
+        """Where a known curve turns that passes both amplitudes ``A`` (m, 2), m, of each of the ``columns``: E between the two of
+        ``E`` (m, 2), m, and the amplitude there, m, (m,) each; NaN where none is known to."""
         out, crest = np.full((2, columns.size), np.nan)
         near = columns.level.h / _NEAR
         for boundary, known in self.points.items():

@@ -14,7 +14,7 @@ class Order:
     """Coordinates of the order for a batch: ``z = share e``, ``e = back z`` (n, n, N or 1), ``g`` (n, N or 1):
     ``sum_j z_j = g . e``.
 
-    ``rate``: ``1/alpha_i``, capped.
+    ``rate``: ``1/alpha_i``, capped. ``gamma = sum g_i/alpha_i``.
     """
 
     share: np.ndarray
@@ -32,6 +32,10 @@ class Order:
 
     def take(self, index) -> Order:
         return Order(*(pick(a, index) for a in (self.share, self.back, self.g, self.rate)))
+
+    @property
+    def gamma(self) -> np.ndarray:
+        return (self.g * self.rate).sum(axis=0)
 
     def to_z(self, e):
         return np.einsum("ij...,j...->i...", self.share, e)

@@ -24,12 +24,18 @@ from .problem import ModeStrips, pick, rates
 
 @dataclass(slots=True)
 class Monodromy:
-    """Gains (N,) at the ``onset`` and the ``release`` of a march, each a term ``gain rate g^T``.
+    """Rank-one terms at the onset and the release, each ``gain (column . rate) (row . g)^T``: gain (N,), column and row
+    (n, N) or 1.
 
-    ``by_modes``: bounds of both over a range of states, in place of these."""
+    ``by_modes``: terms of ``across`` in place of these, where those hold.
+    """
 
-    onset: np.ndarray | None = None
-    release: np.ndarray | None = None
+    onset: np.ndarray
+    onset_column: np.ndarray
+    onset_row: np.ndarray
+    release: np.ndarray
+    release_column: np.ndarray
+    release_row: np.ndarray
     by_modes: tuple[Saltation, Saltation] | None = None
 
 
@@ -48,17 +54,30 @@ class Saltation:
 
 def exact_monodromy(s: ModeStrips, period: Period) -> Monodromy:
     """Gains at the events of a march that meets each at most once."""
-    return Monodromy(_ratio(s.jump_on, -period.slope_onset), _ratio(s.step, period.slope_release))
+    one = np.ones((1, 1))
+    onset = _ratio(s.jump_on, -period.slope_onset)
+    release = _ratio(s.step, period.slope_release)
+    return Monodromy(onset, one, one, release, one, one)
 
 
 def least_monodromy(s: ModeStrips, order: Order, lower: Period, upper: Period, alike: np.ndarray) -> Monodromy:
     """Lower bounds of the gains of every state between those of two marches; 0 but where these are ``alike`` and meet
-    each event once."""
-    pair = []
-    for onset, step in ((True, s.jump_on), (False, s.step)):
-        steepest = slopes_by_modes(s, order, lower, upper, onset)[1]
-        pair.append(_saltation(s, order, lower, upper, np.where(alike, _ratio(step, steepest), 0.0), onset))
-    return Monodromy(by_modes=tuple(pair))
+    each event once.
+
+    Onsets lie between those of the two, releases too (the other way round). Placed where ``lower`` meets them: moving
+    an event by ``delta`` multiplies its terms by no less than ``exp(-delta rate)`` componentwise or, against the flow,
+    ``exp(-delta gamma)``.
+    """
+    late, early = _width(lower.onset, upper.onset), _width(upper.release, lower.release)
+    gamma = np.broadcast_to(order.gamma, late.shape)
+    fading = lambda width: np.exp(-width * order.rate)  # noqa: E731
+    shrink = lambda width: np.exp(-width * gamma)[None]  # noqa: E731
+    steep_on, steep_off = (slopes_by_modes(s, order, lower, upper, onset)[1] for onset in (True, False))
+    onset, release = (np.where(alike, gain, 0.0) for gain in (_ratio(s.jump_on, steep_on), _ratio(s.step, steep_off)))
+    pair = _saltation(s, order, lower, upper, onset, True), _saltation(s, order, lower, upper, release, False)
+    taken = [each.gain > 0 for each in pair]
+    return Monodromy(np.where(taken[0], 0.0, onset), shrink(late), fading(late),
+                 np.where(taken[1], 0.0, release), fading(early), shrink(early), pair)  # fmt: skip
 
 
 def _saltation(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, onset: bool) -> Saltation:
@@ -124,16 +143,19 @@ def propagation(s: ModeStrips, order: Order, period: Period, gains: Monodromy | 
                 at = i[ripe[k]]
                 change[at] += (across.gain[at] * across.column[:, at]).T[:, :, None] * pending[k][at][:, None, :]
                 waiting[k][at] = False
-        if gains is not None and gains.by_modes is None:
-            _gain(change, ahead, order, i[(zone.letter == FREE) & (zone.following >= 0)], gains.onset)
-            _gain(change, ahead, order, i[(zone.letter == ADHESION) & (zone.following == FREE)], gains.release)
+        if gains is not None:
+            onset = np.flatnonzero((zone.letter == FREE) & (zone.following >= 0))
+            release = np.flatnonzero((zone.letter == ADHESION) & (zone.following == FREE))
+            _gain(change, ahead, order, i[onset], gains.onset, gains.onset_column, gains.onset_row)
+            _gain(change, ahead, order, i[release], gains.release, gains.release_column, gains.release_row)
     return change
 
 
-def _gain(change, ahead, order: Order, i, gain):
+def _gain(change, ahead, order: Order, i, gain, column, row):
     if not i.size:
         return
-    left, right = (gain[i] * pick(order.rate, i)).T, np.atleast_2d(pick(order.g, i).T)
+    left = (gain[i] * pick(column, i) * pick(order.rate, i)).T
+    right = (pick(row, i) * pick(order.g, i)).T
     change[i] += left[:, :, None] * (right[:, None, :] @ (ahead[i] + change[i]))
 
 
@@ -161,3 +183,8 @@ def _ratio(step, slope):
     return np.divide(
         step, slope, out=np.zeros(np.shape(step)), where=np.isfinite(slope) & (slope > 1e-290 + 1e-290 * np.abs(step))
     )
+
+
+def _width(first, second):
+    """Distance from an event to a later one; 0 where either is missing (the gain is 0 there)."""
+    return np.nan_to_num(np.maximum(second - first, 0.0))
