@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..numerics.quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
+from ..numerics.rounding import EPS
 from ..orbit.regimes import CODE
 from .boundaries import hides_another, located, passed_breaks, theta_of, thresholds
 from .changes import Changes, locate_changes
@@ -38,7 +39,6 @@ _VALLEY, _ANY = 0.01, 0.1
 _NEXT = 1e-6
 #: share of it below which no panel's error is claimed to be: a layer may be too thin to show at its nodes
 _LEAST = 1e-5
-_EPS = np.finfo(float).eps
 
 
 @dataclass
@@ -124,7 +124,7 @@ class _Work:
         after = np.concatenate((none, every, np.full(n, -1), number + expected.size))
         order = np.lexsort((theta, state))
         state, theta, before, after = state[order], theta[order], before[order], after[order]
-        inside = np.flatnonzero((state[1:] == state[:-1]) & (np.diff(theta) > 64 * _EPS * np.pi))
+        inside = np.flatnonzero((state[1:] == state[:-1]) & (np.diff(theta) > 64 * EPS * np.pi))
         return _Panels(state[inside], theta[inside], theta[inside + 1], after[inside], before[inside + 1])
 
     def zones(self) -> list[Zones]:
@@ -246,7 +246,7 @@ class _Work:
     def _accept(self, panels: _Panels, codes, values, n) -> np.ndarray:
         width = panels.width[:, None]
         sums = width * (mapped_weights(n) @ values)
-        rounding = 4 * _EPS * width * np.abs(values).max(axis=1, initial=0.0)
+        rounding = 4 * EPS * width * np.abs(values).max(axis=1, initial=0.0)
         floors = self.columns.floors
         noise = 0.1 * (self.rtol[:, None] * floors)[panels.state]
         error = width * sum_errors(values, noise) + rounding

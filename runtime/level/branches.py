@@ -17,6 +17,7 @@ import numpy as np
 
 from ..numerics.chebyshev import Series, derivatives
 from ..numerics.roots import falling_root
+from ..numerics.rounding import EPS
 from .curve import Curve
 from .piece import Errors, Piece, parameter
 
@@ -27,7 +28,6 @@ _GRID = np.linspace(0, 1, 65)
 #: parameters at which turns are looked for: one may hide next to an end, where every piece is flat
 _NEAR = 0.5 ** np.arange(10, 6, -1)
 _TURNS = np.concatenate(([0.0], _NEAR, _GRID[1:-1], 1 - _NEAR[::-1], [1.0]))
-_EPS = np.finfo(float).eps
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +76,7 @@ def rising(piece: Piece) -> list[Branch]:
 
 def meets(part: Branch | Segment, overlap: float) -> bool:
     """Whether a part overlaps its neighbour by no more than the curve is uncertain: then they are one."""
-    return overlap <= 2 * part.errors.most[0] + 64 * _EPS * (abs(part.p_low) + abs(part.p_high))
+    return overlap <= 2 * part.errors.most[0] + 64 * EPS * (abs(part.p_low) + abs(part.p_high))
 
 
 def loaded(parts: list[Branch]) -> list[Branch]:
@@ -141,7 +141,7 @@ def _seen_rising(p: np.ndarray) -> np.ndarray:
     steps, last = np.diff(p), _TURNS.size - 1
     rises = steps > 0
     # next to the ends rounding tells nothing: there it goes on as before
-    rounded = np.abs(steps) <= 16 * _EPS * np.abs(p).max(axis=1, keepdims=True)
+    rounded = np.abs(steps) <= 16 * EPS * np.abs(p).max(axis=1, keepdims=True)
     for inner in range(_NEAR.size, 0, -1):
         for outer, k in ((inner - 1, inner), (last - inner, last - inner - 1)):
             rises[:, outer] = np.where(rounded[:, outer], rises[:, k], rises[:, outer])
@@ -182,7 +182,7 @@ class Inverse:
         self._pressures = _pressures([part.piece for part in parts])
         self._ends = np.array([(part.t_low, part.t_high, part.p_low, part.p_high) for part in parts])
         largest = [np.abs(part.piece.coefficients[:, 0]).sum() for part in parts]
-        self._rounding = 16 * _EPS * np.maximum(largest, np.abs(self._ends[:, 2:]).max(axis=1))
+        self._rounding = 16 * EPS * np.maximum(largest, np.abs(self._ends[:, 2:]).max(axis=1))
 
     def __call__(self, which: np.ndarray, p: np.ndarray) -> np.ndarray:
         """t at which the branches ``which`` reach the pressures ``p``, clipped to the branch; all (m,)."""

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..numerics.rounding import EPS
 from .boundaries import located
 from .changes import Changes, locate_changes
 from .strips import LevelBatch
 
 _SCAN = 48
-_EPS = np.finfo(float).eps
 
 
 def first_contact(columns: LevelBatch) -> float:
@@ -42,7 +42,7 @@ def saturated_adhesion_limit(columns: LevelBatch) -> float:
 def threshold_width(columns: LevelBatch, top):
     """Distance in D from a threshold below which rounding may decide it the other way."""
     a = columns.adhesion
-    return 64 * _EPS * (columns.level.h + np.abs(top) + 2 * a.p_0 / columns.material.K + a.delta_0)
+    return 64 * EPS * (columns.level.h + np.abs(top) + 2 * a.p_0 / columns.material.K + a.delta_0)
 
 
 def breakpoints(columns: LevelBatch, top: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:
@@ -80,7 +80,7 @@ def breaks_on(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tuple[l
     line, node = np.nonzero(answers[0][:, 1:] != answers[0][:, :-1])
     pair = lambda x: np.stack((x[line, node], x[line, node + 1]), axis=1)  # noqa: E731
     ends = pair(D)
-    width = 16 * _EPS * np.maximum(np.abs(ends).max(axis=1, initial=0.0), max(h, columns.stretch))
+    width = 16 * EPS * np.maximum(np.abs(ends).max(axis=1, initial=0.0), max(h, columns.stretch))
     changes = Changes(line, ends[:, 0].copy(), ends[:, 1].copy(), *(pair(v) for v in answers))
     changes, _ = locate_changes(probe, equation, changes, width)
     valley = _of_valley(columns)[column]

@@ -11,6 +11,8 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from ..numerics.rounding import EPS
+
 #: more than enough to halve any bracket of numbers in double precision to nothing
 _ROUNDS = 100
 #: how far beside a place that an equation tells it is checked, as a share of the bracket
@@ -59,7 +61,7 @@ def locate_changes(
     found, halved = [], 0
     weight, stayed = np.ones((changes.size, 2)), np.full(changes.size, -1)
     for _ in range(_ROUNDS):
-        finest = 4 * np.finfo(float).eps * np.maximum(np.abs(changes.low), np.abs(changes.high))
+        finest = 4 * EPS * np.maximum(np.abs(changes.low), np.abs(changes.high))
         done = changes.high - changes.low <= np.maximum(width, finest)
         found.append(changes.take(done))
         changes, width, weight, stayed = changes.take(~done), width[~done], weight[~done], stayed[~done]

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..numerics.chebyshev import flat_ended, interpolation_errors, lobatto
+from ..numerics.rounding import EPS
 from .breaks import breakpoints, threshold_width
 from .effort import CURVE_LIMIT
 from .endpoint_regularity import with_endpoint_regularity
@@ -38,7 +39,6 @@ _COARSEST = 1e-3
 _NARROWEST = 1e-11
 #: parameters at which a piece is looked at
 _GRID = np.linspace(0, 1, 65)
-_EPS = np.finfo(float).eps
 #: error of a piece by what rounding may make of each of its coefficients
 _ROUNDED = 8.0
 
@@ -190,7 +190,7 @@ def _rounding(columns: LevelBatch, batch: Batch, n: int, c) -> np.ndarray:
     ends = np.stack(((-1.0) ** np.arange(n + 1) @ c, c.sum(axis=1)), axis=1)
     values = np.concatenate((ends[:, :1], batch.values, ends[:, 1:]), axis=1)
     D = np.array([i.penetrations(lobatto(n)) for i in batch.intervals])
-    digit = _EPS * np.maximum(np.abs(D).max(axis=1), columns.level.h)
+    digit = EPS * np.maximum(np.abs(D).max(axis=1), columns.level.h)
     apart = np.diff(D)
     share = np.minimum(np.divide(digit[:, None], apart, out=np.ones_like(apart), where=apart > 0), 1.0)
     steps = np.abs(np.diff(values, axis=1)) * share[:, :, None]

@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from ..numerics.rounding import EPS
 from .boundaries import theta_of
 from .strips import LevelBatch
 from .zones import Zones
@@ -19,7 +20,6 @@ from .zones import Zones
 _ACROSS, _ALONG, _ROUNDS = 12, 8, 20
 #: what an island may add to the means that is left aside, over their goal
 _LEFT = 0.3
-_EPS = np.finfo(float).eps
 #: a turn is held to be where an island vanishes no closer than to this share of its way
 _ASIDE = 1e-9
 #: a break this close to an end of its piece, as a share of it, is left to halving
@@ -127,7 +127,7 @@ def _followed(columns: LevelBatch, islands: list[IsolatedRegime], strips: np.nda
         start, stop = share[every, row], further
         out[number] = np.where(keeps, np.nan, present + (absent - present) * 0.5 * (start + stop))
         done = keeps | (density * (high - low) <= _LEFT)
-        done |= np.abs((absent - present) * (stop - start)) <= 16 * _EPS * np.maximum(np.abs(absent), columns.level.h)
+        done |= np.abs((absent - present) * (stop - start)) <= 16 * EPS * np.maximum(np.abs(absent), columns.level.h)
         if done.all():
             break
         number, column, code, present, absent, low, high, density, start, stop = (

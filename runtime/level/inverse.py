@@ -11,6 +11,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from ..numerics.rounding import EPS
 from .branches import Branch, loaded, rising
 from .breaks import breaks_on, first_contact, threshold_width
 from .curve import PressureQuery, interpolate
@@ -35,7 +36,6 @@ _NEWTON, _STEPS, _CLOSE = 6, 60, 0.3
 _ROUGH = 1e-2
 #: place of a pressure that loading never comes to carry
 _PULLED_OFF = -1
-_EPS = np.finfo(float).eps
 
 
 @dataclass(frozen=True)
@@ -303,7 +303,7 @@ def _refine(columns: LevelBatch, p, near, rtol, floor):
         # what is close enough takes the step too: the average made there afterwards is next to the pressure
         new = np.clip(here - miss / slope[active], low[active], high[active])
         D[active] = np.where(late, _middle(low[active], high[active]), new)
-        wide = (high - low)[active] > 8 * _EPS * np.maximum(np.abs(here), columns.level.h)
+        wide = (high - low)[active] > 8 * EPS * np.maximum(np.abs(here), columns.level.h)
         active = active[going & wide]
         if not wide.all():
             known = tuple(v[wide[going]] for v in known)

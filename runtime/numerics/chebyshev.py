@@ -11,7 +11,8 @@ from functools import lru_cache
 
 import numpy as np
 
-_EPS = np.finfo(float).eps
+from .rounding import EPS
+
 #: power of the roughest quantity's coefficients, relative to its own, in those of every other one
 _COMMON = 0.2
 #: ratio of the last coefficients to those in the middle below which they surely fall geometrically
@@ -68,7 +69,7 @@ def interpolation_errors(
     n = c.shape[1] - 1
     c = np.abs(c)
     # what is rounding says nothing of the singularities
-    c = np.maximum(c - (16 * _EPS * c.max(axis=1) + rounding)[:, None], 0.0)
+    c = np.maximum(c - (16 * EPS * c.max(axis=1) + rounding)[:, None], 0.0)
     amplitude = (c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny)[:, None]
     blur = np.broadcast_to(blur, noise.shape)[:, None]
     roughest = (np.maximum(c - blur, 0.0) / amplitude).max(axis=2, keepdims=True)

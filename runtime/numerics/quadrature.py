@@ -9,7 +9,8 @@ from functools import lru_cache
 
 import numpy as np
 
-_EPS = np.finfo(float).eps
+from .rounding import EPS
+
 #: coefficients in the middle of a series that those at its end are held against: one may be small by chance
 _MIDDLE = 3
 #: fastest pace believed of coefficients, by number of nodes, and the slowest that is told apart from a slower one
@@ -132,7 +133,7 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     c, values = (np.ascontiguousarray(np.moveaxis(v, 0, 2)) for v in (_second_kind(n) @ values, values))
     # what is rounding says nothing of the singularities
     largest = np.abs(values).max(axis=0)
-    c = np.maximum(np.abs(c) - 16 * _EPS * largest, 0.0)
+    c = np.maximum(np.abs(c) - 16 * EPS * largest, 0.0)
     noise = noise.T
     amplitude = c[1:].max(axis=0) + noise + np.finfo(float).tiny + _NOTHING * largest
     shape = (c / amplitude).max(axis=1)

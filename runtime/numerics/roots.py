@@ -12,7 +12,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-_EPS = np.finfo(float).eps
+from .rounding import EPS
+
 #: bisection alone ends within 1,100 steps, from the largest number to the smallest, and every other step at least halves
 _MOST = 2200
 #: a quotient by less than this share of a value would overflow
@@ -52,7 +53,7 @@ def falling_root(
         # a slope of the wrong sign, or one that over- or underflowed, sends the step outside the bracket: bisection then
         usable = (slope < 0) & (slope > -np.inf) & (np.abs(slope) > _TINY * np.abs(value))
         step = np.divide(-value, slope, out=np.full_like(value, np.inf), where=usable)
-        small = np.maximum(2 * _EPS * np.maximum(np.abs(lo), np.abs(hi)), tolerance)
+        small = np.maximum(2 * EPS * np.maximum(np.abs(lo), np.abs(hi)), tolerance)
         if not newton:
             # a small step may be that of a steep secant: only a narrow bracket tells, and steps that are not too small make one
             step = np.copysign(np.maximum(np.abs(step), 0.5 * small), step)

@@ -20,10 +20,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..numerics.rounding import EPS
 from .certificate import greatest_gap
 from .closed_form_exclusion import may_cling, saturates
 from .direct import certified, extremal
-from .groups import EPS, Cycle, Strips, adhesive_cycle, bare_cycle
+from .groups import Cycle, Strips, adhesive_cycle, bare_cycle
 from .isolated_orbits import isolated_orbits
 from .march import Orbit
 from .orbit_bounds import FAST, OrbitBounds, least_engaged_bounds, orbit_bounds

@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..numerics.rounding import EPS
 from .batch import Batch
 
 TWO_PI = 2 * np.pi
-#: rounding of one operation, and of a sum of a few terms, in the largest of them
-EPS = np.finfo(float).eps
+#: rounding of a sum of a few terms, in the largest of them
 ROUNDING = 64 * EPS
 _TIE = 4 * EPS  #: roundings of J_0 p_0, a product and two quotients, within which it equals delta_0
 #: alpha from which a strip is taken as the limit of a foundation that stands still: pressures differ from it by 1/alpha of the

@@ -30,9 +30,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..numerics.rounding import EPS
 from .batch import Batch
 from .bound import bound, close_enough
-from .groups import EPS, ROUNDING, Cycle
+from .groups import ROUNDING, Cycle
 from .march import TWO_PI
 
 #: beta above which a foundation remembers too much of the most engaged state for bounds from it to say much: the balance of a

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..numerics.rounding import EPS
 from .certificate import STABLE
-from .groups import EPS, Strips
+from .groups import Strips
 
 _ITERATIONS = 20
 

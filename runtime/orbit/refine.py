@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from ..numerics.rounding import EPS
 from .certificate import STABLE
 from .chain import CONVERGED, tighten
-from .groups import EPS, Cycle
+from .groups import Cycle
 from .march import Orbit
 from .polish import polish
 from .regimes import EQUATIONS

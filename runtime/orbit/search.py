@@ -13,7 +13,8 @@ intervals are divided.
 import numpy as np
 
 from ..numerics.roots import falling_root
-from .groups import EPS, Cycle
+from ..numerics.rounding import EPS
+from .groups import Cycle
 from .march import TWO_PI, Orbit, march
 from .orbit_bounds import earliest_onset
 from .sensitivity import SlopeBounds, onset_margin, over, slope_bounds, slope_excess

@@ -13,6 +13,7 @@ import numpy as np
 
 from ...numerics.quadrature import gauss, mapped, mapped_slope
 from ...numerics.roots import false_position
+from ...numerics.rounding import EPS
 from ...numerics.rules import by_rules
 from ...orbit.foundation import Foundation
 from .law import Laws
@@ -35,7 +36,6 @@ _MISSED = 0.1
 _STEPS = 4
 #: nodes of all parts together, about, that are summed at a time
 _CHUNK = 60_000
-_EPS = np.finfo(float).eps
 
 
 class Carrier:
@@ -134,7 +134,7 @@ class Carrier:
         breaks = self.laws.breaks[group] / self.pressure
         # u at which the greatest or the least pressure of a strip is a break
         over = breaks - (d - 1)[:, None]
-        u = np.where(over > 0, 2 * over / f.s_sat[group, None], -2 * over / np.maximum(swings, _EPS)[:, None])
+        u = np.where(over > 0, 2 * over / f.s_sat[group, None], -2 * over / np.maximum(swings, EPS)[:, None])
         theta = 2 * np.arccos(np.sqrt(np.clip(np.column_stack((np.zeros_like(d), u, least)), 0.0, least[:, None])))
         theta = np.sort(theta, axis=1)
         panel, k = np.nonzero(np.diff(theta, axis=1) > 1e-9)
@@ -196,7 +196,7 @@ class _Parts:
         which = (edges.shape[1] - 1) // 2 if which is None else which
         widths = np.diff(edges, axis=1)
         saturated = np.where(saturates, widths[:, which], 0.0)
-        wide = widths > 4 * _EPS
+        wide = widths > 4 * EPS
         wide[:, which] &= ~saturates
         row, part = np.nonzero(wide)
         return cls(row, edges[row, part], edges[row, part + 1], saturated)

@@ -15,6 +15,7 @@ import numpy as np
 
 from ...inputs.surface import Level
 from ...numerics.chebyshev import coefficients, derivatives, evaluate_each, interpolation_errors, lobatto
+from ...numerics.rounding import EPS
 from ...orbit.foundation import Foundation
 
 #: nodes of the first attempt and of the last
@@ -32,7 +33,6 @@ _ROOT = 4.0
 _FASTEST = 1e100
 #: height squared over wavelength, m, from which on products of them do not underflow
 _FLATTEST = 1e-200
-_EPS = np.finfo(float).eps
 #: quantities of a strip: mean pressure, mean friction, share of the period in contact
 _Q = 3
 
@@ -125,15 +125,15 @@ def family(
         s, values = samples[:, :, 0], samples[:, :, 1:]
         over = _resampled(s, values, s_sat[left])
         greatest = np.abs(values).max(axis=1)
-        goal = np.maximum(rtol[left, None] * (floor + size[left, None] * greatest), _FINEST * _EPS * greatest)
+        goal = np.maximum(rtol[left, None] * (floor + size[left, None] * greatest), _FINEST * EPS * greatest)
         # what is not known of a strip's penetration moves all along their slopes
         step = np.diff(s, axis=1)[:, :, None]
         slopes = np.abs(np.divide(np.diff(values, axis=1), step, out=np.zeros((*step.shape[:2], _Q)), where=step > 0)).max(axis=1)
         # that of the width grows like a root towards s = 0, where few strips are
         slopes[:, 2] = np.divide(_ROOT * values[:, -1, 2], s[:, -1], out=np.zeros(left.size), where=s[:, -1] > 0)
         sampled = _errors(coefficients(samples), np.concatenate((goal.min(axis=1, keepdims=True), goal), axis=1))
-        error = _errors(over, goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 16 * _EPS * greatest
-        error += 4 * _EPS * (s_sat[left] * s[:, -1])[:, None]
+        error = _errors(over, goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 16 * EPS * greatest
+        error += 4 * EPS * (s_sat[left] * s[:, -1])[:, None]
         done = (error <= goal).all(axis=1) | (n == _LAST)
         for k in np.flatnonzero(done):
             g = left[k]

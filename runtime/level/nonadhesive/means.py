@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...numerics.rounding import EPS
 from ...numerics.rules import by_rules
 from .family import NEXT, Family
 from .span import Span
@@ -30,7 +31,6 @@ CANCELLED = 0.2
 #: Chebyshev polynomials are averaged up to about this degree, which so many nodes do well: the means of higher ones fall at least
 #: like the inverse of the degree
 _HIGHEST, _NODES = 24, 30
-_EPS = np.finfo(float).eps
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ class Level:
         fastest = np.where(size > _LAYERED, *_FASTEST)
         out, errors = by_rules(sums, _RULES, _QUADRATURE * goal, fastest)
         slope = out[:, 4] if p is not None else np.zeros(d.size)
-        return out, errors + self.errors(group, d, slope) + _EPS * (1 + 16 * np.abs(out[:, :3]))
+        return out, errors + self.errors(group, d, slope) + EPS * (1 + 16 * np.abs(out[:, :3]))
 
     def errors(self, group: np.ndarray, d: np.ndarray, slope: np.ndarray) -> np.ndarray:
         """What the errors of the strips' means make of the level's, (m, 3); that of friction is at a given pressure, where the
@@ -180,7 +180,7 @@ class Level:
         np.maximum.at(most, row, p)
         # roots of the pressure are nearly linear
         d = np.minimum(most + 0.75, 0.5 * self.family.s_sat[which])[:, None] * np.linspace(0, 1, _LOOKS + 1)[1:] ** 2
-        d = np.minimum(d, 0.5 * self.family.s_sat[which, None] * (1 - 4 * _EPS))
+        d = np.minimum(d, 0.5 * self.family.s_sat[which, None] * (1 - 4 * EPS))
         known = self.means(np.repeat(which, _LOOKS), d.ravel(), _RULES[0])[:, 0].reshape(d.shape)
         known = np.sqrt(np.maximum.accumulate(np.maximum(known, 0.0), axis=1))
         out = np.empty_like(p)

@@ -11,10 +11,10 @@ from __future__ import annotations
 import numpy as np
 
 from ...numerics.quadrature import gauss
+from ...numerics.rounding import EPS
 
 #: least penetration in heights: squares of what is smaller underflow; and the nearest to the height
 _LEAST, _NEAREST = 1e-60, 1e-17
-_EPS = np.finfo(float).eps
 
 
 class Span:
@@ -28,7 +28,7 @@ class Span:
         self.high = np.arcsinh(np.sqrt(np.where(self.under, d, 1.0) / self.off))
         low = np.where(self.under, 0.0, np.arcsinh(np.sqrt(start / self.off)))
         # at saturation nothing but rounding is left of them
-        self.low = np.minimum(low, self.high * (1 - 4 * _EPS))
+        self.low = np.minimum(low, self.high * (1 - 4 * EPS))
         self.complete = np.where(self.under | self.even, np.pi, 2 * np.arccos(np.sqrt(start)))
 
     def strips(self, column: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -11,6 +11,7 @@ import numpy as np
 from ...inputs.surface import Level as Wavy
 from ...numerics.chebyshev import lobatto
 from ...numerics.quadrature import interleaved
+from ...numerics.rounding import EPS
 from ...orbit.foundation import Foundation
 from ..effort import WorkCounters
 from .carried import Carrier
@@ -30,7 +31,6 @@ _BLUNT = 1e-4
 _AT_EDGES = 18
 #: by how much more a greatest pressure is allowed for
 _BETWEEN = 1.02
-_EPS = np.finfo(float).eps
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class FamilyStack:
         pressure = p_max
         for i, unit in enumerate(self.units):
             crest = d_max if i == 0 and d_max is not None else pressure / unit + 0.75
-            s_top.append(np.where(crest < 1, 2 * np.maximum(crest, _EPS), np.inf))
+            s_top.append(np.where(crest < 1, 2 * np.maximum(crest, EPS), np.inf))
             pressure = unit * np.maximum(crest - 1 + 0.5 * s_sat[i * G : (i + 1) * G], 0.0)
             # what is not known of pressures counts by the slope of the friction, hardly above k h
             shares.append(np.minimum(_STRIPS * self.wanted.of(i) / self._friction_unit(i), 1e-2))
@@ -121,7 +121,7 @@ class FamilyStack:
         if not carrying:
             return []
         top = np.array([series[:, 2].sum() for level in self.levels[:-1] for series in level.family.series])
-        known, strips = peaks_of(self.foundation, self._rates(carrying), np.clip(top, _EPS, 1.0))
+        known, strips = peaks_of(self.foundation, self._rates(carrying), np.clip(top, EPS, 1.0))
         self.work.solved += strips
         return [known.part(slice(i * G, (i + 1) * G)) for i in range(carrying)]
 
@@ -131,7 +131,7 @@ class FamilyStack:
         out = np.maximum(d - 1 + 0.5 * family.s_sat, 0.0)
         part = np.flatnonzero((d > 0) & (d < 0.5 * family.s_sat))
         if part.size:
-            share = np.clip(family.values(part, 2 * d[part, None])[:, 0, 2], _EPS, 1 - 1e-9)
+            share = np.clip(family.values(part, 2 * d[part, None])[:, 0, 2], EPS, 1 - 1e-9)
             found = peak(self.foundation, self.waves[i].k * self.V[part], share)[0]
             out[part] = np.minimum(out[part], 0.5 * _BETWEEN * found)
             self.work.solved += part.size

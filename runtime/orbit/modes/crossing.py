@@ -19,10 +19,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...numerics.rounding import EPS
+
 NONE, LOWER, UPPER, LOST = 0, 1, 2, -1
 #: a step this small is below what the phase can be known to
 _TOLERANCE = 2e-15
-_ROUNDINGS, _SMALL = 4 * np.finfo(float).eps, 1e-8
+_ROUNDINGS, _SMALL = 4 * EPS, 1e-8
 _MAX_STEPS = 600
 #: height that stands for none
 _NO_LIMIT = 1e200

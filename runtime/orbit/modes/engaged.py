@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...numerics.rounding import EPS
 from .coordinates import Order
 from .extremal import certified, lowest_state
 from .fields import state_at
@@ -19,7 +20,6 @@ from .propagation import propagation, solve_order
 _STEPS = 80
 #: agreement of the edges with a march of the period
 _AGREE = 1e-7
-_EPS = np.finfo(float).eps
 #: slow modes leave their displacements less certain than the edges; the state serves as a bound and as a start for ``polish``
 _COARSEST = 1e-7
 
@@ -47,7 +47,7 @@ def engaged_orbit(kernel, strips: ModeStrips, start) -> tuple[np.ndarray, Period
         usable = np.isfinite(size)
         z[:, active[usable]] += here.to_z(step)[:, usable]
         done = usable & (
-            (size <= 64 * _EPS * sub.size_of_lengths) | ((size < 1e-10 * sub.size_of_lengths) & (size >= 0.5 * last[active]))
+            (size <= 64 * EPS * sub.size_of_lengths) | ((size < 1e-10 * sub.size_of_lengths) & (size >= 0.5 * last[active]))
         )
         last[active] = size
         active = active[~done & usable]

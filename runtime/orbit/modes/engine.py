@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...numerics.rounding import EPS
 from ..regimes import CODE, ZONES
 from ..solved import Solved
 from .certificate import enclosed, marched, stable
@@ -28,7 +29,6 @@ CHUNK = 16384
 #: strips in chains of states at a time: 32 states each
 _CHAINED = 512
 _CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
-_EPS = np.finfo(float).eps
 #: distances in roundings of D at which a strip on the end of a branch is settled
 _SHIFTS = (8, 64, 512)
 
@@ -46,7 +46,7 @@ def solve_modes(kernel, strips: ModeStrips, unloading: bool) -> Solved:
         # which side of a branch's end these are on is below the rounding of the inputs: they get the solution of the
         # side it is followed to
         these = strips.take(index)
-        shift = roundings * _EPS * these.size_of_lengths
+        shift = roundings * EPS * these.size_of_lengths
         again = _Batch(kernel, replace(these, D=these.D + (shift if unloading else -shift)), unloading).solve()
         again.evaluations += solved.evaluations[index]
         good = np.flatnonzero(again.certified)
@@ -197,8 +197,8 @@ class _Batch:
         ok = (
             good
             & (refined.correction <= limit)
-            & np.all(np.diff(e, axis=0) >= -64 * _EPS, axis=0)
-            & (e[-1] - e[0] <= TWO_PI + 64 * _EPS)
+            & np.all(np.diff(e, axis=0) >= -64 * EPS, axis=0)
+            & (e[-1] - e[0] <= TWO_PI + 64 * EPS)
         )
         ok &= enclosed(e, lower, upper, slack + allowed)
         i = np.flatnonzero(ok)

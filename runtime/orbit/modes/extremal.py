@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...numerics.rounding import EPS
 from ..regimes import EDGES
 from .contraction import alike, contracts
 from .coordinates import Order
@@ -28,7 +29,6 @@ _ROUNDS, _START = 6, 1
 #: how far Newton's method may take an edge from where it starts, radians: further away other regimes begin
 _FURTHEST = 1.5
 _CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
-_EPS = np.finfo(float).eps
 #: agreement of the edges with a march of the period
 _AGREE = 1e-7
 #: edges of each sequence, by their rows in the order d, b, a, c
@@ -197,7 +197,7 @@ def certified(kernel, s: ModeStrips, sequence: str, edges):
         refined = polish(kernel, sequence, s, edges, edges - _FURTHEST, edges + _FURTHEST)
     e = refined.edges
     limit = _CONVERGED + _ROUNDINGS * np.minimum(refined.attainable, _COARSEST)
-    good = (refined.correction <= limit) & np.all(np.diff(e, axis=0) >= -64 * _EPS, axis=0) & (e[-1] - e[0] <= TWO_PI + 64 * _EPS)
+    good = (refined.correction <= limit) & np.all(np.diff(e, axis=0) >= -64 * EPS, axis=0) & (e[-1] - e[0] <= TWO_PI + 64 * EPS)
     return e, good, refined.evaluations
 
 

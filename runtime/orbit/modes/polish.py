@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...numerics.rounding import EPS
 from .problem import ModeStrips
 
 _ITERATIONS = 12
 #: steps larger than this are corrections, whatever the one before was
 _ROUNDING_LIMITED = 1e-7
-_EPS = np.finfo(float).eps
 #: a step expected to be this small is not taken; steps as large as that after so many, or that hardly shrink, lead nowhere
-_SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * _EPS, 0.1, 4, 0.7
+_SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * EPS, 0.1, 4, 0.7
 #: after a step as small as this, and so much smaller than the one before, the derivatives are good for all further ones
 _KNOWN, _FASTER = 1e-3, 0.1
 
@@ -98,4 +98,4 @@ def _inverse(matrix):
 
 def _noise(kernel, k: int, s: ModeStrips):
     """Rounding of each boundary equation, (k, N): pressures are of the size of the saturated one."""
-    return np.broadcast_to(_EPS * (s.size_of_lengths + kernel.modulus_ratio(s.m)), (k, s.size))
+    return np.broadcast_to(EPS * (s.size_of_lengths + kernel.modulus_ratio(s.m)), (k, s.size))
