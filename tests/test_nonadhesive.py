@@ -251,3 +251,16 @@ def test_contact_is_that_at_the_pressure_met(material):
     at = hystrip.solve_level(material, NONE, LEVEL, D=[2e-7, 4e-7, 1.3e-6], **point)
     found = hystrip.solve_level(material, NONE, LEVEL, pressure=at.p_mean, **point)
     assert np.all(np.abs(found.contact_fraction - at.contact_fraction) <= 1e-9 * (at.contact_fraction + 1e-3))
+
+
+@pytest.mark.parametrize("material", ["elastic", "far apart"])
+@pytest.mark.parametrize("rtol", [1e-2, 1e-6])
+def test_next_to_nothing_touches_like_paraboloids_at_rest(material, rtol):
+    """At V = 0 crests are paraboloids: ``p = K D^2/(2 pi h)`` and contact ``D/(pi h)``. Beside a load whose strips err by more
+    than that, contact is still no less than none and within its estimate."""
+    p = np.append(10.0 ** np.arange(-18, -7.0), 700.0)
+    found = hystrip.solve_level(MATERIALS[material], NONE, LEVEL, V=0.0, pressure=p, edge="constitutive", rtol=rtol)
+    contact, least = found.contact_fraction[:-1], np.sqrt(2 * p[:-1] / (np.pi * K * HEIGHT))
+    assert contact.min() >= 0
+    assert np.all(np.abs(contact - least) <= found.error_estimate[2, :-1] + 0.1 * least**2)
+    assert rtol > 1e-3 or np.abs(contact / least - 1)[4:].max() <= 1e-3

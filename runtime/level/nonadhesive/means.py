@@ -56,8 +56,8 @@ class Level:
     def _complete(self, theta, d, friction, slopes):
         """The share of the strips in complete contact, beyond ``theta``: ``p = D_j - A``."""
         rest = np.pi - theta
-        u = (rest - np.sin(theta)) / (2 * np.pi)
-        u_square = (1.5 * rest - 2 * np.sin(theta) - 0.25 * np.sin(2 * theta)) / (4 * np.pi)
+        u = (rest - np.sin(rest)) / (2 * np.pi)
+        u_square = (1.5 * rest - 2 * np.sin(rest) + 0.25 * np.sin(2 * rest)) / (4 * np.pi)
         out = [(d - 1) * rest / np.pi + 0.5 * u, 0.25 * friction * u_square, rest / np.pi]
         if slopes:
             out += [rest / np.pi, np.zeros_like(rest), np.zeros_like(rest)]
@@ -67,28 +67,30 @@ class Level:
         self, group: np.ndarray, d: np.ndarray, goal: np.ndarray, p: np.ndarray | None = None
     ) -> tuple[np.ndarray, np.ndarray]:
         """Means with as many nodes as it takes for ``goal`` (m, 3), and their errors (m, 3). With ``p`` (m,) friction and
-        contact are those at these pressures next to those at ``d``, and the slopes by d and, of friction, by pressure follow."""
+        contact are those at these pressures next to those at ``d``, and the slopes follow: of pressure by d, of the others by
+        pressure."""
 
         def sums(left, n):
             out = self.means(group[left], d[left], n, p is not None)
             if p is not None:
-                out[:, 3] = np.where(out[:, 3] > 0, out[:, 3], np.inf)
+                # mean pressure is K times mean displacement, which rises with d wherever there is contact
+                out[:, 3] = np.maximum(out[:, 3], np.maximum(out[:, 2], np.finfo(float).tiny))
                 # friction is pressure times slope: where means of next to nothing vary by chance they say nothing else
                 out[:, 4] = np.clip(out[:, 4] / out[:, 3], -_STEEPEST, _STEEPEST)
-                lift = p[left] - out[:, 0]
-                out[:, 1] += out[:, 4] * lift
-                out[:, 2] += out[:, 5] / out[:, 3] * lift
+                out[:, 5] = np.maximum(out[:, 5], 0.0) / out[:, 3]
+                out[:, 1:3] += out[:, 4:] * (p[left] - out[:, 0])[:, None]
+                out[:, 2] = np.clip(out[:, 2], 0.0, 1.0)
             return out
 
         size = np.array([self.family.series[g].shape[0] for g in group])
         fastest = np.where(size > _LAYERED, *_FASTEST)
         out, errors = by_rules(sums, _RULES, _QUADRATURE * goal, fastest)
-        slope = out[:, 4] if p is not None else np.zeros(d.size)
-        return out, errors + self.errors(group, d, slope) + EPS * (1 + 16 * np.abs(out[:, :3]))
+        slopes = out[:, 4:] if p is not None else np.zeros((d.size, 2))
+        return out, errors + self.errors(group, d, slopes) + EPS * (1 + 16 * np.abs(out[:, :3]))
 
-    def errors(self, group: np.ndarray, d: np.ndarray, slope: np.ndarray) -> np.ndarray:
-        """What the errors of the strips' means make of the level's, (m, 3); that of friction is at a given pressure, where the
-        pressure's error counts by the ``slope`` (m,).
+    def errors(self, group: np.ndarray, d: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+        """What the errors of the strips' means make of the level's, (m, 3); those of friction and contact are at a given
+        pressure, where the pressure's error counts by their ``slopes`` (m, 2).
 
         Of every term that a series leaves out the level has the mean of a Chebyshev polynomial over its strips. The next terms
         are known: what they would add is the error, as with the lower rule of an embedded pair (Hairer, Norsett & Wanner,
@@ -102,9 +104,9 @@ class Level:
         known, others = (f.next[group] * after).sum(axis=1), f.errors[group] * np.abs(end).max(axis=1)
         others *= (last / f.degree[group])[:, None]
         bound = np.abs(f.next[group]).sum(axis=1) * np.abs(after).max(axis=1)
-        known[:, 1] -= slope * known[:, 0]
+        known[:, 1:] -= slopes * known[:, :1]
         for part in (bound, others):
-            part[:, 1] += np.abs(slope) * part[:, 0]
+            part[:, 1:] += np.abs(slopes) * part[:, :1]
         return _SURE * np.where((size <= _HIGHEST)[:, None], np.abs(known), bound) + others
 
     def _moments(self, group, d, *degrees):
@@ -137,7 +139,7 @@ class Level:
             p = load[part] if by_pressure else None
             means, errors[part] = self.sure_means(group[part], d[part], goal[part], p)
             if p is not None:
-                d[part] += (p - means[:, 0]) / means[:, 3]
+                d[part] = np.maximum(d[part] + (p - means[:, 0]) / means[:, 3], p)
                 means[:, 0] = p
             values[part] = means[:, :3]
         return d, values, errors
