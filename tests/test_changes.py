@@ -23,10 +23,10 @@ def _none(changes):
     return np.empty(0, int), np.empty(0)
 
 
-def _located(line, width, equation=_none, unsure=lambda changes: np.zeros(changes.size, bool)):
+def _located(line, width, equation=_none, checked=False):
     ends = [v[None] for v in line(np.zeros(2, int), np.array([0.0, 1.0]))]
     line.asked = 0
-    return locate_changes(line, equation, Changes(np.zeros(1, int), np.zeros(1), np.ones(1), *ends), np.full(1, width), unsure)
+    return locate_changes(line, equation, Changes(np.zeros(1, int), np.zeros(1), np.ones(1), *ends), np.full(1, width), checked)
 
 
 @pytest.mark.parametrize("place", [1e-3, 0.1, 0.37, 0.999])
@@ -68,6 +68,6 @@ def test_equations_may_tell_of_several_places_in_one_bracket():
 def test_a_third_regime_next_to_what_an_equation_tells_is_found():
     line = Line(0.3, 0.3001)
     told = lambda changes: (np.flatnonzero(changes.high - changes.low > 0.5), np.full(1, 0.3001))  # noqa: E731
-    found, _ = _located(line, 1e-9, told, lambda changes: np.ones(changes.size, bool))
+    found, _ = _located(line, 1e-9, told, checked=True)
     assert found.codes.tolist() == [[0, 1], [1, 2]]
     assert np.allclose(found.low, [0.3, 0.3001], atol=2e-9)

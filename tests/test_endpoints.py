@@ -7,11 +7,7 @@ import numpy as np
 import pytest
 
 import hystrip
-from hystrip.level import curve
-from hystrip.level.breaks import breakpoints
 from hystrip.level.curve import interpolate, smooth_intervals
-from hystrip.level.endpoint_regularity import with_endpoint_regularity
-from hystrip.level.interval import Interval
 from hystrip.level.means import level_means
 from hystrip.level.strips import LevelBatch, saturation_depth
 from hystrip.numerics.chebyshev import evaluate, flat_ended, lobatto
@@ -57,33 +53,16 @@ def _columns():
     return LevelBatch(material, adhesion, hystrip.Level(l=500e-9, h=100e-9), "continuous", "unloading", V, np.zeros(1))
 
 
-def test_a_crest_that_clings_all_along_ends_gently_and_one_that_lets_go_does_not():
+def test_the_top_of_a_curve_ends_gently_and_no_break_does():
     columns = _columns()
-    top = saturation_depth(columns)
-    (row,), (crest,) = smooth_intervals(columns, top)
-    where_gentle = {
-        (round(i.low * 1e9), round(i.high * 1e9)): (i.smooth_low, i.smooth_high) for i in with_endpoint_regularity(columns, row)
-    }
-    held = [i for i in row if i.low >= crest]
-    # discrete adhesion zones between the end of the crest and the beginning of saturated adhesion, which lasts to saturation
-    (middle, upper) = (where_gentle[round(i.low * 1e9), round(i.high * 1e9)] for i in held)
-    assert middle == (False, False) and upper == (True, True)
+    (row,), _ = smooth_intervals(columns, saturation_depth(columns))
+    assert len(row) > 2 and [(i.inner_low, i.inner_high) for i in row] == [(False, k == len(row) - 1) for k in range(len(row))]
 
 
-def test_a_cut_is_no_end():
-    columns = _columns()
-    (points,), _ = breakpoints(columns, saturation_depth(columns))
-    whole = Interval(0, points[-2], points[-1])
-    (cut,) = with_endpoint_regularity(columns, [replace(whole, high=0.5 * (whole.low + whole.high))])
-    assert cut.smooth_high
-
-
-def test_a_wrong_guess_costs_no_digits(monkeypatch):
+def test_a_wrong_guess_costs_no_digits():
     columns = _columns()
     (row,), (crest,) = smooth_intervals(columns, saturation_depth(columns))
-    hard = next(i for i in row if i.low >= crest)
-    gently = lambda _, intervals: [replace(i, smooth_low=True, smooth_high=True) for i in intervals]  # noqa: E731
-    monkeypatch.setattr(curve, "with_endpoint_regularity", gently)
+    hard = replace(next(i for i in row if i.low >= crest), inner_low=True, inner_high=True)
     (pieces,) = interpolate(columns, np.array([1e-5]), [hard], np.zeros(1, int))
     assert len(pieces) > 1
     for piece in pieces:

@@ -5,12 +5,12 @@ breakpoints are known beforehand: thresholds in closed form, and curves of the p
 penetrations (``boundaries``, ``crossings``). Where the nodes of one panel disagree about the regime, or about which breaks of the
 law below are passed, the change is located, by its equation if there is one (``changes``), and the panel divided there.
 
-All panels of all columns advance together: one batch of strips per round.
+All panels of all columns advance together, each on its own number of nodes: one batch of strips per round.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 _FIRST, _LAST = 8, 64
 #: nodes of a panel in saturated contact, where strips take no search: its sum may as well be exact
 _COSTLESS = 32
-#: rounds after which a panel is taken as it is, and panels of a state that may wait for one
-_ROUNDS, _CROWD = 40, 150
 #: a panel's part of what a state may err, and of that what brackets of changes may
 _SHARE, _SLIVER = 0.4, 0.03
 #: how far from the valley the strip next to it is, in parts of the accuracy; what does not count is asked for to any accuracy
@@ -78,22 +76,50 @@ class _Panels:
     def width(self) -> np.ndarray:
         return self.high - self.low
 
+    def halves(self) -> list[_Panels]:
+        """Both halves of each."""
+        middle, none = 0.5 * (self.low + self.high), np.full(self.size, -1)
+        return [replace(self, high=middle, last=none), replace(self, low=middle, first=none)]
+
+    def at(self, t: np.ndarray) -> np.ndarray:
+        """Thetas at the parameters ``t`` of every panel, (panels, t)."""
+        return self.low[:, None] + self.width[:, None] * mapped(t)
+
+
+@dataclass
+class _Stage:
+    """Panels on the same number ``n`` of nodes, and what is ``known`` at the interior ones: codes, values, heights and edges,
+    (panels, nodes, ...); empty for those that were not looked at yet, whose nodes are the first."""
+
+    panels: _Panels
+    n: int = _FIRST
+    known: tuple[np.ndarray, ...] = ()
+
+    def take(self, which) -> _Stage:
+        return _Stage(self.panels.take(which), self.n, tuple(v[which] for v in self.known))
+
+    @property
+    def theta(self) -> np.ndarray:
+        """Of the nodes at which strips are known, (panels, nodes)."""
+        return self.panels.at(interior_nodes(self.n))
+
+    def next_nodes(self) -> tuple[int, np.ndarray]:
+        """How many nodes are next, and the thetas (panels, new nodes) of those of them that are not known."""
+        n = 2 * self.n if self.known else self.n
+        return n, self.panels.at(interior_nodes(n)[:: 2 if self.known else 1])
+
+    def sums(self) -> np.ndarray:
+        """Integrals over the panels, (panels, q)."""
+        return self.panels.width[:, None] * (mapped_weights(self.n) @ self.known[1])
+
 
 def average(columns: LevelBatch, rtol: np.ndarray) -> Averages:
     """Means ``(1/pi) int_0^pi`` of the strips of every state to ``rtol (|value| + floor)``, ``rtol`` (n,)."""
     n, q = columns.size, columns.scales.size
     work = _Work(columns, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
-    panels = work.start(*thresholds(columns), *columns.crossings.expected(columns))
-    for _ in range(_ROUNDS):
-        crowded = (np.bincount(panels.state, minlength=n)[panels.state] > _CROWD) | (work.strips[panels.state] > AVERAGE_LIMIT)
-        if crowded.any():
-            work.give_up(panels.take(crowded))
-            panels = panels.take(~crowded)
-        if not panels.size:
-            break
-        panels = work.refine(panels)
-    else:
-        work.give_up(panels)
+    stages = [_Stage(work.start(*thresholds(columns), *columns.crossings.expected(columns)))]
+    while stages:
+        stages = work.refine(stages)
     return Averages(work.values / np.pi, work.errors / np.pi, work.strips, work.zones())
 
 
@@ -105,7 +131,7 @@ class _Work:
     errors: np.ndarray
     strips: np.ndarray
     accepted: list[tuple] = field(default_factory=list)
-    #: states and thetas of strips next to the ends of the first panels; their codes, values, heights and edges
+    #: states and thetas of strips next to the ends of panels; and of those solved codes, values, heights and edges
     beside: tuple[np.ndarray, np.ndarray] = (np.empty(0, int), np.empty(0))
     ends: list[np.ndarray] | None = None
 
@@ -113,15 +139,13 @@ class _Work:
         """Panels between thresholds (k,) and expected crossings (m,) of curves. Next to a curve the strips of a third regime
         may be so few that no node meets them: a strip to either side is looked at, as at the crest and next to the valley."""
         n, crossing = self.rtol.size, theta_of(self.columns, A)
-        every, none, valley = np.arange(n), np.full(theta.size, -1), self.valley
-        aside = np.pi - valley[expected]
-        thetas = np.zeros(n), valley, crossing - aside, crossing + aside
-        self.beside = np.concatenate((every, every, expected, expected)), np.clip(np.concatenate(thetas), 0.0, np.pi)
-        number = np.arange(expected.size) + 2 * n
+        every, none = np.arange(n), np.full(theta.size, -1)
+        crest, valley = self._later(every, np.zeros(n)), self._later(every, self.valley)
+        below, above = self._next_to(expected, crossing)
         state = np.concatenate((state, every, every, expected))
         theta = np.concatenate((theta, np.zeros(n), np.full(n, np.pi), crossing))
-        before = np.concatenate((none, np.full(n, -1), every + n, number))
-        after = np.concatenate((none, every, np.full(n, -1), number + expected.size))
+        before = np.concatenate((none, np.full(n, -1), valley, below))
+        after = np.concatenate((none, crest, np.full(n, -1), above))
         order = np.lexsort((theta, state))
         state, theta, before, after = state[order], theta[order], before[order], after[order]
         inside = np.flatnonzero((state[1:] == state[:-1]) & (np.diff(theta) > 64 * EPS * np.pi))
@@ -136,52 +160,64 @@ class _Work:
         """Theta next to the valley of each column: what lies beyond does not matter at its accuracy."""
         return np.pi * (1 - _VALLEY * np.minimum(self.rtol, _ANY))
 
-    def refine(self, panels: _Panels) -> _Panels:
-        """Sum up what converges under doubling; return what has to be divided."""
-        later, n = [], _FIRST
+    def refine(self, stages: list[_Stage]) -> list[_Stage]:
+        """Sum up what converges under doubling; return what is left, divided where regimes change."""
         fresh = self.ends is None
-        known = self._at_nodes(panels, interior_nodes(n))
+        stages = self._sampled(stages)
         if fresh:
-            self._look_beside_thresholds(panels, known[0])
-        while panels.size:
-            mixed = (known[0] != known[0][:, :1]).any(axis=1)
-            if n == _FIRST:
-                # what is narrower than the first step shows next to the ends
-                mixed |= (self._outer(panels, known)[0][:, [0, -1]] != known[0][:, [0, -1]]).any(axis=1)
-            if mixed.any():
-                later.append(self._divide(panels.take(mixed), *(v[mixed] for v in known), n))
-                panels, known = panels.take(~mixed), [v[~mixed] for v in known]
-            done = self._accept(panels, known[0], known[1], n)
-            panels, known = panels.take(~done), [v[~done] for v in known]
-            if n == _LAST or not panels.size:
-                break
-            n *= 2
-            new = self._at_nodes(panels, interior_nodes(n)[0::2])
-            known = [interleaved(a, b) for a, b in zip(new, known, strict=True)]
-        middle = 0.5 * (panels.low + panels.high)
-        none = np.full(panels.size, -1)
-        later.append(_Panels(panels.state, panels.low, middle, panels.first, none))
-        later.append(_Panels(panels.state, middle, panels.high, none, panels.last))
-        return _Panels.joined(later)
+            self._look_beside_thresholds(stages[0])
+        # what is not accepted yet counts for the size of the result, not for the result
+        total = self.values.copy()
+        for stage in stages:
+            np.add.at(total, stage.panels.state, stage.sums())
+        total = np.abs(total) + np.pi * self.columns.floors
+        mixed, doubled, halved = [], [], []
+        for stage in stages:
+            codes = self._outer(stage)[0]
+            changed = (codes != codes[:, :1]).any(axis=1)
+            done = self._accept(stage, total, ~changed)
+            mixed.append(stage.take(changed & ~done))
+            stage = stage.take(~changed & ~done)
+            (doubled if stage.n < _LAST else halved).append(stage)
+        parts = [self._divide(mixed, total), *(half for stage in halved for half in stage.panels.halves())]
+        left = [_Stage(_Panels.joined(parts)), *doubled]
+        return [stage for stage in left if stage.panels.size]
 
-    def _keep(self, panels: _Panels, codes, values, sums) -> None:
-        """Of ``panels`` what their zones are told from."""
-        self.accepted.append((panels.state, codes[:, 0], panels.low, panels.high, values[:, 0], values[:, -1], sums))
+    def _sampled(self, stages: list[_Stage]) -> list[_Stage]:
+        """The stages with what is known at their next nodes, of one batch of strips."""
+        new = [stage.next_nodes() for stage in stages]
+        state = [np.repeat(stage.panels.state, theta.shape[1]) for stage, (_, theta) in zip(stages, new, strict=True)]
+        answers = self._evaluated(np.concatenate(state), np.concatenate([theta.ravel() for _, theta in new]))
+        out, stop = [], 0
+        for stage, (n, theta) in zip(stages, new, strict=True):
+            start, stop = stop, stop + theta.size
+            known = [v[start:stop].reshape(*theta.shape, *v.shape[1:]) for v in answers]
+            if stage.known:
+                known = [interleaved(a, b) for a, b in zip(known, stage.known, strict=True)]
+            out.append(_Stage(stage.panels, n, tuple(known)))
+        return out
 
-    def give_up(self, panels: _Panels) -> None:
-        """Take panels that do not converge as they are, with the spread of their values as error."""
-        codes, values, *_ = self._at_nodes(panels, interior_nodes(_FIRST))
-        sums = panels.width[:, None] * (mapped_weights(_FIRST) @ values)
-        self._keep(panels, codes, values, sums)
-        np.add.at(self.values, panels.state, sums)
-        width = panels.width[:, None]
-        np.add.at(self.errors, panels.state, width * (values.max(axis=1) - values.min(axis=1)))
-
-    def _at_nodes(self, panels: _Panels, t):
-        """``Evaluated`` at the parameters ``t``, (panels, nodes, ...)."""
-        theta = panels.low[:, None] + panels.width[:, None] * mapped(t)
-        answers = self._evaluated(np.repeat(panels.state, t.size), theta.ravel())
-        return tuple(answer.reshape(panels.size, t.size, *answer.shape[1:]) for answer in answers)
+    def _accept(self, stage: _Stage, total: np.ndarray, usable: np.ndarray) -> np.ndarray:
+        """Add up the ``usable`` panels (m,) whose sums have converged, and those of states with too many strips as they are, with
+        the spread of their values as error; which they were, (m,)."""
+        panels, (codes, values, *_), sums = stage.panels, stage.known, stage.sums()
+        width, state = panels.width[:, None], panels.state
+        rounding = 4 * EPS * width * np.abs(values).max(axis=1, initial=0.0)
+        noise = 0.1 * (self.rtol[:, None] * self.columns.floors)[state]
+        error = width * sum_errors(values, noise) + rounding
+        goal = (self.rtol[:, None] * total)[state]
+        done = usable & (error <= _SHARE * goal + 2 * rounding).all(axis=1)
+        if stage.n < _COSTLESS and not self.columns.asked.frictional:
+            done &= codes[:, 0] % len(CODE) != CODE["c"]
+        ended = ~done & (self.strips[state] > AVERAGE_LIMIT)
+        error[ended] = (width * np.ptp(values, axis=1))[ended]
+        done |= ended
+        self.accepted.append(
+            (state[done], *(v[done] for v in (codes[:, 0], panels.low, panels.high, values[:, 0], values[:, -1], sums)))
+        )
+        np.add.at(self.values, state[done], sums[done])
+        np.add.at(self.errors, state[done], (error + _LEAST * goal * (error > 0))[done])
+        return done
 
     def _evaluated(self, state, theta) -> list[np.ndarray]:
         """Codes, values, heights and edges of strips (m,); with them those next to the ends of panels that are not known yet."""
@@ -194,40 +230,40 @@ class _Work:
         self.ends = fresh if self.ends is None else [np.concatenate(pair) for pair in zip(self.ends, fresh, strict=True)]
         return [v[:m] for v in answers]
 
-    def _next_to(self, state, theta) -> np.ndarray:
-        """Numbers (2, k) of strips next to the places ``theta`` (k,), on both sides: they are solved with whatever is next."""
-        aside = np.pi - self.valley[state]
-        places = np.tile(state, 2), np.clip(np.concatenate((theta - aside, theta + aside)), 0.0, np.pi)
-        number = self.beside[1].size + np.arange(2 * theta.size).reshape(2, -1)
-        self.beside = tuple(np.concatenate(pair) for pair in zip(self.beside, places, strict=True))
+    def _later(self, state, theta) -> np.ndarray:
+        """Numbers (k,) of strips at ``theta`` (k,) that are solved with whatever is next."""
+        number = self.beside[1].size + np.arange(theta.size)
+        self.beside = tuple(np.concatenate(pair) for pair in zip(self.beside, (state, theta), strict=True))
         return number
 
-    def _look_beside_thresholds(self, panels: _Panels, codes) -> None:
-        """Strips to either side of thresholds where the ``codes`` of the panels that meet do not follow one another: a third
+    def _next_to(self, state, theta, aside: float = np.inf) -> np.ndarray:
+        """``_later`` on both sides of the places ``theta`` (k,), not further from them than ``aside``, (2, k)."""
+        aside = np.minimum(np.pi - self.valley[state], aside)
+        places = np.clip(np.concatenate((theta - aside, theta + aside)), 0.0, np.pi)
+        return self._later(np.tile(state, 2), places).reshape(2, -1)
+
+    def _look_beside_thresholds(self, stage: _Stage) -> None:
+        """Strips to either side of thresholds where the codes of the panels that meet do not follow one another: a third
         zone may be narrower than the first step."""
+        panels, codes = stage.panels, stage.known[0]
         order = np.lexsort((panels.low, panels.state))
         left, right = order[:-1], order[1:]
         unknown = (panels.last[left] < 0) & (panels.first[right] < 0) & (panels.high[left] == panels.low[right])
         doubtful = unknown & (panels.state[left] == panels.state[right]) & hides_another(codes[left, -1], codes[right, 0])
         left, right = left[doubtful], right[doubtful]
-        if not left.size:
-            return
-        state = panels.state[left]
-        aside = np.minimum(np.pi - self.valley, _NEXT)[state]
-        places = np.tile(state, 2), np.concatenate((panels.high[left] - aside, panels.low[right] + aside))
-        panels.last[left], panels.first[right] = self.beside[1].size + np.arange(2 * left.size).reshape(2, -1)
-        self.beside = tuple(np.concatenate(pair) for pair in zip(self.beside, places, strict=True))
-        self._evaluated(np.empty(0, int), np.empty(0))
+        if left.size:
+            panels.last[left], panels.first[right] = self._next_to(panels.state[left], panels.high[left], _NEXT)
+            self._evaluated(np.empty(0, int), np.empty(0))
 
-    def _outer(self, panels: _Panels, known) -> tuple[np.ndarray, ...]:
-        """What is ``known`` at the first nodes of panels, and their thetas, with one more at either end: what is known beyond the
-        outermost node, where nothing is what is known there."""
-        theta = panels.low[:, None] + panels.width[:, None] * mapped(interior_nodes(_FIRST))
-        number, outermost = np.stack((panels.first, panels.last), axis=1), theta[:, [0, -1]]
+    def _outer(self, stage: _Stage) -> tuple[np.ndarray, ...]:
+        """What is known at the nodes of panels, and their thetas, with one more at either end: what is known beyond the outermost
+        node, where nothing is what is known there."""
+        theta = stage.theta
+        number, outermost = np.stack((stage.panels.first, stage.panels.last), axis=1), theta[:, [0, -1]]
         place = self.beside[1][number]
         beyond = (number >= 0) & (np.stack((outermost[:, 0] - place[:, 0], place[:, 1] - outermost[:, 1]), axis=1) > 0)
         out = []
-        for inner, ends in zip((*known, theta), (*self.ends, self.beside[1]), strict=True):
+        for inner, ends in zip((*stage.known, theta), (*self.ends, self.beside[1]), strict=True):
             outer = inner[:, [0, -1]]
             outer[beyond] = ends[number[beyond]]
             out.append(np.concatenate((outer[:, :1], inner, outer[:, 1:]), axis=1))
@@ -243,40 +279,21 @@ class _Work:
         told = np.bincount(parent[~found], minlength=changes.size)[parent] == 0
         return parent[told], theta_of(columns, A[told])
 
-    def _accept(self, panels: _Panels, codes, values, n) -> np.ndarray:
-        width = panels.width[:, None]
-        sums = width * (mapped_weights(n) @ values)
-        rounding = 4 * EPS * width * np.abs(values).max(axis=1, initial=0.0)
-        floors = self.columns.floors
-        noise = 0.1 * (self.rtol[:, None] * floors)[panels.state]
-        error = width * sum_errors(values, noise) + rounding
-        # what is not accepted yet counts for the size of the result, not for the result
-        total = self.values.copy()
-        np.add.at(total, panels.state, sums)
-        goal = (self.rtol[:, None] * (np.abs(total) + np.pi * floors))[panels.state]
-        done = (error <= _SHARE * goal + 2 * rounding).all(axis=1)
-        if n < _COSTLESS and not self.columns.asked.frictional:
-            done &= codes[:, 0] % len(CODE) != CODE["c"]
-        self._keep(panels.take(done), codes[done], values[done], sums[done])
-        np.add.at(self.values, panels.state[done], sums[done])
-        np.add.at(self.errors, panels.state[done], (error + _LEAST * goal * (error > 0))[done])
-        return done
-
-    def _divide(self, panels: _Panels, codes, values, heights, edges, n) -> _Panels:
+    def _divide(self, stages: list[_Stage], total: np.ndarray) -> _Panels:
         """Locate the changes between neighbouring nodes; panels end there."""
-        if n == _FIRST:
-            codes, values, heights, edges, theta = self._outer(panels, (codes, values, heights, edges))
-        else:
-            theta = panels.low[:, None] + panels.width[:, None] * mapped(interior_nodes(n))
-        row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
-        pair = lambda x: np.stack((x[row, node], x[row, node + 1]), axis=1)  # noqa: E731
-        ends = pair(theta)
-        changes = Changes(row, ends[:, 0].copy(), ends[:, 1].copy(), pair(codes), pair(heights), pair(edges), pair(values))
-        total = np.abs(self.values) + np.pi * self.columns.floors
-        np.add.at(total, panels.state, panels.width[:, None] * np.abs(values).mean(axis=1))
-        state = panels.state[row]
+        panels, brackets, spreads, before = _Panels.joined([stage.panels for stage in stages]), [], [], 0
+        for stage in stages:
+            codes, values, heights, edges, theta = self._outer(stage)
+            row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
+            both = row[:, None], np.stack((node, node + 1), axis=1)
+            brackets.append(Changes(before + row, *theta[both].T, codes[both], heights[both], edges[both], values[both]))
+            spreads.append(np.ptp(values, axis=1)[row])
+            before += stage.panels.size
+        changes, spread = Changes.joined(brackets), np.concatenate(spreads)
+        if not changes.size:
+            return panels
+        state = panels.state[changes.line]
         goal = _SLIVER * _SHARE * self.rtol[state, None] * total[state]
-        spread = (values.max(axis=1) - values.min(axis=1))[row]
         width = np.min(np.divide(goal, spread, out=np.full_like(goal, np.pi), where=spread > goal / np.pi), axis=1)
 
         def probe(line, x):
@@ -286,7 +303,7 @@ class _Work:
         def equation(changes):
             return self._by_equation(panels.state[changes.line], changes)
 
-        found, halved = locate_changes(probe, equation, changes, width, lambda some: np.zeros(some.size, bool))
+        found, halved = locate_changes(probe, equation, changes, width, checked=False)
         self.columns.work.bisected += halved
         # next to what an equation tells a third zone may be too narrow for nodes
         doubtful = np.flatnonzero((found.low == found.high) & hides_another(*found.codes.T))

@@ -50,13 +50,13 @@ class Changes:
 
 
 def locate_changes(
-    probe: Probe, equation: Equation, changes: Changes, width: np.ndarray, unsure: Callable[[Changes], np.ndarray] | None = None
+    probe: Probe, equation: Equation, changes: Changes, width: np.ndarray, checked: bool = True
 ) -> tuple[Changes, int]:
     """Narrow every bracket to ``width`` (m,) or to neighbouring numbers; where a third code shows up inside, there are two.
 
-    Where an ``equation`` tells the place, both ends are there, with the codes and values that were known; of changes that are
-    ``unsure`` (all if not given) with those found next to it, and what else changes in the bracket is located too. Returns the
-    changes, and how many points it took where no equation told.
+    Where an ``equation`` tells the place, both ends are there, with the codes and values that were known; or, ``checked``, with
+    those found next to it, and what else changes in the bracket is located too. Returns the changes, and how many points it took
+    where no equation told.
     """
     found, halved = [], 0
     weight, stayed = np.ones((changes.size, 2)), np.full(changes.size, -1)
@@ -72,16 +72,14 @@ def locate_changes(
             exact, wide = changes.take(parent), width[parent]
             left = np.setdiff1d(np.arange(changes.size), parent)
             changes, width, weight, stayed = changes.take(left), width[left], weight[left], stayed[left]
-            check = np.ones(exact.size, bool) if unsure is None else unsure(exact)
-            known, exact = exact.take(~check), exact.take(check)
-            known.low[:] = known.high[:] = place[~check]
-            found.append(known)
-            if exact.size:
-                exact, others, parent = _beside(probe, exact, place[check])
-                changes, width = Changes.joined([changes, others]), np.concatenate((width, wide[check][parent]))
+            if checked:
+                exact, others, parent = _beside(probe, exact, place)
+                changes, width = Changes.joined([changes, others]), np.concatenate((width, wide[parent]))
                 weight = np.concatenate((weight, np.ones((others.size, 2))))
                 stayed = np.concatenate((stayed, np.full(others.size, -1)))
-                found.append(exact)
+            else:
+                exact.low[:] = exact.high[:] = place
+            found.append(exact)
             if not changes.size:
                 break
         halved += changes.size

@@ -27,8 +27,8 @@ _NEAR, _NARROWEST = 128, 1e-6
 
 @dataclass
 class Crossings:
-    """Points of the curves of the plane that were located, for every velocity. Belongs to one
-    level with one material, adhesion, closure and branch."""
+    """Points of the curves of the plane that were located, for every velocity. Belongs to one level with one material, adhesion,
+    closure and branch."""
 
     points: dict[Boundary, Points] = field(default_factory=dict)
 

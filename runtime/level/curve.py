@@ -14,23 +14,20 @@ from ..numerics.chebyshev import flat_ended, interpolation_errors, lobatto
 from ..numerics.rounding import EPS
 from .breaks import breakpoints, threshold_width
 from .effort import CURVE_LIMIT
-from .endpoint_regularity import with_endpoint_regularity
 from .error_budget import ErrorBudget
 from .interior_breaks import is_inside, island, locate_vanishing
 from .interval import Interval
 from .piece import Errors, Piece
 from .reentrant import reentrant_parts
-from .sampling import MEAN, Batch
+from .sampling import FIRST, MEAN, Batch, sample
 from .strips import LevelBatch, saturation_depth
 
-_FIRST, _LAST = 6, 96
-_ROUNDS = 40
+#: nodes of an interval at most, less one: what they do not tell is divided
+_LAST = 96
 #: share of the error allowed that interpolating may have at least: the means may have the rest
 _INTERPOLATION = 1 - MEAN
 #: coefficients below this share of what the means may err say nothing of how smooth they are
 _BLUR = 0.1
-#: error of a curve that keeps away from a pressure, over its distance
-_CLEAR = 0.25
 #: no error grows faster than this from round to round
 _PACE = 1e3
 #: an interval's pressure is known at least this well
@@ -50,20 +47,6 @@ class Curve:
     pieces: list[Piece]
     D_top: float
     strips: int
-
-
-@dataclass(frozen=True)
-class PressureQuery:
-    """Pressures ``p`` (Pa, per column) of which it is asked where the curve passes them, to an error ``goal`` (Pa) of the
-    pressure there."""
-
-    p: np.ndarray
-    goal: np.ndarray
-
-    def goals(self, column: np.ndarray, pressures: np.ndarray) -> np.ndarray:
-        """Error allowed on intervals of the columns ``column``, with ``pressures`` (m, nodes): what keeps away from p need not be
-        known to better than to tell that it does."""
-        return np.maximum(self.goal[column], _CLEAR * np.abs(pressures - self.p[column, None]).min(axis=1))
 
 
 def trace(
@@ -96,8 +79,13 @@ def smooth_intervals(columns: LevelBatch, top: np.ndarray) -> tuple[list[list[In
     (n,)."""
     inside = threshold_width(columns, top)
     breaks, crest = breakpoints(columns, top)
+    # at the top a curve is but cut, or saturates
     rows = [
-        [Interval(i, low, high) for low, high in zip(points[:-1], points[1:], strict=True) if high - low > 2 * inside[i]]
+        [
+            Interval(i, low, high, inner_high=high > top[i] - 2 * inside[i])
+            for low, high in zip(points[:-1], points[1:], strict=True)
+            if high - low > 2 * inside[i]
+        ]
         for i, points in enumerate(breaks)
     ]
     return rows, crest
@@ -108,89 +96,87 @@ def interpolate(
     rtol: np.ndarray,
     intervals: list[Interval],
     strips: np.ndarray,
-    query: PressureQuery | None = None,
+    pressure_goal: np.ndarray | None = None,
     budget: ErrorBudget | None = None,
     ceiling: np.ndarray | None = None,
 ) -> list[list[Piece]]:
     """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work.
 
-    ``query``: nothing counts but where the pressure passes a given one. ``budget``: how much the pressures of an interval count,
-    those above the ``ceiling`` (Pa, per column) not at all.
+    ``pressure_goal`` (per column): nothing counts but the pressure, to that error, Pa. ``budget``: how much the pressures of an
+    interval count, those above the ``ceiling`` (Pa, per column) not at all.
     """
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
-    if query is None:
-        intervals = with_endpoint_regularity(columns, intervals)
-    for k in range(_ROUNDS):
-        if not intervals:
-            break
-        limit = CURVE_LIMIT if k + 1 < _ROUNDS else -1
-        intervals = _round(columns, rtol, intervals, pieces, strips, query, budget, ceiling, limit)
+    batches = [Batch(columns, rtol, intervals)] if intervals else []
+    while batches:
+        sample(batches, strips)
+        going, left = [], []
+        for batch in batches:
+            if batch.n > FIRST:
+                left.append(_converged(batch, pieces, strips, pressure_goal))
+                continue
+            if budget is not None:
+                batch.weigh(budget, ceiling)
+            going.append(batch)
+        splits, parts = _isolated_regimes(columns, left, strips), []
+        for batch, _, hopeless in left:
+            keep = []
+            for k, interval in enumerate(batch.intervals):
+                if interval in splits:
+                    parts += interval.split(splits[interval], soft=False)
+                elif hopeless[k] or batch.n >= _LAST:
+                    parts += batch.halves(k)
+                else:
+                    keep.append(k)
+            going += [batch.take(keep, batch.missed[keep])] if keep else []
+        batches = going + ([Batch(columns, rtol, parts)] if parts else [])
     return pieces
 
 
-def _round(columns: LevelBatch, rtol, intervals: list[Interval], pieces, strips, query, budget, ceiling, limit) -> list[Interval]:
-    """Interpolate each interval on doubled nodes; append what converges to ``pieces``, return the parts of what does not. Columns
-    with more ``strips`` than the ``limit`` are taken as they are, with the spread of their values as error."""
-    batch = Batch(columns, rtol, intervals, strips)
-    batch.sample(_FIRST)
-    if budget is not None:
-        batch.weigh(budget, ceiling)
-    parts: list[Interval] = []
-    n, before = _FIRST, np.inf
-    while batch.intervals and n < _LAST:
-        n *= 2
-        batch.sample(n)
-        c, floors = batch.coefficients, batch.floors
-        goal = batch.accuracy[:, None] * (np.abs(batch.values).min(axis=1) + floors)
-        rounding = _rounding(columns, batch, n, c)
-        error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1), rounding)
-        # where next to nothing changes there is little to miss, whatever nobody marked there
-        spread = np.ptp(batch.values, axis=1)
-        error = np.minimum(error, 2 * spread)
-        if query is not None:
-            goal = np.full_like(goal, np.inf)
-            goal[:, 0] = query.goals(batch.column, batch.values[:, :, 0])
-        elif columns.asked.frictional:
-            goal[:, 0] = _pressure_goal(batch.values, goal)
-        # what the means leave of it
-        goal = np.maximum(goal - batch.errors.max(axis=1), _INTERPOLATION * goal)
-        done = (error <= goal).all(axis=1)
-        done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in batch.intervals]
-        ended = ~done & (strips[batch.column] > limit)
-        if ended.any():
-            V = columns.V[batch.column[ended]]
-            columns.work.limit_reached(V, columns.level.l, "the curve over penetration did not converge")
-            error[ended], done = np.maximum(error, spread)[ended], done | ended
-        for k in np.flatnonzero(done):
-            i, size = batch.intervals[k], np.abs(batch.values[k])
-            relative = (batch.errors[k] / (size + floors[k])).max(axis=0)
-            series, soft = error[k] + _ROUNDED * rounding[k], (i.inner_low, i.inner_high)
-            errors = Errors(series + batch.errors[k].max(axis=0), series + relative * floors[k], relative)
-            pieces[i.column].append(Piece(i.low, i.high, c[k], errors, *soft, i.endpoint_map))
-        # coefficients fall geometrically: where twice the nodes would not do, halves are better
-        missed = error / goal
-        hopeless = ~done & (missed * np.minimum(missed / before, _PACE) ** 2 > 1).any(axis=1)
-        split = _isolated_regimes(columns, batch, n, ~done, goal, strips) if n > 2 * _FIRST else {}
-        for k, D_break in split.items():
-            parts += batch.without_regularity(k).split(D_break, False)
-        done[list(split)] = True
-        for k in np.flatnonzero(hopeless & ~done):
-            parts += batch.halves(k, missed[k])
-        keep = np.flatnonzero(~done & ~hopeless)
-        batch.keep(keep)
-        before = np.maximum(missed[keep], np.finfo(float).tiny)
-    for k in range(len(batch.intervals)):
-        parts += batch.halves(k, before[k])
-    return parts
+def _converged(batch: Batch, pieces, strips, pressure_goal) -> tuple[Batch, np.ndarray, np.ndarray]:
+    """Append what has converged of a batch to ``pieces``; columns with too many ``strips`` as they are, with the spread of their
+    values as error. Returns the rest, its goals (intervals, q), and for which of them twice the nodes would not do."""
+    columns, c, floors = batch.columns, batch.coefficients, batch.floors
+    goal = batch.accuracy[:, None] * (np.abs(batch.values).min(axis=1) + floors)
+    rounding = _rounding(batch, c)
+    error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1), rounding)
+    # where next to nothing changes there is little to miss, whatever nobody marked there
+    spread = np.ptp(batch.values, axis=1)
+    error = np.minimum(error, 2 * spread)
+    if pressure_goal is not None:
+        goal = np.full_like(goal, np.inf)
+        goal[:, 0] = pressure_goal[batch.column]
+    elif columns.asked.frictional:
+        goal[:, 0] = _pressure_goal(batch.values, goal)
+    # what the means leave of it
+    goal = np.maximum(goal - batch.errors.max(axis=1), _INTERPOLATION * goal)
+    done = (error <= goal).all(axis=1)
+    done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in batch.intervals]
+    ended = ~done & (strips[batch.column] > CURVE_LIMIT)
+    if ended.any():
+        V = columns.V[batch.column[ended]]
+        columns.work.limit_reached(V, columns.level.l, "the curve over penetration did not converge")
+        error[ended], done = np.maximum(error, spread)[ended], done | ended
+    for k in np.flatnonzero(done):
+        i, size = batch.intervals[k], np.abs(batch.values[k])
+        relative = (batch.errors[k] / (size + floors[k])).max(axis=0)
+        series, soft = error[k] + _ROUNDED * rounding[k], (i.inner_low, i.inner_high)
+        errors = Errors(series + batch.errors[k].max(axis=0), series + relative * floors[k], relative)
+        pieces[i.column].append(Piece(i.low, i.high, c[k], errors, *soft, i.endpoint_map))
+    missed = np.maximum(error / goal, np.finfo(float).tiny)
+    # coefficients fall geometrically: where twice the nodes would not do, halves are better
+    hopeless = (missed * np.minimum(missed / batch.missed, _PACE) ** 2 > 1).any(axis=1)
+    left = np.flatnonzero(~done)
+    return batch.take(left, missed[left]), goal[left], hopeless[left]
 
 
-def _rounding(columns: LevelBatch, batch: Batch, n: int, c) -> np.ndarray:
+def _rounding(batch: Batch, c: np.ndarray) -> np.ndarray:
     """What the rounding of D makes of the coefficients ``c``, (intervals, q): next to a break where the means are like square
     roots it tells."""
+    n = batch.n
     ends = np.stack(((-1.0) ** np.arange(n + 1) @ c, c.sum(axis=1)), axis=1)
     values = np.concatenate((ends[:, :1], batch.values, ends[:, 1:]), axis=1)
     D = np.array([i.penetrations(lobatto(n)) for i in batch.intervals])
-    digit = EPS * np.maximum(np.abs(D).max(axis=1), columns.level.h)
+    digit = EPS * np.maximum(np.abs(D).max(axis=1), batch.columns.level.h)
     apart = np.diff(D)
     share = np.minimum(np.divide(digit[:, None], apart, out=np.ones_like(apart), where=apart > 0), 1.0)
     steps = np.abs(np.diff(values, axis=1)) * share[:, :, None]
@@ -204,15 +190,16 @@ def _pressure_goal(values, goal):
     return np.maximum(goal[:, 0], pressure * np.minimum(share, _COARSEST))
 
 
-def _isolated_regimes(columns: LevelBatch, batch: Batch, n: int, which, goal, strips) -> dict[int, float]:
-    """Breaks inside intervals: penetrations at which something appears or vanishes between two nodes, away from the crest."""
+def _isolated_regimes(columns: LevelBatch, left, strips) -> dict[Interval, float]:
+    """Breaks inside intervals of ``left`` (batches, and their goals): penetrations at which something appears or vanishes between
+    two nodes, away from the crest."""
     seen = {}
-    for k in np.flatnonzero(which):
-        i = batch.intervals[k]
-        found = island(i.column, i.penetrations(lobatto(n)[1:-1]), batch.zones[k], goal[k])
-        if found is not None:
-            seen[int(k)] = found
+    for batch, goal, _ in left:
+        for k, i in enumerate(batch.intervals if batch.n > 2 * FIRST else ()):
+            found = island(i.column, i.penetrations(lobatto(batch.n)[1:-1]), batch.zones[k], goal[k])
+            if found is not None:
+                seen[i] = found
     if not seen:
         return {}
-    breaks = dict(zip(seen, locate_vanishing(columns, list(seen.values()), strips).tolist(), strict=True))
-    return {k: D for k, D in breaks.items() if is_inside(D, batch.intervals[k].low, batch.intervals[k].high)}
+    breaks = zip(seen, locate_vanishing(columns, list(seen.values()), strips).tolist(), strict=True)
+    return {i: D for i, D in breaks if is_inside(D, i.low, i.high)}

@@ -10,23 +10,21 @@ from .accuracy import Accuracy
 
 @dataclass(frozen=True)
 class Interval:
-    """An interval of D of one column; ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end; ``smooth_low``,
-    ``smooth_high``: it seems to end smoothly enough there. ``asked``: how accurate it has to be beside what is asked of the
-    column. ``even``: its parameters are shares of it, not graded towards its ends: enough for a look."""
+    """An interval of D of one column; ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end. ``asked``: how
+    accurate it has to be beside what is asked of the column. ``even``: its parameters are shares of it, not graded towards its
+    ends: enough for a look."""
 
     column: int
     low: float
     high: float
     inner_low: bool = False
     inner_high: bool = False
-    smooth_low: bool = False
-    smooth_high: bool = False
     asked: Accuracy = Accuracy()
     even: bool = False
 
     def split(self, D: float, soft: bool) -> list[Interval]:
         """The two parts below and above D."""
-        return [replace(self, high=D, inner_high=soft, smooth_high=False), replace(self, low=D, inner_low=soft, smooth_low=False)]
+        return [replace(self, high=D, inner_high=soft), replace(self, low=D, inner_low=soft)]
 
     @property
     def halves(self) -> list[Interval]:
@@ -38,8 +36,7 @@ class Interval:
         """Of its nodes."""
         if self.even:
             return EndpointMap(1, 1)
-        ends = (self.inner_low or self.smooth_low, self.inner_high or self.smooth_high)
-        return EndpointMap(*(GENTLE if gentle else STEEP for gentle in ends))
+        return EndpointMap(*(GENTLE if inner else STEEP for inner in (self.inner_low, self.inner_high)))
 
     def penetrations(self, t):
         """D at the parameters ``t`` of a piece."""

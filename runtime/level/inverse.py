@@ -14,7 +14,7 @@ import numpy as np
 from ..numerics.rounding import EPS
 from .branches import Branch, loaded, rising
 from .breaks import breaks_on, first_contact, threshold_width
-from .curve import PressureQuery, interpolate
+from .curve import interpolate
 from .effort import CURVE_LIMIT
 from .interval import Interval
 from .means import level_means
@@ -139,7 +139,7 @@ class _Descent:
         self.inside = threshold_width(columns, top)
         bottom, width = first_contact(columns), _NEXT * columns.level.h
         # at the top the curve is but cut, or saturates
-        every = [Interval(i, bottom, D, smooth_high=True) for i, D in enumerate(top)]
+        every = [Interval(i, bottom, D, inner_high=True) for i, D in enumerate(top)]
         self.walks = [
             _Walk(columns.branch == "unloading", *of, width if interval.high > bottom else None, interval)
             for *of, interval in zip(p, np.maximum(_COARSE * self.scale, finest), finest, every, strict=True)
@@ -152,7 +152,7 @@ class _Descent:
         strips = np.zeros(self.p.size, int)
         while now := self._next():
             goal = np.array([walk.goal for walk in self.walks])
-            pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), now, strips, PressureQuery(self.p, goal))
+            pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), now, strips, goal)
             for interval in now:
                 i = interval.column
                 self.walks[i].go_on(interval, pieces[i], bool(strips[i] > CURVE_LIMIT))
@@ -177,8 +177,8 @@ class _Descent:
         parts, rest, inside = [], interval, self.inside[interval.column]
         for D in breaks:
             if D - inside > rest.low:
-                parts.append(replace(rest, high=D - inside, inner_high=False, smooth_high=False))
-            rest = replace(rest, low=min(D + inside, rest.high), inner_low=False, smooth_low=False)
+                parts.append(replace(rest, high=D - inside, inner_high=False))
+            rest = replace(rest, low=min(D + inside, rest.high), inner_low=False)
         return [part for part in (*parts, rest) if part.high > part.low]
 
 

@@ -14,8 +14,7 @@ import numpy as np
 from ..numerics.chebyshev import lobatto
 from .error_budget import ErrorBudget
 from .interval import Interval
-from .means import level_means
-from .sampling import MEAN
+from .sampling import MEAN, means_in
 from .strips import LevelBatch
 
 #: accuracy of the look, and its nodes; narrower intervals, as a share of the column's, have fewer
@@ -68,11 +67,5 @@ def _looks(columns: LevelBatch, intervals: list[Interval], strips) -> list[tuple
     evenly = [replace(i, even=True) for i in intervals]
     nodes = [lobatto(_FEW if i.high - i.low < _NARROW * whole[i.column] else _MANY)[1:-1] for i in evenly]
     places = [i.penetrations(t) for i, t in zip(evenly, nodes, strict=True)]
-    column = np.repeat([i.column for i in evenly], [t.size for t in nodes])
-    means = level_means(columns.at(column, np.concatenate(places)), np.full(column.size, MEAN * _ROUGH))
-    np.add.at(strips, column, means.strips)
-    out, stop = [], 0
-    for i, D in zip(evenly, places, strict=True):
-        start, stop = stop, stop + D.size
-        out.append((i, D, means.values[start:stop], means.errors[start:stop, 0]))
-    return out
+    means = means_in(columns, evenly, places, np.full(len(evenly), MEAN * _ROUGH), strips)
+    return [(i, D, m.values, m.errors[:, 0]) for i, D, m in zip(evenly, places, means, strict=True)]

@@ -1,30 +1,59 @@
-"""Means of a level over intervals of penetration, on nested nodes that are doubled together."""
+"""Means of a level over intervals of penetration, on nested nodes that are doubled."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..numerics.chebyshev import flat_ended, lobatto
 from ..numerics.quadrature import interleaved
+from .averages import Averages
 from .error_budget import ErrorBudget
 from .interval import Interval
 from .means import level_means
 from .strips import LevelBatch
+from .zones import Zones
 
 #: share of the error allowed that each mean may have
 MEAN = 0.4
+#: nodes of an interval at first, less one
+FIRST = 6
 
 
+def means_in(columns: LevelBatch, intervals: list[Interval], D: list[np.ndarray], rtol, strips) -> list[Averages]:
+    """Means at penetrations ``D`` in each of the intervals, to the ``rtol`` (intervals,) of each; ``strips`` (per column) counts
+    the work."""
+    sizes, column = [d.size for d in D], np.array([i.column for i in intervals], int)
+    number = np.repeat(np.arange(len(D)), sizes)
+    means = level_means(_within(columns, intervals, number, np.concatenate(D)), np.asarray(rtol)[number])
+    np.add.at(strips, column[number], means.strips)
+    ends = np.cumsum([0, *sizes])
+    return [
+        Averages(means.values[low:high], means.errors[low:high], means.strips[low:high], means.zones[low:high])
+        for low, high in zip(ends[:-1], ends[1:], strict=True)
+    ]
+
+
+def _within(columns: LevelBatch, intervals: list[Interval], number: np.ndarray, D: np.ndarray) -> LevelBatch:
+    """The columns of the intervals ``number`` (m,) at the penetrations ``D`` (m,), as accurate as is asked of these."""
+    columns = columns.at(np.array([i.column for i in intervals], int)[number], D)
+    return replace(columns, asked=columns.asked.within([i.asked for i in intervals], number))
+
+
+@dataclass
 class Batch:
-    """Intervals that are sampled together on nested nodes: means and errors (intervals, nodes, q), and the zones met at each."""
+    """Intervals on the same interior nodes of ``lobatto(n)``: means and errors there, (intervals, nodes, q), and the zones met at
+    each; ``missed`` (intervals, q): error over goal of every quantity, on these nodes or on half as many."""
 
-    def __init__(self, columns: LevelBatch, rtol, intervals: list[Interval], strips):
-        self.columns, self.rtol, self.strips = columns, rtol, strips
-        self.intervals = intervals
-        self.values = self.errors = None
-        self.zones: list[list] = [[] for _ in intervals]
+    columns: LevelBatch
+    rtol: np.ndarray
+    intervals: list[Interval]
+    n: int = 0
+    values: np.ndarray | None = None
+    errors: np.ndarray | None = None
+    zones: list[list[Zones]] | None = None
+    missed: np.ndarray | float = np.inf
 
     @property
     def column(self) -> np.ndarray:
@@ -38,16 +67,12 @@ class Batch:
     @property
     def floors(self) -> np.ndarray:
         """``LevelBatch.floors`` of the columns of the intervals, (intervals, q)."""
-        return self._at(np.arange(len(self.intervals)), self.column).floors
-
-    def _at(self, interval: np.ndarray, D: np.ndarray) -> LevelBatch:
-        columns = self.columns.at(self.column[interval], D)
-        return replace(columns, asked=columns.asked.within([i.asked for i in self.intervals], interval))
+        return _within(self.columns, self.intervals, np.arange(len(self.intervals)), self.column).floors
 
     @property
     def coefficients(self) -> np.ndarray:
         """Of the interpolants through the values, (intervals, nodes, q)."""
-        return flat_ended(self.values.shape[1] + 1) @ self.values
+        return flat_ended(self.n) @ self.values
 
     def weigh(self, budget: ErrorBudget, ceiling: np.ndarray | None) -> None:
         """Let intervals be as coarse as what is asked of their pressures allows."""
@@ -62,42 +87,34 @@ class Batch:
             for i, *of in ranges
         ]
 
-    def sample(self, n: int) -> None:
-        """Go on to the interior nodes of ``lobatto(n)``, of which every other one is known, unless they are the first."""
-        first = self.values is None
-        nodes = lobatto(n)[1:-1]
-        t = nodes if first else nodes[::2]
-        D = np.concatenate([i.penetrations(t) for i in self.intervals])
-        rows, number = np.repeat(self.column, t.size), np.repeat(np.arange(len(self.intervals)), t.size)
-        means = level_means(
-            self._at(number, D), MEAN * np.repeat(self.accuracy * [i.asked.means for i in self.intervals], t.size)
-        )
-        np.add.at(self.strips, rows, means.strips)
-        shape = (len(self.intervals), t.size, -1)
-        values, errors = means.values.reshape(shape), means.errors.reshape(shape)
-        zones = [means.zones[i : i + t.size] for i in range(0, rows.size, t.size)]
-        if first:
-            self.values, self.errors, self.zones = values, errors, zones
-            return
-        self.values, self.errors = interleaved(values, self.values), interleaved(errors, self.errors)
-        self.zones = [_alternating(old, new) for old, new in zip(self.zones, zones, strict=True)]
+    def halves(self, k: int) -> list[Interval]:
+        """Interval ``k`` in two."""
+        return replace(self.intervals[k], asked=self.intervals[k].asked.after(float(self.missed[k].max()))).halves
 
-    def halves(self, k: int, missed: np.ndarray) -> list[Interval]:
-        """Interval ``k``, which ``missed`` what is asked of its quantities by these factors (q,), in two."""
-        interval = self.without_regularity(k)
-        return replace(interval, asked=interval.asked.after(float(missed.max()))).halves
-
-    def without_regularity(self, k: int) -> Interval:
-        """Interval ``k``; as its nodes are not enough, what only seemed to end gently is no longer taken to."""
-        return replace(self.intervals[k], smooth_low=False, smooth_high=False)
-
-    def keep(self, index) -> None:
-        """Go on with the intervals ``index`` alone."""
-        self.intervals, self.zones = [self.intervals[i] for i in index], [self.zones[i] for i in index]
-        self.values, self.errors = self.values[index], self.errors[index]
+    def take(self, index: np.ndarray, missed: np.ndarray) -> Batch:
+        """The intervals ``index``, which ``missed`` their goals by these factors (k, q)."""
+        some, zones = [self.intervals[i] for i in index], [self.zones[i] for i in index]
+        return replace(self, intervals=some, values=self.values[index], errors=self.errors[index], zones=zones, missed=missed)
 
 
-def _alternating(old, fresh):
-    out = old + fresh
-    out[0::2], out[1::2] = fresh, old
+def sample(batches: list[Batch], strips: np.ndarray) -> None:
+    """Go on with every batch to twice its nodes, of which every other one is known, or to the first, all at once."""
+    nodes = [lobatto(2 * batch.n)[1:-1:2] if batch.n else lobatto(FIRST)[1:-1] for batch in batches]
+    intervals = [i for batch in batches for i in batch.intervals]
+    D = [i.penetrations(t) for batch, t in zip(batches, nodes, strict=True) for i in batch.intervals]
+    rtol = np.concatenate([batch.accuracy * [i.asked.means for i in batch.intervals] for batch in batches])
+    found = iter(means_in(batches[0].columns, intervals, D, MEAN * rtol, strips))
+    for batch in batches:
+        new = [next(found) for _ in batch.intervals]
+        values, errors = (np.array([getattr(means, name) for means in new]) for name in ("values", "errors"))
+        zones = [means.zones for means in new]
+        if batch.n:
+            values, errors = interleaved(values, batch.values), interleaved(errors, batch.errors)
+            zones = [_alternating(*pair) for pair in zip(zones, batch.zones, strict=True)]
+        batch.n, batch.values, batch.errors, batch.zones = 2 * batch.n or FIRST, values, errors, zones
+
+
+def _alternating(outer: list[Zones], inner: list[Zones]) -> list[Zones]:
+    out = outer + inner
+    out[0::2], out[1::2] = outer, inner
     return out
