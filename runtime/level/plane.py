@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 TWO_PI = 2 * np.pi
 #: Newton: iterations at most; a step of the edges this small leaves an error of its square; the largest step taken whole
 _ITERATIONS, _SMALL, _LONGEST = 16, 1e-8, 0.5
-#: differences that stand for derivatives: of A or E, a share of it, the root of the rounding; of edges, further, as the
-#: determinant of zones of 1e-8 radians keeps 8 digits: Newton's method then gains 5 digits a step. A zone's are a share of it
-_STEP, _FAR, _SHARE, _LEAST = 1.5e-8, 1e-5, 1e-2, 1e-13
+#: differences that stand for derivatives, of edges and relative ones of A or E: far enough for the determinant of zones of 1e-8
+#: radians, which keeps 8 digits, so that Newton's method gains 5 digits a step; a zone's are a share of it, and at least so much
+_FAR, _SHARE, _LEAST = 1e-5, 1e-2, 1e-13
 #: distances of the points of a parabola: its vertex is off by the fourth power of them, and each is as good a start as the last
 _CLOSER = (1.0, 1 / 16, 1 / 256)
 #: a zone shrinks at most to this share in a step: fast modes make zones of 1e-8 radians whose edges move by far more than that;
@@ -141,80 +141,46 @@ def _moved(edges: np.ndarray, step: np.ndarray) -> np.ndarray:
 
 
 class _System:
-    """Boundary equations of a sequence and the equation of an event, with their derivatives by edges and A or E."""
+    """Boundary equations of a sequence and the equation of an event."""
 
     def __init__(self, columns: LevelBatch, boundary: Boundary, start: Points):
         self.columns, self.boundary, self.velocity = columns, boundary, start.velocity
         self.stretch = start.pressure / columns.material.K
-        foundation = foundation_of(columns.material)
+        self.foundation = foundation_of(columns.material)
         # contact without adhesion is contact with saturated adhesion of no strength
         equations = "ac" if boundary.sequence == "cf" else boundary.sequence
-        self.residual, self.jacobian = (getattr(foundation.kernel, f"{name}_{equations}") for name in ("residual", "jacobian"))
-        self.event = None if boundary.event == "fold" else getattr(foundation, boundary.event)
+        self.residual = getattr(self.foundation.kernel, f"residual_{equations}")
+        self.jacobian = getattr(self.foundation.kernel, f"jacobian_{equations}")
 
     def step(self, index, edges, A, E, unknown: str) -> np.ndarray:
         """Newton step (k + 1, n) of the first edge, of the zones behind it, and of the unknown of the plane."""
         k, n = edges.shape
         own = A if unknown == "A" else E
-        length = np.append(_lengths(edges), _STEP * np.maximum(np.abs(own), A)[None], axis=0)
+        zones = np.clip(_SHARE * np.diff(edges, axis=0), _LEAST, _FAR)
+        length = np.concatenate((np.full((1, n), _FAR), zones, _FAR * np.maximum(np.abs(own), A)[None]))
         # the point itself, then one copy for each unknown that is moved a little: all edges, those behind a zone, the plane's
         moved = np.concatenate((edges, own[None]))[:, None].repeat(k + 2, axis=1)
         for i in range(k):
             moved[i:k, i + 1] += length[i]
         moved[k, k + 1] += length[k]
-        flat = moved.reshape(k + 1, -1)
-        other = np.tile(E if unknown == "A" else A, k + 2)
-        A_, E_ = (flat[k], other) if unknown == "A" else (other, flat[k])
-        V = np.tile(self.velocity[index], k + 2)
-        groups = self.columns.groups(V, A_, E_ + 2 * A_)
-        # nothing but the unknown of the plane has to be moved for the boundary equations
-        two = np.append(np.arange(n), np.arange(n) + (k + 1) * n)
-        these = self.columns.groups(V[two], A_[two], (E_ + 2 * A_)[two])
-        values = np.array(self.residual(*flat[:k, two], *these)).reshape(k, 2, n)
-        if self.event is None:
-            slopes = self._matrix(flat[:k], groups)
-            last = _determinant(slopes, n)
-            slopes = slopes[:n]
-        else:
-            slopes = self._matrix(edges, self.columns.groups(V[:n], A, E + 2 * A))
-            peak = self.boundary.event == "peak"
-            pressure = np.tile(self.stretch[index], k + 2) / A_
-            last = self.event(self.boundary.sequence, flat[:k], groups, pressure) if peak else self.event(flat[:k], groups)
-        last = last.reshape(k + 2, n)
-        matrix = np.empty((n, k + 1, k + 1))
-        matrix[:, :k, :k], matrix[:, :k, k] = slopes, ((values[:, 1] - values[:, 0]) / length[k]).T
-        matrix[:, k] = ((last[1:] - last[0]) / length).T
-        value = np.append(values[:, 0], last[:1], axis=0).T
+        moved, other = moved.reshape(k + 1, -1), np.tile(E if unknown == "A" else A, k + 2)
+        A_, E_ = (moved[k], other) if unknown == "A" else (other, moved[k])
+        groups = self.columns.groups(np.tile(self.velocity[index], k + 2), A_, E_ + 2 * A_)
+        values = np.array((*self.residual(*moved[:k], *groups), self._event(moved[:k], groups, A_, index)))
+        values = values.reshape(k + 1, k + 2, n)
+        value, matrix = values[:, 0].T, ((values[:, 1:] - values[:, :1]) / length).transpose(2, 0, 1)
         scale = np.abs(matrix).max(axis=2, keepdims=True)
-        solvable = np.isfinite(matrix).all(axis=(1, 2)) & np.isfinite(value).all(axis=1) & (scale > 0).all(axis=(1, 2))
-        step = np.full((n, k + 1), np.nan)
-        rows = np.flatnonzero(solvable)
-        step[rows] = -_solved(matrix[rows] / scale[rows], value[rows] / scale[rows, :, 0])
+        matrix, value = matrix / scale, value[:, :, None] / scale
+        step, rows = np.full((n, k + 1), np.nan), np.flatnonzero(np.isfinite(1 / np.linalg.det(matrix)))
+        step[rows] = -np.linalg.solve(matrix[rows], value[rows])[:, :, 0]
         return step.T
 
-    def _matrix(self, edges, groups) -> np.ndarray:
-        """Derivatives of the boundary equations by the first edge and the zones behind it, (n, k, k)."""
-        rows = self.jacobian(*edges, *groups)
-        by_edges = np.array([[np.broadcast_to(v, edges.shape[1]) for v in row] for row in rows]).transpose(2, 0, 1)
-        return np.cumsum(by_edges[:, :, ::-1], axis=2)[:, :, ::-1]
-
-
-def _lengths(edges: np.ndarray) -> np.ndarray:
-    """How far the first of the ``edges`` (k, n) and the zones behind it are moved: a zone by a share of it at most."""
-    widths = np.diff(edges, axis=0)
-    return np.append(np.full_like(edges[:1], _FAR), np.clip(_SHARE * widths, _LEAST, _FAR), axis=0)
-
-
-def _determinant(matrices: np.ndarray, n: int) -> np.ndarray:
-    """Determinants of matrices (m n, k, k), their rows and columns in the scales of the first n."""
-    rows = np.abs(matrices[:n]).max(axis=2, keepdims=True)
-    columns = np.abs(matrices[:n] / rows).max(axis=1, keepdims=True)
-    scale = rows * columns
-    return np.linalg.det(matrices / np.tile(scale, (matrices.shape[0] // n, 1, 1)))
-
-
-def _solved(matrix, value):
-    """Solutions of small linear systems (n, k, k) and (n, k); no numbers where one is singular."""
-    regular, out = np.abs(np.linalg.det(matrix)) > 0, np.full(value.shape, np.nan)
-    out[regular] = np.linalg.solve(matrix[regular], value[regular, :, None])[:, :, 0]
-    return out
+    def _event(self, edges, groups, A, index) -> np.ndarray:
+        """What vanishes at the event, for the copies of the points ``index``."""
+        if self.boundary.event == "fold":
+            rows = self.jacobian(*edges, *groups)
+            return np.linalg.det(np.array([[np.broadcast_to(v, A.shape) for v in row] for row in rows]).transpose(2, 0, 1))
+        if self.boundary.event == "peak":
+            pressure = np.tile(self.stretch[index], A.size // index.size) / A
+            return self.foundation.peak(self.boundary.sequence, edges, groups, pressure)
+        return getattr(self.foundation, self.boundary.event)(edges, groups)
