@@ -7,12 +7,11 @@ and each part integrated by itself, on as many nodes as it needs.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..numerics.quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
+from ..numerics.quadrature import interior_nodes, interleaved, mapped_weights, sum_errors
 from ..orbit.contact import Contact
 from .parts import Parts, around, between
 from .strips import SolvedStrips
@@ -28,28 +27,8 @@ _SAFE = 2.0
 _CANCELLED = 0.3
 #: share of a pressure by which two that are next to one another are told apart
 _TRIFLE = 1e-9
-#: a part of its contact below which few nodes are tried first
-_NARROW = 0.03
-
-
-@dataclass(frozen=True)
-class _Nodes:
-    """How many nodes a part gets at first and at last, and where.
-
-    ``along``: where parameter t in [0, 1] lies in the part, as a share of it; ``steepness``: how fast that rises, over
-    ``mapped``: by that much more counts what is summed up there.
-    """
-
-    first: int
-    last: int
-    along: Callable[[np.ndarray], np.ndarray]
-    steepness: Callable[[np.ndarray], np.ndarray]
-
-
-_FEW = _Nodes(8, 8, mapped, np.ones_like)
-#: flat like t^4 at both ends, as ``chebyshev.graded`` is: a law that begins at its break like a root, or nearly like ``p log p``,
-#: is smooth in t
-_MANY = _Nodes(16, 128, lambda t: t**4 * (35 - t * (84 - t * (70 - 20 * t))), lambda t: 70 / 3 * (t * (1 - t)) ** 2)
+#: how many nodes a part gets at first and at last
+_FIRST, _LAST = 16, 128
 
 
 @dataclass(frozen=True)
@@ -140,31 +119,23 @@ class LowerLevelLaws:
         return table.jumps[g, j] * np.minimum(reach, down[rows] - up[rows])
 
     def _integrate(self, contact: Contact, group, parts: Parts, total):
-        """Add the integrals of the law over ``parts`` of the contacts, smooth inside, with their errors."""
-        narrow = parts.width < _NARROW * (contact.a - contact.b)[parts.rows]
-        self._refine(contact, group, parts.take(~narrow), total)
-        # next to all the others these count for little
-        left = [self._attempt(contact, group, some, total, _FEW) for some in parts.take(narrow).chunks(_CHUNK)]
-        self._refine(contact, group, Parts.joined(left), total)
-
-    def _refine(self, contact: Contact, group, parts: Parts, total):
-        """``_integrate``, what does not converge by halves."""
+        """Add the integrals of the law over ``parts`` of the contacts, smooth inside, with their errors; what does not converge
+        by halves."""
         for k in range(_HALVINGS + 1):
             if not parts.size:
                 return
-            last = k == _HALVINGS
-            left = [self._attempt(contact, group, some, total, _MANY, last) for some in parts.chunks(_CHUNK)]
+            left = [self._attempt(contact, group, some, total, k == _HALVINGS) for some in parts.chunks(_CHUNK)]
             parts = Parts.joined(left).halves()
 
-    def _attempt(self, contact: Contact, group, parts: Parts, total, nodes: _Nodes, last: bool = False) -> Parts:
-        """Integrate on doubled ``nodes`` what converges; returns what does not (or takes it as it is)."""
+    def _attempt(self, contact: Contact, group, parts: Parts, total, last: bool) -> Parts:
+        """Integrate on doubled nodes what converges; returns what does not (or takes it as it is)."""
         frictions = self.table.frictions
-        values, n = None, nodes.first
+        values, n = None, _FIRST
         while parts.size:
             t = interior_nodes(n)
-            steepness = nodes.steepness(t)
+            steepness = _steepness(t)
             w = steepness * mapped_weights(n)
-            fresh = self._at_nodes(contact, group, parts, t if values is None else t[0::2], nodes)
+            fresh = self._at_nodes(contact, group, parts, t if values is None else t[0::2])
             values = fresh if values is None else interleaved(fresh, values)
             p, law, errors = values[0], values[1:-2], values[-2:]
             width = parts.times * parts.width
@@ -181,27 +152,19 @@ class LowerLevelLaws:
             own = _CANCELLED * width * _summed(w, self._own(p, np.abs(friction).sum(axis=0), errors))
             # there is no use in integrating better than the law is known
             done = ((miss <= allowed) | (miss <= own)).all(axis=0)
-            done |= (_by_strip(miss, strip) <= _by_strip(allowed, strip)).all(axis=0) | (last & (n == nodes.last))
+            done |= (_by_strip(miss, strip) <= _by_strip(allowed, strip)).all(axis=0) | (last & (n == _LAST))
             np.add.at(total, parts.rows[done], np.concatenate((best, (miss.sum(axis=0) + own)[None]))[:, done].T)
             parts, values = parts.take(~done), values[:, :, ~done]
-            if n == nodes.last:
+            if n == _LAST:
                 break
             n *= 2
         return parts
 
-    def _at_nodes(self, contact: Contact, group, parts: Parts, t, nodes: _Nodes):
+    def _at_nodes(self, contact: Contact, group, parts: Parts, t):
         """Pressure, what the law says and its errors of friction and pressure at the parameters ``t``, (q + 2, nodes, parts)."""
-        out = np.empty((self.scales.size + 2, t.size, parts.size))
-        half, uneven = t.size // 2, parts.uneven
-        # an even part is known by its first half
-        for some, place in ((slice(0, uneven), t), (slice(uneven, None), t[: t.size - half])):
-            rows, low, width = parts.rows[some], parts.low[some], parts.width[some]
-            if rows.size:
-                p = contact.pressure(rows, low + width * nodes.along(place)[:, None])
-                values, errors = self.table(group[rows], parts.interval[some], p)
-                out[:, : place.size, some] = np.concatenate((p[None], values, errors))
-        out[:, t.size - half :, uneven:] = out[:, :half, uneven:][:, ::-1]
-        return out
+        p = contact.pressure(parts.rows, parts.low + parts.width * _along(t)[:, None])
+        values, errors = self.table(group[parts.rows], parts.interval, p)
+        return np.concatenate((p[None], values, errors))
 
     @staticmethod
     def _own(p, friction, errors):
@@ -210,6 +173,17 @@ class LowerLevelLaws:
         share = np.divide(np.minimum(errors[1, 1:], rise), rise, out=np.zeros_like(rise), where=rise > 0)
         between = share * np.abs(np.diff(friction, axis=0))
         return errors[0] + np.concatenate((between[:1], between))
+
+
+def _along(t):
+    """Where parameter t in [0, 1] lies in a part, as a share of it: flat like t^4 at both ends, so that a law that begins at its
+    break like a root, or nearly like ``p log p``, is smooth in t."""
+    return t**4 * (35 - t * (84 - t * (70 - 20 * t)))
+
+
+def _steepness(t):
+    """How fast that rises, over ``quadrature.mapped``: by that much more counts what is summed up there."""
+    return 70 / 3 * (t * (1 - t)) ** 2
 
 
 def _extremes(contact: Contact):

@@ -19,8 +19,8 @@ class Parts:
     """Parts [low, high] of the contacts ``rows`` in phase, where the pressure lies between the breaks ``interval`` and the next
     ones; all (m,).
 
-    ``times``: how often each counts, since in saturated contact the pressure falls as it rises. ``even``: it is its own
-    mirror image about its middle; such ones stand last. ``share``: of the error allowed to its contact.
+    ``times``: how often each counts, since in saturated contact the pressure falls as it rises. ``share``: of the error allowed
+    to its contact.
     """
 
     rows: np.ndarray
@@ -28,14 +28,13 @@ class Parts:
     low: np.ndarray
     high: np.ndarray
     times: np.ndarray
-    even: np.ndarray
     share: np.ndarray
 
     @classmethod
     def joined(cls, some: list[Parts]) -> Parts:
-        """All of them, in order."""
+        """All of them, those of a contact together."""
         every = cls(*(np.concatenate([getattr(parts, f.name) for parts in some]) for f in fields(cls)))
-        return every.take(np.lexsort((every.rows, every.even)))
+        return every.take(np.argsort(every.rows, kind="stable"))
 
     def take(self, index) -> Parts:
         return Parts(*(getattr(self, f.name)[index] for f in fields(self)))
@@ -43,11 +42,6 @@ class Parts:
     @property
     def size(self) -> int:
         return self.rows.size
-
-    @property
-    def uneven(self) -> int:
-        """How many are not even: those stand first."""
-        return self.size - np.count_nonzero(self.even)
 
     @property
     def width(self) -> np.ndarray:
@@ -58,19 +52,15 @@ class Parts:
         return replace(self, share=1 / np.bincount(self.rows)[self.rows])
 
     def halves(self) -> Parts:
-        """Both halves of each; of those that are even the first counts twice."""
-        middle, even = 0.5 * (self.low + self.high), self.even
-        share = np.where(even, self.share, 0.5 * self.share)
-        times = np.where(even, 2 * self.times, self.times)
-        first = replace(self, high=middle, times=times, even=np.zeros_like(even), share=share)
-        return Parts.joined([first, replace(self, low=middle, share=share).take(~even)])
+        """Both halves of each."""
+        middle, share = 0.5 * (self.low + self.high), 0.5 * self.share
+        return Parts.joined([replace(self, high=middle, share=share), replace(self, low=middle, share=share)])
 
     def chunks(self, size: int) -> Iterator[Parts]:
         """About ``size`` at a time, those of a contact together."""
-        order = np.argsort(self.rows, kind="stable")
-        rows = self.rows[order]
-        for some in np.split(order, np.unique(np.searchsorted(rows, rows[size::size]))):
-            yield self.take(np.sort(some))
+        ends = np.searchsorted(self.rows, self.rows[size::size])
+        for some in np.split(np.arange(self.size), np.unique(ends)):
+            yield self.take(some)
 
 
 def between(contact, interval: int, which: np.ndarray, up, down, next_up, next_down) -> list[Parts]:
@@ -84,18 +74,18 @@ def between(contact, interval: int, which: np.ndarray, up, down, next_up, next_d
 
 def around(contact, interval: int, which: np.ndarray, up, down, over, under) -> list[Parts]:
     """About the peaks of the contacts ``which``, that lie ``over`` the last break and ``under`` the next one, Pa: both sides by
-    themselves where it is close."""
-    full, close = contact.full, under < _CLOSE * over
-    inside = which & (down > up)
+    themselves where it is close, or where one is the mirror image of the other."""
+    full, inside = contact.full, which & (down > up)
+    apart = full | (under < _CLOSE * over)
     return [
-        _parts(inside & ~close, interval, up, down, even=full),
+        _parts(inside & ~apart, interval, up, down),
         # a pressure that falls all along, or rises, has its peak at an end
-        _parts(inside & close & (contact.top > up), interval, up, contact.top, times=1 + full),
-        _parts(inside & close & ~full & (down > contact.top), interval, contact.top, down),
+        _parts(inside & apart & (contact.top > up), interval, up, contact.top, times=1 + full),
+        _parts(inside & apart & ~full & (down > contact.top), interval, contact.top, down),
     ]
 
 
-def _parts(which, interval, low, high, times=None, even=None):
+def _parts(which, interval, low, high, times=None):
     rows = np.flatnonzero(which)
     return Parts(
         rows,
@@ -103,6 +93,5 @@ def _parts(which, interval, low, high, times=None, even=None):
         low[rows],
         high[rows],
         np.ones(rows.size) if times is None else times[rows].astype(float),
-        np.zeros(rows.size, bool) if even is None else even[rows],
         np.ones(rows.size),
     )
