@@ -11,15 +11,13 @@ import numpy as np
 
 from ...numerics.rounding import EPS
 from .coordinates import Order
-from .extremal import certified, lowest_state
+from .extremal import AGREE, certified, lowest_state
 from .fields import state_at
 from .march import TWO_PI, Period, march
 from .problem import ModeStrips
 from .propagation import propagation, solve_order
 
 _STEPS = 80
-#: agreement of the edges with a march of the period
-_AGREE = 1e-7
 #: slow modes leave their displacements less certain than the edges; the state serves as a bound and as a start for ``polish``
 _COARSEST = 1e-7
 
@@ -78,7 +76,7 @@ def engaged(kernel, strips: ModeStrips, start, near: Period | None = None):
         turn = march(kernel, part.take(k), yes[k], (z - lowered)[:, k], start[k])
         spent[k] += turn.evaluations
         apart = np.abs(np.mod(engaged_edges(turn) - edges[:, k] + np.pi, TWO_PI) - np.pi).max(axis=0)
-        good = (apart <= _AGREE) & (turn.contacts == 1) & turn.never_free
+        good = (apart <= AGREE) & (turn.contacts == 1) & turn.never_free
         known[k], within[k] = good, good & (part is strips)
         k = k[~good]
         if not k.size or strips.bare:

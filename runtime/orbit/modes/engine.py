@@ -15,20 +15,15 @@ import numpy as np
 from ...numerics.rounding import EPS
 from ..regimes import CODE, ZONES
 from ..solved import Solved
-from .certificate import enclosed, marched, stable
 from .engaged import engaged
-from .extremal import ROWS, extremal, highest_state, in_order, lowest_state
+from .extremal import ENGAGED, FREE, ORBIT, ROWS, extremal, highest_state, lowest_state
 from .march import TWO_PI
-from .order import ENGAGED, FREE, NARROW, ORBIT, UNRESOLVED, approach
-from .polish import arguments, polish
+from .polish import arguments
 from .problem import ModeStrips
 
 #: strips solved at a time: what a call of NumPy costs is shared by more of them than 2,048 (2 to 3 times faster with two times),
 #: and memory stays bounded (with 15 times 30 MB a matrix)
 CHUNK = 16384
-#: strips in chains of states at a time: 32 states each
-_CHAINED = 512
-_CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
 #: distances in roundings of D at which a strip on the end of a branch is settled
 _SHIFTS = (8, 64, 512)
 
@@ -96,7 +91,8 @@ class _Batch:
     def _first(self, index, z, engaged, ask: bool):
         """Strips ``index`` from the states ``z`` beyond all orbits; ``ask``: the engaged orbit is not known yet."""
         s = self.strips.take(index)
-        found = extremal(self.kernel, s, self.start[index], z, engaged, self.unloading)
+        found = extremal(self.kernel, s, self.start[index], z, engaged, self.unloading, not ask)
+        self.solved.code[index] = CODE["acaf"]
         self.solved.evaluations[index] += found.evaluations
         self._free(index[found.kind == FREE])
         orbit = found.kind == ORBIT
@@ -113,9 +109,6 @@ class _Batch:
             rest = np.flatnonzero(good & ~self.solved.certified[index[held]])
             if rest.size and self.unloading:
                 self._first(index[held[rest]], z[:, rest], np.ones(rest.size, bool), False)
-        left = np.flatnonzero((found.kind == UNRESOLVED) | ((found.kind == ENGAGED) & (not ask)))
-        for few in np.split(left, range(_CHAINED, left.size, _CHAINED)) if left.size else ():
-            self._thorough(index[few], found.z[:, few], found.engaged[few], found.beyond[:, few])
 
     def _always_engaged(self, index, sequence, near=None):
         """Solve the always engaged orbits of the strips ``index``; write those that are orbits of the strip.
@@ -131,17 +124,6 @@ class _Batch:
         self.solved.code[index] = CODE[sequence]
         self._write(index[k], "ac", sequence, s.take(k).raised(), edges[:, k])
         return z, known
-
-    def _thorough(self, index, z, engaged, beyond):
-        """The same by windows between two states, closed in on the first orbit however slowly."""
-        s, start = self.strips.take(index), self.start[index]
-        found = approach(self.kernel, s, z, engaged, start, self.unloading, beyond)
-        self._found(index, found)
-        self._free(index[found.kind == FREE])
-        held = index[found.kind == ENGAGED]
-        closed = (self.full | self.clinging)[held]
-        self._closed(held[closed])
-        self._always_engaged(held[~closed], "ac")
 
     # -- writing results ---------------------------------------------------------------------------------------------
 
@@ -165,53 +147,6 @@ class _Batch:
         out.contact_fraction[index], out.adhesion_fraction[index] = contact, adhesion
         out.certified[index] = True
 
-    def _found(self, index, found):
-        self.solved.evaluations[index] += found.evaluations
-        self.solved.code[index] = CODE["acaf"]
-        snaps = self.strips.snaps[index]
-        contact = ~np.isnan(found.lower[1])
-        orbit = found.kind == ORBIT
-        lower, upper = in_order(found.lower), in_order(found.upper)
-        for sequence, kind, rows in (
-            ("acaf", contact & ~snaps, [0, 1, 2, 3]),
-            ("afc", contact & snaps, [0, 2, 3]),
-            ("af", ~contact, [0, 3]),
-        ):
-            i = np.flatnonzero(orbit & kind)
-            if i.size:
-                low, high = lower[rows][:, i], upper[rows][:, i]
-                self._finish(index[i], sequence, sequence, 0.5 * (low + high), low, high, NARROW)
-
-    def _finish(self, index, equations, sequence, edges, lower, upper, slack):
-        """Polish, certify and write orbits of one sequence of zones."""
-        if not index.size:
-            return
-        s = self.strips.take(index)
-        if equations == "ac":
-            s = s.raised()
-        good = np.all(np.isfinite(edges), axis=0)
-        refined = polish(self.kernel, equations, s, np.where(good, edges, 0.0), *_around(lower, upper, slack))
-        limit = _CONVERGED + _ROUNDINGS * np.minimum(refined.attainable, _COARSEST)
-        allowed = 1e-7 + limit
-        e = refined.edges
-        ok = (
-            good
-            & (refined.correction <= limit)
-            & np.all(np.diff(e, axis=0) >= -64 * EPS, axis=0)
-            & (e[-1] - e[0] <= TWO_PI + 64 * EPS)
-        )
-        ok &= enclosed(e, lower, upper, slack + allowed)
-        i = np.flatnonzero(ok)
-        ok[i] = marched(self.kernel, equations, s.take(i), e[:, i], allowed[i])
-        i = np.flatnonzero(ok)
-        ok[i] = stable(self.kernel, equations, s.take(i), e[:, i])
-        out = self.solved
-        out.evaluations[index] += refined.evaluations
-        out.code[index] = CODE[sequence]
-        out.certified[index] = ok
-        i = np.flatnonzero(ok)
-        self._write(index[i], equations, sequence, s.take(i), e[:, i])
-
     def _write(self, index, equations, sequence, s, e):
         out = self.solved
         out.code[index], out.certified[index] = CODE[sequence], True
@@ -229,8 +164,3 @@ class _Batch:
             out.adhesion_fraction[index] = 1 - contact
         else:
             out.adhesion_fraction[index] = (e[-1] - e[0]) / TWO_PI - contact
-
-
-def _around(lower, upper, slack):
-    """Bounds for edges enclosed by those of two states."""
-    return np.minimum(lower, upper) - slack, np.maximum(lower, upper) + slack

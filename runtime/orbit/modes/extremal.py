@@ -3,7 +3,7 @@
 Marches from states below (``unloading``) or above (``loading``) every orbit move towards the first one. Their edges are a start
 for Newton's method; what that finds is the first orbit if the period map contracts between the bounding state and it
 (``contraction``). While it does not the state is moved closer: with a lower bound of the map's derivative it may go further
-than one period takes it (``order``). What is left after a few rounds goes on with ``order.approach``.
+than one period takes it, and by a chain of states past places where orbits are about to appear (``order``).
 """
 
 from __future__ import annotations
@@ -14,40 +14,46 @@ import numpy as np
 
 from ...numerics.rounding import EPS
 from ..regimes import EDGES
-from .contraction import alike, contracts
+from .contraction import contracts
 from .coordinates import Order
 from .fields import state_at
 from .march import TWO_PI, Period, march
-from .order import ENGAGED, FREE, ORBIT, UNRESOLVED
-from .polish import polish
+from .order import Bound, climb
+from .polish import arguments, polish
 from .problem import ModeStrips
-from .propagation import least_monodromy, propagation, solve_order
 
-#: rounds of bounding states, and the one in which Newton's method starts from them: after one period a bounding state is free
-#: where the orbits are, before that nothing can be proven
-_ROUNDS, _START = 6, 1
+#: the step in which Newton's method starts from the marches: after one period a bounding state is free where the orbits are,
+#: before that nothing can be proven; the one from which on chains are marched; and where a strip is given up
+_START, _CHAINS, _STEPS = 1, 6, 106
+#: strips in chains of states at a time: 32 states each
+_CHAINED = 512
 #: how far Newton's method may take an edge from where it starts, radians: further away other regimes begin
 _FURTHEST = 1.5
 _CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
 #: agreement of the edges with a march of the period
-_AGREE = 1e-7
+AGREE = 1e-7
+#: an orbit between states whose edges are so close, and that is stable, is the first one; between those that are less close it is
+#: so where the map contracts
+_NARROW, _NEAR = 1e-6, 1e-3
+#: least distance of states, in units of the strip's lengths: what rounding leaves of the sign of P(y) - y; where rounding decides
+#: the signs there is no end
+_LEAST, _WIDEST = 1e-12, 1e-5
+#: near a fold the radius of the return map approaches one like the square root of the distance; rounding blurs it
+_STABLE = 1e-6
 #: edges of each sequence, by their rows in the order d, b, a, c
 ROWS = {sequence: tuple("dbac".index(edge) for edge in EDGES[sequence]) for sequence in ("acaf", "afc", "af")}
 SEQUENCES = ("", "acaf", "afc", "af")
+ENGAGED, FREE, ORBIT, UNRESOLVED = 0, 1, 2, -1
 
 
 @dataclass(slots=True)
 class Extremal:
-    """Outcome for N strips: ``kind`` (see ``order``); orbits by ``edges`` (4, N) in the order d, b, a, c, of the regime
-    ``sequence`` (place in ``SEQUENCES``); of strips unresolved the bounding state ``z``, whether it is ``engaged``, and
-    displacements e of an orbit or ``beyond`` all, (n, N); evaluations; the marches that were ``held`` engaged all along."""
+    """Outcome for N strips: ``kind`` (ENGAGED, FREE, ORBIT, UNRESOLVED); orbits by ``edges`` (4, N) in the order d, b, a, c, of
+    the regime ``sequence`` (place in ``SEQUENCES``); evaluations; the marches that were ``held`` engaged all along."""
 
     kind: np.ndarray
     edges: np.ndarray
     sequence: np.ndarray
-    z: np.ndarray
-    engaged: np.ndarray
-    beyond: np.ndarray
     evaluations: np.ndarray
     held: Period
 
@@ -65,124 +71,161 @@ def highest_state(kernel, s: ModeStrips) -> np.ndarray:
     return Order.of(kernel, s).to_z(np.broadcast_to(np.maximum(s.D, 0.0), (s.modes, s.size)))
 
 
-def extremal(kernel, s: ModeStrips, start, z, engaged, rising: bool) -> Extremal:
-    """The first orbit above (``rising``) or below the states ``z`` (n, N) at the phases ``start``."""
-    beyond = np.broadcast_to(np.maximum(s.D, 0.0) if rising else -s.p_0, z.shape).copy()
-    out = Extremal(np.full(s.size, UNRESOLVED), np.full((4, s.size), np.nan), np.zeros(s.size, int), z.copy(), engaged.copy(),
-                   beyond, np.zeros(s.size), Period.blank(s.modes, s.size))  # fmt: skip
-    work = _Rounds(kernel, s, np.array(start, float), out, rising)
-    for number in range(_ROUNDS):
-        if not work.active.size:
+def extremal(kernel, s: ModeStrips, start, z, engaged, rising: bool, released: bool) -> Extremal:
+    """The first orbit above (``rising``) or below the states ``z`` (n, N) at the phases ``start``; ``released``: none is engaged
+    all along."""
+    search = _Search(kernel, s, np.array(start, float), z.copy(), engaged.copy(), rising)
+    for step in range(_STEPS):
+        if not search.active.size:
             break
-        work.round(number)
-    return out
+        search.step(step, rising and not released)
+    return search.out
 
 
-class _Rounds:
-    def __init__(self, kernel, s: ModeStrips, start, out: Extremal, rising: bool):
-        self.kernel, self.s, self.start, self.out, self.rising = kernel, s, start, out, rising
-        self.sign = 1.0 if rising else -1.0
-        self.order = Order.of(kernel, s)
-        self.active = np.arange(s.size)
-        self.found = np.zeros(s.size, bool)
-        self.period, self.low = (Period.blank(s.modes, s.size) for _ in range(2))
-        self.marched = np.zeros(s.size, bool)
+class _Search:
+    def __init__(self, kernel, s: ModeStrips, start, z, engaged, rising: bool):
+        self.kernel, self.rising, self.active = kernel, rising, np.arange(s.size)
+        blank = Period.blank(s.modes, s.size)
+        self.out = Extremal(
+            np.full(s.size, UNRESOLVED), np.full((4, s.size), np.nan), np.zeros(s.size, int), np.zeros(s.size), blank
+        )
+        beyond = np.broadcast_to(np.maximum(s.D, 0.0) if rising else -s.p_0, z.shape).copy()
+        near, self.orbit = (Period.blank(s.modes, s.size) for _ in range(2))
+        if not rising:  # contacts from there are the longest of all
+            self.orbit = march(kernel, s, np.ones(s.size, bool), lowest_state(kernel, s, start), start)
+        self.bound = Bound(s, Order.of(kernel, s), 1.0 if rising else -1.0, start, engaged, z, near, beyond)
+        self.found, self.least = np.zeros(s.size, bool), np.full(s.size, _LEAST)
+        self._march(self.active)
 
-    def round(self, number: int) -> None:
-        """March once from every bounding state; decide what that decides, and move the others."""
-        i, out = self.active, self.out
-        s, order = self.s.take(i), self.order.take(i)
-        near = march(self.kernel, s, out.engaged[i], out.z[:, i], self.start[i])
-        out.evaluations[i] += near.evaluations
+    def _march(self, i) -> None:
+        b = self.bound
+        near = march(self.kernel, b.s.take(i), b.engaged[i], b.z[:, i], b.start[i])
+        self.out.evaluations[i] += near.evaluations
+        b.near.put(i, near)
+
+    def step(self, number: int, ends_held: bool) -> None:
+        """Decide what the marches from the bounding states decide, and move the others."""
+        i, out, b = self.active, self.out, self.bound
+        near, s = b.near.take(i), b.s.take(i)
         # from above: nothing but engaged orbits; from below: to be seen from the engaged orbit
-        held = near.never_free
+        held = near.never_free & (ends_held | (not self.rising))
         lets = near.never_engaged & self.rising & (s.D <= -s.delta_0)
         out.kind[i[held]], out.kind[i[lets]] = ENGAGED, FREE
-        k = np.flatnonzero(held)
-        out.held.put(i[k], near.take(k))
-        ended = held | lets | near.lost
-        changed = (near.engaged != out.engaged[i]) & ~ended
+        out.held.put(i[held], near.take(np.flatnonzero(held)))
+        going = ~(held | lets | near.lost)
         if number == _START:
-            self._newton(i, s, near, np.flatnonzero(~ended))
-        known = np.flatnonzero(self.found[i] & ~ended)
-        r = np.maximum(self.sign * order.to_e(near.dz), 0.0)
-        move = r.copy()
-        if known.size:
-            part, there, here = s.take(known), order.take(known), near.take(known)
-            other = self.period.take(i[known])
-            lower, upper = (here, other) if self.rising else (other, here)
-            proven = contracts(part, there, lower, upper)
-            out.kind[i[known[proven]]] = ORBIT
-            ended[known[proven]] = True
-            bound = propagation(part, there, lower, least_monodromy(part, there, lower, upper, alike(lower, upper)))
-            move[:, known] = np.maximum(move[:, known], _valid(solve_order(bound, r[:, known])))
-            room = np.maximum(self.sign * (out.beyond[:, i[known]] - there.to_e(out.z[:, i[known]])), 0.0)
-            move[:, known] = np.minimum(move[:, known], room)
-        alone = np.flatnonzero(~self.found[i] & ~ended & ~changed)
-        if alone.size:
-            part, there = s.take(alone), order.take(alone)
-            plain = propagation(part, there, self._deepest(i[alone], part, near.take(alone)), None)
-            move[:, alone] = np.maximum(move[:, alone], _valid(solve_order(plain, r[:, alone])))
-        go = np.flatnonzero(~ended)
-        stay, flip = go[~changed[go]], np.flatnonzero(changed)
-        out.z[:, i[stay]] += self.sign * order.take(stay).to_z(move[:, stay])
-        out.z[:, i[flip]] += near.dz[:, flip]
-        out.engaged[i[flip]] = near.engaged[flip]
-        self.active = i[go]
+            self._newton(i[going], _FURTHEST)
+        going[going] = ~self._proven(i[going])
+        turned = going & (near.engaged != b.engaged[i])
+        b.z[:, i[turned]] += near.dz[:, turned]
+        b.engaged[i[turned]] = near.engaged[turned]
+        on = i[going & ~turned]
+        marched = on[:0]
+        if number < _CHAINS:
+            self._move(on)
+        elif on.size:
+            parts = [self._climb(few) for few in np.split(on, range(_CHAINED, on.size, _CHAINED))]
+            marched, ended = (np.concatenate(each) for each in zip(*parts, strict=True))
+            going &= ~np.isin(i, ended)
+        self.active = i[going]
+        self._march(np.setdiff1d(self.active, marched))
 
-    def _deepest(self, index, s: ModeStrips, near: Period) -> Period:
-        """Marches with contacts at least as long as any that states between the bounding ones and the orbits meet."""
-        if self.rising:
-            return near
-        fresh = np.flatnonzero(~self.marched[index])
-        if fresh.size:
-            part, start = s.take(fresh), self.start[index[fresh]]
-            low = march(self.kernel, part, np.ones(fresh.size, bool), lowest_state(self.kernel, part, start), start)
-            self.out.evaluations[index[fresh]] += low.evaluations
-            self.low.put(index[fresh], low)
-            self.marched[index[fresh]] = True
-        return self.low.take(index)
+    def _proven(self, i) -> np.ndarray:
+        """Which of the strips ``i`` have an orbit, and the period map contracts between the bounding state and that."""
+        proven, k = np.zeros(i.size, bool), np.flatnonzero(self.found[i])
+        if k.size:
+            b = self.bound.take(i[k])
+            proven[k] = contracts(b.s, b.order, *b.ends(b.near, self.orbit.take(i[k])))
+        self.out.kind[i[proven]] = ORBIT
+        return proven
 
-    def _newton(self, i, s: ModeStrips, near: Period, pick) -> None:
-        """Orbits from the edges that the marches of ``pick`` met."""
-        met = near.take(pick)
+    def _stable(self, i) -> np.ndarray:
+        """Where the spectral radius of the return map is at most one, as is true of both extremal orbits."""
+        good = np.zeros(i.size, bool)
+        for number in range(1, len(SEQUENCES)):
+            k = np.flatnonzero(self.out.sequence[i] == number)
+            if not k.size:
+                continue
+            s, sequence = self.bound.s.take(i[k]), SEQUENCES[number]
+            edges = self.out.edges[np.array(ROWS[sequence])[:, None], i[k]]
+            matrix = getattr(self.kernel, f"return_map_{sequence}")(*edges, *arguments(s))
+            matrix = np.moveaxis(np.broadcast_to(matrix, (s.modes, s.modes, s.size)), -1, 0)
+            finite = np.isfinite(matrix).all(axis=(1, 2))
+            radius = np.abs(np.linalg.eigvals(np.where(finite[:, None, None], matrix, 0.0))).max(axis=1)
+            good[k] = finite & (radius <= 1 + _STABLE)
+        return good
+
+    def _move(self, i) -> None:
+        """By a period, or further where an orbit is known."""
+        b = self.bound.take(i)
+        self.bound.z[:, i] += b.sign * b.order.to_z(b.towards(self.orbit.take(i), b.room))
+
+    def _climb(self, i) -> tuple[np.ndarray, np.ndarray]:
+        """By a chain; returns which strips are marched already, and which have ended."""
+        b = self.bound.take(i)
+        moved, ends, in_part, inside, e, far, evaluations = climb(self.kernel, b, self.least[i])
+        self.out.evaluations[i] += evaluations
+        self.bound.z[:, i] += b.sign * b.order.to_z(moved)
+        clear = ~in_part
+        self.bound.near.put(i[clear], ends.take(np.flatnonzero(clear)))
+        self.bound.beyond[:, i[inside]] = e[:, inside]
+        window = np.where(inside, _apart(ends, far), np.inf)
+        k = np.flatnonzero(window <= _NEAR)
+        near, far, window = ends.take(k), far.take(k), window[k]
+        alone = (window <= _NARROW) | contracts(b.s.take(k), b.order.take(k), *b.ends(near, far))
+        self._newton(i[k], window + _NARROW)
+        k = k[alone & self.found[i[k]] & (_apart(self.orbit.take(i[k]), far) <= window + 2 * _NARROW)]
+        self.out.kind[i[k[self._stable(i[k])]]] = ORBIT
+        # rounding alone decides the signs here, whatever the width: not to be certified
+        small = ~clear & np.all(moved <= 2 * self.least[i] * b.s.size_of_lengths, axis=0)
+        ended = i[small & (self.least[i] >= _WIDEST) | (self.out.kind[i] == ORBIT)]
+        self.least[i[small]] *= 4
+        return i[clear], ended
+
+    def _newton(self, i, reach) -> None:
+        """Orbits from the edges that the marches of the strips ``i`` met, no edge further away than ``reach``."""
+        reach = np.broadcast_to(reach, i.shape)
+        met, snaps = self.bound.near.take(i), self.bound.s.snaps[i]
         edges = in_order(np.array([met.onset, met.entry, met.exit, met.release]))
         usable = np.isfinite(edges[0]) & np.isfinite(edges[3])
         contact = usable & np.isfinite(edges[1]) & np.isfinite(edges[2])
-        snaps = s.snaps[pick]
         for number, kind in ((1, contact & ~snaps), (2, contact & snaps), (3, usable & ~contact & ~snaps)):
             k = np.flatnonzero(kind)
             if k.size:
-                self._from(i[pick[k]], s.take(pick[k]), number, edges[list(ROWS[SEQUENCES[number]])][:, k])
+                self._from(i[k], number, edges[list(ROWS[SEQUENCES[number]])][:, k], reach[k])
 
-    def _from(self, index, s: ModeStrips, number: int, edges) -> None:
-        sequence = SEQUENCES[number]
-        edges = np.maximum.accumulate(edges, axis=0)
-        solved, good, spent = certified(self.kernel, s, sequence, edges)
+    def _from(self, index, number: int, edges, reach) -> None:
+        sequence, s = SEQUENCES[number], self.bound.s.take(index)
+        solved, good, spent = certified(self.kernel, s, sequence, np.maximum.accumulate(edges, axis=0), reach)
         self.out.evaluations[index] += spent
         k = np.flatnonzero(good)
         if not k.size:
             return
-        part = s.take(k)
-        start = self.start[index[k]]
+        part, start = s.take(k), self.bound.start[index[k]]
         z, engaged = state_at(self.kernel, sequence, part, solved[:, k], start)
         period = march(self.kernel, part, engaged, z, start)
         self.out.evaluations[index[k]] += period.evaluations
         ok = agrees(sequence, part, solved[:, k], period)
         index, k = index[k[ok]], k[ok]
-        if not index.size:
-            return
         self.found[index] = True
-        self.out.beyond[:, index] = self.order.take(index).to_e(z[:, ok])
+        self.bound.beyond[:, index] = self.bound.order.take(index).to_e(z[:, ok])
         self.out.sequence[index] = number
         self.out.edges[np.array(ROWS[sequence])[:, None], index] = solved[:, k]
-        self.period.put(index, period.take(np.flatnonzero(ok)))
+        self.orbit.put(index, period.take(np.flatnonzero(ok)))
+
+
+def _apart(one: Period, two: Period) -> np.ndarray:
+    """Largest distance between the edges of two marches; infinite where they did not meet the same ones."""
+    names = ("onset", "entry", "exit", "release")
+    one, two = (np.array([getattr(period, name) for name in names]) for period in (one, two))
+    same = np.all(np.isnan(one) == np.isnan(two), axis=0)
+    return np.where(same, np.nan_to_num(np.abs(one - two)).max(axis=0), np.inf)
 
 
 def agrees(sequence: str, s: ModeStrips, edges, period: Period) -> np.ndarray:
     """Whether a turn from a state of the orbit met the edges (k, N) of ``sequence``, each once, and nothing else."""
     row = dict(zip(EDGES[sequence], edges, strict=True))
-    near = lambda met, edge: np.abs(np.mod(met - edge + np.pi, TWO_PI) - np.pi) <= _AGREE  # noqa: E731
+    near = lambda met, edge: np.abs(np.mod(met - edge + np.pi, TWO_PI) - np.pi) <= AGREE  # noqa: E731
     ok = ~period.lost & (period.onsets == 1) & (period.releases == 1) & (period.engaged == period.engaged_before)
     ok &= near(period.onset, row["d"]) & near(period.release, row["c"])
     if sequence == "af":
@@ -191,10 +234,11 @@ def agrees(sequence: str, s: ModeStrips, edges, period: Period) -> np.ndarray:
     return ok & (period.contacts == 1) & near(period.entry, row["b"] if sequence == "acaf" else row["d"])
 
 
-def certified(kernel, s: ModeStrips, sequence: str, edges):
-    """Orbits by Newton's method from ``edges`` (k, N); which converged, in order within a period; the evaluations spent."""
+def certified(kernel, s: ModeStrips, sequence: str, edges, reach=_FURTHEST):
+    """Orbits by Newton's method from ``edges`` (k, N), no further away than ``reach``; which converged, in order within a
+    period; the evaluations spent."""
     with np.errstate(all="ignore"):
-        refined = polish(kernel, sequence, s, edges, edges - _FURTHEST, edges + _FURTHEST)
+        refined = polish(kernel, sequence, s, edges, edges - reach, edges + reach)
     e = refined.edges
     limit = _CONVERGED + _ROUNDINGS * np.minimum(refined.attainable, _COARSEST)
     good = (refined.correction <= limit) & np.all(np.diff(e, axis=0) >= -64 * EPS, axis=0) & (e[-1] - e[0] <= TWO_PI + 64 * EPS)
@@ -207,9 +251,3 @@ def in_order(edges):
     shifted = [np.where(e > c, e - TWO_PI, e) for e in (d, b, a)]
     turns = TWO_PI * np.floor(c / TWO_PI)
     return np.array([*shifted, c]) - turns
-
-
-def _valid(v):
-    """Steps that are defined and not negative; zero otherwise."""
-    good = np.all(np.isfinite(v) & (v >= 0), axis=0)
-    return np.where(good, v, 0.0)

@@ -45,8 +45,7 @@ straight piece from x_k to x_(k+1) that is so where
 
 with a lower bound M_k of the derivative between the two; the bracket is linear along the piece, and positive at its start. All
 states of a chain are marched at once. So even where orbits are about to appear, and the map next to the identity, the strip is
-past them in a few steps. From above all is mirrored. The first orbit lies before the first state that is mapped inwards: it is
-left to ``polish`` when the two are near and the map contracts between them, or nearer still.
+past them in a few steps. From above all is mirrored. The first orbit lies before the first state that is mapped inwards.
 """
 
 from __future__ import annotations
@@ -55,18 +54,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .contraction import alike, contracts
+from .contraction import alike
 from .coordinates import Order
 from .march import Period, march
 from .problem import ModeStrips
 from .propagation import exact_monodromy, least_monodromy, propagation, solve_order
 
-#: edges of the two ends of a window that is left to Newton's method agree to this; to that, where the map contracts in it
-NARROW, _NEAR = 1e-6, 1e-3
-#: steps after which a strip is given up; where rounding decides the signs there is no end
-_STEPS = 100
-#: least width of a window, in units of the strip's lengths: what rounding leaves of the sign of P(y) - y
-_LEAST, _WIDEST = 1e-12, 1e-5
 #: states of a chain, in Newton's steps. Those end short of a simple orbit, and half-way to a double one, where orbits are about
 #: to appear: the map less the identity is a parabola there, and its tangent stays positive over less than half of the way. Beyond
 #: it grows, so that states may lie ever further apart
@@ -74,167 +67,100 @@ _NEARER = 2 - 2 * 0.75 ** np.arange(1.0, 17)
 _AHEAD = np.sort(np.concatenate(([0.0, 0.125, 0.5, 0.95, 1.0], _NEARER, 4 - _NEARER[::3], 2 + 2.0 ** np.arange(1.0, 6))))
 _AWAY = np.append(0.0, 1.6 ** np.arange(-4.0, len(_AHEAD) - 5))
 
-ENGAGED, FREE, ORBIT, UNRESOLVED = 0, 1, 2, -1
-
 
 @dataclass(slots=True)
-class Approach:
-    """How the ordered iteration ended for N strips: ``kind`` (ENGAGED, FREE, ORBIT between ``lower`` and ``upper``,
-    UNRESOLVED); edges of both ends, (4, N) in the order d, b, a, c; and the work spent."""
+class Bound:
+    """States that bound all orbits of N strips from below (``sign`` 1) or above (-1): ``z`` (n, N), whether they are ``engaged``,
+    at the phases ``start``, and the period ``near`` from there; ``beyond``: displacements e (n, N) of an orbit, or of a state
+    beyond all."""
 
-    kind: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
-    evaluations: np.ndarray
-    steps: np.ndarray
-
-
-@dataclass(slots=True)
-class _State:
-    """Strips still on their way. ``near``: the period from their states; ``least``: least width of a window; ``room``: distance
-    to a state known to lie beyond the orbit, in e; ``beyond``: the one known from the start."""
-
-    index: np.ndarray
     s: ModeStrips
     order: Order
+    sign: float
+    start: np.ndarray
     engaged: np.ndarray
     z: np.ndarray
-    start: np.ndarray
     near: Period
-    least: np.ndarray
-    room: np.ndarray
     beyond: np.ndarray
 
-    def take(self, i) -> _State:
-        return _State(self.index[i], self.s.take(i), self.order.take(i), self.engaged[i], self.z[:, i], self.start[i],
-                      self.near.take(i), self.least[i], self.room[:, i], self.beyond[:, i])  # fmt: skip
+    def take(self, i) -> Bound:
+        return Bound(self.s.take(i), self.order.take(i), self.sign, self.start[i], self.engaged[i], self.z[:, i],
+                     self.near.take(i), self.beyond[:, i])  # fmt: skip
 
-    def march(self, kernel, i, out: Approach) -> None:
-        """Follow the states ``i`` for a period."""
-        near = march(kernel, self.s.take(i), self.engaged[i], self.z[:, i], self.start[i])
-        out.evaluations[self.index[i]] += near.evaluations
-        self.near.put(i, near)
+    @property
+    def room(self) -> np.ndarray:
+        """Distance to what is known to lie beyond, in e."""
+        return np.maximum(self.sign * (self.beyond - self.order.to_e(self.z)), 0.0)
 
+    def ends(self, near: Period, far: Period) -> tuple[Period, Period]:
+        """Two marches, the lower one first."""
+        return (near, far) if self.sign > 0 else (far, near)
 
-def approach(kernel, s: ModeStrips, z, engaged, start, rising: bool, beyond) -> Approach:
-    """Iterate from the states ``z`` (n, N) at the phases ``start``, below (``rising``) or above every orbit, to the first one.
+    def slope(self, near: Period, far: Period, along=None) -> np.ndarray:
+        """Lower bound of the map's derivative less the identity between the states of two marches."""
+        lower, upper = self.ends(near, far)
+        least = least_monodromy(self.s, self.order, lower, upper, alike(lower, upper))
+        return propagation(self.s, self.order, lower, least, along)
 
-    ``beyond``: displacements e of an orbit, or of a state beyond all, (n, N)."""
-    N = s.size
-    out = Approach(np.full(N, UNRESOLVED), np.full((4, N), np.nan), np.full((4, N), np.nan), np.zeros(N), np.zeros(N, int))
-    order = Order.of(kernel, s)
-    room = np.maximum((1.0 if rising else -1.0) * (beyond - order.to_e(z)), 0.0)
-    st = _State(np.arange(N), s, order, engaged.copy(), z.copy(), np.array(start, float), Period.blank(s.modes, N),
-                np.full(N, _LEAST), room, beyond)  # fmt: skip
-    st.march(kernel, st.index, out)
-    for _ in range(_STEPS):
-        if not st.index.size:
-            break
-        st = _advance(kernel, st, rising, out)
-    return out
-
-
-def _advance(kernel, st: _State, rising: bool, out: Approach) -> _State:
-    sign = 1.0 if rising else -1.0
-    near = st.near
-    out.steps[st.index] += 1
-    # the ends of the iteration that need no orbit with both an onset and a release
-    held = near.never_free & (not rising)
-    lets = near.never_engaged & rising & (st.s.D <= -st.s.delta_0)
-    out.kind[st.index[held]], out.kind[st.index[lets]] = ENGAGED, FREE
-    ended = near.lost | held | lets
-    i = np.flatnonzero((near.engaged != st.engaged) & ~ended)
-    st.z[:, i] += near.dz[:, i]
-    st.room[:, i] = np.maximum(sign * (st.beyond[:, i] - st.order.take(i).to_e(st.z[:, i])), 0.0)
-    on = np.flatnonzero((near.engaged == st.engaged) & ~ended)
-    st.engaged[i] = near.engaged[i]
-    if on.size:
-        ended[on] |= _climb(kernel, st, on, sign, out)
-    if i.size:
-        st.march(kernel, i, out)
-    return st.take(np.flatnonzero(~ended))
+    def towards(self, far: Period, distance: np.ndarray) -> np.ndarray:
+        """How far the states may move, e (n, N), by what the bound between them and those in the ``distance`` tells of a part of
+        that way."""
+        gone = np.maximum(self.sign * self.order.to_e(self.near.dz), 0.0)
+        inner = np.where(far.lost, 0.0, valid(solve_order(self.slope(self.near, far), gone)))
+        wanted = np.max(np.divide(inner, distance, out=np.zeros_like(inner), where=distance > 0), axis=0)
+        return np.maximum(inner / np.maximum(wanted, 1.0), np.minimum(gone, self.room))
 
 
-def _climb(kernel, st: _State, i, sign: float, out: Approach):
-    """Move the states ``i`` (not engaged anew or released at the section) along a chain; returns which have ended."""
-    sub, N = st.take(i), i.size
-    s, order, every = sub.s, sub.order, np.arange(N)
-    distance = _chain(sub, sign)
+def climb(kernel, bound: Bound, least: np.ndarray):
+    """How far the states may move along chains whose states lie at least ``least`` (N,) apart.
+
+    Returns the ways (n, N) in e, and the marches from their ends, but where the first link is known only in part: these strips;
+    which chains end beyond the orbit, the first displacements e (n, N) there and the marches from them; the evaluations.
+    """
+    N, every = bound.z.shape[1], np.arange(bound.z.shape[1])
+    distance = _chain(bound, least)
     count = distance.shape[1]
     many = np.tile(every, count)
-    strips, there, away = s.take(many), order.take(many), distance.reshape(len(distance), -1)
-    marches = march(kernel, strips, sub.engaged[many], sub.z[:, many] + sign * there.to_z(away), sub.start[many])
-    np.add.at(out.evaluations, sub.index[many], marches.evaluations)
-    moves = sign * there.to_e(marches.dz)
-    stays = (marches.engaged == sub.engaged[many]) & ~marches.lost
-
-    def ends(k, j):
-        """Lower and upper ones of the marches ``k`` and of those beyond, ``j``."""
-        one, two = marches.take(k), marches.take(j)
-        return (one, two) if sign > 0 else (two, one)
-
-    def slope(k, along=None):
-        lower, upper = ends(k, k + N)
-        least = least_monodromy(strips.take(k), there.take(k), lower, upper, alike(lower, upper))
-        return propagation(strips.take(k), there.take(k), lower, least, along)
-
+    away = distance.reshape(len(distance), -1)
+    each = bound.take(many)
+    z = each.z + each.sign * each.order.to_z(away)
+    marches = march(kernel, each.s, each.engaged, z, each.start)
+    moves = each.sign * each.order.to_e(marches.dz)
+    stays = (marches.engaged == each.engaged) & ~marches.lost
     grow = (stays & np.all(moves >= 0, axis=0)).reshape(count, N)
     link = np.flatnonzero(np.cumprod(grow[:-1] & grow[1:], axis=0).ravel())
     clear = np.zeros((count - 1) * N, bool)
     if link.size:
         step = away[:, link + N] - away[:, link]
-        left = moves[:, link] + slope(link, step)[:, :, 0].T
+        left = moves[:, link] + each.take(link).slope(marches.take(link), marches.take(link + N), step)[:, :, 0].T
         clear[link] = np.all((left > 0) | (step == 0), axis=0)
     reached = np.cumprod(clear.reshape(count - 1, N), axis=0).sum(axis=0)
     last = reached * N + every
     moved = away[:, last]
-    # where no link is clear: by what the bound over the first one tells of a part of it
     short = np.flatnonzero(reached == 0)
     if short.size:
-        width, gone = away[:, short + N], np.maximum(moves[:, short], 0.0)
-        inner = np.where(marches.lost[short + N], 0.0, _valid(solve_order(slope(short), gone)))
-        wanted = np.max(np.divide(inner, width, out=np.zeros_like(inner), where=width > 0), axis=0)
-        moved[:, short] = np.maximum(inner / np.maximum(wanted, 1.0), np.minimum(gone, sub.room[:, short]))
+        moved[:, short] = bound.take(short).towards(marches.take(short + N), away[:, short + N])
     # the first state that is mapped inwards, or is known to lie beyond the orbit
-    beyond = stays & np.all(moves <= 0, axis=0) | np.all(away >= sub.room[:, many], axis=0)
+    beyond = stays & np.all(moves <= 0, axis=0) | np.all(away >= each.room, axis=0)
     beyond = beyond.reshape(count, N) & (np.arange(count)[:, None] > reached)
-    inside, first = beyond.any(axis=0), beyond.argmax(axis=0) * N + every
-    done = np.zeros(N, bool)
-    pair = np.flatnonzero(inside)
-    lower, upper = ends(last[pair], first[pair])
-    edges = _edges(lower), _edges(upper)
-    shared = alike(lower, upper) & (lower.contacts == upper.contacts) & (lower.contacts <= 1)
-    done[pair] = shared & _close(*edges, NARROW)
-    near = np.flatnonzero(shared & ~done[pair] & _close(*edges, _NEAR))
-    if near.size:
-        k = pair[near]
-        done[k] = contracts(s.take(k), order.take(k), lower.take(near), upper.take(near))
-    at = sub.index[done]
-    out.kind[at] = ORBIT
-    out.lower[:, at], out.upper[:, at] = edges[0][:, done[pair]], edges[1][:, done[pair]]
-    st.z[:, i] += sign * order.to_z(moved)
-    st.room[:, i] = np.maximum(np.where(inside, away[:, first], sub.room) - moved, 0.0)
-    st.near.put(i, marches.take(last))
-    if short.size:
-        st.march(kernel, i[short], out)
-    # rounding alone decides the signs here, whatever the width: not to be certified
-    small = (reached == 0) & np.all(away[:, every + N] <= 2 * sub.least * s.size_of_lengths, axis=0)
-    st.least[i] = np.where(small, 4 * sub.least, sub.least)
-    return done | (small & (sub.least >= _WIDEST))
+    first = beyond.argmax(axis=0) * N + every
+    e = bound.order.to_e(bound.z) + bound.sign * away[:, first]
+    evaluations = marches.evaluations.reshape(count, N).sum(axis=0)
+    return moved, marches.take(last), reached == 0, beyond.any(axis=0), e, marches.take(first), evaluations
 
 
-def _chain(st: _State, sign: float) -> np.ndarray:
+def _chain(bound: Bound, least: np.ndarray) -> np.ndarray:
     """Distances (n, count, N) of the states of a chain from the bounding ones, ascending from 0."""
-    r = np.maximum(sign * st.order.to_e(st.near.dz), 0.0)
-    exact = propagation(st.s, st.order, st.near, exact_monodromy(st.s, st.near))
+    r = np.maximum(bound.sign * bound.order.to_e(bound.near.dz), 0.0)
+    room = bound.room
+    exact = propagation(bound.s, bound.order, bound.near, exact_monodromy(bound.s, bound.near))
     newton = solve_order(exact, r)
-    ahead = np.all((newton >= 0) & (newton <= st.room), axis=0)
+    ahead = np.all((newton >= 0) & (newton <= room), axis=0)
     direction = np.where(ahead | np.all(newton >= 0, axis=0), newton, np.where(np.all(newton <= 0, axis=0), -newton, r))
-    farthest = np.divide(st.room, direction, out=np.full(r.shape, np.inf), where=direction > 0).min(axis=0)
+    farthest = np.divide(room, direction, out=np.full(r.shape, np.inf), where=direction > 0).min(axis=0)
     chain = np.where(ahead, _AHEAD[:, None], _AWAY[:, None] * np.minimum(1.0, farthest / _AWAY[-1])) * direction[:, None]
-    least = st.least * st.s.size_of_lengths * _inward(exact)
-    chain[:, 1:] = np.maximum(chain[:, 1:], least[:, None])
-    return np.minimum(chain, st.room[:, None])
+    chain[:, 1:] = np.maximum(chain[:, 1:], (least * bound.s.size_of_lengths * _inward(exact))[:, None])
+    return np.minimum(chain, room[:, None])
 
 
 def _inward(change):
@@ -247,16 +173,7 @@ def _inward(change):
     return v / v.max(axis=0)
 
 
-def _valid(v):
+def valid(v):
     """Steps that are defined and not negative; zero otherwise."""
     good = np.all(np.isfinite(v) & (v >= 0), axis=0)
     return np.where(good, v, 0.0)
-
-
-def _edges(p: Period):
-    return np.array([p.onset, p.entry, p.exit, p.release])
-
-
-def _close(one, two, apart):
-    """Edges of the two ends agree, NaN with NaN."""
-    return np.all((np.abs(one - two) <= apart) | (np.isnan(one) & np.isnan(two)), axis=0)
