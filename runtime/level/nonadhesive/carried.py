@@ -24,9 +24,6 @@ from .span import Span
 
 #: nodes over a panel of strips and over each part of a contact, tried in turn
 RULES = ((2, 3), (4, 5), (7, 8), (11, 12), (16, 18), (24, 28), (36, 42), (54, 64), (81, 96))
-#: accuracies in parts of the greatest friction from which on the first of them are left out; and that of contact for
-#: which the second one has to do where friction does not count
-_SHARP, _ROUGH = np.array((3e-3, 1e-5)), 1e-3
 #: share of what is allowed that these sums may miss, and the fastest that they are believed to converge: of 350 random surfaces
 #: of two levels one erred by more than it said (by a quarter), with half of that two
 _QUADRATURE, _FASTEST = 0.7, 0.02
@@ -49,22 +46,11 @@ class Carrier:
     def carried(self, group: np.ndarray, d: np.ndarray, goal: np.ndarray, at_once: bool) -> tuple[np.ndarray, np.ndarray]:
         """What columns at ``d = D/h`` carry (m, q), to ``goal`` (m, q), and the errors of the sums (m, q): the first
         change from rule to rule may be small by chance, and is believed only if ``at_once``."""
-        out, errors = np.zeros((d.size, self.laws.full.shape[1])), np.zeros((d.size, self.laws.full.shape[1]))
-        allowed, most = goal[:, :-1:2].min(axis=1), self.laws.most[group]
-        # each column by itself: what else is in the batch makes no difference
-        first = (allowed[:, None] < _SHARP * most[:, None]).sum(axis=1) if at_once else np.zeros(d.size, int)
-        # whatever the sums are, friction that small may be missed
-        slight = most <= allowed
-        first[slight] = 1 + (goal[slight, 1] < _ROUGH)
-        for kind in np.unique(np.stack((first, slight))[:, d > 0], axis=1).T:
-            some = np.flatnonzero((first == kind[0]) & (slight == kind[1]) & (d > 0))
-            columns = self._columns(group[some], d[some], allowed[some])
-            if kind[1]:
-                out[some], errors[some, 0] = self._sums(columns, *RULES[kind[0]]), most[some]
-            else:
-                sums = lambda left, rule, of=columns: self._sums(of.at(left), *rule)  # noqa: E731
-                fastest = np.full(some.size, _FASTEST)
-                out[some], errors[some] = by_rules(sums, RULES[kind[0] :], _QUADRATURE * goal[some], fastest, at_once)
+        out, errors = np.zeros(goal.shape), np.zeros(goal.shape)
+        some = np.flatnonzero(d > 0)
+        columns = self._columns(group[some], d[some], goal[some, :-1:2].min(axis=1))
+        sums = lambda left, rule: self._sums(columns.at(left), *rule)  # noqa: E731
+        out[some], errors[some] = by_rules(sums, RULES, _QUADRATURE * goal[some], np.full(some.size, _FASTEST), at_once)
         return out, errors
 
     def _columns(self, group, d, allowed) -> _Columns:

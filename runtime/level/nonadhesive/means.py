@@ -22,8 +22,6 @@ _LAYERED, _FASTEST = 120, (0.25, 0.01)
 #: penetrations are looked for to this, or pressures to that, or to this share of what is not known of them, what is left
 #: being taken up by slopes; and steps
 _CLOSE, _MET, _BLURRED, _STEPS = 1e-5, 1e-7, 1e-2, 60
-#: penetrations that are looked at first
-_LOOKS = 32
 #: slope of friction over pressure, k h, that is never reached
 _STEEPEST = 2.0
 #: what is left in a level's mean of the greatest error of its strips' pressures
@@ -155,7 +153,8 @@ class Level:
     def _partly(self, group, p):
         """``penetrations`` between none and that of saturation: Newton on the root of the pressure, which is nearly linear."""
         low, high = p.copy(), np.minimum(p + 0.75, 0.5 * self.family.s_sat[group])
-        d = np.clip(self._looked_up(group, p), low, high)
+        # next to the plane about the square root, as for paraboloids at rest
+        d = np.clip(np.sqrt(p), low, high)
         left, known_to = np.arange(p.size), self.family.greatest_errors[group, 0]
         for _ in range(_STEPS):
             at = self.means(group[left], d[left], _RULES[1], True)
@@ -174,19 +173,3 @@ class Level:
             if not left.size:
                 break
         return d
-
-    def _looked_up(self, group, p):
-        """About what ``_partly`` finds, from a few of them."""
-        which, row = np.unique(group, return_inverse=True)
-        most = np.zeros(which.size)
-        np.maximum.at(most, row, p)
-        # roots of the pressure are nearly linear
-        d = np.minimum(most + 0.75, 0.5 * self.family.s_sat[which])[:, None] * np.linspace(0, 1, _LOOKS + 1)[1:] ** 2
-        d = np.minimum(d, 0.5 * self.family.s_sat[which, None] * (1 - 4 * EPS))
-        known = self.means(np.repeat(which, _LOOKS), d.ravel(), _RULES[0])[:, 0].reshape(d.shape)
-        known = np.sqrt(np.maximum.accumulate(np.maximum(known, 0.0), axis=1))
-        out = np.empty_like(p)
-        for k in range(which.size):
-            mine = row == k
-            out[mine] = np.interp(np.sqrt(p[mine]), np.append(0.0, known[k]), np.append(0.0, d[k]))
-        return out

@@ -14,8 +14,6 @@ from .span import Span
 
 #: looks at where the greatest pressures of strips pass a break, and steps towards it
 _LOOKS, _STEPS = 24, 2
-#: eta from the crest at which a panel that is longer by half ends, and beyond which strips are too few to matter
-_SPLITS, _FARTHEST = (2.0, 5.0), 16.0
 #: a pressure that no strip has, K h/2
 _BEYOND = 1e200
 
@@ -41,10 +39,9 @@ def panels(span: Span, ends: np.ndarray, n: int) -> Panels:
 
 def ends_of(span: Span, family: Family, peaks: Peaks, group: np.ndarray, breaks: np.ndarray) -> np.ndarray:
     """Ends (m, e) of panels, between which the greatest pressure of strips passes none of ``breaks`` (m, B), K h/2."""
-    length = np.minimum(span.high - span.low, _FARTHEST)
-    far = [np.where(length > 1.5 * split, split, 0.0) for split in _SPLITS]
+    length = span.high - span.low
     passed = np.maximum(span.high[:, None] - _passed(span, length, family, peaks, group, breaks), 0.0)
-    return np.sqrt(np.sort(np.column_stack((np.zeros_like(length), *far, passed, length)), axis=1))
+    return np.sqrt(np.sort(np.column_stack((np.zeros_like(length), passed, length)), axis=1))
 
 
 def _passed(span, length, family, peaks, group, breaks):

@@ -162,7 +162,8 @@ class FamilyStack:
         carrier = self.carrier(i, laws)
         # contact counts on as much of the surface as friction does
         share = max(self.wanted.rtol, _SHARES) * (self.wanted.of(i) / self.wanted.friction)[group]
-        goal = np.broadcast_to(np.minimum(share, _COARSE)[:, None], (d.size, laws.full.shape[1])).copy()
+        share = np.where(laws.most[group] > allowed, np.minimum(share, _COARSE), np.inf)
+        goal = np.broadcast_to(share[:, None], (d.size, laws.full.shape[1])).copy()
         goal[:, :-1:2], goal[:, -1] = allowed[:, None], np.inf
         carried, errors = carrier.carried(group, d, goal, at_once=i > 0)
         self.work.solved += carrier.strips
