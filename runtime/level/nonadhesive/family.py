@@ -14,15 +14,14 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ...inputs.surface import Level
-from ...numerics.chebyshev import coefficients, derivatives, evaluate_each, interpolation_errors, lobatto
+from ...numerics.chebyshev import clenshaw, coefficients, derivatives, evaluate_each, interpolation_errors, lobatto
+from ...numerics.quadrature import interleaved
+from ...numerics.roots import rising_root
 from ...numerics.rounding import EPS
 from ...orbit.foundation import Foundation
 
 #: nodes of the first attempt and of the last
 _FIRST, _LAST = 8, 512
-#: a family is sampled this far beyond the penetration that is asked for, at most
-_BEYOND = 4.0
-_STEPS, _CLOSE = 12, 1e-9
 #: so many coefficients that are cut off a series are known to whoever asks what they would add
 NEXT = 4
 #: nothing is sampled finer than this many roundings; and the share of what is allowed that is cut off a series
@@ -57,7 +56,6 @@ class Family:
     degree: np.ndarray
     errors: np.ndarray
     full: np.ndarray
-    strips: np.ndarray
 
     @property
     def greatest_errors(self) -> np.ndarray:
@@ -96,9 +94,9 @@ class Family:
 
 def family(
     foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, size: np.ndarray, floor: np.ndarray, rtol: np.ndarray
-) -> Family:
+) -> tuple[Family, int]:
     """Families at the rates ``k V`` (G,), up to the penetrations ``s_top`` (G,), to ``rtol (floor + size max|f|)`` of
-    each quantity: ``floor`` (3,), the others (G,).
+    each quantity: ``floor`` (3,), the others (G,); and how many strips that took.
 
     Where that is not reached, the error says so. Raises ``SolverError`` for a strip that is not certified.
     """
@@ -106,24 +104,18 @@ def family(
     R = np.broadcast_to(foundation.modulus_ratio(rate), (G,))
     s_sat = 1 + R
     full = np.stack((R, _full_friction(foundation, rate), np.ones(G)), axis=1)
-    work = _Sampling(foundation, rate, s_sat, full)
-    # w is nowhere negative, so contact lies where the profile is below the plane
-    phi = np.where(s_top < 2, np.arccos(1 - np.minimum(s_top, 2.0)) / np.pi, 1.0)
-    out = Family(
-        s_sat,
-        np.zeros(G),
-        [np.empty(0)] * G,
-        np.zeros((G, NEXT, _Q)),
-        np.zeros(G, int),
-        np.zeros((G, _Q)),
-        full,
-        np.zeros(G, int),
-    )
-    left, n = np.arange(G), _FIRST
-    phi, samples = work.narrowed(left, phi, s_top, n)
+    complete = np.column_stack((s_sat, full))
+    phi, strips = _reaching(foundation, rate, s_top)
+    series: list[np.ndarray] = [np.empty(0)] * G
+    out = Family(s_sat, np.zeros(G), series, np.zeros((G, NEXT, _Q)), np.zeros(G, int), np.zeros((G, _Q)), full)
+    left, n, samples = np.arange(G), _FIRST, None
     while left.size:
+        share = phi[left, None] * (lobatto(n) if samples is None else lobatto(n)[1::2])
+        fresh = _samples(foundation, rate[left], complete[left], share)
+        strips += int(np.count_nonzero((share > 0) & (share < 1)))
+        samples = fresh if samples is None else interleaved(samples, fresh)
         s, values = samples[:, :, 0], samples[:, :, 1:]
-        over = _resampled(s, values, s_sat[left])
+        over = _resampled(samples, s_sat[left])
         greatest = np.abs(values).max(axis=1)
         goal = np.maximum(rtol[left, None] * (floor + size[left, None] * greatest), _FINEST * EPS * greatest)
         # what is not known of a strip's penetration moves all along their slopes
@@ -143,13 +135,8 @@ def family(
             out.degree[g] = n
             out.errors[g] = error[k] + np.abs(cut[NEXT:]).sum(axis=0)
             out.top[g] = _xi(s[k, -1], s_sat[g])
-        keep = np.flatnonzero(~done)
-        left, phi, samples = left[keep], phi[keep], samples[keep]
-        n *= 2
-        if left.size:
-            samples = work.doubled(left, phi, samples, n)
-    out.strips[:] = work.strips
-    return out
+        left, samples, n = left[~done], samples[~done], 2 * n
+    return out, strips
 
 
 def _errors(c, goal):
@@ -179,73 +166,48 @@ def _full_friction(foundation, rate):
     return foundation.saturation_friction(l, 1.0, rate) * 32 / (3 * foundation.K)
 
 
-class _Sampling:
-    def __init__(self, foundation, rate, s_sat, full):
-        self.foundation, self.rate, self.s_sat, self.full = foundation, rate, s_sat, full
-        self.strips = np.zeros(rate.size, int)
-
-    def at(self, g, phi):
-        """Samples (m, nodes, 4) at shares of the period in contact ``phi`` (m, nodes): s, then the quantities; the
-        ends 0 and 1 are known."""
-        out = np.zeros((*phi.shape, 1 + _Q))
-        complete = phi >= 1
-        out[complete, 0] = np.broadcast_to(self.s_sat[g][:, None], phi.shape)[complete]
-        out[complete, 1:] = np.broadcast_to(self.full[g][:, None], (*phi.shape, _Q))[complete]
-        row, node = np.nonzero((phi > 0) & ~complete)
-        if row.size:
-            which = g[row]
-            orbits = self.foundation.waves(self.rate[which]).orbits(2 * np.pi * phi[row, node]).sure()
-            np.add.at(self.strips, which, 1)
-            out[row, node] = np.stack((orbits.D, orbits.p_mean, orbits.tau_mean, phi[row, node]), axis=1)
-        return out
-
-    def narrowed(self, g, phi, s_top, n):
-        """First samples, at ``lobatto(n)`` of [0, phi]; phi is lowered where the strips there are far beyond
-        ``s_top``."""
-        phi = phi.copy()
-        samples = np.empty((g.size, n + 1, 1 + _Q))
-        again = np.arange(g.size)
-        while again.size:
-            nodes = phi[again, None] * lobatto(n)
-            samples[again] = self.at(g[again], nodes)
-            s = samples[again, :, 0]
-            enough = (s >= np.minimum(s_top[again], self.s_sat[g[again]])[:, None] * (1 + 1e-9)).argmax(axis=1)
-            rows = np.arange(again.size)
-            far = (enough > 0) & (enough < n) & (s[:, -1] > _BEYOND * s_top[again]) & (s[:, -1] > _BEYOND * s[rows, enough])
-            phi[again[far]] = nodes[rows, enough][far]
-            again = again[far]
-        return phi, samples
-
-    def doubled(self, g, phi, samples, n):
-        out = np.empty((g.size, n + 1, 1 + _Q))
-        out[:, 0::2], out[:, 1::2] = samples, self.at(g, phi[:, None] * lobatto(n)[1::2])
-        return out
+def _reaching(foundation, rate, s_top):
+    """Shares of the period in contact that strips up to ``s_top`` (G,) have at most, half of one being too little; and how many
+    strips that took."""
+    # w is nowhere negative, so contact lies where the profile is below the plane
+    phi = np.where(s_top < 2, 2 / np.pi * np.arcsin(np.sqrt(0.5 * np.minimum(s_top, 2.0))), 1.0)
+    left, strips = np.flatnonzero(phi > 0), 0
+    while left.size:
+        strips += left.size
+        far = foundation.waves(rate[left]).orbits(np.pi * phi[left], means=False).D >= s_top[left]
+        left = left[far]
+        phi[left] *= 0.5
+    return phi, strips
 
 
-def _resampled(s, values, s_sat):
-    """Coefficients over xi/xi_top of what is sampled over the width of contact at ``lobatto(n)``, where the strips are
-    ``s``."""
-    n = s.shape[1] - 1
-    both = coefficients(np.concatenate((s[:, :, None], values), axis=2))
-    place, rise = both[:, :, :1], derivatives(both[:, :, :1])
-    top = _xi(s[:, -1], s_sat)[:, None]
-    goal = s_sat[:, None] * np.sin(top * lobatto(n)) ** 2
+def _samples(foundation, rate, complete, phi):
+    """Samples (m, nodes, 4) at shares of the period in contact ``phi`` (m, nodes): s, then the quantities; the ends 0 and 1
+    are known, of the latter ``complete`` (m, 4)."""
+    out = np.where(phi[:, :, None] < 1, 0.0, complete[:, None])
+    row, node = np.nonzero((phi > 0) & (phi < 1))
+    if row.size:
+        share = phi[row, node]
+        orbits = foundation.waves(rate[row]).orbits(2 * np.pi * share).sure()
+        out[row, node] = np.stack((orbits.D, orbits.p_mean, orbits.tau_mean, share), axis=1)
+    return out
+
+
+def _resampled(samples, s_sat):
+    """Coefficients over xi/xi_top of quantities of which, and of s before them, there are ``samples`` (m, n + 1, 4) at
+    ``lobatto(n)`` of the width of contact."""
+    (m, size, _), s = samples.shape, samples[:, :, 0]
+    both, nodes = coefficients(samples), lobatto(size - 1)
+    goal = s_sat[:, None] * np.sin(_xi(s[:, -1], s_sat)[:, None] * nodes) ** 2
     # x in [-1, 1] at which s is the goal; the root of s is nearly linear in it
-    nodes = 2 * lobatto(n) - 1
-    x = np.array(
-        [np.interp(g, row, nodes) for g, row in zip(np.sqrt(goal), np.sqrt(np.maximum.accumulate(s, axis=1)), strict=True)]
-    )
-    low, high = np.full_like(x, -1.0), np.full_like(x, 1.0)
-    for _ in range(_STEPS):
-        miss = evaluate_each(place, x)[:, :, 0] - goal
-        low, high = np.where(miss < 0, x, low), np.where(miss < 0, high, x)
-        slope = evaluate_each(rise, x)[:, :, 0]
-        new = x - np.divide(miss, slope, out=np.full_like(x, np.inf), where=slope > 0)
-        new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
-        moved = np.abs(new - x).max()
-        x = new
-        # the step after it would be about its square
-        if moved <= _CLOSE:
-            break
-    x[:, 0], x[:, -1] = -1.0, 1.0
+    known = np.sqrt(np.maximum.accumulate(s, axis=1))
+    guess = np.array([np.interp(g, row, 2 * nodes - 1) for g, row in zip(np.sqrt(goal), known, strict=True)])
+    rise = np.concatenate((both[:, :, :1], derivatives(both[:, :, :1])), axis=2).transpose(1, 2, 0)
+    row, wanted, inside = np.repeat(np.arange(m), size - 2), goal[:, 1:-1].ravel(), guess[:, 1:-1].ravel()
+
+    def over(x, index):
+        place, slope = clenshaw(rise, row[index], x)
+        return place - wanted[index], slope
+
+    x = np.tile(2 * nodes - 1, (m, 1))
+    x[:, 1:-1] = rising_root(over, np.full(row.size, -1.0), np.ones(row.size), inside)[0].reshape(m, size - 2)
     return coefficients(evaluate_each(both[:, :, 1:], x))

@@ -51,12 +51,12 @@ def family_means(columns: LevelBatch, rtol: np.ndarray, p: np.ndarray | None = N
         tight = np.full(which.size, np.inf)
         np.minimum.at(tight, row, rtol[left] * finer[left])
         try:
-            known = _family(columns, foundation, V[which], load[left], row, p is None, floors / unit, tight)
+            known, strips = _family(columns, foundation, V[which], load[left], row, p is None, floors / unit, tight)
         except SolverError:
             # the general path solves them, or names the strip that it can't
             break
         at = Level(known)
-        columns.work.solved += int(known.strips.sum())
+        columns.work.solved += strips
         goal = rtol[left, None] * (floors / unit)
         D[left], means, missed = at.at(row, load[left], p is not None, goal)
         values[left], errors[left] = means * unit, missed * unit

@@ -104,7 +104,7 @@ class FamilyStack:
             pressure = unit * np.maximum(crest - 1 + 0.5 * s_sat[i * G : (i + 1) * G], 0.0)
             # what is not known of pressures counts by the slope of the friction, hardly above k h
             shares.append(np.minimum(_STRIPS * self.wanted.of(i) / self._friction_unit(i), 1e-2))
-        known = family(
+        known, strips = family(
             self.foundation,
             rates,
             np.concatenate(s_top),
@@ -112,7 +112,7 @@ class FamilyStack:
             np.array((1.0, 1.0, 1e30)),
             np.concatenate(shares),
         )
-        self.work.solved += int(known.strips.sum())
+        self.work.solved += strips
         return [Level(known.part(slice(i * G, (i + 1) * G))) for i in range(len(self.waves))]
 
     def _peaks(self) -> list[Peaks]:
