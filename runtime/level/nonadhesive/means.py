@@ -19,9 +19,8 @@ _QUADRATURE, _SURE = 0.5, 2.0
 #: terms of a series from which on it has layers that a few nodes see by chance, and the fastest that sums are believed to
 #: converge then (0.01 told a sixth of an error at 1e-9) and otherwise (of 500 random levels none erred by more than it said)
 _LAYERED, _FASTEST = 120, (0.25, 0.01)
-#: penetrations are looked for to this, or pressures to that, or to this share of what is not known of them, what is left
-#: being taken up by slopes; and steps
-_CLOSE, _MET, _BLURRED, _STEPS = 1e-5, 1e-7, 1e-2, 60
+#: penetrations are looked for to this, or pressures to that, what is left being taken up by slopes; and steps
+_CLOSE, _MET, _STEPS = 1e-5, 1e-7, 60
 #: slope of friction over pressure, k h, that is never reached
 _STEEPEST = 2.0
 #: what is left in a level's mean of the greatest error of its strips' pressures
@@ -153,9 +152,9 @@ class Level:
     def _partly(self, group, p):
         """``penetrations`` between none and that of saturation: Newton on the root of the pressure, which is nearly linear."""
         low, high = p.copy(), np.minimum(p + 0.75, 0.5 * self.family.s_sat[group])
-        # next to the plane about the square root, as for paraboloids at rest
-        d = np.clip(np.sqrt(p), low, high)
-        left, known_to = np.arange(p.size), self.family.greatest_errors[group, 0]
+        # crests are paraboloids next to the plane: at rest they carry d^2/(2 pi)
+        d = np.clip(np.sqrt(2 * np.pi * p), low, high)
+        left = np.arange(p.size)
         for _ in range(_STEPS):
             at = self.means(group[left], d[left], _RULES[1], True)
             miss = np.sqrt(np.maximum(at[:, 0], 0.0)) - np.sqrt(p[left])
@@ -164,8 +163,7 @@ class Level:
             new = d[left] - np.divide(miss, slope, out=np.full_like(miss, np.inf), where=slope > 0)
             inside = (new >= low[left]) & (new <= high[left])
             new = np.where(inside, new, 0.5 * (low[left] + high[left]))
-            known = _BLURRED * known_to[left]
-            off = np.abs(at[:, 0] - p[left]) > np.maximum(_MET * p[left], known)
+            off = np.abs(at[:, 0] - p[left]) > _MET * p[left]
             left, new = left[off], new[off]
             moved = np.abs(new - d[left])
             d[left] = new
