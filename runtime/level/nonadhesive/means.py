@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...numerics.roots import rising_root
 from ...numerics.rounding import EPS
 from ...numerics.rules import by_rules
 from .family import NEXT, Family
@@ -19,8 +20,8 @@ _QUADRATURE, _SURE = 0.5, 2.0
 #: terms of a series from which on it has layers that a few nodes see by chance, and the fastest that sums are believed to
 #: converge then (0.01 told a sixth of an error at 1e-9) and otherwise (of 500 random levels none erred by more than it said)
 _LAYERED, _FASTEST = 120, (0.25, 0.01)
-#: penetrations are looked for to this, or pressures to that, what is left being taken up by slopes; and steps
-_CLOSE, _MET, _STEPS = 1e-5, 1e-7, 60
+#: penetrations are looked for to this, relative, what is left being taken up by slopes
+_CLOSE = 1e-7
 #: slope of friction over pressure, k h, that is never reached
 _STEEPEST = 2.0
 #: what is left in a level's mean of the greatest error of its strips' pressures
@@ -150,24 +151,13 @@ class Level:
         return d
 
     def _partly(self, group, p):
-        """``penetrations`` between none and that of saturation: Newton on the root of the pressure, which is nearly linear."""
-        low, high = p.copy(), np.minimum(p + 0.75, 0.5 * self.family.s_sat[group])
+        """``penetrations`` between none and that of saturation: pressures are nearly powers."""
+        low, high = p, np.minimum(p + 0.75, 0.5 * self.family.s_sat[group])
+
+        def over(log_d, index):
+            at = self.means(group[index], np.exp(log_d), _RULES[1], True)
+            pressure = np.maximum(at[:, 0], np.finfo(float).tiny)
+            return np.log(pressure / p[index]), at[:, 3] * (np.exp(log_d) / pressure)
+
         # crests are paraboloids next to the plane: at rest they carry d^2/(2 pi)
-        d = np.clip(np.sqrt(2 * np.pi * p), low, high)
-        left = np.arange(p.size)
-        for _ in range(_STEPS):
-            at = self.means(group[left], d[left], _RULES[1], True)
-            miss = np.sqrt(np.maximum(at[:, 0], 0.0)) - np.sqrt(p[left])
-            low[left], high[left] = np.where(miss <= 0, d[left], low[left]), np.where(miss > 0, d[left], high[left])
-            slope = 0.5 * at[:, 3] / np.sqrt(np.maximum(at[:, 0], np.finfo(float).tiny))
-            new = d[left] - np.divide(miss, slope, out=np.full_like(miss, np.inf), where=slope > 0)
-            inside = (new >= low[left]) & (new <= high[left])
-            new = np.where(inside, new, 0.5 * (low[left] + high[left]))
-            off = np.abs(at[:, 0] - p[left]) > _MET * p[left]
-            left, new = left[off], new[off]
-            moved = np.abs(new - d[left])
-            d[left] = new
-            left = left[moved > _CLOSE * new]
-            if not left.size:
-                break
-        return d
+        return np.exp(rising_root(over, np.log(low), np.log(high), 0.5 * np.log(2 * np.pi * p), _CLOSE)[0])
