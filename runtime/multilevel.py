@@ -223,12 +223,13 @@ class _Solve:
         index, group = index[left], group[left]
         if not index.size:
             return
-        found = self._penetrations(V, index, group)
+        columns = surface.columns(0, V[group])
+        found = self._penetrations(columns, index)
         touching = np.flatnonzero(np.isfinite(found.D))
-        index, group, D = index[touching], group[touching], found.D[touching]
+        index, group = index[touching], group[touching]
         if not index.size:
             return
-        columns = surface.columns(0, V[group], D)
+        columns = columns.at(touching, found.D[touching])
         if self.M > 1:
             columns = self._carrying(stack, V, group, columns)
         means = level_means(columns, np.full(index.size, 0.5 * surface.rtol))
@@ -258,12 +259,12 @@ class _Solve:
         out.tau[:, at], out.contact[:, at] = found.tau[:, sure], found.contact[:, sure]
         return np.setdiff1d(every, mine[sure])
 
-    def _penetrations(self, V, index, group) -> Inverse:
+    def _penetrations(self, columns: LevelBatch, index) -> Inverse:
         """Penetration of each point (NaN below pull-off) and the slope d(tau)/dp of level 1 there."""
         load = self.load[index]
         if not self.by_pressure:
             return Inverse(load.copy(), *np.zeros((2, index.size)), *np.zeros((2, index.size), bool))
-        out = invert(self.surface.columns(0, V[group]), load, 0.5 * self.surface.rtol)
+        out = invert(columns, load, 0.5 * self.surface.rtol)
         off = np.isnan(out.D)
         self.out.pulled_off[index[off]] = True
         self.out.p[index[off]] = load[off]

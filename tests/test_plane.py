@@ -42,10 +42,8 @@ def test_located_points_are_where_regimes_meet(branch, several):
         state, x = np.repeat(np.arange(3), D.size), np.tile(D, 3)
         crest = lambda state, x, columns=columns: columns.at(state, x).evaluate(np.arange(x.size), np.zeros(x.size))  # noqa: E731
         answers = [v.reshape(3, D.size, *v.shape[1:]) for v in crest(state, x)]
-        line, node = np.nonzero(answers[0][:, 1:] != answers[0][:, :-1])
-        pair = lambda v, line=line, node=node: np.stack((v[line, node], v[line, node + 1]), axis=1)  # noqa: E731
-        codes, values, heights, edges = map(pair, answers)
-        changes = Changes(line, D[node], D[node + 1], codes, heights, edges, values)
+        changes, *_ = Changes.between(np.arange(3), np.tile(D, (3, 1)), answers)
+        line, codes = changes.line, changes.codes
         E = np.stack((changes.low, changes.high), axis=1) - h
         place, found = located(columns.at(line, changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
         asked, told = asked + line.size, told + int(found.sum())

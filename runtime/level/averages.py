@@ -283,11 +283,10 @@ class _Work:
         """Locate the changes between neighbouring nodes; panels end there."""
         panels, brackets, spreads, before = _Panels.joined([stage.panels for stage in stages]), [], [], 0
         for stage in stages:
-            codes, values, heights, edges, theta = self._outer(stage)
-            row, node = np.nonzero(codes[:, 1:] != codes[:, :-1])
-            both = row[:, None], np.stack((node, node + 1), axis=1)
-            brackets.append(Changes(before + row, *theta[both].T, codes[both], heights[both], edges[both], values[both]))
-            spreads.append(np.ptp(values, axis=1)[row])
+            *known, theta = self._outer(stage)
+            some, row, _ = Changes.between(before + np.arange(stage.panels.size), theta, known)
+            brackets.append(some)
+            spreads.append(np.ptp(known[1], axis=1)[row])
             before += stage.panels.size
         changes, spread = Changes.joined(brackets), np.concatenate(spreads)
         if not changes.size:
@@ -297,8 +296,7 @@ class _Work:
         width = np.min(np.divide(goal, spread, out=np.full_like(goal, np.pi), where=spread > goal / np.pi), axis=1)
 
         def probe(line, x):
-            code, value, height, edge = self._evaluated(panels.state[line], x)
-            return code, height, edge, value
+            return self._evaluated(panels.state[line], x)
 
         def equation(changes):
             return self._by_equation(panels.state[changes.line], changes)

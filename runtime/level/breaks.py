@@ -67,8 +67,7 @@ def breaks_on(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tuple[l
     h, m = columns.level.h, column.size
 
     def probe(line, x):
-        codes, values, heights, edges = columns.at(column[line], x).evaluate(np.arange(x.size), np.zeros(x.size))
-        return codes, heights, edges, values
+        return columns.at(column[line], x).evaluate(np.arange(x.size), np.zeros(x.size))
 
     def equation(changes):
         E = np.stack((changes.low, changes.high), axis=1) - h
@@ -77,11 +76,8 @@ def breaks_on(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tuple[l
         return told, place[told] + h
 
     answers = [v.reshape(*D.shape, *v.shape[1:]) for v in probe(np.repeat(np.arange(m), D.shape[1]), D.ravel())]
-    line, node = np.nonzero(answers[0][:, 1:] != answers[0][:, :-1])
-    pair = lambda x: np.stack((x[line, node], x[line, node + 1]), axis=1)  # noqa: E731
-    ends = pair(D)
-    width = 16 * EPS * np.maximum(np.abs(ends).max(axis=1, initial=0.0), max(h, columns.stretch))
-    changes = Changes(line, ends[:, 0].copy(), ends[:, 1].copy(), *(pair(v) for v in answers))
+    changes, *_ = Changes.between(np.arange(m), D, answers)
+    width = 16 * EPS * np.maximum(np.maximum(np.abs(changes.low), np.abs(changes.high)), max(h, columns.stretch))
     changes, _ = locate_changes(probe, equation, changes, width)
     valley = _of_valley(columns)[column]
     out, touched = [], np.full(m, np.inf)

@@ -1,7 +1,7 @@
 """Where a code changes along a line: the slow way, for what no equation tells.
 
-Between two points whose codes differ lies a change. Its bracket is halved; where a height is known that passes zero at the
-change, false position (Illinois; Dowell and Jarratt, BIT 11, 1971, 168) is quicker.
+Between two points whose codes differ lies a change. Its bracket is divided in three, again and again: a call for two strips costs
+no more than one for one.
 """
 
 from __future__ import annotations
@@ -13,29 +13,30 @@ import numpy as np
 
 from ..numerics.rounding import EPS
 
-#: more than enough to halve any bracket of numbers in double precision to nothing
+#: more than enough to divide any bracket of numbers in double precision to nothing
 _ROUNDS = 100
 #: how far beside a place that an equation tells it is checked, as a share of the bracket
 _ASIDE = 1e-6
 
-#: (line, x) -> codes (m,), heights (m, k), edges (m, 4) and values (m, q)
+#: (line, x) -> codes (m,), values (m, q), heights (m, k) and edges (m, 4)
 Probe = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
-#: (changes) -> changes of which equations tell all there is (k,), and where that is; one of several places may stand for each
+#: (changes) -> changes of which equations tell all there is (k,), and where that is; one of several places may stand for each,
+#: if they are not checked
 Equation = Callable[["Changes"], tuple[np.ndarray, np.ndarray]]
 
 
 @dataclass
 class Changes:
     """Brackets of single changes, arrays (m,): the ``line`` each lies on, ``low`` and ``high``; and what is known at the ends:
-    ``codes`` (m, 2), ``heights`` (m, 2, k), ``edges`` (m, 2, 4), ``values`` (m, 2, q)."""
+    ``codes`` (m, 2), ``values`` (m, 2, q), ``heights`` (m, 2, k), ``edges`` (m, 2, 4)."""
 
     line: np.ndarray
     low: np.ndarray
     high: np.ndarray
     codes: np.ndarray
+    values: np.ndarray
     heights: np.ndarray
     edges: np.ndarray
-    values: np.ndarray
 
     def take(self, index) -> Changes:
         return Changes(*(getattr(self, f.name)[index] for f in fields(self)))
@@ -43,6 +44,14 @@ class Changes:
     @classmethod
     def joined(cls, some: list[Changes]) -> Changes:
         return cls(*(np.concatenate([getattr(c, f.name) for c in some]) for f in fields(cls)))
+
+    @classmethod
+    def between(cls, line: np.ndarray, x: np.ndarray, known) -> tuple[Changes, np.ndarray, np.ndarray]:
+        """Brackets between neighbouring points ``x`` (lines, points) whose codes differ, with their rows and first points.
+        ``known``: codes, values, heights and edges at the points, (lines, points, ...)."""
+        row, first = np.nonzero(known[0][:, 1:] != known[0][:, :-1])
+        both = row[:, None], np.stack((first, first + 1), axis=1)
+        return cls(line[row], *x[both].T, *(v[both] for v in known)), row, first
 
     @property
     def size(self) -> int:
@@ -58,88 +67,37 @@ def locate_changes(
     those found next to it, and what else changes in the bracket is located too. Returns the changes, and how many points it took
     where no equation told.
     """
-    found, halved = [], 0
-    weight, stayed = np.ones((changes.size, 2)), np.full(changes.size, -1)
+    found, divided = [], 0
     for _ in range(_ROUNDS):
         finest = 4 * EPS * np.maximum(np.abs(changes.low), np.abs(changes.high))
         done = changes.high - changes.low <= np.maximum(width, finest)
         found.append(changes.take(done))
-        changes, width, weight, stayed = changes.take(~done), width[~done], weight[~done], stayed[~done]
+        changes, width = changes.take(~done), width[~done]
+        parent, place = equation(changes) if changes.size else (np.empty(0, int), np.empty(0))
+        if not checked:
+            found.append(_at(place, changes.take(parent)))
+            left = np.setdiff1d(np.arange(changes.size), parent)
+            changes, width, parent, place = changes.take(left), width[left], parent[:0], place[:0]
         if not changes.size:
             break
-        parent, place = equation(changes)
-        if parent.size:
-            exact, wide = changes.take(parent), width[parent]
-            left = np.setdiff1d(np.arange(changes.size), parent)
-            changes, width, weight, stayed = changes.take(left), width[left], weight[left], stayed[left]
-            if checked:
-                exact, others, parent = _beside(probe, exact, place)
-                changes, width = Changes.joined([changes, others]), np.concatenate((width, wide[parent]))
-                weight = np.concatenate((weight, np.ones((others.size, 2))))
-                stayed = np.concatenate((stayed, np.full(others.size, -1)))
-            else:
-                exact.low[:] = exact.high[:] = place
-            found.append(exact)
-            if not changes.size:
-                break
-        halved += changes.size
-        share = _share(changes, weight, width)
-        x = changes.low + share * (changes.high - changes.low)
-        answers = probe(changes.line, x)
-        codes = answers[0]
-        low, high = codes != changes.codes[:, 0], codes != changes.codes[:, 1]
-        parts, weights, ends = [], [], []
-        for side, which in ((0, np.flatnonzero(low)), (1, np.flatnonzero(high))):
-            part = changes.take(which)
-            end = 1 - side
-            (part.high if side == 0 else part.low)[:] = x[which]
-            part.codes[:, end], part.heights[:, end], part.edges[:, end], part.values[:, end] = (v[which] for v in answers)
-            parts.append((part, width[which]))
-            # an end that stays twice in a row counts half as much the next time (Illinois)
-            w = np.ones((which.size, 2))
-            w[:, side] = np.where(stayed[which] == side, 0.5 * weight[which, side], 1.0)
-            weights.append(w)
-            ends.append(np.full(which.size, side))
-        changes = Changes.joined([part for part, _ in parts])
-        width = np.concatenate([w for _, w in parts])
-        weight, stayed = np.concatenate(weights), np.concatenate(ends)
-    found.append(changes)
-    out = Changes.joined(found)
-    return out.take(np.lexsort((out.low, out.line))), halved
+        divided += 2 * (changes.size - parent.size)
+        low, high = changes.low[:, None], changes.high[:, None]
+        x = low + (high - low) * [1 / 3, 2 / 3]
+        told, where = np.zeros(changes.size, bool), np.full(changes.size, np.nan)
+        told[parent], where[parent] = True, place
+        x[parent] = np.clip(place[:, None] + _ASIDE * (high - low)[parent] * [-1, 1], low[parent], high[parent])
+        answers = [v.reshape(*x.shape, *v.shape[1:]) for v in probe(np.repeat(changes.line, 2), x.ravel())]
+        ends = changes.codes, changes.values, changes.heights, changes.edges
+        known = [np.concatenate((end[:, :1], new, end[:, 1:]), axis=1) for end, new in zip(ends, answers, strict=True)]
+        changes, row, part = Changes.between(changes.line, np.concatenate((low, x, high), axis=1), known)
+        exact = told[row] & (part == 1)
+        found.append(_at(where[row[exact]], changes.take(exact)))
+        changes, width = changes.take(~exact), width[row[~exact]]
+    out = Changes.joined([*found, changes])
+    return out.take(np.lexsort((out.low, out.line))), divided
 
 
-def _beside(probe: Probe, changes: Changes, place: np.ndarray) -> tuple[Changes, Changes, np.ndarray]:
-    """What a look to either side of the ``place`` told for every change makes of it: the changes there, what else changes between
-    there and the ends, and of which change each of these is a part."""
-    aside = _ASIDE * (changes.high - changes.low)
-    sides = np.maximum(place - aside, changes.low), np.minimum(place + aside, changes.high)
-    answers = probe(np.tile(changes.line, 2), np.concatenate(sides))
-    below, above = ([v[: place.size] for v in answers], [v[place.size :] for v in answers])
-    known = [getattr(changes, f.name) for f in fields(Changes)[3:]]
-    lower = [np.stack((v[:, 0], new), axis=1) for v, new in zip(known, below, strict=True)]
-    upper = [np.stack((new, v[:, 1]), axis=1) for v, new in zip(known, above, strict=True)]
-    exact = Changes(changes.line, place, place, *(np.stack(pair, axis=1) for pair in zip(below, above, strict=True)))
-    others = Changes.joined(
-        [Changes(changes.line, changes.low, sides[0], *lower), Changes(changes.line, sides[1], changes.high, *upper)]
-    )
-    differ = lambda some: np.flatnonzero(some.codes[:, 0] != some.codes[:, 1])  # noqa: E731
-    more = differ(others)
-    return exact.take(differ(exact)), others.take(more), more % place.size
-
-
-def _share(changes: Changes, weight, width) -> np.ndarray:
-    """Where in its bracket to look next: half-way, or where the height vanishes whose sign differs at the ends."""
-    share = np.full(changes.size, 0.5)
-    if not changes.heights.shape[2]:
-        return share
-    low, high = changes.heights[:, 0], changes.heights[:, 1]
-    passed = (low > 0) != (high > 0)
-    alone = np.flatnonzero(passed.sum(axis=1) == 1)
-    which = passed[alone].argmax(axis=1)
-    a, b = low[alone, which] * weight[alone, 0], high[alone, which] * weight[alone, 1]
-    usable = np.isfinite(a) & np.isfinite(b) & (a != b)
-    alone, a, b = alone[usable], a[usable], b[usable]
-    # no closer to an end than what has to be known anyway
-    edge = np.minimum(0.4 * width[alone] / (changes.high - changes.low)[alone], 0.5)
-    share[alone] = np.clip(a / (a - b), edge, 1 - edge)
-    return share
+def _at(place: np.ndarray, changes: Changes) -> Changes:
+    """The changes, known to be at ``place``."""
+    changes.low[:] = changes.high[:] = place
+    return changes

@@ -19,7 +19,7 @@ from .interior_breaks import is_inside, island, locate_vanishing
 from .interval import Interval
 from .piece import Errors, Piece
 from .reentrant import reentrant_parts
-from .sampling import FIRST, MEAN, Batch, sample
+from .sampling import FEWEST, MEAN, Batch, sample
 from .strips import LevelBatch, saturation_depth
 
 #: nodes of an interval at most, less one: what they do not tell is divided
@@ -107,15 +107,16 @@ def interpolate(
     """
     pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
     batches = [Batch(columns, rtol, intervals)] if intervals else []
+    # a budget has to know what pressures an interval comes to before it says how well they have to be known
+    first = 2 * FEWEST if budget is None else FEWEST
     while batches:
-        sample(batches, strips)
+        sample(batches, first, strips)
         going, left = [], []
         for batch in batches:
-            if batch.n > FIRST:
+            if batch.n > FEWEST:
                 left.append(_converged(batch, pieces, strips, pressure_goal))
                 continue
-            if budget is not None:
-                batch.weigh(budget, ceiling)
+            batch.weigh(budget, ceiling)
             going.append(batch)
         splits, parts = _isolated_regimes(columns, left, strips), []
         for batch, _, hopeless in left:
@@ -195,7 +196,7 @@ def _isolated_regimes(columns: LevelBatch, left, strips) -> dict[Interval, float
     two nodes, away from the crest."""
     seen = {}
     for batch, goal, _ in left:
-        for k, i in enumerate(batch.intervals if batch.n > 2 * FIRST else ()):
+        for k, i in enumerate(batch.intervals if batch.n > 2 * FEWEST else ()):
             found = island(i.column, i.penetrations(lobatto(batch.n)[1:-1]), batch.zones[k], goal[k])
             if found is not None:
                 seen[i] = found

@@ -23,17 +23,15 @@ from .saturated import saturated_level
 from .strips import LevelBatch
 
 #: accuracy of the first look, of the pressure's scale, and how much finer each further one is
-_COARSE, _FINER = 2e-3, 0.03
+_ROUGH, _FINER = 1e-2, 0.03
 #: width of the first part of the curve to be looked at, in heights; each further one is twice as wide
 _NEXT = 0.3
 #: penetrations in each of them at which the crest is looked at
 _LOOKS = 12
 #: how much more than the estimated error of the interpolation a turn has to keep away from the pressure
 _DOUBT = 2.0
-#: steps of Newton's method, and of that with bisection; and the share of what is allowed that a pressure may be off
-_NEWTON, _STEPS, _CLOSE = 6, 60, 0.3
-#: accuracy of averages on the way to a root that nothing is known of
-_ROUGH = 1e-2
+#: steps of Newton's method, and of that with bisection
+_NEWTON, _STEPS = 6, 60
 #: place of a pressure that loading never comes to carry
 _PULLED_OFF = -1
 
@@ -130,104 +128,99 @@ class _Root:
 
 
 class _Descent:
-    """All columns go along their curves together, one piece each at a time."""
+    """All columns go along their curves together, a part of each at a time."""
 
     def __init__(self, columns: LevelBatch, p: np.ndarray, top: np.ndarray, rtol: float):
         self.columns, self.p = columns, p
         self.scale = np.abs(p) + columns.scales[0]
         finest = rtol * (np.abs(p) + 1e-3 * columns.scales[0])
         self.inside = threshold_width(columns, top)
-        bottom, width = first_contact(columns), _NEXT * columns.level.h
+        bottom, unloading = first_contact(columns), columns.branch == "unloading"
         # at the top the curve is but cut, or saturates
-        every = [Interval(i, bottom, D, inner_high=True) for i, D in enumerate(top)]
-        self.walks = [
-            _Walk(columns.branch == "unloading", *of, width if interval.high > bottom else None, interval)
-            for *of, interval in zip(p, np.maximum(_COARSE * self.scale, finest), finest, every, strict=True)
-        ]
-        #: intervals that are known to hold no break
-        self.unbroken: set[Interval] = set()
+        every = [_growing(Interval(i, bottom, D, inner_high=True), _NEXT * columns.level.h, unloading) for i, D in enumerate(top)]
+        goals = np.maximum(_ROUGH * self.scale, finest)
+        self.walks = [_Walk(unloading, *of) for of in zip(p, goals, finest, every, strict=True)]
 
     def run(self) -> tuple[list[_Root | None], np.ndarray]:
         """Where each column carries its pressure (None: nowhere), and which are undecided."""
         strips = np.zeros(self.p.size, int)
-        while now := self._next():
+        while going := [(i, walk) for i, walk in enumerate(self.walks) if walk.waiting]:
+            self._divide([walk for _, walk in going if not walk.divided])
+            now = [walk.next() for _, walk in going]
             goal = np.array([walk.goal for walk in self.walks])
-            pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), now, strips, goal)
-            for interval in now:
-                i = interval.column
-                self.walks[i].go_on(interval, pieces[i], bool(strips[i] > CURVE_LIMIT))
+            every = [interval for some in now for interval in some]
+            pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), every, strips, goal)
+            for (i, walk), intervals in zip(going, now, strict=True):
+                walk.go_on(intervals, pieces[i], bool(strips[i] > CURVE_LIMIT))
         return [walk.root for walk in self.walks], np.array([walk.undecided for walk in self.walks])
 
-    def _next(self) -> list[Interval]:
-        """The next interval of every column, taken from those that wait, free of breaks."""
-        rows = [walk.waiting for walk in self.walks]
-        fresh = [row.pop() for row in rows if row and row[-1] not in self.unbroken]
-        if fresh:
-            share = np.linspace(0, 1, _LOOKS)
-            D = np.array([i.low + (i.high - i.low) * share for i in fresh])
-            found, _ = breaks_on(self.columns, np.array([i.column for i in fresh]), D)
-            for interval, breaks in zip(fresh, found, strict=True):
-                parts = self._between(interval, breaks)
-                self.unbroken.update(parts)
-                self.walks[interval.column].waits(parts)
-        return [row.pop() for row in rows if row]
-
-    def _between(self, interval: Interval, breaks: np.ndarray) -> list[Interval]:
-        """The parts of an interval between its breaks, ascending."""
-        parts, rest, inside = [], interval, self.inside[interval.column]
-        for D in breaks:
-            if D - inside > rest.low:
+    def _divide(self, walks: list[_Walk]) -> None:
+        """What is next of each of the ``walks``, one interval, is divided at its breaks."""
+        if not walks:
+            return
+        share, every = np.linspace(0, 1, _LOOKS), [walk.waiting[-1][0] for walk in walks]
+        D = np.array([i.low + (i.high - i.low) * share for i in every])
+        found, _ = breaks_on(self.columns, np.array([i.column for i in every]), D)
+        for walk, rest, breaks in zip(walks, every, found, strict=True):
+            parts, inside = [], self.inside[rest.column]
+            for D in breaks:
                 parts.append(replace(rest, high=D - inside, inner_high=False))
-            rest = replace(rest, low=min(D + inside, rest.high), inner_low=False)
-        return [part for part in (*parts, rest) if part.high > part.low]
+                rest = replace(rest, low=D + inside, inner_low=False)
+            walk.waiting[-1] = [part for part in (*parts, rest) if part.high > part.low]
+            walk.divided = True
 
 
+def _growing(rest: Interval, width: float, unloading: bool) -> list[list[Interval]]:
+    """An interval in parts that grow from the end at which the branch arrives; the last one first."""
+    parts = []
+    while rest.high - rest.low > 2 * width:
+        lower, upper = rest.split(rest.high - width if unloading else rest.low + width, soft=True)
+        rest, part = (lower, upper) if unloading else (upper, lower)
+        parts.append([part])
+        width *= 2
+    return [[rest], *parts[::-1]] if rest.high > rest.low else []
+
+
+@dataclass
 class _Walk:
     """One column along its curve, from the end its branch comes from to where it first passes the pressure ``p``.
 
-    ``goal``: error of the curve's pressure that it may have so far, at last ``finest``, Pa. ``width``: of the first part that is
-    looked at, m; None if there is no curve.
+    ``goal``: error of the curve's pressure that it may have so far, at last ``finest``, Pa. ``waiting``: what is ahead of it, the
+    next part last, which is ``divided`` at its breaks or not yet. ``held``: loading to less than no pressure, what was gone along
+    until it is known where the curve is least, and rises there. ``passed``: the last branch before what is next.
     """
 
-    def __init__(self, unloading: bool, p: float, goal: float, finest: float, width: float | None, interval: Interval):
-        self.unloading, self.p, self.goal, self.finest = unloading, p, goal, finest
-        #: intervals ahead, the next one last
-        self.waiting = [] if width is None else self._growing(interval, width)
-        #: loading to less than no pressure: what was gone along until it is known where the curve is least, and rises there
-        self.held: list[tuple[Interval, list[Branch]]] = []
-        self.passed: Branch | None = None
-        self.root: _Root | None = None
-        self.undecided = False
+    unloading: bool
+    p: float
+    goal: float
+    finest: float
+    waiting: list[list[Interval]]
+    divided: bool = False
+    held: tuple[list[Interval], list[Branch]] = ([], [])
+    passed: Branch | None = None
+    root: _Root | None = None
+    undecided: bool = False
 
-    def _growing(self, rest: Interval, width: float) -> list[Interval]:
-        """An interval in parts that grow from the end at which the branch arrives; the last one first."""
-        parts = []
-        while rest.high - rest.low > 2 * width:
-            lower, upper = rest.split(rest.high - width if self.unloading else rest.low + width, soft=True)
-            rest, part = (lower, upper) if self.unloading else (upper, lower)
-            parts.append(part)
-            width *= 2
-        return [rest, *parts[::-1]]
+    def next(self) -> list[Interval]:
+        """The next part."""
+        self.divided = False
+        return self.waiting.pop()
 
-    def waits(self, ascending: list[Interval]) -> None:
-        """These intervals are next."""
-        self.waiting += ascending if self.unloading else ascending[::-1]
-
-    def go_on(self, interval: Interval, pieces: list[Piece], exhausted: bool) -> None:
-        """Along the ``pieces`` of an interval; where the work is not ``exhausted`` these may be asked for again, finer."""
+    def go_on(self, intervals: list[Interval], pieces: list[Piece], exhausted: bool) -> None:
+        """Along the ``pieces`` of a part; where the work is not ``exhausted`` these may be asked for again, finer."""
         every = [part for piece in pieces for part in rising(piece)]
         parts = sorted(every, key=lambda part: (part.piece.low, part.t_low), reverse=self.unloading)
-        along, clings = [interval], self.p < 0 and not self.unloading
+        clings = self.p < 0 and not self.unloading
         if clings:
-            self.held.append((interval, parts))
-            parts = [part for _, some in self.held for part in some]
+            intervals, parts = self.held[0] + intervals, self.held[1] + parts
+            self.held = intervals, parts
             if self.waiting and not any(part.p_high >= 0 for part in parts):
                 return
-            parts, along, self.held = loaded(parts), [other for other, _ in self.held], []
+            parts, self.held = loaded(parts), ([], [])
         if self.goal > self.finest and len({self._passing(parts, doubts) for doubts in (-_DOUBT, 0.0, _DOUBT)}) > 1:
             if not exhausted:
-                self.goal = max(_FINER * self.goal, self.finest)
-                self.waiting += along[::-1]
+                self.goal, self.divided = max(_FINER * self.goal, self.finest), True
+                self.waiting.append(intervals)
                 return
             self.undecided = True
         self.root = self._root(parts)
@@ -276,11 +269,11 @@ class _Walk:
 def _refine(columns: LevelBatch, p, near, rtol, floor):
     """Penetrations, d(tau)/dp and how uncertain that is at the roots ``near`` these (arrays of the fields of ``_Root``): Newton
     with the slope of the coarse curve, then of the last two averages; bisection where that does not settle. The pressure is met
-    to a share of ``rtol`` of itself and the ``floor``, Pa."""
+    to ``rtol`` of itself and the ``floor``, Pa."""
     D, slope, friction_slope, low, high = near
     # nothing but the coarse curve says what it is
     doubt = np.abs(friction_slope)
-    goal = _CLOSE * rtol * (np.abs(p) + floor)
+    goal = rtol * (np.abs(p) + floor)
     active = np.flatnonzero((slope > 0) & (high > low))
     known = None
     for k in range(_STEPS):

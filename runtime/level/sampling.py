@@ -17,8 +17,8 @@ from .zones import Zones
 
 #: share of the error allowed that each mean may have
 MEAN = 0.4
-#: nodes of an interval at first, less one
-FIRST = 6
+#: nodes of an interval at least, less one
+FEWEST = 6
 
 
 def means_in(columns: LevelBatch, intervals: list[Interval], D: list[np.ndarray], rtol, strips) -> list[Averages]:
@@ -97,9 +97,9 @@ class Batch:
         return replace(self, intervals=some, values=self.values[index], errors=self.errors[index], zones=zones, missed=missed)
 
 
-def sample(batches: list[Batch], strips: np.ndarray) -> None:
-    """Go on with every batch to twice its nodes, of which every other one is known, or to the first, all at once."""
-    nodes = [lobatto(2 * batch.n)[1:-1:2] if batch.n else lobatto(FIRST)[1:-1] for batch in batches]
+def sample(batches: list[Batch], first: int, strips: np.ndarray) -> None:
+    """Go on with every batch to twice its nodes, of which every other one is known, or to the ``first``, all at once."""
+    nodes = [lobatto(2 * batch.n)[1:-1:2] if batch.n else lobatto(first)[1:-1] for batch in batches]
     intervals = [i for batch in batches for i in batch.intervals]
     D = [i.penetrations(t) for batch, t in zip(batches, nodes, strict=True) for i in batch.intervals]
     rtol = np.concatenate([batch.accuracy * [i.asked.means for i in batch.intervals] for batch in batches])
@@ -111,7 +111,7 @@ def sample(batches: list[Batch], strips: np.ndarray) -> None:
         if batch.n:
             values, errors = interleaved(values, batch.values), interleaved(errors, batch.errors)
             zones = [_alternating(*pair) for pair in zip(zones, batch.zones, strict=True)]
-        batch.n, batch.values, batch.errors, batch.zones = 2 * batch.n or FIRST, values, errors, zones
+        batch.n, batch.values, batch.errors, batch.zones = 2 * batch.n or first, values, errors, zones
 
 
 def _alternating(outer: list[Zones], inner: list[Zones]) -> list[Zones]:
