@@ -40,30 +40,9 @@ _SHIFTS = (8, 64, 512)
 
 def solve_strips(kernel, strips: Strips, unloading: bool) -> Solved:
     """Solve a batch with the generated ``kernel``; ``certified`` is false for every strip that must not be used."""
-    solved = Solved.empty(strips.size)
-    left: list[tuple[np.ndarray, Orbit, OrbitBounds]] = []
-    for first in range(0, strips.size, CHUNK):
-        part = np.arange(first, min(first + CHUNK, strips.size))
-        batch = _Batch(kernel, strips.take(part), unloading)
-        solved.put(part, batch.solve())
-        if batch.open.size:
-            left.append((part[batch.open], batch.known.take(batch.open), batch.bounds.take(batch.open)))
-        if sum(index.size for index, *_ in left) >= CHUNK:
-            _search(kernel, strips, solved, unloading, left)
-    _search(kernel, strips, solved, unloading, left)
+    solved = _Batch(kernel, strips, unloading).solve()
     _settle(kernel, strips, solved, unloading)
     return solved
-
-
-def _search(kernel, strips: Strips, solved: Solved, unloading: bool, left: list[tuple[np.ndarray, Orbit, OrbitBounds]]) -> None:
-    """Solve the strips that are ``left`` by marches and by the search, and empty that list."""
-    if left:
-        index, known, bounds = zip(*left, strict=True)
-        index = np.concatenate(index)
-        left.clear()
-        found = _Batch(kernel, strips.take(index), unloading, Orbit.joined(known), OrbitBounds.joined(bounds)).solve()
-        found.evaluations += solved.evaluations[index]
-        solved.put(index, found)
 
 
 def _settle(kernel, strips: Strips, solved: Solved, unloading: bool) -> None:
@@ -79,40 +58,31 @@ def _settle(kernel, strips: Strips, solved: Solved, unloading: bool) -> None:
         these = strips.take(index)
         shift = roundings * EPS * (1 + np.abs(these.D) + these.p_0 + these.delta_0)
         nearby = replace(these, D=these.D + (shift if unloading else -shift))
-        again = _Batch(kernel, nearby, unloading, Orbit.blank(index.size)).solve()
+        again = _Batch(kernel, nearby, unloading).solve()
         again.evaluations += solved.evaluations[index]
         good = np.flatnonzero(again.certified)
         solved.put(index[good], again.take(good))
 
 
 class _Batch:
-    """One pass over a batch. Without ``known`` what Newton and the thresholds decide, the rest being left ``open``; with it
-    (orbits that are known, x NaN where none is) everything else is searched for."""
+    """Strips, and what is known of them so far: solutions, orbits with an onset, x NaN where none is known, and bounds on all."""
 
-    def __init__(self, kernel, strips: Strips, unloading: bool, known: Orbit | None = None, bounds: OrbitBounds | None = None):
+    def __init__(self, kernel, strips: Strips, unloading: bool):
         self.kernel, self.strips, self.unloading = kernel, strips, unloading
-        self.searching = known is not None
-        self.known = known or Orbit.blank(strips.size)
         self.record = Record(kernel, strips)
-        self.bounds = bounds or OrbitBounds.blank(strips.size)
-        self._open: list[np.ndarray] = []
-
-    @property
-    def open(self) -> np.ndarray:
-        """Strips left to the search."""
-        return np.concatenate(self._open) if self._open else np.zeros(0, int)
+        self.known, self.bounds = Orbit.blank(strips.size), OrbitBounds.blank(strips.size)
 
     def solve(self) -> Solved:
         adhesive = self.strips.p_0 > 0
         self._without_adhesion(np.flatnonzero(~adhesive))
         index = np.flatnonzero(adhesive)
-        stages = (self._engaged, self._onset, self._free) if self.unloading else (self._free, self._onset, self._engaged)
-        for stage in stages:
+        onset = (self._direct, self._searched)
+        for stage in (self._engaged, *onset, self._free) if self.unloading else (self._free, *onset, self._engaged):
             if index.size:
-                index = stage(index)
+                index = np.concatenate([stage(index[i : i + CHUNK]) for i in range(0, index.size, CHUNK)])
         return self.record.solved
 
-    # -- the three kinds of orbit; each decides what it can and returns the strips that are certain to have none ----------------
+    # -- the three kinds of orbit; each stage decides what it can and returns the other strips ----------------------------------
 
     def _free(self, index):
         s = self.strips
@@ -121,13 +91,6 @@ class _Batch:
         return index[~free]
 
     def _engaged(self, index):
-        # what the pass without search has told holds
-        told = self.bounds.released[index]
-        asked = index[~told]
-        rest = self._engaged_asked(asked) if asked.size else asked
-        return np.sort(np.concatenate((index[told], rest))) if told.any() else rest
-
-    def _engaged_asked(self, index):
         s = self.strips.among(index)
         full = saturates(self.kernel, s)
         self.record.saturated_contact(index[full])
@@ -137,14 +100,12 @@ class _Batch:
         self.record.constant(index[hold], "a", -s.p_0[hold], 0.0, 0.0, 1.0)
         done = full | hold
         partial = reaches & ~clinging
-        if self.unloading and not self.searching:
+        if self.unloading:
             partial &= ~self._bounded(index, s, ~done)
         partial = np.flatnonzero(partial)
         if partial.size:
             done[partial] = self._contact_with_saturated_adhesion(index[partial])
-        index = index[~done]
-        self.bounds.released[index] = True
-        return index
+        return index[~done]
 
     def _bounded(self, index, s: Strips, ask) -> np.ndarray:
         """Bound all orbits of the strips ``index`` of which to ``ask``; returns of which none is always engaged."""
@@ -157,12 +118,9 @@ class _Batch:
             self.record.solved.evaluations[index[ask]] += bounds.evaluations
         return released
 
-    def _onset(self, index):
-        """Orbits that are free once per period."""
+    def _direct(self, index):
+        """Orbits that are free once per period, as far as they can be had without a search."""
         cycle = adhesive_cycle(self.kernel, self.strips.among(index))
-        return (self._sought if self.searching else self._onset_direct)(index, cycle)
-
-    def _onset_direct(self, index, cycle: Cycle):
         if not self.unloading:
             bounds = least_engaged_bounds(self.kernel, cycle)
             self.bounds.put(index, bounds)
@@ -175,10 +133,16 @@ class _Batch:
             pick = np.flatnonzero(proven & (sequences == sequence))
             self.record.orbits(index[pick], sequence, orbit.take(pick))
         self.known.put(index, orbit)
-        self._open.append(index[~proven & ~none])
-        return index[none]
+        self.bounds.missed[index] = none
+        return index[~proven]
 
-    def _sought(self, index, cycle: Cycle):
+    def _searched(self, index):
+        """Orbits that are free once per period, of those that may have one."""
+        none = self.bounds.missed[index]
+        missed, index = index[none], index[~none]
+        if not index.size:
+            return missed
+        cycle = adhesive_cycle(self.kernel, self.strips.among(index))
         known, limit = self.known.take(index), self.bounds.x[index]
         result = isolated_orbits(self.kernel, cycle, not self.unloading, known, limit)
         self.record.solved.evaluations[index] += result.evaluations
@@ -188,7 +152,7 @@ class _Batch:
             self.record.orbits(index[good], sequence, result.orbit.take(good))
         lost = ~result.found & ~result.ended
         self.record.solved.code[index[lost]] = CODE["acaf"]
-        return index[~result.found & result.ended]
+        return np.sort(np.concatenate((missed, index[~result.found & result.ended])))
 
     def _without_adhesion(self, index):
         if not index.size:
@@ -206,7 +170,7 @@ class _Batch:
             self.record.orbits(index[pick], "cf", orbit.take(pick))
 
     def _contact_with_saturated_adhesion(self, index):
-        """Solve as the strip without adhesion at ``D + p_0``; returns which strips are decided, or left open."""
+        """Solve as the strip without adhesion at ``D + p_0``; returns which strips are decided."""
         strips = self.strips.among(index)
         cycle = bare_cycle(self.kernel, strips)
         orbit, found = self._bare(index, "ac", cycle)
@@ -219,16 +183,14 @@ class _Batch:
         return done
 
     def _bare(self, index, sequence: str, cycle: Cycle) -> tuple[Orbit, np.ndarray]:
-        """Orbits without adhesion, and which are certified; without search the others are left open.
+        """Orbits without adhesion, and which are certified.
 
         Where p does not step the onset map contracts everywhere (``sensitivity``): an orbit that is found is the only one.
         """
         orbit, found, spent = certified(self.kernel, cycle, sequence, start(self.kernel, cycle, sequence))
         self.record.solved.evaluations[index] += spent
         rest = np.flatnonzero(~found)
-        if rest.size and not self.searching:
-            self._open.append(index[rest])
-        elif rest.size:
+        if rest.size:
             result = isolated_orbits(self.kernel, cycle.among(rest), last=False)
             self.record.solved.evaluations[index[rest]] += result.evaluations
             orbit.put(rest, result.orbit)
