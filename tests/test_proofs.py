@@ -63,7 +63,7 @@ def proven(cycle, orbit):
     """By the balance of a period, and by bounds on all orbits."""
     start, end = exclusion.onsets_within(cycle, OrbitBounds.blank(cycle.size))
     bounds = orbit_bounds(kernel, cycle)
-    by_bounds = exclusion.falls_from(kernel, cycle, orbit, bounds.x, bounds.c, np.nan)
+    by_bounds = exclusion.falls_from(kernel, cycle, orbit, bounds.x, bounds.c)
     return balance_exclusion.first(kernel, cycle, orbit, start, end)[0], by_bounds
 
 

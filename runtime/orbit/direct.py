@@ -8,7 +8,7 @@ import numpy as np
 
 from .balance_exclusion import exclude_out_of_reach
 from .certificate import attracting, edges_admissible
-from .chain import CONVERGED, follow
+from .chain import follow
 from .exclusion import is_first, is_last
 from .groups import Cycle
 from .march import FROZEN, Orbit
@@ -20,22 +20,17 @@ from .start import start
 
 def certified(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[Orbit, np.ndarray, np.ndarray]:
     """Orbits of ``sequence`` that Newton finds from ``edges`` (k, n), which are certified, and the evaluations of each."""
-    chain = follow(kernel, cycle, sequence, edges)
-    spent = chain.evaluations
-    good = chain.converged
-    frozen = np.flatnonzero(~good & (cycle.strips.alpha > FROZEN)) if sequence in ("acaf", "afc") else ()
-    if len(frozen):
+    found, good, spent = follow(kernel, cycle, sequence, edges)
+    if sequence in ("acaf", "afc"):
         # the links along the chain lose what a period changes to rounding; the start is as good as an orbit
-        chain.edges[:, frozen], chain.correction[frozen], good[frozen] = edges[:, frozen], np.inf, True
-    orbit = orbit_of(sequence, chain.edges)
-    coarse = np.flatnonzero(good & (chain.correction > CONVERGED))
-    if coarse.size:
-        # next to a fold or a graze the search knows better; a strip without adhesion has neither
-        blurred = sequence in ("ac", "cf")
-        new, converged, _, more = refined(kernel, sequence, cycle.among(coarse), orbit.take(coarse), blurred=blurred)
-        spent[coarse] += more
-        orbit.put(coarse, new)
-        good[coarse] = converged
+        frozen = np.flatnonzero(~good & (cycle.strips.alpha > FROZEN))
+        found[:, frozen], good[frozen] = edges[:, frozen], True
+    orbit, here = orbit_of(sequence, found), np.flatnonzero(good)
+    # next to a fold or a graze the search knows better; a strip without adhesion has neither
+    blurred = sequence in ("ac", "cf")
+    new, good[here], _, more = refined(kernel, sequence, cycle.among(here), orbit.take(here), blurred=blurred)
+    spent[here] += more
+    orbit.put(here, new)
     here = np.flatnonzero(good)
     part, there = cycle.among(here), orbit.take(here)
     good[here] = edges_admissible(kernel, part, there)
