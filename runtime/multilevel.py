@@ -13,7 +13,7 @@ from .level.accuracy import Accuracy
 from .level.across import peak_pressure, strips_across
 from .level.build import build_laws
 from .level.effort import WorkCounters
-from .level.error_budget import error_budget
+from .level.error_budget import FINER, error_budget
 from .level.inverse import Inverse, cut_penetration, invert
 from .level.lower_levels import LowerLevelLaws
 from .level.means import level_means
@@ -48,17 +48,13 @@ class Points:
     closed_form: np.ndarray
     pulled_off: np.ndarray
 
-    def put(self, index: np.ndarray, solved: Points, tau: np.ndarray, full: np.ndarray) -> None:
-        """Write the points ``index`` (k,), ``solved`` for their first levels alone: those below are saturated wherever the last
-        one touches, with the frictions ``tau`` (more levels, k), Pa. ``full`` (k,): which are saturated on all levels."""
-        count = len(solved.tau)
-        for name in ("D", "p", "pulled_off"):
-            getattr(self, name)[index] = getattr(solved, name)
-        for name in ("tau", "contact", "adhesion"):
-            getattr(self, name)[:count, index] = getattr(solved, name)
-        self.tau[count:, index], self.contact[count:, index] = solved.contact[-1] * tau, solved.contact[-1]
-        self.error[index] = solved.error + np.where(full, 0.0, tau.sum(axis=0))
-        self.closed_form[index] = full
+    def extend(self, tau: np.ndarray) -> None:
+        """Add levels below that are saturated wherever the last one touches, with the frictions ``tau`` (more levels, n), Pa."""
+        touching = self.contact[-1:]
+        self.error = self.error + np.where(self.closed_form, 0.0, tau.sum(axis=0))
+        self.tau = np.concatenate((self.tau, touching * tau))
+        self.contact = np.concatenate((self.contact, np.broadcast_to(touching, tau.shape)))
+        self.adhesion = np.concatenate((self.adhesion, np.zeros(tau.shape)))
 
 
 @dataclass(frozen=True)
@@ -118,33 +114,25 @@ class Surface:
             return np.ones(load.size, bool)
         return load >= of(self.saturated(V))
 
-    def levels_needed(self, V, load) -> np.ndarray:
-        """How many levels matter at each pressure ``load`` (Pa, (n,)): those that follow rub next to nothing, and are saturated
-        under next to all pressure. Without adhesion only, where no level rubs more than in saturated contact."""
-        M, n = len(self.levels), V.size
-        if self.adhesion.p_0 > 0 or M == 1:
-            return np.full(n, M)
-        stack = self.saturated(V)
+    def levels_needed(self, V, load) -> int:
+        """How many levels matter at pressures ``load`` (Pa, (n,)): those that follow rub next to nothing, and are saturated under
+        next to all pressure. Without adhesion only, where no level rubs more than in saturated contact."""
+        if self.adhesion.p_0 > 0:
+            return len(self.levels)
+        stack, counts = self.saturated(V), _TRAILING * self.rtol
         friction = np.cumsum([own.tau_sat for own in stack.own[::-1]], axis=0)[::-1]
-        negligible = (friction <= _TRAILING * self.rtol * self.friction_floor) & (stack.p_full <= _TRAILING * self.rtol * load)
-        return np.maximum(M - np.argmin(np.concatenate((negligible[::-1], np.zeros((1, n), bool))), axis=0), 1)
+        matters = (friction > counts * self.friction_floor) | (stack.p_full > counts * load)
+        return 1 + int(np.flatnonzero(matters.any(axis=1)).max(initial=0))
 
     def solve(self, V, load, by_pressure: bool, progress: Callable[[int, int], None] | None = None) -> Points:
         """Solve points; ``V`` (m/s) and ``load`` (Pa or m) of shape (n,)."""
-        M, whole = len(self.levels), _Solve(self, V, load, by_pressure)
         full = self.full(V, load, by_pressure) if self.skip else np.zeros(V.size, bool)
-        needed = self.levels_needed(V, load) if by_pressure and self.skip and not full.all() else np.full(V.size, M)
-        if (needed == M).all():
-            return whole.run(full, progress)
-        done = 0
-        for count in np.unique(needed):
-            at = np.flatnonzero(needed == count)
-            told = progress and (lambda some, _, before=done: progress(before + some, V.size))
-            some = _Solve(replace(self, levels=self.levels[:count]), V[at], load[at], by_pressure)
-            tau = np.array([self.alone(level, V[at]).tau_sat for level in self.levels[count:]]).reshape(M - count, at.size)
-            whole.out.put(at, some.run(full[at], told), tau, full[at])
-            done += at.size
-        return whole.out
+        known = self.levels_needed(V, load) if by_pressure and self.skip and not full.all() else len(self.levels)
+        out = _Solve(replace(self, levels=self.levels[:known]), V, load, by_pressure).run(full, progress)
+        below = self.levels[known:]
+        if below:
+            out.extend(np.array([self.alone(level, V).tau_sat for level in below]))
+        return out
 
 
 @dataclass(frozen=True)
@@ -274,20 +262,21 @@ class _Solve:
         """The columns of level 1 with the laws of level 2, built from the smallest level upwards."""
         surface, carry, groups = self.surface, None, np.arange(V.size)
         across = strips_across(columns)
-        accuracy = error_budget(columns, group, across).of_laws(self.M - 1, V.size, surface.rtol)
+        budget = error_budget(columns, group, across)
+        friction, rtol = budget.friction_of_laws(self.M - 1, V.size), np.full(V.size, FINER * surface.rtol)
         p_max = np.full(V.size, -np.inf)
         np.maximum.at(p_max, group, peak_pressure(columns, across))
         reached = self._reached(stack, V, p_max)
-        rtol = np.full(V.size, accuracy.rtol)
         for i in range(self.M - 1, 0, -1):
             level = surface.columns(i, V, None, carry, groups if carry else None)
-            level = replace(level, asked=Accuracy(accuracy.friction, fractions=1.0))
+            level = replace(level, asked=Accuracy(friction, fractions=1.0))
             saturated = stack.p_full[i], stack.D_full[i], stack.means(i)
-            laws = build_laws(level, rtol, *saturated, reached[i - 1], accuracy.budgets[i - 1])
+            # what pressures further levels down meet is not known
+            laws = build_laws(level, rtol, *saturated, reached[i - 1], budget if i == 1 else None)
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error
             scales = np.concatenate((level.scales[1:], [_NO_SCALE]))
-            carry = LowerLevelLaws(LawTable(merged(laws, rtol, level.floors)), surface.rtol, scales, accuracy.friction)
-        return replace(columns, carry=carry, group=group, asked=Accuracy(accuracy.friction[group]))
+            carry = LowerLevelLaws(LawTable(merged(laws, rtol, level.floors)), surface.rtol, scales, friction)
+        return replace(columns, carry=carry, group=group, asked=Accuracy(friction[group]))
 
     def _reached(self, stack: Stack, V, p_max) -> list[np.ndarray]:
         """Greatest pressures (groups,) that the laws of level 2 and below are asked for, those of level 2 up to ``p_max``."""

@@ -4,10 +4,10 @@
   or what ``Accuracy`` says of frictions and fractions. Where only pressure and friction count that is 1 for fractions, and more
   where few points meet the pressures of a piece (``ErrorBudget.fractions``).
 - Level 1 gets the ``rtol`` of the result, halved in ``multilevel``, as its laws err too.
-- Laws of lower levels get what ``of_laws`` says: half of ``rtol``, relative also to a share of the friction in contact of
-  level 1, which they all add to.
-- A piece of a law may be coarser by ``ErrorBudget.tolerance_factor``, the fewer points meet its pressures; ``merge`` may take a
-  part of what a law may err, ``lower_levels`` integrates to a part of what the mean over strips may.
+- Laws of lower levels get half of ``rtol``, ``FINER``, relative also to a share of the friction in contact of level 1, which
+  they all add to: ``friction_of_laws``.
+- A piece of the law of level 2 may be coarser by ``ErrorBudget.tolerance_factor``, the fewer points meet its pressures; ``merge``
+  may take a part of what a law may err, ``lower_levels`` integrates to a part of what the mean over strips may.
 - Of what an interval of a curve may err its means get a part, ``sampling.MEAN``; where halving it does not help, less:
   ``Accuracy.after``.
 
@@ -18,7 +18,7 @@ it gives (``lower_levels``).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -35,7 +35,7 @@ _LEAST_CONTACT = 1e-3
 #: part of the friction in contact of level 1 that frictions of all lower levels may err relative to, beside themselves
 _SHARED = 0.2
 #: laws are built this much finer than what is asked of the result
-_FINER = 0.5
+FINER = 0.5
 #: parts of a law that may each err by what the whole is allowed: mostly one or two branches are used
 _PARTS = 2
 #: no law is coarser than this, times what is asked: beyond, at the finest tolerance too, nothing is asked at all
@@ -45,7 +45,7 @@ _COARSEST_FACTOR = 1e6
 @dataclass(frozen=True)
 class ErrorBudget:
     """Pressures of points of the level above. ``group`` (n,): the law that a point asks; ``p`` (n, m), Pa, ascending in every
-    row (NaN: not known), with the ``share`` (n, m) of the surface on which the pressure is at most that;
+    row, with the ``share`` (n, m) of the surface on which the pressure is at most that;
     ``friction`` (n,): Pa of friction that an error is held against."""
 
     group: np.ndarray
@@ -53,26 +53,16 @@ class ErrorBudget:
     share: np.ndarray
     friction: np.ndarray
 
-    @property
-    def friction_in_contact(self) -> np.ndarray:
-        """Mean of the friction over the contact alone, where lower levels add to it, (n,), Pa."""
-        return self.friction / np.maximum(self.share[:, -1], _LEAST_CONTACT)
-
-    def further_down(self, levels: int) -> ErrorBudget:
-        """For one of so many ``levels``, where it is not known what pressures are met: each may be on all of the contact."""
-        contact = np.maximum(self.share[:, -1:], _LEAST_CONTACT)
-        return replace(self, p=np.full((self.group.size, 1), np.nan), share=contact, friction=self.friction / levels)
-
-    def of_laws(self, levels: int, groups: int, rtol: float) -> LawAccuracy:
-        """What is asked of the laws of so many ``levels`` below the one whose pressures these are, for a result to ``rtol``."""
+    def friction_of_laws(self, levels: int, groups: int) -> np.ndarray:
+        """Pa, (groups,), that the accuracy of the laws of so many ``levels`` below is relative to beside themselves: a share of
+        the mean friction over the contact alone, where they add to it."""
         friction = np.full(groups, np.inf)
-        np.minimum.at(friction, self.group, _SHARED / levels * self.friction_in_contact)
-        return LawAccuracy(_FINER * rtol, friction, [self] + [self.further_down(2 * levels)] * (levels - 1))
+        in_contact = self.friction / np.maximum(self.share[:, -1], _LEAST_CONTACT)
+        np.minimum.at(friction, self.group, _SHARED / levels * in_contact)
+        return friction
 
     def _met(self, i: int, low: float, high: float) -> float:
         """Share of the surface of point ``i`` on which the pressure lies between ``low`` and ``high``, Pa."""
-        if np.isnan(self.p[i, 0]):
-            return float(self.share[i, 0])
         below, above = np.interp((low, high), self.p[i], self.share[i])
         return float(above - below)
 
@@ -92,16 +82,6 @@ class ErrorBudget:
         """What errors of fractions are relative to between two pressures, Pa: 1 over the share of the surface that meets them."""
         met = max((self._met(i, low, high) for i in np.flatnonzero(self.group == group)), default=0.0) if high > low else 0.0
         return max(1 / (_PARTS * max(met, _FINEST)), 1.0)
-
-
-@dataclass(frozen=True)
-class LawAccuracy:
-    """Laws are to be known to ``rtol``, of their own size or of the ``friction`` (groups,), Pa; ``budgets``: of each level, where
-    less will do."""
-
-    rtol: float
-    friction: np.ndarray
-    budgets: list[ErrorBudget]
 
 
 def error_budget(columns: LevelBatch, group: np.ndarray, strips: SolvedStrips) -> ErrorBudget:
