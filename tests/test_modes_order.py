@@ -11,7 +11,7 @@ from hystrip.orbit.modes.coordinates import Order
 from hystrip.orbit.modes.engine import solve_modes
 from hystrip.orbit.modes.march import march
 from hystrip.orbit.modes.problem import ModeStrips
-from hystrip.orbit.modes.propagation import exact_monodromy, least_monodromy, propagation
+from hystrip.orbit.modes.propagation import exact_gains, least_gains, propagation
 from hystrip.orbit.regimes import SEQUENCES
 
 TIMES = (2, 3)
@@ -92,7 +92,7 @@ def test_bounds_of_the_derivative(n, fast):
         & (upper.releases == 1)
         & (lower.engaged == upper.engaged)
     )
-    gains = least_monodromy(s, order, lower, upper, once)
+    gains = least_gains(s, order, lower, upper, once)
     bound = propagation(s, order, lower, gains)
     grown = order.to_e(upper.dz - lower.dz)
     # a phase is rounded, and a fast mode moves by that over its time
@@ -105,12 +105,12 @@ def test_bounds_of_the_derivative(n, fast):
     growth = lambda change: np.linalg.eigvals(np.where(holds[:, None, None], change, 0.0)).real.max(axis=1)  # noqa: E731
     for period in (lower, between, upper):
         same = holds & (period.contacts == lower.contacts)
-        exact = growth(propagation(s, order, period, exact_monodromy(s, period)))
+        exact = growth(propagation(s, order, period, exact_gains(s, order, period)))
         assert same.sum() > N / 30 and np.all(exact[same] <= growth(most)[same] + 1e-9)
     if fast:
         # onsets that lie further apart than contact is behind them: their gain is known all the same
         wide = once & (upper.onset - lower.onset > 3 * (lower.entry - lower.onset)) & (lower.entry > lower.onset)
-        assert (gains.by_modes[0].gain[wide] > 0).sum() > 10
+        assert (gains[0].gain[wide] > 0).sum() > 10
         return
 
     near = np.flatnonzero(once & (step.max(axis=0) < 1e-3) & (step.max(axis=0) > 1e-6))
@@ -118,7 +118,7 @@ def test_bounds_of_the_derivative(n, fast):
     tiny = 1e-7 * step[:, near] / step[:, near].max(axis=0)
     base = march(kernel, part, h[near], order.take(near).to_z(e[:, near]), start[near])
     moved = march(kernel, part, h[near], order.take(near).to_z(e[:, near] + tiny), start[near])
-    exact = np.einsum("Nij,jN->iN", propagation(part, order.take(near), base, exact_monodromy(part, base)), tiny)
+    exact = np.einsum("Nij,jN->iN", propagation(part, order.take(near), base, exact_gains(part, order.take(near), base)), tiny)
     steep = np.minimum(-base.slope_onset, base.slope_release) > 0.05  # away from grazing
     same = (base.contacts == moved.contacts) & steep
     measured = order.take(near).to_e(moved.dz - base.dz)

@@ -35,9 +35,6 @@ AGREE = 1e-7
 #: an orbit between states whose edges are so close, and that is stable, is the first one; between those that are less close it is
 #: so where the map contracts
 _NARROW, _NEAR = 1e-6, 1e-3
-#: least distance of states, in units of the strip's lengths: what rounding leaves of the sign of P(y) - y; where rounding decides
-#: the signs there is no end
-_LEAST, _WIDEST = 1e-12, 1e-5
 #: near a fold the radius of the return map approaches one like the square root of the distance; rounding blurs it
 _STABLE = 1e-6
 #: edges of each sequence, by their rows in the order d, b, a, c
@@ -94,7 +91,7 @@ class _Search:
         if not rising:  # contacts from there are the longest of all
             self.orbit = march(kernel, s, np.ones(s.size, bool), lowest_state(kernel, s, start), start)
         self.bound = Bound(s, Order.of(kernel, s), 1.0 if rising else -1.0, start, engaged, z, near, beyond)
-        self.found, self.least = np.zeros(s.size, bool), np.full(s.size, _LEAST)
+        self.found = np.zeros(s.size, bool)
         self._march(self.active)
 
     def _march(self, i) -> None:
@@ -163,7 +160,7 @@ class _Search:
     def _climb(self, i) -> tuple[np.ndarray, np.ndarray]:
         """By a chain; returns which strips are marched already, and which have ended."""
         b = self.bound.take(i)
-        moved, ends, in_part, inside, e, far, evaluations = climb(self.kernel, b, self.least[i])
+        moved, ends, in_part, inside, e, far, evaluations = climb(self.kernel, b)
         self.out.evaluations[i] += evaluations
         self.bound.z[:, i] += b.sign * b.order.to_z(moved)
         clear = ~in_part
@@ -176,11 +173,7 @@ class _Search:
         self._newton(i[k], window + _NARROW)
         k = k[alone & self.found[i[k]] & (_apart(self.orbit.take(i[k]), far) <= window + 2 * _NARROW)]
         self.out.kind[i[k[self._stable(i[k])]]] = ORBIT
-        # rounding alone decides the signs here, whatever the width: not to be certified
-        small = ~clear & np.all(moved <= 2 * self.least[i] * b.s.size_of_lengths, axis=0)
-        ended = i[small & (self.least[i] >= _WIDEST) | (self.out.kind[i] == ORBIT)]
-        self.least[i[small]] *= 4
-        return i[clear], ended
+        return i[clear], i[self.out.kind[i] == ORBIT]
 
     def _newton(self, i, reach) -> None:
         """Orbits from the edges that the marches of the strips ``i`` met, no edge further away than ``reach``."""

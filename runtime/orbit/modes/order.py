@@ -58,7 +58,7 @@ from .contraction import alike
 from .coordinates import Order
 from .march import Period, march
 from .problem import ModeStrips
-from .propagation import exact_monodromy, least_monodromy, propagation, solve_order
+from .propagation import exact_gains, least_gains, propagation, solve_order
 
 #: states of a chain, in Newton's steps. Those end short of a simple orbit, and half-way to a double one, where orbits are about
 #: to appear: the map less the identity is a parabola there, and its tangent stays positive over less than half of the way. Beyond
@@ -66,6 +66,8 @@ from .propagation import exact_monodromy, least_monodromy, propagation, solve_or
 _NEARER = 2 - 2 * 0.75 ** np.arange(1.0, 17)
 _AHEAD = np.sort(np.concatenate(([0.0, 0.125, 0.5, 0.95, 1.0], _NEARER, 4 - _NEARER[::3], 2 + 2.0 ** np.arange(1.0, 6))))
 _AWAY = np.append(0.0, 1.6 ** np.arange(-4.0, len(_AHEAD) - 5))
+#: least distance of states, in units of the strip's lengths: what rounding leaves of the sign of P(y) - y
+_LEAST = 1e-12
 
 
 @dataclass(slots=True)
@@ -99,7 +101,7 @@ class Bound:
     def slope(self, near: Period, far: Period, along=None) -> np.ndarray:
         """Lower bound of the map's derivative less the identity between the states of two marches."""
         lower, upper = self.ends(near, far)
-        least = least_monodromy(self.s, self.order, lower, upper, alike(lower, upper))
+        least = least_gains(self.s, self.order, lower, upper, alike(lower, upper))
         return propagation(self.s, self.order, lower, least, along)
 
     def towards(self, far: Period, distance: np.ndarray) -> np.ndarray:
@@ -111,14 +113,14 @@ class Bound:
         return np.maximum(inner / np.maximum(wanted, 1.0), np.minimum(gone, self.room))
 
 
-def climb(kernel, bound: Bound, least: np.ndarray):
-    """How far the states may move along chains whose states lie at least ``least`` (N,) apart.
+def climb(kernel, bound: Bound):
+    """How far the states may move along chains.
 
     Returns the ways (n, N) in e, and the marches from their ends, but where the first link is known only in part: these strips;
     which chains end beyond the orbit, the first displacements e (n, N) there and the marches from them; the evaluations.
     """
     N, every = bound.z.shape[1], np.arange(bound.z.shape[1])
-    distance = _chain(bound, least)
+    distance = _chain(bound)
     count = distance.shape[1]
     many = np.tile(every, count)
     away = distance.reshape(len(distance), -1)
@@ -149,28 +151,18 @@ def climb(kernel, bound: Bound, least: np.ndarray):
     return moved, marches.take(last), reached == 0, beyond.any(axis=0), e, marches.take(first), evaluations
 
 
-def _chain(bound: Bound, least: np.ndarray) -> np.ndarray:
+def _chain(bound: Bound) -> np.ndarray:
     """Distances (n, count, N) of the states of a chain from the bounding ones, ascending from 0."""
     r = np.maximum(bound.sign * bound.order.to_e(bound.near.dz), 0.0)
     room = bound.room
-    exact = propagation(bound.s, bound.order, bound.near, exact_monodromy(bound.s, bound.near))
+    exact = propagation(bound.s, bound.order, bound.near, exact_gains(bound.s, bound.order, bound.near))
     newton = solve_order(exact, r)
     ahead = np.all((newton >= 0) & (newton <= room), axis=0)
     direction = np.where(ahead | np.all(newton >= 0, axis=0), newton, np.where(np.all(newton <= 0, axis=0), -newton, r))
     farthest = np.divide(room, direction, out=np.full(r.shape, np.inf), where=direction > 0).min(axis=0)
     chain = np.where(ahead, _AHEAD[:, None], _AWAY[:, None] * np.minimum(1.0, farthest / _AWAY[-1])) * direction[:, None]
-    chain[:, 1:] = np.maximum(chain[:, 1:], (least * bound.s.size_of_lengths * _inward(exact))[:, None])
+    chain[:, 1:] = np.maximum(chain[:, 1:], _LEAST * bound.s.size_of_lengths)
     return np.minimum(chain, room[:, None])
-
-
-def _inward(change):
-    """A direction, of largest component one, in which the linearised map shortens every component alike compared with
-    what is forgotten anyway."""
-    forgotten = -np.minimum(np.diagonal(change, axis1=1, axis2=2), 0.0).T
-    v = solve_order(change, np.maximum(forgotten, 1e-300))
-    good = np.all(np.isfinite(v) & (v > 0), axis=0)
-    v = np.where(good, v, 1.0)
-    return v / v.max(axis=0)
 
 
 def valid(v):

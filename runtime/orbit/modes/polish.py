@@ -14,8 +14,6 @@ _ITERATIONS = 12
 _ROUNDING_LIMITED = 1e-7
 #: a step expected to be this small is not taken; steps as large as that after so many, or that hardly shrink, lead nowhere
 _SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * EPS, 0.1, 4, 0.7
-#: after a step as small as this, and so much smaller than the one before, the derivatives are good for all further ones
-_KNOWN, _FASTER = 1e-3, 0.1
 
 
 @dataclass(slots=True)
@@ -41,14 +39,11 @@ def polish(kernel, sequence: str, strips: ModeStrips, edges: np.ndarray, low: np
     edges = edges.copy()
     N = strips.size
     last, attainable, spent = np.full(N, np.inf), np.full(N, np.inf), np.zeros(N)
-    active, inverse, rate = np.arange(N), np.empty((N, len(edges), len(edges))), np.full(N, np.inf)
+    active = np.arange(N)
     for iteration in range(_ITERATIONS):
         s, before = strips.take(active), last[active]
         here = edges[:, active]
-        fresh = np.flatnonzero((before > _KNOWN) | (rate[active] > _FASTER))
-        if fresh.size:
-            inverse[active[fresh]] = _inverse(_matrix(jacobian(*here[:, fresh], *arguments(s.take(fresh))), here[:, fresh]))
-        inverted = inverse[active]
+        inverted = _inverse(_matrix(jacobian(*here, *arguments(s)), here))
         step = -np.einsum("Nij,jN->iN", inverted, np.array(np.broadcast_arrays(*residual(*here, *arguments(s)))))
         spent[active] += 1
         size = np.abs(step).max(axis=0)
@@ -61,8 +56,7 @@ def polish(kernel, sequence: str, strips: ModeStrips, edges: np.ndarray, low: np
         noise = _noise(kernel, len(edges), s)
         attainable[moved] = np.einsum("Nij,jN->iN", np.abs(inverted), noise).max(axis=0)[better]
         # steps that shrink as fast again: the next one need not be taken
-        rate[active] = np.divide(size, before, out=np.ones_like(size), where=(size < before) & np.isfinite(before))
-        ahead = size * rate[active]
+        ahead = size * np.divide(size, before, out=np.ones_like(size), where=(size < before) & np.isfinite(before))
         settled = ahead <= _SETTLED
         last[active[better & settled]] = ahead[better & settled]
         on = (size < _LOST) & ((size < _SHRINKS * before) | (size < _ROUNDING_LIMITED)) | (iteration < _LOST_AFTER)

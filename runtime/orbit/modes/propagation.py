@@ -23,77 +23,54 @@ from .problem import ModeStrips, pick, rates
 
 
 @dataclass(slots=True)
-class Monodromy:
-    """Rank-one terms at the onset and the release, each ``gain (column . rate) (row . g)^T``: gain (N,), column and row
-    (n, N) or 1.
-
-    ``by_modes``: terms of ``across`` in place of these, where those hold.
-    """
-
-    onset: np.ndarray
-    onset_column: np.ndarray
-    onset_row: np.ndarray
-    release: np.ndarray
-    release_column: np.ndarray
-    release_row: np.ndarray
-    by_modes: tuple[Saltation, Saltation] | None = None
-
-
-@dataclass(slots=True)
 class Saltation:
-    """A gain that acts on the state at the start of the gap zone that its event ends, and is felt at the end of the one
-    it begins.
+    """The gain of an onset or a release: it acts on the state at the start of the zone that its event ends, and is felt at the
+    end of the one it begins.
 
-    ``gain`` (N,), 0 where it does not hold; ``row``, ``column`` (n, N): lower bounds over all phases that the event may have.
+    ``gain`` (N,), 0 where it does not hold; ``row``, ``column`` (n, N), and ``between`` (N,), how much it sees of a step of w at
+    the start of the zone: lower bounds over all phases that the event may have.
     """
 
     gain: np.ndarray
     row: np.ndarray
     column: np.ndarray
+    between: np.ndarray
 
 
-def exact_monodromy(s: ModeStrips, period: Period) -> Monodromy:
-    """Gains at the events of a march that meets each at most once."""
-    one = np.ones((1, 1))
-    onset = _ratio(s.jump_on, -period.slope_onset)
-    release = _ratio(s.step, period.slope_release)
-    return Monodromy(onset, one, one, release, one, one)
+def exact_gains(s: ModeStrips, order: Order, period: Period) -> tuple[Saltation, Saltation]:
+    """Gains at the onset and the release of a march that meets each at most once."""
+    return _saltation(s, order, period, period, -period.slope_onset, True), _saltation(
+        s, order, period, period, period.slope_release, False
+    )
 
 
-def least_monodromy(s: ModeStrips, order: Order, lower: Period, upper: Period, alike: np.ndarray) -> Monodromy:
+def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period, alike: np.ndarray) -> tuple[Saltation, Saltation]:
     """Lower bounds of the gains of every state between those of two marches; 0 but where these are ``alike`` and meet
-    each event once.
-
-    Onsets lie between those of the two, releases too (the other way round). Placed where ``lower`` meets them: moving
-    an event by ``delta`` multiplies its terms by no less than ``exp(-delta rate)`` componentwise or, against the flow,
-    ``exp(-delta gamma)``.
-    """
-    late, early = _width(lower.onset, upper.onset), _width(upper.release, lower.release)
-    gamma = np.broadcast_to(order.gamma, late.shape)
-    fading = lambda width: np.exp(-width * order.rate)  # noqa: E731
-    shrink = lambda width: np.exp(-width * gamma)[None]  # noqa: E731
-    steep_on, steep_off = (slopes_by_modes(s, order, lower, upper, onset)[1] for onset in (True, False))
-    onset, release = (np.where(alike, gain, 0.0) for gain in (_ratio(s.jump_on, steep_on), _ratio(s.step, steep_off)))
-    pair = _saltation(s, order, lower, upper, onset, True), _saltation(s, order, lower, upper, release, False)
-    taken = [each.gain > 0 for each in pair]
-    return Monodromy(np.where(taken[0], 0.0, onset), shrink(late), fading(late),
-                 np.where(taken[1], 0.0, release), fading(early), shrink(early), pair)  # fmt: skip
+    each event once. Onsets lie between those of the two, releases too (the other way round)."""
+    steep = [np.where(alike, slopes_by_modes(s, order, lower, upper, onset)[1], np.inf) for onset in (True, False)]
+    return tuple(_saltation(s, order, lower, upper, each, onset) for each, onset in zip(steep, (True, False), strict=True))
 
 
-def _saltation(s: ModeStrips, order: Order, lower: Period, upper: Period, gain, onset: bool) -> Saltation:
+def _saltation(s: ModeStrips, order: Order, lower: Period, upper: Period, slope, onset: bool) -> Saltation:
+    """Of events at which the gap moves no faster than at ``slope``."""
     name = "onset" if onset else "release"
+    gain = _ratio(s.jump_on if onset else s.step, slope)
     event = np.sort(np.stack([getattr(lower, name), getattr(upper, name)]), axis=0)
     start, end, smooth = getattr(lower, f"from_{name}"), getattr(lower, f"until_{name}"), getattr(lower, f"smooth_{name}")
-    holds = smooth & (event[0] >= start) & (gain > 0)
+    holds = (event[0] >= start) & (gain > 0)
     inside = holds & (event[1] <= end)
     after = np.where(inside, end - event[::-1], 0.0)
-    if onset:
+    if onset and lower is not upper:
         closing, closes = closing_times(s, order, lower, upper)
         after, inside = np.where(holds & closes, closing, after), inside | holds & closes
     before = np.where(inside, event - start, 0.0)
     row = _least_sums(np.swapaxes(order.share, 0, 1), np.ones((s.modes, s.size)), s, *before)
     column = _least_sums(order.back, _kick(s), s, *after)
-    return Saltation(np.where(inside, gain, 0.0), np.maximum(row, 0.0), np.maximum(column, 0.0))
+    # a contact that an onset begins at once ends nowhere later than that of the lower march, and a gap keeps more
+    column = np.where(smooth, column, order.rate * np.exp(-after[1] * order.rate))
+    longest = event[1] - np.minimum(start, getattr(upper, f"from_{name}"))
+    between = (_kick(s) * np.exp(-np.where(inside, longest, 0.0) * rates(s.m.beta))).sum(axis=0)
+    return Saltation(np.where(inside, gain, 0.0), np.maximum(row, 0.0), np.maximum(column, 0.0), between)
 
 
 def _kick(s: ModeStrips):
@@ -109,19 +86,19 @@ def _least_sums(matrix, amplitudes, s: ModeStrips, short, long):
     return sums[0] + sums[1]
 
 
-def propagation(s: ModeStrips, order: Order, period: Period, gains: Monodromy | None, along=None) -> np.ndarray:
+def propagation(s: ModeStrips, order: Order, period: Period, gains: tuple[Saltation, Saltation] | None, along=None) -> np.ndarray:
     """Derivative of the period map less the identity, (N, n, n), with the given gains or none; ``along`` deviations (n, N) alone
     (N, n, 1)."""
     n, N = s.modes, period.dz.shape[1]
     ahead = np.broadcast_to(np.eye(n), (N, n, n)) if along is None else along.T[:, :, None]
     change = np.zeros(ahead.shape)
     share, back = np.moveaxis(order.share, -1, 0), np.moveaxis(order.back, -1, 0)
-    pending = [np.zeros((N, change.shape[2])) for _ in range(2)]  # rows of the gains by modes whose second zone has not ended
-    waiting = [np.zeros(N, bool), np.zeros(N, bool)]
+    # of each gain: how much w steps more at its event, 0 but while the zone after that lasts
+    pending = [np.zeros((N, change.shape[2])) for _ in gains or ()]
     for zone in period.zones:
         i, length = zone.index, zone.end - zone.start
         X = ahead[i] + change[i]
-        ripe = [each[i] for each in waiting]
+        ripe = [each[i] for each in pending]
         contact = zone.letter == CONTACT
         times = np.where(contact, pick(s.m.alpha, i), pick(s.m.beta, i))
         loss = np.expm1(-np.divide(length, times, out=np.full((n, i.size), 800.0), where=times > 0)).T
@@ -132,31 +109,12 @@ def propagation(s: ModeStrips, order: Order, period: Period, gains: Monodromy | 
             S, B = (a if a.shape[0] == 1 else a[here] for a in (share, back))
             step[gap] = B @ (loss[gap][:, :, None] * (S @ X[gap]))
         change[i] += step
-        if gains is not None and gains.by_modes is not None:
-            ends = (zone.letter == FREE) & (zone.following >= 0), (zone.letter == ADHESION) & (zone.following == FREE)
-            for k, across in enumerate(gains.by_modes):
-                new = np.flatnonzero(ends[k] & (across.gain[i] > 0))
-                at = i[new]
-                row = (across.row[:, at].T[:, None, :] @ X[new])[:, 0]
-                pending[k][at], waiting[k][at] = row, True
-            for k, across in enumerate(gains.by_modes):
-                at = i[ripe[k]]
-                change[at] += (across.gain[at] * across.column[:, at]).T[:, :, None] * pending[k][at][:, None, :]
-                waiting[k][at] = False
-        if gains is not None:
-            onset = np.flatnonzero((zone.letter == FREE) & (zone.following >= 0))
-            release = np.flatnonzero((zone.letter == ADHESION) & (zone.following == FREE))
-            _gain(change, ahead, order, i[onset], gains.onset, gains.onset_column, gains.onset_row)
-            _gain(change, ahead, order, i[release], gains.release, gains.release_column, gains.release_row)
+        ends = (zone.letter == FREE) & (zone.following >= 0), (zone.letter == ADHESION) & (zone.following == FREE)
+        for waiting, own, other, each, end in zip(pending, ripe, ripe[::-1], gains or (), ends, strict=False):
+            change[i] += each.column[:, i].T[:, :, None] * own[:, None, :]
+            seen = (each.row[:, i].T[:, None, :] @ X)[:, 0] + each.between[i, None] * other
+            waiting[i] = np.where(end[:, None], each.gain[i, None] * seen, 0.0)
     return change
-
-
-def _gain(change, ahead, order: Order, i, gain, column, row):
-    if not i.size:
-        return
-    left = (gain[i] * pick(column, i) * pick(order.rate, i)).T
-    right = (pick(row, i) * pick(order.g, i)).T
-    change[i] += left[:, :, None] * (right[:, None, :] @ (ahead[i] + change[i]))
 
 
 def solve_order(change: np.ndarray, r: np.ndarray) -> np.ndarray:
@@ -183,8 +141,3 @@ def _ratio(step, slope):
     return np.divide(
         step, slope, out=np.zeros(np.shape(step)), where=np.isfinite(slope) & (slope > 1e-290 + 1e-290 * np.abs(step))
     )
-
-
-def _width(first, second):
-    """Distance from an event to a later one; 0 where either is missing (the gain is 0 there)."""
-    return np.nan_to_num(np.maximum(second - first, 0.0))
