@@ -106,3 +106,20 @@ def test_a_friction_law_says_whether_it_converged(monkeypatch):
     p = np.linspace(law.pull_off + 1, exact.p_sat, 50)
     p = p[np.abs(p[:, None] - np.concatenate((law.breaks, exact.breaks))).min(axis=1) > 1]
     assert np.abs(law(p) - exact(p)).max() <= law.error_estimate + exact.error_estimate
+
+
+@pytest.mark.parametrize("branch", ["unloading", "loading"])
+@pytest.mark.parametrize("p_0", [0.0, 100.0])
+@pytest.mark.parametrize("V", [0.0, 1.0])
+@pytest.mark.filterwarnings("error")
+def test_a_level_whose_valley_is_just_released_is_like_one_next_to_it(V, p_0, branch):
+    """At ``D = h - p_0/K - delta_0`` strips as flat as the rounding of D may be free or not; next to it all adhere."""
+    adhesion, level = hystrip.Dugdale(p_0=p_0, delta_0=1e-8 * (p_0 > 0)), LEVELS[0]
+    D = level.h - p_0 / MATERIAL.K - adhesion.delta_0
+    at, beside = (
+        hystrip.solve_level(MATERIAL, adhesion, level, V=V, D=d, edge="constitutive", branch=branch, rtol=1e-8 if p_0 else 1e-10)
+        for d in (D, D * (1 + 1e-12))
+    )
+    assert at.strips <= 3 * beside.strips
+    assert abs(at.tau_mean - beside.tau_mean) <= at.error_estimate[1] + beside.error_estimate[1] + 1e-9 * abs(beside.tau_mean)
+    assert V > 0 or abs(at.tau_mean) <= at.error_estimate[1]
