@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from ..numerics.rounding import EPS
+from ..numerics.roots import falling_root
 from .branches import Branch, loaded, rising
 from .breaks import breaks_on, first_contact, threshold_width
 from .curve import interpolate
@@ -30,8 +30,6 @@ _NEXT = 0.3
 _LOOKS = 12
 #: how much more than the estimated error of the interpolation a turn has to keep away from the pressure
 _DOUBT = 2.0
-#: steps of Newton's method, and of that with bisection
-_NEWTON, _STEPS = 6, 60
 #: place of a pressure that loading never comes to carry
 _PULLED_OFF = -1
 
@@ -96,7 +94,7 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
     low, high = p / rise, np.minimum(p / rise + 0.75 * columns.level.h, full)
     D = high.copy()
     for accuracy in (max(rtol, _ROUGH), rtol):
-        near = D, rise, friction_slope, low.copy(), high.copy()
+        near = D, rise, friction_slope, low, high
         # however little the pressure is, friction goes with it
         D, friction_slope, doubt = _refine(columns, p, near, accuracy, floor=0.0)
     return Inverse(D, friction_slope, doubt, *np.zeros((2, p.size), bool))
@@ -268,41 +266,27 @@ class _Walk:
 
 def _refine(columns: LevelBatch, p, near, rtol, floor):
     """Penetrations, d(tau)/dp and how uncertain that is at the roots ``near`` these (arrays of the fields of ``_Root``): Newton
-    with the slope of the coarse curve, then of the last two averages; bisection where that does not settle. The pressure is met
-    to ``rtol`` of itself and the ``floor``, Pa."""
+    with the slope of the coarse curve, then of the last two averages. The pressure (Pa) is met to ``rtol`` of itself and the
+    ``floor``."""
     D, slope, friction_slope, low, high = near
     # nothing but the coarse curve says what it is
-    doubt = np.abs(friction_slope)
-    goal = rtol * (np.abs(p) + floor)
-    active = np.flatnonzero((slope > 0) & (high > low))
-    known = None
-    for k in range(_STEPS):
-        if not active.size:
-            break
-        values = level_means(columns.at(active, D[active]), np.full(active.size, rtol)).values
-        here, miss, late = D[active], values[:, 0] - p[active], np.full(active.size, k >= _NEWTON)
-        low[active], high[active] = np.where(miss < 0, here, low[active]), np.where(miss < 0, high[active], here)
-        if known is not None:
-            rows = np.searchsorted(known[0], active)
-            moved, rise, rub = here - known[1][rows], values[:, 0] - known[2][rows], values[:, 1] - known[3][rows]
-            better = moved * rise > 0
-            slope[active[better]] = rise[better] / moved[better]
-            secant = rub[better] / rise[better]
-            doubt[active[better]] = np.abs(secant - friction_slope[active[better]])
-            friction_slope[active[better]] = secant
-            late &= np.abs(miss) > 0.5 * np.abs(known[2][rows] - p[active])
-        going = np.abs(miss) > goal[active]
-        known = tuple(v[going] for v in (active, here, values[:, 0], values[:, 1]))
-        # what is close enough takes the step too: the average made there afterwards is next to the pressure
-        new = np.clip(here - miss / slope[active], low[active], high[active])
-        D[active] = np.where(late, _middle(low[active], high[active]), new)
-        wide = (high - low)[active] > 8 * EPS * np.maximum(np.abs(here), columns.level.h)
-        active = active[going & wide]
-        if not wide.all():
-            known = tuple(v[wide[going]] for v in known)
+    doubt, goal = np.abs(friction_slope), rtol * (np.abs(p) + floor)
+    able = np.flatnonzero((slope > 0) & (high > low))
+    last = np.full((3, p.size), np.nan)
+
+    def missing(x, sub):
+        index = able[sub]
+        values = level_means(columns.at(index, x), np.full(index.size, rtol)).values
+        new = np.stack((x, values[:, 0], values[:, 1]))
+        moved, rise, rub = new - last[:, index]
+        last[:, index], better = new, moved * rise > 0
+        at, secant = index[better], rub[better] / rise[better]
+        slope[at], doubt[at] = rise[better] / moved[better], np.abs(secant - friction_slope[at])
+        friction_slope[at] = secant
+        miss = p[index] - values[:, 0]
+        return np.where(np.abs(miss) > goal[index], miss, 0.0), -slope[index]
+
+    falling_root(missing, low[able], high[able], D[able])
+    # what is close enough takes another step: the average made there afterwards is next to the pressure
+    D[able] = np.clip(last[0] + (p - last[1]) / slope, low, high)[able]
     return D, friction_slope, doubt
-
-
-def _middle(low, high):
-    """Between two penetrations, in the middle of their logarithms where they are above zero."""
-    return np.where(low > 0, np.sqrt(np.maximum(low, 0.0)) * np.sqrt(np.maximum(high, 0.0)), 0.5 * (low + high))
