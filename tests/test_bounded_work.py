@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import hystrip
-from hystrip.level import averages, curve, inverse
+from hystrip.level import averages, curve, descent
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
@@ -53,7 +53,7 @@ def test_a_branch_that_the_work_leaves_undecided_is_not_claimed(monkeypatch):
     at = {"pressure": pull_off * (1 - 1e-4), "V": 1e-3, "rtol": 1e-6}
     assert hystrip.solve_level(MATERIAL, ADHESION, LEVELS[0], **at | {"pressure": pull_off * (1 + 1e-4)}).pulled_off
     assert hystrip.solve_level(MATERIAL, ADHESION, LEVELS[0], **at).converged
-    for module in (curve, inverse):
+    for module in (curve, descent):
         monkeypatch.setattr(module, "CURVE_LIMIT", 0)
     with pytest.warns(hystrip.ConvergenceWarning, match="curve"):
         level = hystrip.solve_level(MATERIAL, ADHESION, LEVELS[0], **at)

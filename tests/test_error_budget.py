@@ -10,10 +10,11 @@ import hystrip
 from hystrip.level.branches import branches, rising
 from hystrip.level.cells import cells_of
 from hystrip.level.curve import Curve
+from hystrip.level.descent import _Walk
 from hystrip.level.effort import WorkCounters
 from hystrip.level.error_budget import ErrorBudget
 from hystrip.level.interval import Interval
-from hystrip.level.inverse import Inverse, _Walk
+from hystrip.level.inverse import Inverse
 from hystrip.level.law import Law
 from hystrip.level.piece import Errors, Piece
 from hystrip.level.segment import segments_of
@@ -164,9 +165,9 @@ def test_a_pressure_in_a_jump_of_the_curve_has_the_friction_of_a_mixture(unloadi
     line = lambda *ends: np.array([np.mean(ends, axis=0), 0.5 * np.subtract(*ends[::-1])])  # noqa: E731
     none = Errors.constant(np.zeros(2))
     pieces = [Piece(0.0, 1.0, line((0, 0), (1, 1)), none), Piece(1.0, 2.0, line((3, 5), (4, 6)), none)]
-    walk = _Walk(unloading, 2.0, 1e-6, 1e-6, None, Interval(0, 0.0, 2.0))
+    walk = _Walk(unloading, 2.0, 1e-6, 1e-6, [])
     for some in [pieces] if at_once else [[piece] for piece in (pieces[::-1] if unloading else pieces)]:
-        walk.go_on(Interval(0, some[0].low, some[-1].high), some, False)
+        walk.go_on([Interval(0, some[0].low, some[-1].high)], some, False)
     assert walk.root.D == pytest.approx(1.0) and walk.root.friction_slope == pytest.approx(2.0)
 
 

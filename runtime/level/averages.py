@@ -10,23 +10,23 @@ All panels of all columns advance together, each on its own number of nodes: one
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..numerics.quadrature import interior_nodes, interleaved, mapped, mapped_weights, sum_errors
+from ..numerics.quadrature import interleaved, sum_errors
 from ..numerics.rounding import EPS
 from ..orbit.regimes import CODE
 from .boundaries import hides_another, located, passed_breaks, theta_of, thresholds
 from .changes import Changes, locate_changes
 from .effort import AVERAGE_LIMIT
+from .panels import LAST, Panels, Stage
 from .zones import Zones, zones_of
 
 if TYPE_CHECKING:
     from .strips import LevelBatch
 
-_FIRST, _LAST = 8, 64
 #: nodes of a panel in saturated contact, where strips take no search: its sum may as well be exact
 _COSTLESS = 32
 #: a panel's part of what a state may err, and of that what brackets of changes may
@@ -51,73 +51,11 @@ class Averages:
     zones: list[Zones] = field(default_factory=list)
 
 
-@dataclass
-class _Panels:
-    """Panels of ``state`` between thetas; ``first`` and ``last``: the strip known next to each end, -1: none."""
-
-    state: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
-    first: np.ndarray
-    last: np.ndarray
-
-    def take(self, index) -> _Panels:
-        return _Panels(*(getattr(self, f.name)[index] for f in fields(self)))
-
-    @classmethod
-    def joined(cls, some: list[_Panels]) -> _Panels:
-        return cls(*(np.concatenate([getattr(p, f.name) for p in some]) for f in fields(cls)))
-
-    @property
-    def size(self) -> int:
-        return self.state.size
-
-    @property
-    def width(self) -> np.ndarray:
-        return self.high - self.low
-
-    def halves(self) -> list[_Panels]:
-        """Both halves of each."""
-        middle, none = 0.5 * (self.low + self.high), np.full(self.size, -1)
-        return [replace(self, high=middle, last=none), replace(self, low=middle, first=none)]
-
-    def at(self, t: np.ndarray) -> np.ndarray:
-        """Thetas at the parameters ``t`` of every panel, (panels, t)."""
-        return self.low[:, None] + self.width[:, None] * mapped(t)
-
-
-@dataclass
-class _Stage:
-    """Panels on the same number ``n`` of nodes, and what is ``known`` at the interior ones: codes, values, heights and edges,
-    (panels, nodes, ...); empty for those that were not looked at yet, whose nodes are the first."""
-
-    panels: _Panels
-    n: int = _FIRST
-    known: tuple[np.ndarray, ...] = ()
-
-    def take(self, which) -> _Stage:
-        return _Stage(self.panels.take(which), self.n, tuple(v[which] for v in self.known))
-
-    @property
-    def theta(self) -> np.ndarray:
-        """Of the nodes at which strips are known, (panels, nodes)."""
-        return self.panels.at(interior_nodes(self.n))
-
-    def next_nodes(self) -> tuple[int, np.ndarray]:
-        """How many nodes are next, and the thetas (panels, new nodes) of those of them that are not known."""
-        n = 2 * self.n if self.known else self.n
-        return n, self.panels.at(interior_nodes(n)[:: 2 if self.known else 1])
-
-    def sums(self) -> np.ndarray:
-        """Integrals over the panels, (panels, q)."""
-        return self.panels.width[:, None] * (mapped_weights(self.n) @ self.known[1])
-
-
 def average(columns: LevelBatch, rtol: np.ndarray) -> Averages:
     """Means ``(1/pi) int_0^pi`` of the strips of every state to ``rtol (|value| + floor)``, ``rtol`` (n,)."""
     n, q = columns.size, columns.scales.size
     work = _Work(columns, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
-    stages = [_Stage(work.start(*thresholds(columns), *columns.crossings.expected(columns)))]
+    stages = [Stage(work.start(*thresholds(columns), *columns.crossings.expected(columns)))]
     while stages:
         stages = work.refine(stages)
     return Averages(work.values / np.pi, work.errors / np.pi, work.strips, work.zones())
@@ -135,7 +73,7 @@ class _Work:
     beside: tuple[np.ndarray, np.ndarray] = (np.empty(0, int), np.empty(0))
     ends: list[np.ndarray] | None = None
 
-    def start(self, state, theta, expected, A) -> _Panels:
+    def start(self, state, theta, expected, A) -> Panels:
         """Panels between thresholds (k,) and expected crossings (m,) of curves. Next to a curve the strips of a third regime
         may be so few that no node meets them: a strip to either side is looked at, as at the crest and next to the valley."""
         n, crossing = self.rtol.size, theta_of(self.columns, A)
@@ -149,7 +87,7 @@ class _Work:
         order = np.lexsort((theta, state))
         state, theta, before, after = state[order], theta[order], before[order], after[order]
         inside = np.flatnonzero((state[1:] == state[:-1]) & (np.diff(theta) > 64 * EPS * np.pi))
-        return _Panels(state[inside], theta[inside], theta[inside + 1], after[inside], before[inside + 1])
+        return Panels(state[inside], theta[inside], theta[inside + 1], after[inside], before[inside + 1])
 
     def zones(self) -> list[Zones]:
         """See ``Averages.zones``."""
@@ -160,7 +98,7 @@ class _Work:
         """Theta next to the valley of each column: what lies beyond does not matter at its accuracy."""
         return np.pi * (1 - _VALLEY * np.minimum(self.rtol, _ANY))
 
-    def refine(self, stages: list[_Stage]) -> list[_Stage]:
+    def refine(self, stages: list[Stage]) -> list[Stage]:
         """Sum up what converges under doubling; return what is left, divided where regimes change."""
         fresh = self.ends is None
         stages = self._sampled(stages)
@@ -178,12 +116,12 @@ class _Work:
             done = self._accept(stage, total, ~changed)
             mixed.append(stage.take(changed & ~done))
             stage = stage.take(~changed & ~done)
-            (doubled if stage.n < _LAST else halved).append(stage)
+            (doubled if stage.n < LAST else halved).append(stage)
         parts = [self._divide(mixed, total), *(half for stage in halved for half in stage.panels.halves())]
-        left = [_Stage(_Panels.joined(parts)), *doubled]
+        left = [Stage(Panels.joined(parts)), *doubled]
         return [stage for stage in left if stage.panels.size]
 
-    def _sampled(self, stages: list[_Stage]) -> list[_Stage]:
+    def _sampled(self, stages: list[Stage]) -> list[Stage]:
         """The stages with what is known at their next nodes, of one batch of strips."""
         new = [stage.next_nodes() for stage in stages]
         state = [np.repeat(stage.panels.state, theta.shape[1]) for stage, (_, theta) in zip(stages, new, strict=True)]
@@ -194,10 +132,10 @@ class _Work:
             known = [v[start:stop].reshape(*theta.shape, *v.shape[1:]) for v in answers]
             if stage.known:
                 known = [interleaved(a, b) for a, b in zip(known, stage.known, strict=True)]
-            out.append(_Stage(stage.panels, n, tuple(known)))
+            out.append(Stage(stage.panels, n, tuple(known)))
         return out
 
-    def _accept(self, stage: _Stage, total: np.ndarray, usable: np.ndarray) -> np.ndarray:
+    def _accept(self, stage: Stage, total: np.ndarray, usable: np.ndarray) -> np.ndarray:
         """Add up the ``usable`` panels (m,) whose sums have converged, and those of states with too many strips as they are, with
         the spread of their values as error; which they were, (m,)."""
         panels, (codes, values, *_), sums = stage.panels, stage.known, stage.sums()
@@ -242,7 +180,7 @@ class _Work:
         places = np.clip(np.concatenate((theta - aside, theta + aside)), 0.0, np.pi)
         return self._later(np.tile(state, 2), places).reshape(2, -1)
 
-    def _look_beside_thresholds(self, stage: _Stage) -> None:
+    def _look_beside_thresholds(self, stage: Stage) -> None:
         """Strips to either side of thresholds where the codes of the panels that meet do not follow one another: a third
         zone may be narrower than the first step."""
         panels, codes = stage.panels, stage.known[0]
@@ -255,7 +193,7 @@ class _Work:
             panels.last[left], panels.first[right] = self._next_to(panels.state[left], panels.high[left], _NEXT)
             self._evaluated(np.empty(0, int), np.empty(0))
 
-    def _outer(self, stage: _Stage) -> tuple[np.ndarray, ...]:
+    def _outer(self, stage: Stage) -> tuple[np.ndarray, ...]:
         """What is known at the nodes of panels, and their thetas, with one more at either end: what is known beyond the outermost
         node, where nothing is what is known there."""
         theta = stage.theta
@@ -279,9 +217,9 @@ class _Work:
         told = np.bincount(parent[~found], minlength=changes.size)[parent] == 0
         return parent[told], theta_of(columns, A[told])
 
-    def _divide(self, stages: list[_Stage], total: np.ndarray) -> _Panels:
+    def _divide(self, stages: list[Stage], total: np.ndarray) -> Panels:
         """Locate the changes between neighbouring nodes; panels end there."""
-        panels, brackets, spreads, before = _Panels.joined([stage.panels for stage in stages]), [], [], 0
+        panels, brackets, spreads, before = Panels.joined([stage.panels for stage in stages]), [], [], 0
         for stage in stages:
             *known, theta = self._outer(stage)
             some, row, _ = Changes.between(before + np.arange(stage.panels.size), theta, known)
@@ -317,5 +255,5 @@ class _Work:
         order_start = np.lexsort((starts, np.concatenate((every, found.line))))
         order_stop = np.lexsort((stops, np.concatenate((found.line, every))))
         line = np.concatenate((every, found.line))[order_start]
-        parts = _Panels(panels.state[line], starts[order_start], stops[order_stop], first[order_start], last[order_stop])
+        parts = Panels(panels.state[line], starts[order_start], stops[order_stop], first[order_start], last[order_stop])
         return parts.take(parts.width > 0)

@@ -124,7 +124,7 @@ def interpolate(
             for k, interval in enumerate(batch.intervals):
                 if interval in splits:
                     parts += interval.split(splits[interval], soft=False)
-                elif hopeless[k] or batch.n >= _LAST:
+                elif hopeless[k]:
                     parts += batch.halves(k)
                 else:
                     keep.append(k)
@@ -135,7 +135,7 @@ def interpolate(
 
 def _converged(batch: Batch, pieces, strips, pressure_goal) -> tuple[Batch, np.ndarray, np.ndarray]:
     """Append what has converged of a batch to ``pieces``; columns with too many ``strips`` as they are, with the spread of their
-    values as error. Returns the rest, its goals (intervals, q), and for which of them twice the nodes would not do."""
+    values as error. Returns the rest, its goals (intervals, q), and which of them have to be divided."""
     columns, c, floors = batch.columns, batch.coefficients, batch.floors
     goal = batch.accuracy[:, None] * (np.abs(batch.values).min(axis=1) + floors)
     rounding = _rounding(batch, c)
@@ -165,7 +165,7 @@ def _converged(batch: Batch, pieces, strips, pressure_goal) -> tuple[Batch, np.n
         pieces[i.column].append(Piece(i.low, i.high, c[k], errors, *soft, i.endpoint_map))
     missed = np.maximum(error / goal, np.finfo(float).tiny)
     # coefficients fall geometrically: where twice the nodes would not do, halves are better
-    hopeless = (missed * np.minimum(missed / batch.missed, _PACE) ** 2 > 1).any(axis=1)
+    hopeless = (missed * np.minimum(missed / batch.missed, _PACE) ** 2 > 1).any(axis=1) | (batch.n >= _LAST)
     left = np.flatnonzero(~done)
     return batch.take(left, missed[left]), goal[left], hopeless[left]
 
@@ -192,11 +192,12 @@ def _pressure_goal(values, goal):
 
 
 def _isolated_regimes(columns: LevelBatch, left, strips) -> dict[Interval, float]:
-    """Breaks inside intervals of ``left`` (batches, and their goals): penetrations at which something appears or vanishes between
-    two nodes, away from the crest."""
+    """Breaks inside intervals of ``left`` that have to be divided (batches, their goals, and which have to be): penetrations at
+    which something appears or vanishes between two nodes, away from the crest."""
     seen = {}
-    for batch, goal, _ in left:
-        for k, i in enumerate(batch.intervals if batch.n > 2 * FEWEST else ()):
+    for batch, goal, hopeless in left:
+        for k in np.flatnonzero(hopeless):
+            i = batch.intervals[k]
             found = island(i.column, i.penetrations(lobatto(batch.n)[1:-1]), batch.zones[k], goal[k])
             if found is not None:
                 seen[i] = found
