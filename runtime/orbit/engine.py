@@ -16,11 +16,8 @@ iterates from infinitely far fall to the least engaged one, and there is no long
 ``unloading`` asks in the order engaged, first zero, free; ``loading`` in the order free, last zero, engaged.
 """
 
-from dataclasses import replace
-
 import numpy as np
 
-from ..numerics.rounding import EPS
 from .certificate import greatest_gap
 from .closed_form_exclusion import may_cling, saturates
 from .direct import certified, extremal
@@ -29,39 +26,18 @@ from .isolated_orbits import isolated_orbits
 from .march import Orbit
 from .orbit_bounds import FAST, OrbitBounds, least_engaged_bounds, orbit_bounds
 from .regimes import CODE
-from .solved import Record, Solved
+from .solved import Record, Solved, settle
 from .start import start
 
 #: Strips solved at a time: their working arrays stay in the cache, and memory stays bounded.
 CHUNK = 32768
-#: distances in roundings of D at which a strip on the end of a branch is settled
-_SHIFTS = (8, 64, 512)
 
 
 def solve_strips(kernel, strips: Strips, unloading: bool) -> Solved:
     """Solve a batch with the generated ``kernel``; ``certified`` is false for every strip that must not be used."""
     solved = _Batch(kernel, strips, unloading).solve()
-    _settle(kernel, strips, solved, unloading)
+    settle(lambda nearby: _Batch(kernel, nearby, unloading).solve(), strips, solved, unloading)
     return solved
-
-
-def _settle(kernel, strips: Strips, solved: Solved, unloading: bool) -> None:
-    """Decide strips that sit on the end of a branch to the last bits, where the tests of its two sides contradict each other.
-
-    Which side they belong to is below the rounding of the inputs. They get the solution a few roundings of D further along the
-    way their branch is followed: the unloading orbit is continuous towards larger D, the loading orbit towards smaller.
-    """
-    for roundings in _SHIFTS:
-        index = np.flatnonzero(~solved.certified)
-        if not index.size:
-            return
-        these = strips.take(index)
-        shift = roundings * EPS * (1 + np.abs(these.D) + these.p_0 + these.delta_0)
-        nearby = replace(these, D=these.D + (shift if unloading else -shift))
-        again = _Batch(kernel, nearby, unloading).solve()
-        again.evaluations += solved.evaluations[index]
-        good = np.flatnonzero(again.certified)
-        solved.put(index[good], again.take(good))
 
 
 class _Batch:

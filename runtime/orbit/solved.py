@@ -1,15 +1,19 @@
 """Solutions of a batch, and how certified orbits are written into them."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..numerics.rounding import EPS
 from .batch import Batch
 from .groups import Strips
 from .march import TWO_PI, Orbit
 from .regimes import CODE, EQUATIONS
 
 UNDECIDED = -1
+#: distances in roundings of D at which a strip on the end of a branch is settled
+_SHIFTS = (8, 64, 512)
 
 
 @dataclass(slots=True)
@@ -35,15 +39,21 @@ class Solved(Batch):
         return cls(np.full(n, UNDECIDED, np.int8), *nan, np.zeros(n, bool), np.zeros(n))
 
 
-class Record:
-    """Writes what is certain about the strips of a batch into ``solved``."""
+def groups(s: Strips) -> tuple:
+    """Dimensionless groups in the order in which the kernel's regime functions take them."""
+    return s.alpha, s.beta, s.J, s.L, s.p_0, s.delta_0, s.D, s.chi
 
-    def __init__(self, kernel, strips: Strips):
-        self.kernel, self.strips = kernel, strips
+
+class Record:
+    """Writes what is certain about the strips of a batch, of whatever foundation, into ``solved``; ``arguments`` of some of them:
+    what the kernel's functions of a regime take after the edges."""
+
+    def __init__(self, kernel, strips, arguments=groups):
+        self.kernel, self.strips, self.arguments = kernel, strips, arguments
         self.solved = Solved.empty(strips.size)
 
     def saturated_contact(self, index) -> None:
-        p_mean, tau_mean = self.kernel.means_c(*groups(self.strips.among(index)))
+        p_mean, tau_mean = self.kernel.means_c(*self.arguments(self.strips.among(index)))
         self.constant(index, "c", p_mean, tau_mean, 1.0, 0.0)
 
     def constant(self, index, sequence: str, p_mean, tau_mean, contact: float, adhesion: float) -> None:
@@ -60,7 +70,7 @@ class Record:
         out = self.solved
         out.code[index], out.certified[index] = CODE[sequence], True
         means = getattr(self.kernel, f"means_{EQUATIONS[sequence]}")
-        out.p_mean[index], out.tau_mean[index] = means(*edges_of(sequence, orbit), *groups(self.strips.among(index)))
+        out.p_mean[index], out.tau_mean[index] = means(*edges_of(sequence, orbit), *self.arguments(self.strips.among(index)))
         contact = np.clip(np.where(np.isnan(orbit.b), 0.0, orbit.a - orbit.b) / TWO_PI, 0.0, 1.0)  # a - b is rounded
         adhesion = {"cf": 0.0, "ac": 1 - contact}.get(sequence)
         out.contact_fraction[index] = contact
@@ -70,11 +80,6 @@ class Record:
             out.c[index] = orbit.c
             if sequence != "afc":
                 out.d[index] = orbit.x
-
-
-def groups(s: Strips) -> tuple:
-    """Dimensionless groups in the order in which the kernel's regime functions take them."""
-    return s.alpha, s.beta, s.J, s.L, s.p_0, s.delta_0, s.D, s.chi
 
 
 def edges_of(sequence: str, orbit: Orbit) -> np.ndarray:
@@ -96,3 +101,21 @@ def orbit_of(sequence: str, edges: np.ndarray) -> Orbit:
     places = {"acaf": (0, 1, 2, 3), "afc": (0, 0, 1, 2), "af": (0, None, None, 1), "ac": (0, 0, 1, 1), "cf": (0, 0, 1, 1)}
     x, b, a, c = (absent if place is None else edges[place] for place in places[sequence])
     return Orbit(x.copy(), b.copy(), a.copy(), c.copy(), np.zeros(x.size, bool), np.zeros(x.size))
+
+
+def settle(solve: Callable, strips, solved: Solved, unloading: bool) -> None:
+    """Decide strips that sit on the end of a branch to the last bits, where the tests of its two sides contradict each other.
+
+    Which side they belong to is below the rounding of the inputs. They get the solution a few roundings of D further along the
+    way their branch is followed: the unloading orbit is continuous towards larger D, the loading orbit towards smaller.
+    """
+    for roundings in _SHIFTS:
+        index = np.flatnonzero(~solved.certified)
+        if not index.size:
+            return
+        these = strips.take(index)
+        shift = roundings * EPS * (1 + np.abs(these.D) + these.p_0 + these.delta_0)
+        again = solve(replace(these, D=these.D + (shift if unloading else -shift)))
+        again.evaluations += solved.evaluations[index]
+        good = np.flatnonzero(again.certified)
+        solved.put(index[good], again.take(good))

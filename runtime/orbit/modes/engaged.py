@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...numerics.rounding import EPS
 from .coordinates import Order
 from .extremal import AGREE, certified, lowest_state
 from .fields import state_at
@@ -18,80 +17,63 @@ from .problem import ModeStrips
 from .propagation import propagation, solve_order
 
 _STEPS = 80
-#: slow modes leave their displacements less certain than the edges; the state serves as a bound and as a start for ``polish``
+#: a step as small as this, in units of the strip's lengths, leads near enough for Newton's method on the edges
 _COARSEST = 1e-7
 
 
-def engaged_orbit(kernel, strips: ModeStrips, start) -> tuple[np.ndarray, Period, np.ndarray, np.ndarray]:
-    """State at the phases ``start``, the period from there, the derivative of its map less the identity, and which did converge.
+def engaged(kernel, strips: ModeStrips, near: Period | None = None):
+    """The same orbits by Newton's method on their edges, from those that marches ``near`` met or else those of the period map's
+    fixed points, each checked by a march.
 
-    ``evaluations`` of the period count all the work.
-    """
-    s = strips.raised()
-    N = s.size
-    z = np.broadcast_to(s.m.J, (s.modes, N)) * (s.D - 1)
-    yes = np.ones(N, bool)
-    order = Order.of(kernel, s)
-    last = np.full(N, np.inf)
-    spent = np.zeros(N)
-    active = np.arange(N)
+    Returns states, edges b and a (2, N), which are known, which are orbits of the strip itself, as their gaps stay within its
+    reach, and the evaluations."""
+    s, left = strips.raised(), np.arange(strips.size)
+    z, edges, spent = np.full((s.modes, s.size), np.nan), np.full((2, s.size), np.nan), np.zeros(s.size)
+    known, within = np.zeros((2, s.size), bool)
+    if near is None:
+        near = march(kernel, s, np.ones(s.size, bool), lowest_state(kernel, s), s.start)
+        spent += near.evaluations
+    for last in (False, True):
+        edges[:, left], good, used = certified(kernel, s.take(left), "ac", np.nan_to_num(engaged_edges(near)))
+        spent[left] += used
+        k = left[good]
+        z[:, k], _ = state_at(kernel, "ac", s.take(k), edges[:, k], s.take(k).start)
+        # a march that is never released checks both; where it is, one in which release is put out of action
+        for part, lowered in ((strips, strips.m.J * strips.p_0), (s, 0.0)):
+            here = part.take(k)
+            turn = march(kernel, here, np.ones(k.size, bool), (z - lowered)[:, k], here.start)
+            spent[k] += turn.evaluations
+            apart = np.abs(np.mod(engaged_edges(turn) - edges[:, k] + np.pi, TWO_PI) - np.pi).max(axis=0, initial=0.0)
+            good = (apart <= AGREE) & (turn.contacts == 1) & turn.never_free
+            known[k], within[k] = good, good & (part is strips)
+            k = k[~good]
+            if not k.size or strips.bare:
+                break
+        left = np.flatnonzero(~known)
+        if last or not left.size:
+            break
+        near = _fixed_point(kernel, s.take(left))
+        spent[left] += near.evaluations
+    return z - strips.m.J * strips.p_0, edges, known, within, spent
+
+
+def _fixed_point(kernel, s: ModeStrips) -> Period:
+    """The periods of orbits by Newton's method on the period map; ``evaluations`` count all the work."""
+    z, active, order = np.broadcast_to(s.m.J, (s.modes, s.size)) * (s.D - 1), np.arange(s.size), Order.of(kernel, s)
+    out, spent = Period.blank(s.modes, s.size), np.zeros(s.size)
     for _ in range(_STEPS):
-        sub = s.take(active)
-        here = order.take(active)
-        period = march(kernel, sub, yes[active], z[:, active], start[active])
+        sub, here = s.take(active), order.take(active)
+        period = march(kernel, sub, np.ones(active.size, bool), z[:, active], sub.start)
+        out.put(active, period)
         spent[active] += period.evaluations
         step = solve_order(propagation(sub, here, period, None), here.to_e(period.dz))
         size = np.abs(step).max(axis=0)
-        usable = np.isfinite(size)
-        z[:, active[usable]] += here.to_z(step)[:, usable]
-        done = usable & (
-            (size <= 64 * EPS * sub.size_of_lengths) | ((size < 1e-10 * sub.size_of_lengths) & (size >= 0.5 * last[active]))
-        )
-        last[active] = size
-        active = active[~done & usable]
+        z[:, active] += here.to_z(step)
+        active = active[np.isfinite(size) & (size > _COARSEST * sub.size_of_lengths)]
         if not active.size:
             break
-    converged = last <= _COARSEST * s.size_of_lengths
-    period = march(kernel, s, yes, z, start)
-    period.evaluations += spent
-    return z - s.m.J * strips.p_0, period, propagation(s, order, period, None), converged & ~period.lost
-
-
-def engaged(kernel, strips: ModeStrips, start, near: Period | None = None):
-    """The same orbits by Newton's method on their edges, from those that marches ``near`` met, each checked by a march.
-
-    Returns states at the phases ``start``, edges b and a (2, N), which are known, which are orbits of the strip itself, as
-    their gaps stay within its reach, and the evaluations."""
-    s, yes, spent = strips.raised(), np.ones(strips.size, bool), np.zeros(strips.size)
-    if near is None:
-        near = march(kernel, s, yes, lowest_state(kernel, s, start), start)
-        spent += near.evaluations
-    edges, known, used = certified(kernel, s, "ac", np.nan_to_num(engaged_edges(near)))
-    spent += used
-    z, within = np.full((s.modes, s.size), np.nan), np.zeros(s.size, bool)
-    k = np.flatnonzero(known)
-    z[:, k], _ = state_at(kernel, "ac", s.take(k), edges[:, k], start[k])
-    # a march that is never released checks both; where it is, one in which release is put out of action
-    for part, lowered in ((strips, strips.m.J * strips.p_0), (s, 0.0)):
-        turn = march(kernel, part.take(k), yes[k], (z - lowered)[:, k], start[k])
-        spent[k] += turn.evaluations
-        apart = np.abs(np.mod(engaged_edges(turn) - edges[:, k] + np.pi, TWO_PI) - np.pi).max(axis=0)
-        good = (apart <= AGREE) & (turn.contacts == 1) & turn.never_free
-        known[k], within[k] = good, good & (part is strips)
-        k = k[~good]
-        if not k.size or strips.bare:
-            break
-    rest = np.flatnonzero(~known)
-    if rest.size:
-        part = strips.take(rest)
-        z[:, rest], turn, _, good = engaged_orbit(kernel, part, start[rest])
-        again, converged, used = certified(kernel, s.take(rest), "ac", np.nan_to_num(engaged_edges(turn)))
-        edges[:, rest], known[rest] = again, good & converged
-        turn = march(kernel, part, yes[rest], z[:, rest], start[rest])
-        within[rest] = known[rest] & turn.never_free
-        z[:, rest] += part.m.J * part.p_0
-        spent[rest] += turn.evaluations + used
-    return z - strips.m.J * strips.p_0, edges, known, within, spent
+    out.evaluations[:] = spent
+    return out
 
 
 def engaged_edges(period: Period):

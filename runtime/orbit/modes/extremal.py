@@ -55,11 +55,11 @@ class Extremal:
     held: Period
 
 
-def lowest_state(kernel, s: ModeStrips, phase) -> np.ndarray:
+def lowest_state(kernel, s: ModeStrips) -> np.ndarray:
     """State below every orbit: displacements are nowhere below the profile, nor below ``-p_0``."""
-    overstress = kernel.saturated_overstress(phase, s.m)
+    overstress = kernel.saturated_overstress(s.start, s.m)
     order = Order.of(kernel, s)
-    e = kernel.profile(phase, s.D) - s.m.S * overstress
+    e = kernel.profile(s.start, s.D) - s.m.S * overstress
     return order.to_z(np.maximum(e, -s.p_0))
 
 
@@ -68,10 +68,10 @@ def highest_state(kernel, s: ModeStrips) -> np.ndarray:
     return Order.of(kernel, s).to_z(np.broadcast_to(np.maximum(s.D, 0.0), (s.modes, s.size)))
 
 
-def extremal(kernel, s: ModeStrips, start, z, engaged, rising: bool, released: bool) -> Extremal:
-    """The first orbit above (``rising``) or below the states ``z`` (n, N) at the phases ``start``; ``released``: none is engaged
+def extremal(kernel, s: ModeStrips, z, engaged, rising: bool, released: bool) -> Extremal:
+    """The first orbit above (``rising``) or below the states ``z`` (n, N); ``released``: none is engaged
     all along."""
-    search = _Search(kernel, s, np.array(start, float), z.copy(), engaged.copy(), rising)
+    search = _Search(kernel, s, z.copy(), engaged.copy(), rising)
     for step in range(_STEPS):
         if not search.active.size:
             break
@@ -80,7 +80,7 @@ def extremal(kernel, s: ModeStrips, start, z, engaged, rising: bool, released: b
 
 
 class _Search:
-    def __init__(self, kernel, s: ModeStrips, start, z, engaged, rising: bool):
+    def __init__(self, kernel, s: ModeStrips, z, engaged, rising: bool):
         self.kernel, self.rising, self.active = kernel, rising, np.arange(s.size)
         blank = Period.blank(s.modes, s.size)
         self.out = Extremal(
@@ -89,14 +89,15 @@ class _Search:
         beyond = np.broadcast_to(np.maximum(s.D, 0.0) if rising else -s.p_0, z.shape).copy()
         near, self.orbit = (Period.blank(s.modes, s.size) for _ in range(2))
         if not rising:  # contacts from there are the longest of all
-            self.orbit = march(kernel, s, np.ones(s.size, bool), lowest_state(kernel, s, start), start)
-        self.bound = Bound(s, Order.of(kernel, s), 1.0 if rising else -1.0, start, engaged, z, near, beyond)
+            self.orbit = march(kernel, s, np.ones(s.size, bool), lowest_state(kernel, s), s.start)
+        self.bound = Bound(s, Order.of(kernel, s), 1.0 if rising else -1.0, engaged, z, near, beyond)
         self.found = np.zeros(s.size, bool)
         self._march(self.active)
 
     def _march(self, i) -> None:
         b = self.bound
-        near = march(self.kernel, b.s.take(i), b.engaged[i], b.z[:, i], b.start[i])
+        s = b.s.take(i)
+        near = march(self.kernel, s, b.engaged[i], b.z[:, i], s.start)
         self.out.evaluations[i] += near.evaluations
         b.near.put(i, near)
 
@@ -194,9 +195,9 @@ class _Search:
         k = np.flatnonzero(good)
         if not k.size:
             return
-        part, start = s.take(k), self.bound.start[index[k]]
-        z, engaged = state_at(self.kernel, sequence, part, solved[:, k], start)
-        period = march(self.kernel, part, engaged, z, start)
+        part = s.take(k)
+        z, engaged = state_at(self.kernel, sequence, part, solved[:, k], part.start)
+        period = march(self.kernel, part, engaged, z, part.start)
         self.out.evaluations[index[k]] += period.evaluations
         ok = agrees(sequence, part, solved[:, k], period)
         index, k = index[k[ok]], k[ok]

@@ -73,20 +73,19 @@ _LEAST = 1e-12
 @dataclass(slots=True)
 class Bound:
     """States that bound all orbits of N strips from below (``sign`` 1) or above (-1): ``z`` (n, N), whether they are ``engaged``,
-    at the phases ``start``, and the period ``near`` from there; ``beyond``: displacements e (n, N) of an orbit, or of a state
+    and the period ``near`` from there; ``beyond``: displacements e (n, N) of an orbit, or of a state
     beyond all."""
 
     s: ModeStrips
     order: Order
     sign: float
-    start: np.ndarray
     engaged: np.ndarray
     z: np.ndarray
     near: Period
     beyond: np.ndarray
 
     def take(self, i) -> Bound:
-        return Bound(self.s.take(i), self.order.take(i), self.sign, self.start[i], self.engaged[i], self.z[:, i],
+        return Bound(self.s.take(i), self.order.take(i), self.sign, self.engaged[i], self.z[:, i],
                      self.near.take(i), self.beyond[:, i])  # fmt: skip
 
     @property
@@ -126,7 +125,7 @@ def climb(kernel, bound: Bound):
     away = distance.reshape(len(distance), -1)
     each = bound.take(many)
     z = each.z + each.sign * each.order.to_z(away)
-    marches = march(kernel, each.s, each.engaged, z, each.start)
+    marches = march(kernel, each.s, each.engaged, z, each.s.start)
     moves = each.sign * each.order.to_e(marches.dz)
     stays = (marches.engaged == each.engaged) & ~marches.lost
     grow = (stays & np.all(moves >= 0, axis=0)).reshape(count, N)

@@ -51,6 +51,11 @@ class ModeStrips:
         return np.where(self.snaps, self.delta_0, self.step)
 
     @property
+    def start(self) -> np.ndarray:
+        """Where periods are counted from, in the middle of the valley: free where a strip is free at all, (N,)."""
+        return np.full(self.size, np.pi)
+
+    @property
     def size_of_lengths(self) -> np.ndarray:
         """Scale that lengths are rounded at, (N,)."""
         return 1 + np.abs(self.D) + self.p_0 + self.delta_0
@@ -60,6 +65,8 @@ class ModeStrips:
         return ModeStrips(
             take_modes(self.m, index), self.p_0[index], self.delta_0[index], self.D[index], self.snaps[index], self.bare
         )
+
+    among = take
 
     def raised(self) -> ModeStrips:
         """The strips that are never released, seen from ``-p_0``: adding ``p_0`` to w, p and every e leaves the
