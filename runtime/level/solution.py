@@ -14,6 +14,7 @@ from ..inputs.adhesion import Dugdale
 from ..inputs.checks import broadcast, choice, number, numbers
 from ..inputs.surface import Level
 from ..level_solution import Inputs, LevelSolution
+from ..orbit.groups import ROUNDING
 from ..orbit.materials import Material, check_edge
 from ..orbit.solution import BRANCHES
 from .build import build_laws
@@ -130,6 +131,8 @@ def solve_level(
         refuse_faint(load, material, adhesion, level)
     shape = broadcast(**{"V": V, name: load})
     V, load = (np.broadcast_to(v, shape).ravel() for v in (V, load))
+    if name == "D":
+        load = _not_just_released(load, level.h, adhesion.p_0 / material.K, adhesion.delta_0)
     work = WorkCounters()
     inputs = Inputs(material, adhesion, level, V.reshape(shape), edge, branch, rtol, strips)
     columns = LevelBatch(material, adhesion, level, edge, branch, V, load, strips=strips, work=work)
@@ -152,6 +155,13 @@ def solve_level(
         strips=work.solved + work.decided,
         inputs=inputs,
     )
+
+
+def _not_just_released(D: np.ndarray, h: float, stretch: float, delta_0: float) -> np.ndarray:
+    """``D``, or, where it is that at which the valley is just released but for roundings, one at which it adheres: else strips as
+    flat as the rounding would be free or not as it falls."""
+    released, rounding = h - stretch - delta_0, ROUNDING * (h + stretch + delta_0)
+    return np.where(np.abs(D - released) < rounding, released + rounding, D)
 
 
 def _means(columns: LevelBatch, p: np.ndarray | None, rtol: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -11,7 +11,6 @@ import numpy as np
 from ..inputs.adhesion import Dugdale
 from ..inputs.surface import Level
 from ..orbit.foundation import Foundation, foundation_of
-from ..orbit.groups import ROUNDING
 from ..orbit.materials import Material
 from ..orbit.regimes import CODE
 from ..orbit.solved import Solved
@@ -68,13 +67,6 @@ class LevelBatch:
     asked: Accuracy = Accuracy()
     work: WorkCounters = field(default_factory=WorkCounters, compare=False)
     crossings: Crossings = field(default_factory=Crossings, compare=False)
-
-    def __post_init__(self):
-        # where the valley is just released, strips as flat as the rounding of D would be free or not as it falls
-        a, h = self.adhesion, self.level.h
-        released = h - self.stretch - a.delta_0
-        rounding = ROUNDING * (h + self.stretch + a.delta_0)
-        object.__setattr__(self, "D", np.where(np.abs(self.D - released) < rounding, released + rounding, self.D))
 
     def at(self, index, D) -> LevelBatch:
         """The columns ``index`` at other penetrations ``D``."""
