@@ -27,12 +27,10 @@ RULES = ((2, 3), (4, 5), (7, 8), (11, 12), (16, 18), (24, 28), (36, 42), (54, 64
 #: share of what is allowed that these sums may miss, and the fastest that they are believed to converge: of 350 random surfaces
 #: of two levels one erred by more than it said (by a quarter), with half of that two
 _QUADRATURE, _FASTEST = 0.7, 0.02
-#: share of what is allowed that the friction of a strip may miss because its width is not known
-_MISSED = 0.1
 #: steps towards where a contact's pressure passes the breaks of the law
 _STEPS = 4
-#: nodes of all parts together, about, that are summed at a time
-_CHUNK = 60_000
+#: nodes of all parts together, about, that are summed at a time: what is known of them stays in the cache
+_CHUNK = 30_000
 
 
 class Carrier:
@@ -48,12 +46,12 @@ class Carrier:
         change from rule to rule may be small by chance, and is believed only if ``at_once``."""
         out, errors = np.zeros(goal.shape), np.zeros(goal.shape)
         some = np.flatnonzero(d > 0)
-        columns = self._columns(group[some], d[some], goal[some, :-1:2].min(axis=1))
+        columns = self._columns(group[some], d[some])
         sums = lambda left, rule: self._sums(columns.at(left), *rule)  # noqa: E731
         out[some], errors[some] = by_rules(sums, RULES, _QUADRATURE * goal[some], np.full(some.size, _FASTEST), at_once)
         return out, errors
 
-    def _columns(self, group, d, allowed) -> _Columns:
+    def _columns(self, group, d) -> _Columns:
         f = self.level.family
         ends = np.zeros((d.size, 0))
         part = np.flatnonzero(d < 0.5 * f.s_sat[group])
@@ -62,7 +60,7 @@ class Carrier:
             known = ends_of(Span(d[part], f.s_sat[group[part]]), f, self.peaks, group[part], breaks)
             ends = np.zeros((d.size, known.shape[1]))
             ends[part] = known
-        return _Columns(group, d, allowed, ends)
+        return _Columns(group, d, ends)
 
     def _sums(self, columns, strips: int, nodes: int):
         out = np.zeros((columns.d.size, self.laws.full.shape[1]))
@@ -93,14 +91,11 @@ class Carrier:
         known = f.values(group[at.column], at.s, slopes=True)
         width = _inside(known[:, :, 2].ravel())
         orbits = waves.orbits(width, means=False)
-        missed = at.s.ravel() - orbits.D
-        steepest = 0.5 * self.pressure * self.laws.steepest[group]
         # families know pressures, not widths, as well as friction may need it: a step of Newton's towards the strip that
         # is meant
-        if (np.abs(missed) * u * steepest[column] > _MISSED * columns.allowed[column]).any():
-            width = _inside(width / (2 * np.pi) + known[:, :, 5].ravel() * missed)
-            orbits = waves.orbits(width, means=False)
-            missed = at.s.ravel() - orbits.D
+        width = _inside(width / (2 * np.pi) + known[:, :, 5].ravel() * (at.s.ravel() - orbits.D))
+        orbits = waves.orbits(width, means=False)
+        missed = np.abs(at.s.ravel() - orbits.D)
         self.strips += width.size
         pressure = waves.pressure(orbits.sure())
         crest = peaks.at(group[at.column], width.reshape(at.u.shape) / (2 * np.pi))[1].ravel()
@@ -109,7 +104,8 @@ class Carrier:
         parts = _Parts.between(edges, top & np.isfinite(self.laws.p_full[group[column]]))
         unit = 0.5 * self.pressure * u[:, None]
         total = self._over(parts, group, column, weight, lambda x, row: unit[row] * pressure(x, row), nodes)
-        total[:, -1] += np.bincount(column, weight * u * np.abs(missed), minlength=group.size) * steepest
+        steepest = 0.5 * self.pressure * self.laws.steepest[group]
+        total[:, -1] += np.bincount(column, weight * u * missed, minlength=group.size) * steepest
         return total
 
     def _complete(self, group, d, strips, nodes):
@@ -157,16 +153,15 @@ class Carrier:
 
 @dataclass(frozen=True)
 class _Columns:
-    """Columns (m,) at ``d``: the friction that a sum over them may miss (Pa), and the ends (m, e) of their panels."""
+    """Columns (m,) at ``d``, and the ends (m, e) of their panels."""
 
     group: np.ndarray
     d: np.ndarray
-    allowed: np.ndarray
     ends: np.ndarray
 
     def at(self, index) -> _Columns:
         """The columns ``index``."""
-        return _Columns(self.group[index], self.d[index], self.allowed[index], self.ends[index])
+        return _Columns(self.group[index], self.d[index], self.ends[index])
 
 
 class _Parts:

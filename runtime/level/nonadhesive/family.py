@@ -123,13 +123,13 @@ def family(
         slopes = np.abs(np.divide(np.diff(values, axis=1), step, out=np.zeros((*step.shape[:2], _Q)), where=step > 0)).max(axis=1)
         # that of the width grows like a root towards s = 0, where few strips are
         slopes[:, 2] = np.divide(_ROOT * values[:, -1, 2], s[:, -1], out=np.zeros(left.size), where=s[:, -1] > 0)
-        sampled = _errors(coefficients(samples), np.concatenate((goal.min(axis=1, keepdims=True), goal), axis=1))
-        error = _errors(over, goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 16 * EPS * greatest
+        sampled = errors_alone(coefficients(samples), np.concatenate((goal.min(axis=1, keepdims=True), goal), axis=1))
+        error = errors_alone(over, goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 16 * EPS * greatest
         error += 4 * EPS * (s_sat[left] * s[:, -1])[:, None]
         done = (error <= goal).all(axis=1) | (n == _LAST)
         for k in np.flatnonzero(done):
             g = left[k]
-            out.series[g], _ = trimmed(over[k], _TRIMMED * goal[k])
+            out.series[g] = _trimmed(over[k], _TRIMMED * goal[k])
             cut = over[k, len(out.series[g]) :]
             out.next[g, : len(cut)] = cut[:NEXT]
             out.degree[g] = n
@@ -139,8 +139,9 @@ def family(
     return out, strips
 
 
-def _errors(c, goal):
-    """Of interpolants with coefficients ``c`` (m, n + 1, q), each quantity by itself, (m, q)."""
+def errors_alone(c: np.ndarray, goal: np.ndarray) -> np.ndarray:
+    """Errors of interpolants with coefficients ``c`` (m, n + 1, q), each quantity by itself, (m, q); a tenth of the ``goal``
+    (m, q) doesn't matter."""
     m, n, q = c.shape
     alone = np.swapaxes(c, 1, 2).reshape(m * q, n, 1)
     return interpolation_errors(alone, 0.1 * goal.reshape(-1, 1)).reshape(m, q)
@@ -150,13 +151,11 @@ def _xi(s, s_sat):
     return np.arcsin(np.sqrt(np.clip(s / s_sat, 0.0, 1.0)))
 
 
-def trimmed(c, goal):
-    """Coefficients without a tail that doesn't matter, and what is lost with it; sizes in steps, so that series of one
-    size are evaluated together."""
+def _trimmed(c, goal):
+    """Coefficients without a tail that doesn't matter; sizes in steps, so that series of one size are evaluated together."""
     tail = np.cumsum(np.abs(c[::-1]), axis=0)[::-1]
     n = int(np.count_nonzero((tail > goal).any(axis=1)))
-    n = min(4 * -(-max(n, 1) // 4), c.shape[0])
-    return c[:n], tail[n] if n < c.shape[0] else np.zeros(c.shape[1])
+    return c[: 4 * -(-max(n, 1) // 4)]
 
 
 def _full_friction(foundation, rate):

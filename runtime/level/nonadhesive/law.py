@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-_CHUNK = 32768
 #: how much steeper a law is feared to be beyond its end
 _FEARED = 2.0
 
@@ -58,17 +57,9 @@ class Laws:
     def averages(self, group: np.ndarray, owner: np.ndarray, p: np.ndarray, weight: np.ndarray) -> np.ndarray:
         """Sums (m, q) over the nodes of each column, ``group`` (m,) its law, of the law at ``p`` by ``weight``
         (nodes,); ``owner`` (nodes,), ascending: the column of each node."""
-        out = np.zeros((group.size, self.full.shape[1]))
-        for start in range(0, p.size, _CHUNK):
-            some = slice(start, start + _CHUNK)
-            self._add(out, group, owner[some], p[some], weight[some])
-        return out
-
-    def _add(self, out, group, owner, p, weight):
         g = group[owner]
         saturated = p >= self.p_full[g]
-        share = np.bincount(owner[saturated], weight[saturated], minlength=group.size)
-        out += share[:, None] * self.full[group]
+        out = np.bincount(owner[saturated], weight[saturated], minlength=group.size)[:, None] * self.full[group]
         beyond = np.where(saturated, 0.0, np.maximum(p - self.top[g], 0.0))
         if beyond.any():
             out[:, -1] += _FEARED * np.bincount(owner, weight * beyond, minlength=group.size) * self.steepest[group]
@@ -81,6 +72,7 @@ class Laws:
                 which, start = np.unique(mine, return_index=True)
                 moments = _moments(piece.parameter(g[index], p[index]), weight[index], start, piece.coefficients.shape[1])
                 out[which] += np.einsum("km,mkq->mq", moments, piece.coefficients[group[which]])
+        return out
 
 
 def _moments(x, weight, start, count):

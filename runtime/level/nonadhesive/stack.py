@@ -227,8 +227,8 @@ class FamilyStack:
             new = found.values.reshape(left.size, omega.size, q)
             values = new if values is None else interleaved(values, new)
             worst[left] = np.maximum(worst[left], found.values[:, -1].reshape(left.size, -1).max(axis=1))
-            tried = Tried(n, values, self.wanted.of(i)[group[left]], self.wanted.rtol)
-            done = tried.done
+            tried = Tried(values, self.wanted.of(i)[group[left]])
+            done = tried.done | (n == NODES[-1])
             for k in np.flatnonzero(done):
                 j, g = left[k], group[left[k]]
                 series[j] = tried.series(k, worst[j])
