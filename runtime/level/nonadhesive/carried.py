@@ -7,8 +7,6 @@ pressure does: both are cut there.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ...numerics.quadrature import gauss, mapped, mapped_slope
@@ -46,46 +44,40 @@ class Carrier:
         change from rule to rule may be small by chance, and is believed only if ``at_once``."""
         out, errors = np.zeros(goal.shape), np.zeros(goal.shape)
         some = np.flatnonzero(d > 0)
-        columns = self._columns(group[some], d[some])
-        sums = lambda left, rule: self._sums(columns.at(left), *rule)  # noqa: E731
+        group, d = group[some], d[some]
+        ends = self._ends(group, d)
+        sums = lambda left, rule: self._sums(group[left], d[left], ends[left], *rule)  # noqa: E731
         out[some], errors[some] = by_rules(sums, RULES, _QUADRATURE * goal[some], np.full(some.size, _FASTEST), at_once)
         return out, errors
 
-    def _columns(self, group, d) -> _Columns:
+    def _ends(self, group, d):
+        """Ends (m, e) of the panels of strips in partial contact."""
         f = self.level.family
-        ends = np.zeros((d.size, 0))
         part = np.flatnonzero(d < 0.5 * f.s_sat[group])
-        if part.size:
-            breaks = self.laws.breaks[group[part]] / (0.5 * self.pressure)
-            known = ends_of(Span(d[part], f.s_sat[group[part]]), f, self.peaks, group[part], breaks)
-            ends = np.zeros((d.size, known.shape[1]))
-            ends[part] = known
-        return _Columns(group, d, ends)
+        if not part.size:
+            return np.zeros((d.size, 0))
+        breaks = self.laws.breaks[group[part]] / (0.5 * self.pressure)
+        known = ends_of(Span(d[part], f.s_sat[group[part]]), f, self.peaks, group[part], breaks)
+        ends = np.zeros((d.size, known.shape[1]))
+        ends[part] = known
+        return ends
 
-    def _sums(self, columns, strips: int, nodes: int):
-        out = np.zeros((columns.d.size, self.laws.full.shape[1]))
+    def _sums(self, group, d, ends, strips: int, nodes: int):
+        out = np.zeros((d.size, self.laws.full.shape[1]))
         # so many columns at a time that memory stays bounded
         many = max(1, _CHUNK // (4 * strips * nodes))
-        for start in range(0, columns.d.size, many):
-            some = slice(start, start + many)
-            out[some] = self._chunk(columns.at(some), strips, nodes)
+        part, over = d < 0.5 * self.level.family.s_sat[group], d > 1
+        for start in range(0, d.size, many):
+            for chosen, sums in ((part, self._partial), (over, self._complete)):
+                some = start + np.flatnonzero(chosen[start : start + many])
+                if some.size:
+                    out[some] += sums(group[some], d[some], ends[some], strips, nodes)
         return out
 
-    def _chunk(self, columns, strips, nodes):
-        s_sat = self.level.family.s_sat[columns.group]
-        out = np.zeros((columns.d.size, self.laws.full.shape[1]))
-        some = np.flatnonzero(columns.d < 0.5 * s_sat)
-        if some.size:
-            out[some] = self._partial(columns.at(some), strips, nodes)
-        some = np.flatnonzero(columns.d > 1)
-        if some.size:
-            out[some] += self._complete(columns.group[some], columns.d[some], strips, nodes)
-        return out
-
-    def _partial(self, columns, strips, nodes):
+    def _partial(self, group, d, ends, strips, nodes):
         """Strips in partial contact."""
-        f, peaks, group = self.level.family, self.peaks, columns.group
-        at = panels(Span(columns.d, f.s_sat[group]), columns.ends, strips)
+        f, peaks = self.level.family, self.peaks
+        at = panels(Span(d, f.s_sat[group]), ends, strips)
         column, u, weight = np.repeat(at.column, strips), at.u.ravel(), at.weight.ravel()
         waves = self.foundation.waves(self.rate[group[column]])
         known = f.values(group[at.column], at.s, slopes=True)
@@ -108,7 +100,7 @@ class Carrier:
         total[:, -1] += np.bincount(column, weight * u * missed, minlength=group.size) * steepest
         return total
 
-    def _complete(self, group, d, strips, nodes):
+    def _complete(self, group, d, _, strips, nodes):
         """Strips in complete contact: one harmonic of the phase about the mean."""
         f = self.level.family
         swings = f.s_sat[group] - 2
@@ -149,19 +141,6 @@ class Carrier:
         total = self.laws.averages(group, np.repeat(column[parts.row], nodes), p.ravel(), weights.ravel())
         # where the pressure saturates all below there is nothing to sum
         return total + np.bincount(column, weight * parts.saturated, minlength=group.size)[:, None] * self.laws.full[group]
-
-
-@dataclass(frozen=True)
-class _Columns:
-    """Columns (m,) at ``d``, and the ends (m, e) of their panels."""
-
-    group: np.ndarray
-    d: np.ndarray
-    ends: np.ndarray
-
-    def at(self, index) -> _Columns:
-        """The columns ``index``."""
-        return _Columns(self.group[index], self.d[index], self.ends[index])
 
 
 class _Parts:

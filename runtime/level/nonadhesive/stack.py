@@ -3,23 +3,23 @@ every velocity."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...inputs.surface import Level as Wavy
 from ...numerics.chebyshev import lobatto
 from ...numerics.quadrature import interleaved
 from ...numerics.rounding import EPS
-from ...orbit.foundation import Foundation
-from ..effort import WorkCounters
 from .carried import Carrier
 from .family import family
 from .law import Laws, Piece, pressures
 from .means import CANCELLED, Level
 from .peaks import Peaks, peak, peaks_of
 from .tried import NODES, Tried
+
+if TYPE_CHECKING:
+    from .surface import NonadhesiveSurface
 
 #: of what is allowed: what the values of a law may err, and what a strip's means may
 _VALUES, _STRIPS = 0.6, 2.0
@@ -58,31 +58,17 @@ class Found:
 
 
 class FamilyStack:
-    """The levels at velocities ``V`` (G,), each with its family as far as pressures up to ``p_max`` (Pa, (G,)) on
-    level 1 need it.
+    """The levels of a surface at its velocities (G,), each with its family as far as pressures up to ``p_max`` (Pa, (G,)) on
+    level 1 need it. ``d_max`` (G,), where that is what is known of level 1: penetrations in its height."""
 
-    ``stiffness``: K of each level's foundation, Pa/m. ``p_full`` (levels, G): saturation of each level with all below it.
-    ``d_max`` (G,), where that is what is known of level 1: penetrations in its height.
-    """
-
-    def __init__(
-        self,
-        foundation: Foundation,
-        stiffness: Sequence[float],
-        levels: Sequence[Wavy],
-        V,
-        p_max,
-        d_max,
-        p_full,
-        wanted: Wanted,
-        work: WorkCounters,
-    ):
-        self.foundation, self.waves, self.V, self.p_full, self.wanted, self.work = foundation, levels, V, p_full, wanted, work
-        self.units = [K * level.h for K, level in zip(stiffness, levels, strict=True)]
+    def __init__(self, surface: NonadhesiveSurface, p_max: np.ndarray, d_max: np.ndarray | None, wanted: Wanted):
+        self.foundation, self.waves, self.V, self.p_full = surface.foundation, surface.levels, surface.V, surface.p_full
+        self.wanted, self.work = wanted, surface.work
+        self.units = [K * level.h for K, level in zip(surface.stiffness, surface.levels, strict=True)]
         self.levels = self._levels(p_max, d_max)
         self.peaks = self._peaks()
-        self.ceilings, every = [p_max], np.arange(V.size)
-        for i in range(len(levels) - 1):
+        self.ceilings, every = [p_max], np.arange(self.V.size)
+        for i in range(len(self.waves) - 1):
             known = i == 0 and d_max is not None
             d = d_max if known else self.levels[i].penetrations(every, self.ceilings[i] / self.units[i])
             self.ceilings.append(self._greatest(i, d))

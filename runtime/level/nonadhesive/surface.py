@@ -42,9 +42,9 @@ class Points:
 @dataclass(frozen=True)
 class NonadhesiveSurface:
     """What points of a surface have in common. ``stiffness``: K of each level's foundation, Pa/m, all of the times of
-    ``foundation``. ``p_full`` (levels, G) at the velocities ``V`` (G,): see
-    ``FamilyStack``; ``floor``: friction, Pa, that counts beside its own size where ``rtol`` is relative. With an
-    adhesive traction ``p_0``, Pa, no point is solved."""
+    ``foundation``. ``p_full`` (levels, G) at the velocities ``V`` (G,): saturation of each level with all below it; ``floor``:
+    friction, Pa, that counts beside its own size where ``rtol`` is relative. With an adhesive traction ``p_0``, Pa, no point is
+    solved."""
 
     foundation: Foundation
     stiffness: Sequence[float]
@@ -95,20 +95,10 @@ class NonadhesiveSurface:
         np.maximum.at(most, row, load)
         np.minimum.at(least[0], row, size)
         np.minimum.at(least[1], row, size if below is None else below)
-        take = lambda arrays: [a[which] for a in arrays[:levels]]  # noqa: E731
         d_max = None if by_pressure else most / self.levels[0].h
-        wanted = Wanted(self.rtol * least[0], self.rtol * least[1], self.rtol)
-        stack = FamilyStack(
-            self.foundation,
-            self.stiffness[:levels],
-            self.levels[:levels],
-            self.V[which],
-            most,
-            d_max,
-            take(self.p_full),
-            wanted,
-            self.work,
-        )
+        p_full = [p[which] for p in self.p_full[:levels]]
+        first = replace(self, stiffness=self.stiffness[:levels], levels=self.levels[:levels], V=self.V[which], p_full=p_full)
+        stack = FamilyStack(first, most, d_max, Wanted(self.rtol * least[0], self.rtol * least[1], self.rtol))
         found = stack.at(0, row, load if by_pressure else load / self.levels[0].h, stack.laws(), by_pressure)
         friction, error = found.values[:, :-1:2], found.values[:, -1]
         total = self.floor + friction.sum(axis=1)
