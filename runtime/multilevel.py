@@ -194,14 +194,8 @@ class _Solve:
         out, load, K, h = self.out, self.load[i], self.surface.at_level(0).K, self.surface.levels[0].h
         out.p[i] = load if self.by_pressure else K * (load - 0.75 * h)
         out.D[i] = load / K + 0.75 * h if self.by_pressure else load
-        tau = saturated_friction(self.surface.material, self.surface.levels, self.V[i])
-        if full.all():
-            out.tau = tau
-        else:
-            out.tau[:, i] = tau
-        # one number stands for all of them where that is all there is: read only
-        out.contact = np.broadcast_to(1.0, out.contact.shape) if full.all() else np.where(full, 1.0, out.contact)
-        out.closed_form[i] = True
+        out.tau[:, i] = saturated_friction(self.surface.material, self.surface.levels, self.V[i])
+        out.contact[:, i], out.closed_form[i] = 1.0, True
 
     def _block(self, V, index, group):
         """Points ``index`` whose velocities are ``V[group]``."""
