@@ -99,16 +99,10 @@ def stable_text() -> str:
     return _render(
         "stable",
         "every model",
-        gone="750.0",
-        least="1e-290",
-        tiny=repr(sys.float_info.min),
-        late="40.0",
-        loss_limit="1.0",
         loss_first=f"{loss[0]}.0",
         loss_divisors=loss[1:],
         twice_first=f"{twice[0]}.0",
         twice_divisors=twice[1:],
-        sine_limit="1.0",
         sine_first=f"{sine[0]}.0",
         sine_divisors=sine[1:],
     )

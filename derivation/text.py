@@ -52,10 +52,11 @@ def docstring(statement: str) -> tuple[str, tuple[str, ...]]:
     return lines[0], (*lines[1:], *textwrap.wrap(rest, WIDTH))
 
 
+def functions_of(formulas: Iterable[Formula], kinds: tuple[type, ...]) -> set[str]:
+    """Names of the functions of these ``kinds`` that formulas call."""
+    terms = [term for formula in formulas for term in (*(step for _, step in formula.steps), *flat(formula.result))]
+    return {type(f).__name__ for term in terms for f in sp.sympify(term).atoms(sp.Function) if isinstance(f, kinds)}
+
+
 def helpers_used(formulas: Iterable[Formula]) -> list[str]:
-    found: set[str] = set()
-    for formula in formulas:
-        terms = [term for _, term in formula.steps] + flat(formula.result)
-        for term in terms:
-            found |= {type(f).__name__ for f in sp.sympify(term).atoms(sp.Function) if isinstance(f, HELPERS)}
-    return sorted(found - set(RENAMED))
+    return sorted(functions_of(formulas, HELPERS) - set(RENAMED))

@@ -467,6 +467,7 @@ def printed(package: ModuleType) -> None:
         part(package, "conditions").zone_conditions(strip.u),
         multilevel.local_stress(strip.u, field, multilevel.dashpot_loss(strip.u, field)),
         multilevel.local_shear(),
+        whole_level.comparison,
     )
     part(package, "paper").comparisons(strip, exact, {step.name: step.value for step in steps})
 

@@ -7,7 +7,7 @@ small that they agree with the derivative to more than 50 digits.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache
 from typing import Any
 
@@ -25,24 +25,6 @@ from .point import Point
 from .reference import Reference, on_diagonal
 from .scaled import Scaled, inverted
 
-BLOCKS = (
-    "displacement",
-    "overstress",
-    "relaxation_increment",
-    "relaxation_integral",
-    "relaxation_map",
-    "relaxation_passage",
-    "gap_change",
-    "contact_increment",
-    "contact_work",
-    "contact_map",
-    "contact_passage",
-    "excess_change",
-    "profile",
-    "profile_rise",
-    "profile_slope",
-    "profile_integral",
-)
 STEP = mpmath.mpf(10) ** -60  # of a difference; an error of its square remains
 AGREED = mpmath.mpf(10) ** -50  # of its scale, between a difference and the derivative put together
 
@@ -50,7 +32,7 @@ AGREED = mpmath.mpf(10) ** -50  # of its scale, between a difference and the der
 class Composition:
     """The functions of a regime at one point. Without ``sized`` the scales are left out, which is much less work."""
 
-    def __init__(self, regime: ModeRegime, blocks: dict[str, Reference], point: Point, sized: bool = True):
+    def __init__(self, regime: ModeRegime, blocks: Callable[[str], Reference], point: Point, sized: bool = True):
         self.regime, self.blocks, self.point, self.sized = regime, blocks, point, sized
         self.n = point.modes or 1
         self.onset = point.values[regime.edges[0]]
@@ -88,7 +70,7 @@ class Composition:
         # What is left of the period for the last zone is known to the period's own digits.
         rest = {s_1: 2 * mpmath.pi} if at.get(s_1) is self.regime.zones[-1].last else {}
         point = self.point.moved(values, [symbol for symbol in (s, s_0, s_1) if symbol in values], rest)
-        return self.blocks[name](point.at(dict([state])) if state else point, self.sized)
+        return self.blocks(name)(point.at(dict([state])) if state else point, self.sized)
 
     def _value(self, expression: Any) -> mpmath.mpf:
         if isinstance(expression, mpmath.mpf):
@@ -227,36 +209,29 @@ class Composition:
         return Composition(self.regime, self.blocks, self.point.moved({edge: self.point.values[edge] + by}, ()), sized=False)
 
     def jacobian_by_differences(self) -> np.ndarray:
-        columns = []
-        for edge in self.regime.edges:
-            ahead, back = (moved.residual(moved.state()).value for moved in (self._moved(edge, STEP), self._moved(edge, -STEP)))
-            columns.append((ahead - back) / (2 * STEP))
-        return np.stack(columns, axis=1)
+        def residual(edge: sp.Symbol, step: mpmath.mpf) -> np.ndarray:
+            moved = self._moved(edge, step)
+            return moved.residual(moved.state()).value
+
+        return _slopes(residual, self.regime.edges)
 
     def return_map_by_differences(self, state: Scaled) -> np.ndarray:
         """One turn as a function of the state before the first edge and of the edges, which follow it by their events."""
         still = Composition(self.regime, self.blocks, self.point, sized=False)
-        start = Scaled(state.value, 0 * state.value)
-        by_state, events_by_state = [], []
-        for mode in range(self.n):
-            ends = []
-            for step in (STEP, -STEP):
-                value = start.value.copy()
-                value[mode] += step
-                ends.append(still.turn(Scaled(value, start.size), self.onset))
-            by_state.append((ends[0][0] - ends[1][0]) / (2 * STEP))
-            events_by_state.append((ends[0][1] - ends[1][1]) / (2 * STEP))
-        by_edge, events_by_edge = [], []
-        for edge in self.regime.edges:
-            ends = [self._moved(edge, step).turn(start, self.onset) for step in (STEP, -STEP)]
-            by_edge.append((ends[0][0] - ends[1][0]) / (2 * STEP))
-            events_by_edge.append((ends[0][1] - ends[1][1]) / (2 * STEP))
-        columns = (np.stack(rows, axis=1) for rows in (by_state, events_by_state, by_edge, events_by_edge))
-        direct, events, through_edges, events_of_edges = columns
-        return direct - through_edges @ inverted(events_of_edges) @ events
 
-    def turn(self, state: Scaled, onset: mpmath.mpf) -> tuple[np.ndarray, np.ndarray]:
-        """State one period after the phase ``onset`` and what every event's function comes to at its edge."""
+        def of_state(mode: int, step: mpmath.mpf) -> np.ndarray:
+            value = state.value.copy()
+            value[mode] += step
+            return still.turn(Scaled(value, 0 * value), self.onset)
+
+        def of_edge(edge: sp.Symbol, step: mpmath.mpf) -> np.ndarray:
+            return self._moved(edge, step).turn(Scaled(state.value, 0 * state.value), self.onset)
+
+        by_state, by_edge = _slopes(of_state, range(self.n)), _slopes(of_edge, self.regime.edges)
+        return by_state[: self.n] - by_edge[: self.n] @ inverted(by_edge[self.n :]) @ by_state[self.n :]
+
+    def turn(self, state: Scaled, onset: mpmath.mpf) -> np.ndarray:
+        """State one period after the phase ``onset``, and what every event's function comes to at its edge."""
         *zones, last = self.regime.zones
         first = self._value(self.regime.edges[0])
         state = state + self._block("relaxation_increment", {s_0: onset, s_1: first, p: last.pressure}, (z_0, state))
@@ -266,7 +241,12 @@ class Composition:
             state = state + self._increment(zone, state)
         back = {s_0: last.first, s_1: onset + 2 * mpmath.pi, p: last.pressure}
         state = state + self._block("relaxation_increment", back, (z_0, state))
-        return state.value, Scaled.joined(events).value
+        return Scaled.joined([state, *events]).value
+
+
+def _slopes(function: Callable[[Any, mpmath.mpf], np.ndarray], moved: Iterable[Any]) -> np.ndarray:
+    """Derivatives of a function by each input that is ``moved``, a column each."""
+    return np.stack([(function(each, STEP) - function(each, -STEP)) / (2 * STEP) for each in moved], axis=1)
 
 
 @cache

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import partial
+from functools import cache, partial
 from typing import Any
 
 import mpmath
@@ -11,7 +11,7 @@ import mpmath
 from ..kernel import Kernel
 from ..modes.regimes import ModeRegime
 from ..modes.symbols import OF_STRIP
-from .composition import BLOCKS, Composition
+from .composition import Composition
 from .grid import drawn
 from .measure import DIGITS, Certificate, points_at
 from .reference import Reference
@@ -33,8 +33,8 @@ def measure_regimes(
 
     Raises :class:`DerivationError` where a derivative, as the emitted functions put it together, is not that of the zones.
     """
-    with mpmath.workdps(DIGITS):
-        blocks = {k.formula.name: Reference(k.exact) for k in kernels if k.formula.name in BLOCKS}
+    exact = {kernel.formula.name: kernel.exact for kernel in kernels}
+    blocks = cache(lambda name: Reference(exact[name]))
     for regime in regimes:
         args = (*regime.edges, *OF_STRIP)
         found = {kind: Certificate(f"{kind}_{regime.sequence}", args) for kind in KINDS}

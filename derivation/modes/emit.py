@@ -10,7 +10,7 @@ from ..functions import Formula, flat
 from ..model import Model, Parameter, Roots, Series
 from ..outcome import Derivation
 from ..printing import results, source
-from ..text import function_text, helpers_used
+from ..text import function_text, functions_of, helpers_used
 from .functions import ALGORITHMS
 from .material import series_of
 from .symbols import MATERIAL as FIELDS
@@ -27,7 +27,7 @@ def template_values(derivation: Derivation) -> dict[str, Any]:
     model, series = derivation.model, series_of(derivation.model)
     arrays = [] if isinstance(series, Roots) else [source(symbol) for symbol in series.arrays]
     formulas = [each.formula for each in (*derivation.kernels, *derivation.of_regimes)]
-    sums = {type(f).__name__ for f in _functions(formulas) if isinstance(f, (*SUMS, *ALGORITHMS))}
+    sums = functions_of(formulas, (*SUMS, *ALGORITHMS))
     checked = [_checked(parameter, arrays, model.modes is None) for parameter in model.parameters]
     material, builders = _modes_of_material(model, series)
     validators = {text.partition("(")[0] for _, text in checked}
@@ -91,8 +91,3 @@ def _needed(formula: Formula) -> list[tuple[sp.Symbol, sp.Expr]]:
 
 def _renamed(value: Any, names: dict[sp.Symbol, sp.Symbol]) -> Any:
     return tuple(_renamed(part, names) for part in value) if isinstance(value, tuple) else sp.sympify(value).xreplace(names)
-
-
-def _functions(formulas: list[Formula]) -> set[Any]:
-    terms = [term for formula in formulas for term in (*(step for _, step in formula.steps), *flat(formula.result))]
-    return {f for term in terms for f in sp.sympify(term).atoms(sp.Function)}

@@ -33,7 +33,7 @@ def _row(number: int, steps: tuple[Derived, ...], comparison: Comparison | None)
         "subject": SUBJECTS[number],
         "status": comparison.status if comparison else by_name[listed[0]].status,
         "printed": comparison.printed if comparison else "",
-        "derived": list(comparison.derived) if comparison else [],
+        "derived": list(comparison.derived or (by_name[listed[0]].latex,)) if comparison else [],
         "checks": [[check.claim, check.outcome] for check in comparison.checks] if comparison else [],
         "correction": comparison.correction if comparison else "",
         "steps": listed,

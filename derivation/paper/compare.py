@@ -32,6 +32,6 @@ def comparisons(strip: Strip, exact: Mapping[str, sp.Expr], steps: Mapping[str, 
         stack.carried(complete, one_level),
         stack.coefficient(complete, one_level),
         stack.complete_contact(strip, complete),
-        stack.all_complete(one_level),
+        stack.all_complete(steps["Eq. 16 as printed"]),
     )
     return tuple(sorted(found, key=lambda comparison: comparison.number))

@@ -13,20 +13,16 @@ from ..multilevel import yielding
 from ..surface import WAVE, mean_over_cell
 from ..symbols import V, k, l, x, y
 from .printed import PRINTED
-from .record import Comparison, compared, read_back, refuted
-from .words import CELL, field, level, strips, surface
+from .record import Comparison, compared, refuted
+from .words import field, level, strips, surface
 
 
 def load(pressure: sp.Expr) -> Comparison:
     r"""Eq. 7. ``pressure``: Eq. 15 in SI, of complete contact, where the integral can be done."""
     names = level("i", **{r"\barp_i": over_cell(pressure) / l**2, "p_i": field(pressure), r"iint \Omega_i": _integral})
     (printed,) = statements(PRINTED[7], names)
-    derived = (r"\bar p = \frac{1}{l^2} \iint_{\Omega^c \cup \Omega^a} p(x, y)\,dx\,dy",)
-    checks = [
-        zero("as printed, with Eq. 15 for p, it is the mean over x and y", printed.sides[0] - printed.sides[1]),
-        read_back(derived, CELL | {r"\barp": names[r"\barp_i"], "p": field(pressure), r"iint \Omega^c\cup\Omega^a": _integral}),
-    ]
-    return compared(7, derived, checks, ("equilibrium",))
+    claim = zero("as printed, with Eq. 15 for p, it is the mean over x and y", printed.sides[0] - printed.sides[1])
+    return compared(7, [claim], ("equilibrium",))
 
 
 def area() -> Comparison:
@@ -49,10 +45,7 @@ def area() -> Comparison:
             printed.sides[1] - whole.subs(even),
         )
     )
-    derived = (r"A = 2 \Delta \sum_{j=1}^{N} (a_j + b_j),\quad l = 2 N \Delta",)
-    own = CELL | strips(2) | {"A": whole.subs(even), "a_j": length(y_j) / 3, "b_j": 2 * length(y_j) / 3}
-    checks.append(read_back(derived, own))
-    return compared(9, derived, checks, ("contact area",))
+    return compared(9, checks, ("contact area",))
 
 
 def stress(derived_stress: sp.Expr) -> Comparison:
@@ -67,7 +60,7 @@ def stress(derived_stress: sp.Expr) -> Comparison:
         zero("as printed it is the stress of the derivation", (printed.sides[0] - printed.sides[1]).doit()),
         zero("and the power p w_t of the pressure over V", (printed.sides[1] - power).doit()),
     ]
-    return compared(10, (r"\tau(x, y) = " + sp.latex(tau.subs(y_j, y)),), checks, ("local stress",))
+    return compared(10, checks, ("local stress",), (r"\tau(x, y) = " + sp.latex(tau.subs(y_j, y)),))
 
 
 def means(pressure: sp.Expr) -> Comparison:
@@ -87,17 +80,8 @@ def means(pressure: sp.Expr) -> Comparison:
     claim = "their friction is too large by 4/(3 N): 1.3 % with the paper's N = 100"
     excess = [printed - exact * (1 + sp.Rational(4, 3 * n)) for n, (printed, exact) in zip((2, 3), friction, strict=True)]
     checks.append(zero(claim, excess))
-    derived = (
-        r"\bar p = \frac{2 \Delta}{l^2} \sum_{j=1}^{N} \int_{-l/2}^{l/2} p(x, y_j)\,dx \to \frac{1}{l^2} \iint p(x, y)\,dx\,dy",
-        r"\bar\tau = \frac{2 \Delta}{l^2} \sum_{j=1}^{N} \int_{-l/2}^{l/2} \tau(x, y_j)\,dx "
-        r"\to \frac{1}{l^2} \iint \tau(x, y)\,dx\,dy",
-    )
-    fields = {"p": field(pressure), r"\tau": field(shear), "iint": _integral}
-    own = {r"\barp": over_cell(pressure) / l**2, r"\bar\tau": over_cell(shear) / l**2}
-    checks.append(read_back(derived, CELL | strips(2) | fields | own))
     return compared(
         11,
-        derived,
         checks,
         ("means over a level", "means_c", "means_acaf", "means_afc", "means_af", "means_ac", "means_a", "means_f"),
     )

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
 
-from ..check import CORRECTED, EXACT, REPRODUCED, Check, Claim, DerivationError, zero
+from ..check import CORRECTED, REPRODUCED, Check, Claim, DerivationError
 from ..exact import is_zero
-from ..latex.reader import statements
-from ..latex.tokens import Unreadable
 from .printed import PRINTED, SUBJECTS
 
 
@@ -23,7 +19,7 @@ class Comparison:
     number: int
     subject: str
     printed: str
-    derived: tuple[str, ...]  # LaTeX, SI
+    derived: tuple[str, ...]  # LaTeX, SI; where it is empty, the first of the steps displays it
     checks: tuple[Check, ...]
     status: str
     correction: str  # "" where the printed form holds
@@ -31,7 +27,7 @@ class Comparison:
 
 
 def compared(
-    number: int, derived: tuple[str, ...], claims: list[Claim], steps: tuple[str, ...], correction: str = ""
+    number: int, claims: list[Claim], steps: tuple[str, ...], derived: tuple[str, ...] = (), correction: str = ""
 ) -> Comparison:
     """Verify the claims of a comparison; one with a correction must show what is wrong with the printed form."""
     name, status = f"print of Eq. {number}", CORRECTED if correction else REPRODUCED
@@ -54,22 +50,3 @@ def refuted(claim: str, residual: Any) -> Claim:
             raise DerivationError(step, f"the print is wrong in this: {claim}")
 
     return Claim(claim, FALSE, verify)
-
-
-def read_back(derived: tuple[str, ...], names: Mapping[str, Any]) -> Claim:
-    """The claim that every derived line, typed as it is, reads as equations that hold with what ``names`` stands for."""
-    claim = "the derived form, read back, holds with what was derived"
-
-    def verify(step: str) -> None:
-        for line in derived:
-            try:
-                read = statements(re.sub(r"\\quad\\text\{[^}]*\}", "", line), names)
-            except Unreadable as problem:
-                raise DerivationError(step, f"the derived form can be read: {problem}") from problem
-            for statement in read:
-                first, *others = (sp.sympify(side).doit() for side in statement.sides)
-                if not others:
-                    raise DerivationError(step, f"the derived form {line!r} is an equation")
-                zero(claim, [first - other for other in others]).verified(step)
-
-    return Claim(claim, EXACT, verify)

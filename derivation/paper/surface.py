@@ -14,8 +14,8 @@ from ..sequences import ADHESION, FREE, Span
 from ..surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE
 from ..symbols import D_level, h, l, p_0, s, x, y
 from .printed import PRINTED
-from .record import Comparison, compared, read_back, refuted
-from .words import CELL, MATERIAL, level, surface, y_j
+from .record import Comparison, compared, refuted
+from .words import level, surface, y_j
 
 
 def shape() -> Comparison:
@@ -29,7 +29,7 @@ def shape() -> Comparison:
             [stated.subs({x: 0, y: 0}), stated.subs({x: l / 2, y: 0}) - h],
         ),
     ]
-    return compared(4, ("f(x, y) = " + sp.latex(HEIGHT.subs(WAVE)),), checks, ("strip profile",))
+    return compared(4, checks, ("strip profile",), ("f(x, y) = " + sp.latex(HEIGHT.subs(WAVE)),))
 
 
 def penetration() -> Comparison:
@@ -41,12 +41,8 @@ def penetration() -> Comparison:
         zero("and the D_j of the derivation", printed.sides[1] - PENETRATION.subs(WAVE).subs(y, y_j)),
         refuted("it is f + D at x = 0, as Eq. 6 would have it", printed.sides[1] - surface(sp.Integer(0), y_j) - D_level),
     ]
-    return compared(
-        8,
-        ("D_j = " + sp.latex(PENETRATION.subs(WAVE).subs(y, y_j)),),
-        checks,
-        ("strip profile", "zone conditions"),
-    )
+    derived = ("D_j = " + sp.latex(PENETRATION.subs(WAVE).subs(y, y_j)),)
+    return compared(8, checks, ("strip profile", "zone conditions"), derived)
 
 
 def _crest_of_the_strip() -> sp.Expr:
@@ -62,18 +58,17 @@ def conditions(derived_gap: sp.Expr) -> Comparison:
     printed = contact.sides[1]
     unknown = sp.Function("w")(s)
     (derived_w,) = sp.solve(derived_gap, unknown)
+    height = (AMPLITUDE * derived_w).subs(WAVE)
     loads = [Span(kind, s, s, sp.Integer(0), sp.Integer(0)).load for kind in (ADHESION, FREE)]
     derived = (
-        r"w = D - f = " + sp.latex(sp.expand(D_level - surface())) + r"\quad\text{in contact}",
+        f"w = {sp.latex(sp.expand(height))}" + r"\quad\text{in contact}",
         f"p = {sp.latex(loads[0])}" + r"\quad\text{in adhesion}",
         f"p = {sp.latex(loads[1])}" + r"\quad\text{outside both}",
     )
-    height = {"w": (AMPLITUDE * derived_w).subs(WAVE), "D": D_level, "f": surface(), "h": h}
     checks = [
-        read_back(derived[:1], MATERIAL | CELL | height),
-        refuted("in contact w = f + D, as printed, closes the gap", printed - (AMPLITUDE * derived_w).subs(WAVE)),
-        zero("with the other sign of f it does: w = D - f", (printed - 2 * surface()) - (AMPLITUDE * derived_w).subs(WAVE)),
+        refuted("in contact w = f + D, as printed, closes the gap", printed - height),
+        zero("with the other sign of f it does: w = D - f", (printed - 2 * surface()) - height),
         zero("in adhesion p = -p_0, as printed", [adhesion.sides[1] - loads[0], loads[0] + p_0]),
         zero("outside both p = 0, as printed", outside.sides[1] - loads[1]),
     ]
-    return compared(6, derived, checks, ("zone conditions", "strip profile", "strip problem"), SIGN_OF_6)
+    return compared(6, checks, ("zone conditions", "strip profile", "strip problem"), derived, SIGN_OF_6)

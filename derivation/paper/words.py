@@ -19,10 +19,6 @@ MATERIAL = {
 }  # fmt: skip
 
 
-CELL = {"l": l, "x": x, "y": y, "y_j": y_j}
-"""What the derived forms beside the paper's call a place in a cell."""
-
-
 def level(index: str, **more: Any) -> dict[str, Any]:
     """Symbols of one level under the index that the paper gives it; its height is Eq. 4."""
     return {
