@@ -11,15 +11,15 @@ from .modes import several_times
 from .outcome import Derivation, Progress
 
 
-def stages_of(model: Model) -> tuple[str, ...]:
-    """Names of the stages that :func:`derive` reports."""
+def stages_of(model: Model) -> int:
+    """How many stages :func:`derive` reports."""
     return _stages(model).STAGES
 
 
 def derive(model: Model, progress: Progress | None = None) -> Derivation:
     """Derive and verify everything that follows from a model; raises :class:`DerivationError` for an inadmissible one.
 
-    ``progress`` is called with the name of each stage when it is done.
+    ``progress`` is called after each stage.
     """
     require_member(model)
     return _stages(model).derive(model, progress)

@@ -48,7 +48,7 @@ def check(
     """Compare the folder of generated files with what the derivation emits now; an empty list means no drift."""
     folder = Path(generated) if generated is not None else generated_folder()
     chosen = tuple(models) if models is not None else MODELS
-    say = Progress(progress, sum(len(stages_of(model)) for model in chosen))
+    say = Progress(progress, sum(stages_of(model) for model in chosen))
     derivations = tuple(derive(model, say) for model in chosen)
     texts = emit(derivations)
     texts |= audit_texts(derivations, texts, _readable_certificates(folder), read_measured(folder))

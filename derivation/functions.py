@@ -11,6 +11,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 import sympy as sp
@@ -149,8 +150,6 @@ class Formula:
     args: tuple[sp.Symbol, ...]
     result: Any
     steps: tuple[tuple[sp.Symbol, sp.Expr], ...] = ()
-    doc: str = ""
-    latex: str = ""
     partials: dict[int, Callable[..., sp.Expr]] = field(default_factory=dict, compare=False)
 
     def __call__(self, *args: Any) -> sp.Expr:
@@ -201,6 +200,14 @@ def written_out(expression: sp.Expr) -> sp.Expr:
     """Replace every helper and every formula call by what it means."""
     expression = expression.replace(lambda e: isinstance(e, Call), lambda e: e.formula.written_out(e.args))
     return expression.replace(lambda e: isinstance(e, Helper), lambda e: e.meaning(*e.args))
+
+
+@cache
+def evaluator(expression: sp.Expr, module: str) -> tuple[list[sp.Symbol], Callable[..., Any]]:
+    """The symbols of an expression, and the function of them that computes it by ``module``."""
+    plain = written_out(expression)
+    symbols = sorted(plain.free_symbols, key=str)
+    return symbols, sp.lambdify(symbols, plain, module)
 
 
 def flat(value: Any) -> list[Any]:

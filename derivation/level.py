@@ -187,11 +187,6 @@ def printed_equation_16(one_level: sp.Expr) -> Derived:
     speed = l / (2 * sp.pi * T_sigma)
     peak = sp.diff(true, V)
     peaks = {form: sp.simplify(e.subs(V, speed)) for form, e in (("true", true), ("printed", printed))}
-    paper_scene = {
-        "level 1": (sp.Rational(1, 100000), sp.Rational(1, 1000000)),
-        "level 2": (sp.Rational(5, 10**7), sp.Rational(1, 10**7)),
-        "level 3": (sp.Rational(5, 10**9), sp.Rational(5, 10**9)),
-    }
     checks: list[Claim] = [
         zero("the derived form does not depend on the unit of length", scaled_true - 1),
         zero("the printed form does: in a unit of length smaller by lambda it is smaller by lambda", scaled_printed - 1 / unit),
@@ -203,7 +198,7 @@ def printed_equation_16(one_level: sp.Expr) -> Derived:
         ),
         holds(
             "Fig. 7: its text says that level 1 has the highest peak; h^2/l has (1 : 0.2 : 0.05), h/l the reverse order",
-            _peak_orders(paper_scene),
+            _peak_orders(),
         ),
     ]
     return derived(
@@ -211,9 +206,13 @@ def printed_equation_16(one_level: sp.Expr) -> Derived:
     )
 
 
-def _peak_orders(levels: dict[str, tuple[sp.Rational, sp.Rational]]) -> bool:
-    square = [height**2 / length for length, height in levels.values()]
-    plain = [height / length for length, height in levels.values()]
+FIGURE_7 = tuple(tuple(map(sp.Rational, ends)) for ends in (("1e-5", "1e-6"), ("5e-7", "1e-7"), ("5e-9", "5e-9")))
+"""Wavelengths and heights of its levels, m."""
+
+
+def _peak_orders() -> bool:
+    square = [height**2 / length for length, height in FIGURE_7]
+    plain = [height / length for length, height in FIGURE_7]
     return [value / square[0] for value in square] == [1, sp.Rational(1, 5), sp.Rational(1, 20)] and plain == sorted(plain)
 
 

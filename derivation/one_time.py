@@ -11,7 +11,6 @@ from .energy import friction_balance, power_balance
 from .events import excess_event, gap_event
 from .flows import flows
 from .functions import Call
-from .further import FOR_ONE_TIME, Basis, further
 from .half_space import half_space
 from .jumps import jumps
 from .kernel import Kernel
@@ -36,61 +35,49 @@ from .symbols import PARAMETERS
 from .vocabulary import BINDINGS, vocabulary
 from .zones import zones
 
-STAGES = (
-    "model",
-    "strip",
-    "flows",
-    "edge conditions",
-    "zones",
-    "complete contact",
-    "regimes",
-    "means",
-    "stability",
-    "levels",
-    "print",
-)
+STAGES = 11
+"""How often ``progress`` is called."""
 
 
 def derive(model: Model, progress: Progress | None = None) -> Derivation:
     """Derive and verify everything that follows from the two operators of ``model``.
 
-    ``progress`` is called with the name of each stage of ``STAGES`` when it is done.
+    ``progress`` is called after each stage.
     """
     stages = Stages(progress)
     require_admissible(model)
     require_constructor(model)
     ground = foundation(model)
-    stages.done("model", ground)
+    stages.done(ground)
     one_strip = strip(ground)
-    stages.done("strip", one_strip)
+    stages.done(one_strip)
     flow = flows(one_strip)
-    stages.done("flows", flow)
+    stages.done(flow)
     jump = jumps(one_strip)
-    stages.done("edge conditions", jump)
+    stages.done(jump)
     zone = zones(flow)
     events = (*gap_event(flow), *excess_event(flow))
     chain = links(flow)
-    stages.done("zones", zone, events, chain)
+    stages.done(zone, events, chain)
     full = saturated(flow)
     whole = level(full)
-    stages.done("complete contact", full, whole)
+    stages.done(full, whole)
     ratio = sp.cancel(jump.closure.value / sp.Symbol("step_p", real=True))  # [w]/[p]
     table = regimes(OneTime(ratio), full.threshold.value)
     partial = [regime for regime in table if regime.edges]
     systems = tuple(k for regime in partial for k in system_kernels(regime, zone.kernels))
     roots = sample_roots("one_time", table, mode_flows())
-    stages.done("regimes", conditions(one_strip, table[0]), table, roots, systems)
+    stages.done(conditions(one_strip, table[0]), table, roots, systems)
     integrals = zone_integrals(flow)
     still = tuple(constant_means(regime, PARAMETERS) for regime in table if regime.sequence in ("a", "f"))
     means = tuple(strip_means(regime, integrals) for regime in partial)
     balances = (power_balance(flow), *(friction_balance(regime) for regime in partial))
-    stages.done("means", integrals, means, still, balances)
+    stages.done(integrals, means, still, balances)
     onsets = onset({regime.sequence: regime for regime in partial})
     slopes = tuple(onset_slope(regime) for regime in partial)
-    stages.done("stability", shift_of_an_event(), onsets, slopes)
+    stages.done(shift_of_an_event(), onsets, slopes)
     upwards = multilevel(one_strip, full, whole, partial, means, integrals)
-    stages.done("levels", upwards, stack(one_strip, full, whole), half_space())
-    more = further(FOR_ONE_TIME, Basis(flow, full, table))
+    stages.done(upwards, stack(one_strip, full, whole), half_space())
     sections = (
         ("Rigid profile, load, zones", zone.kernels),
         ("Events: value and slope, for root finding in a zone whose entry is evaluated once", events),
@@ -100,16 +87,15 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         ("Means of pressure and friction", (full.means, *still, *means)),
         ("Onset of adhesion, and the slope of the map from one onset to the next", (*onsets, *slopes)),
         ("A whole level in complete contact, and a stack of them: SI units", whole.kernels),
-        *more,
     )
     exact = {kernel.formula.name: kernel.exact for _, kernels in sections for kernel in kernels}
-    steps = tuple(records([*stages.made, more]))
+    steps = tuple(records(stages.made))
     printed = comparisons(one_strip, exact, {step.name: step.value for step in steps})
     read = displays(steps, STATED["one_time"], vocabulary(flow, exact["saturated_pressure"]), BINDINGS, of_one_time)
     require_tags(steps)
     require_all(steps)
     require_status(steps, printed)
-    stages.done("print", more)
+    stages.done()
     return Derivation("one_time", model, tuple(stages.made), table, sections, read, printed)
 
 

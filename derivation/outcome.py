@@ -11,7 +11,7 @@ from .kernel import Kernel
 from .model import Model
 from .paper import Comparison
 
-Progress = Callable[[str], None]
+Progress = Callable[[], None]
 
 
 @dataclass(frozen=True)
@@ -44,11 +44,11 @@ class Stages:
 
     def __init__(self, progress: Progress | None):
         self.made: list[Any] = []
-        self._progress = progress or (lambda stage: None)
+        self._progress = progress or (lambda: None)
 
-    def done(self, stage: str, *made: Any) -> None:
+    def done(self, *made: Any) -> None:
         self.made += made
-        self._progress(stage)
+        self._progress()
 
 
 def records(value: Any) -> Iterator[Derived]:

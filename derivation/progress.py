@@ -16,7 +16,7 @@ class Progress:
     def __init__(self, report: Report | None, total: int):
         self._report, self._done, self._total = report, 0, total
 
-    def __call__(self, stage: str = "") -> None:
+    def __call__(self) -> None:
         self._done += 1
         if self._report is not None:
             self._report(self._done, self._total)
@@ -27,5 +27,5 @@ class Progress:
         for number, item in enumerate(items, start=1):
             yield item
             while reported < number * SHARES // count:
-                self("certificates")
+                self()
                 reported += 1

@@ -54,10 +54,10 @@ def regenerate(
     require_names(chosen)
     target = Path(out_dir) if out_dir is not None else generated_folder()
     require_folder(target)
-    say = Progress(progress, sum(len(stages_of(model)) + SHARES for model in chosen) + 2)
+    say = Progress(progress, sum(stages_of(model) + SHARES for model in chosen) + 2)
     derivations = tuple(derive(model, say) for model in chosen)
     files = emit(derivations)
-    say("emission")
+    say()
     certificates = {}
     with importable(files) as solver:
         stored = read_certificates(target / CERTIFICATES)
@@ -72,7 +72,7 @@ def regenerate(
     files |= audit_texts(derivations, files, certificates, measured)
     files[MEASURED] = dumped(measured)
     written = write_files(target, files) if target.exists() else write_folder(target, files)
-    say("writing")
+    say()
     return written
 
 

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
@@ -21,7 +20,7 @@ import numpy as np
 import sympy as sp
 
 from .check import Derived, derived, holds
-from .functions import written_out
+from .functions import evaluator
 from .inequality import Inequality, Relation
 from .level import R
 from .modes.flows import ModeFlows, u
@@ -84,7 +83,7 @@ class Foundation:
         self.profile = sp.lambdify(s, u.subs(D, given[D]), "numpy")
 
     def number(self, expression: sp.Expr, more: Numbers | None = None) -> float:
-        symbols, evaluate = _function(sp.sympify(expression))
+        symbols, evaluate = evaluator(sp.sympify(expression), "math")
         values = {**self.given, **(more or {})}
         return float(evaluate(*(values[symbol] for symbol in symbols)))
 
@@ -204,10 +203,3 @@ class Foundation:
 
 def _inside(start: float, end: float, samples: int = SAMPLES) -> np.ndarray:
     return start + (end - start) * (np.arange(samples) + 0.5) / samples
-
-
-@cache
-def _function(expression: sp.Expr) -> tuple[list[sp.Symbol], Callable[..., float]]:
-    plain = written_out(expression)
-    symbols = sorted(plain.free_symbols, key=str)
-    return symbols, sp.lambdify(symbols, plain, "math")

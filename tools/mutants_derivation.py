@@ -269,6 +269,23 @@ MUTANTS: tuple[Mutant, ...] = (
         "print",
     ),
     m("print", "paper/printed.toml", r"\frac{h_i}{4\pi^2 V^2", r"\frac{h_i^3}{4\pi^2 V^2", "print of Eq. 16", "print"),
+    m("print", "paper/printed.toml", r"\iint_{\Omega_i} p_i", r"\iint_{\Omega_i} -p_i", "print of Eq. 7", "print"),
+    m(
+        "print",
+        "paper/printed.toml",
+        r"+ \bar{\tau}_M[p_{M-1}(x, y_j)]'",
+        r"- \bar{\tau}_M[p_{M-1}(x, y_j)]'",
+        "print of Eq. 12",
+        "print",
+    ),
+    m(
+        "print",
+        "paper/surface.py",
+        "height = (AMPLITUDE * derived_w)",
+        "height = -(AMPLITUDE * derived_w)",
+        "print of Eq. 6",
+        "print",
+    ),
     # displays
     m(
         "display",
@@ -323,19 +340,16 @@ MUTANTS: tuple[Mutant, ...] = (
     ),
     m("display", "load.py", r"\bar p = \frac{1}{l^2} \iint", r"\bar p = \frac{1}{l} \iint", "equilibrium", "levels"),
     m("display", "load.py", r"A = 2 \Delta \sum", r"A = \Delta \sum", "contact area", "levels"),
-    m("display", "paper/level.py", r"\bar p = \frac{1}{l^2} \iint_", r"\bar p = \frac{1}{l} \iint_", "print of Eq. 7", "print"),
-    m("display", "paper/level.py", r"A = 2 \Delta \sum", r"A = \Delta \sum", "print of Eq. 9", "print"),
-    m("display", "paper/level.py", r"\bar\tau = \frac{2 \Delta}", r"\bar\tau = \frac{\Delta}", "print of Eq. 11", "print"),
-    m("display", "paper/stack.py", r" + \tau_M[p]\quad", r" - \tau_M[p]\quad", "print of Eq. 12", "print"),
+    m("display", "multilevel.py", r"\bar p = \frac1l \int", r"\bar p = l \int", "means over a level", "levels"),
+    m("display", "multilevel.py", r"(x, y) = p(x, y)\,\frac", r"(x, y) = -p(x, y)\,\frac", "local stress", "levels"),
     m(
         "display",
-        "paper/stack.py",
-        r"+ \frac{1}{l^2} \iint_{\Omega^c}",
-        r"+ \frac{1}{l} \iint_{\Omega^c}",
-        "print of Eq. 13",
-        "print",
+        "multilevel.py",
+        r".. math:: \mu = \frac{\tau_1}{p_1}",
+        r".. math:: \mu = \tau_1\,p_1",
+        "friction coefficient",
+        "levels",
     ),
-    m("display", "paper/surface.py", 'r"w = D - f = "', 'r"w = D + f = "', "print of Eq. 6", "print"),
     # several relaxation times: law, jumps, zones, inequalities, displays, chain rule
     m("modes", "modes/flows.py", "unknown + alpha * sp.diff", "unknown - alpha * sp.diff", "contact flow", "modes"),
     m("modes", "modes/states.py", "LEAVE = J_j * beta_j /", "LEAVE = J_j * beta_k /", "states", "modes"),
@@ -484,12 +498,18 @@ def displayed(package: ModuleType) -> None:
 def levels(package: ModuleType) -> None:
     """Displays of Eq. 7 and 9 to 14, which are the same on every foundation."""
     load, multilevel, displays = part(package, "load"), part(package, "multilevel"), part(package, "displays")
+    strip, _, full = early(package)
+    field = next(kernel.exact for kernel in full.kernels if kernel.formula.name == "saturated_pressure")
+    one_level, stack = (kernel.exact for kernel in part(package, "level").level(full).kernels[2:])
     passed = (part(package, "check").holds("left out", True),)
     steps = (
         load.equilibrium((), ()),
         load.contact_area(()),
+        multilevel.local_stress(strip.u, field, multilevel.dashpot_loss(strip.u, field)),
+        multilevel.means_over_a_level(field, full.means.exact),
         multilevel.local_shear(),
         multilevel.carried_friction(passed, ()),
+        multilevel.friction_coefficient(field, one_level, stack),
     )
     displays.displays(steps, {}, {}, part(package, "vocabulary").LEVELS, displays.of_one_time)
 

@@ -8,7 +8,6 @@ small that they agree with the derivative to more than 50 digits.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from functools import cache
 from typing import Any
 
 import mpmath
@@ -16,6 +15,7 @@ import numpy as np
 import sympy as sp
 
 from ..check import DerivationError
+from ..functions import evaluator
 from ..modes.regimes import ModeRegime
 from ..modes.symbols import f_0, z, z_0
 from ..sequences import CONTACT, Span
@@ -75,7 +75,7 @@ class Composition:
     def _value(self, expression: Any) -> mpmath.mpf:
         if isinstance(expression, mpmath.mpf):
             return expression
-        symbols, evaluate = _evaluator(sp.sympify(expression))
+        symbols, evaluate = evaluator(sp.sympify(expression), "mpmath")
         return mpmath.mpf(evaluate(*(self.point.values[symbol] for symbol in symbols)))
 
     def _edges(self, zone: Span) -> dict[sp.Symbol, Any]:
@@ -247,12 +247,6 @@ class Composition:
 def _slopes(function: Callable[[Any, mpmath.mpf], np.ndarray], moved: Iterable[Any]) -> np.ndarray:
     """Derivatives of a function by each input that is ``moved``, a column each."""
     return np.stack([(function(each, STEP) - function(each, -STEP)) / (2 * STEP) for each in moved], axis=1)
-
-
-@cache
-def _evaluator(expression: sp.Expr) -> tuple[list[sp.Symbol], Callable[..., Any]]:
-    symbols = sorted(expression.free_symbols, key=str)
-    return symbols, sp.lambdify(symbols, expression, modules="mpmath")
 
 
 def _with(rows: Scaled, index: int, more: Scaled) -> Scaled:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from ..averages import constant_means
 from ..conditions import zone_conditions
 from ..displays import STATED, displays, of_modes
-from ..further import FOR_ANY_NUMBER, Basis, further
 from ..model import Model, Roots
 from ..outcome import Derivation, Progress, Stages, records
 from ..paper.tags import require_all, require_tags
@@ -29,22 +28,23 @@ from .vocabulary import BINDINGS, vocabulary
 from .whole import whole_kernels
 from .zones import contact, gap, passages, relaxation, states
 
-STAGES = ("model", "flows", "edge conditions", "zones", "complete contact", "regimes", "means", "levels", "print")
+STAGES = 9
+"""How often ``progress`` is called."""
 
 
 def derive(model: Model, progress: Progress | None = None) -> Derivation:
     """Derive and verify everything that follows from the Prony series of ``model``.
 
-    ``progress`` is called with the name of each stage of ``STAGES`` when it is done.
+    ``progress`` is called after each stage.
     """
     stages = Stages(progress)
     ground = (admissibility(model), foundation_law(model), relaxed_stiffness(model), prony_series(model))
     coordinates = (dimensionless_groups(), partial_fractions(), point_states())
-    stages.done("model", ground, coordinates, adhesion_law(), strip_profile(), zone_conditions(u))
+    stages.done(ground, coordinates, adhesion_law(), strip_profile(), zone_conditions(u))
     flows = mode_flows()
-    stages.done("flows", flows)
+    stages.done(flows)
     closure = closures(model)
-    stages.done("edge conditions", jump_law(), closure)
+    stages.done(jump_law(), closure)
     sections = [
         ("Rigid profile", rigid_profile(u)),
         ("States of a material point", states()),
@@ -52,27 +52,25 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         ("Contact zones", contact(flows)),
         ("Zones as maps of the state, and their derivatives", passages(flows)),
     ]
-    stages.done("zones", *(kernels for _, kernels in sections))
+    stages.done(*(kernels for _, kernels in sections))
     complete = complete_contact(flows)
-    stages.done("complete contact", complete)
+    stages.done(complete)
     table = regimes(SeveralTimes(closure.value), complete.threshold.value, model.springy)
-    stages.done("regimes", table, sample_roots("several_times", table, flows))
+    stages.done(table, sample_roots("several_times", table, flows))
     means, period = means_of_a_strip(), period_map()
     still = tuple(constant_means(regime, OF_STRIP) for regime in table if regime.sequence in ("a", "f"))
-    stages.done("means", means, still, period, chain_rule(period))
-    stages.done("levels", mode_levels(flows, complete, table))
-    more = further(FOR_ANY_NUMBER, Basis(flows, complete, table))
+    stages.done(means, still, period, chain_rule(period))
+    stages.done(mode_levels(flows, complete, table))
     sections += [
         ("Complete contact", complete.kernels),
-        *more,
         ("Means of strips without edges", (complete.means, *still)),
         ("Complete contact of whole levels, and a stack of them: SI units, modes with times in seconds", complete.level),
     ]
-    steps = tuple(records([*stages.made, more]))
+    steps = tuple(records(stages.made))
     read = displays(steps, unread(model), vocabulary(flows), BINDINGS, of_modes)
     require_tags(steps)
     require_all(steps)
-    stages.done("print", more)
+    stages.done()
     return Derivation(
         "several_times",
         model,

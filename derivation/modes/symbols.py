@@ -19,6 +19,5 @@ enter, leave, share = sp.symbols("enter leave share")  # matrices between retard
 
 MATERIAL = (alpha, beta, eta, S, J, J_0, enter, leave, share)
 OF_STRIP = (m, p_0, delta_0, D)
-VECTORS = (alpha, beta, eta, S, J, z_0, f_0, z, f)
 MATRICES = (enter, leave, share)
 STATES = (z_0, f_0, z, f)

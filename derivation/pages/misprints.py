@@ -8,6 +8,7 @@ from typing import Any
 import sympy as sp
 
 from ..check import Derived
+from ..level import FIGURE_7
 from ..surface import HEIGHT
 from ..symbols import D_level, K, T_eps, T_sigma, V, h, k, l, p_nominal, x, y
 from .words import WORDS
@@ -52,18 +53,17 @@ def _stiffness(step: Derived) -> dict[str, Any]:
     return {"shown": shown, "table": {"head": ["K = 1e9 read as", "displacement under 100 Pa"], "rows": rows}}
 
 
-FIGURE_7 = {K: "1e9", T_eps: "1/100", T_sigma: "1/10000", p_nominal: "5e6"}
-FIGURE_7_LEVELS = (("1/100000", "1/1000000"), ("5/10000000", "1/10000000"), ("5/1000000000", "5/1000000000"))
+SCENE = {K: "1e9", T_eps: "1/100", T_sigma: "1/10000", p_nominal: "5e6"}
 MICRO = 10**6  # the same lengths in micrometres: the pressures and times stay in Pa and s
 
 
 def _equation_16(step: Derived) -> dict[str, Any]:
     """The levels of Fig. 7 as derived and as printed, in two units of length."""
     true, printed = step.value
-    given = {symbol: sp.Rational(value) for symbol, value in FIGURE_7.items()}
+    given = {symbol: sp.Rational(value) for symbol, value in SCENE.items()}
     rows = []
-    for number, (length, height) in enumerate(FIGURE_7_LEVELS, 1):
-        scene = {**given, l: sp.Rational(length), h: sp.Rational(height)}
+    for number, (length, height) in enumerate(FIGURE_7, 1):
+        scene = {**given, l: length, h: height}
         scene[V] = scene[l] / (2 * sp.pi * scene[T_sigma])
         other = {**scene, K: scene[K] / MICRO, **{symbol: scene[symbol] * MICRO for symbol in (l, h, V)}}
         terms = (true.subs(scene), true.subs(other), printed.subs(scene), printed.subs(other))

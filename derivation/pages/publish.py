@@ -40,7 +40,7 @@ def audit(
     chosen = tuple(models) if models is not None else MODELS
     installed = generated_folder()
     target = Path(out_dir) if out_dir is not None else installed / AUDIT
-    say = Progress(progress, sum(len(stages_of(model)) for model in chosen) + 2)
+    say = Progress(progress, sum(stages_of(model) for model in chosen) + 2)
     derivations = tuple(derive(model, say) for model in chosen)
     texts = emit(derivations)
     say()

@@ -10,17 +10,15 @@ y, which is at least that of the profile, ``S - 1``. So
 
 import numpy as np
 
+from ..numerics.rounding import EPS
 from .groups import TWO_PI, Strips
-
-_EPS = np.finfo(float).eps
-_ROUNDINGS = 1
 
 
 def saturates(kernel, s: Strips) -> np.ndarray:
     """Where saturated contact exists, ``D - 1 + p_0 >= R``, or fails to by less than the terms are rounded to: a gap of that size
     is none."""
     R = kernel.modulus_ratio(s.alpha, s.beta)
-    return s.D - 1 + s.p_0 >= R - _ROUNDINGS * _EPS * (1 + np.abs(s.D) + s.p_0 + R)
+    return s.D - 1 + s.p_0 >= R - EPS * (1 + np.abs(s.D) + s.p_0 + R)
 
 
 def may_cling(kernel, s: Strips) -> np.ndarray:
