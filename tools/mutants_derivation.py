@@ -269,7 +269,7 @@ MUTANTS: tuple[Mutant, ...] = (
         "print",
     ),
     m("print", "paper/printed.toml", r"\frac{h_i}{4\pi^2 V^2", r"\frac{h_i^3}{4\pi^2 V^2", "print of Eq. 16", "print"),
-    m("print", "paper/printed.toml", r"\iint_{\Omega_i} p_i", r"\iint_{\Omega_i} -p_i", "print of Eq. 7", "print"),
+    m("print", "paper/printed.toml", r"\frac{1}{l_i^2} \iint", r"\frac{2}{l_i^2} \iint", "print of Eq. 7", "print"),
     m(
         "print",
         "paper/printed.toml",
@@ -340,15 +340,15 @@ MUTANTS: tuple[Mutant, ...] = (
     ),
     m("display", "load.py", r"\bar p = \frac{1}{l^2} \iint", r"\bar p = \frac{1}{l} \iint", "equilibrium", "levels"),
     m("display", "load.py", r"A = 2 \Delta \sum", r"A = \Delta \sum", "contact area", "levels"),
-    m("display", "multilevel.py", r"\bar p = \frac1l \int", r"\bar p = l \int", "means over a level", "levels"),
-    m("display", "multilevel.py", r"(x, y) = p(x, y)\,\frac", r"(x, y) = -p(x, y)\,\frac", "local stress", "levels"),
+    m("display", "multilevel.py", r"\bar p = \frac1l \int", r"\bar p = l \int", "means over a level", "complete"),
+    m("display", "multilevel.py", r"(x, y) = p(x, y)\,\frac", r"(x, y) = -p(x, y)\,\frac", "local stress", "complete"),
     m(
         "display",
         "multilevel.py",
         r".. math:: \mu = \frac{\tau_1}{p_1}",
         r".. math:: \mu = \tau_1\,p_1",
         "friction coefficient",
-        "levels",
+        "complete",
     ),
     # several relaxation times: law, jumps, zones, inequalities, displays, chain rule
     m("modes", "modes/flows.py", "unknown + alpha * sp.diff", "unknown - alpha * sp.diff", "contact flow", "modes"),
@@ -498,17 +498,25 @@ def displayed(package: ModuleType) -> None:
 def levels(package: ModuleType) -> None:
     """Displays of Eq. 7 and 9 to 14, which are the same on every foundation."""
     load, multilevel, displays = part(package, "load"), part(package, "multilevel"), part(package, "displays")
-    strip, _, full = early(package)
-    field = next(kernel.exact for kernel in full.kernels if kernel.formula.name == "saturated_pressure")
-    one_level, stack = (kernel.exact for kernel in part(package, "level").level(full).kernels[2:])
     passed = (part(package, "check").holds("left out", True),)
     steps = (
         load.equilibrium((), ()),
         load.contact_area(()),
-        multilevel.local_stress(strip.u, field, multilevel.dashpot_loss(strip.u, field)),
-        multilevel.means_over_a_level(field, full.means.exact),
         multilevel.local_shear(),
         multilevel.carried_friction(passed, ()),
+    )
+    displays.displays(steps, {}, {}, part(package, "vocabulary").LEVELS, displays.of_one_time)
+
+
+def complete(package: ModuleType) -> None:
+    """Displays of Eq. 10, 11 and 14, whose steps need complete contact."""
+    multilevel, displays = part(package, "multilevel"), part(package, "displays")
+    strip, _, full = early(package)
+    field = next(kernel.exact for kernel in full.kernels if kernel.formula.name == "saturated_pressure")
+    one_level, stack = (kernel.exact for kernel in part(package, "level").level(full).kernels[2:])
+    steps = (
+        multilevel.local_stress(strip.u, field, multilevel.dashpot_loss(strip.u, field)),
+        multilevel.means_over_a_level(field, full.means.exact),
         multilevel.friction_coefficient(field, one_level, stack),
     )
     displays.displays(steps, {}, {}, part(package, "vocabulary").LEVELS, displays.of_one_time)
@@ -547,6 +555,7 @@ RUNS: dict[str, Callable[[ModuleType], str | None]] = {
     "print": printed,
     "displays": displayed,
     "levels": levels,
+    "complete": complete,
     "modes": modes,
     "tags": tags,
     "certificates": certificates,
