@@ -68,3 +68,12 @@ def test_loading_carries_no_pressure_below_its_pull_off(p_0, delta_0, V, edge):
     assert found.pulled_off.tolist() == [False, False, True, True] and found.converged.all()
     both = hystrip.solve(material, adhesion, levels, velocity=V, pressure=p[2:], rtol=1e-2, **how)
     assert both.pulled_off.all() and not both.mu.any()
+
+
+def test_a_law_on_loading_is_what_its_level_carries_beyond_pull_off():
+    """Curves are sampled on both sides of a break, up to rounding, where strips snap in: none may see the other."""
+    material, adhesion = hystrip.StandardLinearSolid(1e9, 0.1, 1e-4), hystrip.Dugdale(gamma=2e-6, delta_0=2e-8)
+    level, point = hystrip.Level(2e-6, 1e-7), {"V": 1e-3, "edge": "constitutive", "branch": "loading"}
+    law = hystrip.friction_law(material, adhesion, level, rtol=1e-2, **point)
+    at = hystrip.solve_level(material, adhesion, level, pressure=3e3, rtol=1e-2, **point)
+    assert law.pull_off < 0 and abs(law(3e3) - at.tau_mean) <= law.error_estimate + at.error_estimate[1]
