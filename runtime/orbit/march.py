@@ -14,7 +14,6 @@ import numpy as np
 
 from ..numerics.roots import falling_root
 from .batch import Batch
-from .bound import rows
 from .groups import ROUNDING, TWO_PI, Cycle
 
 #: edges this close to the crest are on it: the bracket of one that is on it would be halved a thousand times
@@ -153,17 +152,25 @@ def _happens(event, start, end, index, sure, spent):
     return meets
 
 
-class _Event:
+def _rows(size: int, *values) -> np.ndarray:
+    """Arrays (size,) and numbers as the rows of one array."""
+    out = np.empty((len(values), size))
+    for row, value in zip(out, values, strict=True):
+        row[:] = value
+    return out
+
+
+class Event:
     """An event function of a batch with its entry data worked into constants once: value and slope at later phases of the
     elements ``sub``, which ascend."""
 
     def __init__(self, function, constants, offset=0.0, sign=1.0):
         self.function, self.sign = function, sign
-        self.constants = rows(constants[1].size, offset, *constants)
+        self.constants = _rows(constants[1].size, offset, *constants)
         self._asked, self._last = None, self.constants
 
-    def take(self, index) -> "_Event":
-        other = object.__new__(_Event)
+    def take(self, index) -> "Event":
+        other = object.__new__(Event)
         other.function, other.sign, other.constants = self.function, self.sign, self.constants[:, index]
         other._asked, other._last = None, other.constants
         return other
@@ -188,7 +195,7 @@ def _contact_begins(kernel, cycle: Cycle, x, spent, known: _Known):
         return b
 
     i = reach
-    gap = _Event(kernel.gap_event, kernel.gap_entry(x[i], cycle.gap_on[i], -s.p_0[i], s.D[i], s.beta[i]))
+    gap = Event(kernel.gap_event, kernel.gap_entry(x[i], cycle.gap_on[i], -s.p_0[i], s.D[i], s.beta[i]))
     start = np.maximum(x, cycle.centre - cycle.half_b)
     meets = _happens(gap, start[reach], end[reach], reach, known.sure[reach], spent)
     reach, gap = reach[meets], gap.take(meets)
@@ -207,7 +214,7 @@ def _contact_ends(kernel, cycle: Cycle, x, b, spent, known: _Known):
         return a
     i = touched
     entry = kernel.excess_entry(b[i], cycle.q_on[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
-    excess = _Event(kernel.excess_event, entry)
+    excess = Event(kernel.excess_event, entry)
     low = cycle.centre[touched] + cycle.half_b[touched]
     high = cycle.centre[touched] + TWO_PI - cycle.half_b[touched]
     leaves = _happens(excess, np.maximum(low, b[touched]), high, touched, known.sure[touched], spent) & (high > low)
@@ -233,7 +240,7 @@ def _adhesion_ends(kernel, cycle: Cycle, x, b, a, spent, known: _Known):
         return c
     i = leaves
     entry = kernel.gap_entry(start[i], first[i], -s.p_0[i], s.D[i], s.beta[i])
-    closed = _Event(kernel.gap_event, entry, s.delta_0[i], -1.0)
+    closed = Event(kernel.gap_event, entry, s.delta_0[i], -1.0)
     low = np.maximum(low, start, out=low, where=np.isfinite(start))
     meets = _happens(closed, low[leaves], high[leaves], leaves, known.sure[leaves], spent)
     leaves, closed = leaves[meets], closed.take(meets)

@@ -22,25 +22,25 @@ has ``z > max(D + J_0 p_0, 0)``. (Where w is continuous where p steps, read w fo
   adhesion ends at c and the next onset is met at x: in every orbit adhesion ends after c, every onset lies before x, and there is
   none if c does not exist.
 
-The phases are not solved for. Each is replaced by one that is further off, verified by the sign of an event: contact or adhesion
-that is held longer (shorter) only leaves the state more (less) engaged than it is.
+The phases are solved for roughly. Each is replaced by one that is further off, verified by the sign of an event: contact or
+adhesion that is held longer (shorter) only leaves the state more (less) engaged than it is.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
 from .batch import Batch
-from .bound import bound, close_enough
 from .groups import ROUNDING, Cycle
-from .march import TWO_PI
+from .march import TWO_PI, Event
 
 #: beta above which a foundation remembers too much of the most engaged state for bounds from it to say much: the balance of a
 #: period (``balance``) is asked instead. 30 to 300 cost about the same
 FAST = 60.0
-#: contact is taken to end after this share of the arc in which it can
-_SOON = 0.1
+#: distance from the edges themselves at which their bounds are close enough
+_CLOSE = 0.003
 
 
 @dataclass(slots=True)
@@ -124,12 +124,10 @@ def earliest_onset(kernel, cycle: Cycle, c):
 
 def _contact_end(kernel, cycle: Cycle, b):
     """Phases behind the end of contact begun at b, NaN where none was found, and the evaluations spent."""
-    s, spent = cycle.strips, np.zeros(cycle.size)
+    s = cycle.strips
     entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
     low, high = cycle.centre + cycle.half_b, cycle.centre + TWO_PI - cycle.half_b
-    start, blur = low + _SOON * (high - low), s.noise() + ROUNDING * entry[4]
-    a, found = bound(kernel.excess_event, entry, 0.0, 1.0, start, high, 1.0, blur, close_enough(s.beta), spent, low)
-    return np.where(found, a, np.nan), spent
+    return _beyond(Event(kernel.excess_event, entry), low, low, high, 1.0, s.noise() + ROUNDING * entry[4])
 
 
 def _adhesion_end(kernel, cycle: Cycle, a, side: float):
@@ -140,28 +138,39 @@ def _adhesion_end(kernel, cycle: Cycle, a, side: float):
     s, spent = cycle.strips, np.ones(cycle.size)
     low = np.maximum(a, cycle.centre + cycle.half_c)
     high = np.maximum(low, cycle.centre + TWO_PI - cycle.half_c)
-    over = kernel.gap_event(high, *kernel.gap_entry(a, 0.0, -s.p_0, s.D, s.beta))[0] - s.delta_0
+    closed = Event(kernel.gap_event, kernel.gap_entry(a, 0.0, -s.p_0, s.D, s.beta), s.delta_0, -1.0)
+    over = -closed(high, np.arange(cycle.size))[0]
     c, noise = np.full(cycle.size, np.nan), s.noise()
     ask = np.flatnonzero((low < high) & (over > noise))
-    s, a, low, high, used = s.take(ask), a[ask], low[ask], high[ask], np.zeros(ask.size)
-    entry = kernel.gap_entry(a, 0.0, -s.p_0, s.D, s.beta)
     # of a foundation that stands still
-    start = np.clip(np.arccos(np.clip(np.cos(a) - s.delta_0, -1.0, 1.0)), low, high)
-    near, far = (low, high) if side > 0 else (high, low)
-    phase, found = bound(kernel.gap_event, entry, s.delta_0, -1.0, start, far, side, noise[ask], close_enough(s.beta), used, near)
-    c[ask], spent[ask] = np.where(found, phase, np.nan), 1 + used
+    start = np.arccos(np.clip(np.cos(a) - s.delta_0, -1.0, 1.0))[ask]
+    c[ask], used = _beyond(closed.take(ask), start, low[ask], high[ask], side, noise[ask])
+    spent[ask] += used
     return c, over < -noise, spent
 
 
 def _next_onset(kernel, cycle: Cycle, c, side: float):
     """Phases behind (``side`` 1) or before (-1) the next onset of cycles released at c, NaN where none was found, and the
     evaluations spent."""
-    s, spent = cycle.strips, np.zeros(cycle.size)
+    s = cycle.strips
     entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
     low = np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
     high = np.maximum(cycle.centre + TWO_PI + cycle.half_d, low)
     # of a foundation that stands still
-    start = np.clip(TWO_PI - np.arccos(np.clip(np.cos(c) + cycle.jump, -1.0, 1.0)), low, high)
-    near, far = (low, high) if side > 0 else (high, low)
-    x, found = bound(kernel.gap_event, entry, s.delta_0, 1.0, start, far, side, s.noise(), close_enough(s.beta), spent, near)
-    return np.where(found, x, np.nan), spent
+    start = TWO_PI - np.arccos(np.clip(np.cos(c) + cycle.jump, -1.0, 1.0))
+    return _beyond(Event(kernel.gap_event, entry, s.delta_0), start, low, high, side, s.noise())
+
+
+def _beyond(event: Event, start, low, high, side: float, noise):
+    """Phases behind (``side`` 1) or before (-1) the zeros through which events fall between ``low`` and ``high``, not far from
+    them if possible, NaN where none is verified; and the evaluations spent. ``start``: about where they fall."""
+    x, spent = falling_root(event, low, high, start, _CLOSE)
+    found = np.full(x.size, np.nan)
+    for further in (1, 10, np.inf):
+        phase = np.clip(x + side * further * _CLOSE, low, high)
+        ask = np.flatnonzero(np.isnan(found))
+        if ask.size:
+            good = side * event(phase[ask], ask)[0] < -noise[ask]
+            spent[ask] += 1
+            found[ask[good]] = phase[ask[good]]
+    return found, spent
