@@ -29,14 +29,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..numerics.rounding import EPS
 from .batch import Batch
 from .groups import ROUNDING, Cycle, Strips
 from .march import TWO_PI, Orbit
-
-#: least sine that is divided by
-_LEAST = 0.05
-#: contact is taken to end by so much earlier than is estimated
-_MARGIN = 0.01
 
 
 @dataclass(slots=True)
@@ -89,7 +85,7 @@ class _Rest(Reference):
         # adhesion lifts, pressure relaxes
         relaxed = self.L * self.beta / self.alpha * (sine - t * cosine)
         lifted = t * (self.p_0 + self.D - 1 + cosine)
-        return t + 2 * (lifted - relaxed) / (self.beta * np.maximum(sine, _LEAST))
+        return t + 2 * (lifted - relaxed) / (self.beta * np.maximum(sine, EPS))
 
 
 def beside(kernel, cycle: Cycle, known: Orbit, end) -> Reference:
@@ -189,7 +185,7 @@ def balance_bound(kernel, reference: Reference, lo, hi):
     t = _contact(r, lo, low)
     possible, t = np.isfinite(t), np.minimum(t, TWO_PI)
     sin_t, cos_t = _sine_cosine(t)
-    e = np.minimum(np.maximum(r.contact_end(t, sin_t, cos_t) - _MARGIN, 0.0), r.turned)
+    e = np.minimum(np.maximum(r.contact_end(t, sin_t, cos_t), 0.0), r.turned)
     sin_e, cos_e = _sine_cosine(e)
     mean = r.D - 1 + r.p_0
     begins = mean + r.storage * cos_t + r.loss * sin_t

@@ -25,8 +25,6 @@ from .sensitivity import fading, onset_margin, release_margin
 #: what the bound loses over an interval, in p_0 times its width; by how much finer than that asks for it is divided, into how
 #: many parts at most, and how often
 _LOSS, _AMPLY, _MOST, _ROUNDS = 2.1, 1.5, 12, 8
-#: parts in which all onsets of a strip out of reach are asked at first: 2 or 8 cost as much
-_FIRST = 4
 
 
 def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, np.ndarray]:
@@ -56,7 +54,7 @@ def exclude_out_of_reach(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
         held = _held_best(cycle)
         open_ = np.flatnonzero(balance_bound(kernel, reference, held, held) > 0)
         part, crest, spent = reference.take(open_), np.zeros(open_.size), np.ones(cycle.size)
-        none[open_], used = _excluded(kernel, part, crest, crest + np.pi, np.full(open_.size, _FIRST))
+        none[open_], used = _excluded(kernel, part, crest, crest + np.pi)
     spent[open_] += used
     return none, spent
 
@@ -96,15 +94,15 @@ def _suspects(kernel, cycle: Cycle, known: Orbit):
     return np.where(fits, np.minimum(arc, later), -known.x)
 
 
-def _excluded(kernel, reference: Reference, lo, hi, parts=None) -> tuple[np.ndarray, np.ndarray]:
-    """Where no orbit has an onset between -hi and -lo, asked in so many ``parts``, (n,), to begin with; and the evaluations.
+def _excluded(kernel, reference: Reference, lo, hi) -> tuple[np.ndarray, np.ndarray]:
+    """Where no orbit has an onset between -hi and -lo, and the evaluations spent on each.
 
     Over an interval the bound loses as much as engagement grows, which tells how fine a part that fails has to be divided, or
     that it cannot succeed.
     """
     n = lo.size
     proven, spent = np.ones(n, bool), np.zeros(n)
-    index, part = np.arange(n), reference
+    index, part, parts = np.arange(n), reference, None
     for _ in range(_ROUNDS):
         if parts is not None:
             pieces = np.repeat(np.arange(index.size), parts)

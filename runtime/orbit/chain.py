@@ -9,15 +9,12 @@ admissible, stable and the extremal one is asked elsewhere (``certificate``, ``e
 import numpy as np
 
 from . import regimes
+from .certificate import STABLE
 from .groups import TWO_PI, Cycle
 
-#: iterations at most. Where there is an orbit with a free part Newton needs half of them; next to complete contact, where two
-#: edges all but coincide, more
-_ITERATIONS, _ITERATIONS_BARE = 10, 24
-#: a step this large after so many iterations leads nowhere, but where contact is all but complete
-_WILD, _LOST_AFTER = 0.1, 7
-#: a step this small leaves an error of its square
-_SMALL = 1e-7
+#: iterations at most. Where there is an orbit with a free part Newton mostly needs a third of them; next to complete contact,
+#: where two edges all but coincide, all. 10 and 24 for these do as well
+_ITERATIONS = 14
 #: share of the way to the end of its arc that an edge may move at once
 _BOLD = 0.9
 #: edges of each sequence, x for the onset (of contact, where nothing else is met)
@@ -32,19 +29,17 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.n
     n = cycle.size
     result, converged, spent = edges.copy(), np.zeros(n, bool), np.zeros(n)
     low, high = arcs(cycle, sequence)
-    bare = sequence in ("ac", "cf")
-    iterations, wild = (_ITERATIONS_BARE, np.inf) if bare else (_ITERATIONS, _WILD)
     index, part, gaps = np.arange(n), cycle, gap_zones(cycle, sequence)
     # where a link is lost to rounding or overflows the step is no number, and the strip is left to the search
     with np.errstate(all="ignore"):
-        for iteration in range(1, iterations + 1):
+        for iteration in range(1, _ITERATIONS + 1):
             move = step(*links(kernel, part, sequence, gaps, edges))
             size = np.abs(move).max(axis=0)
             edges = moved(edges, move, low, high, size)
-            far = wild if iteration >= _LOST_AFTER else np.inf
-            going = np.flatnonzero((size > _SMALL) & (size < far)) if iteration < iterations else index[:0]
+            # a step this small leaves an error of its square
+            going = np.flatnonzero(size > STABLE) if iteration < _ITERATIONS else index[:0]
             if going.size < index.size:
-                result[:, index], converged[index], spent[index] = edges, size <= _SMALL, iteration
+                result[:, index], converged[index], spent[index] = edges, size <= STABLE, iteration
                 if not going.size:
                     break
                 index, part, gaps = index[going], part.among(going), gaps[..., going]

@@ -13,10 +13,6 @@ from ..inputs.model import ModelMaterial
 from ..inputs.prony import Prony
 
 EDGES = ("continuous", "constitutive")
-_WHY = (
-    "'constitutive' for a foundation with several relaxation times: where the pressure steps, a continuous "
-    "displacement leaves all but one of the internal displacements open, so 'continuous' is not determined"
-)
 #: what may be given as a material
 MATERIALS = (StandardLinearSolid, Prony, HalfSpace, ModelMaterial)
 Material = StandardLinearSolid | Prony | HalfSpace | ModelMaterial
@@ -48,7 +44,12 @@ def check_edge(material, edge: str) -> str:
     """``edge`` if it is a closure that determines the edges of ``material``, else ``InputError``."""
     edge = choice("edge", edge, EDGES)
     if edge == "continuous" and not isinstance(reduced(material), StandardLinearSolid):
-        raise InputError("edge", edge, _WHY)
+        raise InputError(
+            "edge",
+            edge,
+            "'constitutive' for a foundation with several relaxation times: where the pressure steps, a continuous "
+            "displacement leaves all but one of the internal displacements open, so 'continuous' is not determined",
+        )
     return edge
 
 

@@ -6,19 +6,16 @@ which forgets what is summed, or where the last gap is short, the closing link i
 
 import numpy as np
 
-from ..numerics.rounding import EPS
 from . import regimes
 from .certificate import STABLE
 from .chain import gap_zones, links, step
-from .groups import TWO_PI, Cycle
+from .groups import ROUNDING, TWO_PI, Cycle
 from .march import Orbit
 from .solved import edges_of, groups, orbit_of
 
 _ITERATIONS = 20
 #: largest correction that an orbit may still ask for
 CONVERGED = 1e-13
-#: corrections may be this many times what rounding leaves uncertain
-_ROUNDINGS = 32
 
 
 def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, ends=None, blurred: bool = True):
@@ -55,7 +52,7 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, ends=None, blurre
         stalled = np.flatnonzero(stalls > 0)
         if blurred and stalled.size:
             uncertain = _attainable(kernel, cycle.take(stalled), sequence, edges[:, stalled])
-            blur[stalled] = _ROUNDINGS * np.fmin(uncertain, STABLE)
+            blur[stalled] = np.fmin(uncertain, STABLE)
     return orbit_of(sequence, edges), correction <= CONVERGED + blur, blur, spent
 
 
@@ -81,9 +78,9 @@ def _attainable(kernel, cycle: Cycle, sequence: str, edges) -> np.ndarray:
     size = 1 + np.abs(s.D) + s.p_0
     slow = TWO_PI / (TWO_PI + s.beta)
     R = kernel.modulus_ratio(s.alpha, s.beta)
-    gap = EPS * (1 + s.delta_0 + (size + s.delta_0) * slow)
-    excess = EPS * (R + (size + R) * TWO_PI / (TWO_PI + s.alpha))
-    closing = EPS * (size + s.delta_0) * slow
+    gap = ROUNDING * (1 + s.delta_0 + (size + s.delta_0) * slow)
+    excess = ROUNDING * (R + (size + R) * TWO_PI / (TWO_PI + s.alpha))
+    closing = ROUNDING * (size + s.delta_0) * slow
     constant, linear = [np.zeros(cycle.size)], [np.ones(cycle.size)]
     for zone, back, on in zip(regimes.ZONES[sequence][0][:-1], before, after, strict=False):
         noise = excess if zone == "c" else gap

@@ -22,12 +22,11 @@ CODE = {sequence: code for code, sequence in enumerate(REGIMES)}
 #: the regime whose boundary equations and means a sequence has, and the unknown edges of those
 EQUATIONS = {sequence: "ac" if sequence == "cf" else sequence for sequence in REGIMES}
 EDGES = {sequence: GENERATED[name]["edges"] for sequence, name in EQUATIONS.items()}
-_LETTERS = {"contact": "c", "adhesion": "a", "free": "f"}
 
 
 def _zones(sequence: str) -> tuple[str, str]:
     zones = GENERATED[EQUATIONS[sequence]]["zones"]
-    letters = "".join(_LETTERS[zone] for zone, *_ in zones)
+    letters = "".join(zone[0] for zone, *_ in zones)  # contact, adhesion, free
     # a contact that begins at the onset begins at b, too: there is no d
     starts = "".join("b" if zone == "contact" else start for zone, start, _ in zones)
     return (letters.replace("a", "f") if sequence == "cf" else letters), starts

@@ -15,8 +15,6 @@ from .solved import Solved
 _GROUP_LIMIT = 1e150
 #: beta up to which the emitted functions are certified (the domain in generated/certificates.json)
 _CERTIFIED = 1e30
-#: regimes in which adhesion begins and ends
-_STEPPING = [CODE[sequence] for sequence in ("acaf", "afc", "af")]
 
 
 def _each(function, *arrays) -> np.ndarray:
@@ -80,7 +78,7 @@ def _at_full_speed(solved: Solved, strips: Strips, pace: np.ndarray) -> Solved:
     where nothing steps, that is but for adhesion that begins and ends under the constitutive closure."""
     fast = np.flatnonzero(pace < 1)
     if fast.size:
-        falls = (strips.chi[fast] == 0) | ~np.isin(solved.code[fast], _STEPPING)
+        falls = (strips.chi[fast] == 0) | np.isnan(solved.c[fast])
         solved.tau_mean[fast] *= np.where(falls, pace[fast], 1.0)
     return solved
 

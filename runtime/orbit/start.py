@@ -20,13 +20,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..numerics.rounding import EPS
 from .chain import TWO_PI
 from .groups import Cycle
 
 if TYPE_CHECKING:
     from .orbit_bounds import OrbitBounds
 
-_LEAST = 1e-9
 #: rounds of Newton for the edge, and the largest a they begin at: ``a sin a`` has its maximum there; up to it ``sin a - a cos a``
 #: is no less than about this part of ``a**3/3``
 _ROUNDS, _LONG, _CUBE = 4, 2.03, 0.65
@@ -51,7 +51,7 @@ def start(kernel, cycle: Cycle, sequence: str, bounds: OrbitBounds | None = None
 def _bounding(kernel, cycle: Cycle, sequence: str, bounds: OrbitBounds) -> np.ndarray:
     """The edges that bound those of all orbits; contact begins as soon as the gap is closed at the pace it has at the onset."""
     s, x = cycle.strips, bounds.x
-    pace = np.maximum(kernel.forcing(x, s.D, s.beta) + s.p_0 + cycle.gap_on, _LEAST)
+    pace = np.maximum(kernel.forcing(x, s.D, s.beta) + s.p_0 + cycle.gap_on, EPS)
     b = x + np.minimum(cycle.gap_on * s.beta / pace, 0.5 * np.maximum(cycle.centre + cycle.half_b - x, 0.0))
     a = np.maximum(b, bounds.a)
     c = np.maximum(a, bounds.c)
@@ -87,7 +87,7 @@ def _without_contact(cycle: Cycle) -> np.ndarray:
     c = np.arccos(np.clip(-level - 0.5 * np.pi * pull, -1.0, 1.0))
     low = np.arcsin(np.minimum(pull, 1.0))
     for _ in range(_ROUNDS):
-        slope = np.minimum(pull - np.sin(c), -_LEAST)
+        slope = np.minimum(pull - np.sin(c), -EPS)
         c = np.clip(c - (level + np.cos(c) + pull * c) / slope, low, np.pi - low)
     return c
 
@@ -97,14 +97,14 @@ def _contact(cycle: Cycle) -> np.ndarray:
     s = cycle.strips
     pull = s.p_0 - cycle.jump
     # on a foundation without instantaneous compliance contact lasts about beta^-1/2
-    glassy = s.L / (s.J + np.maximum(s.beta, _LEAST) ** -1.5)
+    glassy = s.L / (s.J + np.maximum(s.beta, EPS) ** -1.5)
     longest = np.arccos(np.clip(s.delta_0 - 1, -1.0, 1.0))
     a = np.minimum(np.cbrt(3 * np.pi * np.maximum(s.D + s.p_0, 0.0) / (_CUBE * glassy + np.pi)), np.minimum(_LONG, 0.9 * longest))
     for _ in range(_ROUNDS):
         cosine, sine = np.cos(a), np.sin(a)
         c = _release(cycle, a)
         value = np.pi * (s.D - 1 + cosine + cycle.jump) + pull * c - glassy * (sine - a * cosine)
-        slope = sine * (np.pi + glassy * a - pull / np.maximum(np.sin(c), _LEAST))
+        slope = sine * (np.pi + glassy * a - pull / np.maximum(np.sin(c), EPS))
         falls = slope > 0
         step = np.divide(value, slope, out=np.zeros_like(a), where=falls)
         a = np.clip(np.where(falls, a + step, 0.5 * (a + longest)), 1e-3 * a, 0.98 * longest)
