@@ -14,10 +14,9 @@ from .problem import ModeStrips, rates
 
 TWO_PI = 2 * np.pi
 CONTACT, ADHESION, FREE = 0, 1, 2
-LETTERS = "caf"
 _MAX_ZONES = 24
 #: what of a period has a value for each time
-STATES = ("dz", "z_onset", "z_release", "z_from_onset", "z_from_release")
+STATES = ("dz", "z_from_onset", "z_from_release")
 
 
 @dataclass(slots=True)
@@ -43,10 +42,10 @@ class Period:
     """A period of N points. ``dz``: change of the state (accurate also where it is small), (n, N).
 
     ``onset``, ``entry``, ``exit``, ``release``: phase of the last of each event, NaN where none; ``onsets``,
-    ``contacts``, ``releases``: how many. ``z_onset``, ``z_release``: state there. ``slope_onset``, ``slope_release``:
+    ``contacts``, ``releases``: how many. ``slope_onset``, ``slope_release``:
     of the gap just before. ``from_onset``, ``from_release``: where the zone began that the event ends,
     ``z_from_onset``, ``z_from_release``: state there; ``until_onset``, ``until_release``: where the zone ends that the
-    event begins, ``smooth_onset``, ``smooth_release``: that is a gap zone, too. ``lost``: not followed to the end.
+    event begins, ``smooth_onset``: that is a gap zone, too. ``lost``: not followed to the end.
     """
 
     engaged_before: np.ndarray
@@ -59,8 +58,6 @@ class Period:
     onsets: np.ndarray
     contacts: np.ndarray
     releases: np.ndarray
-    z_onset: np.ndarray
-    z_release: np.ndarray
     slope_onset: np.ndarray
     slope_release: np.ndarray
     from_onset: np.ndarray
@@ -70,7 +67,6 @@ class Period:
     until_onset: np.ndarray
     until_release: np.ndarray
     smooth_onset: np.ndarray
-    smooth_release: np.ndarray
     lost: np.ndarray
     evaluations: np.ndarray
     zones: list[Zone] = field(default_factory=list)
@@ -79,7 +75,7 @@ class Period:
     def blank(cls, n: int, N: int) -> Period:
         """Records of N points with n times, nothing met."""
         no, count, nan, state = np.zeros(N, bool), np.zeros(N, int), np.full(N, np.nan), np.zeros((n, N))
-        kinds = {"engaged_before": no, "engaged": no, "lost": no, "smooth_onset": no, "smooth_release": no, "onsets": count}
+        kinds = {"engaged_before": no, "engaged": no, "lost": no, "smooth_onset": no, "onsets": count}
         kinds |= {"contacts": count, "releases": count, "evaluations": np.zeros(N)} | dict.fromkeys(STATES, state)
         return cls(**{name: kinds.get(name, nan).copy() for name in cls.__slots__ if name != "zones"}, zones=[])
 
@@ -140,7 +136,7 @@ def march(kernel, s: ModeStrips, engaged, z, start) -> Period:
         zone, pressure = _one_zone(kernel, here, index, letter, where, limit, zone_z, pressure, out)
         out.zones.append(zone)
         going = (zone.following >= 0) & ~out.lost[index]
-        _note(out, zone, z[:, zone.index] + out.dz[:, zone.index])
+        _note(out, zone)
         rest = np.flatnonzero(going)
         index, letter, where, limit = index[rest], zone.following[rest], zone.end[rest], limit[rest]
         here, pressure = here.take(rest), pressure[rest]
@@ -194,7 +190,7 @@ def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, o
     return Zone(index, letter, start, end, z, slope, following), pressure
 
 
-def _note(out: Period, zone: Zone, z_end):
+def _note(out: Period, zone: Zone):
     """Write the event that ends a zone into the record."""
     i, letter, following = zone.index, zone.letter, zone.following
     onset = (letter == FREE) & (following >= 0)
@@ -210,12 +206,10 @@ def _note(out: Period, zone: Zone, z_end):
         if count is not None:
             count[i[which]] += 1
     out.slope_onset[i[onset]], out.slope_release[i[release]] = zone.slope[onset], zone.slope[release]
-    out.z_onset[:, i[onset]], out.z_release[:, i[release]] = z_end[:, onset], z_end[:, release]
-    begun = zone.start == out.onset[i], zone.start == out.release[i]  # by the event before this zone
-    for which, until, smooth in zip(
-        begun, (out.until_onset, out.until_release), (out.smooth_onset, out.smooth_release), strict=True
-    ):
-        until[i[which]], smooth[i[which]] = zone.end[which], letter[which] != CONTACT
+    # zones begun by the events before
+    after_onset, after_release = zone.start == out.onset[i], zone.start == out.release[i]
+    out.until_onset[i[after_onset]], out.smooth_onset[i[after_onset]] = zone.end[after_onset], letter[after_onset] != CONTACT
+    out.until_release[i[after_release]] = zone.end[after_release]
     out.from_onset[i[onset]], out.from_release[i[release]] = zone.start[onset], zone.start[release]
     out.z_from_onset[:, i[onset]], out.z_from_release[:, i[release]] = zone.z[:, onset], zone.z[:, release]
     out.engaged[i[onset]], out.engaged[i[release]] = True, False

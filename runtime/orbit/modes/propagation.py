@@ -56,7 +56,7 @@ def _saltation(s: ModeStrips, order: Order, lower: Period, upper: Period, slope,
     name = "onset" if onset else "release"
     gain = _ratio(s.jump_on if onset else s.step, slope)
     event = np.sort(np.stack([getattr(lower, name), getattr(upper, name)]), axis=0)
-    start, end, smooth = getattr(lower, f"from_{name}"), getattr(lower, f"until_{name}"), getattr(lower, f"smooth_{name}")
+    start, end, smooth = getattr(lower, f"from_{name}"), getattr(lower, f"until_{name}"), lower.smooth_onset | (not onset)
     holds = (event[0] >= start) & (gain > 0)
     inside = holds & (event[1] <= end)
     after = np.where(inside, end - event[::-1], 0.0)
