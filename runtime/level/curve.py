@@ -15,7 +15,7 @@ from ..numerics.rounding import EPS
 from .breaks import breakpoints, threshold_width
 from .effort import CURVE_LIMIT
 from .error_budget import ErrorBudget
-from .interior_breaks import is_inside, island, locate_vanishing
+from .interior_breaks import island, locate_vanishing
 from .interval import Interval
 from .piece import Errors, Piece
 from .reentrant import reentrant_parts
@@ -28,8 +28,6 @@ _LAST = 96
 _INTERPOLATION = 1 - MEAN
 #: coefficients below this share of what the means may err say nothing of how smooth they are
 _BLUR = 0.1
-#: no error grows faster than this from round to round
-_PACE = 1e3
 #: an interval's pressure is known at least this well
 _COARSEST = 1e-3
 #: a piece narrower than this, relative to D, is taken as it is
@@ -68,7 +66,7 @@ def trace(
     pieces = interpolate(columns, rtol, above, strips, budget=budget)
     if below:
         least = np.array([min((piece.values(_GRID)[:, 0].min() for piece in row), default=np.inf) for row in pieces])
-        comes = reentrant_parts(columns, rtol, below, least, strips, budget)
+        comes = reentrant_parts(columns, below, least, strips)
         for row, more in zip(pieces, interpolate(columns, rtol, comes, strips, budget=budget, ceiling=least), strict=True):
             row += more
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
@@ -125,7 +123,7 @@ def interpolate(
                 if interval in splits:
                     parts += interval.split(splits[interval], soft=False)
                 elif hopeless[k]:
-                    parts += batch.halves(k)
+                    parts += interval.halves
                 else:
                     keep.append(k)
             going += [batch.take(keep, batch.missed[keep])] if keep else []
@@ -163,9 +161,9 @@ def _converged(batch: Batch, pieces, strips, pressure_goal) -> tuple[Batch, np.n
         series, soft = error[k] + _ROUNDED * rounding[k], (i.inner_low, i.inner_high)
         errors = Errors(series + batch.errors[k].max(axis=0), series + relative * floors[k], relative)
         pieces[i.column].append(Piece(i.low, i.high, c[k], errors, *soft, i.endpoint_map))
-    missed = np.maximum(error / goal, np.finfo(float).tiny)
-    # coefficients fall geometrically: where twice the nodes would not do, halves are better
-    hopeless = (missed * np.minimum(missed / batch.missed, _PACE) ** 2 > 1).any(axis=1) | (batch.n >= _LAST)
+    missed = error / goal
+    # coefficients fall geometrically: where twice the nodes would miss the goal by missed (missed / before)^2, halves are better
+    hopeless = (missed > np.maximum(batch.missed, 1.0) ** (2 / 3)).any(axis=1) | (batch.n >= _LAST)
     left = np.flatnonzero(~done)
     return batch.take(left, missed[left]), goal[left], hopeless[left]
 
@@ -204,4 +202,4 @@ def _isolated_regimes(columns: LevelBatch, left, strips) -> dict[Interval, float
     if not seen:
         return {}
     breaks = zip(seen, locate_vanishing(columns, list(seen.values()), strips).tolist(), strict=True)
-    return {i: D for i, D in breaks if is_inside(D, i.low, i.high)}
+    return {i: D for i, D in breaks if i.low < D < i.high}

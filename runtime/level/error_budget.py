@@ -8,8 +8,7 @@
   they all add to: ``friction_of_laws``.
 - A piece of the law of level 2 may be coarser by ``ErrorBudget.tolerance_factor``, the fewer points meet its pressures; ``merge``
   may take a part of what a law may err, ``lower_levels`` integrates to a part of what the mean over strips may.
-- Of what an interval of a curve may err its means get a part, ``sampling.MEAN``; where halving it does not help, less:
-  ``Accuracy.after``.
+- Of what an interval of a curve may err its means get a part, ``sampling.MEAN``.
 
 Goal-oriented: a law's error counts as much as the part of the surface on which it is used. That part is had from a plain sum over
 the strips of the level above; it deals out accuracy and enters no result, and what a law lacks shows in the error of the friction

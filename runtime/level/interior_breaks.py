@@ -22,10 +22,6 @@ _ACROSS, _ALONG, _ROUNDS = 12, 8, 20
 _LEFT = 0.3
 #: a turn is held to be where an island vanishes no closer than to this share of its way
 _ASIDE = 1e-9
-#: a break this close to an end of its piece, as a share of it, is left to halving
-_CLOSE = 0.02
-#: a zone narrower than this many brackets of a transition may hide in one
-_UNSEEN = 4.0
 
 
 @dataclass
@@ -64,15 +60,9 @@ def island(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) -> 
         k = min(same, one.code.size - 1)
         width = one.high[k] - one.low[k]
         weight = float((width / np.pi * one.standing_out(k) / goal).max())
-        if weight > max(_LEFT, heaviest.weight if heaviest else 0.0) and width > _UNSEEN * _blind(two, same):
+        if weight > max(_LEFT, heaviest.weight if heaviest else 0.0):
             heaviest = IsolatedRegime(column, int(one.code[k]), float(one.low[k]), float(one.high[k]), *ends, weight)
     return heaviest
-
-
-def _blind(zones: Zones, place: int) -> float:
-    """Width of what lies between the zones before and after ``place``: a transition is bracketed no closer than the means need,
-    so a zone of that width may be seen at one penetration and not at the next."""
-    return zones.low[place] - zones.high[place - 1] if 0 < place < zones.code.size else 0.0
 
 
 def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips: np.ndarray) -> np.ndarray:
@@ -134,8 +124,3 @@ def _followed(columns: LevelBatch, islands: list[IsolatedRegime], strips: np.nda
             v[~done] for v in (number, column, code, present, absent, low, high, density, start, stop)
         )
     return out
-
-
-def is_inside(D_break: float, low: float, high: float) -> bool:
-    """Whether a break lies in the interior of a piece."""
-    return min(D_break - low, high - D_break) > _CLOSE * (high - low)

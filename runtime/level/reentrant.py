@@ -12,7 +12,6 @@ from dataclasses import replace
 import numpy as np
 
 from ..numerics.chebyshev import lobatto
-from .error_budget import ErrorBudget
 from .interval import Interval
 from .sampling import MEAN, means_in
 from .strips import LevelBatch
@@ -21,15 +20,10 @@ from .strips import LevelBatch
 _ROUGH, _MANY, _FEW, _NARROW = 5e-3, 16, 4, 0.05
 #: how much more than its error, and than what it bends between two nodes, a pressure has to keep above what was before
 _DOUBT, _BEND = 2.0, 0.5
-#: share of what is asked that may be left out without being counted as an error
-_UNTOLD = 0.01
 
 
-def reentrant_parts(
-    columns: LevelBatch, rtol, intervals: list[Interval], least: np.ndarray, strips, budget: ErrorBudget | None
-) -> list[Interval]:
-    """The parts of the ``intervals`` that unloading may come to after the pressures ``least`` (Pa, per column), as far as they
-    count for the ``budget``."""
+def reentrant_parts(columns: LevelBatch, intervals: list[Interval], least: np.ndarray, strips: np.ndarray) -> list[Interval]:
+    """The parts of the ``intervals`` that unloading may come to after the pressures ``least`` (Pa, per column)."""
     met, out = least.copy(), []
     for look, D, values, error in sorted(_looks(columns, intervals, strips), key=lambda look: -look[0].high):
         column, p = look.column, values[:, 0]
@@ -41,20 +35,12 @@ def reentrant_parts(
         comes = np.flatnonzero(floor < before)
         for run in np.split(comes, np.flatnonzero(np.diff(comes) > 1) + 1) if comes.size else ():
             first, last = run[0], run[-1] + 1
-            nodes = slice(first, last + 1)
             if last == p.size - 1 and (p - _DOUBT * error)[first:last].min() > met[column]:
                 # the curve goes on from what was met, and rises
                 continue
-            coarser = 1.0
-            if budget is not None:
-                # all of the friction is missed where this is left out, its own and what it carries
-                friction = np.abs(values[nodes][:, columns.frictions]).max(axis=0).sum()
-                coarser = budget.tolerance_factor(column, floor[run].min(), before[run].max(), friction)
-            if _UNTOLD * coarser * rtol[column] < 1.0:
-                soft = look.inner_low or first > 0, look.inner_high or last < p.size - 1
-                low, high = D[first] if first > 0 else look.low, D[last] if last < p.size - 1 else look.high
-                part = replace(look, low=float(low), high=float(high), inner_low=soft[0], inner_high=soft[1], even=False)
-                out.append(replace(part, asked=replace(part.asked, coarser=coarser)))
+            soft = look.inner_low or first > 0, look.inner_high or last < p.size - 1
+            low, high = D[first] if first > 0 else look.low, D[last] if last < p.size - 1 else look.high
+            out.append(replace(look, low=float(low), high=float(high), inner_low=soft[0], inner_high=soft[1], even=False))
         met[column] = min(met[column], (p + error).min())
     return out
 
