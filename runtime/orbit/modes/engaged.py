@@ -11,6 +11,7 @@ import numpy as np
 
 from .coordinates import Order
 from .extremal import AGREE, certified, lowest_state
+from .extremes import greatest_gap
 from .fields import state_at
 from .march import TWO_PI, Period, march
 from .problem import ModeStrips
@@ -38,17 +39,14 @@ def engaged(kernel, strips: ModeStrips, near: Period | None = None):
         spent[left] += used
         k = left[good]
         z[:, k], _ = state_at(kernel, "ac", s.take(k), edges[:, k], s.take(k).start)
-        # a march that is never released checks both; where it is, one in which release is put out of action
-        for part, lowered in ((strips, strips.m.J * strips.p_0), (s, 0.0)):
-            here = part.take(k)
-            turn = march(kernel, here, np.ones(k.size, bool), (z - lowered)[:, k], here.start)
-            spent[k] += turn.evaluations
-            apart = np.abs(np.mod(engaged_edges(turn) - edges[:, k] + np.pi, TWO_PI) - np.pi).max(axis=0, initial=0.0)
-            good = (apart <= AGREE) & (turn.contacts == 1) & turn.never_free
-            known[k], within[k] = good, good & (part is strips)
-            k = k[~good]
-            if not k.size or strips.bare:
-                break
+        here = s.take(k)
+        turn = march(kernel, here, np.ones(k.size, bool), z[:, k], here.start)
+        spent[k] += turn.evaluations
+        apart = np.abs(np.mod(engaged_edges(turn) - edges[:, k] + np.pi, TWO_PI) - np.pi).max(axis=0, initial=0.0)
+        k = k[(apart <= AGREE) & (turn.contacts == 1) & ~turn.lost]
+        known[k] = True
+        # seen from -p_0: where that is large against the gap, rounding would decide
+        within[k] = strips.bare or greatest_gap(kernel, edges[:, k], s.take(k)) <= strips.delta_0[k]
         left = np.flatnonzero(~known)
         if last or not left.size:
             break
