@@ -265,8 +265,8 @@ class _Solve:
             level = surface.columns(i, V, None, carry, groups if carry else None)
             level = replace(level, asked=Accuracy(friction, fractions=1.0))
             saturated = stack.p_full[i], stack.D_full[i], stack.means(i)
-            # what pressures further levels down meet is not known
-            laws = build_laws(level, rtol, *saturated, reached[i - 1], budget if i == 1 else None)
+            counts = budget if i == 1 else budget.further_down(2 * (self.M - 1))
+            laws = build_laws(level, rtol, *saturated, reached[i - 1], counts)
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error
             scales = np.concatenate((level.scales[1:], [_NO_SCALE]))
             carry = LowerLevelLaws(LawTable(merged(laws, rtol, level.floors)), surface.rtol, scales, friction)

@@ -6,8 +6,9 @@
 - Level 1 gets the ``rtol`` of the result, halved in ``multilevel``, as its laws err too.
 - Laws of lower levels get half of ``rtol``, ``FINER``, relative also to a share of the friction in contact of level 1, which
   they all add to: ``friction_of_laws``.
-- A piece of the law of level 2 may be coarser by ``ErrorBudget.tolerance_factor``, the fewer points meet its pressures; ``merge``
-  may take a part of what a law may err, ``lower_levels`` integrates to a part of what the mean over strips may.
+- A piece of a law may be coarser by ``ErrorBudget.tolerance_factor``, the fewer points meet its pressures, further down than
+  level 2 the less contact there is; ``merge`` may take a part of what a law may err, ``lower_levels`` integrates to a part of
+  what the mean over strips may.
 - Of what an interval of a curve may err its means get a part, ``sampling.MEAN``.
 
 Goal-oriented: a law's error counts as much as the part of the surface on which it is used. That part is had from a plain sum over
@@ -17,7 +18,7 @@ it gives (``lower_levels``).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -44,7 +45,7 @@ _COARSEST_FACTOR = 1e6
 @dataclass(frozen=True)
 class ErrorBudget:
     """Pressures of points of the level above. ``group`` (n,): the law that a point asks; ``p`` (n, m), Pa, ascending in every
-    row, with the ``share`` (n, m) of the surface on which the pressure is at most that;
+    row (NaN: not known), with the ``share`` (n, m) of the surface on which the pressure is at most that;
     ``friction`` (n,): Pa of friction that an error is held against."""
 
     group: np.ndarray
@@ -60,8 +61,15 @@ class ErrorBudget:
         np.minimum.at(friction, self.group, _SHARED / levels * in_contact)
         return friction
 
+    def further_down(self, levels: int) -> ErrorBudget:
+        """For one of so many ``levels``, where it is not known what pressures are met: each may be on all of the contact."""
+        contact = np.maximum(self.share[:, -1:], _LEAST_CONTACT)
+        return replace(self, p=np.full((self.group.size, 1), np.nan), share=contact, friction=self.friction / levels)
+
     def _met(self, i: int, low: float, high: float) -> float:
         """Share of the surface of point ``i`` on which the pressure lies between ``low`` and ``high``, Pa."""
+        if np.isnan(self.p[i, 0]):
+            return float(self.share[i, 0])
         below, above = np.interp((low, high), self.p[i], self.share[i])
         return float(above - below)
 
