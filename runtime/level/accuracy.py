@@ -6,6 +6,10 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+#: part of an interval's error above which that of a half says that means are in error, not the interpolant; and how much finer
+#: they are made then, and at most
+_STALLED, _FINER, _FINEST = 0.5, 0.1, 1e-3
+
 
 @dataclass(frozen=True)
 class Accuracy:
@@ -14,12 +18,15 @@ class Accuracy:
     ``friction``: Pa, that the accuracy of any friction may be relative to as well as to its own size, for it adds to others.
     ``fractions``: what errors of fractions are relative to, where it is for pressure and friction that averages are made: 1, or
     more where the pressures are rare; None where fractions count as much. ``coarser``: by so much an interval may err more than
-    what is asked of its column.
+    what is asked of its column; ``means``: by so much finer its means are than usual; ``missed``: error over goal of what it is a
+    half of.
     """
 
     friction: np.ndarray | float = 0.0
     fractions: np.ndarray | float | None = None
     coarser: float = 1.0
+    means: float = 1.0
+    missed: float = np.inf
 
     def at(self, index: np.ndarray) -> Accuracy:
         """Of the columns ``index``."""
@@ -50,3 +57,8 @@ class Accuracy:
     def relaxed(self, coarser: float, fractions: float) -> Accuracy:
         """As coarse as that, or as it is."""
         return replace(self, coarser=max(self.coarser, coarser), fractions=max(self.fractions or 1.0, fractions))
+
+    def after(self, missed: float) -> Accuracy:
+        """For the halves of what ``missed`` its goal by that factor: with finer means where dividing did not help."""
+        finer = max(_FINER * self.means, _FINEST) if missed > _STALLED * self.missed else self.means
+        return replace(self, missed=missed, means=finer)

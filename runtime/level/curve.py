@@ -123,7 +123,7 @@ def interpolate(
                 if interval in splits:
                     parts += interval.split(splits[interval], soft=False)
                 elif hopeless[k]:
-                    parts += interval.halves
+                    parts += batch.halves(k)
                 else:
                     keep.append(k)
             going += [batch.take(keep, batch.missed[keep])] if keep else []

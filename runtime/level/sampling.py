@@ -87,6 +87,10 @@ class Batch:
             for i, *of in ranges
         ]
 
+    def halves(self, k: int) -> list[Interval]:
+        """Interval ``k`` in two."""
+        return replace(self.intervals[k], asked=self.intervals[k].asked.after(float(self.missed[k].max()))).halves
+
     def take(self, index: np.ndarray, missed: np.ndarray) -> Batch:
         """The intervals ``index``, which ``missed`` their goals by these factors (k, q)."""
         some, zones = [self.intervals[i] for i in index], [self.zones[i] for i in index]
@@ -98,7 +102,7 @@ def sample(batches: list[Batch], first: int, strips: np.ndarray) -> None:
     nodes = [lobatto(2 * batch.n)[1:-1:2] if batch.n else lobatto(first)[1:-1] for batch in batches]
     intervals = [i for batch in batches for i in batch.intervals]
     D = [i.penetrations(t) for batch, t in zip(batches, nodes, strict=True) for i in batch.intervals]
-    rtol = np.concatenate([batch.accuracy for batch in batches])
+    rtol = np.concatenate([batch.accuracy * [i.asked.means for i in batch.intervals] for batch in batches])
     found = iter(means_in(batches[0].columns, intervals, D, MEAN * rtol, strips))
     for batch in batches:
         new = [next(found) for _ in batch.intervals]
