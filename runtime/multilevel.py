@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -33,6 +33,8 @@ _BLOCK = 256
 #: trailing levels are left out whose friction, and whose pressure of saturation, are below this part of what counts: a tenth of a
 #: tolerance is not missed, and no scene of up to a dozen similar levels has any
 _TRAILING = 0.1
+#: points whose errors add up to more than is allowed are solved once more, so much finer; no finer than that
+_FINER, _FINEST = 0.3, 1e-12
 
 
 @dataclass
@@ -47,6 +49,12 @@ class Points:
     error: np.ndarray
     closed_form: np.ndarray
     pulled_off: np.ndarray
+
+    def improve(self, index: np.ndarray, finer: Points) -> None:
+        """Put the points ``finer`` (k,) in the place of those at ``index`` (k,) that err by more."""
+        better = np.flatnonzero(finer.error < self.error[index])
+        for f in fields(self):
+            getattr(self, f.name)[..., index[better]] = getattr(finer, f.name)[..., better]
 
     def extend(self, tau: np.ndarray) -> None:
         """Add levels below that are saturated wherever the last one touches, with the frictions ``tau`` (more levels, n), Pa."""
@@ -80,6 +88,10 @@ class Surface:
         """Friction, Pa, that counts beside its own size where ``rtol`` is relative."""
         level = self.levels[0]
         return 1e-3 * (self.at_level(0).K * level.h + self.adhesion.p_0) * level.h / level.l
+
+    def converged(self, points: Points) -> np.ndarray:
+        """Which points err by no more than ``rtol`` allows, (n,)."""
+        return points.error <= self.rtol * (np.abs(points.tau.sum(axis=0)) + self.friction_floor)
 
     def columns(self, i: int, V, D=None, carry=None, group=None) -> LevelBatch:
         """Columns of level ``i``."""
@@ -128,7 +140,12 @@ class Surface:
         """Solve points; ``V`` (m/s) and ``load`` (Pa or m) of shape (n,)."""
         full = self.full(V, load, by_pressure) if self.skip else np.zeros(V.size, bool)
         known = self.levels_needed(V, load) if by_pressure and self.skip and not full.all() else len(self.levels)
-        out = _Solve(replace(self, levels=self.levels[:known]), V, load, by_pressure).run(full, progress)
+        surface = replace(self, levels=self.levels[:known])
+        out = _Solve(surface, V, load, by_pressure).run(full, progress)
+        missed = np.flatnonzero(~self.converged(out))
+        if missed.size and self.strips is None and not self.work.limits and _FINER * self.rtol >= _FINEST:
+            finer = _Solve(replace(surface, rtol=_FINER * self.rtol), V[missed], load[missed], by_pressure)
+            out.improve(missed, finer.run(np.zeros(missed.size, bool), None))
         below = self.levels[known:]
         if below:
             out.extend(np.array([self.alone(level, V).tau_sat for level in below]))

@@ -115,8 +115,7 @@ def solve(
         lost = np.flatnonzero(~(np.isfinite(points.tau).all(axis=0) & np.isfinite(points.error)))
         first = f"{name} {L[lost[0]]:g}, velocity {V[lost[0]]:g}"
         raise SolverError(f"{lost.size} of {L.size} points have no finite friction; the first: {first}")
-    tau = points.tau.sum(axis=0)
-    converged = points.error <= rtol * (np.abs(tau) + surface.friction_floor)
+    converged = surface.converged(points)
     if strips is None and not converged.all():
         lost = np.flatnonzero(~converged)
         first = f"{name} {L[lost[0]]:g}, velocity {V[lost[0]]:g}: {work.reason(V[lost[0]])}"

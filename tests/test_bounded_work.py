@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import hystrip
+from hystrip import multilevel
 from hystrip.level import averages, curve, descent
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
@@ -123,3 +124,19 @@ def test_a_level_whose_valley_is_just_released_is_like_one_next_to_it(V, p_0, br
     assert at.strips <= 3 * beside.strips
     assert abs(at.tau_mean - beside.tau_mean) <= at.error_estimate[1] + beside.error_estimate[1] + 1e-9 * abs(beside.tau_mean)
     assert V > 0 or abs(at.tau_mean) <= at.error_estimate[1]
+
+
+def test_a_point_that_errs_by_more_than_is_allowed_is_solved_once_more(monkeypatch):
+    """On loading a law may be used on all sides of a jump whose place counts for more than was foreseen."""
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=5.225834435113426e-07)
+    adhesion = hystrip.Dugdale(gamma=4.5298325052e-06, delta_0=1.46134e-08)
+    levels = [hystrip.Level(1e-5, 1.9698e-6), hystrip.Level(1.85077e-6, 3.05468e-7)]
+    point = {"pressure": 181.046, "velocity": 0.25602, "branch": "loading", "rtol": 1e-6}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = hystrip.solve(material, adhesion, levels, **point)
+    monkeypatch.setattr(multilevel, "_FINER", 0.0)
+    with pytest.warns(hystrip.ConvergenceWarning):
+        once = hystrip.solve(material, adhesion, levels, **point)
+    assert found.converged.all() and found.tau_error < once.tau_error
+    assert abs(found.tau - once.tau) <= found.tau_error + once.tau_error
