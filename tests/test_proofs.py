@@ -15,8 +15,8 @@ from hystrip.orbit.groups import Strips, adhesive_cycle
 from hystrip.orbit.march import Orbit, march
 from hystrip.orbit.orbit_bounds import FAST, OrbitBounds, least_engaged_bounds, orbit_bounds
 from hystrip.orbit.regimes import CODE
-from hystrip.orbit.search import isolate_extremal
-from hystrip.orbit.sensitivity import slope_excess, slope_grows
+from hystrip.orbit.search import excluded, isolate_extremal
+from hystrip.orbit.sensitivity import slope_bounds, slope_excess, slope_grows
 
 SCANNED = 300
 
@@ -73,6 +73,21 @@ def test_the_first_orbit_is_proven_to_be_the_first(where):
     assert np.isnan(crossed_before(cycle, orbit.x)).all()
     by_balance, by_bounds = proven(cycle, orbit)
     assert by_balance.mean() > 0.9 and by_bounds.mean() > 0.5 and (by_balance | by_bounds).mean() > 0.99
+
+
+@pytest.mark.parametrize("last", [False, True], ids=["unloading", "loading"])
+@pytest.mark.parametrize("share", [0.3, 1e-2, 1e-4])
+def test_no_interval_that_ends_at_an_orbit_is_excluded(share, last):
+    """Near its zero r is nearly linear, so bounds of its slope reach nearly as far as that, and no further."""
+    cycle, orbit = known_orbits(strips(11, 4000, "pressed"), unloading=not last)
+    toward = 1 if last else -1
+    end = cycle.centre + toward * cycle.half_d
+    beside, _ = march(kernel, cycle, orbit.x + share * (end - orbit.x))
+    left, right = (orbit, beside) if last else (beside, orbit)
+    some = np.flatnonzero(~beside.engaged & (toward * beside.r < 0))
+    left, right, cycle = left.take(some), right.take(some), cycle.take(some)
+    bounds = slope_bounds(kernel, cycle, left, right)
+    assert some.size > 300 and not excluded(cycle.strips.beta, left, right, bounds, last).any()
 
 
 def test_no_orbit_out_of_reach_is_said_to_be_out_of_balance():
