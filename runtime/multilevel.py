@@ -142,8 +142,9 @@ class Surface:
         known = self.levels_needed(V, load) if by_pressure and self.skip and not full.all() else len(self.levels)
         surface = replace(self, levels=self.levels[:known])
         out = _Solve(surface, V, load, by_pressure).run(full, progress)
-        missed = np.flatnonzero(~self.converged(out))
-        if missed.size and self.strips is None and not self.work.limits and _FINER * self.rtol >= _FINEST:
+        # where the work came to a limit more of it is no help
+        missed = np.flatnonzero(~self.converged(out) & ~np.isin(V, [limited for limited, _ in self.work.limits]))
+        if missed.size and self.strips is None and _FINER * self.rtol >= _FINEST:
             finer = _Solve(replace(surface, rtol=_FINER * self.rtol), V[missed], load[missed], by_pressure)
             out.improve(missed, finer.run(np.zeros(missed.size, bool), None))
         below = self.levels[known:]

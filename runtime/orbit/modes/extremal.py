@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...numerics.rounding import EPS
+from ..certificate import STABLE
 from ..regimes import EDGES
 from .contraction import contracts
 from .coordinates import Order
@@ -35,8 +36,6 @@ AGREE = 1e-7
 #: an orbit between states whose edges are so close, and that is stable, is the first one; between those that are less close it is
 #: so where the map contracts
 _NARROW, _NEAR = 1e-6, 1e-3
-#: near a fold the radius of the return map approaches one like the square root of the distance; rounding blurs it
-_STABLE = 1e-6
 #: edges of each sequence, by their rows in the order d, b, a, c
 ROWS = {sequence: tuple("dbac".index(edge) for edge in EDGES[sequence]) for sequence in ("acaf", "afc", "af")}
 SEQUENCES = ("", "acaf", "afc", "af")
@@ -150,7 +149,7 @@ class _Search:
             matrix = np.moveaxis(np.broadcast_to(matrix, (s.modes, s.modes, s.size)), -1, 0)
             finite = np.isfinite(matrix).all(axis=(1, 2))
             radius = np.abs(np.linalg.eigvals(np.where(finite[:, None, None], matrix, 0.0))).max(axis=1)
-            good[k] = finite & (radius <= 1 + _STABLE)
+            good[k] = finite & (radius <= 1 + STABLE)
         return good
 
     def _move(self, i) -> None:
