@@ -7,11 +7,12 @@ no more than one for one.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..numerics.rounding import EPS
+from ..orbit.batch import Batch
 
 #: more than enough to divide any bracket of numbers in double precision to nothing
 _ROUNDS = 100
@@ -26,7 +27,7 @@ Equation = Callable[["Changes"], tuple[np.ndarray, np.ndarray]]
 
 
 @dataclass
-class Changes:
+class Changes(Batch):
     """Brackets of single changes, arrays (m,): the ``line`` each lies on, ``low`` and ``high``; and what is known at the ends:
     ``codes`` (m, 2), ``values`` (m, 2, q), ``heights`` (m, 2, k), ``edges`` (m, 2, 4)."""
 
@@ -38,13 +39,6 @@ class Changes:
     heights: np.ndarray
     edges: np.ndarray
 
-    def take(self, index) -> Changes:
-        return Changes(*(getattr(self, f.name)[index] for f in fields(self)))
-
-    @classmethod
-    def joined(cls, some: list[Changes]) -> Changes:
-        return cls(*(np.concatenate([getattr(c, f.name) for c in some]) for f in fields(cls)))
-
     @classmethod
     def between(cls, line: np.ndarray, x: np.ndarray, known) -> tuple[Changes, np.ndarray, np.ndarray]:
         """Brackets between neighbouring points ``x`` (lines, points) whose codes differ, with their rows and first points.
@@ -52,10 +46,6 @@ class Changes:
         row, first = np.nonzero(known[0][:, 1:] != known[0][:, :-1])
         both = row[:, None], np.stack((first, first + 1), axis=1)
         return cls(line[row], *x[both].T, *(v[both] for v in known)), row, first
-
-    @property
-    def size(self) -> int:
-        return self.line.size
 
 
 def locate_changes(

@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..numerics.roots import falling_root
+from ..orbit.batch import Batch
 from .descent import ROUGH, Descent
 from .means import level_means
 from .saturated import saturated_level
@@ -15,7 +16,7 @@ from .strips import LevelBatch
 
 
 @dataclass(frozen=True)
-class Inverse:
+class Inverse(Batch):
     """Penetrations that carry given pressures, arrays (n,): ``D`` (NaN below pull-off), the slope d(tau)/dp of the level there,
     how uncertain the slope is; which are ``undecided``: the work ended before it was known which part of the curve it is; and
     which lie ``in_jump``, where D stands for one side of a curve that jumps over the pressure."""
@@ -25,15 +26,6 @@ class Inverse:
     doubt: np.ndarray
     undecided: np.ndarray
     in_jump: np.ndarray
-
-    def take(self, index) -> Inverse:
-        """Those at ``index``."""
-        return Inverse(*(getattr(self, f.name)[index] for f in fields(self)))
-
-    def put(self, index, found: Inverse) -> None:
-        """Write those ``found`` at ``index``."""
-        for f in fields(self):
-            getattr(self, f.name)[index] = getattr(found, f.name)
 
 
 def cut_penetration(columns: LevelBatch, p_max: np.ndarray, full: np.ndarray) -> np.ndarray:

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..numerics.quadrature import interior_nodes, mapped, mapped_weights
+from ..orbit.batch import Batch
 
 #: nodes of a panel at first and at most, and one more
 FIRST, LAST = 8, 64
 
 
 @dataclass
-class Panels:
+class Panels(Batch):
     """Panels of ``state`` between thetas; ``first`` and ``last``: the strip known next to each end, -1: none."""
 
     state: np.ndarray
@@ -21,17 +22,6 @@ class Panels:
     high: np.ndarray
     first: np.ndarray
     last: np.ndarray
-
-    def take(self, index) -> Panels:
-        return Panels(*(getattr(self, f.name)[index] for f in fields(self)))
-
-    @classmethod
-    def joined(cls, some: list[Panels]) -> Panels:
-        return cls(*(np.concatenate([getattr(p, f.name) for p in some]) for f in fields(cls)))
-
-    @property
-    def size(self) -> int:
-        return self.state.size
 
     @property
     def width(self) -> np.ndarray:
