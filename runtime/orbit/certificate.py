@@ -9,7 +9,7 @@ import numpy as np
 
 from .groups import ROUNDING, Cycle, Strips
 from .march import TWO_PI, Orbit
-from .sensitivity import onset_margin, slope_excess
+from .sensitivity import slope_excess
 
 #: Near a fold the slope of the onset map approaches one like the square root of the distance: rounding blurs it, and the edges,
 #: by no more than this.
@@ -40,10 +40,9 @@ def edges_admissible(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
 
 def stable(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     """Slope of the onset map at most one: true of both extremal orbits, false of every orbit in between."""
-    log_slope, N = slope_excess(kernel, cycle, orbit)
-    F = onset_margin(kernel, cycle, orbit.x)
+    log_slope, excess = slope_excess(kernel, cycle, orbit)
     # a foundation without memory meets its onset at the very end of the arc, where F is rounding
-    return (log_slope <= STABLE) | (N - F <= ROUNDING * (1 + np.abs(cycle.strips.D) + cycle.strips.delta_0))
+    return (log_slope <= STABLE) | (excess <= ROUNDING * (1 + np.abs(cycle.strips.D) + cycle.strips.delta_0))
 
 
 def attracting(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:

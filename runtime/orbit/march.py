@@ -14,7 +14,7 @@ import numpy as np
 
 from ..numerics.roots import falling_root
 from .batch import Batch
-from .groups import ROUNDING, TWO_PI, Cycle
+from .groups import TWO_PI, Cycle
 
 #: edges this close to the crest are on it: the bracket of one that is on it would be halved a thousand times
 LEAST_PHASE = 1e-60
@@ -88,25 +88,6 @@ def _release_grazing(kernel, cycle: Cycle, orbit: Orbit, index) -> None:
     rises = r > 0
     pick, index = pick[rises], index[pick[rises]]
     orbit.c[index], orbit.engaged[index], orbit.r[index] = c[pick], False, r[rises]
-
-
-def between(left: Orbit, right: Orbit) -> Orbit:
-    """Edges interpolated to where r vanishes linearly between two onsets: a start for Newton, not an orbit."""
-    fall = left.r - right.r
-    share = np.clip(np.divide(left.r, fall, out=np.full(fall.shape, 0.5), where=np.isfinite(fall) & (fall > 0)), 0, 1)
-    mixed = [(1 - share) * getattr(left, e) + share * getattr(right, e) for e in ("x", "b", "a", "c")]
-    return Orbit(*mixed, left.engaged.copy(), left.r.copy())
-
-
-def lies_between(orbit: Orbit, left: Orbit, right: Orbit, blur) -> np.ndarray:
-    """Every edge lies between those of an earlier and a later onset, as it must by the order of orbits, or within ``blur`` of
-    that."""
-    ok = np.ones(orbit.x.shape, bool)
-    for edge in ("x", "b", "a", "c"):
-        value, one, two = (getattr(o, edge) for o in (orbit, left, right))
-        slack = ROUNDING * TWO_PI + blur
-        ok &= np.isnan(one) | ((value >= np.minimum(one, two) - slack) & (value <= np.maximum(one, two) + slack))
-    return ok
 
 
 class _Known:

@@ -18,19 +18,14 @@ _ITERATIONS = 20
 CONVERGED = 1e-13
 
 
-def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, ends=None, blurred: bool = True):
+def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = True):
     """The orbit with its edges refined, whether nothing was left to correct, how far rounding may have moved the edges where it
     blurs them (else 0), and the evaluations it took.
 
-    ``ends``: orbits from an earlier and a later onset, between whose edges those of this one lie. ``blurred``: corrections that
-    rounding blurs may be larger.
+    ``blurred``: corrections that rounding blurs may be larger.
     """
     # the cycle of an always adhering strip is the bare one, shifted: its boundary equations are those of "ac" at p_0 = 0
     edges = edges_of(sequence, orbit)
-    low, high = np.full_like(edges, -np.inf), np.full_like(edges, np.inf)
-    if ends:
-        one, two = (edges_of(sequence, end) for end in ends)
-        low, high = np.minimum(one, two), np.maximum(one, two)
     correction, stalls, spent = np.full(cycle.size, np.inf), np.zeros(cycle.size, int), np.zeros(cycle.size)
     index = np.arange(cycle.size)
     with np.errstate(all="ignore"):
@@ -42,7 +37,7 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, ends=None, blurre
             # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction. Once may be chance, and
             # one larger than rounding makes them is a correction, whatever the one before was
             better = (size < correction[index]) | (size > STABLE)
-            new = np.clip(np.maximum.accumulate(now + move, axis=0), low[:, index], high[:, index])
+            new = np.maximum.accumulate(now + move, axis=0)
             edges[:, index[better]], correction[index[better]] = new[:, better], size[better]
             stalls[index[~better]] += 1
             index = index[(stalls[index] < 2) & (size > CONVERGED)]

@@ -17,7 +17,7 @@ from ..numerics.rounding import EPS
 from .groups import Cycle
 from .march import TWO_PI, Orbit, march
 from .orbit_bounds import earliest_onset
-from .sensitivity import SlopeBounds, onset_margin, over, slope_bounds, slope_excess
+from .sensitivity import SlopeBounds, over, slope_bounds
 
 #: every round divides what it leaves by two at least
 _MAX_ROUNDS = 200
@@ -192,41 +192,21 @@ class _Search:
         self.result.right.put(index, right)
 
 
-def locate(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[Orbit, np.ndarray]:
-    """The one zero of r between the onsets of ``left`` and ``right`` by safeguarded Newton on the march.
-
-    Returns the orbits and the event evaluations spent on each.
-    """
-    every = np.arange(cycle.size)
-    low, high, best, spent = left.take(every), right.take(every), left.take(every), np.zeros(cycle.size)
+def located(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[Orbit, np.ndarray]:
+    """The one zero of r between the onsets of ``left`` and ``right``, and the event evaluations spent on each."""
+    best, spent = left.take(np.arange(cycle.size)), np.zeros(cycle.size)
 
     def residual(x, index):
-        part = cycle.take(index)
-        orbit, used = march(kernel, part, x, low.take(index), high.take(index))
+        orbit, used = march(kernel, cycle.take(index), x, left.take(index), right.take(index))
         spent[index] += used
-        best.put(index, orbit)
-        after = orbit.r > 0
-        low.put(index[after], orbit.take(after))
-        high.put(index[~after], orbit.take(~after))
-        return orbit.r, _residual_slope(kernel, part, orbit)
+        released = np.flatnonzero(~orbit.engaged)
+        best.put(index[released], orbit.take(released))
+        return np.maximum(orbit.r, -TWO_PI * cycle.strips.beta[index])
 
     share = left.r / np.where(left.r > right.r, left.r - right.r, 1.0)
     x, _ = falling_root(residual, left.x, right.x, left.x + (right.x - left.x) * share)
-    orbit, used = march(kernel, cycle, x, low, high)
-    released = np.flatnonzero(~orbit.engaged)
-    best.put(released, orbit.take(released))
-    return best, spent + used
-
-
-def _residual_slope(kernel, cycle: Cycle, orbit: Orbit):
-    s = cycle.strips
-    log_slope, N = slope_excess(kernel, cycle, orbit)
-    F = onset_margin(kernel, cycle, orbit.x)
-    close = np.abs(log_slope) < 0.5
-    change = np.where(close, F * np.expm1(np.where(close, log_slope, 0.0)), N - F) - orbit.r
-    # without memory r is the gap of the undeformed surface
-    steep = -kernel.profile_slope(orbit.x)
-    return np.divide(change, s.beta, out=steep, where=s.beta > 1e-12)
+    residual(x, np.arange(cycle.size))
+    return best, spent
 
 
 def excluded(beta, left: Orbit, right: Orbit, bounds: SlopeBounds, last: bool) -> np.ndarray:

@@ -7,8 +7,9 @@ With R(x) = r(x) exp(x/beta), r from ``march``, the chain rule through the edges
 
 ``s_x`` and ``s_c`` the steps of the load at onset and release; at a periodic orbit T' is the slope of the map, which the
 derivation proves (``onset_slope_*``). Along the onset arc b grows, a and c fall with x (a later onset is a less engaged
-orbit), so every factor is bounded by its values at the ends of an interval and at the extremum of the one harmonic H. The
-logarithm of T' is kept beside N: at large beta T' is one but for terms of order 1/beta, which N - F would lose to rounding.
+orbit), so every factor is bounded by its values at the ends of an interval and at the extremum of the one harmonic H. With g the
+logarithm of T' without its factor of the onset, ``N - F = F (exp(g) - 1) + s_x exp(g)``: that stays finite where the onset
+grazes, grows with g, is linear in F, and keeps its digits at large beta, where T' is one but for terms of order 1/beta.
 """
 
 from dataclasses import dataclass
@@ -17,9 +18,6 @@ import numpy as np
 
 from .groups import ROUNDING, Cycle
 from .march import TWO_PI, Orbit
-
-#: least relaxation time that is divided by
-_LEAST = 1e-290
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,12 +31,12 @@ class SlopeBounds:
 
 
 def slope_excess(kernel, cycle: Cycle, orbit: Orbit) -> tuple[np.ndarray, np.ndarray]:
-    """``log T'`` and N at each orbit (not engaged)."""
+    """``log T'`` and ``N - F`` at each orbit (not engaged)."""
     F = onset_margin(kernel, cycle, orbit.x)
-    M = release_margin(kernel, cycle, orbit.c)
-    return _log_slope(cycle, contact_length(orbit.b, orbit.a), F, M), _numerator(
-        kernel, cycle, contact_length(orbit.b, orbit.a), F, M
-    )
+    forgets = fading(cycle, contact_length(orbit.b, orbit.a))
+    gain = _log_gain(cycle, forgets, release_margin(kernel, cycle, orbit.c))
+    log_onset = np.log1p(over(cycle.onset_step, F))
+    return np.add(gain, log_onset, out=np.full(F.shape, -np.inf), where=gain > -np.inf), _excess(cycle, F, gain)
 
 
 def onset_margin(kernel, cycle: Cycle, x: np.ndarray) -> np.ndarray:
@@ -72,18 +70,10 @@ def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds
     deepest = release_margin(kernel, cycle, middle)
     M_max = np.where((right.c < middle) & (c_left > middle), deepest, np.maximum(M_left, M_right))
     M_min = np.minimum(M_left, M_right)
-    # T' falls with F and M, N grows with F
-    log_min = _log_slope(cycle, longest, F_max, M_max)
-    log_max = _log_slope(cycle, shortest, F_min, M_min)
-    N_min = _numerator(kernel, cycle, longest, F_min, M_max)
-    N_max = _numerator(kernel, cycle, shortest, F_max, M_min)
-    N_min = np.where(np.isfinite(N_min), N_min, 0.0)
-    fall = np.minimum(-F_max * np.expm1(np.minimum(log_min, 0.0)), np.maximum(F_max - N_min, 0.0))
-    growth = np.where(log_max < 700, np.expm1(np.clip(log_max, 0.0, 700.0)), np.inf)
-    rise = np.minimum(
-        np.multiply(F_max, growth, out=np.zeros_like(F_max), where=(growth > 0) & (F_max > 0)), np.maximum(N_max - F_min, 0.0)
-    )
-    return SlopeBounds(fall, rise, (log_max < 0) | (N_max < F_min))
+    least, most = (_log_gain(cycle, fading(cycle, length), M) for length, M in ((longest, M_max), (shortest, M_min)))
+    fall = -np.minimum(_excess(cycle, F_min, least), _excess(cycle, F_max, least))
+    rise = np.maximum(_excess(cycle, F_min, most), _excess(cycle, F_max, most))
+    return SlopeBounds(np.maximum(fall, 0.0), np.maximum(rise, 0.0), (most < 0) & (rise <= 0))
 
 
 def steep_margin(kernel, cycle: Cycle, latest, right: Orbit) -> np.ndarray:
@@ -95,7 +85,7 @@ def steep_margin(kernel, cycle: Cycle, latest, right: Orbit) -> np.ndarray:
     """
     M = np.minimum(release_margin(kernel, cycle, latest), release_margin(kernel, cycle, right.c))
     # the rounding of the terms of log B, which may cancel
-    log_B = np.log1p(over(cycle.release_step, M)) - (1 - ROUNDING) * fading(cycle, contact_length(right.b, right.a))
+    log_B = _log_gain(cycle, (1 - ROUNDING) * fading(cycle, contact_length(right.b, right.a)), M)
     return np.divide(cycle.onset_step, np.expm1(np.minimum(-log_B, 700.0)), out=np.full(log_B.shape, np.inf), where=log_B < 0)
 
 
@@ -130,25 +120,21 @@ def contact_length(b, a):
 
 
 def fading(cycle: Cycle, length) -> np.ndarray:
-    """``2 pi/beta + (a - b) L/alpha``, what a period with a contact of this ``length`` forgets."""
+    """``2 pi/beta + (a - b) L/alpha``, what a period with a contact of this ``length`` forgets; inf: everything."""
     s = cycle.strips
-    return TWO_PI / np.maximum(s.beta, _LEAST) + np.where(length > 0, length * s.L / np.maximum(s.alpha, _LEAST), 0.0)
+    return over(TWO_PI + 0 * length, s.beta) + over(length * s.L, s.alpha)
 
 
-def _log_slope(cycle: Cycle, length, F, M):
-    """``log T'``: -inf where nothing of the onset is remembered, +inf where the onset or the end of adhesion grazes."""
-    s = cycle.strips
-    memory = over(TWO_PI + 0 * length, s.beta) + over(length * s.L, s.alpha)
-    gain = np.log1p(over(cycle.onset_step, F)) + np.log1p(over(cycle.release_step, M))
-    return np.where(np.isinf(memory), -np.inf, gain - np.where(np.isinf(memory), 0.0, memory))
+def _log_gain(cycle: Cycle, forgets, M):
+    """``log T'`` but for its factor of the onset: -inf where a period ``forgets`` all, else inf where the release grazes."""
+    return np.subtract(np.log1p(over(cycle.release_step, M)), forgets, out=np.full(M.shape, -np.inf), where=forgets < np.inf)
 
 
-def _numerator(kernel, cycle: Cycle, length, F, M):
-    """``N = F T'`` with F multiplied in, so that it stays finite where the onset grazes."""
-    s = cycle.strips
-    damping = kernel.decay(TWO_PI, s.beta) * kernel.decay(length * s.L, s.alpha)
-    factor = damping * np.maximum(F + cycle.onset_step, 0.0)
-    return np.multiply(factor, 1 + over(cycle.release_step, M), out=np.zeros_like(factor), where=factor > 0)
+def _excess(cycle: Cycle, F, gain):
+    """``N - F`` at an onset of this F: inf where the end of adhesion grazes, 0 where the onset does, too, without a step."""
+    F, grazes = np.maximum(F, 0.0), gain > 700
+    fixed = np.where(grazes, 0.0, gain)
+    return np.where(grazes & (F + cycle.onset_step > 0), np.inf, F * np.expm1(fixed) + cycle.onset_step * np.exp(fixed))
 
 
 def over(numerator, denominator):
