@@ -64,6 +64,15 @@ def test_equations_may_tell_of_several_places_in_one_bracket():
     assert line.asked == 0 and found.low.tolist() == found.high.tolist() == [0.3, 0.6]
 
 
+def test_a_place_beyond_the_bracket_is_its_end():
+    # rounding of an equation next to a crest; the panel that ends there would else come back as wide as it was
+    for place in (-1e-11, 1 + 1e-11):
+        found, _ = _located(
+            Line(0.99), 1e-12, lambda changes, place=place: (np.arange(changes.size), np.full(changes.size, place))
+        )
+        assert found.low[0] == found.high[0] == round(place)
+
+
 def test_a_third_regime_next_to_what_an_equation_tells_is_found():
     line = Line(0.3, 0.3001)
 

@@ -64,6 +64,8 @@ def locate_changes(
         found.append(changes.take(done))
         changes, width = changes.take(~done), width[~done]
         parent, place = equation(changes) if changes.size else (np.empty(0, int), np.empty(0))
+        # rounding may push it out of its bracket, which would then come back as it was
+        place = np.clip(place, changes.low[parent], changes.high[parent])
         if not checked:
             found.append(_at(place, changes.take(parent)))
             left = np.setdiff1d(np.arange(changes.size), parent)
