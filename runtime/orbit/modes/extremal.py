@@ -103,12 +103,13 @@ class _Search:
     def step(self, number: int, ends_held: bool) -> None:
         """Decide what the marches from the bounding states decide, and move the others."""
         i, out, b = self.active, self.out, self.bound
-        near, s = b.near.take(i), b.s.take(i)
+        near, s = b.near.among(i), b.s.among(i)
         # from above: nothing but engaged orbits; from below: to be seen from the engaged orbit
         held = near.never_free & (ends_held | (not self.rising))
         lets = near.never_engaged & self.rising & (s.D <= -s.delta_0)
         out.kind[i[held]], out.kind[i[lets]] = ENGAGED, FREE
-        out.held.put(i[held], near.take(np.flatnonzero(held)))
+        if held.any():
+            out.held.put(i[held], near.take(np.flatnonzero(held)))
         going = ~(held | lets | near.lost)
         if number == _START:
             self._newton(i[going], _FURTHEST)

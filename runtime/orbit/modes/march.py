@@ -87,6 +87,10 @@ class Period:
         zones = [zone.of(where[zone.index[keep]], keep) for zone, keep in kept if keep.size]
         return Period(*(getattr(self, name)[..., index] for name in self.__slots__ if name != "zones"), zones)
 
+    def among(self, index: np.ndarray) -> Period:
+        """The same for an index that ascends and repeats nothing: these records where it is all of them."""
+        return self if index.size == self.lost.size else self.take(index)
+
     def put(self, index: np.ndarray, other: Period) -> None:
         """Write the records ``other`` of the points ``index``."""
         fresh = np.ones(self.lost.size, bool)
@@ -139,7 +143,7 @@ def march(kernel, s: ModeStrips, engaged, z, start) -> Period:
         _note(out, zone)
         rest = np.flatnonzero(going)
         index, letter, where, limit = index[rest], zone.following[rest], zone.end[rest], limit[rest]
-        here, pressure = here.take(rest), pressure[rest]
+        here, pressure = here.among(rest), pressure[rest]
     out.lost[index] = True
     return out
 
@@ -153,7 +157,7 @@ def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, o
     touching, apart = np.flatnonzero(contact), np.flatnonzero(~contact)
     entry = None
     if touching.size:
-        t = s.take(touching)
+        t = s.among(touching)
         level = (kernel.profile(start[touching], t.D) - z[:, touching].sum(axis=0)) / t.m.J_0
         p_in = level if pressure is None else np.where(np.isnan(pressure[touching]), level, pressure[touching])
         entry = kernel.overstress(z[:, touching], p_in, t.m)
@@ -162,7 +166,7 @@ def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, o
         f.c[:, touching] = entry - kernel.saturated_overstress(start[touching], t.m)
         f.r[:, touching] = rates(t.m.alpha)
     if apart.size:
-        t = s.take(apart)
+        t = s.among(apart)
         level = np.where(letter[apart] == FREE, t.delta_0, 0.0)
         f.constant[apart] = p[apart] - (t.D - 1) - level
         f.a[apart] = -1.0
@@ -174,10 +178,10 @@ def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, o
     out.evaluations[index] += spent
     out.lost[index] |= which == LOST
     if touching.size:
-        t, i = s.take(touching), touching
+        t, i = s.among(touching), touching
         out.dz[:, index[i]] += kernel.contact_increment(start[i], end[i], entry, t.m)
     if apart.size:
-        t, i = s.take(apart), apart
+        t, i = s.among(apart), apart
         out.dz[:, index[i]] += kernel.relaxation_increment(start[i], end[i], z[:, i], p[i], t.m)
     snaps = s.snaps
     met = np.where(

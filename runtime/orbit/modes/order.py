@@ -100,7 +100,8 @@ class Bound:
     def slope(self, near: Period, far: Period, along=None) -> np.ndarray:
         """Lower bound of the map's derivative less the identity between the states of two marches."""
         lower, upper = self.ends(near, far)
-        least = least_gains(self.s, self.order, lower, upper, alike(lower, upper))
+        same = alike(lower, upper)
+        least = least_gains(self.s, self.order, lower, upper, same) if same.any() else None
         return propagation(self.s, self.order, lower, least, along)
 
     def towards(self, far: Period, distance: np.ndarray) -> np.ndarray:

@@ -66,7 +66,9 @@ class ModeStrips:
             take_modes(self.m, index), self.p_0[index], self.delta_0[index], self.D[index], self.snaps[index], self.bare
         )
 
-    among = take
+    def among(self, index) -> ModeStrips:
+        """The same for an index that ascends and repeats nothing: these strips where it is all of them."""
+        return self if index.size == self.size else self.take(index)
 
     def raised(self) -> ModeStrips:
         """The strips that are never released, seen from ``-p_0``: adding ``p_0`` to w, p and every e leaves the
