@@ -124,17 +124,18 @@ def climb(kernel, bound: Bound):
     count = distance.shape[1]
     many = np.tile(every, count)
     away = distance.reshape(len(distance), -1)
-    each = bound.take(many)
-    z = each.z + each.sign * each.order.to_z(away)
-    marches = march(kernel, each.s, each.engaged, z, each.s.start)
-    moves = each.sign * each.order.to_e(marches.dz)
-    stays = (marches.engaged == each.engaged) & ~marches.lost
+    s, order, engaged, room = bound.s.take(many), bound.order.take(many), bound.engaged[many], bound.room[:, many]
+    z = bound.z[:, many] + bound.sign * order.to_z(away)
+    marches = march(kernel, s, engaged, z, s.start)
+    moves = bound.sign * order.to_e(marches.dz)
+    stays = (marches.engaged == engaged) & ~marches.lost
     grow = (stays & np.all(moves >= 0, axis=0)).reshape(count, N)
     link = np.flatnonzero(np.cumprod(grow[:-1] & grow[1:], axis=0).ravel())
     clear = np.zeros((count - 1) * N, bool)
     if link.size:
         step = away[:, link + N] - away[:, link]
-        left = moves[:, link] + each.take(link).slope(marches.take(link), marches.take(link + N), step)[:, :, 0].T
+        here = Bound(s, order, bound.sign, engaged, z, marches, z).take(link)
+        left = moves[:, link] + here.slope(here.near, marches.take(link + N), step)[:, :, 0].T
         clear[link] = np.all((left > 0) | (step == 0), axis=0)
     reached = np.cumprod(clear.reshape(count - 1, N), axis=0).sum(axis=0)
     last = reached * N + every
@@ -143,7 +144,7 @@ def climb(kernel, bound: Bound):
     if short.size:
         moved[:, short] = bound.take(short).towards(marches.take(short + N), away[:, short + N])
     # the first state that is mapped inwards, or is known to lie beyond the orbit
-    beyond = stays & np.all(moves <= 0, axis=0) | np.all(away >= each.room, axis=0)
+    beyond = stays & np.all(moves <= 0, axis=0) | np.all(away >= room, axis=0)
     beyond = beyond.reshape(count, N) & (np.arange(count)[:, None] > reached)
     first = beyond.argmax(axis=0) * N + every
     e = bound.order.to_e(bound.z) + bound.sign * away[:, first]
