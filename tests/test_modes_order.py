@@ -119,7 +119,7 @@ def test_bounds_of_the_derivative(n, fast):
     base = march(kernel, part, h[near], order.take(near).to_z(e[:, near]), start[near])
     moved = march(kernel, part, h[near], order.take(near).to_z(e[:, near] + tiny), start[near])
     exact = np.einsum("Nij,jN->iN", propagation(part, order.take(near), base, exact_gains(part, order.take(near), base)), tiny)
-    steep = np.minimum(-base.slope_onset, base.slope_release) > 0.05  # away from grazing
+    steep = np.minimum(-base.slope[0], base.slope[1]) > 0.05  # away from grazing
     same = (base.contacts == moved.contacts) & steep
     measured = order.take(near).to_e(moved.dz - base.dz)
     assert same.sum() > 20
@@ -146,10 +146,9 @@ def test_plain_iteration_ends_at_the_returned_orbits(n):
             # iteration contracts: what moved this little is there, and need not be followed any further
             still = (np.abs(period.dz).max(axis=0) < 1e-10) & (period.engaged == engaged[left])
             engaged[left], z[:, left] = period.engaged, z[:, left] + period.dz
-            for zone in period.zones:
-                length = np.where(still[zone.index], (zone.end - zone.start) / (2 * np.pi), 0.0)
-                for fraction, letter in ((contact, 0), (adhesion, 1)):
-                    np.add.at(fraction, left[zone.index[zone.letter == letter]], length[zone.letter == letter])
+            length = np.diff(period.ends, axis=0) / (2 * np.pi)
+            for fraction, letter in ((contact, 0), (adhesion, 1)):
+                fraction[left[still]] = np.where(period.letters == letter, length, 0.0).sum(axis=0)[still]
             settled[left[still]] = True
             left = left[~still]
             if not left.size:

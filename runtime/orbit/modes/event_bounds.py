@@ -26,7 +26,7 @@ def closing_times(s: ModeStrips, order: Order, lower: Period, upper: Period):
     rate, kick = rates(s.m.beta), s.m.J * s.p_0
     fresh, old = np.exp(-short * rate), np.exp(-long * rate)
     low, high = kick + np.where(least > 0, least * old, least * fresh), kick + np.where(most > 0, most * fresh, most * old)
-    known = lower.smooth_onset & (lower.until_onset == lower.entry) & (upper.until_onset == upper.entry) & ~s.snaps
+    known = lower.smooth_onset & (lower.until[0] == lower.entry) & (upper.until[0] == upper.entry) & ~s.snaps
     one, two = (np.where(known, p.entry - p.onset, 0.0) for p in (lower, upper))
     gap = s.delta_0 - s.step
     times, found = np.zeros((2, s.size)), np.zeros((2, s.size), bool)
@@ -70,8 +70,8 @@ def slopes_by_modes(s: ModeStrips, order: Order, lower: Period, upper: Period, o
 def _modes_before(s: ModeStrips, order: Order, lower: Period, upper: Period, onset: bool):
     """Least and greatest ``z - J p`` (n, N) as the gap zone began that the event ends; the least and the greatest time since, and
     the phases (2, N) between which the event is."""
-    name = "onset" if onset else "release"
-    (z_low, from_low), (z_up, from_up) = ((getattr(p, f"z_from_{name}"), getattr(p, f"from_{name}")) for p in (lower, upper))
+    edge, k = (0, 0) if onset else (3, 1)
+    (z_low, from_low), (z_up, from_up) = ((p.z_since[k], p.since[k]) for p in (lower, upper))
     first, last = np.minimum(from_low, from_up), np.maximum(from_low, from_up)
     floor, ceiling = -s.p_0, np.maximum(s.D, 0.0)
     kept = np.exp(-(last - first) * order.rate)
@@ -81,7 +81,7 @@ def _modes_before(s: ModeStrips, order: Order, lower: Period, upper: Period, ons
     times = lambda matrix, e: np.einsum("ij...,j...->i...", matrix, e)  # noqa: E731
     rest = s.m.J * (0.0 if onset else -s.p_0)
     least, most = times(rising, low) + times(falling, high) - rest, times(rising, high) + times(falling, low) - rest
-    event = np.sort(np.stack([getattr(lower, name), getattr(upper, name)]), axis=0)
+    event = np.sort(np.stack([lower.edges[edge], upper.edges[edge]]), axis=0)
     short, long = np.maximum(event[0] - last, 0.0), event[1] - first
     return least, most, short, long, event
 
@@ -95,13 +95,13 @@ def _rates_after_contact(s: ModeStrips, lower: Period, upper: Period, short, lon
     the first.
     """
     m, ends = s.m, np.stack((upper.exit, lower.exit))
-    after = (upper.from_release == ends[0]) & (lower.from_release == ends[1]) & (ends[0] <= ends[1])
+    after = (upper.since[1] == ends[0]) & (lower.since[1] == ends[1]) & (ends[0] <= ends[1])
     ends = np.where(after, ends, 0.0)
     with np.errstate(invalid="ignore"):
         response = m.eta / (1 + m.alpha**2)
         below = []
         for end, period in zip(ends, (upper, lower), strict=True):
-            f = -np.einsum("ij...,j...->i...", m.enter, period.z_from_release + m.J * s.p_0)
+            f = -np.einsum("ij...,j...->i...", m.enter, period.z_since[1] + m.J * s.p_0)
             below.append(response * (m.alpha * np.cos(end) - np.sin(end)) - f)
         width = response * np.hypot(m.alpha, 1.0) * (ends[1] - ends[0])
         top = response * (m.alpha * np.cos(ends[0]) - np.sin(ends[0]))

@@ -180,7 +180,7 @@ class _Search:
         """Orbits from the edges that the marches of the strips ``i`` met, no edge further away than ``reach``."""
         reach = np.broadcast_to(reach, i.shape)
         met, snaps = self.bound.near.take(i), self.bound.s.snaps[i]
-        edges = in_order(np.array([met.onset, met.entry, met.exit, met.release]))
+        edges = in_order(met.edges)
         usable = np.isfinite(edges[0]) & np.isfinite(edges[3])
         contact = usable & np.isfinite(edges[1]) & np.isfinite(edges[2])
         for number, kind in ((1, contact & ~snaps), (2, contact & snaps), (3, usable & ~contact & ~snaps)):
@@ -210,8 +210,7 @@ class _Search:
 
 def _apart(one: Period, two: Period) -> np.ndarray:
     """Largest distance between the edges of two marches; infinite where they did not meet the same ones."""
-    names = ("onset", "entry", "exit", "release")
-    one, two = (np.array([getattr(period, name) for name in names]) for period in (one, two))
+    one, two = one.edges, two.edges
     same = np.all(np.isnan(one) == np.isnan(two), axis=0)
     return np.where(same, np.nan_to_num(np.abs(one - two)).max(axis=0), np.inf)
 

@@ -5,7 +5,7 @@ The state handed from zone to zone is ``z`` (n, N), continuous also where the pr
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,78 +14,49 @@ from .problem import ModeStrips, rates
 
 TWO_PI = 2 * np.pi
 CONTACT, ADHESION, FREE = 0, 1, 2
-_MAX_ZONES = 24
-#: what of a period has a value for each time
-STATES = ("dz", "z_from_onset", "z_from_release")
-
-
-@dataclass(slots=True)
-class Zone:
-    """A zone of the strips ``index``: its letter's code, start, end (m,), state at the start ``z`` (n, m), and the next
-    letter (-1: period over)."""
-
-    index: np.ndarray
-    letter: np.ndarray
-    start: np.ndarray
-    end: np.ndarray
-    z: np.ndarray
-    slope: np.ndarray
-    following: np.ndarray
-
-    def of(self, index: np.ndarray, keep=slice(None)) -> Zone:
-        """The places ``keep`` of the zone as one of the strips ``index``."""
-        return Zone(index, *(getattr(self, name)[..., keep] for name in Zone.__slots__[1:]))
+#: zones in a period: more than seven were never met but by points that find no end of them
+_MAX_ZONES = 12
 
 
 @dataclass(slots=True)
 class Period:
     """A period of N points. ``dz``: change of the state (accurate also where it is small), (n, N).
 
-    ``onset``, ``entry``, ``exit``, ``release``: phase of the last of each event, NaN where none; ``onsets``,
-    ``contacts``, ``releases``: how many. ``slope_onset``, ``slope_release``:
-    of the gap just before. ``from_onset``, ``from_release``: where the zone began that the event ends,
-    ``z_from_onset``, ``z_from_release``: state there; ``until_onset``, ``until_release``: where the zone ends that the
-    event begins, ``smooth_onset``: that is a gap zone, too. ``lost``: not followed to the end.
+    ``edges``: phase of the last onset, entry, exit and release, NaN where none, (4, N); ``onsets``, ``contacts``, ``releases``: how
+    many. Of onset and release, (2, N): ``slope`` of the gap just before, ``since`` when the zone lasted that the event ends,
+    ``until`` when the one that it begins; ``z_since``: state at the start of the former, (2, n, N). ``smooth_onset``: a gap zone
+    follows that, too. ``letters`` (zones, N) of the zones in turn, -1 where there are no more, and their ``ends`` (zones + 1, N), the
+    start of the first one first. ``lost``: not followed to the end.
     """
 
     engaged_before: np.ndarray
     engaged: np.ndarray
     dz: np.ndarray
-    onset: np.ndarray
-    entry: np.ndarray
-    exit: np.ndarray
-    release: np.ndarray
+    edges: np.ndarray
     onsets: np.ndarray
     contacts: np.ndarray
     releases: np.ndarray
-    slope_onset: np.ndarray
-    slope_release: np.ndarray
-    from_onset: np.ndarray
-    from_release: np.ndarray
-    z_from_onset: np.ndarray
-    z_from_release: np.ndarray
-    until_onset: np.ndarray
-    until_release: np.ndarray
+    slope: np.ndarray
+    since: np.ndarray
+    z_since: np.ndarray
+    until: np.ndarray
     smooth_onset: np.ndarray
+    letters: np.ndarray
+    ends: np.ndarray
     lost: np.ndarray
     evaluations: np.ndarray
-    zones: list[Zone] = field(default_factory=list)
 
     @classmethod
     def blank(cls, n: int, N: int) -> Period:
         """Records of N points with n times, nothing met."""
-        no, count, nan, state = np.zeros(N, bool), np.zeros(N, int), np.full(N, np.nan), np.zeros((n, N))
-        kinds = {"engaged_before": no, "engaged": no, "lost": no, "smooth_onset": no, "onsets": count}
-        kinds |= {"contacts": count, "releases": count, "evaluations": np.zeros(N)} | dict.fromkeys(STATES, state)
-        return cls(**{name: kinds.get(name, nan).copy() for name in cls.__slots__ if name != "zones"}, zones=[])
+        nan, no = (lambda *shape: np.full((*shape, N), np.nan)), (lambda: np.zeros(N, bool))
+        onsets, contacts, releases = np.zeros((3, N), int)
+        return cls(no(), no(), np.zeros((n, N)), nan(4), onsets, contacts, releases, nan(2), nan(2), np.zeros((2, n, N)), nan(2),
+                   no(), np.full((_MAX_ZONES, N), -1, np.int8), nan(_MAX_ZONES + 1), no(), np.zeros(N))  # fmt: skip
 
     def take(self, index: np.ndarray) -> Period:
         """The records of the points ``index``."""
-        where = np.full(self.lost.size, -1)
-        where[index] = np.arange(index.size)
-        kept = [(zone, np.flatnonzero(where[zone.index] >= 0)) for zone in self.zones]
-        zones = [zone.of(where[zone.index[keep]], keep) for zone, keep in kept if keep.size]
-        return Period(*(getattr(self, name)[..., index] for name in self.__slots__ if name != "zones"), zones)
+        return Period(*(getattr(self, name)[..., index] for name in self.__slots__))
 
     def among(self, index: np.ndarray) -> Period:
         """The same for an index that ascends and repeats nothing: these records where it is all of them."""
@@ -93,14 +64,10 @@ class Period:
 
     def put(self, index: np.ndarray, other: Period) -> None:
         """Write the records ``other`` of the points ``index``."""
-        fresh = np.ones(self.lost.size, bool)
-        fresh[index] = False
-        kept = [(zone, np.flatnonzero(fresh[zone.index])) for zone in self.zones]
-        self.zones = [zone.of(zone.index[keep], keep) for zone, keep in kept if keep.size]
         for name in self.__slots__:
-            if name != "zones":
-                getattr(self, name)[..., index] = getattr(other, name)
-        self.zones += [zone.of(index[zone.index]) for zone in other.zones]
+            getattr(self, name)[..., index] = getattr(other, name)
+
+    onset, entry, exit, release = (property(lambda self, k=k: self.edges[k]) for k in range(4))
 
     @property
     def never_free(self) -> np.ndarray:
@@ -129,27 +96,25 @@ def march(kernel, s: ModeStrips, engaged, z, start) -> Period:
     n, N = z.shape
     out = Period.blank(n, N)
     letter, out.engaged_before[:] = zone_at(kernel, s, engaged, z, start)
-    out.engaged[:] = out.engaged_before
-    index, here, phase, end = np.arange(N), s, np.array(start, float), start + TWO_PI
-    where, limit = phase.copy(), end
-    pressure = None
-    for _ in range(_MAX_ZONES):
+    out.engaged[:], out.ends[0] = out.engaged_before, start
+    index, here, limit, pressure = np.arange(N), s, start + TWO_PI, None
+    for number in range(_MAX_ZONES):
         if not index.size:
             break
-        zone_z = z[:, index] + out.dz[:, index]
-        zone, pressure = _one_zone(kernel, here, index, letter, where, limit, zone_z, pressure, out)
-        out.zones.append(zone)
-        going = (zone.following >= 0) & ~out.lost[index]
-        _note(out, zone)
-        rest = np.flatnonzero(going)
-        index, letter, where, limit = index[rest], zone.following[rest], zone.end[rest], limit[rest]
+        begin, zone_z = out.ends[number, index], z[:, index] + out.dz[:, index]
+        end, following, slope, pressure = _one_zone(kernel, here, index, letter, begin, limit, zone_z, pressure, out)
+        out.letters[number, index], out.ends[number + 1, index] = letter, end
+        _note(out, index, letter, begin, end, zone_z, slope, following)
+        rest = np.flatnonzero((following >= 0) & ~out.lost[index])
+        index, letter, limit = index[rest], following[rest], limit[rest]
         here, pressure = here.among(rest), pressure[rest]
     out.lost[index] = True
     return out
 
 
 def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, out: Period):
-    """Follow the points ``index`` through the zone they are in; returns it and the pressure with which the next begins."""
+    """Follow the points ``index`` through the zone they are in; returns its end, the letter of the next (-1: the period is over), the
+    gap's slope at the end, and the pressure with which the next begins."""
     n, m = z.shape
     contact = letter == CONTACT
     p = np.where(letter == ADHESION, -s.p_0, 0.0)
@@ -191,29 +156,24 @@ def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, o
     snapped = (letter == FREE) & (following == CONTACT)
     reach = np.divide(s.delta_0, s.m.J_0, out=np.zeros(m), where=snapped)
     pressure = np.where(snapped, -reach, -s.p_0)
-    return Zone(index, letter, start, end, z, slope, following), pressure
+    return end, following, slope, pressure
 
 
-def _note(out: Period, zone: Zone):
-    """Write the event that ends a zone into the record."""
-    i, letter, following = zone.index, zone.letter, zone.following
-    onset = (letter == FREE) & (following >= 0)
-    release = following == FREE
+def _note(out: Period, i, letter, start, end, z, slope, following):
+    """Write the event that ends a zone of the points ``i`` into the record."""
+    onset, release = (letter == FREE) & (following >= 0), following == FREE
     enters, leaves = following == CONTACT, (letter == CONTACT) & (following >= 0)
-    for which, phases, count in (
-        (onset, out.onset, out.onsets),
-        (release, out.release, out.releases),
-        (enters, out.entry, out.contacts),
-        (leaves, out.exit, None),
-    ):
-        phases[i[which]] = zone.end[which]
-        if count is not None:
-            count[i[which]] += 1
-    out.slope_onset[i[onset]], out.slope_release[i[release]] = zone.slope[onset], zone.slope[release]
     # zones begun by the events before
-    after_onset, after_release = zone.start == out.onset[i], zone.start == out.release[i]
-    out.until_onset[i[after_onset]], out.smooth_onset[i[after_onset]] = zone.end[after_onset], letter[after_onset] != CONTACT
-    out.until_release[i[after_release]] = zone.end[after_release]
-    out.from_onset[i[onset]], out.from_release[i[release]] = zone.start[onset], zone.start[release]
-    out.z_from_onset[:, i[onset]], out.z_from_release[:, i[release]] = zone.z[:, onset], zone.z[:, release]
+    for k, edge in ((0, out.onset), (1, out.release)):
+        after = start == edge[i]
+        out.until[k, i[after]] = end[after]
+    after = start == out.onset[i]
+    out.smooth_onset[i[after]] = letter[after] != CONTACT
+    for k, which in ((0, onset), (1, release)):
+        there = i[which]
+        out.slope[k, there], out.since[k, there], out.z_since[k][:, there] = slope[which], start[which], z[:, which]
+    for edge, which in zip(out.edges, (onset, enters, leaves, release), strict=True):
+        edge[i[which]] = end[which]
+    for count, which in ((out.onsets, onset), (out.contacts, enters), (out.releases, release)):
+        count[i[which]] += 1
     out.engaged[i[onset]], out.engaged[i[release]] = True, False

@@ -39,8 +39,8 @@ class Saltation:
 
 def exact_gains(s: ModeStrips, order: Order, period: Period) -> tuple[Saltation, Saltation]:
     """Gains at the onset and the release of a march that meets each at most once."""
-    return _saltation(s, order, period, period, -period.slope_onset, True), _saltation(
-        s, order, period, period, period.slope_release, False
+    return _saltation(s, order, period, period, -period.slope[0], True), _saltation(
+        s, order, period, period, period.slope[1], False
     )
 
 
@@ -53,10 +53,10 @@ def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period, alike
 
 def _saltation(s: ModeStrips, order: Order, lower: Period, upper: Period, slope, onset: bool) -> Saltation:
     """Of events at which the gap moves no faster than at ``slope``."""
-    name = "onset" if onset else "release"
+    edge, k = (0, 0) if onset else (3, 1)
     gain = _ratio(s.jump_on if onset else s.step, slope)
-    event = np.sort(np.stack([getattr(lower, name), getattr(upper, name)]), axis=0)
-    start, end, smooth = getattr(lower, f"from_{name}"), getattr(lower, f"until_{name}"), lower.smooth_onset | (not onset)
+    event = np.sort(np.stack([lower.edges[edge], upper.edges[edge]]), axis=0)
+    start, end, smooth = lower.since[k], lower.until[k], lower.smooth_onset | (not onset)
     holds = (event[0] >= start) & (gain > 0)
     inside = holds & (event[1] <= end)
     after = np.where(inside, end - event[::-1], 0.0)
@@ -68,7 +68,7 @@ def _saltation(s: ModeStrips, order: Order, lower: Period, upper: Period, slope,
     column = _least_sums(order.back, _kick(s), s, *after)
     # a contact that an onset begins at once ends nowhere later than that of the lower march, and a gap keeps more
     column = np.where(smooth, column, order.rate * np.exp(-after[1] * order.rate))
-    longest = event[1] - np.minimum(start, getattr(upper, f"from_{name}"))
+    longest = event[1] - np.minimum(start, upper.since[k])
     between = (_kick(s) * np.exp(-np.where(inside, longest, 0.0) * rates(s.m.beta))).sum(axis=0)
     return Saltation(np.where(inside, gain, 0.0), np.maximum(row, 0.0), np.maximum(column, 0.0), between)
 
@@ -95,11 +95,15 @@ def propagation(s: ModeStrips, order: Order, period: Period, gains: tuple[Saltat
     share, back = np.moveaxis(order.share, -1, 0), np.moveaxis(order.back, -1, 0)
     # of each gain: how much w steps more at its event, 0 but while the zone after that lasts
     pending = [np.zeros((N, change.shape[2])) for _ in gains or ()]
-    for zone in period.zones:
-        i, length = zone.index, zone.end - zone.start
+    for number, letters in enumerate(period.letters):
+        i = np.flatnonzero(letters >= 0)
+        if not i.size:
+            break
+        letter, following = letters[i], period.letters[number + 1, i] if number + 1 < len(period.letters) else np.full(i.size, -1)
+        length = period.ends[number + 1, i] - period.ends[number, i]
         X = ahead[i] + change[i]
         ripe = [each[i] for each in pending]
-        contact = zone.letter == CONTACT
+        contact = letter == CONTACT
         times = np.where(contact, pick(s.m.alpha, i), pick(s.m.beta, i))
         loss = np.expm1(-np.divide(length, times, out=np.full((n, i.size), 800.0), where=times > 0)).T
         step = loss[:, :, None] * X
@@ -109,7 +113,7 @@ def propagation(s: ModeStrips, order: Order, period: Period, gains: tuple[Saltat
             S, B = (a if a.shape[0] == 1 else a[here] for a in (share, back))
             step[gap] = B @ (loss[gap][:, :, None] * (S @ X[gap]))
         change[i] += step
-        ends = (zone.letter == FREE) & (zone.following >= 0), (zone.letter == ADHESION) & (zone.following == FREE)
+        ends = (letter == FREE) & (following >= 0), (letter == ADHESION) & (following == FREE)
         for waiting, own, other, each, end in zip(pending, ripe, ripe[::-1], gains or (), ends, strict=False):
             change[i] += each.column[:, i].T[:, :, None] * own[:, None, :]
             seen = (each.row[:, i].T[:, None, :] @ X)[:, 0] + each.between[i, None] * other
