@@ -3,6 +3,7 @@
 import numpy as np
 
 from .regimes import CODE
+from .solved import Solved
 
 #: A wave this much smaller than every other length is below their rounding.
 _NEGLIGIBLE = 1e-18
@@ -27,3 +28,18 @@ def solve_flat(D, p_0_over_K, delta_0, unloading: bool):
     code = np.where(free, CODE["f"], np.where(contact, CODE["c"], CODE["a"]))
     p = np.where(free, 0.0, np.where(contact, D, -p_0_over_K))
     return code.astype(np.int8), p
+
+
+def solve_with_flat(solve, strips, flat, unloading: bool) -> Solved:
+    """Solve strips of which some are ``flat``, in units of K alone, the others by ``solve(strips, unloading)``."""
+    if not flat.any():
+        return solve(strips, unloading)
+    solved = Solved.empty(strips.size)
+    wavy, level = np.flatnonzero(~flat), np.flatnonzero(flat)
+    if wavy.size:
+        solved.put(wavy, solve(strips.take(wavy), unloading))
+    code, p = solve_flat(strips.D[level], strips.p_0[level], strips.delta_0[level], unloading)
+    solved.code[level], solved.p_mean[level], solved.tau_mean[level] = code, p, 0.0
+    solved.contact_fraction[level], solved.adhesion_fraction[level] = code == CODE["c"], code == CODE["a"]
+    solved.certified[level] = True
+    return solved

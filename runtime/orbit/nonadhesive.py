@@ -12,6 +12,8 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
+from types import ModuleType
+from typing import Any
 
 import numpy as np
 
@@ -46,17 +48,24 @@ class Waves(ABC):
     """Waves of N strips without adhesion over a foundation, each at its own speed: all that their orbits ask of the generated
     solver."""
 
+    def __init__(self, kernel: ModuleType, groups: Any):
+        self.kernel, self.groups = kernel, groups
+
     @abstractmethod
     def take(self, index: np.ndarray) -> Waves:
         """The strips ``index``."""
 
     @abstractmethod
+    def _arguments(self, D: np.ndarray) -> tuple:
+        """What the kernel's functions of a regime take after the edges, without adhesion."""
+
     def residual(self, b, a, D) -> tuple:
         """Both boundary equations of contact from ``b`` to ``a`` at the penetration ``D`` (N,)."""
+        return self.kernel.residual_ac(b, a, *self._arguments(D))
 
-    @abstractmethod
     def means(self, b, a, D) -> tuple:
         """Means of pressure and friction."""
+        return self.kernel.means_ac(b, a, *self._arguments(D))
 
     @abstractmethod
     def local_pressure(self, orbits: Orbits) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
@@ -95,26 +104,17 @@ class Waves(ABC):
 
 
 class SingleWaves(Waves):
-    """Over a foundation with one relaxation time: ``times`` alpha, beta, J, L of the strips, (N,)."""
-
-    def __init__(self, kernel, times: tuple):
-        self.kernel, self.times = kernel, times
+    """Over a foundation with one relaxation time: ``groups`` alpha, beta, J, L of the strips, (N,)."""
 
     def take(self, index):
-        return SingleWaves(self.kernel, tuple(v[index] for v in self.times))
+        return SingleWaves(self.kernel, tuple(v[index] for v in self.groups))
 
-    def _groups(self, D):
+    def _arguments(self, D):
         none = np.zeros(D.size)
-        return *self.times, none, none, D, none
-
-    def residual(self, b, a, D):
-        return self.kernel.residual_ac(b, a, *self._groups(D))
-
-    def means(self, b, a, D):
-        return self.kernel.means_ac(b, a, *self._groups(D))
+        return *self.groups, none, none, D, none
 
     def local_pressure(self, orbits):
-        alpha, beta, _, L = self.times
+        alpha, beta, _, L = self.groups
         known = (orbits.D, alpha, beta, L)
 
         def local(rows, phase):

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from ..errors import InputError, SolverError
 from .engine import solve_strips
-from .flat import is_flat, solve_flat
+from .flat import is_flat, solve_with_flat
 from .groups import Strips, slowed, snaps_in
-from .regimes import CODE
 from .solved import Solved
 
 #: beyond this alpha and beta squared overflow
@@ -57,19 +58,7 @@ def dimensionless(l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge) -> tu
 def solve_si(kernel, *inputs, edge, branch) -> tuple[Solved, Strips, dict]:
     """Solve flat SI arrays, in the order of ``dimensionless``; returns the solutions, the groups and the scales back to SI."""
     strips, scales = dimensionless(*inputs, edge)
-    flat = scales["flat"]
-    unloading = branch == "unloading"
-    if not flat.any():
-        return _at_full_speed(solve_strips(kernel, strips, unloading), strips, scales["pace"]), strips, scales
-    solved = Solved.empty(strips.size)
-    wavy = np.flatnonzero(~flat)
-    solved.put(wavy, solve_strips(kernel, strips.take(wavy), unloading))
-    level = np.flatnonzero(flat)
-    code, p = solve_flat(strips.D[level], strips.p_0[level], strips.delta_0[level], unloading)
-    solved.code[level], solved.p_mean[level], solved.tau_mean[level] = code, p, 0.0
-    solved.contact_fraction[level] = code == CODE["c"]
-    solved.adhesion_fraction[level] = code == CODE["a"]
-    solved.certified[level] = True
+    solved = solve_with_flat(partial(solve_strips, kernel), strips, scales["flat"], branch == "unloading")
     return _at_full_speed(solved, strips, scales["pace"]), strips, scales
 
 

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import lru_cache, partial
 from types import ModuleType
 
 import numpy as np
 
 from ...errors import InputError
 from ...inputs.model import ModelMaterial, modes_of
-from ..flat import is_flat, solve_flat
+from ..flat import is_flat, solve_with_flat
 from ..groups import snaps_in
 from ..materials import parameters
-from ..regimes import CODE
 from ..si import refuse_uncertified
-from ..solved import Solved
 from .contact import ModeContact
 from .engine import solve_modes
 from .extremes import greatest_gap, least_gap, peak
@@ -74,18 +72,7 @@ class ManyTimes:
         flat = is_flat(A, longest, D, p_0 / K, delta_0)
         unit = np.where(flat, 1.0, A)
         strips = ModeStrips(m, p_0 / K / unit, delta_0 / unit, D / unit, snaps_in(m.J_0 * (p_0 / K), delta_0))
-        solved = Solved.empty(D.size)
-        unloading = branch == "unloading"
-        wavy = np.flatnonzero(~flat)
-        if wavy.size:
-            solved.put(wavy, solve_modes(self.kernel, strips.take(wavy), unloading))
-        level = np.flatnonzero(flat)
-        if level.size:
-            code, p = solve_flat(D[level], (p_0 / K)[level], delta_0[level], unloading)
-            solved.code[level], solved.p_mean[level], solved.tau_mean[level] = code, p, 0.0
-            solved.contact_fraction[level] = code == CODE["c"]
-            solved.adhesion_fraction[level] = code == CODE["a"]
-            solved.certified[level] = True
+        solved = solve_with_flat(partial(solve_modes, self.kernel), strips, flat, branch == "unloading")
         named = {"l": l, "A": A, "D": D, "V": V, **self._named(l.shape), "p_0": p_0, "delta_0": delta_0}
         refuse_uncertified(solved, named, edge, branch)
         return solved, strips, {"k": k, "A": A, "D": D, "p": K * unit, "length": unit, "flat": flat}

@@ -22,11 +22,11 @@ _MAX_ZONES = 12
 class Period:
     """A period of N points. ``dz``: change of the state (accurate also where it is small), (n, N).
 
-    ``edges``: phase of the last onset, entry, exit and release, NaN where none, (4, N); ``onsets``, ``contacts``, ``releases``: how
-    many. Of onset and release, (2, N): ``slope`` of the gap just before, ``since`` when the zone lasted that the event ends,
-    ``until`` when the one that it begins; ``z_since``: state at the start of the former, (2, n, N). ``smooth_onset``: a gap zone
-    follows that, too. ``letters`` (zones, N) of the zones in turn, -1 where there are no more, and their ``ends`` (zones + 1, N), the
-    start of the first one first. ``lost``: not followed to the end.
+    ``edges``: phase of the last onset, entry, exit and release, NaN where none, (4, N); ``onsets``, ``contacts``,
+    ``releases``: how many. Of onset and release, (2, N): ``slope`` of the gap just before, ``since`` when the zone lasted that
+    the event ends, ``until`` when the one that it begins; ``z_since``: state at the start of the former, (2, n, N).
+    ``smooth_onset``: a gap zone follows that, too. ``letters`` (zones, N) of the zones in turn, -1 where there are no more,
+    and their ``ends`` (zones + 1, N), the start of the first one first. ``lost``: not followed to the end.
     """
 
     engaged_before: np.ndarray
@@ -113,8 +113,8 @@ def march(kernel, s: ModeStrips, engaged, z, start) -> Period:
 
 
 def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, out: Period):
-    """Follow the points ``index`` through the zone they are in; returns its end, the letter of the next (-1: the period is over), the
-    gap's slope at the end, and the pressure with which the next begins."""
+    """Follow the points ``index`` through the zone they are in; returns its end, the letter of the next (-1: the period is
+    over), the gap's slope at the end, and the pressure with which the next begins."""
     n, m = z.shape
     contact = letter == CONTACT
     p = np.where(letter == ADHESION, -s.p_0, 0.0)

@@ -9,29 +9,21 @@ from .problem import take_modes
 
 
 class ModeWaves(Waves):
-    """``m``: the kernel's ``Modes`` at the strips' speeds."""
-
-    def __init__(self, kernel, m):
-        self.kernel, self.m = kernel, m
+    """``groups``: the kernel's ``Modes`` at the strips' speeds."""
 
     def take(self, index):
-        return ModeWaves(self.kernel, take_modes(self.m, index))
+        return ModeWaves(self.kernel, take_modes(self.groups, index))
 
-    def residual(self, b, a, D):
+    def _arguments(self, D):
         none = np.zeros(D.size)
-        return self.kernel.residual_ac(b, a, self.m, none, none, D)
-
-    def means(self, b, a, D):
-        none = np.zeros(D.size)
-        return self.kernel.means_ac(b, a, self.m, none, none, D)
+        return self.groups, none, none, D
 
     def local_pressure(self, orbits):
-        none = np.zeros(orbits.D.size)
-        state = self.kernel.state_ac(orbits.b, orbits.a, self.m, none, none, orbits.D)
-        entry = self.kernel.overstress(state, 0.0, self.m)
+        state = self.kernel.state_ac(orbits.b, orbits.a, *self._arguments(orbits.D))
+        entry = self.kernel.overstress(state, 0.0, self.groups)
 
         def local(rows, phase):
-            m = type(self.m)(*(v[..., None] if np.ndim(v) else v for v in take_modes(self.m, rows)))
+            m = type(self.groups)(*(v[..., None] if np.ndim(v) else v for v in take_modes(self.groups, rows)))
             after = self.kernel.overstress_after(orbits.b[rows, None], phase, entry[:, rows, None], m)
             return self.kernel.contact_pressure(phase, after, orbits.D[rows, None])
 

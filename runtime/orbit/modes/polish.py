@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...numerics.linear import solved
 from ...numerics.rounding import EPS
 from .problem import ModeStrips
 
@@ -43,7 +44,11 @@ def polish(kernel, sequence: str, strips: ModeStrips, edges: np.ndarray, low: np
     for iteration in range(_ITERATIONS):
         s, before = strips.take(active), last[active]
         here = edges[:, active]
-        inverted = _inverse(_matrix(jacobian(*here, *arguments(s)), here))
+        matrix = np.empty((s.size, len(here), len(here)))
+        for i, row in enumerate(jacobian(*here, *arguments(s))):
+            for j, entry in enumerate(row):
+                matrix[:, i, j] = entry
+        inverted = solved(matrix, np.broadcast_to(np.eye(len(here)), matrix.shape))
         step = -np.einsum("Nij,jN->iN", inverted, np.array(np.broadcast_arrays(*residual(*here, *arguments(s)))))
         spent[active] += 1
         size = np.abs(step).max(axis=0)
@@ -64,30 +69,6 @@ def polish(kernel, sequence: str, strips: ModeStrips, edges: np.ndarray, low: np
         if not active.size:
             break
     return Polished(edges, last, attainable, spent)
-
-
-def _matrix(rows, edges):
-    """Nested tuple of derivatives as (N, k, k)."""
-    k, N = edges.shape
-    out = np.empty((N, k, k))
-    for i in range(k):
-        for j in range(k):
-            out[:, i, j] = rows[i][j]
-    return out
-
-
-def _inverse(matrix):
-    """Inverses, NaN where there is none."""
-    scale = np.abs(matrix).max(axis=2, keepdims=True)
-    good = (np.isfinite(scale) & (scale > 0)).all(axis=(1, 2))
-    safe = np.where(
-        good[:, None, None], np.divide(matrix, scale, out=np.zeros_like(matrix), where=scale > 0), np.eye(matrix.shape[1])
-    )
-    singular = np.abs(np.linalg.det(safe)) < 1e-250
-    safe[singular] = np.eye(matrix.shape[1])
-    inverse = np.linalg.inv(safe) / np.where(good[:, None, None], np.swapaxes(scale, 1, 2), 1.0)
-    inverse[~good | singular] = np.nan
-    return inverse
 
 
 def _noise(kernel, k: int, s: ModeStrips):

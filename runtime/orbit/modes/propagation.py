@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...numerics.linear import solved
 from .coordinates import Order
 from .event_bounds import closing_times, slopes_by_modes
 from .march import ADHESION, CONTACT, FREE, Period
@@ -123,21 +124,7 @@ def propagation(s: ModeStrips, order: Order, period: Period, gains: tuple[Saltat
 
 def solve_order(change: np.ndarray, r: np.ndarray) -> np.ndarray:
     """``(I - M)^-1 r`` for ``M = I + change``; r and the result (n, N). NaN where singular."""
-    rows = -change
-    scale = np.abs(rows).max(axis=2)
-    bad = ~(np.isfinite(scale).all(axis=1) & (scale > 0).all(axis=1)) | ~np.isfinite(r).all(axis=0)
-    scale[bad] = 1.0
-    rows = rows / scale[:, :, None]
-    rows[bad] = np.eye(rows.shape[1])
-    try:
-        v = np.linalg.solve(rows, (r.T / scale)[:, :, None])[:, :, 0].T
-    except np.linalg.LinAlgError:
-        v = np.full(r.shape, np.nan)
-        for k in range(r.shape[1]):  # one singular matrix spoils the batch: rare
-            if np.linalg.cond(rows[k]) < 1e14:
-                v[:, k] = np.linalg.solve(rows[k], r[:, k] / scale[k])
-    v[:, bad] = np.nan
-    return v
+    return solved(-change, r.T[:, :, None])[:, :, 0].T
 
 
 def _ratio(step, slope):
