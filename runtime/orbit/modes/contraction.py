@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from .coordinates import Order
-from .event_bounds import closing_times, slopes_by_modes
+from .event_bounds import event_bounds
 from .march import TWO_PI, Period
 from .problem import ModeStrips, rates
 from .propagation import solve_order
@@ -49,7 +49,7 @@ def upper_bound(s: ModeStrips, order: Order, lower: Period, upper: Period) -> tu
     snaps = s.snaps
     b = np.where(contact & snaps, np.maximum(b, x_2), b)
     same &= (c_2 < x_1) & (x_2 <= b)
-    (on, steep), (off, _) = (slopes_by_modes(s, order, lower, upper, onset) for onset in (True, False))
+    (on, steep), (off, _), closing, closes = event_bounds(s, order, lower, upper)
     # a contact that a point snaps into does not end before all have snapped in
     same &= ~snaps | (s.delta_0 + steep * (x_2 - x_1) <= s.step)
     good = same & (on > 0) & (off > 0)
@@ -63,7 +63,6 @@ def upper_bound(s: ModeStrips, order: Order, lower: Period, upper: Period) -> tu
         row = lambda short, long: _most(np.swapaxes(order.share, 0, 1), fade(short), fade(long))  # noqa: E731
         between = (kick * fade(x_1 - c_2)).sum(axis=0)
         # from onset on a state is in the gap until its own contact, and forgets no less in that than in a gap up to b
-        closing, closes = closing_times(s, order, lower, upper)
         closing, closes = np.where(snaps, 0.0, closing), contact & (snaps | closes)
         before, after_x = row(c_1, c_2), column(*np.where(closes, closing, np.stack((b - x_2, b - x_1))))
         terms = (

@@ -18,7 +18,7 @@ import numpy as np
 
 from ...numerics.linear import solved
 from .coordinates import Order
-from .event_bounds import closing_times, slopes_by_modes
+from .event_bounds import event_bounds
 from .march import ADHESION, CONTACT, FREE, Period
 from .problem import ModeStrips, pick, rates
 
@@ -48,11 +48,12 @@ def exact_gains(s: ModeStrips, order: Order, period: Period) -> tuple[Saltation,
 def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period, alike: np.ndarray) -> tuple[Saltation, Saltation]:
     """Lower bounds of the gains of every state between those of two marches; 0 but where these are ``alike`` and meet
     each event once. Onsets lie between those of the two, releases too (the other way round)."""
-    steep = [np.where(alike, slopes_by_modes(s, order, lower, upper, onset)[1], np.inf) for onset in (True, False)]
-    return tuple(_saltation(s, order, lower, upper, each, onset) for each, onset in zip(steep, (True, False), strict=True))
+    (_, fall), (_, growth), *closing = event_bounds(s, order, lower, upper)
+    fall, growth = (np.where(alike, steepest, np.inf) for steepest in (fall, growth))
+    return _saltation(s, order, lower, upper, fall, True, closing), _saltation(s, order, lower, upper, growth, False)
 
 
-def _saltation(s: ModeStrips, order: Order, lower: Period, upper: Period, slope, onset: bool) -> Saltation:
+def _saltation(s: ModeStrips, order: Order, lower: Period, upper: Period, slope, onset: bool, closing=None) -> Saltation:
     """Of events at which the gap moves no faster than at ``slope``."""
     edge, k = (0, 0) if onset else (3, 1)
     gain = _ratio(s.jump_on if onset else s.step, slope)
@@ -61,9 +62,9 @@ def _saltation(s: ModeStrips, order: Order, lower: Period, upper: Period, slope,
     holds = (event[0] >= start) & (gain > 0)
     inside = holds & (event[1] <= end)
     after = np.where(inside, end - event[::-1], 0.0)
-    if onset and lower is not upper:
-        closing, closes = closing_times(s, order, lower, upper)
-        after, inside = np.where(holds & closes, closing, after), inside | holds & closes
+    if closing:
+        times, closes = closing
+        after, inside = np.where(holds & closes, times, after), inside | holds & closes
     before = np.where(inside, event - start, 0.0)
     row = _least_sums(np.swapaxes(order.share, 0, 1), np.ones((s.modes, s.size)), s, *before)
     column = _least_sums(order.back, _kick(s), s, *after)
