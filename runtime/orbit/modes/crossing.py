@@ -22,8 +22,7 @@ import numpy as np
 from ...numerics.rounding import EPS
 
 NONE, LOWER, UPPER, LOST = 0, 1, 2, -1
-#: a step this small is below what the phase can be known to
-_TOLERANCE = 2e-15
+#: a step this small is below what the phase can be known to; a margin so small is none, if the step is small, too
 _ROUNDINGS, _SMALL = 4 * EPS, 1e-8
 _MAX_STEPS = 600
 #: height that stands for none
@@ -88,7 +87,7 @@ def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
         lost_in_rounding = (
             (margin <= _ROUNDINGS * (np.abs(go.constant) + go.size)) & (step <= _SMALL) & (low_first == (slope < 0))
         )
-        reached = (step <= _TOLERANCE * np.maximum(1.0, np.abs(go.now))) | lost_in_rounding
+        reached = (step <= _ROUNDINGS * np.maximum(1.0, np.abs(go.now))) | lost_in_rounding
         go.now = go.now + step
         beyond = go.now >= go.end
         done = reached | beyond

@@ -10,10 +10,11 @@ from __future__ import annotations
 import numpy as np
 
 from .coordinates import Order
-from .extremal import AGREE, certified, lowest_state
+from .extremal import AGREE, lowest_state
 from .extremes import greatest_gap
 from .fields import state_at
 from .march import TWO_PI, Period, march
+from .polish import certified
 from .problem import ModeStrips
 from .propagation import propagation, solve_order
 

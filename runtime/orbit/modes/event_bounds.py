@@ -11,7 +11,7 @@ from .problem import ModeStrips, rates
 
 #: how much earlier or later than in the two marches contact may begin, as a share of the time from onset to contact: a wider
 #: range costs digits of the bound
-_SHARES = (1e-5, 1e-2, 0.5)
+_SHARES = (1e-2, 0.5)
 
 
 def event_bounds(s: ModeStrips, order: Order, lower: Period, upper: Period):

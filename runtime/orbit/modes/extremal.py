@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...numerics.rounding import EPS
 from ..certificate import STABLE
 from ..regimes import EDGES
 from .contraction import contracts
@@ -20,7 +19,7 @@ from .coordinates import Order
 from .fields import state_at
 from .march import TWO_PI, Period, march
 from .order import Bound, climb
-from .polish import arguments, polish
+from .polish import arguments, certified
 from .problem import ModeStrips
 
 #: the step in which Newton's method starts from the marches: after one period a bounding state is free where the orbits are,
@@ -28,9 +27,6 @@ from .problem import ModeStrips
 _START, _CHAINS, _STEPS = 1, 6, 106
 #: strips in chains of states at a time: 32 states each
 _CHAINED = 512
-#: how far Newton's method may take an edge from where it starts, radians: further away other regimes begin
-_FURTHEST = 1.5
-_CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
 #: agreement of the edges with a march of the period
 AGREE = 1e-7
 #: an orbit between states whose edges are so close, and that is stable, is the first one; between those that are less close it is
@@ -112,7 +108,7 @@ class _Search:
             out.held.put(i[held], near.take(np.flatnonzero(held)))
         going = ~(held | lets | near.lost)
         if number == _START:
-            self._newton(i[going], _FURTHEST)
+            self._newton(i[going], np.inf)
         going[going] = ~self._proven(i[going])
         turned = going & (near.engaged != b.engaged[i])
         b.z[:, i[turned]] += near.dz[:, turned]
@@ -225,17 +221,6 @@ def agrees(sequence: str, s: ModeStrips, edges, period: Period) -> np.ndarray:
         return ok & (period.contacts == 0)
     ok &= near(period.exit, row["a"])
     return ok & (period.contacts == 1) & near(period.entry, row["b"] if sequence == "acaf" else row["d"])
-
-
-def certified(kernel, s: ModeStrips, sequence: str, edges, reach=_FURTHEST):
-    """Orbits by Newton's method from ``edges`` (k, N), no further away than ``reach``; which converged, in order within a
-    period; the evaluations spent."""
-    with np.errstate(all="ignore"):
-        refined = polish(kernel, sequence, s, edges, edges - reach, edges + reach)
-    e = refined.edges
-    limit = _CONVERGED + _ROUNDINGS * np.minimum(refined.attainable, _COARSEST)
-    good = (refined.correction <= limit) & np.all(np.diff(e, axis=0) >= -64 * EPS, axis=0) & (e[-1] - e[0] <= TWO_PI + 64 * EPS)
-    return e, good, refined.evaluations
 
 
 def in_order(edges):

@@ -60,12 +60,9 @@ from .march import Period, march
 from .problem import ModeStrips
 from .propagation import exact_gains, least_gains, propagation, solve_order
 
-#: states of a chain, in Newton's steps. Those end short of a simple orbit, and half-way to a double one, where orbits are about
-#: to appear: the map less the identity is a parabola there, and its tangent stays positive over less than half of the way. Beyond
-#: it grows, so that states may lie ever further apart
-_NEARER = 2 - 2 * 0.75 ** np.arange(1.0, 17)
-_AHEAD = np.sort(np.concatenate(([0.0, 0.125, 0.5, 0.95, 1.0], _NEARER, 4 - _NEARER[::3], 2 + 2.0 ** np.arange(1.0, 6))))
-_AWAY = np.append(0.0, 1.6 ** np.arange(-4.0, len(_AHEAD) - 5))
+#: states of a chain, in Newton's steps: those end short of a simple orbit, and half-way to a double one, where orbits are about
+#: to appear. Beyond that the map moves states ever further, so that they may lie ever further apart
+_CHAIN = np.append(0.0, np.geomspace(1 / 8, 34, 24))
 #: least distance of states, in units of the strip's lengths: what rounding leaves of the sign of P(y) - y
 _LEAST = 1e-12
 
@@ -161,7 +158,7 @@ def _chain(bound: Bound) -> np.ndarray:
     ahead = np.all((newton >= 0) & (newton <= room), axis=0)
     direction = np.where(ahead | np.all(newton >= 0, axis=0), newton, np.where(np.all(newton <= 0, axis=0), -newton, r))
     farthest = np.divide(room, direction, out=np.full(r.shape, np.inf), where=direction > 0).min(axis=0)
-    chain = np.where(ahead, _AHEAD[:, None], _AWAY[:, None] * np.minimum(1.0, farthest / _AWAY[-1])) * direction[:, None]
+    chain = _CHAIN[:, None] * np.where(ahead, 1.0, np.minimum(1.0, farthest / _CHAIN[-1])) * direction[:, None]
     chain[:, 1:] = np.maximum(chain[:, 1:], _LEAST * bound.s.size_of_lengths)
     return np.minimum(chain, room[:, None])
 

@@ -1,31 +1,20 @@
-"""Newton on the generated boundary equations of a regime, from edges that the ordered iteration has already enclosed."""
+"""Newton's method on the generated boundary equations of a regime, from edges that marches met."""
 
 from __future__ import annotations
-
-from dataclasses import dataclass
 
 import numpy as np
 
 from ...numerics.linear import solved
 from ...numerics.rounding import EPS
+from ..groups import ROUNDING, TWO_PI
 from .problem import ModeStrips
 
 _ITERATIONS = 12
-#: steps larger than this are corrections, whatever the one before was
-_ROUNDING_LIMITED = 1e-7
 #: a step expected to be this small is not taken; steps as large as that after so many, or that hardly shrink, lead nowhere
 _SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * EPS, 0.1, 4, 0.7
-
-
-@dataclass(slots=True)
-class Polished:
-    """Edges (k, N); ``correction`` (N,): the last step; ``attainable`` (N,): how well rounding lets the edges be known;
-    ``evaluations`` (N,)."""
-
-    edges: np.ndarray
-    correction: np.ndarray
-    attainable: np.ndarray
-    evaluations: np.ndarray
+#: the last step of an orbit is this small, or the multiple of what rounding lets the edges be known to, which is no more than the
+#: last; steps larger than that are corrections, whatever the one before was
+_CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
 
 
 def arguments(s: ModeStrips):
@@ -33,12 +22,21 @@ def arguments(s: ModeStrips):
     return s.m, s.p_0, s.delta_0, s.D
 
 
-def polish(kernel, sequence: str, strips: ModeStrips, edges: np.ndarray, low: np.ndarray, high: np.ndarray) -> Polished:
-    """Refine ``edges`` (k, N) of strips that all are in the regime ``sequence``, kept between ``low`` and ``high`` and
-    in order."""
+def certified(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray, reach=np.inf):
+    """Orbits of strips in the regime ``sequence`` from ``edges`` (k, N), no further away than ``reach``; which converged, in
+    order within a period; the evaluations spent."""
+    with np.errstate(all="ignore"):
+        edges, last, attainable, spent = _newton(kernel, strips, sequence, edges, reach)
+    good = last <= _CONVERGED + _ROUNDINGS * np.minimum(attainable, _COARSEST)
+    good &= np.all(np.diff(edges, axis=0) >= -ROUNDING, axis=0) & (edges[-1] - edges[0] <= TWO_PI + ROUNDING)
+    return edges, good, spent
+
+
+def _newton(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray, reach):
+    """Edges, kept in order; the last steps; how well rounding lets the edges be known; evaluations."""
     residual, jacobian = (getattr(kernel, f"{what}_{sequence}") for what in ("residual", "jacobian"))
+    low, high, N = edges - reach, edges + reach, strips.size
     edges = edges.copy()
-    N = strips.size
     last, attainable, spent = np.full(N, np.inf), np.full(N, np.inf), np.zeros(N)
     active = np.arange(N)
     for iteration in range(_ITERATIONS):
@@ -53,24 +51,20 @@ def polish(kernel, sequence: str, strips: ModeStrips, edges: np.ndarray, low: np
         spent[active] += 1
         size = np.abs(step).max(axis=0)
         # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction
-        better = np.isfinite(size) & ((size < 0.5 * last[active]) | (size > _ROUNDING_LIMITED))
+        better = np.isfinite(size) & ((size < 0.5 * last[active]) | (size > _COARSEST))
         moved = active[better]
         new = np.maximum.accumulate(here[:, better] + step[:, better], axis=0)
         edges[:, moved] = np.clip(new, low[:, moved], high[:, moved])
         last[moved] = size[better]
-        noise = _noise(kernel, len(edges), s)
-        attainable[moved] = np.einsum("Nij,jN->iN", np.abs(inverted), noise).max(axis=0)[better]
+        # pressures are of the size of the saturated one
+        noise = EPS * (s.size_of_lengths + kernel.modulus_ratio(s.m))
+        attainable[moved] = (np.abs(inverted).sum(axis=2).max(axis=1) * noise)[better]
         # steps that shrink as fast again: the next one need not be taken
         ahead = size * np.divide(size, before, out=np.ones_like(size), where=(size < before) & np.isfinite(before))
         settled = ahead <= _SETTLED
         last[active[better & settled]] = ahead[better & settled]
-        on = (size < _LOST) & ((size < _SHRINKS * before) | (size < _ROUNDING_LIMITED)) | (iteration < _LOST_AFTER)
+        on = (size < _LOST) & ((size < _SHRINKS * before) | (size < _COARSEST)) | (iteration < _LOST_AFTER)
         active = active[better & ~settled & on]
         if not active.size:
             break
-    return Polished(edges, last, attainable, spent)
-
-
-def _noise(kernel, k: int, s: ModeStrips):
-    """Rounding of each boundary equation, (k, N): pressures are of the size of the saturated one."""
-    return np.broadcast_to(EPS * (s.size_of_lengths + kernel.modulus_ratio(s.m)), (k, s.size))
+    return edges, last, attainable, spent
