@@ -15,13 +15,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..numerics.quadrature import interleaved, sum_errors
+from ..numerics.nested import Stage, sampled
+from ..numerics.quadrature import interior_nodes, sum_errors
 from ..numerics.rounding import EPS
 from ..orbit.regimes import CODE
 from .boundaries import hides_another, located, passed_breaks, theta_of, thresholds
 from .changes import Changes, locate_changes
 from .effort import AVERAGE_LIMIT
-from .panels import LAST, Panels, Stage
+from .panels import FIRST, LAST, Panels
 from .zones import Zones, zones_of
 
 if TYPE_CHECKING:
@@ -55,7 +56,7 @@ def average(columns: LevelBatch, rtol: np.ndarray) -> Averages:
     """Means ``(1/pi) int_0^pi`` of the strips of every state to ``rtol (|value| + floor)``, ``rtol`` (n,)."""
     n, q = columns.size, columns.scales.size
     work = _Work(columns, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
-    stages = [Stage(work.start(*thresholds(columns), *columns.crossings.expected(columns)))]
+    stages = [Stage(work.start(*thresholds(columns), *columns.crossings.expected(columns)), FIRST)]
     while stages:
         stages = work.refine(stages)
     return Averages(work.values / np.pi, work.errors / np.pi, work.strips, work.zones())
@@ -101,13 +102,13 @@ class _Work:
     def refine(self, stages: list[Stage]) -> list[Stage]:
         """Sum up what converges under doubling; return what is left, divided where regimes change."""
         fresh = self.ends is None
-        stages = self._sampled(stages)
+        stages = sampled(stages, Panels.at, lambda panels, theta: self._evaluated(Panels.joined(panels).state, theta))
         if fresh:
             self._look_beside_thresholds(stages[0])
         # what is not accepted yet counts for the size of the result, not for the result
         total = self.values.copy()
         for stage in stages:
-            np.add.at(total, stage.panels.state, stage.sums())
+            np.add.at(total, stage.parts.state, stage.parts.sums(stage.known[1]))
         total = np.abs(total) + np.pi * self.columns.floors
         mixed, doubled, halved = [], [], []
         for stage in stages:
@@ -117,28 +118,15 @@ class _Work:
             mixed.append(stage.take(changed & ~done))
             stage = stage.take(~changed & ~done)
             (doubled if stage.n < LAST else halved).append(stage)
-        parts = [self._divide(mixed, total), *(half for stage in halved for half in stage.panels.halves())]
-        left = [Stage(Panels.joined(parts)), *doubled]
-        return [stage for stage in left if stage.panels.size]
-
-    def _sampled(self, stages: list[Stage]) -> list[Stage]:
-        """The stages with what is known at their next nodes, of one batch of strips."""
-        new = [stage.next_nodes() for stage in stages]
-        state = [np.repeat(stage.panels.state, theta.shape[1]) for stage, (_, theta) in zip(stages, new, strict=True)]
-        answers = self._evaluated(np.concatenate(state), np.concatenate([theta.ravel() for _, theta in new]))
-        out, stop = [], 0
-        for stage, (n, theta) in zip(stages, new, strict=True):
-            start, stop = stop, stop + theta.size
-            known = [v[start:stop].reshape(*theta.shape, *v.shape[1:]) for v in answers]
-            if stage.known:
-                known = [interleaved(a, b) for a, b in zip(known, stage.known, strict=True)]
-            out.append(Stage(stage.panels, n, tuple(known)))
-        return out
+        parts = [self._divide(mixed, total), *(half for stage in halved for half in stage.parts.halves())]
+        left = [Stage(Panels.joined(parts), FIRST), *doubled]
+        return [stage for stage in left if stage.parts.size]
 
     def _accept(self, stage: Stage, total: np.ndarray, usable: np.ndarray) -> np.ndarray:
         """Add up the ``usable`` panels (m,) whose sums have converged, and those of states with too many strips as they are, with
         the spread of their values as error; which they were, (m,)."""
-        panels, (codes, values, *_), sums = stage.panels, stage.known, stage.sums()
+        panels, (codes, values, *_) = stage.parts, stage.known
+        sums = panels.sums(values)
         width, state = panels.width[:, None], panels.state
         rounding = 4 * EPS * width * np.abs(values).max(axis=1, initial=0.0)
         noise = 0.1 * (self.rtol[:, None] * self.columns.floors)[state]
@@ -183,7 +171,7 @@ class _Work:
     def _look_beside_thresholds(self, stage: Stage) -> None:
         """Strips to either side of thresholds where the codes of the panels that meet do not follow one another: a third
         zone may be narrower than the first step."""
-        panels, codes = stage.panels, stage.known[0]
+        panels, codes = stage.parts, stage.known[0]
         order = np.lexsort((panels.low, panels.state))
         left, right = order[:-1], order[1:]
         unknown = (panels.last[left] < 0) & (panels.first[right] < 0) & (panels.high[left] == panels.low[right])
@@ -196,8 +184,8 @@ class _Work:
     def _outer(self, stage: Stage) -> tuple[np.ndarray, ...]:
         """What is known at the nodes of panels, and their thetas, with one more at either end: what is known beyond the outermost
         node, where nothing is what is known there."""
-        theta = stage.theta
-        number, outermost = np.stack((stage.panels.first, stage.panels.last), axis=1), theta[:, [0, -1]]
+        panels, theta = stage.parts, stage.parts.at(interior_nodes(stage.n))
+        number, outermost = np.stack((panels.first, panels.last), axis=1), theta[:, [0, -1]]
         place = self.beside[1][number]
         beyond = (number >= 0) & (np.stack((outermost[:, 0] - place[:, 0], place[:, 1] - outermost[:, 1]), axis=1) > 0)
         out = []
@@ -219,13 +207,13 @@ class _Work:
 
     def _divide(self, stages: list[Stage], total: np.ndarray) -> Panels:
         """Locate the changes between neighbouring nodes; panels end there."""
-        panels, brackets, spreads, before = Panels.joined([stage.panels for stage in stages]), [], [], 0
+        panels, brackets, spreads, before = Panels.joined([stage.parts for stage in stages]), [], [], 0
         for stage in stages:
             *known, theta = self._outer(stage)
-            some, row, _ = Changes.between(before + np.arange(stage.panels.size), theta, known)
+            some, row, _ = Changes.between(before + np.arange(stage.parts.size), theta, known)
             brackets.append(some)
             spreads.append(np.ptp(known[1], axis=1)[row])
-            before += stage.panels.size
+            before += stage.parts.size
         changes, spread = Changes.joined(brackets), np.concatenate(spreads)
         if not changes.size:
             return panels

@@ -6,24 +6,27 @@ new regime. All velocities advance together.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..numerics.chebyshev import flat_ended, interpolation_errors, lobatto
+from ..numerics.nested import Stage, sampled
+from ..numerics.quadrature import interior_nodes
 from ..numerics.rounding import EPS
 from .breaks import breakpoints, threshold_width
 from .effort import CURVE_LIMIT
 from .error_budget import ErrorBudget
 from .interior_breaks import island, locate_vanishing
-from .interval import Interval
+from .interval import MEAN, Interval, array_of, columns_of, means_in, places, weighed, within
 from .piece import Errors, Piece
 from .reentrant import reentrant_parts
-from .sampling import FEWEST, MEAN, Batch, sample
 from .strips import LevelBatch, saturation_depth
 
-#: nodes of an interval at most, less one: what they do not tell is divided
-_LAST = 96
+#: nodes of an interval, and one more: those that tell what pressures it comes to; the first that an error can be told from, and
+#: for more than a coarse pressure; and the last, for what they do not tell is divided
+_LOOK, _COARSE, _FIRST, _LAST = 6, 8, 12, 96
 #: share of the error allowed that interpolating may have at least: the means may have the rest
 _INTERPOLATION = 1 - MEAN
 #: coefficients below this share of what the means may err say nothing of how smooth they are
@@ -66,7 +69,7 @@ def trace(
     pieces = interpolate(columns, rtol, above, strips, budget=budget)
     if below:
         least = np.array([min((piece.values(_GRID)[:, 0].min() for piece in row), default=np.inf) for row in pieces])
-        comes = reentrant_parts(columns, below, least, strips)
+        comes = reentrant_parts(columns, below, least, strips, budget)
         for row, more in zip(pieces, interpolate(columns, rtol, comes, strips, budget=budget, ceiling=least), strict=True):
             row += more
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
@@ -92,7 +95,7 @@ def smooth_intervals(columns: LevelBatch, top: np.ndarray) -> tuple[list[list[In
 def interpolate(
     columns: LevelBatch,
     rtol: np.ndarray,
-    intervals: list[Interval],
+    intervals: Sequence[Interval],
     strips: np.ndarray,
     pressure_goal: np.ndarray | None = None,
     budget: ErrorBudget | None = None,
@@ -103,80 +106,114 @@ def interpolate(
     ``pressure_goal`` (per column): nothing counts but the pressure, to that error, Pa. ``budget``: how much the pressures of an
     interval count, those above the ``ceiling`` (Pa, per column) not at all.
     """
-    pieces: list[list[Piece]] = [[] for _ in range(columns.size)]
-    batches = [Batch(columns, rtol, intervals)] if intervals else []
-    # a budget has to know what pressures an interval comes to before it says how well they have to be known
-    first = 2 * FEWEST if budget is None else FEWEST
-    while batches:
-        sample(batches, first, strips)
+    work = _Work(columns, rtol, strips, pressure_goal, budget, ceiling, [[] for _ in range(columns.size)])
+    stages = work.start(intervals)
+    while stages:
+        stages = work.refine(stages)
+    return work.pieces
+
+
+@dataclass
+class _Work:
+    """See ``interpolate``. Of its stages the parts are intervals, and known are means, their errors and zones."""
+
+    columns: LevelBatch
+    rtol: np.ndarray
+    strips: np.ndarray
+    pressure_goal: np.ndarray | None
+    budget: ErrorBudget | None
+    ceiling: np.ndarray | None
+    pieces: list[list[Piece]]
+
+    def start(self, intervals: Sequence[Interval]) -> list[Stage]:
+        """Intervals on their first nodes."""
+        # a budget has to know what pressures an interval comes to before it says how well they have to be known
+        known = _COARSE if self.pressure_goal is not None else _FIRST
+        first = np.array([known if self.budget is None or i.asked.frictional else _LOOK for i in intervals], int)
+        return [Stage(array_of(intervals)[first == n], n) for n in np.unique(first).tolist()]
+
+    def refine(self, stages: list[Stage]) -> list[Stage]:
+        """Keep what converges under doubling; return what is left, divided where more nodes would not help."""
+
+        def means(intervals, D):
+            return means_in(self.columns, self.rtol, np.concatenate(intervals), D, self.strips)
+
         going, left = [], []
-        for batch in batches:
-            if batch.n > FEWEST:
-                left.append(_converged(batch, pieces, strips, pressure_goal))
+        for stage in sampled(stages, places, means):
+            if stage.n > _LOOK:
+                left.append(self._converged(stage))
                 continue
-            batch.weigh(budget, ceiling)
-            going.append(batch)
-        splits, parts = _isolated_regimes(columns, left, strips), []
-        for batch, _, hopeless in left:
-            keep = []
-            for k, interval in enumerate(batch.intervals):
-                if interval in splits:
-                    parts += interval.split(splits[interval], soft=False)
-                elif hopeless[k]:
-                    parts += batch.halves(k)
+            going.append(replace(stage, parts=weighed(self.columns, self.budget, stage.parts, stage.known[0], self.ceiling)))
+        breaks, parts = self._isolated_regimes(left), []
+        for stage, _, missed, hopeless in left:
+            for i, by in zip(stage.parts[hopeless], missed[hopeless], strict=True):
+                if i in breaks:
+                    parts += i.split(breaks[i], soft=False)
                 else:
-                    keep.append(k)
-            going += [batch.take(keep, batch.missed[keep])] if keep else []
-        batches = going + ([Batch(columns, rtol, parts)] if parts else [])
-    return pieces
+                    parts += replace(i, asked=i.asked.after(float(by.max()))).halves
+            going.append(stage.take(~hopeless))
+        return [stage for stage in (*going, *self.start(parts)) if stage.parts.size]
+
+    def _converged(self, stage: Stage) -> tuple[Stage, np.ndarray, np.ndarray, np.ndarray]:
+        """Append what has converged to the pieces; of columns with too many strips all as it is, with the spread of the values as
+        error. Returns the rest, its goals (intervals, q), its errors over them, and which of it have to be divided."""
+        columns, intervals, (values, errors, _) = self.columns, stage.parts, stage.known
+        column, c = columns_of(intervals), flat_ended(stage.n) @ values
+        floors = within(columns, intervals, columns.D[column]).floors
+        goal = (self.rtol[column] * [i.asked.coarser for i in intervals])[:, None] * (np.abs(values).min(axis=1) + floors)
+        blur, rounding, spread = _BLUR * errors.max(axis=1), _rounding(columns, stage, c), np.ptp(values, axis=1)
+        # where next to nothing changes there is little to miss, whatever nobody marked there
+        error = np.minimum(interpolation_errors(c, 0.1 * goal, blur, rounding), 2 * spread)
+        before = np.full_like(error, np.inf)
+        if stage.n >= 2 * _COARSE:
+            before = interpolation_errors(flat_ended(stage.n // 2) @ values[:, 1::2], 0.1 * goal, blur, rounding)
+        if self.pressure_goal is not None:
+            goal = np.full_like(goal, np.inf)
+            goal[:, 0] = self.pressure_goal[column]
+        elif columns.asked.frictional:
+            goal[:, 0] = _pressure_goal(values, goal)
+        # what the means leave of it
+        goal = np.maximum(goal - errors.max(axis=1), _INTERPOLATION * goal)
+        done = (error <= goal).all(axis=1)
+        done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in intervals]
+        ended = ~done & (self.strips[column] > CURVE_LIMIT)
+        if ended.any():
+            columns.work.limit_reached(columns.V[column[ended]], columns.level.l, "the curve over penetration did not converge")
+            error[ended], done = np.maximum(error, spread)[ended], done | ended
+        for k in np.flatnonzero(done):
+            i, size = intervals[k], np.abs(values[k])
+            relative = (errors[k] / (size + floors[k])).max(axis=0)
+            series, soft = error[k] + _ROUNDED * rounding[k], (i.inner_low, i.inner_high)
+            bounds = Errors(series + errors[k].max(axis=0), series + relative * floors[k], relative)
+            self.pieces[i.column].append(Piece(i.low, i.high, c[k], bounds, *soft, i.endpoint_map))
+        missed = error / goal
+        # coefficients fall geometrically: where missed (missed / before)^2 on twice the nodes is over the goal, halves are better
+        hopeless = (missed > np.maximum(before / goal, 1.0) ** (2 / 3)).any(axis=1) | (stage.n >= _LAST)
+        return stage.take(~done), *(v[~done] for v in (goal, missed, hopeless))
+
+    def _isolated_regimes(self, left) -> dict[Interval, float]:
+        """Breaks inside intervals of ``left`` that have to be divided (see ``_converged``): penetrations at which something
+        appears or vanishes between two nodes, away from the crest."""
+        seen = {}
+        for stage, goal, _, hopeless in left:
+            for k in np.flatnonzero(hopeless):
+                i = stage.parts[k]
+                found = island(i.column, i.penetrations(interior_nodes(stage.n)), stage.known[2][k], goal[k])
+                if found is not None:
+                    seen[i] = found
+        if not seen:
+            return {}
+        breaks = zip(seen, locate_vanishing(self.columns, list(seen.values()), self.strips).tolist(), strict=True)
+        return {i: D for i, D in breaks if i.low < D < i.high}
 
 
-def _converged(batch: Batch, pieces, strips, pressure_goal) -> tuple[Batch, np.ndarray, np.ndarray]:
-    """Append what has converged of a batch to ``pieces``; columns with too many ``strips`` as they are, with the spread of their
-    values as error. Returns the rest, its goals (intervals, q), and which of them have to be divided."""
-    columns, c, floors = batch.columns, batch.coefficients, batch.floors
-    goal = batch.accuracy[:, None] * (np.abs(batch.values).min(axis=1) + floors)
-    rounding = _rounding(batch, c)
-    error = interpolation_errors(c, 0.1 * goal, _BLUR * batch.errors.max(axis=1), rounding)
-    # where next to nothing changes there is little to miss, whatever nobody marked there
-    spread = np.ptp(batch.values, axis=1)
-    error = np.minimum(error, 2 * spread)
-    if pressure_goal is not None:
-        goal = np.full_like(goal, np.inf)
-        goal[:, 0] = pressure_goal[batch.column]
-    elif columns.asked.frictional:
-        goal[:, 0] = _pressure_goal(batch.values, goal)
-    # what the means leave of it
-    goal = np.maximum(goal - batch.errors.max(axis=1), _INTERPOLATION * goal)
-    done = (error <= goal).all(axis=1)
-    done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in batch.intervals]
-    ended = ~done & (strips[batch.column] > CURVE_LIMIT)
-    if ended.any():
-        V = columns.V[batch.column[ended]]
-        columns.work.limit_reached(V, columns.level.l, "the curve over penetration did not converge")
-        error[ended], done = np.maximum(error, spread)[ended], done | ended
-    for k in np.flatnonzero(done):
-        i, size = batch.intervals[k], np.abs(batch.values[k])
-        relative = (batch.errors[k] / (size + floors[k])).max(axis=0)
-        series, soft = error[k] + _ROUNDED * rounding[k], (i.inner_low, i.inner_high)
-        errors = Errors(series + batch.errors[k].max(axis=0), series + relative * floors[k], relative)
-        pieces[i.column].append(Piece(i.low, i.high, c[k], errors, *soft, i.endpoint_map))
-    missed = error / goal
-    # coefficients fall geometrically: where twice the nodes would miss the goal by missed (missed / before)^2, halves are better
-    hopeless = (missed > np.maximum(batch.missed, 1.0) ** (2 / 3)).any(axis=1) | (batch.n >= _LAST)
-    left = np.flatnonzero(~done)
-    return batch.take(left, missed[left]), goal[left], hopeless[left]
-
-
-def _rounding(batch: Batch, c: np.ndarray) -> np.ndarray:
+def _rounding(columns: LevelBatch, stage: Stage, c: np.ndarray) -> np.ndarray:
     """What the rounding of D makes of the coefficients ``c``, (intervals, q): next to a break where the means are like square
     roots it tells."""
-    n = batch.n
+    n = stage.n
     ends = np.stack(((-1.0) ** np.arange(n + 1) @ c, c.sum(axis=1)), axis=1)
-    values = np.concatenate((ends[:, :1], batch.values, ends[:, 1:]), axis=1)
-    D = np.array([i.penetrations(lobatto(n)) for i in batch.intervals])
-    digit = EPS * np.maximum(np.abs(D).max(axis=1), batch.columns.level.h)
-    apart = np.diff(D)
+    values, D = np.concatenate((ends[:, :1], stage.known[0], ends[:, 1:]), axis=1), places(stage.parts, lobatto(n))
+    apart, digit = np.diff(D), EPS * np.maximum(np.abs(D).max(axis=1), columns.level.h)
     share = np.minimum(np.divide(digit[:, None], apart, out=np.ones_like(apart), where=apart > 0), 1.0)
     steps = np.abs(np.diff(values, axis=1)) * share[:, :, None]
     return (np.abs(flat_ended(n)) @ np.maximum(steps[:, 1:], steps[:, :-1])).max(axis=1)
@@ -187,19 +224,3 @@ def _pressure_goal(values, goal):
     pressure, friction = np.ptp(values[:, :, 0], axis=1), np.ptp(values[:, :, 1], axis=1)
     share = np.divide(goal[:, 1], friction, out=np.full_like(friction, np.inf), where=friction > 0)
     return np.maximum(goal[:, 0], pressure * np.minimum(share, _COARSEST))
-
-
-def _isolated_regimes(columns: LevelBatch, left, strips) -> dict[Interval, float]:
-    """Breaks inside intervals of ``left`` that have to be divided (batches, their goals, and which have to be): penetrations at
-    which something appears or vanishes between two nodes, away from the crest."""
-    seen = {}
-    for batch, goal, hopeless in left:
-        for k in np.flatnonzero(hopeless):
-            i = batch.intervals[k]
-            found = island(i.column, i.penetrations(lobatto(batch.n)[1:-1]), batch.zones[k], goal[k])
-            if found is not None:
-                seen[i] = found
-    if not seen:
-        return {}
-    breaks = zip(seen, locate_vanishing(columns, list(seen.values()), strips).tolist(), strict=True)
-    return {i: D for i, D in breaks if i.low < D < i.high}

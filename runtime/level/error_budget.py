@@ -9,7 +9,7 @@
 - A piece of a law may be coarser by ``ErrorBudget.tolerance_factor``, the fewer points meet its pressures, further down than
   level 2 the less contact there is; ``merge`` may take a part of what a law may err, ``lower_levels`` integrates to a part of
   what the mean over strips may.
-- Of what an interval of a curve may err its means get a part, ``sampling.MEAN``; where halving it does not help, less:
+- Of what an interval of a curve may err its means get a part, ``interval.MEAN``; where halving it does not help, less:
   ``Accuracy.after``.
 
 Goal-oriented: a law's error counts as much as the part of the surface on which it is used. That part is had from a plain sum over

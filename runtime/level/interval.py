@@ -1,11 +1,20 @@
-"""An interval of penetration on which a curve is interpolated, and what is known of its ends beforehand."""
+"""Intervals of penetration on which curves are interpolated or looked at, and a level's means in them."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+
+import numpy as np
 
 from ..numerics.endpoints import GENTLE, STEEP, EndpointMap
 from .accuracy import Accuracy
+from .error_budget import ErrorBudget
+from .means import level_means
+from .strips import LevelBatch
+
+#: share of the error allowed that each mean may have
+MEAN = 0.4
 
 
 @dataclass(frozen=True)
@@ -41,3 +50,53 @@ class Interval:
     def penetrations(self, t):
         """D at the parameters ``t`` of a piece."""
         return self.low + (self.high - self.low) * self.endpoint_map.share(t)
+
+
+def places(intervals: Sequence[Interval], t: np.ndarray) -> np.ndarray:
+    """Penetrations at the parameters ``t`` (nodes,) of each of the ``intervals``, (intervals, nodes)."""
+    return np.array([i.penetrations(t) for i in intervals])
+
+
+def array_of(intervals: Sequence[Interval]) -> np.ndarray:
+    """The intervals as an array of objects."""
+    return np.array([*intervals, None], object)[:-1]
+
+
+def columns_of(intervals: Sequence[Interval]) -> np.ndarray:
+    """The column of each, (intervals,)."""
+    return np.array([i.column for i in intervals], int)
+
+
+def within(columns: LevelBatch, intervals: Sequence[Interval], D: np.ndarray) -> LevelBatch:
+    """The columns of the ``intervals`` (m,) at the penetrations ``D`` (m,), as accurate as is asked of these."""
+    columns = columns.at(columns_of(intervals), D)
+    return replace(columns, asked=columns.asked.within([i.asked for i in intervals], np.arange(len(intervals))))
+
+
+def means_in(columns: LevelBatch, rtol: np.ndarray, intervals: Sequence[Interval], D: np.ndarray, strips: np.ndarray) -> tuple:
+    """Means (m, q), their errors (m, q) and the zones met (m,) at penetrations ``D`` (m,) in the ``intervals`` (m,), to the
+    ``rtol`` of each column and what is asked of each interval; ``strips`` (per column) counts the work."""
+    column = columns_of(intervals)
+    means = level_means(within(columns, intervals, D), MEAN * rtol[column] * [i.asked.coarser * i.asked.means for i in intervals])
+    np.add.at(strips, column, means.strips)
+    return means.values, means.errors, np.array([*means.zones, None], object)[:-1]
+
+
+def weighed(
+    columns: LevelBatch,
+    budget: ErrorBudget,
+    intervals: Sequence[Interval],
+    values: Sequence[np.ndarray],
+    ceiling: np.ndarray | None,
+) -> np.ndarray:
+    """The intervals as coarse as the ``budget`` allows where pressures, those above the ``ceiling`` (Pa, per column) apart, and
+    frictions are as in ``values`` (nodes, q) of each."""
+    out, frictions = [], columns.frictions
+    # what an accuracy is relative to, of its own friction and all that it carries
+    floors = replace(columns, asked=replace(columns.asked, friction=0.0)).floors[:, frictions]
+    for i, v in zip(intervals, values, strict=True):
+        friction = (np.abs(v[:, frictions]).min(axis=0) + floors[i.column]).sum()
+        low, high = v[:, 0].min(), v[:, 0].max() if ceiling is None else min(v[:, 0].max(), ceiling[i.column])
+        asked = i.asked.relaxed(budget.tolerance_factor(i.column, low, high, friction), budget.fractions(i.column, low, high))
+        out.append(replace(i, asked=asked))
+    return array_of(out)

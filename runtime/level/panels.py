@@ -1,4 +1,4 @@
-"""Panels of y between breakpoints of the integrand, and what is known at their nodes."""
+"""Panels of y between breakpoints of the integrand."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..numerics.quadrature import interior_nodes, mapped, mapped_weights
+from ..numerics.quadrature import mapped, mapped_weights
 from ..orbit.batch import Batch
 
 #: nodes of a panel at first and at most, and one more
@@ -36,29 +36,6 @@ class Panels(Batch):
         """Thetas at the parameters ``t`` of every panel, (panels, t)."""
         return self.low[:, None] + self.width[:, None] * mapped(t)
 
-
-@dataclass
-class Stage:
-    """Panels on the same number ``n`` of nodes, and what is ``known`` at the interior ones: codes, values, heights and edges,
-    (panels, nodes, ...); empty for those that were not looked at yet, whose nodes are the first."""
-
-    panels: Panels
-    n: int = FIRST
-    known: tuple[np.ndarray, ...] = ()
-
-    def take(self, which) -> Stage:
-        return Stage(self.panels.take(which), self.n, tuple(v[which] for v in self.known))
-
-    @property
-    def theta(self) -> np.ndarray:
-        """Of the nodes at which strips are known, (panels, nodes)."""
-        return self.panels.at(interior_nodes(self.n))
-
-    def next_nodes(self) -> tuple[int, np.ndarray]:
-        """How many nodes are next, and the thetas (panels, new nodes) of those of them that are not known."""
-        n = 2 * self.n if self.known else self.n
-        return n, self.panels.at(interior_nodes(n)[:: 2 if self.known else 1])
-
-    def sums(self) -> np.ndarray:
-        """Integrals over the panels, (panels, q)."""
-        return self.panels.width[:, None] * (mapped_weights(self.n) @ self.known[1])
+    def sums(self, values: np.ndarray) -> np.ndarray:
+        """Integrals (panels, q) of what has the ``values`` (panels, n - 1, q) at the interior ones of n nodes."""
+        return self.width[:, None] * (mapped_weights(values.shape[1] + 1) @ values)

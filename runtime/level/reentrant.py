@@ -11,9 +11,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..numerics.chebyshev import lobatto
-from .interval import Interval
-from .sampling import MEAN, means_in
+from ..numerics.nested import Stage, sampled
+from ..numerics.quadrature import interior_nodes
+from .error_budget import ErrorBudget
+from .interval import Interval, array_of, columns_of, means_in, places, weighed
 from .strips import LevelBatch
 
 #: accuracy of the look, and its nodes; narrower intervals, as a share of the column's, have fewer
@@ -22,10 +23,24 @@ _ROUGH, _MANY, _FEW, _NARROW = 5e-3, 16, 4, 0.05
 _DOUBT, _BEND = 2.0, 0.5
 
 
-def reentrant_parts(columns: LevelBatch, intervals: list[Interval], least: np.ndarray, strips: np.ndarray) -> list[Interval]:
-    """The parts of the ``intervals`` that unloading may come to after the pressures ``least`` (Pa, per column)."""
-    met, out = least.copy(), []
-    for look, D, values, error in sorted(_looks(columns, intervals, strips), key=lambda look: -look[0].high):
+def reentrant_parts(
+    columns: LevelBatch, intervals: list[Interval], least: np.ndarray, strips: np.ndarray, budget: ErrorBudget | None
+) -> list[Interval]:
+    """The parts of the ``intervals`` that unloading may come to after the pressures ``least`` (Pa, per column), as coarse as the
+    ``budget`` allows; ``strips`` (per column) counts the work."""
+    whole, met, out = np.zeros(columns.size), least.copy(), []
+    np.add.at(whole, columns_of(intervals), [i.high - i.low for i in intervals])
+    evenly = array_of([replace(i, even=True) for i in intervals])
+    narrow = np.array([i.high - i.low < _NARROW * whole[i.column] for i in evenly])
+    rough = np.full(columns.size, _ROUGH)
+    stages = [Stage(evenly[which], n) for n, which in ((_FEW, narrow), (_MANY, ~narrow)) if which.any()]
+    stages = sampled(stages, places, lambda parts, D: means_in(columns, rough, np.concatenate(parts), D, strips))
+    looks = [
+        (i, i.penetrations(interior_nodes(stage.n)), values, errors[:, 0])
+        for stage in stages
+        for i, values, errors, _ in zip(stage.parts, *stage.known, strict=True)
+    ]
+    for look, D, values, error in sorted(looks, key=lambda look: -look[0].high):
         column, p = look.column, values[:, 0]
         bend = np.pad(np.abs(p[:-2] - 2 * p[1:-1] + p[2:]), 1)
         slack = _DOUBT * np.maximum(error[:-1], error[1:]) + _BEND * np.maximum(bend[:-1], bend[1:])
@@ -40,18 +55,7 @@ def reentrant_parts(columns: LevelBatch, intervals: list[Interval], least: np.nd
                 continue
             soft = look.inner_low or first > 0, look.inner_high or last < p.size - 1
             low, high = D[first] if first > 0 else look.low, D[last] if last < p.size - 1 else look.high
-            out.append(replace(look, low=float(low), high=float(high), inner_low=soft[0], inner_high=soft[1], even=False))
+            part = replace(look, low=float(low), high=float(high), inner_low=soft[0], inner_high=soft[1], even=False)
+            out += [part] if budget is None else [*weighed(columns, budget, [part], [values[first : last + 1]], least)]
         met[column] = min(met[column], (p + error).min())
     return out
-
-
-def _looks(columns: LevelBatch, intervals: list[Interval], strips) -> list[tuple[Interval, np.ndarray, np.ndarray, np.ndarray]]:
-    """The intervals, as they were seen, with penetrations, means (nodes, q), and how far the pressures may be off (nodes)."""
-    whole = np.zeros(columns.size)
-    for i in intervals:
-        whole[i.column] += i.high - i.low
-    evenly = [replace(i, even=True) for i in intervals]
-    nodes = [lobatto(_FEW if i.high - i.low < _NARROW * whole[i.column] else _MANY)[1:-1] for i in evenly]
-    places = [i.penetrations(t) for i, t in zip(evenly, nodes, strict=True)]
-    means = means_in(columns, evenly, places, np.full(len(evenly), MEAN * _ROUGH), strips)
-    return [(i, D, m.values, m.errors[:, 0]) for i, D, m in zip(evenly, places, means, strict=True)]
