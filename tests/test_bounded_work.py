@@ -7,7 +7,7 @@ import pytest
 
 import hystrip
 from hystrip import multilevel
-from hystrip.level import averages, curve, descent
+from hystrip.level import averages, descent, interpolation
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
@@ -32,7 +32,7 @@ def test_what_converges_says_so_without_a_warning():
 
 @pytest.mark.parametrize(
     ("module", "limit", "value", "words"),
-    [(curve, "CURVE_LIMIT", 200, "curve"), (averages, "AVERAGE_LIMIT", 30, "average")],
+    [(interpolation, "CURVE_LIMIT", 200, "curve"), (averages, "AVERAGE_LIMIT", 30, "average")],
     ids=["curve", "average"],
 )
 def test_a_point_that_runs_into_a_limit_is_said_to_have_and_bounds_its_error(monkeypatch, module, limit, value, words):
@@ -54,7 +54,7 @@ def test_a_branch_that_the_work_leaves_undecided_is_not_claimed(monkeypatch):
     at = {"pressure": pull_off * (1 - 1e-4), "V": 1e-3, "rtol": 1e-6}
     assert hystrip.solve_level(MATERIAL, ADHESION, LEVELS[0], **at | {"pressure": pull_off * (1 + 1e-4)}).pulled_off
     assert hystrip.solve_level(MATERIAL, ADHESION, LEVELS[0], **at).converged
-    for module in (curve, descent):
+    for module in (interpolation, descent):
         monkeypatch.setattr(module, "CURVE_LIMIT", 0)
     with pytest.warns(hystrip.ConvergenceWarning, match="curve"):
         level = hystrip.solve_level(MATERIAL, ADHESION, LEVELS[0], **at)
@@ -98,7 +98,7 @@ def test_a_friction_law_says_whether_it_converged(monkeypatch):
         warnings.simplefilter("error")
         exact = hystrip.friction_law(MATERIAL, ADHESION, LEVELS[1], **at)
     assert exact.converged is True
-    monkeypatch.setattr(curve, "CURVE_LIMIT", 200)
+    monkeypatch.setattr(interpolation, "CURVE_LIMIT", 200)
     with pytest.warns(
         hystrip.ConvergenceWarning, match=r"friction law .* rtol = 0\.0001; V 0\.001: the curve .*l = 5e-07"
     ) as said:

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import hystrip
-from hystrip.level.curve import interpolate, smooth_intervals
+from hystrip.level.curve import smooth_intervals
+from hystrip.level.interpolation import interpolate
 from hystrip.level.means import level_means
 from hystrip.level.strips import LevelBatch, saturation_depth
 from hystrip.numerics.chebyshev import evaluate, flat_ended, lobatto

@@ -6,8 +6,8 @@ import surfaces
 
 import hystrip
 from hystrip.level.breaks import breakpoints, breaks_on, first_contact
-from hystrip.level.curve import Interval, interpolate
 from hystrip.level.interior_breaks import IsolatedRegime, island, locate_vanishing
+from hystrip.level.interpolation import Interval, interpolate
 from hystrip.level.means import level_means
 from hystrip.level.strips import LevelBatch, saturation_depth
 from hystrip.level.zones import Zones

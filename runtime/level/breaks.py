@@ -14,7 +14,7 @@ from .boundaries import located
 from .changes import Changes, locate_changes
 from .strips import LevelBatch
 
-_SCAN = 48
+_SCAN = 32
 
 
 def first_contact(columns: LevelBatch) -> float:

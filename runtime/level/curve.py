@@ -1,44 +1,24 @@
 """A level's means as a function of penetration, from the first contact to saturation, one curve per velocity.
 
-Between its breaks (``breaks.py``) a curve is interpolated; pieces that do not converge are halved, or split where strips enter a
-new regime. All velocities advance together.
+Between its breaks (``breaks.py``) a curve is interpolated (``interpolation.py``). All velocities advance together.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from ..numerics.chebyshev import flat_ended, interpolation_errors, lobatto
-from ..numerics.nested import Stage, sampled
-from ..numerics.quadrature import interior_nodes
-from ..numerics.rounding import EPS
 from .breaks import breakpoints, threshold_width
-from .effort import CURVE_LIMIT
 from .error_budget import ErrorBudget
-from .interior_breaks import island, locate_vanishing
-from .interval import MEAN, Interval, array_of, columns_of, means_in, places, weighed, within
-from .piece import Errors, Piece
+from .interpolation import interpolate
+from .interval import Interval
+from .piece import Piece
 from .reentrant import reentrant_parts
 from .strips import LevelBatch, saturation_depth
 
-#: nodes of an interval, and one more: those that tell what pressures it comes to; the first that an error can be told from, and
-#: for more than a coarse pressure; and the last, for what they do not tell is divided
-_LOOK, _COARSE, _FIRST, _LAST = 6, 8, 12, 96
-#: share of the error allowed that interpolating may have at least: the means may have the rest
-_INTERPOLATION = 1 - MEAN
-#: coefficients below this share of what the means may err say nothing of how smooth they are
-_BLUR = 0.1
-#: an interval's pressure is known at least this well
-_COARSEST = 1e-3
-#: a piece narrower than this, relative to D, is taken as it is
-_NARROWEST = 1e-11
 #: parameters at which a piece is looked at
 _GRID = np.linspace(0, 1, 65)
-#: error of a piece by what rounding may make of each of its coefficients
-_ROUNDED = 8.0
 
 
 @dataclass(frozen=True)
@@ -69,8 +49,8 @@ def trace(
     pieces = interpolate(columns, rtol, above, strips, budget=budget)
     if below:
         least = np.array([min((piece.values(_GRID)[:, 0].min() for piece in row), default=np.inf) for row in pieces])
-        comes = reentrant_parts(columns, below, least, strips, budget)
-        for row, more in zip(pieces, interpolate(columns, rtol, comes, strips, budget=budget, ceiling=least), strict=True):
+        parts = reentrant_parts(columns, below, least, strips, budget)
+        for row, more in zip(pieces, interpolate(columns, rtol, parts, strips, budget=budget, ceiling=least), strict=True):
             row += more
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
 
@@ -90,137 +70,3 @@ def smooth_intervals(columns: LevelBatch, top: np.ndarray) -> tuple[list[list[In
         for i, points in enumerate(breaks)
     ]
     return rows, crest
-
-
-def interpolate(
-    columns: LevelBatch,
-    rtol: np.ndarray,
-    intervals: Sequence[Interval],
-    strips: np.ndarray,
-    pressure_goal: np.ndarray | None = None,
-    budget: ErrorBudget | None = None,
-    ceiling: np.ndarray | None = None,
-) -> list[list[Piece]]:
-    """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work.
-
-    ``pressure_goal`` (per column): nothing counts but the pressure, to that error, Pa. ``budget``: how much the pressures of an
-    interval count, those above the ``ceiling`` (Pa, per column) not at all.
-    """
-    work = _Work(columns, rtol, strips, pressure_goal, budget, ceiling, [[] for _ in range(columns.size)])
-    stages = work.start(intervals)
-    while stages:
-        stages = work.refine(stages)
-    return work.pieces
-
-
-@dataclass
-class _Work:
-    """See ``interpolate``. Of its stages the parts are intervals, and known are means, their errors and zones."""
-
-    columns: LevelBatch
-    rtol: np.ndarray
-    strips: np.ndarray
-    pressure_goal: np.ndarray | None
-    budget: ErrorBudget | None
-    ceiling: np.ndarray | None
-    pieces: list[list[Piece]]
-
-    def start(self, intervals: Sequence[Interval]) -> list[Stage]:
-        """Intervals on their first nodes."""
-        # a budget has to know what pressures an interval comes to before it says how well they have to be known
-        known = _COARSE if self.pressure_goal is not None else _FIRST
-        first = np.array([known if self.budget is None or i.asked.frictional else _LOOK for i in intervals], int)
-        return [Stage(array_of(intervals)[first == n], n) for n in np.unique(first).tolist()]
-
-    def refine(self, stages: list[Stage]) -> list[Stage]:
-        """Keep what converges under doubling; return what is left, divided where more nodes would not help."""
-
-        def means(intervals, D):
-            return means_in(self.columns, self.rtol, np.concatenate(intervals), D, self.strips)
-
-        going, left = [], []
-        for stage in sampled(stages, places, means):
-            if stage.n > _LOOK:
-                left.append(self._converged(stage))
-                continue
-            going.append(replace(stage, parts=weighed(self.columns, self.budget, stage.parts, stage.known[0], self.ceiling)))
-        breaks, parts = self._isolated_regimes(left), []
-        for stage, _, missed, hopeless in left:
-            for i, by in zip(stage.parts[hopeless], missed[hopeless], strict=True):
-                if i in breaks:
-                    parts += i.split(breaks[i], soft=False)
-                else:
-                    parts += replace(i, asked=i.asked.after(float(by.max()))).halves
-            going.append(stage.take(~hopeless))
-        return [stage for stage in (*going, *self.start(parts)) if stage.parts.size]
-
-    def _converged(self, stage: Stage) -> tuple[Stage, np.ndarray, np.ndarray, np.ndarray]:
-        """Append what has converged to the pieces; of columns with too many strips all as it is, with the spread of the values as
-        error. Returns the rest, its goals (intervals, q), its errors over them, and which of it have to be divided."""
-        columns, intervals, (values, errors, _) = self.columns, stage.parts, stage.known
-        column, c = columns_of(intervals), flat_ended(stage.n) @ values
-        floors = within(columns, intervals, columns.D[column]).floors
-        goal = (self.rtol[column] * [i.asked.coarser for i in intervals])[:, None] * (np.abs(values).min(axis=1) + floors)
-        blur, rounding, spread = _BLUR * errors.max(axis=1), _rounding(columns, stage, c), np.ptp(values, axis=1)
-        # where next to nothing changes there is little to miss, whatever nobody marked there
-        error = np.minimum(interpolation_errors(c, 0.1 * goal, blur, rounding), 2 * spread)
-        before = np.full_like(error, np.inf)
-        if stage.n >= 2 * _COARSE:
-            before = interpolation_errors(flat_ended(stage.n // 2) @ values[:, 1::2], 0.1 * goal, blur, rounding)
-        if self.pressure_goal is not None:
-            goal = np.full_like(goal, np.inf)
-            goal[:, 0] = self.pressure_goal[column]
-        elif columns.asked.frictional:
-            goal[:, 0] = _pressure_goal(values, goal)
-        # what the means leave of it
-        goal = np.maximum(goal - errors.max(axis=1), _INTERPOLATION * goal)
-        done = (error <= goal).all(axis=1)
-        done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in intervals]
-        ended = ~done & (self.strips[column] > CURVE_LIMIT)
-        if ended.any():
-            columns.work.limit_reached(columns.V[column[ended]], columns.level.l, "the curve over penetration did not converge")
-            error[ended], done = np.maximum(error, spread)[ended], done | ended
-        for k in np.flatnonzero(done):
-            i, size = intervals[k], np.abs(values[k])
-            relative = (errors[k] / (size + floors[k])).max(axis=0)
-            series, soft = error[k] + _ROUNDED * rounding[k], (i.inner_low, i.inner_high)
-            bounds = Errors(series + errors[k].max(axis=0), series + relative * floors[k], relative)
-            self.pieces[i.column].append(Piece(i.low, i.high, c[k], bounds, *soft, i.endpoint_map))
-        missed = error / goal
-        # coefficients fall geometrically: where missed (missed / before)^2 on twice the nodes is over the goal, halves are better
-        hopeless = (missed > np.maximum(before / goal, 1.0) ** (2 / 3)).any(axis=1) | (stage.n >= _LAST)
-        return stage.take(~done), *(v[~done] for v in (goal, missed, hopeless))
-
-    def _isolated_regimes(self, left) -> dict[Interval, float]:
-        """Breaks inside intervals of ``left`` that have to be divided (see ``_converged``): penetrations at which something
-        appears or vanishes between two nodes, away from the crest."""
-        seen = {}
-        for stage, goal, _, hopeless in left:
-            for k in np.flatnonzero(hopeless):
-                i = stage.parts[k]
-                found = island(i.column, i.penetrations(interior_nodes(stage.n)), stage.known[2][k], goal[k])
-                if found is not None:
-                    seen[i] = found
-        if not seen:
-            return {}
-        breaks = zip(seen, locate_vanishing(self.columns, list(seen.values()), self.strips).tolist(), strict=True)
-        return {i: D for i, D in breaks if i.low < D < i.high}
-
-
-def _rounding(columns: LevelBatch, stage: Stage, c: np.ndarray) -> np.ndarray:
-    """What the rounding of D makes of the coefficients ``c``, (intervals, q): next to a break where the means are like square
-    roots it tells."""
-    n = stage.n
-    ends = np.stack(((-1.0) ** np.arange(n + 1) @ c, c.sum(axis=1)), axis=1)
-    values, D = np.concatenate((ends[:, :1], stage.known[0], ends[:, 1:]), axis=1), places(stage.parts, lobatto(n))
-    apart, digit = np.diff(D), EPS * np.maximum(np.abs(D).max(axis=1), columns.level.h)
-    share = np.minimum(np.divide(digit[:, None], apart, out=np.ones_like(apart), where=apart > 0), 1.0)
-    steps = np.abs(np.diff(values, axis=1)) * share[:, :, None]
-    return (np.abs(flat_ended(n)) @ np.maximum(steps[:, 1:], steps[:, :-1])).max(axis=1)
-
-
-def _pressure_goal(values, goal):
-    """Error of pressure that moves friction by no more than is allowed for it, where friction rises steadily with pressure."""
-    pressure, friction = np.ptp(values[:, :, 0], axis=1), np.ptp(values[:, :, 1], axis=1)
-    share = np.divide(goal[:, 1], friction, out=np.full_like(friction, np.inf), where=friction > 0)
-    return np.maximum(goal[:, 0], pressure * np.minimum(share, _COARSEST))

@@ -12,8 +12,8 @@ import numpy as np
 
 from .branches import Branch, loaded, rising
 from .breaks import breaks_on, first_contact, threshold_width
-from .curve import interpolate
-from .effort import CURVE_LIMIT
+from .effort import CURVE_LIMIT, NO_CURVE
+from .interpolation import interpolate
 from .interval import Interval
 from .piece import Piece
 from .strips import LevelBatch
@@ -66,7 +66,9 @@ class Descent:
             pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), every, strips, goal)
             for (i, walk), intervals in zip(going, now, strict=True):
                 walk.go_on(intervals, pieces[i], bool(strips[i] > CURVE_LIMIT))
-        return [walk.root for walk in self.walks], np.array([walk.undecided for walk in self.walks])
+        undecided = np.array([walk.undecided for walk in self.walks])
+        self.columns.work.limit_reached(self.columns.V[undecided], self.columns.level.l, NO_CURVE)
+        return [walk.root for walk in self.walks], undecided
 
     def _divide(self, walks: list[_Walk]) -> None:
         """What is next of each of the ``walks``, one interval, is divided at its breaks."""

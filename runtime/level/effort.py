@@ -11,6 +11,8 @@ from ..orbit.solved import Solved
 #: Strips of one average, and of all averages of one curve over penetration. Three levels at rtol 1e-9 take 600 and 50,000, six
 #: at 1e-3 1,500 and 120,000, two at 1e-12 500 and 130,000; what takes more does not converge.
 AVERAGE_LIMIT, CURVE_LIMIT = 10_000, 150_000
+#: what came to the limit of a curve
+NO_CURVE = "the curve over penetration did not converge"
 
 
 @dataclass

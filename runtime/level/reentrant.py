@@ -17,10 +17,11 @@ from .error_budget import ErrorBudget
 from .interval import Interval, array_of, columns_of, means_in, places, weighed
 from .strips import LevelBatch
 
-#: accuracy of the look, and its nodes; narrower intervals, as a share of the column's, have fewer
-_ROUGH, _MANY, _FEW, _NARROW = 5e-3, 16, 4, 0.05
-#: how much more than its error, and than what it bends between two nodes, a pressure has to keep above what was before
-_DOUBT, _BEND = 2.0, 0.5
+#: accuracy of the look, and its nodes at first; narrower intervals, as a share of the column's, have fewer
+_ROUGH, _MANY, _FEW, _NARROW = 5e-3, 6, 4, 0.05
+#: how much more than its error a pressure keeps above what was before, and than what it bends between two nodes, which are the
+#: first ones or twice as many
+_DOUBT, _BENDS = 2.0, (1.0, 0.5)
 
 
 def reentrant_parts(
@@ -28,13 +29,27 @@ def reentrant_parts(
 ) -> list[Interval]:
     """The parts of the ``intervals`` that unloading may come to after the pressures ``least`` (Pa, per column), as coarse as the
     ``budget`` allows; ``strips`` (per column) counts the work."""
-    whole, met, out = np.zeros(columns.size), least.copy(), []
+    whole = np.zeros(columns.size)
     np.add.at(whole, columns_of(intervals), [i.high - i.low for i in intervals])
     evenly = array_of([replace(i, even=True) for i in intervals])
     narrow = np.array([i.high - i.low < _NARROW * whole[i.column] for i in evenly])
     rough = np.full(columns.size, _ROUGH)
-    stages = [Stage(evenly[which], n) for n, which in ((_FEW, narrow), (_MANY, ~narrow)) if which.any()]
-    stages = sampled(stages, places, lambda parts, D: means_in(columns, rough, np.concatenate(parts), D, strips))
+
+    def means(parts, D):
+        return means_in(columns, rough, np.concatenate(parts), D, strips)
+
+    stages = sampled([Stage(evenly[which], n) for n, which in ((_FEW, narrow), (_MANY, ~narrow)) if which.any()], places, means)
+    doubtful = {look for look, *_ in _parts(stages, least, _BENDS[0])}
+    apart = [(stage, np.array([i in doubtful for i in stage.parts])) for stage in stages]
+    stages, again = [stage.take(~which) for stage, which in apart], [stage.take(which) for stage, which in apart if which.any()]
+    found = _parts([*stages, *(sampled(again, places, means) if again else [])], least, _BENDS[1])
+    parts = [part for _, part, _ in found]
+    return parts if budget is None else weighed(columns, budget, parts, [values for *_, values in found], least)
+
+
+def _parts(stages: list[Stage], least: np.ndarray, bends: float) -> list[tuple[Interval, Interval, np.ndarray]]:
+    """Intervals that were looked at, their parts that unloading may come to, and the means there, (nodes, q)."""
+    met, out = least.copy(), []
     looks = [
         (i, i.penetrations(interior_nodes(stage.n)), values, errors[:, 0])
         for stage in stages
@@ -43,7 +58,7 @@ def reentrant_parts(
     for look, D, values, error in sorted(looks, key=lambda look: -look[0].high):
         column, p = look.column, values[:, 0]
         bend = np.pad(np.abs(p[:-2] - 2 * p[1:-1] + p[2:]), 1)
-        slack = _DOUBT * np.maximum(error[:-1], error[1:]) + _BEND * np.maximum(bend[:-1], bend[1:])
+        slack = _DOUBT * np.maximum(error[:-1], error[1:]) + bends * np.maximum(bend[:-1], bend[1:])
         floor = np.minimum(p[:-1], p[1:]) - slack
         # the least that was before, above the upper end of each part
         before = np.minimum(np.minimum.accumulate((p + error)[:0:-1])[::-1], met[column])
@@ -56,6 +71,6 @@ def reentrant_parts(
             soft = look.inner_low or first > 0, look.inner_high or last < p.size - 1
             low, high = D[first] if first > 0 else look.low, D[last] if last < p.size - 1 else look.high
             part = replace(look, low=float(low), high=float(high), inner_low=soft[0], inner_high=soft[1], even=False)
-            out += [part] if budget is None else [*weighed(columns, budget, [part], [values[first : last + 1]], least)]
+            out.append((look, part, values[first : last + 1]))
         met[column] = min(met[column], (p + error).min())
     return out
