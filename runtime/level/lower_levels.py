@@ -46,12 +46,12 @@ class LowerLevelLaws:
     friction: np.ndarray
 
     def breaks(self, group: np.ndarray) -> np.ndarray:
-        """See ``strips.LowerLevels``."""
+        """Pressures (m, k), Pa, ascending, at which the laws of each ``group`` are not smooth; inf where there are fewer."""
         return self.table.breaks[group]
 
     def crossed(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """See ``strips.LowerLevels``: how many breaks the greatest pressure exceeds, and how many the pressure exceeds all
-        along (or at entry)."""
+        """Codes (m,) of the law breaks that each strip's pressure passes: how many breaks its greatest exceeds, and how many it
+        exceeds all along (or at entry)."""
         crossed = np.zeros(group.size, int)
         index, contact = strips.touching
         if index.size:
@@ -61,7 +61,7 @@ class LowerLevelLaws:
         return crossed
 
     def heights(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """See ``strips.LowerLevels``."""
+        """Greatest, then least pressure of each strip over the law's breaks, (m, k), Pa; NaN without contact."""
         out = np.full((group.size, 2 * self.table.breaks.shape[1]), np.nan)
         index, contact = strips.touching
         if index.size:
@@ -70,7 +70,7 @@ class LowerLevelLaws:
         return out
 
     def over_contact(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """See ``strips.LowerLevels``. The contributions are the law's quantities from friction on, then their error."""
+        """Contributions averaged over the period, (m, q): the law's quantities from friction on, then their error."""
         carried = np.zeros((group.size, self.scales.size))
         index, contact = strips.touching
         if index.size:

@@ -24,7 +24,7 @@ def equal_strips(columns: LevelBatch, strips: int) -> Averages:
     """
     theta = np.pi * (np.arange(strips) + 0.5) / strips
     column = np.repeat(np.arange(columns.size), strips)
-    _, values = columns.integrand(column, np.tile(theta, columns.size))
+    _, values, *_ = columns.evaluate(column, np.tile(theta, columns.size))
     values = values.reshape(columns.size, strips, -1)
     mean = values.mean(axis=1)
     # a jump of the integrand shifts the sum by up to one strip's share of it; a kink by less

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,27 +21,10 @@ from .saturated import saturated_level
 
 if TYPE_CHECKING:
     from ..orbit.contact import Contact
+    from .lower_levels import LowerLevelLaws
 
 #: What is averaged over the strips of a level, in this order; what lower levels carry in its contact follows.
 QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
-
-
-class LowerLevels(Protocol):
-    """What the levels below contribute in the contact of a strip."""
-
-    scales: np.ndarray
-
-    def breaks(self, group: np.ndarray) -> np.ndarray:
-        """Pressures (m, k), Pa, ascending, at which the laws of each ``group`` are not smooth; inf where there are fewer."""
-
-    def crossed(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """Codes (m,) of the law breaks that each strip's pressure passes."""
-
-    def heights(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """Greatest, then least pressure of each strip over the law's breaks, (m, k), Pa; NaN without contact."""
-
-    def over_contact(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """Contributions averaged over the period, (m, q)."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +44,7 @@ class LevelBatch:
     branch: str
     V: np.ndarray
     D: np.ndarray
-    carry: LowerLevels | None = None
+    carry: LowerLevelLaws | None = None
     group: np.ndarray | None = None
     strips: int | None = None
     asked: Accuracy = Accuracy()
@@ -124,11 +107,6 @@ class LevelBatch:
         """Codes that change wherever the integrand may not be smooth, (m,): the regime, and the breaks of the law below that are
         passed."""
         return self._codes(self.solve(column, theta), column)
-
-    def integrand(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Codes (m,) and the values to average (m, q)."""
-        strips = self.solve(column, theta)
-        return self._codes(strips, column), self._values(strips, column)
 
     def _values(self, strips: SolvedStrips, column):
         if self.carry is None:
