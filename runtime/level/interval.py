@@ -37,8 +37,9 @@ class Interval:
 
     @property
     def halves(self) -> list[Interval]:
-        """The two halves; the curve goes on smoothly between them."""
-        return self.split(0.5 * (self.low + self.high), soft=True)
+        """Halves by parameter, so that the one next to an end that is like a root is the smaller by far; the curve goes on
+        smoothly between them."""
+        return self.split(float(self.penetrations(0.5)), soft=True)
 
     @property
     def endpoint_map(self) -> EndpointMap:
