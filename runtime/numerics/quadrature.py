@@ -10,6 +10,7 @@ from functools import lru_cache
 import numpy as np
 
 from .rounding import EPS
+from .rules import extrapolated
 
 #: coefficients in the middle of a series that those at its end are held against: one may be small by chance
 _MIDDLE = 3
@@ -80,6 +81,15 @@ def _second_kind(n: int) -> np.ndarray:
     return (2 / n) * np.sin(np.outer(np.arange(1, n), angle)) * np.sin(angle)
 
 
+@lru_cache
+def _changes(n: int) -> np.ndarray:
+    """Weights of the changes of sums over n nodes from half of them to all, and from a quarter to half, (2, n - 1)."""
+    sums = np.zeros((3, n - 1))
+    for row, k in zip(sums, (1, 2, 4), strict=True):
+        row[k - 1 :: k] = mapped_weights(n // k)
+    return sums[:2] - sums[1:]
+
+
 def _runs(n: int) -> tuple[int, int]:
     """How many of the last coefficients of n nodes are looked at: so many that those of a singularity inside, which come and go,
     are not all small; and so few that they come of nothing but what falls slowest."""
@@ -126,14 +136,18 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
 
     The last coefficients say how much is left, and their pace how fast it falls: the one since the middle, or the one among the
     last, which is slower where a layer next to an end is all that is left. Where coefficients fall geometrically the second is
-    believed, and the geometric mean of both where it is the smaller one, which may be chance; elsewhere the larger.
+    believed, and the geometric mean of both where it is the smaller one, which may be chance; elsewhere the larger. A run of
+    coefficients may be small by chance, where they come and go: no error is less than sums on half and a quarter of the nodes
+    tell, there at the pace of sums that converge geometrically, elsewhere at that of any (``rules``).
     """
     n = values.shape[1] + 1
     # nodes first and intervals last: largest ones are had fastest so
-    c, values = (np.ascontiguousarray(np.moveaxis(v, 0, 2)) for v in (_second_kind(n) @ values, values))
+    told = np.concatenate((_second_kind(n), _changes(n))) @ values
+    c, values = (np.ascontiguousarray(np.moveaxis(v, 0, 2)) for v in (told, values))
     # what is rounding says nothing of the singularities
     largest = np.abs(values).max(axis=0)
     c = np.maximum(np.abs(c) - 16 * EPS * largest, 0.0)
+    c, (change, before) = c[:-2], c[-2:]
     noise = noise.T
     amplitude = c[1:].max(axis=0) + noise + np.finfo(float).tiny + _NOTHING * largest
     shape = (c / amplitude).max(axis=1)
@@ -151,7 +165,10 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     doubtful = _SAFE * np.maximum(first, second)
     # as those of a kink may fall: by a power, and coming and going; so the next ones by as much as these
     slow = np.where(ratio > _POWER, np.maximum(doubtful, _TURNS * size * ratio), doubtful)
-    return np.where(sure, _SAFE * np.sqrt(np.maximum(first, second) * second), slow).T
+    fall = _ratio(change, before)
+    # where sums fall geometrically what is left is in the square of that ratio to the last change
+    least = np.where(sure, change * fall**2, extrapolated(change, fall))
+    return np.maximum(least, np.where(sure, _SAFE * np.sqrt(np.maximum(first, second) * second), slow)).T
 
 
 def _ratio(last, first):

@@ -45,14 +45,19 @@ def by_rules(
     return out, errors
 
 
+def extrapolated(change: np.ndarray, ratio: np.ndarray) -> np.ndarray:
+    """What sums miss whose last ``change`` is this and in this ``ratio`` to the one before."""
+    return _SAFE * change * ratio
+
+
 def _left(sums, change, last, fastest, at_once: bool):
     """Error of ``sums`` (m, q) whose last ``change`` and the one before, ``last``, are these, or None."""
     if last is not None:
         change = np.maximum(change, fastest * last)
         ratio = np.divide(change, last, out=np.ones_like(change), where=last > change)
-        return _SAFE * change * ratio.max(axis=1, keepdims=True)
+        return extrapolated(change, ratio.max(axis=1, keepdims=True))
     if change is None or not at_once:
         return np.full_like(sums, np.inf)
     # alone it may be small by chance: all quantities change where one does
     roughest = np.divide(change, np.abs(sums), out=np.zeros_like(change), where=sums != 0).max(axis=1, keepdims=True)
-    return _SAFE * _UNKNOWN * np.maximum(change, _SHARED * roughest * np.abs(sums))
+    return extrapolated(np.maximum(change, _SHARED * roughest * np.abs(sums)), _UNKNOWN)
