@@ -260,10 +260,10 @@ class _Solve:
         return np.setdiff1d(every, mine[sure])
 
     def _penetrations(self, columns: LevelBatch, index) -> Inverse:
-        """Penetration of each point (NaN below pull-off) and the slope d(tau)/dp of level 1 there."""
+        """Penetration of each point (NaN below pull-off) and the slopes of level 1 over pressure there."""
         load = self.load[index]
         if not self.by_pressure:
-            return Inverse(load.copy(), *np.zeros((2, index.size)), *np.zeros((2, index.size), bool))
+            return Inverse.at(load.copy())
         out = invert(columns, load, 0.5 * self.surface.rtol)
         off = np.isnan(out.D)
         self.out.pulled_off[index[off]] = True
@@ -300,21 +300,15 @@ class _Solve:
         return out
 
     def _write(self, index, root: Inverse, means):
-        out, values, errors, slopes = self.out, means.values, means.errors, root.slope
+        out, values = self.out, means.values
         out.D[index] = root.D
-        p = values[:, 0]
-        miss = np.zeros(index.size)
-        if self.by_pressure:
-            miss = self.load[index] - p
-            p = self.load[index]
-        out.p[index] = p
+        p = out.p[index] = self.load[index] if self.by_pressure else values[:, 0]
+        values[:, :_OWN], errors = root.meeting(p, means)
         # what is carried follows its own, three for each level below, then an error for each
         count = _OWN + 3 * (self.M - 1)
         for quantity, rows in enumerate((out.tau, out.contact, out.adhesion), start=1):
             rows[:, index] = values[:, [quantity, *range(_OWN + quantity - 1, count, 3)]].T
-        out.tau[0, index] += slopes * miss
-        error = errors[:, [1, *range(_OWN, count, 3)]].sum(axis=1) + np.abs(values[:, count:]).sum(axis=1)
-        error += np.abs(slopes) * errors[:, 0] + root.doubt * np.abs(miss)
+        error = errors[:, 1] + means.errors[:, range(_OWN, count, 3)].sum(axis=1) + np.abs(values[:, count:]).sum(axis=1)
         # another part of the curve may carry anything; and the other side of a jump any friction of the lower levels
         friction = np.abs(out.tau[:, index])
         out.error[index] = error + np.where(root.undecided, friction.sum(axis=0), 0.0)

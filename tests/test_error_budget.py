@@ -1,6 +1,7 @@
 """A law is as accurate as what is asked of it; rims that hold on after the crest are found; laws on cells; whose error a break
 has."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -168,7 +169,7 @@ def test_a_pressure_in_a_jump_of_the_curve_has_the_friction_of_a_mixture(unloadi
     walk = _Walk(unloading, 2.0, 1e-6, 1e-6, [])
     for some in [pieces] if at_once else [[piece] for piece in (pieces[::-1] if unloading else pieces)]:
         walk.go_on([Interval(0, some[0].low, some[-1].high)], some, False)
-    assert walk.root.D == pytest.approx(1.0) and walk.root.friction_slope == pytest.approx(2.0)
+    assert walk.root.D == pytest.approx(1.0) and walk.root.slope[1] == pytest.approx(2.0)
 
 
 @pytest.mark.parametrize("in_jump", [True, False])
@@ -177,7 +178,7 @@ def test_what_lower_levels_carry_in_a_jump_of_the_curve_is_uncertain(in_jump):
     surface = Surface(MATERIAL, ADHESION, LEVELS, "continuous", "unloading", 1e-3, True, WorkCounters())
     solve = _Solve(surface, np.ones(1), np.full(1, 2.0), True)
     values = np.array([[1.0, 3.0, 0.5, 0.0, 5.0, 0.5, 0.0, 0.0]])
-    root = Inverse(np.ones(1), np.ones(1), np.ones(1), np.zeros(1, bool), np.array([in_jump]))
+    root = replace(Inverse.at(np.ones(1)), slope=np.ones((1, 4)), in_jump=np.array([in_jump]))
     solve._write(np.zeros(1, int), root, SimpleNamespace(values=values, errors=np.zeros_like(values)))
     assert solve.out.tau[:, 0].tolist() == [4.0, 5.0]
     assert solve.out.error[0] == (1.0 + 5.0 if in_jump else 1.0)

@@ -19,7 +19,7 @@ class Accuracy:
     ``fractions``: what errors of fractions are relative to, where it is for pressure and friction that averages are made: 1, or
     more where the pressures are rare; None where fractions count as much. ``coarser``: by so much an interval may err more than
     what is asked of its column; ``means``: by so much finer its means are than usual; ``missed``: error over goal of what it is a
-    half of.
+    half of. ``loads``: pressures are sums of what is nowhere negative, and given: their errors are relative to them alone.
     """
 
     friction: np.ndarray | float = 0.0
@@ -27,6 +27,7 @@ class Accuracy:
     coarser: float = 1.0
     means: float = 1.0
     missed: float = np.inf
+    loads: bool = False
 
     def at(self, index: np.ndarray) -> Accuracy:
         """Of the columns ``index``."""
@@ -44,6 +45,8 @@ class Accuracy:
         floors = np.tile(1e-3 * scales, (n, 1))
         if self.frictional:
             floors[:, fractions] = np.broadcast_to(self.fractions, n)[:, None]
+        if self.loads:
+            floors[:, 0] = 0.0
         floors[:, frictions] = np.maximum(floors[:, frictions], np.broadcast_to(self.friction, n)[:, None])
         return floors
 

@@ -32,11 +32,12 @@ _PULLED_OFF = -1
 
 @dataclass(frozen=True)
 class Root:
-    """Where a coarse curve passes the pressure: between the penetrations ``low`` and ``high``, or (nan) in the jump at ``D``."""
+    """Where a coarse curve passes the pressure: between the penetrations ``low`` and ``high``, or (nan) in the jump at ``D``; how
+    it rises over D, and the ``slope`` of all quantities over pressure, (q,)."""
 
     D: float
-    slope: float = 0.0
-    friction_slope: float = 0.0
+    rise: float
+    slope: np.ndarray
     low: float = np.nan
     high: float = np.nan
 
@@ -167,16 +168,15 @@ class _Walk:
         ends = np.clip([t - step, t + step], part.t_low, part.t_high)
         values, D = part.piece.values(ends), part.piece.penetration(ends)
         rise, wide = np.diff(values, axis=0)[0], D[1] - D[0]
-        slope = rise[0] / wide if wide > 0 else 0.0
-        friction_slope = rise[1] / rise[0] if rise[0] > 0 else 0.0
+        slope = rise / rise[0] if rise[0] > 0 else np.zeros(rise.size)
         low, high = (float(part.piece.penetration(e)) for e in (part.t_low, part.t_high))
-        return Root(float(part.piece.penetration(t)), slope, friction_slope, low, high)
+        return Root(float(part.piece.penetration(t)), rise[0] / wide if wide > 0 else 0.0, slope, low, high)
 
     def _in_jump(self, before: Branch, after: Branch) -> Root:
         """A curve that jumps over the pressure carries it at the jump, where strips of both sides can stand side by side: as more
-        of them have changed over, friction goes from that of one side to that of the other, evenly as far as is known."""
+        of them have changed over, all goes from that of one side to that of the other, evenly as far as is known."""
         t_before, t_after = (before.t_low, after.t_high) if self.unloading else (before.t_high, after.t_low)
         ends = [part.piece.values(np.array([t]))[0] for part, t in ((before, t_before), (after, t_after))]
-        pressure, friction = (ends[1] - ends[0])[:2]
-        slope = friction / pressure if pressure else 0.0
-        return Root(float(after.piece.penetration(t_after)), friction_slope=slope)
+        jump = ends[1] - ends[0]
+        slope = jump / jump[0] if jump[0] else np.zeros(jump.size)
+        return Root(float(after.piece.penetration(t_after)), 0.0, slope)

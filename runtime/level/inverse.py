@@ -3,29 +3,51 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from ..numerics.roots import falling_root
 from ..orbit.batch import Batch
-from .descent import ROUGH, Descent
+from .averages import Averages
+from .descent import ROUGH, Descent, Root
 from .means import level_means
 from .saturated import saturated_level
-from .strips import LevelBatch
+from .strips import QUANTITIES, LevelBatch
 
 
 @dataclass(frozen=True)
 class Inverse(Batch):
-    """Penetrations that carry given pressures, arrays (n,): ``D`` (NaN below pull-off), the slope d(tau)/dp of the level there,
-    how uncertain the slope is; which are ``undecided``: the work ended before it was known which part of the curve it is; and
-    which lie ``in_jump``, where D stands for one side of a curve that jumps over the pressure."""
+    """Penetrations that carry given pressures: ``D`` (n,), NaN below pull-off; ``strips.QUANTITIES`` as last averaged ``near``
+    them (NaN: nowhere) and their ``slope`` over pressure, (n, 4); which are ``undecided`` (n,): the work ended before it was
+    known which part of the curve it is; and which lie ``in_jump`` (n,), where D stands for one side of a curve that jumps over
+    the pressure."""
 
     D: np.ndarray
+    near: np.ndarray
     slope: np.ndarray
-    doubt: np.ndarray
     undecided: np.ndarray
     in_jump: np.ndarray
+
+    @classmethod
+    def at(cls, D: np.ndarray) -> Inverse:
+        """Of pressures of which nothing else is known, or asked, than ``D`` (n,)."""
+        shape = D.size, len(QUANTITIES)
+        return cls(D, np.full(shape, np.nan), np.zeros(shape), *np.zeros((2, D.size), bool))
+
+    def meeting(self, p: np.ndarray, means: Averages) -> tuple[np.ndarray, np.ndarray]:
+        """Means (n, 4), and their errors, at the pressures ``p`` (Pa, (n,)) next to those of the ``means`` at D: along the secant
+        from those near it, and how far that differs from the slope before; but for the pressure, which is that at D."""
+        own, errors = (v[:, : len(QUANTITIES)].copy() for v in (means.values, means.errors))
+        steps, miss = own - self.near, (p - own[:, 0])[:, None]
+        # a step of no more than what is not known tells nothing
+        told = np.abs(steps[:, :1]) > errors[:, :1]
+        secant = np.divide(steps, steps[:, :1], out=self.slope.copy(), where=told)
+        doubt = np.abs(secant - np.where(told, self.slope, 0.0))
+        own[:, 1:] += (secant * miss)[:, 1:]
+        errors[:, 1:] += (np.abs(secant) * errors[:, :1] + doubt * np.abs(miss))[:, 1:]
+        errors[:, :1] += np.abs(miss)
+        return own, errors
 
 
 def cut_penetration(columns: LevelBatch, p_max: np.ndarray, full: np.ndarray) -> np.ndarray:
@@ -46,14 +68,12 @@ def invert(columns: LevelBatch, p: np.ndarray, rtol: float) -> Inverse:
     """
     level, K = columns.level, columns.material.K
     saturated = saturated_level(columns.material, columns.adhesion, level, columns.V, columns.branch)
-    out = Inverse(
-        np.where(p >= saturated.p_sat, p / K + 0.75 * level.h, np.nan), *np.zeros((2, p.size)), *np.zeros((2, p.size), bool)
-    )
+    out = Inverse.at(np.where(p >= saturated.p_sat, p / K + 0.75 * level.h, np.nan))
     # without adhesion there is no contact at no pressure
     rest = np.flatnonzero((p < saturated.p_sat) & ((p > 0) | (columns.adhesion.p_0 > 0)))
     if rest.size:
         search = _with_adhesion if columns.adhesion.p_0 > 0 else _without_adhesion
-        asked = replace(columns.asked, fractions=1.0)
+        asked = replace(columns.asked, fractions=1.0, loads=not columns.adhesion.p_0 > 0)
         found = search(replace(columns, asked=asked).at(rest, np.zeros(rest.size)), p[rest], saturated.D_sat[rest], rtol)
         out.put(rest, found)
     return out
@@ -61,54 +81,60 @@ def invert(columns: LevelBatch, p: np.ndarray, rtol: float) -> Inverse:
 
 def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
     """``invert`` at p > 0 without adhesion. Orbits are in the order of w, which rises with D, no faster: there is one root, and
-    no turn to look for; and w lies between the profile, 3 h/4 below its crests on average, and these."""
-    rise, friction_slope = np.full(p.size, columns.material.K), np.zeros(p.size)
-    low, high = p / rise, np.minimum(p / rise + 0.75 * columns.level.h, full)
-    D = high.copy()
+    no turn to look for; and w lies between the profile, 3 h/4 below its crests on average, and these. Next to the plane crests
+    are paraboloids, at rest they carry ``K D^2/(2 pi h)``: pressures are nearly powers."""
+    K, h = columns.material.K, columns.level.h
+    low, high = p / K, np.minimum(p / K + 0.75 * h, full)
+    D, power, slope = np.sqrt(2 * np.pi * h * low), np.full(p.size, 2.0), np.full((p.size, len(QUANTITIES)), np.nan)
     for accuracy in (max(rtol, ROUGH), rtol):
-        near = D, rise, friction_slope, low, high
+        at = np.log(np.clip(D, low, high)), power, slope, np.log(low), np.log(high)
         # however little the pressure is, friction goes with it
-        D, friction_slope, doubt = _refine(columns, p, near, accuracy, floor=0.0)
-    return Inverse(D, friction_slope, doubt, *np.zeros((2, p.size), bool))
+        x, near, slope = _refine(columns, p, at, accuracy, 0.0, powers=True)
+        D = np.clip(np.exp(x), low, high)
+    return Inverse(D, near, np.nan_to_num(slope), *np.zeros((2, p.size), bool))
 
 
 def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
     """``invert`` with adhesion."""
-    D, slope, doubt = np.full(p.size, np.nan), np.zeros(p.size), np.zeros(p.size)
-    roots, undecided = Descent(columns, p, cut_penetration(columns, p, full), rtol).run()
-    in_jump = np.array([root is not None and np.isnan(root.low) for root in roots])
+    out = Inverse.at(np.full(p.size, np.nan))
+    roots, out.undecided[:] = Descent(columns, p, cut_penetration(columns, p, full), rtol).run()
+    out.in_jump[:] = [root is not None and np.isnan(root.low) for root in roots]
     found = np.array([i for i, root in enumerate(roots) if root is not None], int)
     if found.size:
-        near = [np.array([getattr(roots[i], name) for i in found]) for name in ("D", "slope", "friction_slope", "low", "high")]
-        D[found], slope[found], doubt[found] = _refine(
-            columns.at(found, D[found]), p[found], near, rtol, 1e-3 * columns.scales[0]
-        )
-    return Inverse(D, slope, doubt, undecided, in_jump)
+        at = [np.array([getattr(roots[i], f.name) for i in found]) for f in fields(Root)]
+        refined = _refine(columns.at(found, out.D[found]), p[found], at, rtol, 1e-3 * columns.scales[0])
+        out.D[found], out.near[found], out.slope[found] = refined
+    return out
 
 
-def _refine(columns: LevelBatch, p, near, rtol, floor):
-    """Penetrations, d(tau)/dp and how uncertain that is at the roots ``near`` these (arrays of the fields of ``Root``): Newton
-    with the slope of the coarse curve, then of the last two averages. The pressure (Pa) is met to ``rtol`` of itself and the
-    ``floor``."""
-    D, slope, friction_slope, low, high = near
-    # nothing but the coarse curve says what it is
-    doubt, goal = np.abs(friction_slope), rtol * (np.abs(p) + floor)
-    able = np.flatnonzero((slope > 0) & (high > low))
-    last = np.full((3, p.size), np.nan)
+def _refine(columns: LevelBatch, p, root, rtol, floor, powers: bool = False):
+    """Penetrations, quantities near them and their slopes over pressure at a ``root`` (arrays of the fields of ``Root``): Newton
+    with the rise of the coarse curve, then of the last two averages. The pressure (Pa) is met to ``rtol`` of itself and the
+    ``floor``. With ``powers`` penetrations are given and returned as logarithms, and those of pressures rise over them."""
+    D, rise, slope, low, high = root
+    of, back, least = (np.log, np.exp, np.finfo(float).tiny) if powers else (np.positive, np.positive, -np.inf)
+    goal, able = rtol * (np.abs(p) + floor), np.flatnonzero((rise > 0) & (high > low))
+    last = np.full((p.size, 1 + slope.shape[1]), np.nan)
 
     def missing(x, sub):
         index = able[sub]
-        values = level_means(columns.at(index, x), np.full(index.size, rtol)).values
-        new = np.stack((x, values[:, 0], values[:, 1]))
-        moved, rise, rub = new - last[:, index]
-        last[:, index], better = new, moved * rise > 0
-        at, secant = index[better], rub[better] / rise[better]
-        slope[at], doubt[at] = rise[better] / moved[better], np.abs(secant - friction_slope[at])
-        friction_slope[at] = secant
-        miss = p[index] - values[:, 0]
-        return np.where(np.abs(miss) > goal[index], miss, 0.0), -slope[index]
+        means = level_means(columns.at(index, back(x)), np.full(index.size, rtol))
+        new, before = np.column_stack((x, means.values)), last[index]
+        new[:, 1] = np.maximum(new[:, 1], least)
+        # a step of no more than what is not known tells nothing
+        steps, last[index] = new - before, new
+        wide = (steps[:, 0] * steps[:, 1] > 0) & (np.abs(steps[:, 1]) > means.errors[:, 0])
+        steep = np.divide(of(new[:, 1]) - of(before[:, 1]), steps[:, 0], out=np.zeros(x.size), where=wide)
+        better = steep > 0
+        # without a coarse curve quantities are taken to go with the pressure, that about as the contact at rest makes it rise
+        alone = index[np.isnan(slope[index, 0])]
+        slope[alone] = last[alone, 1:] / last[alone, 1:2]
+        rise[alone] = np.maximum(columns.material.K * back(last[alone, 0]) / last[alone, 1] * last[alone, 3], 1.0)
+        rise[index[better]], slope[index[better]] = steep[better], steps[better, 1:] / steps[better, 1:2]
+        miss = p[index] - new[:, 1]
+        return np.where(np.abs(miss) > goal[index], of(p[index]) - of(new[:, 1]), 0.0), -rise[index]
 
     falling_root(missing, low[able], high[able], D[able])
     # what is close enough takes another step: the average made there afterwards is next to the pressure
-    D[able] = np.clip(last[0] + (p - last[1]) / slope, low, high)[able]
-    return D, friction_slope, doubt
+    D[able] = np.clip(last[:, 0] + (of(p) - of(last[:, 1])) / rise, low, high)[able]
+    return D, last[:, 1:], slope

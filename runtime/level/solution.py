@@ -17,12 +17,12 @@ from ..level_solution import Inputs, LevelSolution
 from ..orbit.groups import ROUNDING
 from ..orbit.materials import Material, check_edge
 from ..orbit.solution import BRANCHES
+from .accuracy import Accuracy
 from .build import build_laws
 from .effort import WorkCounters
 from .inverse import invert
 from .law import Law
 from .means import level_means
-from .nonadhesive.points import family_means
 from .saturated import saturated_level
 from .strips import QUANTITIES, LevelBatch
 
@@ -166,26 +166,19 @@ def _not_just_released(D: np.ndarray, h: float, stretch: float, delta_0: float) 
 
 def _means(columns: LevelBatch, p: np.ndarray | None, rtol: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Penetrations (n,), NaN below pull-off, means and errors (n, 4), at the columns' penetrations or at the pressures ``p``."""
-    n = columns.size
-    families = family_means(columns, np.full(n, rtol), p)
-    values, errors, rest = families.values, families.errors, np.flatnonzero(~families.certain)
-    D = columns.D if p is None else families.D
-    if rest.size and p is None:
-        means = level_means(columns.at(rest, D[rest]), np.full(rest.size, rtol))
-        values[rest], errors[rest] = means.values, means.errors
-    elif rest.size:
-        found = invert(columns.at(rest, D[rest]), p[rest], 0.3 * rtol)
-        D[rest], values[rest, 0] = found.D, p[rest]
-        touching = ~np.isnan(found.D)
-        if touching.any():
-            found, on = found.take(touching), rest[touching]
-            means = level_means(columns.at(on, D[on]), np.full(on.size, rtol))
-            miss = np.abs(means.values[:, 0] - p[on])
-            values[on], errors[on] = means.values, means.errors
-            errors[on, 0] += miss
-            errors[on, 1] += np.abs(found.slope) * errors[on, 0]
-            errors[on[found.undecided]] += np.abs(values[on[found.undecided]])
-    return D, values, errors
+    accuracy = np.full(columns.size, rtol)
+    if p is None:
+        means = level_means(columns, accuracy)
+        return columns.D, means.values, means.errors
+    found, (values, errors) = invert(columns, p, 0.3 * rtol), np.zeros((2, p.size, len(QUANTITIES)))
+    values[:, 0], touching = p, np.flatnonzero(~np.isnan(found.D))
+    if touching.size:
+        at = found.take(touching)
+        columns = replace(columns, asked=Accuracy(loads=not columns.adhesion.p_0 > 0))
+        means = level_means(columns.at(touching, at.D), accuracy[touching])
+        values[touching], errors[touching] = at.meeting(p[touching], means)
+        errors[touching[at.undecided]] += np.abs(values[touching[at.undecided]])
+    return found.D, values, errors
 
 
 def friction_law(
