@@ -225,10 +225,9 @@ def test_a_family_that_goes_further_is_the_same(rtol):
     """Up to the strips asked for, whatever else is in the batch."""
     rate = LEVEL.k * np.array([1e-4, 1e-2])
     floor = np.array([1e-3, 1e-3, 1.0])
-    one, two = np.ones(1), np.ones(2)
-    both, _ = family(foundation_of(SOFT), rate, np.array([1.2, np.inf]), two, floor, rtol * two)
+    both, _ = family(foundation_of(SOFT), rate, np.array([1.2, np.inf]), np.full(2, 1e-2 * rtol))
     d, group = np.array([0.1, 0.4]), np.zeros(2, int)
-    alone, _ = family(foundation_of(SOFT), rate[:1], np.array([np.inf]), one, floor, rtol * one)
+    alone, _ = family(foundation_of(SOFT), rate[:1], np.array([np.inf]), np.full(1, 1e-2 * rtol))
     near, far = Means(both).means(group, d, 27), Means(alone).means(group, d, 27)
     assert (np.abs(near - far) <= rtol * (np.abs(far) + floor)).all()
 

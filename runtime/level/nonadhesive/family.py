@@ -26,14 +26,13 @@ _FIRST, _LAST = 8, 512
 NEXT = 4
 #: nothing is sampled finer than this many roundings; and the share of what is allowed that is cut off a series
 _FINEST, _TRIMMED = 256, 0.03
-#: slope of the width of contact over s, averaged over a level, in parts of its mean slope
-_ROOT = 4.0
 #: beyond this k V times the longest retardation time the general path says what is wrong
 _FASTEST = 1e100
 #: height squared over wavelength, m, from which on products of them do not underflow
 _FLATTEST = 1e-200
-#: quantities of a strip: mean pressure, mean friction, share of the period in contact
-_Q = 3
+#: quantities of a strip: mean pressure, mean friction, share of the period in contact; and how well that has to be known beside
+#: them: as well as it comes
+_Q, _ANY = 3, 1e30
 
 
 def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V: np.ndarray) -> bool:
@@ -46,8 +45,8 @@ def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V:
 class Family:
     """Strips at velocities (G,): ``s_sat`` (G,), and ``series``, coefficients (n, 3) for each, of mean pressure (K
     A), mean friction (K A kA) and contact fraction over ``xi/top``. ``next`` (G, NEXT, 3): the coefficients that would follow
-    up to ``degree`` (G,); ``errors`` (G, 3): bounds of what all others would add. ``full``
-    (G, 3): in complete contact, at s_sat."""
+    up to ``degree`` (G,); ``errors`` (G, 3): bounds of what all others would add, but rough ones of contact. ``full`` (G, 3): in
+    complete contact, at s_sat."""
 
     s_sat: np.ndarray
     top: np.ndarray
@@ -92,11 +91,9 @@ class Family:
         return out
 
 
-def family(
-    foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, size: np.ndarray, floor: np.ndarray, rtol: np.ndarray
-) -> tuple[Family, int]:
-    """Families at the rates ``k V`` (G,), up to the penetrations ``s_top`` (G,), to ``rtol (floor + size max|f|)`` of
-    each quantity: ``floor`` (3,), the others (G,); and how many strips that took.
+def family(foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, accuracy: np.ndarray) -> tuple[Family, int]:
+    """Families at the rates ``k V`` (G,), up to the penetrations ``s_top`` (G,), to the ``accuracy`` (G,) of pressure and
+    friction in their units; and how many strips that took.
 
     Where that is not reached, the error says so. Raises ``SolverError`` for a strip that is not certified.
     """
@@ -117,12 +114,10 @@ def family(
         s, values = samples[:, :, 0], samples[:, :, 1:]
         over = _resampled(samples, s_sat[left])
         greatest = np.abs(values).max(axis=1)
-        goal = np.maximum(rtol[left, None] * (floor + size[left, None] * greatest), _FINEST * EPS * greatest)
+        goal = np.maximum(accuracy[left, None] * (1.0, 1.0, _ANY), _FINEST * EPS * greatest)
         # what is not known of a strip's penetration moves all along their slopes
         step = np.diff(s, axis=1)[:, :, None]
         slopes = np.abs(np.divide(np.diff(values, axis=1), step, out=np.zeros((*step.shape[:2], _Q)), where=step > 0)).max(axis=1)
-        # that of the width grows like a root towards s = 0, where few strips are
-        slopes[:, 2] = np.divide(_ROOT * values[:, -1, 2], s[:, -1], out=np.zeros(left.size), where=s[:, -1] > 0)
         sampled = errors_alone(coefficients(samples), np.concatenate((goal.min(axis=1, keepdims=True), goal), axis=1))
         error = errors_alone(over, goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 16 * EPS * greatest
         error += 4 * EPS * (s_sat[left] * s[:, -1])[:, None]

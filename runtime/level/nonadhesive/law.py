@@ -12,8 +12,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...numerics.chebyshev import coefficients
+from .family import errors_alone
+
+#: nodes of a piece, tried in turn
+NODES = (16, 32, 64, 128)
 #: how much steeper a law is feared to be beyond its end
 _FEARED = 2.0
+#: how much more than the estimated error of a law is feared, and what is left of it in a mean over contacts: along a piece errors
+#: change sign
+_SURE, _CANCELLED = 2.0, 0.3
+#: slopes of a law are looked at over steps of at least this share of the pressure
+_STEP = 1e-3
 
 
 @dataclass(frozen=True)
@@ -32,10 +42,31 @@ class Piece:
         return 4 / np.pi * np.arcsin(np.sqrt(np.sqrt(share)) if self.quartic else np.sqrt(share)) - 1
 
 
-def pressures(low, high, omega, quartic: bool):
-    """Pressures (G, n) at parameters ``omega`` (n,) between ``low`` and ``high`` (G,)."""
-    share = np.sin(0.5 * np.pi * omega) ** (4 if quartic else 2)
+def pressures(low: np.ndarray, high: np.ndarray, omega: np.ndarray, quartic: np.ndarray) -> np.ndarray:
+    """Pressures (m, n) at parameters ``omega`` (n,) between ``low`` and ``high`` of pieces that are ``quartic``, or not, (m,)."""
+    share = np.sin(0.5 * np.pi * omega) ** np.where(quartic, 4, 2)[:, None]
     return low[:, None] + (high - low)[:, None] * share
+
+
+def fit(values: np.ndarray, friction: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Series (m, n + 1, q) through the ``values`` of pieces at ``lobatto(n)``, whose last quantity is the error of all friction:
+    of it one bound for all of a piece; bounds of all friction, Pa, (m,); and for which all friction, and that of each level, is
+    known to ``friction`` (m,), Pa. Contact needs no more nodes than that."""
+    frictions = values[:, :, :-1:2]
+    of_total = coefficients(np.concatenate((frictions.sum(axis=2, keepdims=True), frictions), axis=2))
+    goal = np.broadcast_to(friction[:, None], (friction.size, of_total.shape[2]))
+    miss, series = errors_alone(of_total, goal), coefficients(values)
+    series[:, :, -1] = 0.0
+    series[:, 0, -1] = _CANCELLED * (_SURE * miss[:, 0] + values[:, :, -1].max(axis=1))
+    return series, np.abs(of_total[:, :, 0]).sum(axis=1), (miss <= goal).all(axis=1)
+
+
+def greatest_slope(p: np.ndarray, friction: np.ndarray) -> np.ndarray:
+    """Greatest slope of ``friction`` over pressures ``p`` of pieces, (m, nodes), (m,): differences of pressures that rounding or
+    quadrature would make slopes of are none."""
+    step = np.diff(p, axis=1)
+    slopes = np.divide(np.abs(np.diff(friction, axis=1)), step, out=np.zeros_like(step), where=step > _STEP * p[:, -1:])
+    return slopes.max(axis=1, initial=0.0)
 
 
 @dataclass(frozen=True)

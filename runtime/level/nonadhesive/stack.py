@@ -13,10 +13,9 @@ from ...numerics.quadrature import interleaved
 from ...numerics.rounding import EPS
 from .carried import Carrier
 from .family import family
-from .law import Laws, Piece, pressures
+from .law import NODES, Laws, Piece, fit, greatest_slope, pressures
 from .means import CANCELLED, Level
 from .peaks import Peaks, peak, peaks_of
-from .tried import NODES, Tried
 
 if TYPE_CHECKING:
     from .surface import NonadhesiveSurface
@@ -90,14 +89,7 @@ class FamilyStack:
             pressure = unit * np.maximum(crest - 1 + 0.5 * s_sat[i * G : (i + 1) * G], 0.0)
             # what is not known of pressures counts by the slope of the friction, hardly above k h
             shares.append(np.minimum(_STRIPS * self.wanted.of(i) / self._friction_unit(i), 1e-2))
-        known, strips = family(
-            self.foundation,
-            rates,
-            np.concatenate(s_top),
-            np.zeros(rates.size),
-            np.array((1.0, 1.0, 1e30)),
-            np.concatenate(shares),
-        )
+        known, strips = family(self.foundation, rates, np.concatenate(s_top), np.concatenate(shares))
         self.work.solved += strips
         return [Level(known.part(slice(i * G, (i + 1) * G))) for i in range(len(self.waves))]
 
@@ -205,30 +197,24 @@ class FamilyStack:
         low, high = ends[group, piece], ends[group, piece + 1]
         series: list[np.ndarray] = [np.zeros((1, q))] * group.size
         steep, most = np.zeros(G), self._saturated(i)[:, :-1:2].sum(axis=1)
-        left, values, worst = np.arange(group.size), None, np.zeros(group.size)
+        left, known = np.arange(group.size), None
         for n in NODES:
-            omega = lobatto(n) if values is None else lobatto(n)[1::2]
-            p = _graded(low[left], high[left], omega, piece[left] == 0)
+            omega = lobatto(n) if known is None else lobatto(n)[1::2]
+            p = pressures(low[left], high[left], omega, piece[left] == 0)
             found = self.at(i, np.repeat(group[left], omega.size), p.ravel(), below)
-            new = found.values.reshape(left.size, omega.size, q)
-            values = new if values is None else interleaved(values, new)
-            worst[left] = np.maximum(worst[left], found.values[:, -1].reshape(left.size, -1).max(axis=1))
-            tried = Tried(values, self.wanted.of(i)[group[left]])
-            done = tried.done | (n == NODES[-1])
+            new = np.concatenate((found.values.reshape(left.size, omega.size, q), p[:, :, None]), axis=2)
+            known = new if known is None else interleaved(known, new)
+            values, p = known[:, :, :-1], known[:, :, -1]
+            fitted, size, done = fit(values, self.wanted.of(i)[group[left]])
+            done |= n == NODES[-1]
             for k in np.flatnonzero(done):
-                j, g = left[k], group[left[k]]
-                series[j] = tried.series(k, worst[j])
-                most[g] = max(most[g], tried.most(k))
-                steep[g] = max(steep[g], tried.steepest(k, low[j], high[j], piece[j] == 0))
-            left, values = left[~done], values[~done]
+                series[left[k]] = fitted[k]
+            np.maximum.at(most, group[left[done]], size[done])
+            np.maximum.at(steep, group[left[done]], greatest_slope(p[done], values[done, :, :-1:2].sum(axis=2)))
+            left, known = left[~done], known[~done]
             if not left.size:
                 break
         table = np.zeros((G, J, max((s.shape[0] for s in series), default=1), q))
         for g, j, s in zip(group, piece, series, strict=True):
             table[g, j, : s.shape[0]] = s
         return [Piece(ends[:, j], ends[:, j + 1], table[:, j], j == 0) for j in range(J)], steep, most
-
-
-def _graded(low, high, omega, first):
-    """Pressures (m, nodes) between ``low`` and ``high``, as those of the ``first`` piece of a law or of others, all (m,)."""
-    return np.where(first[:, None], pressures(low, high, omega, True), pressures(low, high, omega, False))
