@@ -28,6 +28,8 @@ class Batch:
         for name in self.__dataclass_fields__:
             getattr(self, name)[index] = getattr(other, name)
 
+    __setitem__ = put
+
     @classmethod
     def joined(cls, parts: Sequence[Self]) -> Self:
         """The elements of all ``parts``, one part after another."""

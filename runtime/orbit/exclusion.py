@@ -1,4 +1,4 @@
-"""Proof without a search that no more extremal orbit exists beside one that is known.
+"""Proof without a march that no more extremal orbit exists beside one that is known.
 
 Unloading. A more engaged orbit has an earlier onset, so the unloading orbit at x* is proven by excluding zeros of r between the
 earliest onset and x*. With ``orbit_bounds`` it is enough that R falls strictly (``sensitivity.steep_margin``) all along from the
@@ -9,7 +9,8 @@ the map lead on beyond it: there ``H = -delta_0``, so ``z = u + delta_0 = beta s
 onsets, so that contact, with ``alpha p' + p = H`` and p <= 0 as it begins, has p < 0 like adhesion, and ``beta z' + z = L p``:
 z has fallen when x_e comes round again, and r < 0. Now R falls at a stable orbit and ends below zero. Where the slope T' of the
 onset map grows up to x_e (``sensitivity.slope_grows``), R falls first and rises then: it is negative in between. It is enough if
-R falls strictly up to where T' grows; or up to an onset before which all orbits have theirs (``orbit_bounds``).
+R falls strictly up to where T' grows; or up to an onset before which all orbits have theirs. (From the least engaged state that
+``orbit_bounds`` follows contact is certain, and so from all onsets before its own: adhesion ends after its.)
 
 What is not proven here is left to ``search``; nothing is ever accepted for lack of a counterexample.
 """
@@ -18,33 +19,20 @@ import numpy as np
 
 from .balance_exclusion import first
 from .groups import Cycle
-from .march import TWO_PI, Orbit, march
+from .march import TWO_PI, Orbit
 from .orbit_bounds import FAST, OrbitBounds
-from .sensitivity import slope_grows, steep_margin
+from .sensitivity import contact_length, slope_grows, steep_margin
 
 
-def is_first(kernel, cycle: Cycle, orbit: Orbit, bounds: OrbitBounds) -> tuple[np.ndarray, np.ndarray]:
-    """Which orbits are proven to be the first of their onset arc, and the event evaluations spent on each."""
-    proven, spent = falls_from(kernel, cycle, orbit, bounds.x, bounds.c), np.zeros(cycle.size)
+def is_extremal(kernel, cycle: Cycle, orbit: Orbit, bounds: OrbitBounds, last: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Which orbits are proven to be the first (``last``: last) of their onset arc, and the event evaluations spent on each."""
+    proven, spent = falls_from(kernel, cycle, orbit, bounds.x, bounds.c, last), np.zeros(cycle.size)
+    if last:
+        return proven | slope_grows(kernel, cycle, orbit), spent
     rest = np.flatnonzero(~proven & (cycle.strips.beta > FAST))
     if rest.size:
         part = cycle.among(rest)
         proven[rest], spent[rest] = first(kernel, part, orbit.take(rest), *onsets_within(part, bounds.take(rest)))
-    return proven, spent
-
-
-def is_last(kernel, cycle: Cycle, orbit: Orbit, bounds: OrbitBounds) -> tuple[np.ndarray, np.ndarray]:
-    """Which orbits of strips within reach are proven to be the last of their onset arc, and the evaluations spent on each."""
-    proven, spent = slope_grows(kernel, cycle, orbit), np.zeros(cycle.size)
-    rest = np.flatnonzero(~proven & (cycle.strips.beta <= FAST))
-    if rest.size:
-        part, known = cycle.among(rest), orbit.take(rest)
-        outer, spent[rest] = march(kernel, part, np.fmin(part.centre + part.half_d, bounds.x[rest]))
-        s, margin = part.strips, part.strips.noise() + steep_margin(kernel, part, known.c, outer)
-        sure = np.isfinite(margin) & ~outer.engaged
-        half = kernel.forcing_arc(s.delta_0 - np.where(sure, margin, 0.0), s.D, s.beta)[1]
-        sure &= np.abs(known.x - part.centre) < half
-        proven[rest] = sure & ((outer.x <= part.centre + half) | (known.c <= part.centre + np.pi))
     return proven, spent
 
 
@@ -53,13 +41,18 @@ def onsets_within(cycle: Cycle, bounds: OrbitBounds) -> tuple[np.ndarray, np.nda
     return np.fmax(cycle.centre - cycle.half_d, bounds.x), np.fmin(cycle.centre + TWO_PI - cycle.half_c, bounds.c)
 
 
-def falls_from(kernel, cycle: Cycle, known: Orbit, x, c) -> np.ndarray:
-    """Where no zero of r lies between an onset ``x`` (NaN: unknown), beyond which there is none, and the known one.
+def falls_from(kernel, cycle: Cycle, known: Orbit, x, c, last: bool = False) -> np.ndarray:
+    """Where no zero of r lies between the known onset and ``x`` (NaN: unknown), before which (``last``: after which) there is
+    none; ``c`` bounds the end of adhesion.
 
-    R falls strictly wherever F exceeds ``steep_margin``, an arc that has to hold both onsets; ``c`` bounds the end of adhesion.
+    R falls strictly wherever F exceeds ``steep_margin``, an arc that has to hold both onsets.
     """
     s = cycle.strips
-    margin = s.noise() + steep_margin(kernel, cycle, np.fmax(c, known.c), known)
+    # a later onset may make no contact
+    shortest = np.zeros(cycle.size) if last else contact_length(known.b, known.a)
+    margin = s.noise() + steep_margin(kernel, cycle, known.c, c, shortest)
     sure = np.isfinite(x) & np.isfinite(margin)
     half = kernel.forcing_arc(s.delta_0 - np.where(sure, margin, 0.0), s.D, s.beta)[1]
-    return sure & (np.abs(known.x - cycle.centre) < half) & (cycle.centre - half <= x)
+    # behind the centre of the arc, with c before the middle of its own, T' grows
+    beyond = (x <= cycle.centre + half) | (known.c <= cycle.centre + np.pi) if last else cycle.centre - half <= x
+    return sure & (np.abs(known.x - cycle.centre) < half) & beyond

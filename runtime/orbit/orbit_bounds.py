@@ -16,11 +16,13 @@ and c, so that
 On the other side, in a gap ``z = w - J_0 p`` rises only where it is negative, and contact has ``z <= u + J_0 p_0``. So no orbit
 has ``z > max(D + J_0 p_0, 0)``. (Where w is continuous where p steps, read w for z, and 0 for J_0.)
 
-* Where ``D <= -J_0 p_0`` a free state has ``w <= 0``: every onset lies before the one of a foundation at rest.
+* Where ``D <= -J_0 p_0`` a free state has ``w <= 0``: every onset lies before the one of a foundation at rest. If the gap closes
+  after that, it is so still where ``H + p_0`` turns negative: there it is that of adhesion alone, or none.
 * Where ``D > -J_0 p_0`` a gap at the crest would have to be negative: every orbit with an onset is in contact there (one that
-  snaps into contact is in contact anyway), and stays so at least until ``H + p_0`` turns negative. From contact that ends there,
-  adhesion ends at c and the next onset is met at x: in every orbit adhesion ends after c, every onset lies before x, and there is
-  none if c does not exist.
+  snaps into contact is in contact anyway), and stays so at least until ``H + p_0`` turns negative.
+
+From the gap there adhesion ends at c and the next onset is met at x: in every orbit adhesion ends after c, every onset lies
+before x, and there is none if c does not exist.
 
 The phases are solved for roughly. Each is replaced by one that is further off, verified by the sign of an event: contact or
 adhesion that is held longer (shorter) only leaves the state more (less) engaged than it is.
@@ -76,7 +78,7 @@ def orbit_bounds(kernel, cycle: Cycle) -> OrbitBounds:
         out.evaluations[index] += spent
         go = np.flatnonzero(np.isfinite(a))
         index, part, a = index[go], part.among(go), a[go]
-        c, _, spent = _adhesion_end(kernel, part, a, 1.0)
+        c, _, spent = _adhesion_end(kernel, part, a, 0.0, 1.0)
         out.evaluations[index] += spent
         go = np.flatnonzero(np.isfinite(c))
         index, part, a, c = index[go], part.among(go), a[go], c[go]
@@ -88,21 +90,19 @@ def orbit_bounds(kernel, cycle: Cycle) -> OrbitBounds:
 
 def least_engaged_bounds(kernel, cycle: Cycle) -> OrbitBounds:
     """Bounds from the least engaged state of an orbit with an onset, for cycles of strips within reach, ``D > -delta_0``."""
-    s = cycle.strips
-    out = OrbitBounds.blank(cycle.size)
+    s, touched = cycle.strips, cycle.touched
     reach = 0.5 * (s.D + s.delta_0 - s.noise())
-    out.missed[:] = ~cycle.touched & (reach > 1)
-    out.x[:] = np.where(cycle.touched, np.nan, -2 * np.arcsin(np.sqrt(np.clip(reach, 0.0, 1.0))))
-    index = np.flatnonzero(cycle.touched)
-    part = cycle.among(index)
-    a = part.centre + part.half_b
+    at_rest = -2 * np.arcsin(np.sqrt(np.clip(reach, 0.0, 1.0)))
+    a = cycle.centre + cycle.half_b
+    start = np.where(touched, a, np.maximum(a, at_rest))
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        c, stays, spent = _adhesion_end(kernel, part, a, -1.0)
-        c = np.fmax(c, np.maximum(a, part.centre + part.half_c))
-        out.a[index], out.c[index], out.missed[index] = a, c, stays | (part.half_b >= np.pi)
-        x, used = _next_onset(kernel, part, c, 1.0)
-    out.x[index], out.evaluations[index] = x - TWO_PI, spent + used
-    return out
+        gap = np.where(touched, 0.0, np.maximum(kernel.gap_after(at_rest, start, cycle.gap_on, -s.p_0, s.D, s.beta), 0.0))
+        c, stays, spent = _adhesion_end(kernel, cycle, start, gap, -1.0)
+        c = np.fmax(c, np.maximum(start, cycle.centre + cycle.half_c))
+        x, used = _next_onset(kernel, cycle, c, 1.0)
+    x = np.fmin(x - TWO_PI, np.where(touched, np.nan, at_rest))
+    missed = stays | (cycle.half_b >= np.pi) | (~touched & (reach > 1))
+    return OrbitBounds(x, a, c, np.zeros(cycle.size, bool), missed, spent + used)
 
 
 def earliest_onset(kernel, cycle: Cycle, c):
@@ -130,15 +130,15 @@ def _contact_end(kernel, cycle: Cycle, b):
     return _beyond(Event(kernel.excess_event, entry), low, low, high, 1.0, s.noise() + ROUNDING * entry[4])
 
 
-def _adhesion_end(kernel, cycle: Cycle, a, side: float):
-    """Phases behind (``side`` 1) or before (-1) the end of adhesion after contact until a, NaN where none was found.
+def _adhesion_end(kernel, cycle: Cycle, a, gap, side: float):
+    """Phases behind (``side`` 1) or before (-1) the end of adhesion from a ``gap`` at a, NaN where none was found.
 
     Also which cycles are certain to stay engaged, and the evaluations spent.
     """
     s, spent = cycle.strips, np.ones(cycle.size)
     low = np.maximum(a, cycle.centre + cycle.half_c)
     high = np.maximum(low, cycle.centre + TWO_PI - cycle.half_c)
-    closed = Event(kernel.gap_event, kernel.gap_entry(a, 0.0, -s.p_0, s.D, s.beta), s.delta_0, -1.0)
+    closed = Event(kernel.gap_event, kernel.gap_entry(a, gap, -s.p_0, s.D, s.beta), s.delta_0, -1.0)
     over = -closed(high, np.arange(cycle.size))[0]
     c, noise = np.full(cycle.size, np.nan), s.noise()
     ask = np.flatnonzero((low < high) & (over > noise))

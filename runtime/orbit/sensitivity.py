@@ -76,16 +76,16 @@ def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds
     return SlopeBounds(np.maximum(fall, 0.0), np.maximum(rise, 0.0), (most < 0) & (rise <= 0))
 
 
-def steep_margin(kernel, cycle: Cycle, latest, right: Orbit) -> np.ndarray:
-    """The F beyond which R falls strictly at every onset before that of ``right`` from which adhesion ends before ``latest``, inf
-    if that is unknown.
+def steep_margin(kernel, cycle: Cycle, earliest, latest, shortest) -> np.ndarray:
+    """The F beyond which R falls strictly at every onset from which adhesion ends between the phases ``earliest`` and ``latest``,
+    after a contact no shorter than ``shortest``; inf if one of them is unknown, NaN.
 
-    There contact is longer than in ``right`` and adhesion ends between the two phases, where M is least at one of them:
-    ``log T' <= log B + log(1 + s_x/F)`` with a B that does not depend on the onset, negative where ``F > s_x/(1/B - 1)``.
+    M is least at one of the two phases: ``log T' <= log B + log(1 + s_x/F)`` with a B that does not depend on the onset, negative
+    where ``F > s_x/(1/B - 1)``.
     """
-    M = np.minimum(release_margin(kernel, cycle, latest), release_margin(kernel, cycle, right.c))
+    M = np.minimum(release_margin(kernel, cycle, latest), release_margin(kernel, cycle, earliest))
     # the rounding of the terms of log B, which may cancel
-    log_B = _log_gain(cycle, (1 - ROUNDING) * fading(cycle, contact_length(right.b, right.a)), M)
+    log_B = _log_gain(cycle, (1 - ROUNDING) * fading(cycle, shortest), M)
     return np.divide(cycle.onset_step, np.expm1(np.minimum(-log_B, 700.0)), out=np.full(log_B.shape, np.inf), where=log_B < 0)
 
 

@@ -1,0 +1,142 @@
+"""The extremal orbit of every cycle of a batch.
+
+Most are found by Newton from a rough start, which may find any periodic orbit, or none. What it finds counts only with the
+certificate of an orbit and the proof that no more extremal one exists. All else is left to ``search``, which passes over none.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .balance_exclusion import exclude_out_of_reach
+from .batch import Batch
+from .certificate import attracting, edges_admissible, stable
+from .chain import follow
+from .exclusion import is_extremal
+from .groups import ROUNDING, Cycle
+from .march import FROZEN, TWO_PI, Orbit
+from .orbit_bounds import FAST, OrbitBounds
+from .refine import refined
+from .regimes import CODE
+from .search import isolate_extremal, located
+from .solved import UNDECIDED, orbit_of
+from .start import start
+
+
+@dataclass(slots=True)
+class Extremal(Batch):
+    """Extremal orbits of n cycles: edges, regime code, which are certified and proven to be extremal, and the evaluations spent.
+
+    A cycle that is proven to have no such orbit is ``UNDECIDED``; all others that are not certified must not be used.
+    """
+
+    orbit: Orbit
+    code: np.ndarray
+    certified: np.ndarray
+    evaluations: np.ndarray
+
+    @classmethod
+    def blank(cls, n: int) -> "Extremal":
+        """None found."""
+        return cls(Orbit.blank(n), np.full(n, UNDECIDED, np.int8), np.zeros(n, bool), np.zeros(n))
+
+
+def extremal(kernel, cycle: Cycle, last: bool, bounds: OrbitBounds) -> Extremal:
+    """The first (``last``: last) orbit on the onset arc of every cycle. ``bounds`` on all orbits: of the most engaged state, for
+    ``last`` of the least engaged one."""
+    s, out = cycle.strips, Extremal.blank(cycle.size)
+    none = (cycle.half_d <= 0) | bounds.missed
+    # along every orbit w is at least -p_0: a crest that does not come as deep makes no contact
+    touches = s.D + s.p_0 > s.noise()
+    if last:
+        # next to saturated contact a less engaged orbit is rare: ask the search, which sees that first
+        possible = ~none & (s.D - 1 + s.p_0 < kernel.modulus_ratio(s.alpha, s.beta))
+        alone = ~cycle.touched
+    else:
+        hanging = np.flatnonzero(~none & (s.D <= -s.delta_0) & (s.beta > FAST))
+        if hanging.size:
+            none[hanging], out.evaluations[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
+        possible, alone = ~none, ~touches
+    for sequence, may_be in (("acaf", ~cycle.direct & touches), ("afc", cycle.direct), ("af", ~cycle.direct & alone)):
+        pick = np.flatnonzero(possible & may_be & ~out.certified)
+        if pick.size:
+            part, limits = cycle.among(pick), bounds.take(pick)
+            found = _followed(kernel, part, sequence, start(kernel, part, sequence, None if last else limits))
+            found.evaluations += out.evaluations[pick]
+            out.evaluations[pick] = found.evaluations
+            here = np.flatnonzero(found.certified)
+            pick, found = pick[here], found.take(here)
+            found.certified, used = is_extremal(kernel, part.among(here), found.orbit, limits.take(here), last)
+            found.evaluations += used
+            out.put(pick, found)
+    rest = np.flatnonzero(~none & ~out.certified)
+    if rest.size:
+        found = _isolated(kernel, cycle.among(rest), last, out.orbit.take(rest), bounds.x[rest])
+        found.evaluations += out.evaluations[rest]
+        out.put(rest, found)
+    return out
+
+
+def unique(kernel, cycle: Cycle, sequence: str) -> Extremal:
+    """The orbits of bare cycles, ``sequence`` "cf" or "ac". Where p does not step the onset map contracts everywhere
+    (``sensitivity``): an orbit that is found is the only one."""
+    out = _followed(kernel, cycle, sequence, start(kernel, cycle, sequence))
+    rest = np.flatnonzero(~out.certified)
+    if rest.size:
+        found = _isolated(kernel, cycle.among(rest), False)
+        found.evaluations += out.evaluations[rest]
+        out.put(rest, found)
+    out.code[:] = CODE[sequence]
+    return out
+
+
+def _followed(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Extremal:
+    """Orbits of ``sequence`` that Newton finds from ``edges`` (k, n); x is NaN where none is certified."""
+    out, bare = Extremal.blank(cycle.size), sequence in ("ac", "cf")
+    found, good, out.evaluations = follow(kernel, cycle, sequence, edges)
+    if sequence in ("acaf", "afc"):
+        # the links along the chain lose what a period changes to rounding; the start is as good as an orbit
+        frozen = np.flatnonzero(~good & (cycle.strips.alpha > FROZEN))
+        found[:, frozen], good[frozen] = edges[:, frozen], True
+    here = np.flatnonzero(good)
+    part = cycle.among(here)
+    # next to a fold or a graze the search knows better; a strip without adhesion has neither
+    orbit, good, _, used = refined(kernel, sequence, part, orbit_of(sequence, found[:, here]), blurred=bare)
+    out.evaluations[here] += used
+    good &= edges_admissible(kernel, part, orbit)
+    if not bare:
+        good &= attracting(kernel, part, orbit)
+    here, good = here[good], np.flatnonzero(good)
+    out.orbit.put(here, orbit.take(good))
+    out.code[here], out.certified[here] = CODE[sequence], True
+    return out
+
+
+def _isolated(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, limit=np.nan) -> Extremal:
+    """Orbits found by the exhaustive search. ``known``, ``limit``: see ``isolate_extremal``."""
+    result = isolate_extremal(kernel, cycle, last, known, limit)
+    orbit, spent, contact = result.left, result.evaluations, ~np.isnan(result.left.b)
+    # a bracket without width is the orbit itself
+    pick = np.flatnonzero(result.found & (orbit.x < result.right.x))
+    if pick.size:
+        left, right = orbit.take(pick), result.right.take(pick)
+        new, used = located(kernel, cycle.take(pick), left, right)
+        orbit.put(pick, new)
+        spent[pick] += used
+        contact = ~np.isnan(orbit.b)
+        # Newton on the boundary equations is rounded less than the march, where it stays in between
+        kinds = {"acaf": contact & ~cycle.direct, "afc": cycle.direct & ~cycle.bare, "cf": cycle.bare, "af": ~contact}
+        for sequence, kind in kinds.items():
+            here = np.flatnonzero(kind[pick])
+            if not here.size:
+                continue
+            new, converged, blur, used = refined(kernel, sequence, cycle.take(pick[here]), orbit.take(pick[here]))
+            slack = ROUNDING * TWO_PI + blur
+            good = converged & (new.x >= left.x[here] - slack) & (new.x <= right.x[here] + slack)
+            orbit.put(pick[here[good]], new[good])
+            spent[pick[here]] += used
+    code = np.where(contact, np.where(cycle.direct, CODE["afc"], CODE["acaf"]), CODE["af"])
+    # without an end of the search there may be any orbit
+    code = np.where(result.found, code, np.where(result.unresolved, CODE["acaf"], UNDECIDED)).astype(np.int8)
+    certified = result.found & ~result.unresolved & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
+    return Extremal(orbit, code, certified, spent)
