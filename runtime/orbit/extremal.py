@@ -99,16 +99,16 @@ def _followed(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Extrema
         frozen = np.flatnonzero(~good & (cycle.strips.alpha > FROZEN))
         found[:, frozen], good[frozen] = edges[:, frozen], True
     here = np.flatnonzero(good)
-    part = cycle.among(here)
     # next to a fold or a graze the search knows better; a strip without adhesion has neither
-    orbit, good, _, used = refined(kernel, sequence, part, orbit_of(sequence, found[:, here]), blurred=bare)
+    orbit, good, _, used = refined(kernel, sequence, cycle.among(here), orbit_of(sequence, found[:, here]), blurred=bare)
     out.evaluations[here] += used
-    good &= edges_admissible(kernel, part, orbit)
+    here, orbit = here[good], orbit.take(good)
+    part = cycle.among(here)
+    good = edges_admissible(kernel, part, orbit)
     if not bare:
         good &= attracting(kernel, part, orbit)
-    here, good = here[good], np.flatnonzero(good)
-    out.orbit.put(here, orbit.take(good))
-    out.code[here], out.certified[here] = CODE[sequence], True
+    here = here[good]
+    out.orbit[here], out.code[here], out.certified[here] = orbit[good], CODE[sequence], True
     return out
 
 

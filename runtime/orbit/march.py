@@ -52,10 +52,36 @@ def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, lat
     ``earlier`` and ``later``: orbits from an earlier and a later onset, if known. By the order of orbits b lies between theirs, a
     and c too (the other way round), which leaves narrow brackets; NaN edges bound nothing.
     """
-    spent = np.ones(x.shape)
-    b = _contact_begins(kernel, cycle, x, spent, _Known(x, earlier, later, "b"))
-    a = _contact_ends(kernel, cycle, x, b, spent, _Known(x, earlier, later, "a"))
-    c = _adhesion_ends(kernel, cycle, x, b, a, spent, _Known(x, earlier, later, "c"))
+    s, spent = cycle.strips, np.ones(x.shape)
+
+    def first(edge, event, low, high, index):
+        known = _Known(x, earlier, later, edge)
+        phase, used = known.crossing(event, low[index], high[index], index)
+        spent[index] += used
+        return phase
+
+    # downward zero of the gap after the onset, where H + p_0 > 0; NaN where the gap stays open
+    rising, falling = cycle.centre - cycle.half_b, cycle.centre + cycle.half_b
+    b = np.where(cycle.direct, x, np.nan)
+    i = np.flatnonzero(~cycle.direct & (x < falling))
+    if i.size:
+        gap = Event(kernel.gap_event, kernel.gap_entry(x[i], cycle.gap_on[i], -s.p_0[i], s.D[i], s.beta[i]))
+        b[i] = first("b", gap, np.maximum(x, rising), falling, i)
+    # downward zero of the excess pressure p + p_0, where H + p_0 < 0; NaN without contact, +inf if it never ends
+    contact = ~np.isnan(b)
+    a, high = np.where(contact, np.inf, np.nan), rising + TWO_PI
+    i = np.flatnonzero(contact & (falling < high))
+    if i.size:
+        entry = kernel.excess_entry(b[i], cycle.q_on[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
+        a[i] = np.fmin(first("a", Event(kernel.excess_event, entry), np.fmax(falling, b), high, i), np.inf)
+    # upward zero of gap - delta_0, where H + p_0 + delta_0 < 0; NaN where the strip stays engaged
+    c = np.where(cycle.bare & np.isfinite(a), a, np.nan)
+    start, high = np.where(contact, a, x), cycle.centre + TWO_PI - cycle.half_c
+    i = np.flatnonzero(~cycle.bare & (start < high))
+    if i.size:
+        entry = kernel.gap_entry(start[i], np.where(contact, 0.0, cycle.gap_on)[i], -s.p_0[i], s.D[i], s.beta[i])
+        closed = Event(kernel.gap_event, entry, s.delta_0[i], -1.0)
+        c[i] = first("c", closed, np.maximum(cycle.centre + cycle.half_c, start), high, i)
     engaged = np.isnan(c)
     r = np.full(x.shape, -np.inf)
     free = np.flatnonzero(~engaged)
@@ -106,31 +132,29 @@ class _Known:
         self.guess = first + share * (second - first)
 
     def crossing(self, event, low, high, index):
-        """``falling_root`` for the elements ``index``, in the narrower of the brackets."""
-        if not self.sure.any():
-            return falling_root(event, low, high, tolerance=LEAST_PHASE)
-        sure = self.sure[index]
-        low = np.where(sure, np.clip(self.low[index], low, high), low)
-        high = np.where(sure, np.clip(self.high[index], low, high), high)
-        guess = np.where(sure, self.guess[index], 0.5 * (low + high))
-        return falling_root(event, low, high, guess, LEAST_PHASE)
+        """Phases where the events of ``index`` fall through zero in the arcs from ``low`` to ``high``, NaN where they do not, and
+        the evaluations spent. That they do is known, or seen from the sign at the end.
 
-
-def _happens(event, start, end, index, sure, spent):
-    """Which of ``index`` meet their event in the arc from ``start`` to ``end``: known, or seen from the sign at its end.
-
-    Where there is next to no memory the event function follows the harmonic and vanishes at the end but for rounding; it is
-    deepest half way.
-    """
-    meets = sure.copy()
-    end = np.maximum(start, end)
-    for where in (end, 0.5 * (start + end)):
-        ask = np.flatnonzero(~meets)
-        if ask.size:
-            value, _ = event(where[ask], ask)
-            spent[index[ask]] += 1
-            meets[ask] = value <= 0
-    return meets
+        Where there is next to no memory the event function follows the harmonic and vanishes at the end but for rounding; it is
+        deepest half way.
+        """
+        meets, high = self.sure[index], np.maximum(low, high)
+        phase, spent = np.full(index.size, np.nan), np.zeros(index.size)
+        for where in (high, 0.5 * (low + high)):
+            ask = np.flatnonzero(~meets)
+            if ask.size:
+                spent[ask] += 1
+                meets[ask] = event(where[ask], ask)[0] <= 0
+        here = np.flatnonzero(meets)
+        event, low, high, index, guess = event.take(here), low[here], high[here], index[here], None
+        if self.sure.any():
+            sure = self.sure[index]
+            low = np.where(sure, np.clip(self.low[index], low, high), low)
+            high = np.where(sure, np.clip(self.high[index], low, high), high)
+            guess = np.where(sure, self.guess[index], 0.5 * (low + high))
+        phase[here], used = falling_root(event, low, high, guess, LEAST_PHASE)
+        spent[here] += used
+        return phase, spent
 
 
 def _rows(size: int, *values) -> np.ndarray:
@@ -164,70 +188,6 @@ class Event:
         offset, *constants = self._last
         value, slope = self.function(phase, *constants)
         return self.sign * (value - offset), self.sign * slope
-
-
-def _contact_begins(kernel, cycle: Cycle, x, spent, known: _Known):
-    """Downward zero of the gap after the onset, where H + p_0 > 0; NaN where the gap stays open."""
-    s = cycle.strips
-    b = np.where(cycle.direct, x, np.nan)
-    end = cycle.centre + cycle.half_b
-    reach = np.flatnonzero(~cycle.direct & (x < end))
-    if not reach.size:
-        return b
-
-    i = reach
-    gap = Event(kernel.gap_event, kernel.gap_entry(x[i], cycle.gap_on[i], -s.p_0[i], s.D[i], s.beta[i]))
-    start = np.maximum(x, cycle.centre - cycle.half_b)
-    meets = _happens(gap, start[reach], end[reach], reach, known.sure[reach], spent)
-    reach, gap = reach[meets], gap.take(meets)
-    b[reach], used = known.crossing(gap, start[reach], end[reach], reach)
-    spent[reach] += used
-    return b
-
-
-def _contact_ends(kernel, cycle: Cycle, x, b, spent, known: _Known):
-    """Downward zero of the excess pressure p + p_0, where H + p_0 < 0; NaN without contact, +inf if it never ends."""
-    s = cycle.strips
-    a = np.full(x.shape, np.nan)
-    touched = np.flatnonzero(~np.isnan(b))
-
-    if not touched.size:
-        return a
-    i = touched
-    entry = kernel.excess_entry(b[i], cycle.q_on[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
-    excess = Event(kernel.excess_event, entry)
-    low = cycle.centre[touched] + cycle.half_b[touched]
-    high = cycle.centre[touched] + TWO_PI - cycle.half_b[touched]
-    leaves = _happens(excess, np.maximum(low, b[touched]), high, touched, known.sure[touched], spent) & (high > low)
-    a[touched[~leaves]] = np.inf
-    touched, low, high, excess = touched[leaves], low[leaves], high[leaves], excess.take(leaves)
-    a[touched], used = known.crossing(excess, np.maximum(low, b[touched]), high, touched)
-    spent[touched] += used
-    return a
-
-
-def _adhesion_ends(kernel, cycle: Cycle, x, b, a, spent, known: _Known):
-    """Upward zero of gap - delta_0, where H + p_0 + delta_0 < 0; NaN where the strip stays engaged."""
-    s = cycle.strips
-    c = np.where(cycle.bare & np.isfinite(a), a, np.nan)
-    contact = ~np.isnan(b)
-    start = np.where(contact, a, x)
-    first = np.where(contact, 0.0, cycle.gap_on)
-    low = cycle.centre + cycle.half_c
-    high = cycle.centre + TWO_PI - cycle.half_c
-    leaves = np.flatnonzero(~cycle.bare & np.isfinite(start) & (start < high))
-
-    if not leaves.size:
-        return c
-    i = leaves
-    entry = kernel.gap_entry(start[i], first[i], -s.p_0[i], s.D[i], s.beta[i])
-    closed = Event(kernel.gap_event, entry, s.delta_0[i], -1.0)
-    low = np.maximum(low, start, out=low, where=np.isfinite(start))
-    meets = _happens(closed, low[leaves], high[leaves], leaves, known.sure[leaves], spent)
-    leaves, closed = leaves[meets], closed.take(meets)
-    c[leaves], used = known.crossing(closed, low[leaves], high[leaves], leaves)
-    spent[leaves] += used
-    return c
 
 
 def closing(kernel, cycle: Cycle, x, b, a, c):
