@@ -12,9 +12,6 @@ from ..numerics.roots import falling_root
 from .regimes import CODE
 from .solved import Solved
 
-#: contact this much faster than the wave forgets: pressure is local
-_MEMORY = 1e-6
-
 
 class Contact(ABC):
     """Contact intervals of the strips ``index`` in phase, with the pressure in Pa inside them, arrays (m,).
@@ -40,7 +37,7 @@ class Contact(ABC):
         self._enter(solved, index)
         self.top = self.centre.copy()
         part, every = np.flatnonzero(~self.full), np.arange(index.size)
-        self.top[part] = self._top(part)
+        self.top[part], _ = falling_root(lambda phase, sub: self._excess(part[sub], phase)[1], self.b[part], self.a[part])
         self.p_peak = self.pressure(every, self.top)
         entered = self.b + 1e-12 * (self.a - self.b)
         self.p_least = self.pressure(every, np.where(self.full, self.centre - np.pi, entered))
@@ -63,10 +60,6 @@ class Contact(ABC):
     @abstractmethod
     def _excess_alone(self, rows: np.ndarray, phase: np.ndarray) -> np.ndarray:
         """The same without its slope, for phases (m,) or (nodes, m)."""
-
-    @abstractmethod
-    def _top(self, part: np.ndarray) -> np.ndarray:
-        """Phases of the greatest pressure in the partial contacts ``part``."""
 
     def pressure(self, rows: np.ndarray, phase: np.ndarray) -> np.ndarray:
         """Pressure, Pa, of the strips ``rows`` (m,) at the phases ``phase`` (m,) or (nodes, m) in their contact."""
@@ -131,27 +124,6 @@ class SingleContact(Contact):
 
     def _excess_alone(self, rows: np.ndarray, phase: np.ndarray) -> np.ndarray:
         return self.kernel.excess_after(*self._arguments(rows, phase))
-
-    def _top(self, part: np.ndarray) -> np.ndarray:
-        return phase_of_peak(self.kernel, self.a[part], *(v for k, v in enumerate(self._arguments(part, self.b[part])) if k != 1))
-
-
-def phase_of_peak(kernel: ModuleType, end, start, q_on, p_0, D, alpha, beta, L) -> np.ndarray:
-    """Phases of the greatest pressure in partial contacts from ``start`` to ``end``, where ``p = H``, (m,)."""
-    remembers = alpha > _MEMORY
-    storage, loss = kernel.storage(alpha, beta), kernel.loss(alpha, beta, L)
-    amplitude, centre = np.hypot(storage, loss), -np.arctan2(loss, storage)
-
-    def lag(phase, sub):
-        arguments = start[sub], phase, q_on[sub], p_0[sub], D[sub], alpha[sub], beta[sub], L[sub]
-        value, rise = kernel.excess_after(*arguments), kernel.excess_after_slope(*arguments)
-        # alpha p' = H - p falls through zero once: from entry, where p is below H, to exit; without memory rounding is all of it
-        behind = kernel.forcing(phase, D[sub], beta[sub]) + p_0[sub] - value
-        steepens = kernel.profile_slope(phase) - beta[sub] * np.cos(phase) - rise
-        bend = -amplitude[sub] * np.cos(phase - centre[sub])
-        return np.where(remembers[sub], behind, rise), np.where(remembers[sub], steepens, bend)
-
-    return falling_root(lag, start, end)[0]
 
 
 def passages(level: np.ndarray, mean: np.ndarray, amplitude: np.ndarray, centre: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -7,7 +7,8 @@ from types import ModuleType
 import numpy as np
 
 from ..inputs.material import StandardLinearSolid
-from .contact import SingleContact, phase_of_peak
+from ..numerics.roots import falling_root
+from .contact import SingleContact
 from .fields import fields
 from .groups import TWO_PI, slowed
 from .nonadhesive import SingleWaves
@@ -77,8 +78,13 @@ class SingleTime:
         alpha, beta, J, L, p_0, delta_0, D, _ = arguments
         place = 0 if sequence in ("ac", "cf", "afc") else 1
         q_on = self.kernel.snap_onset(p_0, delta_0, J, L)[0] if sequence == "afc" else 0 * D
-        top = phase_of_peak(self.kernel, edges[place + 1], edges[place], q_on, p_0, D, alpha, beta, L)
-        return self.kernel.excess_after(edges[place], top, q_on, p_0, D, alpha, beta, L) - p_0 - pressure
+        groups = q_on, p_0, D, alpha, beta, L
+
+        def slope(phase, sub):
+            return self.kernel.excess_after_slope(edges[place][sub], phase, *(v[sub] for v in groups))
+
+        top, _ = falling_root(slope, edges[place], edges[place + 1])
+        return self.kernel.excess_after(edges[place], top, *groups) - p_0 - pressure
 
     def waves(self, rate):
         m, one = self.material, np.ones(rate.size)

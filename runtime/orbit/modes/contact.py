@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...numerics.roots import falling_root
 from ..contact import Contact
 from ..regimes import CODE, ZONES
 from ..solved import Solved
@@ -42,14 +41,3 @@ class ModeContact(Contact):
     def _excess_alone(self, rows: np.ndarray, phase: np.ndarray) -> np.ndarray:
         every = np.broadcast_to(rows, phase.shape).ravel()
         return self._excess(every, phase.ravel())[0].reshape(phase.shape)
-
-    def _top(self, part: np.ndarray) -> np.ndarray:
-        """Where the slope falls through zero, once between entry and exit, where it is not negative from the start."""
-        top = self.b[part].copy()
-        on = np.flatnonzero(self._excess(part, top)[1] > 0)
-
-        def slope(phase, sub):
-            return self._excess(part[on[sub]], phase)[1], np.zeros(sub.size)
-
-        top[on], _ = falling_root(slope, top[on], self.a[part[on]])
-        return top

@@ -21,24 +21,16 @@ def fields(kernel, strips: ModeStrips, solved: Solved, phase: np.ndarray) -> tup
     def saturated(s, phase):
         return kernel.saturated_pressure(phase, s.D, s.m)
 
-    return by_regime(kernel, strips, solved, phase, saturated, _with_edges)
+    def zones(sequence, s, edges):
+        return zones_of(kernel, sequence, s, edges)
 
+    def contact(s, start, phase, overstress):
+        return kernel.contact_pressure(phase, kernel.overstress_after(start, phase, overstress, s.m), s.D)
 
-def _with_edges(kernel, sequence, s: ModeStrips, solved: Solved, index, phase):
-    zones, names = ZONES[sequence]
-    edges = [getattr(solved, name)[index] for name in names]
-    phase = edges[0] + np.mod(phase - edges[0], TWO_PI)
-    p, gap = np.zeros(index.size), np.zeros(index.size)
-    for zone, start, entry, _ in zones_of(kernel, sequence, s, edges):
-        inside = phase >= start
-        later = np.maximum(phase, start)
-        if zone == "c":
-            zone_p, zone_gap = kernel.contact_pressure(later, kernel.overstress_after(start, later, entry, s.m), s.D), 0.0
-        else:
-            zone_p = -s.p_0 if zone == "a" else 0.0
-            zone_gap = kernel.gap_after(start, later, entry, zone_p, s.D, s.m)
-        p, gap = np.where(inside, zone_p, p), np.where(inside, zone_gap, gap)
-    return p, gap
+    def gap(s, start, phase, z, pressure):
+        return kernel.gap_after(start, phase, z, pressure, s.D, s.m)
+
+    return by_regime(kernel, strips, solved, phase, (saturated, zones, contact, gap))
 
 
 def zones_of(kernel, sequence, s: ModeStrips, edges):
