@@ -25,11 +25,10 @@ negative: a and c lie between 0 and pi.
   which contact is certain to last. As V grows towards the valley, V(lo) stands for V(xi).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..numerics.rounding import EPS
 from .batch import Batch
 from .groups import ROUNDING, Cycle, Strips
 from .march import TWO_PI, Orbit
@@ -39,103 +38,44 @@ from .march import TWO_PI, Orbit
 class Reference(Batch):
     """What the bounds need of n strips and their references, arrays (n,).
 
-    ``storage``, ``loss``: of complete contact. ``turned``: end of the arc where contact ends. ``q_on``: excess pressure as
-    contact begins. ``x``, ``c``: onset and end of adhesion of the reference, 0 for a foundation at rest, as are ``b``, ``a``,
-    its contact, and ``pressed``, its Q. ``turn``: by how much later contact ends if it begins earlier by one. ``level``:
-    omega less ``u + delta_0`` at the crest. ``kept``: ``beta r``. ``least``: of the sum of ``w_l - w_y``. ``end``: adhesion
-    does not end after. ``noise``: of a displacement. ``sines``: of -x and c, summed.
+    ``orbit``: the reference, all zero for a foundation at rest. ``storage``, ``loss``: of complete contact. ``level``: omega less
+    ``u + delta_0`` at the crest. ``kept``: ``beta r``. ``least``: of the sum of ``w_l - w_y``. ``pressed``: Q of the reference.
+    ``turn``: by how much later contact ends if it begins earlier by one. ``end``: adhesion does not end after.
     """
 
-    alpha: np.ndarray
-    beta: np.ndarray
-    L: np.ndarray
-    p_0: np.ndarray
-    delta_0: np.ndarray
-    D: np.ndarray
+    cycle: Cycle
+    orbit: Orbit
     storage: np.ndarray
     loss: np.ndarray
-    gap_on: np.ndarray
-    jump: np.ndarray
-    turned: np.ndarray
-    q_on: np.ndarray
-    x: np.ndarray
-    c: np.ndarray
     level: np.ndarray
     kept: np.ndarray
     least: np.ndarray
     pressed: np.ndarray
-    b: np.ndarray
-    a: np.ndarray
     turn: np.ndarray
     end: np.ndarray
-    noise: np.ndarray
-    sines: np.ndarray
-
-    def contact_end(self, t, sine, cosine):
-        """About where a contact ends that begins at ``-t``, of this sine and cosine."""
-        return self.a + self.turn * (t + self.b)
-
-
-class _Rest(Reference):
-    """A foundation at rest."""
-
-    __slots__ = ()
-
-    def contact_end(self, t, sine, cosine):
-        # adhesion lifts, pressure relaxes
-        relaxed = self.L * self.beta / self.alpha * (sine - t * cosine)
-        lifted = t * (self.p_0 + self.D - 1 + cosine)
-        return t + 2 * (lifted - relaxed) / (self.beta * np.maximum(sine, EPS))
 
 
 def beside(kernel, cycle: Cycle, known: Orbit, end) -> Reference:
     """Orbits or marches with contact as references; adhesion does not ``end`` after."""
-    s, noise = cycle.strips, cycle.strips.noise()
+    s = cycle.strips
     w_c = kernel.profile(known.c, s.D) + s.delta_0 + cycle.jump
-    return Reference(
-        *_groups(kernel, cycle),
-        q_on=cycle.q_on,
-        x=known.x,
-        c=known.c,
-        level=np.minimum(w_c, w_c * kernel.decay(known.x + TWO_PI - known.c, s.beta)) - s.D - s.delta_0,
-        kept=s.beta * (known.r - noise),
-        least=np.zeros(cycle.size),
-        pressed=_sum(kernel, s, known.b, known.a),
-        b=known.b,
-        a=known.a,
-        turn=_turn(kernel, s, known),
-        end=end,
-        noise=noise,
-        sines=np.sin(known.c) - np.sin(known.x),
-    )
+    level = np.minimum(w_c, w_c * kernel.decay(known.x + TWO_PI - known.c, s.beta)) - s.D - s.delta_0
+    kept, pressed = s.beta * (known.r - s.noise()), _sum(kernel, s, known.b, known.a)
+    least, turn = np.zeros(cycle.size), _turn(kernel, s, known)
+    return Reference(cycle, known, *_modulus(kernel, s), level, kept, least, pressed, turn, end)
 
 
 def at_rest(kernel, cycle: Cycle) -> Reference:
     """The foundation at rest as reference."""
-    zero = np.zeros(cycle.size)
-    return _Rest(
-        *_groups(kernel, cycle),
-        q_on=zero,
-        x=zero,
-        c=zero,
-        level=-cycle.strips.D - cycle.strips.delta_0,
-        kept=zero,
-        least=zero - np.inf,
-        pressed=zero,
-        b=zero,
-        a=zero,
-        turn=zero,
-        end=zero + np.pi,
-        noise=cycle.strips.noise(),
-        sines=zero,
-    )
+    s, zero = cycle.strips, np.zeros(cycle.size)
+    rest = Orbit(zero, zero, zero, zero, zero > 0, zero)
+    begun = replace(cycle, q_on=zero)  # no less pressure than that
+    end = zero + np.pi
+    return Reference(begun, rest, *_modulus(kernel, s), -s.D - s.delta_0, zero, zero - np.inf, zero, zero + 1, end)
 
 
-def _groups(kernel, cycle: Cycle):
-    s = cycle.strips
-    modulus = kernel.storage(s.alpha, s.beta), kernel.loss(s.alpha, s.beta, s.L)
-    ends = cycle.centre + TWO_PI - cycle.half_b
-    return s.alpha, s.beta, s.L, s.p_0, s.delta_0, s.D, *modulus, cycle.gap_on, cycle.jump, ends
+def _modulus(kernel, s: Strips):
+    return kernel.storage(s.alpha, s.beta), kernel.loss(s.alpha, s.beta, s.L)
 
 
 def arc_versine(height):
@@ -168,55 +108,56 @@ def _turn(kernel, s: Strips, known: Orbit):
 def _contact(reference: Reference, lo, versine):
     """Phase t, so that contact begins before -t if the onset is not after -lo, of this ``versine``; 0 where it may not begin, inf
     where no orbit may have such an onset: its w would be less than -p_0."""
-    r = reference
-    rise = versine - r.gap_on - r.noise
-    lag = np.maximum(r.p_0 + r.D - rise, 0.0)
+    s = reference.cycle.strips
+    rise = versine - reference.cycle.gap_on - s.noise()
+    lag = np.maximum(s.p_0 + s.D - rise, 0.0)
     t = arc_versine(rise)
-    most = arc_versine(rise - lag * np.expm1((t - lo) / r.beta))
-    least = -lag * np.expm1(np.minimum(most - lo, 0.0) / r.beta)
-    return np.where(lag > 0, np.maximum(arc_versine(rise + least), -r.b), np.inf)
+    most = arc_versine(rise - lag * np.expm1((t - lo) / s.beta))
+    least = -lag * np.expm1(np.minimum(most - lo, 0.0) / s.beta)
+    return np.where(lag > 0, np.maximum(arc_versine(rise + least), -reference.orbit.b), np.inf)
 
 
 def balance_bound(kernel, reference: Reference, lo, hi):
     """Lower bound of the balance of all orbits with an onset between -hi and -lo, less that of the reference."""
-    r = reference
+    r, l, cycle, s = reference, reference.orbit, reference.cycle, reference.cycle.strips  # noqa: E741
+    noise = s.noise()
     # contact, at least: the pressure of complete contact, and what fades of its difference to the one at -t
     low = versine(lo)
     t = _contact(r, lo, low)
     possible, t = np.isfinite(t), np.minimum(t, TWO_PI)
     sin_t, cos_t = _sine_cosine(t)
-    e = np.minimum(np.maximum(r.contact_end(t, sin_t, cos_t), 0.0), r.turned)
+    e = np.minimum(np.maximum(l.a + r.turn * (t + l.b), 0.0), cycle.centre + TWO_PI - cycle.half_b)
     sin_e, cos_e = _sine_cosine(e)
-    mean = r.D - 1 + r.p_0
+    mean = s.D - 1 + s.p_0
     begins = mean + r.storage * cos_t + r.loss * sin_t
-    late = mean + r.storage * cos_e - r.loss * sin_e + (r.q_on - begins) * kernel.decay(e + t, r.alpha)
-    blur = 2 * ROUNDING * (1 + r.beta + (1 + r.alpha) * (np.abs(late) + np.abs(mean)))
-    summed = mean * (e + t) + sin_e + sin_t + r.beta * (cos_e - cos_t)
-    pressed = np.where(t > 0, np.maximum(summed - r.alpha * late - blur - r.pressed, 0.0), 0.0)
+    late = mean + r.storage * cos_e - r.loss * sin_e + (cycle.q_on - begins) * kernel.decay(e + t, s.alpha)
+    blur = 2 * ROUNDING * (1 + s.beta + (1 + s.alpha) * (np.abs(late) + np.abs(mean)))
+    summed = mean * (e + t) + sin_e + sin_t + s.beta * (cos_e - cos_t)
+    pressed = np.where(t > 0, np.maximum(summed - s.alpha * late - blur - r.pressed, 0.0), 0.0)
     holds = (t > 0) & (late > blur)
     held, drop = np.where(holds, e, 0.0), np.where(holds, 1 - cos_e, 0.0)
     # engagement, at most
-    crest, near = r.D + r.delta_0, lo
+    crest, near = s.D + s.delta_0, lo
     turned = np.flatnonzero(lo + hi > TWO_PI)
     if turned.size:
         near = lo.copy()
         near[turned] = TWO_PI - hi[turned]
         low[turned] = versine(near[turned])
-    high = versine(np.minimum(hi, np.pi)) + r.noise
-    later = np.maximum(r.c, near)
-    free = np.maximum(TWO_PI - lo - np.where(low > crest, later, r.c), 0.0)
+    high = versine(np.minimum(hi, np.pi)) + noise
+    later = np.maximum(l.c, near)
+    free = np.maximum(TWO_PI - lo - np.where(low > crest, later, l.c), 0.0)
     out = high - crest
-    c = np.minimum(arc_versine(high + r.jump + np.maximum(out, 0.0) * np.expm1(free / r.beta)), r.end)
+    c = np.minimum(arc_versine(high + cycle.jump + np.maximum(out, 0.0) * np.expm1(free / s.beta)), r.end)
     free = np.maximum(TWO_PI - hi - c, 0.0)
-    c = np.where(out < 0, np.minimum(arc_versine(high + r.jump + out * np.expm1(free / r.beta)), c), c)
-    longer = np.maximum(hi + r.x, 0.0) + np.maximum(c - r.c, 0.0)
+    c = np.where(out < 0, np.minimum(arc_versine(high + cycle.jump + out * np.expm1(free / s.beta)), c), c)
+    longer = np.maximum(hi + l.x, 0.0) + np.maximum(c - l.c, 0.0)
     free = np.maximum(TWO_PI - hi - c, 0.0)
     # displacement, at least
-    steep, onset = r.level + low, -r.x
-    begun, ended = np.maximum(np.minimum(t, near), onset), np.maximum(np.minimum(held, near), r.c)
-    apart = (r.level + 1 + r.delta_0) * (begun - onset + ended - r.c)
-    apart -= _sine_cosine(begun)[0] + _sine_cosine(ended)[0] - r.sines
-    apart += (TWO_PI - begun - later) * steep + (later - ended) * np.minimum(r.level + drop + r.delta_0, steep)
-    apart += np.maximum(steep, 0.0) * (r.beta * np.expm1(free / r.beta) - free)
-    least = r.kept + pressed - r.p_0 * longer + np.maximum(apart, r.least) - TWO_PI * r.noise
+    steep, onset = r.level + low, -l.x
+    begun, ended = np.maximum(np.minimum(t, near), onset), np.maximum(np.minimum(held, near), l.c)
+    apart = (r.level + 1 + s.delta_0) * (begun - onset + ended - l.c)
+    apart -= _sine_cosine(begun)[0] + _sine_cosine(ended)[0] - np.sin(l.c) - np.sin(onset)
+    apart += (TWO_PI - begun - later) * steep + (later - ended) * np.minimum(r.level + drop + s.delta_0, steep)
+    apart += np.maximum(steep, 0.0) * (s.beta * np.expm1(free / s.beta) - free)
+    least = r.kept + pressed - s.p_0 * longer + np.maximum(apart, r.least) - TWO_PI * noise
     return np.where(possible, least, np.inf)

@@ -116,7 +116,7 @@ def _excluded(kernel, reference: Reference, lo, hi) -> tuple[np.ndarray, np.ndar
         if not open_.size:
             return proven, spent
         index, lo, hi, left = index[open_], lo[open_], hi[open_], left[open_]
-        loss = _LOSS * reference.p_0[index] * (hi - lo)
+        loss = _LOSS * reference.cycle.strips.p_0[index] * (hi - lo)
         proven[index[~(left + loss > 0)]] = False
         going = np.flatnonzero(proven[index])
         if not going.size:
