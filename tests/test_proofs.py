@@ -15,7 +15,7 @@ from hystrip.orbit.groups import Strips, adhesive_cycle
 from hystrip.orbit.march import Orbit, march
 from hystrip.orbit.orbit_bounds import FAST, OrbitBounds, least_engaged_bounds, orbit_bounds
 from hystrip.orbit.regimes import CODE
-from hystrip.orbit.search import excluded, isolate_extremal
+from hystrip.orbit.search import excludes, isolate_extremal
 from hystrip.orbit.sensitivity import slope_bounds, slope_excess, slope_grows
 
 SCANNED = 300
@@ -87,7 +87,7 @@ def test_no_interval_that_ends_at_an_orbit_is_excluded(share, last):
     some = np.flatnonzero(~beside.engaged & (toward * beside.r < 0))
     left, right, cycle = left.take(some), right.take(some), cycle.take(some)
     bounds = slope_bounds(kernel, cycle, left, right)
-    assert some.size > 300 and not excluded(cycle.strips.beta, left, right, bounds, last).any()
+    assert some.size > 300 and not excludes(bounds, cycle.strips.beta, left, right, last).any()
 
 
 def test_no_orbit_out_of_reach_is_said_to_be_out_of_balance():

@@ -136,7 +136,5 @@ def _isolated(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, limi
             orbit.put(pick[here[good]], new[good])
             spent[pick[here]] += used
     code = np.where(contact, np.where(cycle.direct, CODE["afc"], CODE["acaf"]), CODE["af"])
-    # without an end of the search there may be any orbit
-    code = np.where(result.found, code, np.where(result.unresolved, CODE["acaf"], UNDECIDED)).astype(np.int8)
-    certified = result.found & ~result.unresolved & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
-    return Extremal(orbit, code, certified, spent)
+    certified = result.found & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
+    return Extremal(orbit, np.where(result.found, code, UNDECIDED).astype(np.int8), certified, spent)

@@ -7,44 +7,39 @@ last one. A zero is skipped by no one: an interval is left behind only when a bo
 Exclusion. Write ``R(x) = r(x) exp(x/beta)``; then ``beta R' = exp(x/beta)(N - F)``, ``F = H + delta_0``. From the left end of an
 interval, where r > 0, ``r exp(..) >= r_left - fall (exp((x - x_left)/beta) - 1)`` with ``fall >= F - N``; and likewise from the
 right end. Where ``N < F`` throughout, R falls strictly: a change of sign brackets exactly one zero, a stable orbit. All other
-intervals are divided.
+intervals are divided, into one part more each time: most searches end in the second or third round, and for those next to a fold
+or a graze, which go on, the way to rounding is short.
 """
+
+from dataclasses import dataclass
+from itertools import count
 
 import numpy as np
 
 from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
+from .batch import Batch
 from .groups import Cycle
-from .march import TWO_PI, Orbit, march
+from .march import LEAST_PHASE, TWO_PI, Orbit, march
 from .orbit_bounds import earliest_onset
 from .sensitivity import SlopeBounds, over, slope_bounds
 
-#: every round divides what it leaves by two at least
-_MAX_ROUNDS = 200
-#: parts into which an interval is divided, from round to round. Most searches end in two or three; next to a fold or a graze a
-#: round costs about the same whatever the parts: 4 to 10 do alike. The same for every batch: what a strip comes out as must not
-#: depend on its size
-_PARTS = (1, 2, 6)
 #: retardation times after which a displacement is gone, to the smallest number
 FORGOTTEN = 750
 
 
-class SearchResult:
-    """Outcome of a search over n cycles.
+@dataclass(slots=True)
+class Isolated(Batch):
+    """Outcome of a search over n cycles, arrays (n,): whether the arc holds an orbit, ``found``, isolated between the onsets of
+    ``left`` (r >= 0) and ``right`` (r <= 0), and the event evaluations spent."""
 
-    ``found``: the arc holds an orbit, isolated between the onsets of ``left`` (r >= 0) and ``right`` (r <= 0); ``unresolved``:
-    the search did not end (such a strip must not be returned). ``marches``, ``evaluations``: work spent on each.
-    """
-
-    def __init__(self, n: int):
-        self.found = np.zeros(n, bool)
-        self.left, self.right = Orbit.blank(n), Orbit.blank(n)
-        self.unresolved = np.zeros(n, bool)
-        self.marches = np.zeros(n, int)
-        self.evaluations = np.zeros(n)
+    found: np.ndarray
+    left: Orbit
+    right: Orbit
+    evaluations: np.ndarray
 
 
-def isolate_extremal(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, limit=np.nan) -> SearchResult:
+def isolate_extremal(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, limit=np.nan) -> Isolated:
     """Isolate the first (``last=False``) or last zero of r on the onset arc of every cycle, or prove that there is none.
 
     ``known``: periodic orbits (r = 0) of some of the cycles, x NaN for the others; nothing beyond them is looked at.
@@ -61,24 +56,23 @@ class _Search:
         self.known = known or Orbit.blank(cycle.size)
         self.sign = -1.0 if last else 1.0  # sign of r on the excluded side
         self.start = np.fmin(cycle.centre + cycle.half_d, limit) if last else np.fmax(cycle.centre - cycle.half_d, limit)
-        self.result = SearchResult(cycle.size)
+        n = cycle.size
+        self.result = Isolated(np.zeros(n, bool), Orbit.blank(n), Orbit.blank(n), np.zeros(n))
 
     def march(self, index, x, earlier=None, later=None):
         orbit, spent = march(self.kernel, self.cycle.take(index), x, earlier, later)
-        np.add.at(self.result.marches, index, 1)
         np.add.at(self.result.evaluations, index, spent)
         return orbit
 
-    def run(self) -> SearchResult:
+    def run(self) -> Isolated:
         index = self._within_reach(self._without_memory(np.flatnonzero(self.cycle.half_d > 0)))
         if index.size:
             index, frontier, stop = self._start(index)
             beyond = stop
-            for k in range(_MAX_ROUNDS):
+            for parts in count(1):
                 if not index.size:
                     break
-                index, frontier, beyond, stop = self._advance(index, frontier, beyond, stop, _PARTS[min(k, len(_PARTS) - 1)])
-            self.result.unresolved[index] = True
+                index, frontier, beyond, stop = self._advance(index, frontier, beyond, stop, parts)
         return self.result
 
     def _without_memory(self, index):
@@ -138,22 +132,22 @@ class _Search:
             stop.put(open_, self.march(index[open_], (cycle.centre + self.sign * cycle.half_d)[open_]))
         return index, frontier, stop
 
-    def _advance(self, index, frontier: Orbit, beyond: Orbit, stop: Orbit, count: int):
-        """Divide the interval from each frontier to the onset ``beyond`` into ``count`` parts; exclude them, and what is left up
+    def _advance(self, index, frontier: Orbit, beyond: Orbit, stop: Orbit, parts: int):
+        """Divide the interval from each frontier to the onset ``beyond`` into ``parts``; exclude them, and what is left up
         to ``stop``, one after another, until one is not excluded: it brackets an orbit, or is divided in the next round."""
         n = index.size
-        inner = frontier.x + (beyond.x - frontier.x) * (np.arange(1, count)[:, None] / count)
-        every = np.tile(np.arange(n), count - 1)
+        inner = frontier.x + (beyond.x - frontier.x) * (np.arange(1, parts)[:, None] / parts)
+        every = np.tile(np.arange(n), parts - 1)
         points = [frontier, beyond, stop]
-        if count > 1:
+        if parts > 1:
             earlier, later = (beyond, frontier) if self.last else (frontier, beyond)
             points.insert(1, self.march(index[every], inner.ravel(), earlier.take(every), later.take(every)))
         points = Orbit.joined(points)
         here, there = points.take(slice(0, -n)), points.take(slice(n, None))
-        excluded, unique = self._judged(np.tile(index, count + 1), here, there)
-        excluded, unique = excluded.reshape(count + 1, n), unique.reshape(count + 1, n)
+        excluded, unique = self._judged(np.tile(index, parts + 1), here, there)
+        excluded, unique = excluded.reshape(parts + 1, n), unique.reshape(parts + 1, n)
         ended = excluded.all(axis=0)
-        first = np.where(ended, count, excluded.argmin(axis=0)) * n + np.arange(n)
+        first = np.where(ended, parts, excluded.argmin(axis=0)) * n + np.arange(n)
         found = np.flatnonzero(unique.ravel()[first] & ~ended)
         outer, inner = here.take(first[found]), there.take(first[found])
         known = np.flatnonzero(inner.r == 0)  # the orbit itself
@@ -171,20 +165,15 @@ class _Search:
         """Which intervals from ``here``, behind which all is excluded, to ``there`` hold no zero of r, and which exactly one."""
         left, right = (there, here) if self.last else (here, there)
         changes = (self.sign * there.r <= 0) & ~there.engaged & (there.x != here.x)
-        tiny = np.abs(there.x - here.x) <= 4 * EPS * np.maximum(np.abs(there.x), np.abs(here.x))
+        tiny = np.abs(there.x - here.x) <= 4 * EPS * np.maximum(np.abs(there.x), np.abs(here.x)) + LEAST_PHASE
         excluded, unique = right.engaged | (tiny & ~changes), changes & tiny
         open_ = np.flatnonzero(~excluded & ~unique)
-        proof = self._weigh(index[open_], left.take(open_), right.take(open_), changes[open_])
-        excluded[open_[proof & ~changes[open_]]] = True
-        unique[open_[proof & changes[open_]]] = True
-        return excluded, unique
-
-    def _weigh(self, index, left: Orbit, right: Orbit, changes) -> np.ndarray:
-        """Proof that an interval holds exactly one zero (where the sign of r changes) or none (where it does not)."""
+        index, left, right, changes = index[open_], left.take(open_), right.take(open_), changes[open_]
         cycle = self.cycle.take(index)
         bounds = slope_bounds(self.kernel, cycle, left, right)
-        none = excluded(cycle.strips.beta, left, right, bounds, self.last)
-        return np.where(changes, ~left.engaged & bounds.falls, none)
+        unique[open_] = changes & ~left.engaged & bounds.falls
+        excluded[open_] = ~changes & excludes(bounds, cycle.strips.beta, left, right, self.last)
+        return excluded, unique
 
     def _isolated(self, index, left: Orbit, right: Orbit):
         self.result.found[index] = True
@@ -209,26 +198,17 @@ def located(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[Orbit, np.
     return best, spent
 
 
-def excluded(beta, left: Orbit, right: Orbit, bounds: SlopeBounds, last: bool) -> np.ndarray:
+def excludes(bounds: SlopeBounds, beta, left: Orbit, right: Orbit, last: bool) -> np.ndarray:
     """True where the bounds leave no zero of r between two onsets at which r has the sign of the excluded side."""
-    width = right.x - left.x
-    if last:
-        near = reach_back(beta, -right.r, bounds.fall)
-        far = np.where(left.engaged, 0.0, reach_on(beta, np.where(left.engaged, 0.0, -left.r), bounds.rise))
-    else:
-        near = reach_on(beta, left.r, bounds.fall)
-        far = reach_back(beta, right.r, bounds.rise)
+    sign, (of_left, of_right) = (-1.0, (bounds.rise, bounds.fall)) if last else (1.0, (bounds.fall, bounds.rise))
+    near = _reach(beta, np.where(left.engaged, 0.0, sign * left.r), of_left, 1.0)
+    far, width = _reach(beta, sign * right.r, of_right, -1.0), right.x - left.x
     return near + far > width
 
 
-def reach_on(beta, margin, rate):
-    """Distance in the direction of travel over which ``margin - rate (exp(x/beta) - 1)`` stays positive."""
-    ratio = over(np.maximum(margin, 0.0), rate)
-    return np.where(np.isinf(ratio), np.inf, beta * np.log1p(np.where(np.isinf(ratio), 0.0, ratio)))
-
-
-def reach_back(beta, margin, rate):
-    """Distance against the direction of travel over which ``margin - rate (1 - exp(-x/beta))`` stays positive."""
-    ratio = over(np.maximum(margin, 0.0), rate)
-    inside = ratio < 1
-    return np.where(inside, -beta * np.log1p(-np.where(inside, ratio, 0.0)), np.inf)
+def _reach(beta, margin, rate, way):
+    """Distance, in the direction of travel or (``way`` -1) against it, over which ``margin - rate way (exp(way x/beta) - 1)`` is
+    positive."""
+    ratio = way * over(np.maximum(margin, 0.0), rate)
+    ends = (ratio > -1) & (ratio < np.inf)
+    return np.where(ends, way * beta * np.log1p(np.where(ends, ratio, 0.0)), np.inf)
