@@ -14,7 +14,7 @@ from .groups import TWO_PI, Cycle
 
 #: iterations at most. Where there is an orbit with a free part Newton mostly needs a third of them; next to complete contact,
 #: where two edges all but coincide, all. 10 and 24 for these do as well
-_ITERATIONS = 14
+ITERATIONS = 14
 #: share of the way to the end of its arc that an edge may move at once
 _BOLD = 0.9
 #: edges of each sequence, x for the onset (of contact, where nothing else is met)
@@ -32,12 +32,12 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.n
     index, part, gaps = np.arange(n), cycle, gap_zones(cycle, sequence)
     # where a link is lost to rounding or overflows the step is no number, and the strip is left to the search
     with np.errstate(all="ignore"):
-        for iteration in range(1, _ITERATIONS + 1):
+        for iteration in range(1, ITERATIONS + 1):
             move = step(*links(kernel, part, sequence, gaps, edges))
             size = np.abs(move).max(axis=0)
             edges = moved(edges, move, low, high, size)
             # a step this small leaves an error of its square
-            going = np.flatnonzero(size > STABLE) if iteration < _ITERATIONS else index[:0]
+            going = np.flatnonzero(size > STABLE) if iteration < ITERATIONS else index[:0]
             if going.size < index.size:
                 result[:, index], converged[index], spent[index] = edges, size <= STABLE, iteration
                 if not going.size:

@@ -8,12 +8,11 @@ import numpy as np
 
 from . import regimes
 from .certificate import STABLE
-from .chain import gap_zones, links, step
+from .chain import ITERATIONS, gap_zones, links, step
 from .groups import ROUNDING, TWO_PI, Cycle
 from .march import Orbit
 from .solved import edges_of, groups, orbit_of
 
-_ITERATIONS = 20
 #: largest correction that an orbit may still ask for
 CONVERGED = 1e-13
 
@@ -29,7 +28,7 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = T
     correction, stalls, spent = np.full(cycle.size, np.inf), np.zeros(cycle.size, int), np.zeros(cycle.size)
     index = np.arange(cycle.size)
     with np.errstate(all="ignore"):
-        for _ in range(_ITERATIONS):
+        for _ in range(ITERATIONS):
             now = edges[:, index]
             move = step(*_equations(kernel, cycle.among(index), sequence, now))
             spent[index] += 1

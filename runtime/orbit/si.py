@@ -14,8 +14,8 @@ from .solved import Solved
 
 #: beyond this alpha and beta squared overflow
 _GROUP_LIMIT = 1e150
-#: beta up to which the emitted functions are certified (the domain in generated/certificates.json)
-_CERTIFIED = 1e30
+#: beta, or its largest, up to which the emitted functions are certified (the domain in generated/certificates.json)
+CERTIFIED = 1e30
 
 
 def _each(function, *arrays) -> np.ndarray:
@@ -41,9 +41,9 @@ def dimensionless(l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge) -> tu
     if np.any(beta > _GROUP_LIMIT):
         raise InputError("V", float(V[beta > _GROUP_LIMIT][0]), f"k V T_eps at most {_GROUP_LIMIT:g}")
     pace = _each(slowed, alpha)
-    if np.any(beta * pace > _CERTIFIED):
-        fast = float(V[beta * pace > _CERTIFIED][0])
-        raise InputError("V", fast, f"k V T_eps at most {_CERTIFIED:g} where T_sigma is so small")
+    if np.any(beta * pace > CERTIFIED):
+        fast = float(V[beta * pace > CERTIFIED][0])
+        raise InputError("V", fast, f"k V T_eps at most {CERTIFIED:g} where T_sigma is so small")
     traction = _each(np.divide, p_0, K)
     flat = is_flat(A, beta, D, traction, delta_0)
     unit = np.where(flat, 1.0, A) if flat.any() else A

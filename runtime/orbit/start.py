@@ -30,9 +30,6 @@ if TYPE_CHECKING:
 #: rounds of Newton for the edge, and the largest a they begin at: ``a sin a`` has its maximum there; up to it ``sin a - a cos a``
 #: is no less than about this part of ``a**3/3``
 _ROUNDS, _LONG, _CUBE = 4, 2.03, 0.65
-#: contact all but complete, in parts of the pressure's amplitude; by how much the width of its gap is more than where the
-#: saturated field pulls, in parts of that squared, and on a foundation that relaxes at once
-_NEARLY, _WIDER, _QUICKLY = 0.6, 0.27, 0.8
 
 
 def start(kernel, cycle: Cycle, sequence: str, bounds: OrbitBounds | None = None) -> np.ndarray:
@@ -116,8 +113,8 @@ def _nearly_complete(kernel, cycle: Cycle, x, a) -> np.ndarray:
     again soon after; elsewhere at x and a."""
     s = cycle.strips
     pull = 1 - (s.D - 1) / kernel.modulus_ratio(s.alpha, s.beta)
-    near = pull < _NEARLY
+    near = pull < 1
     half = 2 * np.arcsin(np.sqrt(np.clip(pull / 2, 0.0, 1.0)))
     end = np.pi - np.arctan(s.beta) + np.arctan(s.alpha) - half
-    closed = end - TWO_PI + (2 + _WIDER * half + _QUICKLY / (1 + s.alpha) ** 3) * half
-    return np.array([np.where(near, closed, x), np.where(near, end, a)])
+    # the gap is somewhat wider than where the field pulls
+    return np.array([np.where(near, end - TWO_PI + 2.5 * half, x), np.where(near, end, a)])

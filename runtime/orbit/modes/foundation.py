@@ -12,16 +12,13 @@ from ...inputs.model import ModelMaterial, modes_of
 from ..flat import is_flat, solve_with_flat
 from ..groups import snaps_in
 from ..materials import parameters
-from ..si import refuse_uncertified
+from ..si import CERTIFIED, refuse_uncertified
 from .contact import ModeContact
 from .engine import solve_modes
 from .extremes import greatest_gap, least_gap, peak
 from .fields import fields
 from .nonadhesive import ModeWaves
 from .problem import ModeStrips
-
-#: up to this the emitted functions are certified (the domain in generated/certificates.json)
-_GROUP_LIMIT = 1e30
 
 
 class ManyTimes:
@@ -65,9 +62,9 @@ class ManyTimes:
         with np.errstate(over="ignore"):  # refused below, by name
             m = self.kernel.at_speed(self.modes, k * V)
             longest = np.broadcast_to(m.beta.max(axis=0), l.shape)
-        if np.any(longest > _GROUP_LIMIT):
+        if np.any(longest > CERTIFIED):
             raise InputError(
-                "V", float(V[longest > _GROUP_LIMIT][0]), f"k V times the longest retardation time at most {_GROUP_LIMIT:g}"
+                "V", float(V[longest > CERTIFIED][0]), f"k V times the longest retardation time at most {CERTIFIED:g}"
             )
         flat = is_flat(A, longest, D, p_0 / K, delta_0)
         unit = np.where(flat, 1.0, A)
