@@ -13,7 +13,7 @@ from .coordinates import Order
 from .extremal import AGREE, lowest_state
 from .extremes import greatest_gap
 from .fields import state_at
-from .march import TWO_PI, Period, march
+from .march import TWO_PI, march
 from .polish import certified
 from .problem import ModeStrips
 from .propagation import propagation, solve_order
@@ -23,8 +23,8 @@ _STEPS = 80
 _COARSEST = 1e-7
 
 
-def engaged(kernel, strips: ModeStrips, near: Period | None = None):
-    """The same orbits by Newton's method on their edges, from those that marches ``near`` met or else those of the period map's
+def engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
+    """The same orbits by Newton's method on their edges, from those (4, N) that marches ``met`` or else those of the period map's
     fixed points, each checked by a march.
 
     Returns states, edges b and a (2, N), which are known, which are orbits of the strip itself, as their gaps stay within its
@@ -32,18 +32,18 @@ def engaged(kernel, strips: ModeStrips, near: Period | None = None):
     s, left = strips.raised(), np.arange(strips.size)
     z, edges, spent = np.full((s.modes, s.size), np.nan), np.full((2, s.size), np.nan), np.zeros(s.size)
     known, within = np.zeros((2, s.size), bool)
-    if near is None:
+    if met is None:
         near = march(kernel, s, np.ones(s.size, bool), lowest_state(kernel, s), s.start)
-        spent += near.evaluations
+        met, spent = near.edges, spent + near.evaluations
     for last in (False, True):
-        edges[:, left], good, used = certified(kernel, s.take(left), "ac", np.nan_to_num(engaged_edges(near)))
+        edges[:, left], good, used = certified(kernel, s.take(left), "ac", np.nan_to_num(engaged_edges(met)))
         spent[left] += used
         k = left[good]
         z[:, k], _ = state_at(kernel, "ac", s.take(k), edges[:, k], s.take(k).start)
         here = s.take(k)
         turn = march(kernel, here, np.ones(k.size, bool), z[:, k], here.start)
         spent[k] += turn.evaluations
-        apart = np.abs(np.mod(engaged_edges(turn) - edges[:, k] + np.pi, TWO_PI) - np.pi).max(axis=0, initial=0.0)
+        apart = np.abs(np.mod(engaged_edges(turn.edges) - edges[:, k] + np.pi, TWO_PI) - np.pi).max(axis=0, initial=0.0)
         k = k[(apart <= AGREE) & (turn.contacts == 1) & ~turn.lost]
         known[k] = True
         # seen from -p_0: where that is large against the gap, rounding would decide
@@ -51,19 +51,19 @@ def engaged(kernel, strips: ModeStrips, near: Period | None = None):
         left = np.flatnonzero(~known)
         if last or not left.size:
             break
-        near = _fixed_point(kernel, s.take(left))
-        spent[left] += near.evaluations
+        met, used = _fixed_point(kernel, s.take(left))
+        spent[left] += used
     return z - strips.m.J * strips.p_0, edges, known, within, spent
 
 
-def _fixed_point(kernel, s: ModeStrips) -> Period:
-    """The periods of orbits by Newton's method on the period map; ``evaluations`` count all the work."""
-    z, active, order = np.broadcast_to(s.m.J, (s.modes, s.size)) * (s.D - 1), np.arange(s.size), Order.of(kernel, s)
-    out, spent = Period.blank(s.modes, s.size), np.zeros(s.size)
+def _fixed_point(kernel, s: ModeStrips):
+    """Edges (4, N) of orbits by Newton's method on the period map, and the evaluations."""
+    z, active, order = lowest_state(kernel, s), np.arange(s.size), Order.of(kernel, s)
+    met, spent = np.full((4, s.size), np.nan), np.zeros(s.size)
     for _ in range(_STEPS):
         sub, here = s.take(active), order.take(active)
         period = march(kernel, sub, np.ones(active.size, bool), z[:, active], sub.start)
-        out.put(active, period)
+        met[:, active] = period.edges
         spent[active] += period.evaluations
         step = solve_order(propagation(sub, here, period, None), here.to_e(period.dz))
         size = np.abs(step).max(axis=0)
@@ -71,12 +71,11 @@ def _fixed_point(kernel, s: ModeStrips) -> Period:
         active = active[np.isfinite(size) & (size > _COARSEST * sub.size_of_lengths)]
         if not active.size:
             break
-    out.evaluations[:] = spent
-    return out
+    return met, spent
 
 
-def engaged_edges(period: Period):
-    """Edges b, a of an always engaged orbit, b first."""
-    b, a = period.entry, period.exit
+def engaged_edges(met):
+    """Edges b, a of an always engaged orbit, b first, of those (4, N) that a march met."""
+    _, b, a, _ = met
     b = np.where(b > a, b - TWO_PI, b)
     return np.array([b, a]) - TWO_PI * np.floor((a + 0.5 * np.pi) / TWO_PI)

@@ -75,7 +75,7 @@ class _Batch:
         closed = held & self.constant[index] & (not self.unloading)
         self._closed(index[closed])
         held = np.flatnonzero(held & ~closed)
-        z, known = self._always_engaged(index[held], "ac", found.held.take(held))
+        z, known = self._always_engaged(index[held], "ac", found.edges[:, held])
         rest = np.flatnonzero(known & ~self.solved.certified[index[held]] & self.unloading)
         self._first(index[held[rest]], z[:, rest], np.ones(rest.size, bool), False)
 
@@ -88,7 +88,7 @@ class _Batch:
         hold = index[~self.full[index]]
         self.record.constant(hold, "a", -self.strips.p_0[hold], 0.0, 0.0, 1.0)
 
-    def _always_engaged(self, index, sequence, near=None):
+    def _always_engaged(self, index, sequence, met=None):
         """Solve the always engaged orbits of the strips ``index``; write those that are orbits of the strip.
 
         Returns their states and which are known."""
@@ -96,7 +96,7 @@ class _Batch:
             return np.empty((self.strips.modes, 0)), np.zeros(0, bool)
         s = self.strips.take(index)
         whole = replace(s, bare=True) if sequence == "cf" else s
-        z, edges, known, within, spent = engaged(self.kernel, whole, near)
+        z, edges, known, within, spent = engaged(self.kernel, whole, met)
         self.solved.evaluations[index] += spent
         k = np.flatnonzero(within)
         self.solved.code[index] = CODE[sequence]

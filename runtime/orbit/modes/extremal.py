@@ -41,13 +41,12 @@ ENGAGED, FREE, ORBIT, UNRESOLVED = 0, 1, 2, -1
 @dataclass(slots=True)
 class Extremal:
     """Outcome for N strips: ``kind`` (ENGAGED, FREE, ORBIT, UNRESOLVED); orbits by ``edges`` (4, N) in the order d, b, a, c, of
-    the regime ``sequence`` (place in ``SEQUENCES``); evaluations; the marches that were ``held`` engaged all along."""
+    the regime ``sequence`` (place in ``SEQUENCES``), or the edges of marches that were engaged all along; evaluations."""
 
     kind: np.ndarray
     edges: np.ndarray
     sequence: np.ndarray
     evaluations: np.ndarray
-    held: Period
 
 
 def lowest_state(kernel, s: ModeStrips) -> np.ndarray:
@@ -77,10 +76,8 @@ def extremal(kernel, s: ModeStrips, z, engaged, rising: bool, released: bool) ->
 class _Search:
     def __init__(self, kernel, s: ModeStrips, z, engaged, rising: bool):
         self.kernel, self.rising, self.active = kernel, rising, np.arange(s.size)
-        blank = Period.blank(s.modes, s.size)
-        self.out = Extremal(
-            np.full(s.size, UNRESOLVED), np.full((4, s.size), np.nan), np.zeros(s.size, int), np.zeros(s.size), blank
-        )
+        nothing = np.full((4, s.size), np.nan)
+        self.out = Extremal(np.full(s.size, UNRESOLVED), nothing, np.zeros(s.size, int), np.zeros(s.size))
         beyond = np.broadcast_to(np.maximum(s.D, 0.0) if rising else -s.p_0, z.shape).copy()
         near, self.orbit = (Period.blank(s.modes, s.size) for _ in range(2))
         if not rising:  # contacts from there are the longest of all
@@ -104,8 +101,7 @@ class _Search:
         held = near.never_free & (ends_held | (not self.rising))
         lets = near.never_engaged & self.rising & (s.D <= -s.delta_0)
         out.kind[i[held]], out.kind[i[lets]] = ENGAGED, FREE
-        if held.any():
-            out.held.put(i[held], near.take(np.flatnonzero(held)))
+        out.edges[:, i[held]] = near.edges[:, held]
         going = ~(held | lets | near.lost)
         if number == _START:
             self._newton(i[going], np.inf)

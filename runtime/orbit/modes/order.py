@@ -62,7 +62,7 @@ from .propagation import exact_gains, least_gains, propagation, solve_order
 
 #: states of a chain, in Newton's steps: those end short of a simple orbit, and half-way to a double one, where orbits are about
 #: to appear. Beyond that the map moves states ever further, so that they may lie ever further apart
-_CHAIN = np.append(0.0, np.geomspace(1 / 8, 34, 24))
+_CHAIN = np.append(np.linspace(0, 2, 17), 2 + 2.0 ** np.arange(-1, 6))
 #: least distance of states, in units of the strip's lengths: what rounding leaves of the sign of P(y) - y
 _LEAST = 1e-12
 
