@@ -6,7 +6,8 @@ their sign). Then the derivative of the map is at most
     M = C (G + gains),
 
 entry by entry in the coordinates of the order: C the contact of the upper state, the shortest; G the gap between; and at
-release and onset, with ``k = J/beta`` and ``gain = step of p/|slope of the gap|``, the terms ``gain G(after) k 1^T G(before)``.
+release and onset, with ``k = J/(J_0 beta)`` and ``gain = step of w/|slope of the gap|``, the terms
+``gain G(after) k 1^T G(before)``.
 M has no negative entry, so its spectral radius is below one where ``(I - M) v = r`` has a positive solution for a positive r.
 """
 
@@ -18,7 +19,7 @@ from .coordinates import Order
 from .event_bounds import event_bounds
 from .march import TWO_PI, Period
 from .problem import ModeStrips, rates
-from .propagation import solve_order
+from .propagation import kick, least_sums, solve_order
 
 
 def alike(lower: Period, upper: Period) -> np.ndarray:
@@ -54,14 +55,12 @@ def upper_bound(s: ModeStrips, order: Order, lower: Period, upper: Period) -> tu
     same &= ~snaps | (s.delta_0 + steep * (x_2 - x_1) <= s.step)
     good = same & (on > 0) & (off > 0)
     with np.errstate(all="ignore"):
-        onset = np.where(good, s.jump_on / (s.m.J_0 * on), 0.0)
-        release = np.where(good, s.p_0 / off, 0.0)
-        rate = rates(s.m.beta)
-        fade = lambda t: np.exp(-np.maximum(t, 0.0) * rate)  # noqa: E731
-        kick = s.m.J * rate
-        column = lambda short, long: _most(order.back * kick, fade(short), fade(long))  # noqa: E731
-        row = lambda short, long: _most(np.swapaxes(order.share, 0, 1), fade(short), fade(long))  # noqa: E731
-        between = (kick * fade(x_1 - c_2)).sum(axis=0)
+        onset = np.where(good, s.jump_on / on, 0.0)
+        release = np.where(good, s.step / off, 0.0)
+        rate, kicks, whole = rates(s.m.beta), kick(s), np.ones((s.modes, s.size))
+        column = lambda *times: -least_sums(-order.back, kicks, s, *np.maximum(times, 0.0))  # noqa: E731
+        row = lambda *times: -least_sums(-np.swapaxes(order.share, 0, 1), whole, s, *np.maximum(times, 0.0))  # noqa: E731
+        between = (kicks * np.exp(-np.maximum(x_1 - c_2, 0.0) * rate)).sum(axis=0)
         # from onset on a state is in the gap until its own contact, and forgets no less in that than in a gap up to b
         closing, closes = np.where(snaps, 0.0, closing), contact & (snaps | closes)
         before, after_x = row(c_1, c_2), column(*np.where(closes, closing, np.stack((b - x_2, b - x_1))))
@@ -79,8 +78,3 @@ def upper_bound(s: ModeStrips, order: Order, lower: Period, upper: Period) -> tu
         n = s.modes
         change[:, range(n), range(n)] += held
     return change, good
-
-
-def _most(amplitudes, short, long):
-    """Upper bound of ``sum_j amplitude_ij exp(-t/beta_j)`` between two times, from the decays at both."""
-    return (np.where(amplitudes > 0, amplitudes * short, amplitudes * long)).sum(axis=1)

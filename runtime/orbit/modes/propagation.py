@@ -56,7 +56,9 @@ def least_gains(s: ModeStrips, order: Order, lower: Period, upper: Period, alike
 def _saltation(s: ModeStrips, order: Order, lower: Period, upper: Period, slope, onset: bool, closing=None) -> Saltation:
     """Of events at which the gap moves no faster than at ``slope``."""
     edge, k = (0, 0) if onset else (3, 1)
-    gain = _ratio(s.jump_on if onset else s.step, slope)
+    step = s.jump_on if onset else s.step
+    steep = np.isfinite(slope) & (slope > 1e-290 * (1 + step))
+    gain = np.divide(step, slope, out=np.zeros(s.size), where=steep)
     event = np.sort(np.stack([lower.edges[edge], upper.edges[edge]]), axis=0)
     start, end, smooth = lower.since[k], lower.until[k], lower.smooth_onset | (not onset)
     holds = (event[0] >= start) & (gain > 0)
@@ -66,21 +68,21 @@ def _saltation(s: ModeStrips, order: Order, lower: Period, upper: Period, slope,
         times, closes = closing
         after, inside = np.where(holds & closes, times, after), inside | holds & closes
     before = np.where(inside, event - start, 0.0)
-    row = _least_sums(np.swapaxes(order.share, 0, 1), np.ones((s.modes, s.size)), s, *before)
-    column = _least_sums(order.back, _kick(s), s, *after)
+    row = least_sums(np.swapaxes(order.share, 0, 1), np.ones((s.modes, s.size)), s, *before)
+    column = least_sums(order.back, kick(s), s, *after)
     # a contact that an onset begins at once ends nowhere later than that of the lower march, and a gap keeps more
     column = np.where(smooth, column, order.rate * np.exp(-after[1] * order.rate))
     longest = event[1] - np.minimum(start, upper.since[k])
-    between = (_kick(s) * np.exp(-np.where(inside, longest, 0.0) * rates(s.m.beta))).sum(axis=0)
+    between = (kick(s) * np.exp(-np.where(inside, longest, 0.0) * rates(s.m.beta))).sum(axis=0)
     return Saltation(np.where(inside, gain, 0.0), np.maximum(row, 0.0), np.maximum(column, 0.0), between)
 
 
-def _kick(s: ModeStrips):
+def kick(s: ModeStrips):
     """Rates of the gap's modes (n, N) where w steps by one."""
     return np.broadcast_to(s.m.J * rates(s.m.beta) / s.m.J_0, (s.modes, s.size))
 
 
-def _least_sums(matrix, amplitudes, s: ModeStrips, short, long):
+def least_sums(matrix, amplitudes, s: ModeStrips, short, long):
     """Lower bounds of ``sum_j matrix_ij amplitude_j exp(-t/beta_j)`` for t from ``short`` to ``long``."""
     rate = rates(s.m.beta)
     rising, falling = np.maximum(matrix, 0.0), np.minimum(matrix, 0.0)
@@ -126,10 +128,3 @@ def propagation(s: ModeStrips, order: Order, period: Period, gains: tuple[Saltat
 def solve_order(change: np.ndarray, r: np.ndarray) -> np.ndarray:
     """``(I - M)^-1 r`` for ``M = I + change``; r and the result (n, N). NaN where singular."""
     return solved(-change, r.T[:, :, None])[:, :, 0].T
-
-
-def _ratio(step, slope):
-    """``step/slope`` for a slope that bounds from above; 0 where that says nothing."""
-    return np.divide(
-        step, slope, out=np.zeros(np.shape(step)), where=np.isfinite(slope) & (slope > 1e-290 + 1e-290 * np.abs(step))
-    )
