@@ -92,11 +92,15 @@ def evaluate(coefficients: np.ndarray, t) -> np.ndarray:
 
 def evaluate_each(table: np.ndarray, x: np.ndarray) -> np.ndarray:
     """Chebyshev sums of a ``table`` (m, n + 1, q), each at its own ``x`` (m, nodes) in [-1, 1], (m, nodes, q)."""
-    twice = 2 * x[:, :, None]
-    one = two = np.zeros((*x.shape, table.shape[2]))
-    for k in range(table.shape[1] - 1, 0, -1):
-        one, two = table[:, None, k] + twice * one - two, one
-    return table[:, None, 0] + x[:, :, None] * one - two
+    out, rows = np.empty((*x.shape, table.shape[2])), max(1, _CHUNK // x.shape[1])
+    for some in (slice(start, start + rows) for start in range(0, len(x), rows)):
+        # Chebyshev polynomials, one after the other
+        polynomials = np.ones((table.shape[1], *x[some].shape))
+        polynomials[1:2], twice = x[some], 2 * x[some]
+        for k in range(2, len(polynomials)):
+            np.subtract(twice * polynomials[k - 1], polynomials[k - 2], out=polynomials[k])
+        out[some] = np.moveaxis(polynomials, 0, 2) @ table[some]
+    return out
 
 
 @lru_cache

@@ -13,7 +13,9 @@ from ...numerics.quadrature import gauss, mapped, mapped_slope
 from ...numerics.roots import false_position
 from ...numerics.rounding import EPS
 from ...numerics.rules import by_rules
+from ...orbit.contact import passages
 from ...orbit.foundation import Foundation
+from .family import CONTACT
 from .law import Laws
 from .means import Level
 from .panels import ends_of, panels
@@ -80,12 +82,12 @@ class Carrier:
         at = panels(Span(d, f.s_sat[group]), ends, strips)
         column, u, weight = np.repeat(at.column, strips), at.u.ravel(), at.weight.ravel()
         waves = self.foundation.waves(self.rate[group[column]])
-        known = f.values(group[at.column], at.s, slopes=True)
-        width = _inside(known[:, :, 2].ravel())
+        share, slope = f.values(group[at.column], at.s, slopes=True, of=CONTACT).reshape(-1, 2).T
+        width = _inside(share)
         orbits = waves.orbits(width, means=False)
         # families know pressures, not widths, as well as friction may need it: a step of Newton's towards the strip that
         # is meant
-        width = _inside(width / (2 * np.pi) + known[:, :, 5].ravel() * (at.s.ravel() - orbits.D))
+        width = _inside(width / (2 * np.pi) + slope * (at.s.ravel() - orbits.D))
         orbits = waves.orbits(width, means=False)
         missed = np.abs(at.s.ravel() - orbits.D)
         self.strips += width.size
@@ -118,12 +120,7 @@ class Carrier:
         u = np.cos(0.5 * (low + (high - low) * mapped(y))).ravel() ** 2
         weight = ((high - low) / np.pi * mapped_slope(y) * v).ravel()
         mean, swing = d[column] - 1 + 0.5 * u, 0.5 * u * (f.s_sat[group[column]] - 1)
-        breaks = breaks[column]
-        with np.errstate(invalid="ignore"):
-            cosine = np.divide(
-                breaks - mean[:, None], swing[:, None], out=np.sign(breaks - mean[:, None]), where=swing[:, None] > 0
-            )
-        passed = np.arccos(np.clip(cosine, -1.0, 1.0)) / np.pi
+        passed = passages(breaks[column], mean[:, None], swing[:, None], 0.0)[1] / np.pi
         # from the peak down: above the highest break first
         edges = np.concatenate((np.zeros((u.size, 1)), passed[:, ::-1], np.ones((u.size, 1))), axis=1)
         parts = _Parts.between(edges, np.isfinite(self.laws.p_full[group[column]]), 0)

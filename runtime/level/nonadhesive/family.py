@@ -33,6 +33,7 @@ _FLATTEST = 1e-200
 #: quantities of a strip: mean pressure, mean friction, share of the period in contact; and how well that has to be known beside
 #: them: as well as it comes
 _Q, _ANY = 3, 1e30
+ALL, CONTACT = slice(0, _Q), slice(2, _Q)
 
 
 def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V: np.ndarray) -> bool:
@@ -69,17 +70,17 @@ class Family:
         """Where in [0, 1] the series has the strips ``s`` (m, nodes)."""
         return _xi(s, self.s_sat[group, None]) / self.top[group, None]
 
-    def values(self, group: np.ndarray, s: np.ndarray, slopes: bool = False) -> np.ndarray:
-        """Quantities of the strips ``s`` (m, nodes), all of row i at the velocity ``group[i]``: (m, nodes, 3), or with
-        their ``slopes`` by s (m, nodes, 6)."""
-        xi = _xi(s, self.s_sat[group, None])
-        out = np.empty((*s.shape, 2 * _Q if slopes else _Q))
+    def values(self, group: np.ndarray, s: np.ndarray, slopes: bool = False, of: slice = ALL) -> np.ndarray:
+        """Quantities ``of`` the strips ``s`` (m, nodes), all of row i at the velocity ``group[i]``: (m, nodes, q), or with
+        their ``slopes`` by s (m, nodes, 2 q)."""
+        xi, q = _xi(s, self.s_sat[group, None]), of.stop - of.start
+        out = np.empty((*s.shape, 2 * q if slopes else q))
         sizes = np.array([self.series[g].shape[0] for g in group])
         for n in np.unique(sizes):
             rows = np.flatnonzero(sizes == n)
             some = slice(None) if rows.size == group.size else rows
             which, place = np.unique(group[some], return_inverse=True)
-            table = np.array([self.series[g] for g in which])
+            table = np.array([self.series[g][:, of] for g in which])
             if slopes:
                 table = np.concatenate((table, derivatives(table)), axis=2)
             x = 2 * xi[some] / self.top[group[some], None] - 1
@@ -87,7 +88,7 @@ class Family:
         if slopes:
             # by s: twice the derivative over [0, 1] that was a derivative over [-1, 1]
             by_s = self.s_sat[group, None] * np.sin(2 * xi) * 0.5 * self.top[group, None]
-            out[..., _Q:] /= np.maximum(by_s, np.finfo(float).tiny)[..., None]
+            out[..., q:] /= np.maximum(by_s, np.finfo(float).tiny)[..., None]
         return out
 
 

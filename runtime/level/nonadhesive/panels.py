@@ -8,7 +8,7 @@ import numpy as np
 
 from ...numerics.quadrature import gauss, mapped, mapped_slope
 from ...numerics.roots import false_position
-from .family import Family
+from .family import CONTACT, Family
 from .peaks import Peaks
 from .span import Span
 
@@ -50,7 +50,7 @@ def _passed(span, length, family, peaks, group, breaks):
 
     def greatest(eta):
         u, s = span.strips(every, eta)
-        return u * peaks.at(group, family.values(group, s)[:, :, 2])[0]
+        return u * peaks.at(group, family.values(group, s, of=CONTACT)[:, :, 0])[0]
 
     eta = span.high[:, None] - length[:, None] * np.linspace(1, 0, _LOOKS)
     looks = greatest(eta)

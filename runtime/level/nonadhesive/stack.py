@@ -12,7 +12,7 @@ from ...numerics.chebyshev import lobatto
 from ...numerics.quadrature import interleaved
 from ...numerics.rounding import EPS
 from .carried import Carrier
-from .family import family
+from .family import CONTACT, family
 from .law import NODES, Laws, Piece, fit, greatest_slope, pressures
 from .means import CANCELLED, Level
 from .peaks import Peaks, peak, peaks_of
@@ -109,7 +109,7 @@ class FamilyStack:
         out = np.maximum(d - 1 + 0.5 * family.s_sat, 0.0)
         part = np.flatnonzero((d > 0) & (d < 0.5 * family.s_sat))
         if part.size:
-            share = np.clip(family.values(part, 2 * d[part, None])[:, 0, 2], EPS, 1 - 1e-9)
+            share = np.clip(family.values(part, 2 * d[part, None], of=CONTACT)[:, 0, 0], EPS, 1 - 1e-9)
             found = peak(self.foundation, self.waves[i].k * self.V[part], share)[0]
             out[part] = np.minimum(out[part], 0.5 * _BETWEEN * found)
             self.work.solved += part.size
