@@ -20,9 +20,6 @@ _BEYOND = 0.5
 _OUTSIDE = 0.1
 #: points of a curve that are kept, over the amplitude of the crest
 _GRID = 512
-#: how far from the ends of a zone points of the curve are that goes round it, and how near one another its ends are at least, as
-#: shares of the height
-_NEAR, _NARROWEST = 128, 1e-6
 
 
 @dataclass
@@ -62,28 +59,6 @@ class Crossings:
         if not states:
             return np.empty(0, int), np.empty(0)
         return np.concatenate(states), np.concatenate(amplitudes)
-
-    def turns(self, columns: LevelBatch, A: np.ndarray, E: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Where a known curve turns that passes both amplitudes ``A`` (m, 2), m, of each of the ``columns``: E between the two of
-        ``E`` (m, 2), m, and the amplitude there, m, (m,) each; NaN where none is known to."""
-        out, crest = np.full((2, columns.size), np.nan)
-        near = columns.level.h / _NEAR
-        for boundary, known in self.points.items():
-            away = np.abs(known.A - A[:, :, None])
-            away[np.broadcast_to((known.velocity != columns.V[:, None])[:, None], away.shape)] = np.inf
-            for index in np.unique(known.index):
-                beside = np.where(known.index == index, away, np.inf)
-                rows = np.flatnonzero(np.isnan(out) & (beside.min(axis=2) <= near).all(axis=1))
-                if not rows.size:
-                    continue
-                one, two = (known.take(place) for place in beside[rows].argmin(axis=2).T)
-                middle = (0.5 * (getattr(one, name) + getattr(two, name)) for name in ("A", "E", "edges"))
-                start = Points(one.velocity, *middle, one.pressure, one.index)
-                reach = np.maximum(0.5 * np.abs(A[rows, 0] - A[rows, 1]), _NARROWEST * columns.level.h)
-                turn, found = plane.turning_point(columns, boundary, start, reach)
-                found &= (turn.E - E[rows, 0]) * (turn.E - E[rows, 1]) < 0
-                out[rows[found]], crest[rows[found]] = turn.E[found], turn.A[found]
-        return out, crest
 
 
 def _between(known: Points, velocity, E) -> tuple[np.ndarray, Points]:

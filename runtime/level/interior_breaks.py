@@ -11,7 +11,6 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..numerics.rounding import EPS
-from .boundaries import theta_of
 from .strips import LevelBatch
 from .zones import Zones
 
@@ -20,8 +19,6 @@ from .zones import Zones
 _ACROSS, _ALONG, _ROUNDS = 12, 8, 20
 #: what an island may add to the means that is left aside, over their goal
 _LEFT = 0.3
-#: a turn is held to be where an island vanishes no closer than to this share of its way
-_ASIDE = 1e-9
 
 
 @dataclass
@@ -66,32 +63,9 @@ def island(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) -> 
 
 
 def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips: np.ndarray) -> np.ndarray:
-    """Penetrations at which the islands vanish: where the curve turns that goes round them; or, where two curves cut them off,
-    where they have shrunk so far that what is left does not tell. NaN: it is not absent at all. All at once; ``strips`` (per
-    column) counts the work."""
-    column, code, low, high, present, absent, weight = _arrays(islands)
-    at, theta, h = columns.at(column, present), np.stack((low, high), axis=1), columns.level.h
-    turn, A = columns.crossings.turns(at, columns.level.amplitude(theta), np.stack((present, absent), axis=1) - h)
-    # what goes round it may end before it turns, or beyond: the island is there before, and behind nothing is left that tells, as
-    # its width goes like a square root
-    known, out = np.flatnonzero(np.isfinite(turn)), np.full(len(islands), np.nan)
-    if known.size:
-        aside = ((absent - present) * np.maximum((_LEFT / weight) ** 2, _ASIDE))[known]
-        which, D = np.tile(known, 2), h + np.concatenate((turn[known] - aside, turn[known] + aside))
-        np.add.at(strips, column[which], 1)
-        has = columns.at(column[which], D).codes(np.arange(which.size), theta_of(columns, A[which])) == code[which]
-        vanishes = known[has[: known.size] & ~has[known.size :]]
-        out[vanishes] = h + turn[vanishes]
-    left = np.flatnonzero(np.isnan(out))
-    out[left] = _followed(columns, [islands[i] for i in left], strips)
-    return out
-
-
-def _followed(columns: LevelBatch, islands: list[IsolatedRegime], strips: np.ndarray) -> np.ndarray:
-    """``locate_vanishing`` on ever smaller grids of strips across what is left of the islands and along the way to its end."""
+    """Penetrations at which the islands have shrunk so far that what is left does not tell, by ever smaller grids of strips across
+    that and along the way to its end. NaN: one is not absent at all. All at once; ``strips`` (per column) counts the work."""
     out, number = np.full(len(islands), np.nan), np.arange(len(islands))
-    if not islands:
-        return out
     column, code, low, high, present, absent, weight = _arrays(islands)
     density, start, stop = weight / (high - low), np.zeros(number.size), np.ones(number.size)
     for _ in range(_ROUNDS):

@@ -25,8 +25,6 @@ _ITERATIONS, _SMALL, _LONGEST = 16, 1e-8, 0.5
 #: differences that stand for derivatives, of edges and relative ones of A or E: far enough for the determinant of zones of 1e-8
 #: radians, which keeps 8 digits, so that Newton's method gains 5 digits a step; a zone's are a share of it, and at least so much
 _FAR, _SHARE, _LEAST = 1e-5, 1e-2, 1e-13
-#: distances of the points of a parabola: its vertex is off by the fourth power of them, and each is as good a start as the last
-_CLOSER = (1.0, 1 / 16, 1 / 256)
 #: a zone shrinks at most to this share in a step: fast modes make zones of 1e-8 radians whose edges move by far more than that;
 #: and contact between adhesion zones that shrinks to this share of its first width ends where it closes, not by a fold
 _SHRINKS, _GONE = 0.1, 1e-3
@@ -109,27 +107,6 @@ def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str)
 def gone(before: np.ndarray, after: np.ndarray) -> np.ndarray:
     """Which contacts between adhesion zones have shrunk to nothing, (n,), by the edges (k, n) of orbits before and after."""
     return np.diff(after, axis=0)[1] < _GONE * np.diff(before, axis=0)[1] if len(after) == 4 else np.zeros(after.shape[1], bool)
-
-
-def turning_point(columns: LevelBatch, boundary: Boundary, start: Points, reach: np.ndarray) -> tuple[Points, np.ndarray]:
-    """Where curves turn in E: the vertex of the parabola through three points of each, ever closer to one another, from ``start``
-    (n,) on the curves and within ``reach`` (n,) of A at first; and which were found."""
-    n, found = start.A.size, np.ones(start.A.size, bool)
-    for closer in _CLOSER:
-        side = closer * reach
-        three = Points.joined(Points.joined(start, start), start)
-        three.A = np.concatenate((start.A - side, start.A, start.A + side))
-        three, good = locate(columns, boundary, three, "E")
-        found &= good.reshape(3, n).all(axis=0)
-        low, middle, high = three.E.reshape(3, n)
-        bend = low - 2 * middle + high
-        with np.errstate(divide="ignore", invalid="ignore"):  # a straight line has no vertex
-            share = 0.5 * (low - high) / bend
-        found &= np.abs(share * side) <= reach
-        share = np.where(found, share, 0.0)
-        start = three.take(np.arange(n, 2 * n))
-        start.A, start.E = start.A + share * side, middle + 0.25 * (high - low) * share
-    return start, found
 
 
 def _moved(edges: np.ndarray, step: np.ndarray) -> np.ndarray:
