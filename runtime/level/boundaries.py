@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..numerics.rounding import EPS
 from ..orbit.foundation import foundation_of
 from ..orbit.regimes import CODE
 from . import plane
@@ -22,14 +23,10 @@ from .plane import BOUNDARIES, Boundary, Points
 if TYPE_CHECKING:
     from .strips import LevelBatch
 
-#: columns of the edges of a strip
-_COLUMN = {"d": 0, "b": 1, "a": 2, "c": 3}
+#: edges of the orbits of a regime, in order of phase
 EDGES = {"acaf": "dbac", "afc": "bac", "af": "dc", "ac": "ba", "cf": "ba"}
-#: relative rounding of a threshold
-_ROUNDED = 1e-13
-#: place of each regime in the order in which a strip that is drawn out passes them
+#: place of each regime in the order in which a strip that is drawn out passes them: up to 1 it is engaged all along
 _RANK = np.array([{"c": 0, "a": 1, "ac": 1, "af": 3, "f": 4}.get(sequence, 2) for sequence in CODE])
-_ENGAGED = np.array([CODE["ac"], CODE["a"], CODE["c"]])
 
 
 def straight(columns: LevelBatch) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -89,7 +86,7 @@ def equations(columns: LevelBatch, code: np.ndarray, other: np.ndarray) -> list[
     Orbits are ordered: pressed deeper a strip is more engaged. So unloading leaves an orbit that is engaged all along only where
     that ends itself, and loading one with a free part; contact that appears in an adhesion zone ends neither."""
     own = lambda sequence: code == CODE[sequence]  # noqa: E731
-    to_engaged = np.isin(other, _ENGAGED)
+    to_engaged = _RANK[other] <= 1
     found = []
     for boundary in BOUNDARIES:
         rows = own(boundary.sequence)
@@ -124,15 +121,15 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
             rows = rows[~found[rows]]
             if not rows.size:
                 continue
-            names = [_COLUMN[name] for name in EDGES[boundary.sequence]]
-            start = Points(columns.V[rows], at_A[rows], at_E[rows], near[rows][:, names].T, pressure[rows], index[rows])
+            names = ["dbac".index(name) for name in EDGES[boundary.sequence]]
+            start = Points(columns.V[rows], at_A[rows], at_E[rows], near[rows][:, names], pressure[rows], index[rows])
             got, good = plane.locate(columns, boundary, start, unknown)
             at = getattr(got, unknown)
             inside = (at > low[rows]) & (at < high[rows])
             if boundary.event == "fold":  # contact that vanishes tells where to look for that
                 these = inside & ~good & plane.gone(start.edges, got.edges)
                 at_A[rows[these]], at_E[rows[these]] = got.A[these], got.E[these]
-                near[np.ix_(rows[these], names)] = got.edges[:, these].T
+                near[np.ix_(rows[these], names)] = got.edges[these]
             good &= inside
             place[rows[good]], found[rows[good]] = at[good], True
             if good.any():
@@ -157,7 +154,7 @@ def _by_threshold(columns: LevelBatch, changes: Changes, A, E, unknown: str) -> 
     # a gap that adheres throughout: it closes at its crest, and opens to delta_0 over its valley all along y at once
     adhering = (code == CODE["a"]).any(axis=1)
     closes = adhering & np.isin(code, [CODE["ac"], CODE["c"]]).any(axis=1)
-    opens = adhering & ~np.isin(code, _ENGAGED).all(axis=1) & unloading & (unknown == "E")
+    opens = adhering & (_RANK[code] > 1).any(axis=1) & unloading & (unknown == "E")
     factor, known = np.where(closes, 2.0, np.where(opens, 0.0, factor)), known | closes | opens
     constant = np.where(closes, -columns.stretch, np.where(opens, -columns.stretch - columns.adhesion.delta_0, constant))
     if columns.carry is not None:
@@ -173,7 +170,7 @@ def _by_threshold(columns: LevelBatch, changes: Changes, A, E, unknown: str) -> 
     ends = A if unknown == "A" else E
     # a curve over penetration ends at saturation, but for rounding
     low, high = ends.min(axis=1), ends.max(axis=1)
-    slack = _ROUNDED * (np.abs(low) + np.abs(high) + columns.level.h)
+    slack = 64 * EPS * (np.abs(low) + np.abs(high) + columns.level.h)
     return np.clip(place, low, high), known & (place >= low - slack) & (place <= high + slack)
 
 

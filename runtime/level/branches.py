@@ -24,10 +24,9 @@ from .piece import Errors, Piece, parameter
 if TYPE_CHECKING:
     from .segment import Segment
 
-_GRID = np.linspace(0, 1, 65)
 #: parameters at which turns are looked for: one may hide next to an end, where every piece is flat
 _NEAR = 0.5 ** np.arange(10, 6, -1)
-_TURNS = np.concatenate(([0.0], _NEAR, _GRID[1:-1], 1 - _NEAR[::-1], [1.0]))
+_TURNS = np.concatenate(([0.0], _NEAR, np.arange(1, 64) / 64, 1 - _NEAR[::-1], [1.0]))
 
 
 @dataclass(frozen=True, slots=True)

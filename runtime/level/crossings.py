@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,7 +31,7 @@ class Crossings:
     def remember(self, columns: LevelBatch, boundary: Boundary, points: Points) -> None:
         known = self.points.get(boundary)
         if known is not None:
-            points = Points.joined(known, points)
+            points = Points.joined([known, points])
         # by velocity and along the curve, which has one E for each A; what is closer than this says nothing new
         place = np.floor(points.A * (_GRID / columns.level.h))
         order = np.lexsort((points.A, points.index, points.velocity))
@@ -49,7 +48,7 @@ class Crossings:
             parts = [part for part in (_between(known, columns.V, E), _at_turns(known, columns.V, E)) if part[0].size]
             if not parts:
                 continue
-            state, start = np.concatenate([state for state, _ in parts]), reduce(Points.joined, (start for _, start in parts))
+            state, start = np.concatenate([state for state, _ in parts]), Points.joined([start for _, start in parts])
             points, found = plane.locate(columns, boundary, start, "A")
             found &= (points.A > 0) & (2 * points.A < columns.level.h)
             points, state = points.take(np.flatnonzero(found)), state[found]
@@ -80,7 +79,7 @@ def _between(known: Points, velocity, E) -> tuple[np.ndarray, Points]:
     high = np.where(padded[upper + 1], 1.0, 1 + _BEYOND)
     near = np.flatnonzero((share >= low) & (share <= high))
     state, share, lower, upper = state[near], share[near], lower[near], upper[near]
-    blend = lambda x: x[..., lower] + share * (x[..., upper] - x[..., lower])  # noqa: E731
+    blend = lambda x: (x[lower].T + share * (x[upper] - x[lower]).T).T  # noqa: E731
     A = np.maximum(blend(known.A), 0.5 * known.A[lower])
     return state, Points(velocity[state], A, E[state], blend(known.edges), known.pressure[lower], known.index[lower])
 
@@ -111,7 +110,7 @@ def _at_turns(known: Points, velocity, E) -> tuple[np.ndarray, Points]:
         moved * (moved - before[at]) / (after * (after - before))[at],
     ]
     points = middle[at]
-    edges = sum(weight * known.edges[:, points + k] for k, weight in zip((-1, 0, 1), weights, strict=True))
+    edges = sum(weight[:, None] * known.edges[points + k] for k, weight in zip((-1, 0, 1), weights, strict=True))
     return state, Points(velocity[state], known.A[points] + moved, E[state], edges, known.pressure[points], known.index[points])
 
 

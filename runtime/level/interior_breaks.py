@@ -63,8 +63,8 @@ def island(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) -> 
 
 
 def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips: np.ndarray) -> np.ndarray:
-    """Penetrations at which the islands have shrunk so far that what is left does not tell, by ever smaller grids of strips across
-    that and along the way to its end. NaN: one is not absent at all. All at once; ``strips`` (per column) counts the work."""
+    """Penetrations at which the islands have shrunk so far that what is left does not tell, by ever smaller grids of strips
+    across that and along the way to its end. NaN: one is not absent at all. ``strips`` (per column) counts the work."""
     out, number = np.full(len(islands), np.nan), np.arange(len(islands))
     column, code, low, high, present, absent, weight = _arrays(islands)
     density, start, stop = weight / (high - low), np.zeros(number.size), np.ones(number.size)

@@ -9,11 +9,12 @@ unknown, with E given A is.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..orbit.batch import Batch
 from ..orbit.foundation import foundation_of
 
 if TYPE_CHECKING:
@@ -50,8 +51,8 @@ BOUNDARIES = (
 
 
 @dataclass
-class Points:
-    """Points of curves: ``velocity`` (m/s), ``A`` and ``E`` (m), ``edges`` (k, n) of the orbit that ends there, and the
+class Points(Batch):
+    """Points of curves: ``velocity`` (m/s), ``A`` and ``E`` (m), ``edges`` (n, k) of the orbit that ends there, and the
     ``pressure`` (Pa) that it passes, break number ``index`` of its law."""
 
     velocity: np.ndarray
@@ -61,20 +62,13 @@ class Points:
     pressure: np.ndarray
     index: np.ndarray
 
-    def take(self, which) -> Points:
-        return Points(*(getattr(self, f.name)[..., which] for f in fields(self)))
-
-    @classmethod
-    def joined(cls, one: Points, two: Points) -> Points:
-        return cls(*(np.concatenate((getattr(one, f.name), getattr(two, f.name)), axis=-1) for f in fields(cls)))
-
 
 def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str) -> tuple[Points, np.ndarray]:
     """Points of a curve by Newton from ``start``, with ``unknown`` "A" or "E" and the other one kept; and which were found.
 
     ``start`` holds orbits of the boundary's sequence nearby. Points that are not found are no numbers to be used.
     """
-    edges, plane = start.edges.copy(), {"A": start.A.copy(), "E": start.E.copy()}
+    edges, plane = start.edges.T.copy(), {"A": start.A.copy(), "E": start.E.copy()}
     k, n = edges.shape
     found, active = np.zeros(n, bool), np.arange(n)
     system = _System(columns, boundary, start)
@@ -99,14 +93,14 @@ def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str)
         plane[unknown][active] += moved
         done = size < _SMALL
         found[active[done]] = True
-        active = active[~done & ~gone(start.edges[:, active], edges[:, active])]
+        active = active[~done & ~gone(start.edges[active], edges[:, active].T)]
     found &= (np.diff(edges, axis=0) >= -_SMALL).all(axis=0) & (edges[-1] <= edges[0] + TWO_PI)
-    return Points(start.velocity, plane["A"], plane["E"], edges, start.pressure, start.index), found
+    return Points(start.velocity, plane["A"], plane["E"], edges.T, start.pressure, start.index), found
 
 
 def gone(before: np.ndarray, after: np.ndarray) -> np.ndarray:
-    """Which contacts between adhesion zones have shrunk to nothing, (n,), by the edges (k, n) of orbits before and after."""
-    return np.diff(after, axis=0)[1] < _GONE * np.diff(before, axis=0)[1] if len(after) == 4 else np.zeros(after.shape[1], bool)
+    """Which contacts between adhesion zones have shrunk to nothing, (n,), by the edges (n, k) of orbits before and after."""
+    return np.diff(after)[:, 1] < _GONE * np.diff(before)[:, 1] if after.shape[1] == 4 else np.zeros(len(after), bool)
 
 
 def _moved(edges: np.ndarray, step: np.ndarray) -> np.ndarray:
