@@ -11,10 +11,10 @@ from .inputs.adhesion import Dugdale
 from .inputs.surface import Level
 from .level.accuracy import Accuracy
 from .level.across import peak_pressure, strips_across
-from .level.build import build_laws
 from .level.effort import WorkCounters
 from .level.error_budget import FINER, error_budget
 from .level.inverse import Inverse, cut_penetration, invert
+from .level.law import build_laws
 from .level.lower_levels import LowerLevelLaws
 from .level.means import level_means
 from .level.merge import merged

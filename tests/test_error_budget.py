@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import hystrip
-from hystrip.level.branches import branches, rising
+from hystrip.level.branches import branches_of, rising
 from hystrip.level.cells import cells_of
 from hystrip.level.curve import Curve
 from hystrip.level.descent import _Walk
@@ -134,7 +134,7 @@ def test_cells_say_what_they_miss():
 def _branch(p_low, p_high, error):
     """A branch along which pressure and three other quantities rise evenly."""
     middle, half = 0.5 * (p_high + p_low), 0.5 * (p_high - p_low)
-    return rising(Piece(p_low, p_high, np.array([[middle] * 4, [half] * 4]), Errors.constant(np.full(4, error))))[0]
+    return rising([Piece(p_low, p_high, np.array([[middle] * 4, [half] * 4]), Errors.constant(np.full(4, error)))])[0][0]
 
 
 @pytest.mark.parametrize("unloading", [True, False])
@@ -154,8 +154,8 @@ def test_loading_does_not_begin_where_the_curve_only_seems_to_rise():
         Piece(-1.0, 0.0, ripple, Errors.constant(np.full(4, 2.0))),
         Piece(0.0, 1.0, np.array([[10.0] * 4, [90.0] * 4]), Errors.constant(np.full(4, 1e-6))),
     )
-    assert len(rising(falling)) > 0
-    (branch,) = branches(Curve([rise, falling], 1.0, 0), unloading=False)
+    assert len(rising([falling])[0]) > 0
+    ((branch,),) = branches_of([Curve([rise, falling], 1.0, 0)], unloading=False)
     assert branch.p_low == pytest.approx(-80.0) and branch.p_high == pytest.approx(100.0)
 
 

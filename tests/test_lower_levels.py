@@ -57,7 +57,7 @@ def _piece(low, high, law):
 
 def table():
     pieces = [_piece(BREAKS[0], BREAKS[1], _lower), _piece(BREAKS[1], BREAKS[2], _upper)]
-    segments = segments_of([part for piece in pieces for part in rising(piece)], np.full((2, 4), [1e-8, 1e-8, 1e-13, 1e-13]))
+    segments = segments_of([part for row in rising(pieces) for part in row], np.full((2, 4), [1e-8, 1e-8, 1e-13, 1e-13]))
     saturated = np.array([BREAKS[2], 1e5, 1.0, 0.0])
     return LawTable([Law(segments, BREAKS[0], BREAKS[2], saturated, np.inf, 0, True)])
 
@@ -146,7 +146,7 @@ def _stepwise(at, low, high, known_to=(0.0, 0.0)):
         _piece(BREAKS[0], at, lambda share, rest: low + 0 * share),
         _piece(at, BREAKS[2], lambda share, rest: high + 0 * share),
     ]
-    segments = segments_of([part for piece in pieces for part in rising(piece)], np.full((2, 4), 1e-9))
+    segments = segments_of([part for row in rising(pieces) for part in row], np.full((2, 4), 1e-9))
     segments = [replace(s, errors=Errors.constant(error)) for s in segments]
     saturated = np.array([BREAKS[2], high, 1.0, 0.0])
     return Law(segments, BREAKS[0], BREAKS[2], saturated, np.inf, 0, True)

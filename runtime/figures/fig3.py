@@ -20,7 +20,7 @@ def data() -> dict[str, Any]:
 
     ``reachable``: met by pulling back slowly under load control; the rest of the unloading curve needs control of penetration.
     """
-    from ..level.branches import branches
+    from ..level.branches import branches_of
     from ..level.curve import trace
     from ..level.strips import LevelBatch, saturation_depth
     from ..scene import load_scene
@@ -34,7 +34,7 @@ def data() -> dict[str, Any]:
         # the threshold decides the unloading orbit only; coming from no contact, all of the surface is met when the edge is
         top = saturated if branch == "unloading" else np.maximum(saturated, 1.5 * scene.levels[0].h)
         for v, D_top, curve in zip(V, top, trace(columns, np.full(V.size, _RTOL), top), strict=True):
-            parts = [(b.piece, b.t_low, b.t_high) for b in branches(curve, branch == "unloading")]
+            parts = [(b.piece, b.t_low, b.t_high) for b in branches_of([curve], branch == "unloading")[0]]
             for piece in curve.pieces:
                 inside = sorted((low, high) for p, low, high in parts if p is piece)
                 ends = sorted({0.0, 1.0, *(t for pair in inside for t in pair)})

@@ -54,23 +54,13 @@ class Branch:
         return float(Inverse([self])(np.zeros(1, int), np.array([p]))[0])
 
 
-def branches(curve: Curve, unloading: bool) -> list[Branch]:
-    """Branches that load control follows, in order of rising pressure."""
-    return branches_of([curve], unloading)[0]
-
-
 def branches_of(curves: Sequence[Curve], unloading: bool) -> list[list[Branch]]:
-    """``branches`` of many curves."""
-    found = iter(_rising([piece for curve in curves for piece in curve.pieces]))
+    """Branches that load control follows on each of the curves, in order of rising pressure."""
+    found = iter(rising([piece for curve in curves for piece in curve.pieces]))
     rows = [[part for _ in curve.pieces for part in next(found)] for curve in curves]  # from high D to low D
     if unloading:
         return [row[::-1] for row in _standing_out(rows, unloading)]
     return _standing_out([loaded(row[::-1]) for row in rows], unloading)
-
-
-def rising(piece: Piece) -> list[Branch]:
-    """Maximal parts of a piece in which pressure rises with D, from high to low D."""
-    return _rising([piece])[0]
 
 
 def meets(part: Branch | Segment, overlap: float) -> bool:
@@ -112,8 +102,8 @@ def _standing_out(rows: list[list[Branch]], unloading: bool) -> list[list[Branch
     return kept
 
 
-def _rising(pieces: Sequence[Piece]) -> list[list[Branch]]:
-    """``rising`` of many pieces."""
+def rising(pieces: Sequence[Piece]) -> list[list[Branch]]:
+    """Of each piece the maximal parts in which pressure rises with D, from high to low D."""
     if not pieces:
         return []
     pressures = _pressures(pieces)

@@ -125,7 +125,7 @@ class _Walk:
 
     def go_on(self, intervals: list[Interval], pieces: list[Piece], exhausted: bool) -> None:
         """Along the ``pieces`` of a part; where the work is not ``exhausted`` these may be asked for again, finer."""
-        every = [part for piece in pieces for part in rising(piece)]
+        every = [part for row in rising(pieces) for part in row]
         parts = sorted(every, key=lambda part: (part.piece.low, part.t_low), reverse=self.unloading)
         clings = self.p < 0 and not self.unloading
         if clings:

@@ -20,8 +20,7 @@ MEAN = 0.4
 @dataclass(frozen=True)
 class Interval:
     """An interval of D of one column; ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end. ``asked``: how
-    accurate it has to be beside what is asked of the column. ``even``: its parameters are shares of it, not graded towards its
-    ends: enough for a look."""
+    accurate it has to be beside what is asked of the column."""
 
     column: int
     low: float
@@ -29,7 +28,6 @@ class Interval:
     inner_low: bool = False
     inner_high: bool = False
     asked: Accuracy = Accuracy()
-    even: bool = False
 
     def split(self, D: float, soft: bool) -> list[Interval]:
         """The two parts below and above D."""
@@ -44,8 +42,6 @@ class Interval:
     @property
     def endpoint_map(self) -> EndpointMap:
         """Of its nodes."""
-        if self.even:
-            return EndpointMap(1, 1)
         return EndpointMap(*(GENTLE if inner else STEEP for inner in (self.inner_low, self.inner_high)))
 
     def penetrations(self, t):

@@ -7,15 +7,17 @@ what it is at the beginning of the next one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from .branches import branches_of, meets
-from .curve import Curve
+from .curve import trace
+from .error_budget import ErrorBudget
+from .inverse import cut_penetration
 from .segment import Segment, segments_of
+from .strips import LevelBatch
 
 #: pressures of a segment at which its size is looked at: it is monotone in pressure, and friction over pressure has few humps
 _SUPPORTS = 17
@@ -111,17 +113,32 @@ class Law:
         return out
 
 
-def laws_of(curves: Sequence[Curve], unloading: bool, p_sat: np.ndarray, saturated: np.ndarray, p_max: np.ndarray) -> list[Law]:
-    """The friction laws along one branch of loading of traced curves. ``p_sat`` (n,): pressures of saturation, ``saturated``
-    (n, q): means there; ``p_max`` (n,): pressures to which a curve was cut, below saturation, inf for the others."""
+def build_laws(
+    columns: LevelBatch,
+    rtol: np.ndarray,
+    p_full: np.ndarray,
+    D_full: np.ndarray,
+    saturated: np.ndarray,
+    p_max: np.ndarray | None,
+    budget: ErrorBudget | None = None,
+) -> list[Law]:
+    """The friction law of every column (its ``D`` is not used) along its branch of loading, as far up as it will be asked for.
+
+    ``p_full``, ``D_full`` (n,): where the level, and all it carries, is saturated; ``saturated`` (n, q): means there. ``p_max``
+    (n,): greatest pressure that will be asked for, or None for the whole law. ``budget``: how much its pressures count.
+    """
+    p_max = np.full(columns.size, np.inf) if p_max is None else np.maximum(p_max, -columns.adhesion.p_0)
+    top, unloading = cut_penetration(columns, p_max, D_full), columns.branch == "unloading"
+    p_max = np.where(top < D_full, p_max, np.inf)
+    curves = trace(columns, rtol, top, follow=True, budget=budget)
     kept = branches_of(curves, unloading)
     least = np.repeat(1e-15 * np.abs(saturated), [len(row) for row in kept], axis=0)
     flat = [b for row in kept for b in row]
     every = iter(segments_of(flat, np.maximum(np.reshape([b.errors.most for b in flat], least.shape), least)))
     out = []
     for i, (curve, row) in enumerate(zip(curves, kept, strict=True)):
-        segments = _joined([next(every) for _ in row], p_sat[i])
-        pull_off = row[0].p_low if row else p_sat[i]
+        segments = _joined([next(every) for _ in row], p_full[i])
+        pull_off = row[0].p_low if row else p_full[i]
         p_top = segments[-1].p_high if row and p_max[i] < np.inf else p_max[i]
-        out.append(Law(segments, float(pull_off), float(p_sat[i]), saturated[i], float(p_top), curve.strips, unloading))
+        out.append(Law(segments, float(pull_off), float(p_full[i]), saturated[i], float(p_top), curve.strips, unloading))
     return out

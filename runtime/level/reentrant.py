@@ -7,6 +7,7 @@ interpolated.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy as np
 from ..numerics.nested import Stage, sampled
 from ..numerics.quadrature import interior_nodes
 from .error_budget import ErrorBudget
-from .interval import Interval, array_of, columns_of, means_in, places, weighed
+from .interval import Interval, array_of, columns_of, means_in, weighed
 from .strips import LevelBatch
 
 #: accuracy of the look, and its nodes at first; narrower intervals, as a share of the column's, have fewer
@@ -31,18 +32,18 @@ def reentrant_parts(
     ``budget`` allows; ``strips`` (per column) counts the work."""
     whole = np.zeros(columns.size)
     np.add.at(whole, columns_of(intervals), [i.high - i.low for i in intervals])
-    evenly = array_of([replace(i, even=True) for i in intervals])
-    narrow = np.array([i.high - i.low < _NARROW * whole[i.column] for i in evenly])
+    every = array_of(intervals)
+    narrow = np.array([i.high - i.low < _NARROW * whole[i.column] for i in every])
     rough = np.full(columns.size, _ROUGH)
 
     def means(parts, D):
         return means_in(columns, rough, np.concatenate(parts), D, strips)
 
-    stages = sampled([Stage(evenly[which], n) for n, which in ((_FEW, narrow), (_MANY, ~narrow)) if which.any()], places, means)
+    stages = sampled([Stage(every[which], n) for n, which in ((_FEW, narrow), (_MANY, ~narrow)) if which.any()], _evenly, means)
     doubtful = {look for look, *_ in _parts(stages, least, _BENDS[0])}
     apart = [(stage, np.array([i in doubtful for i in stage.parts])) for stage in stages]
     stages, again = [stage.take(~which) for stage, which in apart], [stage.take(which) for stage, which in apart if which.any()]
-    found = _parts([*stages, *(sampled(again, places, means) if again else [])], least, _BENDS[1])
+    found = _parts([*stages, *(sampled(again, _evenly, means) if again else [])], least, _BENDS[1])
     parts = [part for _, part, _ in found]
     return parts if budget is None else weighed(columns, budget, parts, [values for *_, values in found], least)
 
@@ -50,11 +51,10 @@ def reentrant_parts(
 def _parts(stages: list[Stage], least: np.ndarray, bends: float) -> list[tuple[Interval, Interval, np.ndarray]]:
     """Intervals that were looked at, their parts that unloading may come to, and the means there, (nodes, q)."""
     met, out = least.copy(), []
-    looks = [
-        (i, i.penetrations(interior_nodes(stage.n)), values, errors[:, 0])
-        for stage in stages
-        for i, values, errors, _ in zip(stage.parts, *stage.known, strict=True)
-    ]
+    looks = []
+    for stage in stages:
+        values, errors, _ = stage.known
+        looks += zip(stage.parts, _evenly(stage.parts, interior_nodes(stage.n)), values, errors[:, :, 0], strict=True)
     for look, D, values, error in sorted(looks, key=lambda look: -look[0].high):
         column, p = look.column, values[:, 0]
         bend = np.pad(np.abs(p[:-2] - 2 * p[1:-1] + p[2:]), 1)
@@ -70,7 +70,12 @@ def _parts(stages: list[Stage], least: np.ndarray, bends: float) -> list[tuple[I
                 continue
             soft = look.inner_low or first > 0, look.inner_high or last < p.size - 1
             low, high = D[first] if first > 0 else look.low, D[last] if last < p.size - 1 else look.high
-            part = replace(look, low=float(low), high=float(high), inner_low=soft[0], inner_high=soft[1], even=False)
+            part = replace(look, low=float(low), high=float(high), inner_low=soft[0], inner_high=soft[1])
             out.append((look, part, values[first : last + 1]))
         met[column] = min(met[column], (p + error).min())
     return out
+
+
+def _evenly(intervals: Sequence[Interval], t: np.ndarray) -> np.ndarray:
+    """Penetrations (intervals, nodes) at the shares ``t`` (nodes,) of each: a look need not be graded towards ends."""
+    return np.array([i.low + (i.high - i.low) * t for i in intervals]).reshape(-1, t.size)

@@ -18,10 +18,9 @@ from ..orbit.groups import ROUNDING
 from ..orbit.materials import Material, check_edge
 from ..orbit.solution import BRANCHES
 from .accuracy import Accuracy
-from .build import build_laws
 from .effort import WorkCounters
 from .inverse import invert
-from .law import Law
+from .law import Law, build_laws
 from .means import level_means
 from .saturated import saturated_level
 from .strips import QUANTITIES, LevelBatch
