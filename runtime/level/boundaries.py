@@ -113,7 +113,7 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
     low, high = ends.min(axis=1), ends.max(axis=1)
     code = changes.codes % len(CODE)
     for side in (0, 1):
-        near, at_A, at_E = changes.edges[:, side].copy(), A[:, side].copy(), E[:, side].copy()
+        near, at_A, at_E = changes.edges[:, side], A[:, side], E[:, side]
         none = np.zeros(changes.size)
         kinds = [] if columns.carry is None else _peaks(columns, changes, code)
         kinds += [(b, rows, none, none.astype(int)) for b, rows in equations(columns, code[:, side], code[:, 1 - side])]
@@ -126,10 +126,6 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
             got, good = plane.locate(columns, boundary, start, unknown)
             at = getattr(got, unknown)
             inside = (at > low[rows]) & (at < high[rows])
-            if boundary.event == "fold":  # contact that vanishes tells where to look for that
-                these = inside & ~good & plane.gone(start.edges, got.edges)
-                at_A[rows[these]], at_E[rows[these]] = got.A[these], got.E[these]
-                near[np.ix_(rows[these], names)] = got.edges[these]
             good &= inside
             place[rows[good]], found[rows[good]] = at[good], True
             if good.any():

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
 #: how far beyond the outermost points that are known of a curve it is expected to go on, as a share of their distance
 _BEYOND = 0.5
-#: how far outside of where the parabola at a turn crosses a state Newton starts, as a share of the distance of the points
-_OUTSIDE = 0.1
 #: points of a curve that are kept, over the amplitude of the crest
 _GRID = 512
 
@@ -96,9 +94,7 @@ def _at_turns(known: Points, velocity, E) -> tuple[np.ndarray, Points]:
     bend = (high - low) / (after - before)
     slope = low - bend * before
     turn = known.E[middle] - 0.25 * slope**2 / bend
-    # Newton's way from outside of the two roots is the safe one, and the parabola's turn is not quite the curve's
-    outside = (_OUTSIDE * np.maximum(-before, after))[:, None] ** 2
-    square = (E - turn[:, None]) / bend[:, None] + outside
+    square = (E - turn[:, None]) / bend[:, None]
     beyond = (E - known.E[middle, None]) * bend[:, None] < 0
     at, state = np.nonzero((known.velocity[middle, None] == velocity) & beyond & (square > 0))
     root = np.sqrt(square[at, state])

@@ -26,9 +26,8 @@ _ITERATIONS, _SMALL, _LONGEST = 16, 1e-8, 0.5
 #: differences that stand for derivatives, of edges and relative ones of A or E: far enough for the determinant of zones of 1e-8
 #: radians, which keeps 8 digits, so that Newton's method gains 5 digits a step; a zone's are a share of it, and at least so much
 _FAR, _SHARE, _LEAST = 1e-5, 1e-2, 1e-13
-#: a zone shrinks at most to this share in a step: fast modes make zones of 1e-8 radians whose edges move by far more than that;
-#: and contact between adhesion zones that shrinks to this share of its first width ends where it closes, not by a fold
-_SHRINKS, _GONE = 0.1, 1e-3
+#: a zone shrinks at most to this share in a step: fast modes make zones of 1e-8 radians whose edges move by far more than that
+_SHRINKS = 0.1
 
 
 @dataclass(frozen=True)
@@ -93,14 +92,9 @@ def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str)
         plane[unknown][active] += moved
         done = size < _SMALL
         found[active[done]] = True
-        active = active[~done & ~gone(start.edges[active], edges[:, active].T)]
+        active = active[~done]
     found &= (np.diff(edges, axis=0) >= -_SMALL).all(axis=0) & (edges[-1] <= edges[0] + TWO_PI)
     return Points(start.velocity, plane["A"], plane["E"], edges.T, start.pressure, start.index), found
-
-
-def gone(before: np.ndarray, after: np.ndarray) -> np.ndarray:
-    """Which contacts between adhesion zones have shrunk to nothing, (n,), by the edges (n, k) of orbits before and after."""
-    return np.diff(after)[:, 1] < _GONE * np.diff(before)[:, 1] if after.shape[1] == 4 else np.zeros(len(after), bool)
 
 
 def _moved(edges: np.ndarray, step: np.ndarray) -> np.ndarray:
