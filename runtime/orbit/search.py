@@ -22,7 +22,7 @@ from .batch import Batch
 from .groups import Cycle
 from .march import LEAST_PHASE, TWO_PI, Orbit, march
 from .orbit_bounds import earliest_onset
-from .sensitivity import SlopeBounds, over, slope_bounds
+from .sensitivity import SlopeBounds, over, slope_bounds, slope_excess
 
 #: retardation times after which a displacement is gone, to the smallest number
 FORGOTTEN = 750
@@ -186,11 +186,14 @@ def located(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[Orbit, np.
     best, spent = left.take(np.arange(cycle.size)), np.zeros(cycle.size)
 
     def residual(x, index):
-        orbit, used = march(kernel, cycle.take(index), x, left.take(index), right.take(index))
+        part = cycle.take(index)
+        orbit, used = march(kernel, part, x, left.take(index), right.take(index))
         spent[index] += used
         released = np.flatnonzero(~orbit.engaged)
         best.put(index[released], orbit.take(released))
-        return np.maximum(orbit.r, -TWO_PI * cycle.strips.beta[index])
+        beta, change = part.strips.beta, slope_excess(kernel, part, orbit)[1] - orbit.r
+        # without memory r is the gap of the undeformed surface
+        return orbit.r, np.divide(change, beta, out=-kernel.profile_slope(x), where=beta > EPS)
 
     share = left.r / np.where(left.r > right.r, left.r - right.r, 1.0)
     x, _ = falling_root(residual, left.x, right.x, left.x + (right.x - left.x) * share)
