@@ -10,24 +10,26 @@ All panels of all columns advance together, each on its own number of nodes: one
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..numerics.nested import Stage, sampled
-from ..numerics.quadrature import interior_nodes, sum_errors
+from ..numerics.quadrature import interior_nodes, mapped, mapped_weights, sum_errors
 from ..numerics.rounding import EPS
+from ..orbit.batch import Batch
 from ..orbit.regimes import CODE
 from .boundaries import hides_another, located, passed_breaks, theta_of, thresholds
 from .changes import Changes, locate_changes
 from .effort import AVERAGE_LIMIT
-from .panels import FIRST, LAST, Panels
 from .zones import Zones, zones_of
 
 if TYPE_CHECKING:
     from .strips import LevelBatch
 
+#: nodes of a panel at first and at most, and one more
+_FIRST, _LAST = 8, 64
 #: nodes of a panel in saturated contact, where strips take no search: its sum may as well be exact
 _COSTLESS = 32
 #: a panel's part of what a state may err, and of that what brackets of changes may
@@ -56,10 +58,38 @@ def average(columns: LevelBatch, rtol: np.ndarray) -> Averages:
     """Means ``(1/pi) int_0^pi`` of the strips of every state to ``rtol (|value| + floor)``, ``rtol`` (n,)."""
     n, q = columns.size, columns.scales.size
     work = _Work(columns, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
-    stages = [Stage(work.start(*thresholds(columns), *columns.crossings.expected(columns)), FIRST)]
+    stages = [Stage(work.start(*thresholds(columns), *columns.crossings.expected(columns)), _FIRST)]
     while stages:
         stages = work.refine(stages)
     return Averages(work.values / np.pi, work.errors / np.pi, work.strips, work.zones())
+
+
+@dataclass
+class Panels(Batch):
+    """Panels of ``state`` between thetas; ``first`` and ``last``: the strip known next to each end, -1: none."""
+
+    state: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    first: np.ndarray
+    last: np.ndarray
+
+    @property
+    def width(self) -> np.ndarray:
+        return self.high - self.low
+
+    def halves(self) -> list[Panels]:
+        """Both halves of each."""
+        middle, none = 0.5 * (self.low + self.high), np.full(self.size, -1)
+        return [replace(self, high=middle, last=none), replace(self, low=middle, first=none)]
+
+    def at(self, t: np.ndarray) -> np.ndarray:
+        """Thetas at the parameters ``t`` of every panel, (panels, t)."""
+        return self.low[:, None] + self.width[:, None] * mapped(t)
+
+    def sums(self, values: np.ndarray) -> np.ndarray:
+        """Integrals (panels, q) of what has the ``values`` (panels, n - 1, q) at the interior ones of n nodes."""
+        return self.width[:, None] * (mapped_weights(values.shape[1] + 1) @ values)
 
 
 @dataclass
@@ -117,9 +147,9 @@ class _Work:
             done = self._accept(stage, total, ~changed)
             mixed.append(stage.take(changed & ~done))
             stage = stage.take(~changed & ~done)
-            (doubled if stage.n < LAST else halved).append(stage)
+            (doubled if stage.n < _LAST else halved).append(stage)
         parts = [self._divide(mixed, total), *(half for stage in halved for half in stage.parts.halves())]
-        left = [Stage(Panels.joined(parts), FIRST), *doubled]
+        left = [Stage(Panels.joined(parts), _FIRST), *doubled]
         return [stage for stage in left if stage.parts.size]
 
     def _accept(self, stage: Stage, total: np.ndarray, usable: np.ndarray) -> np.ndarray:
