@@ -16,8 +16,6 @@ from .rounding import EPS
 
 #: bisection alone ends within 1,100 steps, from the largest number to the smallest, and every other step at least halves
 _MOST = 2200
-#: a quotient by less than this share of a value would overflow
-_TINY = 1e-290
 
 
 def falling_root(
@@ -50,21 +48,22 @@ def falling_root(
         spent[live] += 1
         positive = value > 0
         last, lo, hi = (x, value), np.where(positive, x, lo), np.where(positive, hi, x)
-        # a slope of the wrong sign, or one that over- or underflowed, sends the step outside the bracket: bisection then
-        usable = (slope < 0) & (slope > -np.inf) & (np.abs(slope) > _TINY * np.abs(value))
-        step = np.divide(-value, slope, out=np.full_like(value, np.inf), where=usable)
+        # a slope of the wrong sign, none, or one that over- or underflowed gives a step that leaves the bracket, no number, or none
+        with np.errstate(all="ignore"):
+            step = value / -slope
         small = np.maximum(2 * EPS * np.maximum(np.abs(lo), np.abs(hi)), tolerance)
         if not newton:
             # a small step may be that of a steep secant: only a narrow bracket tells, and steps that are not too small make one
             step = np.copysign(np.maximum(np.abs(step), 0.5 * small), step)
         new, size = x + step, np.abs(step)
-        bisected = ~((new >= lo) & (new <= hi)) | (size > 0.5 * before)
+        bisected = ~((new >= lo) & (new <= hi) & (size <= 0.5 * before) & (size > 0))
         new = np.where(bisected, 0.5 * (lo + hi), new)
         exact = value == 0
         done = exact | (hi - lo <= small)
         if newton:
             # next to the root the next step would be this one times the square of the last ratio of steps
-            ratio = np.divide(size, correction, out=np.ones_like(size), where=correction > size)
+            with np.errstate(all="ignore"):
+                ratio = np.minimum(size / correction, 1.0)
             done |= ~bisected & (size * ratio * ratio <= small)
         x = np.where(exact, x, new)
         before, correction = np.where(bisected, hi - lo, size), np.where(bisected, 0.0, size)
