@@ -48,7 +48,7 @@ def falling_root(
         spent[live] += 1
         positive = value > 0
         last, lo, hi = (x, value), np.where(positive, x, lo), np.where(positive, hi, x)
-        # a slope of the wrong sign, none, or one that over- or underflowed gives a step that leaves the bracket, no number, or none
+        # a slope of the wrong sign, or one that over- or underflowed, gives a step out of the bracket, no number, or none
         with np.errstate(all="ignore"):
             step = value / -slope
         small = np.maximum(2 * EPS * np.maximum(np.abs(lo), np.abs(hi)), tolerance)

@@ -14,7 +14,7 @@ from .certificate import attracting, edges_admissible, stable
 from .chain import follow
 from .exclusion import is_extremal
 from .groups import ROUNDING, Cycle
-from .march import FROZEN, TWO_PI, Orbit
+from .march import FROZEN, TWO_PI, Orbit, between
 from .orbit_bounds import FAST, OrbitBounds
 from .refine import refined
 from .regimes import CODE
@@ -115,26 +115,40 @@ def _followed(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Extrema
 def _isolated(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, limit=np.nan) -> Extremal:
     """Orbits found by the exhaustive search. ``known``, ``limit``: see ``isolate_extremal``."""
     result = isolate_extremal(kernel, cycle, last, known, limit)
-    orbit, spent, contact = result.left, result.evaluations, ~np.isnan(result.left.b)
+    orbit, spent = result.left, result.evaluations
     # a bracket without width is the orbit itself
     pick = np.flatnonzero(result.found & (orbit.x < result.right.x))
     if pick.size:
-        left, right = orbit.take(pick), result.right.take(pick)
-        new, used = located(kernel, cycle.take(pick), left, right)
+        part, left, right = cycle.take(pick), orbit.take(pick), result.right.take(pick)
+        new, inside, used = _refined_within(kernel, part, between(left, right), left, right, blurred=False)
+        rest = np.flatnonzero(~inside)
+        if rest.size:
+            part, left, right = part.take(rest), left.take(rest), right.take(rest)
+            found, more = located(kernel, part, left, right)
+            # Newton on the boundary equations is rounded less than the march
+            new[rest], _, again = _refined_within(kernel, part, found, left, right, blurred=True)
+            used[rest] += more + again
         orbit.put(pick, new)
         spent[pick] += used
-        contact = ~np.isnan(orbit.b)
-        # Newton on the boundary equations is rounded less than the march, where it stays in between
-        kinds = {"acaf": contact & ~cycle.direct, "afc": cycle.direct & ~cycle.bare, "cf": cycle.bare, "af": ~contact}
-        for sequence, kind in kinds.items():
-            here = np.flatnonzero(kind[pick])
-            if not here.size:
-                continue
-            new, converged, blur, used = refined(kernel, sequence, cycle.take(pick[here]), orbit.take(pick[here]))
+    direct = np.where(cycle.direct, CODE["afc"], CODE["acaf"])
+    code = np.where(result.found, np.where(np.isnan(orbit.b), CODE["af"], direct), UNDECIDED).astype(np.int8)
+    certified = result.found & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
+    return Extremal(orbit, code, certified, spent)
+
+
+def _refined_within(kernel, cycle: Cycle, orbit: Orbit, left: Orbit, right: Orbit, blurred: bool):
+    """Orbits refined where that leads to one with its onset between those of ``left`` and ``right``, where that is, and the
+    evaluations spent. ``blurred``: see ``refined``."""
+    contact, inside, spent = ~np.isnan(orbit.b), np.zeros(cycle.size, bool), np.zeros(cycle.size)
+    kinds = {"acaf": contact & ~cycle.direct, "afc": cycle.direct & ~cycle.bare, "cf": cycle.bare, "af": ~contact}
+    for sequence, kind in kinds.items():
+        here = np.flatnonzero(kind)
+        if here.size:
+            part = cycle.take(here)
+            new, converged, blur, spent[here] = refined(kernel, sequence, part, orbit.take(here), blurred)
             slack = ROUNDING * TWO_PI + blur
             good = converged & (new.x >= left.x[here] - slack) & (new.x <= right.x[here] + slack)
-            orbit.put(pick[here[good]], new[good])
-            spent[pick[here]] += used
-    code = np.where(contact, np.where(cycle.direct, CODE["afc"], CODE["acaf"]), CODE["af"])
-    certified = result.found & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
-    return Extremal(orbit, np.where(result.found, code, UNDECIDED).astype(np.int8), certified, spent)
+            good[good] = edges_admissible(kernel, part.take(good), new[good])
+            inside[here] = good
+            orbit.put(here[good], new[good])
+    return orbit, inside, spent

@@ -116,6 +116,14 @@ def _release_grazing(kernel, cycle: Cycle, orbit: Orbit, index) -> None:
     orbit.c[index], orbit.engaged[index], orbit.r[index] = c[pick], False, r[rises]
 
 
+def between(left: Orbit, right: Orbit) -> Orbit:
+    """Edges interpolated to where r vanishes linearly between two onsets: a start for Newton, not an orbit."""
+    fall = left.r - right.r
+    share = np.clip(np.divide(left.r, fall, out=np.full(fall.shape, 0.5), where=np.isfinite(fall) & (fall > 0)), 0, 1)
+    mixed = [(1 - share) * getattr(left, e) + share * getattr(right, e) for e in ("x", "b", "a", "c")]
+    return Orbit(*mixed, left.engaged.copy(), left.r.copy())
+
+
 class _Known:
     """What orbits from an earlier and a later onset say of an edge: bounds, and whether it exists at all."""
 
