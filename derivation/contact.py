@@ -13,31 +13,20 @@ from .symbols import J, beta, p_0, p_in, q_0, s, s_0, s_1
 
 
 def contact(flows: Flows) -> tuple[Kernel, ...]:
-    r""":math:`q = p + p_0` in contact, and its derivatives.
+    r""":math:`q = p + p_0` in contact.
 
     excess_after: Pressure above -p_0 in contact, when it was q_0 at s_0.
 
     .. math:: q(s_1) = (q_0 + [p_{sat}]_{s_0}^{s_1})\,e^{-(s_1 - s_0)/\alpha} - (p_0 + p_{sat}(s_1))\,(e^{-(s_1 - s_0)/\alpha} -
         1)
 
-    excess_after_slope: Derivative of excess_after by s_1.
-
-    .. math:: \partial q/\partial s_1
-
-    excess_after_start: Derivative of excess_after by s_0, with q_0 held.
-
-    .. math:: \partial q/\partial s_0
-
     contact_pressure: Contact pressure.
 
     .. math:: p(s_1) = q(s_1) - p_0
     """
     pressure = flows.contact.value.subs(s, s_1)
-    q = pressure + p_0
     return (
-        kernel(contact, stable.EXCESS_AFTER, q),
-        kernel(contact, stable.EXCESS_AFTER_SLOPE, sp.diff(q, s_1)),
-        kernel(contact, stable.EXCESS_AFTER_START, sp.diff(q, s_0)),
+        kernel(contact, stable.EXCESS_AFTER, pressure + p_0),
         kernel(contact, stable.CONTACT_PRESSURE, pressure),
     )
 
@@ -48,14 +37,6 @@ def contact_state(flows: Flows) -> tuple[Kernel, ...]:
     contact_increment: Change of z = w - J p over contact.
 
     .. math:: \Delta z = [u]_{s_0}^{s_1} - J [p]_{s_0}^{s_1} = \frac1\beta \int_{s_0}^{s_1} (p - u)\,ds
-
-    contact_increment_slope: Derivative of contact_increment by s_1.
-
-    .. math:: \partial \Delta z/\partial s_1
-
-    contact_increment_start: Derivative of contact_increment by s_0, with q_0 held.
-
-    .. math:: \partial \Delta z/\partial s_0
 
     contact_work, Eq. 11: Work of the contact pressure on the rigid profile, entered at the pressure p_in.
 
@@ -78,8 +59,6 @@ def contact_state(flows: Flows) -> tuple[Kernel, ...]:
             zero("the antiderivative of p - u differentiates back", sp.diff(lagging, s) - integrand),
             zero("int (p - w) ds = beta (z(s_1) - z(s_0)): the balance of z", balance, phases=(s_0, s_1)),
         ),
-        kernel(contact_state, stable.CONTACT_INCREMENT_SLOPE, sp.diff(change, s_1)),
-        kernel(contact_state, stable.CONTACT_INCREMENT_START, sp.diff(change, s_0)),
         kernel(
             contact_state,
             stable.CONTACT_WORK,

@@ -93,29 +93,22 @@ def _row(regime: Row) -> dict[str, Any]:
 def stable_text() -> str:
     """The stable helpers; SymPy supplies the series of those that have one."""
     n, x = sp.symbols("n x")
-    loss = _alternating(1 - (1 - sp.exp(-n)) / n, n, first=1, step=1, terms=18)
-    twice = _alternating(1 - 2 / n * (1 - (1 - sp.exp(-n)) / n), n, first=1, step=1, terms=19)
-    sine = _alternating(x - sp.sin(x), x, first=3, step=2, terms=10)
     return _render(
         "stable",
         "every model",
-        loss_first=f"{loss[0]}.0",
-        loss_divisors=loss[1:],
-        twice_first=f"{twice[0]}.0",
-        twice_divisors=twice[1:],
-        sine_first=f"{sine[0]}.0",
-        sine_divisors=sine[1:],
+        loss=_reciprocals(1 - (1 - sp.exp(-n)) / n, n, first=1, step=1, terms=18),
+        twice=_reciprocals(1 - 2 / n * (1 - (1 - sp.exp(-n)) / n), n, first=1, step=1, terms=19),
+        sine=_reciprocals(x - sp.sin(x), x, first=3, step=2, terms=10),
     )
 
 
-def _alternating(function: sp.Expr, variable: sp.Symbol, first: int, step: int, terms: int) -> list[sp.Integer]:
-    """Ratios of neighbouring coefficients of an alternating Taylor series, the first by itself; they must be integers."""
+def _reciprocals(function: sp.Expr, variable: sp.Symbol, first: int, step: int, terms: int) -> list[sp.Integer]:
+    """Reciprocals of the coefficients of a Taylor series; they must be integers."""
     polynomial = sp.series(function, variable, 0, first + step * terms).removeO()
-    coefficients = [polynomial.coeff(variable, first + step * k) for k in range(terms)]
-    ratios = [1 / coefficients[0]] + [-a / b for a, b in zip(coefficients, coefficients[1:], strict=False)]
-    if not all(ratio.is_Integer and ratio > 0 for ratio in ratios):
-        raise DerivationError("stable series", f"{function} alternates with integer ratios", ratios)
-    return ratios
+    reciprocals = [1 / polynomial.coeff(variable, first + step * k) for k in range(terms)]
+    if not all(each.is_Integer for each in reciprocals):
+        raise DerivationError("stable series", f"{function} has coefficients that are reciprocals of integers", reciprocals)
+    return reciprocals
 
 
 def package_text(models: tuple[str, ...]) -> str:

@@ -91,8 +91,7 @@ def gap_event(flows: Flows) -> tuple[Kernel, Kernel]:
 
     .. math:: g_0,\quad \tfrac{s_0}{2},\quad \tfrac{\beta}{2},\quad D - p,\quad \frac{u(s_0) + g_0 - p}{\beta}
 
-    gap_event: Gap and its slope at s_1, from the constants of gap_entry. Same as gap_after and gap_after_slope; s_1 must not be
-    before s_0.
+    gap_event: Gap and its slope at s_1, from the constants of gap_entry. Same gap as gap_after; s_1 must not be before s_0.
 
     .. math:: g = \left(g_0 - [u]_{s_0}^{s_1}\right) e^{-(s_1 - s_0)/\beta} + (u(s_1) - p)\left(e^{-(s_1 - s_0)/\beta} -
         1\right),\quad g' = \sin s_1 - \frac{u(s_0) + g_0 - p}{\beta} e^{-(s_1 - s_0)/\beta}
@@ -111,7 +110,7 @@ def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
         \frac{q_0 - p_0 - p_{sat}(s_0)}{\alpha}
 
     excess_event, Eq. 15: Pressure above -p_0 in contact and its slope at s_1, from the constants of excess_entry. Same as
-    excess_after and excess_after_slope; s_1 must not be before s_0.
+    excess_after; s_1 must not be before s_0.
 
     .. math:: p_{sat}(s) = D - 1 + R\cos(s + \varphi),\quad R\,e^{i\varphi} = \frac{1 + i\beta}{1 + i\alpha}
     """

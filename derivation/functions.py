@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
@@ -142,15 +142,13 @@ HELPERS = tuple(
 class Formula:
     """How a generated function computes a quantity: labelled intermediate terms, then the result(s).
 
-    ``result`` is an expression, or a tuple of results (nested for a matrix). ``partials`` gives the derivative by an
-    argument, by position, where another formula may need it.
+    ``result`` is an expression, or a tuple of results (nested for a matrix).
     """
 
     name: str
     args: tuple[sp.Symbol, ...]
     result: Any
     steps: tuple[tuple[sp.Symbol, sp.Expr], ...] = ()
-    partials: dict[int, Callable[..., sp.Expr]] = field(default_factory=dict, compare=False)
 
     def __call__(self, *args: Any) -> sp.Expr:
         """The formula applied to arguments, as one SymPy node."""
@@ -176,14 +174,6 @@ class Call(sp.Function):
     """Base of the nodes made by calling a :class:`Formula`."""
 
     formula: Formula
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        try:
-            partial = self.formula.partials[argindex - 1]
-        except KeyError:
-            argument = self.formula.args[argindex - 1]
-            raise ValueError(f"{self.formula.name} has no derivative by {argument}") from None
-        return partial(*self.args)
 
 
 _nodes: dict[int, tuple[Formula, type]] = {}

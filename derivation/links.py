@@ -77,12 +77,12 @@ def links(flows: Flows) -> tuple[Kernel, Kernel]:
     r""":math:`(g, \partial g/\partial s_0, \partial g/\partial s_1)` over a gap and the same of q over contact.
 
     gap_link: Gap at s_1 when it was gap_0 at s_0 and the pressure is p since, with its derivatives by s_0 and s_1. Same as
-    gap_after, gap_after_start and gap_after_slope; s_1 must not be before s_0.
+    gap_after; s_1 must not be before s_0.
 
     .. math:: g,\quad \partial g/\partial s_0,\quad \partial g/\partial s_1
 
     excess_link: Pressure above -p_0 at s_1 in contact entered at s_0 with q_0, with its derivatives by s_0 and s_1. Same as
-    excess_after, excess_after_start and excess_after_slope; s_1 must not be before s_0.
+    excess_after; s_1 must not be before s_0.
 
     .. math:: q,\quad \partial q/\partial s_0,\quad \partial q/\partial s_1
     """

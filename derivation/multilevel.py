@@ -57,7 +57,7 @@ def multilevel(
         local_stress(strip.u, field, dashpot_loss(strip.u, field)),
         means_over_a_level(field, saturated.means.exact),
         local_shear(),
-        carried_friction(passed_once(strip, touching), ("excess_after", "excess_after_slope")),
+        carried_friction(passed_once(strip, touching), ("excess_after", "excess_event")),
         friction_coefficient(field, exact["level_saturation_friction"], exact["saturated_stack_friction"]),
     )
 

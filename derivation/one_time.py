@@ -28,6 +28,7 @@ from .regime import OneTime, Regime
 from .regimes import regimes
 from .sample_roots import sample_roots
 from .saturated import saturated
+from .sequences import FREE
 from .stability import onset_slope, shift_of_an_event
 from .stack import stack
 from .strip import strip
@@ -65,7 +66,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     ratio = sp.cancel(jump.closure.value / sp.Symbol("step_p", real=True))  # [w]/[p]
     table = regimes(OneTime(ratio), full.threshold.value)
     partial = [regime for regime in table if regime.edges]
-    systems = tuple(k for regime in partial for k in system_kernels(regime, zone.kernels))
+    systems = tuple(boundary_equations(regime, zone.kernels) for regime in partial)
     roots = sample_roots("one_time", table, mode_flows())
     stages.done(conditions(one_strip, table[0]), table, roots, systems)
     integrals = zone_integrals(flow)
@@ -74,7 +75,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     balances = (power_balance(flow), *(friction_balance(regime) for regime in partial))
     stages.done(integrals, means, still, balances)
     onsets = onset({regime.sequence: regime for regime in partial})
-    slopes = tuple(onset_slope(regime) for regime in partial)
+    slopes = tuple(onset_slope(regime) for regime in partial if regime.zones[-1].kind == FREE)
     stages.done(shift_of_an_event(), onsets, slopes)
     upwards = multilevel(one_strip, full, whole, partial, means, integrals)
     stages.done(upwards, stack(one_strip, full, whole), half_space())
@@ -83,7 +84,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         ("Events: value and slope, for root finding in a zone whose entry is evaluated once", events),
         ("Links: value and derivatives by both edges, for Newton on the chain of edges", chain),
         ("Complete contact", full.kernels),
-        ("Boundary equations of each regime, and their derivatives by the unknown edges", systems),
+        ("Boundary equations of each regime", systems),
         ("Means of pressure and friction", (full.means, *still, *means)),
         ("Onset of adhesion, and the slope of the map from one onset to the next", (*onsets, *slopes)),
         ("A whole level in complete contact, and a stack of them: SI units", whole.kernels),
@@ -99,8 +100,8 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     return Derivation("one_time", model, tuple(stages.made), table, sections, read, printed)
 
 
-def system_kernels(regime: Regime, zone_kernels: tuple[Kernel, ...]) -> tuple[Kernel, Kernel]:
-    """Boundary equations and Jacobian to emit, with the exact expressions they compute: the derived flows put in."""
+def boundary_equations(regime: Regime, zone_kernels: tuple[Kernel, ...]) -> Kernel:
+    """Boundary equations to emit, with the exact expressions they compute: the derived flows put in."""
     by_name = {kernel.formula.name: kernel for kernel in zone_kernels}
 
     def as_derived(call: Call) -> sp.Expr:
@@ -111,10 +112,4 @@ def system_kernels(regime: Regime, zone_kernels: tuple[Kernel, ...]) -> tuple[Ke
         tuple(part.replace(lambda e: isinstance(e, Call), as_derived) for part in sp.Add.make_args(term))
         for _, term in regime.equations
     )
-    exact = tuple(sp.Add(*equation) for equation in parts)
-    slopes = tuple(tuple(sp.diff(part, edge) for part in equation) for equation in parts for edge in regime.edges)
-    matrix = tuple(tuple(sp.diff(term, edge) for edge in regime.edges) for term in exact)
-    return (
-        Kernel(regime.residual_formula, exact, regime.derived, parts),
-        Kernel(regime.jacobian_formula, matrix, regime.derived, slopes),
-    )
+    return Kernel(regime.residual_formula, tuple(sp.Add(*equation) for equation in parts), regime.derived, parts)

@@ -1,4 +1,4 @@
-"""The regimes of a strip: zones and edge conditions in, boundary equations and Jacobians out.
+"""The regimes of a strip: zones and edge conditions in, boundary equations out.
 
 A regime is written down as the zones that a material point meets, each with the state in which it is entered and the
 state in which it is left (:mod:`.sequences`). Everything else follows. The closing condition is taken as a balance,
@@ -81,7 +81,6 @@ class Regime(Row):
     """A row for one relaxation time, with its boundary equations."""
 
     equations: tuple[tuple[str, sp.Expr], ...] = ()
-    jacobian: tuple[tuple[sp.Expr, ...], ...] = ()
 
     @property
     def args(self) -> tuple[sp.Symbol, ...]:
@@ -95,10 +94,6 @@ class Regime(Row):
     @property
     def residual_formula(self) -> Formula:
         return Formula(f"residual_{self.sequence}", self.args, tuple(term for _, term in self.equations))
-
-    @property
-    def jacobian_formula(self) -> Formula:
-        return Formula(f"jacobian_{self.sequence}", self.args, self.jacobian)
 
 
 @dataclass(frozen=True)
@@ -135,11 +130,9 @@ class OneTime:
         edges = tuple(zone.first for zone in zones)
         events = [(EQUATIONS[zone.last][0], zone.misses()) for zone in zones[:-1]]
         equations = (*events, (PERIODIC[0], sp.Add(*(zone.increment() for zone in zones))))
-        jacobian = tuple(tuple(sp.diff(term, edge) for edge in edges) for _, term in equations)
         claims = [
             obeys_jump_law(zones, self.ratio.subs(chi, 1) if closures == (1,) else self.ratio, "[w] = chi J [p]"),
             _closing_is_periodicity(zones, events, equations[-1][1], edges),
-            _jacobian_is_derivative(equations, jacobian, edges),
             _slopes_have_the_sign_of_what_drives(zones),
         ]
         meaning = [EQUATIONS[zone.last][1] for zone in zones[:-1]] + [PERIODIC[1]]
@@ -151,9 +144,9 @@ class OneTime:
             statement=f"{with_edges(sequence, edges)}; {'; '.join(meaning)}.",
             latex=r"\\ ".join(f"{sp.latex(written_out(term))} = 0" for _, term in equations),
             status=BEYOND if closures == (1,) else REPRODUCED,
-            emitted=(f"residual_{sequence}", f"jacobian_{sequence}"),
+            emitted=(f"residual_{sequence}",),
         )
-        return Regime(sequence, zones, required(zones, admissible), closures, record, equations, jacobian)
+        return Regime(sequence, zones, required(zones, admissible), closures, record, equations)
 
 
 def _slopes_have_the_sign_of_what_drives(zones: tuple[Zone, ...]) -> Claim:
@@ -176,12 +169,3 @@ def _closing_is_periodicity(zones, events, closing, edges) -> Claim:
         closing - combined,
         phases=edges,
     )
-
-
-def _jacobian_is_derivative(equations, jacobian, edges) -> Claim:
-    residuals = [
-        sp.diff(written_out(term), edge) - written_out(entry)
-        for (_, term), row in zip(equations, jacobian, strict=True)
-        for edge, entry in zip(edges, row, strict=True)
-    ]
-    return zero("the stable Jacobian equals SymPy's derivative of the equations", residuals, phases=edges)

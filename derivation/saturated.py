@@ -84,10 +84,6 @@ def field_kernels(flows: Flows, modulus: tuple[sp.Expr, sp.Expr]) -> tuple[Kerne
 
     .. math:: p_{sat} = D - 1 + \frac{(1 + \alpha\beta)\cos s - (\beta - \alpha)\sin s}{1 + \alpha^2}
 
-    saturated_slope: Slope of the pressure of complete contact.
-
-    .. math:: p_{sat}'(s)
-
     saturated_rise: Rise of the pressure of complete contact between two phases, without cancellation.
 
     .. math:: [p_{sat}]_{s_0}^{s_1}
@@ -106,7 +102,6 @@ def field_kernels(flows: Flows, modulus: tuple[sp.Expr, sp.Expr]) -> tuple[Kerne
     rise = periodic.subs(s, s_1) - periodic.subs(s, s_0)
     return (
         kernel(field_kernels, stable.SATURATED_PRESSURE, periodic, *own),
-        kernel(field_kernels, stable.SATURATED_SLOPE, sp.diff(periodic, s)),
         kernel(field_kernels, stable.SATURATED_RISE, rise),
     )
 

@@ -6,11 +6,13 @@ import sympy as sp
 
 from . import stable
 from .check import Derived, derived, zero
-from .functions import Formula, decay, either, quotient, written_out
+from .functions import Formula, decay, decay_loss, either, quotient, written_out
 from .kernel import Kernel, kernel
 from .regime import Regime, Zone
-from .sequences import CONTACT
+from .sequences import CONTACT, NOTHING, PERIOD
 from .symbols import D, J, L, alpha, beta, chi, gap_0, p, p_0, q_0, s_0, s_1
+
+kept, load, released, upper, lower = sp.symbols("kept load released upper lower", real=True)
 
 
 def shift_of_an_event() -> Derived:
@@ -21,9 +23,9 @@ def shift_of_an_event() -> Derived:
         - s_0)/\beta},\quad \frac{\partial q/\partial s_0}{\partial q/\partial s_1} = -\frac{H(s_0) + p_0 - q_0}{H(s_1) + p_0 -
         q(s_1)}\,e^{-(s_1 - s_0)/\alpha}
     """
-    gap = stable.GAP_AFTER(s_0, s_1, gap_0, p, D, beta)
-    pressure = stable.EXCESS_AFTER(s_0, s_1, q_0, p_0, D, alpha, beta, L)
-    load_0, load_1 = stable.FORCING(s_0, D, beta), stable.FORCING(s_1, D, beta)
+    gap = written_out(stable.GAP_AFTER(s_0, s_1, gap_0, p, D, beta))
+    pressure = written_out(stable.EXCESS_AFTER(s_0, s_1, q_0, p_0, D, alpha, beta, L))
+    load_0, load_1 = (written_out(stable.FORCING(place, D, beta)) for place in (s_0, s_1))
     checks = [
         zero(
             "adhesion and free gap: beta dg/ds_0 = (H_0 + gap_0 - p) exp(-(s_1 - s_0)/beta), beta dg/ds_1 = -(H_1 + g - p)",
@@ -46,41 +48,50 @@ def shift_of_an_event() -> Derived:
 
 
 def onset_slope(regime: Regime) -> Kernel:
-    r"""A shift of the onset fades over contact with alpha and over the rest of the period with beta, and is scaled where p steps.
-    The orbit is stable when T' < 1; T' = 1 is a fold.
+    r"""A shift of the onset fades over contact with alpha, over the rest of the period with beta, and is scaled where p steps: T'
+    as numerator and denominator, and the one less the other, which vanishes at a fold; an orbit is stable when T' < 1.
 
     .. math:: T' = \prod_{\text{zones}} \frac{ds_{last}}{ds_{first}}
     """
-    product: sp.Expr = sp.Integer(1)
-    forgotten: sp.Expr = sp.Integer(1)
-    upper, lower = [], []
-    for zone in regime.zones:
-        width = zone.last - zone.first
-        forgotten *= decay(width, alpha if zone.kind == CONTACT else beta)
-        entered, left = offsets(zone)
-        last = _same_phase(zone.last)
-        upper.append(sp.expand(stable.FORCING(zone.first, D, beta) + entered))
-        lower.append(sp.expand(stable.FORCING(last, D, beta) + left))
-    for above, below in zip(upper, lower, strict=True):
-        product *= above / below
-    product *= forgotten
-    # What a zone is left with is what the next is entered with, except at a step of p: pair each zone's exit with the
-    # next zone's entry.
-    formula_result = direct = forgotten
-    for below, above in zip(lower, upper[1:] + upper[:1], strict=True):
-        if sp.expand(below - above) != 0:
-            # where the ratio is small, 1 + ratio keeps its digits; else the quotient
-            ratio = quotient(step_of_load(above - below), below)
-            formula_result *= either(2 * sp.Abs(ratio), 1 + ratio, quotient(above, below))
-            direct *= quotient(above, below)
+    width = sum((zone.last - zone.first for zone in regime.zones if zone.kind == CONTACT), NOTHING)
+    left_over, lost = decay(PERIOD - width, beta), decay_loss(PERIOD - width, beta)
+    if width != 0:
+        left_over, lost = left_over * decay(width, alpha), lost * decay(width, alpha) + decay_loss(width, alpha)
+    loads = [stable.FORCING(zone.first, D, beta) + offsets(zone)[0] for zone in regime.zones]
+    before = [stable.FORCING(_same_phase(zone.last), D, beta) + offsets(zone)[1] for zone in regime.zones]
+    product = sp.Mul(left_over, *(first / last for first, last in zip(loads, before, strict=True)))
+    # A zone begins with the load that the one before is left with, but where p steps: at both ends of the free zone.
+    onset, release = (step_of_load(sp.expand(loads[n] - before[n - 1])) for n in (0, -1))
+    labels = (
+        (kept, left_over),
+        (load, before[-1]),
+        (released, loads[-1]),
+        (upper, kept * (load + onset)),
+        (lower, load * quotient(released - release, released)),
+    )
+    change = lost * (load + onset) + quotient(_grown(regime.zones[-1], onset, release), released)
+    over, under = map(written_out, (left_over * loads[0], before[-1] * before[-2] / loads[-1]))
+    nearly = Formula("nearly", regime.args, change, labels).written_out(regime.args)
+    factors = (*sp.Mul.make_args(left_over), loads[0] / before[-1], loads[-1] / before[-2])
     return kernel(
         onset_slope,
-        Formula(f"onset_slope_{regime.sequence}", regime.args, formula_result),
-        written_out(product),
-        zero("the product over the zones, telescoped", written_out(direct) - written_out(product), phases=regime.edges),
-        latex="T' = " + r" \cdot ".join(sp.latex(written_out(part)) for part in sp.Mul.make_args(direct)),
+        Formula(f"onset_slope_{regime.sequence}", regime.args, (upper, lower, either(2 * kept, upper - lower, change)), labels),
+        (over, under, over - under),
+        zero("the product over the zones, telescoped", over / under - written_out(product), phases=regime.edges),
+        zero("the difference where little fades is the same", over - under - nearly, phases=regime.edges),
+        latex="T' = " + r" \cdot ".join(sp.latex(written_out(part)) for part in factors),
         phases=regime.edges,
     )
+
+
+def _grown(free: Zone, onset: sp.Expr, release: sp.Expr) -> sp.Expr:
+    """What the steps of the load at both ends of the free zone make of its loads, common terms taken out."""
+    first, last = free.first, _same_phase(free.last)
+    spare = sp.cancel(sp.expand(onset * offsets(free)[0] + release * offsets(free)[1]) / onset)
+    if sp.expand(onset + release) != 0:
+        return onset * (spare + stable.FORCING(first, D, beta)) + release * stable.FORCING(last, D, beta)
+    half, middle = (first - last) / 2, (first + last) / 2
+    return onset * (spare - 2 * sp.sin(half) * (sp.sin(middle) + beta * sp.cos(middle)))
 
 
 def offsets(zone: Zone) -> tuple[sp.Expr, sp.Expr]:

@@ -24,7 +24,6 @@ from .functions import (
     decay,
     decay_loss,
     decay_mean,
-    decay_rate,
     either,
     hypot,
     loss_mean,
@@ -35,7 +34,7 @@ from .functions import (
 )
 from .symbols import D, J, L, alpha, beta, excess, gap_0, lag_0, p, p_0, p_in, q_0, s, s_0, s_1, w_0
 
-middle, half, width, lag, transient = sp.symbols("middle half width lag transient", real=True)
+middle, half, width, lag = sp.symbols("middle half width lag", real=True)
 loss_factor, sin_ahead, cos_ahead = sp.symbols("loss_factor sin_ahead cos_ahead", real=True)
 unit, alpha_unit, beta_unit = sp.symbols("unit alpha_unit beta_unit", positive=True)
 rise, kept, lost, lost_twice = sp.symbols("rise kept lost lost_twice", real=True)
@@ -66,8 +65,6 @@ FORCING_ARC = Formula(
     ((amplitude, hypot(1, beta)), (steepness, beta / (1 + amplitude)), (level, D + excess)),
 )
 
-PROFILE.partials[0] = lambda s, D: PROFILE_SLOPE(s)
-
 # -- saturated contact --------------------------------------------------------------------------------------------------
 
 _unit = ((unit, 1 / hypot(1, alpha)), (alpha_unit, alpha * unit))
@@ -81,11 +78,6 @@ SATURATED_PRESSURE = Formula(
     (s, D, alpha, beta, L),
     PROFILE(s, D) + LOSS(alpha, beta, L) * (alpha * sp.cos(s) - sp.sin(s)),
 )
-SATURATED_SLOPE = Formula(
-    "saturated_slope",
-    (s, alpha, beta, L),
-    PROFILE_SLOPE(s) - LOSS(alpha, beta, L) * (alpha * sp.sin(s) + sp.cos(s)),
-)
 SATURATED_RISE = Formula(
     "saturated_rise",
     (s_0, s_1, alpha, beta, L),
@@ -95,7 +87,6 @@ SATURATED_RISE = Formula(
 
 # -- adhesion and free gap: constant pressure ---------------------------------------------------------------------------
 
-_lag = (lag, PROFILE(s_0, D) + gap_0 - p)
 GAP_AFTER = Formula(
     "gap_after",
     (s_0, s_1, gap_0, p, D, beta),
@@ -106,20 +97,7 @@ GAP_CHANGE = Formula(
     (s_0, s_1, gap_0, p, D, beta),
     (PROFILE(s_1, D) + gap_0 - p) * decay_loss(s_1 - s_0, beta) - PROFILE_RISE(s_0, s_1) * decay(s_1 - s_0, beta),
 )
-GAP_AFTER_SLOPE = Formula(
-    "gap_after_slope",
-    (s_0, s_1, gap_0, p, D, beta),
-    -PROFILE_SLOPE(s_1) - lag * decay_rate(s_1 - s_0, beta),
-    (_lag,),
-)
-GAP_AFTER_START = Formula(
-    "gap_after_start",
-    (s_0, s_1, gap_0, p, D, beta),
-    PROFILE_SLOPE(s_0) * decay(s_1 - s_0, beta) + lag * decay_rate(s_1 - s_0, beta),
-    (_lag,),
-)
 RELAXATION_INCREMENT = Formula("relaxation_increment", (s_0, s_1, lag_0, beta), lag_0 * decay_loss(s_1 - s_0, beta))
-RELAXATION_INCREMENT_SLOPE = Formula("relaxation_increment_slope", (s_0, s_1, lag_0, beta), -lag_0 * decay_rate(s_1 - s_0, beta))
 RELAXATION_INTEGRAL = Formula(
     "relaxation_integral",
     (s_0, s_1, w_0, p, beta),
@@ -127,19 +105,8 @@ RELAXATION_INTEGRAL = Formula(
     (WIDTH,),
 )
 
-for _formula in (GAP_AFTER, GAP_CHANGE):  # they differ by gap_0, which is held
-    _formula.partials.update({0: lambda *v: GAP_AFTER_START(*v), 1: lambda *v: GAP_AFTER_SLOPE(*v)})
-RELAXATION_INCREMENT.partials.update(
-    {
-        0: lambda s_0, s_1, lag_0, beta: -RELAXATION_INCREMENT_SLOPE(s_0, s_1, lag_0, beta),
-        1: lambda *v: RELAXATION_INCREMENT_SLOPE(*v),
-        2: lambda s_0, s_1, lag_0, beta: decay_loss(s_1 - s_0, beta),
-    }
-)
-
 # -- contact: w = u ------------------------------------------------------------------------------------------------------
 
-_transient = (transient, q_0 - p_0 - SATURATED_PRESSURE(s_0, D, alpha, beta, L))
 _contact = (s_0, s_1, q_0, p_0, D, alpha, beta, L)
 EXCESS_AFTER = Formula(
     "excess_after",
@@ -147,32 +114,12 @@ EXCESS_AFTER = Formula(
     (q_0 + SATURATED_RISE(s_0, s_1, alpha, beta, L)) * decay(s_1 - s_0, alpha)
     - (p_0 + SATURATED_PRESSURE(s_1, D, alpha, beta, L)) * decay_loss(s_1 - s_0, alpha),
 )
-EXCESS_AFTER_SLOPE = Formula(
-    "excess_after_slope",
-    _contact,
-    SATURATED_SLOPE(s_1, alpha, beta, L) - transient * decay_rate(s_1 - s_0, alpha),
-    (_transient,),
-)
-EXCESS_AFTER_START = Formula(
-    "excess_after_start",
-    _contact,
-    transient * decay_rate(s_1 - s_0, alpha) - SATURATED_SLOPE(s_0, alpha, beta, L) * decay(s_1 - s_0, alpha),
-    (_transient,),
-)
 CONTACT_PRESSURE = Formula(
     "contact_pressure",
     _contact,
     (q_0 - p_0 + SATURATED_RISE(s_0, s_1, alpha, beta, L)) * decay(s_1 - s_0, alpha)
     - SATURATED_PRESSURE(s_1, D, alpha, beta, L) * decay_loss(s_1 - s_0, alpha),
 )
-
-
-def _pressure_only(formula: Formula):
-    """What depends on q_0 - p_0 alone, called with that difference (simplified by SymPy where it can) and 0."""
-    return lambda s_0, s_1, q_0, p_0, *rest: formula(s_0, s_1, sp.expand(q_0 - p_0), 0, *rest)
-
-
-EXCESS_AFTER.partials.update({0: _pressure_only(EXCESS_AFTER_START), 1: _pressure_only(EXCESS_AFTER_SLOPE)})
 
 _increment = (s_0, s_1, q_0, p_0, D, alpha, beta, J, L)
 _contact_lag = (lag, PROFILE(s_0, D) + p_0 - q_0)
@@ -187,21 +134,6 @@ CONTACT_INCREMENT = Formula(
     J * lag * decay_loss(width, alpha) + L * unit * (sin_ahead * sine_lag(width, alpha) - cos_ahead * versine(width)),
     (WIDTH, _contact_lag, *_ahead),
 )
-CONTACT_INCREMENT_SLOPE = Formula(
-    "contact_increment_slope",
-    _increment,
-    -J * lag * decay_rate(width, alpha)
-    - L * unit * (sin_ahead * (decay_loss(width, alpha) + versine(width)) + cos_ahead * sp.sin(width)),
-    (WIDTH, _contact_lag, *_ahead),
-)
-CONTACT_INCREMENT_START = Formula(
-    "contact_increment_start",
-    _increment,
-    J * (PROFILE_SLOPE(s_0) * decay_loss(width, alpha) + lag * decay_rate(width, alpha))
-    + L * unit * (sin_ahead * decay_loss(width, alpha) + cos_ahead * width * decay_mean(width, alpha)),
-    (WIDTH, _contact_lag, *_ahead),
-)
-CONTACT_INCREMENT.partials.update({0: _pressure_only(CONTACT_INCREMENT_START), 1: _pressure_only(CONTACT_INCREMENT_SLOPE)})
 
 # Work of the contact pressure on the profile, int p u' ds, with t = s - s_0 and e = exp(-t/alpha):
 #     p = p_in e + [u] + u(s_0) (1 - e) + loss (cos s_0 C - sin s_0 S),

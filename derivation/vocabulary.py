@@ -224,7 +224,7 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "saturated_stack_friction": named(r"\mu"),
     "Eq. 16 as printed": named(r"\textderived", r"\textprinted"),
     "friction balance": _energies,
-    "onset_slope": named("T'"),
+    "onset_slope": lambda values, words: {"T'": values[0] / values[1]},
     "adhesive_onset": named("g_d", "[F]"),
     "snap_onset": named("q_d", "[F]"),
     "least pressure": _least,

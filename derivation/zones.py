@@ -95,7 +95,7 @@ def load(flows: Flows) -> tuple[Kernel, ...]:
 
 
 def gap(flows: Flows) -> tuple[Kernel, ...]:
-    r""":math:`g(s_1) = g_0 - [u] + (u(s_0) + g_0 - p)(e^{-(s_1-s_0)/\beta} - 1)` and its derivatives.
+    r""":math:`g(s_1) = g_0 - [u] + (u(s_0) + g_0 - p)(e^{-(s_1-s_0)/\beta} - 1)`.
 
     gap_after: Gap at s_1 when it was gap_0 at s_0 and the pressure is the constant p since.
 
@@ -104,21 +104,11 @@ def gap(flows: Flows) -> tuple[Kernel, ...]:
     gap_change: Change of the gap since s_0, for zones too short to change it much.
 
     .. math:: g(s_1) - g_0
-
-    gap_after_slope: Derivative of gap_after by s_1.
-
-    .. math:: \partial g/\partial s_1
-
-    gap_after_start: Derivative of gap_after by s_0, with gap_0 held.
-
-    .. math:: \partial g/\partial s_0
     """
     g = flows.gap.value.subs(s, s_1)
     return (
         kernel(gap, stable.GAP_AFTER, g),
         kernel(gap, stable.GAP_CHANGE, g - gap_0),
-        kernel(gap, stable.GAP_AFTER_SLOPE, sp.diff(g, s_1)),
-        kernel(gap, stable.GAP_AFTER_START, sp.diff(g, s_0)),
     )
 
 
@@ -128,10 +118,6 @@ def relaxation(flows: Flows) -> tuple[Kernel, ...]:
     relaxation_increment: Change of w, and of z, over an adhesion or free zone entered with the lag w - p.
 
     .. math:: \Delta z = (w_0 - p)(e^{-(s_1-s_0)/\beta} - 1)
-
-    relaxation_increment_slope: Derivative of relaxation_increment by s_1.
-
-    .. math:: \partial \Delta z/\partial s_1
 
     relaxation_integral, Eq. 11: Displacement summed over the zone: a convex combination of w_0 and p, so nothing cancels.
 
@@ -144,7 +130,6 @@ def relaxation(flows: Flows) -> tuple[Kernel, ...]:
     total = integral.subs(s, s_1) - integral.subs(s, s_0)
     return (
         kernel(relaxation, stable.RELAXATION_INCREMENT, change),
-        kernel(relaxation, stable.RELAXATION_INCREMENT_SLOPE, sp.diff(change, s_1)),
         kernel(
             relaxation,
             stable.RELAXATION_INTEGRAL,

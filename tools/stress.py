@@ -138,18 +138,28 @@ def corrections(s):
         edges = [getattr(solved, name)[index] for name in names]
         solver = "ac" if regime == "cf" else regime
         with np.errstate(all="ignore"):
-            residual = np.array(getattr(kernel, f"residual_{solver}")(*edges, *groups))
-            rows = getattr(kernel, f"jacobian_{solver}")(*edges, *groups)
-            jacobian = np.moveaxis(np.array([[np.broadcast_to(v, index.shape) for v in row] for row in rows]), -1, 0)
+            residual, jacobian = _residual(getattr(kernel, f"residual_{solver}"), np.array(edges), groups)
             rounding = EPS * (1 + np.abs(g.D) + g.p_0 + g.delta_0 + kernel.modulus_ratio(g.alpha, g.beta))
             size = np.abs(jacobian).max(axis=2, keepdims=True)
             jacobian = jacobian / np.where(size > 0, size, 1.0)
             usable = np.abs(np.linalg.det(jacobian)) > 1e-14  # otherwise two edges all but coincide
-            inverse = np.linalg.inv(jacobian[usable]) / size[usable].transpose(0, 2, 1)
+            inverse = np.cumsum(np.linalg.inv(jacobian[usable]) / size[usable].transpose(0, 2, 1), axis=1)
             step = np.abs(inverse @ residual.T[usable, :, None]).max(axis=(1, 2))
             uncertain = np.abs(inverse).sum(axis=2).max(axis=1) * rounding[usable] + 4 * EPS
         out[index[usable]] = step / uncertain
     return np.nan_to_num(out)
+
+
+def _residual(function, edges, groups):
+    """What the boundary equations leave (k, n), and central differences of it by the first edge and by the zones (n, k, k)."""
+    value = np.array(function(*edges, *groups))
+    widths = np.concatenate((np.ones((1, edges.shape[1])), np.diff(edges, axis=0)))
+    columns = []
+    for i, width in enumerate(widths):
+        moved = np.where(np.arange(len(edges))[:, None] >= i, 1e-4 * np.minimum(width, 1.0), 0.0)
+        above, below = (np.array(function(*(edges + sign * moved), *groups)) for sign in (1, -1))
+        columns.append((above - below) / (2 * moved[-1]))
+    return value, np.array(columns).transpose(2, 1, 0)
 
 
 def replay(text):

@@ -35,7 +35,7 @@ class Wording:
 
 def one_time(derivation: Derivation) -> Wording:
     """The page of the paper's own foundation."""
-    return Wording(PARAMETER_MEANINGS, STATED["one_time"], ("residual", "jacobian", "means", "onset_slope"), _equations)
+    return Wording(PARAMETER_MEANINGS, STATED["one_time"], ("residual", "means", "onset_slope"), _equations)
 
 
 def several_times(derivation: Derivation) -> Wording:

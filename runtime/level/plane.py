@@ -3,7 +3,7 @@
 At one velocity, with one material, adhesion and closure, a strip is a point of a plane: its amplitude ``A`` and
 ``E = D - h``, the penetration of the valley of its level; its own penetration is ``D_j = E + 2 A``. Where an orbit of one
 regime ceases to exist its edges obey one equation more than the boundary equations of its regime (physics: a fold, where
-their Jacobian is singular, or a grazing event). That is one point on every line across the plane: with A given E is
+the return map has the slope one, or a grazing event). That is one point on every line across the plane: with A given E is
 unknown, with E given A is.
 """
 
@@ -115,7 +115,6 @@ class _System:
         # contact without adhesion is contact with saturated adhesion of no strength
         equations = "ac" if boundary.sequence == "cf" else boundary.sequence
         self.residual = getattr(self.foundation.kernel, f"residual_{equations}")
-        self.jacobian = getattr(self.foundation.kernel, f"jacobian_{equations}")
 
     def step(self, index, edges, A, E, unknown: str) -> np.ndarray:
         """Newton step (k + 1, n) of the first edge, of the zones behind it, and of the unknown of the plane."""
@@ -143,8 +142,7 @@ class _System:
     def _event(self, edges, groups, A, index) -> np.ndarray:
         """What vanishes at the event, for the copies of the points ``index``."""
         if self.boundary.event == "fold":
-            rows = self.jacobian(*edges, *groups)
-            return np.linalg.det(np.array([[np.broadcast_to(v, A.shape) for v in row] for row in rows]).transpose(2, 0, 1))
+            return self.foundation.fold(self.boundary.sequence, edges, groups)
         if self.boundary.event == "peak":
             pressure = np.tile(self.stretch[index], A.size // index.size) / A
             return self.foundation.peak(self.boundary.sequence, edges, groups, pressure)

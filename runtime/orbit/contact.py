@@ -119,8 +119,8 @@ class SingleContact(Contact):
         return self.b[i], phase, self.q_b[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i]
 
     def _excess(self, rows: np.ndarray, phase: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        arguments = self._arguments(rows, phase)
-        return self.kernel.excess_after(*arguments), self.kernel.excess_after_slope(*arguments)
+        start, _, *entry = self._arguments(rows, phase)
+        return self.kernel.excess_event(phase, *self.kernel.excess_entry(start, *entry))
 
     def _excess_alone(self, rows: np.ndarray, phase: np.ndarray) -> np.ndarray:
         return self.kernel.excess_after(*self._arguments(rows, phase))

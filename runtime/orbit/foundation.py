@@ -40,6 +40,9 @@ class Foundation(Protocol):
         """What the generated boundary equations take after the edges, for strips at ``rate = k V``, 1/s, the rest
         dimensionless."""
 
+    def fold(self, sequence: str, edges, arguments: tuple) -> np.ndarray:
+        """Of orbits of a ``sequence`` with a free part: zero at a fold, with a change of sign."""
+
     def release(self, edges, arguments: tuple) -> np.ndarray:
         """Of orbits that are engaged all along, with ``edges`` b, a: positive where they would be released, zero at the end."""
 

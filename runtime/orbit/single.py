@@ -60,6 +60,9 @@ class SingleTime:
         rate = rate * slowed(rate * m.T_sigma)
         return rate * m.T_sigma, rate * m.T_eps, one * m.J, one * m.L, p_0, delta_0, D, chi
 
+    def fold(self, sequence, edges, arguments):
+        return getattr(self.kernel, f"onset_slope_{sequence}")(*edges, *arguments)[2]
+
     def release(self, edges, arguments):
         """Where the load harmonic rises through ``-p_0 - delta_0`` a gap of delta_0 turns."""
         _, beta, _, _, p_0, delta_0, D, _ = arguments
@@ -79,9 +82,10 @@ class SingleTime:
         place = 0 if sequence in ("ac", "cf", "afc") else 1
         q_on = self.kernel.snap_onset(p_0, delta_0, J, L)[0] if sequence == "afc" else 0 * D
         groups = q_on, p_0, D, alpha, beta, L
+        entry = self.kernel.excess_entry(edges[place], *groups)
 
         def slope(phase, sub):
-            return self.kernel.excess_after_slope(edges[place][sub], phase, *(v[sub] for v in groups))
+            return self.kernel.excess_event(phase, *(constant[sub] for constant in entry))[1]
 
         top, _ = falling_root(slope, edges[place], edges[place + 1])
         return self.kernel.excess_after(edges[place], top, *groups) - p_0 - pressure

@@ -85,6 +85,11 @@ class ManyTimes:
     def boundary_arguments(self, rate, D, p_0, delta_0, edge):
         return self.kernel.at_speed(self.modes, rate), p_0, delta_0, D
 
+    def fold(self, sequence, edges, arguments):
+        """Determinant of the boundary equations' derivatives by the edges."""
+        rows = getattr(self.kernel, f"jacobian_{sequence}")(*edges, *arguments)
+        return np.linalg.det(np.array([np.broadcast_arrays(edges[0], *row)[1:] for row in rows]).transpose(2, 0, 1))
+
     def release(self, edges, arguments):
         s = ModeStrips(*arguments)
         return greatest_gap(self.kernel, edges, s) - s.delta_0
