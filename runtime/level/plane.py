@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..numerics.linear import solved
 from ..orbit.batch import Batch
 from ..orbit.foundation import foundation_of
 
@@ -132,12 +133,8 @@ class _System:
         groups = self.columns.groups(np.tile(self.velocity[index], k + 2), A_, E_ + 2 * A_)
         values = np.array((*self.residual(*moved[:k], *groups), self._event(moved[:k], groups, A_, index)))
         values = values.reshape(k + 1, k + 2, n)
-        value, matrix = values[:, 0].T, ((values[:, 1:] - values[:, :1]) / length).transpose(2, 0, 1)
-        scale = np.abs(matrix).max(axis=2, keepdims=True)
-        matrix, value = matrix / scale, value[:, :, None] / scale
-        step, rows = np.full((n, k + 1), np.nan), np.flatnonzero(np.isfinite(1 / np.linalg.det(matrix)))
-        step[rows] = -np.linalg.solve(matrix[rows], value[rows])[:, :, 0]
-        return step.T
+        matrix = ((values[:, 1:] - values[:, :1]) / length).transpose(2, 0, 1)
+        return solved(matrix, -values[:, 0].T[:, :, None])[:, :, 0].T
 
     def _event(self, edges, groups, A, index) -> np.ndarray:
         """What vanishes at the event, for the copies of the points ``index``."""
