@@ -21,8 +21,8 @@ from .strips import LevelBatch
 #: accuracy of the look, and its nodes at first; narrower intervals, as a share of the column's, have fewer
 _ROUGH, _MANY, _FEW, _NARROW = 5e-3, 6, 4, 0.05
 #: how much more than its error a pressure keeps above what was before, and than what it bends between two nodes, which are the
-#: first ones or twice as many
-_DOUBT, _BENDS = 2.0, (1.0, 0.5)
+#: first ones or twice as many: a parabola keeps within an eighth of that from its chord
+_DOUBT, _BENDS = 2.0, (1.0, 0.25)
 
 
 def reentrant_parts(
