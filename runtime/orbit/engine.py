@@ -26,7 +26,7 @@ from .regimes import CODE, ZONES
 from .solved import UNDECIDED, Record, Solved, settle
 
 #: Strips solved at a time: their working arrays stay in the cache, and memory stays bounded.
-CHUNK = 32768
+CHUNK = 65536
 
 
 def solve_strips(kernel, strips: Strips, unloading: bool) -> Solved:
