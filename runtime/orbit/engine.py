@@ -25,7 +25,7 @@ from .orbit_bounds import FAST, OrbitBounds, least_engaged_bounds, orbit_bounds
 from .regimes import CODE, ZONES
 from .solved import UNDECIDED, Record, Solved, settle
 
-#: Strips solved at a time: their working arrays stay in the cache, and memory stays bounded.
+#: Strips solved at a time: memory stays bounded. Fewer cost more calls, more leave the cache
 CHUNK = 65536
 
 
