@@ -38,7 +38,8 @@ def regenerated(folder: Path, times: int) -> tuple[Path, float, float]:
 
 def solves(out: Path, times: int) -> bool:
     """Whether the solver carries a strip in partial contact."""
-    material = hystrip.Prony(1e9, [1e9] * times, np.geomspace(1e-4, 1, times).tolist(), solver=hystrip.load_solver(out))
+    moduli, every = [1e10 / times] * times, np.geomspace(1e-2, 1e-4, times).tolist()
+    material = hystrip.Prony(1e9, moduli, every, solver=hystrip.load_solver(out))
     adhesion = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
     strip = hystrip.solve_strip(material, adhesion, l=1e-5, A=1e-6, D=5e-7, V=1e-3, edge="constitutive")
     return bool(0 < strip.contact_fraction < 1 and strip.tau_mean > 0)
