@@ -8,6 +8,7 @@ import surfaces
 import hystrip
 import hystrip.level.nonadhesive.stack
 import hystrip.level.nonadhesive.surface
+from hystrip.errors import SolverError
 from hystrip.level.means import level_means
 from hystrip.level.nonadhesive.family import family
 from hystrip.level.nonadhesive.means import Level as Means
@@ -230,6 +231,18 @@ def test_a_family_that_goes_further_is_the_same(rtol):
     alone, _ = family(foundation_of(SOFT), rate[:1], np.array([np.inf]), np.full(1, 1e-2 * rtol))
     near, far = Means(both).means(group, d, 27), Means(alone).means(group, d, 27)
     assert (np.abs(near - far) <= rtol * (np.abs(far) + floor)).all()
+    narrow, _ = family(foundation_of(SOFT), rate[:1], np.array([0.01]), np.full(1, 1e-2 * rtol))
+    with pytest.raises(SolverError, match="beyond its family"):
+        Means(narrow).means(group, d, 27)
+
+
+@pytest.mark.parametrize("pressure", [1e-8, 1.0])
+def test_no_level_is_asked_for_strips_beyond_its_family(monkeypatch, pressure):
+    """A low level over steep ones: where these would part a law no pressure reaches."""
+    levels = [hystrip.Level(1e-5, 1e-9), hystrip.Level(1e-6, 1e-6), hystrip.Level(3e-7, 1e-6)]
+    monkeypatch.setattr(hystrip.multilevel, "level_means", None)
+    r = hystrip.solve(SOFT, NONE, levels, pressure=pressure, velocity=1e-2, rtol=1e-2)
+    assert r.converged and r.mu > 0
 
 
 @pytest.mark.filterwarnings("error::RuntimeWarning", "ignore::hystrip.ConvergenceWarning")

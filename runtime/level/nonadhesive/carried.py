@@ -19,7 +19,6 @@ from .family import CONTACT
 from .law import Laws
 from .means import Level
 from .panels import ends_of, panels
-from .peaks import Peaks
 from .span import Span
 
 #: nodes over a panel of strips and over each part of a contact, tried in turn
@@ -36,8 +35,8 @@ _CHUNK = 30_000
 class Carrier:
     """A level that carries the ``laws`` of the next one: its contact pressures."""
 
-    def __init__(self, foundation: Foundation, level: Level, peaks: Peaks, rate: np.ndarray, pressure: float, laws: Laws):
-        self.foundation, self.level, self.peaks, self.rate = foundation, level, peaks, rate
+    def __init__(self, foundation: Foundation, level: Level, rate: np.ndarray, pressure: float, laws: Laws):
+        self.foundation, self.level, self.rate = foundation, level, rate
         self.pressure, self.laws = pressure, laws
         self.strips = 0
 
@@ -59,7 +58,7 @@ class Carrier:
         if not part.size:
             return np.zeros((d.size, 0))
         breaks = self.laws.breaks[group[part]] / (0.5 * self.pressure)
-        known = ends_of(Span(d[part], f.s_sat[group[part]]), f, self.peaks, group[part], breaks)
+        known = ends_of(Span(d[part], f.s_sat[group[part]]), f, group[part], breaks)
         ends = np.zeros((d.size, known.shape[1]))
         ends[part] = known
         return ends
@@ -78,11 +77,11 @@ class Carrier:
 
     def _partial(self, group, d, ends, strips, nodes):
         """Strips in partial contact."""
-        f, peaks = self.level.family, self.peaks
+        f = self.level.family
         at = panels(Span(d, f.s_sat[group]), ends, strips)
         column, u, weight = np.repeat(at.column, strips), at.u.ravel(), at.weight.ravel()
         waves = self.foundation.waves(self.rate[group[column]])
-        share, slope = f.values(group[at.column], at.s, slopes=True, of=CONTACT).reshape(-1, 2).T
+        share, _, crest, slope, *_ = f.values(group[at.column], at.s, slopes=True, of=CONTACT).reshape(-1, 6).T
         width = _inside(share)
         orbits = waves.orbits(width, means=False)
         # families know pressures, not widths, as well as friction may need it: a step of Newton's towards the strip that
@@ -92,8 +91,8 @@ class Carrier:
         missed = np.abs(at.s.ravel() - orbits.D)
         self.strips += width.size
         pressure = waves.pressure(orbits.sure())
-        crest = peaks.at(group[at.column], width.reshape(at.u.shape) / (2 * np.pi))[1].ravel()
-        edges, top = _passages(pressure, crest, self.laws.breaks[group[column]] / (0.5 * self.pressure * u[:, None]))
+        breaks = self.laws.breaks[group[column]] / (0.5 * self.pressure * u[:, None])
+        edges, top = _passages(pressure, np.clip(crest, 0.0, 1.0), breaks)
         weight *= width / (2 * np.pi)
         parts = _Parts.between(edges, top & np.isfinite(self.laws.p_full[group[column]]))
         unit = 0.5 * self.pressure * u[:, None]

@@ -13,9 +13,10 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from ...errors import SolverError
 from ...inputs.surface import Level
 from ...numerics.chebyshev import clenshaw, coefficients, derivatives, evaluate_each, interpolation_errors, lobatto
-from ...numerics.quadrature import interleaved
+from ...numerics.quadrature import interleaved, mapped
 from ...numerics.roots import rising_root
 from ...numerics.rounding import EPS
 from ...orbit.foundation import Foundation
@@ -24,16 +25,22 @@ from ...orbit.foundation import Foundation
 _FIRST, _LAST = 8, 512
 #: so many coefficients that are cut off a series are known to whoever asks what they would add
 NEXT = 4
+#: beyond its end by this, relative, nothing is asked of a series
+_ROUNDING = 1e-12
 #: nothing is sampled finer than this many roundings; and the share of what is allowed that is cut off a series
 _FINEST, _TRIMMED = 256, 0.03
 #: beyond this k V times the longest retardation time the general path says what is wrong
 _FASTEST = 1e100
 #: height squared over wavelength, m, from which on products of them do not underflow
 _FLATTEST = 1e-200
-#: quantities of a strip: mean pressure, mean friction, share of the period in contact; and how well that has to be known beside
-#: them: as well as it comes
-_Q, _ANY = 3, 1e30
-ALL, CONTACT = slice(0, _Q), slice(2, _Q)
+#: quantities of a strip that are averaged, mean pressure, mean friction and share of the period in contact; of its contact that,
+#: the greatest pressure over it, and where that is, a share of the contact from the entry; and how well the share has to be known
+#: beside the others: as well as it comes
+MEANS, CONTACT, _ANY = slice(0, 3), slice(2, 5), 1e30
+#: looks at a contact for its greatest pressure
+_LOOKS = 33
+#: the least share of the period that a contact is looked at
+_LEAST = 1e-6
 
 
 def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V: np.ndarray) -> bool:
@@ -44,10 +51,10 @@ def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V:
 
 @dataclass(frozen=True)
 class Family:
-    """Strips at velocities (G,): ``s_sat`` (G,), and ``series``, coefficients (n, 3) for each, of mean pressure (K
-    A), mean friction (K A kA) and contact fraction over ``xi/top``. ``next`` (G, NEXT, 3): the coefficients that would follow
-    up to ``degree`` (G,); ``errors`` (G, 3): bounds of what all others would add, but rough ones of contact. ``full`` (G, 3): in
-    complete contact, at s_sat."""
+    """Strips at velocities (G,): ``s_sat`` (G,), and ``series``, coefficients (n, 5) for each, of mean pressure (K
+    A), mean friction (K A kA), contact fraction, greatest pressure (K A) over that, and its place, over ``xi/top``. Of the means
+    ``next`` (G, NEXT, 3): the coefficients that would follow up to ``degree`` (G,); ``errors`` (G, 3): bounds of what all others
+    would add, but rough ones of contact. ``full`` (G,): friction in complete contact, at s_sat."""
 
     s_sat: np.ndarray
     top: np.ndarray
@@ -70,10 +77,12 @@ class Family:
         """Where in [0, 1] the series has the strips ``s`` (m, nodes)."""
         return _xi(s, self.s_sat[group, None]) / self.top[group, None]
 
-    def values(self, group: np.ndarray, s: np.ndarray, slopes: bool = False, of: slice = ALL) -> np.ndarray:
+    def values(self, group: np.ndarray, s: np.ndarray, slopes: bool = False, of: slice = MEANS) -> np.ndarray:
         """Quantities ``of`` the strips ``s`` (m, nodes), all of row i at the velocity ``group[i]``: (m, nodes, q), or with
-        their ``slopes`` by s (m, nodes, 2 q)."""
+        their ``slopes`` by s (m, nodes, 2 q). Raises ``SolverError`` for strips beyond those that the series was made for."""
         xi, q = _xi(s, self.s_sat[group, None]), of.stop - of.start
+        if (xi > (1 + _ROUNDING) * self.top[group, None]).any():
+            raise SolverError("a strip without adhesion lies beyond its family")
         out = np.empty((*s.shape, 2 * q if slopes else q))
         sizes = np.array([self.series[g].shape[0] for g in group])
         for n in np.unique(sizes):
@@ -92,41 +101,44 @@ class Family:
         return out
 
 
-def family(foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, accuracy: np.ndarray) -> tuple[Family, int]:
+def family(
+    foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, accuracy: np.ndarray, carries: np.ndarray | bool = True
+) -> tuple[Family, int]:
     """Families at the rates ``k V`` (G,), up to the penetrations ``s_top`` (G,), to the ``accuracy`` (G,) of pressure and
-    friction in their units; and how many strips that took.
+    friction in their units; and how many strips that took. Where it ``carries`` (G,), contacts are looked at for peaks.
 
     Where that is not reached, the error says so. Raises ``SolverError`` for a strip that is not certified.
     """
     G = rate.size
     R = np.broadcast_to(foundation.modulus_ratio(rate), (G,))
     s_sat = 1 + R
-    full = np.stack((R, _full_friction(foundation, rate), np.ones(G)), axis=1)
-    complete = np.column_stack((s_sat, full))
+    full = _full_friction(foundation, rate)
+    complete = np.stack((s_sat, R, full, np.ones(G), 2 * R, np.full(G, 0.5)), axis=1)
     phi, strips = _reaching(foundation, rate, s_top)
+    carries = np.broadcast_to(carries, (G,))
     series: list[np.ndarray] = [np.empty(0)] * G
-    out = Family(s_sat, np.zeros(G), series, np.zeros((G, NEXT, _Q)), np.zeros(G, int), np.zeros((G, _Q)), full)
+    out = Family(s_sat, np.zeros(G), series, np.zeros((G, NEXT, 3)), np.zeros(G, int), np.zeros((G, 3)), full)
     left, n, samples = np.arange(G), _FIRST, None
     while left.size:
         share = phi[left, None] * (lobatto(n) if samples is None else lobatto(n)[1::2])
-        fresh = _samples(foundation, rate[left], complete[left], share)
+        fresh = _samples(foundation, rate[left], complete[left], share, carries[left])
         strips += int(np.count_nonzero((share > 0) & (share < 1)))
         samples = fresh if samples is None else interleaved(samples, fresh)
-        s, values = samples[:, :, 0], samples[:, :, 1:]
+        s, values = samples[:, :, 0], samples[:, :, 1:4]
         over = _resampled(samples, s_sat[left])
         greatest = np.abs(values).max(axis=1)
         goal = np.maximum(accuracy[left, None] * (1.0, 1.0, _ANY), _FINEST * EPS * greatest)
         # what is not known of a strip's penetration moves all along their slopes
         step = np.diff(s, axis=1)[:, :, None]
-        slopes = np.abs(np.divide(np.diff(values, axis=1), step, out=np.zeros((*step.shape[:2], _Q)), where=step > 0)).max(axis=1)
-        sampled = errors_alone(coefficients(samples), np.concatenate((goal.min(axis=1, keepdims=True), goal), axis=1))
-        error = errors_alone(over, goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 16 * EPS * greatest
+        slopes = np.abs(np.divide(np.diff(values, axis=1), step, out=np.zeros((*step.shape[:2], 3)), where=step > 0)).max(axis=1)
+        sampled = errors_alone(coefficients(samples[:, :, :4]), np.concatenate((goal.min(axis=1, keepdims=True), goal), axis=1))
+        error = errors_alone(over[:, :, MEANS], goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 16 * EPS * greatest
         error += 4 * EPS * (s_sat[left] * s[:, -1])[:, None]
         done = (error <= goal).all(axis=1) | (n == _LAST)
         for k in np.flatnonzero(done):
             g = left[k]
             out.series[g] = _trimmed(over[k], _TRIMMED * goal[k])
-            cut = over[k, len(out.series[g]) :]
+            cut = over[k, len(out.series[g]) :, MEANS]
             out.next[g, : len(cut)] = cut[:NEXT]
             out.degree[g] = n
             out.errors[g] = error[k] + np.abs(cut[NEXT:]).sum(axis=0)
@@ -149,7 +161,7 @@ def _xi(s, s_sat):
 
 def _trimmed(c, goal):
     """Coefficients without a tail that doesn't matter; sizes in steps, so that series of one size are evaluated together."""
-    tail = np.cumsum(np.abs(c[::-1]), axis=0)[::-1]
+    tail = np.cumsum(np.abs(c[::-1, MEANS]), axis=0)[::-1]
     n = int(np.count_nonzero((tail > goal).any(axis=1)))
     return c[: 4 * -(-max(n, 1) // 4)]
 
@@ -175,20 +187,37 @@ def _reaching(foundation, rate, s_top):
     return phi, strips
 
 
-def _samples(foundation, rate, complete, phi):
-    """Samples (m, nodes, 4) at shares of the period in contact ``phi`` (m, nodes): s, then the quantities; the ends 0 and 1
-    are known, of the latter ``complete`` (m, 4)."""
-    out = np.where(phi[:, :, None] < 1, 0.0, complete[:, None])
-    row, node = np.nonzero((phi > 0) & (phi < 1))
+def _samples(foundation, rate, complete, phi, carries):
+    """Samples (m, nodes, 6) at shares of the period in contact ``phi`` (m, nodes): s, then the quantities; those at 1 are
+    ``complete`` (m, 6), at 0 there are but the limits of the last two, which only rows with ``carries`` (m,) have."""
+    out = np.repeat(complete[:, None], phi.shape[1], axis=1)
+    row, node = np.nonzero(phi < 1)
     if row.size:
-        share = phi[row, node]
-        orbits = foundation.waves(rate[row]).orbits(2 * np.pi * share).sure()
-        out[row, node] = np.stack((orbits.D, orbits.p_mean, orbits.tau_mean, share), axis=1)
+        share, waves = np.maximum(phi[row, node], _LEAST), foundation.waves(rate[row])
+        orbits = waves.orbits(2 * np.pi * share).sure()
+        out[row, node, :4] = np.stack((orbits.D, orbits.p_mean, orbits.tau_mean, share), axis=1)
+        some = np.flatnonzero(carries[row])
+        greatest, place = _peaks(waves.pressure(orbits), some)
+        out[row[some], node[some], 4:] = np.stack((greatest / share[some], place), axis=1)
+    out[phi == 0, :4] = 0.0
     return out
 
 
+def _peaks(pressure, rows):
+    """Greatest ``pressure`` in the contacts ``rows``, and its place: from looks at them that are closest at either end."""
+    t = np.linspace(0, 1, _LOOKS)
+    looks = pressure(np.broadcast_to(mapped(t), (rows.size, _LOOKS)), rows)
+    # the vertex of the parabola through the highest look and those next to it
+    every, highest = np.arange(rows.size), np.clip(looks.argmax(axis=1), 1, _LOOKS - 2)
+    before, at, after = (looks[every, highest + k] for k in (-1, 0, 1))
+    bend = before + after - 2 * at
+    offset = np.divide(0.5 * (before - after), bend, out=np.zeros_like(bend), where=bend < 0)
+    vertex = mapped(np.clip(t[highest] + offset * t[1], 0.0, 1.0))
+    return np.maximum(pressure(vertex[:, None], rows)[:, 0], looks.max(axis=1)), vertex
+
+
 def _resampled(samples, s_sat):
-    """Coefficients over xi/xi_top of quantities of which, and of s before them, there are ``samples`` (m, n + 1, 4) at
+    """Coefficients over xi/xi_top of quantities of which, and of s before them, there are ``samples`` (m, n + 1, 6) at
     ``lobatto(n)`` of the width of contact."""
     (m, size, _), s = samples.shape, samples[:, :, 0]
     both, nodes = coefficients(samples), lobatto(size - 1)

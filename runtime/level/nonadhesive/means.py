@@ -49,7 +49,7 @@ class Level:
         out = np.empty((d.size, len(powers)))
         for j, power in enumerate(powers):
             out[:, j] = (weight * power * values[:, :, j]).sum(axis=1)
-        return out + self._complete(span.complete, d, f.full[group, 1], slopes)
+        return out + self._complete(span.complete, d, f.full[group], slopes)
 
     def _complete(self, theta, d, friction, slopes):
         """The share of the strips in complete contact, beyond ``theta``: ``p = D_j - A``."""
@@ -128,7 +128,7 @@ class Level:
         """Penetrations, means and errors (m, 3), to ``goal`` (m, 3), at any load: d, or the pressure, which is then met."""
         d = self.penetrations(group, load) if by_pressure else load.copy()
         values, errors = (
-            np.stack((d - 0.75, 0.09375 * self.family.full[group, 1], np.ones(d.size)), axis=1),
+            np.stack((d - 0.75, 0.09375 * self.family.full[group], np.ones(d.size)), axis=1),
             np.zeros((d.size, 3)),
         )
         values[d <= 0] = 0.0

@@ -9,7 +9,6 @@ import numpy as np
 from ...numerics.quadrature import gauss, mapped, mapped_slope
 from ...numerics.roots import false_position
 from .family import CONTACT, Family
-from .peaks import Peaks
 from .span import Span
 
 #: looks at where the greatest pressures of strips pass a break, and steps towards it
@@ -37,20 +36,21 @@ def panels(span: Span, ends: np.ndarray, n: int) -> Panels:
     return Panels(column, *span.at(column, low + (high - low) * mapped(t), (high - low) * w * mapped_slope(t)))
 
 
-def ends_of(span: Span, family: Family, peaks: Peaks, group: np.ndarray, breaks: np.ndarray) -> np.ndarray:
+def ends_of(span: Span, family: Family, group: np.ndarray, breaks: np.ndarray) -> np.ndarray:
     """Ends (m, e) of panels, between which the greatest pressure of strips passes none of ``breaks`` (m, B), K h/2."""
     length = span.high - span.low
-    passed = np.maximum(span.high[:, None] - _passed(span, length, family, peaks, group, breaks), 0.0)
+    passed = np.maximum(span.high[:, None] - _passed(span, length, family, group, breaks), 0.0)
     return np.sqrt(np.sort(np.column_stack((np.zeros_like(length), passed, length)), axis=1))
 
 
-def _passed(span, length, family, peaks, group, breaks):
+def _passed(span, length, family, group, breaks):
     """eta (m, B) at which the greatest pressure of strips is each of the ``breaks``, or the end that is nearest to it."""
     every = np.arange(span.low.size)
 
     def greatest(eta):
         u, s = span.strips(every, eta)
-        return u * peaks.at(group, family.values(group, s, of=CONTACT)[:, :, 0])[0]
+        share, over, _ = np.moveaxis(family.values(group, s, of=CONTACT), 2, 0)
+        return u * share * np.maximum(over, 0.0)
 
     eta = span.high[:, None] - length[:, None] * np.linspace(1, 0, _LOOKS)
     looks = greatest(eta)

@@ -15,7 +15,6 @@ from .carried import Carrier
 from .family import CONTACT, family
 from .law import NODES, Laws, Piece, fit, greatest_slope, pressures
 from .means import CANCELLED, Level
-from .peaks import Peaks, peak, peaks_of
 
 if TYPE_CHECKING:
     from .surface import NonadhesiveSurface
@@ -64,8 +63,8 @@ class FamilyStack:
         self.foundation, self.waves, self.V, self.p_full = surface.foundation, surface.levels, surface.V, surface.p_full
         self.wanted, self.work = wanted, surface.work
         self.units = [K * level.h for K, level in zip(surface.stiffness, surface.levels, strict=True)]
+        self.reach: list[np.ndarray] = []
         self.levels = self._levels(p_max, d_max)
-        self.peaks = self._peaks()
         self.ceilings, every = [p_max], np.arange(self.V.size)
         for i in range(len(self.waves) - 1):
             known = i == 0 and d_max is not None
@@ -75,33 +74,23 @@ class FamilyStack:
     def _friction_unit(self, i):
         return self.units[i] * self.waves[i].k * self.waves[i].h
 
-    def _rates(self, levels: int):
-        return np.concatenate([wave.k * self.V for wave in self.waves[:levels]])
-
     def _levels(self, p_max, d_max) -> list[Level]:
         """The families of all levels at once, each as far as pressures can reach at most."""
-        rates, s_top, shares, G = self._rates(len(self.waves)), [], [], self.V.size
+        rates, s_top, shares, G = np.concatenate([wave.k * self.V for wave in self.waves]), [], [], self.V.size
         s_sat = 1 + np.broadcast_to(self.foundation.modulus_ratio(rates), rates.shape)
         pressure = p_max
         for i, unit in enumerate(self.units):
             crest = d_max if i == 0 and d_max is not None else pressure / unit + 0.75
+            self.reach.append(crest)
             s_top.append(np.where(crest < 1, 2 * np.maximum(crest, EPS), np.inf))
             pressure = unit * np.maximum(crest - 1 + 0.5 * s_sat[i * G : (i + 1) * G], 0.0)
             # what is not known of pressures counts by the slope of the friction, hardly above k h
             shares.append(np.minimum(_STRIPS * self.wanted.of(i) / self._friction_unit(i), 1e-2))
-        known, strips = family(self.foundation, rates, np.concatenate(s_top), np.concatenate(shares))
+        # the last level carries nothing
+        carries = np.arange(rates.size) < rates.size - G
+        known, strips = family(self.foundation, rates, np.concatenate(s_top), np.concatenate(shares), carries)
         self.work.solved += strips
         return [Level(known.part(slice(i * G, (i + 1) * G))) for i in range(len(self.waves))]
-
-    def _peaks(self) -> list[Peaks]:
-        """Of all levels that carry another one."""
-        G, carrying = self.V.size, len(self.waves) - 1
-        if not carrying:
-            return []
-        top = np.array([series[:, 2].sum() for level in self.levels[:-1] for series in level.family.series])
-        known, strips = peaks_of(self.foundation, self._rates(carrying), np.clip(top, EPS, 1.0))
-        self.work.solved += strips
-        return [known.part(slice(i * G, (i + 1) * G)) for i in range(carrying)]
 
     def _greatest(self, i, d):
         """Greatest local pressure that level i passes on at ``d`` (G,), Pa."""
@@ -109,10 +98,8 @@ class FamilyStack:
         out = np.maximum(d - 1 + 0.5 * family.s_sat, 0.0)
         part = np.flatnonzero((d > 0) & (d < 0.5 * family.s_sat))
         if part.size:
-            share = np.clip(family.values(part, 2 * d[part, None], of=CONTACT)[:, 0, 0], EPS, 1 - 1e-9)
-            found = peak(self.foundation, self.waves[i].k * self.V[part], share)[0]
-            out[part] = np.minimum(out[part], 0.5 * _BETWEEN * found)
-            self.work.solved += part.size
+            share, over, _ = family.values(part, 2 * d[part, None], of=CONTACT)[:, 0].T
+            out[part] = np.minimum(out[part], 0.5 * _BETWEEN * share * over)
         return self.units[i] * out
 
     def laws(self) -> Laws | None:
@@ -124,7 +111,7 @@ class FamilyStack:
 
     def carrier(self, i, laws: Laws) -> Carrier:
         """Level i over the ``laws`` of the next one."""
-        return Carrier(self.foundation, self.levels[i], self.peaks[i], self.waves[i].k * self.V, self.units[i], laws)
+        return Carrier(self.foundation, self.levels[i], self.waves[i].k * self.V, self.units[i], laws)
 
     def at(self, i, group, load, laws: Laws | None, by_pressure: bool = True) -> Found:
         """Level i over the ``laws`` of the next one at pressures ``load`` (m,), Pa, or at penetrations (m,) in its height."""
@@ -174,8 +161,8 @@ class FamilyStack:
         return Laws(pieces, breaks, p_full, self._saturated(i), top, steepest, most)
 
     def _at(self, i, d):
-        """Pressures of level i at penetrations ``d`` (G, k) in its height, inf where that is, Pa."""
-        row, column = np.nonzero(np.isfinite(d))
+        """Pressures of level i at penetrations ``d`` (G, k) in its height, Pa, inf where its families do not reach."""
+        row, column = np.nonzero(d <= self.reach[i][:, None])
         x, out = d[row, column], np.full(d.shape, np.inf)
         pressure, part = x - 0.75, x < 0.5 * self.levels[i].family.s_sat[row]
         if part.any():
@@ -186,7 +173,7 @@ class FamilyStack:
     def _saturated(self, i):
         columns = []
         for j in range(i, len(self.waves)):
-            columns += [0.09375 * self.levels[j].family.full[:, 1] * self._friction_unit(j), np.ones(self.V.size)]
+            columns += [0.09375 * self.levels[j].family.full * self._friction_unit(j), np.ones(self.V.size)]
         return np.stack((*columns, np.zeros(self.V.size)), axis=1)
 
     def _pieces(self, i, ends, below):
