@@ -12,6 +12,9 @@ from .check import Claim, Derived, derived, zero
 from .flows import Flows
 from .functions import Formula, either, loss_mean, written_out
 from .kernel import Kernel, kernel
+from .modes.states import J_j, summed, w
+from .modes.states import p as load
+from .modes.symbols import J_0
 from .regime import Regime
 from .sequences import ADHESION, CONTACT, FREE, NOTHING, PERIOD, Row, Span
 from .symbols import D, L, alpha, beta, p, p_0, q_0, s, s_0, s_1, w_0
@@ -163,3 +166,27 @@ def adhesive_rise(zones: Sequence[Span]) -> sp.Expr:
         return short
     width = sum(zone.last - zone.first for zone in adhesive)
     return either(width, short, -sum(rises[zone] for zone in zones if zone not in adhesive))
+
+
+def means_of_a_strip() -> Derived:
+    r"""Eq. 11: The mean pressure is computed as the mean of w, equal to it on a closed orbit, because that sum holds
+    no large terms that cancel; the friction is the work of p on the profile, zone by zone. Adhesion counts in both.
+
+    .. math:: \bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds
+    """
+    z_j = sp.Symbol("z_j", real=True)
+    checks = [
+        summed(
+            "d/ds sum beta_j z_j = p - w, and that sum is periodic: mean p = mean w on a closed orbit",
+            J_j * load - z_j,
+            [(load, (J_j, 1 - J_0)), (-1, (z_j, w - J_0 * load))],
+            load - w,
+            over={J_j, z_j},
+        )
+    ]
+    return derived(
+        means_of_a_strip,
+        load - w,
+        checks,
+        emitted=tuple(f"means_{sequence}" for sequence in ("acaf", "afc", "af", "ac")),
+    )

@@ -7,7 +7,6 @@ states it, Eq. 5 is solved in x with the conditions at d, b, -a and -c, and the 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import sympy as sp
 
@@ -16,21 +15,6 @@ from .regime import Regime
 from .strip import TIMES, Strip
 from .surface import AMPLITUDE, HEIGHT, PENETRATION
 from .symbols import A, D, D_j, D_level, K, a, b, c, chi, d, delta_0, k, p_0, s, x
-
-
-@dataclass(frozen=True)
-class Conditions:
-    """The strip's problem in x; the second step only for a foundation with one relaxation time, as in Eq. 5."""
-
-    zones: Derived
-    problem: Derived | None
-
-
-def conditions(strip: Strip, discrete: Regime) -> Conditions:
-    """``discrete``: the regime with every kind of edge, partial contact with discrete adhesion zones."""
-    problem = strip_problem(strip, discrete) if strip.foundation.model.modes == 1 else None
-    return Conditions(zone_conditions(strip.u), problem)
-
 
 SIGN_OF_6 = (
     "The first of the three lines is printed as w = f + D. Eq. 8 and 15, as printed, follow from w = D - f alone: "

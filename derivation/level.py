@@ -9,19 +9,17 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from . import stable
 from .check import Claim, Derived, derived, holds, zero
-from .functions import Formula, hypot, stack_sum
+from .functions import Formula, stack_sum
 from .kernel import Kernel, kernel
-from .saturated import MODULUS, Saturated
+from .saturated import FIELD, LOSS, MODULUS, Saturated
 from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell, mean_over_wave
 from .symbols import D, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, s, x, y
 
-_si = (K, T_eps, T_sigma)
 R = sp.Symbol("R", positive=True)
 """|K*|/K of the wave of a level."""
-ratio, pulsation, creep, slender = sp.symbols("ratio pulsation creep slender", positive=True)
-_SLENDER = ((creep, V * (T_eps - T_sigma)), (slender, h / l), (alpha, 2 * sp.pi * V * T_sigma / l))
-_RATIO = ((pulsation, 2 * sp.pi * V / l), (ratio, hypot(1, pulsation * T_eps) / hypot(1, pulsation * T_sigma)))
+ratio = sp.Symbol("ratio", positive=True)
 TIMES = {alpha: k * V * T_sigma, beta: k * V * T_eps, L: 1 - T_sigma / T_eps}
 
 
@@ -35,23 +33,36 @@ class Level:
 
 @dataclass(frozen=True)
 class Wave:
-    """The wave of a level on a foundation, whose |K*|/K is R: derived, and as it is computed."""
+    """The wave of a level on a foundation: |K*|/K and Im K*/K, derived and as they are computed."""
 
     given: tuple[sp.Symbol, ...]  # of the foundation
     ratio: sp.Expr
-    computed: tuple[tuple[sp.Symbol, sp.Expr], ...]  # steps to ``ratio``
+    loss: sp.Expr
+    ratio_computed: sp.Expr
+    loss_computed: sp.Expr
     at_least_one: Claim  # R >= 1
 
 
 def level(saturated: Saturated) -> Level:
-    mean_p, mean_tau = saturated.means.exact
+    _, loss = saturated.modulus.value
     at_least_one = holds("R >= 1: R^2 - 1 = (beta^2 - alpha^2)/(1 + alpha^2) >= 0", _at_least_one())
-    wave = Wave(_si, MODULUS.subs(TIMES).subs(WAVE), _RATIO, at_least_one)
-    penetration, pressure = saturation(wave, saturated.threshold.value.subs(MODULUS, R), mean_p)
-    friction = saturation_friction(mean_tau)
-    field = next(kernel.exact for kernel in saturated.kernels if kernel.formula.name == "saturated_pressure")
-    stack = stack_friction(friction.exact, field)
-    return Level((penetration, pressure, friction, stack), printed_equation_16(friction.exact))
+    speed = 2 * sp.pi * V / l
+    wave = Wave(
+        (K, T_eps, T_sigma),
+        MODULUS.subs(TIMES).subs(WAVE),
+        sp.factor(loss.subs(TIMES).subs(WAVE)),
+        stable.MODULUS_RATIO(T_sigma * speed, T_eps * speed),
+        stable.LOSS(T_sigma * speed, (T_eps - T_sigma) * speed, 1),  # the loss of beta and L is that of L beta and 1
+        at_least_one,
+    )
+    kernels = in_complete_contact(wave, saturated.threshold.value.subs(MODULUS, R))
+    return Level(kernels, printed_equation_16(kernels[2].exact))
+
+
+def in_complete_contact(wave: Wave, threshold: sp.Expr) -> tuple[Kernel, ...]:
+    """What a level in complete contact comes to on any foundation. ``threshold``: D of a strip, by its R."""
+    friction = saturation_friction(wave)
+    return (*saturation(wave, threshold), friction, stack_friction(wave, friction.formula))
 
 
 def in_si(field: sp.Expr) -> sp.Expr:
@@ -90,8 +101,8 @@ def friction_of_strips(mean_tau: sp.Expr) -> sp.Expr:
     return over_strips(K * AMPLITUDE * k * AMPLITUDE * mean_tau).subs(WAVE)
 
 
-def saturation(wave: Wave, threshold: sp.Expr, mean_p: sp.Expr) -> tuple[Kernel, Kernel]:
-    r"""From where on a level is in complete contact. ``threshold``: D of a strip, by its R; ``mean_p``: of a strip.
+def saturation(wave: Wave, threshold: sp.Expr) -> tuple[Kernel, Kernel]:
+    r"""From where on a level is in complete contact. ``threshold``: D of a strip, by its R.
 
     level_saturation_penetration: Penetration from which every strip of a level is in complete contact.
 
@@ -102,11 +113,11 @@ def saturation(wave: Wave, threshold: sp.Expr, mean_p: sp.Expr) -> tuple[Kernel,
     .. math:: p_{sat} = \tfrac14 K h (2R - 1) - p_0
     """
     penetration, claims = of_every_strip(threshold, wave.at_least_one)
-    mean = load_of_strips(mean_p)
+    mean = load_of_strips(D - 1)
     of_mean = zero("the level's mean pressure in complete contact is K (D - 3h/4)", mean - K * (D_level - sp.Rational(3, 4) * h))
 
     def of_level(name: str, result: sp.Expr, exact: sp.Expr, *claims: Claim) -> Kernel:
-        formula = Formula(f"level_saturation_{name}", (*wave.given, p_0, l, h, V), result, wave.computed)
+        formula = Formula(f"level_saturation_{name}", (*wave.given, p_0, l, h, V), result, ((ratio, wave.ratio_computed),))
         return kernel(saturation, formula, exact.subs(WAVE).subs(R, wave.ratio), *claims)
 
     return (
@@ -115,54 +126,54 @@ def saturation(wave: Wave, threshold: sp.Expr, mean_p: sp.Expr) -> tuple[Kernel,
     )
 
 
-def saturation_friction(mean_tau: sp.Expr) -> Kernel:
+def one_level() -> sp.Expr:
+    """Friction of a level in complete contact, by the loss of its wave."""
+    return friction_of_strips(LOSS / 2)
+
+
+def saturation_friction(wave: Wave) -> Kernel:
     r"""Eq. 10, 11: Friction of a level in complete contact.
 
-    .. math:: \tau_{sat} = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma) h^2}{l^2 + 4\pi^2 V^2 T_\sigma^2}
+    .. math:: \tau_{sat} = \frac{3\pi}{32} \frac{h^2}{l}\,\mathrm{Im}\,K^*(ikV)
     """
-    name = "level_saturation_friction"
-    exact = sp.factor(friction_of_strips(mean_tau.subs(TIMES)))
-    stated = sp.Rational(3, 16) * sp.pi**2 * K * V * (T_eps - T_sigma) * h**2 / (l**2 + 4 * sp.pi**2 * V**2 * T_sigma**2)
-    formula = Formula(
-        name,
-        (*_si, l, h, V),
-        3 * sp.pi**2 / 16 * K * creep * slender**2 / (1 + alpha**2),
-        _SLENDER,
-    )
-    checks = [zero("it is 3 pi^2/16 K V (T_eps - T_sigma) h^2/(l^2 + 4 pi^2 V^2 T_sigma^2)", exact - stated)]
-    return kernel(saturation_friction, formula, exact, *checks)
+    formula = Formula("level_saturation_friction", (*wave.given, l, h, V), 3 * sp.pi / 32 * K * h**2 / l * wave.loss_computed)
+    friction, stress = one_level(), in_si(FIELD) * sp.diff(HEIGHT, x)
+    checks = [
+        zero("it is 3 pi/32 h^2/l Im K*", friction - sp.Rational(3, 32) * sp.pi * K * h**2 / l * LOSS),
+        zero("Eq. 15 in Eq. 10, averaged over the cell, is tau_sat", sp.simplify(mean_over_cell(stress).subs(WAVE) - friction)),
+    ]
+    return kernel(saturation_friction, formula, friction.subs(LOSS, wave.loss), *checks)
 
 
-def stack_friction(one_level: sp.Expr, field: sp.Expr) -> Kernel:
+def stack_friction(wave: Wave, of_one: Formula) -> Kernel:
     r"""Eq. 16: Friction coefficient when every level is in complete contact. The levels lie along the last axis of l
     and h, against which all but p_1 broadcasts.
 
-    .. math:: \mu = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma)}{p_1} \sum_i \frac{h_i^2}{l_i^2 + 4\pi^2 V^2 T_\sigma^2}
+    .. math:: \mu = \frac{3\pi}{32\,p_1} \sum_i \frac{h_i^2}{l_i}\,\mathrm{Im}\,K^*(ik_iV)
     """
     name = "saturated_stack_friction"
-    exact = stack_sum(one_level) / p_nominal
-    formula = Formula(
-        name,
-        (*_si, l, h, V, p_nominal),
-        3 * sp.pi**2 / 16 * stack_sum(K * creep * slender**2 / (1 + alpha**2)) / p_nominal,
-        _SLENDER,
-    )
-    pressed = in_si(field)
+    friction, term = one_level(), of_one(*of_one.args)
+    formula = Formula(name, (*of_one.args, p_nominal), stack_sum(term) / p_nominal)
+    pressed = in_si(FIELD)
     load, shear = (mean_over_cell(part) for part in (pressed, pressed * sp.diff(HEIGHT, x)))
-    labels = dict(formula.steps)
     levels = [{symbol: sp.Symbol(f"{symbol}_{i}", positive=True) for symbol in (h, l)} for i in (1, 2, 3)]
-    summed = formula.result.replace(stack_sum, lambda term: sum(term.xreplace(labels).subs(level) for level in levels))
+    summed = formula.result.replace(stack_sum, lambda each: sum(each.subs(level) for level in levels))
+    corrected = sp.Rational(3, 16) * sp.pi**2 * K * h**2 * (beta - alpha) / (2 * sp.pi * l * (1 + alpha**2))
     checks = [
-        zero("Eq. 15 in Eq. 10, averaged over the cell, is tau_sat", sp.simplify(shear.subs(WAVE) - one_level)),
         zero(
             "pressed deeper by dD a level in complete contact carries K dD more and has the same friction: the levels add",
             [sp.diff(load, D_level) - K, sp.simplify(sp.diff(shear, D_level))],
         ),
-        zero(
+        holds(
             "three levels: the emitted sum is that of their friction coefficients",
-            sp.simplify(summed - sum(one_level.subs(level) for level in levels) / p_nominal),
+            sp.expand(summed - sum(term.subs(level) for level in levels) / p_nominal) == 0,
+        ),
+        zero(
+            "with one relaxation time each term is that of Eq. 16 as corrected",
+            friction.subs(LOSS, (beta - alpha) / (1 + alpha**2)) - corrected,
         ),
     ]
+    exact = stack_sum(friction.subs(LOSS, wave.loss)) / p_nominal
     return kernel(stack_friction, formula, exact, *checks, correction=MISPRINT)
 
 
@@ -175,7 +186,8 @@ MISPRINT = (
 def printed_equation_16(one_level: sp.Expr) -> Derived:
     r"""Eq. 16: What is wrong with Eq. 16 as printed, and by what factor.
 
-    .. math:: \frac{\text{printed}}{\text{derived}} = \frac{16}{3 h_i}
+    .. math:: \mu = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma)}{p_1} \sum_i \frac{h_i^2}{l_i^2 + 4\pi^2 V^2
+        T_\sigma^2},\quad \frac{\text{printed}}{\text{derived}} = \frac{16}{3 h_i}
     """
     name = "Eq. 16 as printed"
     true = one_level / p_nominal

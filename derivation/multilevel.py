@@ -13,12 +13,11 @@ import sympy as sp
 
 from .averages import ZoneIntegrals
 from .check import Claim, Derived, derived, zero
-from .functions import stack_sum
 from .kernel import Kernel
-from .level import Level, in_si, over_strips
+from .level import in_si, one_level, over_strips
 from .load import contact_area, equilibrium, unbalanced
 from .regime import Regime
-from .saturated import Saturated
+from .saturated import FIELD, LOSS, Saturated
 from .sequences import ADHESION, CONTACT, FREE, PERIOD
 from .strip import Strip
 from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell, mean_over_wave
@@ -43,22 +42,21 @@ class Multilevel:
 def multilevel(
     strip: Strip,
     saturated: Saturated,
-    whole: Level,
     regimes: Sequence[Regime],
     means: Sequence[Kernel],
     integrals: ZoneIntegrals,
 ) -> Multilevel:
-    exact = {kernel.formula.name: kernel.exact for kernel in (*saturated.kernels, *whole.kernels, *means)}
+    exact = {kernel.formula.name: kernel.exact for kernel in (*saturated.kernels, *means)}
     field = exact["saturated_pressure"]
     touching = [regime for regime in regimes if regime.touches]
     return Multilevel(
         equilibrium(touching, [unbalanced(regime, exact[f"means_{regime.sequence}"][0], integrals) for regime in touching]),
         contact_area(regimes),
         local_stress(strip.u, field, dashpot_loss(strip.u, field)),
-        means_over_a_level(field, saturated.means.exact),
+        means_over_a_level(),
         local_shear(),
         carried_friction(passed_once(strip, touching), ("excess_after", "excess_event")),
-        friction_coefficient(field, exact["level_saturation_friction"], exact["saturated_stack_friction"]),
+        friction_coefficient(),
     )
 
 
@@ -90,18 +88,18 @@ def local_stress(u: sp.Expr, field: sp.Expr, lost: sp.Expr) -> Derived:
     return derived(local_stress, stress, checks)
 
 
-def means_over_a_level(pressure: sp.Expr, means: tuple[sp.Expr, sp.Expr]) -> Derived:
+def means_over_a_level() -> Derived:
     r"""Eq. 11: A level's means of pressure and friction are those of its strips averaged over y. The strips do not act on one
     another, because the foundation is local.
 
     .. math:: \bar p = \frac1l \int_0^l \bar p_j\,dy,\quad \bar\tau = \frac1l \int_0^l \bar\tau_j\,dy
 
-    ``pressure`` and ``means`` of a strip in complete contact, for which both can be integrated.
+    Checked in complete contact, for which both can be integrated.
     """
     in_strip = {D: PENETRATION / AMPLITUDE, s: -k * x}
-    strip_p = sp.expand(sp.simplify(K * AMPLITUDE * means[0].subs(in_strip)))
-    strip_tau = K * AMPLITUDE * k * AMPLITUDE * means[1]
-    cell = mean_over_wave(mean_over_wave(sp.simplify(K * AMPLITUDE * pressure.subs(in_strip)), y), x)
+    strip_p = sp.expand(sp.simplify(K * AMPLITUDE * (D - 1).subs(in_strip)))
+    strip_tau = K * AMPLITUDE * k * AMPLITUDE * LOSS / 2
+    cell = mean_over_wave(mean_over_wave(sp.simplify(K * AMPLITUDE * FIELD.subs(in_strip)), y), x)
     checks = [
         zero(
             "complete contact: the strips' mean pressure, averaged over y, is that of Eq. 15 over the cell",
@@ -171,18 +169,16 @@ def carried_friction(claims: Sequence[Claim], emitted: tuple[str, ...]) -> Deriv
     return derived(carried_friction, value, claims, correction=CONTACT_ALONE, emitted=emitted)
 
 
-def friction_coefficient(field: sp.Expr, one_level: sp.Expr, stack: sp.Expr, own: Sequence[sp.Symbol] = (h, l)) -> Derived:
+def friction_coefficient() -> Derived:
     r"""Eq. 14: The shear of the largest level, which holds what all levels contribute, over its nominal pressure. The
     load is that of the largest level: the smaller ones enter through the shear alone.
 
     .. math:: \mu = \frac{\tau_1}{p_1}
-
-    ``field``: Eq. 15 in a strip; ``own``: what differs by level.
     """
-    upper, lower = ({symbol: sp.Symbol(f"{symbol}_{i}", positive=True) for symbol in own} for i in (1, 2))
-    pressed = in_si(field)
-    shear = pressed * sp.diff(HEIGHT, x) + one_level.subs(lower)  # Eq. 12 in complete contact, where the law below is constant
-    both = stack.replace(stack_sum, lambda term: sum(term.subs(level) for level in (upper, lower)))
+    upper, lower = ({symbol: sp.Symbol(f"{symbol}_{i}", positive=True) for symbol in (h, l, LOSS)} for i in (1, 2))
+    pressed, friction_of_one = in_si(FIELD), one_level()
+    shear = pressed * sp.diff(HEIGHT, x) + friction_of_one.subs(lower)  # Eq. 12 in complete contact: the law below is constant
+    both = sum(friction_of_one.subs(level) for level in (upper, lower)) / p_nominal
     load, friction = (mean_over_cell(part).subs(WAVE).subs(upper) for part in (pressed, shear))
     checks = [
         zero(

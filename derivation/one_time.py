@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from .averages import constant_means, strip_means, zone_integrals
-from .conditions import conditions
+from .conditions import strip_problem, zone_conditions
 from .displays import STATED, displays, of_one_time
 from .energy import friction_balance, power_balance
 from .events import excess_event, gap_event
@@ -68,7 +68,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     partial = [regime for regime in table if regime.edges]
     systems = tuple(boundary_equations(regime, zone.kernels) for regime in partial)
     roots = sample_roots("one_time", table, mode_flows())
-    stages.done(conditions(one_strip, table[0]), table, roots, systems)
+    stages.done(zone_conditions(one_strip.u), strip_problem(one_strip, table[0]), table, roots, systems)
     integrals = zone_integrals(flow)
     still = tuple(constant_means(regime, PARAMETERS) for regime in table if regime.sequence in ("a", "f"))
     means = tuple(strip_means(regime, integrals) for regime in partial)
@@ -77,7 +77,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     onsets = onset({regime.sequence: regime for regime in partial})
     slopes = tuple(onset_slope(regime) for regime in partial if regime.zones[-1].kind == FREE)
     stages.done(shift_of_an_event(), onsets, slopes)
-    upwards = multilevel(one_strip, full, whole, partial, means, integrals)
+    upwards = multilevel(one_strip, full, partial, means, integrals)
     stages.done(upwards, stack(one_strip, full, whole), half_space())
     sections = (
         ("Rigid profile, load, zones", zone.kernels),

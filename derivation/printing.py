@@ -31,7 +31,8 @@ class NumPySource(PythonCodePrinter):
         return f"({', '.join(self._print(part) for part in expr)}{',' * (len(expr) == 1)})"
 
     def _print_Passage(self, expr: sp.Expr) -> str:
-        return f"Passage(*{self._print(expr.args[0])})"
+        *named, rest = map(self._print, expr.args)
+        return f"Passage({', '.join(named)}, *{rest})"
 
     def _print_Pi(self, expr: sp.Expr) -> str:
         return "np.pi"

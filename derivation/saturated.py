@@ -16,6 +16,9 @@ from .symbols import PARAMETERS, D, L, V, alpha, beta, k, p_0, q_0, s, s_0, s_1
 
 MODULUS = sp.sqrt((1 + beta**2) / (1 + alpha**2))
 """R = |K*|/K at the strip's frequency."""
+STORAGE, LOSS = sp.symbols("storage loss", positive=True)
+FIELD = D - 1 + STORAGE * sp.cos(s) - LOSS * sp.sin(s)
+"""Eq. 15 on any foundation, by the storage and the loss of K*/K."""
 
 
 @dataclass(frozen=True)
@@ -30,9 +33,15 @@ class Saturated:
 
 def saturated(flows: Flows) -> Saturated:
     modulus = complex_modulus(flows)
+    _, loss = modulus.value
     field = field_kernels(flows, modulus.value)
     threshold = saturation_threshold(MODULUS, "R", _least_pressure(field[0].exact, modulus.value))
-    return Saturated(modulus, (*modulus_kernels(modulus), *field), means(flows, field[0].exact), threshold)
+    return Saturated(
+        modulus,
+        (*modulus_kernels(modulus), *field),
+        means(flows.strip.u, PARAMETERS, loss, stable.LOSS(alpha, beta, L)),
+        threshold,
+    )
 
 
 def complex_modulus(flows: Flows) -> Derived:
@@ -106,20 +115,22 @@ def field_kernels(flows: Flows, modulus: tuple[sp.Expr, sp.Expr]) -> tuple[Kerne
     )
 
 
-def means(flows: Flows, pressure: sp.Expr) -> Kernel:
+def means(u: sp.Expr, args: tuple[sp.Symbol, ...], loss: sp.Expr, computed: sp.Expr) -> Kernel:
     r"""Eq. 11: Means of pressure and friction of a strip in complete contact.
 
-    .. math:: \bar p = D - 1,\quad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds = \frac{L\beta}{2(1 + \alpha^2)}
+    .. math:: \bar p = D - 1,\quad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds = \tfrac12 \mathrm{Im}\,K^*(ikV)/K
+
+    ``loss`` of the foundation, and how it is ``computed``.
     """
-    u = flows.strip.u
-    mean_p = sp.integrate(sp.expand(pressure), (s, 0, 2 * sp.pi)) / (2 * sp.pi)
-    mean_tau = sp.integrate(sp.expand(pressure * sp.diff(u, s)), (s, 0, 2 * sp.pi)) / (2 * sp.pi)
-    mean_w = sp.integrate(u, (s, 0, 2 * sp.pi)) / (2 * sp.pi)
+    mean_p, mean_tau, mean_w = (
+        sp.integrate(sp.expand(part), (s, 0, 2 * sp.pi)) / (2 * sp.pi) for part in (FIELD, FIELD * sp.diff(u, s), u)
+    )
     return kernel(
         means,
-        Formula("means_c", PARAMETERS, (D - 1, stable.LOSS(alpha, beta, L) / 2)),
-        (mean_p, sp.factor(mean_tau)),
+        Formula("means_c", args, (D - 1, computed / 2)),
+        (mean_p, mean_tau.subs(LOSS, loss)),
         zero("mean p = mean w over a period", mean_p - mean_w),
+        zero("mean friction = loss/2", mean_tau - LOSS / 2),
     )
 
 

@@ -222,7 +222,7 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "level_saturation_pressure": named("p_sat"),
     "level_saturation_friction": named(r"\tau_sat"),
     "saturated_stack_friction": named(r"\mu"),
-    "Eq. 16 as printed": named(r"\textderived", r"\textprinted"),
+    "Eq. 16 as printed": lambda values, words: {r"\mu": values[0], r"\textderived": values[0], r"\textprinted": values[1]},
     "friction balance": _energies,
     "onset_slope": lambda values, words: {"T'": values[0] / values[1]},
     "adhesive_onset": named("g_d", "[F]"),

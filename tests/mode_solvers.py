@@ -58,8 +58,8 @@ class Orbits:
         m = solver.at_speed(modes, np.full(len(self.rows), self.k))
         edges = list(self.edges)
         for _ in range(3):
-            residual = np.stack(np.broadcast_arrays(*functions["residual"](*edges, m, *self.parameters)))
-            jacobian = np.array([np.broadcast_arrays(*row) for row in functions["jacobian"](*edges, m, *self.parameters)])
+            residual, rows = functions["residual_and_jacobian"](*edges, m, *self.parameters)
+            residual, jacobian = np.stack(np.broadcast_arrays(*residual)), np.array([np.broadcast_arrays(*row) for row in rows])
             step = np.linalg.solve(np.moveaxis(jacobian, -1, 0), residual.T[..., None])[..., 0].T
             edges = [edge - part for edge, part in zip(edges, step, strict=True)]
         p_mean, tau_mean = functions["means"](*edges, m, *self.parameters)

@@ -192,7 +192,11 @@ LATE = {
     "means over a level": ("multilevel.py", "(mean, number) - over_strips", "(mean, number) + over_strips"),
     "local stress": ("multilevel.py", "(D_level - HEIGHT).subs(x, fixed - V * t)", "(D_level - HEIGHT).subs(x, fixed + V * t)"),
     "local shear": ("multilevel.py", "shear = pressure * slope_x + tau_below", "shear = pressure * slope_x - tau_below"),
-    "friction coefficient": ("multilevel.py", "HEIGHT, x) + one_level.subs(lower)", "HEIGHT, x) - one_level.subs(lower)"),
+    "friction coefficient": (
+        "multilevel.py",
+        "HEIGHT, x) + friction_of_one.subs(lower)",
+        "HEIGHT, x) - friction_of_one.subs(lower)",
+    ),
     "least pressure in complete contact": ("stack.py", "D - threshold.subs", "D + threshold.subs"),
     "levels in complete contact together": ("stack.py", "mean_over_wave(-p * sp.diff", "mean_over_wave(p * sp.diff"),
 }
@@ -213,10 +217,10 @@ def _late(module, name: str):
         ),
         "shift of an event": lambda: module.shift_of_an_event(),
         "zone conditions": lambda: module.zone_conditions(strip.u),
-        "means over a level": lambda: module.means_over_a_level(field, exact["means_c"]),
+        "means over a level": lambda: module.means_over_a_level(),
         "local stress": lambda: module.local_stress(strip.u, field, module.dashpot_loss(strip.u, field)),
         "local shear": lambda: module.local_shear(),
-        "friction coefficient": lambda: module.friction_coefficient(field, one, exact["saturated_stack_friction"]),
+        "friction coefficient": lambda: module.friction_coefficient(),
         "least pressure in complete contact": lambda: module.least_pressure(
             step("saturation threshold").value, exact["level_saturation_pressure"]
         ),

@@ -212,11 +212,11 @@ MUTANTS: tuple[Mutant, ...] = (
     m(
         "level",
         "level.py",
-        "stack_sum(K * creep * slender**2 / (1 + alpha**2))",
-        "slender**2 * stack_sum(K * creep / (1 + alpha**2))",
+        "stack_sum(term) / p_nominal)",
+        "h * stack_sum(term / h) / p_nominal)",
         "saturated_stack_friction",
     ),
-    m("level", "level.py", "3 * sp.pi**2 / 16 * K * creep", "sp.pi**2 * K * creep", "level_saturation_friction"),
+    m("level", "level.py", "3 * sp.pi / 32 * K * h**2", "sp.pi / 2 * K * h**2", "level_saturation_friction"),
     m(
         "level",
         "multilevel.py",
@@ -234,8 +234,8 @@ MUTANTS: tuple[Mutant, ...] = (
     m(
         "level",
         "multilevel.py",
-        "HEIGHT, x) + one_level.subs(lower)",
-        "HEIGHT, x) - one_level.subs(lower)",
+        "HEIGHT, x) + friction_of_one.subs(lower)",
+        "HEIGHT, x) - friction_of_one.subs(lower)",
         "friction coefficient",
     ),
     m("level", "load.py", "- PERIOD * mean_p - p_0 * adhesion", "- PERIOD * mean_p + p_0 * adhesion", "equilibrium"),
@@ -297,7 +297,8 @@ MUTANTS: tuple[Mutant, ...] = (
         "saturated_pressure",
         "displays",
     ),
-    m("display", "level.py", r"\sum_i \frac{h_i^2}{l_i^2", r"\sum_i \frac{h_i^3}{l_i^2", "saturated_stack_friction", "displays"),
+    m("display", "level.py", r"\sum_i \frac{h_i^2}{l_i}", r"\sum_i \frac{h_i^3}{l_i}", "saturated_stack_friction", "displays"),
+    m("display", "level.py", r"\sum_i \frac{h_i^2}{l_i^2", r"\sum_i \frac{h_i^3}{l_i^2", "Eq. 16 as printed", "displays"),
     m(
         "display",
         "level.py",
@@ -309,7 +310,7 @@ MUTANTS: tuple[Mutant, ...] = (
     m(
         "display",
         "level.py",
-        r"\tau_{sat} = \frac{3\pi^2}{16} \frac",
+        r"\tau_{sat} = \frac{3\pi}{32} \frac",
         r"\tau_{sat} = \frac{3\pi}{16} \frac",
         "level_saturation_friction",
         "displays",
@@ -372,7 +373,7 @@ MUTANTS: tuple[Mutant, ...] = (
     m("display", "modes/states.py", r"\quad J_j \beta_j =", r"\quad J_j =", "partial fractions", "modes"),
     m(
         "display",
-        "modes/saturated.py",
+        "level.py",
         r"\frac{3\pi}{32} \frac{h^2}{l}",
         r"\frac{3\pi}{32} \frac{h^3}{l}",
         "level_saturation_friction",
@@ -490,8 +491,9 @@ def printed(package: ModuleType) -> None:
 
 def displayed(package: ModuleType) -> None:
     strip, flows, full = early(package)
-    kernels = (*part(package, "zones").rigid_profile(strip.u), *full.kernels, *part(package, "level").level(full).kernels)
-    steps = [flows.contact, flows.relaxation, flows.gap, *(kernel.derived for kernel in kernels)]
+    whole_level = part(package, "level").level(full)
+    kernels = (*part(package, "zones").rigid_profile(strip.u), *full.kernels, *whole_level.kernels)
+    steps = [flows.contact, flows.relaxation, flows.gap, *(kernel.derived for kernel in kernels), whole_level.comparison]
     field = next(kernel.exact for kernel in full.kernels if kernel.formula.name == "saturated_pressure")
     displays, words = part(package, "displays"), part(package, "vocabulary")
     displays.displays(steps, {}, words.vocabulary(flows, field), words.BINDINGS, displays.of_one_time)
@@ -515,11 +517,10 @@ def complete(package: ModuleType) -> None:
     multilevel, displays = part(package, "multilevel"), part(package, "displays")
     strip, _, full = early(package)
     field = next(kernel.exact for kernel in full.kernels if kernel.formula.name == "saturated_pressure")
-    one_level, stack = (kernel.exact for kernel in part(package, "level").level(full).kernels[2:])
     steps = (
         multilevel.local_stress(strip.u, field, multilevel.dashpot_loss(strip.u, field)),
-        multilevel.means_over_a_level(field, full.means.exact),
-        multilevel.friction_coefficient(field, one_level, stack),
+        multilevel.means_over_a_level(),
+        multilevel.friction_coefficient(),
     )
     displays.displays(steps, {}, {}, part(package, "vocabulary").LEVELS, displays.of_one_time)
 

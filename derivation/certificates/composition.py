@@ -42,8 +42,8 @@ class Composition:
 
         ``agreed``: the derivatives, put together as by the emitted functions, are held against differences.
         """
-        state = self.state()
-        passages = self.passages(state)
+        state, forgotten = self.state()
+        residual, passages = self.residual(state), self.passages(state, forgotten)
         jacobian, return_map = self.jacobian(passages), self.return_map(passages)
         if agreed:
             self._agree("jacobian", jacobian, self.jacobian_by_differences())
@@ -51,8 +51,8 @@ class Composition:
         return {
             "state": state,
             "passages": Scaled.joined([part for passage in passages for part in passage]),
-            "residual": self.residual(state),
-            "jacobian": jacobian,
+            "residual": residual,
+            "residual_and_jacobian": Scaled.joined([residual, jacobian]),
             "return_map": return_map,
             "means": self.means(state),
         }
@@ -100,19 +100,20 @@ class Composition:
 
     # -- what the zones of a period do --------------------------------------------------------------------------------
 
-    def state(self) -> Scaled:
-        """The state that returns after a period, at the first edge."""
+    def state(self) -> tuple[Scaled, list[Scaled]]:
+        """The state that returns after a period, at the first edge; what every zone makes it forget."""
         maps = []
         for zone in self.regime.zones:
             name, entry = ("contact_map", p_in) if zone.kind == CONTACT else ("relaxation_map", p)
             found = self._block(name, {**self._edges(zone), entry: zone.pressure})
             lost = found[: -self.n]
-            maps.append((_matrix(lost.reshape((self.n, self.n)) if zone.kind == CONTACT else lost), found[-self.n :]))
-        forget, drive = maps[0]
-        for lost, driven in maps[1:]:
-            drive = drive + driven - lost @ drive
-            forget = forget + lost - lost @ forget
-        return forget.solved(drive)
+            maps.append((lost.reshape((self.n, self.n)) if zone.kind == CONTACT else lost, found[-self.n :]))
+        nothing = np.full((self.n, self.n), mpmath.mpf(0))
+        forget, drive = Scaled.of(nothing), Scaled.of(nothing[0])
+        for lost, driven in maps:
+            drive = drive + driven - _matrix(lost) @ drive
+            forget = forget + _matrix(lost) - _matrix(lost) @ forget
+        return forget.solved(drive), [lost for lost, _ in maps]
 
     def _along(self, state: Scaled) -> Iterator[tuple[Span, Scaled]]:
         """Every zone and the state in which it is entered."""
@@ -152,15 +153,14 @@ class Composition:
 
     # -- derivatives --------------------------------------------------------------------------------------------------
 
-    def passages(self, state: Scaled) -> list[list[Scaled]]:
-        """Of every zone: change of z, what of it is forgotten, its derivatives by both edges; the same of the gap or pressure."""
+    def passages(self, state: Scaled, forgotten: list[Scaled]) -> list[list[Scaled]]:
+        """Of every zone: z, what of it is forgotten, its change and derivatives by the edges; the same of gap or pressure."""
         n, found = self.n, []
-        for zone, entered in self._along(state):
+        for (zone, entered), lost in zip(self._along(state), forgotten, strict=True):
             name, entry = ("contact_passage", p_in) if zone.kind == CONTACT else ("relaxation_passage", p)
             flat = self._block(name, {**self._edges(zone), entry: zone.pressure}, (z_0, entered))
-            parts = []
-            lost = (n, n) if zone.kind == CONTACT else (n,)
-            for shape in ((n,), lost, (n,), (n,), (), (n,), (), ()):
+            parts = [entered, lost]
+            for shape in ((n,), (n,), (n,), (), (n,), (), ()):
                 count = n ** len(shape)
                 parts.append(flat[:count].reshape(shape))
                 flat = flat[count:]
@@ -187,7 +187,7 @@ class Composition:
 
     def _carried(self, passage: list[Scaled], k: int, count: int, state: Scaled) -> Scaled:
         """Derivatives of the state by the edges, carried through a zone."""
-        _, forget, by_start, by_end, *_ = passage
+        _, forget, _, by_start, by_end, *_ = passage
         after = (state - _matrix(forget) @ state).transposed
         return _with(_with(after, k, by_start), (k + 1) % count, by_end).transposed
 
@@ -197,7 +197,7 @@ class Composition:
         state = Scaled.of(np.array([[mpmath.mpf(i == j) for j in range(self.n)] for i in range(self.n)], object))
         shift = -state.sum() / last_slope
         state = state + _outer(last_end, shift)
-        for _, forget, by_start, by_end, _, by_state, change_start, change_end in passages:
+        for _, forget, _, by_start, by_end, _, by_state, change_start, change_end in passages:
             through = state - _matrix(forget) @ state + _outer(by_start, shift)
             shift = -(by_state @ state + change_start * shift) / change_end
             state = through + _outer(by_end, shift)
@@ -211,7 +211,7 @@ class Composition:
     def jacobian_by_differences(self) -> np.ndarray:
         def residual(edge: sp.Symbol, step: mpmath.mpf) -> np.ndarray:
             moved = self._moved(edge, step)
-            return moved.residual(moved.state()).value
+            return moved.residual(moved.state()[0]).value
 
         return _slopes(residual, self.regime.edges)
 

@@ -16,7 +16,7 @@ from .grid import drawn
 from .measure import DIGITS, Certificate, points_at
 from .reference import Reference
 
-KINDS = ("state", "passages", "residual", "jacobian", "return_map", "means")
+KINDS = ("state", "passages", "residual", "residual_and_jacobian", "return_map", "means")
 POINTS = 8
 AGREED_UP_TO = 2  # modes; how derivatives are put together does not depend on their number
 

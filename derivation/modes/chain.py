@@ -82,7 +82,9 @@ def chain_rule(period: Derived) -> Derived:
         chain_rule,
         (lost * dz, moved),
         checks,
-        emitted=tuple(f"{kind}_{sequence}" for kind in ("jacobian", "return_map") for sequence in ("acaf", "afc", "af", "ac")),
+        emitted=tuple(
+            f"{kind}_{sequence}" for kind in ("residual_and_jacobian", "return_map") for sequence in ("acaf", "afc", "af", "ac")
+        ),
     )
 
 

@@ -15,13 +15,15 @@ import sympy as sp
 from ..averages import adhesive_rise
 from ..check import Derived, derived, zero
 from ..functions import Formula, Helper
+from ..kernel import Kernel
 from ..sequences import ADHESION, CONTACT, PERIOD, Span
 from ..stable import PROFILE, PROFILE_INTEGRAL, PROFILE_RISE, PROFILE_SLOPE
-from ..symbols import D, p_0
+from ..symbols import D, K, alpha, beta, p_0
 from . import stable
 from .regimes import ModeRegime
-from .symbols import OF_STRIP, m
+from .symbols import J_0, OF_STRIP, J, S, enter, eta, leave, m, share
 
+kV = sp.Symbol("kV", nonnegative=True)
 ORDINALS = ("first", "second", "third", "fourth")
 
 
@@ -62,6 +64,17 @@ def all_functions(regimes: Sequence[ModeRegime], means: Derived) -> tuple[Regime
     return tuple(each for regime in regimes if regime.edges for each in regime_functions(regime, means))
 
 
+def whole_kernels(springs: bool) -> tuple[Kernel, ...]:
+    """What the functions of the template come to: modes of a strip, and of the material. ``springs``: every branch has one."""
+    passing = (*(kV * time for time in (alpha, beta, eta)), S, J, J_0, enter, leave, share)
+    prony, retardation = (K / S, alpha), (J_0 / K, J / K, beta)
+    return (
+        Kernel(Formula("at_speed", (m, kV), passing), passing, None),
+        *([Kernel(Formula("prony", (K, m), prony), prony, None, moving=True, springs=True)] if springs else []),
+        Kernel(Formula("retardation", (K, m), retardation), retardation, None),
+    )
+
+
 def period_map() -> Derived:
     r"""A period is an affine map of the state, and R z = c is the state that it returns. What is forgotten is
     accumulated, not what is kept: slow modes forget little, and that little keeps its digits.
@@ -86,8 +99,10 @@ def regime_functions(regime: ModeRegime, means: Derived) -> tuple[RegimeFunction
     sequence, args = regime.sequence, (*regime.edges, *OF_STRIP)
     by, first = regime.derived.function, regime.edges[0]
     state = Formula(f"state_{sequence}", args, periodic(sp.Tuple(*(_map(zone) for zone in regime.zones))))
-    passages = _passages(regime, args, state)
-    slopes = Formula(f"jacobian_{sequence}", args, edge_slopes(passages(*args), PROFILE_SLOPE(first)))
+    passages = _passages(regime, args)
+    zones = sp.Symbol("zones")
+    both = (_residual_of(regime, zones), edge_slopes(zones, PROFILE_SLOPE(first)))
+    linear = Formula(f"residual_and_jacobian_{sequence}", args, both, ((zones, passages(*args)),))
     turn = Formula(f"return_map_{sequence}", args, monodromy(passages(*args)))
     meanings = "; ".join(meaning for _, meaning in regime.equations)
     return (
@@ -105,8 +120,8 @@ def regime_functions(regime: ModeRegime, means: Derived) -> tuple[RegimeFunction
             by,
         ),
         RegimeFunction(
-            slopes,
-            f"Derivatives of residual_{sequence} by the edges, the state moving along.",
+            linear,
+            f"What residual_{sequence} returns, and its derivatives by the edges, the state moving along.",
             r"R\,\partial z = \partial c - \partial R\,z",
             "modes.chain.chain_rule",
             algorithm="the loop over the zones, modes.edge_slopes",
@@ -139,13 +154,13 @@ def _symbol(letter: str, number: int) -> sp.Symbol:
     return sp.Symbol(f"{letter}_{number + 1}", real=True)
 
 
-def _passages(regime: ModeRegime, args: tuple[sp.Symbol, ...], state: Formula) -> Formula:
-    entered, steps, names = _symbol("z", 0), [], []
-    steps.append((entered, state(*args)))
+def _passages(regime: ModeRegime, args: tuple[sp.Symbol, ...]) -> Formula:
+    maps, entered, names = sp.Symbol("maps"), _symbol("z", 0), []
+    steps = [(maps, sp.Tuple(*(_map(zone) for zone in regime.zones))), (entered, periodic(maps))]
     for number, zone in enumerate(regime.zones):
         of = stable.CONTACT_PASSAGE if zone.kind == CONTACT else stable.RELAXATION_PASSAGE
-        name = sp.Symbol(ORDINALS[number])
-        steps.append((name, Passage(of(zone.first, zone.last, entered, zone.pressure, m))))
+        name, forget = sp.Symbol(ORDINALS[number]), sp.Symbol(f"maps[{number}][0]")
+        steps.append((name, Passage(entered, forget, of(zone.first, zone.last, entered, zone.pressure, m))))
         names.append(name)
         if zone is not regime.zones[-1]:
             after = _symbol("z", number + 1)
@@ -177,10 +192,13 @@ def _entries(
     return entered, steps
 
 
+def _onset(regime: ModeRegime, state: sp.Expr) -> sp.Expr:
+    return stable.DISPLACEMENT(state, regime.onset_pressure, m) - PROFILE(regime.edges[0], D) - regime.onset_gap
+
+
 def _residual(regime: ModeRegime, args: tuple[sp.Symbol, ...], state: Formula) -> Formula:
     entered, steps = _entries(regime, args, state)
-    onset = stable.DISPLACEMENT(steps[0][0], regime.onset_pressure, m) - PROFILE(regime.edges[0], D) - regime.onset_gap
-    terms = [onset]
+    terms = [_onset(regime, steps[0][0])]
     for zone, entry in zip(regime.zones[:-1], entered, strict=False):
         if zone.kind == CONTACT:
             change = stable.EXCESS_CHANGE(zone.first, zone.last, entry, m)
@@ -188,6 +206,12 @@ def _residual(regime: ModeRegime, args: tuple[sp.Symbol, ...], state: Formula) -
             change = stable.GAP_CHANGE(zone.first, zone.last, entry, zone.pressure, m)
         terms.append(zone.missing + change)
     return Formula(f"residual_{regime.sequence}", args, tuple(terms), tuple(steps))
+
+
+def _residual_of(regime: ModeRegime, zones: sp.Symbol) -> tuple[sp.Expr, ...]:
+    """The boundary equations, from the passages of a period."""
+    changes = [zone.missing + sp.Symbol(f"{zones}[{number}].change") for number, zone in enumerate(regime.zones[:-1])]
+    return (_onset(regime, sp.Symbol(f"{zones}[0].state")), *changes)
 
 
 def _means(regime: ModeRegime, args: tuple[sp.Symbol, ...], state: Formula) -> Formula:

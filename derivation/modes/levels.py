@@ -10,27 +10,25 @@ import sympy as sp
 from ..check import Claim, zero
 from ..load import contact_area, equilibrium
 from ..multilevel import Multilevel, carried_friction, friction_coefficient, local_shear, local_stress, means_over_a_level
+from ..saturated import FIELD, LOSS
 from ..sequences import ADHESION, CONTACT, PERIOD
-from ..symbols import D, alpha, h, l, p_0, s, s_0
+from ..symbols import alpha, p_0, s, s_0
 from .flows import ModeFlows, u
 from .regimes import ModeRegime
-from .saturated import R_LOSS, Complete
 from .symbols import eta, f_0
 
 
-def mode_levels(flows: ModeFlows, complete: Complete, regimes: tuple[ModeRegime, ...]) -> Multilevel:
+def mode_levels(flows: ModeFlows, regimes: tuple[ModeRegime, ...]) -> Multilevel:
     """Eq. 7 and 9 to 14 for a foundation with n relaxation times."""
-    storage = sp.Symbol("storage", real=True)
-    pressure = D - 1 + storage * sp.cos(s) - R_LOSS * sp.sin(s)  # Eq. 15, as in complete.threshold
     touching = tuple(regime for regime in regimes if regime.edges and regime.touches)
     return Multilevel(
         equilibrium(touching, [_unbalanced(regime) for regime in touching]),
         contact_area(touching),
-        local_stress(u, pressure, sp.pi * R_LOSS),
-        means_over_a_level(pressure, complete.mean),
+        local_stress(u, FIELD, sp.pi * LOSS),
+        means_over_a_level(),
         local_shear(),
         carried_friction(passed_once(flows), ("excess_event",)),
-        friction_coefficient(pressure, complete.friction, complete.stack, (h, l, R_LOSS)),
+        friction_coefficient(),
     )
 
 

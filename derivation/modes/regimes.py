@@ -99,7 +99,7 @@ class SeveralTimes:
             "one linear system, the edges from one event each.",
             latex=r"R z = c,\qquad \text{" + "; ".join(meaning for _, meaning in _equations(zones)) + "}",
             status=BEYOND,
-            emitted=tuple(f"{kind}_{sequence}" for kind in ("state", "residual", "jacobian", "return_map")),
+            emitted=tuple(f"{kind}_{sequence}" for kind in ("state", "residual", "residual_and_jacobian", "return_map")),
         )
         return ModeRegime(sequence, zones, required(zones, admissible), self.closures, record)
 

@@ -7,53 +7,40 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from ..check import Claim, Derived, derived, holds, zero
-from ..functions import Formula, stack_sum
 from ..kernel import Kernel, kernel
-from ..level import MISPRINT, R, Wave, friction_of_strips, saturation
-from ..level import ratio as level_ratio
-from ..saturated import saturation_threshold
-from ..symbols import D, K, V, alpha, h, l, p_nominal, s
+from ..level import R, Wave, in_complete_contact
+from ..saturated import means, saturation_threshold
+from ..symbols import D, K, V, alpha, l, s
 from . import stable
 from .flows import ModeFlows, u
 from .symbols import OF_STRIP, eta, f_0, m
 from .tensor import at_speed, total
 
-R_LOSS = sp.Symbol("loss", positive=True)
 AT_SPEED = at_speed(m, 2 * sp.pi * V / l)
 PASSING = AT_SPEED.scaled()
 """Of a level's wave; its modes have times in seconds."""
-FRICTION = Formula("level_saturation_friction", (K, m, l, h, V), 3 * sp.pi / 32 * K * h * (h / l) * stable.LOSS(AT_SPEED))
 
 
 @dataclass(frozen=True)
 class Complete:
-    """Complete contact of a strip and of a level; ``mean``, ``friction`` and ``stack`` by the loss of the wave."""
+    """Complete contact of a strip and of a level."""
 
     modulus: Derived
     kernels: tuple[Kernel, ...]
     threshold: Derived
     means: Kernel
     level: tuple[Kernel, ...]
-    mean: tuple[sp.Expr, sp.Expr]
-    friction: sp.Expr
-    stack: sp.Expr
 
 
 def complete_contact(flows: ModeFlows) -> Complete:
     kernels, least = (*modulus_kernels(), *field_kernels(flows)), threshold()
     _, loss, ratio = (kernel.exact for kernel in kernels[:3])
-    means, mean = saturated_means(loss)
     storage, rest = sp.symbols("storage_minus_1 loss", nonnegative=True)
     at_least_one = holds("R >= 1: the storage is at least 1", sp.expand((1 + storage) ** 2 + rest**2 - 1).is_nonnegative)
-    wave = Wave((K, m), ratio.subs(PASSING), ((level_ratio, stable.MODULUS_RATIO(AT_SPEED)),), at_least_one)
-    friction = friction_of_strips(mean[1])
-    level = (
-        *saturation(wave, least.value, mean[0]),
-        saturation_friction(friction, loss.subs(PASSING)),
-        stack_friction(friction, loss.subs(PASSING)),
-    )
+    exact, computed = (ratio.subs(PASSING), loss.subs(PASSING)), (stable.MODULUS_RATIO(AT_SPEED), stable.LOSS(AT_SPEED))
+    level = in_complete_contact(Wave((K, m), *exact, *computed, at_least_one), least.value)
     level = tuple(replace(kernel, moving=True) for kernel in level)
-    return Complete(complex_modulus(), kernels, least, means, level, mean, friction, stack_sum(friction) / p_nominal)
+    return Complete(complex_modulus(), kernels, least, means(u, OF_STRIP, loss, stable.LOSS(m)), level)
 
 
 def complex_modulus() -> Derived:
@@ -129,42 +116,3 @@ def threshold() -> Derived:
     field = D - 1 + R * sp.cos(lag) * sp.cos(s) - R * sp.sin(lag) * sp.sin(s)
     harmonic = sp.expand_trig(D - 1 + R * sp.cos(s + lag))
     return saturation_threshold(R, "|K^*|/K", [zero("p_sat = D - 1 + R cos(s + arg K*)", harmonic - field, phases=(s,))])
-
-
-def saturated_means(loss: sp.Expr) -> tuple[Kernel, tuple[sp.Expr, sp.Expr]]:
-    r"""Eq. 11: Means of pressure and friction of a strip in complete contact.
-
-    .. math:: \bar p = D - 1,\quad \bar\tau = \tfrac12 \mathrm{Im}\,K^*(ikV)/K
-
-    Also by the symbol R_LOSS, for which ``loss`` stands.
-    """
-    pressure = D - 1 + sp.Symbol("storage", real=True) * sp.cos(s) - R_LOSS * sp.sin(s)
-    mean_p, mean_tau, mean_w = (
-        sp.integrate(sp.expand(q), (s, 0, 2 * sp.pi)) / (2 * sp.pi) for q in (pressure, pressure * sp.diff(u, s), u)
-    )
-    claims = (zero("mean p = mean w over a period", mean_p - mean_w), zero("mean friction = loss/2", mean_tau - R_LOSS / 2))
-    formula = Formula("means_c", OF_STRIP, (D - 1, stable.LOSS(m) / 2))
-    return kernel(saturated_means, formula, (mean_p, mean_tau.subs(R_LOSS, loss)), *claims), (mean_p, mean_tau)
-
-
-def saturation_friction(friction: sp.Expr, loss: sp.Expr) -> Kernel:
-    r"""Eq. 10, 11: Friction of a level in complete contact.
-
-    .. math:: \tau_{sat} = \frac{3\pi}{32} \frac{h^2}{l}\,\mathrm{Im}\,K^*(ikV)
-    """
-    claim = zero("it is 3 pi/32 h^2/l Im K*", friction - sp.Rational(3, 32) * sp.pi * K * h**2 / l * R_LOSS)
-    return kernel(saturation_friction, FRICTION, friction.subs(R_LOSS, loss), claim)
-
-
-def stack_friction(friction: sp.Expr, loss: sp.Expr) -> Kernel:
-    r"""Eq. 16: Friction coefficient when every level is in complete contact: the levels add.
-
-    .. math:: \mu = \frac{3\pi}{32\,p_1} \sum_i \frac{h_i^2}{l_i}\,\mathrm{Im}\,K^*(ik_iV)
-    """
-    alpha_1, beta_1 = sp.symbols("alpha beta", positive=True)
-    one_time = (beta_1 - alpha_1) / (1 + alpha_1**2)
-    stated = sp.Rational(3, 16) * sp.pi**2 * K * h**2 * (beta_1 - alpha_1) / (2 * sp.pi * l * (1 + alpha_1**2))
-    claim = zero("with one relaxation time each term is that of Eq. 16 as corrected", friction.subs(R_LOSS, one_time) - stated)
-    formula = Formula("saturated_stack_friction", (*FRICTION.args, p_nominal), stack_sum(FRICTION(*FRICTION.args)) / p_nominal)
-    exact = stack_sum(friction.subs(R_LOSS, loss)) / p_nominal
-    return kernel(stack_friction, formula, exact, claim, correction=MISPRINT)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..averages import constant_means
+from ..averages import constant_means, means_of_a_strip
 from ..conditions import zone_conditions
 from ..displays import STATED, displays, of_modes
 from ..model import Model, Roots
@@ -12,10 +12,9 @@ from ..regimes import regimes
 from ..sample_roots import sample_roots
 from ..strip import adhesion_law, strip_profile
 from ..zones import rigid_profile
-from .averages import means_of_a_strip
 from .chain import chain_rule
 from .flows import mode_flows, u
-from .functions import all_functions, period_map
+from .functions import all_functions, period_map, whole_kernels
 from .jumps import closures, jump_law
 from .levels import mode_levels
 from .material import admissibility, foundation_law, prony_series, relaxed_stiffness
@@ -25,7 +24,6 @@ from .states import dimensionless_groups, partial_fractions
 from .states import states as point_states
 from .symbols import OF_STRIP
 from .vocabulary import BINDINGS, vocabulary
-from .whole import whole_kernels
 from .zones import contact, gap, passages, relaxation, states
 
 STAGES = 9
@@ -60,7 +58,7 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
     means, period = means_of_a_strip(), period_map()
     still = tuple(constant_means(regime, OF_STRIP) for regime in table if regime.sequence in ("a", "f"))
     stages.done(means, still, period, chain_rule(period))
-    stages.done(mode_levels(flows, complete, table))
+    stages.done(mode_levels(flows, table))
     sections += [
         ("Complete contact", complete.kernels),
         ("Means of strips without edges", (complete.means, *still)),

@@ -86,7 +86,6 @@ RELAXATION_PASSAGE = Formula(
     _gap_zone,
     (
         lag * lost,
-        -lost,
         rates,
         -rates,
         total(lag * lost) - PROFILE_RISE(s_0, s_1),
@@ -154,7 +153,6 @@ CONTACT_PASSAGE = Formula(
     (s_0, s_1, z_0, p_in, m),
     (
         across(share, creep - S * f_0 * lost),
-        -sandwich(share, S * lost, enter),
         across(share, creep_start - S * f_0 * rate_end),
         across(share, creep_end + S * f_0 * rate_end),
         PROFILE_RISE(s_0, s_1) + total(f_0 * lost + moved * decay(width, alpha) - harmonic * lost),

@@ -98,7 +98,7 @@ def _in_contact(values: list[sp.Expr], words: Names) -> Names:
 
 
 def _passing(values: list[sp.Expr], words: Names, contact: bool) -> Names:
-    """What a zone does to the state z_0 by its flow; c and R by the change of z from z_0 and from 0 (of a gap zone diagonal)."""
+    """What a zone does to the state z_0 by its flow."""
     if contact:
         overstress = -across(enter, z_0 - J * p_in)
         flow = words["contact"].expression
@@ -107,8 +107,7 @@ def _passing(values: list[sp.Expr], words: Names, contact: bool) -> Names:
     else:
         change = words["relaxation"](s_1) - z_0
         event = total(change) - u.subs(s, s_1) + u.subs(s, s_0)
-    forgotten = change.subs(z_0, 0) - change
-    return {r"\Deltaz": change, "R": forgotten if contact else forgotten / z_0, r"\Deltag": event, r"\Deltap": event}
+    return {r"\Deltaz": change, r"\Deltag": event, r"\Deltap": event}
 
 
 def _map(contact: bool) -> Binding:
@@ -166,6 +165,7 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "saturated_pressure": named("p_sat"),
     "saturation threshold": _threshold,
     "means of a strip": _means,
+    "means_c": lambda values, words: {r"\barp": values[0], r"\bar\tau": values[1], "p": words["p_sat"]},
     "means_": named(r"\barp", r"\bar\tau"),
     "level_saturation_penetration": _level,
     "level_saturation_pressure": _level,

@@ -169,17 +169,16 @@ def passages(flows: ModeFlows) -> tuple[Kernel, ...]:
 
     .. math:: \Delta z = c - R z_0
 
-    relaxation_passage: Passage through a gap zone and its derivatives. In this order: change of z; what is
-    forgotten of each z_0; its derivatives by s_0 and by s_1; change of the gap; its derivatives by z_0, s_0, s_1.
+    relaxation_passage: Passage through a gap zone and its derivatives. In this order: change of z; its derivatives by
+    s_0 and by s_1; change of the gap; its derivatives by z_0, s_0, s_1.
 
-    .. math:: \Delta z,\quad R,\quad \partial_{s_0}\Delta z,\quad \partial_{s_1}\Delta z,\quad \Delta g,\quad
+    .. math:: \Delta z,\quad \partial_{s_0}\Delta z,\quad \partial_{s_1}\Delta z,\quad \Delta g,\quad
         \partial_{z_0} \Delta g,\quad \partial_{s_0} \Delta g,\quad \partial_{s_1} \Delta g
 
     contact_passage: Passage through a contact zone, entered at the pressure p_in, and its derivatives. In this order:
-    change of z; what of z_0 is forgotten, as a matrix; its derivatives by s_0 and by s_1; change of the pressure; its
-    derivatives by z_0, s_0, s_1.
+    change of z; its derivatives by s_0 and by s_1; change of the pressure; its derivatives by z_0, s_0, s_1.
 
-    .. math:: \Delta z,\quad R,\quad \partial_{s_0}\Delta z,\quad \partial_{s_1}\Delta z,\quad \Delta p,\quad
+    .. math:: \Delta z,\quad \partial_{s_0}\Delta z,\quad \partial_{s_1}\Delta z,\quad \Delta p,\quad
         \partial_{z_0} \Delta p,\quad \partial_{s_0} \Delta p,\quad \partial_{s_1} \Delta p
     """
     gap_flow = flows.relaxation.value.subs(s, s_1)
@@ -193,7 +192,6 @@ def passages(flows: ModeFlows) -> tuple[Kernel, ...]:
     by_f = sp.diff(creep, f_0)
     relaxation_terms = (
         change_z,
-        -sp.diff(change_z, z_0),
         sp.diff(change_z, s_0),
         sp.diff(change_z, s_1),
         total(change_z) - (u_1 - u_0),
@@ -205,7 +203,6 @@ def passages(flows: ModeFlows) -> tuple[Kernel, ...]:
     entered = {f_0: f_entry}
     contact_terms = (
         across(share, creep.subs(entered)),
-        sandwich(share, by_f, enter),
         across(share, sp.diff(creep, s_0).subs(entered)),
         across(share, sp.diff(creep, s_1).subs(entered)),
         u_1 - u_0 + total((pressed - f_0).subs(entered)),

@@ -42,7 +42,7 @@ def several_times(derivation: Derivation) -> Wording:
     return Wording(
         WORDS["several_times"]["parameters"],
         unread(derivation.model),
-        ("state", "residual", "jacobian", "means", "return_map"),
+        ("state", "residual", "residual_and_jacobian", "means", "return_map"),
         _events,
         {f"passages_{regime.sequence}": regime.derived.name for regime in derivation.composed},
     )

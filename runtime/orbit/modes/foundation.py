@@ -87,7 +87,7 @@ class ManyTimes:
 
     def fold(self, sequence, edges, arguments):
         """Determinant of the boundary equations' derivatives by the edges."""
-        rows = getattr(self.kernel, f"jacobian_{sequence}")(*edges, *arguments)
+        _, rows = getattr(self.kernel, f"residual_and_jacobian_{sequence}")(*edges, *arguments)
         return np.linalg.det(np.array([np.broadcast_arrays(edges[0], *row)[1:] for row in rows]).transpose(2, 0, 1))
 
     def release(self, edges, arguments):

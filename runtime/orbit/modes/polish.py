@@ -34,7 +34,7 @@ def certified(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray, reac
 
 def _newton(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray, reach):
     """Edges, kept in order; the last steps; how well rounding lets the edges be known; evaluations."""
-    residual, jacobian = (getattr(kernel, f"{what}_{sequence}") for what in ("residual", "jacobian"))
+    linearised = getattr(kernel, f"residual_and_jacobian_{sequence}")
     low, high, N = edges - reach, edges + reach, strips.size
     edges = edges.copy()
     last, attainable, spent = np.full(N, np.inf), np.full(N, np.inf), np.zeros(N)
@@ -43,11 +43,12 @@ def _newton(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray, reach)
         s, before = strips.take(active), last[active]
         here = edges[:, active]
         matrix = np.empty((s.size, len(here), len(here)))
-        for i, row in enumerate(jacobian(*here, *arguments(s))):
+        residual, rows = linearised(*here, *arguments(s))
+        for i, row in enumerate(rows):
             for j, entry in enumerate(row):
                 matrix[:, i, j] = entry
         inverted = solved(matrix, np.broadcast_to(np.eye(len(here)), matrix.shape))
-        step = -np.einsum("Nij,jN->iN", inverted, np.array(np.broadcast_arrays(*residual(*here, *arguments(s)))))
+        step = -np.einsum("Nij,jN->iN", inverted, np.array(np.broadcast_arrays(*residual)))
         spent[active] += 1
         size = np.abs(step).max(axis=0)
         # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction
