@@ -80,8 +80,8 @@ def _by_quadrature(contact, row):
     for a, b in ((first, top), (top, last)):
         cuts = [a, b]
         for level in BREAKS:
-            up, down = contact.passes(np.full(contact.b.size, level), contact.p_peak > level)
-            cuts += [x for x in (up[row], down[row]) if a < x < b]
+            if contact.p_peak[row] > level:
+                cuts += [float(x[0]) for x in contact.passes(np.array([row]), np.array([level])) if a < x[0] < b]
         cuts = np.unique(cuts)
         for low, high in zip(cuts[:-1], cuts[1:], strict=True):
             # a root at either end becomes smooth
@@ -123,8 +123,11 @@ def test_fractions_of_a_law_over_a_contact_are_as_good(carry):
     strips = columns.solve(np.arange(columns.size), theta)
     got = carry.over_contact(strips, np.zeros(columns.size, int))
     index, contact = strips.touching
-    up, down = contact.passes(np.full(index.size, BREAKS[0]), contact.p_peak > BREAKS[0])
-    assert np.allclose(got[index, 1] + got[index, 2], (down - up) / (2 * np.pi), rtol=1e-11, atol=0)
+    over = np.flatnonzero(contact.p_peak > BREAKS[0])
+    up, down = contact.passes(over, np.full(over.size, BREAKS[0]))
+    wide = np.zeros(index.size)
+    wide[over] = (down - up) / (2 * np.pi)
+    assert np.allclose(got[index, 1] + got[index, 2], wide, rtol=1e-11, atol=0)
 
 
 def test_rounding_does_not_decide_which_contacts_pass_a_break_where_all_begin(carry):

@@ -44,8 +44,8 @@ MUTANTS = (
     Mutant(
         "a misplaced jump costs nothing",
         "level/lower_levels.py",
-        "return table.jumps[g, j] * np.minimum",
-        "return 0 * table.jumps[g, j] * np.minimum",
+        "return self.table.jumps[group[row], j] * np.minimum",
+        "return 0 * self.table.jumps[group[row], j] * np.minimum",
         "test_lower_levels.py",
     ),
     Mutant(

@@ -78,27 +78,27 @@ class Contact(ABC):
         out[part] = self._excess(rows[part], phase[part])[1]
         return out
 
-    def passes(self, p: np.ndarray, above: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Phases at which the pressure passes ``p`` (Pa) upward and downward; where it does not, both are the peak's."""
-        up, down = self.top.copy(), self.top.copy()
-        level = p / self.unit
-        full = np.flatnonzero(above & self.full)
-        up[full], down[full] = passages(level[full], self.mean[full], self.amplitude[full], self.centre[full])
-        part = np.flatnonzero(above & ~self.full)
-        up[part], down[part] = self.b[part], self.a[part]
-        goal = level + self.s.p_0
-        rising, falling = part[self.q_b[part] < goal[part]], part[goal[part] > 0]
-        i, upward = np.concatenate((rising, falling)), np.arange(rising.size + falling.size) < rising.size
+    def passes(self, rows: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Phases at which the pressure of the strips ``rows`` (k,) passes ``p`` (k,), Pa, not above their peaks, upward and
+        downward."""
+        level, full = p / self.unit[rows], self.full[rows]
+        at = rows[full]
+        up, down = self.b[rows], self.a[rows]
+        up[full], down[full] = passages(level[full], self.mean[at], self.amplitude[at], self.centre[at])
+        goal = level + self.s.p_0[rows]
+        rising, falling = (np.flatnonzero(~full & passed) for passed in (self.q_b[rows] < goal, goal > 0))
+        pair, upward = np.concatenate((rising, falling)), np.arange(rising.size + falling.size) < rising.size
+        i, goal = rows[pair], goal[pair]
         sign, outer = np.where(upward, -1.0, 1.0), np.where(upward, self.b[i], self.a[i])
         low, high = np.where(upward, outer, self.top[i]), np.where(upward, self.top[i], outer)
 
         def excess(phase, sub):
             value, slope = self._excess(i[sub], phase)
-            return sign[sub] * (value - goal[i[sub]]), sign[sub] * slope
+            return sign[sub] * (value - goal[sub]), sign[sub] * slope
 
         # as far along as on a parabola about the peak; at exit the excess is zero
         peak, least = self.p_peak[i] / self.unit[i] + self.s.p_0[i], np.where(upward, self.q_b[i], 0.0)
-        share = np.divide(peak - goal[i], peak - least, out=np.zeros(i.size), where=peak > least)
+        share = np.divide(peak - goal, peak - least, out=np.zeros(i.size), where=peak > least)
         found, _ = falling_root(excess, low, high, self.top[i] + (outer - self.top[i]) * np.sqrt(np.clip(share, 0.0, 1.0)))
         up[rising], down[falling] = found[upward], found[~upward]
         return up, down

@@ -1,0 +1,50 @@
+"""Gaussian sums over an interval on which what is summed begins and ends like a root.
+
+With ``x = low + width share(t)``, where ``share`` rises like t^4 from either end, such a function is smooth in t, and the slope
+of ``share`` is the weight ``(t (1 - t))^3`` of Gegenbauer polynomials. Nodes and weights are eigenvalues and first components of
+eigenvectors of their recurrence (Golub & Welsch, Math. Comp. 23, 1969, 221). Their other components are the polynomials at the
+nodes: they give the coefficients of the function, and how fast those fall tells what the sum misses.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from .rounding import EPS
+
+#: how much more than at the pace that coefficients fall at is feared: of 9,863 parts of contacts none was then believed
+#: that erred by more than it was allowed
+_SAFE = 3.0
+
+
+@lru_cache
+def graded_gauss(n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Shares of the interval at which n nodes lie, ascending, their weights, and the matrix (n, n) from values there to
+    coefficients of orthonormal polynomials."""
+    j = np.arange(1, n)
+    beside = np.sqrt(j * (j + 6) / ((2 * j + 6) ** 2 - 1.0))
+    x, vectors = np.linalg.eigh(np.diag(beside, 1) + np.diag(beside, -1))
+    t = 0.5 * (x + 1)
+    return t**4 * (35 - t * (84 - t * (70 - 20 * t))), vectors[0] ** 2, vectors * vectors[0]
+
+
+def left_out(projection: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """What means by n nodes miss of functions with ``values`` (n, ...) there, from the ``projection`` of ``graded_gauss``: they
+    are exact up to order 2 n - 1, and coefficients fall further from n to there than from the middle of those known to n."""
+    n = len(values)
+    known = projection[[n // 2 - 1, n // 2, n - 2, n - 1]]
+    c = np.abs(summed(known, values)) - 16 * EPS * np.abs(values).max(axis=0)
+    middle, last = np.maximum(c, 0.0).reshape(2, 2, *values.shape[1:]).max(axis=1)
+    ratio = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0)
+    return _SAFE * last * ratio**1.5
+
+
+def summed(weights: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Sums of ``values`` (n, ...) by ``weights`` (..., n), one after the other: no function's sum depends on those beside it."""
+    one = (..., *(None for _ in values.shape[1:]))
+    out = weights[..., 0][one] * values[0]
+    for k in range(1, len(values)):
+        out += weights[..., k][one] * values[k]
+    return out
