@@ -183,12 +183,25 @@ def test_segments_of_a_law_are_merged_where_a_smooth_one_is_as_good():
         assert np.abs(one(p) - law(p))[:, 1].max() <= added <= 0.2 * rtol * 2e4
 
 
-def test_where_a_law_is_small_so_is_what_its_averages_err_by():
-    law = _stepwise(BREAKS[1], 20.0, 6e4)
-    for k, s in enumerate(law.segments):
-        law.segments[k] = replace(s, errors=Errors(*np.outer((50.0, 0.5, 1e-3), np.ones(4))))
-    _, errors = LawTable([law])(np.zeros(2, int), np.arange(2), np.array([[BREAKS[1] - 1, BREAKS[1] + 1]]))
-    assert errors[0] == pytest.approx(np.array([[0.52, 50.0]]), rel=1e-9)
+def test_a_law_errs_by_what_the_means_next_to_a_pressure_err_by():
+    """One mean of a piece is known to 50 Pa, all others to 0.5 Pa: so is friction next to it and elsewhere, and that of a merged
+    segment, too."""
+    low, high = 0.0, 100.0
+    bounds = np.outer((0.5, 50.0, 0.5), np.ones(4))
+    piece = replace(_piece(low, high, lambda share, rest: 2.0 + share), errors=Errors(np.array([0.3, 0.4, 0.5]), bounds))
+    ((branch,),) = rising([piece])
+    assert branch.errors.at == pytest.approx(100 * graded(piece.errors.at), rel=1e-9)
+    upper = replace(branch, t_low=0.45, p_low=float(piece.values(np.array([0.45]))[0, 0]))
+    assert upper.errors.at == pytest.approx([upper.p_low, upper.p_low, 50.0], rel=1e-9)
+    segments = segments_of([branch], np.full((1, 4), 1e-9))
+    other = replace(segments[0], p_low=100.0, p_high=200.0, errors=Errors.constant(np.full(4, 7.0)))
+    one = replace(segments[0], p_high=200.0, errors=segments[0].errors.then(replace(other.errors, at=np.array([100.0]))))
+    p = np.array([0.1, branch.errors.at[1], 60.0, 99.0])
+    for law, expected in (([segments[0]], 0.5), ([one], np.interp(60.0, [50.0, 100.0], [0.5, 7.0]))):
+        table = LawTable([Law(law, low, law[-1].p_high, np.array([200.0, 3.0, 1.0, 0.0]), np.inf, 0, True)])
+        _, errors = table(np.zeros(4, int), np.zeros(4, int), p[None])
+        assert errors[0, 0, :3] == pytest.approx([0.5, 50.0, expected], rel=0.02)
+    assert errors[0, 0, 3] == pytest.approx(np.interp(99.0, [50.0, 100.0], [0.5, 7.0]), rel=0.02)
 
 
 def test_a_misplaced_jump_of_a_law_is_in_the_error():

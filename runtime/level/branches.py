@@ -46,8 +46,10 @@ class Branch:
 
     @property
     def errors(self) -> Errors:
-        """Those of its piece."""
-        return self.piece.errors
+        """Those of its piece, over pressure."""
+        known = self.piece.errors
+        p = self.piece.values(np.clip(known.at, self.t_low, self.t_high))[:, 0]
+        return Errors(np.maximum.accumulate(p), known.bounds)
 
     def reaches(self, p: float) -> float:
         """t at which the one pressure ``p`` is reached, clipped to the branch."""

@@ -121,11 +121,9 @@ class _Work:
             columns.work.limit_reached(columns.V[column[ended]], columns.level.l, NO_CURVE)
             error[ended], done = np.maximum(error, spread)[ended], done | ended
         for k in np.flatnonzero(done):
-            i, size = intervals[k], np.abs(values[k])
-            relative = (errors[k] / (size + floors[k])).max(axis=0)
-            series, soft = error[k] + _ROUNDED * rounding[k], (i.inner_low, i.inner_high)
-            bounds = Errors(series + errors[k].max(axis=0), series + relative * floors[k], relative)
-            self.pieces[i.column].append(Piece(i.low, i.high, c[k], bounds, *soft, i.endpoint_map))
+            i = intervals[k]
+            bounds = Errors(interior_nodes(stage.n), errors[k] + error[k] + _ROUNDED * rounding[k])
+            self.pieces[i.column].append(Piece(i.low, i.high, c[k], bounds, i.inner_low, i.inner_high, i.endpoint_map))
         missed, before = error / goal, np.full_like(goal, np.inf)
         if stage.n >= 2 * _COARSE:
             half = flat_ended(stage.n // 2) @ values[:, 1::2]

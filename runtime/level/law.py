@@ -90,9 +90,9 @@ class Law:
         for s in self.segments:
             # a segment is left at one of its ends, and that tells where the law goes over to the next one
             left, entered = (s.p_low, s.p_high) if self.unloading else (s.p_high, s.p_low)
-            errors[np.abs(p - left) <= aside] = s.errors.most[0]
+            errors[np.abs(p - left) <= aside] = s.errors.along(left, 0)
             outermost = (np.abs(p - entered) <= aside) & (errors == 0)
-            errors[outermost] = s.errors.most[0]
+            errors[outermost] = s.errors.along(entered, 0)
         return jumps, errors
 
     def __call__(self, p: np.ndarray) -> np.ndarray:

@@ -20,8 +20,9 @@ from .table import LawTable
 TWO_PI = 2 * np.pi
 #: a part's share of the error that an average of strips is allowed, and parts integrated at a time
 _SHARE, _CHUNK = 0.1, 4096
-#: what is left in a mean over contacts of the greatest error of a law: along its pieces errors change sign
-_CANCELLED = 0.3
+#: what is left in a mean over contacts of the errors of a law: most panels behind it err by a hundredth of their bounds,
+#: which have to hold for each, and along its pieces errors change sign
+_CANCELLED = 0.1
 #: share of a pressure by which two that are next to one another are told apart
 _TRIFLE = 1e-9
 #: nodes of a part, tried in turn

@@ -45,7 +45,7 @@ def merged(laws: Sequence[Law], rtol: np.ndarray, floors: np.ndarray) -> list[La
                 opens[i][k] = False
                 continue
             low, high = rows[i][k : k + 2]
-            before[i][k : k + 2] = [before[i][k].covering(before[i][k + 1])]
+            before[i][k : k + 2] = [before[i][k].then(before[i][k + 1])]
             errors = before[i][k].plus(error)
             rows[i][k : k + 2] = [Segment(low.p_low, high.p_high, cells, errors, low.inner_low, high.inner_high)]
             del opens[i][k]

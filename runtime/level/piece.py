@@ -7,7 +7,7 @@ a strip is on.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -28,30 +28,41 @@ def parameter(share):
 
 @dataclass(frozen=True)
 class Errors:
-    """Bounds of the errors of quantities, (q,) each: none errs by more than ``most``, nor by more than ``least`` and the share
-    ``relative`` of its own size."""
+    """Bounds of the errors of quantities, ``bounds`` (k, q), at places ``at`` (k,), ascending; interpolated between.
 
-    most: np.ndarray
-    least: np.ndarray
-    relative: np.ndarray
+    Means next to a break are often known a thousand times less well than all others: one bound for a whole piece would be
+    theirs.
+    """
+
+    at: np.ndarray
+    bounds: np.ndarray
 
     @classmethod
     def constant(cls, error: np.ndarray) -> Errors:
-        """The same whatever the size of a quantity, (q,)."""
-        return cls(error, error, np.zeros_like(error))
+        """The same everywhere, (q,)."""
+        return cls(np.zeros(1), error[None])
+
+    @property
+    def most(self) -> np.ndarray:
+        """The largest of each quantity, (q,)."""
+        return self.bounds.max(axis=0)
+
+    def along(self, x: np.ndarray, columns: np.ndarray | int) -> np.ndarray:
+        """Of the sum of some quantities at the places ``x`` (m,), (m,)."""
+        return np.interp(x, self.at, self.bounds[:, np.atleast_1d(columns)].sum(axis=1))
 
     def plus(self, more: np.ndarray) -> Errors:
         """Larger by ``more`` (q,)."""
-        return Errors(self.most + more, self.least + more, self.relative)
+        return Errors(self.at, self.bounds + more)
 
-    def covering(self, other: Errors) -> Errors:
-        """Bounds of both."""
-        return Errors(*(np.maximum(getattr(self, f.name), getattr(other, f.name)) for f in fields(self)))
+    def then(self, other: Errors) -> Errors:
+        """These, then those of what follows."""
+        return Errors(np.concatenate((self.at, other.at)), np.concatenate((self.bounds, other.bounds)))
 
 
 @dataclass(frozen=True)
 class Piece:
-    """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t, and their ``errors``.
+    """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t, and their ``errors`` over t.
 
     ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end, in another piece. ``endpoint_map``: what t is.
     """

@@ -17,7 +17,7 @@ from .piece import Errors, graded, parameter
 @dataclass(frozen=True)
 class Segment:
     """A law between the pressures ``p_low`` and ``p_high``, Pa, where it is smooth: ``cells`` of its quantities over u,
-    ``p = p_low + (p_high - p_low) graded(u)``, and their ``errors``.
+    ``p = p_low + (p_high - p_low) graded(u)``, and their ``errors`` over pressure.
 
     ``inner_low``, ``inner_high``: the law goes on smoothly beyond that end, in another segment.
     """

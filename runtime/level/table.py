@@ -9,7 +9,7 @@ import numpy as np
 from ..numerics.chebyshev import clenshaw
 from .cells import SLOTS, slot, within
 from .law import Law
-from .piece import parameter
+from .piece import graded, parameter
 
 #: breaks closer than this, relative to the largest, are one
 _SAME = 1e-12
@@ -39,11 +39,11 @@ class LawTable:
         every = [s for law in laws for s in law.segments]
         self._low, self._high = np.array([s.p_low for s in every]), np.array([s.p_high for s in every])
         columns = 1 + self.frictions
-        self._pressure_error = np.array([s.errors.most[0] for s in every])
-        # what is left where there is no friction, and how it grows with that
-        self._least_error = np.array([s.errors.least[columns].sum() for s in every])
-        self._most_error = np.array([s.errors.most[columns].sum() for s in every])
-        self._share = np.array([s.errors.relative[columns].max() for s in every])
+        # of friction, then of pressure, in the middle of every slot
+        share = graded((np.arange(SLOTS) + 0.5) / SLOTS)
+        middles = [s.p_low + (s.p_high - s.p_low) * share for s in every]
+        known = [[s.errors.along(p, which) for which in (columns, 0)] for s, p in zip(every, middles, strict=True)]
+        self._errors = np.concatenate(known, axis=1) if known else np.zeros((2, 0))
         cells = [s.cells for s in every]
         first = np.cumsum([0, *(c.start.size for c in cells)])
         joined = lambda values: np.concatenate(values) if cells else np.zeros(0)  # noqa: E731
@@ -76,13 +76,10 @@ class LawTable:
         low = self._low[which]
         share = (p - low) / (self._high[which] - low)
         u = parameter(np.minimum(np.maximum(share, 0.0, out=share), 1.0, out=share))
-        cell = self._cell[which * SLOTS + slot(u)]
+        at = which * SLOTS + slot(u)
+        cell = self._cell[at]
         x = within(u, self._from[cell], self._size[cell])
-        out = clenshaw(self._coefficients, cell, x)
-        friction = np.abs(out[self.frictions]).sum(axis=0)
-        errors = self._least_error[which] + self._share[which] * friction
-        errors = np.minimum(errors, self._most_error[which])
-        return out, np.stack((errors, np.broadcast_to(self._pressure_error[which], p.shape)))
+        return clenshaw(self._coefficients, cell, x), self._errors[:, at]
 
 
 def _padded(rows, value):
