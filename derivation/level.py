@@ -91,14 +91,9 @@ def of_every_strip(threshold: sp.Expr, at_least_one: Claim) -> tuple[sp.Expr, li
     ]
 
 
-def load_of_strips(mean_p: sp.Expr) -> sp.Expr:
-    """Eq. 11: mean pressure of a level in complete contact. ``mean_p``: of a strip, in K A."""
-    return over_strips(sp.expand(sp.simplify(K * AMPLITUDE * mean_p.subs(D, PENETRATION / AMPLITUDE))))
-
-
-def friction_of_strips(mean_tau: sp.Expr) -> sp.Expr:
-    """Eq. 11: mean friction of a level. ``mean_tau``: of a strip, in K A times k A, and in SI otherwise."""
-    return over_strips(K * AMPLITUDE * k * AMPLITUDE * mean_tau).subs(WAVE)
+def one_level() -> tuple[sp.Expr, sp.Expr]:
+    """Eq. 11: mean pressure and friction of a level in complete contact, the latter by the loss of its wave."""
+    return over_strips(K * (PENETRATION - AMPLITUDE)), over_strips(K * AMPLITUDE * k * AMPLITUDE * LOSS / 2).subs(WAVE)
 
 
 def saturation(wave: Wave, threshold: sp.Expr) -> tuple[Kernel, Kernel]:
@@ -113,7 +108,7 @@ def saturation(wave: Wave, threshold: sp.Expr) -> tuple[Kernel, Kernel]:
     .. math:: p_{sat} = \tfrac14 K h (2R - 1) - p_0
     """
     penetration, claims = of_every_strip(threshold, wave.at_least_one)
-    mean = load_of_strips(D - 1)
+    mean, _ = one_level()
     of_mean = zero("the level's mean pressure in complete contact is K (D - 3h/4)", mean - K * (D_level - sp.Rational(3, 4) * h))
 
     def of_level(name: str, result: sp.Expr, exact: sp.Expr, *claims: Claim) -> Kernel:
@@ -126,18 +121,14 @@ def saturation(wave: Wave, threshold: sp.Expr) -> tuple[Kernel, Kernel]:
     )
 
 
-def one_level() -> sp.Expr:
-    """Friction of a level in complete contact, by the loss of its wave."""
-    return friction_of_strips(LOSS / 2)
-
-
 def saturation_friction(wave: Wave) -> Kernel:
     r"""Eq. 10, 11: Friction of a level in complete contact.
 
     .. math:: \tau_{sat} = \frac{3\pi}{32} \frac{h^2}{l}\,\mathrm{Im}\,K^*(ikV)
     """
     formula = Formula("level_saturation_friction", (*wave.given, l, h, V), 3 * sp.pi / 32 * K * h**2 / l * wave.loss_computed)
-    friction, stress = one_level(), in_si(FIELD) * sp.diff(HEIGHT, x)
+    _, friction = one_level()
+    stress = in_si(FIELD) * sp.diff(HEIGHT, x)
     checks = [
         zero("it is 3 pi/32 h^2/l Im K*", friction - sp.Rational(3, 32) * sp.pi * K * h**2 / l * LOSS),
         zero("Eq. 15 in Eq. 10, averaged over the cell, is tau_sat", sp.simplify(mean_over_cell(stress).subs(WAVE) - friction)),
@@ -152,7 +143,7 @@ def stack_friction(wave: Wave, of_one: Formula) -> Kernel:
     .. math:: \mu = \frac{3\pi}{32\,p_1} \sum_i \frac{h_i^2}{l_i}\,\mathrm{Im}\,K^*(ik_iV)
     """
     name = "saturated_stack_friction"
-    friction, term = one_level(), of_one(*of_one.args)
+    (_, friction), term = one_level(), of_one(*of_one.args)
     formula = Formula(name, (*of_one.args, p_nominal), stack_sum(term) / p_nominal)
     pressed = in_si(FIELD)
     load, shear = (mean_over_cell(part) for part in (pressed, pressed * sp.diff(HEIGHT, x)))

@@ -20,8 +20,8 @@ from .regime import Regime
 from .saturated import FIELD, LOSS, Saturated
 from .sequences import ADHESION, CONTACT, FREE, PERIOD
 from .strip import Strip
-from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell, mean_over_wave
-from .symbols import D, D_level, J, K, L, V, beta, h, k, l, p_0, p_nominal, s, s_0, s_1, t, x, y
+from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell
+from .symbols import D_level, J, K, L, V, beta, h, k, l, p_0, p_nominal, s, s_0, s_1, t, x, y
 
 tau_below, slope_x, pressure, unknown = sp.symbols("tau_M f_x p tau", real=True)
 
@@ -96,14 +96,11 @@ def means_over_a_level() -> Derived:
 
     Checked in complete contact, for which both can be integrated.
     """
-    in_strip = {D: PENETRATION / AMPLITUDE, s: -k * x}
-    strip_p = sp.expand(sp.simplify(K * AMPLITUDE * (D - 1).subs(in_strip)))
-    strip_tau = K * AMPLITUDE * k * AMPLITUDE * LOSS / 2
-    cell = mean_over_wave(mean_over_wave(sp.simplify(K * AMPLITUDE * FIELD.subs(in_strip)), y), x)
+    strip_p, strip_tau = K * (PENETRATION - AMPLITUDE), K * AMPLITUDE * k * AMPLITUDE * LOSS / 2
     checks = [
         zero(
             "complete contact: the strips' mean pressure, averaged over y, is that of Eq. 15 over the cell",
-            over_strips(strip_p) - cell,
+            over_strips(strip_p) - mean_over_cell(in_si(FIELD)),
         ),
         zero(
             "equal strips represented by their middles: 2 N = 4 and 6 already give both means of complete contact exactly",
@@ -176,7 +173,7 @@ def friction_coefficient() -> Derived:
     .. math:: \mu = \frac{\tau_1}{p_1}
     """
     upper, lower = ({symbol: sp.Symbol(f"{symbol}_{i}", positive=True) for symbol in (h, l, LOSS)} for i in (1, 2))
-    pressed, friction_of_one = in_si(FIELD), one_level()
+    pressed, (_, friction_of_one) = in_si(FIELD), one_level()
     shear = pressed * sp.diff(HEIGHT, x) + friction_of_one.subs(lower)  # Eq. 12 in complete contact: the law below is constant
     both = sum(friction_of_one.subs(level) for level in (upper, lower)) / p_nominal
     load, friction = (mean_over_cell(part).subs(WAVE).subs(upper) for part in (pressed, shear))

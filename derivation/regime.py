@@ -118,12 +118,7 @@ class OneTime:
 
     def edgeless(self, by: Callable, sequence: str, kind: str, *admissible: Inequality) -> Regime:
         zone = Zone(kind, s_0, s_0 + PERIOD, NOTHING, NOTHING)
-        if kind == CONTACT:
-            change, latex = zone.displacement - stable.PROFILE(zone.first, D), "w = u"
-        else:  # a constant w at rest under its load does not change
-            change = stable.RELAXATION_INCREMENT(zone.first, zone.last, zone.load - zone.load, beta)
-            latex = f"w = p = {sp.latex(zone.load)}"
-        return Regime(sequence, (zone,), admissible, self.closures, edgeless_record(by, sequence, latex, change))
+        return Regime(sequence, (zone,), admissible, self.closures, edgeless_record(by, sequence, zone))
 
     def partial(self, by: Callable, sequence: str, *admissible: Inequality, closures: tuple[int, ...] = closures) -> Regime:
         zones = self.zones(sequence)

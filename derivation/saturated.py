@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from . import stable
-from .check import Claim, Derived, derived, holds, zero
+from .check import Derived, derived, holds, zero
 from .flows import Flows
 from .functions import Formula
 from .kernel import Kernel, kernel
@@ -35,7 +35,7 @@ def saturated(flows: Flows) -> Saturated:
     modulus = complex_modulus(flows)
     _, loss = modulus.value
     field = field_kernels(flows, modulus.value)
-    threshold = saturation_threshold(MODULUS, "R", _least_pressure(field[0].exact, modulus.value))
+    threshold = saturation_threshold(MODULUS, "R")
     return Saturated(
         modulus,
         (*modulus_kernels(modulus), *field),
@@ -134,29 +134,19 @@ def means(u: sp.Expr, args: tuple[sp.Symbol, ...], loss: sp.Expr, computed: sp.E
     )
 
 
-def _least_pressure(pressure: sp.Expr, modulus: tuple[sp.Expr, sp.Expr]) -> list[Claim]:
-    """The least value of p_sat = D - 1 + R cos(s + lag), with (cos lag, sin lag) = (storage, loss)/R, is D - 1 - R."""
-    storage, loss = modulus
-    lag = sp.Symbol("lag", real=True)
-    harmonic = sp.expand_trig(MODULUS * sp.cos(s + lag)).subs({sp.cos(lag): storage / MODULUS, sp.sin(lag): loss / MODULUS})
-    unit = (storage**2 + loss**2) / MODULUS**2 - 1
-    return [
-        zero("p_sat = D - 1 + R cos(s + arg K*)", pressure - (D - 1) - harmonic, phases=(s,)),
-        zero("(storage, loss)/R is a unit vector, so that the least value is D - 1 - R", unit),
-    ]
-
-
-def saturation_threshold(R: sp.Expr, ratio: str, of_the_least: list[Claim]) -> Derived:
+def saturation_threshold(R: sp.Expr, ratio: str) -> Derived:
     r"""A strip is in complete contact when the least pressure of Eq. 15 is not below -p_0.
 
     .. math:: \min p_{sat} \ge -p_0,\quad D \ge 1 + R - p_0
 
-    ``ratio``: R in LaTeX; ``of_the_least``: why the least pressure is D - 1 - R.
+    ``ratio``: R in LaTeX. The vector (storage, loss) is as long as R and has the direction of K*.
     """
+    lag = sp.Symbol("lag", real=True)
+    harmonic = FIELD.subs({STORAGE: R * sp.cos(lag), LOSS: R * sp.sin(lag)})
     least = D - 1 - R
     solution = sp.solve(least + p_0, D)[0]
     claims = [
-        *of_the_least,
+        zero("p_sat = D - 1 + R cos(s + arg K*), at least D - 1 - R", sp.expand_trig(D - 1 + R * sp.cos(s + lag)) - harmonic),
         zero("at the threshold the least pressure is -p_0", least.subs(D, solution) + p_0),
         holds("and it grows with D", sp.diff(least, D).is_positive),
     ]

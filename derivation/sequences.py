@@ -14,6 +14,7 @@ import sympy as sp
 
 from . import stable
 from .check import REPRODUCED, Claim, Derived, derived, zero
+from .functions import written_out
 from .inequality import Inequality, relation, require
 from .symbols import D, a, b, c, d, delta_0, p_0
 
@@ -126,15 +127,16 @@ def required(zones: tuple[Any, ...], admissible: Iterable[Inequality]) -> tuple[
     return (*admissible, *approaches, require(relation("<=", *edges, edges[0] + PERIOD)))
 
 
-def edgeless_record(by: Callable[..., Any], sequence: str, latex: str, change: sp.Expr) -> Derived:
-    """The record of a regime without edges, whose field is steady: its ``change`` vanishes."""
+def edgeless_record(by: Callable[..., Any], sequence: str, zone: Span) -> Derived:
+    """The record of a regime without edges: the same ``zone`` all along."""
+    at_ends = zip(zone.fields(zone.first, NOTHING), zone.fields(zone.last, NOTHING), strict=True)
     return derived(
         by,
         sequence,
-        [zero("the field is steady", change)],
+        [zero("after a period w and p are what they were", [written_out(after - before) for before, after in at_ends])],
         f"regime {sequence}",
         statement=f"{_capitalised(sequence)}: no unknown edge.",
-        latex=latex,
+        latex="w = u" if zone.kind == CONTACT else f"w = p = {sp.latex(zone.load)}",
         status=REPRODUCED,
         emitted=(f"means_{sequence}",),
     )

@@ -51,13 +51,8 @@ def _checked(parameter: Parameter, arrays: list[str], any_number: bool) -> tuple
         if any_number and name != arrays[0]:
             return name, f'per_mode("{name}", {name}, len({arrays[0]}))'
         return name, f'per_mode("{name}", {name}, MODES)'
-    bound = (
-        "positive"
-        if parameter.symbol.is_positive and name == "K"
-        else "nonnegative"
-        if parameter.symbol.is_nonnegative
-        else "finite"
-    )
+    positive, nonnegative = parameter.symbol.is_positive and name == "K", parameter.symbol.is_nonnegative
+    bound = "positive" if positive else "nonnegative" if nonnegative else "finite"
     return name, f'{bound}("{name}", {name})'
 
 

@@ -81,9 +81,7 @@ class SeveralTimes:
 
     def edgeless(self, by: Callable, sequence: str, kind: str, *admissible: Inequality) -> ModeRegime:
         zone = Zone(kind, s, s + PERIOD, NOTHING, NOTHING)
-        latex = "w = u" if kind == CONTACT else f"w = p = {sp.latex(zone.load)}"
-        change = zone.fields(s + PERIOD, NOTHING)[1] - zone.fields(s, NOTHING)[1]
-        return ModeRegime(sequence, (zone,), admissible, self.closures, edgeless_record(by, sequence, latex, change))
+        return ModeRegime(sequence, (zone,), admissible, self.closures, edgeless_record(by, sequence, zone))
 
     def partial(self, by: Callable, sequence: str, *admissible: Inequality, closures: tuple[int, ...] = ()) -> ModeRegime:
         zones = self.zones(sequence)

@@ -10,7 +10,7 @@ from ..check import Claim, Derived, derived, holds, zero
 from ..kernel import Kernel, kernel
 from ..level import R, Wave, in_complete_contact
 from ..saturated import means, saturation_threshold
-from ..symbols import D, K, V, alpha, l, s
+from ..symbols import K, V, alpha, l, s
 from . import stable
 from .flows import ModeFlows, u
 from .symbols import OF_STRIP, eta, f_0, m
@@ -33,7 +33,7 @@ class Complete:
 
 
 def complete_contact(flows: ModeFlows) -> Complete:
-    kernels, least = (*modulus_kernels(), *field_kernels(flows)), threshold()
+    kernels, least = (*modulus_kernels(), *field_kernels(flows)), saturation_threshold(R, "|K^*|/K")
     _, loss, ratio = (kernel.exact for kernel in kernels[:3])
     storage, rest = sp.symbols("storage_minus_1 loss", nonnegative=True)
     at_least_one = holds("R >= 1: the storage is at least 1", sp.expand((1 + storage) ** 2 + rest**2 - 1).is_nonnegative)
@@ -108,11 +108,3 @@ def field_kernels(flows: ModeFlows) -> tuple[Kernel, ...]:
         kernel(field_kernels, stable.SATURATED_OVERSTRESS, harmonic, *own),
         kernel(field_kernels, stable.SATURATED_PRESSURE, u + total(harmonic)),
     )
-
-
-def threshold() -> Derived:
-    """Of D for complete contact: the pressure is one harmonic, whatever makes up its storage and loss."""
-    lag = sp.Symbol("lag", real=True)
-    field = D - 1 + R * sp.cos(lag) * sp.cos(s) - R * sp.sin(lag) * sp.sin(s)
-    harmonic = sp.expand_trig(D - 1 + R * sp.cos(s + lag))
-    return saturation_threshold(R, "|K^*|/K", [zero("p_sat = D - 1 + R cos(s + arg K*)", harmonic - field, phases=(s,))])
