@@ -22,7 +22,6 @@ from .level.nonadhesive.surface import NonadhesiveSurface
 from .level.saturated import SaturatedLevel, saturated_friction, saturated_level
 from .level.strips import QUANTITIES, LevelBatch
 from .level.table import LawTable
-from .orbit.foundation import foundation_of
 from .orbit.materials import Material
 
 _OWN = len(QUANTITIES)
@@ -246,13 +245,7 @@ class _Solve:
         mine = np.flatnonzero((load > 0) & (load < full))
         if not mine.size:
             return every
-        stiffness = [surface.at_level(i).K for i in range(self.M)]
-        floor = surface.friction_floor
-        foundation, p_0 = foundation_of(surface.at_level(0)), surface.adhesion.p_0
-        families = NonadhesiveSurface(
-            foundation, stiffness, surface.levels, p_0, V, stack.p_full, floor, surface.rtol, surface.work
-        )
-        found = families.solve(group[mine], load[mine], self.by_pressure)
+        found = NonadhesiveSurface(surface, V, stack.p_full).solve(group[mine], load[mine], self.by_pressure)
         sure = found.certain
         at, out = index[mine[sure]], self.out
         out.D[at], out.p[at], out.error[at] = found.D[sure], found.p[sure], found.error[sure]

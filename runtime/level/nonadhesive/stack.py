@@ -3,6 +3,7 @@ every velocity."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -11,13 +12,14 @@ import numpy as np
 from ...numerics.chebyshev import lobatto
 from ...numerics.quadrature import interleaved
 from ...numerics.rounding import EPS
+from ...orbit.foundation import foundation_of
 from .carried import Carrier
 from .family import CONTACT, family
 from .law import NODES, Laws, Piece, fit, greatest_slope, pressures
 from .means import CANCELLED, Level
 
 if TYPE_CHECKING:
-    from .surface import NonadhesiveSurface
+    from ...multilevel import Surface
 
 #: of what is allowed: what the values of a law may err, and what a strip's means may
 _VALUES, _STRIPS = 0.6, 2.0
@@ -56,13 +58,15 @@ class Found:
 
 
 class FamilyStack:
-    """The levels of a surface at its velocities (G,), each with its family as far as pressures up to ``p_max`` (Pa, (G,)) on
-    level 1 need it. ``d_max`` (G,), where that is what is known of level 1: penetrations in its height."""
+    """The levels of a ``surface`` at velocities ``V`` (G,), ``p_full`` (levels, G) as in ``NonadhesiveSurface``. Each has its family
+    as far as pressures up to ``p_max`` (Pa, (G,)) on level 1 need it. ``d_max`` (G,), where that is what is known of level 1:
+    penetrations in its height."""
 
-    def __init__(self, surface: NonadhesiveSurface, p_max: np.ndarray, d_max: np.ndarray | None, wanted: Wanted):
-        self.foundation, self.waves, self.V, self.p_full = surface.foundation, surface.levels, surface.V, surface.p_full
+    def __init__(self, surface: Surface, V: np.ndarray, p_full: Sequence[np.ndarray], p_max: np.ndarray, d_max, wanted: Wanted):
+        # foundations of different levels differ in scale alone
+        self.foundation, self.waves, self.V, self.p_full = foundation_of(surface.at_level(0)), surface.levels, V, p_full
         self.wanted, self.work = wanted, surface.work
-        self.units = [K * level.h for K, level in zip(surface.stiffness, surface.levels, strict=True)]
+        self.units = [surface.at_level(i).K * level.h for i, level in enumerate(surface.levels)]
         self.reach: list[np.ndarray] = []
         self.levels = self._levels(p_max, d_max)
         self.ceilings, every = [p_max], np.arange(self.V.size)
