@@ -32,7 +32,7 @@ _POINTS = 32
 #: a share is not known any better than this: one point of one contact has about a thousandth
 _FINEST = 1e-6
 #: contact is not known to be any less
-_LEAST_CONTACT = 1e-3
+LEAST_CONTACT = 1e-3
 #: part of the friction in contact of level 1 that frictions of all lower levels may err relative to, beside themselves
 _SHARED = 0.2
 #: laws are built this much finer than what is asked of the result
@@ -58,13 +58,13 @@ class ErrorBudget:
         """Pa, (groups,), that the accuracy of the laws of so many ``levels`` below is relative to beside themselves: a share of
         the mean friction over the contact alone, where they add to it."""
         friction = np.full(groups, np.inf)
-        in_contact = self.friction / np.maximum(self.share[:, -1], _LEAST_CONTACT)
+        in_contact = self.friction / np.maximum(self.share[:, -1], LEAST_CONTACT)
         np.minimum.at(friction, self.group, _SHARED / levels * in_contact)
         return friction
 
     def further_down(self, levels: int) -> ErrorBudget:
         """For one of so many ``levels``, where it is not known what pressures are met: each may be on all of the contact."""
-        contact = np.maximum(self.share[:, -1:], _LEAST_CONTACT)
+        contact = np.maximum(self.share[:, -1:], LEAST_CONTACT)
         return replace(self, p=np.full((self.group.size, 1), np.nan), share=contact, friction=self.friction / levels)
 
     def _met(self, i: int, low: float, high: float) -> float:

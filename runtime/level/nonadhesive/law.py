@@ -14,14 +14,12 @@ import numpy as np
 
 from ...numerics.chebyshev import coefficients
 from .family import errors_alone
+from .means import CANCELLED
 
 #: nodes of a piece, tried in turn
 NODES = (16, 32, 64, 128)
 #: how much steeper a law is feared to be beyond its end
 _FEARED = 2.0
-#: how much more than the estimated error of a law is feared, and what is left of it in a mean over contacts: along a piece errors
-#: change sign
-_SURE, _CANCELLED = 2.0, 0.3
 #: slopes of a law are looked at over steps of at least this share of the pressure
 _STEP = 1e-3
 
@@ -57,7 +55,7 @@ def fit(values: np.ndarray, friction: np.ndarray) -> tuple[np.ndarray, np.ndarra
     goal = np.broadcast_to(friction[:, None], (friction.size, of_total.shape[2]))
     miss, series = errors_alone(of_total, goal), coefficients(values)
     series[:, :, -1] = 0.0
-    series[:, 0, -1] = _CANCELLED * (_SURE * miss[:, 0] + values[:, :, -1].max(axis=1))
+    series[:, 0, -1] = CANCELLED * (miss[:, 0] + values[:, :, -1].max(axis=1))
     return series, np.abs(of_total[:, :, 0]).sum(axis=1), (miss <= goal).all(axis=1)
 
 

@@ -24,8 +24,8 @@ _LAYERED, _FASTEST = 120, (0.25, 0.01)
 _CLOSE = 1e-7
 #: slope of friction over pressure, k h, that is never reached
 _STEEPEST = 2.0
-#: what is left in a level's mean of the greatest error of its strips' pressures
-CANCELLED = 0.2
+#: what is left in a mean of the greatest error of strips' pressures, or of a law's friction: along its pieces errors change sign
+CANCELLED = 0.3
 #: Chebyshev polynomials are averaged up to about this degree, which so many nodes do well: the means of higher ones fall at least
 #: like the inverse of the degree
 _HIGHEST, _NODES = 24, 30

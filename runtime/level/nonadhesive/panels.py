@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...numerics.quadrature import gauss, mapped, mapped_slope
+from ...numerics.gauss import graded_gauss
 from ...numerics.roots import false_position
 from .family import CONTACT, Family
 from .span import Span
@@ -32,8 +32,8 @@ def panels(span: Span, ends: np.ndarray, n: int) -> Panels:
     """Panels with n strips each between the ``ends`` (m, e), ascending roots of the distance from the crest, of each column."""
     column, k = np.nonzero(np.diff(ends, axis=1) > 1e-9 * ends[:, -1:])
     low, high = ends[column, k, None], ends[column, k + 1, None]
-    t, w = gauss(n)
-    return Panels(column, *span.at(column, low + (high - low) * mapped(t), (high - low) * w * mapped_slope(t)))
+    share, weight, _ = graded_gauss(n)
+    return Panels(column, *span.at(column, low + (high - low) * share, (high - low) * weight))
 
 
 def ends_of(span: Span, family: Family, group: np.ndarray, breaks: np.ndarray) -> np.ndarray:

@@ -58,7 +58,7 @@ class Found:
 
 
 class FamilyStack:
-    """The levels of a ``surface`` at velocities ``V`` (G,), ``p_full`` (levels, G) as in ``NonadhesiveSurface``. Each has its family
+    """Levels of a ``surface`` at velocities ``V`` (G,), ``p_full`` (levels, G) as in ``NonadhesiveSurface``, each with its family
     as far as pressures up to ``p_max`` (Pa, (G,)) on level 1 need it. ``d_max`` (G,), where that is what is known of level 1:
     penetrations in its height."""
 

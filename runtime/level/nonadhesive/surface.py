@@ -10,6 +10,7 @@ import numpy as np
 
 from ...errors import SolverError
 from ...orbit.foundation import foundation_of
+from ..error_budget import LEAST_CONTACT
 from .family import are_families
 from .stack import FamilyStack, Wanted
 
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
 _SURE, _FINER, _FINEST, _ATTEMPTS = 0.3, 0.3, 1e-3, 4
 #: accuracy of that where there are more levels
 _ROUGH = 1e-2
-#: no less contact is believed in
-_LEAST = 1e-3
 #: friction is at first taken to be this many times what counts beside it
 _GUESS = 30.0
 #: share of the friction that its error may be at most, whatever counts beside it
@@ -71,7 +70,7 @@ class NonadhesiveSurface:
         # level it may do
         rough = self if levels == 1 else replace(self, surface=replace(self.surface, rtol=max(rtol, _ROUGH)))
         size = rough._attempt(out, np.arange(n), group, load, by_pressure, np.full(n, _GUESS * floor), 1)
-        touching, finer = np.maximum(out.contact[0], _LEAST), np.ones(n)
+        touching, finer = np.maximum(out.contact[0], LEAST_CONTACT), np.ones(n)
         for _ in range(_ATTEMPTS):
             left = np.flatnonzero(~out.certain)
             if not left.size:
