@@ -243,9 +243,13 @@ def test_the_map_leads_back_from_the_last_onset_and_its_slope_grows_up_to_it():
         falls = np.diff(slope, axis=0) < -1e-9 * (1 + np.abs(slope[1:]))
         # as far as an orbit may have its onset the map contracts, and behind where it does not it does not any more
         bounds, within = least_engaged_bounds(kernel, cycle), orbit.x.reshape(40, n)
-        falls_first = exclusion.falls_from(kernel, cycle, orbit.take(slice(0, n)), bounds.x, bounds.c, last=True)
+        known = orbit.take(slice(0, n))
+        falls_first = exclusion.falls_from(kernel, cycle, known, bounds.x, bounds.c, last=True)
+        arc = exclusion.falling_arc(kernel, cycle, known, bounds.c, last=True)
+        inside = falls_first & (within <= np.minimum(cycle.centre + arc, bounds.x))
         steep = (slope >= 1e-9) & (within < bounds.x)
         again = steep[:-1] & (slope[1:] < -1e-9) & (within[1:] < bounds.x)
+    assert not (steep & inside).any() and np.count_nonzero(inside) > 8000
     assert not (steep[0] | again.any(axis=0))[falls_first].any() and np.count_nonzero(falls_first) > 800
     assert (orbit.r[-n:] < 0).all()
     # an orbit that does not meet contact where that is certain is none

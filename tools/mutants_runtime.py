@@ -82,6 +82,13 @@ MUTANTS = (
         "test_proofs.py",
     ),
     Mutant(
+        "a later onset forgets how early its adhesion may end",
+        "orbit/exclusion.py",
+        "known.c, c, shortest",
+        "known.c, known.c, shortest",
+        "test_proofs.py",
+    ),
+    Mutant(
         "twice as much is excluded",
         "orbit/search.py",
         "near + far > width",

@@ -43,16 +43,19 @@ def onsets_within(cycle: Cycle, bounds: OrbitBounds) -> tuple[np.ndarray, np.nda
 
 def falls_from(kernel, cycle: Cycle, known: Orbit, x, c, last: bool = False) -> np.ndarray:
     """Where no zero of r lies between the known onset and ``x`` (NaN: unknown), before which (``last``: after which) there is
-    none; ``c`` bounds the end of adhesion.
+    none; ``c`` bounds the end of adhesion."""
+    half = falling_arc(kernel, cycle, known, c, last)
+    # behind the centre of the arc, with c before the middle of its own, T' grows
+    beyond = (x <= cycle.centre + half) | (known.c <= cycle.centre + np.pi) if last else cycle.centre - half <= x
+    return np.isfinite(x) & (np.abs(known.x - cycle.centre) < half) & beyond
 
-    R falls strictly wherever F exceeds ``steep_margin``, an arc that has to hold both onsets.
-    """
+
+def falling_arc(kernel, cycle: Cycle, known: Orbit, c, last: bool) -> np.ndarray:
+    """Half the width of the arc, about its centre, in which R falls strictly at every onset before (``last``: after) the known
+    one from which adhesion does not end beyond ``c``; below zero if there is none. F exceeds ``steep_margin`` there."""
     s = cycle.strips
     # a later onset may make no contact
     shortest = np.zeros(cycle.size) if last else contact_length(known.b, known.a)
     margin = s.noise() + steep_margin(kernel, cycle, known.c, c, shortest)
-    sure = np.isfinite(x) & np.isfinite(margin)
-    half = kernel.forcing_arc(s.delta_0 - np.where(sure, margin, 0.0), s.D, s.beta)[1]
-    # behind the centre of the arc, with c before the middle of its own, T' grows
-    beyond = (x <= cycle.centre + half) | (known.c <= cycle.centre + np.pi) if last else cycle.centre - half <= x
-    return sure & (np.abs(known.x - cycle.centre) < half) & beyond
+    sure = np.isfinite(margin)
+    return np.where(sure, kernel.forcing_arc(s.delta_0 - np.where(sure, margin, 0.0), s.D, s.beta)[1], -1.0)
