@@ -78,17 +78,17 @@ class Carrier:
     def _partial(self, group, d, ends, strips, nodes):
         """Strips in partial contact."""
         f = self.level.family
-        at = panels(Span(d, f.s_sat[group]), ends, strips)
-        column, u, weight = np.repeat(at.column, strips), at.u.ravel(), at.weight.ravel()
+        panel, u, s, weight = panels(Span(d, f.s_sat[group]), ends, strips)
+        column, u, weight = np.repeat(panel, strips), u.ravel(), weight.ravel()
         waves = self.foundation.waves(self.rate[group[column]])
-        share, _, crest, slope, *_ = f.values(group[at.column], at.s, slopes=True, of=CONTACT).reshape(-1, 6).T
+        share, _, crest, slope, *_ = f.values(group[panel], s, slopes=True, of=CONTACT).reshape(-1, 6).T
         width = _inside(share)
         orbits = waves.orbits(width, means=False)
         # families know pressures, not widths, as well as friction may need it: a step of Newton's towards the strip that
         # is meant
-        width = _inside(width / (2 * np.pi) + slope * (at.s.ravel() - orbits.D))
+        width = _inside(width / (2 * np.pi) + slope * (s.ravel() - orbits.D))
         orbits = waves.orbits(width, means=False)
-        missed = np.abs(at.s.ravel() - orbits.D)
+        missed = np.abs(s.ravel() - orbits.D)
         self.strips += width.size
         pressure = waves.pressure(orbits.sure())
         breaks = self.laws.breaks[group[column]] / (0.5 * self.pressure * u[:, None])

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ...numerics.gauss import graded_gauss
@@ -17,23 +15,13 @@ _LOOKS, _STEPS = 24, 2
 _BEYOND = 1e200
 
 
-@dataclass(frozen=True)
-class Panels:
-    """Nodes (k, n) of panels: the ``column`` (k,) of each, share ``u`` and penetration ``s`` of its strips, and their ``weight``
-    in the mean over the cell."""
-
-    column: np.ndarray
-    u: np.ndarray
-    s: np.ndarray
-    weight: np.ndarray
-
-
-def panels(span: Span, ends: np.ndarray, n: int) -> Panels:
-    """Panels with n strips each between the ``ends`` (m, e), ascending roots of the distance from the crest, of each column."""
+def panels(span: Span, ends: np.ndarray, n: int) -> tuple[np.ndarray, ...]:
+    """Panels with n strips each between the ``ends`` (m, e), ascending roots of the distance from the crest, of each column: that
+    (k,), the strips' shares u and penetrations s, and their weights in the mean over the cell, (k, n)."""
     column, k = np.nonzero(np.diff(ends, axis=1) > 1e-9 * ends[:, -1:])
     low, high = ends[column, k, None], ends[column, k + 1, None]
     share, weight, _ = graded_gauss(n)
-    return Panels(column, *span.at(column, low + (high - low) * share, (high - low) * weight))
+    return column, *span.at(column, low + (high - low) * share, (high - low) * weight)
 
 
 def ends_of(span: Span, family: Family, group: np.ndarray, breaks: np.ndarray) -> np.ndarray:
