@@ -10,7 +10,6 @@ from .batch import Batch
 TWO_PI = 2 * np.pi
 #: rounding of a sum of a few terms, in the largest of them
 ROUNDING = 64 * EPS
-_TIE = 4 * EPS  #: roundings of J_0 p_0, a product and two quotients, within which it equals delta_0
 #: alpha from which a strip is taken as the limit of a foundation that stands still: pressures differ from it by 1/alpha of the
 #: glassy pressure, and what a period changes is lost in the rounding of the edges soon after (1e14)
 STANDS_STILL = 1e12
@@ -87,9 +86,9 @@ def slowed(alpha) -> np.ndarray:
 
 
 def snaps_in(step, delta_0) -> np.ndarray:
-    """Where a ``step`` of w by ``J_0 p_0`` closes the gap ``delta_0``, in whatever unit; equal but for roundings counts as
+    """Where a ``step`` of w by ``J_0 p_0`` closes the gap ``delta_0``, in whatever unit; equal but for rounding counts as
     equal."""
-    return (step > 0) & (step >= delta_0 * (1 - _TIE))
+    return (step > 0) & (step >= delta_0 * (1 - ROUNDING))
 
 
 def adhesive_cycle(kernel, strips: Strips) -> Cycle:
