@@ -24,6 +24,8 @@ from .strips import LevelBatch
 _LOOK, _COARSE, _FIRST, _LAST = 6, 8, 12, 96
 #: share of the error allowed that interpolating may have at least: the means may have the rest
 _INTERPOLATION = 1 - MEAN
+#: coefficients below this share of what the means may err say nothing of how smooth they are
+_BLUR = 0.1
 #: an interval's pressure is known at least this well
 _COARSEST = 1e-3
 #: a piece narrower than this, relative to D, is taken as it is
@@ -101,8 +103,7 @@ class _Work:
         column, c = columns_of(intervals), flat_ended(stage.n) @ values
         floors = within(columns, intervals, columns.D[column]).floors
         goal = (self.rtol[column] * [i.asked.coarser for i in intervals])[:, None] * (np.abs(values).min(axis=1) + floors)
-        # what the means may err says nothing of how smooth they are
-        blur, rounding, spread = errors.max(axis=1), _rounding(columns, stage, c), np.ptp(values, axis=1)
+        blur, rounding, spread = _BLUR * errors.max(axis=1), _rounding(columns, stage, c), np.ptp(values, axis=1)
         # where next to nothing changes there is little to miss, whatever nobody marked there
         noise = 0.1 * goal
         error = np.minimum(interpolation_errors(c, noise, blur, rounding), 2 * spread)

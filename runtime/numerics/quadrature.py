@@ -16,7 +16,7 @@ from .rules import extrapolated
 _MIDDLE = 3
 #: fastest pace believed of coefficients, by number of nodes, and of those of even functions; and the slowest that is told apart
 #: from a slower one
-_FASTEST, _EVEN, _SLOWEST = {8: 0.65, 16: 0.42, 32: 0.65}, 0.42, 0.97
+_FASTEST, _EVEN, _SLOWEST = {8: 0.65, 16: 0.42, 32: 0.65}, 0.5, 0.97
 #: number of nodes from which on coefficients are many; up to it and from it on, the ratio of the last coefficients to the middle
 #: ones below which they surely fall geometrically
 _MANY, _GEOMETRIC = 16, (0.15, 0.05)
