@@ -10,8 +10,8 @@ from .march import TWO_PI, Period
 from .problem import ModeStrips, rates
 
 #: how much earlier or later than in the two marches contact may begin, as a share of the time from onset to contact: a wider
-#: range costs digits of the bound
-_SHARES = (1e-2, 0.5)
+#: range costs digits of the bound, a narrower one holds less often (two levels with 14 times: 0.1 takes an eighth more calls)
+_SHARE = 0.03
 
 
 def event_bounds(s: ModeStrips, order: Order, lower: Period, upper: Period):
@@ -35,21 +35,17 @@ def _closing_times(s: ModeStrips, lower: Period, upper: Period, least, most, tim
     known = lower.smooth_onset & (lower.until[0] == lower.entry) & (upper.until[0] == upper.entry) & ~s.snaps
     one, two = (np.where(known, p.entry - p.onset, 0.0) for p in (lower, upper))
     gap = s.delta_0 - s.step
-    closing, found = np.zeros((2, s.size)), np.zeros((2, s.size), bool)
-    for share in _SHARES:
-        late, early = np.maximum(one, two) * (1 + share), np.minimum(one, two) * (1 - share)
-        lost_late, lost_early = -np.expm1(-late * rate), -np.expm1(-early * rate)
-        rise = late * _sine_range(event[0], event[1] + late)[1]
-        fall = early * np.minimum(_sine_range(event[0], event[1] + early)[0], 0.0)
-        # in contact by then, and not released before
-        by = gap + rise < (low * lost_late).sum(axis=0)
-        by &= gap + np.maximum(rise, 0.0) - (np.minimum(low, 0.0) * lost_late).sum(axis=0) < s.delta_0
-        not_before = gap + fall > (np.maximum(high, 0.0) * lost_early).sum(axis=0)
-        closing = np.where(found, closing, np.stack((early, late)))
-        found |= np.stack((not_before, by))
+    late, early = np.maximum(one, two) * (1 + _SHARE), np.minimum(one, two) * (1 - _SHARE)
+    lost_late, lost_early = -np.expm1(-late * rate), -np.expm1(-early * rate)
+    rise = late * _sine_range(event[0], event[1] + late)[1]
+    fall = early * np.minimum(_sine_range(event[0], event[1] + early)[0], 0.0)
+    # in contact by then, and not released before
+    by = gap + rise < (low * lost_late).sum(axis=0)
+    by &= gap + np.maximum(rise, 0.0) - (np.minimum(low, 0.0) * lost_late).sum(axis=0) < s.delta_0
+    not_before = gap + fall > (np.maximum(high, 0.0) * lost_early).sum(axis=0)
     # a time of nothing is before any contact
-    closing[0] = np.where(found[0], closing[0], 0.0)
-    return closing, known & found[1] & np.isfinite(closing).all(axis=0)
+    closing = np.stack((np.where(not_before, early, 0.0), late))
+    return closing, known & by & np.isfinite(closing).all(axis=0)
 
 
 def _falling(s: ModeStrips, least, most, times, event):
