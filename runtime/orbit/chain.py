@@ -26,42 +26,36 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.n
 
     Returns the edges, which of them converged, and the evaluations of the links of a period, (n,).
     """
-    # a step this small leaves an error of its square
-    edges, correction, _, spent = newton(kernel, cycle, sequence, edges, links, STABLE, arcs(cycle, sequence))
-    return edges, correction <= STABLE, spent
-
-
-def newton(kernel, cycle: Cycle, sequence: str, edges: np.ndarray, equations, enough: float, ends) -> tuple[np.ndarray, ...]:
-    """Newton from ``edges`` (k, n), kept in order and between their ``ends``, low and high, until a step is small ``enough``.
-
-    ``equations``: called like ``links``. Returns the edges, (k, n), their last steps, how often a step was not made as it was no
-    smaller than the one before, and the evaluations, (n,) each.
-    """
     n = cycle.size
-    result, steps, stalled, spent = edges.copy(), np.full(n, np.inf), np.zeros(n, int), np.zeros(n)
-    index, part, gaps, low, high = np.arange(n), cycle, gap_zones(cycle, sequence), *ends
-    last, stalls = steps, np.zeros(n, int)
+    result, converged, spent = edges.copy(), np.zeros(n, bool), np.zeros(n)
+    low, high = arcs(cycle, sequence)
+    index, part, gaps = np.arange(n), cycle, gap_zones(cycle, sequence)
     # where a link is lost to rounding or overflows the step is no number, and the strip is left to the search
     with np.errstate(all="ignore"):
         for iteration in range(1, ITERATIONS + 1):
-            move = step(*equations(kernel, part, sequence, gaps, edges))
+            move = step(*links(kernel, part, sequence, gaps, edges))
             size = np.abs(move).max(axis=0)
-            # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction. Once may be chance, and
-            # one larger than rounding makes them is a correction, whatever the one before was
-            stays = np.flatnonzero(~((size < last) | (size > STABLE)))
-            new = np.minimum(np.maximum(edges + move, edges + _BOLD * (low - edges)), edges + _BOLD * (high - edges))
-            for before, after in zip(new[:-1], new[1:], strict=True):
-                np.maximum(before, after, out=after)
-            new[:, stays], size[stays], stalls[stays] = edges[:, stays], last[stays], stalls[stays] + 1
-            edges, last = new, size
-            going = np.flatnonzero((last > enough) & (stalls < 2)) if iteration < ITERATIONS else index[:0]
+            edges = moved(edges, move, low, high, size)
+            # a step this small leaves an error of its square
+            going = np.flatnonzero(size > STABLE) if iteration < ITERATIONS else index[:0]
             if going.size < index.size:
-                result[:, index], steps[index], stalled[index], spent[index] = edges, last, stalls, iteration
+                result[:, index], converged[index], spent[index] = edges, size <= STABLE, iteration
                 if not going.size:
                     break
-                index, part = index[going], part.among(going)
-                gaps, edges, low, high, last, stalls = (v[..., going] for v in (gaps, edges, low, high, last, stalls))
-    return result, steps, stalled, spent
+                index, part, gaps = index[going], part.among(going), gaps[..., going]
+                edges, low, high = edges[:, going], low[:, going], high[:, going]
+    return result, converged, spent
+
+
+def moved(edges, move, low, high, size):
+    """Edges after a step, kept inside their arcs and in order; where the step (of this ``size``) is no number, the edges before
+    it."""
+    new = np.minimum(np.maximum(edges + move, edges + _BOLD * (low - edges)), edges + _BOLD * (high - edges))
+    for before, after in zip(new[:-1], new[1:], strict=True):
+        np.maximum(before, after, out=after)
+    lost = np.flatnonzero(np.isnan(size))
+    new[:, lost] = edges[:, lost]
+    return new
 
 
 def arcs(cycle: Cycle, sequence: str) -> tuple[np.ndarray, np.ndarray]:

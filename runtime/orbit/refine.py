@@ -8,7 +8,7 @@ import numpy as np
 
 from . import regimes
 from .certificate import STABLE
-from .chain import gap_zones, links, newton
+from .chain import ITERATIONS, gap_zones, links, step
 from .groups import ROUNDING, TWO_PI, Cycle
 from .march import Orbit
 from .solved import edges_of, groups, orbit_of
@@ -23,39 +23,52 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = T
 
     ``blurred``: corrections that rounding blurs may be larger.
     """
-    start = edges_of(sequence, orbit)
-    anywhere = np.full(start.shape, -np.inf), np.full(start.shape, np.inf)
-    edges, correction, stalls, spent = newton(kernel, cycle, sequence, start, _equations, CONVERGED, anywhere)
-    blur = np.zeros(cycle.size)
-    stalled = np.flatnonzero(stalls > 0)
-    if blurred and stalled.size:
-        with np.errstate(all="ignore"):
+    # the cycle of an always adhering strip is the bare one, shifted: its boundary equations are those of "ac" at p_0 = 0
+    edges = edges_of(sequence, orbit)
+    correction, stalls, spent = np.full(cycle.size, np.inf), np.zeros(cycle.size, int), np.zeros(cycle.size)
+    index = np.arange(cycle.size)
+    with np.errstate(all="ignore"):
+        for _ in range(ITERATIONS):
+            now = edges[:, index]
+            move = step(*_equations(kernel, cycle.among(index), sequence, now))
+            spent[index] += 1
+            size = np.abs(move).max(axis=0)
+            # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction. Once may be chance, and
+            # one larger than rounding makes them is a correction, whatever the one before was
+            better = (size < correction[index]) | (size > STABLE)
+            new = np.maximum.accumulate(now + move, axis=0)
+            edges[:, index[better]], correction[index[better]] = new[:, better], size[better]
+            stalls[index[~better]] += 1
+            index = index[(stalls[index] < 2) & (size > CONVERGED)]
+            if not index.size:
+                break
+        blur = np.zeros(cycle.size)
+        stalled = np.flatnonzero(stalls > 0)
+        if blurred and stalled.size:
             uncertain = _attainable(kernel, cycle.take(stalled), sequence, edges[:, stalled])
-        blur[stalled] = np.fmin(uncertain, STABLE)
+            blur[stalled] = np.fmin(uncertain, STABLE)
     return orbit_of(sequence, edges), correction <= CONVERGED + blur, blur, spent
 
 
-def _equations(kernel, cycle: Cycle, sequence: str, gaps: np.ndarray, edges: np.ndarray) -> tuple:
+def _equations(kernel, cycle: Cycle, sequence: str, edges) -> tuple:
     """The boundary equations, the last freed of what the others miss, and their derivatives by the edge before and the one after;
     an edge that is grazed stays where it is."""
     s = cycle.strips
-    # the cycle of an always adhering strip is the bare one, shifted: its boundary equations are those of "ac" at p_0 = 0
+    linked, before, after = links(kernel, cycle, sequence, gap_zones(cycle, sequence), edges)
     *values, closing = getattr(kernel, f"residual_{regimes.EQUATIONS[sequence]}")(*edges, *groups(s))
-    linked, before, after = links(kernel, cycle, sequence, gaps, edges)
     zones = regimes.ZONES[sequence][0]
     balance = closing - sum(value * (-s.J if zone == "c" else 1.0) for value, zone in zip(values, zones, strict=False))
     last = edges[0] + TWO_PI - edges[-1]
     short = s.beta * (TWO_PI * np.abs(after[-1]) + s.delta_0) + last < 1
-    linked[:-1] = values
-    linked[-1] = np.where((s.beta < TWO_PI) | short, linked[-1], balance)
-    return linked, before, np.where(after == 0, np.inf, after)
+    balance = np.where((s.beta < TWO_PI) | short, linked[-1], balance)
+    return (*values, balance), before, np.where(after == 0, np.inf, after)
 
 
 def _attainable(kernel, cycle: Cycle, sequence: str, edges) -> np.ndarray:
     """Greatest uncertainty of an edge that equations known to rounding leave, by elimination of absolute values: of the order of
     rounding in general, and of its square root where an edge is nearly grazed or at a fold."""
     s = cycle.strips
-    _, before, after = _equations(kernel, cycle, sequence, gap_zones(cycle, sequence), edges)
+    _, before, after = _equations(kernel, cycle, sequence, edges)
     size = 1 + np.abs(s.D) + s.p_0
     slow = TWO_PI / (TWO_PI + s.beta)
     R = kernel.modulus_ratio(s.alpha, s.beta)
