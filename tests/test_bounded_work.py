@@ -132,7 +132,7 @@ def test_a_point_that_errs_by_more_than_is_allowed_is_solved_once_more(monkeypat
     material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=5.225834435113426e-07)
     adhesion = hystrip.Dugdale(gamma=4.5298325052e-06, delta_0=1.46134e-08)
     levels = [hystrip.Level(1e-5, 1.9698e-6), hystrip.Level(1.85077e-6, 3.05468e-7)]
-    point = {"pressure": 60.0, "velocity": 0.1, "branch": "loading", "rtol": 1e-6}
+    point = {"pressure": 181.046, "velocity": 0.25602, "branch": "loading", "rtol": 1e-6}
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         found = hystrip.solve(material, adhesion, levels, **point)

@@ -38,17 +38,6 @@ def test_sum_errors_bound_the_error(name, n):
     assert error <= estimate + 1e-15 * max(exact, 1) * n
 
 
-@pytest.mark.parametrize("n", [8, 16, 32])
-@pytest.mark.parametrize("name", [name for name in FUNCTIONS if name not in ("kink", "jump")])
-def test_errors_of_even_sums_bound_the_error(name, n):
-    """Of functions of ``u^2`` on [-1, 1], whose every other coefficient is none."""
-    function = FUNCTIONS[name][0]
-    values = lambda n: function((2 * mapped(interior_nodes(n)) - 1) ** 2)  # noqa: E731
-    exact = mapped_weights(512) @ values(512)
-    error = abs(mapped_weights(2 * n) @ values(2 * n) - exact)
-    assert error <= sum_errors(values(2 * n)[None, :, None], np.zeros((1, 1)), even=True)[0, 0] + 1e-15 * max(exact, 1) * n
-
-
 @pytest.mark.parametrize("n", [16, 32])
 def test_sum_errors_are_not_spoiled_by_a_rougher_quantity(n):
     """Fractions end like square roots where friction has a higher power: they share a pace, not a size."""

@@ -98,8 +98,8 @@ MUTANTS = (
     Mutant(
         "errors of an average are a hundredth",
         "level/averages.py",
-        "error, goal = missed + rounding,",
-        "error, goal = 0.01 * missed + rounding,",
+        "error = width * sum_errors(values, noise) + rounding",
+        "error = 0.01 * width * sum_errors(values, noise) + rounding",
         "test_reference_levels.py",
     ),
     Mutant(

@@ -66,25 +66,17 @@ def average(columns: LevelBatch, rtol: np.ndarray) -> Averages:
 
 @dataclass
 class Panels(Batch):
-    """Panels of ``state`` between thetas; ``first`` and ``last``: the strip known next to each end, -1: none. ``smooth``:
-    up to which theta amplitudes are nearer to the crest's than a curve that ends there is, so that it does not tell."""
+    """Panels of ``state`` between thetas; ``first`` and ``last``: the strip known next to each end, -1: none."""
 
     state: np.ndarray
     low: np.ndarray
     high: np.ndarray
     first: np.ndarray
     last: np.ndarray
-    smooth: np.ndarray
 
     @property
     def width(self) -> np.ndarray:
         return self.high - self.low
-
-    @property
-    def even(self) -> tuple[np.ndarray, np.ndarray]:
-        """Which are halves of panels around the crest, and of panels around the valley, (m,) each."""
-        crest = (self.low == 0) & (self.high <= self.smooth)
-        return crest, ~crest & (self.high == np.pi)
 
     def halves(self) -> list[Panels]:
         """Both halves of each."""
@@ -92,12 +84,12 @@ class Panels(Batch):
         return [replace(self, high=middle, last=none), replace(self, low=middle, first=none)]
 
     def at(self, t: np.ndarray) -> np.ndarray:
-        """Thetas at the parameters ``t`` of every panel, (panels, t): where the integrand is even those in half of a panel twice
-        as wide with twice the nodes, and one in its middle."""
-        crest, valley = self.even
-        halved = lambda t: 2 * mapped(0.5 + 0.5 * np.sqrt(t)) - 1  # noqa: E731
-        share = np.select([crest[:, None], valley[:, None]], [halved(t), 1 - halved(1 - t)], mapped(t))
-        return self.low[:, None] + self.width[:, None] * share
+        """Thetas at the parameters ``t`` of every panel, (panels, t)."""
+        return self.low[:, None] + self.width[:, None] * mapped(t)
+
+    def sums(self, values: np.ndarray) -> np.ndarray:
+        """Integrals (panels, q) of what has the ``values`` (panels, n - 1, q) at the interior ones of n nodes."""
+        return self.width[:, None] * (mapped_weights(values.shape[1] + 1) @ values)
 
 
 @dataclass
@@ -116,9 +108,6 @@ class _Work:
         """Panels between thresholds (k,) and expected crossings (m,) of curves. Next to a curve the strips of a third regime
         may be so few that no node meets them: a strip to either side is looked at, as at the crest and next to the valley."""
         n, crossing = self.rtol.size, theta_of(self.columns, A)
-        # without adhesion contacts begin in layers that so few nodes may not show
-        far = self.columns.crossings.from_crest(self.columns) if self.columns.stretch > 0 else 0.0
-        smooth = theta_of(self.columns, np.full(n, 0.5 * self.columns.level.h - far))
         every, none = np.arange(n), np.full(theta.size, -1)
         crest, valley = self._later(every, np.zeros(n)), self._later(every, self.valley)
         below, above = self._next_to(expected, crossing)
@@ -129,7 +118,7 @@ class _Work:
         order = np.lexsort((theta, state))
         state, theta, before, after = state[order], theta[order], before[order], after[order]
         inside = np.flatnonzero((state[1:] == state[:-1]) & (np.diff(theta) > 64 * EPS * np.pi))
-        return Panels(state[inside], theta[inside], theta[inside + 1], after[inside], before[inside + 1], smooth[state[inside]])
+        return Panels(state[inside], theta[inside], theta[inside + 1], after[inside], before[inside + 1])
 
     def zones(self) -> list[Zones]:
         """See ``Averages.zones``."""
@@ -147,15 +136,15 @@ class _Work:
         if fresh:
             self._look_beside_thresholds(stages[0])
         # what is not accepted yet counts for the size of the result, not for the result
-        total, sums = self.values.copy(), [self._sums(stage) for stage in stages]
-        for stage, (own, _) in zip(stages, sums, strict=True):
-            np.add.at(total, stage.parts.state, own)
+        total = self.values.copy()
+        for stage in stages:
+            np.add.at(total, stage.parts.state, stage.parts.sums(stage.known[1]))
         total = np.abs(total) + np.pi * self.columns.floors
         mixed, doubled, halved = [], [], []
-        for stage, own in zip(stages, sums, strict=True):
+        for stage in stages:
             codes = self._outer(stage)[0]
             changed = (codes != codes[:, :1]).any(axis=1)
-            done = self._accept(stage, own, total, ~changed)
+            done = self._accept(stage, total, ~changed)
             mixed.append(stage.take(changed & ~done))
             stage = stage.take(~changed & ~done)
             (doubled if stage.n < _LAST else halved).append(stage)
@@ -163,25 +152,16 @@ class _Work:
         left = [Stage(Panels.joined(parts), _FIRST), *doubled]
         return [stage for stage in left if stage.parts.size]
 
-    def _sums(self, stage: Stage) -> np.ndarray:
-        """Integrals over panels, and what their sums miss, (2, m, q)."""
-        panels, values, (crest, valley) = stage.parts, stage.known[1], stage.parts.even
-        noise, out = 0.1 * (self.rtol[:, None] * self.columns.floors)[panels.state], np.empty((2, *values[:, 0].shape))
-        even = crest | valley
-        middle = self.ends[1][np.where(crest, panels.first, panels.last)[even], None]
-        half = np.where(crest[:, None, None], values[:, ::-1], values)[even]
-        whole = np.concatenate((half, middle, half[:, ::-1]), axis=1)
-        for which, known in ((~even, values[~even]), (even, whole)):
-            out[:, which] = mapped_weights(known.shape[1] + 1) @ known, sum_errors(known, noise[which], known is whole)
-        return panels.width[:, None] * out
-
-    def _accept(self, stage: Stage, summed: np.ndarray, total: np.ndarray, usable: np.ndarray) -> np.ndarray:
+    def _accept(self, stage: Stage, total: np.ndarray, usable: np.ndarray) -> np.ndarray:
         """Add up the ``usable`` panels (m,) whose sums have converged, and those of states with too many strips as they are, with
-        the spread of their values as error; which they were, (m,). ``summed``: see ``_sums``."""
-        panels, (codes, values, *_), (sums, missed) = stage.parts, stage.known, summed
+        the spread of their values as error; which they were, (m,)."""
+        panels, (codes, values, *_) = stage.parts, stage.known
+        sums = panels.sums(values)
         width, state = panels.width[:, None], panels.state
         rounding = 4 * EPS * width * np.abs(values).max(axis=1, initial=0.0)
-        error, goal = missed + rounding, (self.rtol[:, None] * total)[state]
+        noise = 0.1 * (self.rtol[:, None] * self.columns.floors)[state]
+        error = width * sum_errors(values, noise) + rounding
+        goal = (self.rtol[:, None] * total)[state]
         done = usable & (error <= _SHARE * goal + 2 * rounding).all(axis=1)
         if stage.n < _COSTLESS and not self.columns.asked.frictional:
             done &= codes[:, 0] % len(CODE) != CODE["c"]
@@ -292,7 +272,6 @@ class _Work:
         stops, last = np.concatenate((found.low, panels.high)), np.concatenate((before, panels.last))
         order_start = np.lexsort((starts, np.concatenate((every, found.line))))
         order_stop = np.lexsort((stops, np.concatenate((found.line, every))))
-        parts = panels.take(np.concatenate((every, found.line))[order_start])
-        parts.low, parts.first = starts[order_start], first[order_start]
-        parts.high, parts.last = stops[order_stop], last[order_stop]
+        line = np.concatenate((every, found.line))[order_start]
+        parts = Panels(panels.state[line], starts[order_start], stops[order_stop], first[order_start], last[order_stop])
         return parts.take(parts.width > 0)

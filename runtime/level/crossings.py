@@ -37,16 +37,6 @@ class Crossings:
         fresh = np.append(True, ~_together(points) | (np.diff(place) != 0))
         self.points[boundary] = points.take(np.flatnonzero(fresh))
 
-    def from_crest(self, columns: LevelBatch) -> np.ndarray:
-        """How far in E ``columns`` are from the nearest end that is known of a curve at the crest, m, (n,); inf: none is."""
-        distance = np.full(columns.size, np.inf)
-        for boundary, known in self.points.items():
-            end = known.take((2 * known.A == columns.level.h) & (boundary.event != "peak"))
-            apart = np.abs((columns.D - columns.level.h)[:, None] - end.E)
-            same = columns.V[:, None] == end.velocity
-            distance = np.minimum(distance, np.where(same, apart, np.inf).min(axis=1, initial=np.inf))
-        return distance
-
     def expected(self, columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
         """Columns and amplitudes (k,), m, at which ``columns`` cross what is known of the curves, by Newton from between the two
         points nearest on each, or from the parabola through three where the curve turns."""

@@ -14,9 +14,8 @@ from .rules import extrapolated
 
 #: coefficients in the middle of a series that those at its end are held against: one may be small by chance
 _MIDDLE = 3
-#: fastest pace believed of coefficients, by number of nodes, and of those of even functions; and the slowest that is told apart
-#: from a slower one
-_FASTEST, _EVEN, _SLOWEST = {8: 0.65, 16: 0.42, 32: 0.65}, 0.5, 0.97
+#: fastest pace believed of coefficients, by number of nodes, and the slowest that is told apart from a slower one
+_FASTEST, _SLOWEST = {8: 0.65, 16: 0.42, 32: 0.65}, 0.97
 #: number of nodes from which on coefficients are many; up to it and from it on, the ratio of the last coefficients to the middle
 #: ones below which they surely fall geometrically
 _MANY, _GEOMETRIC = 16, (0.15, 0.05)
@@ -98,28 +97,24 @@ def _runs(n: int) -> tuple[int, int]:
 
 
 @lru_cache
-def _left(n: int, turning: bool, even: bool) -> tuple[np.ndarray, np.ndarray]:
+def _left(n: int, turning: bool) -> tuple[np.ndarray, np.ndarray]:
     """What the sum misses of a quantity whose coefficients are ``rho^j``, over the largest of the last ones it shows, and the
     ratios by which it shows how fast they fall: rho itself where the coefficients are told from the middle on, where they may
     also turn (``turning``) from order to order, ``rho^j exp(i psi j)``, as those of a singularity inside; else that of the last
     ones to those before.
 
-    ``even``: of a function that is even, on 2 n nodes, every other coefficient of which is none.
-
     Order j has the integral ``m(j) = -3/(j (j^2 - 4))``, zero for even j. At the nodes orders ``2 n - j`` and ``2 n + j`` look
     like j but for a sign: where coefficients fall slowly and don't turn, as where an end has a layer, most of it cancels.
     """
-    rho, nodes = np.linspace(_EVEN if even else _FASTEST.get(n, 0.8), _SLOWEST, 64), 2 * n if even else n
+    rho = np.linspace(_FASTEST.get(n, 0.8), _SLOWEST, 64)
     psi = np.linspace(0, np.pi, 33) if turning else np.zeros(1)
-    z = (rho[:, None] * np.exp(1j * psi)).reshape(-1, 1) ** (0.5 if even else 1.0)
+    z = (rho[:, None] * np.exp(1j * psi)).reshape(-1, 1)
     # the sum of m(j) z^j over odd j, by partial fractions
     odd = np.arctanh(z)
     exact = (0.75 * odd - 0.375 * (z**2 * odd - z) - 0.375 * (odd - z) / z**2)[:, 0]
-    values = z / (1 - 2 * z * np.cos(np.arange(1, nodes) * np.pi / nodes) + z**2)
-    if even:
-        values = 0.5 * (values + values[:, ::-1])
-    c = np.abs(_second_kind(nodes) @ values.T)[:: nodes // n]
-    missed = np.abs(values @ mapped_weights(nodes) - exact) / _last(c, _runs(n)[0 if turning else 1])
+    values = z / (1 - 2 * z * np.cos(np.arange(1, n) * np.pi / n) + z**2)
+    c = np.abs(_second_kind(n) @ values.T)
+    missed = np.abs(values @ mapped_weights(n) - exact) / _last(c, _runs(n)[0 if turning else 1])
     shown = rho if turning else _last(c, _step(n)) / _last(c, _step(n), _step(n))
     return shown, np.maximum.accumulate(missed.reshape(rho.size, -1).max(axis=1))
 
@@ -135,9 +130,9 @@ def _last(c: np.ndarray, size: int, skipped: int = 0) -> np.ndarray:
     return c[end - size : end].max(axis=0)
 
 
-def sum_errors(values: np.ndarray, noise: np.ndarray, even: bool = False) -> np.ndarray:
+def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     """Error of the sum over nodes of each interval, per width, (p, q); ``values`` (p, n - 1, q), ``noise`` (p, q): changes that
-    don't matter. ``even``: the functions are even.
+    don't matter.
 
     The last coefficients say how much is left, and their pace how fast it falls: the one since the middle, or the one among the
     last, which is slower where a layer next to an end is all that is left. Where coefficients fall geometrically the second is
@@ -153,8 +148,6 @@ def sum_errors(values: np.ndarray, noise: np.ndarray, even: bool = False) -> np.
     largest = np.abs(values).max(axis=0)
     c = np.maximum(np.abs(c) - 16 * EPS * largest, 0.0)
     c, (change, before) = c[:-2], c[-2:]
-    if even:
-        n, c = n // 2, c[::2]
     noise = noise.T
     amplitude = c[1:].max(axis=0) + noise + np.finfo(float).tiny + _NOTHING * largest
     shape = (c / amplitude).max(axis=1)
@@ -166,8 +159,8 @@ def sum_errors(values: np.ndarray, noise: np.ndarray, even: bool = False) -> np.
         _ratio(_last(c, step), _last(c, step, step) + _QUIET * noise), _ratio(_last(shape, step), _last(shape, step, step))
     )
     size = _size(_last(c, many), _last(shape, many), amplitude)
-    first = size * np.interp(since, *_left(n, True, even))
-    second = _size(_last(c, few), _last(shape, few), amplitude) * np.interp(recent, *_left(n, False, even))
+    first = size * np.interp(since, *_left(n, True))
+    second = _size(_last(c, few), _last(shape, few), amplitude) * np.interp(recent, *_left(n, False))
     sure = ratio < _GEOMETRIC[int(n >= _MANY)]
     doubtful = _SAFE * np.maximum(first, second)
     # as those of a kink may fall: by a power, and coming and going; so the next ones by as much as these
