@@ -22,11 +22,9 @@ from .level.nonadhesive.surface import NonadhesiveSurface
 from .level.saturated import SaturatedLevel, saturated_friction, saturated_level
 from .level.strips import QUANTITIES, LevelBatch
 from .level.table import LawTable
+from .numerics.rounding import LARGEST
 from .orbit.materials import Material
 
-_OWN = len(QUANTITIES)
-#: the error column of what is carried never asks for refinement
-_NO_SCALE = 1e300
 #: velocities solved at a time: enough of them for the batch to pay, few enough to show progress
 _BLOCK = 256
 #: trailing levels are left out whose friction, and whose pressure of saturation, are below this part of what counts: a tenth of a
@@ -278,8 +276,9 @@ class _Solve:
             saturated = stack.p_full[i], stack.D_full[i], stack.means(i)
             counts = budget if i == 1 else budget.further_down(2 * (self.M - 1))
             laws = build_laws(level, rtol, *saturated, reached[i - 1], counts)
-            # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error
-            scales = np.concatenate((level.scales[1:], [_NO_SCALE]))
+            # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error,
+            # which never asks for anything
+            scales = np.concatenate((level.scales[1:], [LARGEST]))
             carry = LowerLevelLaws(LawTable(merged(laws, rtol, level.floors)), surface.rtol, scales, friction)
         return replace(columns, carry=carry, group=group, asked=Accuracy(friction[group]))
 
@@ -296,12 +295,13 @@ class _Solve:
         out, values = self.out, means.values
         out.D[index] = root.D
         p = out.p[index] = self.load[index] if self.by_pressure else values[:, 0]
-        values[:, :_OWN], errors = root.meeting(p, means)
+        own = len(QUANTITIES)
+        values[:, :own], errors = root.meeting(p, means)
         # what is carried follows its own, three for each level below, then an error for each
-        count = _OWN + 3 * (self.M - 1)
+        count = own + 3 * (self.M - 1)
         for quantity, rows in enumerate((out.tau, out.contact, out.adhesion), start=1):
-            rows[:, index] = values[:, [quantity, *range(_OWN + quantity - 1, count, 3)]].T
-        error = errors[:, 1] + means.errors[:, range(_OWN, count, 3)].sum(axis=1) + np.abs(values[:, count:]).sum(axis=1)
+            rows[:, index] = values[:, [quantity, *range(own + quantity - 1, count, 3)]].T
+        error = errors[:, 1] + means.errors[:, range(own, count, 3)].sum(axis=1) + np.abs(values[:, count:]).sum(axis=1)
         # another part of the curve may carry anything; and the other side of a jump any friction of the lower levels
         friction = np.abs(out.tau[:, index])
         out.error[index] = error + np.where(root.undecided, friction.sum(axis=0), 0.0)

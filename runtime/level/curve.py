@@ -17,9 +17,6 @@ from .piece import Piece
 from .reentrant import reentrant_parts
 from .strips import LevelBatch, saturation_depth
 
-#: parameters at which a piece is looked at
-_GRID = np.linspace(0, 1, 65)
-
 
 @dataclass(frozen=True)
 class Curve:
@@ -48,7 +45,7 @@ def trace(
     below, above = [i for i in intervals if hangs(i)], [i for i in intervals if not hangs(i)]
     pieces = interpolate(columns, rtol, above, strips, budget=budget)
     if below:
-        least = np.array([min((piece.values(_GRID)[:, 0].min() for piece in row), default=np.inf) for row in pieces])
+        least = np.array([min((piece.values(piece.errors.at)[:, 0].min() for piece in row), default=np.inf) for row in pieces])
         parts = reentrant_parts(columns, below, least, strips, budget)
         for row, more in zip(pieces, interpolate(columns, rtol, parts, strips, budget=budget, ceiling=least), strict=True):
             row += more

@@ -22,8 +22,6 @@ from .strips import LevelBatch
 #: nodes of an interval, and one more: those that tell what pressures it comes to; the first that an error can be told from, and
 #: for more than a coarse pressure; and the last, for what they do not tell is divided
 _LOOK, _COARSE, _FIRST, _LAST = 6, 8, 12, 96
-#: share of the error allowed that interpolating may have at least: the means may have the rest
-_INTERPOLATION = 1 - MEAN
 #: coefficients below this share of what the means may err say nothing of how smooth they are
 _BLUR = 0.1
 #: an interval's pressure is known at least this well
@@ -112,8 +110,8 @@ class _Work:
             goal[:, 0] = self.pressure_goal[column]
         elif columns.asked.frictional:
             goal[:, 0] = _pressure_goal(values, goal)
-        # what the means leave of it
-        goal = np.maximum(goal - errors.max(axis=1), _INTERPOLATION * goal)
+        # what the means leave of it, at least what they may not have
+        goal = np.maximum(goal - errors.max(axis=1), (1 - MEAN) * goal)
         done = (error <= goal).all(axis=1)
         done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in intervals]
         ended = ~done & (self.strips[column] > CURVE_LIMIT)

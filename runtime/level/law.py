@@ -19,9 +19,6 @@ from .inverse import cut_penetration
 from .segment import Segment, segments_of
 from .strips import LevelBatch
 
-#: pressures of a segment at which its size is looked at: it is monotone in pressure, and friction over pressure has few humps
-_SUPPORTS = 17
-
 
 def _joined(kept: list[Segment], p_sat: float) -> list[Segment]:
     """The segments, those stretched that end next to where another begins, or at saturation, but for their errors: there is one
@@ -74,8 +71,8 @@ class Law:
 
     @property
     def supports(self) -> np.ndarray:
-        """Pressures across every segment, from end to end, for the size of what they hold."""
-        inside = [np.linspace(s.p_low, s.p_high, _SUPPORTS) for s in self.segments]
+        """Pressures across every segment, from end to end, for the size of what they hold: those at which its means are known."""
+        inside = [np.clip([s.p_low, *s.errors.at, s.p_high], s.p_low, s.p_high) for s in self.segments]
         return np.concatenate([*inside, [self.p_sat]])
 
     def at_breaks(self) -> tuple[np.ndarray, np.ndarray]:

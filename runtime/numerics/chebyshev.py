@@ -13,8 +13,8 @@ import numpy as np
 
 from .rounding import EPS
 
-#: power of the roughest quantity's coefficients, relative to its own, in those of every other one
-_COMMON = 0.2
+#: all quantities share their singularities: power of the roughest one's coefficients, relative to its own, in those of the others
+COMMON = 0.2
 #: ratio of the last coefficients to those in the middle below which they surely fall geometrically
 _GEOMETRIC = 0.01
 #: how much of the last coefficient a sum of the rest is at least and at most, and how much more than that sum is feared: a sum
@@ -73,7 +73,7 @@ def interpolation_errors(
     amplitude = (c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny)[:, None]
     blur = np.broadcast_to(blur, noise.shape)[:, None]
     roughest = (np.maximum(c - blur, 0.0) / amplitude).max(axis=2, keepdims=True)
-    c = c ** (1 - _COMMON) * (roughest * amplitude) ** _COMMON
+    c = c ** (1 - COMMON) * (roughest * amplitude) ** COMMON
     # a run long enough that a kink's coefficients, which come and go, are not all small in it
     few = max(3, n // 5)
     last, middle = c[:, n - few :].max(axis=1), c[:, n // 2 - 2 : n // 2 + 1].max(axis=1)

@@ -9,6 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from .chebyshev import COMMON
 from .rounding import EPS
 from .rules import extrapolated
 
@@ -23,8 +24,6 @@ _MANY, _GEOMETRIC = 16, (0.15, 0.05)
 _POWER, _TURNS = 0.2, 2.5
 #: how much more is feared than what is left at the pace that coefficients fall at
 _SAFE = 1.5
-#: all quantities share their singularities: power of the roughest one's size, relative to its own, in that of every other one
-_COMMON = 0.2
 #: coefficients below this share of a change that doesn't matter say nothing of a pace
 _QUIET = 0.01
 #: share of its size by which a constant is taken to change: quotients by less would overflow
@@ -178,4 +177,4 @@ def _ratio(last, first):
 
 def _size(own, roughest, amplitude):
     """Size of the last coefficients of each quantity, given that of the ``roughest`` one relative to its ``amplitude``."""
-    return own ** (1 - _COMMON) * (roughest * amplitude) ** _COMMON
+    return own ** (1 - COMMON) * (roughest * amplitude) ** COMMON

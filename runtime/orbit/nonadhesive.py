@@ -18,9 +18,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import SolverError
+from ..numerics.rounding import LARGEST
 
-#: a penetration beside which the profile is nothing: what is left of an equation is its coefficient of D
-_HUGE = 1e200
 #: how far the equations may be missed, in the size of their terms: rounding alone reaches 1e-12
 _ROUNDING = 1e-9
 
@@ -85,12 +84,12 @@ class Waves(ABC):
     def orbits(self, width: np.ndarray, means: bool = True) -> Orbits:
         """The strips whose contact is so wide, radians between 0 and 2 pi, (N,); their ``means`` are nan if not wanted."""
         N, none = width.size, np.zeros(width.size)
-        # all at once: with D alone, and without it what multiplies cos m, and sin m
-        middles, D = np.repeat((0.0, 0.0, 0.5 * np.pi), N), np.repeat((_HUGE, 0.0, 0.0), N)
+        # all at once: with D alone, beside which the profile is nothing, and without it what multiplies cos m, and sin m
+        middles, D = np.repeat((0.0, 0.0, 0.5 * np.pi), N), np.repeat((LARGEST, 0.0, 0.0), N)
         half = np.tile(0.5 * width, 3)
         three = self.take(np.tile(np.arange(N), 3)).residual(middles - half, middles + half, D)
         three = np.array(np.broadcast_arrays(*three)).reshape(2, 3, N)
-        penetrate = three[:, 0] / _HUGE
+        penetrate = three[:, 0] / LARGEST
         cosine, sine = (penetrate[1] * three[0, k] - penetrate[0] * three[1, k] for k in (1, 2))
         middle = np.arctan2(-cosine * np.sign(sine), np.abs(sine))
         b, a = middle - 0.5 * width, middle + 0.5 * width

@@ -7,13 +7,12 @@ from functools import partial
 import numpy as np
 
 from ..errors import InputError, SolverError
+from ..numerics.rounding import LARGEST
 from .engine import solve_strips
 from .flat import is_flat, solve_with_flat
 from .groups import Strips, slowed, snaps_in
 from .solved import Solved
 
-#: beyond this alpha and beta squared overflow
-_GROUP_LIMIT = 1e150
 #: beta, or its largest, up to which the emitted functions are certified (the domain in generated/certificates.json)
 CERTIFIED = 1e30
 
@@ -38,8 +37,8 @@ def dimensionless(l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge) -> tu
     with np.errstate(over="ignore"):  # refused below, by name
         k = _each(lambda l: 2 * np.pi / l, l)  # noqa: E741
         alpha, beta = _each(_product, k, V, T_sigma), _each(_product, k, V, T_eps)
-    if np.any(beta > _GROUP_LIMIT):
-        raise InputError("V", float(V[beta > _GROUP_LIMIT][0]), f"k V T_eps at most {_GROUP_LIMIT:g}")
+    if np.any(beta > LARGEST):
+        raise InputError("V", float(V[beta > LARGEST][0]), f"k V T_eps at most {LARGEST:g}")
     pace = _each(slowed, alpha)
     if np.any(beta * pace > CERTIFIED):
         fast = float(V[beta * pace > CERTIFIED][0])

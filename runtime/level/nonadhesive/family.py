@@ -18,7 +18,7 @@ from ...inputs.surface import Level
 from ...numerics.chebyshev import clenshaw, coefficients, derivatives, evaluate_each, interpolation_errors, lobatto
 from ...numerics.quadrature import interleaved, mapped
 from ...numerics.roots import rising_root
-from ...numerics.rounding import EPS
+from ...numerics.rounding import EPS, LARGEST
 from ...orbit.foundation import Foundation
 
 #: nodes of the first attempt and of the last
@@ -31,8 +31,6 @@ _ROUNDING = 1e-12
 _FINEST, _TRIMMED = 256, 0.03
 #: beyond this k V times the longest retardation time the general path says what is wrong
 _FASTEST = 1e100
-#: height squared over wavelength, m, from which on products of them do not underflow
-_FLATTEST = 1e-200
 #: quantities of a strip that are averaged, mean pressure, mean friction and share of the period in contact; of its contact that,
 #: the greatest pressure over it, and where that is, a share of the contact from the entry; and how well the share has to be known
 #: beside the others: as well as it comes
@@ -46,7 +44,7 @@ _LEAST = 1e-6
 def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V: np.ndarray) -> bool:
     """Whether the strips of all ``levels`` are families at the velocities ``V``: without adhesion (``p_0``), and wavy."""
     fastest = max(level.k for level in levels) * V.max(initial=0.0) * foundation.longest_time
-    return p_0 == 0 and all(level.k * level.h**2 > _FLATTEST for level in levels) and bool(fastest < _FASTEST)
+    return p_0 == 0 and all(level.k * level.h**2 > 1 / LARGEST for level in levels) and bool(fastest < _FASTEST)
 
 
 @dataclass(frozen=True)

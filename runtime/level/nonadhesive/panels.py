@@ -6,13 +6,12 @@ import numpy as np
 
 from ...numerics.gauss import graded_gauss
 from ...numerics.roots import false_position
+from ...numerics.rounding import LARGEST
 from .family import CONTACT, Family
 from .span import Span
 
 #: looks at where the greatest pressures of strips pass a break, and steps towards it
 _LOOKS, _STEPS = 24, 2
-#: a pressure that no strip has, K h/2
-_BEYOND = 1e200
 
 
 def panels(span: Span, ends: np.ndarray, n: int) -> tuple[np.ndarray, ...]:
@@ -45,7 +44,7 @@ def _passed(span, length, family, group, breaks):
     over = np.clip((looks[:, :, None] < breaks[:, None]).sum(axis=1), 1, _LOOKS - 1)
     (low, high), (f_low, f_high) = ([np.take_along_axis(v, over - side, axis=1) for side in (1, 0)] for v in (eta, looks))
     # what is never saturated is never passed
-    breaks = np.minimum(breaks, _BEYOND)
+    breaks = np.minimum(breaks, LARGEST)
     f_low, f_high = f_low - breaks, f_high - breaks
     met = (f_low < 0) & (f_high > 0)
     # what is not met is next to one end: both ends are that

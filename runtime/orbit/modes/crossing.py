@@ -19,14 +19,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...numerics.rounding import EPS
+from ...numerics.rounding import EPS, LARGEST
 
 NONE, LOWER, UPPER, LOST = 0, 1, 2, -1
 #: a step this small is below what the phase can be known to; a margin so small is none, if the step is small, too
 _ROUNDINGS, _SMALL = 4 * EPS, 1e-8
 _MAX_STEPS = 600
-#: height that stands for none
-_NO_LIMIT = 1e200
 
 
 @dataclass(slots=True)
@@ -76,7 +74,7 @@ def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
     """
     n = end.size
     s, which, slope_there, spent = field.start.copy(), np.full(n, LOST), np.zeros(n), np.zeros(n)
-    go = _Ahead(np.arange(n), field.start, end, np.minimum(height, _NO_LIMIT), field.start, field.constant, field.a, field.b,
+    go = _Ahead(np.arange(n), field.start, end, np.minimum(height, LARGEST), field.start, field.constant, field.a, field.b,
                 np.hypot(field.a, field.b), field.r, field.amplitudes())  # fmt: skip
     for number in range(_MAX_STEPS):
         if not go.index.size:
