@@ -143,3 +143,13 @@ def test_a_narrow_zone_next_to_a_threshold_is_seen():
     for rtol in (1e-1, 1e-3):
         found = hystrip.solve_level(*of, V=3.32204e-05, D=9.898e-10, rtol=rtol)
         assert found.p_mean == pytest.approx(even, abs=1e-3)
+
+
+def test_a_fold_is_not_where_the_load_at_an_edge_vanishes():
+    """There the determinant of the boundary equations vanishes, too: points that are none were located by the thousand, and the
+    law of a lower level did not converge."""
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=0.0)
+    adhesion = hystrip.Dugdale(gamma=1.4931775378619024e-07, delta_0=1.45496017169782e-09)
+    levels = [hystrip.Level(1e-5, 1.679979557806022e-07), hystrip.Level(6.34896432027914e-07, 6.335408820807411e-08)]
+    found = hystrip.solve(material, adhesion, levels, pressure=40.7145, velocity=3.38645e-3, branch="loading", rtol=1e-8)
+    assert found.converged.all() and found.counts["strips_solved"] < 12_000

@@ -20,9 +20,9 @@ from .table import LawTable
 TWO_PI = 2 * np.pi
 #: a part's share of the error that an average of strips is allowed, and parts integrated at a time
 _SHARE, _CHUNK = 0.1, 4096
-#: what is left in a mean over contacts of the errors of a law: most panels behind it err by a hundredth of their bounds,
-#: which have to hold for each, and along its pieces errors change sign
-_CANCELLED = 0.1
+#: what is left in a mean over contacts of the errors of a law, and of sums over parts: most panels and parts err by a hundredth
+#: of their bounds, which have to hold for each, and along a law's pieces errors change sign
+_CANCELLED, _SUMMED = 0.1, 0.3
 #: share of a pressure by which two that are next to one another are told apart
 _TRIFLE = 1e-9
 #: nodes of a part, tried in turn
@@ -126,7 +126,7 @@ class LowerLevelLaws:
                 # there is no use in integrating better than the law is known
                 ready = ((miss <= allowed / np.bincount(strip)[strip]) | (miss <= own)).all(axis=0)
                 ready |= (_by_strip(miss, strip) <= allowed).all(axis=0)
-            np.add.at(total, parts.rows, np.concatenate((best, (miss.sum(axis=0) + own)[None])).T)
+            np.add.at(total, parts.rows, np.concatenate((best, (_SUMMED * miss.sum(axis=0) + own)[None])).T)
 
     def _sums(self, contact: Contact, group, parts: Parts, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Integrals of the law over parts on n nodes each, what those of frictions miss, and what is not known of the law."""

@@ -61,11 +61,9 @@ class SingleTime:
         return rate * m.T_sigma, rate * m.T_eps, one * m.J, one * m.L, p_0, delta_0, D, chi
 
     def fold(self, sequence, edges, arguments):
-        """``T' - 1`` times the loads that its zones end with, like the determinant of the boundary equations: no poles."""
+        """``T' - 1`` times the load at the last edge: no pole there. Those at the other edges vanish where there is no fold."""
         _, beta, J, _, p_0, delta_0, D, chi = arguments
         *_, fold = getattr(self.kernel, f"onset_slope_{sequence}")(*edges, *arguments)
-        for edge in edges[1:-1]:
-            fold = fold * (self.kernel.forcing(edge, D, beta) + p_0)
         return fold * (self.kernel.forcing(edges[-1], D, beta) + delta_0 + chi * J * p_0)
 
     def release(self, edges, arguments):
