@@ -46,7 +46,11 @@ class Branch:
 
     @property
     def errors(self) -> Errors:
-        """Those of its piece, over pressure."""
+        """Those of its piece, over its parameter."""
+        return self.piece.errors
+
+    def errors_by_pressure(self) -> Errors:
+        """The same over pressure."""
         known = self.piece.errors
         p = self.piece.values(np.clip(known.at, self.t_low, self.t_high))[:, 0]
         return Errors(np.maximum.accumulate(p), known.bounds)

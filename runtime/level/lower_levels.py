@@ -126,7 +126,9 @@ class LowerLevelLaws:
                 # there is no use in integrating better than the law is known
                 ready = ((miss <= allowed / np.bincount(strip)[strip]) | (miss <= own)).all(axis=0)
                 ready |= (_by_strip(miss, strip) <= allowed).all(axis=0)
-            np.add.at(total, parts.rows, np.concatenate((best, (_SUMMED * miss.sum(axis=0) + own)[None])).T)
+            # the bound of a part that no rule was enough for need not be a hundredfold one
+            unsure = np.where(ready, _SUMMED, 1.0) * miss.sum(axis=0)
+            np.add.at(total, parts.rows, np.concatenate((best, (unsure + own)[None])).T)
 
     def _sums(self, contact: Contact, group, parts: Parts, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Integrals of the law over parts on n nodes each, what those of frictions miss, and what is not known of the law."""

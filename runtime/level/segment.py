@@ -42,6 +42,6 @@ def segments_of(branches: Sequence[Branch], tolerance: np.ndarray) -> list[Segme
     low, span = np.array([b.p_low for b in branches]), np.array([b.p_high - b.p_low for b in branches])
     cells = cells_of(lambda which, u: quantities(which, t_at(which, low[which] + span[which] * graded(u))).T, tolerance, graded)
     return [
-        Segment(b.p_low, b.p_high, c, b.errors.plus(c.error), b.inner_low, b.inner_high)
+        Segment(b.p_low, b.p_high, c, b.errors_by_pressure().plus(c.error), b.inner_low, b.inner_high)
         for b, c in zip(branches, cells, strict=True)
     ]
