@@ -1,16 +1,16 @@
 """Proof by the balance of one period (``balance``) that a strip has no orbit before some onset, or none with an onset at all.
 
-If l is an orbit or a march that meets contact, suppose that there is an orbit with an earlier onset.
+If l is an orbit or a march, suppose that there is an orbit with an earlier onset.
 
-* From there to l every onset leads to contact and to the end of adhesion, as it does for both, so r is continuous. It
-  is positive just before l. Where it last vanishes before l it does not fall: there is an orbit y before l at which
-  the slope of the map is not below one.
+* From there to l every onset leads to the end of adhesion, as it does for both, and contact, where l has none, is lost by
+  grazing, with no excess pressure: so r is continuous. It is positive just before l. Where it last vanishes before l it does not
+  fall: there is an orbit y before l at which the slope of the map is not below one.
 * Contact is longer in y than in l, adhesion ends later, and it ends where free flow leads on to y itself. So (``sensitivity``)
 
       log T'(y) <= log(1 + s_x/F(y)) + log(1 + s_c/M(c)) - 2 pi/beta - (a - b) L/alpha,
 
-  a and b those of l, which is negative unless F or M is smaller at y than some number each, that is unless y lies
-  before a phase known in closed form. There the balance decides.
+  a and b those of l, equal where it has no contact; which is negative unless F or M is smaller at y than some number each, that
+  is unless y lies before a phase known in closed form. There the balance decides.
 
 Where it does not for a whole interval of xi the interval is divided.
 """
@@ -33,10 +33,11 @@ def first(kernel, cycle: Cycle, known: Orbit, start, end) -> tuple[np.ndarray, n
     ``start``, ``end``: no onset lies before, and adhesion does not end after.
     """
     proven, spent = np.zeros(cycle.size, bool), np.zeros(cycle.size)
-    # an orbit without contact has no Q to compare
-    index = np.flatnonzero(~np.isnan(known.b) & (known.x <= 0))
+    index = np.flatnonzero(known.x <= 0)
     if index.size:
         cycle, known, start, end = cycle.among(index), known.take(index), start[index], end[index]
+        without = np.flatnonzero(np.isnan(known.b))
+        known.b[without], known.a[without] = 0.0, 0.0  # contact at the crest, of no length
         with np.errstate(all="ignore"):
             suspects = np.maximum(_suspects(kernel, cycle, known), -known.x)
             reference = beside(kernel, cycle, known, end)

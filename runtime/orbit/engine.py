@@ -21,6 +21,7 @@ from .certificate import greatest_gap
 from .closed_form_exclusion import may_cling, saturates
 from .extremal import Extremal, extremal, unique
 from .groups import Strips, adhesive_cycle, bare_cycle
+from .march import TWO_PI
 from .orbit_bounds import FAST, OrbitBounds, least_engaged_bounds, orbit_bounds
 from .regimes import CODE, ZONES
 from .solved import UNDECIDED, Record, Solved, settle
@@ -80,7 +81,7 @@ class _Batch:
     def _bounded(self, index, s: Strips, ask) -> np.ndarray:
         """Bound all orbits of the strips ``index`` of which to ``ask``; returns of which none is always engaged."""
         released = np.zeros(index.size, bool)
-        ask = np.flatnonzero(ask & (s.beta <= FAST))
+        ask = np.flatnonzero(ask & (s.beta <= np.maximum(FAST, TWO_PI * s.p_0)))
         if ask.size:
             bounds = orbit_bounds(self.kernel, adhesive_cycle(self.kernel, s.among(ask)))
             released[ask] = bounds.released

@@ -56,9 +56,9 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: OrbitBounds) -> Extremal:
         hanging = np.flatnonzero(~none & (s.D <= -s.delta_0) & (s.beta > FAST))
         if hanging.size:
             none[hanging], out.evaluations[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
-        possible, alone = ~none, ~touches
+        possible, alone = ~none, np.ones(cycle.size, bool)
     for sequence, may_be in (("acaf", ~cycle.direct & touches), ("afc", cycle.direct), ("af", ~cycle.direct & alone)):
-        pick = np.flatnonzero(possible & may_be & ~out.certified)
+        pick = np.flatnonzero(possible & may_be & np.isnan(out.orbit.x))
         if pick.size:
             part, limits = cycle.among(pick), bounds.take(pick)
             found = _followed(kernel, part, sequence, start(kernel, part, sequence, None if last else limits))

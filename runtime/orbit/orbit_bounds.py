@@ -38,8 +38,9 @@ from .batch import Batch
 from .groups import ROUNDING, Cycle
 from .march import TWO_PI, Event
 
-#: beta above which a foundation remembers too much of the most engaged state for bounds from it to say much: the balance of a
-#: period (``balance``) is asked instead. 30 to 300 cost about the same
+#: beta above which a foundation remembers too much of the most engaged state for bounds from it to say much, unless adhesion
+#: moves it by more than the amplitude in a period: the balance of one (``balance``) is asked instead. 30 to 300 cost about the
+#: same
 FAST = 60.0
 #: distance from the edges themselves at which their bounds are close enough
 _CLOSE = 0.003
