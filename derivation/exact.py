@@ -55,103 +55,44 @@ def in_half_angles(expression: sp.Expr, *angles: sp.Symbol) -> sp.Expr:
 
 def is_zero(expression: Any, phases: Sequence[sp.Symbol] = ()) -> bool:
     """Whether the expression vanishes identically; ``phases`` in the order met."""
-    return Numerator(independent(expression, phases)).vanishes
+    return vanishes(independent(expression, phases))
 
 
-class Numerator:
-    """An expression over one denominator, as a polynomial with rational coefficients.
+def vanishes(expression: sp.Expr) -> bool:
+    """Whether the numerator is the zero polynomial once no sine and no square root in it stands to a power above one."""
+    squares: dict[sp.Symbol, sp.Expr] = {}  # what is within a root before the root
 
-    Its generators are what is left when sums, products and whole powers are taken apart: symbols, sines, cosines, tokens, square
-    roots, and the inverse of every sum that is divided by, which is multiplied out in the end.
-    """
+    def named(kind: str, of: sp.Expr, square: sp.Expr) -> sp.Symbol:
+        name = sp.Symbol(f"{kind}<{of}>")
+        squares[name] = sp.together(square)
+        return name
 
-    def __init__(self, expression: sp.Expr):
-        self.inverses: dict[sp.Expr, sp.Symbol] = {}  # by the sum that is divided by
-        self.roots: dict[sp.Expr, sp.Expr] = {}  # what each is the root of
-        self.indices: dict[sp.Expr, int] = {}
-        plain = self._named(expression)
-        bases: dict[sp.Expr, sp.Expr] = {}
-        while bases.keys() != self.inverses.keys():
-            bases |= {base: self._named(base) for base in list(self.inverses) if base not in bases}
-        self.ring = sp.ring([f"x{number}" for number in range(max(1, len(self.indices)))], sp.QQ)[0]
-        self.read: dict[sp.Expr, Any] = {}
-        self.polynomial = self._polynomial(plain)
-        for base in sorted(bases, key=sp.count_ops, reverse=True):  # a sum before those that it is itself divided by
-            self.polynomial = self._cleared(self.polynomial, self.indices[self.inverses[base]], self._polynomial(bases[base]))
+    plain = expression.replace(sp.sin, lambda angle: named("sin", angle, 1 - sp.cos(angle) ** 2))
+    halves = lambda e: e.is_Pow and e.exp.is_Rational and e.exp.q == 2  # noqa: E731
+    plain = plain.replace(halves, lambda e: named("sqrt", e.base, e.base) ** (2 * e.exp))
+    numerator, _ = sp.fraction(sp.together(plain))
+    generators = set().union(*map(_generators, (numerator, *squares.values())))
+    ring = sp.ring(sorted(generators, key=str) or "x", sp.QQ)[0]
+    polynomial = ring.from_expr(numerator)
+    for name in reversed([each for each in squares if each in generators]):
+        upper, lower = map(ring.from_expr, sp.fraction(squares[name]))
+        polynomial = _without_squares(ring, polynomial, ring.symbols.index(name), upper, lower)
+    return not polynomial
 
-    @property
-    def vanishes(self) -> bool:
-        polynomial = self.polynomial
-        for root, square in self.roots.items():
-            polynomial = self._without_squares(polynomial, self.indices[root], self._polynomial(square))
-        for sine, index in self.indices.items():
-            cosine = self.indices.get(sp.cos(sine.args[0])) if isinstance(sine, sp.sin) else None
-            if cosine is not None:
-                polynomial = self._without_squares(polynomial, index, 1 - self.ring.gens[cosine] ** 2)
-        return not polynomial
 
-    def _named(self, expression: sp.Expr) -> sp.Expr:
-        """Inverses of sums as symbols; whatever is no sum, product, whole power or number gets an index."""
-        if expression.is_Rational:
-            return expression
-        if expression.is_Add or expression.is_Mul:
-            return expression.func(*map(self._named, expression.args), evaluate=False)
-        if expression.is_Pow and expression.exp.is_Integer:
-            base, exponent = expression.args
-            if exponent > 0:
-                return sp.Pow(self._named(base), exponent, evaluate=False)
-            inverse = self.inverses.get(base)
-            if inverse is None:
-                inverse = self.inverses[base] = sp.Dummy("inverse")
-                self.indices[inverse] = len(self.indices)
-            return sp.Pow(inverse, -exponent, evaluate=False)
-        if expression.is_Pow and expression.exp.is_Rational and expression.exp.q == 2:
-            base, exponent = expression.args
-            root, half = sp.sqrt(base, evaluate=False), int(exponent.p)
-            if root not in self.roots:
-                self.roots[root] = self._named(base)
-            self.indices.setdefault(root, len(self.indices))
-            power = sp.Pow(root, abs(half), evaluate=False)
-            return power if half > 0 else sp.Mul(power, self._named(sp.Pow(base, half, evaluate=False)), evaluate=False)
-        self.indices.setdefault(expression, len(self.indices))
-        return expression
+def _generators(expression: sp.Expr) -> set[sp.Expr]:
+    """What is left when sums, products and whole powers are taken apart."""
+    if expression.is_Add or expression.is_Mul or expression.is_Pow and expression.exp.is_Integer:
+        return set().union(*map(_generators, expression.args))
+    return set() if expression.is_Rational else {expression}
 
-    def _polynomial(self, expression: sp.Expr) -> Any:
-        found = self.read.get(expression)
-        if found is None:
-            found = self.read[expression] = self._taken_apart(expression)
-        return found
 
-    def _taken_apart(self, expression: sp.Expr) -> Any:
-        if expression.is_Rational:
-            return self.ring.from_expr(expression)
-        if expression.is_Add:
-            return sum(map(self._polynomial, expression.args), self.ring.zero)
-        if expression.is_Mul:
-            product = self.ring.one
-            for part in map(self._polynomial, expression.args):
-                product *= part
-            return product
-        if expression.is_Pow and expression.exp.is_Integer:
-            return self._polynomial(expression.base) ** int(expression.exp)
-        return self.ring.gens[self.indices[expression]]
-
-    def _cleared(self, polynomial: Any, inverse: int, base: Any) -> Any:
-        """The polynomial times the highest power of ``base`` that it is divided by."""
-        by_power = self._by_power(polynomial, inverse)
-        highest = max(by_power, default=0)
-        return sum((part * base ** (highest - power) for power, part in by_power.items()), self.ring.zero)
-
-    def _without_squares(self, polynomial: Any, generator: int, square: Any) -> Any:
-        """With every square of a generator replaced."""
-        once = self.ring.gens[generator]
-        parts = self._by_power(polynomial, generator).items()
-        return sum((part * square ** (power // 2) * once ** (power % 2) for power, part in parts), self.ring.zero)
-
-    def _by_power(self, polynomial: Any, index: int) -> dict[int, Any]:
-        """Coefficients of the powers of one generator."""
-        found: dict[int, Any] = {}
-        for monomial, coefficient in polynomial.terms():
-            part = found.setdefault(monomial[index], self.ring.zero.copy())
-            part[(*monomial[:index], 0, *monomial[index + 1 :])] = coefficient
-        return found
+def _without_squares(ring: Any, polynomial: Any, index: int, upper: Any, lower: Any) -> Any:
+    """The polynomial with every square of one generator replaced by upper/lower, times what that is divided by."""
+    by_power: dict[int, Any] = {}
+    for monomial, coefficient in polynomial.terms():
+        part = by_power.setdefault(monomial[index], ring.zero.copy())
+        part[(*monomial[:index], 0, *monomial[index + 1 :])] = coefficient
+    highest = max(by_power, default=0) // 2
+    replaced = ((n % 2, part * upper ** (n // 2) * lower ** (highest - n // 2)) for n, part in by_power.items())
+    return sum((part * ring.gens[index] ** odd for odd, part in replaced), ring.zero)

@@ -29,8 +29,8 @@ from hystrip.derivation import (
     stored_bounds,
 )
 from hystrip.derivation.certificates import certified_names, certify, measure
+from hystrip.derivation.certificates.certify import measure_regimes
 from hystrip.derivation.certificates.material import measure_material
-from hystrip.derivation.certificates.regimes import measure_regimes
 from hystrip.derivation.emit import emit
 from hystrip.derivation.modes.jumps import closures
 from hystrip.derivation.modes.several_times import STAGES

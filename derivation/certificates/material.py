@@ -15,7 +15,7 @@ from ..modes.states import exact_modes
 from ..modes.symbols import MATERIAL, m
 from .measure import DIGITS, Certificate, points_at
 from .point import STEP
-from .scaled import Scaled
+from .scaled import scaled
 
 NAME = "material_modes"
 POINTS = 40
@@ -66,7 +66,7 @@ class Material:
             given[parameter.name] = values
         return given
 
-    def scaled(self, given: dict[str, float | list[float]]) -> Scaled:
+    def scaled(self, given: dict[str, float | list[float]]) -> np.ndarray:
         exact = {name: np.array([mpmath.mpf(v) for v in np.ravel(value).tolist()], object) for name, value in given.items()}
         distances = [self._bisected(mode, *self._branches(exact)) for mode in range(self.n)]
         values = self._exact(exact, distances)
@@ -76,7 +76,7 @@ class Material:
                 moved = numbers.copy()
                 moved[k] *= 1 + STEP
                 sizes = sizes + abs(self._exact({**exact, name: moved}, distances) - values) / STEP
-        return Scaled(values, sizes)
+        return scaled(values, sizes)
 
     def _exact(self, given: dict[str, np.ndarray], near: list[mpmath.mpf]) -> np.ndarray:
         """K and every entry of the modes, in the order of the fields; ``near``: distances of the roots, roughly."""

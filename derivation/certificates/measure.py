@@ -16,7 +16,6 @@ from ..kernel import Kernel
 from .grid import EDGES, TURN, drawn
 from .point import Point
 from .reference import Reference
-from .scaled import Scaled
 
 EPS = 2.0**-52
 DIGITS = 420  # the worst cancellation of a derived form on this grid costs about 150, the stand-in for zero 220
@@ -36,7 +35,7 @@ class Certificate:
     where: dict[str, float] = field(default_factory=dict)
     points: int = 0
 
-    def see(self, function: Callable[[], Any], truth: Scaled, where: dict[str, float]) -> None:
+    def see(self, function: Callable[[], Any], truth: np.ndarray, where: dict[str, float]) -> None:
         """Compare a result of the emitted function, nested or not, with its exact value; an overflow is infinitely far off."""
         self.points += 1
         self.where = self.where or where
@@ -46,8 +45,8 @@ class Certificate:
         except FloatingPointError:
             self.worst, self.where = np.inf, where
             return
-        for got, true, size in zip(_numbers(computed), np.ravel(truth.value), np.ravel(truth.size), strict=True):
-            ulps = float(abs(mpmath.mpf(got) - true) / (max(size, FLOOR) * EPS)) if np.isfinite(got) else np.inf
+        for got, true in zip(_numbers(computed), np.ravel(truth), strict=True):
+            ulps = float(abs(mpmath.mpf(got) - true.value) / (max(true.size, FLOOR) * EPS)) if np.isfinite(got) else np.inf
             if not ulps <= self.worst:
                 self.worst, self.where = ulps, where
 

@@ -12,7 +12,7 @@ import sympy as sp
 
 from ..modes.symbols import MATERIAL, m
 from ..symbols import J, L, alpha, beta, h, l
-from .scaled import Scaled
+from .scaled import sizes, values
 
 ZERO = mpmath.mpf(10) ** -110  # stands for a vanishing speed or time: the derived forms divide by it
 VANISHING = ZERO * 10**24  # what is smaller was made from it
@@ -35,15 +35,14 @@ class Point:
     coupled: sp.Symbol | None = None
     weights: Values = field(default_factory=dict)
 
-    def at(self, computed: dict[sp.Symbol, Scaled]) -> Point:
-        """The same point with computed inputs."""
-        values = {symbol: _plain(each.value) for symbol, each in computed.items()}
-        weights = {symbol: _plain(each.size) for symbol, each in computed.items()}
-        return replace(self, values={**self.values, **values}, weights={**self.weights, **weights})
+    def at(self, computed: dict[sp.Symbol, Any]) -> Point:
+        """The same point with computed inputs, each a number or an array of :class:`Scaled` ones."""
+        exact, weights = ({symbol: part(each) for symbol, each in computed.items()} for part in (values, sizes))
+        return replace(self, values={**self.values, **exact}, weights={**self.weights, **weights})
 
-    def moved(self, values: Values, phases: Sequence[sp.Symbol], known_to: Values | None = None) -> Point:
+    def moved(self, inputs: Values, phases: Sequence[sp.Symbol], known_to: Values | None = None) -> Point:
         """The same point with other inputs, of which ``phases`` are phases; ``known_to``: scales of inputs, if not their own."""
-        return replace(self, values={**self.values, **values}, phases=tuple(phases), weights={**self.weights, **(known_to or {})})
+        return replace(self, values={**self.values, **inputs}, phases=tuple(phases), weights={**self.weights, **(known_to or {})})
 
     def levels(self) -> Iterator[Point]:
         for length, height in zip(self.values[l], self.values[h], strict=True):
@@ -96,7 +95,3 @@ def rounded(value: Any) -> Any:
     if np.ndim(value):
         return np.array([rounded(each) for each in np.ravel(value)]).reshape(np.shape(value))
     return 0.0 if 0 < value < VANISHING else float(value)
-
-
-def _plain(value: Any) -> Any:
-    return value.item() if isinstance(value, np.ndarray) and value.size == 1 and value.ndim == 0 else value

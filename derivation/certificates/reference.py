@@ -14,13 +14,12 @@ import numpy as np
 import sympy as sp
 
 from ..functions import flat, stack_sum, written_out
-from ..modes.symbols import MATRICES
 from ..modes.tensor import EVERY_SUM, across, is_matrix, sandwich, total
 from .point import STEP, Point
-from .scaled import Scaled
+from .scaled import given, scaled
 
 MODULES = [{"acos": lambda cosine: mpmath.acos(max(-1, min(1, cosine)))}, "mpmath"]
-Evaluated = Callable[[Point], Scaled]
+Evaluated = Callable[[Point], np.ndarray]
 
 
 class Reference:
@@ -35,17 +34,14 @@ class Reference:
                 self.groups.append(_matrix(component))
                 continue
             terms = [written_out(term) for term in parts[number]] if parts else [component]
-            self.groups.append(range(len(plain), len(plain) + len(terms)))
+            self.groups.append(slice(len(plain), len(plain) + len(terms)))
             plain += terms
         self.together = Together(plain)
 
-    def __call__(self, point: Point, sized: bool = True) -> Scaled:
-        found = self.together(point, sized)
-        return Scaled.joined(
-            [
-                sum((found[k] for k in group[1:]), found[group[0]]) if isinstance(group, range) else group(point)
-                for group in self.groups
-            ]
+    def __call__(self, point: Point) -> np.ndarray:
+        found = self.together(point)
+        return np.concatenate(
+            [sum(found[g][1:], found[g][0]) if isinstance(g, slice) else np.ravel(g(point)) for g in self.groups]
         )
 
 
@@ -61,15 +57,15 @@ class Together:
         self.symbols = sorted(set().union(*map(set, self.free)), key=str)
         self.evaluate = sp.lambdify(self.symbols, outer, modules=MODULES, cse=True)
 
-    def __call__(self, point: Point, sized: bool = True) -> list[Scaled]:
+    def __call__(self, point: Point) -> list[np.ndarray]:
         if self.sums:
             point = point.at({name: summed(point) for name, summed in self.sums.items()})
         values = self._at(point.values)
         sizes = abs(values)
-        for weight, moved in point.directions(self.symbols) if sized else ():
+        for weight, moved in point.directions(self.symbols):
             sizes = sizes + weight * abs(self._at({**point.values, **moved}) - values) / STEP
         rows = [any(np.ndim(point.values[symbol]) for symbol in free) for free in self.free]
-        return [Scaled(v, s) if row else Scaled(v[:1], s[:1]) for v, s, row in zip(values, sizes, rows, strict=True)]
+        return [row if several else row[:1] for row, several in zip(scaled(values, sizes), rows, strict=True)]
 
     def _at(self, values: dict[sp.Symbol, Any]) -> np.ndarray:
         """(expressions, modes)."""
@@ -84,41 +80,30 @@ class Together:
 
 def _summed(node: sp.Expr) -> Evaluated:
     """A sum as a function of the point: of one number, or of one for each mode."""
-    inner = Together([node.args[-1]])
-    if isinstance(node, total):
-        return lambda point: _spread(inner(point)[0], point).sum()
     if isinstance(node, stack_sum):
-        return lambda point: Scaled.stacked([inner(level)[0] for level in point.levels()]).sum()[0]
+        of_level = Together([node.args[-1]])
+        return lambda point: np.sum([of_level(level)[0] for level in point.levels()])
+    vector = _along_modes(node.args[-1])
+    if isinstance(node, total):
+        return lambda point: vector(point).sum()
     matrix = _matrix(node.args[0])
-    if isinstance(node, across):
-        return lambda point: matrix(point) @ _spread(inner(point)[0], point)
-    return lambda point: matrix(point).transposed @ _spread(inner(point)[0], point)
+    return lambda point: matrix(point) @ vector(point) if isinstance(node, across) else vector(point) @ matrix(point)
 
 
-def _spread(vector: Scaled, point: Point) -> Scaled:
+def _along_modes(expression: sp.Expr) -> Evaluated:
     """One value for each mode, also where all are the same."""
-    count = point.modes or 1
-    return vector if len(vector.value) == count else Scaled(np.repeat(vector.value, count), np.repeat(vector.size, count))
+    inner = Together([expression])
+    return lambda point: np.broadcast_to(inner(point)[0], point.modes or 1)
 
 
 def _matrix(expression: sp.Expr) -> Evaluated:
     if isinstance(expression, sp.Mul) and expression.could_extract_minus_sign():
         positive = _matrix(-expression)
         return lambda point: -positive(point)
-    if expression in MATRICES:
-        return lambda point: Scaled.of(point.values[expression])
     if isinstance(expression, sandwich):
-        left, vector, right = _matrix(expression.args[0]), Together([expression.args[1]]), _matrix(expression.args[2])
-        return lambda point: (left(point) @ on_diagonal(_spread(vector(point)[0], point))) @ right(point)
-    raise ValueError(f"{expression} is no matrix")
-
-
-def on_diagonal(vector: Scaled) -> Scaled:
-    zero = np.full((len(vector.value),) * 2, mpmath.mpf(0), dtype=object)
-    value, size = zero.copy(), zero
-    np.fill_diagonal(value, vector.value)
-    np.fill_diagonal(size, vector.size)
-    return Scaled(value, size)
+        left, vector, right = _matrix(expression.args[0]), _along_modes(expression.args[1]), _matrix(expression.args[2])
+        return lambda point: (left(point) * vector(point)) @ right(point)
+    return lambda point: given(point.values[expression])
 
 
 def _outermost(expression: sp.Expr) -> set[sp.Expr]:
