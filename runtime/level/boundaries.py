@@ -27,50 +27,41 @@ if TYPE_CHECKING:
 EDGES = {"acaf": "dbac", "afc": "bac", "af": "dc", "ac": "ba", "cf": "ba"}
 #: place of each regime in the order in which a strip that is drawn out passes them: up to 1 it is engaged all along
 _RANK = np.array([{"c": 0, "a": 1, "ac": 1, "af": 3, "f": 4}.get(sequence, 2) for sequence in CODE])
+#: of the lines of ``straight``: where a gap that adheres throughout opens, and closes, and the first one of a pressure
+OPENS, _CLOSES, _PRESSURES = 2, 3, 4
 
 
-def straight(columns: LevelBatch) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Straight curves ``A = a + b E`` of the plane, (a, b) of shape (n,) each: thresholds in closed form for every state.
-
-    Saturated contact, loss of touch, contact in a gap that adheres throughout, and the greatest and the least pressure of
-    saturated contact at the breaks of the law below."""
-    one, P = np.ones(columns.size), columns.stretch
-    R = foundation_of(columns.material).modulus_ratio(columns.level.k * columns.V)
-    rise = np.divide(1.0, R - 1, out=np.full(columns.size, np.inf), where=R > 1)
-    found = [(np.where(R > 1, P, 0.0) * np.minimum(rise, np.finfo(float).max), rise)]
-    if columns.branch == "loading" or P == 0:
-        found.append((-0.5 * (columns.adhesion.delta_0 if P > 0 else 0.0) * one, -0.5 * one))
-    if P > 0:
-        found.append((-0.5 * P * one, -0.5 * one))
+def straight(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
+    """Straight curves ``E + f A = c`` of the plane, f and c (lines, n), m: what a closed form tells of every state. Where
+    saturated contact opens; strips are touched; a gap that adheres throughout opens over its valley; and where it closes at its
+    crest (NaN: not on this branch); and the greatest, then the least pressure of saturated contact, ``K (E + A (1 +- R))``, at
+    the breaks of the law below."""
+    P, reach, none = columns.stretch, columns.adhesion.delta_0 if columns.stretch > 0 else 0.0, np.nan
+    unloading = columns.branch == "unloading"
+    R = foundation_of(columns.material).modulus_ratio(columns.level.k * columns.V) * np.ones(columns.size)
+    opens, closes = (-P - reach if unloading else none, -P) if P > 0 else (none, none)
+    c = [np.full(R.size, at) for at in (-P, none if unloading and P > 0 else -reach, opens, closes)]
+    f = [1 - R, *(np.full(R.size, slope) for slope in (2.0, 0.0, 2.0))]
     if columns.carry is not None:
-        for level in columns.carry.breaks(columns.group).T / columns.material.K:
-            found += [(level / (1 + R), -1 / (1 + R)), (-level * rise, rise)]
-    return found
+        level = columns.carry.breaks(columns.group).T / columns.material.K
+        c, f = [*c, *level, *level], f + [1 + R] * len(level) + [1 - R] * len(level)
+    return np.array(f), np.array(c)
 
 
 def thresholds(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
     """States and thetas (k,) at which strips pass a threshold in closed form."""
-    E, h, P = columns.D - columns.level.h, columns.level.h, columns.stretch
-    lines = straight(columns)
-    with np.errstate(invalid="ignore", over="ignore"):
-        A = np.array([a + b * E for a, b in lines])
-    usual = 1 + (columns.branch == "loading" or P == 0)
-    if P > 0:
+    f, c = straight(columns)
+    D, h, P = columns.D, columns.level.h, columns.stretch
+    with np.errstate(all="ignore"):
+        # shares of the amplitude of the crest that are left and lost: next to either end to all digits of that
+        left, lost = 2 * (c + (h - D)) / (f * h), ((f - 2) * h + 2 * (D - c)) / (f * h)
+        inside = (left > 0) & (lost > 0)
         # a gap that adheres throughout is nowhere wider than delta_0
-        A[usual][E + P < -columns.adhesion.delta_0] = -1.0
-    # pressures of saturated contact, where there is any
-    first = usual + (P > 0)
-    A[first:][A[first:] > A[0] * (1 + 1e-9)] = -1.0
-    inside = (A > 0) & (2 * A < h) & np.isfinite(A)
-    theta = theta_of(columns, np.where(inside, A, 0.0))
-    if usual == 2:
-        # touch is lost where the profile has dropped by the penetration: next to the crest to all digits of that
-        with np.errstate(over="ignore"):
-            share = (columns.D + (columns.adhesion.delta_0 if P > 0 else 0.0)) / h if h > 0 else -np.ones(columns.size)
-        inside[1] = (share > 0) & (share < 1)
-        theta[1] = 2 * np.arcsin(np.sqrt(np.clip(share, 0.0, 1.0)))
+        inside[_CLOSES] &= D - h + P >= -columns.adhesion.delta_0
+        # pressures of saturated contact, where there is any
+        inside[_PRESSURES:] &= -0.5 * f[0] * h * left[_PRESSURES:] <= (D - h + P) * (1 + 1e-9)
     kind, state = np.nonzero(inside)
-    return state, theta[kind, state]
+    return state, 2 * np.arctan2(np.sqrt(lost[inside]), np.sqrt(left[inside]))
 
 
 def theta_of(columns: LevelBatch, A) -> np.ndarray:
@@ -80,25 +71,26 @@ def theta_of(columns: LevelBatch, A) -> np.ndarray:
     return 2 * np.arccos(np.sqrt(np.clip(2 * A / h, 0.0, 1.0))) if h > 0 else np.zeros(np.shape(A))
 
 
-def equations(columns: LevelBatch, code: np.ndarray, other: np.ndarray) -> list[tuple[Boundary, np.ndarray]]:
-    """Boundaries at which an orbit with ``code`` may give way to one with ``other``, both (m,): each with the rows it is for.
+def _equations(columns: LevelBatch, changes: Changes, side: int) -> list[tuple[Boundary, np.ndarray]]:
+    """Boundaries at which orbits on one side of the ``changes`` may give way to those on the other: each with the rows it is for.
 
     Orbits are ordered: pressed deeper a strip is more engaged. So unloading leaves an orbit that is engaged all along only where
     that ends itself, and loading one with a free part; contact that appears in an adhesion zone ends neither."""
-    own = lambda sequence: code == CODE[sequence]  # noqa: E731
-    to_engaged = _RANK[other] <= 1
-    found = []
+    code, other = (changes.codes[:, k] % len(CODE) for k in (side, 1 - side))
+    found, to_engaged, unloading = [], _RANK[other] <= 1, columns.branch == "unloading"
     for boundary in BOUNDARIES:
-        rows = own(boundary.sequence)
-        if boundary.event == "release":
-            rows = rows & (columns.branch == "unloading")
+        rows = code == CODE[boundary.sequence]
+        if boundary.event == "peak":
+            greatest = changes.passed[:, : changes.heights.shape[2] // 2]
+            rows &= (code == other) & greatest.any(axis=1)
+        elif boundary.event == "release":
+            rows &= unloading
         elif boundary.event == "closing":
             # contact may vanish within a zone that goes on without it, before that ends too
-            rows = rows & (other == CODE["acaf"]) | own("acaf") & np.isin(other, [CODE["af"], CODE["f"]])
+            rows = rows & (other == CODE["acaf"]) | (code == CODE["acaf"]) & np.isin(other, [CODE["af"], CODE["f"]])
         else:
-            rows = rows & (~to_engaged if columns.branch == "unloading" else other != CODE["f"])
-        if rows.any():
-            found.append((boundary, np.flatnonzero(rows)))
+            rows &= ~to_engaged if unloading else other != CODE["f"]
+        found.append((boundary, np.flatnonzero(rows)))
     return found
 
 
@@ -111,22 +103,23 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
     place, found = _by_threshold(columns, changes, A, E, unknown)
     ends = A if unknown == "A" else E
     low, high = ends.min(axis=1), ends.max(axis=1)
-    code = changes.codes % len(CODE)
+    index, pressure = np.zeros(changes.size, int), np.zeros(changes.size)
+    if columns.carry is not None:
+        breaks = columns.carry.breaks(columns.group)
+        index = changes.passed.argmax(axis=1) % breaks.shape[1]
+        pressure = breaks[np.arange(changes.size), index]
     for side in (0, 1):
         near, at_A, at_E = changes.edges[:, side], A[:, side], E[:, side]
-        none = np.zeros(changes.size)
-        kinds = [] if columns.carry is None else _peaks(columns, changes, code)
-        kinds += [(b, rows, none, none.astype(int)) for b, rows in equations(columns, code[:, side], code[:, 1 - side])]
-        for boundary, rows, pressure, index in kinds:
+        for boundary, rows in _equations(columns, changes, side):
             rows = rows[~found[rows]]
             if not rows.size:
                 continue
-            names = ["dbac".index(name) for name in EDGES[boundary.sequence]]
-            start = Points(columns.V[rows], at_A[rows], at_E[rows], near[rows][:, names], pressure[rows], index[rows])
+            names, peak = ["dbac".index(name) for name in EDGES[boundary.sequence]], boundary.event == "peak"
+            passed = pressure[rows] * peak, index[rows] * peak
+            start = Points(columns.V[rows], at_A[rows], at_E[rows], near[rows][:, names], *passed)
             got, good = plane.locate(columns, boundary, start, unknown)
             at = getattr(got, unknown)
-            inside = (at > low[rows]) & (at < high[rows])
-            good &= inside
+            good &= (at > low[rows]) & (at < high[rows])
             place[rows[good]], found[rows[good]] = at[good], True
             if good.any():
                 columns.crossings.remember(columns, boundary, got.take(np.flatnonzero(good)))
@@ -134,35 +127,26 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
 
 
 def _by_threshold(columns: LevelBatch, changes: Changes, A, E, unknown: str) -> tuple[np.ndarray, np.ndarray]:
-    """Where saturated contact opens to a gap that adheres, where free strips are touched when loading, and where the extreme
-    pressures of saturated contact, ``K (E + A (1 +- R))``, pass a break of the law below; and which changes are of that kind."""
-    code, m = changes.codes % len(CODE), changes.size
-    R = foundation_of(columns.material).modulus_ratio(columns.level.k * columns.V)
-    contact = code == CODE["c"]
-    unloading = columns.branch == "unloading"
-    # E + factor A = constant; drawn out, what is engaged all along stays so until it opens, whatever it opens to
-    factor, constant = 1 - R, np.full(m, -columns.stretch)
-    known = contact.any(axis=1) & (~contact.all(axis=1) if unloading else np.isin(code, [CODE["ac"], CODE["cf"]]).any(axis=1))
-    if columns.branch == "loading" or columns.stretch == 0:
-        touched = (code == CODE["f"]).any(axis=1) & ~(code == CODE["f"]).all(axis=1)
-        reach = columns.adhesion.delta_0 if columns.stretch > 0 else 0.0
-        factor, constant, known = np.where(touched, 2.0, factor), np.where(touched, -reach, constant), known | touched
-    # a gap that adheres throughout: it closes at its crest, and opens to delta_0 over its valley all along y at once
-    adhering = (code == CODE["a"]).any(axis=1)
-    closes = adhering & np.isin(code, [CODE["ac"], CODE["c"]]).any(axis=1)
-    opens = adhering & (_RANK[code] > 1).any(axis=1) & unloading & (unknown == "E")
-    factor, known = np.where(closes, 2.0, np.where(opens, 0.0, factor)), known | closes | opens
-    constant = np.where(closes, -columns.stretch, np.where(opens, -columns.stretch - columns.adhesion.delta_0, constant))
-    if columns.carry is not None:
-        passed = (changes.heights[:, 0] > 0) != (changes.heights[:, 1] > 0)
-        breaks = columns.carry.breaks(columns.group) / columns.material.K
-        one = contact.all(axis=1) & passed.any(axis=1)
-        which = passed.argmax(axis=1)
-        constant = np.where(one, breaks[np.arange(m), which % breaks.shape[1]], constant)
-        factor = np.where(one & (which < breaks.shape[1]), 1 + R, factor)
-        known |= one
+    """Where the ``changes`` are on a straight curve, and which of them are of that kind."""
+    f, c = straight(columns)
+    code, unloading = changes.codes % len(CODE), columns.branch == "unloading"
+    some = lambda *sequences: np.isin(code, [CODE[s] for s in sequences]).any(axis=1)  # noqa: E731
+    differ = code[:, 0] != code[:, 1]
+    kinds = [
+        # drawn out, what is engaged all along stays so until it opens, whatever it opens to
+        some("c") & differ & (unloading | some("ac", "cf")),
+        some("f") & differ,
+        # all along y at once
+        some("a") & (_RANK[code] > 1).any(axis=1) & (unknown == "E"),
+        some("a") & some("ac", "c"),
+        *(some("c") & ~differ & changes.passed.T),
+    ]
+    known = np.array(kinds) & ~np.isnan(c)
+    # of several the last holds
+    line, every = len(kinds) - 1 - known[::-1].argmax(axis=0), np.arange(changes.size)
+    f, c, known = f[line, every], c[line, every], known.any(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        place = constant - factor * A[:, 0] if unknown == "E" else (constant - E[:, 0]) / factor
+        place = c - f * A[:, 0] if unknown == "E" else (c - E[:, 0]) / f
     ends = A if unknown == "A" else E
     # a curve over penetration ends at saturation, but for rounding
     low, high = ends.min(axis=1), ends.max(axis=1)
@@ -178,26 +162,13 @@ def hides_another(code: np.ndarray, other: np.ndarray) -> np.ndarray:
 def passed_breaks(changes: Changes) -> tuple[Changes, np.ndarray]:
     """Changes at which pressures pass several breaks of the law below, one for each; the others as they are; and which change
     each is a part of."""
-    over = changes.heights > 0
-    passed = (over[:, 0] != over[:, 1]) & (changes.codes[:, :1] % len(CODE) == changes.codes[:, 1:] % len(CODE))
+    passed = changes.passed & (changes.codes[:, :1] % len(CODE) == changes.codes[:, 1:] % len(CODE))
     parent, which = np.nonzero(passed)
     several = passed.sum(axis=1)[parent] > 1
     parent, which = parent[several], which[several]
     one = np.setdiff1d(np.arange(changes.size), parent)
     parts = changes.take(parent)
-    others = np.arange(over.shape[2]) != which[:, None]
+    others = np.arange(passed.shape[1]) != which[:, None]
     # of the other breaks nothing is known, so that they are not passed
     parts.heights = np.where(others[:, None], np.nan, parts.heights)
     return Changes.joined([changes.take(one), parts]), np.concatenate((one, parent))
-
-
-def _peaks(columns: LevelBatch, changes: Changes, code) -> list[tuple[Boundary, np.ndarray, np.ndarray, np.ndarray]]:
-    """Changes at which nothing happens but that the greatest pressure passes one break: boundaries, their rows; and pressures and
-    numbers of breaks, of every change."""
-    passed = (changes.heights[:, 0] > 0) != (changes.heights[:, 1] > 0)
-    breaks = columns.carry.breaks(columns.group)
-    which = passed.argmax(axis=1)
-    alone = (code[:, 0] == code[:, 1]) & passed.any(axis=1) & (which < breaks.shape[1])
-    pressure = breaks[np.arange(changes.size), which % breaks.shape[1]]
-    rows = {sequence: np.flatnonzero(alone & (code[:, 0] == CODE[sequence])) for sequence in ("acaf", "afc", "ac", "cf")}
-    return [(Boundary(sequence, "peak"), some, pressure, which) for sequence, some in rows.items() if some.size]

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..numerics.rounding import EPS
-from .boundaries import located
+from .boundaries import OPENS, located, straight
 from .changes import Changes, locate_changes
 from .strips import LevelBatch
 
@@ -27,18 +27,6 @@ def first_contact(columns: LevelBatch) -> float:
     return -(2 * a.p_0 / columns.material.K + reach) * (1 + 1e-9)
 
 
-def saturated_adhesion_limit(columns: LevelBatch) -> float:
-    """Penetration down to which strips cling by adhesion all along when unloading, +inf if none ever does.
-
-    A strip at rest at ``w = -p_0/K`` reaches over its valley while ``D_j - 2 A >= -p_0/K - delta_0``; ``D_j - 2 A = D - h`` on
-    all of them.
-    """
-    a = columns.adhesion
-    if columns.branch == "loading" or a.p_0 == 0:
-        return np.inf
-    return columns.level.h - a.p_0 / columns.material.K - a.delta_0
-
-
 def threshold_width(columns: LevelBatch, top):
     """Distance in D from a threshold below which rounding may decide it the other way."""
     a = columns.adhesion
@@ -49,10 +37,11 @@ def breakpoints(columns: LevelBatch, top: np.ndarray) -> tuple[list[np.ndarray],
     """Penetrations between first contact and ``top`` (n,) where the curve may not be smooth, ascending, ends included, of every
     column; and the lowest at which its crest changes regime (inf: none), (n,)."""
     inside, touched = breaks_on(columns, np.arange(columns.size), _scan(columns, top))
-    last = saturated_adhesion_limit(columns)
+    # down to there strips cling by adhesion all along when unloading
+    last = columns.level.h + straight(columns)[1][OPENS]
     out = []
     for r, points in enumerate(inside):
-        start = min(touched[r], last) if np.isfinite(touched[r]) else first_contact(columns)
+        start = np.fmin(touched[r], last[r]) if np.isfinite(touched[r]) else first_contact(columns)
         points = np.unique([*points, top[r]])
         out.append(points[(points >= start) & (points <= top[r])])
     return out, touched
@@ -79,7 +68,8 @@ def breaks_on(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tuple[l
     changes, *_ = Changes.between(np.arange(m), D, answers)
     width = 16 * EPS * np.maximum(np.maximum(np.abs(changes.low), np.abs(changes.high)), max(h, columns.stretch))
     changes, _ = locate_changes(probe, equation, changes, width)
-    valley = _of_valley(columns)[column]
+    # the flat strip of the valley has no amplitude
+    valley = h + straight(columns)[1].T[column]
     out, touched = [], np.full(m, np.inf)
     for r in range(m):
         own = changes.high[changes.line == r]
@@ -87,17 +77,6 @@ def breaks_on(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tuple[l
         points = np.unique([*own, *valley[r][(D[r, 0] < valley[r]) & (valley[r] < D[r, -1])]])
         out.append(points[np.concatenate(([True], np.diff(points) > 1e-12 * h))] if points.size else points)
     return out, touched
-
-
-def _of_valley(columns: LevelBatch) -> np.ndarray:
-    """Penetrations (n, k) at which the flat strip of the valley makes contact, adheres, or passes a break of the law below with
-    its pressure ``K (D - h)``; inf where there are fewer."""
-    h, reach = columns.level.h, columns.adhesion.delta_0 if columns.stretch > 0 else 0.0
-    loose = h - reach - (columns.stretch if columns.branch == "unloading" else 0.0)
-    own = np.tile([h - columns.stretch, loose], (columns.size, 1))
-    if columns.carry is None:
-        return own
-    return np.concatenate((own, h + columns.carry.breaks(columns.group) / columns.material.K), axis=1)
 
 
 def _scan(columns: LevelBatch, top):

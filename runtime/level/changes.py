@@ -39,6 +39,11 @@ class Changes(Batch):
     heights: np.ndarray
     edges: np.ndarray
 
+    @property
+    def passed(self) -> np.ndarray:
+        """Which heights change sign, (m, k)."""
+        return (self.heights[:, 0] > 0) != (self.heights[:, 1] > 0)
+
     @classmethod
     def between(cls, line: np.ndarray, x: np.ndarray, known) -> tuple[Changes, np.ndarray, np.ndarray]:
         """Brackets between neighbouring points ``x`` (lines, points) whose codes differ, with their rows and first points.

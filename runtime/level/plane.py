@@ -36,8 +36,10 @@ class Boundary:
     event: str
 
 
-#: every way in which the orbit of a regime with edges ends, but for thresholds that are straight lines (``thresholds``)
+#: every way in which the orbit of a regime with edges ends, but for thresholds that are straight lines (``thresholds``); first
+#: that nothing happens to it but to its pressure
 BOUNDARIES = (
+    *(Boundary(sequence, "peak") for sequence in ("acaf", "afc", "ac", "cf")),
     Boundary("acaf", "fold"),
     Boundary("afc", "fold"),
     Boundary("af", "fold"),
