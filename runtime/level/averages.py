@@ -20,7 +20,7 @@ from ..numerics.quadrature import interior_nodes, mapped, mapped_weights, sum_er
 from ..numerics.rounding import EPS
 from ..orbit.batch import Batch
 from ..orbit.regimes import CODE
-from .boundaries import hides_another, located, passed_breaks, theta_of, thresholds
+from .boundaries import hides_another, theta_of, thresholds, told
 from .changes import Changes, locate_changes
 from .effort import AVERAGE_LIMIT
 from .zones import Zones, zones_of
@@ -225,16 +225,6 @@ class _Work:
             out.append(np.concatenate((outer[:, :1], inner, outer[:, 1:]), axis=1))
         return tuple(out)
 
-    def _by_equation(self, state, changes: Changes) -> tuple[np.ndarray, np.ndarray]:
-        """Thetas of the changes between the ends of brackets, where equations tell all of them."""
-        each, parent = passed_breaks(changes)
-        columns, level = self.columns.at(state[parent], self.columns.D[state[parent]]), self.columns.level
-        theta = np.stack((each.low, each.high), axis=1)
-        E = np.broadcast_to((columns.D - level.h)[:, None], theta.shape)
-        A, found = located(columns, each, level.amplitude(theta), E, "A")
-        told = np.bincount(parent[~found], minlength=changes.size)[parent] == 0
-        return parent[told], theta_of(columns, A[told])
-
     def _divide(self, stages: list[Stage], total: np.ndarray) -> Panels:
         """Locate the changes between neighbouring nodes; panels end there."""
         panels, brackets, spreads, before = Panels.joined([stage.parts for stage in stages]), [], [], 0
@@ -255,21 +245,21 @@ class _Work:
             return self._evaluated(panels.state[line], x)
 
         def equation(changes):
-            return self._by_equation(panels.state[changes.line], changes)
+            at, level = panels.state[changes.line], self.columns.level
+            theta = np.stack((changes.low, changes.high), axis=1)
+            E = np.broadcast_to((self.columns.D[at] - level.h)[:, None], theta.shape)
+            parent, A, doubtful = told(self.columns.at(at, self.columns.D[at]), changes, level.amplitude(theta), E, "A")
+            return parent, theta_of(self.columns, A), doubtful
 
-        found, halved = locate_changes(probe, equation, changes, width, checked=False)
+        found, halved = locate_changes(probe, equation, changes, width)
         self.columns.work.bisected += halved
-        # next to what an equation tells a third zone may be too narrow for nodes
-        doubtful = np.flatnonzero((found.low == found.high) & hides_another(*found.codes.T))
-        before, after = np.full((2, found.size), -1)
-        before[doubtful], after[doubtful] = self._next_to(panels.state[found.line[doubtful]], found.low[doubtful])
         state, sliver = panels.state[found.line], (found.high - found.low)[:, None]
         np.add.at(self.values, state, 0.5 * sliver * found.values.sum(axis=1))
         np.add.at(self.errors, state, 0.5 * sliver * np.abs(found.values[:, 1] - found.values[:, 0]))
         # the parts between the brackets, and the outermost ones
-        every = np.arange(panels.size)
-        starts, first = np.concatenate((panels.low, found.high)), np.concatenate((panels.first, after))
-        stops, last = np.concatenate((found.low, panels.high)), np.concatenate((before, panels.last))
+        every, none = np.arange(panels.size), np.full(found.size, -1)
+        starts, first = np.concatenate((panels.low, found.high)), np.concatenate((panels.first, none))
+        stops, last = np.concatenate((found.low, panels.high)), np.concatenate((none, panels.last))
         order_start = np.lexsort((starts, np.concatenate((every, found.line))))
         order_stop = np.lexsort((stops, np.concatenate((found.line, every))))
         line = np.concatenate((every, found.line))[order_start]

@@ -159,16 +159,20 @@ def hides_another(code: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.abs(_RANK[code % len(CODE)] - _RANK[other % len(CODE)]) > 1
 
 
-def passed_breaks(changes: Changes) -> tuple[Changes, np.ndarray]:
-    """Changes at which pressures pass several breaks of the law below, one for each; the others as they are; and which change
-    each is a part of."""
+def told(
+    columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of ``located``: the changes of which equations tell all, with the place of each break of the law below that is passed;
+    the places; and whether a third regime may lie next to them; all (k,)."""
     passed = changes.passed & (changes.codes[:, :1] % len(CODE) == changes.codes[:, 1:] % len(CODE))
     parent, which = np.nonzero(passed)
     several = passed.sum(axis=1)[parent] > 1
     parent, which = parent[several], which[several]
     one = np.setdiff1d(np.arange(changes.size), parent)
     parts = changes.take(parent)
-    others = np.arange(passed.shape[1]) != which[:, None]
     # of the other breaks nothing is known, so that they are not passed
-    parts.heights = np.where(others[:, None], np.nan, parts.heights)
-    return Changes.joined([changes.take(one), parts]), np.concatenate((one, parent))
+    parts.heights = np.where((np.arange(passed.shape[1]) != which[:, None])[:, None], np.nan, parts.heights)
+    each, parent = Changes.joined([changes.take(one), parts]), np.concatenate((one, parent))
+    place, found = located(columns.at(parent, columns.D[parent]), each, A[parent], E[parent], unknown)
+    every = np.bincount(parent[~found], minlength=changes.size)[parent] == 0
+    return parent[every], place[every], hides_another(*changes.codes[parent[every]].T)

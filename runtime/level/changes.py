@@ -21,9 +21,9 @@ _ASIDE = 1e-6
 
 #: (line, x) -> codes (m,), values (m, q), heights (m, k) and edges (m, 4)
 Probe = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
-#: (changes) -> changes of which equations tell all there is (k,), and where that is; one of several places may stand for each,
-#: if they are not checked
-Equation = Callable[["Changes"], tuple[np.ndarray, np.ndarray]]
+#: (changes) -> changes of which equations tell all there is, where that is, several places for some, and whether that is
+#: doubtful, as something else may lie next to it: one place then; all (k,)
+Equation = Callable[["Changes"], tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 
 @dataclass
@@ -53,14 +53,12 @@ class Changes(Batch):
         return cls(line[row], *x[both].T, *(v[both] for v in known)), row, first
 
 
-def locate_changes(
-    probe: Probe, equation: Equation, changes: Changes, width: np.ndarray, checked: bool = True
-) -> tuple[Changes, int]:
+def locate_changes(probe: Probe, equation: Equation, changes: Changes, width: np.ndarray) -> tuple[Changes, int]:
     """Narrow every bracket to ``width`` (m,) or to neighbouring numbers; where a third code shows up inside, there are two.
 
-    Where an ``equation`` tells the place, both ends are there, with the codes and values that were known; or, ``checked``, with
-    those found next to it, and what else changes in the bracket is located too. Returns the changes, and how many points it took
-    where no equation told.
+    Where an ``equation`` tells the place, both ends are there, with the codes and values that were known; where that is doubtful,
+    with those found next to it, and what else changes in the bracket is located too. Returns the changes, and how many points it
+    took where no equation told.
     """
     found, divided = [], 0
     for _ in range(_ROUNDS):
@@ -68,21 +66,21 @@ def locate_changes(
         done = changes.high - changes.low <= np.maximum(width, finest)
         found.append(changes.take(done))
         changes, width = changes.take(~done), width[~done]
-        parent, place = equation(changes) if changes.size else (np.empty(0, int), np.empty(0))
-        # rounding may push it out of its bracket, which would then come back as it was
-        place = np.clip(place, changes.low[parent], changes.high[parent])
-        if not checked:
-            found.append(_at(place, changes.take(parent)))
-            left = np.setdiff1d(np.arange(changes.size), parent)
-            changes, width, parent, place = changes.take(left), width[left], parent[:0], place[:0]
         if not changes.size:
             break
-        divided += 2 * (changes.size - parent.size)
-        low, high = changes.low[:, None], changes.high[:, None]
-        x = low + (high - low) * [1 / 3, 2 / 3]
-        told, where = np.zeros(changes.size, bool), np.full(changes.size, np.nan)
-        told[parent], where[parent] = True, place
-        x[parent] = np.clip(place[:, None] + _ASIDE * (high - low)[parent] * [-1, 1], low[parent], high[parent])
+        parent, place, doubtful = equation(changes)
+        # rounding may push it out of its bracket, which would then come back as it was
+        place = np.clip(place, changes.low[parent], changes.high[parent])
+        found.append(_at(place[~doubtful], changes.take(parent[~doubtful])))
+        left, where = np.setdiff1d(np.arange(changes.size), parent[~doubtful]), np.full(changes.size, np.nan)
+        where[parent[doubtful]] = place[doubtful]
+        changes, width, where = changes.take(left), width[left], where[left]
+        if not changes.size:
+            break
+        told, low, high = ~np.isnan(where), changes.low[:, None], changes.high[:, None]
+        divided += 2 * np.count_nonzero(~told)
+        beside = np.clip(where[:, None] + _ASIDE * (high - low) * [-1, 1], low, high)
+        x = np.where(told[:, None], beside, low + (high - low) * [1 / 3, 2 / 3])
         answers = [v.reshape(*x.shape, *v.shape[1:]) for v in probe(np.repeat(changes.line, 2), x.ravel())]
         ends = changes.codes, changes.values, changes.heights, changes.edges
         known = [np.concatenate((end[:, :1], new, end[:, 1:]), axis=1) for end, new in zip(ends, answers, strict=True)]
