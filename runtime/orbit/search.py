@@ -6,9 +6,10 @@ last one. A zero is skipped by no one: an interval is left behind only when a bo
 
 Exclusion. Write ``R(x) = r(x) exp(x/beta)``; then ``beta R' = exp(x/beta)(N - F)``, ``F = H + delta_0``. From the left end of an
 interval, where r > 0, ``r exp(..) >= r_left - fall (exp((x - x_left)/beta) - 1)`` with ``fall >= F - N``; and likewise from the
-right end. Where ``N < F`` throughout, R falls strictly: a change of sign brackets exactly one zero, a stable orbit. All other
-intervals are divided, into one part more each time: most searches end in the second or third round, and for those next to a fold
-or a graze, which go on, the way to rounding is short.
+right end. Where ``N < F`` throughout, R falls strictly: a change of sign brackets exactly one zero, a stable orbit. Next to an
+onset from which adhesion just does not end r has no bounded slope, but is no less than free flow leaves of it, however late
+adhesion ends. All other intervals are divided, into one part more each time: most searches end in the second or third round, and
+for those next to a fold or a graze, which go on, the way to rounding is short.
 """
 
 from dataclasses import dataclass
@@ -173,6 +174,9 @@ class _Search:
         bounds = slope_bounds(self.kernel, cycle, left, right)
         unique[open_] = changes & ~left.engaged & bounds.falls
         excluded[open_] = ~changes & excludes(bounds, cycle.strips.beta, left, right, self.last)
+        if not self.last:
+            held = np.flatnonzero(left.engaged & ~excluded[open_])
+            excluded[open_[held]] = misses(self.kernel, cycle.take(held), left.x[held], right.take(held))
         return excluded, unique
 
     def _isolated(self, index, left: Orbit, right: Orbit):
@@ -207,6 +211,15 @@ def excludes(bounds: SlopeBounds, beta, left: Orbit, right: Orbit, last: bool) -
     near = _reach(beta, np.where(left.engaged, 0.0, sign * left.r), of_left, 1.0)
     far, width = _reach(beta, sign * right.r, of_right, -1.0), right.x - left.x
     return near + far > width
+
+
+def misses(kernel, cycle: Cycle, x, right: Orbit) -> np.ndarray:
+    """Whether every onset after ``x`` and not after that of ``right`` is followed by a later one, whenever adhesion ends, but not
+    before that of ``right``: where that grazes r rises too steeply for bounds of its slope."""
+    s, end = cycle.strips, cycle.centre + TWO_PI - cycle.half_c
+    w = kernel.profile(np.clip(np.pi, right.c, np.maximum(end, right.c)), s.D) + s.delta_0 + cycle.jump
+    free = np.where(w > 0, right.x - right.c, np.maximum(x - end, -TWO_PI)) + TWO_PI
+    return w * kernel.decay(free, s.beta) - kernel.profile(np.minimum(right.x, 0.0), s.D) - s.delta_0 > s.noise()
 
 
 def _reach(beta, margin, rate, way):
