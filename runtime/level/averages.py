@@ -20,7 +20,7 @@ from ..numerics.quadrature import interior_nodes, mapped, mapped_weights, sum_er
 from ..numerics.rounding import EPS
 from ..orbit.batch import Batch
 from ..orbit.regimes import CODE
-from .boundaries import hides_another, theta_of, thresholds, told
+from .boundaries import hides_another, known_breaks, theta_of, told
 from .changes import Changes, locate_changes
 from .effort import AVERAGE_LIMIT
 from .zones import Zones, zones_of
@@ -36,7 +36,7 @@ _COSTLESS = 32
 _SHARE, _SLIVER = 0.4, 0.03
 #: how far from the valley the strip next to it is, in parts of the accuracy; what does not count is asked for to any accuracy
 _VALLEY, _ANY = 0.01, 0.1
-#: how far from a threshold a strip is that tells of a narrow zone: narrower ones are of no account at any accuracy worth having
+#: how far from a known break a strip is that tells of a narrow zone: narrower ones are of no account at any accuracy worth having
 _NEXT = 1e-6
 #: share of it below which no panel's error is claimed to be: a layer may be too thin to show at its nodes
 _LEAST = 1e-5
@@ -58,7 +58,7 @@ def average(columns: LevelBatch, rtol: np.ndarray) -> Averages:
     """Means ``(1/pi) int_0^pi`` of the strips of every state to ``rtol (|value| + floor)``, ``rtol`` (n,)."""
     n, q = columns.size, columns.scales.size
     work = _Work(columns, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
-    stages = [Stage(work.start(*thresholds(columns), *columns.crossings.expected(columns)), _FIRST)]
+    stages = [Stage(work.start(*known_breaks(columns)), _FIRST)]
     while stages:
         stages = work.refine(stages)
     return Averages(work.values / np.pi, work.errors / np.pi, work.strips, work.zones())
@@ -104,17 +104,13 @@ class _Work:
     beside: tuple[np.ndarray, np.ndarray] = (np.empty(0, int), np.empty(0))
     ends: list[np.ndarray] | None = None
 
-    def start(self, state, theta, expected, A) -> Panels:
-        """Panels between thresholds (k,) and expected crossings (m,) of curves. Next to a curve the strips of a third regime
-        may be so few that no node meets them: a strip to either side is looked at, as at the crest and next to the valley."""
-        n, crossing = self.rtol.size, theta_of(self.columns, A)
-        every, none = np.arange(n), np.full(theta.size, -1)
-        crest, valley = self._later(every, np.zeros(n)), self._later(every, self.valley)
-        below, above = self._next_to(expected, crossing)
-        state = np.concatenate((state, every, every, expected))
-        theta = np.concatenate((theta, np.zeros(n), np.full(n, np.pi), crossing))
-        before = np.concatenate((none, np.full(n, -1), valley, below))
-        after = np.concatenate((none, crest, np.full(n, -1), above))
+    def start(self, state: np.ndarray, theta: np.ndarray) -> Panels:
+        """Panels between the breaks (k,) that are known: at the crest and next to the valley strips are looked at, too."""
+        n = self.rtol.size
+        every, none, ends = np.arange(n), np.full(theta.size + n, -1), np.repeat([0.0, np.pi], n)
+        crest, valley = self._later(every, ends[:n]), self._later(every, self.valley)
+        state, theta = np.concatenate((state, every, every)), np.concatenate((theta, ends))
+        before, after = np.concatenate((none, valley)), np.concatenate((none[n:], crest, none[:n]))
         order = np.lexsort((theta, state))
         state, theta, before, after = state[order], theta[order], before[order], after[order]
         inside = np.flatnonzero((state[1:] == state[:-1]) & (np.diff(theta) > 64 * EPS * np.pi))
@@ -134,7 +130,7 @@ class _Work:
         fresh = self.ends is None
         stages = sampled(stages, Panels.at, lambda panels, theta: self._evaluated(Panels.joined(panels).state, theta))
         if fresh:
-            self._look_beside_thresholds(stages[0])
+            self._look_beside(stages[0])
         # what is not accepted yet counts for the size of the result, not for the result
         total = self.values.copy()
         for stage in stages:
@@ -192,23 +188,19 @@ class _Work:
         self.beside = tuple(np.concatenate(pair) for pair in zip(self.beside, (state, theta), strict=True))
         return number
 
-    def _next_to(self, state, theta, aside: float = np.inf) -> np.ndarray:
-        """``_later`` on both sides of the places ``theta`` (k,), not further from them than ``aside``, (2, k)."""
-        aside = np.minimum(np.pi - self.valley[state], aside)
-        places = np.clip(np.concatenate((theta - aside, theta + aside)), 0.0, np.pi)
-        return self._later(np.tile(state, 2), places).reshape(2, -1)
-
-    def _look_beside_thresholds(self, stage: Stage) -> None:
-        """Strips to either side of thresholds where the codes of the panels that meet do not follow one another: a third
-        zone may be narrower than the first step."""
+    def _look_beside(self, stage: Stage) -> None:
+        """Strips to either side of known breaks where the codes of the panels that meet do not follow one another: a third zone
+        may be narrower than the first step."""
         panels, codes = stage.parts, stage.known[0]
         order = np.lexsort((panels.low, panels.state))
         left, right = order[:-1], order[1:]
-        unknown = (panels.last[left] < 0) & (panels.first[right] < 0) & (panels.high[left] == panels.low[right])
-        doubtful = unknown & (panels.state[left] == panels.state[right]) & hides_another(codes[left, -1], codes[right, 0])
+        meet = (panels.high[left] == panels.low[right]) & (panels.state[left] == panels.state[right])
+        doubtful = meet & hides_another(codes[left, -1], codes[right, 0])
         left, right = left[doubtful], right[doubtful]
         if left.size:
-            panels.last[left], panels.first[right] = self._next_to(panels.state[left], panels.high[left], _NEXT)
+            state, theta = panels.state[left], panels.high[left]
+            panels.last[left] = self._later(state, np.maximum(theta - _NEXT, 0.0))
+            panels.first[right] = self._later(state, np.minimum(theta + _NEXT, np.pi))
             self._evaluated(np.empty(0, int), np.empty(0))
 
     def _outer(self, stage: Stage) -> tuple[np.ndarray, ...]:

@@ -64,6 +64,12 @@ def thresholds(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
     return state, 2 * np.arctan2(np.sqrt(lost[inside]), np.sqrt(left[inside]))
 
 
+def known_breaks(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
+    """States and thetas (k,) at which strips pass a threshold in closed form, or a curve that is known nearby."""
+    (state, theta), (crossing, A) = thresholds(columns), columns.crossings.expected(columns)
+    return np.concatenate((state, crossing)), np.concatenate((theta, theta_of(columns, A)))
+
+
 def theta_of(columns: LevelBatch, A) -> np.ndarray:
     """``k y`` of the strips with amplitude ``A``, m."""
     # a level without height has one strip, the crest
