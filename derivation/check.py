@@ -1,18 +1,19 @@
 """What a check is, what a derived quantity is, and the error that a failing check raises.
 
-A quantity is derived by one function, whose docstring says what it is and shows the equation (:mod:`.said`). The function hands
+A quantity is derived by one function, whose docstring says what it is and shows the equation (:func:`said`). The function hands
 its value and what it claims of it to :func:`derived`, which verifies every claim and returns a :class:`Derived`. A claim that
 does not come out exactly zero raises :class:`DerivationError` with the name of the step, so nothing unverified goes on.
 """
 
 from __future__ import annotations
 
+import inspect
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
 from .exact import is_zero
-from .said import said
 
 REPRODUCED = "reproduced"
 CORRECTED = "reproduced with a correction"
@@ -20,6 +21,8 @@ BEYOND = "beyond the paper"
 PACKAGE = f"{__name__.rpartition('.')[0]}."
 STATUSES = (REPRODUCED, CORRECTED, BEYOND)
 EXACT = "exact zero"
+PARAGRAPH = re.compile(r"(?:(\w+)(?:, )?)??(Eq\. \d+(?:, \d+)*)?: (?=\S)")
+MATH = ".. math:: "
 
 
 class DerivationError(Exception):
@@ -107,6 +110,24 @@ def derived(by: Callable[..., Any], value: Any, claims: Iterable[Claim], name: s
     if own["status"] not in STATUSES or (own["status"] == CORRECTED) != bool(correction):
         raise DerivationError(name, f"status {own['status']!r} does not fit its correction {correction!r}")
     return Derived(value, name, checks=checks, function=f"{by.__module__.removeprefix(PACKAGE)}.{by.__name__}", **own)
+
+
+def said(by: Callable[..., Any], name: str) -> tuple[str, str, str]:
+    r"""(sentence, LaTeX, number in the paper) of the quantity ``name``; the last two empty where there is none.
+
+    Of one quantity a docstring says it at its beginning, of several each in a paragraph that begins with the quantity's name:
+
+        Eq. 5: In contact w = u is given.                 gap_after: Gap at s_1 when it was gap_0 at s_0.
+
+        .. math:: w = u                                   .. math:: g(s_1) = g_0 + \dots
+    """
+    paragraphs = [" ".join(text.split()) for text in (inspect.getdoc(by) or "").split("\n\n")]
+    own = [n for n, text in enumerate(paragraphs) if (mark := PARAGRAPH.match(text)) and mark[1] == name] or [0]
+    first, *rest = paragraphs[own[0] :]
+    mark = PARAGRAPH.match(first)
+    marked = mark is not None and mark[1] in (None, name)
+    equation = next((text.removeprefix(MATH) for text in rest[:1] if text.startswith(MATH)), "")
+    return (first[mark.end() :] if marked else first), equation, (mark[2] or "") if marked else ""
 
 
 def _shortened(residual: Any, limit: int = 200) -> str:

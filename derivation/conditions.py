@@ -6,11 +6,10 @@ states it, Eq. 5 is solved in x with the conditions at d, b, -a and -c, and the 
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import sympy as sp
 
 from .check import Derived, derived, holds, zero
+from .flows import solved
 from .regime import Regime
 from .strip import TIMES, Strip
 from .surface import AMPLITUDE, HEIGHT, PENETRATION
@@ -62,10 +61,10 @@ def strip_problem(strip: Strip, discrete: Regime) -> Derived:
 
     def gap_at(place: sp.Expr, since: sp.Symbol, gap: sp.Expr, load: sp.Expr) -> sp.Expr:
         """Gap at ``place`` after a zone at the pressure ``load`` that was entered at ``since`` with ``gap``."""
-        w = _solved(lambda unknown: strip.misses(unknown, load), since, profile.subs(x, since) + gap)
+        w = solved("strip problem", lambda unknown: strip.misses(unknown, load), profile.subs(x, since) + gap, x, since)
         return (w - profile).subs(x, place)
 
-    pressure = _solved(lambda unknown: strip.misses(profile, unknown), begins, -p_0)
+    pressure = solved("strip problem", lambda unknown: strip.misses(profile, unknown), -p_0, x, begins)
     left = (
         gap_at(begins, onset, delta_0 - step, -p_0),
         pressure.subs(x, ends) + p_0,
@@ -87,17 +86,6 @@ def strip_problem(strip: Strip, discrete: Regime) -> Derived:
         holds("d > b > -a > -c in x is d < b < a < c in s", _falling(places)),
     ]
     return derived(strip_problem, left, checks, emitted=("residual_acaf",))
-
-
-def _solved(law: Callable[[sp.Expr], sp.Expr], since: sp.Symbol, value: sp.Expr) -> sp.Expr:
-    """The solution of the law that has the ``value`` at ``since``."""
-    unknown = sp.Function("f")(x)
-    general = sp.dsolve(sp.Eq(sp.expand(law(unknown)), 0), unknown).rhs
-    (constant,) = general.free_symbols - law(unknown).free_symbols
-    (found,) = sp.solve(general.subs(x, since) - value, constant)
-    solution = general.subs(constant, found)
-    zero("the law holds", sp.simplify(law(solution))).verified("strip problem")
-    return solution
 
 
 def _dimensionless(condition: sp.Expr, places: dict[sp.Symbol, sp.Expr]) -> sp.Expr:

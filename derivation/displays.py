@@ -22,8 +22,7 @@ from sympy.core.function import AppliedUndef
 from .check import Check, DerivationError, Derived
 from .exact import RELATIONS
 from .functions import flat, stack_sum, written_out
-from .latex.reader import statements
-from .latex.tokens import Unreadable
+from .latex import Unreadable, statements
 from .modes.numbers import DIGITS, sample, value
 from .strip import TIMES
 from .surface import WAVE

@@ -14,8 +14,8 @@ import sympy as sp
 from .check import DerivationError
 from .modes.emit import template_values, written
 from .outcome import Derivation
+from .printing import function_text, helpers_used
 from .sequences import Row
-from .text import function_text, helpers_used
 
 INTERFACE = 1
 HERE = Path(__file__).parent
@@ -140,7 +140,7 @@ def input_hash() -> str:
     digest = hashlib.sha256()
     for path in sorted(HERE.rglob("*")):
         parts = path.relative_to(HERE).parts
-        if path.suffix in (".py", ".jinja", ".toml") and not {"__pycache__", "pages", "audit"} & set(parts):
+        if path.suffix in (".py", ".jinja", ".toml", ".lark") and not {"__pycache__", "pages", "audit"} & set(parts):
             digest.update("/".join(parts).encode() + b"\0" + path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
     return digest.hexdigest()[:32]
 

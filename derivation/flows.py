@@ -72,20 +72,20 @@ def gap_flow(strip: Strip, displacement: sp.Expr) -> Derived:
     return derived(gap_flow, gap, checks, emitted=("gap_after",))
 
 
-def solved(name: str, law: Callable[[sp.Expr], sp.Expr], entry: sp.Expr) -> sp.Expr:
-    """Solve the linear law for a function of s with ``f(s_0) = entry``.
+def solved(name: str, law: Callable[[sp.Expr], sp.Expr], entry: sp.Expr, along: sp.Symbol = s, since: sp.Symbol = s_0) -> sp.Expr:
+    """Solve the linear law for a function of ``along`` with ``f(since) = entry``.
 
     The general solution is a particular one plus a constant times a mode. The entry condition fixes the constant, and
     the mode is written relative to the entry edge.
     """
-    function = sp.Function("f")
-    general = sp.expand(sp.dsolve(sp.Eq(law(function(s)), 0), function(s)).rhs)
-    constants = sorted(general.free_symbols - law(function(s)).free_symbols, key=str)
+    function = sp.Function("f")(along)
+    general = sp.expand(sp.dsolve(sp.Eq(sp.expand(law(function)), 0), function).rhs)
+    constants = sorted(general.free_symbols - law(function).free_symbols, key=str)
     if len(constants) != 1:
         raise DerivationError(name, f"one integration constant, not {constants}")
     mode = general.coeff(constants[0])
     if sp.expand(general - constants[0] * mode).has(constants[0]):
         raise DerivationError(name, "the general solution is linear in its integration constant")
     particular = sp.factor_terms(sp.expand(general.subs(constants[0], 0)))
-    decayed = sp.exp(sp.factor_terms(sp.expand(sp.log(mode / mode.subs(s, s_0)), force=True)))
-    return particular + (entry - particular.subs(s, s_0)) * decayed
+    decayed = sp.exp(sp.factor_terms(sp.expand(sp.log(mode / mode.subs(along, since)), force=True)))
+    return particular + (entry - particular.subs(along, since)) * decayed

@@ -11,8 +11,7 @@ import sympy as sp
 from .check import Claim, DerivationError, Derived, derived, zero
 from .exact import in_half_angles
 from .functions import Formula, flat, written_out
-from .modes.symbols import S, eta
-from .modes.tensor import EVERY_SUM, generic
+from .modes.symbols import EVERY_SUM, S, eta, generic
 from .symbols import alpha, s_0, s_1
 
 

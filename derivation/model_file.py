@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import importlib.util
 import keyword
 import os
-import sys
+import runpy
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -25,20 +24,13 @@ def load_model(path: str | os.PathLike[str]) -> tuple[Model, ...]:
     file = Path(path)
     if not file.is_file():
         raise FileNotFoundError(f"no model file {file}")
-    spec = importlib.util.spec_from_file_location("_hystrip_model", file)
-    if spec is None or spec.loader is None:
-        raise DerivationError(STEP, f"{file} is no Python file (its name must end in .py)")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
     try:
-        spec.loader.exec_module(module)
+        found = runpy.run_path(str(file))
     except DerivationError:
         raise
     except Exception as problem:
         raise DerivationError(STEP, f"{file} runs ({type(problem).__name__}: {problem})") from problem
-    finally:
-        del sys.modules[spec.name]
-    declared = getattr(module, "MODELS", None) or getattr(module, "MODEL", None)
+    declared = found.get("MODELS") or found.get("MODEL")
     if declared is None:
         raise DerivationError(STEP, f"{file} declares MODEL, or MODELS, such as MODEL = prony_model('my_rubber', modes=5)")
     models = tuple(declared) if isinstance(declared, (tuple, list)) else (declared,)

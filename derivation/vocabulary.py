@@ -10,7 +10,7 @@ import sympy as sp
 from . import half_space, symbols
 from .displays import Binding, Names
 from .flows import Flows
-from .latex.terms import Of, Prefix
+from .latex import Of, Prefix
 from .multilevel import pressure, slope_x, tau_below
 from .paper.words import strips
 from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell
@@ -177,7 +177,7 @@ def _carried(values: list[sp.Expr], words: Names) -> Names:
     part = values[0].replace(sp.Function("tau_M"), law).replace(sp.Function("p"), field)
     part = part.subs({s_0: -k * ahead, s_1: k * behind})
     return CELL | {r"\bar\tau_M-1": own, "f_x": sp.diff(HEIGHT, x), "p": along, r"\tau_M": law, "k": k, "a": behind, "b": ahead,
-                   "s": s, "iint": cell, r"iint \text{contact}": cell, "C_j": part}  # fmt: skip
+                   "s": s, "iint": cell, r"iint \textcontact": cell, "C_j": part}  # fmt: skip
 
 
 def _coefficient(values: list[sp.Expr], words: Names) -> Names:

@@ -22,7 +22,7 @@ from hystrip.derivation.emit import input_hash
 from hystrip.derivation.folder import read_measured
 from hystrip.derivation.pages import places
 from hystrip.derivation.pages.latex import pieces
-from hystrip.derivation.paper.printed import PRINTED
+from hystrip.derivation.paper.record import PRINTED
 from hystrip.generated import standard_linear_solid
 
 pytestmark = pytest.mark.xdist_group("derivation")
@@ -262,7 +262,7 @@ def test_an_equation_is_cut_only_where_it_may_be() -> None:
 
 
 def test_a_changed_sign_stops_the_audit_by_name(tmp_path: Path) -> None:
-    wrong = tampered(tmp_path, "flows.py", "(entry - particular.subs(s, s_0))", "(entry + particular.subs(s, s_0))")
+    wrong = tampered(tmp_path, "flows.py", "(entry - particular.subs(along, since))", "(entry + particular.subs(along, since))")
     with pytest.raises(wrong.DerivationError, match="'contact flow'"):
         wrong.audit(tmp_path / "audit")
     assert not (tmp_path / "audit").exists()

@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 FOLDERS = {"runtime": "hystrip", "derivation": "hystrip/derivation", "generated": "hystrip/generated"}
-SHIPPED = (".py", ".jinja", ".toml", ".json", ".html", ".typed")
+SHIPPED = (".py", ".jinja", ".toml", ".lark", ".json", ".html", ".typed")
 
 
 def tree():

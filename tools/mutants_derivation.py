@@ -64,7 +64,7 @@ MUTANTS: tuple[Mutant, ...] = (
         "instantaneous compliance",
     ),
     # flows
-    m("flow", "flows.py", "(entry - particular.subs(s, s_0))", "(entry + particular.subs(s, s_0))", "contact flow"),
+    m("flow", "flows.py", "(entry - particular.subs(along, since))", "(entry + particular.subs(along, since))", "contact flow"),
     m("flow", "flows.py", "+ gap_0) - strip.u", "- gap_0) - strip.u", "gap flow"),
     m(
         "stable form",

@@ -14,7 +14,7 @@ import numpy as np
 import sympy as sp
 
 from ..functions import flat, stack_sum, written_out
-from ..modes.tensor import EVERY_SUM, across, is_matrix, sandwich, total
+from ..modes.symbols import EVERY_SUM, across, is_matrix, sandwich, total
 from .point import STEP, Point
 from .scaled import given, scaled
 

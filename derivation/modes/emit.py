@@ -9,12 +9,11 @@ import sympy as sp
 from ..functions import Formula, flat
 from ..model import Model, Parameter, Roots, Series
 from ..outcome import Derivation
-from ..printing import results, source
-from ..text import function_text, functions_of, helpers_used
+from ..printing import function_text, functions_of, helpers_used, results, source
 from .functions import ALGORITHMS
 from .material import series_of
 from .symbols import MATERIAL as FIELDS
-from .tensor import SUMS
+from .symbols import SUMS
 
 OF_THE_STRIP = {symbol: sp.Symbol(f"m.{symbol.name}", real=True) for symbol in FIELDS}
 # Used by the template itself, beside what the formulas call.

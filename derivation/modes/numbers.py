@@ -16,8 +16,7 @@ import sympy as sp
 
 from ..symbols import alpha, beta
 from .states import alpha_i, alpha_k, beta_i, beta_j, beta_k, eta_i, exact_modes
-from .symbols import J_0, J, S, enter, eta, f, f_0, leave, share, z, z_0
-from .tensor import across, sandwich
+from .symbols import J_0, J, S, across, enter, eta, f, f_0, leave, sandwich, share, z, z_0
 
 MODES, DIGITS = 3, 60
 BRANCHES, RETARDATION, OTHER = range(3)

@@ -13,8 +13,7 @@ from ..saturated import means, saturation_threshold
 from ..symbols import K, V, alpha, l, s
 from . import stable
 from .flows import ModeFlows, u
-from .symbols import OF_STRIP, eta, f_0, m
-from .tensor import at_speed, total
+from .symbols import OF_STRIP, at_speed, eta, f_0, m, total
 
 AT_SPEED = at_speed(m, 2 * sp.pi * V / l)
 PASSING = AT_SPEED.scaled()

@@ -42,8 +42,7 @@ from ..stable import (
     width,
 )
 from ..symbols import D, alpha, beta, p, p_0, p_in, s, s_0, s_1
-from .symbols import J_0, J, S, enter, eta, f, f_0, m, share, z, z_0
-from .tensor import across, back, sandwich, total
+from .symbols import J_0, J, S, across, back, enter, eta, f, f_0, m, sandwich, share, total, z, z_0
 
 response, level, time, rates, moved, turn, rate_end, rate_start = sp.symbols(
     "response level time rates moved turn rate_end rate_start", real=True

@@ -1,4 +1,4 @@
-"""Symbols of a generic mode.
+"""Symbols of a generic mode; sums over modes, and products with matrices between them, in a formula.
 
 A formula is derived and emitted for a *generic* mode: ``alpha``, ``eta``, ``z_0``, ... stand for arrays along the mode axis,
 in the order ``alpha_1 <= beta_1 <= alpha_2 <= ...``. Identities between modes are those of :mod:`.states`.
@@ -6,8 +6,11 @@ in the order ``alpha_1 <= beta_1 <= alpha_2 <= ...``. Identities between modes a
 
 from __future__ import annotations
 
+from typing import Any
+
 import sympy as sp
 
+from ..functions import Helper, Scaling, helper, stack_sum
 from ..symbols import D, alpha, beta, delta_0, p_0
 
 m = sp.Symbol("m")  # the material of a strip, in the emitted code
@@ -21,3 +24,63 @@ MATERIAL = (alpha, beta, eta, S, J, J_0, enter, leave, share)
 OF_STRIP = (m, p_0, delta_0, D)
 MATRICES = (enter, leave, share)
 STATES = (z_0, f_0, z, f)
+
+
+class total(Helper):
+    """Sum over the modes."""
+
+    nargs = 1
+
+    def _latex(self, printer, exp=None):
+        of_all = rf"\sum \left({printer.doprint(self.args[0])}\right)"
+        return of_all if exp is None else rf"\left({of_all}\right)^{{{exp}}}"
+
+    @staticmethod
+    def meaning(term):
+        return total(term)
+
+
+@helper
+def across(matrix, vector):
+    """A matrix times a vector, both along the mode axis."""
+    return across(matrix, vector)
+
+
+@helper
+def back(matrix, vector):
+    """A vector times a matrix: across with the transposed matrix."""
+    return back(matrix, vector)
+
+
+@helper
+def sandwich(left, vector, right):
+    """matrix diag(vector) matrix."""
+    return sandwich(left, vector, right)
+
+
+class at_speed(Scaling):
+    """The modes of a strip that passes at a rate: their times multiplied by it."""
+
+    def scaled(self) -> dict[sp.Symbol, sp.Expr]:
+        return {time: self.args[1] * time for time in (alpha, beta, eta)}
+
+
+SUMS = (total, across, back, sandwich)
+EVERY_SUM = (*SUMS, stack_sum)
+
+
+def generic(expression: sp.Expr) -> sp.Expr:
+    """The expression with every sum as a factor: equal terms under the same sum make equal sums."""
+    under = sp.Symbol("total", positive=True)
+
+    def factor(node: sp.Expr) -> sp.Expr:
+        if isinstance(node, (total, stack_sum)):
+            return under * node.args[0]
+        return sp.Mul(*node.args)
+
+    return expression.replace(lambda e: isinstance(e, EVERY_SUM), factor)
+
+
+def is_matrix(expression: Any) -> bool:
+    plain = -expression if isinstance(expression, sp.Mul) and expression.could_extract_minus_sign() else expression
+    return plain in MATRICES or isinstance(plain, sandwich)

@@ -8,7 +8,7 @@ from typing import Any
 import sympy as sp
 
 from ..displays import Binding, Names
-from ..latex.terms import Of, Prefix
+from ..latex import Of, Prefix
 from ..level import R
 from ..model import rate
 from ..symbols import D, K, alpha, beta, p, p_in, s, s_0, s_1
@@ -17,8 +17,7 @@ from .flows import ModeFlows, u
 from .numbers import BRANCHES, OTHER, RETARDATION, along, applied, product_along, slope
 from .saturated import PASSING
 from .states import alpha_i, alpha_k, beta_i, beta_k, eta_i
-from .symbols import J_0, J, S, enter, eta, f, f_0, leave, share, z, z_0
-from .tensor import across, total
+from .symbols import J_0, J, S, across, enter, eta, f, f_0, leave, share, total, z, z_0
 
 
 def vocabulary(flows: ModeFlows) -> dict[str, Any]:

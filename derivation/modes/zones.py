@@ -9,8 +9,7 @@ from ..kernel import Kernel, kernel, pair
 from ..symbols import p, p_0, p_in, s, s_0, s_1
 from . import stable
 from .flows import ModeFlows, u
-from .symbols import J_0, J, S, enter, eta, f, f_0, share, z, z_0
-from .tensor import across, back, sandwich, total
+from .symbols import J_0, J, S, across, back, enter, eta, f, f_0, sandwich, share, total, z, z_0
 
 u_0, u_1 = u.subs(s, s_0), u.subs(s, s_1)
 

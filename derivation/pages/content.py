@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import inspect
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from typing import Any
 
@@ -16,9 +16,10 @@ from ..check import Derived
 from ..emit import INTERFACE, input_hash
 from ..functions import HELPERS, flat
 from ..outcome import Derivation
+from ..paper.record import SUBJECTS, Comparison
 from ..paper.tags import numbers
 from ..sequences import Row
-from . import paper, places, sources
+from . import places
 from .latex import widest
 from .misprints import misprints
 from .wording import WORDING, Wording, plainly
@@ -30,13 +31,16 @@ STATED = ("regime ", "onset_slope_")  # steps whose equation is the value writte
 TOOLS = ("sympy", "jinja2", "ruff", "latex2mathml")
 CLOSURES = {0: "continuous", 1: "constitutive"}
 
+FIRST = {6: ("zone conditions",), 11: ("means over a level",), 15: ("saturated_pressure",)}
+"""The step that states an equation, where that is not the first with its number."""
+
 
 def content(derivation: Derivation, files: dict[str, str], certificates: dict[str, Any]) -> dict[str, Any]:
     """Everything on a model's page but what is measured. ``files``: the emitted texts; ``certificates``: rows by function."""
     own, words = WORDING[derivation.kind](derivation), WORDS.get(derivation.kind, {})
     module = f"{derivation.model.name}.py"
-    computed = sources.generated(module, files[module])
-    helpers = sources.generated("stable.py", files["stable.py"])
+    computed = places.generated(module, files[module])
+    helpers = places.generated("stable.py", files["stable.py"])
     functions = {step.function for step in derivation.steps}
     return {
         "model": derivation.model.name,
@@ -46,7 +50,7 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
         "fields": words.get("fields", []),
         "parameters": [list(row) for row in own.parameters],
         "material": [[p.name, p.unit, p.meaning] for p in derivation.model.parameters],
-        "equations": paper.equations(derivation.steps, derivation.comparisons),
+        "equations": equations(derivation.steps, derivation.comparisons),
         "misprints": misprints({step.name: step for step in derivation.steps}, derivation.kind),
         "small": words.get("small", []),
         "stages": stages(derivation.steps, computed, displayed(derivation, own.unread)),
@@ -55,7 +59,7 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
         "functions": functions_table(computed, derivation.steps, certificates, own.parts),
         "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
         "method": WORDS["method"],
-        "sources": {name: _text(sources.deriving(name)) for name in sorted({*functions, *(name for name, _ in WORDS["method"])})},
+        "sources": {name: _text(places.deriving(name)) for name in sorted({*functions, *(name for name, _ in WORDS["method"])})},
         "generated": {name: _text(source) for name, source in (computed | helpers).items()},
         "helpers": helpers_table(helpers),
         "measured": "measured.json",
@@ -72,13 +76,39 @@ def identity(files: dict[str, str]) -> dict[str, Any]:
     }
 
 
+def equations(steps: tuple[Derived, ...], comparisons: Sequence[Comparison] = ()) -> list[dict[str, Any]]:
+    """The contents by equation number; the first of a row's steps is the one that states the equation.
+
+    Without ``comparisons`` (a foundation that is not the paper's) the status is that of the steps.
+    """
+    compared = {comparison.number: comparison for comparison in comparisons}
+    return [_equation(number, steps, compared.get(number)) for number in SUBJECTS]
+
+
+def _equation(number: int, steps: tuple[Derived, ...], comparison: Comparison | None) -> dict[str, Any]:
+    by_name = {step.name: step for step in steps}
+    cited = [step.name for step in steps if number in numbers(step.paper)]
+    named = comparison.steps if comparison else FIRST.get(number, ())
+    listed = list(dict.fromkeys(name for name in (*named, *cited) if name in by_name))
+    return {
+        "number": number,
+        "subject": SUBJECTS[number],
+        "status": comparison.status if comparison else by_name[listed[0]].status,
+        "printed": comparison.printed if comparison else "",
+        "derived": list(comparison.derived or (by_name[listed[0]].latex,)) if comparison else [],
+        "checks": [[check.claim, check.outcome] for check in comparison.checks] if comparison else [],
+        "correction": comparison.correction if comparison else "",
+        "steps": listed,
+    }
+
+
 def displayed(derivation: Derivation, unread: Mapping[str, str]) -> dict[str, str]:
     """What is said of the display of each step: read back and compared, or why there is nothing to compare."""
     read = {name: f"{check.claim}: {check.outcome}" for name, check in derivation.displayed.items()}
     return {name: f"nothing to compare in the display: {what}" for name, what in unread.items()} | read
 
 
-def stages(steps: tuple[Derived, ...], computed: dict[str, sources.Source], displays: Mapping[str, str]) -> list[dict[str, Any]]:
+def stages(steps: tuple[Derived, ...], computed: dict[str, places.Source], displays: Mapping[str, str]) -> list[dict[str, Any]]:
     """The steps by the module that derives them. ``displays``: what is said of the display of each step."""
     found: dict[str, list[dict[str, Any]]] = {}
     known = {step.name for step in steps}
@@ -86,11 +116,11 @@ def stages(steps: tuple[Derived, ...], computed: dict[str, sources.Source], disp
         found.setdefault(step.function.rpartition(".")[0], []).append(
             _step(step, computed, known) | {"display": displays.get(step.name, "")}
         )
-    return [{"module": module, "title": sources.title(module), "steps": steps} for module, steps in found.items()]
+    return [{"module": module, "title": places.title(module), "steps": steps} for module, steps in found.items()]
 
 
-def _step(step: Derived, computed: dict[str, sources.Source], known: set[str]) -> dict[str, Any]:
-    derived_in = sources.deriving(step.function)
+def _step(step: Derived, computed: dict[str, places.Source], known: set[str]) -> dict[str, Any]:
+    derived_in = places.deriving(step.function)
     return {
         "name": step.name,
         "statement": step.statement,
@@ -128,7 +158,7 @@ def _unbraced(latex: str) -> str:
     return re.sub(r"_\{(\w)\}", r"_\1", latex)
 
 
-def _regime(regime: Row, own: Wording, computed: dict[str, sources.Source]) -> dict[str, Any]:
+def _regime(regime: Row, own: Wording, computed: dict[str, places.Source]) -> dict[str, Any]:
     """A row of the table of regimes."""
     zones = [] if not regime.edges else [[z.kind, sp.latex(z.first), sp.latex(z.last)] for z in regime.zones]
     names = [f"{kind}_{regime.sequence}" for kind in own.kinds]
@@ -147,7 +177,7 @@ def _regime(regime: Row, own: Wording, computed: dict[str, sources.Source]) -> d
 
 
 def functions_table(
-    computed: dict[str, sources.Source],
+    computed: dict[str, places.Source],
     steps: tuple[Derived, ...],
     certificates: dict[str, Any],
     parts: Mapping[str, str],
@@ -177,7 +207,7 @@ def functions_table(
     return rows
 
 
-def helpers_table(computed: dict[str, sources.Source]) -> list[dict[str, Any]]:
+def helpers_table(computed: dict[str, places.Source]) -> list[dict[str, Any]]:
     """The functions that stand in emitted formulas for themselves: what each means, where it is computed."""
     rows = []
     for helper in HELPERS:
@@ -193,5 +223,5 @@ def helpers_table(computed: dict[str, sources.Source]) -> list[dict[str, Any]]:
     return rows
 
 
-def _text(source: sources.Source) -> dict[str, Any]:
+def _text(source: places.Source) -> dict[str, Any]:
     return {"file": source.file, "line": source.line, "text": source.text}

@@ -1,13 +1,16 @@
-"""Where the runtime carries out what a step says, and which steps a step enters that no function computes by itself.
+"""Where a step is derived, where it is computed, and where the runtime carries out what it says: file, line and text.
 
-All by the function that derives the step: ``places.toml``. A place is a function of the runtime and a piece of the line that
-does it. The page quotes the line; one that is gone, or no longer the only one, is an error that names the step.
+The latter, and which steps a step enters that no function computes by itself, by the function that derives the step:
+``places.toml``. A place is a function of the runtime and a piece of the line that does it. The page quotes the line; one that is
+gone, or no longer the only one, is an error that names the step.
 """
 
 from __future__ import annotations
 
 import ast
+import importlib
 import importlib.util
+import inspect
 import tomllib
 from dataclasses import dataclass
 from functools import lru_cache
@@ -15,8 +18,40 @@ from pathlib import Path
 
 from ..check import DerivationError, Derived
 
+PACKAGE = __name__.rpartition(".pages.")[0]
 _PLACES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 RUNTIME, ENTERS, MEASURED = _PLACES["runtime"], _PLACES["enters"], _PLACES["measured"]
+
+
+@dataclass(frozen=True)
+class Source:
+    file: str
+    line: int
+    text: str
+
+
+def deriving(function: str) -> Source:
+    """Source of a deriving function, given as ``module.name``, where a module in a folder has a dot in its name."""
+    module, _, name = function.rpartition(".")
+    lines, first = inspect.getsourcelines(getattr(importlib.import_module(f"{PACKAGE}.{module}"), name))
+    return Source(f"derivation/{module.replace('.', '/')}.py", first, "".join(lines).rstrip())
+
+
+def title(module: str) -> str:
+    """First line of a module's docstring."""
+    return (
+        (importlib.import_module(f"{PACKAGE}.{module}").__doc__ or module).strip().splitlines()[0].rstrip(".").replace("``", "")
+    )
+
+
+def generated(file: str, text: str) -> dict[str, Source]:
+    """Source of every function of a generated module, by name."""
+    lines = text.splitlines()
+    return {
+        node.name: Source(f"generated/{file}", node.lineno, "\n".join(lines[node.lineno - 1 : node.end_lineno]))
+        for node in ast.parse(text).body
+        if isinstance(node, ast.FunctionDef)
+    }
 
 
 @dataclass(frozen=True)

@@ -7,13 +7,11 @@ import re
 import sympy as sp
 
 from ..check import zero
-from ..latex.reader import Statement, statements
-from ..latex.tokens import rows
+from ..latex import Statement, rows, statements
 from ..model import Foundation
 from ..strip import Strip, traction
 from ..symbols import delta_0, p_0, x
-from .printed import PRINTED
-from .record import Comparison, compared
+from .record import PRINTED, Comparison, compared
 from .words import MATERIAL
 
 opening = sp.Symbol("delta", positive=True)

@@ -8,12 +8,11 @@ from typing import Any
 import sympy as sp
 
 from ..check import Claim, zero
-from ..latex.reader import statements
+from ..latex import statements
 from ..multilevel import yielding
 from ..surface import WAVE, mean_over_cell
 from ..symbols import V, k, l, x, y
-from .printed import PRINTED
-from .record import Comparison, compared, refuted
+from .record import PRINTED, Comparison, compared, refuted
 from .words import field, level, strips, surface
 
 

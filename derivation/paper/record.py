@@ -1,15 +1,20 @@
-"""What a comparison of a printed equation is, and the checks that only comparisons need."""
+"""Eq. 1 to 16 as printed (``printed.toml``); what a comparison with one is, and the checks that only comparisons need."""
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import sympy as sp
 
 from ..check import CORRECTED, REPRODUCED, Check, Claim, DerivationError
 from ..exact import is_zero
-from .printed import PRINTED, SUBJECTS
+
+_EQUATIONS = tomllib.loads(Path(__file__).with_name("printed.toml").read_text(encoding="utf-8"))
+PRINTED = {int(number): row["latex"] for number, row in _EQUATIONS.items()}
+SUBJECTS = {int(number): row["subject"] for number, row in _EQUATIONS.items()}
 
 
 @dataclass(frozen=True)

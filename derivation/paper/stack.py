@@ -7,15 +7,13 @@ from typing import Any
 import sympy as sp
 
 from ..check import zero
-from ..latex.reader import statements
-from ..latex.tokens import joined
+from ..latex import joined, statements
 from ..level import MISPRINT
 from ..multilevel import CONTACT_ALONE, pressure, slope_x, tau_below
 from ..strip import Strip
 from ..symbols import D_level, T_sigma, V, h, l, p_nominal, x, y
 from .level import over_cell
-from .printed import PRINTED
-from .record import Comparison, compared, refuted
+from .record import PRINTED, Comparison, compared, refuted
 from .words import field, level, strips, surface, y_j
 
 law = sp.Function("tau_M")

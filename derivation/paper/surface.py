@@ -8,13 +8,11 @@ import sympy as sp
 
 from ..check import zero
 from ..conditions import SIGN_OF_6
-from ..latex.reader import statements
-from ..latex.tokens import rows
+from ..latex import rows, statements
 from ..sequences import ADHESION, FREE, Span
 from ..surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE
 from ..symbols import D_level, h, l, p_0, s, x, y
-from .printed import PRINTED
-from .record import Comparison, compared, refuted
+from .record import PRINTED, Comparison, compared, refuted
 from .words import level, surface, y_j
 
 

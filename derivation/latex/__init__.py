@@ -1,1 +1,0 @@
-"""LaTeX read back as SymPy."""
