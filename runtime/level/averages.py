@@ -104,13 +104,16 @@ class _Work:
     beside: tuple[np.ndarray, np.ndarray] = (np.empty(0, int), np.empty(0))
     ends: list[np.ndarray] | None = None
 
-    def start(self, state: np.ndarray, theta: np.ndarray) -> Panels:
-        """Panels between the breaks (k,) that are known: at the crest and next to the valley strips are looked at, too."""
-        n = self.rtol.size
-        every, none, ends = np.arange(n), np.full(theta.size + n, -1), np.repeat([0.0, np.pi], n)
-        crest, valley = self._later(every, ends[:n]), self._later(every, self.valley)
-        state, theta = np.concatenate((state, every, every)), np.concatenate((theta, ends))
+    def start(self, state: np.ndarray, theta: np.ndarray, ends: np.ndarray) -> Panels:
+        """Panels between the breaks (k,) that are known. Strips are looked at beside those at which an orbit ``ends``, as at the
+        crest and next to the valley: of a third regime there may be so few that no node meets them."""
+        n, none = self.rtol.size, np.full(theta.size + self.rtol.size, -1)
+        every, outermost = np.arange(n), np.repeat([0.0, np.pi], n)
+        crest, valley = self._later(every, outermost[:n]), self._later(every, self.valley)
         before, after = np.concatenate((none, valley)), np.concatenate((none[n:], crest, none[:n]))
+        ends = np.flatnonzero(ends)
+        before[ends], after[ends] = self._beside(state[ends], theta[ends])
+        state, theta = np.concatenate((state, every, every)), np.concatenate((theta, outermost))
         order = np.lexsort((theta, state))
         state, theta, before, after = state[order], theta[order], before[order], after[order]
         inside = np.flatnonzero((state[1:] == state[:-1]) & (np.diff(theta) > 64 * EPS * np.pi))
@@ -130,7 +133,7 @@ class _Work:
         fresh = self.ends is None
         stages = sampled(stages, Panels.at, lambda panels, theta: self._evaluated(Panels.joined(panels).state, theta))
         if fresh:
-            self._look_beside(stages[0])
+            self._look_beside_thresholds(stages[0])
         # what is not accepted yet counts for the size of the result, not for the result
         total = self.values.copy()
         for stage in stages:
@@ -188,19 +191,21 @@ class _Work:
         self.beside = tuple(np.concatenate(pair) for pair in zip(self.beside, (state, theta), strict=True))
         return number
 
-    def _look_beside(self, stage: Stage) -> None:
-        """Strips to either side of known breaks where the codes of the panels that meet do not follow one another: a third zone
-        may be narrower than the first step."""
+    def _beside(self, state, theta) -> tuple[np.ndarray, np.ndarray]:
+        """``_later`` on both sides of the places ``theta`` (k,)."""
+        return self._later(state, np.maximum(theta - _NEXT, 0.0)), self._later(state, np.minimum(theta + _NEXT, np.pi))
+
+    def _look_beside_thresholds(self, stage: Stage) -> None:
+        """Strips to either side of thresholds where the codes of the panels that meet do not follow one another: a third
+        zone may be narrower than the first step."""
         panels, codes = stage.parts, stage.known[0]
         order = np.lexsort((panels.low, panels.state))
         left, right = order[:-1], order[1:]
-        meet = (panels.high[left] == panels.low[right]) & (panels.state[left] == panels.state[right])
-        doubtful = meet & hides_another(codes[left, -1], codes[right, 0])
+        unknown = (panels.last[left] < 0) & (panels.first[right] < 0) & (panels.high[left] == panels.low[right])
+        doubtful = unknown & (panels.state[left] == panels.state[right]) & hides_another(codes[left, -1], codes[right, 0])
         left, right = left[doubtful], right[doubtful]
         if left.size:
-            state, theta = panels.state[left], panels.high[left]
-            panels.last[left] = self._later(state, np.maximum(theta - _NEXT, 0.0))
-            panels.first[right] = self._later(state, np.minimum(theta + _NEXT, np.pi))
+            panels.last[left], panels.first[right] = self._beside(panels.state[left], panels.high[left])
             self._evaluated(np.empty(0, int), np.empty(0))
 
     def _outer(self, stage: Stage) -> tuple[np.ndarray, ...]:
@@ -240,18 +245,22 @@ class _Work:
             at, level = panels.state[changes.line], self.columns.level
             theta = np.stack((changes.low, changes.high), axis=1)
             E = np.broadcast_to((self.columns.D[at] - level.h)[:, None], theta.shape)
-            parent, A, doubtful = told(self.columns.at(at, self.columns.D[at]), changes, level.amplitude(theta), E, "A")
-            return parent, theta_of(self.columns, A), doubtful
+            parent, A = told(self.columns.at(at, self.columns.D[at]), changes, level.amplitude(theta), E, "A")
+            return parent, theta_of(self.columns, A), np.zeros(parent.size, bool)
 
         found, halved = locate_changes(probe, equation, changes, width)
         self.columns.work.bisected += halved
+        # next to what an equation tells a third zone may be too narrow for nodes
+        doubtful = np.flatnonzero((found.low == found.high) & hides_another(*found.codes.T))
+        before, after = np.full((2, found.size), -1)
+        before[doubtful], after[doubtful] = self._beside(panels.state[found.line[doubtful]], found.low[doubtful])
         state, sliver = panels.state[found.line], (found.high - found.low)[:, None]
         np.add.at(self.values, state, 0.5 * sliver * found.values.sum(axis=1))
         np.add.at(self.errors, state, 0.5 * sliver * np.abs(found.values[:, 1] - found.values[:, 0]))
         # the parts between the brackets, and the outermost ones
-        every, none = np.arange(panels.size), np.full(found.size, -1)
-        starts, first = np.concatenate((panels.low, found.high)), np.concatenate((panels.first, none))
-        stops, last = np.concatenate((found.low, panels.high)), np.concatenate((none, panels.last))
+        every = np.arange(panels.size)
+        starts, first = np.concatenate((panels.low, found.high)), np.concatenate((panels.first, after))
+        stops, last = np.concatenate((found.low, panels.high)), np.concatenate((before, panels.last))
         order_start = np.lexsort((starts, np.concatenate((every, found.line))))
         order_stop = np.lexsort((stops, np.concatenate((found.line, every))))
         line = np.concatenate((every, found.line))[order_start]

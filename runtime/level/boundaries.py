@@ -64,10 +64,12 @@ def thresholds(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
     return state, 2 * np.arctan2(np.sqrt(lost[inside]), np.sqrt(left[inside]))
 
 
-def known_breaks(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
-    """States and thetas (k,) at which strips pass a threshold in closed form, or a curve that is known nearby."""
-    (state, theta), (crossing, A) = thresholds(columns), columns.crossings.expected(columns)
-    return np.concatenate((state, crossing)), np.concatenate((theta, theta_of(columns, A)))
+def known_breaks(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """States and thetas (k,) at which strips pass a threshold in closed form, or a curve that is known nearby; and at which of
+    these curves orbits end, with any other beyond."""
+    (state, theta), (crossing, A, ends) = thresholds(columns), columns.crossings.expected(columns)
+    ends = np.concatenate((np.zeros(state.size, bool), ends))
+    return np.concatenate((state, crossing)), np.concatenate((theta, theta_of(columns, A))), ends
 
 
 def theta_of(columns: LevelBatch, A) -> np.ndarray:
@@ -165,11 +167,9 @@ def hides_another(code: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.abs(_RANK[code % len(CODE)] - _RANK[other % len(CODE)]) > 1
 
 
-def told(
-    columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of ``located``: the changes of which equations tell all, with the place of each break of the law below that is passed;
-    the places; and whether a third regime may lie next to them; all (k,)."""
+def told(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str) -> tuple[np.ndarray, np.ndarray]:
+    """Of ``located``: the changes of which equations tell all, once for each break of the law below that is passed, and where
+    that is, (k,)."""
     passed = changes.passed & (changes.codes[:, :1] % len(CODE) == changes.codes[:, 1:] % len(CODE))
     parent, which = np.nonzero(passed)
     several = passed.sum(axis=1)[parent] > 1
@@ -181,4 +181,4 @@ def told(
     each, parent = Changes.joined([changes.take(one), parts]), np.concatenate((one, parent))
     place, found = located(columns.at(parent, columns.D[parent]), each, A[parent], E[parent], unknown)
     every = np.bincount(parent[~found], minlength=changes.size)[parent] == 0
-    return parent[every], place[every], hides_another(*changes.codes[parent[every]].T)
+    return parent[every], place[every]

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..numerics.rounding import EPS
-from .boundaries import OPENS, straight, told
+from .boundaries import OPENS, hides_another, straight, told
 from .changes import Changes, locate_changes
 from .strips import LevelBatch
 
@@ -60,8 +60,8 @@ def breaks_on(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tuple[l
 
     def equation(changes):
         E = np.stack((changes.low, changes.high), axis=1) - h
-        parent, place, doubtful = told(columns.at(column[changes.line], changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
-        return parent, place + h, doubtful
+        parent, place = told(columns.at(column[changes.line], changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
+        return parent, place + h, hides_another(*changes.codes[parent].T)
 
     answers = [v.reshape(*D.shape, *v.shape[1:]) for v in probe(np.repeat(np.arange(m), D.shape[1]), D.ravel())]
     changes, *_ = Changes.between(np.arange(m), D, answers)

@@ -37,11 +37,11 @@ class Crossings:
         fresh = np.append(True, ~_together(points) | (np.diff(place) != 0))
         self.points[boundary] = points.take(np.flatnonzero(fresh))
 
-    def expected(self, columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
-        """Columns and amplitudes (k,), m, at which ``columns`` cross what is known of the curves, by Newton from between the two
-        points nearest on each, or from the parabola through three where the curve turns."""
+    def expected(self, columns: LevelBatch) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Columns and amplitudes, m, at which ``columns`` cross what is known of the curves, by Newton from between the two
+        points nearest on each, or from the parabola through three where the curve turns; and which orbits end there; (k,)."""
         E = columns.D - columns.level.h
-        states, amplitudes = [], []
+        states, amplitudes, ends = [np.empty(0, int)], [np.empty(0)], [np.empty(0, bool)]
         for boundary, known in self.points.items():
             parts = [part for part in (_between(known, columns.V, E), _at_turns(known, columns.V, E)) if part[0].size]
             if not parts:
@@ -53,9 +53,8 @@ class Crossings:
             self.remember(columns, boundary, points)
             states.append(state)
             amplitudes.append(points.A)
-        if not states:
-            return np.empty(0, int), np.empty(0)
-        return np.concatenate(states), np.concatenate(amplitudes)
+            ends.append(np.full(state.size, boundary.event in ("fold", "release")))
+        return np.concatenate(states), np.concatenate(amplitudes), np.concatenate(ends)
 
 
 def _between(known: Points, velocity, E) -> tuple[np.ndarray, Points]:
