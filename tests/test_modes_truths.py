@@ -36,6 +36,14 @@ def test_contact_all_along_but_for_a_thousandth_of_the_period(seed, place, branc
     assert error <= allowed and sequence == "ac" and 0 < found.adhesion_fraction[0] < 1e-3
 
 
+def test_a_foundation_that_forgets_next_to_nothing_in_a_period():
+    """States below all orbits hardly move in a period, and what a period changes is lost in the gains of onset and release."""
+    scene = {"m": np.array([1.2, 68.3, 11.4, 8.3, 16.8]), "theta": np.array([5.0, 500.0, 1700.0, 1e4, 9.3e4])}
+    scene |= {"P0": 2.4332636, "Delta": 1.6691063, "delta": -1.7797235}
+    error, allowed, sequence = ms.compare(scene, "unloading", ms.solve([scene], "unloading"), 0)
+    assert error <= allowed and sequence == "af"
+
+
 def test_random_strips_without_instantaneous_compliance():
     """Kelvin-Voigt, whose two closures are one."""
     rng = np.random.default_rng(9)

@@ -19,8 +19,6 @@ from .problem import ModeStrips
 from .propagation import propagation, solve_order
 
 _STEPS = 80
-#: a step as small as this, in units of the strip's lengths, leads near enough for Newton's method on the edges
-_COARSEST = 1e-7
 
 
 def engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
@@ -68,7 +66,7 @@ def _fixed_point(kernel, s: ModeStrips):
         step = solve_order(propagation(sub, here, period, None), here.to_e(period.dz))
         size = np.abs(step).max(axis=0)
         z[:, active] += here.to_z(step)
-        active = active[np.isfinite(size) & (size > _COARSEST * sub.size_of_lengths)]
+        active = active[np.isfinite(size) & (size > AGREE * sub.size_of_lengths)]
         if not active.size:
             break
     return met, spent

@@ -37,8 +37,8 @@ def _closing_times(s: ModeStrips, lower: Period, upper: Period, least, most, tim
     gap = s.delta_0 - s.step
     late, early = np.maximum(one, two) * (1 + _SHARE), np.minimum(one, two) * (1 - _SHARE)
     lost_late, lost_early = -np.expm1(-late * rate), -np.expm1(-early * rate)
-    rise = late * _sine_range(event[0], event[1] + late)[1]
-    fall = early * np.minimum(_sine_range(event[0], event[1] + early)[0], 0.0)
+    rise = late * sine_range(event[0], event[1] + late)[1]
+    fall = early * np.minimum(sine_range(event[0], event[1] + early)[0], 0.0)
     # in contact by then, and not released before
     by = gap + rise < (low * lost_late).sum(axis=0)
     by &= gap + np.maximum(rise, 0.0) - (np.minimum(low, 0.0) * lost_late).sum(axis=0) < s.delta_0
@@ -50,7 +50,7 @@ def _closing_times(s: ModeStrips, lower: Period, upper: Period, least, most, tim
 
 def _falling(s: ModeStrips, least, most, times, event):
     """Rate at which the gap falls, all along from the earlier event to the later: fast modes have died out by then."""
-    rate, (low, high) = rates(s.m.beta), _sine_range(*event)
+    rate, (low, high) = rates(s.m.beta), sine_range(*event)
     sums = [each.sum(axis=0) for each in _faded(rate * least, rate * most, times, rate)]
     return np.stack((sums[0] - high, sums[1] - low))
 
@@ -107,7 +107,7 @@ def _growing_after_contact(s: ModeStrips, lower: Period, upper: Period, times, e
         # with the least of each, whatever the signs of the modes that they make up
         least, most = (np.einsum("ij...,j...->i...", m.leave * rate[:, None], f) for f in (low, high))
         least, most = (each.sum(axis=0) for each in _faded(least, most, times, rate))
-    low, high = _sine_range(*event)
+    low, high = sine_range(*event)
     return np.where(after, low + least, -np.inf), np.where(after, high + most, np.inf)
 
 
@@ -125,7 +125,7 @@ def _extreme(e, floor, ceiling, kept, at_end, sign):
     return np.clip(value, np.minimum(floor, e), np.maximum(ceiling, e))
 
 
-def _sine_range(low, high):
+def sine_range(low, high):
     """Least and greatest value of ``sin s`` on [low, high], elementwise."""
     ends = np.sin(low), np.sin(high)
     holds = lambda phase: np.ceil((low - phase) / TWO_PI) * TWO_PI + phase <= high  # noqa: E731

@@ -3,7 +3,8 @@
 Marches from states below (``unloading``) or above (``loading``) every orbit move towards the first one. Their edges are a start
 for Newton's method; what that finds is the first orbit if the period map contracts between the bounding state and it
 (``contraction``). While it does not the state is moved closer: with a lower bound of the map's derivative it may go further
-than one period takes it, and by a chain of states past places where orbits are about to appear (``order``).
+than one period takes it, and by a chain of states past places where orbits are about to appear (``order``). Where foundations are
+so slow that it hardly moves, orbits that are periodic in all relaxation times bound the first one (``forced``).
 """
 
 from __future__ import annotations
@@ -17,14 +18,16 @@ from ..regimes import EDGES
 from .contraction import contracts
 from .coordinates import Order
 from .fields import state_at
+from .forced import rise
 from .march import TWO_PI, Period, march
 from .order import Bound, climb
 from .polish import arguments, certified
 from .problem import ModeStrips
 
 #: the step in which Newton's method starts from the marches: after one period a bounding state is free where the orbits are,
-#: before that nothing can be proven; the one from which on chains are marched; and where a strip is given up
-_START, _CHAINS, _STEPS = 1, 6, 106
+#: before that nothing can be proven; the one from which on chains are marched; from which on orbits are forced in
+#: every other step (earlier it takes longer, and next to folds chains of states go further); and where a strip is given up
+_START, _CHAINS, _FORCED, _STEPS = 1, 6, 24, 188
 #: strips in chains of states at a time: 32 states each
 _CHAINED = 512
 #: agreement of the edges with a march of the period
@@ -103,16 +106,24 @@ class _Search:
         out.kind[i[held]], out.kind[i[lets]] = ENGAGED, FREE
         out.edges[:, i[held]] = near.edges[:, held]
         going = ~(held | lets | near.lost)
-        if number == _START:
-            self._newton(i[going], np.inf)
+        forced = number >= _FORCED and number % 2 == 1 and self.rising
+        if number == _START or forced:
+            self._newton(i[going & ~self.found[i]], np.inf)
         going[going] = ~self._proven(i[going])
+        if forced:
+            k = i[going & self.found[i]]
+            k = k[_apart(b.near.take(k), self.orbit.take(k)) <= _NARROW]
+            out.kind[k[self._stable(k)]] = ORBIT
+            going &= out.kind[i] != ORBIT
         turned = going & (near.engaged != b.engaged[i])
         b.z[:, i[turned]] += near.dz[:, turned]
         b.engaged[i[turned]] = near.engaged[turned]
         on = i[going & ~turned]
         marched = on[:0]
-        if number < _CHAINS:
+        if number < _CHAINS and not forced:
             self._move(on)
+        elif forced:
+            self._rise(on)
         elif on.size:
             parts = [self._climb(few) for few in np.split(on, range(_CHAINED, on.size, _CHAINED))]
             marched, ended = (np.concatenate(each) for each in zip(*parts, strict=True))
@@ -149,6 +160,20 @@ class _Search:
         """By a period, or further where an orbit is known."""
         b = self.bound.take(i)
         self.bound.z[:, i] += b.sign * b.order.to_z(b.towards(self.orbit.take(i), b.room))
+
+    def _rise(self, i) -> None:
+        """To the end of a chain of forced orbits."""
+        b = self.bound.take(i)
+        near = b.near
+        z, engaged = b.z + near.dz, near.engaged.copy()
+        k = np.flatnonzero((near.onsets == 1) & (near.releases == 1) & (near.contacts <= 1))
+        if k.size:
+            edges = in_order(near.edges[:, k])
+            edges[1:3] = np.where(np.isnan(edges[1:3]), edges[0], edges[1:3])  # no contact
+            risen, held = rise(self.kernel, b.s.take(k), edges)
+            known = np.isfinite(risen).all(axis=0)
+            z[:, k[known]], engaged[k[known]] = risen[:, known], held[known]
+        self.bound.z[:, i], self.bound.engaged[i] = z, engaged
 
     def _climb(self, i) -> tuple[np.ndarray, np.ndarray]:
         """By a chain; returns which strips are marched already, and which have ended."""
