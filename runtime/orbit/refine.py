@@ -11,6 +11,7 @@ from .certificate import STABLE
 from .chain import ITERATIONS, gap_zones, links, step
 from .groups import ROUNDING, TWO_PI, Cycle
 from .march import Orbit
+from .sensitivity import slope_excess
 from .solved import edges_of, groups, orbit_of
 
 #: largest correction that an orbit may still ask for
@@ -21,7 +22,7 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = T
     """The orbit with its edges refined, whether nothing was left to correct, how far rounding may have moved the edges where it
     blurs them (else 0), and the evaluations it took.
 
-    ``blurred``: corrections that rounding blurs may be larger.
+    ``blurred``: corrections that rounding blurs may be larger, even where it might pretend an orbit.
     """
     # the cycle of an always adhering strip is the bare one, shifted: its boundary equations are those of "ac" at p_0 = 0
     edges = edges_of(sequence, orbit)
@@ -44,8 +45,13 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = T
                 break
         blur = np.zeros(cycle.size)
         stalled = np.flatnonzero(stalls > 0)
-        if blurred and stalled.size:
-            uncertain = _attainable(kernel, cycle.take(stalled), sequence, edges[:, stalled])
+        if stalled.size:
+            part = cycle.take(stalled)
+            uncertain = _attainable(kernel, part, sequence, edges[:, stalled])
+            if not blurred:
+                # of an orbit that others approach in a period, by this share of their distance, rounding leaves no doubt
+                falls = -slope_excess(kernel, part, orbit_of(sequence, edges[:, stalled]))[0]
+                uncertain = np.where(falls > STABLE, np.minimum(uncertain, ROUNDING / np.minimum(falls, 1e-3)), 0.0)
             blur[stalled] = np.fmin(uncertain, STABLE)
     return orbit_of(sequence, edges), correction <= CONVERGED + blur, blur, spent
 
