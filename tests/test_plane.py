@@ -5,9 +5,9 @@ import pytest
 
 import hystrip
 from hystrip.level.averages import average
-from hystrip.level.boundaries import located, thresholds
 from hystrip.level.changes import Changes
 from hystrip.level.plane import BOUNDARIES, Boundary
+from hystrip.level.regime_map import located, thresholds
 from hystrip.level.strips import LevelBatch
 from hystrip.orbit.regimes import CODE
 

@@ -6,11 +6,10 @@ import surfaces
 
 import hystrip
 from hystrip.level.breaks import breakpoints, breaks_on, first_contact
-from hystrip.level.interior_breaks import IsolatedRegime, island, locate_vanishing
+from hystrip.level.interior_breaks import IsolatedRegime, Zones, island, locate_vanishing
 from hystrip.level.interpolation import Interval, interpolate
 from hystrip.level.means import level_means
 from hystrip.level.strips import LevelBatch, saturation_depth
-from hystrip.level.zones import Zones
 from hystrip.orbit.regimes import CODE
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)

@@ -2,7 +2,7 @@
 
 Between the breakpoints of the integrand Clenshaw-Curtis sums on nested nodes converge geometrically (``quadrature``). Some
 breakpoints are known beforehand: thresholds in closed form, and curves of the plane of strips that were located at neighbouring
-penetrations (``boundaries``, ``crossings``). Where the nodes of one panel disagree about the regime, or about which breaks of the
+penetrations (``regime_map``). Where the nodes of one panel disagree about the regime, or about which breaks of the
 law below are passed, the change is located, by its equation if there is one (``changes``), and the panel divided there.
 
 All panels of all columns advance together, each on its own number of nodes: one batch of strips per round.
@@ -20,10 +20,10 @@ from ..numerics.quadrature import interior_nodes, mapped, mapped_weights, sum_er
 from ..numerics.rounding import EPS
 from ..orbit.batch import Batch
 from ..orbit.regimes import CODE
-from .boundaries import hides_another, known_breaks, theta_of, told
 from .changes import Changes, locate_changes
 from .effort import AVERAGE_LIMIT
-from .zones import Zones, zones_of
+from .interior_breaks import Zones, zones_of
+from .regime_map import by_equation, hides_another, known_breaks, theta_of
 
 if TYPE_CHECKING:
     from .strips import LevelBatch
@@ -245,7 +245,7 @@ class _Work:
             at, level = panels.state[changes.line], self.columns.level
             theta = np.stack((changes.low, changes.high), axis=1)
             E = np.broadcast_to((self.columns.D[at] - level.h)[:, None], theta.shape)
-            parent, A = told(self.columns.at(at, self.columns.D[at]), changes, level.amplitude(theta), E, "A")
+            parent, A = by_equation(self.columns.at(at, self.columns.D[at]), changes, level.amplitude(theta), E, "A")
             return parent, theta_of(self.columns, A), np.zeros(parent.size, bool)
 
         found, halved = locate_changes(probe, equation, changes, width)

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..numerics.rounding import EPS
-from .boundaries import OPENS, hides_another, straight, told
 from .changes import Changes, locate_changes
+from .regime_map import OPENS, by_equation, hides_another, straight
 from .strips import LevelBatch
 
 _SCAN = 32
@@ -60,7 +60,7 @@ def breaks_on(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tuple[l
 
     def equation(changes):
         E = np.stack((changes.low, changes.high), axis=1) - h
-        parent, place = told(columns.at(column[changes.line], changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
+        parent, place = by_equation(columns.at(column[changes.line], changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
         return parent, place + h, hides_another(*changes.codes[parent].T)
 
     answers = [v.reshape(*D.shape, *v.shape[1:]) for v in probe(np.repeat(np.arange(m), D.shape[1]), D.ravel())]

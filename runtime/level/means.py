@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from .averages import Averages, average
+from .interior_breaks import Zones
 from .strips import LevelBatch
-from .zones import Zones
 
 
 def level_means(columns: LevelBatch, rtol: np.ndarray) -> Averages:

@@ -15,8 +15,8 @@ from ..orbit.materials import Material
 from ..orbit.regimes import CODE
 from ..orbit.solved import Solved
 from .accuracy import Accuracy
-from .crossings import Crossings
 from .effort import WorkCounters
+from .regime_map import Crossings
 from .saturated import saturated_level
 
 if TYPE_CHECKING:
