@@ -10,17 +10,11 @@ import sympy as sp
 
 from .check import Derived, derived, holds, zero
 from .flows import solved
+from .paper.record import CORRECTIONS
 from .regime import Regime
 from .strip import TIMES, Strip
 from .surface import AMPLITUDE, HEIGHT, PENETRATION
 from .symbols import A, D, D_j, D_level, K, a, b, c, chi, d, delta_0, k, p_0, s, x
-
-SIGN_OF_6 = (
-    "The first of the three lines is printed as w = f + D. Eq. 8 and 15, as printed, follow from w = D - f alone: "
-    "with the printed "
-    "sign the foundation would be deepest where the surface is farthest from it. The other two lines, p = -p_0 and p = 0, are as "
-    "printed."
-)
 
 
 def zone_conditions(u: sp.Expr) -> Derived:
@@ -41,7 +35,7 @@ def zone_conditions(u: sp.Expr) -> Derived:
             _along(D_level + HEIGHT) == -_along(D_level - HEIGHT) != 0,
         ),
     ]
-    return derived(zone_conditions, gap, checks, correction=SIGN_OF_6)
+    return derived(zone_conditions, gap, checks, correction=CORRECTIONS[6])
 
 
 def _along(height: sp.Expr) -> sp.Expr:

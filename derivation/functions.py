@@ -167,7 +167,7 @@ class Formula:
                 e = e.subs(scaling.scaled(), simultaneous=True)
             return e
 
-        return _map(self.result, bound)
+        return mapped(self.result, bound)
 
 
 class Call(sp.Function):
@@ -205,7 +205,8 @@ def flat(value: Any) -> list[Any]:
     return [part for item in value for part in flat(item)] if isinstance(value, (tuple, list, sp.Tuple)) else [value]
 
 
-def _map(result: Any, function: Callable[[sp.Expr], sp.Expr]) -> Any:
+def mapped(result: Any, function: Callable[[sp.Expr], sp.Expr]) -> Any:
+    """Nested tuples with a function of each part."""
     if isinstance(result, tuple):
-        return tuple(_map(part, function) for part in result)
+        return tuple(mapped(part, function) for part in result)
     return function(sp.sympify(result))

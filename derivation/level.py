@@ -13,6 +13,7 @@ from . import stable
 from .check import Claim, Derived, derived, holds, zero
 from .functions import Formula, stack_sum
 from .kernel import Kernel, kernel
+from .paper.record import CORRECTIONS
 from .saturated import FIELD, LOSS, MODULUS, Saturated
 from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell, mean_over_wave
 from .symbols import D, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, s, x, y
@@ -165,13 +166,7 @@ def stack_friction(wave: Wave, of_one: Formula) -> Kernel:
         ),
     ]
     exact = stack_sum(friction.subs(LOSS, wave.loss)) / p_nominal
-    return kernel(stack_friction, formula, exact, *checks, correction=MISPRINT)
-
-
-MISPRINT = (
-    "Printed with the factor pi^2 and with h_i to the first power. That is no number: it scales with the unit of length. "
-    "Integrating Eq. 15 as Eq. 10 and 11 ask gives 3 pi^2/16 and h_i^2; each printed term is 16/(3 h_i) times the true one."
-)
+    return kernel(stack_friction, formula, exact, *checks, correction=CORRECTIONS[16])
 
 
 def printed_equation_16(one_level: sp.Expr) -> Derived:
@@ -205,7 +200,7 @@ def printed_equation_16(one_level: sp.Expr) -> Derived:
         ),
     ]
     return derived(
-        printed_equation_16, (true, printed), checks, name=name, correction=MISPRINT, emitted=("saturated_stack_friction",)
+        printed_equation_16, (true, printed), checks, name=name, correction=CORRECTIONS[16], emitted=("saturated_stack_friction",)
     )
 
 

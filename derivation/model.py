@@ -9,6 +9,7 @@ import sympy as sp
 
 from .check import Claim, DerivationError, Derived, derived, holds, zero
 from .membership import constant_coefficients
+from .paper.record import CORRECTIONS
 from .symbols import rate
 
 omega = sp.Symbol("omega", positive=True)
@@ -142,13 +143,7 @@ def relaxed_stiffness(model: Model) -> Derived:
         holds("a larger K deforms less: K is a stiffness", softer.is_negative),
     ]
     latex = rf"K = \lim_{{\omega\to 0}} K^*(i\omega) = {sp.latex(stiffness)}"
-    return derived(relaxed_stiffness, stiffness, checks, latex=latex, correction=NO_COMPLIANCE)
-
-
-NO_COMPLIANCE = (
-    "The paper calls K the elastic compliance of the foundation. Its own law gives p = K w at rest: K is a stiffness. Read as a "
-    "compliance it would invert every pressure."
-)
+    return derived(relaxed_stiffness, stiffness, checks, latex=latex, correction=CORRECTIONS[1])
 
 
 def instantaneous_compliance(model: Model) -> Derived:

@@ -8,28 +8,26 @@ from .averages import constant_means, strip_means, zone_integrals
 from .conditions import strip_problem, zone_conditions
 from .displays import STATED, displays, of_one_time
 from .energy import friction_balance, power_balance
-from .events import excess_event, gap_event
+from .events import excess_event, gap_event, links
 from .flows import flows
 from .functions import Call
 from .half_space import half_space
 from .jumps import jumps
 from .kernel import Kernel
 from .level import level
-from .links import links
 from .membership import require_constructor
 from .model import Model, foundation, require_admissible
 from .modes.flows import mode_flows
 from .multilevel import multilevel
-from .onset import onset
 from .outcome import Derivation, Progress, Stages, records
-from .paper import comparisons
+from .paper.compare import comparisons
 from .paper.tags import require_all, require_status, require_tags
 from .regime import OneTime, Regime
 from .regimes import regimes
 from .sample_roots import sample_roots
 from .saturated import saturated
 from .sequences import FREE
-from .stability import onset_slope, shift_of_an_event
+from .stability import onset, onset_slope, shift_of_an_event
 from .stack import stack
 from .strip import strip
 from .symbols import PARAMETERS

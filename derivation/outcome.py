@@ -9,7 +9,7 @@ from typing import Any
 from .check import Check, Derived
 from .kernel import Kernel
 from .model import Model
-from .paper import Comparison
+from .paper.record import Comparison
 
 Progress = Callable[[], None]
 

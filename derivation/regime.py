@@ -16,16 +16,19 @@ import sympy as sp
 from . import stable
 from .check import BEYOND, REPRODUCED, Claim, derived, zero
 from .functions import Formula, written_out
-from .inequality import Inequality, Relation, relation, require
 from .sequences import (
     CONTACT,
     EQUATIONS,
     NOTHING,
     PERIOD,
+    Inequality,
+    Relation,
     Row,
     Span,
     edgeless_record,
     obeys_jump_law,
+    relation,
+    require,
     required,
     with_edges,
     zones_of,

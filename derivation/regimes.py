@@ -11,8 +11,7 @@ from typing import Any, Protocol
 import sympy as sp
 
 from . import stable
-from .inequality import Inequality, Relation, relation, require
-from .sequences import ADHESION, CONTACT, FREE, Row, Span
+from .sequences import ADHESION, CONTACT, FREE, Inequality, Relation, Row, Span, relation, require
 from .symbols import D, chi, delta_0, p_0
 
 

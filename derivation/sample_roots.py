@@ -21,14 +21,13 @@ import sympy as sp
 
 from .check import Derived, derived, holds
 from .functions import evaluator
-from .inequality import Inequality, Relation
 from .level import R
 from .modes.flows import ModeFlows, u
 from .modes.regimes import gap_at, gap_slope, pressure_slope
 from .modes.states import exact_modes
 from .modes.symbols import J_0, J, enter, eta, f_0, leave, z_0
 from .regime import turn
-from .sequences import ADHESION, CONTACT, Row, Span
+from .sequences import ADHESION, CONTACT, Inequality, Relation, Row, Span
 from .symbols import PARAMETERS, D, alpha, beta, chi, delta_0, p, p_0, s, s_0
 
 SAMPLES, SLACK, STEP = 48, 1e-9, 1e-7

@@ -1,6 +1,8 @@
-"""Slope of the onset-to-onset map at a periodic orbit: how much of a shift of the onset is left one period later."""
+"""The map from one onset to the next: what traction does to a point that it reaches, and its slope at a periodic orbit."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping
 
 import sympy as sp
 
@@ -10,7 +12,7 @@ from .functions import Formula, decay, decay_loss, either, quotient, written_out
 from .kernel import Kernel, kernel
 from .regime import Regime, Zone
 from .sequences import CONTACT, NOTHING, PERIOD
-from .symbols import D, J, L, alpha, beta, chi, gap_0, p, p_0, q_0, s_0, s_1
+from .symbols import D, J, L, alpha, beta, chi, delta_0, gap_0, p, p_0, q_0, s_0, s_1
 
 kept, load, released, upper, lower = sp.symbols("kept load released upper lower", real=True)
 
@@ -109,3 +111,41 @@ def step_of_load(change: sp.Expr) -> sp.Expr:
 def _same_phase(edge: sp.Expr) -> sp.Expr:
     """The edge itself instead of one period later: the load has the period 2 pi."""
     return edge.subs(sp.pi, 0)
+
+
+continuous = sp.Symbol("continuous", real=True)
+
+
+def onset(regimes: Mapping[str, Regime]) -> tuple[Kernel, Kernel]:
+    r"""The onset of adhesion, by the zones that meet there; F is the load that drives their event functions.
+
+    adhesive_onset: Gap just after adhesion begins, and the step there of the load H + g - p. Where adhesion ends it steps
+    back by as much.
+
+    .. math:: g_d = \delta_0 - \chi J p_0,\quad [F] = (1 - \chi J)\,p_0
+
+    snap_onset: Pressure above -p_0 just after a snap into contact, and the step there of the load, H + p_0 - q in contact.
+    J must be above 0.
+
+    .. math:: q_d = p_0 - \frac{\delta_0}{J},\quad [F] = \frac{\delta_0}{J} - \delta_0
+    """
+    state, step = _onset(regimes["acaf"])
+    excess, snap = _onset(regimes["afc"])
+    back = {sequence: offsets(row.zones[-1])[0] - offsets(row.zones[-2])[1] for sequence, row in regimes.items()}
+    alone = _onset(regimes["af"])
+    return (
+        kernel(
+            onset,
+            Formula("adhesive_onset", (p_0, delta_0, J, L, chi), (state, p_0 * (continuous + L * chi)), ((continuous, 1 - chi),)),
+            (state, step),
+            zero("without contact it is the same", [state - alone[0], step - alone[1]]),
+            zero("F steps back where adhesion ends", [back["acaf"] + step, back["af"] + step, back["afc"] + step.subs(chi, 1)]),
+        ),
+        kernel(onset, Formula("snap_onset", (p_0, delta_0, J, L), (excess, step_of_load(snap))), (excess, snap)),
+    )
+
+
+def _onset(regime: Regime):
+    """The state in which the first zone is entered, and what its load exceeds that at the end of the last by."""
+    first, last = regime.zones[0], regime.zones[-1]
+    return first.entry, offsets(first)[0] - offsets(last)[1]

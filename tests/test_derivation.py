@@ -185,7 +185,7 @@ def test_a_changed_sign_is_refused_by_name(name: str, tmp_path: Path) -> None:
 LATE = {
     "power balance": ("energy.py", "sp.diff(w, s) - beta / L", "sp.diff(w, s) + beta / L"),
     "strip problem": ("conditions.py", "gap_at(onset - 2 * sp.pi / k", "gap_at(onset + 2 * sp.pi / k"),
-    "equilibrium": ("load.py", "- PERIOD * mean_p - p_0 * adhesion", "- PERIOD * mean_p + p_0 * adhesion"),
+    "equilibrium": ("multilevel.py", "- PERIOD * mean_p - p_0 * adhesion", "- PERIOD * mean_p + p_0 * adhesion"),
     "shift of an event": ("stability.py", "(load_0 + gap_0 - p) * decay", "(load_0 - gap_0 - p) * decay"),
     "means_acaf": ("averages.py", "sum_p) / PERIOD, sum_tau / PERIOD)", "sum_p) / PERIOD, -sum_tau / PERIOD)"),
     "zone conditions": ("conditions.py", "gap = AMPLITUDE * displacement - (", "gap = AMPLITUDE * displacement + ("),

@@ -238,8 +238,8 @@ MUTANTS: tuple[Mutant, ...] = (
         "HEIGHT, x) - friction_of_one.subs(lower)",
         "friction coefficient",
     ),
-    m("level", "load.py", "- PERIOD * mean_p - p_0 * adhesion", "- PERIOD * mean_p + p_0 * adhesion", "equilibrium"),
-    m("level", "load.py", "(2 * width * length(place) for place", "(width * length(place) for place", "contact area"),
+    m("level", "multilevel.py", "- PERIOD * mean_p - p_0 * adhesion", "- PERIOD * mean_p + p_0 * adhesion", "equilibrium"),
+    m("level", "multilevel.py", "(2 * width * length(place) for place", "(width * length(place) for place", "contact area"),
     m("level", "stack.py", "D - threshold.subs", "D + threshold.subs", "least pressure in complete contact"),
     # the paper as printed
     m(
@@ -341,8 +341,8 @@ MUTANTS: tuple[Mutant, ...] = (
         "local shear",
         "levels",
     ),
-    m("display", "load.py", r"\bar p = \frac{1}{l^2} \iint", r"\bar p = \frac{1}{l} \iint", "equilibrium", "levels"),
-    m("display", "load.py", r"A = 2 \Delta \sum", r"A = \Delta \sum", "contact area", "levels"),
+    m("display", "multilevel.py", r"\bar p = \frac{1}{l^2} \iint", r"\bar p = \frac{1}{l} \iint", "equilibrium", "levels"),
+    m("display", "multilevel.py", r"A = 2 \Delta \sum", r"A = \Delta \sum", "contact area", "levels"),
     m("display", "multilevel.py", r"\bar p = \frac1l \int", r"\bar p = l \int", "means over a level", "complete"),
     m("display", "multilevel.py", r"(x, y) = p(x, y)\,\frac", r"(x, y) = -p(x, y)\,\frac", "local stress", "complete"),
     m(
@@ -394,8 +394,8 @@ MUTANTS: tuple[Mutant, ...] = (
     ),
     # tags and status
     m("tag", "multilevel.py", '"Eq. 12: ', '"Eq. 13: ', "tags", "tags"),
-    m("tag", "load.py", '"Eq. 9: ', '"Eq. 7: ', "tags", "tags"),
-    m("status", "level.py", "exact, *checks, correction=MISPRINT)", "exact, *checks)", "saturated_stack_friction"),
+    m("tag", "multilevel.py", '"Eq. 9: ', '"Eq. 7: ', "tags", "tags"),
+    m("status", "level.py", "exact, *checks, correction=CORRECTIONS[16])", "exact, *checks)", "saturated_stack_friction"),
     # templates and certificates
     m("template", "templates/stable.py.jinja", "np.sum(", "np.prod(", "certificate of saturated_stack_friction", "certificates"),
     m(
@@ -486,7 +486,7 @@ def printed(package: ModuleType) -> None:
         multilevel.local_shear(),
         whole_level.comparison,
     )
-    part(package, "paper").comparisons(strip, exact, {step.name: step.value for step in steps})
+    part(package, "paper.compare").comparisons(strip, exact, {step.name: step.value for step in steps})
 
 
 def displayed(package: ModuleType) -> None:
@@ -501,11 +501,11 @@ def displayed(package: ModuleType) -> None:
 
 def levels(package: ModuleType) -> None:
     """Displays of Eq. 7 and 9 to 14, which are the same on every foundation."""
-    load, multilevel, displays = part(package, "load"), part(package, "multilevel"), part(package, "displays")
+    multilevel, displays = part(package, "multilevel"), part(package, "displays")
     passed = (part(package, "check").holds("left out", True),)
     steps = (
-        load.equilibrium((), ()),
-        load.contact_area(()),
+        multilevel.equilibrium((), ()),
+        multilevel.contact_area(()),
         multilevel.local_shear(),
         multilevel.carried_friction(passed, ()),
     )
@@ -532,9 +532,9 @@ def modes(package: ModuleType) -> None:
 def tags(package: ModuleType) -> None:
     strip, flows, full = early(package)
     field = next(kernel.exact for kernel in full.kernels if kernel.formula.name == "saturated_pressure")
-    multilevel, load = part(package, "multilevel"), part(package, "load")
+    multilevel = part(package, "multilevel")
     steps = (multilevel.local_stress(strip.u, field, multilevel.dashpot_loss(strip.u, field)), multilevel.local_shear())
-    part(package, "paper.tags").require_tags((*steps, load.contact_area(())))
+    part(package, "paper.tags").require_tags((*steps, multilevel.contact_area(())))
 
 
 def certificates(package: ModuleType) -> str:

@@ -6,7 +6,7 @@ from typing import Any
 
 import sympy as sp
 
-from ..functions import Formula, flat
+from ..functions import Formula, flat, mapped
 from ..model import Model, Parameter, Roots, Series
 from ..outcome import Derivation
 from ..printing import function_text, functions_of, helpers_used, results, source
@@ -68,8 +68,9 @@ def _modes_of_material(model: Model, series: Series | Roots) -> tuple[str, tuple
 def written(formula: Formula, record: Any) -> Any:
     """A formula as the text of a function, in which what is no argument is a field of the material m."""
     inside = {symbol: named for symbol, named in OF_THE_STRIP.items() if symbol not in formula.args}
-    steps = tuple((label, _renamed(term, inside)) for label, term in _needed(formula))
-    return function_text(Formula(formula.name, formula.args, _renamed(formula.result, inside), steps), record)
+    steps = tuple((label, sp.sympify(term).xreplace(inside)) for label, term in _needed(formula))
+    result = mapped(formula.result, lambda part: part.xreplace(inside))
+    return function_text(Formula(formula.name, formula.args, result, steps), record)
 
 
 def _needed(formula: Formula) -> list[tuple[sp.Symbol, sp.Expr]]:
@@ -81,7 +82,3 @@ def _needed(formula: Formula) -> list[tuple[sp.Symbol, sp.Expr]]:
             wanted |= sp.sympify(term).free_symbols
             kept.append((label, term))
     return kept[::-1]
-
-
-def _renamed(value: Any, names: dict[sp.Symbol, sp.Symbol]) -> Any:
-    return tuple(_renamed(part, names) for part in value) if isinstance(value, tuple) else sp.sympify(value).xreplace(names)

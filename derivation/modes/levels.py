@@ -8,8 +8,16 @@ from __future__ import annotations
 import sympy as sp
 
 from ..check import Claim, zero
-from ..load import contact_area, equilibrium
-from ..multilevel import Multilevel, carried_friction, friction_coefficient, local_shear, local_stress, means_over_a_level
+from ..multilevel import (
+    Multilevel,
+    carried_friction,
+    contact_area,
+    equilibrium,
+    friction_coefficient,
+    local_shear,
+    local_stress,
+    means_over_a_level,
+)
 from ..saturated import FIELD, LOSS
 from ..sequences import ADHESION, CONTACT, PERIOD
 from ..symbols import alpha, p_0, s, s_0

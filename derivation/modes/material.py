@@ -5,7 +5,8 @@ from __future__ import annotations
 import sympy as sp
 
 from ..check import Claim, DerivationError, Derived, derived, holds, zero
-from ..model import NO_COMPLIANCE, Model, Roots, Series, inadmissible, omega, rate
+from ..model import Model, Roots, Series, inadmissible, omega, rate
+from ..paper.record import CORRECTIONS
 from ..symbols import K, beta
 
 K_i, tau_i, eta_i = sp.symbols("K_i tau_i eta_i", positive=True)
@@ -47,7 +48,7 @@ def relaxed_stiffness(model: Model) -> Derived:
         holds("the K of the series is that of the operators", sp.cancel(series.K - stiffness) == 0),
         holds("a larger K deforms less: K is a stiffness", sp.diff(load / any_stiffness, any_stiffness).is_negative),
     ]
-    return derived(relaxed_stiffness, stiffness, checks, latex=rf"K = {sp.latex(stiffness)}", correction=NO_COMPLIANCE)
+    return derived(relaxed_stiffness, stiffness, checks, latex=rf"K = {sp.latex(stiffness)}", correction=CORRECTIONS[1])
 
 
 def series_of(model: Model) -> Series | Roots:

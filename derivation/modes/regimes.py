@@ -12,16 +12,19 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..check import BEYOND, derived, zero
-from ..inequality import Inequality, Relation, relation, require
 from ..sequences import (
     CONTACT,
     EQUATIONS,
     NOTHING,
     PERIOD,
+    Inequality,
+    Relation,
     Row,
     Span,
     edgeless_record,
     obeys_jump_law,
+    relation,
+    require,
     required,
     with_edges,
     zones_of,

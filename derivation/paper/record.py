@@ -15,6 +15,8 @@ from ..exact import is_zero
 _EQUATIONS = tomllib.loads(Path(__file__).with_name("printed.toml").read_text(encoding="utf-8"))
 PRINTED = {int(number): row["latex"] for number, row in _EQUATIONS.items()}
 SUBJECTS = {int(number): row["subject"] for number, row in _EQUATIONS.items()}
+DERIVED_BY = {int(number): tuple(row["derived_by"]) for number, row in _EQUATIONS.items()}
+CORRECTIONS = {int(number): row["correction"] for number, row in _EQUATIONS.items() if "correction" in row}
 
 
 @dataclass(frozen=True)

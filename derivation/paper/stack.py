@@ -8,12 +8,11 @@ import sympy as sp
 
 from ..check import zero
 from ..latex import joined, statements
-from ..level import MISPRINT
-from ..multilevel import CONTACT_ALONE, pressure, slope_x, tau_below
+from ..multilevel import pressure, slope_x, tau_below
 from ..strip import Strip
 from ..symbols import D_level, T_sigma, V, h, l, p_nominal, x, y
 from .level import over_cell
-from .record import PRINTED, Comparison, compared, refuted
+from .record import CORRECTIONS, PRINTED, Comparison, compared, refuted
 from .words import field, level, strips, surface, y_j
 
 law = sp.Function("tau_M")
@@ -30,7 +29,7 @@ def shear(derived_shear: sp.Expr) -> Comparison:
         zero("in contact it is, as printed, the stress of the derivation", here - ours),
         refuted(NOTHING, here.subs(pressure, 0)),
     ]
-    return compared(12, checks, ("local shear",), correction=CONTACT_ALONE)
+    return compared(12, checks, ("local shear",), correction=CORRECTIONS[12])
 
 
 def carried(complete: sp.Expr, one_level: sp.Expr) -> Comparison:
@@ -43,7 +42,7 @@ def carried(complete: sp.Expr, one_level: sp.Expr) -> Comparison:
         zero("in complete contact it is, as printed, the level's own tau_sat and the law below", full.sides[1] - both),
         refuted(NOTHING, nothing.sides[1]),
     ]
-    return compared(13, checks, ("carried friction",), correction=CONTACT_ALONE)
+    return compared(13, checks, ("carried friction",), correction=CORRECTIONS[12])
 
 
 def coefficient(complete: sp.Expr, one_level: sp.Expr) -> Comparison:
@@ -60,7 +59,7 @@ def coefficient(complete: sp.Expr, one_level: sp.Expr) -> Comparison:
         zero("two levels in complete contact: as printed it is Eq. 16, corrected", full.sides[2] - both),
         refuted(NOTHING, nothing.sides[2]),
     ]
-    return compared(14, checks, ("friction coefficient",), correction=CONTACT_ALONE)
+    return compared(14, checks, ("friction coefficient",), correction=CORRECTIONS[12])
 
 
 def complete_contact(strip: Strip, complete: sp.Expr) -> Comparison:
@@ -107,7 +106,7 @@ def all_complete(of_the_step: tuple[sp.Expr, sp.Expr]) -> Comparison:
         "levels in complete contact together",
         "least pressure in complete contact",
     )
-    return compared(16, checks, steps, correction=MISPRINT + " The sum runs over the levels, up to M; N counts strips.")
+    return compared(16, checks, steps, correction=CORRECTIONS[16] + " The sum runs over the levels, up to M; N counts strips.")
 
 
 def _carrying(index: str, below: str, pressed: Any, constant: sp.Expr | None = None) -> dict[str, Any]:

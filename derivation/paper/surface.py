@@ -7,12 +7,11 @@ import re
 import sympy as sp
 
 from ..check import zero
-from ..conditions import SIGN_OF_6
 from ..latex import rows, statements
 from ..sequences import ADHESION, FREE, Span
 from ..surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE
 from ..symbols import D_level, h, l, p_0, s, x, y
-from .record import PRINTED, Comparison, compared, refuted
+from .record import CORRECTIONS, PRINTED, Comparison, compared, refuted
 from .words import level, surface, y_j
 
 
@@ -69,4 +68,4 @@ def conditions(derived_gap: sp.Expr) -> Comparison:
         zero("in adhesion p = -p_0, as printed", [adhesion.sides[1] - loads[0], loads[0] + p_0]),
         zero("outside both p = 0, as printed", outside.sides[1] - loads[1]),
     ]
-    return compared(6, checks, ("zone conditions", "strip profile", "strip problem"), derived, SIGN_OF_6)
+    return compared(6, checks, ("zone conditions", "strip profile", "strip problem"), derived, CORRECTIONS[6])

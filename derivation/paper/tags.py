@@ -6,28 +6,9 @@ import re
 from collections.abc import Iterable
 
 from ..check import DerivationError, Derived
-from .record import Comparison
+from .record import DERIVED_BY, Comparison
 
 STEP = "tags"
-DERIVED_BY = {
-    1: ("foundation law", "relaxed stiffness"),
-    2: ("adhesion law",),
-    3: ("adhesion law",),
-    4: ("strip profile",),
-    5: ("moving frame", "dimensionless groups", "contact flow", "relaxation flow"),
-    6: ("zone conditions",),
-    7: ("equilibrium",),
-    8: ("strip profile",),
-    9: ("contact area",),
-    10: ("local stress", "level_saturation_friction"),
-    11: ("means", "contact_work", "relaxation_integral", "integrals", "level_saturation_pressure", "level_saturation_friction"),
-    12: ("local shear",),
-    13: ("carried friction",),
-    14: ("friction coefficient",),
-    15: ("saturated_pressure", "saturated_overstress", "excess_event", "contact flow"),
-    16: ("saturated_stack_friction", "Eq. 16 as printed"),
-}
-"""By equation, the beginnings of the names of the steps that derive it, or a part of it."""
 
 
 def numbers(paper: str) -> list[int]:
