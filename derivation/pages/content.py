@@ -22,8 +22,7 @@ from ..sequences import Row
 from . import places
 from .latex import widest
 from .misprints import misprints
-from .wording import WORDING, Wording, plainly
-from .words import WORDS
+from .wording import WORDING, WORDS, Wording, plainly
 
 LONG = 130  # operations from which a value is only read in the generated function
 PAPER = 108  # characters of a piece too wide for a sheet
@@ -59,8 +58,8 @@ def content(derivation: Derivation, files: dict[str, str], certificates: dict[st
         "functions": functions_table(computed, derivation.steps, certificates, own.parts),
         "certificates": {name: dict(sorted(row.items())) for name, row in sorted(certificates.items())},
         "method": WORDS["method"],
-        "sources": {name: _text(places.deriving(name)) for name in sorted({*functions, *(name for name, _ in WORDS["method"])})},
-        "generated": {name: _text(source) for name, source in (computed | helpers).items()},
+        "sources": {name: vars(places.deriving(name)) for name in sorted({*functions, *(name for name, _ in WORDS["method"])})},
+        "generated": {name: vars(source) for name, source in (computed | helpers).items()},
         "helpers": helpers_table(helpers),
         "measured": "measured.json",
     }
@@ -221,7 +220,3 @@ def helpers_table(computed: dict[str, places.Source]) -> list[dict[str, Any]]:
             }
         )
     return rows
-
-
-def _text(source: places.Source) -> dict[str, Any]:
-    return {"file": source.file, "line": source.line, "text": source.text}

@@ -11,7 +11,7 @@ from ..check import Derived
 from ..level import FIGURE_7
 from ..surface import HEIGHT
 from ..symbols import D_level, K, T_eps, T_sigma, V, h, k, l, p_nominal, x, y
-from .words import WORDS
+from .wording import WORDS
 
 
 def misprints(steps: Mapping[str, Derived], kind: str) -> list[dict[str, Any]]:

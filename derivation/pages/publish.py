@@ -9,7 +9,7 @@ from typing import Any
 
 from ..certificates import certified_names
 from ..derive import derive, stages_of
-from ..drift import certificate_drift
+from ..drift import compare
 from ..emit import emit
 from ..folder import AUDIT, CERTIFICATES, MEASURED, dumped, generated_folder, read_certificates, read_measured, write_files
 from ..model import Model
@@ -44,9 +44,8 @@ def audit(
     derivations = tuple(derive(model, say) for model in chosen)
     texts = emit(derivations)
     say()
-    stale = [name for name, text in texts.items() if not _same(installed / name, text)]
-    functions = {d.model.name: certified_names(d) for d in derivations}
-    stale += [record.path for record in certificate_drift(installed, functions)]
+    drift = compare(installed, texts, {d.model.name: certified_names(d) for d in derivations})
+    stale = [record.path for record in drift if record.kind != "stray" and not record.path.startswith(AUDIT)]
     if stale:
         raise AuditError(f"{', '.join(stale)} in {installed} is not what the derivation emits; run `hystrip regenerate` first")
     found = {model.name: figures for model in chosen if (figures := measure(model.name)) is not None}
@@ -67,7 +66,3 @@ def kept(stored: dict[str, Any]) -> dict[str, dict[str, Any]]:
         name: {table: value for table, value in entry.get("tables", {}).items() if table in KEPT}
         for name, entry in stored.items()
     }
-
-
-def _same(path: Path, text: str) -> bool:
-    return path.exists() and path.read_bytes() == text.encode()

@@ -1,9 +1,11 @@
-"""What a page says in words of its own model, beside what is the same for every model."""
+"""What a page says in words: ``words.toml``, the same for every model, and what belongs to its own."""
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import sympy as sp
@@ -17,8 +19,8 @@ from ..modes.symbols import J_0
 from ..outcome import Derivation
 from ..regime import PERIODIC, Regime
 from ..sequences import CONTACT, EQUATIONS
-from .words import WORDS
 
+WORDS = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
 MEANINGS = dict([*EQUATIONS.values(), PERIODIC])
 
 
