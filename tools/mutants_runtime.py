@@ -77,8 +77,22 @@ MUTANTS = (
     Mutant(
         "bounds on snapped contacts begin without pressure",
         "orbit/orbit_bounds.py",
-        "excess_entry(b, cycle.q_on, s.p_0",
-        "excess_entry(b, 0.0, s.p_0",
+        "part.centre - part.half_b, part.q_on",
+        "part.centre - part.half_b, 0.0 * part.q_on",
+        "test_proofs.py",
+    ),
+    Mutant(
+        "half the way to the orbit that is always engaged",
+        "orbit/orbit_bounds.py",
+        "change = (s.p_0 - cycle.jump)",
+        "change = 0.5 * (s.p_0 - cycle.jump)",
+        "test_proofs.py",
+    ),
+    Mutant(
+        "onsets are later than the balance allows for",
+        "orbit/balance.py",
+        "longest = hi + np.minimum",
+        "longest = lo + np.minimum",
         "test_proofs.py",
     ),
     Mutant(

@@ -33,11 +33,12 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.n
     # where a link is lost to rounding or overflows the step is no number, and the strip is left to the search
     with np.errstate(all="ignore"):
         for iteration in range(1, ITERATIONS + 1):
-            move = step(*links(kernel, part, sequence, gaps, edges))
+            move, slope = step(*links(kernel, part, sequence, gaps, edges))
             size = np.abs(move).max(axis=0)
             edges = moved(edges, move, low, high, size)
-            # a step this small leaves an error of its square
-            going = np.flatnonzero(size > STABLE) if iteration < ITERATIONS else index[:0]
+            # a step this small leaves an error of its square. Where the map does not contract the extremal orbit is passed, or
+            # there is none
+            going = np.flatnonzero((size > STABLE) & ((slope < 1) | (iteration == 1))) if iteration < ITERATIONS else index[:0]
             if going.size < index.size:
                 result[:, index], converged[index], spent[index] = edges, size <= STABLE, iteration
                 if not going.size:
@@ -101,12 +102,12 @@ def links(kernel, cycle: Cycle, sequence: str, gaps: np.ndarray, edges: np.ndarr
     return out
 
 
-def step(values, before, after) -> np.ndarray:
-    """Newton step of the edges (k, n): every edge by the first one, and that by the last link."""
+def step(values, before, after) -> tuple[np.ndarray, np.ndarray]:
+    """Newton step of the edges (k, n), every edge by the first one, and that by the last link; and the slope of the onset map."""
     constant, linear = [np.zeros_like(values[0])], [np.ones_like(values[0])]
     for value, back, on in zip(values[:-1], before[:-1], after[:-1], strict=True):
         constant.append(-(value + back * constant[-1]) / on)
         linear.append(-back * linear[-1] / on)
     slope = -before[-1] * linear[-1] / after[-1]
     first = (values[-1] + before[-1] * constant[-1]) / (after[-1] * (slope - 1))
-    return np.array([k + m * first for k, m in zip(constant, linear, strict=True)])
+    return np.array([k + m * first for k, m in zip(constant, linear, strict=True)]), slope

@@ -27,7 +27,7 @@ from .regimes import CODE, ZONES
 from .solved import UNDECIDED, Record, Solved, settle
 
 #: Strips solved at a time: memory stays bounded. Fewer cost more calls, more leave the cache
-CHUNK = 65536
+CHUNK = 131072
 
 
 def solve_strips(kernel, strips: Strips, unloading: bool) -> Solved:

@@ -1,8 +1,8 @@
 """Proof without a march that no more extremal orbit exists beside one that is known.
 
 Unloading. A more engaged orbit has an earlier onset, so the unloading orbit at x* is proven by excluding zeros of r between the
-earliest onset and x*. With ``orbit_bounds`` it is enough that R falls strictly (``sensitivity.steep_margin``) all along from the
-onset before which there is none; on a slow foundation the balance of a period is asked (``balance``).
+earliest onset and x*. It is enough that R falls strictly (``sensitivity.steep_margin``) all along from the onset before which
+bounds on all orbits (``orbit_bounds``) leave none.
 
 Loading, of a strip within reach, ``D > -delta_0``. A less engaged orbit has a later onset. None has the last one, x_e, nor does
 the map lead on beyond it: there ``H = -delta_0``, so ``z = u + delta_0 = beta sin x_e > 0``, and H is less until the next arc of
@@ -17,33 +17,34 @@ What is not proven here is left to ``search``; nothing is ever accepted for lack
 
 import numpy as np
 
-from .balance_exclusion import first
 from .groups import Cycle
-from .march import TWO_PI, Orbit
-from .orbit_bounds import FAST, OrbitBounds
+from .march import Orbit
+from .orbit_bounds import OrbitBounds, bounds_beside
 from .sensitivity import contact_length, slope_grows, steep_margin
 
 
 def is_extremal(kernel, cycle: Cycle, orbit: Orbit, bounds: OrbitBounds, last: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Which orbits are proven to be the first (``last``: last) of their onset arc, and the event evaluations spent on each."""
+    """Which orbits are proven to be the first (``last``: last) of their onset arc, and the event evaluations spent on each.
+
+    ``bounds`` get an onset where they had none.
+    """
     proven, spent = falls_from(kernel, cycle, orbit, bounds.x, bounds.c, last), np.zeros(cycle.size)
     if last:
         return proven | slope_grows(kernel, cycle, orbit), spent
-    rest = np.flatnonzero(~proven & (cycle.strips.beta > FAST))
+    rest = np.flatnonzero(~proven & np.isnan(bounds.x))
     if rest.size:
-        part = cycle.among(rest)
-        proven[rest], spent[rest] = first(kernel, part, orbit.take(rest), *onsets_within(part, bounds.take(rest)))
+        part, known = cycle.among(rest), orbit.take(rest)
+        beside = bounds_beside(kernel, part, known)
+        proven[rest] = falls_from(kernel, part, known, beside.x, beside.c)
+        bounds.x[rest], spent[rest] = beside.x, beside.evaluations
     return proven, spent
-
-
-def onsets_within(cycle: Cycle, bounds: OrbitBounds) -> tuple[np.ndarray, np.ndarray]:
-    """Phases before which no orbit has its onset, and after which its adhesion does not end."""
-    return np.fmax(cycle.centre - cycle.half_d, bounds.x), np.fmin(cycle.centre + TWO_PI - cycle.half_c, bounds.c)
 
 
 def falls_from(kernel, cycle: Cycle, known: Orbit, x, c, last: bool = False) -> np.ndarray:
     """Where no zero of r lies between the known onset and ``x`` (NaN: unknown), before which (``last``: after which) there is
     none; ``c`` bounds the end of adhesion."""
+    if np.isnan(x).all():
+        return np.zeros(cycle.size, bool)
     half = falling_arc(kernel, cycle, known, c, last)
     # behind the centre of the arc, with c before the middle of its own, T' grows
     beyond = (x <= cycle.centre + half) | (known.c <= cycle.centre + np.pi) if last else cycle.centre - half <= x

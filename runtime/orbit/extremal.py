@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .balance_exclusion import exclude_out_of_reach
+from .balance import exclude_out_of_reach
 from .batch import Batch
 from .certificate import attracting, edges_admissible, stable
 from .chain import follow
@@ -65,10 +65,11 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: OrbitBounds) -> Extremal:
             found.evaluations += out.evaluations[pick]
             out.evaluations[pick] = found.evaluations
             here = np.flatnonzero(found.certified)
-            pick, found = pick[here], found.take(here)
-            found.certified, used = is_extremal(kernel, part.among(here), found.orbit, limits.take(here), last)
+            pick, found, limits = pick[here], found.take(here), limits.take(here)
+            found.certified, used = is_extremal(kernel, part.among(here), found.orbit, limits, last)
             found.evaluations += used
             out.put(pick, found)
+            bounds.x[pick] = limits.x
     rest = np.flatnonzero(~none & ~out.certified)
     if rest.size:
         found = _isolated(kernel, cycle.among(rest), last, out.orbit.take(rest), bounds.x[rest])

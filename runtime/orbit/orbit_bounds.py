@@ -24,6 +24,16 @@ has ``z > max(D + J_0 p_0, 0)``. (Where w is continuous where p steps, read w fo
 From the gap there adhesion ends at c and the next onset is met at x: in every orbit adhesion ends after c, every onset lies
 before x, and there is none if c does not exist.
 
+Beside a known orbit y there is a state nearer to all of them. Without release the period map E is convex in z, as
+w is the larger of u and ``z - J p_0``, and keeps order. So its one fixed point, the orbit that is always engaged, as if gaps had
+no limit, is more engaged than every orbit, and a step of Newton's method from any state ends at one that is more engaged still.
+From y that step is closed form. E differs from the period of y by adhesion that is not released in the free zone, of length F:
+
+    E(y) - y = -(p_0 - chi J p_0) (1 - exp(-F/beta)),   E' = exp(-2 pi/beta - (a - b) L/alpha),
+
+so that z is less than that of y by ``(y - E(y))/(1 - E')``. As contact begins in y, after that has faded over the first adhesion,
+the excess pressure is more by this over J; where y has no contact, by what is more than its gap where ``H + p_0`` turns negative.
+
 The phases are solved for roughly. Each is replaced by one that is further off, verified by the sign of an event: contact or
 adhesion that is held longer (shorter) only leaves the state more (less) engaged than it is.
 """
@@ -36,11 +46,11 @@ from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
 from .batch import Batch
 from .groups import ROUNDING, Cycle
-from .march import TWO_PI, Event
+from .march import TWO_PI, Event, Orbit
+from .sensitivity import contact_length, fading
 
 #: beta above which a foundation remembers too much of the most engaged state for bounds from it to say much, unless adhesion
-#: moves it by more than the amplitude in a period: the balance of one (``balance``) is asked instead. 30 to 300 cost about the
-#: same
+#: moves it by more than the amplitude in a period. 30 to 300 cost about the same
 FAST = 60.0
 #: distance from the edges themselves at which their bounds are close enough
 _CLOSE = 0.003
@@ -73,20 +83,40 @@ def orbit_bounds(kernel, cycle: Cycle) -> OrbitBounds:
     index = np.flatnonzero((cycle.half_b > 0) & (cycle.half_b < np.pi))
     if not index.size:
         return out
+    part = cycle.among(index)
+    _follow(kernel, part, part.centre - part.half_b, part.q_on, part.centre + part.half_b, index, out)
+    return out
+
+
+def bounds_beside(kernel, cycle: Cycle, known: Orbit) -> OrbitBounds:
+    """Bounds for cycles with ``known`` orbits."""
+    s, out, contact = cycle.strips, OrbitBounds.blank(cycle.size), ~np.isnan(known.b)
+    b = np.where(contact, known.b, np.maximum(known.x, cycle.centre + cycle.half_b))
+    with np.errstate(all="ignore"):
+        change = (s.p_0 - cycle.jump) * kernel.decay_loss(known.x + TWO_PI - known.c, s.beta) - s.noise()
+        less = change / np.expm1(-fading(cycle, contact_length(known.b, known.a))) * kernel.decay(b - known.x, s.beta)
+        gap = np.where(contact, 0.0, kernel.gap_after(known.x, b, cycle.gap_on, -s.p_0, s.D, s.beta))
+        # without instantaneous compliance pressure has no memory
+        more = np.divide(np.maximum(less - gap, 0.0), s.J, out=np.zeros(cycle.size), where=s.J > 0)
+    _follow(kernel, cycle, b, cycle.q_on + more, np.where(contact, known.a, b), np.arange(cycle.size), out)
+    return out
+
+
+def _follow(kernel, cycle: Cycle, b, q_on, a, index, out: OrbitBounds) -> None:
+    """Follow contact that begins at b with ``q_on`` and ends about a to the next onset; bounds go to the elements ``index`` of
+    ``out``."""
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        part = cycle.among(index)
-        a, spent = _contact_end(kernel, part, part.centre - part.half_b)
+        a, spent = _contact_end(kernel, cycle, b, q_on, a)
         out.evaluations[index] += spent
         go = np.flatnonzero(np.isfinite(a))
-        index, part, a = index[go], part.among(go), a[go]
-        c, _, spent = _adhesion_end(kernel, part, a, 0.0, 1.0)
+        index, cycle, a = index[go], cycle.among(go), a[go]
+        c, _, spent = _adhesion_end(kernel, cycle, a, 0.0, 1.0)
         out.evaluations[index] += spent
         go = np.flatnonzero(np.isfinite(c))
-        index, part, a, c = index[go], part.among(go), a[go], c[go]
+        index, cycle, a, c = index[go], cycle.among(go), a[go], c[go]
         out.a[index], out.c[index], out.released[index] = a, c, True
-        out.x[index], out.missed[index], spent = earliest_onset(kernel, part, c)
+        out.x[index], out.missed[index], spent = earliest_onset(kernel, cycle, c)
         out.evaluations[index] += spent
-    return out
 
 
 def least_engaged_bounds(kernel, cycle: Cycle) -> OrbitBounds:
@@ -123,11 +153,12 @@ def earliest_onset(kernel, cycle: Cycle, c):
     return np.where(missed, np.nan, x - TWO_PI), missed, spent + 1
 
 
-def _contact_end(kernel, cycle: Cycle, b):
-    """Phases behind the end of contact begun at b, NaN where none was found, and the evaluations spent."""
+def _contact_end(kernel, cycle: Cycle, b, q_on, low):
+    """Phases behind the end of contact begun at b with ``q_on``, NaN where none was found, and the evaluations spent. It does not
+    end before ``low``."""
     s = cycle.strips
-    entry = kernel.excess_entry(b, cycle.q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
-    low, high = cycle.centre + cycle.half_b, cycle.centre + TWO_PI - cycle.half_b
+    entry = kernel.excess_entry(b, q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
+    high = cycle.centre + TWO_PI - cycle.half_b
     return _beyond(Event(kernel.excess_event, entry), low, low, high, 1.0, s.noise() + ROUNDING * entry[4])
 
 
@@ -166,12 +197,12 @@ def _beyond(event: Event, start, low, high, side: float, noise):
     """Phases behind (``side`` 1) or before (-1) the zeros through which events fall between ``low`` and ``high``, not far from
     them if possible, NaN where none is verified; and the evaluations spent. ``start``: about where they fall."""
     x, spent = falling_root(event, low, high, start, _CLOSE)
-    found = np.full(x.size, np.nan)
+    found, ask = np.full(x.size, np.nan), np.arange(x.size)
     for further in (1, 10, np.inf):
-        phase = np.clip(x + side * further * _CLOSE, low, high)
-        ask = np.flatnonzero(np.isnan(found))
-        if ask.size:
-            good = side * event(phase[ask], ask)[0] < -noise[ask]
-            spent[ask] += 1
-            found[ask[good]] = phase[ask[good]]
+        phase = np.minimum(np.maximum(x[ask] + side * further * _CLOSE, low[ask]), high[ask])
+        good = side * event(phase, ask)[0] < -noise[ask]
+        spent[ask] += 1
+        found[ask[good]], ask = phase[good], ask[~good]
+        if not ask.size:
+            break
     return found, spent

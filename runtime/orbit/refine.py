@@ -31,7 +31,7 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = T
     with np.errstate(all="ignore"):
         for _ in range(ITERATIONS):
             now = edges[:, index]
-            move = step(*_equations(kernel, cycle.among(index), sequence, now))
+            move, _ = step(*_equations(kernel, cycle.among(index), sequence, now))
             spent[index] += 1
             size = np.abs(move).max(axis=0)
             # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction. Once may be chance, and
