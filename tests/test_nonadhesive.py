@@ -9,11 +9,10 @@ import hystrip
 import hystrip.level.nonadhesive.stack
 import hystrip.level.nonadhesive.surface
 from hystrip.errors import SolverError
-from hystrip.level.effort import WorkCounters
 from hystrip.level.means import level_means
-from hystrip.level.nonadhesive.columns import Columns
 from hystrip.level.nonadhesive.family import family
-from hystrip.level.nonadhesive.span import Span, panels
+from hystrip.level.nonadhesive.means import Level as Means
+from hystrip.level.nonadhesive.span import Span
 from hystrip.level.strips import LevelBatch
 from hystrip.orbit.foundation import foundation_of
 
@@ -72,8 +71,9 @@ def test_the_nodes_of_a_cell_know_its_area_and_its_mean_amplitude(d):
     s_sat = np.array([11.0])
     for n in (40, 60):
         span = Span(np.array([d]), s_sat)
-        _, u, s, weight = panels(span, np.sqrt([[0.0, span.high[0] - span.low[0]]]), n)
-        outside = 2 * np.arcsin(np.sqrt(d)) if d < 1 else 2 * np.arccos(np.sqrt(2 * (d - 1) / 9))
+        u, s, weight = span.nodes(n)
+        end = span.complete[0]
+        outside = 2 * np.arcsin(np.sqrt(d)) if d < 1 else end
         assert abs(weight.sum() - outside / np.pi) <= 1e-11
         mean = (outside + np.sin(outside)) / (2 * np.pi)
         assert abs((weight * u).sum() - mean) <= 1e-11
@@ -226,16 +226,14 @@ def test_a_family_that_goes_further_is_the_same(rtol):
     """Up to the strips asked for, whatever else is in the batch."""
     rate = LEVEL.k * np.array([1e-4, 1e-2])
     floor = np.array([1e-3, 1e-3, 1.0])
-    both, alone, narrow = (
-        family(foundation_of(SOFT), rate[: len(top)], np.array(top), np.full(len(top), 1e-2 * rtol))[0]
-        for top in ([1.2, np.inf], [np.inf], [0.01])
-    )
-    d, group, goal = np.array([0.1, 0.4]), np.zeros(2, int), np.full((2, 3), 1e-2 * rtol)
-    of = lambda strips: Columns(strips, 1.0, 1.0, WorkCounters()).means(group, d, goal, True)  # noqa: E731
-    (near, _), (far, _) = of(both), of(alone)
+    both, _ = family(foundation_of(SOFT), rate, np.array([1.2, np.inf]), np.full(2, 1e-2 * rtol))
+    d, group = np.array([0.1, 0.4]), np.zeros(2, int)
+    alone, _ = family(foundation_of(SOFT), rate[:1], np.array([np.inf]), np.full(1, 1e-2 * rtol))
+    near, far = Means(both).means(group, d, 27), Means(alone).means(group, d, 27)
     assert (np.abs(near - far) <= rtol * (np.abs(far) + floor)).all()
+    narrow, _ = family(foundation_of(SOFT), rate[:1], np.array([0.01]), np.full(1, 1e-2 * rtol))
     with pytest.raises(SolverError, match="beyond its family"):
-        of(narrow)
+        Means(narrow).means(group, d, 27)
 
 
 @pytest.mark.parametrize("pressure", [1e-8, 1.0])

@@ -11,7 +11,6 @@ from functools import lru_cache
 
 import numpy as np
 
-from .roots import rising_root
 from .rounding import EPS
 
 #: all quantities share their singularities: power of the roughest one's coefficients, relative to its own, in those of the others
@@ -85,14 +84,6 @@ def interpolation_errors(
     return _SAFE * end * np.clip(2 * pace / np.maximum(1 - pace, 1e-3), _FASTEST, _SLOWEST)
 
 
-def errors_alone(c: np.ndarray, goal: np.ndarray) -> np.ndarray:
-    """Errors of interpolants with coefficients ``c`` (m, n + 1, q), each quantity by itself, (m, q); a tenth of the ``goal``
-    (m, q) doesn't matter."""
-    m, n, q = c.shape
-    alone = np.swapaxes(c, 1, 2).reshape(m * q, n, 1)
-    return interpolation_errors(alone, 0.1 * goal.reshape(-1, 1)).reshape(m, q)
-
-
 def evaluate(coefficients: np.ndarray, t) -> np.ndarray:
     """Chebyshev sums of ``coefficients`` (n + 1, q) at ``t`` in [0, 1] (m,), shape (m, q)."""
     angle = np.arccos(np.clip(2 * np.asarray(t, float) - 1, -1.0, 1.0))
@@ -135,24 +126,6 @@ def clenshaw(table: np.ndarray, which: np.ndarray, x: np.ndarray) -> np.ndarray:
     np.subtract(np.multiply(x, one, out=product), two, out=two)
     two += np.take(table[0], which, axis=1, out=here, mode="clip")
     return two
-
-
-def resampled(u: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Coefficients (m, n + 1, q) over ``u`` of quantities with the ``values`` (m, n + 1, q) at ``lobatto(n)`` of another
-    parameter, at which ``u`` (m, n + 1) rises smoothly from 0 to 1."""
-    (m, size), nodes = u.shape, lobatto(u.shape[1] - 1)
-    both = coefficients(np.concatenate((u[:, :, None], values), axis=2))
-    rise = np.concatenate((both[:, :, :1], derivatives(both[:, :, :1])), axis=2).transpose(1, 2, 0)
-    row, wanted = np.repeat(np.arange(m), size - 2), np.tile(nodes[1:-1], m)
-    guess = np.concatenate([np.interp(nodes[1:-1], known, 2 * nodes - 1) for known in u])
-
-    def over(x, index):
-        place, slope = clenshaw(rise, row[index], x)
-        return place - wanted[index], slope
-
-    x = np.tile(2 * nodes - 1, (m, 1))
-    x[:, 1:-1] = rising_root(over, np.full(row.size, -1.0), np.ones(row.size), guess)[0].reshape(m, size - 2)
-    return coefficients(evaluate_each(both[:, :, 1:], x))
 
 
 class Series:

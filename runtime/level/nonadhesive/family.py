@@ -1,39 +1,44 @@
-"""All strips of a level at one velocity: the width of their contact as a function of the penetration over the amplitude.
+"""All strips of a level at one velocity: their means as functions of the penetration over the amplitude.
 
 Without adhesion alpha and beta are all that a strip has but for ``s = D/A``, and they are the same on the whole level.
 Contact begins like a root of s and becomes complete like a root of ``s_sat - s``, ``s_sat = 1 + R``: over ``xi``, ``s
 = s_sat sin^2 xi``, everything is smooth. The orbits are sampled over the width of their contact, where they are in
-closed form and smooth as well, and resampled over xi. Newton's method goes on from there to the strip that is meant.
+closed form and smooth as well, and resampled over xi.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from ...errors import SolverError
 from ...inputs.surface import Level
-from ...numerics.chebyshev import derivatives, errors_alone, evaluate_each, lobatto, resampled
+from ...numerics.chebyshev import clenshaw, coefficients, derivatives, evaluate_each, interpolation_errors, lobatto
 from ...numerics.quadrature import interleaved, mapped
+from ...numerics.roots import rising_root
 from ...numerics.rounding import EPS, LARGEST
 from ...orbit.foundation import Foundation
-from ...orbit.nonadhesive import Orbits, Waves
 
-#: nodes of the first attempt and of the last, and errors, relative to the largest, from which on Newton's method goes on; nothing
-#: is sampled finer than this many roundings; and the share of what is allowed that is cut off a series
-_FIRST, _LAST, _CLOSE, _FINEST, _TRIMMED = 16, 512, 1e-2, 256, 0.1
+#: nodes of the first attempt and of the last
+_FIRST, _LAST = 8, 512
+#: so many coefficients that are cut off a series are known to whoever asks what they would add
+NEXT = 4
 #: beyond its end by this, relative, nothing is asked of a series
 _ROUNDING = 1e-12
+#: nothing is sampled finer than this many roundings; and the share of what is allowed that is cut off a series
+_FINEST, _TRIMMED = 256, 0.03
 #: beyond this k V times the longest retardation time the general path says what is wrong
 _FASTEST = 1e100
+#: quantities of a strip that are averaged, mean pressure, mean friction and share of the period in contact; of its contact that,
+#: the greatest pressure over it, and where that is, a share of the contact from the entry; and how well the share has to be known
+#: beside the others: as well as it comes
+MEANS, CONTACT, _ANY = slice(0, 3), slice(2, 5), 1e30
 #: looks at a contact for its greatest pressure
 _LOOKS = 33
-#: the least share of the period that a contact is looked at, and that a strip has of it or of what is left
-_LEAST, _NONE = 1e-6, 1e-9
-#: relative step of Newton's method after which there is another one, and how many there are
-_STEP, _STEPS = 1e-5, 4
+#: the least share of the period that a contact is looked at
+_LEAST = 1e-6
 
 
 def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V: np.ndarray) -> bool:
@@ -44,93 +49,126 @@ def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V:
 
 @dataclass(frozen=True)
 class Family:
-    """Strips at the rates ``k V`` (G,): ``s_sat`` (G,), and ``series``, coefficients (G, n, 6) over ``xi/top``: mean pressure
-    (K A) and friction (K A kA), the share of the period in contact, the greatest pressure over that, its place, a share of the
-    contact from the entry; and the slope of the share. ``errors`` (G, 3): of the first three. ``full`` (G,): friction in complete
-    contact."""
+    """Strips at velocities (G,): ``s_sat`` (G,), and ``series``, coefficients (n, 5) for each, of mean pressure (K
+    A), mean friction (K A kA), contact fraction, greatest pressure (K A) over that, and its place, over ``xi/top``. Of the means
+    ``next`` (G, NEXT, 3): the coefficients that would follow up to ``degree`` (G,); ``errors`` (G, 3): bounds of what all others
+    would add, but rough ones of contact. ``full`` (G,): friction in complete contact, at s_sat."""
 
-    foundation: Foundation
-    rate: np.ndarray
     s_sat: np.ndarray
     top: np.ndarray
-    series: np.ndarray
+    series: list[np.ndarray]
+    next: np.ndarray
+    degree: np.ndarray
     errors: np.ndarray
     full: np.ndarray
 
+    @property
+    def greatest_errors(self) -> np.ndarray:
+        """Bounds of the errors of all strips, (G, 3)."""
+        return self.errors + np.abs(self.next).sum(axis=1)
+
     def part(self, which: slice) -> Family:
         """The velocities ``which`` alone."""
-        some = Family(self.foundation, *(getattr(self, field.name)[which] for field in fields(self)[1:]))
-        return replace(some, series=some.series[:, : np.flatnonzero(some.series.any(axis=(0, 2))).max(initial=0) + 1])
+        return Family(*(getattr(self, field.name)[which] for field in fields(self)))
 
-    def values(self, group: np.ndarray, s: np.ndarray) -> np.ndarray:
-        """Of the strips ``s`` (m, nodes), all of row i at the velocity ``group[i]``, what there are series of, and the slope of
-        the share by s, (m, nodes, 6). Raises ``SolverError`` for strips beyond those that the series was made for."""
-        xi, top = _xi(s, self.s_sat[group, None]), self.top[group, None]
-        if (xi > (1 + _ROUNDING) * top).any():
+    def parameter(self, group: np.ndarray, s: np.ndarray) -> np.ndarray:
+        """Where in [0, 1] the series has the strips ``s`` (m, nodes)."""
+        return _xi(s, self.s_sat[group, None]) / self.top[group, None]
+
+    def values(self, group: np.ndarray, s: np.ndarray, slopes: bool = False, of: slice = MEANS) -> np.ndarray:
+        """Quantities ``of`` the strips ``s`` (m, nodes), all of row i at the velocity ``group[i]``: (m, nodes, q), or with
+        their ``slopes`` by s (m, nodes, 2 q). Raises ``SolverError`` for strips beyond those that the series was made for."""
+        xi, q = _xi(s, self.s_sat[group, None]), of.stop - of.start
+        if (xi > (1 + _ROUNDING) * self.top[group, None]).any():
             raise SolverError("a strip without adhesion lies beyond its family")
-        out = evaluate_each(self.series[group], np.clip(2 * xi / top - 1, -1.0, 1.0))
-        # twice the derivative over [0, 1] that was a derivative over [-1, 1]
-        out[..., 5] *= 2 / np.maximum(top * self.s_sat[group, None] * np.sin(2 * xi), 1 / LARGEST)
+        out = np.empty((*s.shape, 2 * q if slopes else q))
+        sizes = np.array([self.series[g].shape[0] for g in group])
+        for n in np.unique(sizes):
+            rows = np.flatnonzero(sizes == n)
+            some = slice(None) if rows.size == group.size else rows
+            which, place = np.unique(group[some], return_inverse=True)
+            table = np.array([self.series[g][:, of] for g in which])
+            if slopes:
+                table = np.concatenate((table, derivatives(table)), axis=2)
+            x = 2 * xi[some] / self.top[group[some], None] - 1
+            out[some] = evaluate_each(table[place], np.clip(x, -1.0, 1.0))
+        if slopes:
+            # by s: twice the derivative over [0, 1] that was a derivative over [-1, 1]
+            by_s = self.s_sat[group, None] * np.sin(2 * xi) * 0.5 * self.top[group, None]
+            out[..., q:] /= np.maximum(by_s, np.finfo(float).tiny)[..., None]
         return out
-
-    def orbits(self, group: np.ndarray, s: np.ndarray, share: np.ndarray, slope: np.ndarray) -> tuple[Waves, Orbits]:
-        """The strips ``s`` (N,) at the velocities ``group`` (N,), from the ``share`` of the period in contact that a series has,
-        and its ``slope``, (N,). Raises ``SolverError`` for one that is not certified."""
-        waves = self.foundation.waves(self.rate[group])
-        share, rows, some = _inside(share), np.arange(s.size), waves
-        for _ in range(_STEPS):
-            before = share[rows]
-            after = _inside(before + slope[rows] * (s[rows] - some.orbits(2 * np.pi * before, means=False).D))
-            share[rows] = after
-            rows = rows[np.abs(after - before) > _STEP * np.minimum(after, 1 - after)]
-            if not rows.size:
-                break
-            some = waves.take(rows)
-        return waves, waves.orbits(2 * np.pi * share, means=False).sure()
 
 
 def family(
     foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, accuracy: np.ndarray, carries: np.ndarray | bool = True
 ) -> tuple[Family, int]:
-    """Families at the rates ``k V`` (G,), up to the penetrations ``s_top`` (G,), pressure and friction to the ``accuracy`` (G,)
-    in their units; and how many strips that took. Where it ``carries`` (G,), contacts are looked at for peaks. Where the accuracy
-    is not reached, the error says so. Raises ``SolverError`` for a strip that is not certified."""
-    R = np.broadcast_to(foundation.modulus_ratio(rate), rate.shape)
-    # a level of height h averages K A kA loss/2 over its strips, and the mean of A^2 is 3 h^2/32
-    full = foundation.saturation_friction(2 * np.pi, 1.0, rate) * 32 / (3 * foundation.K)
+    """Families at the rates ``k V`` (G,), up to the penetrations ``s_top`` (G,), to the ``accuracy`` (G,) of pressure and
+    friction in their units; and how many strips that took. Where it ``carries`` (G,), contacts are looked at for peaks.
+
+    Where that is not reached, the error says so. Raises ``SolverError`` for a strip that is not certified.
+    """
+    G = rate.size
+    R = np.broadcast_to(foundation.modulus_ratio(rate), (G,))
+    s_sat = 1 + R
+    full = _full_friction(foundation, rate)
+    complete = np.stack((s_sat, R, full, np.ones(G), 2 * R, np.full(G, 0.5)), axis=1)
     phi, strips = _reaching(foundation, rate, s_top)
-    complete = np.stack((1 + R, R, full, np.ones_like(R), 2 * R, np.full_like(R, 0.5)), axis=1)
-    series, G = np.zeros((rate.size, _LAST + 1, 6)), rate.size
-    out = Family(foundation, rate, 1 + R, np.zeros(G), series, np.zeros((G, 3)), full)
-    left, n, samples, carries = np.arange(G), _FIRST, None, np.broadcast_to(carries, (G,))
+    carries = np.broadcast_to(carries, (G,))
+    series: list[np.ndarray] = [np.empty(0)] * G
+    out = Family(s_sat, np.zeros(G), series, np.zeros((G, NEXT, 3)), np.zeros(G, int), np.zeros((G, 3)), full)
+    left, n, samples = np.arange(G), _FIRST, None
     while left.size:
         share = phi[left, None] * (lobatto(n) if samples is None else lobatto(n)[1::2])
         fresh = _samples(foundation, rate[left], complete[left], share, carries[left])
         strips += int(np.count_nonzero((share > 0) & (share < 1)))
         samples = fresh if samples is None else interleaved(samples, fresh)
-        xi = _xi(samples[:, :, 0], out.s_sat[left, None])
-        top = np.maximum(xi[:, -1:], np.finfo(float).tiny)
-        c = resampled(np.maximum.accumulate(xi / top, axis=1), samples[:, :, 1:])
-        greatest = np.abs(samples[:, :, 1:4]).max(axis=1)
-        goal = np.minimum(accuracy[left, None] * (1.0, 1.0, np.inf), _CLOSE * greatest)
-        goal = np.maximum(goal, _FINEST * EPS * greatest)
-        error = errors_alone(c[:, :, :3], goal)
+        s, values = samples[:, :, 0], samples[:, :, 1:4]
+        over = _resampled(samples, s_sat[left])
+        greatest = np.abs(values).max(axis=1)
+        goal = np.maximum(accuracy[left, None] * (1.0, 1.0, _ANY), _FINEST * EPS * greatest)
+        # what is not known of a strip's penetration moves all along their slopes
+        step = np.diff(s, axis=1)[:, :, None]
+        slopes = np.abs(np.divide(np.diff(values, axis=1), step, out=np.zeros((*step.shape[:2], 3)), where=step > 0)).max(axis=1)
+        sampled = errors_alone(coefficients(samples[:, :, :4]), np.concatenate((goal.min(axis=1, keepdims=True), goal), axis=1))
+        error = errors_alone(over[:, :, MEANS], goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 16 * EPS * greatest
+        error += 4 * EPS * (s_sat[left] * s[:, -1])[:, None]
         done = (error <= goal).all(axis=1) | (n == _LAST)
-        tail = np.cumsum(np.abs(c[:, ::-1, :3]), axis=1)[:, ::-1]
-        c[(tail <= _TRIMMED * goal[:, None]).all(axis=2)] = 0.0
-        out.top[left], out.errors[left] = xi[:, -1], error + _TRIMMED * goal
-        series[left, : n + 1] = np.concatenate((c, derivatives(c[:, :, 2:3])), axis=2)
+        for k in np.flatnonzero(done):
+            g = left[k]
+            out.series[g] = _trimmed(over[k], _TRIMMED * goal[k])
+            cut = over[k, len(out.series[g]) :, MEANS]
+            out.next[g, : len(cut)] = cut[:NEXT]
+            out.degree[g] = n
+            out.errors[g] = error[k] + np.abs(cut[NEXT:]).sum(axis=0)
+            out.top[g] = _xi(s[k, -1], s_sat[g])
         left, samples, n = left[~done], samples[~done], 2 * n
     return out, strips
+
+
+def errors_alone(c: np.ndarray, goal: np.ndarray) -> np.ndarray:
+    """Errors of interpolants with coefficients ``c`` (m, n + 1, q), each quantity by itself, (m, q); a tenth of the ``goal``
+    (m, q) doesn't matter."""
+    m, n, q = c.shape
+    alone = np.swapaxes(c, 1, 2).reshape(m * q, n, 1)
+    return interpolation_errors(alone, 0.1 * goal.reshape(-1, 1)).reshape(m, q)
 
 
 def _xi(s, s_sat):
     return np.arcsin(np.sqrt(np.clip(s / s_sat, 0.0, 1.0)))
 
 
-def _inside(share):
-    """Shares of the period of contacts, neither none nor all."""
-    return np.clip(share, _NONE, 1 - _NONE)
+def _trimmed(c, goal):
+    """Coefficients without a tail that doesn't matter; sizes in steps, so that series of one size are evaluated together."""
+    tail = np.cumsum(np.abs(c[::-1, MEANS]), axis=0)[::-1]
+    n = int(np.count_nonzero((tail > goal).any(axis=1)))
+    return c[: 4 * -(-max(n, 1) // 4)]
+
+
+def _full_friction(foundation, rate):
+    """In complete contact, K A kA: half the loss modulus."""
+    # a level of height h averages K A kA loss/2 over its strips, and the mean of A^2 is 3 h^2/32
+    l = 2 * np.pi  # noqa: E741
+    return foundation.saturation_friction(l, 1.0, rate) * 32 / (3 * foundation.K)
 
 
 def _reaching(foundation, rate, s_top):
@@ -174,3 +212,24 @@ def _peaks(pressure, rows):
     offset = np.divide(0.5 * (before - after), bend, out=np.zeros_like(bend), where=bend < 0)
     vertex = mapped(np.clip(t[highest] + offset * t[1], 0.0, 1.0))
     return np.maximum(pressure(vertex[:, None], rows)[:, 0], looks.max(axis=1)), vertex
+
+
+def _resampled(samples, s_sat):
+    """Coefficients over xi/xi_top of quantities of which, and of s before them, there are ``samples`` (m, n + 1, 6) at
+    ``lobatto(n)`` of the width of contact."""
+    (m, size, _), s = samples.shape, samples[:, :, 0]
+    both, nodes = coefficients(samples), lobatto(size - 1)
+    goal = s_sat[:, None] * np.sin(_xi(s[:, -1], s_sat)[:, None] * nodes) ** 2
+    # x in [-1, 1] at which s is the goal; the root of s is nearly linear in it
+    known = np.sqrt(np.maximum.accumulate(s, axis=1))
+    guess = np.array([np.interp(g, row, 2 * nodes - 1) for g, row in zip(np.sqrt(goal), known, strict=True)])
+    rise = np.concatenate((both[:, :, :1], derivatives(both[:, :, :1])), axis=2).transpose(1, 2, 0)
+    row, wanted, inside = np.repeat(np.arange(m), size - 2), goal[:, 1:-1].ravel(), guess[:, 1:-1].ravel()
+
+    def over(x, index):
+        place, slope = clenshaw(rise, row[index], x)
+        return place - wanted[index], slope
+
+    x = np.tile(2 * nodes - 1, (m, 1))
+    x[:, 1:-1] = rising_root(over, np.full(row.size, -1.0), np.ones(row.size), inside)[0].reshape(m, size - 2)
+    return coefficients(evaluate_each(both[:, :, 1:], x))

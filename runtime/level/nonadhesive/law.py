@@ -12,25 +12,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...numerics.chebyshev import errors_alone, resampled
+from ...numerics.chebyshev import coefficients
+from .family import errors_alone
+from .means import CANCELLED
 
+#: nodes of a piece, tried in turn
+NODES = (16, 32, 64, 128)
 #: how much steeper a law is feared to be beyond its end
 _FEARED = 2.0
 #: slopes of a law are looked at over steps of at least this share of the pressure
 _STEP = 1e-3
-#: what is left in a mean of the greatest error of a law's friction: along its pieces errors change sign
-_CANCELLED = 0.3
-
-
-def _parameter(share, quartic):
-    """Parameter in [0, 1] of pressures that are such a ``share`` of the way along pieces that start at p = 0, or not."""
-    root = np.sqrt(np.clip(share, 0.0, 1.0))
-    return 2 / np.pi * np.arcsin(np.where(quartic, np.sqrt(root), root))
 
 
 @dataclass(frozen=True)
 class Piece:
-    """A law between pressures ``low`` and ``high`` (G,): coefficients (G, n + 1, q) over the parameter; ``quartic``: it
+    """A law between pressures ``low`` and ``high`` (G,): coefficients (G, n + 1, q) over ``omega``; ``quartic``: it
     starts at p = 0."""
 
     low: np.ndarray
@@ -40,25 +36,26 @@ class Piece:
 
     def parameter(self, group, p):
         """x in [-1, 1] of the pressures ``p`` (m,) of the laws ``group`` (m,)."""
-        share = (p - self.low[group]) / (self.high - self.low)[group]
-        root = np.sqrt(np.clip(share, 0.0, 1.0))
-        return 4 / np.pi * np.arcsin(np.sqrt(root) if self.quartic else root) - 1
+        share = np.clip((p - self.low[group]) / (self.high - self.low)[group], 0.0, 1.0)
+        return 4 / np.pi * np.arcsin(np.sqrt(np.sqrt(share)) if self.quartic else np.sqrt(share)) - 1
 
 
-def fit(p: np.ndarray, values: np.ndarray, quartic: np.ndarray, friction: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Series (m, n + 1, q) through the ``values`` (m, n + 1, q) of pieces that are ``quartic``, or not, at the pressures ``p``
-    (m, n + 1), smooth at ``lobatto(n)``. Their last quantity is the error of all friction: of it one bound for all of a piece.
-    Bounds of all friction, Pa, (m,); and for which all friction, and that of each level, is known to ``friction`` (m,), Pa.
-    Contact needs no more nodes than that."""
-    low, high = p[:, :1], p[:, -1:]
-    u = np.maximum.accumulate(_parameter((p - low) / (high - low), quartic[:, None]), axis=1)
-    series = resampled(u, values)
-    of_total = np.concatenate((series[:, :, :-1:2].sum(axis=2, keepdims=True), series[:, :, :-1:2]), axis=2)
+def pressures(low: np.ndarray, high: np.ndarray, omega: np.ndarray, quartic: np.ndarray) -> np.ndarray:
+    """Pressures (m, n) at parameters ``omega`` (n,) between ``low`` and ``high`` of pieces that are ``quartic``, or not, (m,)."""
+    share = np.sin(0.5 * np.pi * omega) ** np.where(quartic, 4, 2)[:, None]
+    return low[:, None] + (high - low)[:, None] * share
+
+
+def fit(values: np.ndarray, friction: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Series (m, n + 1, q) through the ``values`` of pieces at ``lobatto(n)``, whose last quantity is the error of all friction:
+    of it one bound for all of a piece; bounds of all friction, Pa, (m,); and for which all friction, and that of each level, is
+    known to ``friction`` (m,), Pa. Contact needs no more nodes than that."""
+    frictions = values[:, :, :-1:2]
+    of_total = coefficients(np.concatenate((frictions.sum(axis=2, keepdims=True), frictions), axis=2))
     goal = np.broadcast_to(friction[:, None], (friction.size, of_total.shape[2]))
-    # what is missed between the nodes, of the pressure too, has the highest frequencies
-    miss = errors_alone(of_total, goal)
+    miss, series = errors_alone(of_total, goal), coefficients(values)
     series[:, :, -1] = 0.0
-    series[:, 0, -1] = _CANCELLED * (miss[:, 0] + values[:, :, -1].max(axis=1))
+    series[:, 0, -1] = CANCELLED * (miss[:, 0] + values[:, :, -1].max(axis=1))
     return series, np.abs(of_total[:, :, 0]).sum(axis=1), (miss <= goal).all(axis=1)
 
 

@@ -92,12 +92,12 @@ class NonadhesiveSurface:
         h = surface.levels[0].h
         p_full, d_max = [p[which] for p in self.p_full[:levels]], None if by_pressure else most / h
         first, wanted = replace(surface, levels=surface.levels[:levels]), Wanted(rtol * least[0], rtol * least[1], rtol)
-        stack = FamilyStack(first, self.V[which], p_full, most, d_max, wanted, levels < len(surface.levels))
-        d, found = stack.at(0, row, load if by_pressure else load / h, stack.laws(), by_pressure)
-        friction, error = found[:, 1:-1:2], found[:, -1]
+        stack = FamilyStack(first, self.V[which], p_full, most, d_max, wanted)
+        found = stack.at(0, row, load if by_pressure else load / h, stack.laws(), by_pressure)
+        friction, error = found.values[:, :-1:2], found.values[:, -1]
         total = floor + friction.sum(axis=1)
-        out.D[index], out.p[index], out.error[index] = d * h, load if by_pressure else found[:, 0], error
-        out.tau[:levels, index], out.contact[:levels, index] = friction.T, found[:, 2:-1:2].T
+        out.D[index], out.p[index], out.error[index] = found.d * h, found.p, error
+        out.tau[:levels, index], out.contact[:levels, index] = friction.T, found.values[:, 1:-1:2].T
         # a friction that nothing is told of is left to the general path: relative to it, not to the floor, it may be sure
         told = (error <= _DIGIT * (total - floor)) | (self.V[group] == 0)
         out.certain[index] = (error <= rtol * total) & told & (levels == len(surface.levels))
