@@ -16,7 +16,7 @@ from hystrip.orbit.groups import Strips, adhesive_cycle
 from hystrip.orbit.march import Orbit, march
 from hystrip.orbit.orbit_bounds import FAST, bounds_beside, least_engaged_bounds, orbit_bounds
 from hystrip.orbit.regimes import CODE
-from hystrip.orbit.search import excludes, isolate_extremal
+from hystrip.orbit.search import excludes, isolate_extremal, misses
 from hystrip.orbit.sensitivity import slope_bounds, slope_excess, slope_grows
 
 SCANNED = 300
@@ -64,6 +64,28 @@ def proven(cycle, orbit):
     """By bounds on all orbits: beside the orbit itself, and from the most engaged state."""
     found = (bounds_beside(kernel, cycle, orbit), orbit_bounds(kernel, cycle))
     return [exclusion.falls_from(kernel, cycle, orbit, bounds.x, bounds.c) for bounds in found]
+
+
+@pytest.mark.parametrize("where", ["hanging", "saturated"])
+def test_between_an_onset_that_stays_engaged_and_one_that_misses_none_comes_back_to_itself(where):
+    """However steeply r rises behind the onset from which the end of adhesion just grazes."""
+    cycle = adhesive_cycle(kernel, strips(31, 12_000, where))
+    cycle = cycle.take(np.flatnonzero(cycle.half_d > 0))
+    first, last = cycle.centre - 0.999 * cycle.half_d, cycle.centre + 0.99 * cycle.half_d
+    narrow = np.random.default_rng(31).integers(1, 16, cycle.size)
+    for k in range(15):
+        middle, go = 0.5 * (first + last), k < narrow
+        engaged = march(kernel, cycle, middle)[0].engaged
+        first, last = np.where(go & engaged, middle, first), np.where(go & ~engaged, middle, last)
+    (left, _), (right, _) = (march(kernel, cycle, x) for x in (first, last))
+    use = np.flatnonzero(left.engaged & ~right.engaged & (right.r > 0))
+    cycle, first, right = cycle.take(use), first[use], right.take(use)
+    claimed = misses(kernel, cycle, first, right)
+    inner = first + (right.x - first) * (1 - np.linspace(0, 1, 60)[1:-1, None] ** 2)
+    orbit, _ = march(kernel, cycle.take(np.tile(np.arange(use.size), len(inner))), inner.ravel())
+    comes_back = (~orbit.engaged & (orbit.r <= 0)).reshape(inner.shape).any(axis=0)
+    assert claimed.sum() > 100 and comes_back.sum() > 20
+    assert not (claimed & comes_back).any()
 
 
 @pytest.mark.parametrize("where", ["hanging", "pressed"])

@@ -110,6 +110,13 @@ MUTANTS = (
         "test_proofs.py test_extremal.py test_reference_strips.py",
     ),
     Mutant(
+        "adhesion that just does not end is taken to end at once",
+        "orbit/search.py",
+        "np.clip(np.pi, right.c, np.maximum(end, right.c))",
+        "right.c",
+        "test_proofs.py",
+    ),
+    Mutant(
         "errors of an average are a hundredth",
         "level/averages.py",
         "error = width * sum_errors(values, noise) + rounding",
