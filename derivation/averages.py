@@ -1,7 +1,5 @@
 """Means of pressure and friction of a strip (Eq. 11), in closed form in the edges: SymPy does the integrals per zone."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

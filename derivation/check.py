@@ -5,8 +5,6 @@ its value and what it claims of it to :func:`derived`, which verifies every clai
 does not come out exactly zero raises :class:`DerivationError` with the name of the step, so nothing unverified goes on.
 """
 
-from __future__ import annotations
-
 import inspect
 import re
 from collections.abc import Callable, Iterable

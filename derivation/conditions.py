@@ -4,8 +4,6 @@ The regimes are derived in the phase ``s = -k x`` and without dimensions. Here t
 states it, Eq. 5 is solved in x with the conditions at d, b, -a and -c, and the same boundary equations have to come out.
 """
 
-from __future__ import annotations
-
 import sympy as sp
 
 from .check import Derived, derived, holds, zero

@@ -1,7 +1,5 @@
 """The derivation of a model: from the paper's operators, of one relaxation time, or from a Prony series of any number."""
 
-from __future__ import annotations
-
 from types import ModuleType
 
 from . import one_time

@@ -6,8 +6,6 @@ index means what it says. What the names mean: :mod:`.vocabulary` and :mod:`.mod
 definition or an integral over fields that are not in closed form have nothing to compare; ``displays.toml`` lists them.
 """
 
-from __future__ import annotations
-
 import random
 import tomllib
 from collections.abc import Callable, Iterable, Mapping

@@ -5,8 +5,6 @@ emitted function; the figures measured vary with the processor and with NumPy, s
 has a certificate, made for this very solver, and (in the tests) that the error measured here stays below the bound.
 """
 
-from __future__ import annotations
-
 import difflib
 import json
 import os

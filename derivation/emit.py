@@ -1,7 +1,5 @@
 """Emission: verified kernels in, the text of the generated files out. Nothing is derived or rearranged here."""
 
-from __future__ import annotations
-
 import hashlib
 import subprocess
 import sys

@@ -6,8 +6,6 @@ the work against the traction leave something at the steps of p: the energy that
 correction without a physical meaning (continuous, which leaves the instantaneous response out).
 """
 
-from __future__ import annotations
-
 import sympy as sp
 
 from .check import Derived, derived, holds, zero

@@ -11,8 +11,6 @@ with both their derivatives, sharing what these have in common. One link for eve
 and their Jacobian along the chain.
 """
 
-from __future__ import annotations
-
 import sympy as sp
 
 from .check import zero

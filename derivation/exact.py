@@ -7,8 +7,6 @@ reduced by ``sin^2 = 1 - cos^2``. What is left is a polynomial in algebraically 
 identically if and only if it is the zero polynomial. No heuristic simplification takes part.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

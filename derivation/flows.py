@@ -4,8 +4,6 @@ One integration constant per mode is eliminated by the state in which the zone i
 to that edge every exponent is ``-(s - s_0)/T <= 0``: nothing can overflow.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The folder of generated files: where it is, what stands in it, and how it is written."""
 
-from __future__ import annotations
-
 import importlib
 import importlib.util
 import json

@@ -6,8 +6,6 @@ intermediate terms and a result. It is only a way of computing: :func:`.kernel.s
 that SymPy derived.
 """
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The foundation under one level that rubs, in complete contact, as a viscoelastic half-space does. SI."""
 
-from __future__ import annotations
-
 import sympy as sp
 
 from .check import Derived, derived, zero

@@ -1,7 +1,5 @@
 """What happens to w where p steps: the law integrated across the step, and the two closures in use."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import sympy as sp

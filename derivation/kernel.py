@@ -1,7 +1,5 @@
 """A formula to emit, tied to the expression that it was proven to compute."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any

@@ -3,8 +3,6 @@
 SI throughout. The level's strips are those of :mod:`.strip`, with amplitude and penetration that vary over y.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import sympy as sp

@@ -1,7 +1,5 @@
 """A viscoelastic model is data: a name, parameters, and the two operators of ``Q(d/dt) w = P(d/dt) p``."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """A user's model: a Python file that declares ``MODEL``, or several as ``MODELS``."""
 
-from __future__ import annotations
-
 import keyword
 import os
 import runpy

@@ -4,8 +4,6 @@ The recursion itself is run by the runtime, over solved strips. What it has to c
 power of sliding, what a strip carries in its contact, and the coefficient, which in complete contact is Eq. 16.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """The derivation for one relaxation time, stage after stage."""
 
-from __future__ import annotations
-
 import sympy as sp
 
 from .averages import constant_means, strip_means, zone_integrals

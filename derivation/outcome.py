@@ -1,7 +1,5 @@
 """What the derivation of a model comes to: its stages, the kernels to emit, and every verified quantity."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, is_dataclass
 from typing import Any

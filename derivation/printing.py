@@ -4,8 +4,6 @@ Only spelling happens here. SymPy's own rewrites for NumPy are left out on purpo
 ``exp(-z) expm1(z)``, which overflows.
 """
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Iterable
 from dataclasses import dataclass

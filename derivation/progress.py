@@ -1,7 +1,5 @@
 """Reporting how far a derivation is."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from typing import TypeVar
 

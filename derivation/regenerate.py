@@ -1,7 +1,5 @@
 """Deriving, emitting and certifying solvers, and writing them."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable
 from math import isfinite

@@ -6,8 +6,6 @@ state in which it is left (:mod:`.sequences`). Everything else follows. The clos
 itself when the foundation is slow.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 

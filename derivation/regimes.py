@@ -3,8 +3,6 @@
 How a foundation makes the rows, its :class:`Edges`: :mod:`.regime` for one relaxation time, :mod:`.modes.regimes` for several.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Protocol
 

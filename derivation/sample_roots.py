@@ -8,8 +8,6 @@ that. Every inequality is needed by a root that is a solution (reversed, it woul
 refused. The roots of ``sample_roots.toml`` were found once from random starts; here they are refined and verified.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Saturated contact of a strip: the periodic field (Eq. 15), its threshold and its friction."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import sympy as sp

@@ -4,8 +4,6 @@ A state is the gap where p is given, and the excess pressure ``q = p + p_0`` in 
 the foundation's: :mod:`.regime` for one relaxation time, :mod:`.modes.regimes` for several.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar

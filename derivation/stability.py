@@ -1,7 +1,5 @@
 """The map from one onset to the next: what traction does to a point that it reaches, and its slope at a periodic orbit."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import sympy as sp

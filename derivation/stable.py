@@ -14,8 +14,6 @@ Choices that matter:
   although it equals ``(1/beta) int (p - w) ds``: a period's balance keeps its digits at ``beta = 1e9``.
 """
 
-from __future__ import annotations
-
 import sympy as sp
 
 from .functions import (

@@ -1,7 +1,5 @@
 """Complete contact on all levels at once: from which pressure, and why Eq. 16 is more than an approximation there."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import sympy as sp

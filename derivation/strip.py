@@ -1,7 +1,5 @@
 """One strip of the moving surface: rigid profile, the law in the frame of the surface, dimensionless groups."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import sympy as sp

@@ -1,7 +1,5 @@
 """What each zone does to a material point: stable forms proven equal to the flows that SymPy solved."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import sympy as sp

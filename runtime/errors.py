@@ -1,7 +1,5 @@
 """The errors that hystrip raises on purpose, and its warnings."""
 
-from __future__ import annotations
-
 import itertools
 from typing import Any
 

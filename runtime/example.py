@@ -1,7 +1,5 @@
 """A tread compound on a rough road, as files to try everything with: what an instrument would export, made from a formula."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .dma.read import shift_remark

@@ -1,7 +1,5 @@
 """Optional dependencies, loaded when used. A missing one is an error that names the extra."""
 
-from __future__ import annotations
-
 import importlib
 from types import ModuleType
 

@@ -1,7 +1,5 @@
 """Solvers that ``hystrip regenerate`` has written outside the package."""
 
-from __future__ import annotations
-
 import hashlib
 import importlib
 import importlib.util

@@ -1,7 +1,5 @@
 """Regimes of the strips of every level at one point of a result: a look at even strips, not an average to rtol."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

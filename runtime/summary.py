@@ -1,7 +1,5 @@
 """Where the friction of a result comes from, in words."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Types of the public interface, for annotations in scripts and for type checkers."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, Literal, Protocol, TypeAlias, TypedDict
 

@@ -1,7 +1,5 @@
 """Every emitted function of a derivation is measured, one after the other."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from functools import cache, partial
 from types import ModuleType

@@ -3,8 +3,6 @@
 Some draws of an input come from the decades that matter most, the rest from all that is admitted; ``WORDS`` say from which.
 """
 
-from __future__ import annotations
-
 import math
 import random
 from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """The modes of a material from its parameters: retardation times as roots, everything else rational in the times."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Sequence
 from typing import Any

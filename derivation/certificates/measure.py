@@ -1,7 +1,5 @@
 """The worst error of an emitted function over the grid, in ulp of its natural scale."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial

@@ -4,8 +4,6 @@ The expressions are evaluated by mpmath as SymPy derived them, not in the stable
 the parts of a balance is as exact as its terms: its scale is that of each term, added up.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A model given by its operators: ``Q(d/dt) w = P(d/dt) p`` in parameters of its own."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import sympy as sp

@@ -4,8 +4,6 @@ A zone is an affine map of the state, :math:`z \to z + c - R z`, and its event a
 coefficients depend on the two edges of the zone. A derivative is what a small number stands before, to first order.
 """
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ..check import Derived, derived, zero

@@ -1,7 +1,5 @@
 """Emission for n modes: verified kernels and regimes in, values for the template out. Nothing is derived here."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import sympy as sp

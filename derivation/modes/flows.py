@@ -4,8 +4,6 @@ Under a constant pressure every retardation displacement obeys a first-order law
 that these are the law of the foundation is the step "states".
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import sympy as sp

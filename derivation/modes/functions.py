@@ -5,8 +5,6 @@ edge is the one that a period returns: zones are affine maps of it, z -> z + dri
 composes. Means are the integrals of the zones, summed. What is an algorithm, the chain rule over the zones, is named as one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What happens to the states of a material point where p steps, and which closures determine them."""
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ..check import DerivationError, Derived, derived, holds, zero

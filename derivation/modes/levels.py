@@ -3,8 +3,6 @@
 As in :mod:`..multilevel`; what differs is why the pressure passes a value at most once either way.
 """
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ..check import Claim, zero

@@ -1,7 +1,5 @@
 """The material's law with any number of relaxation times: a spring beside branches; which models are such solids."""
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ..check import Claim, DerivationError, Derived, derived, holds, zero

@@ -3,8 +3,6 @@
 Axis 0 is that of the branches, i; axis 1 that of the retardation modes, j; axis 2 that of another branch, k.
 """
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable, Mapping
 from functools import cache

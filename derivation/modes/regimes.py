@@ -4,8 +4,6 @@ As for one mode, but the closing condition is not among the equations: the const
 are eliminated by the linear condition that it returns after a period. What is left are the events at the edges.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

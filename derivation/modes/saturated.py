@@ -1,7 +1,5 @@
 """Complete contact of a strip and of a level with n modes: K* at the strip's frequency, threshold, friction."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import sympy as sp

@@ -1,7 +1,5 @@
 """The whole derivation of a model with n relaxation times, stage after stage."""
 
-from __future__ import annotations
-
 from ..averages import constant_means, means_of_a_strip
 from ..conditions import zone_conditions
 from ..displays import STATED, displays, of_modes

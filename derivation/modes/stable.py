@@ -8,8 +8,6 @@ Choices that matter, beyond those of one mode:
 * every weight is positive, so that sums over modes do not cancel where the modes agree.
 """
 
-from __future__ import annotations
-
 import sympy as sp
 
 from .. import stable

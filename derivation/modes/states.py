@@ -8,8 +8,6 @@ sum over the branches is taken under the sum sign: its term is shown to be a com
 the first because the stiffness vanishes at -1/beta_j, the second because J_j is the residue there. So claims hold for any n.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import mpmath

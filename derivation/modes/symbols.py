@@ -4,8 +4,6 @@ A formula is derived and emitted for a *generic* mode: ``alpha``, ``eta``, ``z_0
 in the order ``alpha_1 <= beta_1 <= alpha_2 <= ...``. Identities between modes are those of :mod:`.states`.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import sympy as sp

@@ -1,7 +1,5 @@
 """What the names in a display mean for any number of relaxation times: all from what was derived (:mod:`..displays`)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

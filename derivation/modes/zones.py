@@ -1,7 +1,5 @@
 """What each zone does to a material point with n modes: stable forms proven equal to the flows that SymPy solved."""
 
-from __future__ import annotations
-
 import sympy as sp
 
 from ..check import zero

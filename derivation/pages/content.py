@@ -1,7 +1,5 @@
 """What the audit says of one model: plain data, taken from the objects that the solver is emitted from."""
 
-from __future__ import annotations
-
 import hashlib
 import inspect
 import re

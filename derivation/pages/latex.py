@@ -1,7 +1,5 @@
 """LaTeX to MathML, in pieces short enough for a narrow screen and for paper."""
 
-from __future__ import annotations
-
 import re
 
 import latex2mathml.converter

@@ -1,7 +1,5 @@
 """Misprints and silences of the paper, with demonstrations computed from the steps."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any
 

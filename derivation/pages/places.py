@@ -5,8 +5,6 @@ The latter, and which steps a step enters that no function computes by itself, b
 gone, or no longer the only one, is an error that names the step.
 """
 
-from __future__ import annotations
-
 import ast
 import importlib
 import importlib.util

@@ -1,7 +1,5 @@
 """Writing the audit: pages, JSON, and the pictures and figures that only the running solver can supply."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterable
 from pathlib import Path

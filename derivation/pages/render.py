@@ -1,7 +1,5 @@
 """Pages and JSON from the content."""
 
-from __future__ import annotations
-
 import base64
 import json
 import re

@@ -1,7 +1,5 @@
 """What a page says in words: ``words.toml``, the same for every model, and what belongs to its own."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Eq. 1 to 16 as printed against what is derived, in order."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

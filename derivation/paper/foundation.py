@@ -1,7 +1,5 @@
 """Eq. 1 to 3 and 5: the law of the foundation, adhesion, and the law in the frame of the surface."""
 
-from __future__ import annotations
-
 import re
 
 import sympy as sp

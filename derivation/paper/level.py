@@ -1,7 +1,5 @@
 """Eq. 7 and 9 to 11: load, contact area, local stress and means of one level."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

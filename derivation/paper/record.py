@@ -1,7 +1,5 @@
 """Eq. 1 to 16 as printed (``printed.toml``); what a comparison with one is, and the checks that only comparisons need."""
 
-from __future__ import annotations
-
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Eq. 12 to 16: levels that carry one another, and complete contact."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import sympy as sp

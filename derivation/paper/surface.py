@@ -1,7 +1,5 @@
 """Eq. 4, 6 and 8: the shape of a level, its boundary conditions, the penetration of a strip."""
 
-from __future__ import annotations
-
 import re
 
 import sympy as sp

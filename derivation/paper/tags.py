@@ -1,7 +1,5 @@
 """The numbers that steps carry: which steps may carry which, that none is missing, and that their status is the equation's."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 

@@ -1,7 +1,5 @@
 """What the paper's symbols mean, for reading its equations: one level with index i in SI, and its strips."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The Typer application: its commands, one module each."""
 
-from __future__ import annotations
-
 import typer
 
 from . import audit, check, figures, fit, init, levels, master, regenerate, schema, show, solve, sweep

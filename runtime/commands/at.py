@@ -1,7 +1,5 @@
 """One load and one velocity of a scene."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..result import Result

@@ -1,7 +1,5 @@
 """``hystrip audit``: where every formula comes from, how it was verified, where it is computed."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import typer

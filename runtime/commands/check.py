@@ -1,7 +1,5 @@
 """``hystrip check``: is the checked-in solver what the derivation emits?"""
 
-from __future__ import annotations
-
 import typer
 
 from .output import say

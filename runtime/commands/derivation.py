@@ -1,7 +1,5 @@
 """What commands that derive have in common."""
 
-from __future__ import annotations
-
 from ..extras import require
 
 

@@ -1,7 +1,5 @@
 """Where the command line starts. Every failure ends as one message on standard error and a non-zero status."""
 
-from __future__ import annotations
-
 import os
 import sys
 import warnings

@@ -1,7 +1,5 @@
 """``hystrip figures``: Figures 3 to 7 of the paper."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import typer

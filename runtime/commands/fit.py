@@ -1,7 +1,5 @@
 """``hystrip fit``: from DMA data to a material."""
 
-from __future__ import annotations
-
 import warnings
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """``hystrip init``: a commented scene to start from, or a whole example."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import typer

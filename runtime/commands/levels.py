@@ -1,7 +1,5 @@
 """``hystrip levels``: from a measured surface to the levels of a scene."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import typer

@@ -1,7 +1,5 @@
 """``hystrip master``: isotherms become one master curve."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import typer

@@ -1,7 +1,5 @@
 """Which input each file of an output folder was made from: results of one input never take the place of another's."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Sequence

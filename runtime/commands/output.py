@@ -1,7 +1,5 @@
 """What commands say: text that cannot steer the terminal, whatever titles, keys and file names hold."""
 
-from __future__ import annotations
-
 import typer
 
 from ..errors import printable

@@ -1,7 +1,5 @@
 """Quantities on the command line: a number in SI, or text with a unit."""
 
-from __future__ import annotations
-
 
 def metres(text: str | None, option: str) -> float | None:
     """A length in m, or None if the option is not given. Raises InputError, naming the option."""

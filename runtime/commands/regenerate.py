@@ -1,7 +1,5 @@
 """``hystrip regenerate``: derive and emit a solver: the package's own anew, or that of a user's model."""
 
-from __future__ import annotations
-
 import gc
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What the commands that write a scene set in it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from ..errors import InputError

@@ -1,7 +1,5 @@
 """``hystrip schema``: the JSON Schema of scene files."""
 
-from __future__ import annotations
-
 import typer
 
 

@@ -1,7 +1,5 @@
 """``hystrip show``: look into a scene: its levels, and pictures of its contact."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import typer

@@ -1,7 +1,5 @@
 """``hystrip solve``: friction of one scene, as a table, a CSV and a picture."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import typer

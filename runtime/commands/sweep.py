@@ -1,7 +1,5 @@
 """``hystrip sweep``: a scene over all its lists and ranges."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import typer

@@ -1,7 +1,5 @@
 """The table that a person reads on a terminal."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What the columns of a table of moduli are, from their names and units."""
 
-from __future__ import annotations
-
 import re
 import unicodedata
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Fitting a Prony series to storage and loss modulus."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable
 from typing import Any

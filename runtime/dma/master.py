@@ -4,8 +4,6 @@ Shift factors are those at which all isotherms lie best on one smooth curve: a c
 frequency, storage and loss each with its own, fitted together with the shifts by least squares (variable projection).
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -5,8 +5,6 @@ the moduli: non-negative least squares. The times then have a problem of their o
 derivative of the columns, less what a change of the moduli takes up (BIT 15, 1975, 49).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .modulus import DynamicModulus

@@ -1,7 +1,5 @@
 """Reading dynamic mechanical analysis (DMA) data: frequency, storage and loss modulus from a text file."""
 
-from __future__ import annotations
-
 import os
 import re
 from dataclasses import asdict, dataclass

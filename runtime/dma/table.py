@@ -1,7 +1,5 @@
 """Reading a table of numbers as instruments export it: any of three separators, decimal point or comma, one row of names."""
 
-from __future__ import annotations
-
 import csv
 import os
 import re

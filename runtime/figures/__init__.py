@@ -1,7 +1,5 @@
 """Figures 3 to 7 of the paper, one module each: ``data`` solves and returns a table, ``paint`` draws it."""
 
-from __future__ import annotations
-
 import importlib
 import os
 from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """Fig. 3: contact area and friction of one level over nominal pressure, with the parts where several solutions exist."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

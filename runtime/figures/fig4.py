@@ -1,7 +1,5 @@
 """Fig. 4: pressure on level 1 over one cell of the two-level surface."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

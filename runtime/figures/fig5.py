@@ -4,8 +4,6 @@ The paper shows strips 0 and 63 and calls the latter saturated. With the energy 
 first saturated strip is a later one, so that one is drawn too.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Fig. 6: friction coefficient of the two-level surface over velocity for two energies of adhesion."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

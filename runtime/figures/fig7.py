@@ -1,7 +1,5 @@
 """Fig. 7: friction coefficient of three levels in saturated contact over velocity."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Validation of numbers: every refusal names the field, the value and what is allowed, before any work is done."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """Time-temperature superposition: how relaxation times and moduli change with temperature."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, Protocol
 

@@ -1,7 +1,5 @@
 """Strips across the cell of each column: what local pressures there are, before anything is averaged."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..orbit.foundation import foundation_of

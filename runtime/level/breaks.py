@@ -5,8 +5,6 @@ and where the flat edge does. Unloading with adhesion it need not be the last to
 reach later.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..numerics.rounding import EPS

@@ -1,8 +1,6 @@
 """A function on [0, 1] as polynomials of low degree, each on a cell as large as it may be: made once, cheap wherever it is asked
 for."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

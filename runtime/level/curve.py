@@ -3,8 +3,6 @@
 Between its breaks (``breaks.py``) a curve is interpolated (``interpolation.py``). All velocities advance together.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

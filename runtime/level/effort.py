@@ -1,7 +1,5 @@
 """What a solution costs, and the limits that keep the work on every point bounded."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

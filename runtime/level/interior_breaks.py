@@ -4,8 +4,6 @@ As the penetration changes, strips somewhere between crest and edge may enter a 
 y that grows with the distance in D or its square root, and the level's means with it. Such a penetration ends a piece.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 
 import numpy as np

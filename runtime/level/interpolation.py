@@ -1,8 +1,6 @@
 """Interpolation of a level's means over intervals of penetration, on nested nodes; what does not converge is halved, or split
 where strips enter a new regime."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

@@ -5,8 +5,6 @@ The law is a stack of smooth segments in disjoint intervals of pressure, at firs
 what it is at the beginning of the next one.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """Means of a level at given penetrations: adaptive panels, or the paper's equal strips."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .averages import Averages, average

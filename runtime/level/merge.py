@@ -4,8 +4,6 @@ Every break of a law leaves kinks behind in the laws of all levels above, three 
 over x, over y and over penetration. What is no larger than a law may err is no break.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

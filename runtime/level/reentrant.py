@@ -5,8 +5,6 @@ A rough sample of the curve tells where they are to a few digits; what it leaves
 interpolated.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Closed forms of a level in saturated contact (physics: Eq. 15 averaged, and the thresholds that bring it about)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property

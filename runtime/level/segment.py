@@ -1,8 +1,6 @@
 """Segments of friction laws: branches of curves over pressure, so that they need not be inverted again; those of all laws at
 once."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

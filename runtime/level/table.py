@@ -1,7 +1,5 @@
 """Friction laws of several velocities as one table, evaluated for any mixture of them at once."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

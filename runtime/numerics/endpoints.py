@@ -5,8 +5,6 @@ A share of ``t^2`` next to an end makes what ends like a square root of a cube t
 its neighbours still hold). Being polynomials they leave what is smooth in D as smooth as they can.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import comb
 

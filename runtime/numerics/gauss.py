@@ -6,8 +6,6 @@ eigenvectors of their recurrence (Golub & Welsch, Math. Comp. 23, 1969, 221). Th
 nodes: they give the coefficients of the function, and how fast those fall tells what the sum misses.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

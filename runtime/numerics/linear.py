@@ -1,7 +1,5 @@
 """Small linear systems, many at a time, of which one may be singular without spoiling the others."""
 
-from __future__ import annotations
-
 import numpy as np
 
 

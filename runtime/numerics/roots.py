@@ -6,8 +6,6 @@ replaced by bisection where it would leave the bracket or is no half as long as 
 Recipes", section 9.4): it ends for every function, and like Newton's method or the secant's next to a simple root.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

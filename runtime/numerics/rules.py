@@ -6,8 +6,6 @@ better than that, and those that converge by a power of the nodes do as well. A 
 integrand has a layer or a kink; r is therefore the largest over all quantities, which share their singularities.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

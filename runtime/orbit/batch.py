@@ -1,7 +1,5 @@
 """Records of arrays, one element for each strip: some of the strips, and several records joined."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Self
 

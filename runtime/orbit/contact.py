@@ -1,7 +1,5 @@
 """Pressure in the contact of strips: its extremes, and where it passes a given value."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from types import ModuleType
 from typing import Any

@@ -1,7 +1,5 @@
 """Materials that can be solved: which generated solver belongs to one, its parameters, the closures that determine its edges."""
 
-from __future__ import annotations
-
 from types import ModuleType
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Strips in SI units: their dimensionless groups, the flat strip apart, and the refusal of what could not be certified."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

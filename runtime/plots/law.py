@@ -1,7 +1,5 @@
 """Friction stress and real contact of one level over nominal pressure."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A legend above the panels that stands inside the canvas, however many and long its labels are."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Sequence
 from typing import Any

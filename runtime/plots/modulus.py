@@ -1,7 +1,5 @@
 """Storage and loss modulus over frequency: measured, and of the fitted series."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

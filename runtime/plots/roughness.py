@@ -1,7 +1,5 @@
 """Rms height of a measured surface over wavelength, with the bands and levels that stand for it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

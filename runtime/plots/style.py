@@ -1,7 +1,5 @@
 """One look for all pictures: the width of a journal column, legible, safe for colour-blind readers."""
 
-from __future__ import annotations
-
 import os
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Units of axes, chosen from the data."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The rule by which the power spectrum of a measured surface becomes levels of waviness."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Reading measured topographies, in any format that SurfaceTopography knows."""
 
-from __future__ import annotations
-
 import os
 from typing import Any
 

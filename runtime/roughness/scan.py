@@ -1,7 +1,5 @@
 """Heights on a grid, and how their variance is spread over wave numbers."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

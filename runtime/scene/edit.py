@@ -1,7 +1,5 @@
 """Writing tables into the text of a scene: the rest of the file, its comments too, stays as it is."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -1,7 +1,5 @@
 """What is wrong with a scene, in one sentence."""
 
-from __future__ import annotations
-
 import contextlib
 import difflib
 from collections.abc import Iterable, Iterator

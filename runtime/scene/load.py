@@ -1,7 +1,5 @@
 """Finding and reading scene files."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from importlib import resources

@@ -1,7 +1,5 @@
 """A physical quantity: a number in SI, or text with a unit such as ``"10 um"``."""
 
-from __future__ import annotations
-
 import functools
 import math
 import re

@@ -1,7 +1,5 @@
 """The keys of a scene file. Types, bounds and descriptions stand here once: validation and JSON Schema both use them."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal
 
 from ..extras import require

@@ -1,7 +1,5 @@
 """Reading TOML that anybody may have written: of a size and depth that no scene exceeds."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from typing import Any

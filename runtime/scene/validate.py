@@ -1,7 +1,5 @@
 """From the raw content of a TOML file to typed values in SI; every error names the key."""
 
-from __future__ import annotations
-
 import functools
 import re
 import types

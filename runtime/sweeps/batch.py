@@ -1,7 +1,5 @@
 """Solving one batch: what runs on a worker."""
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import dataclass, field
 from typing import Any

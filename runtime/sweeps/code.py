@@ -1,7 +1,5 @@
 """Which code solves: its hash tells sweeps of different versions apart, and workers that have another one."""
 
-from __future__ import annotations
-
 import functools
 import hashlib
 from pathlib import Path

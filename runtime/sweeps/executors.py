@@ -1,7 +1,5 @@
 """Where batches run: in this process, on local processes, or on a Dask cluster."""
 
-from __future__ import annotations
-
 import contextlib
 import logging
 import os

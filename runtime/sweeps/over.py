@@ -1,7 +1,5 @@
 """Swept quantities given as text on the command line."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a sweep solves: points in a fixed order, cut into batches that the scene alone decides."""
 
-from __future__ import annotations
-
 import copy
 import hashlib
 import json

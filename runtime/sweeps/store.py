@@ -1,7 +1,5 @@
 """A sweep on disk: one file for every finished batch, each either whole or not there."""
 
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import json

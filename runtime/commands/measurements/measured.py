@@ -3,8 +3,6 @@
 The figures may differ in their last digits between processors, so they are stored and not compared.
 """
 
-from __future__ import annotations
-
 import platform
 from importlib.metadata import version
 from typing import Any

@@ -1,7 +1,5 @@
 """An example of every regime, drawn with the installed solver."""
 
-from __future__ import annotations
-
 import importlib
 import io
 import re

@@ -1,7 +1,5 @@
 """Eq. 13 read in both ways: the law of the lower level over the contact alone, and over the whole cell as printed."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Eq. 12 to 14 as the runtime carries them out, against plain sums over strips and points of the paper's two levels."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """One strip worked through in numbers, regime by regime: each number beside its formula and the emitted function."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -6,8 +6,6 @@ strips at the edge of the cell come into contact; where the level is in complete
 Towards these pressures it has roots of the distance.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

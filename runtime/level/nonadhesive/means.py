@@ -1,7 +1,5 @@
 """Means of a level without adhesion at any load, as integrals over its strips of functions that are known."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Panels of strips of a level between which what they carry is not smooth."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...numerics.gauss import graded_gauss

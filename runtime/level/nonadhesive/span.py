@@ -6,8 +6,6 @@ from ``s = s_sat`` on. Hyperbolic functions of ``eta`` for ``u/|1 - D/h|`` make 
 crest of the level is where eta is greatest, and the root of the distance from it takes the root out of the integrand there.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...numerics.quadrature import gauss

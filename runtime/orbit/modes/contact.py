@@ -7,8 +7,6 @@ log-convex ``|C'|``: p falls on one interval of a period at most. A contact ends
 and falls from there: each value is passed once either way, as with one time.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..contact import Contact

@@ -11,8 +11,6 @@ release and onset, with ``k = J/(J_0 beta)`` and ``gain = step of w/|slope of th
 M has no negative entry, so its spectral radius is below one where ``(I - M) v = r`` has a positive solution for a positive r.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .coordinates import Order

@@ -5,8 +5,6 @@ monotone: each Newton step from below lands below the fixed point again, higher 
 it converges quadratically.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .coordinates import Order

@@ -6,8 +6,6 @@ else the first orbit above it; ``loading`` the free orbit where it is admissible
 ``max(D, 0)``.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

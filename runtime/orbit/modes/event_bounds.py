@@ -1,8 +1,6 @@
 """Bounds over all states between those of two marches: how steeply the gap falls to an onset or grows to a release, and how long
 it takes from an onset to contact."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .coordinates import Order

@@ -7,8 +7,6 @@ than one period takes it, and by a chain of states past places where orbits are 
 so slow that it hardly moves, orbits that are periodic in all relaxation times bound the first one (``forced``).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

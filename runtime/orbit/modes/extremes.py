@@ -5,8 +5,6 @@ period where the sine does not oppose them, log-concave against log-convex, it h
 brackets hold one zero each.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...numerics.roots import falling_root, rising_root

@@ -1,7 +1,5 @@
 """Pressure and gap of solved strips with several times at any phase, from their edges, without solving again."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..fields import by_regime

@@ -12,8 +12,6 @@ fallen to delta_0 before a later d', then so it is along F of every window betwe
 and above F there: while the windows grow F cannot come to touch an orbit, as that is released before F is, and engaged after.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from hystrip.generated.modes import over_period, solved

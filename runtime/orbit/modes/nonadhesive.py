@@ -1,7 +1,5 @@
 """Strips without adhesion over a foundation with several relaxation times, as ``orbit.nonadhesive.Waves``."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..nonadhesive import Waves

@@ -1,7 +1,5 @@
 """Newton's method on the generated boundary equations of a regime, from edges that marches met."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...numerics.linear import solved

@@ -10,8 +10,6 @@ a matrix without negative entries. So the longest contact and the least gains of
 from below.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
