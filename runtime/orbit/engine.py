@@ -21,8 +21,7 @@ from .certificate import greatest_gap
 from .closed_form_exclusion import may_cling, saturates
 from .extremal import Extremal, extremal, unique
 from .groups import Strips, adhesive_cycle, bare_cycle
-from .march import TWO_PI
-from .orbit_bounds import FAST, OrbitBounds, least_engaged_bounds, orbit_bounds
+from .orbit_bounds import FAST, least_engaged_bounds, orbit_bounds
 from .regimes import CODE, ZONES
 from .solved import UNDECIDED, Record, Solved, settle
 
@@ -41,22 +40,41 @@ def solve_strips(kernel, strips: Strips, unloading: bool) -> Solved:
 
 
 class _Batch:
-    """Strips, and what is known of them so far: solutions, and bounds on all orbits."""
+    """Strips, and what is known of them so far."""
 
     def __init__(self, kernel, strips: Strips, unloading: bool):
         self.kernel, self.strips, self.unloading = kernel, strips, unloading
-        self.record, self.bounds = Record(kernel, strips), OrbitBounds.blank(strips.size)
+        self.record = Record(kernel, strips)
 
     def solve(self) -> Solved:
         adhesive = self.strips.p_0 > 0
         self._without_adhesion(np.flatnonzero(~adhesive))
         index = np.flatnonzero(adhesive)
-        for stage in (self._engaged, self._onset, self._free) if self.unloading else (self._free, self._onset, self._engaged):
-            if index.size:
-                index = np.concatenate([stage(index[i : i + CHUNK]) for i in range(0, index.size, CHUNK)])
+        for i in range(0, index.size, CHUNK):
+            self._with_adhesion(index[i : i + CHUNK])
         return self.record.solved
 
-    # -- the three kinds of orbit; each stage decides what it can and returns the other strips ----------------------------------
+    # -- stages: each decides what it can and returns the other strips -----------------------------------------------------------
+
+    def _with_adhesion(self, index):
+        if self.unloading:
+            index, partial = self._saturated(index)
+        else:
+            index = self._free(index)
+        if not index.size:
+            return
+        cycle = adhesive_cycle(self.kernel, self.strips.among(index))
+        bounds = orbit_bounds(self.kernel, cycle, FAST) if self.unloading else least_engaged_bounds(self.kernel, cycle)
+        self.record.solved.evaluations[index] += bounds.evaluations
+        if self.unloading:
+            rest = self._contact_with_saturated_adhesion(index, partial & ~bounds.released)
+            index, cycle, bounds = index[rest], cycle.among(rest), bounds.among(rest)
+        if index.size:  # orbits that are free once per period
+            index = index[self._written(index, extremal(self.kernel, cycle, not self.unloading, bounds))]
+        if self.unloading:
+            self._free(index)
+        else:
+            self._contact_with_saturated_adhesion(*self._saturated(index))
 
     def _free(self, index):
         s = self.strips
@@ -64,42 +82,16 @@ class _Batch:
         self.record.constant(index[free], "f", 0.0, 0.0, 0.0, 0.0)
         return index[~free]
 
-    def _engaged(self, index):
+    def _saturated(self, index):
+        """Also which of the others may be in contact with saturated adhesion."""
         s = self.strips.among(index)
         full = saturates(self.kernel, s)
         self.record.saturated_contact(index[full])
-        reaches = ~full & may_cling(self.kernel, s)
-        clinging = s.D <= -s.p_0
-        hold = reaches & clinging
+        clings = ~full & may_cling(self.kernel, s)
+        hold = clings & (s.D <= -s.p_0)
         self.record.constant(index[hold], "a", -s.p_0[hold], 0.0, 0.0, 1.0)
         rest = ~full & ~hold
-        partial = reaches & ~clinging
-        if self.unloading:
-            partial &= ~self._bounded(index, s, rest)
-        partial = np.flatnonzero(partial)
-        if partial.size:
-            rest[partial] = self._contact_with_saturated_adhesion(index[partial])
-        return index[rest]
-
-    def _bounded(self, index, s: Strips, ask) -> np.ndarray:
-        """Bound all orbits of the strips ``index`` of which to ``ask``; returns of which none is always engaged."""
-        released = np.zeros(index.size, bool)
-        ask = np.flatnonzero(ask & (s.beta <= np.maximum(FAST, TWO_PI * s.p_0)))
-        if ask.size:
-            bounds = orbit_bounds(self.kernel, adhesive_cycle(self.kernel, s.among(ask)))
-            released[ask] = bounds.released
-            self.bounds.put(index[ask], bounds)
-            self.record.solved.evaluations[index[ask]] += bounds.evaluations
-        return released
-
-    def _onset(self, index):
-        """Orbits that are free once per period."""
-        cycle = adhesive_cycle(self.kernel, self.strips.among(index))
-        bounds = self.bounds.take(index)
-        if not self.unloading:
-            bounds = least_engaged_bounds(self.kernel, cycle)
-            self.record.solved.evaluations[index] += bounds.evaluations
-        return index[self._written(index, extremal(self.kernel, cycle, not self.unloading, bounds))]
+        return index[rest], clings[rest]
 
     def _written(self, index, found: Extremal) -> np.ndarray:
         """Keep what was ``found`` of the strips ``index``; returns which have no such orbit."""
@@ -122,11 +114,14 @@ class _Batch:
         if index.size:
             self._written(index, unique(self.kernel, bare_cycle(self.kernel, self.strips.among(index)), "cf"))
 
-    def _contact_with_saturated_adhesion(self, index):
-        """Solve as the strip without adhesion at ``D + p_0``; returns which strips have no such orbit."""
-        strips = self.strips.among(index)
-        found = unique(self.kernel, bare_cycle(self.kernel, strips), "ac")
-        # there is such an orbit without a limit to the gap: one that is not found is not certified, never passed over
-        gap = greatest_gap(self.kernel, strips, found.orbit)
-        found.code[found.certified & (gap > strips.delta_0)] = UNDECIDED
-        return self._written(index, found)
+    def _contact_with_saturated_adhesion(self, index, ask):
+        """Solve those to ``ask`` of as strips without adhesion at ``D + p_0``; returns which of all have no such orbit."""
+        rest, ask = np.ones(index.size, bool), np.flatnonzero(ask)
+        if ask.size:
+            strips = self.strips.among(index[ask])
+            found = unique(self.kernel, bare_cycle(self.kernel, strips), "ac")
+            # there is such an orbit without a limit to the gap: one that is not found is not certified, never passed over
+            gap = greatest_gap(self.kernel, strips, found.orbit)
+            found.code[found.certified & (gap > strips.delta_0)] = UNDECIDED
+            rest[ask] = self._written(index[ask], found)
+        return np.flatnonzero(rest)

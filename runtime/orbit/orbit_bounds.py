@@ -77,10 +77,11 @@ class OrbitBounds(Batch):
         return cls(*(np.full(n, np.nan) for _ in range(3)), np.zeros(n, bool), np.zeros(n, bool), np.zeros(n))
 
 
-def orbit_bounds(kernel, cycle: Cycle) -> OrbitBounds:
-    """Bounds for cycles of strips that are not in saturated contact."""
-    out = OrbitBounds.blank(cycle.size)
-    index = np.flatnonzero((cycle.half_b > 0) & (cycle.half_b < np.pi))
+def orbit_bounds(kernel, cycle: Cycle, slowest: float = np.inf) -> OrbitBounds:
+    """Bounds for cycles of strips that are not in saturated contact, up to the beta ``slowest`` (see ``FAST``)."""
+    s, out = cycle.strips, OrbitBounds.blank(cycle.size)
+    says = s.beta <= np.maximum(slowest, TWO_PI * s.p_0)
+    index = np.flatnonzero(says & (cycle.half_b > 0) & (cycle.half_b < np.pi))
     if not index.size:
         return out
     part = cycle.among(index)

@@ -15,41 +15,44 @@ from .solved import Solved
 CERTIFIED = 1e30
 
 
-def _each(function, *arrays) -> np.ndarray:
-    """``function`` of flat arrays, once for all where they are views of single numbers."""
-    if all(array.strides == (0,) for array in arrays):
-        return np.broadcast_to(function(*(array[:1] for array in arrays)), arrays[0].shape)
-    return function(*arrays)
-
-
-def _product(k, V, T):
-    return k * V * T
-
-
 def dimensionless(l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L, edge) -> tuple[Strips, dict]:  # noqa: E741
-    """Groups of flat SI arrays of shape (n,), and the scales back to SI.
+    """Groups of flat SI arrays of shape (n,), some perhaps single numbers, and the scales back to SI.
 
     A strip whose wave is negligible, ``scales["flat"]``, is in units of K alone. Nothing is refused here but groups that
     overflow.
     """
+    shape = D.shape
+    # what is the same for all strips is worked out once, and left a view
+    l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L = map(_once, (l, A, D, V, K, T_eps, T_sigma, p_0, delta_0, J, L))  # noqa: E741
     with np.errstate(over="ignore"):  # refused below, by name
-        k = _each(lambda l: 2 * np.pi / l, l)  # noqa: E741
-        alpha, beta = _each(_product, k, V, T_sigma), _each(_product, k, V, T_eps)
-    if np.any(beta > LARGEST):
-        raise InputError("V", float(V[beta > LARGEST][0]), f"k V T_eps at most {LARGEST:g}")
-    pace = _each(slowed, alpha)
-    if np.any(beta * pace > CERTIFIED):
-        fast = float(V[beta * pace > CERTIFIED][0])
-        raise InputError("V", fast, f"k V T_eps at most {CERTIFIED:g} where T_sigma is so small")
-    traction = _each(np.divide, p_0, K)
+        k = 2 * np.pi / l
+        alpha, beta = k * V * T_sigma, k * V * T_eps
+    _refuse(V, beta > LARGEST, f"k V T_eps at most {LARGEST:g}")
+    pace = slowed(alpha)
+    _refuse(V, beta * pace > CERTIFIED, f"k V T_eps at most {CERTIFIED:g} where T_sigma is so small")
+    traction, constitutive = p_0 / K, edge == "constitutive"
     flat = is_flat(A, beta, D, traction, delta_0)
     unit = np.where(flat, 1.0, A) if flat.any() else A
-    chi = np.broadcast_to(float(edge == "constitutive"), D.shape)
-    snaps = _each(lambda J, p_0, delta_0: snaps_in(J * p_0, delta_0) & (edge == "constitutive"), J, traction, delta_0)
-    lengths = (_each(np.divide, v, unit) for v in (traction, delta_0, D))
-    strips = Strips(alpha * pace, beta * pace, J, L, *lengths, chi, np.broadcast_to(snaps, D.shape))
-    scales = {"k": k, "A": A, "D": D, "p": _each(np.multiply, K, unit), "length": unit, "flat": flat, "pace": pace}
-    return strips, scales
+    snaps = constitutive & snaps_in(J * traction, delta_0)
+    groups = (alpha * pace, beta * pace, J, L, traction / unit, delta_0 / unit, D / unit, float(constitutive), snaps)
+    scales = {"k": k, "A": A, "D": D, "p": K * unit, "length": unit, "flat": flat, "pace": pace}
+    return Strips(*(_every(v, shape) for v in groups)), {name: _every(v, shape) for name, v in scales.items()}
+
+
+def _once(values) -> np.ndarray:
+    """One element of a view of a single number, else the array itself."""
+    values = np.asarray(values, float)
+    return values[:1] if values.strides == (0,) else values
+
+
+def _every(values, shape) -> np.ndarray:
+    return values if np.shape(values) == shape else np.broadcast_to(values, shape)
+
+
+def _refuse(V, where, allowed: str) -> None:
+    """``InputError`` with the first of the velocities ``where`` they are not ``allowed``."""
+    if np.any(where):
+        raise InputError("V", float(np.broadcast_to(V, where.shape)[where][0]), allowed)
 
 
 def solve_si(kernel, *inputs, edge, branch) -> tuple[Solved, Strips, dict]:
@@ -74,7 +77,7 @@ def refuse_uncertified(solved: Solved, inputs: dict[str, np.ndarray], edge: str,
     bad = np.flatnonzero(~solved.certified)
     if not bad.size:
         return
-    strip = ", ".join(f"{n}={float(v[bad[0]])!r}" for n, v in inputs.items())
+    strip = ", ".join(f"{n}={float(np.broadcast_to(v, solved.certified.shape)[bad[0]])!r}" for n, v in inputs.items())
     raise SolverError(
         f"{bad.size} of {solved.certified.size} strips could not be certified; the first, strip {bad[0]}: "
         f"{strip}, edge={edge!r}, branch={branch!r}"

@@ -39,17 +39,12 @@ class SingleTime:
         )
 
     def solve(self, l, A, D, V, p_0, delta_0, edge, branch):  # noqa: E741
-        inputs = self._inputs(l, A, D, V, p_0, delta_0)
-        solved, strips, scales = solve_si(self.kernel, *inputs, edge=edge, branch=branch)
-        names = ("l", "A", "D", "V", "K", "T_eps", "T_sigma", "p_0", "delta_0")
-        refuse_uncertified(solved, dict(zip(names, inputs, strict=False)), edge, branch)
-        return solved, strips, scales
-
-    def _inputs(self, l, A, D, V, p_0, delta_0):  # noqa: E741
         m = self.material
-        return [
-            np.broadcast_to(np.asarray(v, float), l.shape) for v in (l, A, D, V, m.K, m.T_eps, m.T_sigma, p_0, delta_0, m.J, m.L)
-        ]
+        inputs = (l, A, D, V, m.K, m.T_eps, m.T_sigma, p_0, delta_0)
+        solved, strips, scales = solve_si(self.kernel, *inputs, m.J, m.L, edge=edge, branch=branch)
+        names = ("l", "A", "D", "V", "K", "T_eps", "T_sigma", "p_0", "delta_0")
+        refuse_uncertified(solved, dict(zip(names, inputs, strict=True)), edge, branch)
+        return solved, strips, scales
 
     def fields(self, strips, solved, phase):
         return fields(self.kernel, strips, solved, phase)
