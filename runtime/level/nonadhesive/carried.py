@@ -18,8 +18,7 @@ from ...orbit.foundation import Foundation
 from .family import CONTACT
 from .law import Laws
 from .means import Level
-from .panels import ends_of, panels
-from .span import Span
+from .span import Span, ends_of, panels
 
 #: nodes over a panel of strips and over each part of a contact, tried in turn
 RULES = ((2, 3), (4, 6), (7, 9), (11, 14), (16, 20), (24, 30), (36, 44), (54, 66), (81, 98))

@@ -24,7 +24,7 @@ from ...orbit.foundation import Foundation
 #: nodes of the first attempt and of the last
 _FIRST, _LAST = 8, 512
 #: so many coefficients that are cut off a series are known to whoever asks what they would add
-NEXT = 4
+_NEXT = 4
 #: beyond its end by this, relative, nothing is asked of a series
 _ROUNDING = 1e-12
 #: nothing is sampled finer than this many roundings; and the share of what is allowed that is cut off a series
@@ -32,9 +32,9 @@ _FINEST, _TRIMMED = 256, 0.03
 #: beyond this k V times the longest retardation time the general path says what is wrong
 _FASTEST = 1e100
 #: quantities of a strip that are averaged, mean pressure, mean friction and share of the period in contact; of its contact that,
-#: the greatest pressure over it, and where that is, a share of the contact from the entry; and how well the share has to be known
-#: beside the others: as well as it comes
-MEANS, CONTACT, _ANY = slice(0, 3), slice(2, 5), 1e30
+#: the greatest pressure over it, and where that is, a share of the contact from the entry; then what is cut off the series of
+#: the means; and how well the share has to be known beside the others: as well as it comes
+MEANS, CONTACT, CUT, _ANY = slice(0, 3), slice(2, 5), slice(5, 8), 1e30
 #: looks at a contact for its greatest pressure
 _LOOKS = 33
 #: the least share of the period that a contact is looked at
@@ -49,31 +49,23 @@ def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V:
 
 @dataclass(frozen=True)
 class Family:
-    """Strips at velocities (G,): ``s_sat`` (G,), and ``series``, coefficients (n, 5) for each, of mean pressure (K
-    A), mean friction (K A kA), contact fraction, greatest pressure (K A) over that, and its place, over ``xi/top``. Of the means
-    ``next`` (G, NEXT, 3): the coefficients that would follow up to ``degree`` (G,); ``errors`` (G, 3): bounds of what all others
-    would add, but rough ones of contact. ``full`` (G,): friction in complete contact, at s_sat."""
+    """Strips at velocities (G,): ``s_sat`` (G,), and ``series``, coefficients (n, 8) for each, of mean pressure (K
+    A), mean friction (K A kA), contact fraction, greatest pressure (K A) over that, and its place, over ``xi/top``; and of what
+    the next terms would add to the means. ``degree`` (G,): up to that terms are known; ``errors`` (G, 3): bounds of what all
+    others would add, but rough ones of contact; ``greatest_errors`` (G, 3): with the next terms. ``full`` (G,): friction in
+    complete contact, at s_sat."""
 
     s_sat: np.ndarray
     top: np.ndarray
     series: list[np.ndarray]
-    next: np.ndarray
     degree: np.ndarray
     errors: np.ndarray
+    greatest_errors: np.ndarray
     full: np.ndarray
-
-    @property
-    def greatest_errors(self) -> np.ndarray:
-        """Bounds of the errors of all strips, (G, 3)."""
-        return self.errors + np.abs(self.next).sum(axis=1)
 
     def part(self, which: slice) -> Family:
         """The velocities ``which`` alone."""
         return Family(*(getattr(self, field.name)[which] for field in fields(self)))
-
-    def parameter(self, group: np.ndarray, s: np.ndarray) -> np.ndarray:
-        """Where in [0, 1] the series has the strips ``s`` (m, nodes)."""
-        return _xi(s, self.s_sat[group, None]) / self.top[group, None]
 
     def values(self, group: np.ndarray, s: np.ndarray, slopes: bool = False, of: slice = MEANS) -> np.ndarray:
         """Quantities ``of`` the strips ``s`` (m, nodes), all of row i at the velocity ``group[i]``: (m, nodes, q), or with
@@ -83,11 +75,12 @@ class Family:
             raise SolverError("a strip without adhesion lies beyond its family")
         out = np.empty((*s.shape, 2 * q if slopes else q))
         sizes = np.array([self.series[g].shape[0] for g in group])
+        kept = None if of == CUT else -_NEXT
         for n in np.unique(sizes):
             rows = np.flatnonzero(sizes == n)
             some = slice(None) if rows.size == group.size else rows
             which, place = np.unique(group[some], return_inverse=True)
-            table = np.array([self.series[g][:, of] for g in which])
+            table = np.array([self.series[g][:kept, of] for g in which])
             if slopes:
                 table = np.concatenate((table, derivatives(table)), axis=2)
             x = 2 * xi[some] / self.top[group[some], None] - 1
@@ -115,7 +108,7 @@ def family(
     phi, strips = _reaching(foundation, rate, s_top)
     carries = np.broadcast_to(carries, (G,))
     series: list[np.ndarray] = [np.empty(0)] * G
-    out = Family(s_sat, np.zeros(G), series, np.zeros((G, NEXT, 3)), np.zeros(G, int), np.zeros((G, 3)), full)
+    out = Family(s_sat, np.zeros(G), series, np.zeros(G, int), np.zeros((G, 3)), np.zeros((G, 3)), full)
     left, n, samples = np.arange(G), _FIRST, None
     while left.size:
         share = phi[left, None] * (lobatto(n) if samples is None else lobatto(n)[1::2])
@@ -135,11 +128,14 @@ def family(
         done = (error <= goal).all(axis=1) | (n == _LAST)
         for k in np.flatnonzero(done):
             g = left[k]
-            out.series[g] = _trimmed(over[k], _TRIMMED * goal[k])
-            cut = over[k, len(out.series[g]) :, MEANS]
-            out.next[g, : len(cut)] = cut[:NEXT]
+            size = _needed(over[k], _TRIMMED * goal[k])
+            out.series[g] = np.zeros((size + _NEXT, 8))
+            out.series[g][:size, :5] = over[k, :size]
+            cut = over[k, size : size + _NEXT, MEANS]
+            out.series[g][size : size + len(cut), CUT] = cut
             out.degree[g] = n
-            out.errors[g] = error[k] + np.abs(cut[NEXT:]).sum(axis=0)
+            out.errors[g] = error[k] + np.abs(over[k, size + _NEXT :, MEANS]).sum(axis=0)
+            out.greatest_errors[g] = error[k] + np.abs(over[k, size:, MEANS]).sum(axis=0)
             out.top[g] = _xi(s[k, -1], s_sat[g])
         left, samples, n = left[~done], samples[~done], 2 * n
     return out, strips
@@ -157,11 +153,12 @@ def _xi(s, s_sat):
     return np.arcsin(np.sqrt(np.clip(s / s_sat, 0.0, 1.0)))
 
 
-def _trimmed(c, goal):
-    """Coefficients without a tail that doesn't matter; sizes in steps, so that series of one size are evaluated together."""
+def _needed(c, goal):
+    """How many coefficients there are before a tail that doesn't matter; in steps, so that series of one size are evaluated
+    together."""
     tail = np.cumsum(np.abs(c[::-1, MEANS]), axis=0)[::-1]
     n = int(np.count_nonzero((tail > goal).any(axis=1)))
-    return c[: 4 * -(-max(n, 1) // 4)]
+    return min(4 * -(-max(n, 1) // 4), len(c))
 
 
 def _full_friction(foundation, rate):

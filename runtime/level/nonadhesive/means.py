@@ -7,14 +7,14 @@ import numpy as np
 from ...numerics.roots import rising_root
 from ...numerics.rounding import EPS
 from ...numerics.rules import by_rules
-from .family import NEXT, Family
+from .family import CUT, MEANS, Family
 from .span import Span
 
 #: nodes of the rules tried in turn; the second is what penetrations are looked for with
 _RULES = (8, 12, 18, 27, 40, 60, 90)
 #: share of what is allowed that a sum over nodes may miss, and how much more than by the next terms of a series its values are
 #: feared to err
-_QUADRATURE, _SURE = 0.5, 2.0
+_QUADRATURE, _SURE = 0.5, 3.0
 #: terms of a series from which on it has layers that a few nodes see by chance, and the fastest that sums are believed to
 #: converge then (0.01 told a sixth of an error at 1e-9) and otherwise (of 500 random levels none erred by more than it said)
 _LAYERED, _FASTEST = 120, (0.25, 0.01)
@@ -24,9 +24,9 @@ _CLOSE = 1e-7
 _STEEPEST = 2.0
 #: what is left in a mean of the greatest error of strips' pressures, or of a law's friction: along its pieces errors change sign
 CANCELLED = 0.3
-#: Chebyshev polynomials are averaged up to about this degree, which so many nodes do well: the means of higher ones fall at least
-#: like the inverse of the degree
-_HIGHEST, _NODES = 24, 30
+#: strips for means of what series leave out; and means of Chebyshev polynomials in pressure, friction and contact times their
+#: degree, where that is not low: medians of 40 random surfaces
+_NODES, _FEW, _PACE = 30, 32, (1.25, 0.6, 2.5)
 
 
 @dataclass(frozen=True)
@@ -35,19 +35,19 @@ class Level:
 
     family: Family
 
-    def means(self, group: np.ndarray, d: np.ndarray, n: int, slopes: bool = False) -> np.ndarray:
+    def means(self, group: np.ndarray, d: np.ndarray, n: int, slopes: bool = False, of: slice = MEANS) -> np.ndarray:
         """Mean pressure (K h), friction (K h kh), contact fraction of the columns at ``d`` (m,), and with ``slopes``
-        theirs by d."""
+        theirs by d; or what is cut off the series of these."""
         f = self.family
         span = Span(d, f.s_sat[group])
         u, s, weight = span.nodes(n)
-        values = f.values(group, s, slopes)
+        values = f.values(group, s, slopes, of)
         A = 0.5 * u
         powers = (A, A * A, 1.0, 1.0, A, 1 / A) if slopes else (A, A * A, 1.0)
         out = np.empty((d.size, len(powers)))
         for j, power in enumerate(powers):
             out[:, j] = (weight * power * values[:, :, j]).sum(axis=1)
-        return out + self._complete(span.complete, d, f.full[group], slopes)
+        return out if of == CUT else out + self._complete(span.complete, d, f.full[group], slopes)
 
     def _complete(self, theta, d, friction, slopes):
         """The share of the strips in complete contact, beyond ``theta``: ``p = D_j - A``."""
@@ -88,37 +88,15 @@ class Level:
         """What the errors of the strips' means make of the level's, (m, 3); those of friction and contact are at a given
         pressure, where the pressure's error counts by their ``slopes`` (m, 2).
 
-        Of every term that a series leaves out the level has the mean of a Chebyshev polynomial over its strips. The next terms
-        are known: what they would add is the error, as with the lower rule of an embedded pair (Hairer, Norsett & Wanner,
-        "Solving Ordinary Differential Equations I", 1993, section II.4). The others, and those that the nodes take for terms
-        that are kept, begin with the degree that was interpolated (Trefethen, "Approximation Theory and Approximation Practice",
-        2013, theorem 4.2); of them a bound is known, and the mean of the polynomials there."""
+        What the next terms of the series would add is the error, as with the lower rule of an embedded pair (Hairer, Norsett &
+        Wanner, "Solving Ordinary Differential Equations I", 1993, section II.4). The others, and those that the nodes take for
+        terms that are kept, begin with the degree that was interpolated (Trefethen, "Approximation Theory and Approximation
+        Practice", 2013, theorem 4.2); means of Chebyshev polynomials fall at least like its inverse."""
         f = self.family
-        size = np.array([f.series[g].shape[0] for g in group])
-        last = np.minimum(f.degree[group], _HIGHEST + NEXT)
-        after, end = self._moments(group, d, np.minimum(size, _HIGHEST), last + 1 - NEXT)
-        known, others = (f.next[group] * after).sum(axis=1), f.errors[group] * np.abs(end).max(axis=1)
-        others *= (last / f.degree[group])[:, None]
-        bound = np.abs(f.next[group]).sum(axis=1) * np.abs(after).max(axis=1)
+        known, others = self.means(group, d, _NODES, of=CUT), f.errors[group] * _PACE / np.maximum(f.degree[group, None], _FEW)
         known[:, 1:] -= slopes * known[:, :1]
-        for part in (bound, others):
-            part[:, 1:] += np.abs(slopes) * part[:, :1]
-        return _SURE * np.where((size <= _HIGHEST)[:, None], np.abs(known), bound) + others
-
-    def _moments(self, group, d, *degrees):
-        """Means over the strips of each level, with the weights of pressure, friction and contact, of NEXT Chebyshev polynomials
-        from each of the ``degrees`` (m,) on, (m, NEXT, 3)."""
-        f = self.family
-        u, s, weight = Span(d, f.s_sat[group]).nodes(_NODES)
-        A = 0.5 * u
-        weights = np.stack((weight * A, weight * A * A, weight), axis=2)
-        x = np.clip(2 * f.parameter(group, s) - 1, -1.0, 1.0)
-        angle = np.arccos(x)
-        for first in degrees:
-            T = [np.cos(first[:, None] * angle), np.cos((first[:, None] + 1) * angle)]
-            while len(T) < NEXT:
-                T.append(2 * x * T[-1] - T[-2])
-            yield np.stack(T, axis=1) @ weights
+        others[:, 1:] += np.abs(slopes) * others[:, :1]
+        return _SURE * np.abs(known) + others
 
     def at(
         self, group: np.ndarray, load: np.ndarray, by_pressure: bool, goal: np.ndarray
