@@ -10,7 +10,7 @@ from ...numerics.rules import by_rules
 from .family import CUT, MEANS, Family
 from .span import Span
 
-#: nodes of the rules tried in turn; the second is what penetrations are looked for with
+#: nodes of the rules tried in turn; the second is what penetrations are looked for with, the third what laws are parted with
 _RULES = (8, 12, 18, 27, 40, 60, 90)
 #: share of what is allowed that a sum over nodes may miss, and how much more than by the next terms of a series its values are
 #: feared to err
@@ -35,7 +35,7 @@ class Level:
 
     family: Family
 
-    def means(self, group: np.ndarray, d: np.ndarray, n: int, slopes: bool = False, of: slice = MEANS) -> np.ndarray:
+    def means(self, group: np.ndarray, d: np.ndarray, n: int = _RULES[2], slopes: bool = False, of: slice = MEANS) -> np.ndarray:
         """Mean pressure (K h), friction (K h kh), contact fraction of the columns at ``d`` (m,), and with ``slopes``
         theirs by d; or what is cut off the series of these."""
         f = self.family

@@ -27,8 +27,6 @@ _VALUES, _STRIPS = 0.6, 2.0
 _SHARES, _COARSE = 1e-4, 1e-2
 #: an accuracy in parts of the greatest friction from which on a law is only parted where it is least smooth
 _BLUNT = 1e-4
-#: nodes for pressures at which a law is parted
-_AT_EDGES = 18
 #: by how much more a greatest pressure is allowed for
 _BETWEEN = 1.02
 
@@ -170,7 +168,7 @@ class FamilyStack:
         x, out = d[row, column], np.full(d.shape, np.inf)
         pressure, part = x - 0.75, x < 0.5 * self.levels[i].family.s_sat[row]
         if part.any():
-            pressure[part] = self.levels[i].means(row[part], x[part], _AT_EDGES)[:, 0]
+            pressure[part] = self.levels[i].means(row[part], x[part])[:, 0]
         out[row, column] = pressure * self.units[i]
         return out
 
