@@ -12,7 +12,7 @@ from .inputs.surface import Level
 from .level.accuracy import Accuracy
 from .level.across import peak_pressure, strips_across
 from .level.effort import WorkCounters
-from .level.error_budget import FINER, error_budget
+from .level.error_budget import COARSER, error_budget
 from .level.inverse import Inverse, cut_penetration, invert
 from .level.law import build_laws
 from .level.lower_levels import LowerLevelLaws
@@ -30,8 +30,9 @@ _BLOCK = 256
 #: trailing levels are left out whose friction, and whose pressure of saturation, are below this part of what counts: a tenth of a
 #: tolerance is not missed, and no scene of up to a dozen similar levels has any
 _TRAILING = 0.1
-#: points whose errors add up to more than is allowed are solved once more, so much finer; no finer than that
-_FINER, _FINEST = 0.3, 1e-12
+#: points whose errors add up to more than is allowed are solved once more, so much finer than brings them down to that, where it
+#: is at least the second share of them; no finer than the last
+_FINER, _LEAST_SHARE, _FINEST = 0.3, 0.1, 1e-12
 
 
 @dataclass
@@ -86,9 +87,13 @@ class Surface:
         level = self.levels[0]
         return 1e-3 * (self.at_level(0).K * level.h + self.adhesion.p_0) * level.h / level.l
 
+    def allowed(self, points: Points) -> np.ndarray:
+        """Errors of friction that ``rtol`` allows the points, Pa, (n,)."""
+        return self.rtol * (np.abs(points.tau.sum(axis=0)) + self.friction_floor)
+
     def converged(self, points: Points) -> np.ndarray:
         """Which points err by no more than ``rtol`` allows, (n,)."""
-        return points.error <= self.rtol * (np.abs(points.tau.sum(axis=0)) + self.friction_floor)
+        return points.error <= self.allowed(points)
 
     def columns(self, i: int, V, D=None, carry=None, group=None) -> LevelBatch:
         """Columns of level ``i``."""
@@ -142,7 +147,8 @@ class Surface:
         # where the work came to a limit more of it is no help
         missed = np.flatnonzero(~self.converged(out) & ~np.isin(V, [limited for limited, _ in self.work.limits]))
         if missed.size and self.strips is None and _FINER * self.rtol >= _FINEST:
-            finer = _Solve(replace(surface, rtol=_FINER * self.rtol), V[missed], load[missed], by_pressure)
+            share = max((self.allowed(out)[missed] / out.error[missed]).min(), _LEAST_SHARE)
+            finer = _Solve(replace(surface, rtol=share * _FINER * self.rtol), V[missed], load[missed], by_pressure)
             out.improve(missed, finer.run(np.zeros(missed.size, bool), None))
         below = self.levels[known:]
         if below:
@@ -266,7 +272,7 @@ class _Solve:
         surface, carry, groups = self.surface, None, np.arange(V.size)
         across = strips_across(columns)
         budget = error_budget(columns, group, across)
-        friction, rtol = budget.friction_of_laws(self.M - 1, V.size), np.full(V.size, FINER * surface.rtol)
+        friction, rtol = budget.friction_of_laws(self.M - 1, V.size), np.full(V.size, COARSER * surface.rtol)
         p_max = np.full(V.size, -np.inf)
         np.maximum.at(p_max, group, peak_pressure(columns, across))
         reached = self._reached(stack, V, p_max)

@@ -26,7 +26,7 @@ ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
 LEVELS = (hystrip.Level(l=10e-6, h=1e-6), hystrip.Level(l=500e-9, h=100e-9))
 PRESSURE, V, RTOL = 100.0, np.array([5e-4, 2e-2]), 1e-5
 #: velocities at which much of the law is asked for on little of the surface, and a tolerance at which that takes more nodes
-SLOW, FINE = np.array([5e-4, 8e-4]), 1e-6
+SLOW, FINE = np.array([5e-4, 8e-4]), 1e-7
 
 
 def budget(share, friction=1.0):
