@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from .certificates import certified_names
-from .derive import derive, stages_of
+from .derive import derive
 from .emit import emit, input_hash
 from .folder import AUDIT, CERTIFICATES, MEASURED, dumped, generated_folder, read_certificates, read_measured
 from .model import Model
@@ -46,8 +46,7 @@ def check(
     """Compare the folder of generated files with what the derivation emits now; an empty list means no drift."""
     folder = Path(generated) if generated is not None else generated_folder()
     chosen = tuple(models) if models is not None else MODELS
-    say = Progress(progress, sum(stages_of(model) for model in chosen))
-    derivations = tuple(derive(model, say) for model in chosen)
+    derivations = tuple(Progress(progress, len(chosen)).each(map(derive, chosen)))
     texts = emit(derivations)
     texts |= audit_texts(derivations, texts, _readable_certificates(folder), read_measured(folder))
     return compare(folder, texts, {d.model.name: certified_names(d) for d in derivations})

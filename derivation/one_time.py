@@ -1,5 +1,7 @@
 """The derivation for one relaxation time, stage after stage."""
 
+from typing import Any
+
 import sympy as sp
 
 from .averages import constant_means, strip_means, zone_integrals
@@ -17,7 +19,7 @@ from .membership import require_constructor
 from .model import Model, foundation, require_admissible
 from .modes.flows import mode_flows
 from .multilevel import multilevel
-from .outcome import Derivation, Progress, Stages, records
+from .outcome import Derivation, records
 from .paper.compare import comparisons
 from .paper.tags import require_all, require_status, require_tags
 from .regime import OneTime, Regime
@@ -32,49 +34,43 @@ from .symbols import PARAMETERS
 from .vocabulary import BINDINGS, vocabulary
 from .zones import zones
 
-STAGES = 11
-"""How often ``progress`` is called."""
 
-
-def derive(model: Model, progress: Progress | None = None) -> Derivation:
-    """Derive and verify everything that follows from the two operators of ``model``.
-
-    ``progress`` is called after each stage.
-    """
-    stages = Stages(progress)
+def derive(model: Model) -> Derivation:
+    """Derive and verify everything that follows from the two operators of ``model``."""
+    made: list[Any] = []
     require_admissible(model)
     require_constructor(model)
     ground = foundation(model)
-    stages.done(ground)
+    made.append(ground)
     one_strip = strip(ground)
-    stages.done(one_strip)
+    made.append(one_strip)
     flow = flows(one_strip)
-    stages.done(flow)
+    made.append(flow)
     jump = jumps(one_strip)
-    stages.done(jump)
+    made.append(jump)
     zone = zones(flow)
     events = (*gap_event(flow), *excess_event(flow))
     chain = links(flow)
-    stages.done(zone, events, chain)
+    made += (zone, events, chain)
     full = saturated(flow)
     whole = level(full)
-    stages.done(full, whole)
+    made += (full, whole)
     ratio = sp.cancel(jump.closure.value / sp.Symbol("step_p", real=True))  # [w]/[p]
     table = regimes(OneTime(ratio), full.threshold.value)
     partial = [regime for regime in table if regime.edges]
     systems = tuple(boundary_equations(regime, zone.kernels) for regime in partial)
     roots = sample_roots("one_time", table, mode_flows())
-    stages.done(zone_conditions(one_strip.u), strip_problem(one_strip, table[0]), table, roots, systems)
+    made += (zone_conditions(one_strip.u), strip_problem(one_strip, table[0]), table, roots, systems)
     integrals = zone_integrals(flow)
     still = tuple(constant_means(regime, PARAMETERS) for regime in table if regime.sequence in ("a", "f"))
     means = tuple(strip_means(regime, integrals) for regime in partial)
     balances = (power_balance(flow), *(friction_balance(regime) for regime in partial))
-    stages.done(integrals, means, still, balances)
+    made += (integrals, means, still, balances)
     onsets = onset({regime.sequence: regime for regime in partial})
     slopes = tuple(onset_slope(regime) for regime in partial if regime.zones[-1].kind == FREE)
-    stages.done(shift_of_an_event(), onsets, slopes)
+    made += (shift_of_an_event(), onsets, slopes)
     upwards = multilevel(one_strip, full, partial, means, integrals)
-    stages.done(upwards, stack(one_strip, full, whole), half_space())
+    made += (upwards, stack(one_strip, full, whole), half_space())
     sections = (
         ("Rigid profile, load, zones", zone.kernels),
         ("Events: value and slope, for root finding in a zone whose entry is evaluated once", events),
@@ -86,14 +82,13 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         ("A whole level in complete contact, and a stack of them: SI units", whole.kernels),
     )
     exact = {kernel.formula.name: kernel.exact for _, kernels in sections for kernel in kernels}
-    steps = tuple(records(stages.made))
+    steps = tuple(records(made))
     printed = comparisons(one_strip, exact, {step.name: step.value for step in steps})
     read = displays(steps, STATED["one_time"], vocabulary(flow, exact["saturated_pressure"]), BINDINGS, of_one_time)
     require_tags(steps)
     require_all(steps)
     require_status(steps, printed)
-    stages.done()
-    return Derivation("one_time", model, tuple(stages.made), table, sections, read, printed)
+    return Derivation("one_time", model, tuple(made), table, sections, read, printed)
 
 
 def boundary_equations(regime: Regime, zone_kernels: tuple[Kernel, ...]) -> Kernel:

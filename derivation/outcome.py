@@ -1,6 +1,6 @@
 """What the derivation of a model comes to: its stages, the kernels to emit, and every verified quantity."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, fields, is_dataclass
 from typing import Any
 
@@ -8,8 +8,6 @@ from .check import Check, Derived
 from .kernel import Kernel
 from .model import Model
 from .paper.record import Comparison
-
-Progress = Callable[[], None]
 
 
 @dataclass(frozen=True)
@@ -35,18 +33,6 @@ class Derivation:
     @property
     def kernels(self) -> tuple[Kernel, ...]:
         return tuple(kernel for _, kernels in self.sections for kernel in kernels)
-
-
-class Stages:
-    """Collects what the stages of a derivation make, in order, and reports each when it is done."""
-
-    def __init__(self, progress: Progress | None):
-        self.made: list[Any] = []
-        self._progress = progress or (lambda: None)
-
-    def done(self, *made: Any) -> None:
-        self.made += made
-        self._progress()
 
 
 def records(value: Any) -> Iterator[Derived]:

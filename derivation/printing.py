@@ -36,10 +36,6 @@ class NumPySource(PythonCodePrinter):
     def _print_Tuple(self, expr: sp.Tuple) -> str:
         return f"({', '.join(self._print(part) for part in expr)}{',' * (len(expr) == 1)})"
 
-    def _print_Passage(self, expr: sp.Expr) -> str:
-        *named, rest = map(self._print, expr.args)
-        return f"Passage({', '.join(named)}, *{rest})"
-
     def _print_Pi(self, expr: sp.Expr) -> str:
         return "np.pi"
 
@@ -116,7 +112,6 @@ class FunctionText:
     paper: str
     steps: tuple[tuple[str, str], ...]
     result: str
-    algorithm: str = ""  # what puts together what is derived, if not the formula
 
 
 def function_text(formula: Formula, record: Any) -> FunctionText:
@@ -129,7 +124,6 @@ def function_text(formula: Formula, record: Any) -> FunctionText:
         record.paper,
         tuple((source(label), source(term)) for label, term in formula.steps),
         results(formula.result),
-        getattr(record, "algorithm", ""),
     )
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from .certificates import SCALE, WORDS, Certificate, certificates_of, certified_names, domain, modes_of
-from .derive import derive, stages_of
+from .derive import derive
 from .drift import audit_texts
 from .emit import INTERFACE, emit, input_hash
 from .folder import (
@@ -46,14 +46,14 @@ def regenerate(
     one that does each file is. Raises :class:`DerivationError` for an inadmissible model, :class:`CertificateError` for a
     function that is not accurate enough, and :class:`FileExistsError` for a folder that holds something else. A bound in an
     existing ``certificates.json`` grows only for a function in ``accept``, which says why: ``{"module.function": "reason"}``.
-    ``progress`` is called with (done, in all): stages of the derivation, then shares of the certificates.
+    ``progress`` is called with (done, in all): models derived, then shares of their certificates.
     """
     chosen = tuple(models) if models is not None else MODELS
     require_names(chosen)
     target = Path(out_dir) if out_dir is not None else generated_folder()
     require_folder(target)
-    say = Progress(progress, sum(stages_of(model) + SHARES for model in chosen) + 2)
-    derivations = tuple(derive(model, say) for model in chosen)
+    say = Progress(progress, (1 + SHARES) * len(chosen) + 2)
+    derivations = tuple(say.each(map(derive, chosen)))
     files = emit(derivations)
     say()
     certificates = {}

@@ -8,14 +8,16 @@ from ..functions import Formula, flat, mapped
 from ..model import Model, Parameter, Roots, Series
 from ..outcome import Derivation
 from ..printing import function_text, functions_of, helpers_used, results, source
-from .functions import ALGORITHMS
+from .functions import entries, start
 from .material import series_of
 from .symbols import MATERIAL as FIELDS
 from .symbols import SUMS
 
 OF_THE_STRIP = {symbol: sp.Symbol(f"m.{symbol.name}", real=True) for symbol in FIELDS}
+KINDS = ("state", "passages", "residual", "residual_and_jacobian", "return_map")
+"""Functions of a regime that the generated ``modes`` makes of its zones."""
 # Used by the template itself, beside what the formulas call.
-FROM_MODES = ("Modes", "for_batch", "scaled")
+FROM_MODES = ("Modes", "Zone", "for_batch", "regime_functions", "scaled")
 FROM_STABLE = ("quotient", "stack_sum")
 
 
@@ -24,7 +26,7 @@ def template_values(derivation: Derivation) -> dict[str, Any]:
     model, series = derivation.model, series_of(derivation.model)
     arrays = [] if isinstance(series, Roots) else [source(symbol) for symbol in series.arrays]
     formulas = [each.formula for each in (*derivation.kernels, *derivation.of_regimes)]
-    sums = functions_of(formulas, (*SUMS, *ALGORITHMS))
+    sums = functions_of(formulas, (*SUMS, entries, start))
     checked = [_checked(parameter, arrays, model.modes is None) for parameter in model.parameters]
     material, builders = _modes_of_material(model, series)
     validators = {text.partition("(")[0] for _, text in checked}
@@ -37,7 +39,8 @@ def template_values(derivation: Derivation) -> dict[str, Any]:
         "series": next(step for step in derivation.steps if step.name == "Prony series"),
         "sums": sorted({*sums, *FROM_MODES, *validators, *builders}, key=lambda n: (n.islower(), n)),
         "helpers": sorted({*helpers_used(formulas), *FROM_STABLE}),
-        "functions": [written(each.formula, each) for each in derivation.of_regimes],
+        "kinds": KINDS,
+        "functions": {each.formula.name: written(each.formula, each) for each in derivation.of_regimes},
     }
 
 

@@ -1,8 +1,9 @@
-"""The functions of a regime on a foundation with modes: its zones put together, as formulas to emit.
+"""The functions of a regime on a foundation with modes, as formulas to emit.
 
-The boundary equations are the zones' own: what entry and exit of a zone leave for the change over it. The state at the first
-edge is the one that a period returns: zones are affine maps of it, z -> z + drive - forget z, which the step "period map"
-composes. Means are the integrals of the zones, summed. What is an algorithm, the chain rule over the zones, is named as one.
+The zones of a regime are data. The boundary equations are theirs: what entry and exit leave for the change over a zone. The
+state at the first edge is the one that a period returns: zones are affine maps of it, z -> z + drive - forget z, which the step
+"period map" composes; derivatives go by the chain rule. These are functions of the generated ``modes``, loops over the zones and
+products of matrices, which hold no physics. Means are the integrals of the zones, summed.
 """
 
 from collections.abc import Sequence
@@ -15,46 +16,41 @@ from ..check import Derived, derived, zero
 from ..functions import Formula, Helper
 from ..kernel import Kernel
 from ..sequences import ADHESION, CONTACT, PERIOD, Span
-from ..stable import PROFILE, PROFILE_INTEGRAL, PROFILE_RISE, PROFILE_SLOPE
+from ..stable import PROFILE_INTEGRAL, PROFILE_RISE
 from ..symbols import D, K, alpha, beta, p_0
 from . import stable
 from .regimes import ModeRegime
 from .symbols import J_0, OF_STRIP, J, S, enter, eta, leave, m, share
 
 kV = sp.Symbol("kV", nonnegative=True)
-ORDINALS = ("first", "second", "third", "fourth")
+ENTRY = sp.IndexedBase("entry")
 
 
-class periodic(Helper):
-    """The state that a period returns, from the maps of its zones."""
+class Gap(Helper):
+    """A zone of adhesion, or free."""
 
 
-class Passage(Helper):
-    """What a zone does, under names."""
+class Contact(Helper):
+    """A zone of contact."""
 
 
-class edge_slopes(Helper):
-    """Chain rule over the passages of a period, the periodic state moving along."""
+class start(Helper):
+    """The state at the first edge that returns after the zones of a period."""
 
 
-class monodromy(Helper):
-    """Chain rule over the passages of a period, every event moving along."""
-
-
-ALGORITHMS = (periodic, Passage, edge_slopes, monodromy)
-"""Functions of the generated ``modes``: loops and products of matrices, which hold no physics."""
+class entries(Helper):
+    """What every zone is entered with, z or in contact f, from the state at the first edge."""
 
 
 @dataclass(frozen=True)
 class RegimeFunction:
-    """A formula that calls derived ones. ``algorithm``: what puts them together, if not the formula."""
+    """A formula that calls derived ones."""
 
     formula: Formula
     statement: str
     latex: str
     function: str
     paper: str = ""
-    algorithm: str = ""
 
 
 def all_functions(regimes: Sequence[ModeRegime], means: Derived) -> tuple[RegimeFunction, ...]:
@@ -93,47 +89,19 @@ def period_map() -> Derived:
 
 
 def regime_functions(regime: ModeRegime, means: Derived) -> tuple[RegimeFunction, ...]:
-    """What is emitted for a regime with edges."""
-    sequence, args = regime.sequence, (*regime.edges, *OF_STRIP)
-    by, first = regime.derived.function, regime.edges[0]
-    state = Formula(f"state_{sequence}", args, periodic(sp.Tuple(*(_map(zone) for zone in regime.zones))))
-    passages = _passages(regime, args)
-    zones = sp.Symbol("zones")
-    both = (_residual_of(regime, zones), edge_slopes(zones, PROFILE_SLOPE(first)))
-    linear = Formula(f"residual_and_jacobian_{sequence}", args, both, ((zones, passages(*args)),))
-    turn = Formula(f"return_map_{sequence}", args, monodromy(passages(*args)))
-    meanings = "; ".join(meaning for _, meaning in regime.equations)
+    """What is emitted for a regime with edges: its zones, from which the generated ``modes`` has all but the means."""
+    args = (*regime.edges, *OF_STRIP)
+    zones = Formula(f"zones_{regime.sequence}", args, tuple(_zone(regime, zone) for zone in regime.zones))
     return (
-        RegimeFunction(state, f"{regime.derived.statement} The state at {first}.", "R z = c", "modes.functions.period_map"),
         RegimeFunction(
-            passages,
-            f"The zones in turn, from the state at {first}: a Passage each.",
-            r"z_{k+1} = z_k + \Delta z_k",
-            by,
+            zones,
+            f"{regime.derived.statement} Of a zone: ends, pressure on entry, and what is missing in its boundary equation. "
+            f"{'; '.join(meaning for _, meaning in (*regime.equations[1:], regime.equations[0])).capitalize()}.",
+            r"R z = c,\quad \text{missing} + \Delta = 0,\quad \Delta\ \text{of the gap or of the pressure}",
+            regime.derived.function,
         ),
         RegimeFunction(
-            _residual(regime, args, state),
-            f"Boundary equations: {meanings}. Each is counted from the edge before.",
-            r"w - u - g = 0,\quad \text{entry} - \text{exit} + \Delta = 0,\quad \Delta\ \text{of the gap or of the pressure}",
-            by,
-        ),
-        RegimeFunction(
-            linear,
-            f"What residual_{sequence} returns, and its derivatives by the edges, the state moving along.",
-            r"R\,\partial z = \partial c - \partial R\,z",
-            "modes.chain.chain_rule",
-            algorithm="the loop over the zones, modes.edge_slopes",
-        ),
-        RegimeFunction(
-            turn,
-            f"Derivative of the state before {first} by that one period earlier. "
-            "An orbit is stable if its spectral radius is below 1.",
-            r"\partial z(s + 2\pi)/\partial z(s)",
-            "modes.chain.chain_rule",
-            algorithm="the loop over the zones and their events, modes.monodromy",
-        ),
-        RegimeFunction(
-            _means(regime, args, state),
+            _means(regime, args, zones),
             f"Means of pressure and friction of a strip: {regime.title}.",
             means.latex,
             means.function,
@@ -142,95 +110,31 @@ def regime_functions(regime: ModeRegime, means: Derived) -> tuple[RegimeFunction
     )
 
 
-def _map(zone: Span) -> sp.Expr:
-    """The zone as an affine map of the state."""
-    of = stable.CONTACT_MAP if zone.kind == CONTACT else stable.RELAXATION_MAP
-    return of(zone.first, zone.last, zone.pressure, m)
+def _zone(regime: ModeRegime, zone: Span) -> sp.Expr:
+    """The zone as data; the equation of the last one is the onset, w - u - gap = 0 at the first edge."""
+    missing = -regime.onset_gap if zone is regime.zones[-1] else zone.missing
+    return (Contact if zone.kind == CONTACT else Gap)(zone.first, zone.last, zone.pressure, missing)
 
 
-def _symbol(letter: str, number: int) -> sp.Symbol:
-    return sp.Symbol(f"{letter}_{number + 1}", real=True)
-
-
-def _passages(regime: ModeRegime, args: tuple[sp.Symbol, ...]) -> Formula:
-    maps, entered, names = sp.Symbol("maps"), _symbol("z", 0), []
-    steps = [(maps, sp.Tuple(*(_map(zone) for zone in regime.zones))), (entered, periodic(maps))]
-    for number, zone in enumerate(regime.zones):
-        of = stable.CONTACT_PASSAGE if zone.kind == CONTACT else stable.RELAXATION_PASSAGE
-        name, forget = sp.Symbol(ORDINALS[number]), sp.Symbol(f"maps[{number}][0]")
-        steps.append((name, Passage(entered, forget, of(zone.first, zone.last, entered, zone.pressure, m))))
-        names.append(name)
-        if zone is not regime.zones[-1]:
-            after = _symbol("z", number + 1)
-            steps.append((after, entered + sp.Symbol(f"{name}.increment")))
-            entered = after
-    return Formula(f"passages_{regime.sequence}", args, tuple(names), tuple(steps))
-
-
-def _entries(
-    regime: ModeRegime, args: tuple[sp.Symbol, ...], state: Formula
-) -> tuple[list[sp.Symbol], list[tuple[sp.Symbol, sp.Expr]]]:
-    """What every zone is entered with (overstresses in contact, retardation displacements elsewhere), and the steps to it."""
-    z = _symbol("z", 0)
-    entered, steps = [], [(z, state(*args))]
-    for number, zone in enumerate(regime.zones):
-        last = zone is regime.zones[-1]
-        if zone.kind == CONTACT:
-            f = _symbol("f", number)
-            steps.append((f, stable.OVERSTRESS(z, zone.pressure, m)))
-            entered.append(f)
-            change = stable.CONTACT_INCREMENT(zone.first, zone.last, f, m)
-        else:
-            entered.append(z)
-            change = stable.RELAXATION_INCREMENT(zone.first, zone.last, z, zone.pressure, m)
-        if not last:
-            after = _symbol("z", number + 1)
-            steps.append((after, z + change))
-            z = after
-    return entered, steps
-
-
-def _onset(regime: ModeRegime, state: sp.Expr) -> sp.Expr:
-    return stable.DISPLACEMENT(state, regime.onset_pressure, m) - PROFILE(regime.edges[0], D) - regime.onset_gap
-
-
-def _residual(regime: ModeRegime, args: tuple[sp.Symbol, ...], state: Formula) -> Formula:
-    entered, steps = _entries(regime, args, state)
-    terms = [_onset(regime, steps[0][0])]
-    for zone, entry in zip(regime.zones[:-1], entered, strict=False):
-        if zone.kind == CONTACT:
-            change = stable.EXCESS_CHANGE(zone.first, zone.last, entry, m)
-        else:
-            change = stable.GAP_CHANGE(zone.first, zone.last, entry, zone.pressure, m)
-        terms.append(zone.missing + change)
-    return Formula(f"residual_{regime.sequence}", args, tuple(terms), tuple(steps))
-
-
-def _residual_of(regime: ModeRegime, zones: sp.Symbol) -> tuple[sp.Expr, ...]:
-    """The boundary equations, from the passages of a period."""
-    changes = [zone.missing + sp.Symbol(f"{zones}[{number}].change") for number, zone in enumerate(regime.zones[:-1])]
-    return (_onset(regime, sp.Symbol(f"{zones}[0].state")), *changes)
-
-
-def _means(regime: ModeRegime, args: tuple[sp.Symbol, ...], state: Formula) -> Formula:
+def _means(regime: ModeRegime, args: tuple[sp.Symbol, ...], zones: Formula) -> Formula:
     """The mean of w, where there is contact, for that of p, and the work of p.
 
     Where nothing is free the traction acts everywhere and does no work over a period: pressures count from -p_0.
     """
-    name = f"means_{regime.sequence}"
     raised = p_0 if regime.touches and all(zone.kind in (CONTACT, ADHESION) for zone in regime.zones) else sp.Integer(0)
-    entered, steps = _entries(regime, args, state) if regime.touches else ([None] * len(regime.zones), [])
     height = work = sp.Integer(0)
-    for zone, entry in zip(regime.zones, entered, strict=True):
+    for number, zone in enumerate(regime.zones):
         if zone.kind == CONTACT:
             height += PROFILE_INTEGRAL(zone.first, zone.last, D)
-            work += stable.CONTACT_WORK(zone.first, zone.last, entry, D + raised, m)
+            work += stable.CONTACT_WORK(zone.first, zone.last, ENTRY[number], D + raised, m)
             continue
         if zone.kind != ADHESION:
             work += (zone.pressure + raised) * PROFILE_RISE(zone.first, zone.last)
         if regime.touches:
-            height += stable.RELAXATION_INTEGRAL(zone.first, zone.last, entry, zone.pressure, m)
+            height += stable.RELAXATION_INTEGRAL(zone.first, zone.last, ENTRY[number], zone.pressure, m)
         else:
             height += zone.pressure * (zone.last - zone.first)
     work += (raised - p_0) * adhesive_rise(regime.zones)
-    return Formula(name, args, (height / PERIOD, work / PERIOD), tuple(steps))
+    met = sp.Symbol("zones")
+    steps = ((met, zones(*args)), (ENTRY.label, entries(met, start(met, m), m)))
+    return Formula(f"means_{regime.sequence}", args, (height / PERIOD, work / PERIOD), steps)

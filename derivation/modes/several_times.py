@@ -1,10 +1,12 @@
 """The whole derivation of a model with n relaxation times, stage after stage."""
 
+from typing import Any
+
 from ..averages import constant_means, means_of_a_strip
 from ..conditions import zone_conditions
 from ..displays import STATED, displays, of_modes
 from ..model import Model, Roots
-from ..outcome import Derivation, Progress, Stages, records
+from ..outcome import Derivation, records
 from ..paper.tags import require_all, require_tags
 from ..regimes import regimes
 from ..sample_roots import sample_roots
@@ -24,23 +26,17 @@ from .symbols import OF_STRIP
 from .vocabulary import BINDINGS, vocabulary
 from .zones import contact, gap, passages, relaxation, states
 
-STAGES = 9
-"""How often ``progress`` is called."""
 
-
-def derive(model: Model, progress: Progress | None = None) -> Derivation:
-    """Derive and verify everything that follows from the Prony series of ``model``.
-
-    ``progress`` is called after each stage.
-    """
-    stages = Stages(progress)
+def derive(model: Model) -> Derivation:
+    """Derive and verify everything that follows from the Prony series of ``model``."""
+    made: list[Any] = []
     ground = (admissibility(model), foundation_law(model), relaxed_stiffness(model), prony_series(model))
     coordinates = (dimensionless_groups(), partial_fractions(), point_states())
-    stages.done(ground, coordinates, adhesion_law(), strip_profile(), zone_conditions(u))
+    made += (ground, coordinates, adhesion_law(), strip_profile(), zone_conditions(u))
     flows = mode_flows()
-    stages.done(flows)
+    made.append(flows)
     closure = closures(model)
-    stages.done(jump_law(), closure)
+    made += (jump_law(), closure)
     sections = [
         ("Rigid profile", rigid_profile(u)),
         ("States of a material point", states()),
@@ -48,29 +44,28 @@ def derive(model: Model, progress: Progress | None = None) -> Derivation:
         ("Contact zones", contact(flows)),
         ("Zones as maps of the state, and their derivatives", passages(flows)),
     ]
-    stages.done(*(kernels for _, kernels in sections))
+    made += (kernels for _, kernels in sections)
     complete = complete_contact(flows)
-    stages.done(complete)
+    made.append(complete)
     table = regimes(SeveralTimes(closure.value), complete.threshold.value, model.springy)
-    stages.done(table, sample_roots("several_times", table, flows))
+    made += (table, sample_roots("several_times", table, flows))
     means, period = means_of_a_strip(), period_map()
     still = tuple(constant_means(regime, OF_STRIP) for regime in table if regime.sequence in ("a", "f"))
-    stages.done(means, still, period, chain_rule(period))
-    stages.done(mode_levels(flows, table))
+    made += (means, still, period, chain_rule(period))
+    made.append(mode_levels(flows, table))
     sections += [
         ("Complete contact", complete.kernels),
         ("Means of strips without edges", (complete.means, *still)),
         ("Complete contact of whole levels, and a stack of them: SI units, modes with times in seconds", complete.level),
     ]
-    steps = tuple(records(stages.made))
+    steps = tuple(records(made))
     read = displays(steps, unread(model), vocabulary(flows), BINDINGS, of_modes)
     require_tags(steps)
     require_all(steps)
-    stages.done()
     return Derivation(
         "several_times",
         model,
-        tuple(stages.made),
+        tuple(made),
         table,
         tuple(sections),
         read,

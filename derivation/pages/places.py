@@ -46,10 +46,17 @@ def generated(file: str, text: str) -> dict[str, Source]:
     """Source of every function of a generated module, by name."""
     lines = text.splitlines()
     return {
-        node.name: Source(f"generated/{file}", node.lineno, "\n".join(lines[node.lineno - 1 : node.end_lineno]))
+        name: Source(f"generated/{file}", node.lineno, "\n".join(lines[node.lineno - 1 : node.end_lineno]))
         for node in ast.parse(text).body
-        if isinstance(node, ast.FunctionDef)
+        for name in _names(node)
     }
+
+
+def _names(node: ast.stmt) -> list[str]:
+    """Of a function; of several that are the results of one call."""
+    if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple):
+        return [ast.unparse(name) for name in node.targets[0].elts]
+    return [node.name] if isinstance(node, ast.FunctionDef) else []
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..certificates import certified_names
-from ..derive import derive, stages_of
+from ..derive import derive
 from ..drift import compare
 from ..emit import emit
 from ..folder import AUDIT, CERTIFICATES, MEASURED, dumped, generated_folder, read_certificates, read_measured, write_files
@@ -38,8 +38,8 @@ def audit(
     chosen = tuple(models) if models is not None else MODELS
     installed = generated_folder()
     target = Path(out_dir) if out_dir is not None else installed / AUDIT
-    say = Progress(progress, sum(stages_of(model) for model in chosen) + 2)
-    derivations = tuple(derive(model, say) for model in chosen)
+    say = Progress(progress, len(chosen) + 2)
+    derivations = tuple(say.each(map(derive, chosen)))
     texts = emit(derivations)
     say()
     drift = compare(installed, texts, {d.model.name: certified_names(d) for d in derivations})

@@ -44,7 +44,7 @@ def several_times(derivation: Derivation) -> Wording:
         unread(derivation.model),
         ("state", "residual", "residual_and_jacobian", "means", "return_map"),
         _events,
-        {f"passages_{regime.sequence}": regime.derived.name for regime in derivation.composed},
+        {f"{kind}_{each.sequence}": each.derived.name for each in derivation.composed for kind in ("zones", "passages")},
     )
 
 
