@@ -2,7 +2,7 @@
 
     python tools/benchmark_errors.py [--scenes 100] [--seed 1] [--tolerances 1e-3 1e-4 1e-5 1e-6 1e-8] [--tighter 1e-4] [--first
     0]
-                                     [--levels 1|2|3] [--velocities 1] [--limit 600] [--out errors.csv]
+                                     [--levels 1|2|3|4] [--velocities 1] [--limit 600] [--out errors.csv]
     python tools/benchmark_errors.py --march [--scenes 12] ...
 
 Scenes are drawn by ``tests/surfaces.py``: one to three levels, both closures and branches, with and without adhesion, loads from
@@ -186,7 +186,7 @@ def main():
     parser.add_argument("--tolerances", type=float, nargs="+", default=[1e-3, 1e-4, 1e-5, 1e-6, 1e-8])
     parser.add_argument("--tighter", type=float, default=1e-4, help="tolerance of the reference, relative")
     parser.add_argument("--first", type=int, default=0, help="number of the first scene")
-    parser.add_argument("--levels", type=int, choices=(1, 2, 3), help="levels of every scene, instead of one to three")
+    parser.add_argument("--levels", type=int, choices=(1, 2, 3, 4), help="levels of every scene, instead of one to three")
     parser.add_argument("--velocities", type=int, default=1, help="of each scene")
     parser.add_argument("--limit", type=float, default=600, help="seconds of processor time allowed to a scene")
     parser.add_argument("--march", action="store_true", help="one level with adhesion against marched strips")
