@@ -308,6 +308,9 @@ class _Solve:
         for quantity, rows in enumerate((out.tau, out.contact, out.adhesion), start=1):
             rows[:, index] = values[:, [quantity, *range(own + quantity - 1, count, 3)]].T
         error = errors[:, 1] + means.errors[:, range(own, count, 3)].sum(axis=1) + np.abs(values[:, count:]).sum(axis=1)
+        # what is carried is that of the pressure at D: it grows with the contact, and with what that is pressed by
+        grown = np.abs(root.slope[:, 1:3]) * errors[:, :1] / np.maximum(np.abs(values[:, 1:3]), np.finfo(float).tiny)
+        error += np.minimum(grown.sum(axis=1), 1.0) * np.abs(values[:, range(own, count, 3)]).sum(axis=1)
         # another part of the curve may carry anything; and the other side of a jump any friction of the lower levels
         friction = np.abs(out.tau[:, index])
         out.error[index] = error + np.where(root.undecided, friction.sum(axis=0), 0.0)

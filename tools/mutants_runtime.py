@@ -42,6 +42,13 @@ MUTANTS = (
         "all saturated at 0.9 of the lift", "multilevel.py", "p_full[0] + s.lift", "p_full[0] + 0.9 * s.lift", "test_skipping.py"
     ),
     Mutant(
+        "what is carried at another pressure is exact",
+        "multilevel.py",
+        "error += np.minimum(grown.sum(axis=1), 1.0)",
+        "error += 0 * np.minimum(grown.sum(axis=1), 1.0)",
+        "test_error_budget.py",
+    ),
+    Mutant(
         "a misplaced jump costs nothing",
         "level/lower_levels.py",
         "return self.table.jumps[group[row], j] * np.minimum",
