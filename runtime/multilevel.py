@@ -30,9 +30,8 @@ _BLOCK = 256
 #: trailing levels are left out whose friction, and whose pressure of saturation, are below this part of what counts: a tenth of a
 #: tolerance is not missed, and no scene of up to a dozen similar levels has any
 _TRAILING = 0.1
-#: points whose errors add up to more than is allowed are solved once more, so much finer than brings them down to that, where it
-#: is at least the second share of them; no finer than the last
-_FINER, _LEAST_SHARE, _FINEST = 0.3, 0.1, 1e-12
+#: points whose errors add up to more than is allowed are solved again, so much finer, until they do not; no finer than that
+_FINER, _FINEST = (0.3, 0.03), 1e-12
 
 
 @dataclass
@@ -87,13 +86,9 @@ class Surface:
         level = self.levels[0]
         return 1e-3 * (self.at_level(0).K * level.h + self.adhesion.p_0) * level.h / level.l
 
-    def allowed(self, points: Points) -> np.ndarray:
-        """Errors of friction that ``rtol`` allows the points, Pa, (n,)."""
-        return self.rtol * (np.abs(points.tau.sum(axis=0)) + self.friction_floor)
-
     def converged(self, points: Points) -> np.ndarray:
         """Which points err by no more than ``rtol`` allows, (n,)."""
-        return points.error <= self.allowed(points)
+        return points.error <= self.rtol * (np.abs(points.tau.sum(axis=0)) + self.friction_floor)
 
     def columns(self, i: int, V, D=None, carry=None, group=None) -> LevelBatch:
         """Columns of level ``i``."""
@@ -144,12 +139,12 @@ class Surface:
         known = self.levels_needed(V, load) if by_pressure and self.skip and not full.all() else len(self.levels)
         surface = replace(self, levels=self.levels[:known])
         out = _Solve(surface, V, load, by_pressure).run(full, progress)
-        # where the work came to a limit more of it is no help
-        missed = np.flatnonzero(~self.converged(out) & ~np.isin(V, [limited for limited, _ in self.work.limits]))
-        if missed.size and self.strips is None and _FINER * self.rtol >= _FINEST:
-            share = max((self.allowed(out)[missed] / out.error[missed]).min(), _LEAST_SHARE)
-            finer = _Solve(replace(surface, rtol=share * _FINER * self.rtol), V[missed], load[missed], by_pressure)
-            out.improve(missed, finer.run(np.zeros(missed.size, bool), None))
+        for factor in _FINER if self.strips is None else ():
+            # where the work came to a limit more of it is no help
+            missed = np.flatnonzero(~self.converged(out) & ~np.isin(V, [limited for limited, _ in self.work.limits]))
+            if missed.size and factor * self.rtol >= _FINEST:
+                finer = _Solve(replace(surface, rtol=factor * self.rtol), V[missed], load[missed], by_pressure)
+                out.improve(missed, finer.run(np.zeros(missed.size, bool), None))
         below = self.levels[known:]
         if below:
             out.extend(np.array([self.alone(level, V).tau_sat for level in below]))
