@@ -121,7 +121,7 @@ class _Work:
             bounds = Errors(interior_nodes(stage.n), errors[k] + error[k] + _ROUNDED * rounding[k])
             self.pieces[i.column].append(Piece(i.low, i.high, c[k], bounds, i.inner_low, i.inner_high, i.endpoint_map))
         missed, before = error / goal, np.full_like(goal, np.inf)
-        if stage.n >= 2 * _COARSE:
+        if stage.n >= _FIRST:
             half = flat_ended(stage.n // 2) @ values[:, 1::2]
             before = np.maximum(interpolation_errors(half, noise, blur, rounding) / goal, 1.0)
         # coefficients fall geometrically: where missed (missed / before)^2 on twice the nodes is over the goal, halves are better

@@ -59,9 +59,9 @@ def flat_ended(n: int) -> np.ndarray:
 def interpolation_errors(
     c: np.ndarray, noise: np.ndarray, blur: np.ndarray | float = 0.0, rounding: np.ndarray | float = 0.0
 ) -> np.ndarray:
-    """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q); ``noise`` (p, q): changes that don't
-    matter; ``blur`` (p, q): how uncertain the coefficients are themselves; ``rounding`` (p, q): what of each is rounding and not
-    counted.
+    """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q), a guess if 6; ``noise`` (p, q): changes
+    that don't matter; ``blur`` (p, q): how uncertain the coefficients are themselves; ``rounding`` (p, q): what of each is
+    rounding and not counted.
 
     What is left is extrapolated from the end of the series, at the pace that coefficients fell at since the middle: those of a
     quantity itself, as far as they don't fall faster than those of the roughest one, for all share their singularities.
