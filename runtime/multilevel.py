@@ -12,7 +12,7 @@ from .inputs.surface import Level
 from .level.accuracy import Accuracy
 from .level.across import peak_pressure, strips_across
 from .level.effort import WorkCounters
-from .level.error_budget import COARSER, error_budget
+from .level.error_budget import error_budget
 from .level.inverse import Inverse, cut_penetration, invert
 from .level.law import build_laws
 from .level.lower_levels import LowerLevelLaws
@@ -30,8 +30,9 @@ _BLOCK = 256
 #: trailing levels are left out whose friction, and whose pressure of saturation, are below this part of what counts: a tenth of a
 #: tolerance is not missed, and no scene of up to a dozen similar levels has any
 _TRAILING = 0.1
-#: points whose errors add up to more than is allowed are solved again, so much finer, until they do not; no finer than that
-_FINER, _FINEST = (0.3, 0.03), 1e-12
+#: tolerances over the one asked for, of averages and of the laws of lower levels, at which points are solved in turn until they
+#: converge; none finer than that. Contacts average over the errors of laws, and few of their pieces err by all they may
+_ATTEMPTS, _FINEST = ((1.0, 2.0), (1.0, 0.5), (0.3, 0.15)), 1e-12
 
 
 @dataclass
@@ -64,7 +65,7 @@ class Points:
 
 @dataclass(frozen=True)
 class Surface:
-    """What stays the same over all points of a solution."""
+    """What stays the same over all points of a solution; ``laws``: tolerance of the laws of lower levels."""
 
     material: Material
     adhesion: Dugdale
@@ -75,6 +76,7 @@ class Surface:
     skip: bool
     work: WorkCounters
     strips: int | None = None
+    laws: float = np.nan
 
     def at_level(self, i: int) -> Material:
         """The material under level ``i``."""
@@ -137,14 +139,14 @@ class Surface:
         """Solve points; ``V`` (m/s) and ``load`` (Pa or m) of shape (n,)."""
         full = self.full(V, load, by_pressure) if self.skip else np.zeros(V.size, bool)
         known = self.levels_needed(V, load) if by_pressure and self.skip and not full.all() else len(self.levels)
-        surface = replace(self, levels=self.levels[:known])
+        surface = replace(self, levels=self.levels[:known], laws=_ATTEMPTS[0][1] * self.rtol)
         out = _Solve(surface, V, load, by_pressure).run(full, progress)
-        for factor in _FINER if self.strips is None else ():
+        for factor, laws in _ATTEMPTS[1:] if self.strips is None else ():
             # where the work came to a limit more of it is no help
             missed = np.flatnonzero(~self.converged(out) & ~np.isin(V, [limited for limited, _ in self.work.limits]))
             if missed.size and factor * self.rtol >= _FINEST:
-                finer = _Solve(replace(surface, rtol=factor * self.rtol), V[missed], load[missed], by_pressure)
-                out.improve(missed, finer.run(np.zeros(missed.size, bool), None))
+                finer = replace(surface, rtol=factor * self.rtol, laws=laws * self.rtol)
+                out.improve(missed, _Solve(finer, V[missed], load[missed], by_pressure).run(np.zeros(missed.size, bool), None))
         below = self.levels[known:]
         if below:
             out.extend(np.array([self.alone(level, V).tau_sat for level in below]))
@@ -267,7 +269,7 @@ class _Solve:
         surface, carry, groups = self.surface, None, np.arange(V.size)
         across = strips_across(columns)
         budget = error_budget(columns, group, across)
-        friction, rtol = budget.friction_of_laws(self.M - 1, V.size), np.full(V.size, COARSER * surface.rtol)
+        friction, rtol = budget.friction_of_laws(self.M - 1, V.size), np.full(V.size, surface.laws)
         p_max = np.full(V.size, -np.inf)
         np.maximum.at(p_max, group, peak_pressure(columns, across))
         reached = self._reached(stack, V, p_max)

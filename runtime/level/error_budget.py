@@ -4,8 +4,8 @@
   or what ``Accuracy`` says of frictions and fractions. Where only pressure and friction count that is 1 for fractions, and more
   where few points meet the pressures of a piece (``ErrorBudget.fractions``).
 - Level 1 gets the ``rtol`` of the result, halved in ``multilevel``, as its laws err too.
-- Laws of lower levels get ``COARSER`` times ``rtol``, relative also to a share of the friction in contact of level 1, which they
-  all add to: ``friction_of_laws``. Contacts average over their errors, and few of their pieces err by all they may.
+- Laws of lower levels get a multiple of ``rtol``, and less where points miss that (``multilevel``), relative also to a share of the
+  friction in contact of level 1, which they all add to: ``friction_of_laws``.
 - A piece of a law may be coarser by ``ErrorBudget.tolerance_factor``, the fewer points meet its pressures, further down than
   level 2 the less contact there is; ``merge`` may take a part of what a law may err, ``lower_levels`` integrates to a part of
   what the mean over strips may.
@@ -35,9 +35,6 @@ _FINEST = 1e-6
 LEAST_CONTACT = 1e-3
 #: part of the friction in contact of level 1 that frictions of all lower levels may err relative to, beside themselves
 _SHARED = 0.2
-#: laws are built this much coarser than what is asked of the result: in 38 random scenes that takes 26 percent fewer strips than
-#: one half does, and all of them converge as before
-COARSER = 4.0
 #: parts of a law that may each err by what the whole is allowed: mostly one or two branches are used
 _PARTS = 2
 #: no law is coarser than this, times what is asked: beyond, at the finest tolerance too, nothing is asked at all
