@@ -22,7 +22,6 @@ class Derivation:
     displayed: dict[str, Check]  # by step: its LaTeX read back and compared
     comparisons: tuple[Comparison, ...] = ()  # of the paper's equations; none for another foundation
     composed: tuple[Any, ...] = ()  # regimes with edges whose functions are put together from kernels, for several times
-    of_regimes: tuple[Any, ...] = ()  # these functions
     whole: tuple[Kernel, ...] = ()  # what the functions of the template have to come to
 
     @property

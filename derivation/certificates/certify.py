@@ -9,7 +9,7 @@ import mpmath
 
 from ..kernel import Kernel
 from ..model import Model
-from ..modes.emit import KINDS as OF_ZONES
+from ..modes.emit import KINDS
 from ..modes.regimes import ModeRegime
 from ..modes.symbols import OF_STRIP
 from ..outcome import Derivation
@@ -19,7 +19,6 @@ from .material import NAME, measure_material
 from .measure import COUNTS, DIGITS, Certificate, measure, points_at
 from .reference import Reference
 
-KINDS = (*OF_ZONES, "means")  # functions of a regime
 POINTS = 8
 AGREED_UP_TO = 2  # modes; how derivatives are put together does not depend on their number
 

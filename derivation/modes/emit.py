@@ -8,13 +8,13 @@ from ..functions import Formula, flat, mapped
 from ..model import Model, Parameter, Roots, Series
 from ..outcome import Derivation
 from ..printing import function_text, functions_of, helpers_used, results, source
-from .functions import entries, start
+from .functions import zones_function
 from .material import series_of
 from .symbols import MATERIAL as FIELDS
 from .symbols import SUMS
 
 OF_THE_STRIP = {symbol: sp.Symbol(f"m.{symbol.name}", real=True) for symbol in FIELDS}
-KINDS = ("state", "passages", "residual", "residual_and_jacobian", "return_map")
+KINDS = ("state", "passages", "residual", "residual_and_jacobian", "return_map", "means")
 """Functions of a regime that the generated ``modes`` makes of its zones."""
 # Used by the template itself, beside what the formulas call.
 FROM_MODES = ("Modes", "Zone", "for_batch", "regime_functions", "scaled")
@@ -25,8 +25,8 @@ def template_values(derivation: Derivation) -> dict[str, Any]:
     """What the template of a model with n modes is rendered with beside what every model has."""
     model, series = derivation.model, series_of(derivation.model)
     arrays = [] if isinstance(series, Roots) else [source(symbol) for symbol in series.arrays]
-    formulas = [each.formula for each in (*derivation.kernels, *derivation.of_regimes)]
-    sums = functions_of(formulas, (*SUMS, entries, start))
+    formulas = [kernel.formula for kernel in derivation.kernels]
+    sums = functions_of(formulas, SUMS)
     checked = [_checked(parameter, arrays, model.modes is None) for parameter in model.parameters]
     material, builders = _modes_of_material(model, series)
     validators = {text.partition("(")[0] for _, text in checked}
@@ -40,7 +40,7 @@ def template_values(derivation: Derivation) -> dict[str, Any]:
         "sums": sorted({*sums, *FROM_MODES, *validators, *builders}, key=lambda n: (n.islower(), n)),
         "helpers": sorted({*helpers_used(formulas), *FROM_STABLE}),
         "kinds": KINDS,
-        "functions": {each.formula.name: written(each.formula, each) for each in derivation.of_regimes},
+        "zones": {regime.sequence: written(*zones_function(regime)) for regime in derivation.composed},
     }
 
 

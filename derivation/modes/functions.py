@@ -3,59 +3,37 @@
 The zones of a regime are data. The boundary equations are theirs: what entry and exit leave for the change over a zone. The
 state at the first edge is the one that a period returns: zones are affine maps of it, z -> z + drive - forget z, which the step
 "period map" composes; derivatives go by the chain rule. These are functions of the generated ``modes``, loops over the zones and
-products of matrices, which hold no physics. Means are the integrals of the zones, summed.
+products of matrices, which hold no physics. So are the means: the integrals of the zones, summed.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 
 import sympy as sp
 
-from ..averages import adhesive_rise
 from ..check import Derived, derived, zero
 from ..functions import Formula, Helper
 from ..kernel import Kernel
-from ..sequences import ADHESION, CONTACT, PERIOD, Span
-from ..stable import PROFILE_INTEGRAL, PROFILE_RISE
-from ..symbols import D, K, alpha, beta, p_0
-from . import stable
+from ..sequences import ADHESION, CONTACT, FREE, Span
+from ..symbols import K, alpha, beta
 from .regimes import ModeRegime
 from .symbols import J_0, OF_STRIP, J, S, enter, eta, leave, m, share
 
 kV = sp.Symbol("kV", nonnegative=True)
-ENTRY = sp.IndexedBase("entry")
 
 
-class Gap(Helper):
-    """A zone of adhesion, or free."""
+class Adhesion(Helper):
+    """A zone of adhesion."""
+
+
+class Free(Helper):
+    """A free zone."""
 
 
 class Contact(Helper):
     """A zone of contact."""
 
 
-class start(Helper):
-    """The state at the first edge that returns after the zones of a period."""
-
-
-class entries(Helper):
-    """What every zone is entered with, z or in contact f, from the state at the first edge."""
-
-
-@dataclass(frozen=True)
-class RegimeFunction:
-    """A formula that calls derived ones."""
-
-    formula: Formula
-    statement: str
-    latex: str
-    function: str
-    paper: str = ""
-
-
-def all_functions(regimes: Sequence[ModeRegime], means: Derived) -> tuple[RegimeFunction, ...]:
-    """What is emitted for the regimes with edges."""
-    return tuple(each for regime in regimes if regime.edges for each in regime_functions(regime, means))
+KINDS = {ADHESION: Adhesion, FREE: Free, CONTACT: Contact}
 
 
 def whole_kernels(springs: bool) -> tuple[Kernel, ...]:
@@ -88,53 +66,19 @@ def period_map() -> Derived:
     )
 
 
-def regime_functions(regime: ModeRegime, means: Derived) -> tuple[RegimeFunction, ...]:
-    """What is emitted for a regime with edges: its zones, from which the generated ``modes`` has all but the means."""
-    args = (*regime.edges, *OF_STRIP)
-    zones = Formula(f"zones_{regime.sequence}", args, tuple(_zone(regime, zone) for zone in regime.zones))
-    return (
-        RegimeFunction(
-            zones,
-            f"{regime.derived.statement} Of a zone: ends, pressure on entry, and what is missing in its boundary equation. "
-            f"{'; '.join(meaning for _, meaning in (*regime.equations[1:], regime.equations[0])).capitalize()}.",
-            r"R z = c,\quad \text{missing} + \Delta = 0,\quad \Delta\ \text{of the gap or of the pressure}",
-            regime.derived.function,
-        ),
-        RegimeFunction(
-            _means(regime, args, zones),
-            f"Means of pressure and friction of a strip: {regime.title}.",
-            means.latex,
-            means.function,
-            means.paper,
-        ),
+def zones_function(regime: ModeRegime) -> tuple[Formula, Derived]:
+    """The zones of a regime with edges, from which the generated ``modes`` has all its functions."""
+    zones = Formula(f"zones_{regime.sequence}", (*regime.edges, *OF_STRIP), tuple(_zone(regime, zone) for zone in regime.zones))
+    record = replace(
+        regime.derived,
+        statement=f"{regime.derived.statement} Of a zone: ends, pressure on entry, and what is missing in its boundary equation. "
+        f"{'; '.join(meaning for _, meaning in (*regime.equations[1:], regime.equations[0])).capitalize()}.",
+        latex=r"R z = c,\quad \text{missing} + \Delta = 0,\quad \Delta\ \text{of the gap or of the pressure}",
     )
+    return zones, record
 
 
 def _zone(regime: ModeRegime, zone: Span) -> sp.Expr:
     """The zone as data; the equation of the last one is the onset, w - u - gap = 0 at the first edge."""
     missing = -regime.onset_gap if zone is regime.zones[-1] else zone.missing
-    return (Contact if zone.kind == CONTACT else Gap)(zone.first, zone.last, zone.pressure, missing)
-
-
-def _means(regime: ModeRegime, args: tuple[sp.Symbol, ...], zones: Formula) -> Formula:
-    """The mean of w, where there is contact, for that of p, and the work of p.
-
-    Where nothing is free the traction acts everywhere and does no work over a period: pressures count from -p_0.
-    """
-    raised = p_0 if regime.touches and all(zone.kind in (CONTACT, ADHESION) for zone in regime.zones) else sp.Integer(0)
-    height = work = sp.Integer(0)
-    for number, zone in enumerate(regime.zones):
-        if zone.kind == CONTACT:
-            height += PROFILE_INTEGRAL(zone.first, zone.last, D)
-            work += stable.CONTACT_WORK(zone.first, zone.last, ENTRY[number], D + raised, m)
-            continue
-        if zone.kind != ADHESION:
-            work += (zone.pressure + raised) * PROFILE_RISE(zone.first, zone.last)
-        if regime.touches:
-            height += stable.RELAXATION_INTEGRAL(zone.first, zone.last, ENTRY[number], zone.pressure, m)
-        else:
-            height += zone.pressure * (zone.last - zone.first)
-    work += (raised - p_0) * adhesive_rise(regime.zones)
-    met = sp.Symbol("zones")
-    steps = ((met, zones(*args)), (ENTRY.label, entries(met, start(met, m), m)))
-    return Formula(f"means_{regime.sequence}", args, (height / PERIOD, work / PERIOD), steps)
+    return KINDS[zone.kind](zone.first, zone.last, zone.pressure, missing)

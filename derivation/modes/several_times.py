@@ -14,7 +14,7 @@ from ..strip import adhesion_law, strip_profile
 from ..zones import rigid_profile
 from .chain import chain_rule
 from .flows import mode_flows, u
-from .functions import all_functions, period_map, whole_kernels
+from .functions import period_map, whole_kernels
 from .jumps import closures, jump_law
 from .levels import mode_levels
 from .material import admissibility, foundation_law, prony_series, relaxed_stiffness
@@ -70,7 +70,6 @@ def derive(model: Model) -> Derivation:
         tuple(sections),
         read,
         composed=tuple(regime for regime in table if regime.edges),
-        of_regimes=all_functions(table, means),
         whole=whole_kernels(model.springy),
     )
 
