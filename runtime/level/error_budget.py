@@ -4,8 +4,8 @@
   or what ``Accuracy`` says of frictions and fractions. Where only pressure and friction count that is 1 for fractions, and more
   where few points meet the pressures of a piece (``ErrorBudget.fractions``).
 - Level 1 gets the ``rtol`` of the result, halved in ``multilevel``, as its laws err too.
-- Laws of lower levels get a multiple of ``rtol``, and less where points miss that (``multilevel``), relative also to a share of the
-  friction in contact of level 1, which they all add to: ``friction_of_laws``.
+- Laws of lower levels get a multiple of ``rtol``, and less where points miss that (``multilevel``), relative also to a share of
+  the friction in contact of level 1, which they all add to: ``friction_of_laws``.
 - A piece of a law may be coarser by ``ErrorBudget.tolerance_factor``, the fewer points meet its pressures, further down than
   level 2 the less contact there is; ``merge`` may take a part of what a law may err, ``lower_levels`` integrates to a part of
   what the mean over strips may.
