@@ -10,7 +10,7 @@ import sys
 import time
 import tomllib
 import warnings
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +22,7 @@ import kill_sweep
 
 import hystrip
 from hystrip.scene.validate import validated
-from hystrip.sweeps.executors import InProcess
+from hystrip.sweeps.executors import InProcess, _Pool
 from hystrip.sweeps.plan import plan_of, short_name
 from hystrip.sweeps.sizing import blocks, first_size, next_size
 
@@ -213,6 +213,27 @@ def test_lost_workers_are_one_sentence_and_finished_batches_are_kept(scene, tmp_
     assert hystrip.sweep(scene, out=tmp_path / "out").kept == 3
     with pytest.raises(hystrip.InputError, match="executor: got 4; allowed: .*concurrent.futures"):
         hystrip.sweep(scene, out=tmp_path / "out", executor=4)
+
+
+def test_a_run_that_ends_early_leaves_the_futures_of_local_processes_to_their_own_thread(scene, tmp_path):
+    """A future of a process pool that two threads cancel and fail ends one of them with a traceback."""
+    held = []
+
+    class Waiting(Executor):
+        def submit(self, function, task):
+            held.append(Future())
+            if len(held) == 3:
+                held[0].set_exception(RuntimeError("ended"))
+            return held[-1]
+
+    class Local(Waiting, _Pool):
+        pass
+
+    for executor, cancelled in ((Waiting(), True), (Local(1), False)):
+        held.clear()
+        with pytest.raises(RuntimeError, match="ended"):
+            hystrip.sweep(scene, out=tmp_path / "out", executor=executor)
+        assert [future.cancelled() for future in held[1:]] == [cancelled] * (len(held) - 1) and len(held) > 2
 
 
 def test_batches_and_executors_give_the_same_bytes(scene, tmp_path):

@@ -5,7 +5,7 @@ import logging
 import os
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from typing import Any
 
@@ -62,6 +62,17 @@ def _without_signals() -> Iterator[None]:
             signal.signal(number, handler)
         for number in held[:1]:
             signal.raise_signal(number)
+
+
+def give_up(executor: Executor, futures: Iterable[Future]) -> None:
+    """Cancel what has not begun.
+
+    Local processes are left to ``local``, whose shutdown cancels in the pool's own thread: that thread ends with a traceback where it
+    finds a process dead and a future cancelled by another.
+    """
+    if not isinstance(executor, _Pool):
+        for future in futures:
+            future.cancel()
 
 
 def check_workers(workers: int) -> None:

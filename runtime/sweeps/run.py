@@ -18,7 +18,7 @@ from ..files import Outputs, path_of, refuse_unwritable
 from ..tables import about_version, write_csv
 from .batch import OTHER_CODE, Batch, Task, solve_batch
 from .code import code_key, fresh_code_key
-from .executors import check_workers, dask, local, lost
+from .executors import check_workers, dask, give_up, local, lost
 from .plan import Plan, plan_of
 from .sizing import blocks, first_size, next_size
 from .store import Store
@@ -228,8 +228,7 @@ class _Run:
         except (BrokenExecutor, CancelledError) as error:
             raise HystripError(lost(f"the workers are gone ({str(error) or type(error).__name__})")) from None
         finally:
-            for future in running:
-                future.cancel()
+            give_up(executor, running)
         if fresh_code_key() != code_key():
             raise HystripError("the installed hystrip changed while the sweep ran: run the sweep with --restart")
 
