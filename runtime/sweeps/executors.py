@@ -67,8 +67,8 @@ def _without_signals() -> Iterator[None]:
 def give_up(executor: Executor, futures: Iterable[Future]) -> None:
     """Cancel what has not begun.
 
-    Local processes are left to ``local``, whose shutdown cancels in the pool's own thread: that thread ends with a traceback where
-    it finds a process dead and a future cancelled by another.
+    Local processes are left to ``local``, whose shutdown cancels in the pool's own thread: that ends with a traceback where it
+    finds a process dead and a future cancelled by another.
     """
     if not isinstance(executor, _Pool):
         for future in futures:
