@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hystrip.level.averages import Averages
+from hystrip.level.inverse import Inverse
 from hystrip.level.piece import graded
 from hystrip.numerics.chebyshev import coefficients, evaluate, flat_ended, interpolation_errors, lobatto
 from hystrip.numerics.quadrature import interior_nodes, mapped, mapped_weights, sum_errors
@@ -171,3 +173,16 @@ def test_marched_strips_bear_the_estimates_out(tool):
     out = tool.marched(scenes=1, seed=1, tolerances=[1e-3, 1e-5], first=10, accuracy=1e-7)
     assert not out.refused and len(out.points) == 4
     assert out.bounded == 1 and out.met == 1
+
+
+def test_a_step_within_what_either_average_misses_is_no_slope():
+    """Pressure and friction, 0.5 of it, averaged at D and, less well, next to it: friction at the pressure asked for is not told
+    by their difference."""
+    slope = np.array([[1.0, 0.5, 0.0, 0.0]])
+    near, missed = slope + [[0, 4e-7, 0, 0]], np.full((1, 4), 5e-7)
+    means = Averages(slope * (1 + 1e-8), np.full((1, 4), 1e-12), np.ones(1, int))
+    for errors, off in ((missed, 1e-12), (0 * missed, 3e-7)):
+        at = Inverse(np.zeros(1), near, errors, slope, *np.zeros((2, 1), bool))
+        values, bounds = at.meeting(np.ones(1), means)
+        error = abs(values[0, 1] - 0.5)
+        assert error <= bounds[0, 1] and (error <= off if errors.any() else error > off)

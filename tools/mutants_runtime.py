@@ -49,6 +49,13 @@ MUTANTS = (
         "test_error_budget.py",
     ),
     Mutant(
+        "a slope from a step within the errors",
+        "level/inverse.py",
+        "told = np.abs(steps[:, :1]) > unknown[:, :1]",
+        "told = np.abs(steps[:, :1]) > errors[:, :1]",
+        "test_error_estimate.py",
+    ),
+    Mutant(
         "a misplaced jump costs nothing",
         "level/lower_levels.py",
         "return self.table.jumps[group[row], j] * np.minimum",

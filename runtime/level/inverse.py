@@ -19,12 +19,13 @@ from .strips import QUANTITIES, LevelBatch
 @dataclass(frozen=True)
 class Inverse(Batch):
     """Penetrations that carry given pressures: ``D`` (n,), NaN below pull-off; ``strips.QUANTITIES`` as last averaged ``near``
-    them (NaN: nowhere) and their ``slope`` over pressure, (n, 4); which are ``undecided`` (n,): the work ended before it was
-    known which part of the curve it is; and which lie ``in_jump`` (n,), where D stands for one side of a curve that jumps over
-    the pressure."""
+    them (NaN: nowhere), their ``near_errors`` and ``slope`` over pressure, (n, 4); which are ``undecided`` (n,): the work ended
+    before it was known which part of the curve it is; and which lie ``in_jump`` (n,), where D stands for one side of a curve that
+    jumps over the pressure."""
 
     D: np.ndarray
     near: np.ndarray
+    near_errors: np.ndarray
     slope: np.ndarray
     undecided: np.ndarray
     in_jump: np.ndarray
@@ -33,17 +34,19 @@ class Inverse(Batch):
     def at(cls, D: np.ndarray) -> Inverse:
         """Of pressures of which nothing else is known, or asked, than ``D`` (n,)."""
         shape = D.size, len(QUANTITIES)
-        return cls(D, np.full(shape, np.nan), np.zeros(shape), *np.zeros((2, D.size), bool))
+        return cls(D, np.full(shape, np.nan), *np.zeros((2, *shape)), *np.zeros((2, D.size), bool))
 
     def meeting(self, p: np.ndarray, means: Averages) -> tuple[np.ndarray, np.ndarray]:
         """Means (n, 4), and their errors, at the pressures ``p`` (Pa, (n,)) next to those of the ``means`` at D: along the secant
-        from those near it, and how far that differs from the slope before; but for the pressure, which is that at D."""
+        from those near it, and how far that differs from the slope before and what errors make of it; but for the pressure, which
+        is that at D."""
         own, errors = (v[:, : len(QUANTITIES)].copy() for v in (means.values, means.errors))
-        steps, miss = own - self.near, (p - own[:, 0])[:, None]
+        steps, miss, unknown = own - self.near, (p - own[:, 0])[:, None], errors + self.near_errors
         # a step of no more than what is not known tells nothing
-        told = np.abs(steps[:, :1]) > errors[:, :1]
+        told = np.abs(steps[:, :1]) > unknown[:, :1]
         secant = np.divide(steps, steps[:, :1], out=self.slope.copy(), where=told)
-        doubt = np.abs(secant - np.where(told, self.slope, 0.0))
+        blurred = np.divide(unknown + np.abs(secant) * unknown[:, :1], np.abs(steps[:, :1]), out=np.zeros_like(own), where=told)
+        doubt = np.abs(secant - np.where(told, self.slope, 0.0)) + blurred
         own[:, 1:] += (secant * miss)[:, 1:]
         errors[:, 1:] += (np.abs(secant) * errors[:, :1] + doubt * np.abs(miss))[:, 1:]
         errors[:, :1] += np.abs(miss)
@@ -89,9 +92,9 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
     for accuracy in (max(rtol, ROUGH), rtol):
         at = np.log(np.clip(D, low, high)), power, slope, np.log(low), np.log(high)
         # however little the pressure is, friction goes with it
-        x, near, slope = _refine(columns, p, at, accuracy, 0.0, powers=True)
+        x, near, errors, slope = _refine(columns, p, at, accuracy, 0.0, powers=True)
         D = np.clip(np.exp(x), low, high)
-    return Inverse(D, near, np.nan_to_num(slope), *np.zeros((2, p.size), bool))
+    return Inverse(D, near, errors, np.nan_to_num(slope), *np.zeros((2, p.size), bool))
 
 
 def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
@@ -103,18 +106,18 @@ def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: f
     if found.size:
         at = [np.array([getattr(roots[i], f.name) for i in found]) for f in fields(Root)]
         refined = _refine(columns.at(found, out.D[found]), p[found], at, rtol, 1e-3 * columns.scales[0])
-        out.D[found], out.near[found], out.slope[found] = refined
+        out.D[found], out.near[found], out.near_errors[found], out.slope[found] = refined
     return out
 
 
 def _refine(columns: LevelBatch, p, root, rtol, floor, powers: bool = False):
-    """Penetrations, quantities near them and their slopes over pressure at a ``root`` (arrays of the fields of ``Root``): Newton
-    with the rise of the coarse curve, then of the last two averages. The pressure (Pa) is met to ``rtol`` of itself and the
-    ``floor``. With ``powers`` penetrations are given and returned as logarithms, and those of pressures rise over them."""
+    """Penetrations, quantities near them, their errors and slopes over pressure at a ``root`` (arrays of the fields of ``Root``):
+    Newton with the rise of the coarse curve, then of the last two averages. The pressure (Pa) is met to ``rtol`` of itself and
+    the ``floor``. With ``powers`` penetrations are given and returned as logarithms, and those of pressures rise over them."""
     D, rise, slope, low, high = root
     of, back, least = (np.log, np.exp, np.finfo(float).tiny) if powers else (np.positive, np.positive, -np.inf)
     goal, able = rtol * (np.abs(p) + floor), np.flatnonzero((rise > 0) & (high > low))
-    last = np.full((p.size, 1 + slope.shape[1]), np.nan)
+    last, errors = np.full((p.size, 1 + slope.shape[1]), np.nan), np.zeros(slope.shape)
 
     def missing(x, sub):
         index = able[sub]
@@ -123,7 +126,8 @@ def _refine(columns: LevelBatch, p, root, rtol, floor, powers: bool = False):
         new[:, 1] = np.maximum(new[:, 1], least)
         # a step of no more than what is not known tells nothing
         steps, last[index] = new - before, new
-        wide = (steps[:, 0] * steps[:, 1] > 0) & (np.abs(steps[:, 1]) > means.errors[:, 0])
+        unknown, errors[index] = means.errors + errors[index], means.errors
+        wide = (steps[:, 0] * steps[:, 1] > 0) & (np.abs(steps[:, 1]) > unknown[:, 0])
         steep = np.divide(of(new[:, 1]) - of(before[:, 1]), steps[:, 0], out=np.zeros(x.size), where=wide)
         better = steep > 0
         # without a coarse curve quantities are taken to go with the pressure, that about as the contact at rest makes it rise
@@ -137,4 +141,4 @@ def _refine(columns: LevelBatch, p, root, rtol, floor, powers: bool = False):
     falling_root(missing, low[able], high[able], D[able])
     # what is close enough takes another step: the average made there afterwards is next to the pressure
     D[able] = np.clip(last[:, 0] + (of(p) - of(last[:, 1])) / rise, low, high)[able]
-    return D, last[:, 1:], slope
+    return D, last[:, 1:], errors, slope

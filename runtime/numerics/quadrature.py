@@ -15,8 +15,9 @@ from .rules import extrapolated
 
 #: coefficients in the middle of a series that those at its end are held against: one may be small by chance
 _MIDDLE = 3
-#: fastest pace believed of coefficients, by number of nodes, and the slowest that is told apart from a slower one
-_FASTEST, _SLOWEST = {8: 0.65, 16: 0.42, 32: 0.65}, 0.97
+#: fastest pace believed of coefficients, by number of nodes, and of those that fall more slowly at the end than before, as where
+#: there is a layer; and the slowest that is told apart from a slower one
+_FASTEST, _LAYERED, _SLOWEST = {8: 0.45, 16: 0.42, 32: 0.65}, 0.65, 0.97
 #: number of nodes from which on coefficients are many; up to it and from it on, the ratio of the last coefficients to the middle
 #: ones below which they surely fall geometrically
 _MANY, _GEOMETRIC = 16, (0.15, 0.05)
@@ -157,6 +158,7 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     recent = np.maximum(
         _ratio(_last(c, step), _last(c, step, step) + _QUIET * noise), _ratio(_last(shape, step), _last(shape, step, step))
     )
+    since = np.where(recent > since**step, np.maximum(since, _LAYERED), since)
     size = _size(_last(c, many), _last(shape, many), amplitude)
     first = size * np.interp(since, *_left(n, True))
     second = _size(_last(c, few), _last(shape, few), amplitude) * np.interp(recent, *_left(n, False))
