@@ -2,9 +2,14 @@
 
 import numpy as np
 import pytest
+from oracle import march
 
 import hystrip
+from hystrip.generated import standard_linear_solid
 from hystrip.level.saturated import saturated_level
+from hystrip.orbit.engine import solve_strips
+from hystrip.orbit.groups import Strips
+from hystrip.orbit.regimes import SEQUENCES
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
@@ -46,6 +51,29 @@ def test_a_strip_that_detaches_dissipates_what_its_glassy_stiffness_stores(gamma
     lost = p_0 * delta_0 + p_0**2 / (2 * K) - K * delta_0**2 / 2 if p_0 >= K * delta_0 else p_0**2 / K
     assert s.regime == ("afc" if p_0 >= K * delta_0 else "acaf")
     assert s.tau_mean * 1e-5 == pytest.approx(lost, rel=2e-6 if V < 1e10 else 1e-9)
+
+
+#: alpha, beta, J, L, p_0, delta_0, D of strips whose gap in the valley comes within rounding of delta_0
+HARDLY_HELD = (
+    (809886988.5646125, 809886990.3072948, 0.99999999784824, 2.151760010199911e-09,
+     0.0001005339251063167, 596.8745942217734, -594.8746947556984),
+    (417484937.68140787, 417484938.13165075, 0.9999999989215349, 1.0784650404499434e-09,
+     0.00016014403163862692, 265.46826658203145, -263.46842672606306),
+    (32614519826.41951, 32615948009.249596, 0.9999562121318787, 4.378786812135962e-05,
+     1.5524172272632926e-06, 199.63836596231863, -197.63836751473468),
+    (18967979130.179527, 18967979130.179527, 1.0, 0.0,
+     0.0030642691602591923, 232.7231848784378, -230.7262491475941),
+    (1693589285.266652, 1698668277.7209878, 0.9970100151271738, 0.002989984872826245,
+     5.078239605313608e-05, 2379070206.071097, -2379070204.0711474),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("groups", HARDLY_HELD)
+def test_adhesion_that_hardly_holds_in_the_valley_does_so_at_50_digits(groups):
+    alpha, beta, J, _, p_0, delta_0, D = groups
+    found = solve_strips(standard_linear_solid, Strips(*(np.array([v]) for v in (*groups, 1.0))), unloading=False)
+    true = march.solve(alpha, beta, p_0, delta_0, D, closure="constitutive", branch="loading", J=J)
+    assert found.certified.all() and SEQUENCES[found.code[0]] == true.sequence == "a"
 
 
 @pytest.mark.parametrize(("edge", "branch"), [("constitutive", "unloading"), ("continuous", "loading")])

@@ -14,13 +14,16 @@ from .certificate import attracting, edges_admissible, stable
 from .chain import follow
 from .exclusion import is_extremal
 from .groups import ROUNDING, Cycle
-from .march import FROZEN, TWO_PI, Orbit, between
+from .march import TWO_PI, Orbit, between
 from .orbit_bounds import FAST, OrbitBounds
 from .refine import refined
 from .regimes import CODE
 from .search import isolate_extremal, located
 from .solved import UNDECIDED, orbit_of
 from .start import start
+
+#: alpha from which a period moves the foundation by so little that rounding blurs what joins one edge to the next
+FROZEN = 1e6
 
 
 @dataclass(slots=True)

@@ -18,8 +18,6 @@ from .groups import TWO_PI, Cycle
 
 #: edges this close to the crest are on it: the bracket of one that is on it would be halved a thousand times
 LEAST_PHASE = 1e-60
-#: alpha from which a period moves the foundation by so little that rounding blurs what joins one edge to the next
-FROZEN = 1e6
 
 
 @dataclass(slots=True)
@@ -87,33 +85,7 @@ def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, lat
     free = np.flatnonzero(~engaged)
     if free.size:
         r[free] = closing(kernel, cycle.among(free), x[free], b[free], a[free], c[free])
-    grazed = np.flatnonzero(engaged & (cycle.strips.alpha > FROZEN) & ~np.isposinf(a) & ~cycle.bare & (cycle.half_c < np.pi))
-    if grazed.size:
-        _release_grazing(kernel, cycle, Orbit(x, b, a, c, engaged, r), grazed)
     return Orbit(x.copy(), b, a, c, engaged, r), spent
-
-
-def _release_grazing(kernel, cycle: Cycle, orbit: Orbit, index) -> None:
-    """Let adhesion end by grazing where rounding leaves open whether it does and the period that follows raises w.
-
-    A foundation that hardly relaxes within a period moves by less than the rounding of its gap, which then cannot tell; its
-    balance over the period (``closing``) can. A period that raises w leads to a later onset, whatever the gap: no orbit is
-    passed over.
-    """
-    part = cycle.take(index)
-    s = part.strips
-    x, b, a = orbit.x[index], orbit.b[index], orbit.a[index]
-    contact = ~np.isnan(b)
-    start, c = np.where(contact, a, x), part.centre + TWO_PI - part.half_c
-    gap = kernel.gap_after(start, np.maximum(c, start), np.where(contact, 0.0, part.gap_on), -s.p_0, s.D, s.beta)
-    open_ = (c > start) & (c <= x + TWO_PI) & (gap >= s.delta_0 - s.noise())
-    pick = np.flatnonzero(open_)
-    if not pick.size:
-        return
-    r = closing(kernel, part.take(pick), x[pick], b[pick], a[pick], c[pick])
-    rises = r > 0
-    pick, index = pick[rises], index[pick[rises]]
-    orbit.c[index], orbit.engaged[index], orbit.r[index] = c[pick], False, r[rises]
 
 
 def between(left: Orbit, right: Orbit) -> Orbit:
