@@ -25,7 +25,7 @@ negative: a and c lie between 0 and pi.
 
 import numpy as np
 
-from .groups import ROUNDING, TWO_PI, Cycle
+from .groups import ROUNDING, TWO_PI, Cycle, arc_versine
 
 #: parts into which the onsets are divided, and each part that is not excluded again: without the second and third division ten
 #: strips take an eighth longer, for searches of single ones, and mixed strips 4 %
@@ -81,7 +81,7 @@ def balance_bound(kernel, cycle: Cycle, lo, hi):
     # engagement, at most
     high = _versine(hi) + noise
     away = (high - s.D - s.delta_0) * np.expm1(np.maximum(TWO_PI - 2 * lo, 0.0) / s.beta)
-    longest = hi + np.minimum(_arc_versine(high + cycle.jump + away), np.pi)
+    longest = hi + np.minimum(arc_versine(high + cycle.jump + away), np.pi)
     # displacement, at least
     begun, ended, free = np.minimum(t, lo), np.minimum(held, lo), np.maximum(TWO_PI - longest, 0.0)
     apart = (1 - s.D) * (begun + ended) - _sine_cosine(begun)[0] - _sine_cosine(ended)[0]
@@ -96,15 +96,10 @@ def _contact(cycle: Cycle, lo, versine):
     s = cycle.strips
     rise = versine - cycle.gap_on - s.noise()
     lag = np.maximum(s.p_0 + s.D - rise, 0.0)
-    t = _arc_versine(rise)
-    most = _arc_versine(rise - lag * np.expm1((t - lo) / s.beta))
+    t = arc_versine(rise)
+    most = arc_versine(rise - lag * np.expm1((t - lo) / s.beta))
     least = -lag * np.expm1(np.minimum(most - lo, 0.0) / s.beta)
-    return np.where(lag > 0, _arc_versine(rise + least), np.inf)
-
-
-def _arc_versine(height):
-    """Phase where ``1 - cos`` is this much, at most pi."""
-    return 2 * np.arcsin(np.sqrt(np.minimum(np.maximum(0.5 * height, 0.0), 1.0)))
+    return np.where(lag > 0, arc_versine(rise + least), np.inf)
 
 
 def _versine(phase):

@@ -75,9 +75,7 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: OrbitBounds) -> Extremal:
             bounds.x[pick] = limits.x
     rest = np.flatnonzero(~none & ~out.certified)
     if rest.size:
-        found = _isolated(kernel, cycle.among(rest), last, out.orbit.take(rest), bounds.x[rest])
-        found.evaluations += out.evaluations[rest]
-        out.put(rest, found)
+        _isolate(kernel, cycle, last, out, rest, bounds.x[rest])
     return out
 
 
@@ -87,9 +85,7 @@ def unique(kernel, cycle: Cycle, sequence: str) -> Extremal:
     out = _followed(kernel, cycle, sequence, start(kernel, cycle, sequence))
     rest = np.flatnonzero(~out.certified)
     if rest.size:
-        found = _isolated(kernel, cycle.among(rest), False)
-        found.evaluations += out.evaluations[rest]
-        out.put(rest, found)
+        _isolate(kernel, cycle, False, out, rest)
     out.code[:] = CODE[sequence]
     return out
 
@@ -116,28 +112,30 @@ def _followed(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Extrema
     return out
 
 
-def _isolated(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, limit=np.nan) -> Extremal:
-    """Orbits found by the exhaustive search. ``known``, ``limit``: see ``isolate_extremal``."""
-    result = isolate_extremal(kernel, cycle, last, known, limit)
+def _isolate(kernel, cycle: Cycle, last: bool, out: Extremal, rest, limit=np.nan) -> None:
+    """Replace the orbits of the cycles ``rest`` in ``out`` by those of the exhaustive search. ``limit``: see
+    ``isolate_extremal``."""
+    cycle = cycle.among(rest)
+    result = isolate_extremal(kernel, cycle, last, out.orbit.take(rest), limit)
     orbit, spent = result.left, result.evaluations
     # a bracket without width is the orbit itself
     pick = np.flatnonzero(result.found & (orbit.x < result.right.x))
     if pick.size:
         part, left, right = cycle.take(pick), orbit.take(pick), result.right.take(pick)
         new, inside, used = _refined_within(kernel, part, between(left, right), left, right, blurred=False)
-        rest = np.flatnonzero(~inside)
-        if rest.size:
-            part, left, right = part.take(rest), left.take(rest), right.take(rest)
+        left_out = np.flatnonzero(~inside)
+        if left_out.size:
+            part, left, right = part.take(left_out), left.take(left_out), right.take(left_out)
             found, more = located(kernel, part, left, right)
             # Newton on the boundary equations is rounded less than the march
-            new[rest], _, again = _refined_within(kernel, part, found, left, right, blurred=True)
-            used[rest] += more + again
+            new[left_out], _, again = _refined_within(kernel, part, found, left, right, blurred=True)
+            used[left_out] += more + again
         orbit.put(pick, new)
         spent[pick] += used
     direct = np.where(cycle.direct, CODE["afc"], CODE["acaf"])
     code = np.where(result.found, np.where(np.isnan(orbit.b), CODE["af"], direct), UNDECIDED).astype(np.int8)
     certified = result.found & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
-    return Extremal(orbit, code, certified, spent)
+    out.put(rest, Extremal(orbit, code, certified, out.evaluations[rest] + spent))
 
 
 def _refined_within(kernel, cycle: Cycle, orbit: Orbit, left: Orbit, right: Orbit, blurred: bool):

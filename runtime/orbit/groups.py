@@ -85,6 +85,11 @@ def slowed(alpha) -> np.ndarray:
     return np.divide(STANDS_STILL, alpha, out=np.ones_like(alpha), where=alpha > STANDS_STILL)
 
 
+def arc_versine(height):
+    """Phase where ``1 - cos`` is this much, at most pi."""
+    return 2 * np.arcsin(np.sqrt(np.minimum(np.maximum(0.5 * height, 0.0), 1.0)))
+
+
 def snaps_in(step, delta_0) -> np.ndarray:
     """Where a ``step`` of w by ``J_0 p_0`` closes the gap ``delta_0``, in whatever unit; equal but for rounding counts as
     equal."""

@@ -45,7 +45,7 @@ import numpy as np
 from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
 from .batch import Batch
-from .groups import ROUNDING, Cycle
+from .groups import ROUNDING, Cycle, arc_versine
 from .march import TWO_PI, Event, Orbit
 from .sensitivity import contact_length, fading
 
@@ -116,42 +116,47 @@ def _follow(kernel, cycle: Cycle, b, q_on, a, index, out: OrbitBounds) -> None:
         go = np.flatnonzero(np.isfinite(c))
         index, cycle, a, c = index[go], cycle.among(go), a[go], c[go]
         out.a[index], out.c[index], out.released[index] = a, c, True
-        out.x[index], out.missed[index], spent = earliest_onset(kernel, cycle, c)
+        out.x[index], out.missed[index], spent = next_onset(kernel, cycle, c, -1.0)
         out.evaluations[index] += spent
 
 
 def least_engaged_bounds(kernel, cycle: Cycle) -> OrbitBounds:
     """Bounds from the least engaged state of an orbit with an onset, for cycles of strips within reach, ``D > -delta_0``."""
     s, touched = cycle.strips, cycle.touched
-    reach = 0.5 * (s.D + s.delta_0 - s.noise())
-    at_rest = -2 * np.arcsin(np.sqrt(np.clip(reach, 0.0, 1.0)))
+    reach = s.D + s.delta_0 - s.noise()
+    at_rest = -arc_versine(reach)
     a = cycle.centre + cycle.half_b
     start = np.where(touched, a, np.maximum(a, at_rest))
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         gap = np.where(touched, 0.0, np.maximum(kernel.gap_after(at_rest, start, cycle.gap_on, -s.p_0, s.D, s.beta), 0.0))
         c, stays, spent = _adhesion_end(kernel, cycle, start, gap, -1.0)
         c = np.fmax(c, np.maximum(start, cycle.centre + cycle.half_c))
-        x, used = _next_onset(kernel, cycle, c, 1.0)
-    x = np.fmin(x - TWO_PI, np.where(touched, np.nan, at_rest))
-    missed = stays | (cycle.half_b >= np.pi) | (~touched & (reach > 1))
+        x, _, used = next_onset(kernel, cycle, c, 1.0)
+    x = np.fmin(x, np.where(touched, np.nan, at_rest))
+    missed = stays | (cycle.half_b >= np.pi) | (~touched & (reach > 2))
     return OrbitBounds(x, a, c, np.zeros(cycle.size, bool), missed, spent + used)
 
 
-def earliest_onset(kernel, cycle: Cycle, c):
-    """Onsets (less 2 pi) before the next one of cycles released at c, NaN where none was found.
+def next_onset(kernel, cycle: Cycle, c, side: float):
+    """Onsets (less 2 pi) behind (``side`` 1) or before (-1) the next one of cycles released at c, NaN where none was found.
 
-    Also which cycles miss it, and the evaluations spent.
+    Also which cycles miss it (asked for -1), and the evaluations spent.
     """
     s = cycle.strips
-    entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
+    closes = Event(kernel.gap_event, kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta), s.delta_0)
     low = np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
     high = np.maximum(cycle.centre + TWO_PI + cycle.half_d, low)
-    missed = kernel.gap_event(high, *entry)[0] - s.delta_0 > s.noise()
-    # a surface out of reach of the undeformed foundation is not met if nothing is left of w that would change its gap
-    left = np.abs(kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(low - c, s.beta)
-    missed |= (s.D <= -s.delta_0) & (left < 0.25 * EPS * s.delta_0)
-    x, spent = _next_onset(kernel, cycle, c, -1.0)
-    return np.where(missed, np.nan, x - TWO_PI), missed, spent + 1
+    # of a foundation that stands still
+    start = TWO_PI - np.arccos(np.clip(np.cos(c) + cycle.jump, -1.0, 1.0))
+    x, spent = _beyond(closes, start, low, high, side, s.noise())
+    missed = np.zeros(cycle.size, bool)
+    if side < 0:
+        missed = closes(high, np.arange(cycle.size))[0] > s.noise()
+        # a surface out of reach of the undeformed foundation is not met if nothing is left of w that would change its gap
+        left = np.abs(kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(low - c, s.beta)
+        missed |= (s.D <= -s.delta_0) & (left < 0.25 * EPS * s.delta_0)
+        x, spent = np.where(missed, np.nan, x), spent + 1
+    return x - TWO_PI, missed, spent
 
 
 def _contact_end(kernel, cycle: Cycle, b, q_on, low):
@@ -180,18 +185,6 @@ def _adhesion_end(kernel, cycle: Cycle, a, gap, side: float):
     c[ask], used = _beyond(closed.take(ask), start, low[ask], high[ask], side, noise[ask])
     spent[ask] += used
     return c, over < -noise, spent
-
-
-def _next_onset(kernel, cycle: Cycle, c, side: float):
-    """Phases behind (``side`` 1) or before (-1) the next onset of cycles released at c, NaN where none was found, and the
-    evaluations spent."""
-    s = cycle.strips
-    entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
-    low = np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
-    high = np.maximum(cycle.centre + TWO_PI + cycle.half_d, low)
-    # of a foundation that stands still
-    start = TWO_PI - np.arccos(np.clip(np.cos(c) + cycle.jump, -1.0, 1.0))
-    return _beyond(Event(kernel.gap_event, entry, s.delta_0), start, low, high, side, s.noise())
 
 
 def _beyond(event: Event, start, low, high, side: float, noise):

@@ -20,9 +20,9 @@ import numpy as np
 from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
 from .batch import Batch
-from .groups import Cycle
+from .groups import Cycle, arc_versine
 from .march import LEAST_PHASE, TWO_PI, Orbit, march
-from .orbit_bounds import earliest_onset
+from .orbit_bounds import next_onset
 from .sensitivity import SlopeBounds, over, slope_bounds, slope_excess
 
 #: retardation times after which a displacement is gone, to the smallest number
@@ -89,9 +89,9 @@ class _Search:
         s = self.cycle.strips.take(quick)
         forgets = np.flatnonzero(~first.engaged & (first.x + TWO_PI - first.c > FORGOTTEN * s.beta))
         # a surface that stays out of reach has no onset to lead to
-        reach = 0.5 * (s.D + s.delta_0)
+        reach = s.D + s.delta_0
         meets = forgets[reach[forgets] > 0]
-        orbit = self.march(quick[meets], -2 * np.arcsin(np.sqrt(np.minimum(reach[meets], 1.0))))
+        orbit = self.march(quick[meets], -arc_versine(reach[meets]))
         orbit.r = np.zeros(meets.size)
         self._isolated(quick[meets], orbit, orbit)
         return np.setdiff1d(index, quick[forgets])
@@ -103,7 +103,7 @@ class _Search:
             return index
         part = self.cycle.take(index)
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            x, missed, spent = earliest_onset(self.kernel, part, part.centre + TWO_PI - part.half_c)
+            x, missed, spent = next_onset(self.kernel, part, part.centre + TWO_PI - part.half_c, -1.0)
         self.result.evaluations[index] += spent
         self.start[index] = np.fmax(self.start[index], x)
         return index[~missed]

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..numerics.rounding import EPS
 from .batch import Batch
+from .chain import EDGES
 from .groups import Strips
 from .march import TWO_PI, Orbit
 from .regimes import CODE, EQUATIONS
@@ -84,15 +85,7 @@ class Record:
 
 def edges_of(sequence: str, orbit: Orbit) -> np.ndarray:
     """Unknown edges of the regime's boundary equations, (k, n)."""
-    return np.array(
-        {
-            "acaf": (orbit.x, orbit.b, orbit.a, orbit.c),
-            "afc": (orbit.x, orbit.a, orbit.c),
-            "af": (orbit.x, orbit.c),
-            "ac": (orbit.b, orbit.a),
-            "cf": (orbit.b, orbit.a),
-        }[sequence]
-    )
+    return np.array([getattr(orbit, edge) for edge in EDGES[sequence]])
 
 
 def orbit_of(sequence: str, edges: np.ndarray) -> Orbit:

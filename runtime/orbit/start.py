@@ -21,8 +21,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..numerics.rounding import EPS
-from .chain import TWO_PI
-from .groups import Cycle
+from .groups import TWO_PI, Cycle, arc_versine
 
 if TYPE_CHECKING:
     from .orbit_bounds import OrbitBounds
@@ -114,7 +113,7 @@ def _nearly_complete(kernel, cycle: Cycle, x, a) -> np.ndarray:
     s = cycle.strips
     pull = 1 - (s.D - 1) / kernel.modulus_ratio(s.alpha, s.beta)
     near = pull < 1
-    half = 2 * np.arcsin(np.sqrt(np.clip(pull / 2, 0.0, 1.0)))
+    half = arc_versine(pull)
     end = np.pi - np.arctan(s.beta) + np.arctan(s.alpha) - half
     # the gap is somewhat wider than where the field pulls
     return np.array([np.where(near, end - TWO_PI + 2.5 * half, x), np.where(near, end, a)])
