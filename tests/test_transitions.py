@@ -6,7 +6,7 @@ import surfaces
 
 import hystrip
 from hystrip.level.breaks import breakpoints, breaks_on, first_contact
-from hystrip.level.interior_breaks import IsolatedRegime, Zones, island, locate_vanishing
+from hystrip.level.interior_breaks import IsolatedRegime, Zones, islands, locate_vanishing
 from hystrip.level.interpolation import Interval, interpolate
 from hystrip.level.means import level_means
 from hystrip.level.strips import LevelBatch, saturation_depth
@@ -94,9 +94,22 @@ def test_a_zone_whose_means_do_not_tell_is_no_island():
     wide = _zones((2, 0.0, 1.0, 0.0), (5, 1.001, 1.003, 7.0), (7, 1.004, np.pi, 1.0))
     plain = _zones((2, 0.0, 1.002, 0.0), (7, 1.0020001, np.pi, 1.0))
     D, weight = np.arange(5.0), 0.002 / np.pi * 7.0
-    assert island(0, D, [wide, wide, plain, plain, wide], np.full(1, 20 * weight)) is None
-    found = island(0, D, [wide, wide, plain, plain, wide], np.full(1, weight))
+    assert islands(0, D, [wide, wide, plain, plain, wide], np.full(1, 20 * weight)) == []
+    (found,) = islands(0, D, [wide, wide, plain, plain, wide], np.full(1, weight))
     assert (found.code, found.present, found.absent) == (5, 1.0, 2.0) and np.isclose(found.weight, 1.0)
+
+
+def test_nested_islands_vanish_one_by_one():
+    """Around a minimum of the peak pressure breaks of the law below are passed down and up again: each level between two of them
+    is an island of its own, as wide as all inside it."""
+    nested = _zones((2, 0.0, 1.0, 0.0), (5, 1.0, 1.2, 3.0), (7, 1.2, 1.3, 9.0), (5, 1.3, 1.5, 3.0), (2, 1.5, np.pi, 0.0))
+    inner, plain = nested.code[[0, 1, 4]], _zones((2, 0.0, np.pi, 0.0))
+    found = {each.code: each for each in islands(0, np.arange(2.0), [nested, plain], np.full(1, 1e-2))}
+    assert {code: (each.low, each.high) for code, each in found.items()} == {5: (1.0, 1.5), 7: (1.2, 1.3)}
+    one = Zones(inner, *(np.delete(v, [2, 3], axis=0) for v in (nested.low, nested.high, nested.first, nested.last, nested.mean)))
+    assert [each.code for each in islands(0, np.arange(2.0), [nested, one], np.full(1, 1e-2))] == [7]
+    # one that hardly tells beside another is left to what comes of the parts
+    assert [each.code for each in islands(0, np.arange(2.0), [nested, plain], np.full(1, 1e-9))] == [5, 7]
 
 
 def _zones(*rows):

@@ -1,7 +1,8 @@
 """Where a regime appears among the strips of a level, or vanishes, away from its crest.
 
 As the penetration changes, strips somewhere between crest and edge may enter a regime that no strip was in before: an island in
-y that grows with the distance in D or its square root, and the level's means with it. Such a penetration ends a piece.
+y that grows with the distance in D or its square root, and the level's means with it. Such a penetration ends a piece. With a
+level below, islands are nested: around a minimum of the peak pressure every break of its law is passed down and up again.
 """
 
 from dataclasses import dataclass, fields
@@ -14,8 +15,8 @@ from .strips import LevelBatch
 #: strips looked at across an island and along its way, and how often at most, ever closer to where it vanishes: the tip of a
 #: wedge between two strips is less than a step along the way beyond where they lose it
 _ACROSS, _ALONG, _ROUNDS = 12, 8, 20
-#: what an island may add to the means that is left aside, over their goal
-_LEFT = 0.3
+#: what an island may add to the means that is left aside, over their goal, and over what the heaviest beside it adds
+_LEFT, _LIGHT = 0.3, 0.1
 
 
 @dataclass(frozen=True)
@@ -70,10 +71,11 @@ def _arrays(islands: list[IsolatedRegime]) -> list[np.ndarray]:
     return [np.array([getattr(i, field.name) for i in islands]) for field in fields(IsolatedRegime)]
 
 
-def island(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) -> IsolatedRegime | None:
-    """Of the changes in the sequence of codes along y between two of the nodes ``D`` that which moves the means most, if it tells
-    beside the ``goal`` (q,) of their errors. ``zones``: at each node."""
-    heaviest = None
+def islands(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) -> list[IsolatedRegime]:
+    """Of the changes in the sequence of codes along y between two of the nodes ``D`` those between the two where one moves the
+    means most, as far as they tell beside the ``goal`` (q,) of their errors: islands may be nested, and vanish one after another.
+    ``zones``: at each node."""
+    most: list[IsolatedRegime] = []
     for i in range(D.size - 1):
         one, two = zones[i], zones[i + 1]
         if np.array_equal(one.code, two.code):
@@ -84,12 +86,16 @@ def island(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) -> 
         same = 0
         while same < two.code.size and one.code[same] == two.code[same]:
             same += 1
-        k = min(same, one.code.size - 1)
-        width = one.high[k] - one.low[k]
-        weight = float((width / np.pi * one.standing_out(k) / goal).max())
-        if weight > max(_LEFT, heaviest.weight if heaviest else 0.0):
-            heaviest = IsolatedRegime(column, int(one.code[k]), float(one.low[k]), float(one.high[k]), *ends, weight)
-    return heaviest
+        gone = np.setdiff1d(one.code, two.code)
+        places = [np.flatnonzero(one.code == code) for code in gone] or [np.array([min(same, one.code.size - 1)])]
+        found = []
+        for k in places:
+            low, high = one.low[k[0]], one.high[k[-1]]
+            weight = max(float(((high - low) / np.pi * one.standing_out(j) / goal).max()) for j in k)
+            if weight > _LEFT:
+                found.append(IsolatedRegime(column, int(one.code[k[0]]), float(low), float(high), *ends, weight))
+        most = max(most, found, key=lambda some: max((each.weight for each in some), default=0.0))
+    return [each for each in most if each.weight > _LIGHT * max(other.weight for other in most)]
 
 
 def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips: np.ndarray) -> np.ndarray:

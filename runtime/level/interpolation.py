@@ -12,7 +12,7 @@ from ..numerics.quadrature import interior_nodes
 from ..numerics.rounding import EPS
 from .effort import CURVE_LIMIT, NO_CURVE
 from .error_budget import ErrorBudget
-from .interior_breaks import island, locate_vanishing
+from .interior_breaks import islands, locate_vanishing
 from .interval import MEAN, Interval, array_of, columns_of, means_in, places, weighed, within
 from .piece import Errors, Piece
 from .strips import LevelBatch
@@ -24,8 +24,8 @@ _LOOK, _COARSE, _FIRST, _LAST = 6, 8, 12, 96
 _BLUR = 0.1
 #: an interval's pressure is known at least this well
 _COARSEST = 1e-3
-#: a piece narrower than this, relative to D, is taken as it is
-_NARROWEST = 1e-11
+#: a piece narrower than this, relative to D, is taken as it is; and breaks in an interval are this far apart, relative to it
+_NARROWEST, _APART = 1e-11, 1e-9
 #: error of a piece by what rounding may make of each of its coefficients
 _ROUNDED = 8.0
 
@@ -85,10 +85,11 @@ class _Work:
         breaks, parts = self._isolated_regimes(left), []
         for stage, _, missed, hopeless in left:
             for i, by in zip(stage.parts[hopeless], missed[hopeless], strict=True):
-                if i in breaks:
-                    parts += i.split(breaks[i], soft=False)
-                else:
-                    parts += replace(i, asked=i.asked.after(float(by.max()))).halves
+                rest = i
+                for D in breaks.get(i, []):
+                    lower, rest = rest.split(D, soft=False)
+                    parts.append(lower)
+                parts += [rest] if i in breaks else replace(i, asked=i.asked.after(float(by.max()))).halves
             going.append(stage.take(~hopeless))
         return [stage for stage in (*going, *self.start(parts)) if stage.parts.size]
 
@@ -128,20 +129,23 @@ class _Work:
         hopeless = (missed > before ** (2 / 3)).any(axis=1) | (stage.n >= _LAST)
         return stage.take(~done), *(v[~done] for v in (goal, missed, hopeless))
 
-    def _isolated_regimes(self, left) -> dict[Interval, float]:
-        """Breaks inside intervals of ``left`` that have to be divided (see ``_converged``): penetrations at which something
-        appears or vanishes between two nodes, away from the crest."""
-        seen = {}
+    def _isolated_regimes(self, left) -> dict[Interval, list[float]]:
+        """Breaks inside intervals of ``left`` that have to be divided (see ``_converged``), ascending: penetrations at which
+        something appears or vanishes between two nodes, away from the crest."""
+        seen = []
         for stage, goal, _, hopeless in left:
             for k in np.flatnonzero(hopeless):
                 i = stage.parts[k]
-                found = island(i.column, i.penetrations(interior_nodes(stage.n)), stage.known[2][k], goal[k])
-                if found is not None:
-                    seen[i] = found
-        if not seen:
-            return {}
-        breaks = zip(seen, locate_vanishing(self.columns, list(seen.values()), self.strips).tolist(), strict=True)
-        return {i: D for i, D in breaks if i.low < D < i.high}
+                found = islands(i.column, i.penetrations(interior_nodes(stage.n)), stage.known[2][k], goal[k])
+                seen += [(i, island) for island in found]
+        breaks: dict[Interval, list[float]] = {}
+        if seen:
+            at = locate_vanishing(self.columns, [island for _, island in seen], self.strips).tolist()
+            for (i, _), D in sorted(zip(seen, at, strict=True), key=lambda each: each[1]):
+                apart = _APART * (i.high - i.low)
+                if breaks.get(i, [i.low])[-1] + apart < D < i.high - apart:
+                    breaks.setdefault(i, []).append(D)
+        return breaks
 
 
 def _rounding(columns: LevelBatch, stage: Stage, c: np.ndarray) -> np.ndarray:
