@@ -7,6 +7,7 @@ import random
 import signal
 import subprocess
 import sys
+import threading
 import time
 import tomllib
 import warnings
@@ -22,7 +23,7 @@ import kill_sweep
 
 import hystrip
 from hystrip.scene.validate import validated
-from hystrip.sweeps.executors import InProcess, _Pool
+from hystrip.sweeps.executors import InProcess, _Pool, local
 from hystrip.sweeps.plan import plan_of, short_name
 from hystrip.sweeps.sizing import blocks, first_size, next_size
 
@@ -234,6 +235,18 @@ def test_a_run_that_ends_early_leaves_the_futures_of_local_processes_to_their_ow
         with pytest.raises(RuntimeError, match="ended"):
             hystrip.sweep(scene, out=tmp_path / "out", executor=executor)
         assert [future.cancelled() for future in held[1:]] == [cancelled] * (len(held) - 1) and len(held) > 2
+
+
+@pytest.mark.parametrize("at_work", [False, True])
+def test_local_processes_given_up_leave_no_thread_behind(at_work):
+    """The interpreter ends with a traceback where it finds the pool's thread half-way through closing."""
+    before = set(threading.enumerate())
+    with pytest.raises(RuntimeError, match="ended"), local(2) as (executor, _):
+        if at_work:
+            executor.submit(os.getpid).result()
+        futures = [executor.submit(time.sleep, 60) for _ in range(8)]
+        raise RuntimeError("ended")
+    assert set(threading.enumerate()) == before and all(future.done() for future in futures)
 
 
 def test_batches_and_executors_give_the_same_bytes(scene, tmp_path):

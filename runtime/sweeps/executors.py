@@ -95,10 +95,10 @@ def local(workers: int) -> Iterator[tuple[Executor, int]]:
         yield pool, 2 * workers
     except BaseException:
         # what is in flight is not waited for: it will be solved again
-        processes = list((getattr(pool, "_processes", None) or {}).values())
-        pool.shutdown(wait=False, cancel_futures=True)
-        for process in processes:
+        for process in list((getattr(pool, "_processes", None) or {}).values()):
             process.kill()  # one that is just starting may still hold other signals back
+        # but the pool's own thread is: the interpreter's end must not find it half-way through closing
+        pool.shutdown(cancel_futures=True)
         raise
     pool.shutdown()
 
