@@ -127,8 +127,10 @@ def test_a_level_whose_valley_is_just_released_is_like_one_next_to_it(V, p_0, br
 
 
 def test_a_point_that_errs_by_more_than_is_allowed_is_solved_once_more(monkeypatch):
-    """As it is where errors of a law count for more than was foreseen: here as if none of them cancelled."""
+    """As it is where errors of a law count for more than was foreseen: here as if none of them cancelled, and of laws that at
+    first are far too coarse."""
     monkeypatch.setattr(lower_levels, "_CANCELLED", 1.0)
+    monkeypatch.setattr(multilevel, "_ATTEMPTS", ((1.0, 1000.0), *multilevel._ATTEMPTS[1:]))
     material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=5.225834435113426e-07)
     adhesion = hystrip.Dugdale(gamma=4.5298325052e-06, delta_0=1.46134e-08)
     levels = [hystrip.Level(1e-5, 1.9698e-6), hystrip.Level(1.85077e-6, 3.05468e-7)]

@@ -9,8 +9,8 @@
 - A piece of a law may be coarser by ``ErrorBudget.tolerance_factor``, the fewer points meet its pressures, further down than
   level 2 the less contact there is; ``merge`` may take a part of what a law may err, ``lower_levels`` integrates to a part of
   what the mean over strips may.
-- Of what an interval of a curve may err its means get a part, ``interval.MEAN``; where halving it does not help, less:
-  ``Accuracy.after``.
+- Of what an interval of a curve may err its means get a part, ``interval.MEAN``; less where halving it does not help
+  (``Accuracy.after``), and where it may be coarser and friction in it spans a factor (``interval.weighed``).
 
 Goal-oriented: a law's error counts as much as the part of the surface on which it is used. That part is had from a plain sum over
 the strips of the level above; it deals out accuracy and enters no result, and what a law lacks shows in the error of the friction

@@ -92,8 +92,11 @@ def weighed(
     # what an accuracy is relative to, of its own friction and all that it carries
     floors = replace(columns, asked=replace(columns.asked, friction=0.0)).floors[:, frictions]
     for i, v in zip(intervals, values, strict=True):
-        friction = (np.abs(v[:, frictions]).min(axis=0) + floors[i.column]).sum()
+        size = np.abs(v[:, frictions]) + floors[i.column]
+        friction = size.min(axis=0).sum()
         low, high = v[:, 0].min(), v[:, 0].max() if ceiling is None else min(v[:, 0].max(), ceiling[i.column])
         asked = i.asked.relaxed(budget.tolerance_factor(i.column, low, high, friction), budget.fractions(i.column, low, high))
-        out.append(replace(i, asked=asked))
+        # means err relative to themselves: where the interval may be coarser, nowhere by more than it may where they are least
+        means = max(friction / (MEAN * size.sum(axis=1).max()), 1 / asked.coarser)
+        out.append(replace(i, asked=replace(asked, means=min(asked.means, means))))
     return array_of(out)
