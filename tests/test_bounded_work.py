@@ -126,6 +126,18 @@ def test_a_level_whose_valley_is_just_released_is_like_one_next_to_it(V, p_0, br
     assert V > 0 or abs(at.tau_mean) <= at.error_estimate[1]
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_level_whose_strips_let_go_all_but_at_once_has_no_piece_between():
+    """With a short memory all strips of the smallest level let go at one height of the valley, within 3e-16 m of D."""
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=0.00205486)
+    adhesion = hystrip.Dugdale(gamma=1.06382e-05, delta_0=4.67547e-08)
+    levels = [hystrip.Level(1e-5, 1.64511e-6), hystrip.Level(5.58329e-6, 1.65357e-6), hystrip.Level(2.84179e-6, 4.559e-7)]
+    at = {"pressure": 2.64272, "velocity": 1.87017e-6}
+    coarse, fine = (hystrip.solve(material, adhesion, levels, **at, rtol=rtol) for rtol in (1e-3, 1e-5))
+    assert coarse.converged.all() and fine.converged.all() and fine.counts["strips_solved"] < 20_000
+    assert abs(coarse.tau - fine.tau) <= coarse.tau_error
+
+
 def test_a_point_that_errs_by_more_than_is_allowed_is_solved_once_more(monkeypatch):
     """As it is where errors of a law count for more than was foreseen: here as if none of them cancelled, and of laws that at
     first are far too coarse."""

@@ -56,13 +56,13 @@ def _columns():
 
 def test_the_top_of_a_curve_ends_gently_and_no_break_does():
     columns = _columns()
-    (row,), _ = smooth_intervals(columns, saturation_depth(columns))
+    (row,), _ = smooth_intervals(columns, np.full(1, 1e-5), saturation_depth(columns))
     assert len(row) > 2 and [(i.inner_low, i.inner_high) for i in row] == [(False, k == len(row) - 1) for k in range(len(row))]
 
 
 def test_a_wrong_guess_costs_no_digits():
     columns = _columns()
-    (row,), (crest,) = smooth_intervals(columns, saturation_depth(columns))
+    (row,), (crest,) = smooth_intervals(columns, np.full(1, 1e-5), saturation_depth(columns))
     hard = replace(next(i for i in row if i.low >= crest), inner_low=True, inner_high=True)
     (pieces,) = interpolate(columns, np.array([1e-5]), [hard], np.zeros(1, int))
     assert len(pieces) > 1

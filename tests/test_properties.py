@@ -60,6 +60,16 @@ def test_the_deeper_the_more_engaged(group, edge, branch, parts):
 
 
 @few
+@given(groups(), edges, branches, st.lists(st.floats(0, 1), min_size=12, max_size=12))
+def test_pressure_rises_by_no_more_than_a_foundation_at_rest_has(group, edge, branch, parts):
+    """By ``K`` times the penetration: its mean is that of w, which rises by no more than the profile, and falls where strips are
+    engaged."""
+    D = depths(*group, sorted(parts))
+    s = strip(*group, D, edge, branch)
+    assert (np.diff(s.p_mean) <= np.diff(D) + 1e-12 * (1 + np.abs(D).max() + group[2])).all()
+
+
+@few
 @given(groups(), edges, branches, st.floats(0, 1), st.tuples(*[st.integers(-40, 40)] * 4))
 def test_units_play_no_part(group, edge, branch, part, powers):
     """Powers of two: the dimensionless groups stay the same to the last bit, and so does the solution in its own units."""

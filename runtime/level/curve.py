@@ -37,7 +37,7 @@ def trace(
     n = columns.size
     top = saturation_depth(columns) if top is None else top
     strips = np.zeros(n, int)
-    rows, crest = smooth_intervals(columns, top)
+    rows, crest = smooth_intervals(columns, rtol, top)
     intervals = [i for row in rows for i in row]
     hangs = lambda i: follow and i.high <= crest[i.column]  # noqa: E731
     below, above = [i for i in intervals if hangs(i)], [i for i in intervals if not hangs(i)]
@@ -50,17 +50,23 @@ def trace(
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
 
 
-def smooth_intervals(columns: LevelBatch, top: np.ndarray) -> tuple[list[list[Interval]], np.ndarray]:
+def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, top: np.ndarray) -> tuple[list[list[Interval]], np.ndarray]:
     """For every column the intervals between the breaks of its curve, ascending; and where the crest lets go (inf: never seen),
-    (n,)."""
+    (n,).
+
+    Pressure, ``K mean(w)``, rises by ``K`` times the penetration at most: w rises as the profile does, less where more is engaged.
+    So where two breaks all but coincide, as where memory is short and all strips let go at one height of the valley, the curve
+    falls, which is no part of a law, or it rises by less than pressure may err. What is that narrow is left out.
+    """
     inside = threshold_width(columns, top)
+    narrowest = np.maximum(2 * inside, rtol * columns.floors[:, 0] / columns.material.K)
     breaks, crest = breakpoints(columns, top)
     # at the top a curve is but cut, or saturates
     rows = [
         [
             Interval(i, low, high, inner_high=high > top[i] - 2 * inside[i])
             for low, high in zip(points[:-1], points[1:], strict=True)
-            if high - low > 2 * inside[i]
+            if high - low > narrowest[i]
         ]
         for i, points in enumerate(breaks)
     ]
