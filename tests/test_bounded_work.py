@@ -138,6 +138,17 @@ def test_a_level_whose_strips_let_go_all_but_at_once_has_no_piece_between():
     assert abs(coarse.tau - fine.tau) <= coarse.tau_error
 
 
+@pytest.mark.parametrize("V", [2e-6, 5e-6, 2e-5])
+def test_what_unloading_jumps_over_is_only_looked_at(V):
+    """The same with ever longer memory: strips let go within 1e-9 to 1e-2 of ``h``, while the pressure rises."""
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=0.00205486)
+    adhesion = hystrip.Dugdale(gamma=1.06382e-05, delta_0=4.67547e-08)
+    levels = [hystrip.Level(1e-5, 1.64511e-6), hystrip.Level(2.84179e-6, 4.559e-7)]
+    coarse, fine = (hystrip.solve(material, adhesion, levels, pressure=2.64, velocity=V, rtol=rtol) for rtol in (1e-3, 1e-6))
+    assert coarse.converged.all() and fine.converged.all() and fine.counts["strips_solved"] < 5_000
+    assert abs(coarse.tau - fine.tau) <= coarse.tau_error
+
+
 def test_a_point_that_errs_by_more_than_is_allowed_is_solved_once_more(monkeypatch):
     """As it is where errors of a law count for more than was foreseen: here as if none of them cancelled, and of laws that at
     first are far too coarse."""

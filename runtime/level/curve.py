@@ -12,7 +12,7 @@ from .error_budget import ErrorBudget
 from .interpolation import interpolate
 from .interval import Interval
 from .piece import Piece
-from .reentrant import reentrant_parts
+from .reentrant import is_narrow, reentrant_parts
 from .strips import LevelBatch, saturation_depth
 
 
@@ -31,21 +31,25 @@ def trace(
     """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``; of
     ``frictional`` columns pressure only as well as it takes for friction over pressure to be known to that.
 
-    ``follow``: below the penetration at which the crest lets go, only what unloading at a falling pressure comes to. ``budget``:
-    what is asked of every column's law; what hardly counts there is made coarser.
+    ``follow``: below the penetration at which the crest lets go, and where breaks are close, only what unloading at a falling
+    pressure comes to. ``budget``: what is asked of every column's law; what hardly counts there is made coarser.
     """
     n = columns.size
     top = saturation_depth(columns) if top is None else top
-    strips = np.zeros(n, int)
+    strips, unloading = np.zeros(n, int), columns.branch == "unloading"
     rows, crest = smooth_intervals(columns, rtol, top)
     intervals = [i for row in rows for i in row]
-    hangs = lambda i: follow and i.high <= crest[i.column]  # noqa: E731
-    below, above = [i for i in intervals if hangs(i)], [i for i in intervals if not hangs(i)]
-    pieces = interpolate(columns, rtol, above, strips, budget=budget)
-    if below:
-        least = np.array([min((piece.values(piece.errors.at)[:, 0].min() for piece in row), default=np.inf) for row in pieces])
-        parts = reentrant_parts(columns, below, least, strips, budget)
-        for row, more in zip(pieces, interpolate(columns, rtol, parts, strips, budget=budget, ceiling=least), strict=True):
+    looks = lambda i: follow and (i.high <= crest[i.column] or unloading and is_narrow(i, columns.level.h))  # noqa: E731
+    looked, others = [i for i in intervals if looks(i)], [i for i in intervals if not looks(i)]
+    pieces = interpolate(columns, rtol, others, strips, budget=budget)
+    if looked:
+        least = [[(piece.low, piece.values(piece.errors.at)[:, 0].min()) for piece in row] for row in pieces]
+
+        def before(i: Interval) -> float:
+            return min((p for low, p in least[i.column] if low >= i.high), default=np.inf)
+
+        parts = reentrant_parts(columns, looked, before, strips, budget)
+        for row, more in zip(pieces, interpolate(columns, rtol, parts, strips, budget=budget, ceiling=before), strict=True):
             row += more
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
 

@@ -1,7 +1,7 @@
 """Interpolation of a level's means over intervals of penetration, on nested nodes; what does not converge is halved, or split
 where strips enter a new regime."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -37,12 +37,12 @@ def interpolate(
     strips: np.ndarray,
     pressure_goal: np.ndarray | None = None,
     budget: ErrorBudget | None = None,
-    ceiling: np.ndarray | None = None,
+    ceiling: Callable[[Interval], float] | None = None,
 ) -> list[list[Piece]]:
     """Pieces that interpolate the means over the intervals, to ``rtol`` of each column; ``strips`` (per column) counts the work.
 
     ``pressure_goal`` (per column): nothing counts but the pressure, to that error, Pa. ``budget``: how much the pressures of an
-    interval count, those above the ``ceiling`` (Pa, per column) not at all.
+    interval count, those above the ``ceiling`` (Pa) not at all.
     """
     work = _Work(columns, rtol, strips, pressure_goal, budget, ceiling, [[] for _ in range(columns.size)])
     stages = work.start(intervals)
@@ -60,7 +60,7 @@ class _Work:
     strips: np.ndarray
     pressure_goal: np.ndarray | None
     budget: ErrorBudget | None
-    ceiling: np.ndarray | None
+    ceiling: Callable[[Interval], float] | None
     pieces: list[list[Piece]]
 
     def start(self, intervals: Sequence[Interval]) -> list[Stage]:

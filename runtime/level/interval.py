@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -84,9 +84,9 @@ def weighed(
     budget: ErrorBudget,
     intervals: Sequence[Interval],
     values: Sequence[np.ndarray],
-    ceiling: np.ndarray | None,
+    ceiling: Callable[[Interval], float] | None,
 ) -> np.ndarray:
-    """The intervals as coarse as the ``budget`` allows where pressures, those above the ``ceiling`` (Pa, per column) apart, and
+    """The intervals as coarse as the ``budget`` allows where pressures, those above the ``ceiling`` (Pa) apart, and
     frictions are as in ``values`` (nodes, q) of each."""
     out, frictions = [], columns.frictions
     # what an accuracy is relative to, of its own friction and all that it carries
@@ -94,7 +94,7 @@ def weighed(
     for i, v in zip(intervals, values, strict=True):
         size = np.abs(v[:, frictions]) + floors[i.column]
         friction = size.min(axis=0).sum()
-        low, high = v[:, 0].min(), v[:, 0].max() if ceiling is None else min(v[:, 0].max(), ceiling[i.column])
+        low, high = v[:, 0].min(), v[:, 0].max() if ceiling is None else min(v[:, 0].max(), ceiling(i))
         asked = i.asked.relaxed(budget.tolerance_factor(i.column, low, high, friction), budget.fractions(i.column, low, high))
         # means err relative to themselves: where the interval may be coarser, nowhere by more than it may where they are least
         means = max(friction / (MEAN * size.sum(axis=1).max()), 1 / asked.coarser)

@@ -1,11 +1,11 @@
-"""Re-entrant branches below the fold of the crest: parts of the curve on which the rims of the cells still hold, under a pressure
-below all that came before, so that unloading jumps to them.
+"""Re-entrant branches: parts of the curve under a pressure below all that came before, so that unloading jumps to them, as below
+the fold of the crest, where the rims of the cells still hold. Where breaks are close most of a curve is none.
 
 A rough sample of the curve tells where they are to a few digits; what it leaves open is kept, and only what is kept is
 interpolated.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -16,61 +16,70 @@ from .error_budget import ErrorBudget
 from .interval import Interval, array_of, columns_of, means_in, weighed
 from .strips import LevelBatch
 
-#: accuracy of the look, and its nodes at first; narrower intervals, as a share of the column's, have fewer
-_ROUGH, _MANY, _FEW, _NARROW = 5e-3, 6, 4, 0.05
+#: accuracy of the look, and its nodes at first; intervals narrower than this share of ``h`` have fewer
+_ROUGH, _MANY, _FEW, _NARROW = 5e-3, 6, 4, 0.1
 #: how much more than its error a pressure keeps above what was before, and than what it bends between two nodes, which are the
 #: first ones or twice as many: a parabola keeps within an eighth of that from its chord
 _DOUBT, _BENDS = 2.0, (1.0, 0.25)
 
 
+def is_narrow(interval: Interval, h: float) -> bool:
+    """Whether an interval of a level ``h`` high is so narrow that a look at it costs little: breaks are close where strips let go
+    one after another while the pressure rises, which is no part of a law."""
+    return interval.high - interval.low < _NARROW * h
+
+
 def reentrant_parts(
-    columns: LevelBatch, intervals: list[Interval], least: np.ndarray, strips: np.ndarray, budget: ErrorBudget | None
+    columns: LevelBatch,
+    intervals: list[Interval],
+    before: Callable[[Interval], float],
+    strips: np.ndarray,
+    budget: ErrorBudget | None,
 ) -> list[Interval]:
-    """The parts of the ``intervals`` that unloading may come to after the pressures ``least`` (Pa, per column), as coarse as the
+    """The parts of the ``intervals`` that unloading may come to after the least pressure ``before`` each, Pa, as coarse as the
     ``budget`` allows; ``strips`` (per column) counts the work."""
-    whole = np.zeros(columns.size)
-    np.add.at(whole, columns_of(intervals), [i.high - i.low for i in intervals])
     every = array_of(intervals)
-    narrow = np.array([i.high - i.low < _NARROW * whole[i.column] for i in every])
+    narrow = np.array([is_narrow(i, columns.level.h) for i in intervals])
     rough = np.full(columns.size, _ROUGH)
 
     def means(parts, D):
         return means_in(columns, rough, np.concatenate(parts), D, strips)
 
     stages = sampled([Stage(every[which], n) for n, which in ((_FEW, narrow), (_MANY, ~narrow)) if which.any()], _evenly, means)
-    doubtful = {look for look, *_ in _parts(stages, least, _BENDS[0])}
+    doubtful = {look for look, *_ in _parts(stages, before, _BENDS[0])}
     apart = [(stage, np.array([i in doubtful for i in stage.parts])) for stage in stages]
     stages, again = [stage.take(~which) for stage, which in apart], [stage.take(which) for stage, which in apart if which.any()]
-    found = _parts([*stages, *(sampled(again, _evenly, means) if again else [])], least, _BENDS[1])
+    found = _parts([*stages, *(sampled(again, _evenly, means) if again else [])], before, _BENDS[1])
     parts = [part for _, part, _ in found]
-    return parts if budget is None else weighed(columns, budget, parts, [values for *_, values in found], least)
+    return parts if budget is None else weighed(columns, budget, parts, [values for *_, values in found], before)
 
 
-def _parts(stages: list[Stage], least: np.ndarray, bends: float) -> list[tuple[Interval, Interval, np.ndarray]]:
+def _parts(stages: list[Stage], before: Callable[[Interval], float], bends: float) -> list[tuple[Interval, Interval, np.ndarray]]:
     """Intervals that were looked at, their parts that unloading may come to, and the means there, (nodes, q)."""
-    met, out = least.copy(), []
-    looks = []
+    met: dict[int, float] = {}
+    out, looks = [], []
     for stage in stages:
         values, errors, _ = stage.known
         looks += zip(stage.parts, _evenly(stage.parts, interior_nodes(stage.n)), values, errors[:, :, 0], strict=True)
     for look, D, values, error in sorted(looks, key=lambda look: -look[0].high):
         column, p = look.column, values[:, 0]
+        least = min(met.get(column, np.inf), before(look))
         bend = np.pad(np.abs(p[:-2] - 2 * p[1:-1] + p[2:]), 1)
         slack = _DOUBT * np.maximum(error[:-1], error[1:]) + bends * np.maximum(bend[:-1], bend[1:])
         floor = np.minimum(p[:-1], p[1:]) - slack
         # the least that was before, above the upper end of each part
-        before = np.minimum(np.minimum.accumulate((p + error)[:0:-1])[::-1], met[column])
-        comes = np.flatnonzero(floor < before)
+        above = np.minimum(np.minimum.accumulate((p + error)[:0:-1])[::-1], least)
+        comes = np.flatnonzero(floor < above)
         for run in np.split(comes, np.flatnonzero(np.diff(comes) > 1) + 1) if comes.size else ():
             first, last = run[0], run[-1] + 1
-            if last == p.size - 1 and (p - _DOUBT * error)[first:last].min() > met[column]:
+            if last == p.size - 1 and (p - _DOUBT * error)[first:last].min() > least:
                 # the curve goes on from what was met, and rises
                 continue
             soft = look.inner_low or first > 0, look.inner_high or last < p.size - 1
             low, high = D[first] if first > 0 else look.low, D[last] if last < p.size - 1 else look.high
             part = replace(look, low=float(low), high=float(high), inner_low=soft[0], inner_high=soft[1])
             out.append((look, part, values[first : last + 1]))
-        met[column] = min(met[column], (p + error).min())
+        met[column] = min(least, (p + error).min())
     return out
 
 
