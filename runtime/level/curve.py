@@ -58,7 +58,7 @@ def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, top: np.ndarray) -> 
     """For every column the intervals between the breaks of its curve, ascending; and where the crest lets go (inf: never seen),
     (n,).
 
-    Pressure, ``K mean(w)``, rises by ``K`` times the penetration at most: w rises as the profile does, less where more is engaged.
+    Pressure, ``K mean(w)``, rises by ``K`` times the penetration at most: w rises as the profile does, less where more touches.
     So where two breaks all but coincide, as where memory is short and all strips let go at one height of the valley, the curve
     falls, which is no part of a law, or it rises by less than pressure may err. What is that narrow is left out.
     """

@@ -24,8 +24,9 @@ _LOOK, _COARSE, _FIRST, _LAST = 6, 8, 12, 96
 _BLUR = 0.1
 #: an interval's pressure is known at least this well
 _COARSEST = 1e-3
-#: a piece narrower than this, relative to D, is taken as it is; and breaks in an interval are this far apart, relative to it
-_NARROWEST, _APART = 1e-11, 1e-9
+#: a piece narrower than this, relative to D, is taken as it is; breaks in an interval are this far apart, relative to it; and the
+#: share of what its pressure may err by which it may rise in what is left out
+_NARROWEST, _APART, _NOTHING = 1e-11, 1e-9, 0.1
 #: error of a piece by what rounding may make of each of its coefficients
 _ROUNDED = 8.0
 
@@ -104,20 +105,25 @@ class _Work:
         # where next to nothing changes there is little to miss, whatever nobody marked there
         noise = 0.1 * goal
         error = np.minimum(interpolation_errors(c, noise, blur, rounding), 2 * spread)
+        width, nothing = np.array([i.high - i.low for i in intervals]), np.zeros(column.size, bool)
         if self.pressure_goal is not None:
             goal = np.full_like(goal, np.inf)
             goal[:, 0] = self.pressure_goal[column]
         elif columns.asked.frictional:
+            # pressure rises by K times the penetration at most (see ``curve``): too little for this to be part of a law
+            nothing = columns.material.K * width <= _NOTHING * goal[:, 0]
             goal[:, 0] = _pressure_goal(values, goal)
         # what the means leave of it, at least what they may not have
         goal = np.maximum(goal - errors.max(axis=1), (1 - MEAN) * goal)
         done = (error <= goal).all(axis=1)
-        done |= [i.high - i.low <= _NARROWEST * max(abs(i.high), columns.level.h) for i in intervals]
+        done |= width <= _NARROWEST * np.maximum(np.abs([i.high for i in intervals]), columns.level.h)
+        nothing &= ~done
+        done |= nothing
         ended = ~done & (self.strips[column] > CURVE_LIMIT)
         if ended.any():
             columns.work.limit_reached(columns.V[column[ended]], columns.level.l, NO_CURVE)
             error[ended], done = np.maximum(error, spread)[ended], done | ended
-        for k in np.flatnonzero(done):
+        for k in np.flatnonzero(done & ~nothing):
             i = intervals[k]
             bounds = Errors(interior_nodes(stage.n), errors[k] + error[k] + _ROUNDED * rounding[k])
             self.pieces[i.column].append(Piece(i.low, i.high, c[k], bounds, i.inner_low, i.inner_high, i.endpoint_map))
