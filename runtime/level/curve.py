@@ -12,8 +12,8 @@ from .error_budget import ErrorBudget
 from .interpolation import interpolate
 from .interval import Interval
 from .piece import Piece
-from .reentrant import is_narrow, reentrant_parts
-from .strips import LevelBatch, saturation_depth
+from .reentrant import falling, reentrant_parts
+from .strips import LevelBatch
 
 
 @dataclass(frozen=True)
@@ -25,23 +25,23 @@ class Curve:
     strips: int
 
 
-def trace(
-    columns: LevelBatch, rtol: np.ndarray, top: np.ndarray | None = None, follow: bool = False, budget: ErrorBudget | None = None
-) -> list[Curve]:
-    """Curves of every column (its ``D`` is not used) up to penetration ``top`` (saturation if not given), to ``rtol``; of
-    ``frictional`` columns pressure only as well as it takes for friction over pressure to be known to that.
+def trace(columns: LevelBatch, rtol: np.ndarray, top: np.ndarray, budget: ErrorBudget | None = None) -> list[Curve]:
+    """Curves of every column (its ``D`` is not used) up to penetration ``top``, to ``rtol``; of ``frictional`` columns pressure
+    only as well as it takes for friction over pressure to be known to that.
 
-    ``follow``: below the penetration at which the crest lets go, and where breaks are close, only what unloading at a falling
-    pressure comes to. ``budget``: what is asked of every column's law; what hardly counts there is made coarser.
+    Below the penetration at which the crest lets go, and where pressure falls between breaks that are close, they hold only
+    what unloading at a falling pressure comes to. ``budget``: what is asked of every column's law; what hardly counts there is made
+    coarser.
     """
     n = columns.size
-    top = saturation_depth(columns) if top is None else top
-    strips, unloading = np.zeros(n, int), columns.branch == "unloading"
+    strips = np.zeros(n, int)
     rows, crest = smooth_intervals(columns, rtol, top)
     intervals = [i for row in rows for i in row]
-    looks = lambda i: follow and (i.high <= crest[i.column] or unloading and is_narrow(i, columns.level.h))  # noqa: E731
-    looked, others = [i for i in intervals if looks(i)], [i for i in intervals if not looks(i)]
-    pieces = interpolate(columns, rtol, others, strips, budget=budget)
+    looked = [i for i in intervals if i.high <= crest[i.column]]
+    if columns.branch == "unloading":
+        looked += falling(columns, [i for i in intervals if i.high > crest[i.column]], strips)
+    others = set(intervals).difference(looked)
+    pieces = interpolate(columns, rtol, [i for i in intervals if i in others], strips, budget=budget)
     if looked:
         least = [[(piece.low, piece.values(piece.errors.at)[:, 0].min()) for piece in row] for row in pieces]
 

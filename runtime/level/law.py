@@ -125,7 +125,7 @@ def build_laws(
     p_max = np.full(columns.size, np.inf) if p_max is None else np.maximum(p_max, -columns.adhesion.p_0)
     top, unloading = cut_penetration(columns, p_max, D_full), columns.branch == "unloading"
     p_max = np.where(top < D_full, p_max, np.inf)
-    curves = trace(columns, rtol, top, follow=True, budget=budget)
+    curves = trace(columns, rtol, top, budget)
     kept = branches_of(curves, unloading)
     least = np.repeat(1e-15 * np.abs(saturated), [len(row) for row in kept], axis=0)
     flat = [b for row in kept for b in row]

@@ -16,17 +16,22 @@ from .error_budget import ErrorBudget
 from .interval import Interval, array_of, columns_of, means_in, weighed
 from .strips import LevelBatch
 
-#: accuracy of the look, and its nodes at first; intervals narrower than this share of ``h`` have fewer
-_ROUGH, _MANY, _FEW, _NARROW = 5e-3, 6, 4, 0.1
+#: accuracy of the look, and its nodes at first; intervals narrower than this share of ``h`` have fewer; and two places in these
+_ROUGH, _MANY, _FEW, _NARROW, _APART = 5e-3, 6, 4, 0.1, (0.1, 0.9)
 #: how much more than its error a pressure keeps above what was before, and than what it bends between two nodes, which are the
 #: first ones or twice as many: a parabola keeps within an eighth of that from its chord
 _DOUBT, _BENDS = 2.0, (1.0, 0.25)
 
 
-def is_narrow(interval: Interval, h: float) -> bool:
-    """Whether an interval of a level ``h`` high is so narrow that a look at it costs little: breaks are close where strips let go
-    one after another while the pressure rises, which is no part of a law."""
-    return interval.high - interval.low < _NARROW * h
+def falling(columns: LevelBatch, intervals: Sequence[Interval], strips: np.ndarray) -> list[Interval]:
+    """Those of the ``intervals`` that are narrow and in which the pressure falls over penetration, as far as two places tell:
+    strips let go there one after another while the pressure rises, which is no part of a law. ``strips`` counts the work."""
+    narrow = array_of([i for i in intervals if i.high - i.low < _NARROW * columns.level.h])
+    if not narrow.size:
+        return []
+    alone, D = replace(columns, carry=None), _evenly(narrow, np.array(_APART))
+    low, high = means_in(alone, _rough(columns), narrow.repeat(2), D.ravel(), strips)[0][:, 0].reshape(-1, 2).T
+    return [*narrow[low > high]]
 
 
 def reentrant_parts(
@@ -39,8 +44,8 @@ def reentrant_parts(
     """The parts of the ``intervals`` that unloading may come to after the least pressure ``before`` each, Pa, as coarse as the
     ``budget`` allows; ``strips`` (per column) counts the work."""
     every = array_of(intervals)
-    narrow = np.array([is_narrow(i, columns.level.h) for i in intervals])
-    rough = np.full(columns.size, _ROUGH)
+    narrow = np.array([i.high - i.low < _NARROW * columns.level.h for i in intervals])
+    rough = _rough(columns)
 
     def means(parts, D):
         return means_in(columns, rough, np.concatenate(parts), D, strips)
@@ -52,6 +57,10 @@ def reentrant_parts(
     found = _parts([*stages, *(sampled(again, _evenly, means) if again else [])], before, _BENDS[1])
     parts = [part for _, part, _ in found]
     return parts if budget is None else weighed(columns, budget, parts, [values for *_, values in found], before)
+
+
+def _rough(columns: LevelBatch) -> np.ndarray:
+    return np.full(columns.size, _ROUGH)
 
 
 def _parts(stages: list[Stage], before: Callable[[Interval], float], bends: float) -> list[tuple[Interval, Interval, np.ndarray]]:
