@@ -29,8 +29,8 @@ def trace(columns: LevelBatch, rtol: np.ndarray, top: np.ndarray, budget: ErrorB
     """Curves of every column (its ``D`` is not used) up to penetration ``top``, to ``rtol``; of ``frictional`` columns pressure
     only as well as it takes for friction over pressure to be known to that.
 
-    Below the penetration at which the crest lets go, and where pressure falls between breaks that are close, they hold only
-    what unloading at a falling pressure comes to. ``budget``: what is asked of every column's law; what hardly counts there is made
+    Below the penetration at which the crest lets go, and where pressure falls between breaks that are close, they hold only what
+    unloading at a falling pressure comes to. ``budget``: what is asked of every column's law; what hardly counts there is made
     coarser.
     """
     n = columns.size
