@@ -7,8 +7,8 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 #: part of an interval's error above which that of a half says that means are in error, not the interpolant; and how much finer
-#: they are made then, and at most
-_STALLED, _FINER, _FINEST = 0.5, 0.1, 1e-3
+#: they are made then, and at most; and how much more than the errors of means is not missed for their sake
+_STALLED, _FINER, _FINEST, _AMPLIFIED = 0.5, 0.1, 1e-3, 1e3
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,8 @@ class Accuracy:
         """As coarse as that, or as it is."""
         return replace(self, coarser=max(self.coarser, coarser), fractions=max(self.fractions or 1.0, fractions))
 
-    def after(self, missed: float) -> Accuracy:
-        """For the halves of what ``missed`` its goal by that factor: with finer means where dividing did not help."""
-        finer = max(_FINER * self.means, _FINEST) if missed > _STALLED * self.missed else self.means
-        return replace(self, missed=missed, means=finer)
+    def after(self, missed: float, blurred: float) -> Accuracy:
+        """For the halves of what ``missed`` its goal by that factor: with finer means where dividing did not help, and what they
+        err, over the goal, may be why (``blurred``)."""
+        stalled = _STALLED * self.missed < missed < _AMPLIFIED * blurred
+        return replace(self, missed=missed, means=max(_FINER * self.means, _FINEST) if stalled else self.means)

@@ -84,13 +84,14 @@ class _Work:
                 continue
             going.append(replace(stage, parts=weighed(self.columns, self.budget, stage.parts, stage.known[0], self.ceiling)))
         breaks, parts = self._isolated_regimes(left), []
-        for stage, _, missed, hopeless in left:
-            for i, by in zip(stage.parts[hopeless], missed[hopeless], strict=True):
+        for stage, goal, missed, hopeless in left:
+            blurred = (stage.known[1].max(axis=1) / goal).max(axis=1)
+            for i, by, blur in zip(stage.parts[hopeless], missed[hopeless].max(axis=1), blurred[hopeless], strict=True):
                 rest = i
                 for D in breaks.get(i, []):
                     lower, rest = rest.split(D, soft=False)
                     parts.append(lower)
-                parts += [rest] if i in breaks else replace(i, asked=i.asked.after(float(by.max()))).halves
+                parts += [rest] if i in breaks else replace(i, asked=i.asked.after(float(by), float(blur))).halves
             going.append(stage.take(~hopeless))
         return [stage for stage in (*going, *self.start(parts)) if stage.parts.size]
 
