@@ -106,7 +106,7 @@ class _Work:
         # where next to nothing changes there is little to miss, whatever nobody marked there
         noise = 0.1 * goal
         error = np.minimum(interpolation_errors(c, noise, blur, rounding), 2 * spread)
-        width, nothing = np.array([i.high - i.low for i in intervals]), np.zeros(column.size, bool)
+        width, nothing = np.array([i.width for i in intervals]), np.zeros(column.size, bool)
         if self.pressure_goal is not None:
             goal = np.full_like(goal, np.inf)
             goal[:, 0] = self.pressure_goal[column]
@@ -149,7 +149,7 @@ class _Work:
         if seen:
             at = locate_vanishing(self.columns, [island for _, island in seen], self.strips).tolist()
             for (i, _), D in sorted(zip(seen, at, strict=True), key=lambda each: each[1]):
-                apart = _APART * (i.high - i.low)
+                apart = _APART * i.width
                 if breaks.get(i, [i.low])[-1] + apart < D < i.high - apart:
                     breaks.setdefault(i, []).append(D)
         return breaks

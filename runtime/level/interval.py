@@ -29,6 +29,10 @@ class Interval:
     inner_high: bool = False
     asked: Accuracy = Accuracy()
 
+    @property
+    def width(self) -> float:
+        return self.high - self.low
+
     def split(self, D: float, soft: bool) -> list[Interval]:
         """The two parts below and above D."""
         return [replace(self, high=D, inner_high=soft), replace(self, low=D, inner_low=soft)]
@@ -46,7 +50,7 @@ class Interval:
 
     def penetrations(self, t):
         """D at the parameters ``t`` of a piece."""
-        return self.low + (self.high - self.low) * self.endpoint_map.share(t)
+        return self.low + self.width * self.endpoint_map.share(t)
 
 
 def places(intervals: Sequence[Interval], t: np.ndarray) -> np.ndarray:

@@ -26,7 +26,7 @@ _DOUBT, _BENDS = 2.0, (1.0, 0.25)
 def falling(columns: LevelBatch, intervals: Sequence[Interval], strips: np.ndarray) -> list[Interval]:
     """Those of the ``intervals`` that are narrow and in which the pressure falls over penetration, as far as two places tell:
     strips let go there one after another while the pressure rises, which is no part of a law. ``strips`` counts the work."""
-    narrow = array_of([i for i in intervals if i.high - i.low < _NARROW * columns.level.h])
+    narrow = array_of([i for i in intervals if i.width < _NARROW * columns.level.h])
     if not narrow.size:
         return []
     alone, D = replace(columns, carry=None), _evenly(narrow, np.array(_APART))
@@ -44,7 +44,7 @@ def reentrant_parts(
     """The parts of the ``intervals`` that unloading may come to after the least pressure ``before`` each, Pa, as coarse as the
     ``budget`` allows; ``strips`` (per column) counts the work."""
     every = array_of(intervals)
-    narrow = np.array([i.high - i.low < _NARROW * columns.level.h for i in intervals])
+    narrow = np.array([i.width < _NARROW * columns.level.h for i in intervals])
     rough = _rough(columns)
 
     def means(parts, D):
@@ -94,4 +94,4 @@ def _parts(stages: list[Stage], before: Callable[[Interval], float], bends: floa
 
 def _evenly(intervals: Sequence[Interval], t: np.ndarray) -> np.ndarray:
     """Penetrations (intervals, nodes) at the shares ``t`` (nodes,) of each: a look need not be graded towards ends."""
-    return np.array([i.low + (i.high - i.low) * t for i in intervals]).reshape(-1, t.size)
+    return np.array([i.low + i.width * t for i in intervals]).reshape(-1, t.size)
