@@ -21,7 +21,6 @@ from .level.merge import merged
 from .level.nonadhesive.surface import NonadhesiveSurface
 from .level.saturated import SaturatedLevel, saturated_friction, saturated_level
 from .level.strips import QUANTITIES, LevelBatch
-from .level.table import LawTable
 from .numerics.rounding import LARGEST
 from .orbit.materials import Material
 
@@ -282,7 +281,7 @@ class _Solve:
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error,
             # which never asks for anything
             scales = np.concatenate((level.scales[1:], [LARGEST]))
-            carry = LowerLevelLaws(LawTable(merged(laws, rtol, level.floors)), surface.rtol, scales, friction)
+            carry = LowerLevelLaws(merged(laws, rtol, level.floors), surface.rtol, scales, friction)
         return replace(columns, carry=carry, group=group, asked=Accuracy(friction[group]))
 
     def _reached(self, stack: Stack, V, p_max) -> list[np.ndarray]:

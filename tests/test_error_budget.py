@@ -22,7 +22,7 @@ from hystrip.level.effort import WorkCounters
 from hystrip.level.error_budget import ErrorBudget
 from hystrip.level.interval import Interval
 from hystrip.level.inverse import Inverse
-from hystrip.level.law import Law
+from hystrip.level.law import Laws
 from hystrip.level.piece import Errors, Piece
 from hystrip.level.segment import segments_of
 from hystrip.multilevel import Surface, _Solve
@@ -130,7 +130,7 @@ def test_cells_follow_functions_as_closely_as_asked():
     every = cells_of(functions, tolerance, lambda x: x)
     x = np.random.default_rng(1).random(2000)
     for k, cells in enumerate(every):
-        assert (np.abs(cells(x) - functions(np.full(x.size, k), x)).max(axis=0) <= tolerance[k]).all()
+        assert (np.abs(cells(x).T - functions(np.full(x.size, k), x)).max(axis=0) <= tolerance[k]).all()
         assert not cells.error.any()
     assert every[0].size.min() < every[0].size.max()
 
@@ -141,7 +141,7 @@ def test_cells_say_what_they_miss():
 
     x = (np.arange(200_000) + 0.5) / 200_000
     for k, cells in enumerate(cells_of(steps, np.array([[1e-9], [1e-9]]), lambda x: x)):
-        assert 0 < np.abs(cells(x) - steps(np.full(x.size, k), x)).mean() < cells.error[0]
+        assert 0 < np.abs(cells(x).T - steps(np.full(x.size, k), x)).mean() < cells.error[0]
 
 
 def _branch(p_low, p_high, error):
@@ -153,8 +153,9 @@ def _branch(p_low, p_high, error):
 @pytest.mark.parametrize("unloading", [True, False])
 def test_a_break_is_known_as_well_as_the_branch_that_ends_there(unloading):
     lower, upper = _branch(-1.0, 1.0, 1e-2), _branch(1.0, 2.0, 1e-6)
-    law = Law(segments_of([lower, upper], np.ones((2, 4))), -1.0, 2.0, np.zeros(4), np.inf, 0, unloading)
-    errors = dict(zip(law.breaks, law.at_breaks()[1], strict=True))
+    ends, segments = np.array([[-1.0], [2.0]]), segments_of([lower, upper], np.ones((2, 4)))
+    laws = Laws([segments], *ends, np.zeros((1, 4)), np.full(1, np.inf), np.zeros(1, int), unloading)
+    errors = dict(zip(laws.breaks[0], laws.at_breaks[1][0], strict=True))
     assert errors[1.0] == (1e-6 if unloading else 1e-2)
     assert errors[-1.0] == 1e-2 and errors[2.0] == 1e-6
 

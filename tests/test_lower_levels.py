@@ -10,14 +10,13 @@ from scipy.integrate import quad
 import hystrip
 from hystrip.level import lower_levels
 from hystrip.level.branches import rising
-from hystrip.level.law import Law
+from hystrip.level.law import Laws
 from hystrip.level.lower_levels import _CANCELLED as CANCELLED
 from hystrip.level.lower_levels import LowerLevelLaws
 from hystrip.level.merge import merged
 from hystrip.level.piece import Errors, Piece, graded
 from hystrip.level.segment import segments_of
 from hystrip.level.strips import LevelBatch
-from hystrip.level.table import LawTable
 from hystrip.numerics.chebyshev import coefficients, lobatto
 
 SLS = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
@@ -56,11 +55,14 @@ def _piece(low, high, law):
     return Piece(low, high, coefficients(values), Errors.constant(np.zeros(4)))
 
 
+def _laws(segments, saturated, pull_off=BREAKS[0], p_sat=BREAKS[2]):
+    return Laws([segments], *np.array([[pull_off], [p_sat]]), np.array([saturated]), np.full(1, np.inf), np.zeros(1, int), True)
+
+
 def table():
     pieces = [_piece(BREAKS[0], BREAKS[1], _lower), _piece(BREAKS[1], BREAKS[2], _upper)]
     segments = segments_of([part for row in rising(pieces) for part in row], np.full((2, 4), [1e-8, 1e-8, 1e-13, 1e-13]))
-    saturated = np.array([BREAKS[2], 1e5, 1.0, 0.0])
-    return LawTable([Law(segments, BREAKS[0], BREAKS[2], saturated, np.inf, 0, True)])
+    return _laws(segments, [BREAKS[2], 1e5, 1.0, 0.0])
 
 
 @pytest.fixture(scope="module")
@@ -144,7 +146,7 @@ def test_rounding_does_not_decide_which_contacts_pass_a_break_where_all_begin(ca
     index, contact = strips.touching
     begins = np.flatnonzero(np.abs(contact.p_least / WEAK.p_0 + 1) < 1e-10)
     assert begins.size > 3
-    law = replace(carry, table=SimpleNamespace(breaks=np.array([[np.median(contact.p_least[begins])]])))
+    law = replace(carry, laws=SimpleNamespace(breaks=np.array([[np.median(contact.p_least[begins])]])))
     crossed = law.crossed(strips, np.zeros(columns.size, int))[index[begins]]
     assert np.unique(crossed).size == 1
 
@@ -159,14 +161,13 @@ def _stepwise(at, low, high, known_to=(0.0, 0.0)):
     ]
     segments = segments_of([part for row in rising(pieces) for part in row], np.full((2, 4), 1e-9))
     segments = [replace(s, errors=Errors.constant(error)) for s in segments]
-    saturated = np.array([BREAKS[2], high, 1.0, 0.0])
-    return Law(segments, BREAKS[0], BREAKS[2], saturated, np.inf, 0, True)
+    return _laws(segments, [BREAKS[2], high, 1.0, 0.0])
 
 
 def _carried(law, V=2e-3):
     columns, theta = _solved(V, shares=(0.2, 0.6))
     strips = columns.solve(np.arange(columns.size), theta)
-    law = LowerLevelLaws(LawTable([law]), RTOL, SCALES, np.zeros(1))
+    law = LowerLevelLaws(law, RTOL, SCALES, np.zeros(1))
     index, contact = strips.touching
     inside = (contact.p_peak > BREAKS[1] + 500) & (contact.p_peak < BREAKS[2])
     assert inside.sum() >= 3
@@ -176,7 +177,7 @@ def _carried(law, V=2e-3):
 def test_what_a_law_was_cut_below_is_in_the_error():
     """Cut so low that nothing of it is left, a law carries nothing as far as is known."""
     whole = _stepwise(BREAKS[1], 0.0, 6e4)
-    cut = replace(whole, segments=[], pull_off=whole.p_sat, p_top=BREAKS[1])
+    cut = replace(whole, segments=[[]], pull_off=whole.p_sat, p_top=BREAKS[1:2])
     one, other = _carried(whole), _carried(cut)
     assert not other[:, 0].any() and (one[:, 0] > 10.0).all()
     assert (one[:, 0] <= 1.001 * other[:, -1]).all()
@@ -185,10 +186,11 @@ def test_what_a_law_was_cut_below_is_in_the_error():
 def test_segments_of_a_law_are_merged_where_a_smooth_one_is_as_good():
     law, p = _stepwise(BREAKS[1], 2e4, 2.0005e4), np.linspace(BREAKS[0], BREAKS[2], 999)[1:-1]
     for rtol, count in ((1e-2, 1), (1e-3, 2)):
-        (one,) = merged([law], np.array([rtol]), np.array([[0.0, 0.0, np.inf, np.inf]]))
-        assert len(one.segments) == count
-        added = one.segments[0].errors.most[1] - law.segments[0].errors.most[1]
-        assert np.abs(one(p) - law(p))[:, 1].max() <= added <= 0.2 * rtol * 2e4
+        one = merged(law, np.array([rtol]), np.array([[0.0, 0.0, np.inf, np.inf]]))
+        assert len(one.segments[0]) == count
+        added = one.segments[0][0].errors.most[1] - law.segments[0][0].errors.most[1]
+        moved = np.abs(one(np.zeros(p.size, int), p) - law(np.zeros(p.size, int), p))
+        assert moved[:, 1].max() <= added <= 0.2 * rtol * 2e4
 
 
 def test_a_law_errs_by_what_the_means_next_to_a_pressure_err_by():
@@ -206,8 +208,8 @@ def test_a_law_errs_by_what_the_means_next_to_a_pressure_err_by():
     one = replace(segments[0], p_high=200.0, errors=segments[0].errors.then(replace(other.errors, at=np.array([100.0]))))
     p = np.array([0.1, branch.errors_by_pressure().at[1], 60.0, 99.0])
     for law, expected in (([segments[0]], 0.5), ([one], np.interp(60.0, [50.0, 100.0], [0.5, 7.0]))):
-        table = LawTable([Law(law, low, law[-1].p_high, np.array([200.0, 3.0, 1.0, 0.0]), np.inf, 0, True)])
-        _, errors = table(np.zeros(4, int), np.zeros(4, int), p[None])
+        laws = _laws(law, [200.0, 3.0, 1.0, 0.0], low, law[-1].p_high)
+        _, errors = laws.smooth(np.zeros(4, int), np.zeros(4, int), p[None])
         assert errors[0, 0, :3] == pytest.approx([0.5, 50.0, expected], rel=0.02)
     assert errors[0, 0, 3] == pytest.approx(np.interp(99.0, [50.0, 100.0], [0.5, 7.0]), rel=0.02)
 
@@ -228,4 +230,4 @@ def test_the_error_of_a_law_is_in_the_error_of_what_it_carries():
 
 def test_the_error_of_a_law_is_no_less_than_that_of_its_segments():
     law = hystrip.friction_law(SLS, WEAK, hystrip.Level(500e-9, 100e-9), V=1e-3, rtol=1e-3)
-    assert law.error_estimate >= max(s.errors.most[1] for s in law._law.segments) > 0
+    assert law.error_estimate >= max(s.errors.most[1] for s in law._laws.segments[0]) > 0

@@ -64,9 +64,9 @@ MUTANTS = (
     ),
     Mutant(
         "a tenth of a law's error in what it carries",
-        "level/table.py",
-        "return clenshaw(self._coefficients, cell, x), self._errors[:, at]",
-        "return clenshaw(self._coefficients, cell, x), 0.1 * self._errors[:, at]",
+        "level/law.py",
+        "return self._cells(u, which), self._errors",
+        "return self._cells(u, which), 0.1 * self._errors",
         "test_lower_levels.py",
     ),
     Mutant("a tenth of a law's error in its own estimate", "level/law.py", "1.5 * error", "0.1 * error", "test_lower_levels.py"),

@@ -1,10 +1,13 @@
 """A function on [0, 1] as polynomials of low degree, each on a cell as large as it may be: made once, cheap wherever it is asked
 for."""
 
-from collections.abc import Callable
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebvander
 
 from ..numerics.chebyshev import clenshaw, coefficients, lobatto
 
@@ -17,9 +20,9 @@ _NEGLIGIBLE = 0.1
 
 @dataclass(frozen=True)
 class Cells:
-    """Chebyshev ``coefficients`` (degree + 1, cells, q) on cells that begin at slot ``start`` (cells,) and are ``size`` (cells,)
-    slots wide; ``of`` (SLOTS,): the cell that a slot belongs to. ``error`` (q,): what the smallest cells still miss, on
-    average."""
+    """Chebyshev ``coefficients`` (degree + 1, q, cells) on cells that begin at slot ``start`` (cells,) of their function and are
+    ``size`` (cells,) slots wide; ``of``: the cell that a slot belongs to, SLOTS of them for each function. ``error`` (q,): what
+    the smallest cells of a function still miss, on average."""
 
     coefficients: np.ndarray
     start: np.ndarray
@@ -27,10 +30,27 @@ class Cells:
     of: np.ndarray
     error: np.ndarray
 
-    def __call__(self, x: np.ndarray) -> np.ndarray:
-        """Values (m, q) at ``x`` (m,) in [0, 1]."""
-        cell = self.of[slot(x)]
-        return clenshaw(self.coefficients.swapaxes(1, 2), cell, within(x, self.start[cell], self.size[cell])).T
+    def __call__(self, x: np.ndarray, which: np.ndarray | int = 0) -> np.ndarray:
+        """Values (q, ...) of the functions ``which`` at ``x`` (...) in [0, 1]."""
+        cell = self.of[slot(x, which)]
+        return clenshaw(self.coefficients, cell, 2 * (x * SLOTS - self.start[cell]) / self.size[cell] - 1)
+
+    @property
+    def greatest(self) -> np.ndarray:
+        """The largest magnitude of each quantity at the nodes of the cells, (q,)."""
+        values = np.tensordot(chebvander(2 * lobatto(_DEGREE) - 1, _DEGREE), self.coefficients, 1)
+        return np.abs(values).max(axis=(0, 2))
+
+    @classmethod
+    def joined(cls, every: Sequence[Cells], quantities: slice) -> Cells:
+        """Some ``quantities`` of the functions of ``every`` one, at least one, as one."""
+        first = np.cumsum([0, *(each.start.size for each in every)])[:-1]
+        return cls(
+            np.concatenate([each.coefficients[:, quantities] for each in every], axis=2),
+            *(np.concatenate([getattr(each, name) for each in every]) for name in ("start", "size")),
+            np.concatenate([each.of + at for each, at in zip(every, first, strict=True)]),
+            np.max([each.error[quantities] for each in every], axis=0),
+        )
 
 
 def cells_of(
@@ -63,15 +83,10 @@ def cells_of(
     which, c, start, sizes = (np.concatenate(v) for v in zip(*found, strict=True))
     order = np.lexsort((start, which))
     parts = np.split(order, np.searchsorted(which[order], np.arange(1, count)))
-    c = np.swapaxes(c, 0, 1)
-    return [Cells(c[:, i], start[i], sizes[i], np.repeat(np.arange(i.size), sizes[i]), error[k]) for k, i in enumerate(parts)]
+    c = np.moveaxis(c, 0, 2)
+    return [Cells(c[:, :, i], start[i], sizes[i], np.repeat(np.arange(i.size), sizes[i]), error[k]) for k, i in enumerate(parts)]
 
 
-def slot(x: np.ndarray) -> np.ndarray:
-    """The slot that each ``x`` in [0, 1] lies in."""
-    return np.minimum((x * SLOTS).astype(int), SLOTS - 1)
-
-
-def within(x: np.ndarray, start: np.ndarray, size: np.ndarray) -> np.ndarray:
-    """Where in its cell each ``x`` lies, in [-1, 1]."""
-    return 2 * (x * SLOTS - start) / size - 1
+def slot(x: np.ndarray, which: np.ndarray | int = 0) -> np.ndarray:
+    """The slot that each ``x`` in [0, 1] lies in, of the functions ``which``."""
+    return which * SLOTS + np.minimum((x * SLOTS).astype(int), SLOTS - 1)

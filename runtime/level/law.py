@@ -1,21 +1,168 @@
-"""Friction law of a level: what it carries at a given nominal pressure, on one branch of loading.
+"""Friction laws of a level: what it carries at a given nominal pressure, on one branch of loading.
 
-The law is a stack of smooth segments in disjoint intervals of pressure, at first one for each branch of the curve
+A law is a stack of smooth segments in disjoint intervals of pressure, at first one for each branch of the curve
 (``branches.py``); it may jump between them. Between segments whose pressures do not meet, where the curve itself jumps, it is
 what it is at the beginning of the next one.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from .branches import branches_of, meets
+from .cells import SLOTS, Cells, slot
 from .curve import trace
 from .error_budget import ErrorBudget
 from .inverse import cut_penetration
+from .piece import graded, parameter
 from .segment import Segment, segments_of
 from .strips import LevelBatch
+
+#: breaks closer than this, relative to the largest, are one
+_SAME = 1e-12
+
+
+@dataclass(frozen=True)
+class Laws:
+    """Means of a level over nominal pressure at n velocities, evaluated for any mixture of them at once.
+
+    Attributes:
+        segments: of each law, in order of rising pressure. pull_off: below it there is no contact, (n,).
+        p_sat: pressure of saturated contact, (n,); ``saturated`` are the means there, (n, q) (from there on constant, but for
+            pressure).
+        p_top: largest pressure a law is known for (inf, unless it was cut below ``p_sat``), (n,).
+        strips: evaluated for each, (n,). unloading: the branch of loading they follow.
+    """
+
+    segments: list[list[Segment]]
+    pull_off: np.ndarray
+    p_sat: np.ndarray
+    saturated: np.ndarray
+    p_top: np.ndarray
+    strips: np.ndarray
+    unloading: bool
+
+    @property
+    def frictions(self) -> np.ndarray:
+        """Where the frictions, the level's own and those it carries, stand among the quantities after pressure."""
+        return 3 * np.arange(self.saturated.shape[1] // 4)
+
+    @property
+    def friction_error(self) -> np.ndarray:
+        """Bound of the interpolation error of friction, its own and what it carries, Pa, (n,)."""
+        most = [np.max([s.errors.most[1 + self.frictions] for s in row], axis=0, initial=0.0) for row in self.segments]
+        return np.array([(1.5 * error).sum() for error in most])
+
+    @cached_property
+    def greatest(self) -> np.ndarray:
+        """The largest magnitude of every quantity after pressure, (n, q - 1)."""
+        every = zip(self.segments, np.abs(self.saturated), strict=True)
+        return np.array([np.max([saturated, *(s.cells.greatest for s in row)], axis=0)[1:] for row, saturated in every])
+
+    @cached_property
+    def breaks(self) -> np.ndarray:
+        """Pressures at which each law jumps or is not smooth, from pull-off to saturation, ascending, (n, B), padded with inf."""
+        rows = []
+        for segments, pull_off, p_sat in zip(self.segments, self.pull_off, self.p_sat, strict=True):
+            ends = [s.p_low for s in segments if not s.inner_low] + [s.p_high for s in segments if not s.inner_high]
+            points = np.unique([e for e in [*ends, pull_off, p_sat] if -np.inf < e <= p_sat])
+            # segments that follow one another meet to rounding
+            rows.append(points[np.diff(points, append=np.inf) > _SAME * np.abs(points).max(initial=0.0)])
+        return _padded(rows)
+
+    @cached_property
+    def at_breaks(self) -> tuple[np.ndarray, np.ndarray]:
+        """Change of friction, its own and what it carries, at each break, and how well the pressure of the break is known, Pa;
+        (n, B) both."""
+        # what has no segments is saturated from pull-off on
+        everywhere = np.abs(self.saturated[:, 1 + self.frictions]).sum(axis=1, keepdims=True)
+        jumps, known_to = np.where(np.isfinite(self.breaks), everywhere, 0.0), np.zeros(self.breaks.shape)
+        group, j = np.nonzero(np.isfinite(self.breaks) & np.array([len(row) > 0 for row in self.segments])[:, None])
+        if group.size:
+            p, sides = self.breaks[group, j], (np.maximum(j - 1, 0), j)
+            (below, before), (above, after) = (self.smooth(group, interval, p[None]) for interval in sides)
+            below, above = (np.where(p > self.pull_off[group], below[self.frictions, 0], 0.0), above[self.frictions, 0])
+            above = np.where(p < self.p_sat[group], above, self.saturated[group][:, 1 + self.frictions].T)
+            jumps[group, j] = np.abs(above - below).sum(axis=0)
+            # a segment is left at one of its ends, and that tells where the law goes over to the next one
+            ends = (self._ends[end, self._between[1 - end][group, at]] for end, at in zip((1, 0), sides, strict=True))
+            there = [np.abs(end - p) <= _SAME * np.abs(p).max() for end in ends]
+            errors = [np.where(at, known[1, 0], 0.0) for at, known in zip(there, (before, after), strict=True)]
+            left, entered = errors[::-1] if self.unloading else errors
+            known_to[group, j] = np.where(left > 0, left, entered)
+        return jumps, known_to
+
+    @cached_property
+    def top(self) -> np.ndarray:
+        """``p_top`` and what rounding may make of it, (n,)."""
+        return self.p_top + _SAME * np.where(np.isfinite(self.p_top), np.abs(self.p_top), 0.0)
+
+    @cached_property
+    def _ends(self) -> np.ndarray:
+        """Pressures at which all segments, those of one law after another, begin and end, (2, segments)."""
+        return np.array([(s.p_low, s.p_high) for row in self.segments for s in row]).T
+
+    @cached_property
+    def _cells(self) -> Cells:
+        """Quantities of all segments after pressure."""
+        return Cells.joined([s.cells for row in self.segments for s in row], slice(1, None))
+
+    @cached_property
+    def _errors(self) -> np.ndarray:
+        """Errors of friction, its own and what it carries, and of pressure in the middle of every slot, (2, slots)."""
+        share, columns = graded((np.arange(SLOTS) + 0.5) / SLOTS), 1 + self.frictions
+        every = [(s.errors, s.p_low + (s.p_high - s.p_low) * share) for row in self.segments for s in row]
+        return np.concatenate([[errors.along(p, which) for which in (columns, 0)] for errors, p in every], axis=1)
+
+    @cached_property
+    def _between(self) -> list[np.ndarray]:
+        """The first and the last segment between each break and the next, (n, B) both."""
+        counts = np.array([len(row) for row in self.segments])
+        upper = _padded([np.array([s.p_high for s in row]) for row in self.segments])
+        breaks = np.concatenate((self.breaks, np.full((counts.size, 1), np.inf)), axis=1)
+        apart = _SAME * np.abs(np.where(np.isfinite(breaks), breaks, 0.0)).max(axis=1, keepdims=True)
+        ends = [np.count_nonzero(upper[:, None] < p[:, :, None], axis=2) for p in (breaks[:, :-1] + apart, breaks[:, 1:] - apart)]
+        start, last = np.cumsum(counts) - counts, np.maximum(counts - 1, 0)
+        return [start[:, None] + np.minimum(count, last[:, None]) for count in ends]
+
+    def smooth(self, group: np.ndarray, interval: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Quantities after pressure (q - 1, nodes, m), and errors of friction and pressure (2, nodes, m).
+
+        At pressures ``p`` (nodes, m) of the laws ``group`` (m,), between their breaks ``interval`` (m,) and the next ones.
+        """
+        which, final = (segment[group, interval] for segment in self._between)
+        low, high = self._ends
+        # mostly there is one segment between two breaks
+        for _ in range((final - which).max(initial=0)):
+            which = which + ((which < final) & (p > high[which]))
+        share = (p - low[which]) / (high - low)[which]
+        u = parameter(np.minimum(np.maximum(share, 0.0, out=share), 1.0, out=share))
+        return self._cells(u, which), self._errors[:, slot(u, which)]
+
+    def in_segments(self, group: np.ndarray, p: np.ndarray) -> np.ndarray:
+        """Quantities of the laws ``group`` at the pressures ``p``, both (m,), that segments are for, shape (m, q)."""
+        interval = np.maximum(np.count_nonzero(self.breaks[group] < p[:, None], axis=1) - 1, 0)
+        return np.concatenate((p[None], self.smooth(group, interval, p[None])[0][:, 0])).T
+
+    def __call__(self, group: np.ndarray, p: np.ndarray) -> np.ndarray:
+        """Quantities of the laws ``group`` at the nominal pressures ``p``, both (m,), shape (m, q): zero below pull-off, and
+        saturated above ``p_sat``."""
+        out = np.where(p[:, None] < self.p_sat[group, None], 0.0, self.saturated[group])
+        out[:, 0] = p
+        inside = np.flatnonzero((p >= self.pull_off[group]) & (p < self.p_sat[group]))
+        if inside.size:
+            out[inside] = self.in_segments(group[inside], p[inside])
+        return out
+
+
+def _padded(rows: Sequence[np.ndarray]) -> np.ndarray:
+    """Rows of different lengths as one array, at least one wide, with inf for what is not there."""
+    out = np.full((len(rows), max((row.size for row in rows), default=1) or 1), np.inf)
+    for row, values in zip(out, rows, strict=True):
+        row[: values.size] = values
+    return out
 
 
 def _joined(kept: list[Segment], p_sat: float) -> list[Segment]:
@@ -27,87 +174,6 @@ def _joined(kept: list[Segment], p_sat: float) -> list[Segment]:
     ]
 
 
-@dataclass(frozen=True)
-class Law:
-    """Means of a level over nominal pressure at one velocity.
-
-    Attributes:
-        segments: in order of rising pressure. pull_off: below it there is no contact.
-        p_sat: pressure of saturated contact; ``saturated`` are the means there (from there on constant, but for pressure).
-        p_top: largest pressure the law is known for (inf, unless it was cut below ``p_sat``).
-        unloading: the branch of loading it follows.
-    """
-
-    segments: list[Segment]
-    pull_off: float
-    p_sat: float
-    saturated: np.ndarray
-    p_top: float
-    strips: int
-    unloading: bool
-
-    @property
-    def friction_columns(self) -> np.ndarray:
-        """Where the frictions, the level's own and those it carries, stand among the quantities after pressure."""
-        below = (self.saturated.size - 4) // 4
-        return 3 * np.arange(1 + below)
-
-    @property
-    def friction_error(self) -> float:
-        """Bound of the interpolation error of friction, its own and what it carries, Pa."""
-        error = np.max([s.errors.most[1 + self.friction_columns] for s in self.segments], axis=0, initial=0.0)
-        return float((1.5 * error).sum())
-
-    @cached_property
-    def breaks(self) -> np.ndarray:
-        """Pressures at which the law jumps or is not smooth, ascending, from pull-off to saturation."""
-        ends = [s.p_low for s in self.segments if not s.inner_low] + [s.p_high for s in self.segments if not s.inner_high]
-        ends = np.unique([e for e in [*ends, self.pull_off, self.p_sat] if -np.inf < e <= self.p_sat])
-        # segments that follow one another meet to rounding
-        apart = np.diff(ends, append=np.inf) > 1e-12 * np.abs(ends).max(initial=0.0)
-        return ends[apart]
-
-    @property
-    def supports(self) -> np.ndarray:
-        """Pressures across every segment, from end to end, for the size of what they hold: those at which its means are known."""
-        inside = [np.clip([s.p_low, *s.errors.at, s.p_high], s.p_low, s.p_high) for s in self.segments]
-        return np.concatenate([*inside, [self.p_sat]])
-
-    def at_breaks(self) -> tuple[np.ndarray, np.ndarray]:
-        """Change of friction, its own and what it carries, at each break, and how well the pressure of the break is known, Pa."""
-        p = self.breaks
-        errors = np.zeros(p.size)
-        columns = 1 + self.friction_columns
-        # just to either side: what the law says there belongs to one segment each
-        aside = 1e-9 * (np.abs(p) + np.abs(p).max(initial=0.0))
-        above, below = np.split(self(np.concatenate((p + aside, p - aside)))[:, columns], 2)
-        jumps = np.abs(above - below).sum(axis=1)
-        for s in self.segments:
-            # a segment is left at one of its ends, and that tells where the law goes over to the next one
-            left, entered = (s.p_low, s.p_high) if self.unloading else (s.p_high, s.p_low)
-            errors[np.abs(p - left) <= aside] = s.errors.along(left, 0)
-            outermost = (np.abs(p - entered) <= aside) & (errors == 0)
-            errors[outermost] = s.errors.along(entered, 0)
-        return jumps, errors
-
-    def __call__(self, p: np.ndarray) -> np.ndarray:
-        """Quantities at the nominal pressures ``p`` (m,), shape (m, q): zero below pull-off, saturated above ``p_sat``."""
-        out = np.zeros((p.size, self.saturated.size))
-        out[:, 0] = p
-        high = p >= self.p_sat
-        out[high, 1:] = self.saturated[1:]
-        rest = np.flatnonzero(~high & (p >= self.pull_off))
-        if not rest.size or not self.segments:
-            return out
-        upper = np.array([s.p_high for s in self.segments])
-        which = np.minimum(np.searchsorted(upper, p[rest]), len(self.segments) - 1)
-        for i, segment in enumerate(self.segments):
-            here = rest[which == i]
-            if here.size:
-                out[here] = segment(p[here])
-        return out
-
-
 def build_laws(
     columns: LevelBatch,
     rtol: np.ndarray,
@@ -116,7 +182,7 @@ def build_laws(
     saturated: np.ndarray,
     p_max: np.ndarray | None,
     budget: ErrorBudget | None = None,
-) -> list[Law]:
+) -> Laws:
     """The friction law of every column (its ``D`` is not used) along its branch of loading, as far up as it will be asked for.
 
     ``p_full``, ``D_full`` (n,): where the level, and all it carries, is saturated; ``saturated`` (n, q): means there. ``p_max``
@@ -130,10 +196,7 @@ def build_laws(
     least = np.repeat(1e-15 * np.abs(saturated), [len(row) for row in kept], axis=0)
     flat = [b for row in kept for b in row]
     every = iter(segments_of(flat, np.maximum(np.reshape([b.errors.most for b in flat], least.shape), least)))
-    out = []
-    for i, (curve, row) in enumerate(zip(curves, kept, strict=True)):
-        segments = _joined([next(every) for _ in row], p_full[i])
-        pull_off = row[0].p_low if row else p_full[i]
-        p_top = segments[-1].p_high if row and p_max[i] < np.inf else p_max[i]
-        out.append(Law(segments, float(pull_off), float(p_full[i]), saturated[i], float(p_top), curve.strips, unloading))
-    return out
+    segments = [_joined([next(every) for _ in row], end) for row, end in zip(kept, p_full, strict=True)]
+    pull_off = np.array([row[0].p_low if row else end for row, end in zip(kept, p_full, strict=True)])
+    p_top = np.array([row[-1].p_high if row and end < np.inf else end for row, end in zip(segments, p_max, strict=True)])
+    return Laws(segments, pull_off, p_full, saturated, p_top, np.array([curve.strips for curve in curves]), unloading)

@@ -11,9 +11,9 @@ import numpy as np
 
 from ..numerics.gauss import graded_gauss, left_out, summed
 from ..orbit.contact import Contact
+from .law import Laws
 from .parts import Parts, parts_between
 from .strips import SolvedStrips
-from .table import LawTable
 
 TWO_PI = 2 * np.pi
 #: a part's share of the error that an average of strips is allowed, and parts integrated at a time
@@ -29,21 +29,21 @@ _NODES = (8, 14, 22, 34, 54, 84)
 
 @dataclass(frozen=True)
 class LowerLevelLaws:
-    """Contributions of the next level down. ``table`` holds its law for each group; the last column is an error estimate of
+    """Contributions of the next level down. ``laws`` holds one for each group; the last column is an error estimate of
     friction.
 
     ``scales`` (q,): natural scales of the contributions. ``rtol``: accuracy of the averages that they go into;
     ``friction`` (groups,): see ``LevelBatch``.
     """
 
-    table: LawTable
+    laws: Laws
     rtol: float
     scales: np.ndarray
     friction: np.ndarray
 
     def breaks(self, group: np.ndarray) -> np.ndarray:
         """Pressures (m, k), Pa, ascending, at which the laws of each ``group`` are not smooth; inf where there are fewer."""
-        return self.table.breaks[group]
+        return self.laws.breaks[group]
 
     def crossed(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Codes (m,) of the law breaks that each strip's pressure passes: how many breaks its greatest exceeds, and how many it
@@ -51,17 +51,17 @@ class LowerLevelLaws:
         crossed = np.zeros(group.size, int)
         index, contact = strips.touching
         if index.size:
-            breaks = self.table.breaks[group[index]]
+            breaks = self.laws.breaks[group[index]]
             top, least = (np.count_nonzero(breaks < p[:, None], axis=1) for p in _extremes(contact))
             crossed[index] = 1 + top + (breaks.shape[1] + 1) * least
         return crossed
 
     def heights(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Greatest, then least pressure of each strip over the law's breaks, (m, k), Pa; NaN without contact."""
-        out = np.full((group.size, 2 * self.table.breaks.shape[1]), np.nan)
+        out = np.full((group.size, 2 * self.laws.breaks.shape[1]), np.nan)
         index, contact = strips.touching
         if index.size:
-            breaks = self.table.breaks[group[index]]
+            breaks = self.laws.breaks[group[index]]
             out[index] = np.concatenate([p[:, None] - breaks for p in _extremes(contact)], axis=1)
         return out
 
@@ -74,16 +74,16 @@ class LowerLevelLaws:
         return carried
 
     def _contributions(self, contact: Contact, group) -> np.ndarray:
-        table = self.table
+        laws = self.laws
         total = np.zeros((group.size, self.scales.size))
-        breaks = table.breaks[group]
+        breaks = laws.breaks[group]
         row, j = np.nonzero(breaks < contact.p_peak[:, None])
         # phases between which the pressure exceeds each break, nested about the peak
         ups, downs = (np.repeat(contact.top[:, None], breaks.shape[1] + 1, axis=1) for _ in range(2))
         ups[row, j], downs[row, j] = contact.passes(row, breaks[row, j])
-        saturates = breaks[row, j] >= table.p_sat[group[row]]
+        saturates = breaks[row, j] >= laws.p_sat[group[row]]
         saturated, jump = row[saturates], j[saturates]
-        total[saturated, :-1] += (downs - ups)[saturated, jump, None] * table.saturated[group[saturated], 1:]
+        total[saturated, :-1] += (downs - ups)[saturated, jump, None] * laws.saturated[group[saturated], 1:]
         # where a break lies is known as well as the law's pressures: that much of the jump may fall on the wrong side
         crossing = ~saturates & (breaks[row, j] > contact.p_least[row])
         np.add.at(total[:, -1], row[crossing], self._misplaced(contact, group, row[crossing], j[crossing], ups, downs))
@@ -91,22 +91,23 @@ class LowerLevelLaws:
         inside[row, j] = ~saturates
         self._integrate(contact, group, parts_between(contact, inside, ups, downs), total)
         # what is not known of a law beyond the pressure that it was built for is about as much as it ever carries
-        beyond = np.flatnonzero(contact.p_peak > table.top[group])
-        up, down = contact.passes(beyond, table.top[group[beyond]])
-        total[beyond, -1] += (down - up) * table.most[group[beyond]]
+        beyond = np.flatnonzero(contact.p_peak > laws.top[group])
+        up, down = contact.passes(beyond, laws.top[group[beyond]])
+        total[beyond, -1] += (down - up) * laws.greatest[group[beyond]][:, laws.frictions].sum(axis=1)
         return total
 
     def _misplaced(self, contact: Contact, group, row, j, ups, downs):
-        shift = self.table.break_error[group[row], j] / contact.unit[row]
+        jumps, known_to = self.laws.at_breaks
+        shift = known_to[group[row], j] / contact.unit[row]
         reach = np.zeros(row.size)
         for phase in (ups[row, j], downs[row, j]):
             slope = np.abs(contact.slope(row, phase))
             reach += np.minimum(np.divide(shift, slope, out=np.full(row.size, np.inf), where=slope > 0), np.sqrt(shift))
-        return self.table.jumps[group[row], j] * np.minimum(reach, (downs - ups)[row, j])
+        return jumps[group[row], j] * np.minimum(reach, (downs - ups)[row, j])
 
     def _integrate(self, contact: Contact, group, every: Parts, total) -> None:
         """Add the integrals of the law over ``every`` part of the contacts, on as many nodes as it takes, with their errors."""
-        frictions = self.table.frictions
+        frictions = self.laws.frictions
         for parts in every.chunks(_CHUNK):
             strip = parts.rows - parts.rows[0]
             spread, ready = (contact.a - contact.b)[parts.rows], np.zeros(parts.size, bool)
@@ -132,8 +133,8 @@ class LowerLevelLaws:
         """Integrals of the law over parts on n nodes each, what those of frictions miss, and what is not known of the law."""
         share, weight, projection = graded_gauss(n)
         p = contact.pressure(parts.rows, parts.low + parts.width * share[:, None])
-        law, errors = self.table(group[parts.rows], parts.interval, p)
-        width, friction = parts.times * parts.width, law[self.table.frictions]
+        law, errors = self.laws.smooth(group[parts.rows], parts.interval, p)
+        width, friction = parts.times * parts.width, law[self.laws.frictions]
         miss = left_out(projection, friction.swapaxes(0, 1))
         # of its friction, and of the pressure it belongs to
         rise = np.abs(np.diff(p, axis=0))

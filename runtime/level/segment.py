@@ -9,7 +9,7 @@ import numpy as np
 from ..numerics.chebyshev import Series
 from .branches import Branch, Inverse
 from .cells import Cells, cells_of
-from .piece import Errors, graded, parameter
+from .piece import Errors, graded
 
 
 @dataclass(frozen=True)
@@ -26,10 +26,6 @@ class Segment:
     errors: Errors
     inner_low: bool = False
     inner_high: bool = False
-
-    def __call__(self, p: np.ndarray) -> np.ndarray:
-        """Quantities at the pressures ``p`` (m,), shape (m, q)."""
-        return self.cells(parameter(np.clip((p - self.p_low) / (self.p_high - self.p_low), 0.0, 1.0)))
 
 
 def segments_of(branches: Sequence[Branch], tolerance: np.ndarray) -> list[Segment]:

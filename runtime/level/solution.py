@@ -20,7 +20,7 @@ from ..orbit.solution import BRANCHES
 from .accuracy import Accuracy
 from .effort import WorkCounters
 from .inverse import invert
-from .law import Law, build_laws
+from .law import Laws, build_laws
 from .means import level_means
 from .saturated import saturated_level
 from .strips import QUANTITIES, LevelBatch
@@ -47,17 +47,17 @@ class FrictionLaw:
     below: float
     error_estimate: float
     converged: bool
-    _law: Law = field(repr=False)
+    _laws: Laws = field(repr=False)
 
     @property
     def breaks(self) -> Floats:
         """Pressures, Pa, ascending, at which the law jumps or is not smooth."""
-        return self._law.breaks
+        return self._laws.breaks[0]
 
     @property
     def strips(self) -> int:
         """Strips that were evaluated to build the law."""
-        return self._law.strips
+        return int(self._laws.strips[0])
 
     def __call__(self, p: Numbers) -> Floats:
         """Friction stress at nominal pressure ``p`` (Pa), same shape."""
@@ -77,7 +77,7 @@ class FrictionLaw:
         p = numbers("p", p, "Pa")
         if (p > self.below).any() and self.below < self.p_sat:
             raise InputError("p", float(p.max()), f"at most {self.below:g} Pa: the law was built up to there")
-        return self._law(p.ravel())[:, quantity].reshape(p.shape)[()]
+        return self._laws(np.zeros(p.size, int), p.ravel())[:, quantity].reshape(p.shape)[()]
 
 
 @overload
@@ -209,25 +209,25 @@ def friction_law(
     top = None if below is None else np.array([number("below", below, "Pa")])
     work = WorkCounters()
     columns = LevelBatch(material, adhesion, level, edge, branch, V.reshape(1), np.zeros(1), work=work)
-    law = _laws(columns, rtol, top)[0]
-    built = law.p_sat if below is None or below >= law.p_sat else float(below)
-    if built < law.p_sat and law.pull_off >= built:
+    laws = _laws(columns, rtol, top)
+    p_sat = float(laws.p_sat[0])
+    built = p_sat if below is None or below >= p_sat else float(below)
+    if built < p_sat and laws.pull_off[0] >= built:
         # nothing is carried up to there: what can be is seen above
-        law = _laws(columns, rtol, None)[0]
-    pull_off = law.pull_off
+        laws = _laws(columns, rtol, None)
+    pull_off, error = float(laws.pull_off[0]), float(laws.friction_error[0])
     if not adhesion.p_0 > 0:
         # contact begins at zero pressure, and there is none at it
-        pull_off, law = 0.0, replace(law, pull_off=np.finfo(float).tiny)
-    greatest = np.abs(law(law.supports)[:, 1]).max(initial=0.0)
-    converged = bool(not work.limits and law.friction_error <= rtol * (greatest + columns.floors[0, 1]))
+        pull_off, laws = 0.0, replace(laws, pull_off=np.full(1, np.finfo(float).tiny))
+    converged = bool(not work.limits and error <= rtol * (laws.greatest[0, 0] + columns.floors[0, 1]))
     if not converged:
         reason = f"V {float(V):g}: {work.reason(float(V))}"
         message = f"the friction law did not converge to rtol = {rtol:g}; {reason} (see error_estimate)"
         warnings.warn(message, ConvergenceWarning, stacklevel=2)
-    return FrictionLaw(pull_off, law.p_sat, float(law.saturated[1]), built, law.friction_error, converged, law)
+    return FrictionLaw(pull_off, p_sat, float(laws.saturated[0, 1]), built, error, converged, laws)
 
 
-def _laws(columns: LevelBatch, rtol: float, top) -> list[Law]:
+def _laws(columns: LevelBatch, rtol: float, top) -> Laws:
     n = columns.size
     s = saturated_level(columns.material, columns.adhesion, columns.level, columns.V, columns.branch)
     saturated = np.stack([s.p_sat, s.tau_sat, np.ones(n), np.zeros(n)], axis=1)
