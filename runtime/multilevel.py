@@ -9,7 +9,6 @@ import numpy as np
 
 from .inputs.adhesion import Dugdale
 from .inputs.surface import Level
-from .level.accuracy import Accuracy
 from .level.across import peak_pressure, strips_across
 from .level.effort import WorkCounters
 from .level.error_budget import error_budget
@@ -231,7 +230,8 @@ class _Solve:
         columns = columns.at(touching, found.D[touching])
         if self.M > 1:
             columns = self._carrying(stack, V, group, columns)
-        means = level_means(columns, np.full(index.size, 0.5 * surface.rtol))
+        rtol = np.full(index.size, 0.5 * surface.rtol)
+        means = level_means(columns, rtol, columns.atol(rtol, friction=columns.carry.friction[group] if columns.carry else 0.0))
         self._write(index, found.take(touching), means)
 
     def _nonadhesive(self, stack: Stack, V, index, group) -> np.ndarray:
@@ -274,15 +274,15 @@ class _Solve:
         reached = self._reached(stack, V, p_max)
         for i in range(self.M - 1, 0, -1):
             level = surface.columns(i, V, None, carry, groups if carry else None)
-            level = replace(level, asked=Accuracy(friction, fractions=1.0))
+            atol = level.atol(rtol, friction=friction, fraction=1.0)
             saturated = stack.p_full[i], stack.D_full[i], stack.means(i)
             counts = budget if i == 1 else budget.further_down(2 * (self.M - 1))
-            laws = build_laws(level, rtol, *saturated, reached[i - 1], counts)
+            laws = build_laws(level, rtol, atol, *saturated, reached[i - 1], counts)
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error,
             # which never asks for anything
             scales = np.concatenate((level.scales[1:], [LARGEST]))
-            carry = LowerLevelLaws(merged(laws, rtol, level.floors), surface.rtol, scales, friction)
-        return replace(columns, carry=carry, group=group, asked=Accuracy(friction[group]))
+            carry = LowerLevelLaws(merged(laws, rtol, atol), surface.rtol, scales, friction)
+        return replace(columns, carry=carry, group=group)
 
     def _reached(self, stack: Stack, V, p_max) -> list[np.ndarray]:
         """Greatest pressures (groups,) that the laws of level 2 and below are asked for, those of level 2 up to ``p_max``."""

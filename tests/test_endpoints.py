@@ -1,8 +1,6 @@
 """Nodes stand as closely towards an end as what ends there asks for: their places, when they are taken to be enough, and that a
 wrong guess costs no digits."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -12,40 +10,34 @@ from hystrip.level.interpolation import interpolate
 from hystrip.level.means import level_means
 from hystrip.level.strips import LevelBatch, saturation_depth
 from hystrip.numerics.chebyshev import evaluate, flat_ended, lobatto
-from hystrip.numerics.endpoints import GENTLE, STEEP, EndpointMap
+from hystrip.numerics.endpoints import GENTLE, STEEP, graded_share
 
 POWERS = [(a, b) for a in (GENTLE, STEEP) for b in (GENTLE, STEEP)]
 
 
 @pytest.mark.parametrize(("low", "high"), POWERS)
 def test_shares_begin_and_end_like_the_powers(low, high):
-    endpoint_map, t = EndpointMap(low, high), np.array([1e-6, 2e-6])
-    start, end = endpoint_map.share(t), 1 - endpoint_map.share(1 - 1e3 * t)
+    t = np.array([1e-6, 2e-6])
+    start, end = graded_share(t, low, high), 1 - graded_share(1 - 1e3 * t, low, high)
     assert np.diff(np.log(start)) == pytest.approx(low * np.log(2), rel=1e-4)
     assert np.diff(np.log(end)) == pytest.approx(high * np.log(2), rel=1e-2)
-    assert (endpoint_map.share(np.array([0.0, 1.0])) == [0, 1]).all()
-    assert (np.diff(endpoint_map.share(np.linspace(0, 1, 999))) > 0).all()
+    assert (graded_share(np.array([0.0, 1.0]), low, high) == [0, 1]).all()
+    assert (np.diff(graded_share(np.linspace(0, 1, 999), low, high)) > 0).all()
 
 
-@pytest.mark.parametrize(("low", "high"), [*POWERS, (1, 1)])
-def test_parameters_belong_to_shares(low, high):
-    endpoint_map, t = EndpointMap(low, high), np.concatenate((np.linspace(0, 0.99, 200), [1e-9, 1e-4]))
-    assert endpoint_map.parameter(endpoint_map.share(t)) == pytest.approx(t, abs=1e-7)
-
-
-def _missed(function, endpoint_map, n):
+def _missed(function, powers, n):
     """Error of the interpolant through n - 1 nodes of a function of the share."""
     t = np.linspace(0, 1, 1001)
-    found = evaluate(flat_ended(n) @ function(endpoint_map.share(lobatto(n)[1:-1]))[:, None], t)[:, 0]
-    return np.abs(found - function(endpoint_map.share(t))).max()
+    found = evaluate(flat_ended(n) @ function(graded_share(lobatto(n)[1:-1], *powers))[:, None], t)[:, 0]
+    return np.abs(found - function(graded_share(t, *powers))).max()
 
 
 def test_ends_are_as_smooth_as_their_powers_make_them():
     """A square root asks for the steep end, a square root of a cube for the gentle one; what is smooth has more digits there."""
     root, cube = lambda s: np.sqrt(s) * np.exp(-s), lambda s: (1 - s) ** 1.5 * np.exp(s)
-    assert _missed(root, EndpointMap(STEEP, GENTLE), 24) < 1e-9 and _missed(root, EndpointMap(GENTLE, GENTLE), 24) > 1e-4
-    assert _missed(cube, EndpointMap(GENTLE, GENTLE), 16) < 1e-8
-    assert _missed(np.exp, EndpointMap(GENTLE, GENTLE), 12) < 1e-2 * _missed(np.exp, EndpointMap(STEEP, STEEP), 12)
+    assert _missed(root, (STEEP, GENTLE), 24) < 1e-9 and _missed(root, (GENTLE, GENTLE), 24) > 1e-4
+    assert _missed(cube, (GENTLE, GENTLE), 16) < 1e-8
+    assert _missed(np.exp, (GENTLE, GENTLE), 12) < 1e-2 * _missed(np.exp, (STEEP, STEEP), 12)
 
 
 def _columns():
@@ -54,17 +46,23 @@ def _columns():
     return LevelBatch(material, adhesion, hystrip.Level(l=500e-9, h=100e-9), "continuous", "unloading", V, np.zeros(1))
 
 
+def _intervals(columns):
+    rtol = np.full(1, 1e-5)
+    return smooth_intervals(columns, rtol, columns.atol(rtol), saturation_depth(columns))
+
+
 def test_the_top_of_a_curve_ends_gently_and_no_break_does():
-    columns = _columns()
-    (row,), _ = smooth_intervals(columns, np.full(1, 1e-5), saturation_depth(columns))
-    assert len(row) > 2 and [(i.inner_low, i.inner_high) for i in row] == [(False, k == len(row) - 1) for k in range(len(row))]
+    found, _ = _intervals(_columns())
+    assert found.size > 2 and not found.inner_low.any()
+    assert found.inner_high.tolist() == [k == found.size - 1 for k in range(found.size)]
 
 
 def test_a_wrong_guess_costs_no_digits():
     columns = _columns()
-    (row,), (crest,) = smooth_intervals(columns, np.full(1, 1e-5), saturation_depth(columns))
-    hard = replace(next(i for i in row if i.low >= crest), inner_low=True, inner_high=True)
-    (pieces,) = interpolate(columns, np.array([1e-5]), [hard], np.zeros(1, int))
+    found, (crest,) = _intervals(columns)
+    hard = found.take(np.flatnonzero(found.low >= crest)[:1])
+    hard.inner_low[:] = hard.inner_high[:] = True
+    (pieces,) = interpolate(columns, hard, np.zeros(1, int))
     assert len(pieces) > 1
     for piece in pieces:
         t = np.array([0.13, 0.5, 0.87])

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import hystrip
-from hystrip.level.averages import average
 from hystrip.level.changes import Changes
+from hystrip.level.means import level_means
 from hystrip.level.plane import BOUNDARIES, Boundary
 from hystrip.level.regime_map import located, thresholds
 from hystrip.level.strips import LevelBatch
@@ -76,7 +76,7 @@ def test_both_points_are_found_where_a_curve_turns():
     material, adhesion = hystrip.StandardLinearSolid(K, 1e-2, 1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
     level, V = hystrip.Level(l=10e-6, h=1e-6), np.full(24, 1e-2)
     columns = LevelBatch(material, adhesion, level, "continuous", "unloading", V, np.linspace(0.36, 0.38, 24) * level.h)
-    average(columns, np.full(24, 1e-4))
+    level_means(columns, np.full(24, 1e-4))
     turn = 0.382436550468  # located by the strips that let go first
     near = columns.at(np.zeros(6, int), (turn - np.geomspace(1e-3, 1e-9, 6)) * level.h)
     state, A, _ = columns.crossings.expected(near)
@@ -93,14 +93,14 @@ def test_a_curve_that_is_known_does_not_hide_a_thin_zone_next_to_it():
     level, rtol = hystrip.Level(l=10e-6, h=1e-6), 1e-4
     D, one = np.linspace(-0.066, -0.045, 12) * level.h, np.full(1, 1e-3)
     alone = [
-        average(LevelBatch(material, adhesion, level, "continuous", "unloading", one, D[[k]]), np.full(1, rtol))
+        level_means(LevelBatch(material, adhesion, level, "continuous", "unloading", one, D[[k]]), np.full(1, rtol))
         for k in range(12)
     ]
     columns = LevelBatch(material, adhesion, level, "continuous", "unloading", np.repeat(one, 12), D)
-    average(columns, np.full(12, rtol))
+    level_means(columns, np.full(12, rtol))
     release = next(points for boundary, points in columns.crossings.points.items() if boundary.event == "release")
     columns.crossings.points = {Boundary("ac", "release"): release}  # the fold next to it is forgotten
-    again = average(columns, np.full(12, rtol))
+    again = level_means(columns, np.full(12, rtol))
     for k in range(12):
         assert (
             again.zones[k].code.tolist() == alone[k].zones[0].code.tolist() == [CODE[s] for s in ("acaf", "f", "acaf", "ac", "c")]

@@ -5,9 +5,10 @@ import pytest
 import surfaces
 
 import hystrip
-from hystrip.level.breaks import breakpoints, breaks_on, first_contact
+from hystrip.level.breaks import between_breaks, first_contact, scan
 from hystrip.level.interior_breaks import IsolatedRegime, Zones, islands, locate_vanishing
-from hystrip.level.interpolation import Interval, interpolate
+from hystrip.level.interpolation import interpolate
+from hystrip.level.interval import Intervals
 from hystrip.level.means import level_means
 from hystrip.level.strips import LevelBatch, saturation_depth
 from hystrip.orbit.regimes import CODE
@@ -27,7 +28,9 @@ def _columns(V, edge="continuous", branch="unloading", adhesion=WEAK, level=SMAL
 def test_breaks_are_where_the_crest_changes(edge, branch):
     columns = _columns([1e-5, 1e-3, 1e-2], edge, branch)
     top = saturation_depth(columns)
-    for i, points in enumerate(breakpoints(columns, top)[0]):
+    row, _, high, _ = between_breaks(columns, np.arange(columns.size), scan(columns, top))
+    for i in range(columns.size):
+        points = high[row == i]
         inner = points[(points > first_contact(columns)) & (points < top[i] * (1 - 1e-9))]
         step = 1e-12 * SMALL.h
         sides = np.stack((inner - step, inner + step))
@@ -67,10 +70,10 @@ def test_the_curve_of_a_scene_with_narrow_zones_converges(number, inside, allowe
     scene = _random(number)
     columns = _columns(scene.velocity[2:], scene.edge, scene.branch, scene.adhesion, scene.levels[0], scene.material)
     strips, rtol = np.zeros(1, int), np.full(1, 1e-3)
-    (found,), _ = breaks_on(columns, np.zeros(1, int), inside * np.linspace(0.8, 1.2, 81)[None])
-    ends = np.unique([0.9 * inside, *found, 1.1 * inside])
-    low, high = ends[ends < inside].max(), ends[ends > inside].min()
-    pieces = interpolate(columns, rtol, [Interval(0, low * (1 + 1e-13), high * (1 - 1e-13))], strips)[0]
+    _, low, high, _ = between_breaks(columns, np.zeros(1, int), inside * np.linspace(0.8, 1.2, 81)[None])
+    here = (low < inside) & (inside < high)
+    low, high = np.maximum(low[here], 0.9 * inside), np.minimum(high[here], 1.1 * inside)
+    (pieces,) = interpolate(columns, Intervals.of(np.zeros(1, int), low, high, rtol, columns.atol(rtol)), strips)
     assert strips[0] < allowed
     for piece in pieces:
         t = np.array([0.21, 0.47, 0.83])

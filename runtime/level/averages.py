@@ -30,12 +30,12 @@ if TYPE_CHECKING:
 
 #: nodes of a panel at first and at most, and one more
 _FIRST, _LAST = 8, 64
-#: nodes of a panel in saturated contact, where strips take no search: its sum may as well be exact
+#: nodes of a panel in saturated contact, where strips take no search: its sum may as well be exact where accuracy is relative
 _COSTLESS = 32
 #: a panel's part of what a state may err, and of that what brackets of changes may
 _SHARE, _SLIVER = 0.4, 0.03
-#: how far from the valley the strip next to it is, in parts of the accuracy; what does not count is asked for to any accuracy
-_VALLEY, _ANY = 0.01, 0.1
+#: how far from the valley the strip next to it is, in parts of the accuracy, relative to natural scales, at least and at most
+_VALLEY, _NEAREST, _FARTHEST = 10.0, 1e-14, 1e-3
 #: how far from a known break a strip is that tells of a narrow zone: narrower ones are of no account at any accuracy worth having
 _NEXT = 1e-6
 #: share of it below which no panel's error is claimed to be: a layer may be too thin to show at its nodes
@@ -54,10 +54,10 @@ class Averages:
     zones: list[Zones] = field(default_factory=list)
 
 
-def average(columns: LevelBatch, rtol: np.ndarray) -> Averages:
-    """Means ``(1/pi) int_0^pi`` of the strips of every state to ``rtol (|value| + floor)``, ``rtol`` (n,)."""
+def average(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> Averages:
+    """Means ``(1/pi) int_0^pi`` of the strips of every state to ``rtol |value| + atol``, ``rtol`` (n,) and ``atol`` (n, q)."""
     n, q = columns.size, columns.scales.size
-    work = _Work(columns, rtol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
+    work = _Work(columns, rtol, atol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
     stages = [Stage(work.start(*known_breaks(columns)), _FIRST)]
     while stages:
         stages = work.refine(stages)
@@ -96,6 +96,7 @@ class Panels(Batch):
 class _Work:
     columns: LevelBatch
     rtol: np.ndarray
+    atol: np.ndarray
     values: np.ndarray
     errors: np.ndarray
     strips: np.ndarray
@@ -126,44 +127,44 @@ class _Work:
     @property
     def valley(self) -> np.ndarray:
         """Theta next to the valley of each column: what lies beyond does not matter at its accuracy."""
-        return np.pi * (1 - _VALLEY * np.minimum(self.rtol, _ANY))
+        share = (np.where(self.atol > 0, self.atol, np.inf) / self.columns.scales).min(axis=1)
+        return np.pi * (1 - np.clip(_VALLEY * share, _NEAREST, _FARTHEST))
 
     def refine(self, stages: list[Stage]) -> list[Stage]:
         """Sum up what converges under doubling; return what is left, divided where regimes change."""
         fresh = self.ends is None
-        stages = sampled(stages, Panels.at, lambda panels, theta: self._evaluated(Panels.joined(panels).state, theta))
+        stages = sampled(stages, Panels.at, lambda panels, theta: self._evaluated(panels.state, theta))
         if fresh:
             self._look_beside_thresholds(stages[0])
         # what is not accepted yet counts for the size of the result, not for the result
         total = self.values.copy()
         for stage in stages:
             np.add.at(total, stage.parts.state, stage.parts.sums(stage.known[1]))
-        total = np.abs(total) + np.pi * self.columns.floors
+        goal = self.rtol[:, None] * np.abs(total) + np.pi * self.atol
         mixed, doubled, halved = [], [], []
         for stage in stages:
             codes = self._outer(stage)[0]
             changed = (codes != codes[:, :1]).any(axis=1)
-            done = self._accept(stage, total, ~changed)
+            done = self._accept(stage, goal, ~changed)
             mixed.append(stage.take(changed & ~done))
             stage = stage.take(~changed & ~done)
             (doubled if stage.n < _LAST else halved).append(stage)
-        parts = [self._divide(mixed, total), *(half for stage in halved for half in stage.parts.halves())]
+        parts = [self._divide(mixed, goal), *(half for stage in halved for half in stage.parts.halves())]
         left = [Stage(Panels.joined(parts), _FIRST), *doubled]
         return [stage for stage in left if stage.parts.size]
 
-    def _accept(self, stage: Stage, total: np.ndarray, usable: np.ndarray) -> np.ndarray:
+    def _accept(self, stage: Stage, goal: np.ndarray, usable: np.ndarray) -> np.ndarray:
         """Add up the ``usable`` panels (m,) whose sums have converged, and those of states with too many strips as they are, with
         the spread of their values as error; which they were, (m,)."""
         panels, (codes, values, *_) = stage.parts, stage.known
         sums = panels.sums(values)
         width, state = panels.width[:, None], panels.state
         rounding = 4 * EPS * width * np.abs(values).max(axis=1, initial=0.0)
-        noise = 0.1 * (self.rtol[:, None] * self.columns.floors)[state]
-        error = width * sum_errors(values, noise) + rounding
-        goal = (self.rtol[:, None] * total)[state]
+        error = width * sum_errors(values, 0.1 * self.atol[state]) + rounding
+        goal = goal[state]
         done = usable & (error <= _SHARE * goal + 2 * rounding).all(axis=1)
-        if stage.n < _COSTLESS and not self.columns.asked.frictional:
-            done &= codes[:, 0] % len(CODE) != CODE["c"]
+        if stage.n < _COSTLESS:
+            done &= (codes[:, 0] % len(CODE) != CODE["c"]) | (self.rtol[state] == 0)
         ended = ~done & (self.strips[state] > AVERAGE_LIMIT)
         error[ended] = (width * np.ptp(values, axis=1))[ended]
         done |= ended
@@ -222,7 +223,7 @@ class _Work:
             out.append(np.concatenate((outer[:, :1], inner, outer[:, 1:]), axis=1))
         return tuple(out)
 
-    def _divide(self, stages: list[Stage], total: np.ndarray) -> Panels:
+    def _divide(self, stages: list[Stage], goal: np.ndarray) -> Panels:
         """Locate the changes between neighbouring nodes; panels end there."""
         panels, brackets, spreads, before = Panels.joined([stage.parts for stage in stages]), [], [], 0
         for stage in stages:
@@ -235,7 +236,7 @@ class _Work:
         if not changes.size:
             return panels
         state = panels.state[changes.line]
-        goal = _SLIVER * _SHARE * self.rtol[state, None] * total[state]
+        goal = _SLIVER * _SHARE * goal[state]
         width = np.min(np.divide(goal, spread, out=np.full_like(goal, np.pi), where=spread > goal / np.pi), axis=1)
 
         def probe(line, x):

@@ -31,26 +31,17 @@ def threshold_width(columns: LevelBatch, top):
     return 64 * EPS * (columns.level.h + np.abs(top) + 2 * a.p_0 / columns.material.K + a.delta_0)
 
 
-def breakpoints(columns: LevelBatch, top: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:
-    """Penetrations between first contact and ``top`` (n,) where the curve may not be smooth, ascending, ends included, of every
-    column; and the lowest at which its crest changes regime (inf: none), (n,)."""
-    inside, touched = breaks_on(columns, np.arange(columns.size), _scan(columns, top))
-    # down to there strips cling by adhesion all along when unloading
-    last = columns.level.h + straight(columns)[1][OPENS]
-    out = []
-    for r, points in enumerate(inside):
-        start = np.fmin(touched[r], last[r]) if np.isfinite(touched[r]) else first_contact(columns)
-        points = np.unique([*points, top[r]])
-        out.append(points[(points >= start) & (points <= top[r])])
-    return out, touched
+def clinging_ends(columns: LevelBatch) -> np.ndarray:
+    """Penetrations (n,) down to which strips cling by adhesion all along when unloading; NaN: they don't."""
+    return columns.level.h + straight(columns)[1][OPENS]
 
 
-def breaks_on(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tuple[list[np.ndarray], np.ndarray]:
-    """Breaks between the first and the last of the penetrations ``D`` (m, points) of each ``column`` (m,), by the changes they
-    show.
+def between_breaks(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Intervals between the penetrations at which a curve may not be smooth, from the first to the last of the penetrations ``D``
+    (m, points) of each ``column`` (m,), by the changes these show.
 
-    Returns them, ascending, for every row, and the lowest that is one of the crest (inf: none), (m,).
-    """
+    Returns their rows, lower and upper ends, ascending, (k,); and the lowest penetration at which the crest of each row changes
+    regime (inf: none), (m,)."""
     h, m = columns.level.h, column.size
 
     def probe(line, x):
@@ -65,18 +56,20 @@ def breaks_on(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tuple[l
     changes, *_ = Changes.between(np.arange(m), D, answers)
     width = 16 * EPS * np.maximum(np.maximum(np.abs(changes.low), np.abs(changes.high)), max(h, columns.stretch))
     changes, _ = locate_changes(probe, equation, changes, width)
+    touched = np.full(m, np.inf)
+    np.minimum.at(touched, changes.line, changes.high)
     # the flat strip of the valley has no amplitude
     valley = h + straight(columns)[1].T[column]
-    out, touched = [], np.full(m, np.inf)
-    for r in range(m):
-        own = changes.high[changes.line == r]
-        touched[r] = own.min(initial=np.inf)
-        points = np.unique([*own, *valley[r][(D[r, 0] < valley[r]) & (valley[r] < D[r, -1])]])
-        out.append(points[np.concatenate(([True], np.diff(points) > 1e-12 * h))] if points.size else points)
-    return out, touched
+    row, which = np.nonzero((D[:, :1] < valley) & (valley < D[:, -1:]))
+    row = np.concatenate((changes.line, row, np.repeat(np.arange(m), 2)))
+    ends = np.concatenate((changes.high, valley[row[changes.size : -2 * m], which], D[:, [0, -1]].ravel()))
+    order = np.lexsort((ends, row))
+    row, ends = row[order], ends[order]
+    apart = np.flatnonzero((np.diff(row) == 0) & (np.diff(ends) > 1e-12 * h))
+    return row[apart], ends[apart], ends[apart + 1], touched
 
 
-def _scan(columns: LevelBatch, top):
+def scan(columns: LevelBatch, top: np.ndarray) -> np.ndarray:
     """Penetrations at which to look, (n, m): dense where regimes follow one another, geometric above, for saturation may be far
     up."""
     a = columns.adhesion

@@ -3,14 +3,14 @@
 Between its breaks (``breaks.py``) a curve is interpolated (``interpolation.py``). All velocities advance together.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .breaks import breakpoints, threshold_width
+from .breaks import between_breaks, clinging_ends, first_contact, scan, threshold_width
 from .error_budget import ErrorBudget
 from .interpolation import interpolate
-from .interval import Interval
+from .interval import Intervals
 from .piece import Piece
 from .reentrant import falling, reentrant_parts
 from .strips import LevelBatch
@@ -25,9 +25,10 @@ class Curve:
     strips: int
 
 
-def trace(columns: LevelBatch, rtol: np.ndarray, top: np.ndarray, budget: ErrorBudget | None = None) -> list[Curve]:
-    """Curves of every column (its ``D`` is not used) up to penetration ``top``, to ``rtol``; of ``frictional`` columns pressure
-    only as well as it takes for friction over pressure to be known to that.
+def trace(
+    columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, top: np.ndarray, budget: ErrorBudget | None = None
+) -> list[Curve]:
+    """Curves of every column (its ``D`` is not used) up to penetration ``top``, to ``rtol |value| + atol``.
 
     Below the penetration at which the crest lets go, and where pressure falls between breaks that are close, they hold only what
     unloading at a falling pressure comes to. ``budget``: what is asked of every column's law; what hardly counts there is made
@@ -35,27 +36,26 @@ def trace(columns: LevelBatch, rtol: np.ndarray, top: np.ndarray, budget: ErrorB
     """
     n = columns.size
     strips = np.zeros(n, int)
-    rows, crest = smooth_intervals(columns, rtol, top)
-    intervals = [i for row in rows for i in row]
-    looked = [i for i in intervals if i.high <= crest[i.column]]
+    intervals, crest = smooth_intervals(columns, rtol, atol, top)
+    looked = intervals.high <= crest[intervals.column]
     if columns.branch == "unloading":
-        looked += falling(columns, [i for i in intervals if i.high > crest[i.column]], strips)
-    others = set(intervals).difference(looked)
-    pieces = interpolate(columns, rtol, [i for i in intervals if i in others], strips, budget=budget)
-    if looked:
+        looked[~looked] = falling(columns, intervals.take(~looked), strips)
+    pieces = interpolate(columns, intervals.take(~looked), strips, budget)
+    if looked.any():
         least = [[(piece.low, piece.values(piece.errors.at)[:, 0].min()) for piece in row] for row in pieces]
-
-        def before(i: Interval) -> float:
-            return min((p for low, p in least[i.column] if low >= i.high), default=np.inf)
-
-        parts = reentrant_parts(columns, looked, before, strips, budget)
-        for row, more in zip(pieces, interpolate(columns, rtol, parts, strips, budget=budget, ceiling=before), strict=True):
+        parts = intervals.take(looked)
+        before = [
+            min((p for low, p in least[i] if low >= high), default=np.inf)
+            for i, high in zip(parts.column, parts.high, strict=True)
+        ]
+        parts = reentrant_parts(columns, replace(parts, ceiling=np.array(before)), strips, budget)
+        for row, more in zip(pieces, interpolate(columns, parts, strips, budget), strict=True):
             row += more
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
 
 
-def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, top: np.ndarray) -> tuple[list[list[Interval]], np.ndarray]:
-    """For every column the intervals between the breaks of its curve, ascending; and where the crest lets go (inf: never seen),
+def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, top: np.ndarray) -> tuple[Intervals, np.ndarray]:
+    """The intervals between the breaks of the curve of every column, ascending; and where its crest lets go (inf: never seen),
     (n,).
 
     Pressure, ``K mean(w)``, rises by ``K`` times the penetration at most: w rises as the profile does, less where more touches.
@@ -63,15 +63,11 @@ def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, top: np.ndarray) -> 
     falls, which is no part of a law, or it rises by less than pressure may err. What is that narrow is left out.
     """
     inside = threshold_width(columns, top)
-    narrowest = np.maximum(2 * inside, rtol * columns.floors[:, 0] / columns.material.K)
-    breaks, crest = breakpoints(columns, top)
+    column, low, high, crest = between_breaks(columns, np.arange(columns.size), scan(columns, top))
+    # down to there strips cling by adhesion all along when unloading
+    start = np.where(np.isfinite(crest), np.fmin(crest, clinging_ends(columns)), first_contact(columns))
+    wide = high - low > np.maximum(2 * inside, atol[:, 0] / columns.material.K)[column]
+    intervals = Intervals.of(column, low, high, rtol, atol).take(wide & (low >= start[column]))
     # at the top a curve is but cut, or saturates
-    rows = [
-        [
-            Interval(i, low, high, inner_high=high > top[i] - 2 * inside[i])
-            for low, high in zip(points[:-1], points[1:], strict=True)
-            if high - low > narrowest[i]
-        ]
-        for i, points in enumerate(breaks)
-    ]
-    return rows, crest
+    intervals.inner_high[:] = intervals.high > (top - 2 * inside)[intervals.column]
+    return intervals, crest

@@ -1,29 +1,31 @@
-"""Along the curve over penetration, from the end a branch of loading comes from, down to where it first passes a pressure.
+"""Along the curve over penetration, from the end a branch of loading comes from, to where it first passes a pressure.
 
-The curve is interpolated part by part; what it does between samples is bounded by the interpolation's error. Where that leaves
-open whether a turn reaches the pressure, the part is interpolated again, finer.
+The curve is interpolated part by part, and sampled; what it does between samples is bounded by the interpolation's error. Where
+that leaves open whether a turn reaches the pressure, the part is interpolated again, finer.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from .branches import Branch, loaded, rising
-from .breaks import breaks_on, first_contact, threshold_width
+from ..numerics.rounding import EPS, LARGEST
+from ..orbit.batch import Batch
+from .breaks import between_breaks, first_contact
 from .effort import CURVE_LIMIT, NO_CURVE
 from .interpolation import interpolate
-from .interval import Interval
+from .interval import Intervals
 from .piece import Piece
 from .strips import LevelBatch
 
-#: accuracy of the first look, of the pressure's scale, and how much finer each further one is
-ROUGH, _FINER = 1e-2, 0.03
+#: accuracy of the first look, of the pressure's scale, and how much finer each further one is; nodes of an interval at first
+ROUGH, _FINER, _FIRST = 1e-2, 0.03, 8
 #: width of the first part of the curve to be looked at, in heights; each further one is twice as wide
 _NEXT = 0.3
-#: penetrations in each of them at which the crest is looked at
-_LOOKS = 12
+#: penetrations in each of them at which the crest is looked at, and parameters of a piece at which it is sampled
+_LOOKS, _SAMPLES = 12, np.linspace(0, 1, 65)
 #: how much more than the estimated error of the interpolation a turn has to keep away from the pressure
 _DOUBT = 2.0
 #: place of a pressure that loading never comes to carry
@@ -42,60 +44,61 @@ class Root:
     high: float = np.nan
 
 
-class Descent:
-    """All columns go along their curves together, a part of each at a time."""
+@dataclass
+class Samples(Batch):
+    """Penetrations along a curve, which of its pieces they belong to, quantities (m, q), and how far the pressure may err."""
 
-    def __init__(self, columns: LevelBatch, p: np.ndarray, top: np.ndarray, rtol: float):
-        self.columns, self.p = columns, p
-        self.scale = np.abs(p) + columns.scales[0]
-        finest = rtol * (np.abs(p) + 1e-3 * columns.scales[0])
-        self.inside = threshold_width(columns, top)
-        bottom, unloading = first_contact(columns), columns.branch == "unloading"
-        # at the top the curve is but cut, or saturates
-        every = [_growing(Interval(i, bottom, D, inner_high=True), _NEXT * columns.level.h, unloading) for i, D in enumerate(top)]
-        goals = np.maximum(ROUGH * self.scale, finest)
-        self.walks = [_Walk(unloading, *of) for of in zip(p, goals, finest, every, strict=True)]
+    D: np.ndarray
+    piece: np.ndarray
+    values: np.ndarray
+    error: np.ndarray
 
-    def run(self) -> tuple[list[Root | None], np.ndarray]:
-        """Where each column carries its pressure (None: nowhere), and which are undecided."""
-        strips = np.zeros(self.p.size, int)
-        while going := [(i, walk) for i, walk in enumerate(self.walks) if walk.waiting]:
-            self._divide([walk for _, walk in going if not walk.divided])
-            now = [walk.next() for _, walk in going]
-            goal = np.array([walk.goal for walk in self.walks])
-            every = [interval for some in now for interval in some]
-            pieces = interpolate(self.columns, np.minimum(goal / self.scale, 0.1), every, strips, goal)
-            for (i, walk), intervals in zip(going, now, strict=True):
-                walk.go_on(intervals, pieces[i], bool(strips[i] > CURVE_LIMIT))
-        undecided = np.array([walk.undecided for walk in self.walks])
-        self.columns.work.limit_reached(self.columns.V[undecided], self.columns.level.l, NO_CURVE)
-        return [walk.root for walk in self.walks], undecided
-
-    def _divide(self, walks: list[_Walk]) -> None:
-        """What is next of each of the ``walks``, one interval, is divided at its breaks."""
-        if not walks:
-            return
-        share, every = np.linspace(0, 1, _LOOKS), [walk.waiting[-1][0] for walk in walks]
-        D = np.array([i.low + (i.high - i.low) * share for i in every])
-        found, _ = breaks_on(self.columns, np.array([i.column for i in every]), D)
-        for walk, rest, breaks in zip(walks, every, found, strict=True):
-            parts, inside = [], self.inside[rest.column]
-            for D in breaks:
-                parts.append(replace(rest, high=D - inside, inner_high=False))
-                rest = replace(rest, low=D + inside, inner_low=False)
-            walk.waiting[-1] = [part for part in (*parts, rest) if part.high > part.low]
-            walk.divided = True
+    @classmethod
+    def of(cls, pieces: Sequence[Piece], unloading: bool) -> list[Samples]:
+        """Of each of the ``pieces``, in the order in which they are come to."""
+        t = _SAMPLES[::-1] if unloading else _SAMPLES
+        ordered = sorted(pieces, key=lambda piece: piece.low, reverse=unloading)
+        constant = lambda value: np.full(t.size, value)  # noqa: E731
+        return [cls(i.penetration(t), constant(i.low), i.values(t), constant(i.errors.most[0])) for i in ordered]
 
 
-def _growing(rest: Interval, width: float, unloading: bool) -> list[list[Interval]]:
-    """An interval in parts that grow from the end at which the branch arrives; the last one first."""
-    parts = []
-    while rest.high - rest.low > 2 * width:
-        lower, upper = rest.split(rest.high - width if unloading else rest.low + width, soft=True)
-        rest, part = (lower, upper) if unloading else (upper, lower)
-        parts.append([part])
-        width *= 2
-    return [[rest], *parts[::-1]] if rest.high > rest.low else []
+def first_passes(columns: LevelBatch, p: np.ndarray, top: np.ndarray, rtol: float) -> tuple[list[Root | None], np.ndarray]:
+    """Where the curve of each column first passes the pressure ``p`` (Pa, (n,)), below ``top`` (n,), where unloading comes from
+    (None: nowhere), and which are undecided. All columns go along their curves together, a part of each at a time."""
+    h, unloading, bottom = columns.level.h, columns.branch == "unloading", first_contact(columns)
+    finest = rtol * (np.abs(p) + 1e-3 * columns.scales[0])
+    goal = np.maximum(ROUGH * (np.abs(p) + columns.scales[0]), finest)
+    parts = [_growing(bottom, D, _NEXT * h, unloading) for D in top]
+    walks = [_Walk(i, unloading, *of) for i, of in enumerate(zip(p, goal, finest, parts, strict=True))]
+    strips, nothing_else = np.zeros(p.size, int), np.full((p.size, columns.scales.size), LARGEST)
+    while going := [walk for walk in walks if walk.waiting or walk.now is not None]:
+        if fresh := [walk for walk in going if walk.now is None]:
+            D = np.linspace(*np.array([walk.waiting.pop() for walk in fresh]).T, _LOOKS, axis=1)
+            column = np.array([walk.column for walk in fresh])
+            row, low, high, _ = between_breaks(columns, column, D)
+            found = Intervals.of(column[row], low, high, np.zeros(p.size), nothing_else)
+            # at the top the curve is but cut, or saturates
+            found.inner_low[:], found.inner_high[:] = (low == D[row, 0]) & (low > bottom), high == D[row, -1]
+            for k, walk in enumerate(fresh):
+                walk.now = found.take(row == k)
+        for walk in going:
+            walk.now.atol[:, 0] = walk.goal
+        pieces = interpolate(columns, Intervals.joined([walk.now for walk in going]), strips, first=_FIRST)
+        for walk in going:
+            walk.go_on(Samples.of(pieces[walk.column], unloading), bool(strips[walk.column] > CURVE_LIMIT))
+    undecided = np.array([walk.undecided for walk in walks])
+    columns.work.limit_reached(columns.V[undecided], columns.level.l, NO_CURVE)
+    return [walk.root for walk in walks], undecided
+
+
+def _growing(bottom: float, top: float, width: float, unloading: bool) -> list[tuple[float, float]]:
+    """The way between two penetrations in parts that grow from the end at which the branch arrives; the last one first."""
+    gone, parts = 0.0, []
+    while gone < top - bottom:
+        end = gone + width if top - bottom - gone > 2 * width else top - bottom
+        parts.append((max(top - end, bottom), top - gone) if unloading else (bottom + gone, min(bottom + end, top)))
+        gone, width = end, 2 * width
+    return parts[::-1]
 
 
 @dataclass
@@ -103,80 +106,78 @@ class _Walk:
     """One column along its curve, from the end its branch comes from to where it first passes the pressure ``p``.
 
     ``goal``: error of the curve's pressure that it may have so far, at last ``finest``, Pa. ``waiting``: what is ahead of it, the
-    next part last, which is ``divided`` at its breaks or not yet. ``held``: loading to less than no pressure, what was gone along
-    until it is known where the curve is least, and rises there. ``passed``: the last branch before what is next.
+    next part last; ``now``: the part it goes along. ``known``: samples of what was gone along before, as far as they matter, and
+    ``held``: parts that they are of, loading to less than no pressure, until it is known where the curve is least.
     """
 
+    column: int
     unloading: bool
     p: float
     goal: float
     finest: float
-    waiting: list[list[Interval]]
-    divided: bool = False
-    held: tuple[list[Interval], list[Branch]] = ([], [])
-    passed: Branch | None = None
+    waiting: list[tuple[float, float]]
+    now: Intervals | None = None
+    known: list[Samples] = field(default_factory=list)
+    held: list[Intervals] = field(default_factory=list)
     root: Root | None = None
     undecided: bool = False
 
-    def next(self) -> list[Interval]:
-        """The next part."""
-        self.divided = False
-        return self.waiting.pop()
-
-    def go_on(self, intervals: list[Interval], pieces: list[Piece], exhausted: bool) -> None:
-        """Along the ``pieces`` of a part; where the work is not ``exhausted`` these may be asked for again, finer."""
-        every = [part for row in rising(pieces) for part in row]
-        parts = sorted(every, key=lambda part: (part.piece.low, part.t_low), reverse=self.unloading)
-        clings = self.p < 0 and not self.unloading
-        if clings:
-            intervals, parts = self.held[0] + intervals, self.held[1] + parts
-            self.held = intervals, parts
-            if self.waiting and not any(part.p_high >= 0 for part in parts):
-                return
-            parts, self.held = loaded(parts), ([], [])
-        if self.goal > self.finest and len({self._passing(parts, doubts) for doubts in (-_DOUBT, 0.0, _DOUBT)}) > 1:
+    def go_on(self, found: list[Samples], exhausted: bool) -> None:
+        """Along the samples of a part; where the work is not ``exhausted`` these may be asked for again, finer."""
+        part, self.now, self.known = self.now, None, [*self.known, *found]
+        if not self.known:
+            return
+        every, clings = Samples.joined(self.known), self.p < 0 and not self.unloading
+        p = every.values[:, 0]
+        if clings and self.waiting and not _returns(p, every.error).any():
+            self.held.append(part)
+            return
+        least, k, most = sorted(self._passing(every, doubts) for doubts in (-_DOUBT, 0.0, _DOUBT))
+        steps = np.diff(p[max(least - 1, 0) : most + 1]) * (-1 if self.unloading else 1)
+        certain = least == most or (0 <= least and most < p.size and (steps >= -16 * EPS * np.abs(p).max()).all())
+        if self.goal > self.finest and not certain:
             if not exhausted:
-                self.goal, self.divided = max(_FINER * self.goal, self.finest), True
-                self.waiting.append(intervals)
+                self.goal, self.now = max(_FINER * self.goal, self.finest), Intervals.joined([*self.held, part])
+                self.known, self.held = ([], []) if clings else (self.known[: len(self.known) - len(found)], [])
                 return
             self.undecided = True
-        self.root = self._root(parts)
+        if 0 <= k < p.size:
+            self.root = self._root(every, k)
         if self.root is not None or clings:
             self.waiting = []
-        elif parts:
-            self.passed = parts[-1]
+        self.known = [every.take(slice(-1, None))]
 
-    def _passing(self, parts: list[Branch], doubts: float) -> int | None:
-        """The first part that goes past the pressure, if that is so many errors of the curve greater."""
-        if not self.unloading and parts and self.p + doubts * parts[0].errors.most[0] < min(parts[0].p_low, 0.0):
-            return _PULLED_OFF
-        for k, part in enumerate(parts):
-            shifted = self.p + doubts * part.errors.most[0]
-            if part.p_low < shifted if self.unloading else part.p_high >= shifted:
-                return k
-        return None
+    def _passing(self, every: Samples, doubts: float) -> int:
+        """Number of the first sample beyond the pressure, if that is so many errors greater; as many as there are: none is; -1:
+        loading never comes to carry it."""
+        p, shifted = every.values[:, 0], self.p + doubts * every.error
+        beyond, start = p < shifted if self.unloading else p >= shifted, 0
+        if not self.unloading:
+            # as the first strips cling the pressure falls below zero, and what rises before it is least is left again
+            back = _returns(p, every.error)
+            start = int(p[: back.argmax() + 1 if back.any() else p.size].argmin()) if self.p < 0 else int(beyond.argmin())
+            if self.p < 0 and beyond[start]:
+                return _PULLED_OFF
+        return start + max(int(beyond[start:].argmax()), 1) if beyond[start:].any() else p.size
 
-    def _root(self, parts: list[Branch]) -> Root | None:
-        index = self._passing(parts, 0.0)
-        if index is None or index == _PULLED_OFF:
-            return None
-        part = parts[index]
-        if self.p > part.p_high if self.unloading else self.p < part.p_low:
-            return self._in_jump(parts[index - 1] if index else self.passed or part, part)
-        t = part.reaches(self.p)
-        step = 1e-4 * (part.t_high - part.t_low)
-        ends = np.clip([t - step, t + step], part.t_low, part.t_high)
-        values, D = part.piece.values(ends), part.piece.penetration(ends)
-        rise, wide = np.diff(values, axis=0)[0], D[1] - D[0]
-        slope = rise / rise[0] if rise[0] > 0 else np.zeros(rise.size)
-        low, high = (float(part.piece.penetration(e)) for e in (part.t_low, part.t_high))
-        return Root(float(part.piece.penetration(t)), rise[0] / wide if wide > 0 else 0.0, slope, low, high)
+    def _root(self, every: Samples, k: int) -> Root:
+        """Between samples ``k - 1`` and ``k``. A curve that jumps over the pressure carries it at the jump, where strips of both
+        sides can stand side by side: as more of them have changed over, all goes from that of one side to that of the other,
+        evenly as far as is known."""
+        step, wide = every.values[k] - every.values[k - 1], every.D[k] - every.D[k - 1]
+        slope = step / step[0] if step[0] else np.zeros(step.size)
+        if every.piece[k] != every.piece[k - 1] or step[0] * wide <= 0:
+            return Root(float(every.D[k]), 0.0, slope)
+        # the pressure rises with D all along a part of the piece
+        rises = np.diff(every.values[:, 0]) * np.diff(every.D) > 0
+        rises &= every.piece[1:] == every.piece[k]
+        rises &= every.piece[:-1] == every.piece[k]
+        off = np.flatnonzero(~rises)
+        ends = every.D[[off[off < k - 1].max(initial=-1) + 1, off[off > k - 1].min(initial=rises.size)]]
+        D = every.D[k - 1] + (self.p - every.values[k - 1, 0]) / step[0] * wide
+        return Root(float(np.clip(D, ends.min(), ends.max())), step[0] / wide, slope, float(ends.min()), float(ends.max()))
 
-    def _in_jump(self, before: Branch, after: Branch) -> Root:
-        """A curve that jumps over the pressure carries it at the jump, where strips of both sides can stand side by side: as more
-        of them have changed over, all goes from that of one side to that of the other, evenly as far as is known."""
-        t_before, t_after = (before.t_low, after.t_high) if self.unloading else (before.t_high, after.t_low)
-        ends = [part.piece.values(np.array([t]))[0] for part, t in ((before, t_before), (after, t_after))]
-        jump = ends[1] - ends[0]
-        slope = jump / jump[0] if jump[0] else np.zeros(jump.size)
-        return Root(float(after.piece.penetration(t_after)), 0.0, slope)
+
+def _returns(p: np.ndarray, error: np.ndarray) -> np.ndarray:
+    """Where pressures come back to zero after they were less."""
+    return (p >= 0) & (np.minimum.accumulate(p) < -_DOUBT * error)

@@ -37,8 +37,6 @@ LEAST_CONTACT = 1e-3
 _SHARED = 0.2
 #: parts of a law that may each err by what the whole is allowed: mostly one or two branches are used
 _PARTS = 2
-#: no law is coarser than this, times what is asked: beyond, at the finest tolerance too, nothing is asked at all
-_COARSEST_FACTOR = 1e6
 
 
 @dataclass(frozen=True)
@@ -65,29 +63,16 @@ class ErrorBudget:
         contact = np.maximum(self.share[:, -1:], LEAST_CONTACT)
         return replace(self, p=np.full((self.group.size, 1), np.nan), share=contact, friction=self.friction / levels)
 
-    def _met(self, i: int, low: float, high: float) -> float:
-        """Share of the surface of point ``i`` on which the pressure lies between ``low`` and ``high``, Pa."""
-        if np.isnan(self.p[i, 0]):
-            return float(self.share[i, 0])
-        below, above = np.interp((low, high), self.p[i], self.share[i])
-        return float(above - below)
-
-    def tolerance_factor(self, group: int, low: float, high: float, friction: float) -> float:
-        """How much coarser than what is asked of the whole a law may be between the pressures ``low`` and ``high`` (Pa), where
-        what it may err is relative to ``friction`` (Pa): by an error of that, and by one of the pressure at which it ends."""
-        if not high > low:
-            return _COARSEST_FACTOR
-        least = _COARSEST_FACTOR
+    def met(self, group: int, low: float, high: float) -> tuple[float, float]:
+        """Share of the surface, times parts of a law, on which pressures between ``low`` and ``high`` (Pa) are met, at the point
+        where that is most; and the least friction, Pa, that an error of the law there is relative to."""
+        most, least = _FINEST, np.inf
         for i in np.flatnonzero(self.group == group):
-            part = _PARTS * max(self._met(i, low, high), _FINEST) * friction
-            least = min(least, self.friction[i] / part) if part > 0 else least
-        width = (high - low) / max(abs(low), abs(high)) if np.isfinite(high) else 1.0
-        return max(least * min(width, 1.0), 1.0)
-
-    def fractions(self, group: int, low: float, high: float) -> float:
-        """What errors of fractions are relative to between two pressures, Pa: 1 over the share of the surface that meets them."""
-        met = max((self._met(i, low, high) for i in np.flatnonzero(self.group == group)), default=0.0) if high > low else 0.0
-        return max(1 / (_PARTS * max(met, _FINEST)), 1.0)
+            known = ~np.isnan(self.p[i, 0])
+            below, above = np.interp((low, high), self.p[i], self.share[i]) if known else (0.0, self.share[i, 0])
+            share = max(above - below, _FINEST) if high > low else _FINEST
+            most, least = max(most, share), min(least, self.friction[i] / (_PARTS * share))
+        return _PARTS * most, least
 
 
 def error_budget(columns: LevelBatch, group: np.ndarray, strips: SolvedStrips) -> ErrorBudget:
@@ -108,4 +93,4 @@ def error_budget(columns: LevelBatch, group: np.ndarray, strips: SolvedStrips) -
     order = np.argsort(p, axis=1)
     p, share = (np.take_along_axis(v, order, axis=1) for v in (p, share))
     friction = np.abs(strips.tau_mean.reshape(n, -1)[:, 1:-1].mean(axis=1))
-    return ErrorBudget(group, p, np.cumsum(share, axis=1), friction + columns.floors[:, 1])
+    return ErrorBudget(group, p, np.cumsum(share, axis=1), friction + 1e-3 * columns.scales[1])

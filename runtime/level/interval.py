@@ -2,105 +2,91 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..numerics.endpoints import GENTLE, STEEP, EndpointMap
-from .accuracy import Accuracy
+from ..orbit.batch import Batch
 from .error_budget import ErrorBudget
 from .means import level_means
+from .piece import share_of
 from .strips import LevelBatch
 
 #: share of the error allowed that each mean may have
 MEAN = 0.4
+#: share of the range of pressures in an interval to which these are known at least, for branches are told by them
+_KNOWN = 0.1
 
 
-@dataclass(frozen=True)
-class Interval:
-    """An interval of D of one column; ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end. ``asked``: how
-    accurate it has to be beside what is asked of the column."""
+@dataclass
+class Intervals(Batch):
+    """Intervals of D of columns; ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end; all (m,).
 
-    column: int
-    low: float
-    high: float
-    inner_low: bool = False
-    inner_high: bool = False
-    asked: Accuracy = Accuracy()
+    Quantities in them may err by ``rtol`` (m,) times the least that they are in an interval, and ``atol`` (m, q). Pressures above
+    the ``ceiling`` (m,), Pa, count for nothing.
+    """
+
+    column: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    inner_low: np.ndarray
+    inner_high: np.ndarray
+    rtol: np.ndarray
+    atol: np.ndarray
+    ceiling: np.ndarray
+
+    @classmethod
+    def of(cls, column, low, high, rtol, atol) -> Intervals:
+        """Intervals between breaks of the columns ``column`` (m,), as accurate as these, ``rtol`` (n,) and ``atol`` (n, q)."""
+        inner = np.zeros((2, column.size), bool)
+        return cls(column, low, high, *inner, rtol[column], atol[column], np.full(column.size, np.inf))
 
     @property
-    def width(self) -> float:
+    def width(self) -> np.ndarray:
         return self.high - self.low
 
-    def split(self, D: float, soft: bool) -> list[Interval]:
-        """The two parts below and above D."""
-        return [replace(self, high=D, inner_high=soft), replace(self, low=D, inner_low=soft)]
+    def split(self, D: np.ndarray, soft: bool) -> tuple[Intervals, Intervals]:
+        """The parts below and above D of each; the curve goes on smoothly there, or not."""
+        smooth = np.full(self.size, soft)
+        return replace(self, high=D, inner_high=smooth), replace(self, low=D, inner_low=smooth)
 
     @property
-    def halves(self) -> list[Interval]:
+    def halves(self) -> Intervals:
         """Halves by parameter, so that the one next to an end that is like a root is the smaller by far; the curve goes on
         smoothly between them."""
-        return self.split(float(self.penetrations(0.5)), soft=True)
+        return Intervals.joined(self.split(self.at(np.array([0.5]))[:, 0], soft=True))
 
-    @property
-    def endpoint_map(self) -> EndpointMap:
-        """Of its nodes."""
-        return EndpointMap(*(GENTLE if inner else STEEP for inner in (self.inner_low, self.inner_high)))
+    def at(self, t: np.ndarray) -> np.ndarray:
+        """Penetrations at the parameters ``t`` (nodes,) of each, (m, nodes)."""
+        shares = np.array([share_of(t, low, high) for low in (False, True) for high in (False, True)])
+        return self.low[:, None] + self.width[:, None] * shares[2 * self.inner_low + self.inner_high]
 
-    def penetrations(self, t):
-        """D at the parameters ``t`` of a piece."""
-        return self.low + self.width * self.endpoint_map.share(t)
-
-
-def places(intervals: Sequence[Interval], t: np.ndarray) -> np.ndarray:
-    """Penetrations at the parameters ``t`` (nodes,) of each of the ``intervals``, (intervals, nodes)."""
-    return np.array([i.penetrations(t) for i in intervals])
+    def evenly(self, t: np.ndarray) -> np.ndarray:
+        """Penetrations at the shares ``t`` (nodes,) of the width of each, (m, nodes)."""
+        return self.low[:, None] + self.width[:, None] * t
 
 
-def array_of(intervals: Sequence[Interval]) -> np.ndarray:
-    """The intervals as an array of objects."""
-    return np.array([*intervals, None], object)[:-1]
-
-
-def columns_of(intervals: Sequence[Interval]) -> np.ndarray:
-    """The column of each, (intervals,)."""
-    return np.array([i.column for i in intervals], int)
-
-
-def within(columns: LevelBatch, intervals: Sequence[Interval], D: np.ndarray) -> LevelBatch:
-    """The columns of the ``intervals`` (m,) at the penetrations ``D`` (m,), as accurate as is asked of these."""
-    columns = columns.at(columns_of(intervals), D)
-    return replace(columns, asked=columns.asked.within([i.asked for i in intervals], np.arange(len(intervals))))
-
-
-def means_in(columns: LevelBatch, rtol: np.ndarray, intervals: Sequence[Interval], D: np.ndarray, strips: np.ndarray) -> tuple:
-    """Means (m, q), their errors (m, q) and the zones met (m,) at penetrations ``D`` (m,) in the ``intervals`` (m,), to the
-    ``rtol`` of each column and what is asked of each interval; ``strips`` (per column) counts the work."""
-    column = columns_of(intervals)
-    means = level_means(within(columns, intervals, D), MEAN * rtol[column] * [i.asked.coarser * i.asked.means for i in intervals])
-    np.add.at(strips, column, means.strips)
+def means_in(columns: LevelBatch, intervals: Intervals, D: np.ndarray, strips: np.ndarray) -> tuple:
+    """Means (m, q), their errors (m, q) and the zones met (m,) at penetrations ``D`` (m,) in the ``intervals`` (m,), to a share
+    of what these may err; ``strips`` (per column) counts the work."""
+    means = level_means(columns.at(intervals.column, D), MEAN * intervals.rtol, MEAN * intervals.atol)
+    np.add.at(strips, intervals.column, means.strips)
     return means.values, means.errors, np.array([*means.zones, None], object)[:-1]
 
 
-def weighed(
-    columns: LevelBatch,
-    budget: ErrorBudget,
-    intervals: Sequence[Interval],
-    values: Sequence[np.ndarray],
-    ceiling: Callable[[Interval], float] | None,
-) -> np.ndarray:
-    """The intervals as coarse as the ``budget`` allows where pressures, those above the ``ceiling`` (Pa) apart, and
-    frictions are as in ``values`` (nodes, q) of each."""
-    out, frictions = [], columns.frictions
-    # what an accuracy is relative to, of its own friction and all that it carries
-    floors = replace(columns, asked=replace(columns.asked, friction=0.0)).floors[:, frictions]
-    for i, v in zip(intervals, values, strict=True):
-        size = np.abs(v[:, frictions]) + floors[i.column]
-        friction = size.min(axis=0).sum()
-        low, high = v[:, 0].min(), v[:, 0].max() if ceiling is None else min(v[:, 0].max(), ceiling(i))
-        asked = i.asked.relaxed(budget.tolerance_factor(i.column, low, high, friction), budget.fractions(i.column, low, high))
-        # means err relative to themselves: where the interval may be coarser, nowhere by more than it may where they are least
-        means = max(friction / (MEAN * size.sum(axis=1).max()), 1 / asked.coarser)
-        out.append(replace(i, asked=replace(asked, means=min(asked.means, means))))
-    return array_of(out)
+def weighed(columns: LevelBatch, budget: ErrorBudget, intervals: Intervals, values: Sequence[np.ndarray]) -> Intervals:
+    """The intervals as coarse as the ``budget`` allows where means are as in ``values`` (nodes, q) of each."""
+    frictions, fractions, floors = columns.frictions, columns.fractions, 1e-3 * columns.scales
+    atol = intervals.atol.copy()
+    for k, v in enumerate(values):
+        column, rtol, p = intervals.column[k], intervals.rtol[k], v[:, 0]
+        atol[k] += rtol * np.abs(v).min(axis=0)
+        met, friction = budget.met(column, p.min(), min(p.max(), intervals.ceiling[k]))
+        # what is carried with a friction errs with it, and a pressure where friction rises with it evenly
+        size = np.abs(v[:, frictions]).min(axis=0) + floors[frictions]
+        coarse = rtol * friction / size.sum()
+        atol[k, frictions] = np.maximum(atol[k, frictions], coarse * size)
+        atol[k, 0] = max(atol[k, 0], min(coarse, _KNOWN) * np.ptp(p))
+        atol[k, fractions] = np.maximum(atol[k, fractions], rtol / met)
+    return replace(intervals, rtol=np.zeros(intervals.size), atol=atol)

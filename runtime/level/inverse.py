@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from ..numerics.roots import falling_root
 from ..orbit.batch import Batch
 from .averages import Averages
-from .descent import ROUGH, Descent, Root
+from .descent import ROUGH, Root, first_passes
 from .means import level_means
 from .saturated import saturated_level
 from .strips import QUANTITIES, LevelBatch
@@ -76,8 +76,7 @@ def invert(columns: LevelBatch, p: np.ndarray, rtol: float) -> Inverse:
     rest = np.flatnonzero((p < saturated.p_sat) & ((p > 0) | (columns.adhesion.p_0 > 0)))
     if rest.size:
         search = _with_adhesion if columns.adhesion.p_0 > 0 else _without_adhesion
-        asked = replace(columns.asked, fractions=1.0, loads=not columns.adhesion.p_0 > 0)
-        found = search(replace(columns, asked=asked).at(rest, np.zeros(rest.size)), p[rest], saturated.D_sat[rest], rtol)
+        found = search(columns.at(rest, np.zeros(rest.size)), p[rest], saturated.D_sat[rest], rtol)
         out.put(rest, found)
     return out
 
@@ -100,7 +99,7 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
 def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
     """``invert`` with adhesion."""
     out = Inverse.at(np.full(p.size, np.nan))
-    roots, out.undecided[:] = Descent(columns, p, cut_penetration(columns, p, full), rtol).run()
+    roots, out.undecided[:] = first_passes(columns, p, cut_penetration(columns, p, full), rtol)
     out.in_jump[:] = [root is not None and np.isnan(root.low) for root in roots]
     found = np.array([i for i, root in enumerate(roots) if root is not None], int)
     if found.size:
@@ -121,7 +120,9 @@ def _refine(columns: LevelBatch, p, root, rtol, floor, powers: bool = False):
 
     def missing(x, sub):
         index = able[sub]
-        means = level_means(columns.at(index, back(x)), np.full(index.size, rtol))
+        at, accuracy = columns.at(index, back(x)), np.full(index.size, rtol)
+        # without adhesion pressures are sums of what is nowhere negative: their errors are relative to them alone
+        means = level_means(at, accuracy, at.atol(accuracy, pressure=0.0 if powers else 1e-3, fraction=1.0))
         new, before = np.column_stack((x, means.values)), last[index]
         new[:, 1] = np.maximum(new[:, 1], least)
         # a step of no more than what is not known tells nothing

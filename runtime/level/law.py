@@ -177,13 +177,15 @@ def _joined(kept: list[Segment], p_sat: float) -> list[Segment]:
 def build_laws(
     columns: LevelBatch,
     rtol: np.ndarray,
+    atol: np.ndarray,
     p_full: np.ndarray,
     D_full: np.ndarray,
     saturated: np.ndarray,
     p_max: np.ndarray | None,
     budget: ErrorBudget | None = None,
 ) -> Laws:
-    """The friction law of every column (its ``D`` is not used) along its branch of loading, as far up as it will be asked for.
+    """The friction law of every column (its ``D`` is not used) along its branch of loading, as far up as it will be asked for, to
+    ``rtol |value| + atol``.
 
     ``p_full``, ``D_full`` (n,): where the level, and all it carries, is saturated; ``saturated`` (n, q): means there. ``p_max``
     (n,): greatest pressure that will be asked for, or None for the whole law. ``budget``: how much its pressures count.
@@ -191,7 +193,7 @@ def build_laws(
     p_max = np.full(columns.size, np.inf) if p_max is None else np.maximum(p_max, -columns.adhesion.p_0)
     top, unloading = cut_penetration(columns, p_max, D_full), columns.branch == "unloading"
     p_max = np.where(top < D_full, p_max, np.inf)
-    curves = trace(columns, rtol, top, budget)
+    curves = trace(columns, rtol, atol, top, budget)
     kept = branches_of(curves, unloading)
     least = np.repeat(1e-15 * np.abs(saturated), [len(row) for row in kept], axis=0)
     flat = [b for row in kept for b in row]

@@ -7,11 +7,12 @@ from .interior_breaks import Zones
 from .strips import LevelBatch
 
 
-def level_means(columns: LevelBatch, rtol: np.ndarray) -> Averages:
-    """Means of ``strips.QUANTITIES`` for every column, to ``rtol (|value| + floor)`` each; ``rtol`` of shape (n,)."""
+def level_means(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray | None = None) -> Averages:
+    """Means of ``strips.QUANTITIES`` for every column, to ``rtol |value| + atol`` each; ``rtol`` of shape (n,), ``atol`` (n, q),
+    or what goes with it (``LevelBatch.atol``)."""
     if columns.strips is not None:
         return equal_strips(columns, columns.strips)
-    return average(columns, rtol)
+    return average(columns, rtol, columns.atol(rtol) if atol is None else atol)
 
 
 def equal_strips(columns: LevelBatch, strips: int) -> Averages:

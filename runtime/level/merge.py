@@ -23,15 +23,15 @@ _CHECKS, _SAFE = np.linspace(0, 1, 130)[1:-1], 1.5
 _BESIDE = 1e-6
 
 
-def merged(laws: Laws, rtol: np.ndarray, floors: np.ndarray) -> Laws:
-    """The laws with as few segments as stand for them to a part of ``rtol (|value| + floors)``, ``rtol`` (n,) and ``floors``
+def merged(laws: Laws, rtol: np.ndarray, atol: np.ndarray) -> Laws:
+    """The laws with as few segments as stand for them to a part of ``rtol |value| + atol``, ``rtol`` (n,) and ``atol``
     (n, q); what that adds to their errors is added."""
     rows = [list(row[:1]) for row in laws.segments]
     # errors before merging: what one merger adds is not added again by the next
     before = [row[0].errors if row else None for row in rows]
     for k in range(1, max(len(row) for row in laws.segments)):
         pairs = [(i, rows[i][-1], row[k]) for i, row in enumerate(laws.segments) if k < len(row)]
-        for (i, low, high), (cells, error) in zip(pairs, _fits(laws, pairs, rtol, floors), strict=True):
+        for (i, low, high), (cells, error) in zip(pairs, _fits(laws, pairs, rtol, atol), strict=True):
             if cells is None:
                 rows[i].append(high)
                 before[i] = high.errors
@@ -41,7 +41,7 @@ def merged(laws: Laws, rtol: np.ndarray, floors: np.ndarray) -> Laws:
     return replace(laws, segments=rows)
 
 
-def _fits(laws: Laws, pairs: list[tuple[int, Segment, Segment]], rtol, floors) -> list[tuple[Cells | None, np.ndarray]]:
+def _fits(laws: Laws, pairs: list[tuple[int, Segment, Segment]], rtol, atol) -> list[tuple[Cells | None, np.ndarray]]:
     """Cells that stand for both segments of each pair (law, low, high), with the error that brings; None where there are none."""
     law = np.array([i for i, *_ in pairs])
     low, joint, high = (np.array(v) for v in zip(*((a.p_low, a.p_high, b.p_high) for _, a, b in pairs), strict=True))
@@ -52,7 +52,7 @@ def _fits(laws: Laws, pairs: list[tuple[int, Segment, Segment]], rtol, floors) -
     beside = parameter((joint - low) / (high - low))[:, None] + np.array([-_BESIDE, _BESIDE])
     u = np.concatenate((np.tile(_CHECKS, (law.size, 1)), np.clip(beside, 0.0, 1.0)), axis=1)
     known = at(np.repeat(np.arange(law.size), u.shape[1]), u.ravel()).reshape(*u.shape, -1)
-    allowed = _SHARE * rtol[law, None] * (np.abs(known).min(axis=1) + floors[law])
+    allowed = _SHARE * (rtol[law, None] * np.abs(known).min(axis=1) + atol[law])
     # a pressure is what it is
     allowed[:, 0] = np.inf
     cells = cells_of(at, allowed, graded, _FINEST)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..numerics.chebyshev import evaluate
-from ..numerics.endpoints import EndpointMap
+from ..numerics.endpoints import GENTLE, STEEP, graded_share
 
 
 def graded(t):
@@ -24,6 +24,11 @@ def parameter(share):
     """t at which ``graded`` is ``share``."""
     inner = 2 / np.pi * np.arcsin(np.sqrt(share))
     return 2 / np.pi * np.arcsin(np.sqrt(inner))
+
+
+def share_of(t, inner_low: bool, inner_high: bool):
+    """Share of an interval of D that lies below parameter t, where the curve goes on smoothly beyond either end, or not."""
+    return graded_share(t, *(GENTLE if inner else STEEP for inner in (inner_low, inner_high)))
 
 
 @dataclass(frozen=True)
@@ -64,7 +69,7 @@ class Errors:
 class Piece:
     """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t, and their ``errors`` over t.
 
-    ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end, in another piece. ``endpoint_map``: what t is.
+    ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end, in another piece.
     """
 
     low: float
@@ -73,11 +78,10 @@ class Piece:
     errors: Errors
     inner_low: bool = False
     inner_high: bool = False
-    endpoint_map: EndpointMap = EndpointMap()
 
     def penetration(self, t):
         """D at t."""
-        return self.low + (self.high - self.low) * self.endpoint_map.share(t)
+        return self.low + (self.high - self.low) * share_of(t, self.inner_low, self.inner_high)
 
     def values(self, t) -> np.ndarray:
         """Quantities at t (m,), shape (m, q)."""

@@ -17,7 +17,6 @@ from ..level_solution import Inputs, LevelSolution
 from ..orbit.groups import ROUNDING
 from ..orbit.materials import Material, check_edge
 from ..orbit.solution import BRANCHES
-from .accuracy import Accuracy
 from .effort import WorkCounters
 from .inverse import invert
 from .law import Laws, build_laws
@@ -137,8 +136,8 @@ def solve_level(
     columns = LevelBatch(material, adhesion, level, edge, branch, V, load, strips=strips, work=work)
     D, values, errors = _means(columns, load if D is None else None, rtol)
     pulled_off = np.isnan(D)
-    floors = np.where(pulled_off[:, None], np.inf, columns.floors)
-    converged = (errors <= rtol * (np.abs(values) + floors)).all(axis=1)
+    allowed = rtol * np.abs(values) + columns.atol(np.full(load.size, rtol))
+    converged = pulled_off | (errors <= allowed).all(axis=1)
     if strips is None and not converged.all():
         lost = np.flatnonzero(~converged)
         first = f"{name} {load[lost[0]]:g}, V {V[lost[0]]:g}: {work.reason(V[lost[0]])}"
@@ -173,8 +172,9 @@ def _means(columns: LevelBatch, p: np.ndarray | None, rtol: float) -> tuple[np.n
     values[:, 0], touching = p, np.flatnonzero(~np.isnan(found.D))
     if touching.size:
         at = found.take(touching)
-        columns = replace(columns, asked=Accuracy(loads=not columns.adhesion.p_0 > 0))
-        means = level_means(columns.at(touching, at.D), accuracy[touching])
+        columns = columns.at(touching, at.D)
+        atol = columns.atol(accuracy[touching], pressure=1e-3 if columns.adhesion.p_0 > 0 else 0.0)
+        means = level_means(columns, accuracy[touching], atol)
         values[touching], errors[touching] = at.meeting(p[touching], means)
         errors[touching[at.undecided]] += np.abs(values[touching[at.undecided]])
     return found.D, values, errors
@@ -219,7 +219,7 @@ def friction_law(
     if not adhesion.p_0 > 0:
         # contact begins at zero pressure, and there is none at it
         pull_off, laws = 0.0, replace(laws, pull_off=np.full(1, np.finfo(float).tiny))
-    converged = bool(not work.limits and error <= rtol * (laws.greatest[0, 0] + columns.floors[0, 1]))
+    converged = bool(not work.limits and error <= rtol * laws.greatest[0, 0] + columns.atol(np.full(1, rtol))[0, 1])
     if not converged:
         reason = f"V {float(V):g}: {work.reason(float(V))}"
         message = f"the friction law did not converge to rtol = {rtol:g}; {reason} (see error_estimate)"
@@ -231,7 +231,8 @@ def _laws(columns: LevelBatch, rtol: float, top) -> Laws:
     n = columns.size
     s = saturated_level(columns.material, columns.adhesion, columns.level, columns.V, columns.branch)
     saturated = np.stack([s.p_sat, s.tau_sat, np.ones(n), np.zeros(n)], axis=1)
-    return build_laws(columns, np.full(n, rtol), s.p_sat, s.D_sat, saturated, top)
+    accuracy = np.full(n, rtol)
+    return build_laws(columns, accuracy, columns.atol(accuracy), s.p_sat, s.D_sat, saturated, top)
 
 
 def _checked(material, adhesion, level, V, edge, branch, rtol):

@@ -14,7 +14,6 @@ from ..orbit.foundation import Foundation, foundation_of
 from ..orbit.materials import Material
 from ..orbit.regimes import CODE
 from ..orbit.solved import Solved
-from .accuracy import Accuracy
 from .effort import WorkCounters
 from .regime_map import Crossings
 from .saturated import saturated_level
@@ -32,8 +31,7 @@ class LevelBatch:
     """Pairs of velocity and penetration at which one level is averaged; ``V`` and ``D`` of shape (n,).
 
     ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
-    laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels. ``asked``: how accurate
-    their means have to be beside ``rtol``.
+    laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels.
     ``crossings``: points located of the curves that divide the plane of strips, shared by all that is made of these columns.
     """
 
@@ -47,14 +45,13 @@ class LevelBatch:
     carry: LowerLevelLaws | None = None
     group: np.ndarray | None = None
     strips: int | None = None
-    asked: Accuracy = Accuracy()
     work: WorkCounters = field(default_factory=WorkCounters, compare=False)
     crossings: Crossings = field(default_factory=Crossings, compare=False)
 
     def at(self, index, D) -> LevelBatch:
         """The columns ``index`` at other penetrations ``D``."""
         group = None if self.group is None else self.group[index]
-        return replace(self, V=self.V[index], D=D, group=group, asked=self.asked.at(index))
+        return replace(self, V=self.V[index], D=D, group=group)
 
     @property
     def size(self) -> int:
@@ -67,12 +64,16 @@ class LevelBatch:
         own = np.array([p, p * self.level.h / self.level.l, 1.0, 1.0])
         return own if self.carry is None else np.concatenate((own, self.carry.scales))
 
-    @property
-    def floors(self) -> np.ndarray:
-        """What is added to the size of each quantity where an accuracy is relative, (n, q)."""
-        scales, own = self.scales, len(QUANTITIES)
-        fractions = [2, 3, *(i for i in range(own, scales.size - 1) if (i - own) % 3)]
-        return self.asked.floors(scales, self.frictions, fractions, self.size)
+    def atol(
+        self, rtol: np.ndarray, pressure: float = 1e-3, friction: np.ndarray | float = 0.0, fraction: float = 1e-3
+    ) -> np.ndarray:
+        """Absolute tolerances (n, q) that go with relative ones, ``rtol`` (n,): those of shares of the natural scales of
+        ``pressure`` and every ``fraction``, and of a thousandth of that of a friction, or ``friction`` (n,), Pa, if more."""
+        sizes, columns = np.tile(1e-3 * self.scales, (self.size, 1)), self.frictions
+        sizes[:, columns] = np.maximum(sizes[:, columns], np.broadcast_to(friction, self.size)[:, None])
+        sizes[:, 0] = pressure * self.scales[0]
+        sizes[:, self.fractions] = fraction
+        return rtol[:, None] * sizes
 
     def solve(self, column: np.ndarray, theta: np.ndarray) -> SolvedStrips:
         """Strips at ``theta = k y`` of the given columns, both of shape (m,). Raises ``SolverError`` for one not certified."""
@@ -124,6 +125,11 @@ class LevelBatch:
     def frictions(self) -> np.ndarray:
         """Which quantities are frictions, its own and those it carries: a level below adds three and an error."""
         return 1 + 3 * np.arange(self.scales.size // len(QUANTITIES))
+
+    @property
+    def fractions(self) -> np.ndarray:
+        """Which quantities are fractions of the surface: those after each friction."""
+        return np.sort(np.concatenate((self.frictions + 1, self.frictions + 2)))
 
 
 @dataclass(frozen=True)
