@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 #: nodes of a panel at first and at most, and one more
 _FIRST, _LAST = 8, 64
-#: nodes of a panel in saturated contact, where strips take no search: its sum may as well be exact where accuracy is relative
+#: nodes of a panel in saturated contact, where strips take no search: its sum may as well be exact
 _COSTLESS = 32
 #: a panel's part of what a state may err, and of that what brackets of changes may
 _SHARE, _SLIVER = 0.4, 0.03
@@ -164,7 +164,8 @@ class _Work:
         goal = goal[state]
         done = usable & (error <= _SHARE * goal + 2 * rounding).all(axis=1)
         if stage.n < _COSTLESS:
-            done &= (codes[:, 0] % len(CODE) != CODE["c"]) | (self.rtol[state] == 0)
+            # laws, whose fractions hardly count, are no more accurate than they have to be
+            done &= (codes[:, 0] % len(CODE) != CODE["c"]) | (self.atol[state, 2] >= self.rtol[state])
         ended = ~done & (self.strips[state] > AVERAGE_LIMIT)
         error[ended] = (width * np.ptp(values, axis=1))[ended]
         done |= ended

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..numerics.rounding import EPS, LARGEST
+from ..numerics.rounding import LARGEST
 from ..orbit.batch import Batch
 from .breaks import between_breaks, first_contact
 from .effort import CURVE_LIMIT, NO_CURVE
@@ -28,6 +28,8 @@ _NEXT = 0.3
 _LOOKS, _SAMPLES = 12, np.linspace(0, 1, 65)
 #: how much more than the estimated error of the interpolation a turn has to keep away from the pressure
 _DOUBT = 2.0
+#: share of that error by which a pressure may come back without a turn, as where two pieces meet
+_RIPPLE = 0.02
 #: place of a pressure that loading never comes to carry
 _PULLED_OFF = -1
 
@@ -134,7 +136,7 @@ class _Walk:
             return
         least, k, most = sorted(self._passing(every, doubts) for doubts in (-_DOUBT, 0.0, _DOUBT))
         steps = np.diff(p[max(least - 1, 0) : most + 1]) * (-1 if self.unloading else 1)
-        certain = least == most or (0 <= least and most < p.size and (steps >= -16 * EPS * np.abs(p).max()).all())
+        certain = least == most or (0 <= least and most < p.size and (steps >= -_RIPPLE * every.error[k]).all())
         if self.goal > self.finest and not certain:
             if not exhausted:
                 self.goal, self.now = max(_FINER * self.goal, self.finest), Intervals.joined([*self.held, part])

@@ -21,9 +21,8 @@ from .strips import LevelBatch
 _LOOK, _FIRST, _LAST = 6, 12, 96
 #: coefficients below this share of what the means may err say nothing of how smooth they are
 _BLUR = 0.1
-#: a piece narrower than this, relative to D, is taken as it is; breaks in an interval are this far apart, relative to it; and the
-#: share of what its pressure may err by which it may rise in what is left out
-_NARROWEST, _APART, _NOTHING = 1e-11, 1e-9, 0.1
+#: a piece narrower than this, relative to D, is taken as it is; breaks in an interval are this far apart, relative to it
+_NARROWEST, _APART = 1e-11, 1e-9
 #: error of a piece by what rounding may make of each of its coefficients
 _ROUNDED = 8.0
 
@@ -80,20 +79,16 @@ class _Work:
         # where next to nothing changes there is little to miss, whatever nobody marked there
         noise = 0.1 * goal
         error = np.minimum(interpolation_errors(c, noise, blur, rounding), 2 * spread)
-        # pressure rises by K times the penetration at most (see ``curve``): too little for this to be part of a law
-        nothing = columns.material.K * intervals.width <= _NOTHING * goal[:, 0]
         # what the means leave of it, at least what they may not have
         goal = np.maximum(goal - errors.max(axis=1), (1 - MEAN) * goal)
         done = (error <= goal).all(axis=1)
         done |= intervals.width <= _NARROWEST * np.maximum(np.abs(intervals.high), columns.level.h)
-        nothing &= ~done
-        done |= nothing
         ended = ~done & (self.strips[column] > CURVE_LIMIT)
         if ended.any():
             columns.work.limit_reached(columns.V[column[ended]], columns.level.l, NO_CURVE)
             error[ended], done = np.maximum(error, spread)[ended], done | ended
         bounds = errors + (error + _ROUNDED * rounding)[:, None]
-        for k in np.flatnonzero(done & ~nothing):
+        for k in np.flatnonzero(done):
             known = Errors(interior_nodes(stage.n), bounds[k])
             ends = float(intervals.low[k]), float(intervals.high[k])
             self.pieces[column[k]].append(Piece(*ends, c[k], known, bool(intervals.inner_low[k]), bool(intervals.inner_high[k])))

@@ -15,8 +15,6 @@ from .strips import LevelBatch
 
 #: share of the error allowed that each mean may have
 MEAN = 0.4
-#: share of the range of pressures in an interval to which these are known at least, for branches are told by them
-_KNOWN = 0.1
 
 
 @dataclass
@@ -77,16 +75,14 @@ def means_in(columns: LevelBatch, intervals: Intervals, D: np.ndarray, strips: n
 
 def weighed(columns: LevelBatch, budget: ErrorBudget, intervals: Intervals, values: Sequence[np.ndarray]) -> Intervals:
     """The intervals as coarse as the ``budget`` allows where means are as in ``values`` (nodes, q) of each."""
-    frictions, fractions, floors = columns.frictions, columns.fractions, 1e-3 * columns.scales
-    atol = intervals.atol.copy()
+    atol, floors = intervals.atol.copy(), 1e-3 * columns.scales
     for k, v in enumerate(values):
-        column, rtol, p = intervals.column[k], intervals.rtol[k], v[:, 0]
-        atol[k] += rtol * np.abs(v).min(axis=0)
-        met, friction = budget.met(column, p.min(), min(p.max(), intervals.ceiling[k]))
-        # what is carried with a friction errs with it, and a pressure where friction rises with it evenly
-        size = np.abs(v[:, frictions]).min(axis=0) + floors[frictions]
-        coarse = rtol * friction / size.sum()
-        atol[k, frictions] = np.maximum(atol[k, frictions], coarse * size)
-        atol[k, 0] = max(atol[k, 0], min(coarse, _KNOWN) * np.ptp(p))
-        atol[k, fractions] = np.maximum(atol[k, fractions], rtol / met)
+        rtol, p, least = intervals.rtol[k], v[:, 0], np.abs(v).min(axis=0)
+        met, friction = budget.met(intervals.column[k], p.min(), min(p.max(), intervals.ceiling[k]))
+        # all that is carried may err by as much of itself as all frictions may, and pressure as where these rise with it evenly
+        coarse = rtol * friction / (least + floors)[columns.frictions].sum()
+        allowed = coarse * (least + floors)
+        allowed[0] = coarse * np.ptp(p)
+        allowed[columns.fractions] += rtol / met
+        atol[k] = np.maximum(atol[k] + rtol * least, allowed)
     return replace(intervals, rtol=np.zeros(intervals.size), atol=atol)
