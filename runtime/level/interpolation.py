@@ -23,8 +23,9 @@ _LOOK, _FIRST, _LAST = 6, 12, 96
 _BLUR = 0.1
 #: a piece narrower than this, relative to D, is taken as it is; breaks in an interval are this far apart, relative to it
 _NARROWEST, _APART = 1e-11, 1e-9
-#: error of a piece by what rounding may make of each of its coefficients
-_ROUNDED = 8.0
+#: error of a piece by what rounding may make of each of its coefficients, and the share of the largest error of a mean that an
+#: interpolant has far from it: means mostly err by a tenth of their bounds
+_ROUNDED, _SPREAD = 8.0, 0.05
 
 
 def interpolate(
@@ -87,7 +88,7 @@ class _Work:
         if ended.any():
             columns.work.limit_reached(columns.V[column[ended]], columns.level.l, NO_CURVE)
             error[ended], done = np.maximum(error, spread)[ended], done | ended
-        bounds = errors + (error + _ROUNDED * rounding)[:, None]
+        bounds = errors + (error + _ROUNDED * rounding + _SPREAD * errors.max(axis=1))[:, None]
         for k in np.flatnonzero(done):
             known = Errors(interior_nodes(stage.n), bounds[k])
             ends = float(intervals.low[k]), float(intervals.high[k])
