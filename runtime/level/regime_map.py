@@ -217,10 +217,13 @@ class Crossings:
         E = columns.D - columns.level.h
         states, amplitudes, ends = [np.empty(0, int)], [np.empty(0)], [np.empty(0, bool)]
         for boundary, known in self.points.items():
-            parts = [part for part in (_between(known, columns.V, E), _at_turns(known, columns.V, E)) if part[0].size]
-            if not parts:
+            starts = _between(known, columns.V, E), _at_turns(known, columns.V, E)
+            state, lower, share = (np.concatenate(v) for v in zip(*starts, strict=True))
+            if not state.size:
                 continue
-            state, start = np.concatenate([state for state, _ in parts]), Points.joined([start for _, start in parts])
+            blend = lambda x: (x[lower].T + share * (x[lower + 1] - x[lower]).T).T  # noqa: E731, B023
+            A, passed = np.maximum(blend(known.A), 0.5 * known.A[lower]), (known.pressure[lower], known.index[lower])
+            start = Points(columns.V[state], A, E[state], blend(known.edges), *passed)
             points, found = plane.locate(columns, boundary, start, "A")
             found &= (points.A > 0) & (2 * points.A < columns.level.h)
             points, state = points.take(np.flatnonzero(found)), state[found]
@@ -231,32 +234,24 @@ class Crossings:
         return np.concatenate(states), np.concatenate(amplitudes), np.concatenate(ends)
 
 
-def _between(known: Points, velocity, E) -> tuple[np.ndarray, Points]:
-    """States that cross a curve between two neighbouring points of it, or not far beyond its ends; points on the straight line
-    through these."""
+def _between(known: Points, velocity, E) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """States that cross a curve between two neighbouring points of it, or not far beyond its ends; the first of the two, and the
+    share of the straight line through them on which that is."""
     first = np.searchsorted(known.velocity, velocity, "left")
     segments = np.maximum(np.searchsorted(known.velocity, velocity, "right") - 1 - first, 0)
     state = np.repeat(np.arange(E.size), segments)
     lower = first[state] + np.arange(state.size) - np.repeat(np.cumsum(segments) - segments, segments)
-    together = _together(known)
-    inside = together[lower]
-    state, lower = state[inside], lower[inside]
-    upper = lower + 1
-    rise = known.E[upper] - known.E[lower]
+    together = np.concatenate(([False], _together(known), [False]))
+    rise = known.E[lower + 1] - known.E[lower]
     share = np.divide(E[state] - known.E[lower], rise, out=np.full(state.size, np.inf), where=rise != 0)
     # only the outermost segments of a curve go on beyond their ends
-    padded = np.concatenate(([False], together, [False]))
-    low = np.where(padded[lower], 0.0, -_BEYOND)
-    high = np.where(padded[upper + 1], 1.0, 1 + _BEYOND)
-    near = np.flatnonzero((share >= low) & (share <= high))
-    state, share, lower, upper = state[near], share[near], lower[near], upper[near]
-    blend = lambda x: (x[lower].T + share * (x[upper] - x[lower]).T).T  # noqa: E731
-    A = np.maximum(blend(known.A), 0.5 * known.A[lower])
-    return state, Points(velocity[state], A, E[state], blend(known.edges), known.pressure[lower], known.index[lower])
+    low, high = np.where(together[lower], 0.0, -_BEYOND), np.where(together[lower + 2], 1.0, 1 + _BEYOND)
+    near = together[lower + 1] & (share >= low) & (share <= high)
+    return state[near], lower[near], share[near]
 
 
-def _at_turns(known: Points, velocity, E) -> tuple[np.ndarray, Points]:
-    """States beyond the last point of a curve before it turns back in E, and where each of them crosses the parabola through the
+def _at_turns(known: Points, velocity, E) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """``_between`` for states beyond the last point of a curve before it turns back in E: each crosses the parabola through the
     three points there, twice."""
     together = _together(known)
     steps = np.diff(known.E)
@@ -266,21 +261,15 @@ def _at_turns(known: Points, velocity, E) -> tuple[np.ndarray, Points]:
     low, high = ((known.E[middle + k] - known.E[middle]) / (known.A[middle + k] - known.A[middle]) for k in (-1, 1))
     bend = (high - low) / (after - before)
     slope = low - bend * before
-    turn = known.E[middle] - 0.25 * slope**2 / bend
-    square = (E - turn[:, None]) / bend[:, None]
+    square = (E - known.E[middle, None]) / bend[:, None] + 0.25 * (slope / bend)[:, None] ** 2
     beyond = (E - known.E[middle, None]) * bend[:, None] < 0
     at, state = np.nonzero((known.velocity[middle, None] == velocity) & beyond & (square > 0))
     root = np.sqrt(square[at, state])
-    state, at, root = np.tile(state, 2), np.tile(at, 2), np.concatenate((-root, root))
-    moved = root - 0.5 * slope[at] / bend[at]
-    weights = [  # of Lagrange
-        moved * (moved - after[at]) / (before * (before - after))[at],
-        (moved - before[at]) * (moved - after[at]) / (before * after)[at],
-        moved * (moved - before[at]) / (after * (after - before))[at],
-    ]
-    points = middle[at]
-    edges = sum(weight[:, None] * known.edges[points + k] for k, weight in zip((-1, 0, 1), weights, strict=True))
-    return state, Points(velocity[state], known.A[points] + moved, E[state], edges, known.pressure[points], known.index[points])
+    moved = np.concatenate((-root, root)) - 0.5 * np.tile((slope / bend)[at], 2)
+    at = np.tile(at, 2)
+    lower = middle[at] - (moved < 0)
+    share = (known.A[middle[at]] + moved - known.A[lower]) / (known.A[lower + 1] - known.A[lower])
+    return np.tile(state, 2), lower, share
 
 
 def _together(points: Points) -> np.ndarray:
