@@ -230,8 +230,7 @@ class _Solve:
         columns = columns.at(touching, found.D[touching])
         if self.M > 1:
             columns = self._carrying(stack, V, group, columns)
-        rtol = np.full(index.size, 0.5 * surface.rtol)
-        means = level_means(columns, rtol, columns.atol(rtol, friction=columns.carry.friction[group] if columns.carry else 0.0))
+        means = level_means(columns, np.full(index.size, 0.5 * surface.rtol))
         self._write(index, found.take(touching), means)
 
     def _nonadhesive(self, stack: Stack, V, index, group) -> np.ndarray:
@@ -268,20 +267,20 @@ class _Solve:
         surface, carry, groups = self.surface, None, np.arange(V.size)
         across = strips_across(columns)
         budget = error_budget(columns, group, across)
-        friction, rtol = budget.friction_of_laws(self.M - 1, V.size), np.full(V.size, surface.laws)
+        rtol = np.full(V.size, surface.laws)
         p_max = np.full(V.size, -np.inf)
         np.maximum.at(p_max, group, peak_pressure(columns, across))
         reached = self._reached(stack, V, p_max)
         for i in range(self.M - 1, 0, -1):
             level = surface.columns(i, V, None, carry, groups if carry else None)
-            atol = level.atol(rtol, friction=friction, fraction=1.0)
+            atol = level.atol(rtol, fraction=1.0)
             saturated = stack.p_full[i], stack.D_full[i], stack.means(i)
             counts = budget if i == 1 else budget.further_down(2 * (self.M - 1))
             laws = build_laws(level, rtol, atol, *saturated, reached[i - 1], counts)
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error,
             # which never asks for anything
             scales = np.concatenate((level.scales[1:], [LARGEST]))
-            carry = LowerLevelLaws(merged(laws, rtol, atol), surface.rtol, scales, friction)
+            carry = LowerLevelLaws(merged(laws, rtol, atol), surface.rtol, scales)
         return replace(columns, carry=carry, group=group)
 
     def _reached(self, stack: Stack, V, p_max) -> list[np.ndarray]:

@@ -67,7 +67,7 @@ def table():
 
 @pytest.fixture(scope="module")
 def carry():
-    return LowerLevelLaws(table(), RTOL, SCALES, np.zeros(1))
+    return LowerLevelLaws(table(), RTOL, SCALES)
 
 
 def _solved(V, material=SLS, edge="continuous", branch="unloading", shares=(0.2, 0.6, 2.0, 10.0)):
@@ -167,7 +167,7 @@ def _stepwise(at, low, high, known_to=(0.0, 0.0)):
 def _carried(law, V=2e-3):
     columns, theta = _solved(V, shares=(0.2, 0.6))
     strips = columns.solve(np.arange(columns.size), theta)
-    law = LowerLevelLaws(law, RTOL, SCALES, np.zeros(1))
+    law = LowerLevelLaws(law, RTOL, SCALES)
     index, contact = strips.touching
     inside = (contact.p_peak > BREAKS[1] + 500) & (contact.p_peak < BREAKS[2])
     assert inside.sum() >= 3

@@ -1,16 +1,13 @@
 """Error budget: how accurate every quantity of every level has to be. All that decides it, in one place:
 
-- A quantity is asked for to ``rtol (|value| + floor)``; its floor is ``LevelBatch.floors``: a thousandth of its natural scale,
-  or what ``Accuracy`` says of frictions and fractions. Where only pressure and friction count that is 1 for fractions, and more
-  where few points meet the pressures of a piece (``ErrorBudget.fractions``).
-- Level 1 gets the ``rtol`` of the result, halved in ``multilevel``, as its laws err too.
-- Laws of lower levels get a multiple of ``rtol``, and less where points miss that (``multilevel``), relative also to a share of
-  the friction in contact of level 1, which they all add to: ``friction_of_laws``.
-- A piece of a law may be coarser by ``ErrorBudget.tolerance_factor``, the fewer points meet its pressures, further down than
-  level 2 the less contact there is; ``merge`` may take a part of what a law may err, ``lower_levels`` integrates to a part of
-  what the mean over strips may.
-- Of what an interval of a curve may err its means get a part, ``interval.MEAN``; less where halving it does not help
-  (``Accuracy.after``), and where it may be coarser and friction in it spans a factor (``interval.weighed``).
+- A quantity is asked for to ``rtol |value| + atol``; ``atol`` is that of a thousandth of its natural scale (``LevelBatch.atol``);
+  of fractions it is ``rtol`` itself where only pressure and friction count.
+- Level 1 gets the ``rtol`` of the result, halved in ``multilevel``, as its laws err too. Laws of lower levels get a multiple of
+  ``rtol``, and less where points miss that.
+- A piece of a law may err by as much more as fewer points meet its pressures (``interval.weighed``), further down than level 2
+  the less contact there is; ``merge`` may take a part of what a law may err, ``lower_levels`` integrates to a part of what the
+  mean over strips may.
+- Of what an interval of a curve may err its means get a part, ``interval.MEAN``.
 
 Goal-oriented: a law's error counts as much as the part of the surface on which it is used. That part is had from a plain sum over
 the strips of the level above; it deals out accuracy and enters no result, and what a law lacks shows in the error of the friction
@@ -33,8 +30,6 @@ _POINTS = 32
 _FINEST = 1e-6
 #: contact is not known to be any less
 LEAST_CONTACT = 1e-3
-#: part of the friction in contact of level 1 that frictions of all lower levels may err relative to, beside themselves
-_SHARED = 0.2
 #: parts of a law that may each err by what the whole is allowed: mostly one or two branches are used
 _PARTS = 2
 
@@ -49,14 +44,6 @@ class ErrorBudget:
     p: np.ndarray
     share: np.ndarray
     friction: np.ndarray
-
-    def friction_of_laws(self, levels: int, groups: int) -> np.ndarray:
-        """Pa, (groups,), that the accuracy of the laws of so many ``levels`` below is relative to beside themselves: a share of
-        the mean friction over the contact alone, where they add to it."""
-        friction = np.full(groups, np.inf)
-        in_contact = self.friction / np.maximum(self.share[:, -1], LEAST_CONTACT)
-        np.minimum.at(friction, self.group, _SHARED / levels * in_contact)
-        return friction
 
     def further_down(self, levels: int) -> ErrorBudget:
         """For one of so many ``levels``, where it is not known what pressures are met: each may be on all of the contact."""

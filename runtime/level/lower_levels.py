@@ -32,14 +32,12 @@ class LowerLevelLaws:
     """Contributions of the next level down. ``laws`` holds one for each group; the last column is an error estimate of
     friction.
 
-    ``scales`` (q,): natural scales of the contributions. ``rtol``: accuracy of the averages that they go into;
-    ``friction`` (groups,): see ``LevelBatch``.
+    ``scales`` (q,): natural scales of the contributions. ``rtol``: accuracy of the averages that they go into.
     """
 
     laws: Laws
     rtol: float
     scales: np.ndarray
-    friction: np.ndarray
 
     def breaks(self, group: np.ndarray) -> np.ndarray:
         """Pressures (m, k), Pa, ascending, at which the laws of each ``group`` are not smooth; inf where there are fewer."""
@@ -111,7 +109,7 @@ class LowerLevelLaws:
         for parts in every.chunks(_CHUNK):
             strip = parts.rows - parts.rows[0]
             spread, ready = (contact.a - contact.b)[parts.rows], np.zeros(parts.size, bool)
-            floor = np.maximum(1e-3 * self.scales[frictions, None], self.friction[group[parts.rows]])
+            floor = 1e-3 * self.scales[frictions, None]
             best, miss = np.zeros((self.scales.size - 1, parts.size)), np.zeros((len(frictions), parts.size))
             own = np.zeros(parts.size)
             for n in _NODES:

@@ -64,15 +64,11 @@ class LevelBatch:
         own = np.array([p, p * self.level.h / self.level.l, 1.0, 1.0])
         return own if self.carry is None else np.concatenate((own, self.carry.scales))
 
-    def atol(
-        self, rtol: np.ndarray, pressure: float = 1e-3, friction: np.ndarray | float = 0.0, fraction: float = 1e-3
-    ) -> np.ndarray:
-        """Absolute tolerances (n, q) that go with relative ones, ``rtol`` (n,): those of shares of the natural scales of
-        ``pressure`` and every ``fraction``, and of a thousandth of that of a friction, or ``friction`` (n,), Pa, if more."""
-        sizes, columns = np.tile(1e-3 * self.scales, (self.size, 1)), self.frictions
-        sizes[:, columns] = np.maximum(sizes[:, columns], np.broadcast_to(friction, self.size)[:, None])
-        sizes[:, 0] = pressure * self.scales[0]
-        sizes[:, self.fractions] = fraction
+    def atol(self, rtol: np.ndarray, pressure: float = 1e-3, fraction: float = 1e-3) -> np.ndarray:
+        """Absolute tolerances (n, q) that go with relative ones, ``rtol`` (n,): those of a thousandth of the natural scale of
+        every quantity, but for that of ``pressure``, and of a ``fraction`` of the surface."""
+        sizes = 1e-3 * self.scales
+        sizes[0], sizes[self.fractions] = pressure * self.scales[0], fraction
         return rtol[:, None] * sizes
 
     def solve(self, column: np.ndarray, theta: np.ndarray) -> SolvedStrips:
