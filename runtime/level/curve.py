@@ -12,7 +12,7 @@ from .error_budget import ErrorBudget
 from .interpolation import interpolate
 from .interval import Intervals
 from .piece import Piece
-from .reentrant import reentrant_parts
+from .reentrant import falling, reentrant_parts
 from .strips import LevelBatch
 
 
@@ -30,13 +30,15 @@ def trace(
 ) -> list[Curve]:
     """Curves of every column (its ``D`` is not used) up to penetration ``top``, to ``rtol |value| + atol``.
 
-    Below the penetration at which the crest lets go they hold only what unloading at a falling pressure comes to. ``budget``:
-    how much the pressures of every column's law count.
+    Below the penetration at which the crest lets go, and where pressure falls between breaks that are close, they hold only what
+    unloading at a falling pressure comes to. ``budget``: how much the pressures of every column's law count.
     """
     n = columns.size
     strips = np.zeros(n, int)
     intervals, crest = smooth_intervals(columns, rtol, atol, top)
     looked = intervals.high <= crest[intervals.column]
+    if columns.branch == "unloading":
+        looked[~looked] = falling(columns, intervals.take(~looked), strips)
     pieces = interpolate(columns, intervals.take(~looked), strips, budget)
     if looked.any():
         least = [[(piece.low, piece.values(piece.errors.at)[:, 0].min()) for piece in row] for row in pieces]

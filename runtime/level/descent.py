@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
@@ -34,16 +35,15 @@ _RIPPLE = 0.02
 _PULLED_OFF = -1
 
 
-@dataclass(frozen=True)
-class Root:
-    """Where a coarse curve passes the pressure: between the penetrations ``low`` and ``high``, or (nan) in the jump at ``D``; how
-    it rises over D, and the ``slope`` of all quantities over pressure, (q,)."""
+class Root(NamedTuple):
+    """Where a coarse curve passes the pressure: between the penetrations ``low`` and ``high``, or (nan) in the jump at ``D``, or
+    (all nan) nowhere; how it rises over D, and the ``slope`` of all quantities over pressure, (q,). Or arrays of several."""
 
-    D: float
-    rise: float
+    D: float | np.ndarray
+    rise: float | np.ndarray
     slope: np.ndarray
-    low: float = np.nan
-    high: float = np.nan
+    low: float | np.ndarray = np.nan
+    high: float | np.ndarray = np.nan
 
 
 @dataclass
@@ -64,9 +64,9 @@ class Samples(Batch):
         return [cls(i.penetration(t), constant(i.low), i.values(t), constant(i.errors.most[0])) for i in ordered]
 
 
-def first_passes(columns: LevelBatch, p: np.ndarray, top: np.ndarray, rtol: float) -> tuple[list[Root | None], np.ndarray]:
-    """Where the curve of each column first passes the pressure ``p`` (Pa, (n,)), below ``top`` (n,), where unloading comes from
-    (None: nowhere), and which are undecided. All columns go along their curves together, a part of each at a time."""
+def first_passes(columns: LevelBatch, p: np.ndarray, top: np.ndarray, rtol: float) -> tuple[Root, np.ndarray]:
+    """Where the curve of each column first passes the pressure ``p`` (Pa, (n,)), below ``top`` (n,), where unloading comes from,
+    and which are undecided, (n,). All columns go along their curves together, a part of each at a time."""
     h, unloading, bottom = columns.level.h, columns.branch == "unloading", first_contact(columns)
     finest = rtol * (np.abs(p) + 1e-3 * columns.scales[0])
     goal = np.maximum(ROUGH * (np.abs(p) + columns.scales[0]), finest)
@@ -90,7 +90,8 @@ def first_passes(columns: LevelBatch, p: np.ndarray, top: np.ndarray, rtol: floa
             walk.go_on(Samples.of(pieces[walk.column], unloading), bool(strips[walk.column] > CURVE_LIMIT))
     undecided = np.array([walk.undecided for walk in walks])
     columns.work.limit_reached(columns.V[undecided], columns.level.l, NO_CURVE)
-    return [walk.root for walk in walks], undecided
+    nowhere = Root(np.nan, 0.0, np.zeros(columns.scales.size))
+    return Root(*(np.array(v) for v in zip(*(walk.root or nowhere for walk in walks), strict=True))), undecided
 
 
 def _growing(bottom: float, top: float, width: float, unloading: bool) -> list[tuple[float, float]]:

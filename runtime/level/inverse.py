@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -89,7 +89,7 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
     low, high = p / K, np.minimum(p / K + 0.75 * h, full)
     D, power, slope = np.sqrt(2 * np.pi * h * low), np.full(p.size, 2.0), np.full((p.size, len(QUANTITIES)), np.nan)
     for accuracy in (max(rtol, ROUGH), rtol):
-        at = np.log(np.clip(D, low, high)), power, slope, np.log(low), np.log(high)
+        at = Root(np.log(np.clip(D, low, high)), power, slope, np.log(low), np.log(high))
         # however little the pressure is, friction goes with it
         x, near, errors, slope = _refine(columns, p, at, accuracy, 0.0, powers=True)
         D = np.clip(np.exp(x), low, high)
@@ -98,19 +98,13 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
 
 def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
     """``invert`` with adhesion."""
-    out = Inverse.at(np.full(p.size, np.nan))
-    roots, out.undecided[:] = first_passes(columns, p, cut_penetration(columns, p, full), rtol)
-    out.in_jump[:] = [root is not None and np.isnan(root.low) for root in roots]
-    found = np.array([i for i, root in enumerate(roots) if root is not None], int)
-    if found.size:
-        at = [np.array([getattr(roots[i], f.name) for i in found]) for f in fields(Root)]
-        refined = _refine(columns.at(found, out.D[found]), p[found], at, rtol, 1e-3 * columns.scales[0])
-        out.D[found], out.near[found], out.near_errors[found], out.slope[found] = refined
-    return out
+    root, undecided = first_passes(columns, p, cut_penetration(columns, p, full), rtol)
+    in_jump = ~np.isnan(root.D) & np.isnan(root.low)
+    return Inverse(*_refine(columns, p, root, rtol, 1e-3 * columns.scales[0]), undecided, in_jump)
 
 
-def _refine(columns: LevelBatch, p, root, rtol, floor, powers: bool = False):
-    """Penetrations, quantities near them, their errors and slopes over pressure at a ``root`` (arrays of the fields of ``Root``):
+def _refine(columns: LevelBatch, p, root: Root, rtol, floor, powers: bool = False):
+    """Penetrations, quantities near them, their errors and slopes over pressure at a ``root`` of each column:
     Newton with the rise of the coarse curve, then of the last two averages. The pressure (Pa) is met to ``rtol`` of itself and
     the ``floor``. With ``powers`` penetrations are given and returned as logarithms, and those of pressures rise over them."""
     D, rise, slope, low, high = root

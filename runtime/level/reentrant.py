@@ -1,5 +1,5 @@
 """Re-entrant branches: parts of the curve under a pressure below all that came before, so that unloading jumps to them, as below
-the fold of the crest, where the rims of the cells still hold.
+the fold of the crest, where the rims of the cells still hold. Where breaks are close most of a curve is none.
 
 A rough sample of the curve tells where they are to a few digits; what it leaves open is kept, and only what is kept is
 interpolated.
@@ -15,23 +15,30 @@ from .error_budget import ErrorBudget
 from .interval import Intervals, means_in, weighed
 from .strips import LevelBatch
 
-#: accuracy of the look, and its nodes at first
-_ROUGH, _NODES = 5e-3, 6
+#: accuracy of the look, and its nodes at first; intervals narrower than this share of ``h`` are looked at in two places before
+_ROUGH, _NODES, _NARROW, _APART = 5e-3, 6, 0.1, (0.1, 0.9)
 #: how much more than its error a pressure keeps above what was before, and than what it bends between two nodes, which are the
 #: first ones or twice as many: a parabola keeps within an eighth of that from its chord
 _DOUBT, _BENDS = 2.0, (1.0, 0.25)
+
+
+def falling(columns: LevelBatch, intervals: Intervals, strips: np.ndarray) -> np.ndarray:
+    """Which of the ``intervals`` are narrow and have pressure fall over penetration, as far as two places tell: strips let go
+    there one after another while the pressure rises, which is no part of a law. ``strips`` counts the work."""
+    out = intervals.width < _NARROW * columns.level.h
+    if out.any():
+        D, each = intervals.take(out).evenly(np.array(_APART)), np.repeat(np.flatnonzero(out), 2)
+        low, high = _looked(columns, intervals.take(each), D.ravel(), strips)[0][:, 0].reshape(-1, 2).T
+        out[out] = low > high
+    return out
 
 
 def reentrant_parts(columns: LevelBatch, intervals: Intervals, strips: np.ndarray, budget: ErrorBudget | None) -> Intervals:
     """The parts of the ``intervals`` that unloading may come to after the least pressure before each, its ceiling, as coarse as
     the ``budget`` allows; ``strips`` (per column) counts the work."""
 
-    def means(parts, D):
-        rough = _ROUGH / parts.rtol
-        return means_in(columns, replace(parts, rtol=rough * parts.rtol, atol=rough[:, None] * parts.atol), D, strips)
-
     def looked(stage: Stage) -> Stage:
-        return sampled([stage], Intervals.evenly, means)[0]
+        return sampled([stage], Intervals.evenly, lambda parts, D: _looked(columns, parts, D, strips))[0]
 
     stage = looked(Stage(intervals, _NODES))
     doubtful = np.isin(np.arange(intervals.size), [k for _, k, *_ in _parts([stage], _BENDS[0])])
@@ -40,6 +47,12 @@ def reentrant_parts(columns: LevelBatch, intervals: Intervals, strips: np.ndarra
     parts = [replace(stages[s].parts.take([k]), **{name: np.array([v]) for name, v in ends.items()}) for s, k, ends, _ in found]
     out = Intervals.joined(parts) if parts else intervals.take([])
     return out if budget is None else weighed(columns, budget, out, [values for *_, values in found])
+
+
+def _looked(columns: LevelBatch, intervals: Intervals, D: np.ndarray, strips: np.ndarray) -> tuple:
+    """``means_in`` the intervals, as rough as a look may be."""
+    rough = _ROUGH / intervals.rtol
+    return means_in(columns, replace(intervals, rtol=rough * intervals.rtol, atol=rough[:, None] * intervals.atol), D, strips)
 
 
 def _parts(stages: list[Stage], bends: float) -> list[tuple[int, int, dict, np.ndarray]]:
