@@ -79,8 +79,9 @@ def weighed(columns: LevelBatch, budget: ErrorBudget, intervals: Intervals, valu
     for k, v in enumerate(values):
         rtol, p, least = intervals.rtol[k], v[:, 0], np.abs(v).min(axis=0)
         met, friction = budget.met(intervals.column[k], p.min(), min(p.max(), intervals.ceiling[k]))
-        # all that is carried may err by as much of itself as all frictions may, and pressure as where these rise with it evenly
-        coarse = rtol * friction / (least + floors)[columns.frictions].sum()
+        # all that is carried may err by as much of itself as all frictions may, and pressure as where these rise with it evenly;
+        # where an interval ends is as well known as pressures are relative to themselves, less of it the narrower it is
+        coarse = rtol * friction / (least + floors)[columns.frictions].sum() * min(np.ptp(p) / np.abs(p).max(), 1.0)
         allowed = coarse * (least + floors)
         allowed[0] = coarse * np.ptp(p)
         allowed[columns.fractions] += rtol / met
