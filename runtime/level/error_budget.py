@@ -1,7 +1,8 @@
 """Error budget: how accurate every quantity of every level has to be. All that decides it, in one place:
 
 - A quantity is asked for to ``rtol |value| + atol``; ``atol`` is that of a thousandth of its natural scale (``LevelBatch.atol``);
-  of fractions it is ``rtol`` itself where only pressure and friction count.
+  of fractions it is ``rtol`` itself where only pressure and friction count, and of frictions of laws that of a share of the
+  friction in contact of level 1, which they all add to (``friction_of_laws``), if that is more.
 - Level 1 gets the ``rtol`` of the result, halved in ``multilevel``, as its laws err too. Laws of lower levels get a multiple of
   ``rtol``, and less where points miss that.
 - A piece of a law may err by as much more as fewer points meet its pressures (``interval.weighed``), further down than level 2
@@ -30,6 +31,8 @@ _POINTS = 32
 _FINEST = 1e-6
 #: contact is not known to be any less
 LEAST_CONTACT = 1e-3
+#: part of the friction in contact of level 1 that frictions of all lower levels may err relative to, beside themselves
+_SHARED = 0.2
 #: parts of a law that may each err by what the whole is allowed: mostly one or two branches are used
 _PARTS = 2
 
@@ -44,6 +47,14 @@ class ErrorBudget:
     p: np.ndarray
     share: np.ndarray
     friction: np.ndarray
+
+    def friction_of_laws(self, levels: int, groups: int) -> np.ndarray:
+        """Pa, (groups,), that the accuracy of the laws of so many ``levels`` below is relative to beside themselves: a share of
+        the mean friction over the contact alone, where they add to it."""
+        friction = np.full(groups, np.inf)
+        in_contact = self.friction / np.maximum(self.share[:, -1], LEAST_CONTACT)
+        np.minimum.at(friction, self.group, _SHARED / levels * in_contact)
+        return friction
 
     def further_down(self, levels: int) -> ErrorBudget:
         """For one of so many ``levels``, where it is not known what pressures are met: each may be on all of the contact."""
