@@ -48,7 +48,7 @@ def trace(
             for i, high in zip(parts.column, parts.high, strict=True)
         ]
         parts = reentrant_parts(columns, replace(parts, ceiling=np.array(before)), strips, budget)
-        for row, more in zip(pieces, interpolate(columns, parts, strips, budget), strict=True):
+        for row, more in zip(pieces, interpolate(columns, parts, strips), strict=True):
             row += more
     return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
 

@@ -34,7 +34,8 @@ def interpolate(
     """Pieces of each column that interpolate the means over the intervals, on at least ``first`` nodes; ``strips`` (per column)
     counts the work. ``budget``: how much the pressures of an interval count."""
     work = _Work(columns, strips, budget, first, [[] for _ in range(columns.size)])
-    stages = work.start(intervals)
+    # a budget has to know what pressures an interval comes to before it says how well they have to be known
+    stages = [Stage(intervals, first if budget is None else _LOOK)] if intervals.size else []
     while stages:
         stages = work.refine(stages)
     return work.pieces
@@ -50,12 +51,6 @@ class _Work:
     first: int
     pieces: list[list[Piece]]
 
-    def start(self, intervals: Intervals) -> list[Stage]:
-        """Intervals on their first nodes."""
-        # a budget has to know what pressures an interval comes to before it says how well they have to be known
-        looked = np.full(intervals.size, self.budget is not None) & (intervals.rtol > 0)
-        return [Stage(intervals.take(which), n) for n, which in ((_LOOK, looked), (self.first, ~looked)) if which.any()]
-
     def refine(self, stages: list[Stage]) -> list[Stage]:
         """Keep what converges under doubling; return what is left, divided where more nodes would not help."""
         going, divided = [], []
@@ -67,7 +62,7 @@ class _Work:
             else:
                 going.append(replace(stage, parts=weighed(self.columns, self.budget, stage.parts, stage.known[0])))
         parts = [part for stage, goal in divided for part in self._divided(stage, goal)]
-        fresh = self.start(Intervals.joined(parts)) if parts else []
+        fresh = [Stage(Intervals.joined(parts), self.first)] if parts else []
         return [stage for stage in (*going, *fresh) if stage.parts.size]
 
     def _converged(self, stage: Stage) -> tuple[Stage, np.ndarray, np.ndarray]:

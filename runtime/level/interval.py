@@ -85,5 +85,5 @@ def weighed(columns: LevelBatch, budget: ErrorBudget, intervals: Intervals, valu
         allowed = coarse * (least + floors)
         allowed[0] = coarse * np.ptp(p)
         allowed[columns.fractions] += rtol / met
-        atol[k] = np.maximum(atol[k] + rtol * least, allowed)
-    return replace(intervals, rtol=np.zeros(intervals.size), atol=atol)
+        atol[k] = np.maximum(atol[k], allowed)
+    return replace(intervals, atol=atol)
