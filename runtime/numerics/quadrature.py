@@ -11,14 +11,17 @@ import numpy as np
 
 from .chebyshev import COMMON
 from .rounding import EPS
+from .rules import extrapolated
 
 #: coefficients in the middle of a series that those at its end are held against: one may be small by chance
 _MIDDLE = 3
 #: fastest pace believed of coefficients, by number of nodes, and of those that fall more slowly at the end than before, as where
 #: there is a layer; and the slowest that is told apart from a slower one
 _FASTEST, _LAYERED, _SLOWEST = {8: 0.45, 16: 0.42, 32: 0.65}, 0.65, 0.97
-#: ratio of the last coefficients to the middle ones above which they may fall by a power only, and how much more than by that of
-#: the last ones the next may count
+#: number of nodes from which on coefficients are many; up to it and from it on, the ratio of the last coefficients to the middle
+#: ones below which they surely fall geometrically
+_MANY, _GEOMETRIC = 16, (0.15, 0.05)
+#: ratio of them above which they may fall by a power only, and how much more than by that of the last ones the next may count
 _POWER, _TURNS = 0.2, 2.5
 #: how much more is feared than what is left at the pace that coefficients fall at
 _SAFE = 1.5
@@ -78,28 +81,53 @@ def _second_kind(n: int) -> np.ndarray:
     return (2 / n) * np.sin(np.outer(np.arange(1, n), angle)) * np.sin(angle)
 
 
-def _run(n: int) -> int:
+@lru_cache
+def _changes(n: int) -> np.ndarray:
+    """Weights of the changes of sums over n nodes from half of them to all, and from a quarter to half, (2, n - 1)."""
+    sums = np.zeros((3, n - 1))
+    for row, k in zip(sums, (1, 2, 4), strict=True):
+        row[k - 1 :: k] = mapped_weights(n // k)
+    return sums[:2] - sums[1:]
+
+
+def _runs(n: int) -> tuple[int, int]:
     """How many of the last coefficients of n nodes are looked at: so many that those of a singularity inside, which come and go,
-    are not all small."""
-    return max(5, n // 5) if n > 8 else 3
+    are not all small; and so few that they come of nothing but what falls slowest."""
+    return (max(5, n // 5), 4) if n > 8 else (3, 3)
 
 
 @lru_cache
-def _left(n: int) -> tuple[np.ndarray, np.ndarray]:
-    """Paces, and what the sum misses of a quantity whose coefficients fall at each, over the largest of its last ones: they may
-    also turn from order to order, ``rho^j exp(i psi j)``, as those of a singularity inside.
+def _left(n: int, turning: bool) -> tuple[np.ndarray, np.ndarray]:
+    """What the sum misses of a quantity whose coefficients are ``rho^j``, over the largest of the last ones it shows, and the
+    ratios by which it shows how fast they fall: rho itself where the coefficients are told from the middle on, where they may
+    also turn (``turning``) from order to order, ``rho^j exp(i psi j)``, as those of a singularity inside; else that of the last
+    ones to those before.
 
     Order j has the integral ``m(j) = -3/(j (j^2 - 4))``, zero for even j. At the nodes orders ``2 n - j`` and ``2 n + j`` look
     like j but for a sign: where coefficients fall slowly and don't turn, as where an end has a layer, most of it cancels.
     """
-    rho, psi = np.linspace(_FASTEST.get(n, 0.8), _SLOWEST, 64), np.linspace(0, np.pi, 33)
+    rho = np.linspace(_FASTEST.get(n, 0.8), _SLOWEST, 64)
+    psi = np.linspace(0, np.pi, 33) if turning else np.zeros(1)
     z = (rho[:, None] * np.exp(1j * psi)).reshape(-1, 1)
     # the sum of m(j) z^j over odd j, by partial fractions
     odd = np.arctanh(z)
     exact = (0.75 * odd - 0.375 * (z**2 * odd - z) - 0.375 * (odd - z) / z**2)[:, 0]
     values = z / (1 - 2 * z * np.cos(np.arange(1, n) * np.pi / n) + z**2)
-    missed = np.abs(values @ mapped_weights(n) - exact) / np.abs(_second_kind(n) @ values.T)[-_run(n) :].max(axis=0)
-    return rho, np.maximum.accumulate(missed.reshape(rho.size, -1).max(axis=1))
+    c = np.abs(_second_kind(n) @ values.T)
+    missed = np.abs(values @ mapped_weights(n) - exact) / _last(c, _runs(n)[0 if turning else 1])
+    shown = rho if turning else _last(c, _step(n)) / _last(c, _step(n), _step(n))
+    return shown, np.maximum.accumulate(missed.reshape(rho.size, -1).max(axis=1))
+
+
+def _step(n: int) -> int:
+    """So many of the last coefficients are held against as many before."""
+    return max(2, n // 10)
+
+
+def _last(c: np.ndarray, size: int, skipped: int = 0) -> np.ndarray:
+    """Largest of the last ``size`` coefficients (n - 1, ...), but for the ``skipped`` ones behind them."""
+    end = len(c) - skipped
+    return c[end - size : end].max(axis=0)
 
 
 def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
@@ -107,33 +135,48 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     don't matter.
 
     The last coefficients say how much is left, and their pace how fast it falls: the one since the middle, or the one among the
-    last, which is slower where a layer next to an end is all that is left.
+    last, which is slower where a layer next to an end is all that is left. Where coefficients fall geometrically the second is
+    believed, and the geometric mean of both where it is the smaller one, which may be chance; elsewhere the larger. A run of
+    coefficients may be small by chance, where they come and go: no error is less than sums on half and a quarter of the nodes
+    tell, there at the pace of sums that converge geometrically, elsewhere at that of any (``rules``).
     """
     n = values.shape[1] + 1
     # nodes first and intervals last: largest ones are had fastest so
-    c, values = (np.ascontiguousarray(np.moveaxis(v, 0, 2)) for v in (_second_kind(n) @ values, values))
+    told = np.concatenate((_second_kind(n), _changes(n))) @ values
+    c, values = (np.ascontiguousarray(np.moveaxis(v, 0, 2)) for v in (told, values))
     # what is rounding says nothing of the singularities
-    largest, noise = np.abs(values).max(axis=0), noise.T
+    largest = np.abs(values).max(axis=0)
     c = np.maximum(np.abs(c) - 16 * EPS * largest, 0.0)
+    c, (change, before) = c[:-2], c[-2:]
+    noise = noise.T
     amplitude = c[1:].max(axis=0) + noise + np.finfo(float).tiny + _NOTHING * largest
-    shape, run, step = (c / amplitude).max(axis=1), _run(n), max(2, n // 10)
-    own, roughest = c[-run:].max(axis=0), shape[-run:].max(axis=0)
-    ratio = _ratio(roughest, shape[n // 2 - _MIDDLE : n // 2].max(axis=0))
-    since = ratio ** (1 / (0.5 * (n + 1 - run)))
+    shape = (c / amplitude).max(axis=1)
+    many, few = _runs(n)
+    step = _step(n)
+    ratio = _ratio(_last(shape, many), shape[n // 2 - _MIDDLE : n // 2].max(axis=0))
+    since = ratio ** (1 / (0.5 * (n + 1 - many)))
     recent = np.maximum(
-        *(
-            _ratio(v[-step:].max(axis=0), v[-2 * step : -step].max(axis=0) + quiet)
-            for v, quiet in ((c, _QUIET * noise), (shape, 0.0))
-        )
+        _ratio(_last(c, step), _last(c, step, step) + _QUIET * noise), _ratio(_last(shape, step), _last(shape, step, step))
     )
-    recent **= 1 / step
-    pace = np.where(recent > since, np.maximum(recent, _LAYERED), since)
-    size = own ** (1 - COMMON) * (roughest * amplitude) ** COMMON
-    error = _SAFE * size * np.interp(pace, *_left(n))
+    since = np.where(recent > since**step, np.maximum(since, _LAYERED), since)
+    size = _size(_last(c, many), _last(shape, many), amplitude)
+    first = size * np.interp(since, *_left(n, True))
+    second = _size(_last(c, few), _last(shape, few), amplitude) * np.interp(recent, *_left(n, False))
+    sure = ratio < _GEOMETRIC[int(n >= _MANY)]
+    doubtful = _SAFE * np.maximum(first, second)
     # as those of a kink may fall: by a power, and coming and going; so the next ones by as much as these
-    return np.where(ratio > _POWER, np.maximum(error, _TURNS * size * ratio), error).T
+    slow = np.where(ratio > _POWER, np.maximum(doubtful, _TURNS * size * ratio), doubtful)
+    fall = _ratio(change, before)
+    # where sums fall geometrically what is left is in the square of that ratio to the last change
+    least = np.where(sure, change * fall**2, extrapolated(change, fall))
+    return np.maximum(least, np.where(sure, _SAFE * np.sqrt(np.maximum(first, second) * second), slow)).T
 
 
 def _ratio(last, first):
     """``last`` over ``first``, at most 1."""
     return np.minimum(np.divide(last, first, out=np.ones_like(last), where=first > last), 1.0)
+
+
+def _size(own, roughest, amplitude):
+    """Size of the last coefficients of each quantity, given that of the ``roughest`` one relative to its ``amplitude``."""
+    return own ** (1 - COMMON) * (roughest * amplitude) ** COMMON
