@@ -15,6 +15,8 @@ from .strips import LevelBatch
 
 #: share of the error allowed that each mean may have
 MEAN = 0.4
+#: pressures in an interval are known at least this well, of their range, unless all in it may err by more
+_COARSEST = 1e-3
 
 
 @dataclass
@@ -79,11 +81,14 @@ def weighed(columns: LevelBatch, budget: ErrorBudget, intervals: Intervals, valu
     for k, v in enumerate(values):
         rtol, p, least = intervals.rtol[k], v[:, 0], np.abs(v).min(axis=0)
         met, friction = budget.met(intervals.column[k], p.min(), min(p.max(), intervals.ceiling[k]))
-        # all that is carried may err by as much of itself as all frictions may, and pressure as where these rise with it evenly;
-        # where an interval ends is as well known as pressures are relative to themselves, less of it the narrower it is
-        coarse = rtol * friction / (least + floors)[columns.frictions].sum() * min(np.ptp(p) / np.abs(p).max(), 1.0)
+        # all that is carried may err by as much of itself as all frictions may; where an interval ends is as well known as
+        # pressures are relative to themselves, less of it the narrower it is
+        size, rise = (least + floors)[columns.frictions].sum(), np.ptp(v[:, columns.frictions], axis=0).sum()
+        coarse = rtol * friction / size * min(np.ptp(p) / np.abs(p).max(), 1.0)
         allowed = coarse * (least + floors)
-        allowed[0] = coarse * np.ptp(p)
+        # an error of pressure moves frictions that rise steadily with it by as much of their rise
+        even = min(coarse * size / max(rise, np.finfo(float).tiny), _COARSEST)
+        allowed[0] = max(coarse, even) * np.ptp(p)
         allowed[columns.fractions] += rtol / met
         atol[k] = np.maximum(atol[k], allowed)
     return replace(intervals, atol=atol)
