@@ -4,6 +4,7 @@ import numpy as np
 
 from .averages import Averages, average
 from .interior_breaks import Zones
+from .nonadhesive.average import average as family_average
 from .strips import LevelBatch
 
 
@@ -11,7 +12,7 @@ def level_means(columns: LevelBatch, rtol: np.ndarray) -> Averages:
     """Means of ``strips.QUANTITIES`` for every column, to ``rtol (|value| + floor)`` each; ``rtol`` of shape (n,)."""
     if columns.strips is not None:
         return equal_strips(columns, columns.strips)
-    return average(columns, rtol)
+    return average(columns, rtol) if columns.family is None else family_average(columns, rtol)
 
 
 def equal_strips(columns: LevelBatch, strips: int) -> Averages:
