@@ -165,7 +165,7 @@ def _with_slopes_and_cut(c, goal):
     return out
 
 
-def errors_alone(c: np.ndarray, goal: np.ndarray | float = 0.0) -> np.ndarray:
+def errors_alone(c: np.ndarray, goal: np.ndarray) -> np.ndarray:
     """Errors of interpolants with coefficients ``c`` (m, n + 1, q), each quantity by itself, (m, q); a tenth of the ``goal``
     (m, q) doesn't matter."""
     m, n, q = c.shape

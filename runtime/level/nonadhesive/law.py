@@ -178,9 +178,9 @@ def _pieces(columns: LevelBatch, cuts: np.ndarray, rtol: float) -> tuple[np.ndar
         known = fresh if known is None else interleaved(known, fresh)
         friction = known[:, :, columns.frictions].sum(axis=2)
         slope = _greatest_slope(known[:, :, 0], friction)
-        fitted, miss = _fit(known[:, :, :q], piece[left] == 0, columns.frictions)
-        goal = rtol * (friction.min(axis=1) + columns.asked.friction[group[left]])
-        done = (miss <= goal[:, None]).all(axis=1) | (n == _NODES[-1])
+        goal = rtol * (friction.min(axis=1) + columns.asked.friction[group[left]])[:, None]
+        fitted, miss = _fit(known[:, :, :q], piece[left] == 0, columns.frictions, goal)
+        done = (miss <= goal).all(axis=1) | (n == _NODES[-1])
         error = (known[:, :, -2] + slope[:, None] * known[:, :, -1]).max(axis=1)
         fitted[:, 0, -1] = _CANCELLED * (miss[:, 0] + error)
         at = group[left[done]], piece[left[done]]
@@ -191,17 +191,17 @@ def _pieces(columns: LevelBatch, cuts: np.ndarray, rtol: float) -> tuple[np.ndar
     return ends, series, steepest
 
 
-def _fit(values: np.ndarray, quartic: np.ndarray, frictions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Series (m, n + 1, q) over ``omega`` of all but the pressure, the last one for an error, through the ``values`` (m, n + 1,
-    q) of pieces at ``lobatto(n)`` of penetration; and what they miss of all friction, and of that of each level, (m, 1 +
-    levels)."""
+def _fit(values: np.ndarray, quartic: np.ndarray, frictions: np.ndarray, goal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Series (m, n + 1, q) over ``omega`` of all but the pressure, the last one for an error, through the ``values``
+    (m, n + 1, q) of pieces at ``lobatto(n)`` of penetration; and what they miss of all friction, and of that of each level,
+    (m, 1 + levels), of which a tenth of the ``goal`` (m, 1) doesn't matter."""
     p, omega = np.maximum.accumulate(values[:, :, 0], axis=1), lobatto(values.shape[1] - 1)
     share = np.sin(0.5 * np.pi * omega) ** np.where(quartic, 4, 2)[:, None]
     fitted = resampled(
         p, p[:, :1] + (p[:, -1:] - p[:, :1]) * share, np.concatenate((values[:, :, 1:], 0 * values[:, :, :1]), axis=2)
     )
     of = fitted[:, :, frictions - 1]
-    return fitted, errors_alone(np.concatenate((of.sum(axis=2, keepdims=True), of), axis=2))
+    return fitted, errors_alone(np.concatenate((of.sum(axis=2, keepdims=True), of), axis=2), goal)
 
 
 def _greatest_slope(p: np.ndarray, friction: np.ndarray) -> np.ndarray:
