@@ -40,6 +40,8 @@ _ATTEMPTS, _FINEST = ((1.0, 2.0), (1.0, 0.5), (0.3, 0.15)), 1e-12
 #: accuracy of the friction and the contact that say how well laws without adhesion have to be known; friction of level 1 is at
 #: first taken to be so many times what counts beside it
 _ROUGH, _GUESS = 1e-2, 30.0
+#: share of the friction without adhesion that its error may be at most, whatever counts beside it
+_DIGIT = 0.1
 #: contact fractions without adhesion are averaged no finer; their laws may err by so many times what others may, and the friction
 #: of each level in the contact of level 1 by so much of the whole, over the number of levels
 _SHARES, _LAWS, _OF_TOP = 1e-4, 2.0, 0.3
@@ -160,7 +162,10 @@ class Surface:
         out = _Solve(surface, V, load, by_pressure).run(full, progress)
         for factor, laws in _ATTEMPTS[1:] if self.strips is None else ():
             # where the work came to a limit more of it is no help
-            missed = np.flatnonzero(~self.converged(out) & ~np.isin(V, [limited for limited, _ in self.work.limits]))
+            sure = self.converged(out) & (
+                (V == 0) | (self.adhesion.p_0 > 0) | (out.error <= _DIGIT * np.abs(out.tau.sum(axis=0)))
+            )
+            missed = np.flatnonzero(~sure & ~np.isin(V, [limited for limited, _ in self.work.limits]))
             if missed.size and factor * self.rtol >= _FINEST:
                 finer = replace(surface, rtol=factor * self.rtol, laws=laws * self.rtol, families=factor == 1.0)
                 out.improve(missed, _Solve(finer, V[missed], load[missed], by_pressure).run(np.zeros(missed.size, bool), None))
