@@ -7,20 +7,23 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
+from .errors import SolverError
 from .inputs.adhesion import Dugdale
 from .inputs.surface import Level
 from .level.across import peak_pressure, strips_across
 from .level.effort import WorkCounters
-from .level.error_budget import error_budget
+from .level.error_budget import LEAST_CONTACT, error_budget
 from .level.inverse import Inverse, cut_penetration, invert
 from .level.law import build_laws
 from .level.lower_levels import LowerLevelLaws
 from .level.means import level_means
 from .level.merge import merged
-from .level.nonadhesive.surface import NonadhesiveSurface
+from .level.nonadhesive.family import are_families
+from .level.nonadhesive.law import crest_pressure, lower_laws, tolerances, with_family
 from .level.saturated import SaturatedLevel, saturated_friction, saturated_level
 from .level.strips import QUANTITIES, LevelBatch
 from .numerics.rounding import LARGEST
+from .orbit.foundation import foundation_of
 from .orbit.materials import Material
 
 #: velocities solved at a time: enough of them for the batch to pay, few enough to show progress
@@ -29,8 +32,17 @@ _BLOCK = 256
 #: tolerance is not missed, and no scene of up to a dozen similar levels has any
 _TRAILING = 0.1
 #: tolerances over the one asked for, of averages and of the laws of lower levels, at which points are solved in turn until they
-#: converge; none finer than that. Contacts average over the errors of laws, and few of their pieces err by all they may
+#: converge, the last time with strips that are searched for; none finer than that. Contacts average over the errors of laws, and
+#: few of their pieces err by all they may
 _ATTEMPTS, _FINEST = ((1.0, 2.0), (1.0, 0.5), (0.3, 0.15)), 1e-12
+#: accuracy of the friction and the contact that say how well laws without adhesion have to be known; friction of level 1 is at
+#: first taken to be so many times what counts beside it
+_ROUGH, _GUESS = 1e-2, 30.0
+#: share of the friction without adhesion that its error may be at most, whatever counts beside it
+_DIGIT = 0.1
+#: contact fractions without adhesion are averaged no finer; their laws may err by so many times what others may, and the friction
+#: of each level in the contact of level 1 by so much of the whole, over the number of levels
+_SHARES, _LAWS, _OF_TOP = 1e-4, 2.0, 0.3
 
 
 @dataclass
@@ -63,7 +75,8 @@ class Points:
 
 @dataclass(frozen=True)
 class Surface:
-    """What stays the same over all points of a solution; ``laws``: tolerance of the laws of lower levels."""
+    """What stays the same over all points of a solution; ``laws``: tolerance of the laws of lower levels; ``families``: whether
+    the strips of levels without adhesion are taken to be families."""
 
     material: Material
     adhesion: Dugdale
@@ -75,6 +88,7 @@ class Surface:
     work: WorkCounters
     strips: int | None = None
     laws: float = np.nan
+    families: bool = True
 
     def at_level(self, i: int) -> Material:
         """The material under level ``i``."""
@@ -98,6 +112,11 @@ class Surface:
         return LevelBatch(
             self.at_level(i), self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, strips, work=self.work
         )
+
+    def are_families(self, V) -> bool:
+        """Whether the strips of all levels are families at the velocities ``V``."""
+        possible = self.families and self.strips is None
+        return possible and are_families(foundation_of(self.at_level(0)), self.adhesion.p_0, self.levels, V)
 
     def alone(self, level: Level, V) -> SaturatedLevel:
         """Saturation of a level by itself."""
@@ -141,9 +160,12 @@ class Surface:
         out = _Solve(surface, V, load, by_pressure).run(full, progress)
         for factor, laws in _ATTEMPTS[1:] if self.strips is None else ():
             # where the work came to a limit more of it is no help
-            missed = np.flatnonzero(~self.converged(out) & ~np.isin(V, [limited for limited, _ in self.work.limits]))
+            sure = self.converged(out) & (
+                (V == 0) | (self.adhesion.p_0 > 0) | (out.error <= _DIGIT * np.abs(out.tau.sum(axis=0)))
+            )
+            missed = np.flatnonzero(~sure & ~np.isin(V, [limited for limited, _ in self.work.limits]))
             if missed.size and factor * self.rtol >= _FINEST:
-                finer = replace(surface, rtol=factor * self.rtol, laws=laws * self.rtol)
+                finer = replace(surface, rtol=factor * self.rtol, laws=laws * self.rtol, families=factor == 1.0)
                 out.improve(missed, _Solve(finer, V[missed], load[missed], by_pressure).run(np.zeros(missed.size, bool), None))
         below = self.levels[known:]
         if below:
@@ -215,41 +237,34 @@ class _Solve:
 
     def _block(self, V, index, group):
         """Points ``index`` whose velocities are ``V[group]``."""
+        if self.surface.are_families(V):
+            try:
+                return self._points(V, index, group, True)
+            except SolverError:
+                # strips that are searched for are found, or named
+                pass
+        return self._points(V, index, group, False)
+
+    def _points(self, V, index, group, families: bool):
         surface = self.surface
         stack = surface.saturated(V)
-        left = self._nonadhesive(stack, V, index, group)
-        index, group = index[left], group[left]
-        if not index.size:
-            return
         columns = surface.columns(0, V[group])
+        if families:
+            known = np.full(columns.size, _GUESS * surface.rtol * 1e-3 * columns.scales[1])
+            columns = with_family(columns, self._deepest(columns, index), known, carries=self.M > 1)
         found = self._penetrations(columns, index)
         touching = np.flatnonzero(np.isfinite(found.D))
         index, group = index[touching], group[touching]
         if not index.size:
             return
         columns = columns.at(touching, found.D[touching])
-        if self.M > 1:
+        rtol, atol = np.full(index.size, 0.5 * surface.rtol), None
+        if self.M > 1 and columns.family is not None:
+            columns, atol = self._carrying_families(stack, V, group, columns, rtol)
+        elif self.M > 1:
             columns = self._carrying(stack, V, group, columns)
-        means = level_means(columns, np.full(index.size, 0.5 * surface.rtol))
+        means = level_means(columns, rtol, atol)
         self._write(index, found.take(touching), means)
-
-    def _nonadhesive(self, stack: Stack, V, index, group) -> np.ndarray:
-        """Solve what can be solved without adhesion; returns what is left, as positions in ``index``."""
-        surface, load = self.surface, self.load[index]
-        every = np.arange(index.size)
-        if surface.strips is not None:
-            return every
-        # the general path has the closed form of saturation, and says what is out of contact
-        full = (stack.p_full if self.by_pressure else stack.D_full)[0][group]
-        mine = np.flatnonzero((load > 0) & (load < full))
-        if not mine.size:
-            return every
-        found = NonadhesiveSurface(surface, V, stack.p_full).solve(group[mine], load[mine], self.by_pressure)
-        sure = found.certain
-        at, out = index[mine[sure]], self.out
-        out.D[at], out.p[at], out.error[at] = found.D[sure], found.p[sure], found.error[sure]
-        out.tau[:, at], out.contact[:, at] = found.tau[:, sure], found.contact[:, sure]
-        return np.setdiff1d(every, mine[sure])
 
     def _penetrations(self, columns: LevelBatch, index) -> Inverse:
         """Penetration of each point (NaN below pull-off) and the slopes of level 1 over pressure there."""
@@ -261,6 +276,11 @@ class _Solve:
         self.out.pulled_off[index[off]] = True
         self.out.p[index[off]] = load[off]
         return out
+
+    def _deepest(self, columns: LevelBatch, index) -> np.ndarray:
+        """Penetrations that level 1 comes to at most."""
+        load = self.load[index]
+        return cut_penetration(columns, load, np.full(load.size, np.inf)) if self.by_pressure else load
 
     def _carrying(self, stack: Stack, V, group, columns: LevelBatch) -> LevelBatch:
         """The columns of level 1 with the laws of level 2, built from the smallest level upwards."""
@@ -284,6 +304,23 @@ class _Solve:
             scales = np.concatenate((level.scales[1:], [LARGEST]))
             carry = LowerLevelLaws(merged(laws, rtol, atol), surface.rtol, scales)
         return replace(columns, carry=carry, group=group)
+
+    def _carrying_families(self, stack: Stack, V, group, columns: LevelBatch, rtol) -> tuple[LevelBatch, np.ndarray]:
+        """The same without adhesion, and the absolute tolerances that go with ``rtol`` (n,)."""
+        surface, rough = self.surface, level_means(columns, np.full(columns.size, _ROUGH)).values
+        fractions, size = max(1.0, _SHARES / surface.rtol), rough[:, 1] + 1e-3 * columns.scales[1]
+        # what is carried counts on the contact alone
+        rare = 1 / np.maximum(rough[:, 2], LEAST_CONTACT)
+        rarest, friction, p_max = np.zeros(V.size), np.full(V.size, np.inf), np.full(V.size, -np.inf)
+        np.maximum.at(rarest, group, rare)
+        np.minimum.at(friction, group, rare * size)
+        np.maximum.at(p_max, group, crest_pressure(columns))
+        below, laws = range(1, self.M), _LAWS * surface.laws
+        levels = [surface.columns(i, V) for i in below]
+        saturated = [(stack.p_full[i], stack.D_full[i], stack.means(i)) for i in below]
+        carry = lower_laws(levels, saturated, p_max, laws, laws * friction, laws * fractions * rarest)
+        columns = replace(columns, carry=carry, group=group)
+        return columns, tolerances(columns, rtol * _OF_TOP / self.M * size, rtol * fractions)
 
     def _reached(self, stack: Stack, V, p_max) -> list[np.ndarray]:
         """Greatest pressures (groups,) that the laws of level 2 and below are asked for, those of level 2 up to ``p_max``."""

@@ -6,12 +6,11 @@ import pytest
 import surfaces
 
 import hystrip
-import hystrip.level.nonadhesive.stack
-import hystrip.level.nonadhesive.surface
+import hystrip.level.nonadhesive.law
+import hystrip.multilevel
 from hystrip.errors import SolverError
 from hystrip.level.means import level_means
-from hystrip.level.nonadhesive.family import family
-from hystrip.level.nonadhesive.means import Level as Means
+from hystrip.level.nonadhesive.law import with_family
 from hystrip.level.nonadhesive.span import Span
 from hystrip.level.strips import LevelBatch
 from hystrip.orbit.foundation import foundation_of
@@ -72,8 +71,8 @@ def test_the_nodes_of_a_cell_know_its_area_and_its_mean_amplitude(d):
     for n in (40, 60):
         span = Span(np.array([d]), s_sat)
         u, s, weight = span.nodes(n)
-        end = span.complete[0]
-        outside = 2 * np.arcsin(np.sqrt(d)) if d < 1 else end
+        complete = np.pi if d <= 1 else 2 * np.arccos(np.sqrt(min(2 * (d - 1) / 9, 1.0)))
+        outside = 2 * np.arcsin(np.sqrt(d)) if d < 1 else complete
         assert abs(weight.sum() - outside / np.pi) <= 1e-11
         mean = (outside + np.sin(outside)) / (2 * np.pi)
         assert abs((weight * u).sum() - mean) <= 1e-11
@@ -126,7 +125,7 @@ def test_nothing_is_carried_without_pressure():
 def general(monkeypatch, scene, rtol, **options):
     """By searched strips and panels alone."""
     with monkeypatch.context() as patch:
-        patch.setattr(hystrip.level.nonadhesive.surface, "are_families", lambda *_: False)
+        patch.setattr(hystrip.multilevel, "are_families", lambda *_: False)
         return scene.solve(rtol, **options)
 
 
@@ -164,29 +163,14 @@ def test_a_law_that_ends_too_soon_is_told(monkeypatch, name):
     """Local pressures beyond the end of the law below show in the estimate; where laws reach far enough they do not."""
     given = {"pressure": 1.0, "velocity": 1e-3, "rtol": 1e-5}
     far = hystrip.solve(MATERIALS[name], NONE, SIMILAR[:2], **given)
-    monkeypatch.setattr(hystrip.level.nonadhesive.stack, "_BETWEEN", 1.3)
+    monkeypatch.setattr(hystrip.level.nonadhesive.law, "_BETWEEN", 1.3)
     further = hystrip.solve(MATERIALS[name], NONE, SIMILAR[:2], **given)
     assert abs(far.tau - further.tau) <= far.tau_error + further.tau_error
-    monkeypatch.setattr(hystrip.level.nonadhesive.stack, "_BETWEEN", 0.9)
-    monkeypatch.setattr(
-        hystrip.level.nonadhesive.surface.NonadhesiveSurface,
-        "solve",
-        _uncertain(hystrip.level.nonadhesive.surface.NonadhesiveSurface.solve),
-    )
+    monkeypatch.setattr(hystrip.level.nonadhesive.law, "_BETWEEN", 0.9)
+    monkeypatch.setattr(hystrip.multilevel, "_ATTEMPTS", hystrip.multilevel._ATTEMPTS[:1])
     with pytest.warns(hystrip.ConvergenceWarning):
         near = hystrip.solve(MATERIALS[name], NONE, SIMILAR[:2], **given)
     assert 1e-6 * far.tau < abs(near.tau - far.tau) <= near.tau_error + far.tau_error
-
-
-def _uncertain(solve):
-    """``NonadhesiveSurface.solve`` whose points are taken as they are."""
-
-    def taken(*given):
-        found = solve(*given)
-        found.certain[:] = True
-        return found
-
-    return taken
 
 
 def test_levels_that_are_saturated_below_carry_the_closed_form():
@@ -224,23 +208,26 @@ def test_strips_grow_no_faster_than_levels():
 @pytest.mark.parametrize("rtol", [1e-3, 1e-8])
 def test_a_family_that_goes_further_is_the_same(rtol):
     """Up to the strips asked for, whatever else is in the batch."""
-    rate = LEVEL.k * np.array([1e-4, 1e-2])
-    floor = np.array([1e-3, 1e-3, 1.0])
-    both, _ = family(foundation_of(SOFT), rate, np.array([1.2, np.inf]), np.full(2, 1e-2 * rtol))
-    d, group = np.array([0.1, 0.4]), np.zeros(2, int)
-    alone, _ = family(foundation_of(SOFT), rate[:1], np.array([np.inf]), np.full(1, 1e-2 * rtol))
-    near, far = Means(both).means(group, d, 27), Means(alone).means(group, d, 27)
-    assert (np.abs(near - far) <= rtol * (np.abs(far) + floor)).all()
-    narrow, _ = family(foundation_of(SOFT), rate[:1], np.array([0.01]), np.full(1, 1e-2 * rtol))
+    V, D, top = np.array([1e-4, 1e-2]), HEIGHT * np.array([0.1, 0.4]), np.array([0.6, 2.0]) * HEIGHT
+    columns = LevelBatch(SOFT, NONE, LEVEL, "continuous", "unloading", V, top)
+    friction, accuracy = rtol * columns.floors[:, 1], np.full(2, 1e-2 * rtol)
+    slow, floors = np.zeros(2, int), columns.floors
+
+    def means(columns, top):
+        known = with_family(columns, top, friction[: columns.size], False)
+        return level_means(known.at(slow, D), accuracy).values
+
+    near, far = means(columns, top), means(columns.at(slow[:1], top[1:]), top[1:])
+    assert (np.abs(near - far) <= rtol * (np.abs(far) + floors)).all()
     with pytest.raises(SolverError, match="beyond its family"):
-        Means(narrow).means(group, d, 27)
+        means(columns.at(slow[:1], top[1:]), 0.01 * HEIGHT * np.ones(1))
 
 
 @pytest.mark.parametrize("pressure", [1e-8, 1.0])
 def test_no_level_is_asked_for_strips_beyond_its_family(monkeypatch, pressure):
     """A low level over steep ones: where these would part a law no pressure reaches."""
     levels = [hystrip.Level(1e-5, 1e-9), hystrip.Level(1e-6, 1e-6), hystrip.Level(3e-7, 1e-6)]
-    monkeypatch.setattr(hystrip.multilevel, "level_means", None)
+    monkeypatch.setattr(hystrip.level.means, "average", None)
     r = hystrip.solve(SOFT, NONE, levels, pressure=pressure, velocity=1e-2, rtol=1e-2)
     assert r.converged and r.mu > 0
 

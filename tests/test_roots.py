@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hystrip.numerics.roots import falling_root, false_position, rising_root
+from hystrip.numerics.roots import falling_root, rising_root
 
 RNG_SEED = 7
 
@@ -36,9 +36,3 @@ def test_roots_of_functions_that_jump_or_do_not_cross():
     assert falling_root(lambda x, i: one, 0 * one, one)[0] == pytest.approx(1.0, abs=1e-15)
     loose, closely = (falling_root(lambda x, i: np.cos(x), 0 * one, 3 * one, tolerance=t) for t in (1e-3, 0.0))
     assert loose[1] < closely[1] and abs(loose[0] - np.pi / 2) < 1e-3
-
-
-def test_false_position_comes_close_in_a_few_steps_and_keeps_what_has_no_width():
-    low, high, goal = np.array([0.0, 0.0, 0.3]), np.array([1.0, 2.0, 0.3]), np.array([0.25, 3.0, 0.3])
-    found = false_position(lambda x: x * x - goal, low, high, low * low - goal, high * high - goal, 8)
-    assert np.allclose(found, [0.5, np.sqrt(3.0), 0.3], rtol=0, atol=1e-6) and found[2] == 0.3

@@ -12,6 +12,7 @@ from ..orbit.batch import Batch
 from .averages import Averages
 from .descent import ROUGH, Root, first_passes
 from .means import level_means
+from .nonadhesive.average import penetrations
 from .saturated import saturated_level
 from .strips import QUANTITIES, LevelBatch
 
@@ -88,7 +89,9 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
     K, h = columns.material.K, columns.level.h
     low, high = p / K, np.minimum(p / K + 0.75 * h, full)
     D, power, slope = np.sqrt(2 * np.pi * h * low), np.full(p.size, 2.0), np.full((p.size, len(QUANTITIES)), np.nan)
-    for accuracy in (max(rtol, ROUGH), rtol):
+    if columns.family is not None:
+        D, power = penetrations(columns, p)
+    for accuracy in (max(rtol, ROUGH), rtol) if columns.family is None else (rtol,):
         at = Root(np.log(np.clip(D, low, high)), power, slope, np.log(low), np.log(high))
         # however little the pressure is, friction goes with it
         x, near, errors, slope = _refine(columns, p, at, accuracy, 0.0, powers=True)

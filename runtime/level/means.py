@@ -4,6 +4,7 @@ import numpy as np
 
 from .averages import Averages, average
 from .interior_breaks import Zones
+from .nonadhesive.average import average as family_average
 from .strips import LevelBatch
 
 
@@ -12,7 +13,8 @@ def level_means(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray | None =
     or what goes with it (``LevelBatch.atol``)."""
     if columns.strips is not None:
         return equal_strips(columns, columns.strips)
-    return average(columns, rtol, columns.atol(rtol) if atol is None else atol)
+    atol = columns.atol(rtol) if atol is None else atol
+    return average(columns, rtol, atol) if columns.family is None else family_average(columns, rtol, atol)
 
 
 def equal_strips(columns: LevelBatch, strips: int) -> Averages:

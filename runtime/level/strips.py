@@ -21,6 +21,8 @@ from .saturated import saturated_level
 if TYPE_CHECKING:
     from ..orbit.contact import Contact
     from .lower_levels import LowerLevelLaws
+    from .nonadhesive.family import Family
+    from .nonadhesive.law import Laws
 
 #: What is averaged over the strips of a level, in this order; what lower levels carry in its contact follows.
 QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
@@ -32,6 +34,7 @@ class LevelBatch:
 
     ``carry``, if there is a level below: what it contributes at every strip, with ``group`` (n,) telling which of its friction
     laws belongs to a column. ``strips``: average over so many equal strips instead of adaptive panels.
+    ``family``: of all strips, where there is no adhesion.
     ``crossings``: points located of the curves that divide the plane of strips, shared by all that is made of these columns.
     """
 
@@ -42,11 +45,12 @@ class LevelBatch:
     branch: str
     V: np.ndarray
     D: np.ndarray
-    carry: LowerLevelLaws | None = None
+    carry: LowerLevelLaws | Laws | None = None
     group: np.ndarray | None = None
     strips: int | None = None
     work: WorkCounters = field(default_factory=WorkCounters, compare=False)
     crossings: Crossings = field(default_factory=Crossings, compare=False)
+    family: Family | None = None
 
     def at(self, index, D) -> LevelBatch:
         """The columns ``index`` at other penetrations ``D``."""

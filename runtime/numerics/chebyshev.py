@@ -11,6 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from .roots import rising_root
 from .rounding import EPS
 
 #: all quantities share their singularities: power of the roughest one's coefficients, relative to its own, in those of the others
@@ -85,9 +86,9 @@ def interpolation_errors(
 
 
 def evaluate(coefficients: np.ndarray, t) -> np.ndarray:
-    """Chebyshev sums of ``coefficients`` (n + 1, q) at ``t`` in [0, 1] (m,), shape (m, q)."""
+    """Chebyshev sums of ``coefficients`` (..., n + 1, q) at ``t`` in [0, 1] (m,), shape (..., m, q)."""
     angle = np.arccos(np.clip(2 * np.asarray(t, float) - 1, -1.0, 1.0))
-    return np.cos(angle[:, None] * np.arange(coefficients.shape[0])) @ coefficients
+    return np.cos(angle[:, None] * np.arange(coefficients.shape[-2])) @ coefficients
 
 
 def evaluate_each(table: np.ndarray, x: np.ndarray) -> np.ndarray:
@@ -112,6 +113,24 @@ def _differentiation(n: int) -> np.ndarray:
 def derivatives(table: np.ndarray) -> np.ndarray:
     """Coefficients (..., n, q) of the derivatives over [-1, 1] of the series ``table`` (..., n, q)."""
     return _differentiation(table.shape[-2]) @ table
+
+
+def resampled(x: np.ndarray, goal: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Coefficients (m, n + 1, q) of the interpolants through quantities at the places ``goal`` (m, n + 1), of which there are
+    ``values`` (m, n + 1, q) at ``x`` (m, n + 1): at ``lobatto(n)`` of something that x rises with. Both end at the same."""
+    (m, size), nodes, of = x.shape, 2 * lobatto(x.shape[1] - 1) - 1, coefficients(x[:, :, None])
+    rise = np.concatenate((of, derivatives(of)), axis=2).transpose(1, 2, 0)
+    known = np.maximum.accumulate(x, axis=1)
+    guess = np.array([np.interp(g, row, nodes) for g, row in zip(goal, known, strict=True)])
+    row, wanted, t = np.repeat(np.arange(m), size - 2), goal[:, 1:-1].ravel(), np.tile(nodes, (m, 1))
+
+    def over(t, index):
+        place, slope = clenshaw(rise, row[index], t)
+        return place - wanted[index], slope
+
+    inside = rising_root(over, np.full(row.size, -1.0), np.ones(row.size), guess[:, 1:-1].ravel())[0]
+    t[:, 1:-1] = inside.reshape(m, size - 2)
+    return coefficients(evaluate_each(coefficients(values), t))
 
 
 def clenshaw(table: np.ndarray, which: np.ndarray, x: np.ndarray) -> np.ndarray:

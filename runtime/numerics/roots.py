@@ -84,22 +84,6 @@ def rising_root(function: Callable, low, high, guess=None, tolerance: float = 0.
     return falling_root(negative, low, high, guess, tolerance)
 
 
-def false_position(function: Callable, low, high, f_low, f_high, steps: int) -> np.ndarray:
-    """About where functions rise through zero between ``low`` and ``high``, where they are ``f_low`` and ``f_high``, all of one
-    shape: so many steps of false position, an end that stays twice counting half (the Illinois method: Dowell & Jarratt, BIT 11,
-    1971, 168)."""
-    middle, before = low, None
-    for _ in range(steps):
-        rise = f_high - f_low
-        middle = low + (high - low) * np.divide(-f_low, rise, out=np.zeros_like(rise), where=rise > 0)
-        f = function(middle)
-        less = f <= 0
-        left = 1.0 if before is None else np.where(less == before, 0.5, 1.0)
-        low, high, before = np.where(less, middle, low), np.where(less, high, middle), less
-        f_low, f_high = np.where(less, f, left * f_low), np.where(less, left * f_high, f)
-    return middle
-
-
 def _secant(last, x, value):
     """Slope of the secant through the last two points; none at first."""
     if last is None:

@@ -19,27 +19,29 @@ _UNKNOWN, _SHARED = 0.5, 0.1
 
 
 def by_rules(
-    sums: Callable[[np.ndarray, Any], np.ndarray], rules: Sequence, goal: np.ndarray, fastest: np.ndarray, at_once: bool = False
+    sums: Callable[[np.ndarray, Any], np.ndarray],
+    rules: Sequence,
+    goal: np.ndarray,
+    fastest: float,
+    at_once: bool = False,
+    relative: np.ndarray | float = 0.0,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Sums (m, q or more) by as many of the ``rules`` as it takes for an error of ``goal`` (m, q), and the errors (m, q): from
-    the third rule on, or from the second ``at_once``. No r less than ``fastest`` (m,) is believed.
+    """Sums (m, q) by as many of the ``rules`` as it takes for an error of ``goal + relative |sum|``, (m, q) and (m, 1), and the
+    errors (m, q): from the third rule on, or from the second ``at_once``. No r less than ``fastest`` is believed.
 
-    ``sums(rows, rule)`` returns those of the rows by a rule; the quantities after the first q are taken as they are."""
-    left, q = np.arange(len(goal)), goal.shape[1]
-    out, errors = np.zeros(goal.shape), np.zeros(goal.shape)
+    ``sums(rows, rule)`` returns those of the rows by a rule."""
+    left, (out, errors) = np.arange(len(goal)), np.zeros((2, *goal.shape))
+    relative = np.broadcast_to(relative, (len(goal), 1))
     old = change = None
     for rule in rules:
-        new = sums(left, rule)
-        if new.shape[1] > out.shape[1]:
-            out = np.zeros((len(goal), new.shape[1]))
-        old, last, change = new[:, :q], change, None if old is None else np.abs(new[:, :q] - old)
-        miss = _left(old, change, last, fastest[left, None], at_once)
-        done = (miss <= goal[left]).all(axis=1) | (rule == rules[-1])
-        out[left[done]], errors[left[done]] = new[done], miss[done]
-        left = left[~done]
         if not left.size:
             break
-        old, change = old[~done], None if change is None else change[~done]
+        new = sums(left, rule)
+        old, last, change = new, change, None if old is None else np.abs(new - old)
+        miss = _left(new, change, last, fastest, at_once)
+        done = (miss <= goal[left] + relative[left] * np.abs(new)).all(axis=1) | (rule == rules[-1])
+        out[left[done]], errors[left[done]] = new[done], miss[done]
+        left, old, change = left[~done], old[~done], None if change is None else change[~done]
     return out, errors
 
 
@@ -48,7 +50,7 @@ def extrapolated(change: np.ndarray, ratio: np.ndarray) -> np.ndarray:
     return _SAFE * change * ratio
 
 
-def _left(sums, change, last, fastest, at_once: bool):
+def _left(sums, change, last, fastest: float, at_once: bool):
     """Error of ``sums`` (m, q) whose last ``change`` and the one before, ``last``, are these, or None."""
     if last is not None:
         change = np.maximum(change, fastest * last)

@@ -1,44 +1,47 @@
-"""All strips of a level at one velocity: their means as functions of the penetration over the amplitude.
+"""All strips of a level at one velocity: where they are in contact, as functions of the penetration over the amplitude.
 
 Without adhesion alpha and beta are all that a strip has but for ``s = D/A``, and they are the same on the whole level.
 Contact begins like a root of s and becomes complete like a root of ``s_sat - s``, ``s_sat = 1 + R``: over ``xi``, ``s
-= s_sat sin^2 xi``, everything is smooth. The orbits are sampled over the width of their contact, where they are in
-closed form and smooth as well, and resampled over xi.
+= s_sat sin^2 xi``, the width of contact is smooth. Orbits are in closed form from that width: series of it are what a strip is
+found from, and their errors leave with one step of Newton's method.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...errors import SolverError
 from ...inputs.surface import Level
-from ...numerics.chebyshev import clenshaw, coefficients, derivatives, evaluate_each, interpolation_errors, lobatto
+from ...numerics.chebyshev import coefficients, derivatives, evaluate_each, interpolation_errors, lobatto, resampled
 from ...numerics.quadrature import interleaved, mapped
-from ...numerics.roots import rising_root
 from ...numerics.rounding import EPS, LARGEST
 from ...orbit.foundation import Foundation
+from ...orbit.nonadhesive import Orbits, Waves
 
-#: nodes of the first attempt and of the last
-_FIRST, _LAST = 8, 512
+if TYPE_CHECKING:
+    from ..strips import LevelBatch
+
+#: quantities of a strip: mean pressure and friction, share of the period in contact, greatest pressure over that, its place in
+#: contact; slopes of the first and the third by s; what is cut off the series of the first three
+MEANS, SEARCH, CONTACT, CUT = (0, 1, 2), (0, 5), (2, 3, 4, 6), (7, 8, 9)
 #: so many coefficients that are cut off a series are known to whoever asks what they would add
 _NEXT = 4
-#: beyond its end by this, relative, nothing is asked of a series
+#: nodes of the first series and of the last; nothing is sampled finer than so many roundings; and how well contact has to be
+#: known beside pressure and friction: as well as it comes; share of what is allowed that is cut off a series
+_FIRST, _LAST, _FINEST, _ANY, _TRIMMED = 8, 512, 256, 1e30, 0.03
+#: beyond its end by this, relative, nothing is asked of a series, nor is a strip known any better
 _ROUNDING = 1e-12
-#: nothing is sampled finer than this many roundings; and the share of what is allowed that is cut off a series
-_FINEST, _TRIMMED = 256, 0.03
 #: beyond this k V times the longest retardation time the general path says what is wrong
 _FASTEST = 1e100
-#: quantities of a strip that are averaged, mean pressure, mean friction and share of the period in contact; of its contact that,
-#: the greatest pressure over it, and where that is, a share of the contact from the entry; then what is cut off the series of
-#: the means; and how well the share has to be known beside the others: as well as it comes
-MEANS, CONTACT, CUT, _ANY = slice(0, 3), slice(2, 5), slice(5, 8), 1e30
 #: looks at a contact for its greatest pressure
 _LOOKS = 33
-#: the least share of the period that a contact is looked at
-_LEAST = 1e-6
+#: the least share of the period that contact has, and the least slope of a penetration
+_LEAST, _TINY = 1e-9, 1e-150
+#: steps towards a strip at most, and by what part of the accuracy its penetration may be missed
+_STEPS, _FOUND = 4, 1e-3
 
 
 def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V: np.ndarray) -> bool:
@@ -47,98 +50,119 @@ def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V:
     return p_0 == 0 and all(level.k * level.h**2 > 1 / LARGEST for level in levels) and bool(fastest < _FASTEST)
 
 
-@dataclass(frozen=True)
 class Family:
-    """Strips at velocities (G,): ``s_sat`` (G,), and ``series``, coefficients (n, 8) for each, of mean pressure (K
-    A), mean friction (K A kA), contact fraction, greatest pressure (K A) over that, and its place, over ``xi/top``; and of what
-    the next terms would add to the means. ``degree`` (G,): up to that terms are known; ``errors`` (G, 3): bounds of what all
-    others would add, but rough ones of contact; ``greatest_errors`` (G, 3): with the next terms. ``full`` (G,): friction in
-    complete contact, at s_sat."""
+    """Strips at the rates ``k V`` (G,), ascending, up to the penetrations ``s_top`` (G,) over their amplitudes.
 
-    s_sat: np.ndarray
-    top: np.ndarray
-    series: list[np.ndarray]
-    degree: np.ndarray
-    errors: np.ndarray
-    greatest_errors: np.ndarray
-    full: np.ndarray
+    ``s_sat`` (G,): where contact becomes complete. ``full`` (G,): friction then, K A kA. ``strips``: strips it took. Series
+    are known to ``accuracy`` (G,), of pressure (K A) and friction, where that can be reached, and where contacts are pressed most
+    if it ``carries`` a level; ``errors`` (G, 3): how well those are
+    known, and contact."""
 
-    def part(self, which: slice) -> Family:
-        """The velocities ``which`` alone."""
-        return Family(*(getattr(self, field.name)[which] for field in fields(self)))
+    def __init__(self, foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, accuracy: np.ndarray, carries: bool):
+        self.foundation, self.rate, self.carries, self.found = foundation, rate, carries, _FOUND * accuracy
+        self.s_sat = 1 + np.broadcast_to(foundation.modulus_ratio(rate), rate.shape)
+        self.full, self.top = _full_friction(foundation, rate), np.zeros(rate.size)
+        self.strips, self.errors, self.degree = 0, np.zeros((rate.size, 3)), np.zeros(rate.size, int)
+        series: list[np.ndarray] = [np.empty((0, 10))] * rate.size
+        most = self._reaching(s_top)
+        left, n, known = np.arange(rate.size), _FIRST, None
+        while left.size:
+            fresh = self._samples(left, most[left, None] * (lobatto(n) if known is None else lobatto(n)[1::2]))
+            known = fresh if known is None else interleaved(known, fresh)
+            goal = np.maximum(accuracy[left, None] * (1.0, 1.0, _ANY), _FINEST * EPS * np.abs(known[:, :, 1:4]).max(axis=1))
+            over, self.errors[left] = self._resampled(left, known, goal)
+            done = (self.errors[left] <= goal).all(axis=1) | (n == _LAST)
+            for k in np.flatnonzero(done):
+                series[left[k]] = _with_slopes_and_cut(over[k], _TRIMMED * goal[k])
+            self.degree[left[done]] = n
+            left, known, n = left[~done], known[~done], 2 * n
+        self._size, self._series = np.array([len(c) for c in series]), series
 
-    def values(self, group: np.ndarray, s: np.ndarray, slopes: bool = False, of: slice = MEANS) -> np.ndarray:
-        """Quantities ``of`` the strips ``s`` (m, nodes), all of row i at the velocity ``group[i]``: (m, nodes, q), or with
-        their ``slopes`` by s (m, nodes, 2 q). Raises ``SolverError`` for strips beyond those that the series was made for."""
-        xi, q = _xi(s, self.s_sat[group, None]), of.stop - of.start
-        if (xi > (1 + _ROUNDING) * self.top[group, None]).any():
-            raise SolverError("a strip without adhesion lies beyond its family")
-        out = np.empty((*s.shape, 2 * q if slopes else q))
-        sizes = np.array([self.series[g].shape[0] for g in group])
-        kept = None if of == CUT else -_NEXT
-        for n in np.unique(sizes):
-            rows = np.flatnonzero(sizes == n)
-            some = slice(None) if rows.size == group.size else rows
-            which, place = np.unique(group[some], return_inverse=True)
-            table = np.array([self.series[g][:kept, of] for g in which])
-            if slopes:
-                table = np.concatenate((table, derivatives(table)), axis=2)
-            x = 2 * xi[some] / self.top[group[some], None] - 1
-            out[some] = evaluate_each(table[place], np.clip(x, -1.0, 1.0))
-        if slopes:
-            # by s: twice the derivative over [0, 1] that was a derivative over [-1, 1]
-            by_s = self.s_sat[group, None] * np.sin(2 * xi) * 0.5 * self.top[group, None]
-            out[..., q:] /= np.maximum(by_s, np.finfo(float).tiny)[..., None]
+    def _resampled(self, group, samples, goal) -> tuple[np.ndarray, np.ndarray]:
+        """Series (m, n + 1, 5) over ``xi/top`` through ``samples`` (m, n + 1, 6) of the rates ``group`` (m,), and the errors of
+        pressure, friction and contact, (m, 3), of which a tenth of the ``goal`` doesn't matter."""
+        s, values, s_sat = samples[:, :, 0], samples[:, :, 1:], self.s_sat[group, None]
+        self.top[group] = _xi(s[:, -1], s_sat[:, 0])
+        out = resampled(s, s_sat * np.sin(self.top[group, None] * lobatto(s.shape[1] - 1)) ** 2, values)
+        # what is not known of a strip's penetration moves all along their slopes
+        values, step = values[:, :, :3], np.diff(s)[:, :, None]
+        slope = np.abs(np.divide(np.diff(values, axis=1), step, out=np.zeros((*step.shape[:2], 3)), where=step > 0)).max(axis=1)
+        over, sampled = (errors_alone(v, goal) for v in (out[:, :, :3], coefficients(values)))
+        place = errors_alone(coefficients(s[:, :, None]), goal.min(axis=1, keepdims=True))
+        return out, over + sampled + slope * place + 16 * EPS * np.abs(values).max(axis=1)
+
+    def _reaching(self, s_top) -> np.ndarray:
+        """Shares of the period in contact that strips up to ``s_top`` (G,) have at most, half of one being too little."""
+        # w is nowhere negative, so contact lies where the profile is below the plane
+        share = np.where(s_top < 2, 2 / np.pi * _xi(s_top, 2.0), 1.0)
+        left = np.arange(share.size)
+        while left.size:
+            self.strips += left.size
+            left = left[self.foundation.waves(self.rate[left]).orbits(np.pi * share[left], means=False).D >= s_top[left]]
+            share[left] *= 0.5
+        return share
+
+    def _samples(self, group, share):
+        """Strips with the shares (m, nodes) of the period in contact: penetration, mean pressure (K A) and friction (K A kA),
+        share, greatest pressure over the share, and where in contact that is, (m, nodes, 6)."""
+        s_sat = np.broadcast_to(self.s_sat[group, None], share.shape)
+        full = np.broadcast_to(self.full[group, None], share.shape)
+        out = np.stack((s_sat, s_sat - 1, full, share, 2 * s_sat - 2, np.full(share.shape, 0.5)), axis=2)
+        row, node = np.nonzero(share < 1)
+        self.strips += row.size
+        waves, part = self.foundation.waves(self.rate[group[row]]), np.maximum(share[row, node], _LEAST)
+        orbits = waves.orbits(2 * np.pi * part).sure()
+        greatest, place = _peaks(waves.pressure(orbits), np.arange(row.size)) if self.carries else (part, part)
+        values = (orbits.D, orbits.p_mean, orbits.tau_mean, share[row, node], greatest / part, place)
+        out[row, node] = np.stack(values, axis=1)
+        out[share == 0, :3] = 0.0
         return out
 
+    def of(self, columns: LevelBatch) -> np.ndarray:
+        """Which of its rates the ``columns`` have, (n,)."""
+        return np.searchsorted(self.rate, columns.level.k * columns.V)
 
-def family(
-    foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, accuracy: np.ndarray, carries: np.ndarray | bool = True
-) -> tuple[Family, int]:
-    """Families at the rates ``k V`` (G,), up to the penetrations ``s_top`` (G,), to the ``accuracy`` (G,) of pressure and
-    friction in their units; and how many strips that took. Where it ``carries`` (G,), contacts are looked at for peaks.
+    def at(self, group: np.ndarray, s: np.ndarray, of: tuple) -> np.ndarray:
+        """Quantities ``of`` the strips ``s`` (k, n) at the rates ``group`` (k,): (q, k, n). Raises ``SolverError`` for strips
+        beyond those that the series was made for."""
+        s_sat, top = self.s_sat[group, None], self.top[group, None]
+        xi = _xi(s, s_sat)
+        if (xi > (1 + _ROUNDING) * top).any():
+            raise SolverError("a strip without adhesion lies beyond its family")
+        out, x = np.empty((len(of), *s.shape)), np.minimum(2 * xi / top - 1, 1.0)
+        for size in np.unique(self._size[group]):
+            rows = np.flatnonzero(self._size[group] == size)
+            which, place = np.unique(group[rows], return_inverse=True)
+            # beyond their tails series have the next terms of means alone
+            table = np.array([self._series[g][: None if of == CUT else -_NEXT, of] for g in which])
+            out[:, rows] = np.moveaxis(evaluate_each(table[place], x[rows]), 2, 0)
+        out[np.isin(of, (5, 6))] /= np.maximum(top * s_sat * np.sin(2 * xi), _TINY)
+        return out
 
-    Where that is not reached, the error says so. Raises ``SolverError`` for a strip that is not certified.
-    """
-    G = rate.size
-    R = np.broadcast_to(foundation.modulus_ratio(rate), (G,))
-    s_sat = 1 + R
-    full = _full_friction(foundation, rate)
-    complete = np.stack((s_sat, R, full, np.ones(G), 2 * R, np.full(G, 0.5)), axis=1)
-    phi, strips = _reaching(foundation, rate, s_top)
-    carries = np.broadcast_to(carries, (G,))
-    series: list[np.ndarray] = [np.empty(0)] * G
-    out = Family(s_sat, np.zeros(G), series, np.zeros(G, int), np.zeros((G, 3)), np.zeros((G, 3)), full)
-    left, n, samples = np.arange(G), _FIRST, None
-    while left.size:
-        share = phi[left, None] * (lobatto(n) if samples is None else lobatto(n)[1::2])
-        fresh = _samples(foundation, rate[left], complete[left], share, carries[left])
-        strips += int(np.count_nonzero((share > 0) & (share < 1)))
-        samples = fresh if samples is None else interleaved(samples, fresh)
-        s, values = samples[:, :, 0], samples[:, :, 1:4]
-        over = _resampled(samples, s_sat[left])
-        greatest = np.abs(values).max(axis=1)
-        goal = np.maximum(accuracy[left, None] * (1.0, 1.0, _ANY), _FINEST * EPS * greatest)
-        # what is not known of a strip's penetration moves all along their slopes
-        step = np.diff(s, axis=1)[:, :, None]
-        slopes = np.abs(np.divide(np.diff(values, axis=1), step, out=np.zeros((*step.shape[:2], 3)), where=step > 0)).max(axis=1)
-        sampled = errors_alone(coefficients(samples[:, :, :4]), np.concatenate((goal.min(axis=1, keepdims=True), goal), axis=1))
-        error = errors_alone(over[:, :, MEANS], goal) + sampled[:, 1:] + slopes * sampled[:, :1] + 16 * EPS * greatest
-        error += 4 * EPS * (s_sat[left] * s[:, -1])[:, None]
-        done = (error <= goal).all(axis=1) | (n == _LAST)
-        for k in np.flatnonzero(done):
-            g = left[k]
-            size = _needed(over[k], _TRIMMED * goal[k])
-            out.series[g] = np.zeros((size + _NEXT, 8))
-            out.series[g][:size, :5] = over[k, :size]
-            cut = over[k, size : size + _NEXT, MEANS]
-            out.series[g][size : size + len(cut), CUT] = cut
-            out.degree[g] = n
-            out.errors[g] = error[k] + np.abs(over[k, size + _NEXT :, MEANS]).sum(axis=0)
-            out.greatest_errors[g] = error[k] + np.abs(over[k, size:, MEANS]).sum(axis=0)
-            out.top[g] = _xi(s[k, -1], s_sat[g])
-        left, samples, n = left[~done], samples[~done], 2 * n
-    return out, strips
+    def orbits(self, group: np.ndarray, s: np.ndarray) -> tuple[Waves, Orbits, np.ndarray]:
+        """The strips ``s`` (k, n) at the rates ``group`` (k,), in a row: their waves, orbits, and about where in contact the
+        pressure is greatest."""
+        share, _, place, slope = self.at(group, s, CONTACT).reshape(4, -1)
+        nodes, s, share = s.shape[1], s.ravel(), _inside(share)
+        waves = self.foundation.waves(np.repeat(self.rate[group], nodes))
+        missed, allowed = s - waves.orbits(2 * np.pi * share, means=False).D, np.repeat(self.found[group], nodes)
+        for _ in range(_STEPS):
+            share = _inside(share + slope * missed)
+            orbits = waves.orbits(2 * np.pi * share, means=False)
+            missed = s - orbits.D
+            if (np.abs(missed) <= np.maximum(allowed, _ROUNDING * s)).all():
+                break
+        return waves, orbits.sure(), np.clip(place, 0.0, 1.0)
+
+
+def _with_slopes_and_cut(c, goal):
+    """Coefficients (n, 5) without a tail that doesn't matter, in steps, so that series of one size are evaluated together; with
+    slopes of the first and the third behind them, and then, in more rows, the next terms of the first three."""
+    tail = np.cumsum(np.abs(c[::-1, :3]), axis=0)[::-1]
+    n = min(4 * -(-max(int(np.count_nonzero((tail > goal).any(axis=1))), 1) // 4), len(c))
+    out, kept, cut = np.zeros((n + _NEXT, 10)), c[:n], c[n : n + _NEXT, :3]
+    out[:n, :5], out[:n, 5:7], out[n : n + len(cut), 7:] = kept, 2 * derivatives(kept[:, [0, 2]]), cut
+    return out
 
 
 def errors_alone(c: np.ndarray, goal: np.ndarray) -> np.ndarray:
@@ -146,19 +170,16 @@ def errors_alone(c: np.ndarray, goal: np.ndarray) -> np.ndarray:
     (m, q) doesn't matter."""
     m, n, q = c.shape
     alone = np.swapaxes(c, 1, 2).reshape(m * q, n, 1)
-    return interpolation_errors(alone, 0.1 * goal.reshape(-1, 1)).reshape(m, q)
+    return interpolation_errors(alone, np.broadcast_to(0.1 * goal, (m, q)).reshape(-1, 1)).reshape(m, q)
+
+
+def _inside(share):
+    """Shares of contact that are neither none nor all."""
+    return np.clip(share, _LEAST, 1 - _LEAST)
 
 
 def _xi(s, s_sat):
     return np.arcsin(np.sqrt(np.clip(s / s_sat, 0.0, 1.0)))
-
-
-def _needed(c, goal):
-    """How many coefficients there are before a tail that doesn't matter; in steps, so that series of one size are evaluated
-    together."""
-    tail = np.cumsum(np.abs(c[::-1, MEANS]), axis=0)[::-1]
-    n = int(np.count_nonzero((tail > goal).any(axis=1)))
-    return min(4 * -(-max(n, 1) // 4), len(c))
 
 
 def _full_friction(foundation, rate):
@@ -166,36 +187,6 @@ def _full_friction(foundation, rate):
     # a level of height h averages K A kA loss/2 over its strips, and the mean of A^2 is 3 h^2/32
     l = 2 * np.pi  # noqa: E741
     return foundation.saturation_friction(l, 1.0, rate) * 32 / (3 * foundation.K)
-
-
-def _reaching(foundation, rate, s_top):
-    """Shares of the period in contact that strips up to ``s_top`` (G,) have at most, half of one being too little; and how many
-    strips that took."""
-    # w is nowhere negative, so contact lies where the profile is below the plane
-    phi = np.where(s_top < 2, 2 / np.pi * np.arcsin(np.sqrt(0.5 * np.minimum(s_top, 2.0))), 1.0)
-    left, strips = np.flatnonzero(phi > 0), 0
-    while left.size:
-        strips += left.size
-        far = foundation.waves(rate[left]).orbits(np.pi * phi[left], means=False).D >= s_top[left]
-        left = left[far]
-        phi[left] *= 0.5
-    return phi, strips
-
-
-def _samples(foundation, rate, complete, phi, carries):
-    """Samples (m, nodes, 6) at shares of the period in contact ``phi`` (m, nodes): s, then the quantities; those at 1 are
-    ``complete`` (m, 6), at 0 there are but the limits of the last two, which only rows with ``carries`` (m,) have."""
-    out = np.repeat(complete[:, None], phi.shape[1], axis=1)
-    row, node = np.nonzero(phi < 1)
-    if row.size:
-        share, waves = np.maximum(phi[row, node], _LEAST), foundation.waves(rate[row])
-        orbits = waves.orbits(2 * np.pi * share).sure()
-        out[row, node, :4] = np.stack((orbits.D, orbits.p_mean, orbits.tau_mean, share), axis=1)
-        some = np.flatnonzero(carries[row])
-        greatest, place = _peaks(waves.pressure(orbits), some)
-        out[row[some], node[some], 4:] = np.stack((greatest / share[some], place), axis=1)
-    out[phi == 0, :4] = 0.0
-    return out
 
 
 def _peaks(pressure, rows):
@@ -209,24 +200,3 @@ def _peaks(pressure, rows):
     offset = np.divide(0.5 * (before - after), bend, out=np.zeros_like(bend), where=bend < 0)
     vertex = mapped(np.clip(t[highest] + offset * t[1], 0.0, 1.0))
     return np.maximum(pressure(vertex[:, None], rows)[:, 0], looks.max(axis=1)), vertex
-
-
-def _resampled(samples, s_sat):
-    """Coefficients over xi/xi_top of quantities of which, and of s before them, there are ``samples`` (m, n + 1, 6) at
-    ``lobatto(n)`` of the width of contact."""
-    (m, size, _), s = samples.shape, samples[:, :, 0]
-    both, nodes = coefficients(samples), lobatto(size - 1)
-    goal = s_sat[:, None] * np.sin(_xi(s[:, -1], s_sat)[:, None] * nodes) ** 2
-    # x in [-1, 1] at which s is the goal; the root of s is nearly linear in it
-    known = np.sqrt(np.maximum.accumulate(s, axis=1))
-    guess = np.array([np.interp(g, row, 2 * nodes - 1) for g, row in zip(np.sqrt(goal), known, strict=True)])
-    rise = np.concatenate((both[:, :, :1], derivatives(both[:, :, :1])), axis=2).transpose(1, 2, 0)
-    row, wanted, inside = np.repeat(np.arange(m), size - 2), goal[:, 1:-1].ravel(), guess[:, 1:-1].ravel()
-
-    def over(x, index):
-        place, slope = clenshaw(rise, row[index], x)
-        return place - wanted[index], slope
-
-    x = np.tile(2 * nodes - 1, (m, 1))
-    x[:, 1:-1] = rising_root(over, np.full(row.size, -1.0), np.ones(row.size), inside)[0].reshape(m, size - 2)
-    return coefficients(evaluate_each(both[:, :, 1:], x))

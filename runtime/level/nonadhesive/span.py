@@ -11,30 +11,29 @@ from __future__ import annotations
 import numpy as np
 
 from ...numerics.gauss import graded_gauss
-from ...numerics.quadrature import gauss
-from ...numerics.roots import false_position
-from ...numerics.rounding import EPS, LARGEST
+from ...numerics.quadrature import gauss, mapped, mapped_slope
+from ...numerics.roots import rising_root
+from ...numerics.rounding import EPS
 from .family import CONTACT, Family
 
-#: least penetration in heights: squares of what is smaller underflow; and the nearest to the height
-_LEAST, _NEAREST = 1e-60, 1e-17
-#: looks at where the greatest pressures of strips pass a break, and steps towards it
-_LOOKS, _STEPS = 24, 2
+#: least penetration in heights: squares of what is smaller underflow
+_LEAST = 1e-60
+#: how closely it is known where the greatest pressures of strips pass a break
+_CLOSE = 1e-5
 
 
 class Span:
-    """Strips in partial contact at ``d = D/h`` (m,), 0 < d < s_sat/2: eta between ``low`` and ``high``; and ``complete`` (m,),
-    the angle theta from which on contact is complete."""
+    """Strips in partial contact at ``d = D/h`` (m,), 0 < d < s_sat/2: eta between ``low`` and ``high``."""
 
     def __init__(self, d: np.ndarray, s_sat: np.ndarray):
         d = np.maximum(d, _LEAST)
-        self.under, self.even, self.off = d < 1, d == 1, np.maximum(np.abs(d - 1), _NEAREST)
+        self.under, self.even = d < 1, d == 1
+        self.off = np.where(self.even, 1.0, np.abs(d - 1))
         start = np.minimum(np.divide(2 * self.off, s_sat - 2, out=np.ones_like(d), where=s_sat > 2), 1.0)
         self.high = np.arcsinh(np.sqrt(np.where(self.under, d, 1.0) / self.off))
-        low = np.where(self.under, 0.0, np.arcsinh(np.sqrt(start / self.off)))
+        low = np.where(self.under | self.even, 0.0, np.arcsinh(np.sqrt(start / self.off)))
         # at saturation nothing but rounding is left of them
         self.low = np.minimum(low, self.high * (1 - 4 * EPS))
-        self.complete = np.where(self.under | self.even, np.pi, 2 * np.arccos(np.sqrt(start)))
 
     def strips(self, column: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """u and s of the strips at ``eta`` (k, n) of the columns (k,)."""
@@ -43,6 +42,8 @@ class Span:
         u = self.off[column, None] * np.where(under, cosh, sinh) ** 2
         with np.errstate(divide="ignore"):
             s = np.where(under, 2 * (sinh / cosh) ** 2, 2 + 2 / sinh**2)
+        # at d = 1 all strips are alike
+        s[self.even[column]] = 2.0
         return u, s
 
     def at(self, column: np.ndarray, root: np.ndarray, share: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -54,54 +55,35 @@ class Span:
         return *self.strips(column, eta), share * 4 / np.pi * root * slope / np.sqrt(np.sinh(rest) * np.sinh(crest + eta))
 
     def nodes(self, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """n strips of every column as in ``at``, (m, n) each."""
+        """n strips of every column as in ``at``, (m, n) each: towards complete contact the integrand ends like a root again."""
         t, w = gauss(n)
-        # towards complete contact the integrand ends like a root again
-        flat = ~self.under[:, None]
-        end = np.sqrt(self.high - self.low)[:, None]
-        shape = np.where(flat, np.sqrt(1 + 2 * t), 1.0)
-        root = end * (1 - t) * shape
-        share = end * w * np.where(flat, 3 * t / shape, 1.0)
-        out = self.at(np.arange(self.high.size), root, share)
-        # at d = 1 all strips are alike
-        for values, of in zip(out, (np.cos(0.5 * np.pi * t) ** 2, 2.0, w), strict=True):
-            values[self.even] = of
-        return out
+        length, rest = (self.high - self.low)[:, None], 1 - mapped(t)
+        root = np.sqrt(length * rest)
+        return self.at(np.arange(self.high.size), root, 0.5 * length * w * mapped_slope(t) / root)
 
+    def panels(self, ends: np.ndarray, n: int) -> tuple[np.ndarray, ...]:
+        """Panels with n strips each between the ``ends`` (m, e), ascending roots of the distance of eta from the crest, of each
+        column: that (k,), and the strips as in ``at``."""
+        column, k = np.nonzero(np.diff(ends, axis=1) > 1e-9 * ends[:, -1:])
+        low, width = ends[column, k, None], np.diff(ends, axis=1)[column, k, None]
+        share, weight, _ = graded_gauss(n)
+        return column, *self.at(column, low + width * share, width * weight)
 
-def panels(span: Span, ends: np.ndarray, n: int) -> tuple[np.ndarray, ...]:
-    """Panels with n strips each between the ``ends`` (m, e), ascending roots of the distance from the crest, of each column: that
-    (k,), the strips' shares u and penetrations s, and their weights in the mean over the cell, (k, n)."""
-    column, k = np.nonzero(np.diff(ends, axis=1) > 1e-9 * ends[:, -1:])
-    low, high = ends[column, k, None], ends[column, k + 1, None]
-    share, weight, _ = graded_gauss(n)
-    return column, *span.at(column, low + (high - low) * share, (high - low) * weight)
+    def parted(self, family: Family, group: np.ndarray, breaks: np.ndarray) -> np.ndarray:
+        """Ends (m, e) of panels, between which the greatest pressure of strips passes none of ``breaks`` (m, B), K h/2."""
+        column, wanted = np.repeat(np.arange(group.size), breaks.shape[1]), breaks.ravel()
 
+        def over(eta, index):
+            at = column[index]
+            u, s = self.strips(at, eta[:, None])
+            share, greatest, *_ = family.at(group[at], s, CONTACT)
+            return (u * share * np.maximum(greatest, 0.0))[:, 0] - wanted[index]
 
-def ends_of(span: Span, family: Family, group: np.ndarray, breaks: np.ndarray) -> np.ndarray:
-    """Ends (m, e) of panels, between which the greatest pressure of strips passes none of ``breaks`` (m, B), K h/2."""
-    length = span.high - span.low
-    passed = np.maximum(span.high[:, None] - _passed(span, length, family, group, breaks), 0.0)
-    return np.sqrt(np.sort(np.column_stack((np.zeros_like(length), passed, length)), axis=1))
-
-
-def _passed(span, length, family, group, breaks):
-    """eta (m, B) at which the greatest pressure of strips is each of the ``breaks``, or the end that is nearest to it."""
-    every = np.arange(span.low.size)
-
-    def greatest(eta):
-        u, s = span.strips(every, eta)
-        share, over, _ = np.moveaxis(family.values(group, s, of=CONTACT), 2, 0)
-        return u * share * np.maximum(over, 0.0)
-
-    eta = span.high[:, None] - length[:, None] * np.linspace(1, 0, _LOOKS)
-    looks = greatest(eta)
-    over = np.clip((looks[:, :, None] < breaks[:, None]).sum(axis=1), 1, _LOOKS - 1)
-    (low, high), (f_low, f_high) = ([np.take_along_axis(v, over - side, axis=1) for side in (1, 0)] for v in (eta, looks))
-    # what is never saturated is never passed
-    breaks = np.minimum(breaks, LARGEST)
-    f_low, f_high = f_low - breaks, f_high - breaks
-    met = (f_low < 0) & (f_high > 0)
-    # what is not met is next to one end: both ends are that
-    low, high = np.where(met | (f_low >= 0), low, high), np.where(met | (f_low < 0), high, low)
-    return false_position(lambda eta: greatest(eta) - breaks, low, high, f_low, f_high, _STEPS)
+        # what is not met is next to one end: both ends are that
+        passed, every = self.high[column], np.arange(column.size)
+        under = over(self.low[column], every) < 0
+        passed[~under], met = self.low[column[~under]], np.flatnonzero(under & (over(passed, every) > 0))
+        low, high = self.low[column[met]], self.high[column[met]]
+        passed[met] = rising_root(lambda eta, index: over(eta, met[index]), low, high, tolerance=_CLOSE)[0]
+        rest = np.maximum(self.high[:, None] - passed.reshape(breaks.shape), 0.0)
+        return np.sqrt(np.sort(np.column_stack((np.zeros_like(self.low), rest, self.high - self.low)), axis=1))

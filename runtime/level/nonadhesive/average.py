@@ -1,0 +1,237 @@
+"""Means of a level without adhesion: sums over its strips, and over the contact of each where the level below has a law, the
+second term of Eq. 13.
+
+What a strip carries is not smooth where its pressure passes a break of the law, nor is it over the strips where their greatest
+pressure does: both are cut there.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...numerics.gauss import graded_gauss
+from ...numerics.roots import rising_root
+from ...numerics.rounding import EPS
+from ...numerics.rules import by_rules
+from ...orbit.contact import passages
+from ..averages import Averages
+from .family import CUT, MEANS, SEARCH
+from .span import Span
+
+if TYPE_CHECKING:
+    from ..strips import LevelBatch
+
+#: nodes over a panel of strips and over each part of a contact, tried in turn; and over all strips where nothing is carried
+_RULES = ((2, 3), (4, 6), (7, 9), (11, 14), (16, 20), (24, 30), (36, 44), (54, 66), (81, 98))
+_ALONE = (10, 15, 22, 33, 50, 75, 112)
+#: how much more than by the next terms of a series its values are feared to err; strips for means of what series leave out; and
+#: half the means of Chebyshev polynomials in pressure, friction and contact times their degree, where that is not low: medians of
+#: 40 random surfaces
+_SURE, _NODES, _FEW, _PACE = 3.0, 30, 32, (0.6, 0.3, 1.2)
+#: share of what is allowed that these sums may miss, and the fastest that they are believed to converge: of 1,010 random points
+#: of two and three levels none erred by more than it said
+_QUADRATURE, _FASTEST = 0.7, 0.01
+#: how closely it is known where a contact's pressure passes the breaks of the law
+_CLOSE = 1e-4
+#: strips that penetrations are looked for with, and how well, relative
+_SEARCH, _NEAR = 18, 1e-7
+#: nodes of all parts together, about, that are summed at a time: what is known of them stays in the cache
+_CHUNK = 30_000
+
+
+def average(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> Averages:
+    """Means of ``columns`` that have a family to ``rtol |value| + atol``, ``rtol`` (n,), ``atol`` (n, q)."""
+    values, errors = np.zeros((2, columns.size, columns.scales.size))
+    index = np.flatnonzero(columns.D > 0)
+    sums, own = _Sums(columns.at(index, columns.D[index])), slice(0, 3)
+    rtol, atol = _QUADRATURE * rtol[index, None], _QUADRATURE * atol[index]
+    values[index, own], errors[index, own] = by_rules(sums.own, _ALONE, atol[:, own], _FASTEST, False, rtol)
+    errors[index, own] += sums.of_series()
+    if columns.carry is not None:
+        q = columns.carry.scales.size
+        found = by_rules(sums.carried, _RULES, atol[:, -q:], _FASTEST, True, rtol)
+        values[index, -q:], errors[index, -q:] = found
+    return Averages(values, errors, np.zeros(columns.size, int))
+
+
+class _Sums:
+    """Columns of a level at ``d = D/h`` > 0 (m,), of the ``group`` (m,) of their family."""
+
+    def __init__(self, columns: LevelBatch):
+        self.family, self.carry, self.law, self.work = columns.family, columns.carry, columns.group, columns.work
+        self.d, self.group = columns.D / columns.level.h, columns.family.of(columns)
+        self.pressure, slope = columns.material.K * columns.level.h, columns.level.k * columns.level.h
+        self.units = self.pressure * np.array([1.0, slope, 1 / self.pressure])
+        self.s_sat = self.family.s_sat[self.group]
+        self.partly = self.d < 0.5 * self.s_sat
+        if self.carry is not None:
+            self.ends = self._ends()
+
+    def own(self, some: np.ndarray, strips: int, of: tuple = MEANS) -> np.ndarray:
+        """Mean pressure, friction (Pa) and contact fraction of the columns ``some`` (m,), by so many strips, (m, 3); or what is
+        cut ``of`` the series of these."""
+        values = self._complete(some) if of == MEANS else np.zeros((some.size, 3))
+        part = np.flatnonzero(self.partly[some])
+        if part.size:
+            index = some[part]
+            u, s, weight = Span(self.d[index], self.s_sat[index]).nodes(strips)
+            p, tau, share = self.family.at(self.group[index], s, of)
+            A = 0.5 * u
+            each = np.stack((A * p, A * A * tau, share), axis=2) * weight[:, :, None]
+            values[part] += self.units * each.sum(axis=1)
+        return values
+
+    def of_series(self) -> np.ndarray:
+        """What errors of the series make of the own means, (m, 3).
+
+        What the next terms would add is the error, as with the lower rule of an embedded pair (Hairer, Norsett & Wanner, "Solving
+        Ordinary Differential Equations I", 1993, section II.4). The others, and those that the nodes take for terms that are
+        kept, begin with the degree that was interpolated (Trefethen, "Approximation Theory and Approximation Practice", 2013,
+        theorem 4.2); means of Chebyshev polynomials fall at least like its inverse."""
+        f, at = self.family, self.group
+        others = self.units * f.errors[at] * _PACE / np.maximum(f.degree[at, None], _FEW)
+        return _SURE * np.abs(self.own(np.arange(at.size), _NODES, CUT)) + np.where(self.partly[:, None], others, 0.0)
+
+    def carried(self, some: np.ndarray, rule: tuple[int, int]) -> np.ndarray:
+        """What the columns ``some`` (m,) carry, (m, q), by a ``rule`` of strips and nodes."""
+        (strips, nodes), out = rule, np.zeros((some.size, self.carry.scales.size))
+        # so many columns at a time that memory stays bounded
+        many = max(1, _CHUNK // (4 * strips * nodes))
+        for start in range(0, some.size, many):
+            for chosen, sums in ((self.partly, self._partly), (self.d > 1, self._completely)):
+                here = start + np.flatnonzero(chosen[some[start : start + many]])
+                if here.size:
+                    out[here] += sums(some[here], strips, nodes)
+        return out
+
+    def _complete(self, some):
+        """What strips in complete contact add to the own means, (m, 3): ``p = D_j - A``."""
+        rest, pressure = _completely(self.d[some], self.s_sat[some])
+        u_square = (1.5 * rest - 2 * np.sin(rest) + 0.25 * np.sin(2 * rest)) / (4 * np.pi)
+        friction = 0.25 * self.family.full[self.group[some]] * u_square
+        return self.units * np.stack((pressure, friction, rest / np.pi), axis=1)
+
+    def _ends(self):
+        """Ends (m, e) of the panels of strips in partial contact."""
+        part, ends = np.flatnonzero(self.partly), np.zeros((self.d.size, 2 + self.carry.breaks.shape[1]))
+        if part.size:
+            breaks = self.carry.breaks[self.law[part]] / (0.5 * self.pressure)
+            ends[part] = Span(self.d[part], self.s_sat[part]).parted(self.family, self.group[part], breaks)
+        return ends
+
+    def _partly(self, some, strips, nodes):
+        """Strips in partial contact."""
+        panel, u, s, weight = Span(self.d[some], self.s_sat[some]).panels(self.ends[some], strips)
+        column, u, weight = np.repeat(panel, strips), u.ravel(), weight.ravel()
+        waves, orbits, crest = self.family.orbits(self.group[some[panel]], s)
+        self.work.solved += s.size
+        pressure, unit = waves.pressure(orbits), 0.5 * self.pressure * u[:, None]
+        law = self.law[some]
+        edges, top = _passages(pressure, crest, self.carry.breaks[law[column]] / unit)
+        parts = _parts(edges, top & np.isfinite(self.carry.p_full[law[column]]), edges.shape[1] // 2 - 1)
+        weight *= (orbits.a - orbits.b) / (2 * np.pi)
+        return self._over(parts, law, column, weight, lambda x, row: unit[row] * pressure(x, row), nodes)
+
+    def _completely(self, some, strips, nodes):
+        """What strips in complete contact carry: their pressure is one harmonic of the phase about the mean."""
+        d, s_sat, law = self.d[some], self.s_sat[some], self.law[some]
+        swings = s_sat - 2
+        least = np.minimum(np.divide(2 * (d - 1), swings, out=np.ones_like(d), where=swings > 0), 1.0)
+        breaks = self.carry.breaks[law] / self.pressure
+        # u at which the greatest or the least pressure of a strip is a break
+        over = breaks - (d - 1)[:, None]
+        u = np.where(over > 0, 2 * over / s_sat[:, None], -2 * over / np.maximum(swings, EPS)[:, None])
+        theta = 2 * np.arccos(np.sqrt(np.clip(np.column_stack((np.zeros_like(d), u, least)), 0.0, least[:, None])))
+        theta = np.sort(theta, axis=1)
+        panel, k = np.nonzero(np.diff(theta, axis=1) > 1e-9)
+        low, high = theta[panel, k, None], theta[panel, k + 1, None]
+        y, v, _ = graded_gauss(strips)
+        column = np.repeat(panel, strips)
+        u = np.cos(0.5 * (low + (high - low) * y)).ravel() ** 2
+        weight = ((high - low) / np.pi * v).ravel()
+        mean, swing = d[column] - 1 + 0.5 * u, 0.5 * u * (s_sat[column] - 1)
+        passed = passages(breaks[column], mean[:, None], swing[:, None], 0.0)[1] / np.pi
+        # from the peak down: above the highest break first
+        edges = np.concatenate((np.zeros((u.size, 1)), passed[:, ::-1], np.ones((u.size, 1))), axis=1)
+        parts = _parts(edges, np.isfinite(self.carry.p_full[law[column]]), 0)
+
+        def pressure(x, row):
+            return self.pressure * np.maximum(mean[row, None] + swing[row, None] * np.cos(np.pi * x), 0.0)
+
+        return self._over(parts, law, column, weight, pressure, nodes)
+
+    def _over(self, parts, law, column, weight, pressure, nodes):
+        """Sums (m, q) of the laws ``law`` (m,) over ``parts`` of contacts that count by ``weight`` (N,) for the ``column`` (N,)
+        each; ``pressure``: at shares (k, n) of the contacts (k,), Pa."""
+        row, low, high, saturated = parts
+        share, w, _ = graded_gauss(nodes)
+        width = (high - low)[:, None]
+        p, weights = pressure(low[:, None] + width * share, row), weight[row, None] * width * w
+        total = self.carry.averages(law, np.repeat(column[row], nodes), p.ravel(), weights.ravel())
+        # where the pressure saturates all below there is nothing to sum
+        return total + np.bincount(column, weight * saturated, minlength=law.size)[:, None] * self.carry.full[law]
+
+
+def _completely(d, s_sat):
+    """The angle theta, from the valley, over which strips of columns at ``d`` > 0 are in complete contact, and what pressure, K
+    h, they add to the mean."""
+    start = np.minimum(np.divide(2 * (d - 1), s_sat - 2, out=np.ones_like(d), where=s_sat > 2), 1.0)
+    rest = np.where((d > 1) | (d >= 0.5 * s_sat), np.pi - 2 * np.arccos(np.sqrt(np.clip(start, 0.0, 1.0))), 0.0)
+    return rest, (d - 1) * rest / np.pi + (rest - np.sin(rest)) / (4 * np.pi)
+
+
+def _parts(edges, saturates, which):
+    """Parts of contacts between ``edges`` (N, e), ascending: of each the contact (k,) and its ends; and how much of each contact
+    is saturated with everything below, (N,), not among the others: part ``which`` where it ``saturates`` (N,)."""
+    widths = np.diff(edges, axis=1)
+    saturated, wide = np.where(saturates, widths[:, which], 0.0), widths > 4 * EPS
+    wide[:, which] &= ~saturates
+    row, part = np.nonzero(wide)
+    return row, edges[row, part], edges[row, part + 1], saturated
+
+
+def _passages(pressure, crest, breaks) -> tuple[np.ndarray, np.ndarray]:
+    """Shares of contacts between which the pressure exceeds each of ``breaks`` (N, B), and the ends 0 and 1, (N, 2 B + 2); and
+    where it exceeds the last one. A pressure rises to its ``crest`` (N,) and falls from there. The passages only part smooth
+    pieces from one another: they are not needed to the last digit."""
+    B, top = breaks.shape[1], pressure(crest[:, None])[:, 0]
+    edges = np.tile(crest[:, None], 2 * B + 2)
+    edges[:, 0], edges[:, -1] = 0.0, 1.0
+    row, which = (np.tile(v, 2) for v in np.nonzero(breaks < top[:, None]))
+    far = np.repeat((0.0, 1.0), row.size // 2)
+    # the root of what is missing to the top is nearly linear in the distance from the crest
+    short = lambda p, rows: np.sqrt(np.maximum(1 - p / top[rows], 0.0))  # noqa: E731
+    goal, run = short(breaks[row, which], row), far - crest[row]
+
+    def missing(share, index):
+        at = row[index]
+        return short(pressure((crest[at] + run[index] * share)[:, None], at)[:, 0], at) - goal[index]
+
+    share, _ = rising_root(missing, np.zeros(row.size), np.ones(row.size), goal, _CLOSE)
+    edges[row, np.where(far > 0, 2 * B - which, 1 + which)] = crest[row] + run * share
+    return np.maximum.accumulate(edges, axis=1), breaks[:, -1] < top
+
+
+def penetrations(columns: LevelBatch, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """About the penetrations (m) at which ``columns`` that have a family carry ``p`` > 0 (Pa, (n,)), below saturation, and the
+    slopes of the logarithm of pressure over that of penetration."""
+    group, family, h = columns.family.of(columns), columns.family, columns.level.h
+    p = p / (columns.material.K * h)
+    s_sat, slope = family.s_sat[group], np.ones(p.size)
+
+    def over(log_d, index):
+        d, at = np.exp(log_d), group[index]
+        u, s, weight = Span(d, s_sat[index]).nodes(_SEARCH)
+        mean, mean_slope = family.at(at, s, SEARCH)
+        rest, complete = _completely(d, s_sat[index])
+        pressure = np.maximum((0.5 * u * weight * mean).sum(axis=1) + complete, np.finfo(float).tiny)
+        # s rises by 2/u with d
+        rise = (weight * mean_slope).sum(axis=1) + rest / np.pi
+        slope[index] = rise * d / pressure
+        return np.log(pressure / p[index]), slope[index]
+
+    low, high = np.log(p), np.log(np.minimum(p + 0.75, 0.5 * s_sat))
+    # crests are paraboloids next to the plane: at rest they carry d^2/(2 pi)
+    return h * np.exp(rising_root(over, low, high, 0.5 * np.log(2 * np.pi * p), _NEAR)[0]), slope
