@@ -40,6 +40,8 @@ _ATTEMPTS, _FINEST = ((1.0, 2.0), (1.0, 0.5), (0.3, 0.15)), 1e-12
 #: accuracy of the friction and the contact that say how well laws without adhesion have to be known; friction of level 1 is at
 #: first taken to be so many times what counts beside it
 _ROUGH, _GUESS = 1e-2, 30.0
+#: share of the friction without adhesion that its error may be at most, whatever counts beside it
+_DIGIT = 0.1
 #: contact fractions without adhesion are averaged no finer; their laws may err by so many times what others may, and the friction
 #: of each level in the contact of level 1 by so much of the whole, over the number of levels
 _SHARES, _LAWS, _OF_TOP = 1e-4, 2.0, 0.3
@@ -160,10 +162,15 @@ class Surface:
         out = _Solve(surface, V, load, by_pressure).run(full, progress)
         for factor, laws in _ATTEMPTS[1:] if self.strips is None else ():
             # where the work came to a limit more of it is no help
-            missed = np.flatnonzero(~self.converged(out) & ~np.isin(V, [limited for limited, _ in self.work.limits]))
+            size = np.abs(out.tau.sum(axis=0))
+            told = (V == 0) | (self.adhesion.p_0 > 0) | (out.error <= _DIGIT * size)
+            sure = self.converged(out) & told
+            missed = np.flatnonzero(~sure & ~np.isin(V, [limited for limited, _ in self.work.limits]))
             if missed.size and factor * self.rtol >= _FINEST:
                 finer = replace(surface, rtol=factor * self.rtol, laws=laws * self.rtol, families=factor == 1.0)
-                out.improve(missed, _Solve(finer, V[missed], load[missed], by_pressure).run(np.zeros(missed.size, bool), None))
+                size = (size + np.where(told, self.friction_floor, 0.0))[missed]
+                again = _Solve(finer, V[missed], load[missed], by_pressure, size)
+                out.improve(missed, again.run(np.zeros(missed.size, bool), None))
         below = self.levels[known:]
         if below:
             out.extend(np.array([self.alone(level, V).tau_sat for level in below]))
@@ -190,8 +197,11 @@ class Stack:
 
 
 class _Solve:
-    def __init__(self, surface: Surface, V, load, by_pressure: bool):
+    """Points of a surface; ``friction`` (n,), Pa, that without adhesion errors are held against, if it is known."""
+
+    def __init__(self, surface: Surface, V, load, by_pressure: bool, friction=None):
         self.surface, self.V, self.load, self.by_pressure = surface, V, load, by_pressure
+        self.friction = friction
         self.M = len(surface.levels)
         n = V.size
         per_level = lambda: np.zeros((self.M, n))  # noqa: E731
@@ -247,8 +257,8 @@ class _Solve:
         stack = surface.saturated(V)
         columns = surface.columns(0, V[group])
         if families:
-            known = _GUESS * surface.rtol * columns.floors[:, 1]
-            columns = with_family(columns, self._deepest(columns, index), known, carries=self.M > 1)
+            size = np.full(index.size, _GUESS * surface.friction_floor) if self.friction is None else self.friction[index]
+            columns = with_family(columns, self._deepest(columns, index), surface.rtol * size, carries=self.M > 1)
         found = self._penetrations(columns, index)
         touching = np.flatnonzero(np.isfinite(found.D))
         index, group = index[touching], group[touching]
@@ -256,7 +266,7 @@ class _Solve:
             return
         columns = columns.at(touching, found.D[touching])
         if self.M > 1:
-            columns = self._carrying(stack, V, group, columns)
+            columns = self._carrying(stack, V, group, columns, index)
         means = level_means(columns, np.full(index.size, 0.5 * surface.rtol))
         self._write(index, found.take(touching), means)
 
@@ -276,11 +286,11 @@ class _Solve:
         load = self.load[index]
         return cut_penetration(columns, load, np.full(load.size, np.inf)) if self.by_pressure else load
 
-    def _carrying(self, stack: Stack, V, group, columns: LevelBatch) -> LevelBatch:
+    def _carrying(self, stack: Stack, V, group, columns: LevelBatch, index) -> LevelBatch:
         """The columns of level 1 with the laws of level 2, built from the smallest level upwards."""
         surface, carry, groups = self.surface, None, np.arange(V.size)
         if columns.family is not None:
-            return self._carrying_families(stack, V, group, columns)
+            return self._carrying_families(stack, V, group, columns, index)
         across = strips_across(columns)
         budget = error_budget(columns, group, across)
         friction, rtol = budget.friction_of_laws(self.M - 1, V.size), np.full(V.size, surface.laws)
@@ -299,10 +309,11 @@ class _Solve:
             carry = LowerLevelLaws(LawTable(merged(laws, rtol, level.floors)), surface.rtol, scales, friction)
         return replace(columns, carry=carry, group=group, asked=Accuracy(friction[group]))
 
-    def _carrying_families(self, stack: Stack, V, group, columns: LevelBatch) -> LevelBatch:
+    def _carrying_families(self, stack: Stack, V, group, columns: LevelBatch, index) -> LevelBatch:
         """The same without adhesion."""
         surface, rough = self.surface, level_means(columns, np.full(columns.size, _ROUGH)).values
-        fractions, size = max(1.0, _SHARES / surface.rtol), rough[:, 1] + columns.floors[:, 1]
+        fractions = max(1.0, _SHARES / surface.rtol)
+        size = rough[:, 1] + surface.friction_floor if self.friction is None else self.friction[index]
         # what is carried counts on the contact alone
         rare = 1 / np.maximum(rough[:, 2], LEAST_CONTACT)
         rarest, friction, p_max = np.zeros(V.size), np.full(V.size, np.inf), np.full(V.size, -np.inf)
