@@ -160,13 +160,15 @@ class Surface:
         out = _Solve(surface, V, load, by_pressure).run(full, progress)
         for factor, laws in _ATTEMPTS[1:] if self.strips is None else ():
             # where the work came to a limit more of it is no help
-            sure = self.converged(out) & (
-                (V == 0) | (self.adhesion.p_0 > 0) | (out.error <= _DIGIT * np.abs(out.tau.sum(axis=0)))
-            )
+            size = np.abs(out.tau.sum(axis=0))
+            told = (V == 0) | (self.adhesion.p_0 > 0) | (out.error <= _DIGIT * size)
+            sure = self.converged(out) & told
             missed = np.flatnonzero(~sure & ~np.isin(V, [limited for limited, _ in self.work.limits]))
             if missed.size and factor * self.rtol >= _FINEST:
                 finer = replace(surface, rtol=factor * self.rtol, laws=laws * self.rtol, families=factor == 1.0)
-                out.improve(missed, _Solve(finer, V[missed], load[missed], by_pressure).run(np.zeros(missed.size, bool), None))
+                size = (size + np.where(told, self.friction_floor, 0.0))[missed]
+                again = _Solve(finer, V[missed], load[missed], by_pressure, size)
+                out.improve(missed, again.run(np.zeros(missed.size, bool), None))
         below = self.levels[known:]
         if below:
             out.extend(np.array([self.alone(level, V).tau_sat for level in below]))
@@ -193,8 +195,11 @@ class Stack:
 
 
 class _Solve:
-    def __init__(self, surface: Surface, V, load, by_pressure: bool):
+    """Points of a surface; ``friction`` (n,), Pa, that without adhesion errors are held against, if it is known."""
+
+    def __init__(self, surface: Surface, V, load, by_pressure: bool, friction=None):
         self.surface, self.V, self.load, self.by_pressure = surface, V, load, by_pressure
+        self.friction = friction
         self.M = len(surface.levels)
         n = V.size
         per_level = lambda: np.zeros((self.M, n))  # noqa: E731
@@ -250,8 +255,8 @@ class _Solve:
         stack = surface.saturated(V)
         columns = surface.columns(0, V[group])
         if families:
-            known = np.full(columns.size, _GUESS * surface.rtol * 1e-3 * columns.scales[1])
-            columns = with_family(columns, self._deepest(columns, index), known, carries=self.M > 1)
+            size = np.full(index.size, _GUESS * surface.friction_floor) if self.friction is None else self.friction[index]
+            columns = with_family(columns, self._deepest(columns, index), surface.rtol * size, carries=self.M > 1)
         found = self._penetrations(columns, index)
         touching = np.flatnonzero(np.isfinite(found.D))
         index, group = index[touching], group[touching]
@@ -260,7 +265,7 @@ class _Solve:
         columns = columns.at(touching, found.D[touching])
         rtol, atol = np.full(index.size, 0.5 * surface.rtol), None
         if self.M > 1 and columns.family is not None:
-            columns, atol = self._carrying_families(stack, V, group, columns, rtol)
+            columns, atol = self._carrying_families(stack, V, group, columns, index, rtol)
         elif self.M > 1:
             columns = self._carrying(stack, V, group, columns)
         means = level_means(columns, rtol, atol)
@@ -305,10 +310,11 @@ class _Solve:
             carry = LowerLevelLaws(merged(laws, rtol, atol), surface.rtol, scales)
         return replace(columns, carry=carry, group=group)
 
-    def _carrying_families(self, stack: Stack, V, group, columns: LevelBatch, rtol) -> tuple[LevelBatch, np.ndarray]:
+    def _carrying_families(self, stack: Stack, V, group, columns: LevelBatch, index, rtol) -> tuple[LevelBatch, np.ndarray]:
         """The same without adhesion, and the absolute tolerances that go with ``rtol`` (n,)."""
         surface, rough = self.surface, level_means(columns, np.full(columns.size, _ROUGH)).values
-        fractions, size = max(1.0, _SHARES / surface.rtol), rough[:, 1] + 1e-3 * columns.scales[1]
+        fractions = max(1.0, _SHARES / surface.rtol)
+        size = rough[:, 1] + surface.friction_floor if self.friction is None else self.friction[index]
         # what is carried counts on the contact alone
         rare = 1 / np.maximum(rough[:, 2], LEAST_CONTACT)
         rarest, friction, p_max = np.zeros(V.size), np.full(V.size, np.inf), np.full(V.size, -np.inf)

@@ -27,10 +27,10 @@ if TYPE_CHECKING:
 _RULES = ((2, 3), (4, 6), (7, 9), (11, 14), (16, 20), (24, 30), (36, 44), (54, 66), (81, 98))
 _ALONE = (10, 15, 22, 33, 50, 75, 112)
 #: how much more than by the next terms of a series its values are feared to err; strips for means of what series leave out; and
-#: half the means of Chebyshev polynomials in pressure, friction and contact times their degree, where that is not low: medians of
-#: 40 random surfaces
-_SURE, _NODES, _FEW, _PACE = 3.0, 30, 32, (0.6, 0.3, 1.2)
-#: share of what is allowed that these sums may miss, and the fastest that they are believed to converge: of 1,010 random points
+#: means of Chebyshev polynomials in pressure, friction and contact times their degree, where that is not low: medians of 40
+#: random surfaces
+_SURE, _NODES, _FEW, _PACE = 3.0, 30, 32, (1.25, 0.6, 2.5)
+#: share of what is allowed that these sums may miss, and the fastest that they are believed to converge: of 2,056 random points
 #: of two and three levels none erred by more than it said
 _QUADRATURE, _FASTEST = 0.7, 0.01
 #: how closely it is known where a contact's pressure passes the breaks of the law
