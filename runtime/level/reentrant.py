@@ -13,7 +13,7 @@ import numpy as np
 from ..numerics.nested import Stage, sampled
 from ..numerics.quadrature import interior_nodes
 from .error_budget import ErrorBudget
-from .interval import Interval, array_of, columns_of, means_in, weighed
+from .interval import Interval, array_of, means_in, weighed
 from .strips import LevelBatch
 
 #: accuracy of the look, and its nodes at first; intervals narrower than this share of ``h`` have fewer; and two places in these

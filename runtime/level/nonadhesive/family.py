@@ -228,5 +228,5 @@ def _resampled(samples, s_sat):
         return place - wanted[index], slope
 
     x = np.tile(2 * nodes - 1, (m, 1))
-    x[:, 1:-1] = rising_root(over, np.full(row.size, -1.0), np.ones(row.size), inside)[0].reshape(m, size - 2)
+    x[:, 1:-1] = rising_root(over, np.full(row.size, -1.0), np.ones(row.size), inside).reshape(m, size - 2)
     return coefficients(evaluate_each(both[:, :, 1:], x))

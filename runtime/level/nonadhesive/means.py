@@ -136,4 +136,4 @@ class Level:
             return np.log(pressure / p[index]), at[:, 3] * (np.exp(log_d) / pressure)
 
         # crests are paraboloids next to the plane: at rest they carry d^2/(2 pi)
-        return np.exp(rising_root(over, np.log(low), np.log(high), 0.5 * np.log(2 * np.pi * p), _CLOSE)[0])
+        return np.exp(rising_root(over, np.log(low), np.log(high), 0.5 * np.log(2 * np.pi * p), _CLOSE))
