@@ -9,10 +9,10 @@ from ..certificates import certified_names
 from ..derive import derive
 from ..drift import compare
 from ..emit import emit
-from ..folder import AUDIT, CERTIFICATES, MEASURED, dumped, generated_folder, read_certificates, read_measured, write_files
+from ..folder import AUDIT, MEASURED, dumped, generated_folder, read_certificates, read_measured, write_files
 from ..model import Model
 from ..models import MODELS
-from ..progress import Progress
+from ..progress import reported
 from .render import audit_files
 
 KEPT = ("figure_6",)  # tools/figure6.py
@@ -38,10 +38,8 @@ def audit(
     chosen = tuple(models) if models is not None else MODELS
     installed = generated_folder()
     target = Path(out_dir) if out_dir is not None else installed / AUDIT
-    say = Progress(progress, len(chosen) + 2)
-    derivations = tuple(say.each(map(derive, chosen)))
+    derivations = tuple(reported(map(derive, chosen), progress, len(chosen)))
     texts = emit(derivations)
-    say()
     drift = compare(installed, texts, {d.model.name: certified_names(d) for d in derivations})
     stale = [record.path for record in drift if record.kind != "stray" and not record.path.startswith(AUDIT)]
     if stale:
@@ -50,12 +48,9 @@ def audit(
     for name, tables in kept(read_measured(installed)).items():
         if name in found:
             found[name]["tables"] |= tables
-    pages = audit_files(derivations, texts, read_certificates(installed / CERTIFICATES), found)
+    pages = audit_files(derivations, texts, read_certificates(installed), found)
     pages[Path(MEASURED).name] = dumped(found)
-    target.mkdir(parents=True, exist_ok=True)
-    written = write_files(target, pages)
-    say()
-    return written
+    return write_files(target, pages)
 
 
 def kept(stored: dict[str, Any]) -> dict[str, dict[str, Any]]:
