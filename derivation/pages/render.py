@@ -29,7 +29,7 @@ def audit_files(
     for derivation in derivations:
         name = derivation.model.name
         page = content(derivation, files, certificates.get(name, {}).get("functions", {}))
-        pages[f"{name}.json"] = json.dumps(page, indent=1, sort_keys=True) + "\n"
+        pages[f"{name}.json"] = json.dumps(page, indent=1, sort_keys=True, default=vars) + "\n"
         pages[f"{name}.html"] = _render("page", page=page, measured=measured.get(name, {}))
         models.append(page)
     pages[INDEX] = _render("index", models=models, identity=about)
