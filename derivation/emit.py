@@ -12,9 +12,9 @@ import jinja2
 import sympy as sp
 
 from .check import DerivationError
-from .modes.emit import template_values, written
+from .modes.emit import of_material, template_values
 from .outcome import Derivation
-from .printing import function_text, helpers_used
+from .printing import docstring, helpers_used, results, source
 from .sequences import Row
 
 INTERFACE = 1
@@ -44,9 +44,9 @@ def emit(derivations: tuple[Derivation, ...]) -> dict[str, str]:
 
 def model_text(derivation: Derivation) -> str:
     model = derivation.model
-    template, values, function = KINDS[derivation.kind]
+    template, values, written = KINDS[derivation.kind]
     sections = [
-        {"title": title, "functions": [function(kernel.formula, kernel.derived) for kernel in kernels]}
+        {"title": title, "functions": [(written(kernel.formula), kernel.derived) for kernel in kernels]}
         for title, kernels in derivation.sections
     ]
     return _render(
@@ -66,8 +66,11 @@ def _of_one_time(derivation: Derivation) -> dict[str, Any]:
     return {"parameters": PARAMETER_MEANINGS, "helpers": helpers_used(kernel.formula for kernel in derivation.kernels)}
 
 
-KINDS = {"one_time": ("model", _of_one_time, function_text), "several_times": ("modes_model", template_values, written)}
-"""Of each kind of derivation the template, its further values, and a formula as the text of a function."""
+KINDS = {
+    "one_time": ("model", _of_one_time, lambda formula: formula),
+    "several_times": ("modes_model", template_values, of_material),
+}
+"""Of each kind of derivation the template, its further values, and a formula as it is written there."""
 
 
 def _row(regime: Row) -> dict[str, Any]:
@@ -118,10 +121,11 @@ def _render(kind: str, concerning: str, **values: Any) -> str:
             f"# Inputs (derivation, templates, models): sha256 {inputs}.",
         )
     )
-    return rendered(f"{kind}.py.jinja", header=header, hash=inputs, **values)
+    filters = {"source": source, "results": results, "docstring": docstring}
+    return rendered(f"{kind}.py.jinja", filters, header=header, hash=inputs, **values)
 
 
-def rendered(template: str, filters: Mapping[str, Callable[..., str]] | None = None, **values: Any) -> str:
+def rendered(template: str, filters: Mapping[str, Callable[..., Any]], **values: Any) -> str:
     """A template with its values; of a page they are escaped."""
     page = ".html" in template
     environment = jinja2.Environment(
@@ -132,7 +136,7 @@ def rendered(template: str, filters: Mapping[str, Callable[..., str]] | None = N
         trim_blocks=page,
         lstrip_blocks=page,
     )
-    environment.filters.update(filters or {})
+    environment.filters.update(filters)
     return environment.get_template(template).render(**values)
 
 

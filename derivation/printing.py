@@ -6,8 +6,6 @@ Only spelling happens here. SymPy's own rewrites for NumPy are left out on purpo
 
 import textwrap
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Any
 
 import sympy as sp
 from sympy.printing.precedence import precedence
@@ -97,34 +95,6 @@ def results(value: object) -> str:
         return f"({inner},)" if len(value) == 1 else f"({inner})"
     text = source(value)  # type: ignore[arg-type]
     return f"{text}.0" if text.lstrip("-").isdigit() else text
-
-
-@dataclass(frozen=True)
-class FunctionText:
-    """One function of a generated module, as text for its template."""
-
-    name: str
-    args: tuple[str, ...]
-    statement: str  # first sentence
-    explanation: tuple[str, ...]
-    equation: tuple[str, ...]
-    derived_by: str
-    paper: str
-    steps: tuple[tuple[str, str], ...]
-    result: str
-
-
-def function_text(formula: Formula, record: Any) -> FunctionText:
-    return FunctionText(
-        formula.name,
-        tuple(map(source, formula.args)),
-        *docstring(record.statement),
-        tuple(record.latex.split("\n")) if len(record.latex) <= WIDTH else (),
-        record.function,
-        record.paper,
-        tuple((source(label), source(term)) for label, term in formula.steps),
-        results(formula.result),
-    )
 
 
 def docstring(statement: str) -> tuple[str, tuple[str, ...]]:

@@ -15,9 +15,8 @@ import numpy as np
 import sympy as sp
 
 from ..check import DerivationError
-from ..modes.regimes import ModeRegime
 from ..modes.symbols import f_0, z, z_0
-from ..sequences import CONTACT, Span
+from ..sequences import CONTACT, Row, Span
 from ..symbols import p, p_in, s, s_0, s_1
 from .measure import FLOOR
 from .point import Point
@@ -32,7 +31,7 @@ State = tuple[sp.Symbol, np.ndarray]
 class Composition:
     """The functions of a regime at one point."""
 
-    def __init__(self, regime: ModeRegime, blocks: Callable[[str], Reference], point: Point):
+    def __init__(self, regime: Row, blocks: Callable[[str], Reference], point: Point):
         self.regime, self.blocks, self.point = regime, blocks, point
         self.n = point.modes or 1
         self.onset = point.values[regime.edges[0]]
@@ -124,9 +123,9 @@ class Composition:
         yield self.regime.zones[-1], state
 
     def residual(self, state: np.ndarray) -> np.ndarray:
-        *entered, _ = self._along(state)
+        *entered, (last, _) = self._along(state)
         changes = [self._constant(zone.missing) + self._change(zone, entry) for zone, entry in entered]
-        onset = self._gap(state, self.regime.onset_pressure) - self._constant(self.regime.onset_gap)
+        onset = self._gap(state, last.load) - self._constant(last.exit)
         return np.concatenate([onset, *changes])
 
     def _constant(self, expression: sp.Expr) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 import random
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import mpmath
@@ -12,8 +13,7 @@ from ..model import Model, Series
 from ..modes.states import exact_modes
 from ..modes.symbols import MATERIAL, m
 from .measure import DIGITS, Certificate, grid
-from .point import STEP
-from .scaled import scaled
+from .scaled import STEP, naturally
 
 NAME = "material_modes"
 POINTS = 40
@@ -64,16 +64,14 @@ class Material:
     def scaled(self, given: dict[str, Any]) -> np.ndarray:
         exact = {name: np.array([mpmath.mpf(v) for v in np.ravel(value).tolist()], object) for name, value in given.items()}
         near = _eigenvalues(*self._branches(exact)[1:])
-        values = self._exact(exact, near)
-        sizes = abs(values)
-        for name, numbers in exact.items():
-            for k in range(len(numbers)):
-                moved = numbers.copy()
-                moved[k] *= 1 + STEP
-                sizes = sizes + abs(self._exact({**exact, name: moved}, near) - values) / STEP
-        return scaled(values, sizes)
+        moved = (
+            {**exact, name: numbers * (1 + STEP * (np.arange(len(numbers)) == k))}
+            for name, numbers in exact.items()
+            for k in range(len(numbers))
+        )
+        return naturally(partial(self._exact, near), exact, ((1, each) for each in moved))
 
-    def _exact(self, given: dict[str, np.ndarray], near: np.ndarray) -> np.ndarray:
+    def _exact(self, near: np.ndarray, given: dict[str, np.ndarray]) -> np.ndarray:
         """K and every entry of the modes, in the order of the fields; ``near``: the retardation times, roughly."""
         K, times, viscosities = self._branches(given)
         for _ in range(NEWTON):  # on sum eta_i/(lambda - tau_i) = 1, for each of them

@@ -13,11 +13,10 @@ import sympy as sp
 from ..functions import evaluator
 from ..modes.symbols import MATERIAL, m
 from ..symbols import h, l
-from .scaled import sizes, values
+from .scaled import STEP, sizes, values
 
 ZERO = mpmath.mpf(10) ** -110  # stands for a vanishing speed or time: the derived forms divide by it
 VANISHING = ZERO * 10**24  # what is smaller was made from it
-STEP = mpmath.mpf(10) ** -60  # relative change of an input
 Values = dict[sp.Symbol, Any]
 
 
@@ -50,22 +49,22 @@ class Point:
             yield replace(self, values={**self.values, l: length, h: height})
 
     def directions(self, symbols: Sequence[sp.Symbol]) -> Iterator[tuple[Any, Values]]:
-        """(weight, changed inputs) with one independent input of ``symbols`` at a time moved by STEP, relatively."""
+        """(weight, inputs) with one independent input of ``symbols`` at a time moved by STEP, relatively."""
         wanted = set(symbols)
         for number, phase in enumerate(self.phases):
             later = [symbol for symbol in self.phases[number:] if symbol in wanted]
             if later:
                 value = self.values[phase]
                 width = abs(value - self.values[self.phases[number - 1]]) if number else max(mpmath.mpf(1), abs(value))
-                yield self.weights.get(phase, width), {symbol: self.values[symbol] + STEP for symbol in later}
+                yield self.weights.get(phase, width), self.values | {symbol: self.values[symbol] + STEP for symbol in later}
         inputs = set().union(*(self.follow.get(symbol, symbol).free_symbols for symbol in wanted - set(self.phases)))
         for symbol in sorted(inputs, key=str):
             value = self.values[symbol]
             if symbol in self.weights:
-                yield self.weights[symbol], {symbol: value + STEP}
+                yield self.weights[symbol], self.values | {symbol: value + STEP}
             elif np.any(value):
-                changed = {symbol: value * (1 + STEP)}
-                yield 1, changed | following(self.follow, {**self.values, **changed})
+                changed = self.values | {symbol: value * (1 + STEP)}
+                yield 1, changed | following(self.follow, changed)
 
     def value(self, expression: Any) -> mpmath.mpf:
         """An expression in the inputs; a number is itself."""

@@ -13,8 +13,8 @@ import sympy as sp
 
 from ..functions import flat, stack_sum, written_out
 from ..modes.symbols import EVERY_SUM, across, is_matrix, sandwich, total
-from .point import STEP, Point
-from .scaled import given, scaled
+from .point import Point
+from .scaled import given, naturally
 
 MODULES = [{"acos": lambda cosine: mpmath.acos(max(-1, min(1, cosine)))}, "mpmath"]
 Evaluated = Callable[[Point], np.ndarray]
@@ -58,12 +58,9 @@ class Together:
     def __call__(self, point: Point) -> list[np.ndarray]:
         if self.sums:
             point = point.at({name: summed(point) for name, summed in self.sums.items()})
-        values = self._at(point.values)
-        sizes = abs(values)
-        for weight, moved in point.directions(self.symbols):
-            sizes = sizes + weight * abs(self._at({**point.values, **moved}) - values) / STEP
-        rows = [any(np.ndim(point.values[symbol]) for symbol in free) for free in self.free]
-        return [row if several else row[:1] for row, several in zip(scaled(values, sizes), rows, strict=True)]
+        found = naturally(self._at, point.values, point.directions(self.symbols))
+        several = (any(np.ndim(point.values[symbol]) for symbol in free) for free in self.free)
+        return [row if of_modes else row[:1] for row, of_modes in zip(found, several, strict=True)]
 
     def _at(self, values: dict[sp.Symbol, Any]) -> np.ndarray:
         """(expressions, modes)."""

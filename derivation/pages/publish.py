@@ -15,7 +15,7 @@ from ..models import MODELS
 from ..progress import reported
 from .render import audit_files
 
-KEPT = ("figure_6",)  # tools/figure6.py
+KEPT = ("figure_6",)  # measured tables that take minutes and have a command of their own, tools/figure6.py
 
 
 class AuditError(Exception):
@@ -45,17 +45,9 @@ def audit(
     if stale:
         raise AuditError(f"{', '.join(stale)} in {installed} is not what the derivation emits; run `hystrip regenerate` first")
     found = {model.name: figures for model in chosen if (figures := measure(model.name)) is not None}
-    for name, tables in kept(read_measured(installed)).items():
+    for name, stored in read_measured(installed).items():
         if name in found:
-            found[name]["tables"] |= tables
+            found[name]["tables"] |= {table: rows for table, rows in stored.get("tables", {}).items() if table in KEPT}
     pages = audit_files(derivations, texts, read_certificates(installed), found)
     pages[Path(MEASURED).name] = dumped(found)
     return write_files(target, pages)
-
-
-def kept(stored: dict[str, Any]) -> dict[str, dict[str, Any]]:
-    """The measured tables, by model, that take minutes and have a command of their own in tools/."""
-    return {
-        name: {table: value for table, value in entry.get("tables", {}).items() if table in KEPT}
-        for name, entry in stored.items()
-    }
