@@ -68,9 +68,9 @@ class Composition:
 
     def _block(self, name: str, at: dict[sp.Symbol, Any], *states: State) -> np.ndarray:
         inputs = {symbol: self.point.value(value) for symbol, value in at.items()}
-        # What is left of the period for the last zone is known to the period's own digits.
-        rest = {s_1: 2 * mpmath.pi} if at.get(s_1) is self.regime.zones[-1].last else {}
-        point = self.point.moved(inputs, [symbol for symbol in (s, s_0, s_1) if symbol in inputs], rest)
+        point = self.point.moved(inputs, [symbol for symbol in (s, s_0, s_1) if symbol in inputs])
+        if at.get(s_1) is self.regime.zones[-1].last:  # what is left of the period is known to the period's own digits
+            point = point.at({s_1: Scaled(inputs[s_1], 2 * mpmath.pi)})
         return self.blocks(name)(point.at(dict(states)))
 
     def _crossing(self, what: str, zone: Span, *states: State) -> np.ndarray:
@@ -203,7 +203,7 @@ class Composition:
             return self.turn(given(changed), self.onset)
 
         def of_edge(edge: sp.Symbol, step: mpmath.mpf) -> np.ndarray:
-            moved = self.point.moved({edge: self.point.values[edge] + step}, ())
+            moved = self.point.moved({edge: self.point.values[edge] + step})
             return Composition(self.regime, self.blocks, moved).turn(given(state), self.onset)
 
         by_state, by_edge = _slopes(of_state, range(self.n)), _slopes(of_edge, self.regime.edges)

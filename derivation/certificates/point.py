@@ -35,14 +35,14 @@ class Point:
     follow: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
     weights: Values = field(default_factory=dict)
 
-    def at(self, computed: dict[sp.Symbol, Any]) -> Point:
+    def at(self, computed: Mapping[sp.Symbol, Any]) -> Point:
         """The same point with computed inputs, each a number or an array of :class:`Scaled` ones."""
         exact, weights = ({symbol: part(each) for symbol, each in computed.items()} for part in (values, sizes))
-        return replace(self, values={**self.values, **exact}, weights={**self.weights, **weights})
+        return replace(self, values=self.values | exact, weights=self.weights | weights)
 
-    def moved(self, inputs: Values, phases: Sequence[sp.Symbol], known_to: Values | None = None) -> Point:
-        """The same point with other inputs, of which ``phases`` are phases; ``known_to``: scales of inputs, if not their own."""
-        return replace(self, values={**self.values, **inputs}, phases=tuple(phases), weights={**self.weights, **(known_to or {})})
+    def moved(self, inputs: Values, phases: Sequence[sp.Symbol] = ()) -> Point:
+        """The same point with other inputs, of which ``phases`` are phases."""
+        return replace(self, values=self.values | inputs, phases=tuple(phases))
 
     def levels(self) -> Iterator[Point]:
         for length, height in zip(self.values[l], self.values[h], strict=True):
