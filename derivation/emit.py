@@ -3,6 +3,7 @@
 import hashlib
 import subprocess
 import sys
+import tomllib
 from collections.abc import Callable, Mapping
 from importlib.metadata import version
 from pathlib import Path
@@ -14,21 +15,13 @@ import sympy as sp
 from .check import DerivationError
 from .modes.emit import of_material, template_values
 from .outcome import Derivation
-from .printing import docstring, helpers_used, results, source
-from .sequences import Row
+from .printing import docstring, fits, helpers_used, results, source
 
 INTERFACE = 1
 HERE = Path(__file__).parent
-PARAMETER_MEANINGS = (
-    ("alpha", "k V T_sigma"),
-    ("beta", "k V T_eps"),
-    ("J", "T_sigma/T_eps, the instantaneous compliance times K"),
-    ("L", "1 - J, so that beta - alpha = L beta"),
-    ("p_0", "p_0/(K A), the traction of adhesion"),
-    ("delta_0", "delta_0/A, its reach"),
-    ("D", "D_j/A, the penetration of the strip"),
-    ("chi", "what w does where p steps: 0 continuous, 1 constitutive"),
-)
+FILTERS = {"source": source, "results": results, "docstring": docstring, "fits": fits, "of_material": of_material}
+PARAMETERS = tomllib.loads((HERE / "parameters.toml").read_text(encoding="utf-8"))
+"""Of a strip, by the kind of derivation: name and meaning."""
 
 
 def emit(derivations: tuple[Derivation, ...]) -> dict[str, str]:
@@ -44,11 +37,7 @@ def emit(derivations: tuple[Derivation, ...]) -> dict[str, str]:
 
 def model_text(derivation: Derivation) -> str:
     model = derivation.model
-    template, values, written = KINDS[derivation.kind]
-    sections = [
-        {"title": title, "functions": [(written(kernel.formula), kernel.derived) for kernel in kernels]}
-        for title, kernels in derivation.sections
-    ]
+    template, values = KINDS[derivation.kind]
     return _render(
         template,
         model.name,
@@ -56,34 +45,18 @@ def model_text(derivation: Derivation) -> str:
         model=model.name,
         interface=INTERFACE,
         material=model.parameters,
-        sections=sections,
-        regimes=[_row(regime) for regime in derivation.regimes],
+        sections=derivation.sections,
+        regimes=derivation.regimes,
         **values(derivation),
     )
 
 
 def _of_one_time(derivation: Derivation) -> dict[str, Any]:
-    return {"parameters": PARAMETER_MEANINGS, "helpers": helpers_used(kernel.formula for kernel in derivation.kernels)}
+    return {"parameters": PARAMETERS["one_time"], "helpers": helpers_used(kernel.formula for kernel in derivation.kernels)}
 
 
-KINDS = {
-    "one_time": ("model", _of_one_time, lambda formula: formula),
-    "several_times": ("modes_model", template_values, of_material),
-}
-"""Of each kind of derivation the template, its further values, and a formula as it is written there."""
-
-
-def _row(regime: Row) -> dict[str, Any]:
-    """A row of the table of regimes, in words; the names of its functions are the template's."""
-    return {
-        "sequence": regime.sequence,
-        "title": regime.title,
-        "zones": [(z.kind, *(str(end).replace("*", " ") for end in (z.first, z.last))) for z in regime.zones],
-        "edges": [str(edge) for edge in regime.edges],
-        "closures": regime.closures,
-        "equations": [label for label, _ in regime.equations],
-        "admissible": [inequality.code for inequality in regime.admissible],
-    }
+KINDS = {"one_time": ("model", _of_one_time), "several_times": ("modes_model", template_values)}
+"""Of each kind of derivation the template and its further values."""
 
 
 def stable_text() -> str:
@@ -121,8 +94,7 @@ def _render(kind: str, concerning: str, **values: Any) -> str:
             f"# Inputs (derivation, templates, models): sha256 {inputs}.",
         )
     )
-    filters = {"source": source, "results": results, "docstring": docstring}
-    return rendered(f"{kind}.py.jinja", filters, header=header, hash=inputs, **values)
+    return rendered(f"{kind}.py.jinja", FILTERS, header=header, hash=inputs, **values)
 
 
 def rendered(template: str, filters: Mapping[str, Callable[..., Any]], **values: Any) -> str:

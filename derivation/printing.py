@@ -1,4 +1,4 @@
-"""SymPy expressions as NumPy source, and formulas as the text of one function each.
+"""SymPy expressions as NumPy source, and what the templates make functions of them with.
 
 Only spelling happens here. SymPy's own rewrites for NumPy are left out on purpose: it turns ``1 - exp(-z)`` into
 ``exp(-z) expm1(z)``, which overflows.
@@ -102,6 +102,11 @@ def docstring(statement: str) -> tuple[str, tuple[str, ...]]:
     first, dot, rest = statement.partition(". ")
     lines = textwrap.wrap(first + (dot.strip() or ""), WIDTH)
     return lines[0], (*lines[1:], *textwrap.wrap(rest, WIDTH))
+
+
+def fits(latex: str) -> bool:
+    """Whether an equation fits a line of a docstring."""
+    return len(latex) <= WIDTH
 
 
 def functions_of(formulas: Iterable[Formula], kinds: tuple[type, ...]) -> set[str]:

@@ -400,7 +400,7 @@ MUTANTS: tuple[Mutant, ...] = (
     m("template", "templates/stable.py.jinja", "np.sum(", "np.prod(", "certificate of saturated_stack_friction", "certificates"),
     m(
         "template",
-        "templates/function.py.jinja",
+        "templates/parts.py.jinja",
         "return {{ formula.result | results }}",
         "return -({{ formula.result | results }})",
         "certificate of",

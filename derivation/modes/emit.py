@@ -29,7 +29,6 @@ def template_values(derivation: Derivation) -> dict[str, Any]:
     sums = functions_of(formulas, SUMS)
     checked = [_checked(parameter, arrays, model.modes is None) for parameter in model.parameters]
     material, builders = _modes_of_material(model, series)
-    zones = {regime.sequence: zones_function(regime) for regime in derivation.composed}
     validators = {text.partition("(")[0] for _, text in checked}
     return {
         "n": model.modes,
@@ -41,7 +40,7 @@ def template_values(derivation: Derivation) -> dict[str, Any]:
         "sums": sorted({*sums, *FROM_MODES, *validators, *builders}, key=lambda n: (n.islower(), n)),
         "helpers": sorted({*helpers_used(formulas), *FROM_STABLE}),
         "kinds": KINDS,
-        "zones": {name: (of_material(zones), record) for name, (zones, record) in zones.items()},
+        "zones": {regime.sequence: zones_function(regime) for regime in derivation.composed},
     }
 
 

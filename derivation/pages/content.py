@@ -11,7 +11,7 @@ import sympy as sp
 
 from ..certificates import WORDS as DOMAINS
 from ..check import Derived
-from ..emit import INTERFACE, PARAMETER_MEANINGS, input_hash
+from ..emit import INTERFACE, PARAMETERS, input_hash
 from ..functions import HELPERS, flat
 from ..outcome import Derivation
 from ..paper.record import SUBJECTS, Comparison
@@ -38,6 +38,7 @@ def content(derivation: Derivation, files: Mapping[str, str], certificates: Mapp
     words, module = WORDS.get(derivation.kind, {}), f"{derivation.model.name}.py"
     steps = {step.name: step for step in derivation.steps}
     computed = places.functions(f"generated/{module}", files[module])
+    functions = sorted(name for name in computed if "." not in name)  # and no methods
     helpers = places.functions("generated/stable.py", files["stable.py"])
     deriving = {step.function for step in derivation.steps} | {name for name, _ in WORDS["method"]}
     regimes = [_regime(regime, CONDITIONS[derivation.kind](regime), computed) for regime in derivation.regimes]
@@ -47,7 +48,7 @@ def content(derivation: Derivation, files: Mapping[str, str], certificates: Mapp
         "paper": WORDS["paper"],
         "identity": identity(files),
         "fields": words.get("fields", []),
-        "parameters": words.get("parameters", PARAMETER_MEANINGS),
+        "parameters": PARAMETERS[derivation.kind],
         "material": [[p.name, p.unit, p.meaning] for p in derivation.model.parameters],
         "equations": papers_equations(steps, derivation.comparisons),
         "misprints": misprints(steps, derivation.kind),
@@ -55,7 +56,7 @@ def content(derivation: Derivation, files: Mapping[str, str], certificates: Mapp
         "stages": stages(derivation, computed),
         "regimes": regimes,
         "domains": list(DOMAINS.items()),
-        "functions": {name: _proven(name, derivation.steps, regimes) for name in sorted(computed)},
+        "functions": {name: _proven(name, derivation.steps, regimes) for name in functions},
         "certificates": dict(sorted(certificates.items())),
         "method": WORDS["method"],
         "sources": {name: places.deriving(name) for name in sorted(deriving)},
