@@ -400,9 +400,9 @@ MUTANTS: tuple[Mutant, ...] = (
     m("template", "templates/stable.py.jinja", "np.sum(", "np.prod(", "certificate of saturated_stack_friction", "certificates"),
     m(
         "template",
-        "templates/model.py.jinja",
-        "return {{ function.result }}",
-        "return -({{ function.result }})",
+        "templates/parts.py.jinja",
+        "return {{ formula.result | results }}",
+        "return -({{ formula.result | results }})",
         "certificate of",
         "certificates",
     ),

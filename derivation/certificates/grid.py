@@ -15,7 +15,7 @@ from ..modes.states import exact_modes
 from ..modes.symbols import STATES, m
 from ..printing import source
 from ..symbols import J, L, T_eps, T_sigma, a, alpha, b, beta, c, chi, d, h, l, p, p_0, s, s_0, s_1
-from .point import ZERO, Point, rounded
+from .point import ZERO, Point, following, rounded
 
 PHASES = (d, b, a, c, s, s_0, s_1)
 EDGES = PHASES[:4]
@@ -84,10 +84,10 @@ def drawn(args: Sequence[sp.Symbol], seed: str, modes: int = 0, moving: bool = F
     draw = Random(f"{seed} {' '.join(map(str, args))} {modes}")
     edges = [symbol for symbol in PHASES if symbol in args]
     exact: dict[sp.Symbol, object] = dict(_phases(draw, edges))
-    coupled = None
+    follow = {}
     if GROUPS & set(args) and m not in args:
-        coupled, material = _one_time(draw, args)
-        exact |= material
+        inputs, follow = _one_time(draw, args)
+        exact |= inputs | following(follow, inputs)
     if m in args:
         exact |= _material(draw, modes, moving, dashpots)
     several = any(str(symbol) == "p_1" for symbol in args)
@@ -107,7 +107,7 @@ def drawn(args: Sequence[sp.Symbol], seed: str, modes: int = 0, moving: bool = F
     if T_sigma in exact:
         exact[T_sigma] = mpmath.mpf(float(exact[T_eps] * exact[T_sigma]))
     given = {symbol: rounded(value) for symbol, value in exact.items()}
-    return Point(exact | {TURN: +mpmath.pi}, given, tuple(edges), modes or None, coupled)
+    return Point(exact | {TURN: +mpmath.pi}, given, tuple(edges), modes or None, follow)
 
 
 def _phases(draw: Random, edges: Sequence[sp.Symbol]) -> dict[sp.Symbol, mpmath.mpf]:
@@ -125,17 +125,16 @@ def _phases(draw: Random, edges: Sequence[sp.Symbol]) -> dict[sp.Symbol, mpmath.
     return found
 
 
-def _one_time(draw: Random, args: Sequence[sp.Symbol]) -> tuple[sp.Symbol, dict[sp.Symbol, mpmath.mpf]]:
-    """The independent one of J and L, and all four exactly."""
+def _one_time(draw: Random, args: Sequence[sp.Symbol]) -> tuple[dict[sp.Symbol, mpmath.mpf], dict[sp.Symbol, sp.Expr]]:
+    """beta and the independent one of J and L; how alpha and the other follow."""
     time = mpmath.mpf(draw.choice((0.0, log(draw, -30, 30), log(draw, -2, 2), log(draw, -8, 9), log(draw, -2, 2)))) or ZERO
     trailing, alone = args[0] == d and b not in args and a in args, not {chi, alpha, beta} & set(args)
     snap = trailing or alone  # needs an instantaneous compliance
     kind = draw.choice((J, J, L, L, 1 if snap else 0, 1))
     ratio = mpmath.mpf(log(draw, *draw.choice(((-16, 0) if kind is L else (-30, 0), (-6, 0)))))
     if kind is L:
-        return L, {beta: time, L: ratio, J: 1 - ratio, alpha: (1 - ratio) * time}
-    ratio = ratio if kind is J else mpmath.mpf(kind) or ZERO
-    return J, {beta: time, J: ratio, L: 1 - ratio, alpha: ratio * time}
+        return {beta: time, L: ratio}, {J: 1 - L, alpha: (1 - L) * beta}
+    return {beta: time, J: ratio if kind is J else mpmath.mpf(kind) or ZERO}, {L: 1 - J, alpha: J * beta}
 
 
 def _material(draw: Random, modes: int, moving: bool, dashpots: bool | None) -> dict[sp.Symbol, object]:

@@ -7,7 +7,7 @@ import sympy as sp
 from ..functions import Formula, flat, mapped
 from ..model import Model, Parameter, Roots, Series
 from ..outcome import Derivation
-from ..printing import function_text, functions_of, helpers_used, results, source
+from ..printing import functions_of, helpers_used, results, source
 from .functions import zones_function
 from .material import series_of
 from .symbols import MATERIAL as FIELDS
@@ -40,7 +40,7 @@ def template_values(derivation: Derivation) -> dict[str, Any]:
         "sums": sorted({*sums, *FROM_MODES, *validators, *builders}, key=lambda n: (n.islower(), n)),
         "helpers": sorted({*helpers_used(formulas), *FROM_STABLE}),
         "kinds": KINDS,
-        "zones": {regime.sequence: written(*zones_function(regime)) for regime in derivation.composed},
+        "zones": {regime.sequence: zones_function(regime) for regime in derivation.composed},
     }
 
 
@@ -66,12 +66,12 @@ def _modes_of_material(model: Model, series: Series | Roots) -> tuple[str, tuple
     return f"{source(series.K)}, spectrum({', '.join(f'first_mode({part})' for part in stated)})", ("first_mode", "spectrum")
 
 
-def written(formula: Formula, record: Any) -> Any:
-    """A formula as the text of a function, in which what is no argument is a field of the material m."""
+def of_material(formula: Formula) -> Formula:
+    """A formula in which what is no argument is a field of the material m."""
     inside = {symbol: named for symbol, named in OF_THE_STRIP.items() if symbol not in formula.args}
     steps = tuple((label, sp.sympify(term).xreplace(inside)) for label, term in _needed(formula))
     result = mapped(formula.result, lambda part: part.xreplace(inside))
-    return function_text(Formula(formula.name, formula.args, result, steps), record)
+    return Formula(formula.name, formula.args, result, steps)
 
 
 def _needed(formula: Formula) -> list[tuple[sp.Symbol, sp.Expr]]:
