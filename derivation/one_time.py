@@ -4,21 +4,20 @@ from typing import Any
 
 import sympy as sp
 
-from .averages import constant_means, strip_means, zone_integrals
+from .averages import constant_means, strip_means
 from .conditions import strip_problem, zone_conditions
 from .displays import STATED, displays, of_one_time
 from .energy import friction_balance, power_balance
 from .events import excess_event, gap_event, links
 from .flows import flows
-from .functions import Call
 from .half_space import half_space
 from .jumps import jumps
-from .kernel import Kernel
+from .kernel import Kernel, Kernels, as_derived
 from .level import level
 from .membership import require_constructor
 from .model import Model, foundation, require_admissible
 from .modes.flows import mode_flows
-from .multilevel import multilevel
+from .multilevel import multilevel, passed_once
 from .outcome import Derivation, records
 from .paper.compare import comparisons
 from .paper.tags import require_all, require_status, require_tags
@@ -58,18 +57,18 @@ def derive(model: Model) -> Derivation:
     ratio = sp.cancel(jump.closure.value / sp.Symbol("step_p", real=True))  # [w]/[p]
     table = regimes(OneTime(ratio), full.threshold.value)
     partial = [regime for regime in table if regime.edges]
-    systems = tuple(boundary_equations(regime, zone.kernels) for regime in partial)
+    of_zones = {kernel.formula.name: kernel for kernel in zone.kernels}
+    systems = tuple(boundary_equations(regime, of_zones) for regime in partial)
     roots = sample_roots("one_time", table, mode_flows())
     made += (zone_conditions(one_strip.u), strip_problem(one_strip, table[0]), table, roots, systems)
-    integrals = zone_integrals(flow)
     still = tuple(constant_means(regime, PARAMETERS) for regime in table if regime.sequence in ("a", "f"))
-    means = tuple(strip_means(regime, integrals) for regime in partial)
+    means = tuple(strip_means(regime, of_zones) for regime in partial)
     balances = (power_balance(flow), *(friction_balance(regime) for regime in partial))
-    made += (integrals, means, still, balances)
+    made += (means, still, balances)
     onsets = onset({regime.sequence: regime for regime in partial})
     slopes = tuple(onset_slope(regime) for regime in partial if regime.zones[-1].kind == FREE)
     made += (shift_of_an_event(), onsets, slopes)
-    upwards = multilevel(one_strip, full, partial, means, integrals)
+    upwards = multilevel(table, [passed_once(one_strip)], ("excess_after", "excess_event"))
     made += (upwards, stack(one_strip, full, whole), half_space())
     sections = (
         ("Rigid profile, load, zones", zone.kernels),
@@ -91,16 +90,7 @@ def derive(model: Model) -> Derivation:
     return Derivation("one_time", model, tuple(made), table, sections, read, printed)
 
 
-def boundary_equations(regime: Regime, zone_kernels: tuple[Kernel, ...]) -> Kernel:
+def boundary_equations(regime: Regime, zones: Kernels) -> Kernel:
     """Boundary equations to emit, with the exact expressions they compute: the derived flows put in."""
-    by_name = {kernel.formula.name: kernel for kernel in zone_kernels}
-
-    def as_derived(call: Call) -> sp.Expr:
-        kernel = by_name[call.formula.name]
-        return kernel.exact.subs(dict(zip(kernel.formula.args, call.args, strict=True)), simultaneous=True)
-
-    parts = tuple(
-        tuple(part.replace(lambda e: isinstance(e, Call), as_derived) for part in sp.Add.make_args(term))
-        for _, term in regime.equations
-    )
+    parts = tuple(tuple(as_derived(part, zones) for part in sp.Add.make_args(term)) for _, term in regime.equations)
     return Kernel(regime.residual_formula, tuple(sp.Add(*equation) for equation in parts), regime.derived, parts)

@@ -119,7 +119,7 @@ CHANGED = [
     ("sequences.py", "d + PERIOD, delta_0 + step, delta_0)", "d + PERIOD, delta_0, delta_0)", "regime acaf"),
     ("sequences.py", "p_0 - delta_0 / compliance", "p_0 + delta_0 / compliance", "regime afc"),
     ("modes/saturated.py", "harmonic - eq_15", "harmonic + eq_15", "saturated_overstress"),
-    ("modes/levels.py", "u - alpha / eta * harmonic", "u + alpha / eta * harmonic", "carried friction"),
+    ("modes/flows.py", "u - alpha / eta * harmonic", "u + alpha / eta * harmonic", "carried friction"),
     ("multilevel.py", "+ friction_of_one.subs(lower)", "- friction_of_one.subs(lower)", "friction coefficient"),
     ("conditions.py", "gap = AMPLITUDE * displacement - (", "gap = AMPLITUDE * displacement + (", "zone conditions"),
     ("averages.py", "J_j * load - z_j,", "J_j * load + z_j,", "means of a strip"),

@@ -201,7 +201,7 @@ MUTANTS: tuple[Mutant, ...] = (
         "inequalities",
     ),
     # means, energy, stability
-    m("mean", "averages.py", "sum_p) / PERIOD, sum_tau / PERIOD)", "sum_p) / PERIOD, -sum_tau / PERIOD)", "means_acaf"),
+    m("mean", "averages.py", "as_derived(work, zones)),", "-as_derived(work, zones)),", "means_acaf"),
     m("energy", "energy.py", "sp.diff(w, s) - beta / L", "sp.diff(w, s) + beta / L", "power balance"),
     m("stability", "stability.py", "(load_0 + gap_0 - p) * decay", "(load_0 - gap_0 - p) * decay", "shift of an event"),
     m("stability", "stability.py", "released - release, released", "released + release, released", "onset_slope_acaf"),
@@ -238,7 +238,7 @@ MUTANTS: tuple[Mutant, ...] = (
         "HEIGHT, x) - friction_of_one.subs(lower)",
         "friction coefficient",
     ),
-    m("level", "multilevel.py", "- PERIOD * mean_p - p_0 * adhesion", "- PERIOD * mean_p + p_0 * adhesion", "equilibrium"),
+    m("level", "multilevel.py", "sum(loads) + p_0", "sum(loads) - p_0", "equilibrium"),
     m("level", "multilevel.py", "(2 * width * length(place) for place", "(width * length(place) for place", "contact area"),
     m("level", "stack.py", "D - threshold.subs", "D + threshold.subs", "least pressure in complete contact"),
     # the paper as printed
@@ -479,10 +479,9 @@ def printed(package: ModuleType) -> None:
     strip, _, full = early(package)
     whole_level, multilevel = part(package, "level").level(full), part(package, "multilevel")
     exact = {kernel.formula.name: kernel.exact for kernel in (*full.kernels, *whole_level.kernels)}
-    field = exact["saturated_pressure"]
     steps = (
         part(package, "conditions").zone_conditions(strip.u),
-        multilevel.local_stress(strip.u, field, multilevel.dashpot_loss(strip.u, field)),
+        multilevel.local_stress(),
         multilevel.local_shear(),
         whole_level.comparison,
     )
@@ -504,21 +503,19 @@ def levels(package: ModuleType) -> None:
     multilevel, displays = part(package, "multilevel"), part(package, "displays")
     passed = (part(package, "check").holds("left out", True),)
     steps = (
-        multilevel.equilibrium((), ()),
+        multilevel.equilibrium(()),
         multilevel.contact_area(()),
         multilevel.local_shear(),
-        multilevel.carried_friction(passed, ()),
+        multilevel.carried_friction((), passed, ()),
     )
     displays.displays(steps, {}, {}, part(package, "vocabulary").LEVELS, displays.of_one_time)
 
 
 def complete(package: ModuleType) -> None:
-    """Displays of Eq. 10, 11 and 14, whose steps need complete contact."""
+    """Displays of Eq. 10, 11 and 14, whose steps are checked in complete contact."""
     multilevel, displays = part(package, "multilevel"), part(package, "displays")
-    strip, _, full = early(package)
-    field = next(kernel.exact for kernel in full.kernels if kernel.formula.name == "saturated_pressure")
     steps = (
-        multilevel.local_stress(strip.u, field, multilevel.dashpot_loss(strip.u, field)),
+        multilevel.local_stress(),
         multilevel.means_over_a_level(),
         multilevel.friction_coefficient(),
     )
@@ -530,10 +527,8 @@ def modes(package: ModuleType) -> None:
 
 
 def tags(package: ModuleType) -> None:
-    strip, flows, full = early(package)
-    field = next(kernel.exact for kernel in full.kernels if kernel.formula.name == "saturated_pressure")
     multilevel = part(package, "multilevel")
-    steps = (multilevel.local_stress(strip.u, field, multilevel.dashpot_loss(strip.u, field)), multilevel.local_shear())
+    steps = (multilevel.local_stress(), multilevel.local_shear())
     part(package, "paper.tags").require_tags((*steps, multilevel.contact_area(())))
 
 

@@ -6,6 +6,7 @@ from ..averages import constant_means, means_of_a_strip
 from ..conditions import zone_conditions
 from ..displays import STATED, displays, of_modes
 from ..model import Model, Roots
+from ..multilevel import multilevel
 from ..outcome import Derivation, records
 from ..paper.tags import require_all, require_tags
 from ..regimes import regimes
@@ -13,10 +14,9 @@ from ..sample_roots import sample_roots
 from ..strip import adhesion_law, strip_profile
 from ..zones import rigid_profile
 from .chain import chain_rule
-from .flows import mode_flows, u
+from .flows import mode_flows, passed_once, u
 from .functions import period_map, whole_kernels
 from .jumps import closures, jump_law
-from .levels import mode_levels
 from .material import admissibility, foundation_law, prony_series, relaxed_stiffness
 from .regimes import SeveralTimes
 from .saturated import complete_contact
@@ -52,7 +52,7 @@ def derive(model: Model) -> Derivation:
     means, period = means_of_a_strip(), period_map()
     still = tuple(constant_means(regime, OF_STRIP) for regime in table if regime.sequence in ("a", "f"))
     made += (means, still, period, chain_rule(period))
-    made.append(mode_levels(flows, table))
+    made += multilevel(table, passed_once(flows), ("excess_event",))
     sections += [
         ("Complete contact", complete.kernels),
         ("Means of strips without edges", (complete.means, *still)),
