@@ -124,12 +124,6 @@ def arc_half(to_top, to_bottom):
     return sp.acos((to_bottom - to_top) / (to_bottom + to_top))
 
 
-@helper
-def stack_sum(term):
-    """Sum over the levels, which lie along the last axis."""
-    return stack_sum(term)
-
-
 HELPERS = tuple(
     each for each in vars().values() if isinstance(each, type) and (Helper,) == each.__bases__ and each is not Scaling
 )

@@ -9,7 +9,7 @@ import sympy as sp
 from .check import Claim, DerivationError, Derived, derived, zero
 from .exact import in_half_angles
 from .functions import Call, Formula, flat, written_out
-from .modes.symbols import EVERY_SUM, S, eta, generic
+from .modes.symbols import SUMS, S, eta, generic
 from .symbols import alpha, s_0, s_1
 
 
@@ -23,7 +23,6 @@ class Kernel:
     parts: tuple[tuple[sp.Expr, ...], ...] = ()  # of a balance: the terms of each component of ``exact``, flattened
     chain: tuple[Formula, Formula] | None = None  # an entry and its event, which are measured as one function
     moving: bool = False  # has no value at rest, V = 0
-    springs: bool = False  # nor where a branch has no spring
 
     @property
     def args(self) -> tuple[sp.Symbol, ...]:
@@ -47,7 +46,7 @@ def same(
     """
     residuals = []
     for one, other in zip(flat(stated), flat(exact), strict=True):
-        if {f.func for f in sp.sympify(one).atoms(*EVERY_SUM)} != {f.func for f in sp.sympify(other).atoms(*EVERY_SUM)}:
+        if {f.func for f in sp.sympify(one).atoms(*SUMS)} != {f.func for f in sp.sympify(other).atoms(*SUMS)}:
             raise DerivationError(name, "both forms sum over the modes in the same way", one - other)
         residual = (generic(sp.sympify(one)) - generic(sp.sympify(other))).subs(S, alpha / eta)
         residuals.append(in_half_angles(residual, *halved))

@@ -153,7 +153,7 @@ def friction_coefficient() -> Derived:
         sp.Symbol("tau_1", real=True) / p_nominal,
         checks,
         correction=CORRECTIONS[12],
-        emitted=("saturated_stack_friction",),
+        emitted=("level_saturation_friction",),
     )
 
 

@@ -13,7 +13,7 @@ from .flows import flows
 from .half_space import half_space
 from .jumps import jumps
 from .kernel import Kernel, Kernels, as_derived
-from .level import level
+from .level import level, printed_equation_16
 from .membership import require_constructor
 from .model import Model, foundation, require_admissible
 from .modes.flows import mode_flows
@@ -52,8 +52,8 @@ def derive(model: Model) -> Derivation:
     chain = links(flow)
     made += (zone, events, chain)
     full = saturated(flow)
-    whole = level(full)
-    made += (full, whole)
+    whole, stacked = level(full.threshold.value)
+    made += (full, whole, stacked, printed_equation_16(whole[2].exact))
     ratio = sp.cancel(jump.closure.value / sp.Symbol("step_p", real=True))  # [w]/[p]
     table = regimes(OneTime(ratio), full.threshold.value)
     partial = [regime for regime in table if regime.edges]
@@ -69,7 +69,7 @@ def derive(model: Model) -> Derivation:
     slopes = tuple(onset_slope(regime) for regime in partial if regime.zones[-1].kind == FREE)
     made += (shift_of_an_event(), onsets, slopes)
     upwards = multilevel(table, [passed_once(one_strip)], ("excess_after", "excess_event"))
-    made += (upwards, stack(one_strip, full, whole), half_space())
+    made += (upwards, stack(one_strip, full.threshold.value, whole), half_space())
     sections = (
         ("Rigid profile, load, zones", zone.kernels),
         ("Events: value and slope, for root finding in a zone whose entry is evaluated once", events),
@@ -78,7 +78,7 @@ def derive(model: Model) -> Derivation:
         ("Boundary equations of each regime", systems),
         ("Means of pressure and friction", (full.means, *still, *means)),
         ("Onset of adhesion, and the slope of the map from one onset to the next", (*onsets, *slopes)),
-        ("A whole level in complete contact, and a stack of them: SI units", whole.kernels),
+        ("A whole level in complete contact: SI units", whole),
     )
     exact = {kernel.formula.name: kernel.exact for _, kernels in sections for kernel in kernels}
     steps = tuple(records(made))

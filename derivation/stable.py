@@ -112,12 +112,6 @@ EXCESS_AFTER = Formula(
     (q_0 + SATURATED_RISE(s_0, s_1, alpha, beta, L)) * decay(s_1 - s_0, alpha)
     - (p_0 + SATURATED_PRESSURE(s_1, D, alpha, beta, L)) * decay_loss(s_1 - s_0, alpha),
 )
-CONTACT_PRESSURE = Formula(
-    "contact_pressure",
-    _contact,
-    (q_0 - p_0 + SATURATED_RISE(s_0, s_1, alpha, beta, L)) * decay(s_1 - s_0, alpha)
-    - SATURATED_PRESSURE(s_1, D, alpha, beta, L) * decay_loss(s_1 - s_0, alpha),
-)
 
 _increment = (s_0, s_1, q_0, p_0, D, alpha, beta, J, L)
 _contact_lag = (lag, PROFILE(s_0, D) + p_0 - q_0)

@@ -149,16 +149,8 @@ def contact(flows: Flows) -> tuple[Kernel, ...]:
 
     .. math:: q(s_1) = (q_0 + [p_{sat}]_{s_0}^{s_1})\,e^{-(s_1 - s_0)/\alpha} - (p_0 + p_{sat}(s_1))\,(e^{-(s_1 - s_0)/\alpha} -
         1)
-
-    contact_pressure: Contact pressure.
-
-    .. math:: p(s_1) = q(s_1) - p_0
     """
-    pressure = flows.contact.value.subs(s, s_1)
-    return (
-        kernel(contact, stable.EXCESS_AFTER, pressure + p_0),
-        kernel(contact, stable.CONTACT_PRESSURE, pressure),
-    )
+    return (kernel(contact, stable.EXCESS_AFTER, flows.contact.value.subs(s, s_1) + p_0),)
 
 
 def contact_state(flows: Flows) -> tuple[Kernel, ...]:

@@ -68,9 +68,7 @@ def measure(kernel: Kernel, solver: Any, modes: Sequence[int] = (), points: int 
         reference = Reference(*_with_rest(kernel))
         for count in modes or (0,):
             for index in range(points_at(count or 1, points)):
-                point = drawn(
-                    kernel.args, f"{kernel.formula.name} {index}", count, kernel.moving, False if kernel.springs else None
-                )
+                point = drawn(kernel.args, f"{kernel.formula.name} {index}", count, kernel.moving)
                 found.see(partial(_computed, kernel, solver, point), reference(point), point.shown())
     return found
 

@@ -18,7 +18,6 @@ KINDS = ("state", "passages", "residual", "residual_and_jacobian", "return_map",
 """Functions of a regime that the generated ``modes`` makes of its zones."""
 # Used by the template itself, beside what the formulas call.
 FROM_MODES = ("Modes", "Zone", "for_batch", "regime_functions", "scaled")
-FROM_STABLE = ("quotient", "stack_sum")
 
 
 def template_values(derivation: Derivation) -> dict[str, Any]:
@@ -38,7 +37,7 @@ def template_values(derivation: Derivation) -> dict[str, Any]:
         "modes_of_material": material,
         "series": next(step for step in derivation.steps if step.name == "Prony series"),
         "sums": sorted({*sums, *FROM_MODES, *validators, *builders}, key=lambda n: (n.islower(), n)),
-        "helpers": sorted({*helpers_used(formulas), *FROM_STABLE}),
+        "helpers": helpers_used(formulas),
         "kinds": KINDS,
         "zones": {regime.sequence: written(*zones_function(regime)) for regime in derivation.composed},
     }

@@ -14,7 +14,7 @@ from ..check import Derived, derived, zero
 from ..functions import Formula, Helper
 from ..kernel import Kernel
 from ..sequences import ADHESION, CONTACT, FREE, Span
-from ..symbols import K, alpha, beta
+from ..symbols import alpha, beta
 from .regimes import ModeRegime
 from .symbols import J_0, OF_STRIP, J, S, enter, eta, leave, m, share
 
@@ -36,15 +36,10 @@ class Contact(Helper):
 KINDS = {ADHESION: Adhesion, FREE: Free, CONTACT: Contact}
 
 
-def whole_kernels(springs: bool) -> tuple[Kernel, ...]:
-    """What the functions of the template come to: modes of a strip, and of the material. ``springs``: every branch has one."""
+def whole_kernels() -> tuple[Kernel, ...]:
+    """What the template's modes of a strip come to."""
     passing = (*(kV * time for time in (alpha, beta, eta)), S, J, J_0, enter, leave, share)
-    prony, retardation = (K / S, alpha), (J_0 / K, J / K, beta)
-    return (
-        Kernel(Formula("at_speed", (m, kV), passing), passing, None),
-        *([Kernel(Formula("prony", (K, m), prony), prony, None, moving=True, springs=True)] if springs else []),
-        Kernel(Formula("retardation", (K, m), retardation), retardation, None),
-    )
+    return (Kernel(Formula("at_speed", (m, kV), passing), passing, None),)
 
 
 def period_map() -> Derived:

@@ -6,7 +6,7 @@ import sympy as sp
 
 from ..check import Claim, Derived, derived, holds, zero
 from ..kernel import Kernel, kernel
-from ..level import R, Wave, in_complete_contact
+from ..level import R, in_complete_contact
 from ..saturated import means, saturation_threshold
 from ..symbols import K, V, alpha, l, s
 from . import stable
@@ -27,17 +27,18 @@ class Complete:
     threshold: Derived
     means: Kernel
     level: tuple[Kernel, ...]
+    stack: Derived
 
 
 def complete_contact(flows: ModeFlows) -> Complete:
     kernels, least = (*modulus_kernels(), *field_kernels(flows)), saturation_threshold(R, "|K^*|/K")
-    _, loss, ratio = (kernel.exact for kernel in kernels[:3])
+    loss = kernels[1].exact
     storage, rest = sp.symbols("storage_minus_1 loss", nonnegative=True)
     at_least_one = holds("R >= 1: the storage is at least 1", sp.expand((1 + storage) ** 2 + rest**2 - 1).is_nonnegative)
-    exact, computed = (ratio.subs(PASSING), loss.subs(PASSING)), (stable.MODULUS_RATIO(AT_SPEED), stable.LOSS(AT_SPEED))
-    level = in_complete_contact(Wave((K, m), *exact, *computed, at_least_one), least.value)
+    passing = stable.MODULUS_RATIO(AT_SPEED), stable.LOSS(AT_SPEED)
+    level, stack = in_complete_contact((K, m), *passing, least.value, at_least_one)
     level = tuple(replace(kernel, moving=True) for kernel in level)
-    return Complete(complex_modulus(), kernels, least, means(u, OF_STRIP, loss, stable.LOSS(m)), level)
+    return Complete(complex_modulus(), kernels, least, means(u, OF_STRIP, loss, stable.LOSS(m)), level, stack)
 
 
 def complex_modulus() -> Derived:

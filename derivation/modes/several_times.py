@@ -56,7 +56,7 @@ def derive(model: Model) -> Derivation:
     sections += [
         ("Complete contact", complete.kernels),
         ("Means of strips without edges", (complete.means, *still)),
-        ("Complete contact of whole levels, and a stack of them: SI units, modes with times in seconds", complete.level),
+        ("Complete contact of whole levels: SI units, modes with times in seconds", complete.level),
     ]
     steps = tuple(records(made))
     read = displays(steps, unread(model), vocabulary(flows), BINDINGS, of_modes)
@@ -70,7 +70,7 @@ def derive(model: Model) -> Derivation:
         tuple(sections),
         read,
         composed=tuple(regime for regime in table if regime.edges),
-        whole=whole_kernels(model.springy),
+        whole=whole_kernels(),
     )
 
 

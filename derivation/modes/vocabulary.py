@@ -167,6 +167,6 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "level_saturation_penetration": _level,
     "level_saturation_pressure": _level,
     "level_saturation_friction": _level,
-    "saturated_stack_friction": _level,
+    "stack friction": _level,
 }
 """By the beginning of a step's name."""

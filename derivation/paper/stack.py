@@ -99,7 +99,7 @@ def all_complete(of_the_step: tuple[sp.Expr, sp.Expr]) -> Comparison:
         zero("it is the printed form whose unit and peaks the step shows to be wrong", printed - named),
     ]
     steps = (
-        "saturated_stack_friction",
+        "stack friction",
         "Eq. 16 as printed",
         "levels in complete contact together",
         "least pressure in complete contact",
