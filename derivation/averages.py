@@ -11,23 +11,24 @@ from .kernel import Kernel, Kernels, as_derived, kernel
 from .modes.states import J_j, summed, w
 from .modes.states import p as load
 from .modes.symbols import J_0
-from .regime import Regime, Zone
+from .regime import Zone
 from .sequences import ADHESION, CONTACT, FREE, NOTHING, PERIOD, Row, Span
-from .symbols import D, L, alpha, beta, p_0, q_0, s, s_0, s_1
+from .symbols import PARAMETERS, D, L, alpha, beta, p_0, q_0, s, s_0, s_1
 
 
-def strip_means(regime: Regime, zones: Kernels) -> Kernel:
+def strip_means(regime: Row, zones: Kernels) -> Kernel:
     r"""Eq. 11: Means of a strip over one period of s.
 
     .. math:: \bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds
     """
+    _, closing = regime.equations[-1]
     added = [_added(zone, zones) for zone in regime.zones]
     pressed, height, work = (sp.Add(*parts) / PERIOD for parts in zip(*added, strict=True))
     mean_p = height if regime.touches else pressed
     checks = [
         zero(
             "int p ds = int w ds + beta times the closing balance: mean p = mean w on an orbit",
-            written_out(PERIOD * (pressed - height) - beta * regime.closing),
+            written_out(PERIOD * (pressed - height) - beta * closing),
             phases=regime.edges,
         ),
         zero(
@@ -43,7 +44,7 @@ def strip_means(regime: Regime, zones: Kernels) -> Kernel:
     )
     return kernel(
         strip_means,
-        Formula(f"means_{regime.sequence}", regime.args, (mean_p, _stable_work(regime) / PERIOD)),
+        Formula(f"means_{regime.sequence}", (*regime.edges, *PARAMETERS), (mean_p, _stable_work(regime) / PERIOD)),
         (as_derived(mean_p, zones), as_derived(work, zones)),
         *checks,
         statement=f"Means of a strip: {regime.title}. The mean pressure is computed {why}",
@@ -78,7 +79,7 @@ def _added(zone: Zone, zones: Kernels) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     return pressed, stable.PROFILE_INTEGRAL(first, last, D), work
 
 
-def _stable_work(regime: Regime) -> sp.Expr:
+def _stable_work(regime: Row) -> sp.Expr:
     """The work of p as it is computed.
 
     Where nothing is free the traction acts everywhere and does no work over a period: pressures are counted from -p_0,
@@ -93,7 +94,7 @@ def _stable_work(regime: Regime) -> sp.Expr:
     return plain
 
 
-def _work(regime: Regime, raised: sp.Expr) -> sp.Expr:
+def _work(regime: Row, raised: sp.Expr) -> sp.Expr:
     """The work of p, with pressures counted from -raised."""
     work = (raised - p_0) * adhesive_rise(regime.zones)
     for zone in regime.zones:

@@ -9,7 +9,7 @@ import sympy as sp
 from .check import Derived, derived, holds, zero
 from .flows import solved
 from .paper.record import CORRECTIONS
-from .regime import Regime
+from .sequences import Row
 from .strip import TIMES, Strip
 from .surface import AMPLITUDE, HEIGHT, PENETRATION
 from .symbols import A, D, D_j, D_level, K, a, b, c, chi, d, delta_0, k, p_0, s, x
@@ -40,7 +40,7 @@ def _along(height: sp.Expr) -> sp.Expr:
     return sp.expand(height).coeff(sp.cos(k * x))
 
 
-def strip_problem(strip: Strip, discrete: Regime) -> Derived:
+def strip_problem(strip: Strip, discrete: Row) -> Derived:
     r"""The steady law in each zone and the conditions at its edges determine a, b, c and d. The pressure is
     continuous at b and -a and steps by p_0 at d and -c, where w is continuous or steps too.
 

@@ -1,7 +1,5 @@
 """What happens to w where p steps: the law integrated across the step, and the two closures in use."""
 
-from dataclasses import dataclass
-
 import sympy as sp
 
 from .check import DerivationError, Derived, derived, holds, zero
@@ -9,18 +7,10 @@ from .strip import TIMES, Strip
 from .symbols import J, chi, s
 
 
-@dataclass(frozen=True)
-class Jumps:
-    """Stage 4a: edge conditions at a pressure step. ``closure`` maps a step of p to the step of w."""
-
-    law: Derived  # [w]/[p] by the operator
-    internal: Derived  # z = w - J p, continuous in time
-    closure: Derived  # [w] = chi J [p]
-
-
-def jumps(strip: Strip) -> Jumps:
+def jumps(strip: Strip) -> tuple[Derived, Derived, Derived]:
+    """Stage 4a: edge conditions at a pressure step: [w]/[p] by the law, the state that is continuous, and the two closures."""
     law = jump_law(strip)
-    return Jumps(law, internal_state(strip), closures(law.value))
+    return law, internal_state(strip), closures(law.value)
 
 
 def jump_law(strip: Strip) -> Derived:

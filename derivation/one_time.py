@@ -10,6 +10,7 @@ from .displays import STATED, displays, of_one_time
 from .energy import friction_balance, power_balance
 from .events import excess_event, gap_event, links
 from .flows import flows
+from .functions import Formula
 from .half_space import half_space
 from .jumps import jumps
 from .kernel import Kernel, Kernels, as_derived
@@ -21,11 +22,11 @@ from .multilevel import multilevel, passed_once
 from .outcome import Derivation, records
 from .paper.compare import comparisons
 from .paper.tags import require_all, require_status, require_tags
-from .regime import OneTime, Regime
+from .regime import OneTime
 from .regimes import regimes
 from .sample_roots import sample_roots
 from .saturated import saturated
-from .sequences import FREE
+from .sequences import FREE, Row
 from .stability import onset, onset_slope, shift_of_an_event
 from .stack import stack
 from .strip import strip
@@ -54,10 +55,10 @@ def derive(model: Model) -> Derivation:
     full = saturated(flow)
     whole, stacked = level(full.threshold.value)
     made += (full, whole, stacked, printed_equation_16(whole[2].exact))
-    ratio = sp.cancel(jump.closure.value / sp.Symbol("step_p", real=True))  # [w]/[p]
+    ratio = sp.cancel(jump[-1].value / sp.Symbol("step_p", real=True))  # [w]/[p]
     table = regimes(OneTime(ratio), full.threshold.value)
     partial = [regime for regime in table if regime.edges]
-    of_zones = {kernel.formula.name: kernel for kernel in zone.kernels}
+    of_zones = {kernel.formula.name: kernel for kernel in zone}
     systems = tuple(boundary_equations(regime, of_zones) for regime in partial)
     roots = sample_roots("one_time", table, mode_flows())
     made += (zone_conditions(one_strip.u), strip_problem(one_strip, table[0]), table, roots, systems)
@@ -71,7 +72,7 @@ def derive(model: Model) -> Derivation:
     upwards = multilevel(table, [passed_once(one_strip)], ("excess_after", "excess_event"))
     made += (upwards, stack(one_strip, full.threshold.value, whole), half_space())
     sections = (
-        ("Rigid profile, load, zones", zone.kernels),
+        ("Rigid profile, load, zones", zone),
         ("Events: value and slope, for root finding in a zone whose entry is evaluated once", events),
         ("Links: value and derivatives by both edges, for Newton on the chain of edges", chain),
         ("Complete contact", full.kernels),
@@ -90,7 +91,8 @@ def derive(model: Model) -> Derivation:
     return Derivation("one_time", model, tuple(made), table, sections, read, printed)
 
 
-def boundary_equations(regime: Regime, zones: Kernels) -> Kernel:
+def boundary_equations(regime: Row, zones: Kernels) -> Kernel:
     """Boundary equations to emit, with the exact expressions they compute: the derived flows put in."""
     parts = tuple(tuple(as_derived(part, zones) for part in sp.Add.make_args(term)) for _, term in regime.equations)
-    return Kernel(regime.residual_formula, tuple(sp.Add(*equation) for equation in parts), regime.derived, parts)
+    computed = Formula(f"residual_{regime.sequence}", (*regime.edges, *PARAMETERS), tuple(term for _, term in regime.equations))
+    return Kernel(computed, tuple(sp.Add(*equation) for equation in parts), regime.derived, parts)

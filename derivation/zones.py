@@ -1,7 +1,5 @@
 """What each zone does to a material point: stable forms proven equal to the flows that SymPy solved."""
 
-from dataclasses import dataclass
-
 import sympy as sp
 
 from . import stable
@@ -12,25 +10,15 @@ from .kernel import Kernel, kernel
 from .symbols import D, J, beta, excess, gap_0, lag_0, p, p_0, p_in, q_0, s, s_0, s_1, w_0
 
 
-@dataclass(frozen=True)
-class Zones:
+def zones(flows: Flows) -> tuple[Kernel, ...]:
     """Stage 4b: the building blocks of every regime."""
-
-    flows: Flows
-    kernels: tuple[Kernel, ...]
-
-
-def zones(flows: Flows) -> Zones:
-    return Zones(
-        flows,
-        (
-            *rigid_profile(flows.strip.u),
-            *load(flows),
-            *gap(flows),
-            *relaxation(flows),
-            *contact(flows),
-            *contact_state(flows),
-        ),
+    return (
+        *rigid_profile(flows.strip.u),
+        *load(flows),
+        *gap(flows),
+        *relaxation(flows),
+        *contact(flows),
+        *contact_state(flows),
     )
 
 

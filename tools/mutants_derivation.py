@@ -122,7 +122,7 @@ MUTANTS: tuple[Mutant, ...] = (
     ),
     m(
         "inequality",
-        "sequences.py",
+        "regimes.py",
         'relation("<=", *edges, edges[0] + PERIOD)',
         'relation(">=", *edges, edges[0] + PERIOD)',
         "inequalities of admissibility",

@@ -10,9 +10,9 @@ import mpmath
 from ..kernel import Kernel
 from ..model import Model
 from ..modes.emit import KINDS
-from ..modes.regimes import ModeRegime
 from ..modes.symbols import OF_STRIP
 from ..outcome import Derivation
+from ..sequences import Row
 from .composition import Composition
 from .grid import drawn
 from .material import NAME, measure_material
@@ -52,7 +52,7 @@ def certified_names(derivation: Derivation) -> list[str]:
 
 
 def measure_regimes(
-    regimes: Sequence[ModeRegime], kernels: Sequence[Kernel], solver: Any, modes: Sequence[int], points: int = POINTS
+    regimes: Sequence[Row], kernels: Sequence[Kernel], solver: Any, modes: Sequence[int], points: int = POINTS
 ) -> Iterator[Certificate]:
     """Measure every function of ``regimes``, which have edges, against the derived zones put together.
 

@@ -16,9 +16,8 @@ import sympy as sp
 
 from ..check import DerivationError
 from ..functions import evaluator
-from ..modes.regimes import ModeRegime
 from ..modes.symbols import f_0, z, z_0
-from ..sequences import CONTACT, Span
+from ..sequences import CONTACT, Row, Span
 from ..symbols import p, p_in, s, s_0, s_1
 from .measure import FLOOR
 from .point import Point
@@ -32,7 +31,7 @@ AGREED = mpmath.mpf(10) ** -50  # of its scale, between a difference and the der
 class Composition:
     """The functions of a regime at one point."""
 
-    def __init__(self, regime: ModeRegime, blocks: Callable[[str], Reference], point: Point):
+    def __init__(self, regime: Row, blocks: Callable[[str], Reference], point: Point):
         self.regime, self.blocks, self.point = regime, blocks, point
         self.n = point.modes or 1
         self.onset = point.values[regime.edges[0]]
@@ -129,7 +128,7 @@ class Composition:
 
     def residual(self, state: np.ndarray) -> np.ndarray:
         regime = self.regime
-        parts = [self._gap(state, regime.onset_pressure) - self._constant(regime.onset_gap)]
+        parts = [self._gap(state, regime.zones[-1].load) - self._constant(regime.zones[-1].exit)]
         for zone, entered in self._along(state):
             if zone is not regime.zones[-1]:
                 parts.append(self._constant(zone.missing) + self._change(zone, entered))

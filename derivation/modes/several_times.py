@@ -19,7 +19,7 @@ from .functions import period_map, whole_kernels
 from .jumps import closures, jump_law
 from .material import admissibility, foundation_law, prony_series, relaxed_stiffness
 from .regimes import SeveralTimes
-from .saturated import complete_contact
+from .saturated import level, saturated
 from .states import dimensionless_groups, partial_fractions
 from .states import states as point_states
 from .symbols import OF_STRIP
@@ -45,8 +45,9 @@ def derive(model: Model) -> Derivation:
         ("Zones as maps of the state, and their derivatives", passages(flows)),
     ]
     made += (kernels for _, kernels in sections)
-    complete = complete_contact(flows)
-    made.append(complete)
+    complete = saturated(flows)
+    whole, stacked = level(complete.threshold.value)
+    made += (complete, whole, stacked)
     table = regimes(SeveralTimes(closure.value), complete.threshold.value, model.springy)
     made += (table, sample_roots("several_times", table, flows))
     means, period = means_of_a_strip(), period_map()
@@ -56,7 +57,7 @@ def derive(model: Model) -> Derivation:
     sections += [
         ("Complete contact", complete.kernels),
         ("Means of strips without edges", (complete.means, *still)),
-        ("Complete contact of whole levels: SI units, modes with times in seconds", complete.level),
+        ("Complete contact of whole levels: SI units, modes with times in seconds", whole),
     ]
     steps = tuple(records(made))
     read = displays(steps, unread(model), vocabulary(flows), BINDINGS, of_modes)

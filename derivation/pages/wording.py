@@ -11,12 +11,11 @@ import sympy as sp
 from ..displays import STATED
 from ..emit import PARAMETER_MEANINGS
 from ..functions import written_out
-from ..modes.regimes import ModeRegime
 from ..modes.several_times import unread
 from ..modes.symbols import J_0
 from ..outcome import Derivation
-from ..regime import PERIODIC, Regime
-from ..sequences import CONTACT, EQUATIONS
+from ..regime import PERIODIC
+from ..sequences import CONTACT, EQUATIONS, Row
 
 WORDS = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
 MEANINGS = dict([*EQUATIONS.values(), PERIODIC])
@@ -56,16 +55,17 @@ def plainly(term: sp.Expr) -> str:
     return sp.latex(written_out(term), long_frac_ratio=8)
 
 
-def _equations(regime: Regime) -> list[list[str]]:
+def _equations(regime: Row) -> list[list[str]]:
     return [[MEANINGS[label], f"{plainly(term)} = 0"] for label, term in regime.equations]
 
 
-def _events(regime: ModeRegime) -> list[list[str]]:
+def _events(regime: Row) -> list[list[str]]:
     if not regime.edges:
         return []
     first = sp.latex(regime.edges[0])
-    elastic = sp.latex(J_0 * regime.onset_pressure) + " + " if regime.onset_pressure != 0 else ""
-    gap = f" - {sp.latex(regime.onset_gap)}" if regime.onset_gap != 0 else ""
+    last = regime.zones[-1]
+    elastic = sp.latex(J_0 * last.load) + " + " if last.load != 0 else ""
+    gap = f" - {sp.latex(last.exit)}" if last.exit != 0 else ""
     onset = rf"{elastic}\sum_j z_j({first}) - u({first}){gap} = 0"
     changes = []
     for zone in regime.zones[:-1]:
