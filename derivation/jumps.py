@@ -20,11 +20,7 @@ def jump_law(strip: Strip) -> Derived:
     .. math:: \int_{0^-}^{0^+}(w + \beta w' - p - \alpha p')\,ds = \beta [w] - \alpha [p] = 0 \;\Rightarrow\; [w] = J [p]
     """
     before_w, before_p, step_w, step_p = sp.symbols("w_minus p_minus step_w step_p", real=True)
-    eps = sp.Symbol("eps", positive=True)
-    w = before_w + step_w * sp.Heaviside(s)
-    p = before_p + step_p * sp.Heaviside(s)
-    across = sp.integrate(sp.expand(strip.law(w, p)), (s, -eps, eps))
-    balance = sp.expand(sp.limit(across, eps, 0))
+    balance = across_a_step(strip.law(before_w + step_w * sp.Heaviside(s), before_p + step_p * sp.Heaviside(s)))
     solutions = sp.solve(balance, step_w)
     if len(solutions) != 1:
         raise DerivationError("jump law", f"one step of w for a step of p, not {solutions}")
@@ -35,6 +31,12 @@ def jump_law(strip: Strip) -> Derived:
         zero("[w]/[p] is the instantaneous compliance J", [ratio - J, ratio - instantaneous]),
     ]
     return derived(jump_law, ratio, checks)
+
+
+def across_a_step(law: sp.Expr) -> sp.Expr:
+    """A law for steps at s = 0, integrated over a vanishing interval around them."""
+    eps = sp.Symbol("eps", positive=True)
+    return sp.expand(sp.limit(sp.integrate(sp.expand(law), (s, -eps, eps)), eps, 0))
 
 
 def internal_state(strip: Strip) -> Derived:

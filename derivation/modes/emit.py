@@ -4,7 +4,7 @@ from typing import Any
 
 import sympy as sp
 
-from ..functions import Formula, flat, mapped
+from ..functions import Formula, mapped
 from ..model import Model, Parameter, Roots, Series
 from ..outcome import Derivation
 from ..printing import function_text, functions_of, helpers_used, results, source
@@ -68,17 +68,6 @@ def _modes_of_material(model: Model, series: Series | Roots) -> tuple[str, tuple
 def written(formula: Formula, record: Any) -> Any:
     """A formula as the text of a function, in which what is no argument is a field of the material m."""
     inside = {symbol: named for symbol, named in OF_THE_STRIP.items() if symbol not in formula.args}
-    steps = tuple((label, sp.sympify(term).xreplace(inside)) for label, term in _needed(formula))
+    steps = tuple((label, sp.sympify(term).xreplace(inside)) for label, term in formula.steps)
     result = mapped(formula.result, lambda part: part.xreplace(inside))
     return function_text(Formula(formula.name, formula.args, result, steps), record)
-
-
-def _needed(formula: Formula) -> list[tuple[sp.Symbol, sp.Expr]]:
-    """The steps of a formula that its result goes back to."""
-    wanted = set().union(*(sp.sympify(part).free_symbols for part in flat(formula.result)))
-    kept = []
-    for label, term in reversed(formula.steps):
-        if label in wanted:
-            wanted |= sp.sympify(term).free_symbols
-            kept.append((label, term))
-    return kept[::-1]
