@@ -214,29 +214,21 @@ def contact_area(regimes: Sequence[Row]) -> Derived:
 
     .. math:: A = 2 \Delta \sum_{j=1}^{N} (a_j + b_j),\quad l = 2 N \Delta
     """
-    length = sp.Function("length")
-    ends = {a: k * sp.Symbol("x_a", positive=True), b: -k * sp.Symbol("x_b", positive=True)}  # contact from x = -a to b
-    widths = []
-    for regime in regimes:
-        for zone in regime.zones:
-            if zone.kind == CONTACT and zone.first == b:
-                between = (zone.last - zone.first).subs(ends) / k
-                widths.append(between - sp.Symbol("x_a", positive=True) - sp.Symbol("x_b", positive=True))
+    length, behind, ahead = sp.Function("length"), *sp.symbols("x_a x_b", positive=True)  # contact from x = -x_a to x_b
+    one, other = sp.symbols("c_0 c_1", real=True)
+    linear = lambda place: one + other * sp.cos(k * place)  # noqa: E731
+    spans = [zone.last - zone.first for regime in regimes for zone in regime.zones if zone.kind == CONTACT and zone.first == b]
+    widths = [span.subs({a: k * behind, b: -k * ahead}) / k - behind - ahead for span in spans]
     checks = [
         zero("the contact zone from phase b to phase a is a + b long in x", widths),
         zero("the surface is the same at y and -y: half a cell counts twice", HEIGHT.subs(y, -y) - HEIGHT),
         zero("complete contact, a + b = l in every strip: the whole cell", [_area(lambda _: l, n) - l**2 for n in (1, 2, 5)]),
         zero(
             "strips represented by their middles: a length linear in cos ky is summed to its integral over the cell",
-            [_area(_linear, n) - l * mean_over_wave(_linear(y), y).subs(k, 2 * sp.pi / l) for n in (2, 3)],
+            [_area(linear, n) - l * mean_over_wave(linear(y), y).subs(k, 2 * sp.pi / l) for n in (2, 3)],
         ),
     ]
     return derived(contact_area, sp.Integral(length(y), (y, 0, l)), checks)
-
-
-def _linear(place: sp.Expr) -> sp.Expr:
-    one, other = sp.symbols("c_0 c_1", real=True)
-    return one + other * sp.cos(k * place)
 
 
 def _area(length, number: int) -> sp.Expr:

@@ -1,7 +1,5 @@
 """The derivation for one relaxation time, stage after stage."""
 
-from typing import Any
-
 import sympy as sp
 
 from .averages import constant_means, strip_means
@@ -37,40 +35,35 @@ from .zones import zones
 
 def derive(model: Model) -> Derivation:
     """Derive and verify everything that follows from the two operators of ``model``."""
-    made: list[Any] = []
     require_admissible(model)
     require_constructor(model)
     ground = foundation(model)
-    made.append(ground)
     one_strip = strip(ground)
-    made.append(one_strip)
-    flow = flows(one_strip)
-    made.append(flow)
-    jump = jumps(one_strip)
-    made.append(jump)
-    zone = zones(flow)
+    flow, jump = flows(one_strip), jumps(one_strip)
+    zone, chain = zones(flow), links(flow)
     events = (*gap_event(flow), *excess_event(flow))
-    chain = links(flow)
-    made += (zone, events, chain)
     full = saturated(flow)
-    whole, stacked = level(full.threshold.value)
-    made += (full, whole, stacked, printed_equation_16(whole[2].exact))
+    threshold = full.threshold.value
+    whole, stacked = level(threshold)
     ratio = sp.cancel(jump[-1].value / sp.Symbol("step_p", real=True))  # [w]/[p]
-    table = regimes(OneTime(ratio), full.threshold.value)
+    table = regimes(OneTime(ratio), threshold)
     partial = [regime for regime in table if regime.edges]
     of_zones = {kernel.formula.name: kernel for kernel in zone}
     systems = tuple(boundary_equations(regime, of_zones) for regime in partial)
-    roots = sample_roots("one_time", table, mode_flows())
-    made += (zone_conditions(one_strip.u), strip_problem(one_strip, table[0]), table, roots, systems)
     still = tuple(constant_means(regime, PARAMETERS) for regime in table if regime.sequence in ("a", "f"))
     means = tuple(strip_means(regime, of_zones) for regime in partial)
-    balances = (power_balance(flow), *(friction_balance(regime) for regime in partial))
-    made += (means, still, balances)
     onsets = onset({regime.sequence: regime for regime in partial})
     slopes = tuple(onset_slope(regime) for regime in partial if regime.zones[-1].kind == FREE)
-    made += (shift_of_an_event(), onsets, slopes)
-    upwards = multilevel(table, [passed_once(one_strip)], ("excess_after", "excess_event"))
-    made += (upwards, stack(one_strip, full.threshold.value, whole), half_space())
+    made = (
+        (ground, one_strip, flow, jump),
+        (zone, events, chain, full, whole, stacked, printed_equation_16(whole[2].exact)),
+        (zone_conditions(one_strip.u), strip_problem(one_strip, table[0]), table),
+        (sample_roots("one_time", table, mode_flows()), systems, means, still),
+        (power_balance(flow), *(friction_balance(regime) for regime in partial)),
+        (shift_of_an_event(), onsets, slopes),
+        multilevel(table, [passed_once(one_strip)], ("excess_after", "excess_event")),
+        (stack(one_strip, threshold, whole), half_space()),
+    )
     sections = (
         ("Rigid profile, load, zones", zone),
         ("Events: value and slope, for root finding in a zone whose entry is evaluated once", events),
@@ -88,7 +81,7 @@ def derive(model: Model) -> Derivation:
     require_tags(steps)
     require_all(steps)
     require_status(steps, printed)
-    return Derivation("one_time", model, tuple(made), table, sections, read, printed)
+    return Derivation("one_time", model, made, table, sections, read, printed)
 
 
 def boundary_equations(regime: Row, zones: Kernels) -> Kernel:

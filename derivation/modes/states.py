@@ -157,19 +157,15 @@ def states() -> Derived:
             [(J_j * w, ENTERING), (J_j, OVERSTRESSED), (-1, (LEAVE * f_i, sp.Symbol("left")))],
             J_j * p - sp.Symbol("left"),
         ),
-        zero("a dashpot follows w: alpha_i e_i' + e_i = w", _dashpot(e_i)),
+        zero(
+            "a dashpot follows w: alpha_i e_i' + e_i = w",
+            alpha_i * (dw - alpha_i / eta_i * df_i).subs(df_i, (eta_i * dw - f_i) / alpha_i) + e_i - w,
+        ),
         zero("P/Q vanishes at -1/alpha_i: the sum over j of J_j alpha_i/(beta_j - alpha_i) is J_0", at_pole + pole[0]),
         summed("the columns of leave sum to 1", LEAVE, [(1, (J_j, 1 - J_0)), (1, pole)], sp.Integer(1), over={beta_j, J_j}),
         summed("so w = J_0 p + sum z_j, z_j = J_j p - sum_i leave_ji f_i", -f_i, [(-1, OVERSTRESSED)], w - (J_0 + (1 - J_0)) * p),
     ]
     return derived(states, (ENTER, LEAVE, SHARE), checks)
-
-
-def _dashpot(e_i: sp.Expr) -> sp.Expr:
-    """alpha e' + e - w for e = w - (alpha/eta) f on a motion of the branch."""
-    motion = {f_i: df_i}
-    slope = dw - alpha_i / eta_i * motion[f_i].subs(df_i, (eta_i * dw - f_i) / alpha_i)
-    return sp.expand(alpha_i * slope + e_i - w)
 
 
 _own, _others, _norm = (sp.lambdify(args, form, modules="mpmath") for args, form in (
