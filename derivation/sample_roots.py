@@ -9,7 +9,7 @@ refused. The roots of ``sample_roots.toml`` were found once from random starts.
 """
 
 import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
 
@@ -45,9 +45,9 @@ def sample_roots(kind: str, regimes: Sequence[Row], flows: ModeFlows) -> Derived
     """
     checks = []
     for regime in regimes:
-        for number, (groups, start, solution) in enumerate(ROOTS[kind][regime.sequence], start=1):
-            foundation = Foundation(flows, *GROUPS[kind](*map(float, groups)))
-            edges = dict(zip(regime.edges, map(float, start), strict=True))
+        for number, (times, strip, found, solution) in enumerate(ROOTS[kind][regime.sequence], start=1):
+            foundation = Foundation(flows, list(map(float, times)), list(map(float, strip)))
+            edges = dict(zip(regime.edges, map(float, found), strict=True))
             admitted = all(foundation.satisfies(regime, inequality, edges) for inequality in regime.admissible)
             root, shown = f"{regime.sequence}, root {number}", "a solution" if solution else "no solution"
             checks.append(holds(f"{root}: the boundary equations hold", foundation.missed(regime, edges) < LEFT))
@@ -56,23 +56,12 @@ def sample_roots(kind: str, regimes: Sequence[Row], flows: ModeFlows) -> Derived
     return derived(sample_roots, None, checks, "inequalities of admissibility")
 
 
-def _one_time(ratio: float, slow: float, *rest: float) -> tuple[Sequence[float], Numbers]:
-    """Relaxation and retardation times, and every number that an inequality may ask for."""
-    return (ratio * slow, slow), dict(zip(PARAMETERS, (ratio * slow, slow, ratio, 1 - ratio, *rest), strict=True))
-
-
-def _several_times(*groups: float) -> tuple[Sequence[float], Numbers]:
-    *times, traction, reach, depth = groups
-    return times, {p_0: traction, delta_0: reach, D: depth, chi: 1.0}
-
-
-GROUPS: Mapping[str, Callable[..., tuple[Sequence[float], Numbers]]] = {"one_time": _one_time, "several_times": _several_times}
-
-
 class Foundation:
-    """A foundation under a strip: its numbers, and its flows as functions."""
+    """A foundation under a strip: its numbers, and its flows as functions. ``strip``: p_0, delta_0, D, chi."""
 
-    def __init__(self, flows: ModeFlows, times: Sequence[float], given: Numbers):
+    def __init__(self, flows: ModeFlows, times: Sequence[float], strip: Sequence[float]):
+        fast, slow, *_ = times  # of one time, all there are
+        given = dict(zip(PARAMETERS, (fast, slow, fast / slow, 1 - fast / slow, *strip), strict=True))
         modes = exact_modes(*([mpmath.mpf(time) for time in alternate] for alternate in (times[0::2], times[1::2])))
         self.m = {symbol: np.array(value, dtype=float) for symbol, value in modes.items()}
         ratio = abs(1 + (1j * self.m[eta] / (1 + 1j * self.m[alpha])).sum())

@@ -11,7 +11,7 @@ import numpy as np
 import sympy as sp
 
 from ..modes.symbols import MATERIAL, m
-from ..symbols import J, L, alpha, beta, h, l
+from ..symbols import J, L, alpha, beta
 from .scaled import sizes, values
 
 ZERO = mpmath.mpf(10) ** -110  # stands for a vanishing speed or time: the derived forms divide by it
@@ -22,7 +22,7 @@ Values = dict[sp.Symbol, Any]
 
 @dataclass(frozen=True)
 class Point:
-    """Inputs by symbol: numbers, or arrays with one value per mode (of l and h: per level).
+    """Inputs by symbol: numbers, or arrays with one value per mode.
 
     ``phases`` in order: a move of one moves those after it, since what is given exactly are the widths between them. ``weights``:
     scales of inputs that are themselves computed. ``coupled``: J or L is the independent one of alpha, J and L.
@@ -43,10 +43,6 @@ class Point:
     def moved(self, inputs: Values, phases: Sequence[sp.Symbol], known_to: Values | None = None) -> Point:
         """The same point with other inputs, of which ``phases`` are phases; ``known_to``: scales of inputs, if not their own."""
         return replace(self, values={**self.values, **inputs}, phases=tuple(phases), weights={**self.weights, **(known_to or {})})
-
-    def levels(self) -> Iterator[Point]:
-        for length, height in zip(self.values[l], self.values[h], strict=True):
-            yield replace(self, values={**self.values, l: length, h: height})
 
     def directions(self, symbols: Sequence[sp.Symbol]) -> Iterator[tuple[Any, Values]]:
         """(weight, changed inputs) with one independent input of ``symbols`` at a time moved by STEP, relatively."""

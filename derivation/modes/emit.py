@@ -1,5 +1,6 @@
 """Emission for n modes: verified kernels and regimes in, values for the template out. Nothing is derived here."""
 
+import re
 from typing import Any
 
 import sympy as sp
@@ -9,7 +10,6 @@ from ..model import Model, Parameter, Roots, Series
 from ..outcome import Derivation
 from ..printing import function_text, functions_of, helpers_used, results, source
 from .functions import zones_function
-from .material import series_of
 from .symbols import MATERIAL as FIELDS
 from .symbols import SUMS
 
@@ -22,13 +22,13 @@ FROM_MODES = ("Modes", "Zone", "for_batch", "regime_functions", "scaled")
 
 def template_values(derivation: Derivation) -> dict[str, Any]:
     """What the template of a model with n modes is rendered with beside what every model has."""
-    model, series = derivation.model, series_of(derivation.model)
+    model, series = derivation.model, derivation.model.series
     arrays = [] if isinstance(series, Roots) else [source(symbol) for symbol in series.arrays]
     formulas = [kernel.formula for kernel in derivation.kernels]
     sums = functions_of(formulas, SUMS)
     checked = [_checked(parameter, arrays, model.modes is None) for parameter in model.parameters]
-    material, builders = _modes_of_material(model, series)
-    validators = {text.partition("(")[0] for _, text in checked}
+    material = _modes_of_material(model, series)
+    called = [text.partition("(")[0] for _, text in checked] + re.findall(r"(?<![.\w])(\w+)\(", material)
     return {
         "n": model.modes,
         "closures": derivation.regimes[0].closures,
@@ -36,7 +36,7 @@ def template_values(derivation: Derivation) -> dict[str, Any]:
         "checked": checked,
         "modes_of_material": material,
         "series": next(step for step in derivation.steps if step.name == "Prony series"),
-        "sums": sorted({*sums, *FROM_MODES, *validators, *builders}, key=lambda n: (n.islower(), n)),
+        "sums": sorted({*sums, *FROM_MODES, *called}, key=lambda n: (n.islower(), n)),
         "helpers": helpers_used(formulas),
         "kinds": KINDS,
         "zones": {regime.sequence: written(*zones_function(regime)) for regime in derivation.composed},
@@ -55,14 +55,14 @@ def _checked(parameter: Parameter, arrays: list[str], any_number: bool) -> tuple
     return name, f'{bound}("{name}", {name})'
 
 
-def _modes_of_material(model: Model, series: Series | Roots) -> tuple[str, tuple[str, ...]]:
-    """The expression that turns the parameters into (K, modes), and the functions it calls."""
+def _modes_of_material(model: Model, series: Series | Roots) -> str:
+    """The expression that turns the parameters into (K, modes)."""
     if isinstance(series, Roots):
-        return f"of_operators({results(model.Q)}, {results(model.P)})", ("of_operators",)
+        return f"of_operators({results(model.Q)}, {results(model.P)})"
     stated = [source(series.viscosity), source(series.time)]
     if series.arrays:
-        return f"{source(series.K)}, spectrum({', '.join(stated)})", ("spectrum",)
-    return f"{source(series.K)}, spectrum({', '.join(f'first_mode({part})' for part in stated)})", ("first_mode", "spectrum")
+        return f"{source(series.K)}, spectrum({', '.join(stated)})"
+    return f"{source(series.K)}, spectrum({', '.join(f'first_mode({part})' for part in stated)})"
 
 
 def written(formula: Formula, record: Any) -> Any:

@@ -175,25 +175,13 @@ _between = sp.lambdify((alpha_i, eta_i, beta_j, J_j), (ENTER, LEAVE, SHARE), mod
 
 def exact_modes(relaxation: Sequence[mpmath.mpf], retardation: Sequence[mpmath.mpf]) -> dict[sp.Symbol, np.ndarray | mpmath.mpf]:
     """Every quantity of the modes with these interlaced times, by symbol, as the derived forms give them."""
-    n = len(relaxation)
-    modes = range(n)
-    viscosity = [
-        mpmath.fprod(
-            [
-                _own(relaxation[i], retardation[i]),
-                *(_others(relaxation[i], relaxation[k], retardation[k]) for k in modes if k != i),
-            ]
-        )
-        for i in modes
-    ]
-    compliance = [1 / (retardation[j] * sum(_norm(relaxation[i], viscosity[i], retardation[j]) for i in modes)) for j in modes]
-    pairs = [[_between(relaxation[i], viscosity[i], retardation[j], compliance[j]) for j in modes] for i in modes]
-    found = {
-        alpha: relaxation, beta: retardation, eta: viscosity, J: compliance,
-        S: [a / b for a, b in zip(relaxation, viscosity, strict=True)],
-        enter: [[pair[0] for pair in row] for row in pairs],
-        leave: [[pairs[i][j][1] for i in modes] for j in modes],
-        share: [[pairs[i][j][2] for i in modes] for j in modes],
+    times, slower = (np.array(each, dtype=object) for each in (relaxation, retardation))
+    itself = np.eye(len(times), dtype=bool)
+    factors = _others(times[:, None], times + itself, slower)  # of branch i and every other
+    viscosity = np.where(itself, _own(times, slower), factors).prod(axis=1)
+    compliance = 1 / (slower * _norm(times[:, None], viscosity[:, None], slower).sum(axis=0))
+    entering, leaving, shared = _between(times[:, None], viscosity[:, None], slower, compliance)
+    return {
+        alpha: times, beta: slower, eta: viscosity, J: compliance, J_0: (times / slower).prod(), S: times / viscosity,
+        enter: entering, leave: leaving.T, share: shared.T,
     }  # fmt: skip
-    instantaneous = mpmath.fprod(a / b for a, b in zip(relaxation, retardation, strict=True))
-    return {symbol: np.array(value, dtype=object) for symbol, value in found.items()} | {J_0: instantaneous}
