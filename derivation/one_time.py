@@ -14,7 +14,7 @@ from .jumps import jumps
 from .kernel import Kernel, Kernels, as_derived
 from .level import level, printed_equation_16
 from .membership import require_constructor
-from .model import Model, foundation, require_admissible
+from .model import Model, foundation, inadmissible, refuse
 from .modes.flows import mode_flows
 from .multilevel import multilevel, passed_once
 from .outcome import Derivation, records
@@ -35,7 +35,7 @@ from .zones import zones
 
 def derive(model: Model) -> Derivation:
     """Derive and verify everything that follows from the two operators of ``model``."""
-    require_admissible(model)
+    refuse(model, inadmissible(model))
     require_constructor(model)
     ground = foundation(model)
     one_strip = strip(ground)

@@ -15,7 +15,7 @@ from . import stable
 from .check import BEYOND, REPRODUCED, Claim, derived, zero
 from .functions import written_out
 from .regimes import Edges, System
-from .sequences import CONTACT, EQUATIONS, NOTHING, Inequality, Relation, Row, Span, obeys_jump_law, relation, require, zones_of
+from .sequences import CONTACT, EQUATIONS, NOTHING, Inequality, Relation, Row, Span, obeys_jump_law, relation, zones_of
 from .symbols import D, J, L, alpha, beta, chi, p_0, s, s_1
 
 turn = sp.Symbol("e", real=True)  # where the gap is least or greatest
@@ -51,10 +51,8 @@ class Zone(Span):
         return harmonic + p_0 if self.kind == CONTACT else self.load - harmonic
 
     def approach(self, edge: sp.Symbol) -> Inequality:
-        """How the state must come to the edge where the zone ends: its slope there has the sign of ``drive - exit``."""
-        what = "the pressure" if self.kind == CONTACT else "the gap"
-        slope = relation(">=" if self.rises else "<=", self.drive(edge) - self.exit, 0)
-        return require(slope, sentence=f"{what} {'rises' if self.rises else 'falls'} at {edge}: {{}}")
+        """Its slope at the edge has the sign of ``drive - exit``."""
+        return self.comes(edge, self.drive(edge) - self.exit, "at")
 
     @property
     def displacement(self) -> sp.Expr:

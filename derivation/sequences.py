@@ -110,6 +110,12 @@ class Span:
         """Whether its state comes to the exit from below: the gap that reaches delta_0; contact begins and ends from above."""
         return self.kind == ADHESION and self.exit != NOTHING
 
+    def comes(self, edge: sp.Symbol, slope: sp.Expr, where: str) -> Inequality:
+        """How the state must come to the ``edge`` where the zone ends: ``slope`` has the sign of its slope there."""
+        what = "the pressure" if self.kind == CONTACT else "the gap"
+        sign, verb = (">=", "rises") if self.rises else ("<=", "falls")
+        return require(relation(sign, slope, 0), sentence=f"{what} {verb} {where} {edge}: {{}}")
+
     def fields(self, edge: sp.Expr, state: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
         """(w, p) at an edge, from the state of this zone there."""
         height = stable.PROFILE(edge, D)

@@ -106,9 +106,9 @@ MUTANTS: tuple[Mutant, ...] = (
     m("inequality", "regime.py", "harmonic + p_0 if self.kind", "harmonic - p_0 if self.kind", "regime acaf"),
     m(
         "inequality",
-        "regime.py",
-        'relation(">=" if self.rises else "<="',
-        'relation("<=" if self.rises else ">="',
+        "sequences.py",
+        '(">=", "rises") if self.rises else ("<=", "falls")',
+        '("<=", "rises") if self.rises else (">=", "falls")',
         "inequalities of admissibility",
         "inequalities",
     ),
@@ -383,8 +383,8 @@ MUTANTS: tuple[Mutant, ...] = (
     *(
         m("inequality", file, before, after, "inequalities of admissibility", "modes")
         for file, before, after in (
-            ("modes/regimes.py", 'falls, rises = "<=", ">="', 'falls, rises = ">=", ">="'),
-            ("modes/regimes.py", 'falls, rises = "<=", ">="', 'falls, rises = "<=", "<="'),
+            ("sequences.py", '("<=", "falls")', '(">=", "falls")'),
+            ("sequences.py", '(">=", "rises")', '("<=", "rises")'),
             ("modes/regimes.py", "relation(sign, gap_at(s), limit)", "relation(sign, limit, gap_at(s))"),
             ("regimes.py", 'relation("<=", delta_0 - edges.step, 0)', 'relation(">=", delta_0 - edges.step, 0)'),
             ("regimes.py", 'edges.all_along(adhesion, ">=", sp.Integer(0))', 'edges.all_along(adhesion, "<=", sp.Integer(0))'),

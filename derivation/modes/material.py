@@ -2,8 +2,8 @@
 
 import sympy as sp
 
-from ..check import Claim, DerivationError, Derived, derived, holds, zero
-from ..model import Model, Roots, inadmissible, omega, rate
+from ..check import Claim, Derived, derived, holds, zero
+from ..model import Model, Roots, inadmissible, omega, rate, refuse
 from ..paper.record import CORRECTIONS
 from ..symbols import K, beta
 
@@ -97,9 +97,7 @@ def admissibility(model: Model) -> Derived:
 
     .. math:: K > 0,\quad \eta_i \ge 0,\quad \tau_i \ge 0,\qquad \tau_1 \le \lambda_1 \le \tau_2 \le \lambda_2 \le \dots
     """
-    reasons = inadmissible_series(model)
-    if reasons:
-        raise DerivationError("admissibility", f"model {model.name!r} is refused: " + "; ".join(reasons))
+    refuse(model, inadmissible_series(model))
     time = sp.Symbol("tau_i", nonnegative=True)
     loss = sp.simplify(sp.im(sp.expand_complex(BRANCH.subs(tau_i, time).subs(rate, sp.I * omega))))
     claimed = eta_i * omega / (1 + time**2 * omega**2)

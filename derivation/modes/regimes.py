@@ -11,12 +11,11 @@ import sympy as sp
 
 from ..check import BEYOND, derived, zero
 from ..regimes import Edges, System
-from ..sequences import CONTACT, EQUATIONS, PERIOD, Inequality, Relation, Row, Span, obeys_jump_law, relation, require, zones_of
+from ..sequences import CONTACT, EQUATIONS, PERIOD, Inequality, Relation, Row, Span, obeys_jump_law, relation, zones_of
 from ..symbols import b, d, p_0, s
 from .symbols import J_0
 
 gap_at, gap_slope, pressure_slope = (sp.Function(name) for name in ("g", "g'", "p'"))
-falls, rises = "<=", ">="
 ONSET = {  # by the first edge
     d: ("onset", "the gap falls to delta_0 at d"),
     b: ("contact_begins", "the gap closes at b"),
@@ -28,9 +27,7 @@ class Zone(Span):
     """A zone at whose end the state comes to an edge with a slope that its fields show."""
 
     def approach(self, edge: sp.Symbol) -> Inequality:
-        what, slope = ("the pressure", pressure_slope) if self.kind == CONTACT else ("the gap", gap_slope)
-        sign, verb = (rises, "rises") if self.rises else (falls, "falls")
-        return require(relation(sign, slope(edge), 0), sentence=f"{what} {verb} just before {edge}: {{}}")
+        return self.comes(edge, (pressure_slope if self.kind == CONTACT else gap_slope)(edge), "just before")
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from ..symbols import alpha, beta
 from .symbols import J_0, J, S, enter, eta, leave, share
 
 alpha_i, eta_i, alpha_k, beta_i, beta_j, beta_k, J_j = sp.symbols("alpha_i eta_i alpha_k beta_i beta_j beta_k J_j", positive=True)
-f_i, df_i, w, dw, p, dp = sp.symbols("f_i f_i' w w' p p'", real=True)
+f_i, df_i, w, dw, p = sp.symbols("f_i f_i' w w' p", real=True)
 OF_BRANCH = {alpha_i, eta_i, f_i, df_i}
 BRANCH = eta_i * rate / (1 + alpha_i * rate)
 

@@ -38,22 +38,10 @@ class total(Helper):
         return total(term)
 
 
-@helper
-def across(matrix, vector):
-    """A matrix times a vector, both along the mode axis."""
-    return across(matrix, vector)
-
-
-@helper
-def back(matrix, vector):
-    """A vector times a matrix: across with the transposed matrix."""
-    return back(matrix, vector)
-
-
-@helper
-def sandwich(left, vector, right):
-    """matrix diag(vector) matrix."""
-    return sandwich(left, vector, right)
+# of vectors and matrices along the mode axis
+across = helper("across", lambda matrix, vector: across(matrix, vector))  # a matrix times a vector
+back = helper("back", lambda vector, matrix: back(vector, matrix))  # a vector times a matrix
+sandwich = helper("sandwich", lambda left, vector, right: sandwich(left, vector, right))  # left diag(vector) right
 
 
 class at_speed(Scaling):
