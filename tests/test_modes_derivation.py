@@ -155,7 +155,7 @@ def test_functions_stay_below_their_bounds(name: str) -> None:
 def test_every_emitted_function_has_a_bound(name: str) -> None:
     emitted = {key for key, each in getmembers(SOLVERS[name], isfunction) if each.__module__ == SOLVERS[name].__name__}
     known = {f"zones_{regime.sequence}" for regime in of(name).composed}  # what is measured are the functions made of them
-    assert emitted - set(stored_bounds()[name]) - known <= ({"prony"} if name == "kelvin_voigt" else set())  # a dashpot has none
+    assert emitted - set(stored_bounds()[name]) == known
     assert sorted(stored_bounds()[name]) == sorted(certified_names(of(name)))
 
 
