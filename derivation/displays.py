@@ -19,7 +19,7 @@ from sympy.core.function import AppliedUndef
 
 from .check import DerivationError, Derived
 from .exact import RELATIONS
-from .functions import flat, stack_sum, written_out
+from .functions import flat, written_out
 from .latex import Unreadable, statements
 from .modes.numbers import DIGITS, sample, value
 from .strip import TIMES
@@ -96,8 +96,7 @@ def _require_same(name: str, one: sp.Expr, other: sp.Expr, point: Point) -> None
 
 
 def _definite(expression: sp.Expr) -> sp.Expr:
-    one_level = written_out(sp.sympify(expression)).replace(stack_sum, lambda term: term)
-    return one_level.doit(integrals=False).subs(TIMES).subs(RELATIONS).subs(WAVE)
+    return written_out(sp.sympify(expression)).doit(integrals=False).subs(TIMES).subs(RELATIONS).subs(WAVE)
 
 
 def of_one_time(seed: str, symbols: set[sp.Symbol]) -> dict[sp.Symbol, Any]:

@@ -43,13 +43,11 @@ def require_constructor(model: Model) -> None:
 def outside(model: Model) -> list[str]:
     """The reasons why a model is no linear law with constant coefficients and integer derivatives."""
     known = {parameter.symbol for parameter in model.parameters}
-    arrays = [symbol.name.removesuffix("_i") for symbol in getattr(model.series, "arrays", ())]  # numbered by branch: K_1, K_2
-    numbered = {f"{name}_{n}" for name in arrays for n in range(1, (model.modes or 0) + 1)}
     reasons = []
     for label, operator in (("Q", model.Q), ("P", model.P)):
         for n, coefficient in enumerate(map(sp.sympify, operator)):
             what = f"{label}[{n}] = {coefficient}"
-            foreign = sorted(set(map(str, coefficient.free_symbols - known - {rate})) - numbered)
+            foreign = sorted(map(str, coefficient.free_symbols - known - {rate}))
             if coefficient.has(rate):
                 reasons.append(
                     f"{what} holds d/dt itself, as a fractional element does: it has no finite number of internal states"

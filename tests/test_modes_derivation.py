@@ -118,7 +118,7 @@ CHANGED = [
     ("sequences.py", "d + PERIOD, delta_0 + step, delta_0)", "d + PERIOD, delta_0, delta_0)", "regime acaf"),
     ("sequences.py", "p_0 - delta_0 / compliance", "p_0 + delta_0 / compliance", "regime afc"),
     ("modes/saturated.py", "harmonic - eq_15", "harmonic + eq_15", "saturated_overstress"),
-    ("modes/levels.py", "u - alpha / eta * harmonic", "u + alpha / eta * harmonic", "carried friction"),
+    ("modes/flows.py", "u - alpha / eta * harmonic", "u + alpha / eta * harmonic", "carried friction"),
     ("multilevel.py", "+ friction_of_one.subs(lower)", "- friction_of_one.subs(lower)", "friction coefficient"),
     ("conditions.py", "gap = AMPLITUDE * displacement - (", "gap = AMPLITUDE * displacement + (", "zone conditions"),
     ("averages.py", "J_j * load - z_j,", "J_j * load + z_j,", "means of a strip"),
@@ -154,7 +154,7 @@ def test_functions_stay_below_their_bounds(name: str) -> None:
 def test_every_emitted_function_has_a_bound(name: str) -> None:
     emitted = {key for key, each in getmembers(SOLVERS[name], isfunction) if each.__module__ == SOLVERS[name].__name__}
     known = {f"zones_{regime.sequence}" for regime in of(name).composed}  # what is measured are the functions made of them
-    assert emitted - set(stored_bounds()[name]) - known <= ({"prony"} if name == "kelvin_voigt" else set())  # a dashpot has none
+    assert emitted - set(stored_bounds()[name]) == known
     assert sorted(stored_bounds()[name]) == sorted(certified_names(of(name)))
 
 

@@ -44,7 +44,7 @@ def certified_names(derivation: Derivation) -> list[str]:
     """Names of the functions that have a certificate.
 
     Not among them is material_modes of a model given by operators, whose times are roots of polynomials as badly conditioned
-    as the user's parameters make them; nor prony of a bare dashpot, whose modulus is infinite.
+    as the user's parameters make them.
     """
     stated = [NAME] if derivation.model.stated else []
     kernels = [kernel.formula.name for kernel in (*derivation.whole, *derivation.kernels)]

@@ -14,7 +14,7 @@ import sympy as sp
 from ..modes.states import exact_modes
 from ..modes.symbols import STATES, m
 from ..printing import source
-from ..symbols import J, L, T_eps, T_sigma, a, alpha, b, beta, c, chi, d, h, l, p, p_0, s, s_0, s_1
+from ..symbols import J, L, T_eps, T_sigma, a, alpha, b, beta, c, chi, d, p, p_0, s, s_0, s_1
 from .point import ZERO, Point, following, rounded
 
 PHASES = (d, b, a, c, s, s_0, s_1)
@@ -23,7 +23,6 @@ GROUPS = {alpha, beta, J, L}  # of one relaxation time, drawn together
 PERIOD = 2 * math.pi
 TURN = sp.Symbol("pi", positive=True)  # pi, where it is an input that is known to its own digits
 NARROW = 1e-9  # the narrowest zone
-LEVELS = 5  # of a stack, at most
 Random = random.Random
 Range = tuple[Callable[[Random], float], str]
 
@@ -63,7 +62,6 @@ DOMAIN: dict[str, Range] = {
     "l": (lambda r: log(r, *SI), f"{SI_WIDE} m"),
     "h": (lambda r: log(r, *SI), f"{SI_WIDE} m"),
     "V": (lambda r: r.choice((0.0, log(r, *SI), log(r, -9, 2))), f"0, {SI_WIDE} m/s"),
-    "p_1": (lambda r: log(r, *SI), f"{SI_WIDE} Pa"),
 }
 OF_STATES = (lambda r: r.choice((0.0, signed(r, *FAR), signed(r, -9, 6), signed(r, -2, 1))), f"0, +-{WIDE}, each mode by itself")
 WORDS = {
@@ -90,16 +88,12 @@ def drawn(args: Sequence[sp.Symbol], seed: str, modes: int = 0, moving: bool = F
         exact |= inputs | following(follow, inputs)
     if m in args:
         exact |= _material(draw, modes, moving, dashpots)
-    several = any(str(symbol) == "p_1" for symbol in args)
     for symbol in args:
         name = source(symbol)
         if symbol in exact or symbol == m:
             continue
         if symbol in STATES:
             exact[symbol] = np.array([mpmath.mpf(OF_STATES[0](draw)) for _ in range(modes)], dtype=object)
-        elif several and symbol in (h, l):
-            count = Random(f"{seed} levels").randint(1, LEVELS)
-            exact[symbol] = np.array([mpmath.mpf(DOMAIN[name][0](draw)) for _ in range(count)], dtype=object)
         else:
             exact[symbol] = mpmath.mpf(DOMAIN[name][0](draw))
     if p in exact and p_0 in exact:

@@ -67,11 +67,10 @@ def measure(kernel: Kernel, solver: Any, modes: Sequence[int] = (), points: int 
     # of a regime, the last zone is what is left of 2 pi, known to its own digits
     named = {sp.pi: TURN} if of_regime else {}
     exact, *parts = ([sp.sympify(term).xreplace(named) for term in flat(terms)] for terms in (kernel.exact, *kernel.parts))
-    dashpots = False if kernel.springs else None
     with mpmath.workdps(DIGITS):
         reference = Reference(exact, parts)
         for count, index in grid(modes, points):
-            point = drawn(kernel.args, f"{name} {index}", count, kernel.moving, dashpots)
+            point = drawn(kernel.args, f"{name} {index}", count, kernel.moving)
             found.see(partial(_computed, kernel, solver, point), reference(point), point.shown())
     return found
 

@@ -12,7 +12,6 @@ import sympy as sp
 
 from ..functions import evaluator
 from ..modes.symbols import MATERIAL, m
-from ..symbols import h, l
 from .scaled import STEP, sizes, values
 
 ZERO = mpmath.mpf(10) ** -110  # stands for a vanishing speed or time: the derived forms divide by it
@@ -22,7 +21,7 @@ Values = dict[sp.Symbol, Any]
 
 @dataclass(frozen=True)
 class Point:
-    """Inputs by symbol: numbers, or arrays with one value per mode (of l and h: per level).
+    """Inputs by symbol: numbers, or arrays with one value per mode.
 
     ``phases`` in order: a move of one moves those after it, since what is given exactly are the widths between them. ``weights``:
     scales of inputs that are themselves computed. ``follow``: inputs that follow from others, by expressions in these.
@@ -43,10 +42,6 @@ class Point:
     def moved(self, inputs: Values, phases: Sequence[sp.Symbol] = ()) -> Point:
         """The same point with other inputs, of which ``phases`` are phases."""
         return replace(self, values=self.values | inputs, phases=tuple(phases))
-
-    def levels(self) -> Iterator[Point]:
-        for length, height in zip(self.values[l], self.values[h], strict=True):
-            yield replace(self, values={**self.values, l: length, h: height})
 
     def directions(self, symbols: Sequence[sp.Symbol]) -> Iterator[tuple[Any, Values]]:
         """(weight, inputs) with one independent input of ``symbols`` at a time moved by STEP, relatively."""

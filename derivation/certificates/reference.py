@@ -11,8 +11,8 @@ import mpmath
 import numpy as np
 import sympy as sp
 
-from ..functions import flat, stack_sum, written_out
-from ..modes.symbols import EVERY_SUM, across, is_matrix, sandwich, total
+from ..functions import flat, written_out
+from ..modes.symbols import SUMS, across, is_matrix, sandwich, total
 from .point import Point
 from .scaled import given, naturally
 
@@ -66,9 +66,6 @@ class Together:
 
 def _summed(node: sp.Expr) -> Evaluated:
     """A sum as a function of the point: of one number, or of one for each mode."""
-    if isinstance(node, stack_sum):
-        of_level = Together([node.args[-1]])
-        return lambda point: np.sum([of_level(level)[0] for level in point.levels()])
     vector = _along_modes(node.args[-1])
     if isinstance(node, total):
         return lambda point: vector(point).sum()
@@ -94,6 +91,6 @@ def _matrix(expression: sp.Expr) -> Evaluated:
 
 def _outermost(expression: sp.Expr) -> set[sp.Expr]:
     """The sums of an expression that stand in no other."""
-    if isinstance(expression, EVERY_SUM):
+    if isinstance(expression, SUMS):
         return {expression}
     return set().union(*map(_outermost, expression.args))

@@ -63,17 +63,9 @@ def _operators(values: list[sp.Expr], words: Names) -> Names:
     return {"d/ds": rate, "w": sp.Integer(1), "p": 1 + total(values[0].subs({alpha_i: alpha, eta_i: eta}))}
 
 
-def _fractions(values: list[sp.Expr], words: Names) -> Names:
-    return {r"\eta_i": eta, "J_j": J}  # of the sample, which is made from the values
-
-
 def _states(values: list[sp.Expr], words: Names) -> Names:
     overstress, w = -across(enter, z - J * p), J_0 * p + total(z)
     return {"f": overstress, "w": w, "e": w - S * overstress}
-
-
-def _dashpots(values: list[sp.Expr], words: Names) -> Names:
-    return _states(values, words) | {"e": values[0]}
 
 
 def _relaxing(values: list[sp.Expr], words: Names) -> Names:
@@ -137,13 +129,13 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "foundation law": _law,
     "Prony series": _series,
     "dimensionless groups": _operators,
-    "partial fractions": _fractions,
+    "partial fractions": lambda values, words: {r"\eta_i": eta, "J_j": J},  # of the sample, which is made from the values
     "states": _states,
     "relaxation flow": _relaxing,
     "contact flow": _pressed,
     "displacement": named("w"),
     "overstress": named("f"),
-    "dashpots": _dashpots,
+    "dashpots": lambda values, words: _states(values, words) | {"e": values[0]},
     "relaxation_increment": lambda values, words: {"z_j": words["relaxation"]},
     "gap_after": named("g"),
     "gap_event": named("g"),
@@ -167,6 +159,6 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "level_saturation_penetration": _level,
     "level_saturation_pressure": _level,
     "level_saturation_friction": _level,
-    "saturated_stack_friction": _level,
+    "stack friction": _level,
 }
 """By the beginning of a step's name."""
