@@ -12,7 +12,7 @@ from .modes.states import J_j, summed, w
 from .modes.states import p as load
 from .modes.symbols import J_0
 from .regime import Zone
-from .sequences import ADHESION, CONTACT, FREE, NOTHING, PERIOD, Row, Span
+from .sequences import ADHESION, CONTACT, FREE, NOTHING, PARTIAL, PERIOD, Row, Span
 from .symbols import PARAMETERS, D, L, alpha, beta, p_0, q_0, s, s_0, s_1
 
 
@@ -133,9 +133,4 @@ def means_of_a_strip() -> Derived:
             over={J_j, z_j},
         )
     ]
-    return derived(
-        means_of_a_strip,
-        load - w,
-        checks,
-        emitted=tuple(f"means_{sequence}" for sequence in ("acaf", "afc", "af", "ac")),
-    )
+    return derived(means_of_a_strip, load - w, checks, emitted=tuple(f"means_{sequence}" for sequence in PARTIAL))

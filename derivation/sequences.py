@@ -80,6 +80,10 @@ TITLES = {  # by the zones in order: f free, a adhesion, c contact
 }
 
 
+PARTIAL = tuple(sequence for sequence in TITLES if len(sequence) > 1)
+"""Those with edges."""
+
+
 @dataclass(frozen=True)
 class Span:
     """From ``first`` to ``last``; entered and left with a gap (adhesion, free) or an excess pressure (contact)."""

@@ -19,6 +19,7 @@ from hystrip.derivation import STANDARD_LINEAR_SOLID, DerivationError, Model, Pa
 from hystrip.derivation.check import CORRECTED, REPRODUCED, STATUSES, derived, zero
 from hystrip.derivation.exact import is_zero
 from hystrip.derivation.flows import contact_flow
+from hystrip.derivation.functions import flat
 from hystrip.derivation.model import inadmissible
 from hystrip.derivation.paper.tags import numbers
 from hystrip.derivation.symbols import (
@@ -52,7 +53,7 @@ def step(name: str):
 
 
 def stage(kind: str):
-    (found,) = [part for part in derivation().stages if type(part).__name__ == kind]
+    (found,) = [part for part in flat(derivation().stages) if type(part).__name__ == kind]
     return found
 
 

@@ -7,6 +7,7 @@ coefficients depend on the two edges of the zone. A derivative is what a small n
 import sympy as sp
 
 from ..check import Derived, derived, zero
+from ..sequences import PARTIAL
 
 eps = sp.Symbol("epsilon")  # a small number
 NAMES = "z c_1 c_2 R_1 R_2 q r"
@@ -60,11 +61,5 @@ def chain_rule(period: Derived) -> Derived:
             [shift + (by_state + by_start * ds_0) / by_end, onset + by_state / onset_slope],
         ),
     ]
-    return derived(
-        chain_rule,
-        (lost, moved),
-        checks,
-        emitted=tuple(
-            f"{kind}_{sequence}" for kind in ("residual_and_jacobian", "return_map") for sequence in ("acaf", "afc", "af", "ac")
-        ),
-    )
+    emitted = tuple(f"{kind}_{sequence}" for kind in ("residual_and_jacobian", "return_map") for sequence in PARTIAL)
+    return derived(chain_rule, (lost, moved), checks, emitted=emitted)

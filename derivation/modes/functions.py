@@ -13,7 +13,7 @@ import sympy as sp
 from ..check import Derived, derived, zero
 from ..functions import Formula
 from ..kernel import Kernel
-from ..sequences import ADHESION, CONTACT, FREE, Row, Span
+from ..sequences import ADHESION, CONTACT, FREE, PARTIAL, Row, Span
 from ..symbols import alpha, beta
 from .symbols import J_0, OF_STRIP, J, S, enter, eta, leave, m, share
 
@@ -45,7 +45,7 @@ def period_map() -> Derived:
         (drive, forget),
         [zero("for matrices, which do not commute", sp.expand(twice - (state + drive - forget * state)))],
         latex=rf"c = {sp.latex(drive)},\quad R = {sp.latex(forget)}",
-        emitted=tuple(f"state_{sequence}" for sequence in ("acaf", "afc", "af", "ac")),
+        emitted=tuple(f"state_{sequence}" for sequence in PARTIAL),
     )
 
 

@@ -27,6 +27,8 @@ from .zones import contact, gap, passages, relaxation, states
 
 def derive(model: Model) -> Derivation:
     """Derive and verify everything that follows from the Prony series of ``model``."""
+    ground = (admissibility(model), foundation_law(model), relaxed_stiffness(model), prony_series(model))
+    coordinates = (dimensionless_groups(), partial_fractions(), point_states())
     flows, closure = mode_flows(), closures(model)
     complete = saturated(flows)
     whole, stacked = level(complete.threshold.value)
@@ -47,9 +49,7 @@ def derive(model: Model) -> Derivation:
         ("Complete contact of whole levels: SI units, modes with times in seconds", whole),
     )
     made = (
-        (admissibility(model), foundation_law(model), relaxed_stiffness(model), prony_series(model)),
-        (dimensionless_groups(), partial_fractions(), point_states()),
-        (adhesion_law(), strip_profile(), zone_conditions(u)),
+        (ground, coordinates, adhesion_law(), strip_profile(), zone_conditions(u)),
         (flows, jump_law(), closure, *(kernels for _, kernels in zones), complete, whole, stacked),
         (table, sample_roots("several_times", table, flows), means_of_a_strip(), still, period, chain_rule(period)),
         multilevel(table, passed_once(flows), ("excess_event",)),

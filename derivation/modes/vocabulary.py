@@ -107,16 +107,6 @@ def _map(contact: bool) -> Binding:
     return names
 
 
-def _means(values: list[sp.Expr], words: Names) -> Names:
-    """Of a closed orbit, complete contact."""
-    pressure = u + total(words["f_sat"].expression)
-    return {"w": u, "p": pressure, r"\barp": D - 1, r"\bar\tau": total(eta / (1 + alpha**2)) / 2}
-
-
-def _threshold(values: list[sp.Expr], words: Names) -> Names:
-    return {**threshold(values, words), "K*": lambda *place: K * R}
-
-
 def _level(values: list[sp.Expr], words: Names) -> Names:
     """Complete contact of a level, by the modulus of its wave."""
     wave = words["K*"]().subs(PASSING)
@@ -125,6 +115,8 @@ def _level(values: list[sp.Expr], words: Names) -> Names:
     return ONE_LEVEL | {"R": ratio, "K*": lambda place: wave} | names
 
 
+CLOSED = {"w": u, r"\barp": D - 1, r"\bar\tau": total(eta / (1 + alpha**2)) / 2}
+"""Of a closed orbit, complete contact."""
 BINDINGS: Mapping[str, Binding] = LEVELS | {
     "foundation law": _law,
     "Prony series": _series,
@@ -152,8 +144,8 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "modulus_ratio": named("R"),
     "saturated_overstress": named("f_sat,i"),
     "saturated_pressure": named("p_sat"),
-    "saturation threshold": _threshold,
-    "means of a strip": _means,
+    "saturation threshold": lambda values, words: {**threshold(values, words), "K*": lambda *place: K * R},
+    "means of a strip": lambda values, words: CLOSED | {"p": u + total(words["f_sat"].expression)},
     "means_c": lambda values, words: {r"\barp": values[0], r"\bar\tau": values[1], "p": words["p_sat"]},
     "means_": named(r"\barp", r"\bar\tau"),
     "level_saturation_penetration": _level,
