@@ -1,85 +1,34 @@
 """Means of pressure and friction of a strip (Eq. 11), in closed form in the edges: SymPy does the integrals per zone."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import sympy as sp
 
 from . import stable
-from .check import Claim, Derived, derived, zero
-from .flows import Flows
+from .check import Derived, derived, zero
 from .functions import Formula, either, loss_mean, written_out
-from .kernel import Kernel, kernel
+from .kernel import Kernel, Kernels, as_derived, kernel
 from .modes.states import J_j, summed, w
 from .modes.states import p as load
 from .modes.symbols import J_0
-from .regime import Regime
-from .sequences import ADHESION, CONTACT, FREE, NOTHING, PERIOD, Row, Span
-from .symbols import D, L, alpha, beta, p, p_0, q_0, s, s_0, s_1, w_0
+from .regime import Zone
+from .sequences import ADHESION, CONTACT, FREE, NOTHING, PARTIAL, PERIOD, Row, Span
+from .symbols import PARAMETERS, D, L, alpha, beta, p_0, q_0, s, s_0, s_1
 
 
-@dataclass(frozen=True)
-class ZoneIntegrals:
-    """Integrals over a zone from s_0 to s_1, by SymPy: of p, of w, and of p u'."""
-
-    contact: Derived  # in s_0, s_1, q_0
-    relaxation: Derived  # in s_0, s_1, w_0, p
-
-
-def zone_integrals(flows: Flows) -> ZoneIntegrals:
-    return ZoneIntegrals(integrals_over_contact(flows), integrals_over_gaps(flows))
-
-
-def integrals_over_contact(flows: Flows) -> Derived:
-    r"""Eq. 11: What a contact zone adds to the sums of pressure, displacement and friction.
-
-    .. math:: \int_{s_0}^{s_1} p\,ds,\quad \int_{s_0}^{s_1} u\,ds,\quad \int_{s_0}^{s_1} p\,u'\,ds
-    """
-    u, pressure = flows.strip.u, flows.contact.value
-    value, checks = _integrated((pressure, u, pressure * sp.diff(u, s)))
-    return derived(integrals_over_contact, value, checks, emitted=("profile_integral", "contact_work"))
-
-
-def integrals_over_gaps(flows: Flows) -> Derived:
-    r"""Eq. 11: What a zone at constant pressure adds. Adhesion counts in both means.
-
-    .. math:: \int_{s_0}^{s_1} p\,ds = p\,(s_1 - s_0),\quad \int_{s_0}^{s_1} w\,ds,\quad p\,[u]_{s_0}^{s_1}
-    """
-    u, displacement = flows.strip.u, flows.relaxation.value
-    value, checks = _integrated((p, displacement, p * sp.diff(u, s)))
-    return derived(integrals_over_gaps, value, checks, emitted=("relaxation_integral", "profile_rise"))
-
-
-def _integrated(integrands: tuple[sp.Expr, ...]) -> tuple[tuple[sp.Expr, ...], list[Claim]]:
-    """Definite integrals from s_0 to s_1, term by term, each antiderivative differentiated back."""
-    values, residuals = [], []
-    for integrand in map(sp.expand, integrands):
-        primitive = sp.Add(*(sp.integrate(term, s) for term in sp.Add.make_args(integrand)))
-        residuals.append(sp.diff(primitive, s) - integrand)
-        values.append(primitive.subs(s, s_1) - primitive.subs(s, s_0))
-    return tuple(values), [zero("every antiderivative differentiates back to its integrand", residuals, phases=(s_0, s))]
-
-
-def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
+def strip_means(regime: Row, zones: Kernels) -> Kernel:
     r"""Eq. 11: Means of a strip over one period of s.
 
     .. math:: \bar p = \frac{1}{2\pi}\oint p\,ds = \frac{1}{2\pi}\oint w\,ds,\qquad \bar\tau = \frac{1}{2\pi}\oint p\,u'\,ds
     """
-    sums = [NOTHING, NOTHING, NOTHING]  # of p, w, p u'
-    for zone in regime.zones:
-        edges = {s_0: zone.first, s_1: zone.last}
-        if zone.kind == CONTACT:
-            parts = [e.subs({**edges, q_0: zone.entry}, simultaneous=True) for e in integrals.contact.value]
-        else:
-            state = {w_0: zone.displacement, p: zone.load}
-            parts = [e.subs({**edges, **state}, simultaneous=True) for e in integrals.relaxation.value]
-        sums = [total + written_out(part) for total, part in zip(sums, parts, strict=True)]
-    sum_p, sum_w, sum_tau = sums
-    exact = ((sum_w if regime.touches else sum_p) / PERIOD, sum_tau / PERIOD)
+    _, closing = regime.equations[-1]
+    added = [_added(zone, zones) for zone in regime.zones]
+    pressed, height, work = (sp.Add(*parts) / PERIOD for parts in zip(*added, strict=True))
+    mean_p = height if regime.touches else pressed
     checks = [
         zero(
             "int p ds = int w ds + beta times the closing balance: mean p = mean w on an orbit",
-            sum_p - sum_w - beta * regime.closing,
+            written_out(PERIOD * (pressed - height) - beta * closing),
             phases=regime.edges,
         ),
         zero(
@@ -95,8 +44,8 @@ def strip_means(regime: Regime, integrals: ZoneIntegrals) -> Kernel:
     )
     return kernel(
         strip_means,
-        Formula(f"means_{regime.sequence}", regime.args, _stable_means(regime)),
-        exact,
+        Formula(f"means_{regime.sequence}", (*regime.edges, *PARAMETERS), (mean_p, _stable_work(regime) / PERIOD)),
+        (as_derived(mean_p, zones), as_derived(work, zones)),
         *checks,
         statement=f"Means of a strip: {regime.title}. The mean pressure is computed {why}",
         phases=regime.edges,
@@ -118,32 +67,34 @@ def constant_means(regime: Row, args: tuple[sp.Symbol, ...]) -> Kernel:
     )
 
 
-def _stable_means(regime: Regime) -> tuple[sp.Expr, sp.Expr]:
-    """Candidates: w (without contact p, which is zero or -p_0) summed and the work of p, zone by zone.
+def _added(zone: Zone, zones: Kernels) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    """What a zone adds to the sums of p, w and p u'."""
+    first, last = zone.first, zone.last
+    if zone.kind != CONTACT:
+        height = stable.RELAXATION_INTEGRAL(first, last, zone.displacement, zone.load, beta)
+        return zone.load * (last - first), height, zone.load * stable.PROFILE_RISE(first, last)
+    pressure = zones["excess_after"].exact.subs({q_0: zone.entry, s_0: first, s_1: s}, simultaneous=True) - p_0
+    pressed = sp.integrate(sp.expand(pressure), (s, first, last))
+    work = stable.CONTACT_WORK(first, last, sp.expand(zone.entry - p_0), D, alpha, beta, L)
+    return pressed, stable.PROFILE_INTEGRAL(first, last, D), work
+
+
+def _stable_work(regime: Row) -> sp.Expr:
+    """The work of p as it is computed.
 
     Where nothing is free the traction acts everywhere and does no work over a period: pressures are counted from -p_0,
     which is the same strip raised by p_0. So they are where contact, entered at -p_0, is too short to lose it.
     """
-    contact = [zone for zone in regime.zones if zone.kind == CONTACT]
-    total = NOTHING
-    for zone in regime.zones:
-        if zone in contact:
-            total += stable.PROFILE_INTEGRAL(zone.first, zone.last, D)
-        elif contact:
-            total += stable.RELAXATION_INTEGRAL(zone.first, zone.last, zone.displacement, zone.load, beta)
-        else:
-            total += zone.load * (zone.last - zone.first)
     plain, raised = _work(regime, NOTHING), _work(regime, p_0)
+    contact = [zone for zone in regime.zones if zone.kind == CONTACT]
     if all(zone.kind != FREE for zone in regime.zones):
-        work = raised
-    elif contact and contact[0].entry == NOTHING:
-        work = either(2 * loss_mean(contact[0].last - contact[0].first, alpha), raised, plain)
-    else:
-        work = plain
-    return total / PERIOD, work / PERIOD
+        return raised
+    if contact and contact[0].entry == NOTHING:
+        return either(2 * loss_mean(contact[0].last - contact[0].first, alpha), raised, plain)
+    return plain
 
 
-def _work(regime: Regime, raised: sp.Expr) -> sp.Expr:
+def _work(regime: Row, raised: sp.Expr) -> sp.Expr:
     """The work of p, with pressures counted from -raised."""
     work = (raised - p_0) * adhesive_rise(regime.zones)
     for zone in regime.zones:
@@ -182,9 +133,4 @@ def means_of_a_strip() -> Derived:
             over={J_j, z_j},
         )
     ]
-    return derived(
-        means_of_a_strip,
-        load - w,
-        checks,
-        emitted=tuple(f"means_{sequence}" for sequence in ("acaf", "afc", "af", "ac")),
-    )
+    return derived(means_of_a_strip, load - w, checks, emitted=tuple(f"means_{sequence}" for sequence in PARTIAL))

@@ -28,7 +28,7 @@ class DerivationError(Exception):
 
     def __init__(self, step: str, claim: str, residual: Any = None):
         self.step, self.claim, self.residual = step, claim, residual
-        shown = "" if residual is None else f" (residual: {_shortened(residual)})"
+        shown = "" if residual is None else f" (residual: {str(residual):.200})"
         super().__init__(f"derivation step '{step}' failed: {claim}{shown}")
 
 
@@ -42,12 +42,15 @@ class Check:
 
 @dataclass(frozen=True)
 class Claim(Check):
-    """What is to be verified: ``verify`` raises an error, with the name of a step, unless it holds."""
+    """What is to be verified: ``left`` finds None if it holds, else what remains."""
 
-    verify: Callable[[str], None]
+    left: Callable[[], Any]
 
     def verified(self, step: str) -> Check:
-        self.verify(step)
+        """The check that it is; raises :class:`DerivationError` with the name of the ``step`` if it does not hold."""
+        residual = self.left()
+        if residual is not None:
+            raise DerivationError(step, self.claim, residual)
         return Check(self.claim, self.outcome)
 
 
@@ -70,23 +73,12 @@ class Derived:
 def zero(claim: str, residual: Any, outcome: str = EXACT, **options: Any) -> Claim:
     """The claim that ``residual`` (an expression or a sequence of them) vanishes identically."""
     parts = residual if isinstance(residual, (tuple, list)) else (residual,)
-
-    def verify(step: str) -> None:
-        for part in parts:
-            if not is_zero(part, **options):
-                raise DerivationError(step, claim, part)
-
-    return Claim(claim, outcome, verify)
+    return Claim(claim, outcome, lambda: next((part for part in parts if not is_zero(part, **options)), None))
 
 
 def holds(claim: str, truth: Any) -> Claim:
     """The claim of a statement that is true or false."""
-
-    def verify(step: str) -> None:
-        if not bool(truth):
-            raise DerivationError(step, claim)
-
-    return Claim(claim, "holds", verify)
+    return Claim(claim, "holds", lambda: None if truth else False)
 
 
 def derived(by: Callable[..., Any], value: Any, claims: Iterable[Claim], name: str = "", **options: Any) -> Derived:
@@ -126,8 +118,3 @@ def said(by: Callable[..., Any], name: str) -> tuple[str, str, str]:
     marked = mark is not None and mark[1] in (None, name)
     equation = next((text.removeprefix(MATH) for text in rest[:1] if text.startswith(MATH)), "")
     return (first[mark.end() :] if marked else first), equation, (mark[2] or "") if marked else ""
-
-
-def _shortened(residual: Any, limit: int = 200) -> str:
-    text = str(residual)
-    return text if len(text) <= limit else text[:limit] + " ..."

@@ -9,7 +9,7 @@ import sympy as sp
 from .check import Derived, derived, holds, zero
 from .flows import solved
 from .paper.record import CORRECTIONS
-from .regime import Regime
+from .sequences import Row
 from .strip import TIMES, Strip
 from .surface import AMPLITUDE, HEIGHT, PENETRATION
 from .symbols import A, D, D_j, D_level, K, a, b, c, chi, d, delta_0, k, p_0, s, x
@@ -24,23 +24,20 @@ def zone_conditions(u: sp.Expr) -> Derived:
     """
     displacement = sp.Function("w")(s)  # in units of A
     gap = AMPLITUDE * displacement - (D_level - HEIGHT)
+    deep, high = (sp.expand(w).coeff(sp.cos(k * x)) for w in (D_level + HEIGHT, D_level - HEIGHT))
     in_strip = AMPLITUDE * (displacement - u.subs({D: PENETRATION / AMPLITUDE, s: -k * x}))
     checks = [
         zero("in the strip at y the gap is A (w - u)", sp.simplify(gap - in_strip)),
         zero("it is zero where Eq. 6 holds, w = D - f", gap.subs(displacement, (D_level - HEIGHT) / AMPLITUDE)),
         holds(
             "the printed w = f + D is deepest in the valleys of the surface: its cos kx term has the other sign",
-            _along(D_level + HEIGHT) == -_along(D_level - HEIGHT) != 0,
+            deep == -high != 0,
         ),
     ]
     return derived(zone_conditions, gap, checks, correction=CORRECTIONS[6])
 
 
-def _along(height: sp.Expr) -> sp.Expr:
-    return sp.expand(height).coeff(sp.cos(k * x))
-
-
-def strip_problem(strip: Strip, discrete: Regime) -> Derived:
+def strip_problem(strip: Strip, discrete: Row) -> Derived:
     r"""The steady law in each zone and the conditions at its edges determine a, b, c and d. The pressure is
     continuous at b and -a and steps by p_0 at d and -c, where w is continuous or steps too.
 
@@ -75,7 +72,10 @@ def strip_problem(strip: Strip, discrete: Regime) -> Derived:
             residuals,
             phases=discrete.edges,
         ),
-        holds("d > b > -a > -c in x is d < b < a < c in s", _falling(places)),
+        zero(
+            "d > b > -a > -c in x is d < b < a < c in s",
+            [k * place + edge for place, edge in zip(places.values(), (d, b, a, c), strict=True)],
+        ),
     ]
     return derived(strip_problem, left, checks, emitted=("residual_acaf",))
 
@@ -83,7 +83,3 @@ def strip_problem(strip: Strip, discrete: Regime) -> Derived:
 def _dimensionless(condition: sp.Expr, places: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
     groups = {p_0: K * A * p_0, delta_0: A * delta_0, D_j: A * D}
     return sp.expand(condition.subs(groups, simultaneous=True).subs(TIMES).subs(places))
-
-
-def _falling(places: dict[sp.Symbol, sp.Expr]) -> bool:
-    return all(sp.diff(place, edge) == -1 / k for place, edge in zip(places.values(), (d, b, a, c), strict=True))

@@ -10,8 +10,7 @@ import sympy as sp
 
 from .check import Derived, derived, holds, zero
 from .flows import Flows
-from .regime import Regime
-from .sequences import ADHESION, CONTACT
+from .sequences import ADHESION, CONTACT, Row
 from .symbols import J, L, beta, chi, delta_0, p, p_0, s, s_0
 
 
@@ -29,7 +28,7 @@ def power_balance(flows: Flows) -> Derived:
     return derived(power_balance, None, checks)
 
 
-def friction_balance(regime: Regime) -> Derived:
+def friction_balance(regime: Row) -> Derived:
     r""":math:`2\pi\bar\tau = E + X`: loss of one cycle, and what the steps of p leave."""
     heights = {zone.first: sp.Symbol(f"u_{zone.first}", real=True) for zone in regime.zones}
     extra = sp.Integer(0)

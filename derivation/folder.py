@@ -1,14 +1,13 @@
 """The folder of generated files: where it is, what stands in it, and how it is written."""
 
 import importlib
-import importlib.util
 import json
 import os
-import shutil
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from importlib import resources
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -20,10 +19,7 @@ MEASURED = f"{AUDIT}/measured.json"  # pictures and measured figures of the page
 
 def generated_folder() -> Path:
     """Where the solvers of the package live."""
-    found = importlib.util.find_spec("hystrip.generated")
-    if found is None or found.origin is None:
-        raise FileNotFoundError("the package hystrip.generated is not installed")
-    return Path(found.origin).parent
+    return Path(str(resources.files("hystrip.generated")))
 
 
 def require_folder(target: Path) -> None:
@@ -39,13 +35,15 @@ def dumped(content: Any) -> str:
     return json.dumps(content, indent=1, sort_keys=True) + "\n"
 
 
-def read_certificates(path: Path) -> dict[str, Any]:
+def read_certificates(folder: Path) -> dict[str, Any]:
+    """Certificates by model in a folder of generated files, if it has any."""
+    path = folder / CERTIFICATES
     return json.loads(path.read_text(encoding="utf-8"))["models"] if path.exists() else {}
 
 
 def stored_bounds(folder: Path | None = None) -> dict[str, dict[str, float]]:
     """Bounds in ulp of the natural scale, by model and function."""
-    stored = read_certificates((folder or generated_folder()) / CERTIFICATES)
+    stored = read_certificates(folder or generated_folder())
     return {model: {name: row["bound"] for name, row in entry["functions"].items()} for model, entry in stored.items()}
 
 
@@ -74,30 +72,19 @@ def importable(files: dict[str, str]) -> Iterator[Callable[[str], ModuleType]]:
 
 
 def write_files(folder: Path, files: dict[str, str]) -> list[Path]:
-    """Write each file aside and rename it into place."""
-    return [_write(folder / name, text) for name, text in sorted(files.items())]
-
-
-def write_folder(folder: Path, files: dict[str, str]) -> list[Path]:
-    """Write a new folder aside and rename it into place."""
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}.") as aside:
+    """Write all files aside; then rename a new folder into place as a whole, in one that exists each file."""
+    new = not folder.exists()
+    beside = folder.parent if new else folder
+    beside.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=beside, prefix=f".{folder.name}.") as aside:
         whole = Path(aside) / folder.name
-        whole.mkdir()
-        write_files(whole, files)
-        os.replace(whole, folder)
+        for name, text in files.items():
+            (whole / name).parent.mkdir(parents=True, exist_ok=True)
+            (whole / name).write_bytes(text.encode())
+        if new:
+            os.replace(whole, folder)
+        else:
+            for name in files:
+                (folder / name).parent.mkdir(parents=True, exist_ok=True)
+                os.replace(whole / name, folder / name)
     return [folder / name for name in sorted(files)]
-
-
-def _write(path: Path, text: str) -> Path:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, aside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(text.encode())
-        shutil.copymode(path, aside) if path.exists() else os.chmod(aside, 0o644)
-        os.replace(aside, path)
-    except BaseException:
-        Path(aside).unlink(missing_ok=True)
-        raise
-    return path

@@ -30,105 +30,32 @@ class Scaling(Helper):
         raise NotImplementedError
 
 
-def helper(meaning: Callable[..., sp.Expr]) -> type[Helper]:
-    """The helper of the name, the arguments and the meaning of a function."""
-    count = len(inspect.signature(meaning).parameters)
-    inside = {"nargs": count, "meaning": staticmethod(meaning), "__doc__": meaning.__doc__, "__module__": meaning.__module__}
-    return type(meaning.__name__, (Helper,), inside)
+def helper(name: str, meaning: Callable[..., sp.Expr]) -> type[Helper]:
+    """The helper of a name that has the arguments of its ``meaning``."""
+    inside = {"nargs": len(inspect.signature(meaning).parameters), "meaning": staticmethod(meaning), "__module__": __name__}
+    return type(name, (Helper,), inside)
 
 
-@helper
-def decay(tau, T):
-    return sp.exp(-tau / T)
-
-
-@helper
-def decay_loss(tau, T):
-    return sp.exp(-tau / T) - 1
-
-
-@helper
-def decay_rate(tau, T):
-    return sp.exp(-tau / T) / T
-
-
-@helper
-def decay_mean(tau, T):
-    return T / tau * (1 - sp.exp(-tau / T))
-
-
-@helper
-def loss_mean(tau, T):
-    return 1 - T / tau * (1 - sp.exp(-tau / T))
-
-
-@helper
-def loss_mean_twice(tau, T):
-    return 1 - 2 * T / tau * (1 - T / tau * (1 - sp.exp(-tau / T)))
-
-
-@helper
-def expm1(x):
-    """exp(x) - 1; NumPy's own."""
-    return sp.exp(x) - 1
-
-
-@helper
-def divisible(T):
-    """A relaxation time that can be divided by, also where it vanishes."""
-    return T
-
-
-@helper
-def per_time(x, T):
-    """x/T; 0 where T = 0."""
-    return x / T
-
-
-@helper
-def sine_deficit(angle):
-    return angle - sp.sin(angle)
-
-
-@helper
-def sine_lag(tau, T):
-    """sin(tau) less its lag over the same time, the integral of exp(-t/T)."""
-    return sp.sin(tau) - T * (1 - sp.exp(-tau / T))
-
-
-@helper
-def either(width, short, wide):
-    """A form for short zones and one for wide ones, proven to be the same by whoever has both."""
-    return short
-
-
-@helper
-def versine(angle):
-    return 1 - sp.cos(angle)
-
-
-@helper
-def hypot(one, other):
-    return sp.sqrt(one**2 + other**2)
-
-
-@helper
-def quotient(upper, lower):
-    """A ratio whose denominator may vanish: infinite there."""
-    return upper / lower
-
-
-@helper
-def arc_half(to_top, to_bottom):
-    """Half width of the arc where a cosine is above a level, from twice its distances to 1 and to -1 (times any scale)."""
-    return sp.acos((to_bottom - to_top) / (to_bottom + to_top))
-
-
-@helper
-def stack_sum(term):
-    """Sum over the levels, which lie along the last axis."""
-    return stack_sum(term)
-
+# tau is a time since a zone was entered, T a relaxation time
+decay = helper("decay", lambda tau, T: sp.exp(-tau / T))
+decay_loss = helper("decay_loss", lambda tau, T: sp.exp(-tau / T) - 1)
+decay_rate = helper("decay_rate", lambda tau, T: sp.exp(-tau / T) / T)
+decay_mean = helper("decay_mean", lambda tau, T: T / tau * (1 - sp.exp(-tau / T)))
+loss_mean = helper("loss_mean", lambda tau, T: 1 - T / tau * (1 - sp.exp(-tau / T)))
+loss_mean_twice = helper("loss_mean_twice", lambda tau, T: 1 - 2 * T / tau * (1 - T / tau * (1 - sp.exp(-tau / T))))
+expm1 = helper("expm1", lambda x: sp.exp(x) - 1)  # NumPy's own
+divisible = helper("divisible", lambda T: T)  # also where it vanishes
+per_time = helper("per_time", lambda x, T: x / T)  # 0 where T = 0
+sine_deficit = helper("sine_deficit", lambda angle: angle - sp.sin(angle))
+# sin(tau) less its lag over the same time, the integral of exp(-t/T)
+sine_lag = helper("sine_lag", lambda tau, T: sp.sin(tau) - T * (1 - sp.exp(-tau / T)))
+# a form for short zones and one for wide ones, proven to be the same by whoever has both
+either = helper("either", lambda width, short, wide: short)
+versine = helper("versine", lambda angle: 1 - sp.cos(angle))
+hypot = helper("hypot", lambda one, other: sp.sqrt(one**2 + other**2))
+quotient = helper("quotient", lambda upper, lower: upper / lower)  # infinite where lower = 0
+# half width of the arc where a cosine is above a level, from twice its distances to 1 and to -1 (times any scale)
+arc_half = helper("arc_half", lambda to_top, to_bottom: sp.acos((to_bottom - to_top) / (to_bottom + to_top)))
 
 HELPERS = tuple(
     each for each in vars().values() if isinstance(each, type) and (Helper,) == each.__bases__ and each is not Scaling

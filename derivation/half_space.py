@@ -60,6 +60,7 @@ def foundation_of_a_level(stiffness: sp.Expr) -> Derived:
         stiffness.subs({E: storage, q: size}) * -wave + stiffness.subs({E: loss, q: size}) / (k * V) * V * sp.diff(wave, x)
         for wave, size in waves
     )
+    alone = [mean_over_cell(stiffness.subs({E: loss, q: size}) / k * sp.diff(wave, x) ** 2) for wave, size in waves]
     rubbing = sp.simplify(mean_over_cell(pressure * slope))
     K_loss = sp.Symbol("K_loss", positive=True)
     local = mean_over_cell((-shape + K_loss / k * slope) * slope)
@@ -69,9 +70,7 @@ def foundation_of_a_level(stiffness: sp.Expr) -> Derived:
         zero("the waves are those of Eq. 4, less its mean", sp.expand(HEIGHT - shape - mean_over_cell(HEIGHT))),
         zero("each wave has its wavenumber", [sp.diff(f, x, 2) + sp.diff(f, y, 2) + size**2 * f for f, size in waves]),
         zero("friction needs the loss modulus alone", sp.diff(rubbing, storage)),
-        zero(
-            "waves of different wavenumber do not rub on one another", rubbing - sum(_alone(stiffness, *each) for each in waves)
-        ),
+        zero("waves of different wavenumber do not rub on one another", rubbing - sum(alone)),
         zero("K = c (pi/l) E/(1 - nu^2) with c = (1/2 + sqrt(2)/4)/(3/4)", K - c * sp.pi / l * loss / (1 - nu**2)),
     ]
     return derived(foundation_of_a_level, c, checks, name=name)
@@ -82,8 +81,3 @@ def _waves() -> list[tuple[sp.Expr, sp.Expr]]:
     terms = sp.Add.make_args(sp.expand(HEIGHT))
     sizes = {(True, False): k, (False, True): k, (True, True): sp.sqrt(2) * k}
     return [(term, sizes[term.has(x), term.has(y)]) for term in terms if term.has(x) or term.has(y)]
-
-
-def _alone(stiffness: sp.Expr, wave: sp.Expr, size: sp.Expr) -> sp.Expr:
-    """Friction of one wave by itself."""
-    return mean_over_cell(stiffness.subs({E: loss, q: size}) / k * sp.diff(wave, x) ** 2)

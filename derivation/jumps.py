@@ -1,7 +1,5 @@
 """What happens to w where p steps: the law integrated across the step, and the two closures in use."""
 
-from dataclasses import dataclass
-
 import sympy as sp
 
 from .check import DerivationError, Derived, derived, holds, zero
@@ -9,18 +7,10 @@ from .strip import TIMES, Strip
 from .symbols import J, chi, s
 
 
-@dataclass(frozen=True)
-class Jumps:
-    """Stage 4a: edge conditions at a pressure step. ``closure`` maps a step of p to the step of w."""
-
-    law: Derived  # [w]/[p] by the operator
-    internal: Derived  # z = w - J p, continuous in time
-    closure: Derived  # [w] = chi J [p]
-
-
-def jumps(strip: Strip) -> Jumps:
+def jumps(strip: Strip) -> tuple[Derived, Derived, Derived]:
+    """Stage 4a: edge conditions at a pressure step: [w]/[p] by the law, the state that is continuous, and the two closures."""
     law = jump_law(strip)
-    return Jumps(law, internal_state(strip), closures(law.value))
+    return law, internal_state(strip), closures(law.value)
 
 
 def jump_law(strip: Strip) -> Derived:
@@ -30,11 +20,7 @@ def jump_law(strip: Strip) -> Derived:
     .. math:: \int_{0^-}^{0^+}(w + \beta w' - p - \alpha p')\,ds = \beta [w] - \alpha [p] = 0 \;\Rightarrow\; [w] = J [p]
     """
     before_w, before_p, step_w, step_p = sp.symbols("w_minus p_minus step_w step_p", real=True)
-    eps = sp.Symbol("eps", positive=True)
-    w = before_w + step_w * sp.Heaviside(s)
-    p = before_p + step_p * sp.Heaviside(s)
-    across = sp.integrate(sp.expand(strip.law(w, p)), (s, -eps, eps))
-    balance = sp.expand(sp.limit(across, eps, 0))
+    balance = across_a_step(strip.law(before_w + step_w * sp.Heaviside(s), before_p + step_p * sp.Heaviside(s)))
     solutions = sp.solve(balance, step_w)
     if len(solutions) != 1:
         raise DerivationError("jump law", f"one step of w for a step of p, not {solutions}")
@@ -45,6 +31,12 @@ def jump_law(strip: Strip) -> Derived:
         zero("[w]/[p] is the instantaneous compliance J", [ratio - J, ratio - instantaneous]),
     ]
     return derived(jump_law, ratio, checks)
+
+
+def across_a_step(law: sp.Expr) -> sp.Expr:
+    """A law for steps at s = 0, integrated over a vanishing interval around them."""
+    eps = sp.Symbol("eps", positive=True)
+    return sp.expand(sp.limit(sp.integrate(sp.expand(law), (s, -eps, eps)), eps, 0))
 
 
 def internal_state(strip: Strip) -> Derived:

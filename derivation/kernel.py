@@ -1,6 +1,6 @@
 """A formula to emit, tied to the expression that it was proven to compute."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -8,8 +8,8 @@ import sympy as sp
 
 from .check import Claim, DerivationError, Derived, derived, zero
 from .exact import in_half_angles
-from .functions import Formula, flat, written_out
-from .modes.symbols import EVERY_SUM, S, eta, generic
+from .functions import Call, Formula, flat, written_out
+from .modes.symbols import SUMS, S, eta, generic
 from .symbols import alpha, s_0, s_1
 
 
@@ -23,7 +23,6 @@ class Kernel:
     parts: tuple[tuple[sp.Expr, ...], ...] = ()  # of a balance: the terms of each component of ``exact``, flattened
     chain: tuple[Formula, Formula] | None = None  # an entry and its event, which are measured as one function
     moving: bool = False  # has no value at rest, V = 0
-    springs: bool = False  # nor where a branch has no spring
 
     @property
     def args(self) -> tuple[sp.Symbol, ...]:
@@ -32,6 +31,10 @@ class Kernel:
             return self.formula.args
         first, *rest = self.chain[0].args
         return (first, s_1, *rest)
+
+
+Kernels = Mapping[str, Kernel]
+"""By the names of their functions."""
 
 
 def same(
@@ -43,7 +46,7 @@ def same(
     """
     residuals = []
     for one, other in zip(flat(stated), flat(exact), strict=True):
-        if {f.func for f in sp.sympify(one).atoms(*EVERY_SUM)} != {f.func for f in sp.sympify(other).atoms(*EVERY_SUM)}:
+        if {f.func for f in sp.sympify(one).atoms(*SUMS)} != {f.func for f in sp.sympify(other).atoms(*SUMS)}:
             raise DerivationError(name, "both forms sum over the modes in the same way", one - other)
         residual = (generic(sp.sympify(one)) - generic(sp.sympify(other))).subs(S, alpha / eta)
         residuals.append(in_half_angles(residual, *halved))
@@ -63,6 +66,16 @@ def kernel(
     name = formula.name
     proven = same(name, formula.written_out(formula.args), exact, phases, halved)
     return Kernel(formula, exact, derived(by, exact, [proven, *claims], name, emitted=(name,), **options))
+
+
+def as_derived(expression: sp.Expr, kernels: Kernels) -> sp.Expr:
+    """An expression in calls of ``kernels``, with what these were proven to compute in their place."""
+
+    def derived_form(call: Call) -> sp.Expr:
+        kernel = kernels[call.formula.name]
+        return kernel.exact.subs(dict(zip(kernel.formula.args, call.args, strict=True)), simultaneous=True)
+
+    return expression.replace(lambda e: isinstance(e, Call), derived_form)
 
 
 def pair(

@@ -3,16 +3,14 @@
 SI throughout. The level's strips are those of :mod:`.strip`, with amplitude and penetration that vary over y.
 """
 
-from dataclasses import dataclass
-
 import sympy as sp
 
 from . import stable
 from .check import Claim, Derived, derived, holds, zero
-from .functions import Formula, stack_sum
+from .functions import Formula, written_out
 from .kernel import Kernel, kernel
 from .paper.record import CORRECTIONS
-from .saturated import FIELD, LOSS, MODULUS, Saturated
+from .saturated import FIELD, LOSS, MODULUS
 from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell, mean_over_wave
 from .symbols import D, D_level, K, L, T_eps, T_sigma, V, alpha, beta, h, k, l, p_0, p_nominal, s, x, y
 
@@ -20,48 +18,31 @@ R = sp.Symbol("R", positive=True)
 """|K*|/K of the wave of a level."""
 ratio = sp.Symbol("ratio", positive=True)
 TIMES = {alpha: k * V * T_sigma, beta: k * V * T_eps, L: 1 - T_sigma / T_eps}
+Foundation = tuple[sp.Symbol, ...]  # what is given of it
+Level = tuple[tuple[Kernel, Kernel, Kernel], Derived]
 
 
-@dataclass(frozen=True)
-class Level:
-    """Stage 6: the level in complete contact."""
-
-    kernels: tuple[Kernel, ...]
-    comparison: Derived  # Eq. 16 as printed against as derived
-
-
-@dataclass(frozen=True)
-class Wave:
-    """The wave of a level on a foundation: |K*|/K and Im K*/K, derived and as they are computed."""
-
-    given: tuple[sp.Symbol, ...]  # of the foundation
-    ratio: sp.Expr
-    loss: sp.Expr
-    ratio_computed: sp.Expr
-    loss_computed: sp.Expr
-    at_least_one: Claim  # R >= 1
-
-
-def level(saturated: Saturated) -> Level:
-    _, loss = saturated.modulus.value
-    at_least_one = holds("R >= 1: R^2 - 1 = (beta^2 - alpha^2)/(1 + alpha^2) >= 0", _at_least_one())
-    speed = 2 * sp.pi * V / l
-    wave = Wave(
+def level(threshold: sp.Expr) -> Level:
+    """Stage 6: the level in complete contact, with one relaxation time. ``threshold``: D of a strip."""
+    speed, excess = 2 * sp.pi * V / l, sp.Symbol("T_delta", nonnegative=True)
+    above = sp.factor(((beta**2 - alpha**2) / (1 + alpha**2)).subs(beta, alpha + excess))
+    return in_complete_contact(
         (K, T_eps, T_sigma),
-        MODULUS.subs(TIMES).subs(WAVE),
-        sp.factor(loss.subs(TIMES).subs(WAVE)),
         stable.MODULUS_RATIO(T_sigma * speed, T_eps * speed),
         stable.LOSS(T_sigma * speed, (T_eps - T_sigma) * speed, 1),  # the loss of beta and L is that of L beta and 1
-        at_least_one,
+        threshold.subs(MODULUS, R),
+        holds("R >= 1: R^2 - 1 = (beta^2 - alpha^2)/(1 + alpha^2) >= 0", above.is_nonnegative),
     )
-    kernels = in_complete_contact(wave, saturated.threshold.value.subs(MODULUS, R))
-    return Level(kernels, printed_equation_16(kernels[2].exact))
 
 
-def in_complete_contact(wave: Wave, threshold: sp.Expr) -> tuple[Kernel, ...]:
-    """What a level in complete contact comes to on any foundation. ``threshold``: D of a strip, by its R."""
-    friction = saturation_friction(wave)
-    return (*saturation(wave, threshold), friction, stack_friction(wave, friction.formula))
+def in_complete_contact(given: Foundation, modulus: sp.Expr, loss: sp.Expr, threshold: sp.Expr, at_least_one: Claim) -> Level:
+    """What a level in complete contact comes to on any foundation, and a stack of them.
+
+    ``modulus``, ``loss``: |K*|/K and Im K*/K of its wave, as they are computed from what is ``given`` of the foundation;
+    ``threshold``: D of a strip, by its R; ``at_least_one``: R >= 1.
+    """
+    saturated = saturation(given, modulus, threshold, at_least_one)
+    return (*saturated, saturation_friction(given, loss)), stack_friction(written_out(loss))
 
 
 def in_si(field: sp.Expr) -> sp.Expr:
@@ -95,8 +76,8 @@ def one_level() -> tuple[sp.Expr, sp.Expr]:
     return over_strips(K * (PENETRATION - AMPLITUDE)), over_strips(K * AMPLITUDE * k * AMPLITUDE * LOSS / 2).subs(WAVE)
 
 
-def saturation(wave: Wave, threshold: sp.Expr) -> tuple[Kernel, Kernel]:
-    r"""From where on a level is in complete contact. ``threshold``: D of a strip, by its R.
+def saturation(given: Foundation, modulus: sp.Expr, threshold: sp.Expr, at_least_one: Claim) -> tuple[Kernel, Kernel]:
+    r"""From where on a level is in complete contact.
 
     level_saturation_penetration: Penetration from which every strip of a level is in complete contact.
 
@@ -106,13 +87,13 @@ def saturation(wave: Wave, threshold: sp.Expr) -> tuple[Kernel, Kernel]:
 
     .. math:: p_{sat} = \tfrac14 K h (2R - 1) - p_0
     """
-    penetration, claims = of_every_strip(threshold, wave.at_least_one)
+    penetration, claims = of_every_strip(threshold, at_least_one)
     mean, _ = one_level()
     of_mean = zero("the level's mean pressure in complete contact is K (D - 3h/4)", mean - K * (D_level - sp.Rational(3, 4) * h))
 
     def of_level(name: str, result: sp.Expr, exact: sp.Expr, *claims: Claim) -> Kernel:
-        formula = Formula(f"level_saturation_{name}", (*wave.given, p_0, l, h, V), result, ((ratio, wave.ratio_computed),))
-        return kernel(saturation, formula, exact.subs(WAVE).subs(R, wave.ratio), *claims)
+        formula = Formula(f"level_saturation_{name}", (*given, p_0, l, h, V), result, ((ratio, modulus),))
+        return kernel(saturation, formula, exact.subs(WAVE).subs(R, written_out(modulus)), *claims)
 
     return (
         of_level("penetration", h / 2 * (1 + ratio) - p_0 / K, penetration, *claims),
@@ -120,51 +101,39 @@ def saturation(wave: Wave, threshold: sp.Expr) -> tuple[Kernel, Kernel]:
     )
 
 
-def saturation_friction(wave: Wave) -> Kernel:
+def saturation_friction(given: Foundation, loss: sp.Expr) -> Kernel:
     r"""Eq. 10, 11: Friction of a level in complete contact.
 
     .. math:: \tau_{sat} = \frac{3\pi}{32} \frac{h^2}{l}\,\mathrm{Im}\,K^*(ikV)
     """
-    formula = Formula("level_saturation_friction", (*wave.given, l, h, V), 3 * sp.pi / 32 * K * h**2 / l * wave.loss_computed)
+    formula = Formula("level_saturation_friction", (*given, l, h, V), 3 * sp.pi / 32 * K * h**2 / l * loss)
     _, friction = one_level()
     stress = in_si(FIELD) * sp.diff(HEIGHT, x)
     checks = [
         zero("it is 3 pi/32 h^2/l Im K*", friction - sp.Rational(3, 32) * sp.pi * K * h**2 / l * LOSS),
         zero("Eq. 15 in Eq. 10, averaged over the cell, is tau_sat", sp.simplify(mean_over_cell(stress).subs(WAVE) - friction)),
     ]
-    return kernel(saturation_friction, formula, friction.subs(LOSS, wave.loss), *checks)
+    return kernel(saturation_friction, formula, friction.subs(LOSS, written_out(loss)), *checks)
 
 
-def stack_friction(wave: Wave, of_one: Formula) -> Kernel:
-    r"""Eq. 16: Friction coefficient when every level is in complete contact. The levels lie along the last axis of l
-    and h, against which all but p_1 broadcasts.
+def stack_friction(loss: sp.Expr) -> Derived:
+    r"""Eq. 16: Friction coefficient when every level is in complete contact. The levels add: however deep one is pressed, its
+    friction tau_sat is the same.
 
     .. math:: \mu = \frac{3\pi}{32\,p_1} \sum_i \frac{h_i^2}{l_i}\,\mathrm{Im}\,K^*(ik_iV)
+
+    ``loss``: Im K*/K of the wave of one level.
     """
-    name = "saturated_stack_friction"
-    (_, friction), term = one_level(), of_one(*of_one.args)
-    formula = Formula(name, (*of_one.args, p_nominal), stack_sum(term) / p_nominal)
-    pressed = in_si(FIELD)
-    load, shear = (mean_over_cell(part) for part in (pressed, pressed * sp.diff(HEIGHT, x)))
-    levels = [{symbol: sp.Symbol(f"{symbol}_{i}", positive=True) for symbol in (h, l)} for i in (1, 2, 3)]
-    summed = formula.result.replace(stack_sum, lambda each: sum(each.subs(level) for level in levels))
+    _, friction = one_level()
     corrected = sp.Rational(3, 16) * sp.pi**2 * K * h**2 * (beta - alpha) / (2 * sp.pi * l * (1 + alpha**2))
     checks = [
-        zero(
-            "pressed deeper by dD a level in complete contact carries K dD more and has the same friction: the levels add",
-            [sp.diff(load, D_level) - K, sp.simplify(sp.diff(shear, D_level))],
-        ),
-        holds(
-            "three levels: the emitted sum is that of their friction coefficients",
-            sp.expand(summed - sum(term.subs(level) for level in levels) / p_nominal) == 0,
-        ),
         zero(
             "with one relaxation time each term is that of Eq. 16 as corrected",
             friction.subs(LOSS, (beta - alpha) / (1 + alpha**2)) - corrected,
         ),
     ]
-    exact = stack_sum(friction.subs(LOSS, wave.loss)) / p_nominal
-    return kernel(stack_friction, formula, exact, *checks, correction=CORRECTIONS[16])
+    term = friction.subs(LOSS, loss) / p_nominal
+    return derived(stack_friction, term, checks, correction=CORRECTIONS[16], emitted=("level_saturation_friction",))
 
 
 def printed_equation_16(one_level: sp.Expr) -> Derived:
@@ -198,7 +167,12 @@ def printed_equation_16(one_level: sp.Expr) -> Derived:
         ),
     ]
     return derived(
-        printed_equation_16, (true, printed), checks, name=name, correction=CORRECTIONS[16], emitted=("saturated_stack_friction",)
+        printed_equation_16,
+        (true, printed),
+        checks,
+        name=name,
+        correction=CORRECTIONS[16],
+        emitted=("level_saturation_friction",),
     )
 
 
@@ -210,9 +184,3 @@ def _peak_orders() -> bool:
     square = [height**2 / length for length, height in FIGURE_7]
     plain = [height / length for length, height in FIGURE_7]
     return [value / square[0] for value in square] == [1, sp.Rational(1, 5), sp.Rational(1, 20)] and plain == sorted(plain)
-
-
-def _at_least_one() -> bool:
-    excess = sp.Symbol("T_delta", nonnegative=True)
-    above = sp.factor(((beta**2 - alpha**2) / (1 + alpha**2)).subs(beta, alpha + excess))
-    return bool(above.is_nonnegative)

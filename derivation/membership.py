@@ -36,20 +36,23 @@ def require_member(model: Model) -> None:
 
 def require_constructor(model: Model) -> None:
     """Raise :class:`DerivationError` for a model without a series that is not in the paper's symbols."""
-    if model.modes != 1 or T_eps not in model.Q[1].free_symbols:
-        raise DerivationError("model", f"{model.name!r} belongs to operator_model: {_shape(model)}. {PIPELINE}")
+    if model.modes != 1:
+        shape = f"its operators are of order {model.modes} and it states no Prony series"
+    elif T_eps not in model.Q[1].free_symbols:
+        shape = "it has one relaxation time in parameters of its own"
+    else:
+        return
+    raise DerivationError("model", f"{model.name!r} belongs to operator_model: {shape}. {PIPELINE}")
 
 
 def outside(model: Model) -> list[str]:
     """The reasons why a model is no linear law with constant coefficients and integer derivatives."""
     known = {parameter.symbol for parameter in model.parameters}
-    arrays = [symbol.name.removesuffix("_i") for symbol in getattr(model.series, "arrays", ())]  # numbered by branch: K_1, K_2
-    numbered = {f"{name}_{n}" for name in arrays for n in range(1, (model.modes or 0) + 1)}
     reasons = []
     for label, operator in (("Q", model.Q), ("P", model.P)):
         for n, coefficient in enumerate(map(sp.sympify, operator)):
             what = f"{label}[{n}] = {coefficient}"
-            foreign = sorted(set(map(str, coefficient.free_symbols - known - {rate})) - numbered)
+            foreign = sorted(map(str, coefficient.free_symbols - known - {rate}))
             if coefficient.has(rate):
                 reasons.append(
                     f"{what} holds d/dt itself, as a fractional element does: it has no finite number of internal states"
@@ -65,9 +68,3 @@ def constant_coefficients(model: Model) -> Claim:
     """The claim that both operators hold constants of the material alone."""
     claim = "both operators have constant coefficients: nothing in them but parameters of the material"
     return holds(claim, not outside(model))
-
-
-def _shape(model: Model) -> str:
-    if model.modes != 1:
-        return f"its operators are of order {model.modes} and it states no Prony series"
-    return "it has one relaxation time in parameters of its own"

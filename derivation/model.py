@@ -208,9 +208,8 @@ def inadmissible(model: Model) -> list[str]:
     return reasons
 
 
-def require_admissible(model: Model) -> None:
-    """Raise an error that names every reason against the model."""
-    reasons = inadmissible(model)
+def refuse(model: Model, reasons: list[str]) -> None:
+    """Raise an error that names every reason against the model, if there is any."""
     if reasons:
         raise DerivationError("admissibility", f"model {model.name!r} is refused: " + "; ".join(reasons))
 

@@ -5,85 +5,56 @@ power of sliding, what a strip carries in its contact, and the coefficient, whic
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
 
 import sympy as sp
 
-from .averages import ZoneIntegrals
 from .check import Claim, Derived, derived, zero
-from .functions import written_out
-from .kernel import Kernel
 from .level import in_si, one_level, over_strips
 from .paper.record import CORRECTIONS
-from .regime import Regime
-from .saturated import FIELD, LOSS, Saturated
-from .sequences import ADHESION, CONTACT, FREE, PERIOD
+from .saturated import FIELD, LOSS
+from .sequences import ADHESION, CONTACT, FREE, PERIOD, Row
 from .strip import Strip
 from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell, mean_over_wave
-from .symbols import D_level, J, K, L, V, a, b, beta, h, k, l, p_0, p_nominal, q_0, s, s_0, s_1, t, x, y
+from .symbols import D, D_level, K, V, a, b, h, k, l, p_0, p_nominal, s, s_0, s_1, t, x, y
 
 tau_below, slope_x, pressure, unknown = sp.symbols("tau_M f_x p tau", real=True)
 
 
-@dataclass(frozen=True)
-class Multilevel:
-    """Stage 7: what the levels of a surface have to do with one another."""
+def multilevel(regimes: Sequence[Row], passed_once: Sequence[Claim], emitted: tuple[str, ...]) -> tuple[Derived, ...]:
+    """Stage 7: what the levels of a surface have to do with one another, Eq. 7 and 9 to 14 on any foundation.
 
-    load: Derived  # Eq. 7
-    area: Derived  # Eq. 9
-    stress: Derived  # Eq. 10
-    means: Derived  # Eq. 11
-    shear: Derived  # Eq. 12
-    carried: Derived  # Eq. 13
-    coefficient: Derived  # Eq. 14
-
-
-def multilevel(
-    strip: Strip,
-    saturated: Saturated,
-    regimes: Sequence[Regime],
-    means: Sequence[Kernel],
-    integrals: ZoneIntegrals,
-) -> Multilevel:
-    exact = {kernel.formula.name: kernel.exact for kernel in (*saturated.kernels, *means)}
-    field = exact["saturated_pressure"]
-    touching = [regime for regime in regimes if regime.touches]
-    return Multilevel(
-        equilibrium(touching, [unbalanced(regime, exact[f"means_{regime.sequence}"][0], integrals) for regime in touching]),
-        contact_area(regimes),
-        local_stress(strip.u, field, dashpot_loss(strip.u, field)),
+    ``passed_once``: why the pressure of a contact passes any value at most once either way; ``emitted``: what finds these places.
+    """
+    touching = [regime for regime in regimes if regime.edges and regime.touches]
+    return (
+        equilibrium(touching),
+        contact_area(touching),
+        local_stress(),
         means_over_a_level(),
         local_shear(),
-        carried_friction(passed_once(strip, touching), ("excess_after", "excess_event")),
+        carried_friction(touching, passed_once, emitted),
         friction_coefficient(),
     )
 
 
-def dashpot_loss(u: sp.Expr, field: sp.Expr) -> sp.Expr:
-    r"""Loss of one period, :math:`\frac{\beta}{L}\oint z'^2 ds` with :math:`z = u - J p`."""
-    return beta / L * sp.integrate(sp.expand(sp.diff(u - J * field, s) ** 2), (s, 0, PERIOD))
-
-
-def local_stress(u: sp.Expr, field: sp.Expr, lost: sp.Expr) -> Derived:
+def local_stress() -> Derived:
     r"""Eq. 10: The pressure acts on the slope of the surface: per nominal area it resists the motion with p f_x. In front of a
     crest, f_x > 0, pressure resists; behind it, pressure drives and the traction of adhesion resists.
 
     .. math:: \tau(x, y) = p(x, y)\,\frac{\partial f}{\partial x}
-
-    ``field``: Eq. 15 in a strip; ``lost``: what the dashpots lose with it in a period.
     """
     slope = sp.diff(HEIGHT, x)
     stress = pressure * slope
-    work = sp.integrate(sp.expand(field * sp.diff(u, s)), (s, 0, PERIOD))
+    profile = D - 1 + sp.cos(s)
+    work = sp.integrate(sp.expand(FIELD * sp.diff(profile, s)), (s, 0, PERIOD))
     checks = [
         zero("a point of the foundation in contact yields at the rate w_t = V f_x", yielding() - V * slope),
         zero(
             "it is the stress whose power V tau is the power p w_t of the pressure on the foundation",
             sp.solve(V * unknown - pressure * yielding(), unknown)[0] - stress,
         ),
-        zero("in a strip f_x is k A u': its mean is that of p u'", slope - k * AMPLITUDE * sp.diff(u, s).subs(s, -k * x)),
-        zero("in complete contact its work over a period is what the dashpots lose", work - lost),
+        zero("in a strip f_x is k A u': its mean is that of p u'", slope - k * AMPLITUDE * sp.diff(profile, s).subs(s, -k * x)),
+        zero("in complete contact its work over a period is pi Im K*/K, what an oscillation loses", work - sp.pi * LOSS),
     ]
     return derived(local_stress, stress, checks)
 
@@ -130,21 +101,19 @@ def local_shear() -> Derived:
     return derived(local_shear, shear, checks, correction=CORRECTIONS[12])
 
 
-def passed_once(strip: Strip, touching: Sequence[Regime]) -> list[Claim]:
-    """What Eq. 13 asks of a foundation with one relaxation time, and what its printed form has in excess."""
-    return [
-        zero(
-            "in contact p - p* is driven by one harmonic, H - p*, for every p*: p passes p* at most once up and once down",
-            _above_a_pressure(strip),
-        ),
-        zero(
-            "over the whole cell the printed form has more: tau_M[0] times the free part, tau_M[-p_0] times the part in adhesion",
-            [_beyond_contact(regime) for regime in touching],
-        ),
-    ]
+def passed_once(strip: Strip) -> Claim:
+    """What Eq. 13 asks of a foundation with one relaxation time."""
+    level = sp.Symbol("p_star", real=True)
+    pressure = sp.Function("p")(s)
+    above = sum(c * sp.diff(pressure - level, s, n) for n, c in enumerate(strip.operator_p))
+    harmonic = strip.law(strip.u, sp.Integer(0)) - level
+    return zero(
+        "in contact p - p* is driven by one harmonic, H - p*, for every p*: p passes p* at most once up and once down",
+        sp.expand((harmonic - above).doit() - strip.law(strip.u, pressure).doit()),
+    )
 
 
-def carried_friction(claims: Sequence[Claim], emitted: tuple[str, ...]) -> Derived:
+def carried_friction(touching: Sequence[Row], passed_once: Sequence[Claim], emitted: tuple[str, ...]) -> Derived:
     r"""Eq. 13: What level M carries is averaged over the contact of level M-1 alone; in a strip, from x = -a to b,
     that is C_j, the integral of its law over the contact zone. The law jumps at pull-off and bends at saturation, so
     the zone is cut where p passes these pressures and no quadrature goes across.
@@ -152,11 +121,13 @@ def carried_friction(claims: Sequence[Claim], emitted: tuple[str, ...]) -> Deriv
     .. math:: \bar\tau_{M-1} = \frac{1}{l^2} \iint p\,f_x\,dx\,dy + \frac{1}{l^2} \iint_{\text{contact}}
         \tau_M[p]\,dx\,dy,\quad C_j = \frac{1}{l} \int_{-a}^{b} \tau_M[p]\,dx = \frac{1}{2\pi} \int_{-kb}^{ka}
         \tau_M[p(s)]\,ds
-
-    ``claims``: what its foundation answers for.
     """
     value = sp.Integral(sp.Function("tau_M")(sp.Function("p")(s)), (s, s_0, s_1)) / PERIOD
-    return derived(carried_friction, value, claims, correction=CORRECTIONS[12], emitted=emitted)
+    beyond = zero(
+        "over the whole cell the printed form has more: tau_M[0] times the free part, tau_M[-p_0] times the part in adhesion",
+        [_beyond_contact(regime) for regime in touching],
+    )
+    return derived(carried_friction, value, [*passed_once, beyond], correction=CORRECTIONS[12], emitted=emitted)
 
 
 def friction_coefficient() -> Derived:
@@ -182,7 +153,7 @@ def friction_coefficient() -> Derived:
         sp.Symbol("tau_1", real=True) / p_nominal,
         checks,
         correction=CORRECTIONS[12],
-        emitted=("saturated_stack_friction",),
+        emitted=("level_saturation_friction",),
     )
 
 
@@ -198,15 +169,7 @@ def _equal_strips(mean: sp.Expr, number: int) -> sp.Expr:
     return sum((mean.subs(y, middle) for middle in middles), sp.Integer(0)) / (2 * number)
 
 
-def _above_a_pressure(strip: Strip) -> sp.Expr:
-    level = sp.Symbol("p_star", real=True)
-    pressure = sp.Function("p")(s)
-    above = sum(c * sp.diff(pressure - level, s, n) for n, c in enumerate(strip.operator_p))
-    harmonic = strip.law(strip.u, sp.Integer(0)) - level
-    return sp.expand((harmonic - above).doit() - strip.law(strip.u, pressure).doit())
-
-
-def _beyond_contact(regime: Regime) -> sp.Expr:
+def _beyond_contact(regime: Row) -> sp.Expr:
     """The law over the whole period, less over contact, less what is said of the rest: the parts of a period make it up."""
     law, over = sp.Function("tau_M"), {CONTACT: sp.Integer(0), ADHESION: sp.Integer(0), FREE: sp.Integer(0)}
     for zone in regime.zones:
@@ -216,13 +179,11 @@ def _beyond_contact(regime: Regime) -> sp.Expr:
     return sp.expand(rest - law(sp.Integer(0)) * free - law(-p_0) * over[ADHESION])
 
 
-def equilibrium(touching: Sequence[Any], unbalanced: Sequence[sp.Expr]) -> Derived:
+def equilibrium(touching: Sequence[Row]) -> Derived:
     r"""Eq. 7: The nominal pressure balances what the surface carries: the pressure in contact and the traction of
     adhesion, summed over both, per area of the cell. Outside both the pressure is zero.
 
     .. math:: \bar p = \frac{1}{l^2} \iint_{\Omega} p(x, y)\,dx\,dy
-
-    ``unbalanced``: of each regime in contact (:func:`unbalanced`), what its zones carry less 2 pi mean p.
     """
     relaxed = D_level - HEIGHT  # w at rest
     stored = mean_over_cell(K * relaxed**2 / 2)
@@ -232,61 +193,42 @@ def equilibrium(touching: Sequence[Any], unbalanced: Sequence[sp.Expr]) -> Deriv
             "virtual work: pressing the relaxed foundation deeper by dD stores the integral of p times dD",
             sp.diff(stored, D_level) - carried,
         ),
-        *(
-            zero(
-                f"{regime.sequence}: contact carries 2 pi mean p and p_0 times the width in adhesion; outside both "
-                f"there is no load",
-                left,
-                phases=regime.edges,
-            )
-            for regime, left in zip(touching, unbalanced, strict=True)
+        zero(
+            "outside contact there is the load -p_0 over the width in adhesion: contact carries 2 pi mean p and p_0 times that",
+            [_outside_contact(regime) for regime in touching],
         ),
     ]
     value = sp.Integral(sp.Function("p")(x, y), x, y) / l**2
     return derived(equilibrium, value, claims, emitted=tuple(f"means_{regime.sequence}" for regime in touching))
 
 
-def unbalanced(regime: Regime, mean_p: sp.Expr, integrals: ZoneIntegrals) -> sp.Expr:
-    """Pressure summed over contact, against the mean pressure that is emitted; the closing balance is zero on an orbit."""
-    summed = adhesion = sp.Integer(0)
-    for zone in regime.zones:
-        if zone.kind == CONTACT:
-            edges = {s_0: zone.first, s_1: zone.last, q_0: zone.entry}
-            summed += integrals.contact.value[0].subs(edges, simultaneous=True)
-        elif zone.kind == ADHESION:
-            adhesion += zone.last - zone.first
-    return written_out(summed) - PERIOD * mean_p - p_0 * adhesion - beta * written_out(regime.closing)
+def _outside_contact(regime: Row) -> sp.Expr:
+    """Pressure summed over the zones out of contact, and p_0 over the width in adhesion."""
+    loads = [zone.load * (zone.last - zone.first) for zone in regime.zones if zone.kind != CONTACT]
+    return sp.expand(sum(loads) + p_0 * sum(zone.last - zone.first for zone in regime.zones if zone.kind == ADHESION))
 
 
-def contact_area(regimes: Sequence[Any]) -> Derived:
+def contact_area(regimes: Sequence[Row]) -> Derived:
     r"""Eq. 9: The contact area of a level is the sum over its strips of the contact length a + b times the width of a strip; over
     l^2 it is the fraction of the nominal area in contact.
 
     .. math:: A = 2 \Delta \sum_{j=1}^{N} (a_j + b_j),\quad l = 2 N \Delta
     """
-    length = sp.Function("length")
-    ends = {a: k * sp.Symbol("x_a", positive=True), b: -k * sp.Symbol("x_b", positive=True)}  # contact from x = -a to b
-    widths = []
-    for regime in regimes:
-        for zone in regime.zones:
-            if zone.kind == CONTACT and zone.first == b:
-                between = (zone.last - zone.first).subs(ends) / k
-                widths.append(between - sp.Symbol("x_a", positive=True) - sp.Symbol("x_b", positive=True))
+    length, behind, ahead = sp.Function("length"), *sp.symbols("x_a x_b", positive=True)  # contact from x = -x_a to x_b
+    one, other = sp.symbols("c_0 c_1", real=True)
+    linear = lambda place: one + other * sp.cos(k * place)  # noqa: E731
+    spans = [zone.last - zone.first for regime in regimes for zone in regime.zones if zone.kind == CONTACT and zone.first == b]
+    widths = [span.subs({a: k * behind, b: -k * ahead}) / k - behind - ahead for span in spans]
     checks = [
         zero("the contact zone from phase b to phase a is a + b long in x", widths),
         zero("the surface is the same at y and -y: half a cell counts twice", HEIGHT.subs(y, -y) - HEIGHT),
         zero("complete contact, a + b = l in every strip: the whole cell", [_area(lambda _: l, n) - l**2 for n in (1, 2, 5)]),
         zero(
             "strips represented by their middles: a length linear in cos ky is summed to its integral over the cell",
-            [_area(_linear, n) - l * mean_over_wave(_linear(y), y).subs(k, 2 * sp.pi / l) for n in (2, 3)],
+            [_area(linear, n) - l * mean_over_wave(linear(y), y).subs(k, 2 * sp.pi / l) for n in (2, 3)],
         ),
     ]
     return derived(contact_area, sp.Integral(length(y), (y, 0, l)), checks)
-
-
-def _linear(place: sp.Expr) -> sp.Expr:
-    one, other = sp.symbols("c_0 c_1", real=True)
-    return one + other * sp.cos(k * place)
 
 
 def _area(length, number: int) -> sp.Expr:

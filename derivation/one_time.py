@@ -1,32 +1,30 @@
 """The derivation for one relaxation time, stage after stage."""
 
-from typing import Any
-
 import sympy as sp
 
-from .averages import constant_means, strip_means, zone_integrals
+from .averages import constant_means, strip_means
 from .conditions import strip_problem, zone_conditions
 from .displays import STATED, displays, of_one_time
 from .energy import friction_balance, power_balance
 from .events import excess_event, gap_event, links
 from .flows import flows
-from .functions import Call
+from .functions import Formula
 from .half_space import half_space
 from .jumps import jumps
-from .kernel import Kernel
-from .level import level
+from .kernel import Kernel, Kernels, as_derived
+from .level import level, printed_equation_16
 from .membership import require_constructor
-from .model import Model, foundation, require_admissible
+from .model import Model, foundation, inadmissible, refuse
 from .modes.flows import mode_flows
-from .multilevel import multilevel
+from .multilevel import multilevel, passed_once
 from .outcome import Derivation, records
 from .paper.compare import comparisons
 from .paper.tags import require_all, require_status, require_tags
-from .regime import OneTime, Regime
+from .regime import OneTime
 from .regimes import regimes
 from .sample_roots import sample_roots
 from .saturated import saturated
-from .sequences import FREE
+from .sequences import FREE, Row
 from .stability import onset, onset_slope, shift_of_an_event
 from .stack import stack
 from .strip import strip
@@ -37,49 +35,44 @@ from .zones import zones
 
 def derive(model: Model) -> Derivation:
     """Derive and verify everything that follows from the two operators of ``model``."""
-    made: list[Any] = []
-    require_admissible(model)
+    refuse(model, inadmissible(model))
     require_constructor(model)
     ground = foundation(model)
-    made.append(ground)
     one_strip = strip(ground)
-    made.append(one_strip)
-    flow = flows(one_strip)
-    made.append(flow)
-    jump = jumps(one_strip)
-    made.append(jump)
-    zone = zones(flow)
+    flow, jump = flows(one_strip), jumps(one_strip)
+    zone, chain = zones(flow), links(flow)
     events = (*gap_event(flow), *excess_event(flow))
-    chain = links(flow)
-    made += (zone, events, chain)
     full = saturated(flow)
-    whole = level(full)
-    made += (full, whole)
-    ratio = sp.cancel(jump.closure.value / sp.Symbol("step_p", real=True))  # [w]/[p]
-    table = regimes(OneTime(ratio), full.threshold.value)
+    threshold = full.threshold.value
+    whole, stacked = level(threshold)
+    ratio = sp.cancel(jump[-1].value / sp.Symbol("step_p", real=True))  # [w]/[p]
+    table = regimes(OneTime(ratio), threshold)
     partial = [regime for regime in table if regime.edges]
-    systems = tuple(boundary_equations(regime, zone.kernels) for regime in partial)
-    roots = sample_roots("one_time", table, mode_flows())
-    made += (zone_conditions(one_strip.u), strip_problem(one_strip, table[0]), table, roots, systems)
-    integrals = zone_integrals(flow)
+    of_zones = {kernel.formula.name: kernel for kernel in zone}
+    systems = tuple(boundary_equations(regime, of_zones) for regime in partial)
     still = tuple(constant_means(regime, PARAMETERS) for regime in table if regime.sequence in ("a", "f"))
-    means = tuple(strip_means(regime, integrals) for regime in partial)
-    balances = (power_balance(flow), *(friction_balance(regime) for regime in partial))
-    made += (integrals, means, still, balances)
+    means = tuple(strip_means(regime, of_zones) for regime in partial)
     onsets = onset({regime.sequence: regime for regime in partial})
     slopes = tuple(onset_slope(regime) for regime in partial if regime.zones[-1].kind == FREE)
-    made += (shift_of_an_event(), onsets, slopes)
-    upwards = multilevel(one_strip, full, partial, means, integrals)
-    made += (upwards, stack(one_strip, full, whole), half_space())
+    made = (
+        (ground, one_strip, flow, jump),
+        (zone, events, chain, full, whole, stacked, printed_equation_16(whole[2].exact)),
+        (zone_conditions(one_strip.u), strip_problem(one_strip, table[0]), table),
+        (sample_roots("one_time", table, mode_flows()), systems, means, still),
+        (power_balance(flow), *(friction_balance(regime) for regime in partial)),
+        (shift_of_an_event(), onsets, slopes),
+        multilevel(table, [passed_once(one_strip)], ("excess_after", "excess_event")),
+        (stack(one_strip, threshold, whole), half_space()),
+    )
     sections = (
-        ("Rigid profile, load, zones", zone.kernels),
+        ("Rigid profile, load, zones", zone),
         ("Events: value and slope, for root finding in a zone whose entry is evaluated once", events),
         ("Links: value and derivatives by both edges, for Newton on the chain of edges", chain),
         ("Complete contact", full.kernels),
         ("Boundary equations of each regime", systems),
         ("Means of pressure and friction", (full.means, *still, *means)),
         ("Onset of adhesion, and the slope of the map from one onset to the next", (*onsets, *slopes)),
-        ("A whole level in complete contact, and a stack of them: SI units", whole.kernels),
+        ("A whole level in complete contact: SI units", whole),
     )
     exact = {kernel.formula.name: kernel.exact for _, kernels in sections for kernel in kernels}
     steps = tuple(records(made))
@@ -88,19 +81,11 @@ def derive(model: Model) -> Derivation:
     require_tags(steps)
     require_all(steps)
     require_status(steps, printed)
-    return Derivation("one_time", model, tuple(made), table, sections, read, printed)
+    return Derivation("one_time", model, made, table, sections, read, printed)
 
 
-def boundary_equations(regime: Regime, zone_kernels: tuple[Kernel, ...]) -> Kernel:
+def boundary_equations(regime: Row, zones: Kernels) -> Kernel:
     """Boundary equations to emit, with the exact expressions they compute: the derived flows put in."""
-    by_name = {kernel.formula.name: kernel for kernel in zone_kernels}
-
-    def as_derived(call: Call) -> sp.Expr:
-        kernel = by_name[call.formula.name]
-        return kernel.exact.subs(dict(zip(kernel.formula.args, call.args, strict=True)), simultaneous=True)
-
-    parts = tuple(
-        tuple(part.replace(lambda e: isinstance(e, Call), as_derived) for part in sp.Add.make_args(term))
-        for _, term in regime.equations
-    )
-    return Kernel(regime.residual_formula, tuple(sp.Add(*equation) for equation in parts), regime.derived, parts)
+    parts = tuple(tuple(as_derived(part, zones) for part in sp.Add.make_args(term)) for _, term in regime.equations)
+    computed = Formula(f"residual_{regime.sequence}", (*regime.edges, *PARAMETERS), tuple(term for _, term in regime.equations))
+    return Kernel(computed, tuple(sp.Add(*equation) for equation in parts), regime.derived, parts)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, fields, is_dataclass
 from typing import Any
 
-from .check import Check, Derived
+from .check import Derived
 from .kernel import Kernel
 from .model import Model
 from .paper.record import Comparison
@@ -19,7 +19,7 @@ class Derivation:
     stages: tuple[Any, ...]
     regimes: tuple[Any, ...]
     sections: tuple[tuple[str, tuple[Kernel, ...]], ...]
-    displayed: dict[str, Check]  # by step: its LaTeX read back and compared
+    displayed: dict[str, str]  # by step: what is said of its LaTeX, read back and compared
     comparisons: tuple[Comparison, ...] = ()  # of the paper's equations; none for another foundation
     composed: tuple[Any, ...] = ()  # regimes with edges whose functions are put together from kernels, for several times
     whole: tuple[Kernel, ...] = ()  # what the functions of the template have to come to

@@ -1,4 +1,4 @@
-"""SymPy expressions as NumPy source, and formulas as the text of one function each.
+"""SymPy expressions as NumPy source, and what the templates make functions of them with.
 
 Only spelling happens here. SymPy's own rewrites for NumPy are left out on purpose: it turns ``1 - exp(-z)`` into
 ``exp(-z) expm1(z)``, which overflows.
@@ -6,8 +6,6 @@ Only spelling happens here. SymPy's own rewrites for NumPy are left out on purpo
 
 import textwrap
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Any
 
 import sympy as sp
 from sympy.printing.precedence import precedence
@@ -99,39 +97,16 @@ def results(value: object) -> str:
     return f"{text}.0" if text.lstrip("-").isdigit() else text
 
 
-@dataclass(frozen=True)
-class FunctionText:
-    """One function of a generated module, as text for its template."""
-
-    name: str
-    args: tuple[str, ...]
-    statement: str  # first sentence
-    explanation: tuple[str, ...]
-    equation: tuple[str, ...]
-    derived_by: str
-    paper: str
-    steps: tuple[tuple[str, str], ...]
-    result: str
-
-
-def function_text(formula: Formula, record: Any) -> FunctionText:
-    return FunctionText(
-        formula.name,
-        tuple(map(source, formula.args)),
-        *docstring(record.statement),
-        tuple(record.latex.split("\n")) if len(record.latex) <= WIDTH else (),
-        record.function,
-        record.paper,
-        tuple((source(label), source(term)) for label, term in formula.steps),
-        results(formula.result),
-    )
-
-
 def docstring(statement: str) -> tuple[str, tuple[str, ...]]:
     """The first sentence, which must fit a line, and the rest, wrapped."""
     first, dot, rest = statement.partition(". ")
     lines = textwrap.wrap(first + (dot.strip() or ""), WIDTH)
     return lines[0], (*lines[1:], *textwrap.wrap(rest, WIDTH))
+
+
+def fits(latex: str) -> bool:
+    """Whether an equation fits a line of a docstring."""
+    return len(latex) <= WIDTH
 
 
 def functions_of(formulas: Iterable[Formula], kinds: tuple[type, ...]) -> set[str]:

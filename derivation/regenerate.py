@@ -6,10 +6,10 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from .certificates import SCALE, WORDS, Certificate, certificates_of, certified_names, domain, modes_of
+from .certificates import Certificate, certificates_of, certified_names, domain, modes_of
 from .derive import derive
-from .drift import audit_texts
-from .emit import INTERFACE, emit, input_hash
+from .drift import audit_texts, certificates_text
+from .emit import INTERFACE, emit
 from .folder import (
     CERTIFICATES,
     MEASURED,
@@ -20,12 +20,11 @@ from .folder import (
     read_measured,
     require_folder,
     write_files,
-    write_folder,
 )
 from .model import Model
 from .model_file import require_names
 from .models import MODELS
-from .progress import SHARES, Progress, Report
+from .progress import Report, reported
 
 AIM = 16.0  # ulp of the natural scale
 
@@ -42,36 +41,32 @@ def regenerate(
 ) -> list[Path]:
     """Derive, emit and certify the solvers of ``models`` (those that ship) into ``out_dir``; returns the files written.
 
-    Nothing is written unless everything succeeded. A folder that does not exist yet is written aside and renamed as a whole, in
-    one that does each file is. Raises :class:`DerivationError` for an inadmissible model, :class:`CertificateError` for a
-    function that is not accurate enough, and :class:`FileExistsError` for a folder that holds something else. A bound in an
-    existing ``certificates.json`` grows only for a function in ``accept``, which says why: ``{"module.function": "reason"}``.
-    ``progress`` is called with (done, in all): models derived, then shares of their certificates.
+    Nothing is written unless everything succeeded (:func:`.folder.write_files`). Raises :class:`DerivationError` for an
+    inadmissible model, :class:`CertificateError` for a function that is not accurate enough, and :class:`FileExistsError` for a
+    folder that holds something else. A bound in an existing ``certificates.json`` grows only for a function in ``accept``, which
+    says why: ``{"module.function": "reason"}``. ``progress`` is called with (done, in all): of the models to derive, then of
+    the functions of each to measure.
     """
     chosen = tuple(models) if models is not None else MODELS
     require_names(chosen)
     target = Path(out_dir) if out_dir is not None else generated_folder()
     require_folder(target)
-    say = Progress(progress, (1 + SHARES) * len(chosen) + 2)
-    derivations = tuple(say.each(map(derive, chosen)))
+    derivations = tuple(reported(map(derive, chosen), progress, len(chosen)))
     files = emit(derivations)
-    say()
     certificates = {}
     with importable(files) as solver:
-        stored = read_certificates(target / CERTIFICATES)
+        stored = read_certificates(target)
         for derivation in derivations:
             name = derivation.model.name
-            measured = say.counted(certificates_of(derivation, solver(name)), len(certified_names(derivation)))
+            measured = reported(certificates_of(derivation, solver(name)), progress, len(certified_names(derivation)))
             rows = bounds_of(name, measured, stored, accept or {})
             certificates[name] = {"interface": INTERFACE, "modes": list(modes_of(derivation.model)), "functions": rows}
-    files[CERTIFICATES] = _certificates_text(certificates)
+    files[CERTIFICATES] = certificates_text(certificates)
     known = read_measured(target) or read_measured(generated_folder())
-    measured = {name: known[name] for name in certificates if name in known}
-    files |= audit_texts(derivations, files, certificates, measured)
-    files[MEASURED] = dumped(measured)
-    written = write_files(target, files) if target.exists() else write_folder(target, files)
-    say()
-    return written
+    figures = {name: known[name] for name in certificates if name in known}
+    files |= audit_texts(derivations, files, certificates, figures)
+    files[MEASURED] = dumped(figures)
+    return write_files(target, files)
 
 
 def bounds_of(
@@ -107,8 +102,3 @@ def _bound(worst: float) -> float:
     """
     ladder = (step * 2.0**octave for octave in range(3, 60) for step in (1.0, 1.5))
     return next((bound for bound in ladder if bound >= 1.5 * worst), float("inf"))
-
-
-def _certificates_text(models: dict[str, Any]) -> str:
-    unit = f"ulp (2**-52) of the natural scale: {SCALE}"
-    return dumped({"hash": input_hash(), "unit": unit, "domain": WORDS, "models": models})

@@ -13,25 +13,10 @@ import sympy as sp
 
 from . import stable
 from .check import BEYOND, REPRODUCED, Claim, derived, zero
-from .functions import Formula, written_out
-from .sequences import (
-    CONTACT,
-    EQUATIONS,
-    NOTHING,
-    PERIOD,
-    Inequality,
-    Relation,
-    Row,
-    Span,
-    edgeless_record,
-    obeys_jump_law,
-    relation,
-    require,
-    required,
-    with_edges,
-    zones_of,
-)
-from .symbols import PARAMETERS, D, J, L, alpha, beta, chi, p_0, s, s_0, s_1
+from .functions import written_out
+from .regimes import Edges, System
+from .sequences import CONTACT, EQUATIONS, NOTHING, Inequality, Relation, Row, Span, obeys_jump_law, relation, zones_of
+from .symbols import D, J, L, alpha, beta, chi, p_0, s, s_1
 
 turn = sp.Symbol("e", real=True)  # where the gap is least or greatest
 PERIODIC = ("period", "the changes of z over the period sum to zero, so that the gap falls to delta_0 again at d + 2 pi")
@@ -66,10 +51,8 @@ class Zone(Span):
         return harmonic + p_0 if self.kind == CONTACT else self.load - harmonic
 
     def approach(self, edge: sp.Symbol) -> Inequality:
-        """How the state must come to the edge where the zone ends: its slope there has the sign of ``drive - exit``."""
-        what = "the pressure" if self.kind == CONTACT else "the gap"
-        slope = relation(">=" if self.rises else "<=", self.drive(edge) - self.exit, 0)
-        return require(slope, sentence=f"{what} {'rises' if self.rises else 'falls'} at {edge}: {{}}")
+        """Its slope at the edge has the sign of ``drive - exit``."""
+        return self.comes(edge, self.drive(edge) - self.exit, "at")
 
     @property
     def displacement(self) -> sp.Expr:
@@ -78,27 +61,7 @@ class Zone(Span):
 
 
 @dataclass(frozen=True)
-class Regime(Row):
-    """A row for one relaxation time, with its boundary equations."""
-
-    equations: tuple[tuple[str, sp.Expr], ...] = ()
-
-    @property
-    def args(self) -> tuple[sp.Symbol, ...]:
-        return (*self.edges, *PARAMETERS)
-
-    @property
-    def closing(self) -> sp.Expr:
-        """The closing balance."""
-        return self.equations[-1][1]
-
-    @property
-    def residual_formula(self) -> Formula:
-        return Formula(f"residual_{self.sequence}", self.args, tuple(term for _, term in self.equations))
-
-
-@dataclass(frozen=True)
-class OneTime:
+class OneTime(Edges):
     """Makes the rows of the table for one relaxation time. ``ratio``: [w]/[p] where p steps."""
 
     ratio: sp.Expr
@@ -117,18 +80,14 @@ class OneTime:
         driven = relation("<" if sign == ">=" else ">", zone.drive(s), limit)
         return (relation(sign, replace(zone, last=turn).after(), limit), driven), "at the end e of the arc {}"
 
-    def edgeless(self, by: Callable, sequence: str, kind: str, *admissible: Inequality) -> Regime:
-        zone = Zone(kind, s_0, s_0 + PERIOD, NOTHING, NOTHING)
-        return Regime(sequence, (zone,), admissible, self.closures, edgeless_record(by, sequence, zone))
-
-    def partial(self, by: Callable, sequence: str, *admissible: Inequality, closures: tuple[int, ...] = closures) -> Regime:
-        zones = self.zones(sequence)
-        edges = tuple(zone.first for zone in zones)
+    def system(
+        self, by: Callable[..., Row], sequence: str, zones: tuple[Zone, ...], closures: tuple[int, ...], said: str
+    ) -> System:
         events = [(EQUATIONS[zone.last][0], zone.misses()) for zone in zones[:-1]]
         equations = (*events, (PERIODIC[0], sp.Add(*(zone.increment() for zone in zones))))
         claims = [
             obeys_jump_law(zones, self.ratio.subs(chi, 1) if closures == (1,) else self.ratio, "[w] = chi J [p]"),
-            _closing_is_periodicity(zones, events, equations[-1][1], edges),
+            _closing_is_periodicity(zones, equations),
             _slopes_have_the_sign_of_what_drives(zones),
         ]
         meaning = [EQUATIONS[zone.last][1] for zone in zones[:-1]] + [PERIODIC[1]]
@@ -137,12 +96,12 @@ class OneTime:
             tuple(term for _, term in equations),
             claims,
             f"regime {sequence}",
-            statement=f"{with_edges(sequence, edges)}; {'; '.join(meaning)}.",
+            statement=f"{said}; {'; '.join(meaning)}.",
             latex=r"\\ ".join(f"{sp.latex(written_out(term))} = 0" for _, term in equations),
             status=BEYOND if closures == (1,) else REPRODUCED,
             emitted=(f"residual_{sequence}",),
         )
-        return Regime(sequence, zones, required(zones, admissible), closures, record, equations)
+        return record, equations
 
 
 def _slopes_have_the_sign_of_what_drives(zones: tuple[Zone, ...]) -> Claim:
@@ -155,13 +114,14 @@ def _slopes_have_the_sign_of_what_drives(zones: tuple[Zone, ...]) -> Claim:
     return zero("at an edge the slope times its time is drive - exit: its sign", residuals, phases=(*firsts, s_1))
 
 
-def _closing_is_periodicity(zones, events, closing, edges) -> Claim:
+def _closing_is_periodicity(zones: tuple[Zone, ...], equations: tuple[tuple[str, sp.Expr], ...]) -> Claim:
     """Sum of increments = sum over zones of what w - J p misses at the zone's end: zero with the events iff periodic."""
+    *events, (_, closing) = equations
     direct = zones[-1].misses()
     weights = [-J if zone.kind == CONTACT else 1 for zone in zones[:-1]]
     combined = sp.Add(direct, *(weight * term for weight, (_, term) in zip(weights, events, strict=True)))
     return zero(
         "given the other equations, the closing balance is the gap condition one period after the first edge",
         closing - combined,
-        phases=edges,
+        phases=tuple(zone.first for zone in zones),
     )

@@ -4,33 +4,69 @@ How a foundation makes the rows, its :class:`Edges`: :mod:`.regime` for one rela
 """
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any
 
 import sympy as sp
 
 from . import stable
-from .sequences import ADHESION, CONTACT, FREE, Inequality, Relation, Row, Span, relation, require
-from .symbols import D, chi, delta_0, p_0
+from .check import REPRODUCED, Derived, derived, zero
+from .functions import written_out
+from .sequences import ADHESION, CONTACT, FREE, NOTHING, PERIOD, TITLES, Inequality, Relation, Row, Span, relation, require
+from .symbols import D, chi, delta_0, p_0, s
+
+System = tuple[Derived, tuple[tuple[str, Any], ...]]
 
 
-class Edges(Protocol):
+class Edges:
     """How a foundation makes the rows of the table."""
 
     closures: tuple[int, ...]
     step: sp.Expr  # of w where the pressure steps by p_0 in a snap into contact
     at_threshold: str  # what is said of the threshold of complete contact
 
-    def zones(self, sequence: str) -> tuple[Span, ...]:
+    def zones(self, sequence: str) -> tuple[Any, ...]:
         """The zones of a regime with edges."""
+        raise NotImplementedError
 
-    def partial(self, by: Callable[..., Row], sequence: str, *admissible: Inequality, **options: Any) -> Row:
-        """A regime with edges; ``admissible``: what it must satisfy besides the slopes at its edges and their order."""
+    def all_along(self, zone: Any, sign: str, limit: sp.Expr) -> tuple[tuple[Relation, Relation], str]:
+        """The gap compared with a limit, and where, with what is said of the latter: all along a zone."""
+        raise NotImplementedError
+
+    def system(self, by: Callable[..., Row], sequence: str, zones: Any, closures: tuple[int, ...], said: str) -> System:
+        """The record of a regime with edges, whose statement begins with what is ``said``, and its equations."""
+        raise NotImplementedError
+
+    def partial(self, by: Callable[..., Row], sequence: str, *admissible: Inequality, closures: tuple[int, ...] = ()) -> Row:
+        """A regime with edges; ``admissible``: besides how the state comes to each edge, and their order."""
+        zones, closures = self.zones(sequence), closures or self.closures
+        edges = tuple(zone.first for zone in zones)
+        record, equations = self.system(
+            by, sequence, zones, closures, f"{_capitalised(sequence)}: unknown edges {', '.join(map(str, edges))}"
+        )
+        approaches = (zone.approach(edge) for zone, edge in zip(zones, (*edges[1:], edges[0]), strict=True))
+        order = require(relation("<=", *edges, edges[0] + PERIOD))
+        return Row(sequence, zones, (*admissible, *approaches, order), closures, record, equations)
 
     def edgeless(self, by: Callable[..., Row], sequence: str, kind: str, *admissible: Inequality) -> Row:
         """A regime without edges: the same zone all along."""
+        zone = Span(kind, s, s + PERIOD, NOTHING, NOTHING)
+        at_ends = zip(zone.fields(zone.first, NOTHING), zone.fields(zone.last, NOTHING), strict=True)
+        record = derived(
+            by,
+            sequence,
+            [zero("after a period w and p are what they were", [written_out(after - before) for before, after in at_ends])],
+            f"regime {sequence}",
+            statement=f"{_capitalised(sequence)}: no unknown edge.",
+            latex="w = u" if kind == CONTACT else f"w = p = {sp.latex(zone.load)}",
+            status=REPRODUCED,
+            emitted=(f"means_{sequence}",),
+        )
+        return Row(sequence, (zone,), admissible, self.closures, record)
 
-    def all_along(self, zone: Span, sign: str, limit: sp.Expr) -> tuple[tuple[Relation, Relation], str]:
-        """The gap compared with a limit, and where, with what is said of the latter: all along a zone."""
+
+def _capitalised(sequence: str) -> str:
+    title = TITLES[sequence]
+    return f"{title[0].upper()}{title[1:]}"
 
 
 def regimes(edges: Edges, threshold: sp.Expr, snaps: bool = True) -> tuple[Row, ...]:

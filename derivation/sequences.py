@@ -4,14 +4,14 @@ A state is the gap where p is given, and the excess pressure ``q = p + p_0`` in 
 the foundation's: :mod:`.regime` for one relaxation time, :mod:`.modes.regimes` for several.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import sympy as sp
 
 from . import stable
-from .check import REPRODUCED, Claim, Derived, derived, zero
+from .check import Claim, Derived, zero
 from .functions import written_out
 from .symbols import D, a, b, c, d, delta_0, p_0
 
@@ -80,6 +80,10 @@ TITLES = {  # by the zones in order: f free, a adhesion, c contact
 }
 
 
+PARTIAL = tuple(sequence for sequence in TITLES if len(sequence) > 1)
+"""Those with edges."""
+
+
 @dataclass(frozen=True)
 class Span:
     """From ``first`` to ``last``; entered and left with a gap (adhesion, free) or an excess pressure (contact)."""
@@ -110,6 +114,12 @@ class Span:
         """Whether its state comes to the exit from below: the gap that reaches delta_0; contact begins and ends from above."""
         return self.kind == ADHESION and self.exit != NOTHING
 
+    def comes(self, edge: sp.Symbol, slope: sp.Expr, where: str) -> Inequality:
+        """How the state must come to the ``edge`` where the zone ends: ``slope`` has the sign of its slope there."""
+        what = "the pressure" if self.kind == CONTACT else "the gap"
+        sign, verb = (">=", "rises") if self.rises else ("<=", "falls")
+        return require(relation(sign, slope, 0), sentence=f"{what} {verb} {where} {edge}: {{}}")
+
     def fields(self, edge: sp.Expr, state: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
         """(w, p) at an edge, from the state of this zone there."""
         height = stable.PROFILE(edge, D)
@@ -125,6 +135,7 @@ class Row:
     admissible: tuple[Inequality, ...]
     closures: tuple[int, ...]
     derived: Derived
+    equations: tuple[tuple[str, Any], ...] = ()  # label, and what vanishes, or what is said of it
 
     @property
     def title(self) -> str:
@@ -158,33 +169,6 @@ def zones_of(sequence: str, zone: Callable[..., Zone], step: sp.Expr, compliance
     }[sequence]
 
 
-def with_edges(sequence: str, edges: Iterable[sp.Symbol]) -> str:
-    """The beginning of what is said of a regime with edges."""
-    return f"{_capitalised(sequence)}: unknown edges {', '.join(map(str, edges))}"
-
-
-def required(zones: tuple[Any, ...], admissible: Iterable[Inequality]) -> tuple[Inequality, ...]:
-    """What a regime with edges must satisfy: how the state comes to each edge, and that the edges follow one another."""
-    edges = tuple(zone.first for zone in zones)
-    approaches = (zone.approach(edge) for zone, edge in zip(zones, (*edges[1:], edges[0]), strict=True))
-    return (*admissible, *approaches, require(relation("<=", *edges, edges[0] + PERIOD)))
-
-
-def edgeless_record(by: Callable[..., Any], sequence: str, zone: Span) -> Derived:
-    """The record of a regime without edges: the same ``zone`` all along."""
-    at_ends = zip(zone.fields(zone.first, NOTHING), zone.fields(zone.last, NOTHING), strict=True)
-    return derived(
-        by,
-        sequence,
-        [zero("after a period w and p are what they were", [written_out(after - before) for before, after in at_ends])],
-        f"regime {sequence}",
-        statement=f"{_capitalised(sequence)}: no unknown edge.",
-        latex="w = u" if zone.kind == CONTACT else f"w = p = {sp.latex(zone.load)}",
-        status=REPRODUCED,
-        emitted=(f"means_{sequence}",),
-    )
-
-
 def obeys_jump_law(zones: Sequence[Span], ratio: sp.Expr, law: str) -> Claim:
     """At every edge, from the exit of one zone to the entry of the next: ``[w] = ratio [p]``, as ``law`` says."""
     residuals = []
@@ -193,8 +177,3 @@ def obeys_jump_law(zones: Sequence[Span], ratio: sp.Expr, law: str) -> Claim:
         w_after, p_after = after.fields(after.first, after.entry)
         residuals.append(w_after - w_before - ratio * (p_after - p_before))
     return zero(f"every edge obeys the jump law, {law}", residuals)
-
-
-def _capitalised(sequence: str) -> str:
-    title = TITLES[sequence]
-    return f"{title[0].upper()}{title[1:]}"

@@ -8,9 +8,9 @@ from . import stable
 from .check import Derived, derived, zero
 from .functions import Formula, decay, decay_loss, either, quotient, written_out
 from .kernel import Kernel, kernel
-from .regime import Regime, Zone
-from .sequences import CONTACT, NOTHING, PERIOD
-from .symbols import D, J, L, alpha, beta, chi, delta_0, gap_0, p, p_0, q_0, s_0, s_1
+from .regime import Zone
+from .sequences import CONTACT, NOTHING, PERIOD, Row
+from .symbols import PARAMETERS, D, J, L, alpha, beta, chi, delta_0, gap_0, p, p_0, q_0, s_0, s_1
 
 kept, load, released, upper, lower = sp.symbols("kept load released upper lower", real=True)
 
@@ -47,7 +47,7 @@ def shift_of_an_event() -> Derived:
     return derived(shift_of_an_event, None, checks)
 
 
-def onset_slope(regime: Regime) -> Kernel:
+def onset_slope(regime: Row) -> Kernel:
     r"""A shift of the onset fades over contact with alpha, over the rest of the period with beta, and is scaled where p steps: T'
     as numerator and denominator, and the one less the other, which vanishes at a fold; an orbit is stable when T' < 1.
 
@@ -71,11 +71,17 @@ def onset_slope(regime: Regime) -> Kernel:
     )
     change = lost * (load + onset) + quotient(_grown(regime.zones[-1], onset, release), released)
     over, under = map(written_out, (left_over * loads[0], before[-1] * before[-2] / loads[-1]))
-    nearly = Formula("nearly", regime.args, change, labels).written_out(regime.args)
+    args = (*regime.edges, *PARAMETERS)
+    nearly = Formula("nearly", args, change, labels).written_out(args)
     factors = (*sp.Mul.make_args(left_over), loads[0] / before[-1], loads[-1] / before[-2])
     return kernel(
         onset_slope,
-        Formula(f"onset_slope_{regime.sequence}", regime.args, (upper, lower, either(2 * kept, upper - lower, change)), labels),
+        Formula(
+            f"onset_slope_{regime.sequence}",
+            args,
+            (upper, lower, either(2 * kept, upper - lower, change)),
+            labels,
+        ),
         (over, under, over - under),
         zero("the product over the zones, telescoped", over / under - written_out(product), phases=regime.edges),
         zero("the difference where little fades is the same", over - under - nearly, phases=regime.edges),
@@ -114,7 +120,7 @@ def _same_phase(edge: sp.Expr) -> sp.Expr:
 continuous = sp.Symbol("continuous", real=True)
 
 
-def onset(regimes: Mapping[str, Regime]) -> tuple[Kernel, Kernel]:
+def onset(regimes: Mapping[str, Row]) -> tuple[Kernel, Kernel]:
     r"""The onset of adhesion, by the zones that meet there; F is the load that drives their event functions.
 
     adhesive_onset: Gap just after adhesion begins, and the step there of the load H + g - p. Where adhesion ends it steps
@@ -143,7 +149,7 @@ def onset(regimes: Mapping[str, Regime]) -> tuple[Kernel, Kernel]:
     )
 
 
-def _onset(regime: Regime):
+def _onset(regime: Row):
     """The state in which the first zone is entered, and what its load exceeds that at the end of the last by."""
     first, last = regime.zones[0], regime.zones[-1]
     return first.entry, offsets(first)[0] - offsets(last)[1]

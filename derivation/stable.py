@@ -65,9 +65,9 @@ FORCING_ARC = Formula(
 
 # -- saturated contact --------------------------------------------------------------------------------------------------
 
-_unit = ((unit, 1 / hypot(1, alpha)), (alpha_unit, alpha * unit))
-STORAGE = Formula("storage", (alpha, beta), unit**2 + alpha_unit * beta_unit, (*_unit, (beta_unit, beta * unit)))
-LOSS = Formula("loss", (alpha, beta, L), L * beta_unit * unit, (_unit[0], (beta_unit, beta * unit)))
+UNIT = ((unit, 1 / hypot(1, alpha)), (alpha_unit, alpha * unit))
+STORAGE = Formula("storage", (alpha, beta), unit**2 + alpha_unit * beta_unit, (*UNIT, (beta_unit, beta * unit)))
+LOSS = Formula("loss", (alpha, beta, L), L * beta_unit * unit, (UNIT[0], (beta_unit, beta * unit)))
 MODULUS_RATIO = Formula("modulus_ratio", (alpha, beta), hypot(1, beta) / hypot(1, alpha))
 
 LABELLED_LOSS = (loss_factor, LOSS(alpha, beta, L))
@@ -112,17 +112,11 @@ EXCESS_AFTER = Formula(
     (q_0 + SATURATED_RISE(s_0, s_1, alpha, beta, L)) * decay(s_1 - s_0, alpha)
     - (p_0 + SATURATED_PRESSURE(s_1, D, alpha, beta, L)) * decay_loss(s_1 - s_0, alpha),
 )
-CONTACT_PRESSURE = Formula(
-    "contact_pressure",
-    _contact,
-    (q_0 - p_0 + SATURATED_RISE(s_0, s_1, alpha, beta, L)) * decay(s_1 - s_0, alpha)
-    - SATURATED_PRESSURE(s_1, D, alpha, beta, L) * decay_loss(s_1 - s_0, alpha),
-)
 
 _increment = (s_0, s_1, q_0, p_0, D, alpha, beta, J, L)
 _contact_lag = (lag, PROFILE(s_0, D) + p_0 - q_0)
-_ahead = (  # sine and cosine of atan(alpha) - s_0
-    *_unit,
+AHEAD = (  # sine and cosine of atan(alpha) - s_0
+    *UNIT,
     (sin_ahead, alpha_unit * sp.cos(s_0) - unit * sp.sin(s_0)),
     (cos_ahead, alpha_unit * sp.sin(s_0) + unit * sp.cos(s_0)),
 )
@@ -130,7 +124,7 @@ CONTACT_INCREMENT = Formula(
     "contact_increment",
     _increment,
     J * lag * decay_loss(width, alpha) + L * unit * (sin_ahead * sine_lag(width, alpha) - cos_ahead * versine(width)),
-    (WIDTH, _contact_lag, *_ahead),
+    (WIDTH, _contact_lag, *AHEAD),
 )
 
 # Work of the contact pressure on the profile, int p u' ds, with t = s - s_0 and e = exp(-t/alpha):
@@ -155,7 +149,7 @@ CONTACT_WORK = Formula(
     (
         WIDTH,
         (rise, PROFILE_RISE(s_0, s_1)),
-        *_unit,
+        *UNIT,
         (kept, width * decay_mean(width, alpha)),
         (moment_cos, unit * kept * sp.cos(width) + alpha_unit * _vs),
         (moment_sin, alpha_unit * decay(width, alpha) * sp.sin(width)),

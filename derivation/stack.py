@@ -1,12 +1,11 @@
 """Complete contact on all levels at once: from which pressure, and why Eq. 16 is more than an approximation there."""
 
-from dataclasses import dataclass
-
 import sympy as sp
 
 from .check import Derived, derived, holds, zero
-from .level import TIMES, Level
-from .saturated import MODULUS, Saturated
+from .kernel import Kernel
+from .level import TIMES
+from .saturated import MODULUS
 from .strip import Strip
 from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_wave
 from .symbols import D, D_level, K, V, h, k, l, p_0, p_nominal, x, y
@@ -14,20 +13,10 @@ from .symbols import D, D_level, K, V, h, k, l, p_0, p_nominal, x, y
 RATIO = 20  # l_1/l_2 of the paper's two levels
 
 
-@dataclass(frozen=True)
-class Stack:
-    """Stage 8: a stack of levels in complete contact."""
-
-    least: Derived
-    together: Derived
-
-
-def stack(strip: Strip, saturated: Saturated, whole: Level) -> Stack:
-    exact = {kernel.formula.name: kernel.exact for kernel in whole.kernels}
-    return Stack(
-        least_pressure(saturated.threshold.value, exact["level_saturation_pressure"]),
-        levels_together(strip, exact["level_saturation_friction"]),
-    )
+def stack(strip: Strip, threshold: sp.Expr, whole: tuple[Kernel, Kernel, Kernel]) -> tuple[Derived, Derived]:
+    """Stage 8: a stack of levels in complete contact. ``threshold``: D of a strip; ``whole``: the kernels of one level."""
+    _, pressure, friction = whole
+    return least_pressure(threshold, pressure.exact), levels_together(strip, friction.exact)
 
 
 def least_pressure(threshold: sp.Expr, saturation: sp.Expr) -> Derived:
@@ -88,4 +77,4 @@ def levels_together(strip: Strip, one_level: sp.Expr) -> Derived:
         zero(f"two levels with l_1 = {RATIO} l_2 on top of one another are two such harmonics", sp.diff(rest, x)),
         zero("and their exact friction is the sum of both tau_sat: what Eq. 12 to 14 give", sp.simplify(averaged - levels)),
     ]
-    return derived(levels_together, stated, checks, name=name, emitted=("saturated_stack_friction",))
+    return derived(levels_together, stated, checks, name=name, emitted=("level_saturation_friction",))

@@ -83,10 +83,6 @@ def _in_contact(values: list[sp.Expr], words: Names) -> Names:
     return {"p": Of(s, pressure), r"\Deltaz": state.subs(s, s_1) - state.subs(s, s_0)}
 
 
-def _entered(values: list[sp.Expr], words: Names) -> Names:
-    return {"p": Of(s, (words["q"].expression - p_0).subs(q_0, p_in + p_0))}
-
-
 def _lagging(values: list[sp.Expr], words: Names) -> Names:
     change = words["w"](s_1) - words["w"](s_0)
     return {r"\Deltaz": change.subs(w_0, lag_0 + p), "w_0": lag_0 + p}
@@ -138,10 +134,6 @@ def _of_a_level(values: list[sp.Expr], words: Names) -> Names:
     return half_space.NAMES | {"c": values[0], "E": lambda place: modulus, "K": lambda place: K_level}
 
 
-def _load(values: list[sp.Expr], words: Names) -> Names:
-    return CELL | {r"\barp": values[0], "p": sp.Function("p"), r"iint \Omega": sp.Integral}
-
-
 def _area(values: list[sp.Expr], words: Names) -> Names:
     """Strips whose contact is linear in cos ky, which their middles sum exactly."""
     ahead, behind = ((m + n * sp.cos(k * y)).subs(WAVE) for m, n in (sp.symbols("m n"), sp.symbols("m' n'")))
@@ -153,10 +145,6 @@ def _area(values: list[sp.Expr], words: Names) -> Names:
 def _means(values: list[sp.Expr], words: Names) -> Names:
     own = {rf"\bar{mean}_j": sp.Function(f"{name}_j")(y) for mean, name in (("p", "p"), (r"\tau", "tau"))}
     return CELL | own | {r"\barp": values[0], r"\bar\tau": values[1]}
-
-
-def _stress(values: list[sp.Expr], words: Names) -> Names:
-    return CELL | {r"\tau": lambda *place: values[0].subs(WAVE), "p": lambda *place: pressure}
 
 
 def _shear(values: list[sp.Expr], words: Names) -> Names:
@@ -178,18 +166,14 @@ def _carried(values: list[sp.Expr], words: Names) -> Names:
                    "s": s, "iint": cell, r"iint \textcontact": cell, "C_j": part}  # fmt: skip
 
 
-def _coefficient(values: list[sp.Expr], words: Names) -> Names:
-    return {r"\mu": values[0], r"\tau_1": sp.Symbol("tau_1", real=True), "p_1": p_nominal}
-
-
 LEVELS: dict[str, Binding] = {
-    "equilibrium": _load,
+    "equilibrium": lambda values, words: CELL | {r"\barp": values[0], "p": sp.Function("p"), r"iint \Omega": sp.Integral},
     "contact area": _area,
-    "local stress": _stress,
+    "local stress": lambda values, words: CELL | {r"\tau": lambda *at: values[0].subs(WAVE), "p": lambda *at: pressure},
     "means over a level": _means,
     "local shear": _shear,
     "carried friction": _carried,
-    "friction coefficient": _coefficient,
+    "friction coefficient": lambda values, words: {r"\mu": values[0], r"\tau_1": sp.Symbol("tau_1", real=True), "p_1": p_nominal},
     "strip profile": shape,
 }
 """Of steps that are the same on any foundation."""
@@ -205,9 +189,8 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "power balance": _motion,
     "forcing_arc": named(r"\textcentre", r"\texthalf"),
     "relaxation_increment": _lagging,
-    "contact_pressure": _in_contact,
     "contact_increment": _in_contact,
-    "contact_work": _entered,
+    "contact_work": lambda values, words: {"p": Of(s, (words["q"].expression - p_0).subs(q_0, p_in + p_0))},
     "gap_event": named("g", "g'"),
     "excess_entry": _as_one_harmonic,
     "gap_link": _at_end("g"),
@@ -219,7 +202,7 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "level_saturation_penetration": named("D_sat"),
     "level_saturation_pressure": named("p_sat"),
     "level_saturation_friction": named(r"\tau_sat"),
-    "saturated_stack_friction": named(r"\mu"),
+    "stack friction": named(r"\mu"),
     "Eq. 16 as printed": lambda values, words: {r"\mu": values[0], r"\textderived": values[0], r"\textprinted": values[1]},
     "friction balance": _energies,
     "onset_slope": lambda values, words: {"T'": values[0] / values[1]},

@@ -1,7 +1,5 @@
 """What each zone does to a material point: stable forms proven equal to the flows that SymPy solved."""
 
-from dataclasses import dataclass
-
 import sympy as sp
 
 from . import stable
@@ -12,25 +10,15 @@ from .kernel import Kernel, kernel
 from .symbols import D, J, beta, excess, gap_0, lag_0, p, p_0, p_in, q_0, s, s_0, s_1, w_0
 
 
-@dataclass(frozen=True)
-class Zones:
+def zones(flows: Flows) -> tuple[Kernel, ...]:
     """Stage 4b: the building blocks of every regime."""
-
-    flows: Flows
-    kernels: tuple[Kernel, ...]
-
-
-def zones(flows: Flows) -> Zones:
-    return Zones(
-        flows,
-        (
-            *rigid_profile(flows.strip.u),
-            *load(flows),
-            *gap(flows),
-            *relaxation(flows),
-            *contact(flows),
-            *contact_state(flows),
-        ),
+    return (
+        *rigid_profile(flows.strip.u),
+        *load(flows),
+        *gap(flows),
+        *relaxation(flows),
+        *contact(flows),
+        *contact_state(flows),
     )
 
 
@@ -149,16 +137,8 @@ def contact(flows: Flows) -> tuple[Kernel, ...]:
 
     .. math:: q(s_1) = (q_0 + [p_{sat}]_{s_0}^{s_1})\,e^{-(s_1 - s_0)/\alpha} - (p_0 + p_{sat}(s_1))\,(e^{-(s_1 - s_0)/\alpha} -
         1)
-
-    contact_pressure: Contact pressure.
-
-    .. math:: p(s_1) = q(s_1) - p_0
     """
-    pressure = flows.contact.value.subs(s, s_1)
-    return (
-        kernel(contact, stable.EXCESS_AFTER, pressure + p_0),
-        kernel(contact, stable.CONTACT_PRESSURE, pressure),
-    )
+    return (kernel(contact, stable.EXCESS_AFTER, flows.contact.value.subs(s, s_1) + p_0),)
 
 
 def contact_state(flows: Flows) -> tuple[Kernel, ...]:

@@ -63,7 +63,7 @@ _LAZY = {
     "KelvinVoigt": "hystrip.inputs.material",
     "Level": "hystrip.inputs.surface",
     "LevelSolution": "hystrip.level_solution",
-    "load": "hystrip.storage.read",
+    "load": "hystrip.storage",
     "load_scene": "hystrip.scene",
     "load_solver": "hystrip.loading",
     "loading_loop": "hystrip.loop",
@@ -104,7 +104,7 @@ if TYPE_CHECKING:
     from .result import Result
     from .scene import Scene, load_scene
     from .solve import solve
-    from .storage.read import load
+    from .storage import load
     from .sweeps import Sweep, sweep
 
 

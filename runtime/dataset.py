@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .extras import require
-from .storage.inputs import adhesion_text, levels_text, material_text
+from .inputs.as_json import adhesion_text, levels_text, material_text
 from .tables import parts_of_mu
 
 if TYPE_CHECKING:

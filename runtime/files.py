@@ -12,8 +12,13 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
+from typing import TYPE_CHECKING
 
 from .errors import InputError
+from .extras import require
+
+if TYPE_CHECKING:
+    from xarray import Dataset
 
 #: seconds after which a file that a run left half-written is nobody's, whatever its name says; no picture takes a day
 _FORGOTTEN = 86_400.0
@@ -166,3 +171,15 @@ def read_at_most(path: str | os.PathLike[str], most: int) -> bytes:
         raise OSError(errno.EINVAL, "no regular file, but a pipe or a device", os.fspath(path))
     with open(path, "rb") as file:
         return file.read(most + 1)
+
+
+def save(data: Dataset, path: str | os.PathLike[str]) -> Path:
+    """Write a dataset as netCDF, aside and then renamed: at no time is there half a file. Returns the path.
+
+    Needs the extra ``dataset``.
+    """
+    require("h5netcdf", "dataset", "writing netCDF")
+    target = Path(path)
+    with Outputs(target.parent) as files:
+        data.to_netcdf(files.path(target.name), engine="h5netcdf")
+    return target

@@ -80,7 +80,7 @@ class LevelSolution:
 
         Needs the extra ``dataset``.
         """
-        from .storage.write import save
+        from .files import save
 
         return save(self.to_dataset(), path)
 

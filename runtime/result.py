@@ -121,7 +121,7 @@ class Result:
 
         Needs the extra ``dataset``. At no time is there half a file.
         """
-        from .storage.write import save
+        from .files import save
 
         return save(self.to_dataset(), path)
 

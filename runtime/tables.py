@@ -81,7 +81,7 @@ def about_version() -> list[str]:
 
 def about_result(result: Result, scene: str = "") -> list[str]:
     """Lines above the table of a result: version, units, scene, inputs, tolerance."""
-    from .storage.inputs import adhesion_text, levels_text, material_text
+    from .inputs.as_json import adhesion_text, levels_text, material_text
 
     panels = "" if result.strips is None else f", level 1 over {result.strips} equal strips"
     return [

@@ -14,7 +14,7 @@ import hystrip.derivation
 from hystrip.derivation import MODELS, STANDARD_LINEAR_SOLID, Derivation, derive, generated_folder
 from hystrip.derivation.drift import audit_texts
 from hystrip.derivation.emit import emit
-from hystrip.derivation.folder import CERTIFICATES, read_certificates, read_measured
+from hystrip.derivation.folder import read_certificates, read_measured
 
 SOURCES = Path(hystrip.derivation.__file__).parent
 _copies = itertools.count()
@@ -40,7 +40,7 @@ def emitted() -> dict[str, str]:
 def audited() -> dict[str, str]:
     """The audit's pages as they should be, with the certificates and the measured figures that are checked in."""
     folder = generated_folder()
-    return audit_texts(derivations(), emitted(), read_certificates(folder / CERTIFICATES), read_measured(folder))
+    return audit_texts(derivations(), emitted(), read_certificates(folder), read_measured(folder))
 
 
 def tampered(folder: Path, file: str, before: str, after: str) -> ModuleType:

@@ -100,7 +100,8 @@ def test_a_certificate_for_another_solver_is_drift(copy: Path) -> None:
     del stored["models"]["standard_linear_solid"]["functions"]["gap_after"]
     (copy / CERTIFICATES).write_text(json.dumps(stored), encoding="utf-8")
     (record,) = drift(copy)
-    assert record.path == CERTIFICATES and "+standard_linear_solid.gap_after" in record.diff and "hash" in record.diff
+    added = " ".join(line for line in record.diff.splitlines() if line.startswith("+"))
+    assert record.path == CERTIFICATES and "gap_after" in added and "hash" in added
 
 
 def test_text_does_not_depend_on_the_hash_seed() -> None:

@@ -112,7 +112,7 @@ def test_friction_of_full_contact_is_that_of_the_loss_modulus(solver) -> None:
                 loss = K * sum(eta * omega / (1 + (tau * omega) ** 2) for eta, tau in branches)
                 # A wave surface is, along x, a wave of amplitude (h/4)(1 + cos ky): mean square 3/2 (h/4)^2.
                 total += k / 2 * mpmath.mpf(3) / 2 * (mpmath.mpf(height) / 4) ** 2 * loss
-            mu = solver.saturated_stack_friction(stiffness, found, lengths, heights, V, 1e5)
+            mu = solver.level_saturation_friction(stiffness, found, lengths, heights, V).sum() / 1e5
             assert abs(float(mu / (total / mpmath.mpf(1e5)) - 1)) < 1e-13
 
 

@@ -55,7 +55,7 @@ def crossed_before(cycle, x):
     low = cycle.centre - cycle.half_d
     shares = (np.arange(SCANNED) + 0.5) / SCANNED
     onsets = low + 0.999 * shares[:, None] * (x - low)
-    orbit, _ = march(kernel, cycle.take(np.tile(np.arange(cycle.size), SCANNED)), onsets.ravel())
+    orbit = march(kernel, cycle.take(np.tile(np.arange(cycle.size), SCANNED)), onsets.ravel())
     back = ~orbit.engaged & (orbit.r < -1e-12 * np.tile(1 + np.abs(cycle.strips.D), SCANNED))
     return np.fmax.reduce(np.where(back, onsets.ravel(), np.nan).reshape(SCANNED, -1))
 
@@ -75,14 +75,14 @@ def test_between_an_onset_that_stays_engaged_and_one_that_misses_none_comes_back
     narrow = np.random.default_rng(31).integers(1, 16, cycle.size)
     for k in range(15):
         middle, go = 0.5 * (first + last), k < narrow
-        engaged = march(kernel, cycle, middle)[0].engaged
+        engaged = march(kernel, cycle, middle).engaged
         first, last = np.where(go & engaged, middle, first), np.where(go & ~engaged, middle, last)
-    (left, _), (right, _) = (march(kernel, cycle, x) for x in (first, last))
+    left, right = (march(kernel, cycle, x) for x in (first, last))
     use = np.flatnonzero(left.engaged & ~right.engaged & (right.r > 0))
     cycle, first, right = cycle.take(use), first[use], right.take(use)
     claimed = misses(kernel, cycle, first, right)
     inner = first + (right.x - first) * (1 - np.linspace(0, 1, 60)[1:-1, None] ** 2)
-    orbit, _ = march(kernel, cycle.take(np.tile(np.arange(use.size), len(inner))), inner.ravel())
+    orbit = march(kernel, cycle.take(np.tile(np.arange(use.size), len(inner))), inner.ravel())
     comes_back = (~orbit.engaged & (orbit.r <= 0)).reshape(inner.shape).any(axis=0)
     assert claimed.sum() > 100 and comes_back.sum() > 20
     assert not (claimed & comes_back).any()
@@ -123,7 +123,7 @@ def test_no_interval_that_ends_at_an_orbit_is_excluded(share, last):
     cycle, orbit = known_orbits(strips(11, 4000, "pressed"), unloading=not last)
     toward = 1 if last else -1
     end = cycle.centre + toward * cycle.half_d
-    beside, _ = march(kernel, cycle, orbit.x + share * (end - orbit.x))
+    beside = march(kernel, cycle, orbit.x + share * (end - orbit.x))
     left, right = (orbit, beside) if last else (beside, orbit)
     some = np.flatnonzero(~beside.engaged & (toward * beside.r < 0))
     left, right, cycle = left.take(some), right.take(some), cycle.take(some)
@@ -146,7 +146,7 @@ def test_strips_said_not_to_hang_have_no_such_orbit():
     s = strips(6, 30_000, "hanging")
     cycle = adhesive_cycle(kernel, s)
     solved = solve_strips(kernel, s, unloading=True)
-    none, _ = exclude_out_of_reach(kernel, cycle)
+    none = exclude_out_of_reach(kernel, cycle)
     assert set(solved.code[none]) <= {CODE[code] for code in ("f", "a", "ac", "c")}
     free = (solved.code == CODE["f"]) & (s.beta > FAST)
     assert none[free].mean() > 0.6 and free.sum() > 5000
@@ -164,7 +164,7 @@ def test_next_to_the_end_of_a_branch_no_orbit_out_of_reach_is_passed_over():
     assert s.size > 800
     for lower in (0.0, 0.003, 0.01, 0.03, 0.1):
         cycle = adhesive_cycle(kernel, replace(s, D=high - lower * (s.p_0 + np.abs(high))))
-        none, found = exclude_out_of_reach(kernel, cycle)[0], isolate_extremal(kernel, cycle, last=False).found
+        none, found = exclude_out_of_reach(kernel, cycle), isolate_extremal(kernel, cycle, last=False).found
         assert not (none & found).any()
     assert none.sum() > 250
 
@@ -205,7 +205,7 @@ def test_bounds_on_all_orbits_hold_for_strips_that_snap_into_contact():
         x, first = cycle.centre - share * cycle.half_d, cycle.centre - cycle.half_b
         before = (kernel.profile(x, s.D) + s.delta_0) * np.exp((x - first) / s.beta)
         met = before >= kernel.profile(first, s.D) + s.delta_0
-        orbit, _ = march(kernel, cycle, x)
+        orbit = march(kernel, cycle, x)
         assert not orbit.engaged[met].any()
         assert (orbit.a <= bounds.a[index] + 1e-9)[met].all() and (orbit.c <= bounds.c[index] + 1e-9)[met].all()
         seen += np.count_nonzero(met)
@@ -249,7 +249,7 @@ def test_the_map_leads_back_from_the_last_onset_and_its_slope_grows_up_to_it():
     last = cycle.centre + cycle.half_d
     first = last - 2 * cycle.half_d * np.random.default_rng(3).random(n)
     many, share = np.tile(np.arange(n), 40), np.linspace(0, 1, 40)[:, None]
-    orbit, _ = march(kernel, cycle.take(many), (first + share * (last - first)).ravel())
+    orbit = march(kernel, cycle.take(many), (first + share * (last - first)).ravel())
     with np.errstate(all="ignore"):
         slope = slope_excess(kernel, cycle.take(many), orbit)[0].reshape(40, n)
         grows = slope_grows(kernel, cycle, orbit.take(slice(0, n))) & ~orbit.engaged[:n]
@@ -279,4 +279,4 @@ def test_on_loading_few_orbits_are_left_to_the_search():
     cycle, solved = adhesive_cycle(kernel, s.take(index)), solved.take(index)
     zero, x = np.zeros(index.size), np.where(np.isnan(solved.d), solved.b, solved.d)
     orbit = Orbit(x, solved.b, solved.a, solved.c, zero > 0, zero)
-    assert exclusion.is_extremal(kernel, cycle, orbit, least_engaged_bounds(kernel, cycle), last=True)[0].mean() > 0.93
+    assert exclusion.is_extremal(kernel, cycle, orbit, least_engaged_bounds(kernel, cycle), last=True).mean() > 0.93

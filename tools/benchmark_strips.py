@@ -284,7 +284,6 @@ def compare(options, rng):
         rows.append((batched, seconds / number, longer / number, seconds / number / batched, longer / number / batched, lone))
     batched, seconds, longer, ratio, ratio_finding, lone = np.median(rows, axis=0)
     share = {r: float(np.mean(solution.regime == r)) for r in SEQUENCES if np.any(solution.regime == r)}
-    work, partial = solution._solved.evaluations, np.isin(solution.regime.ravel(), list(EDGES))
     other = np.mean(np.array(found.regimes) != regimes)
     print(f"{options.strips} strips: " + ", ".join(f"{r} {100 * v:.0f} %" for r, v in share.items()))
     print(
@@ -297,11 +296,6 @@ def compare(options, rng):
     print(
         f"  script, finding them: {longer * 1e6:.1f} ({100 * found.failures / found.solves:.1f} % of {found.solves} solves fail, "
         f"{100 * other:.1f} % of the strips come out in another regime): ratio {ratio_finding:.1f}"
-    )
-    every, edges = (np.percentile(work[which], (50, 99)) for which in (slice(None), partial))
-    print(
-        f"evaluations of residuals, Jacobians and events of map segments per strip: median {every[0]:g}, 99th percentile "
-        f"{every[1]:g}; strips with edges: median {edges[0]:g}, 99th percentile {edges[1]:g}"
     )
 
 

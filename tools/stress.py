@@ -32,14 +32,12 @@ PRESENT = {"acaf": "abcd", "afc": "abc", "af": "cd", "ac": "ab", "cf": "ab", "c"
 
 @dataclass
 class Outcome:
-    """What a survey found. ``failures``: (what, line); ``work`` and ``corrections``: the largest, (amount, line), descending."""
+    """What a survey found. ``failures``: (what, line); ``corrections``: the largest, (amount, line), descending."""
 
     solved: int = 0
     regimes: Counter = field(default_factory=Counter)
     failures: list = field(default_factory=list)
-    work: list = field(default_factory=list)
     corrections: list = field(default_factory=list)
-    percentiles: list = field(default_factory=list)
 
 
 def survey(size, seed, chunk=20000, worst=5, draw=scenes.extreme, report=None):
@@ -69,13 +67,10 @@ def _group(scene, edge, branch, outcome, worst):
         part = scenes.take(scene, index)
         for what, wrong in broken(solution, part).items():
             outcome.failures += [(what, scenes.line(part, i, edge, branch)) for i in np.flatnonzero(wrong)]
-        work, last = solution._solved.evaluations, corrections(solution)
-        outcome.percentiles.append(np.percentile(work, (50, 99)))
-        for table, amounts in ((outcome.work, work), (outcome.corrections, last)):
-            top = np.argsort(amounts)[-worst:]
-            table += [(float(amounts[i]), scenes.line(part, i, edge, branch)) for i in top]
-            table.sort(reverse=True)
-            del table[worst:]
+        last = corrections(solution)
+        outcome.corrections += [(float(last[i]), scenes.line(part, i, edge, branch)) for i in np.argsort(last)[-worst:]]
+        outcome.corrections.sort(reverse=True)
+        del outcome.corrections[worst:]
 
 
 def _solutions(scene, index, edge, branch):
@@ -169,7 +164,6 @@ def replay(text):
         s = scenes.solve(scene, edge, branch)
     for name in ("regime", "p_mean", "tau_mean", "contact_fraction", "adhesion_fraction", "a", "b", "c", "d"):
         print(f"{name:18} {getattr(s, name)[0]}")
-    print(f"{'evaluations':18} {s._solved.evaluations[0]:g}")
     print(f"{'last correction':18} {corrections(s)[0]:.2g}")
     wrong = [what for what, where in broken(s, scene).items() if where[0]]
     print("\n".join(wrong) if wrong else "every bound holds")
@@ -201,11 +195,6 @@ def show(outcome, seconds):
     """Print an outcome."""
     print(f"{outcome.solved} strips in {seconds:.1f} s")
     print("regimes: " + ", ".join(f"{name} {count}" for name, count in outcome.regimes.most_common()))
-    median, high = np.median(outcome.percentiles, axis=0)
-    print(f"evaluations: median {median:g}, 99th percentile {high:g}")
-    print("most evaluations:")
-    for amount, text in outcome.work:
-        print(f"  {amount:g}  {text}")
     print("largest last corrections, in units of what rounding leaves uncertain:")
     for amount, text in outcome.corrections:
         print(f"  {amount:.2g}  {text}")

@@ -10,13 +10,13 @@ import mpmath
 from ..kernel import Kernel
 from ..model import Model
 from ..modes.emit import KINDS
-from ..modes.regimes import ModeRegime
 from ..modes.symbols import OF_STRIP
 from ..outcome import Derivation
+from ..sequences import Row
 from .composition import Composition
 from .grid import drawn
 from .material import NAME, measure_material
-from .measure import COUNTS, DIGITS, Certificate, measure, points_at
+from .measure import COUNTS, DIGITS, Certificate, grid, measure
 from .reference import Reference
 
 POINTS = 8
@@ -44,7 +44,7 @@ def certified_names(derivation: Derivation) -> list[str]:
     """Names of the functions that have a certificate.
 
     Not among them is material_modes of a model given by operators, whose times are roots of polynomials as badly conditioned
-    as the user's parameters make them; nor prony of a bare dashpot, whose modulus is infinite.
+    as the user's parameters make them.
     """
     stated = [NAME] if derivation.model.stated else []
     kernels = [kernel.formula.name for kernel in (*derivation.whole, *derivation.kernels)]
@@ -52,7 +52,7 @@ def certified_names(derivation: Derivation) -> list[str]:
 
 
 def measure_regimes(
-    regimes: Sequence[ModeRegime], kernels: Sequence[Kernel], solver: Any, modes: Sequence[int], points: int = POINTS
+    regimes: Sequence[Row], kernels: Sequence[Kernel], solver: Any, modes: Sequence[int], points: int = POINTS
 ) -> Iterator[Certificate]:
     """Measure every function of ``regimes``, which have edges, against the derived zones put together.
 
@@ -63,14 +63,11 @@ def measure_regimes(
     for regime in regimes:
         args = (*regime.edges, *OF_STRIP)
         found = {kind: Certificate(f"{kind}_{regime.sequence}", args) for kind in KINDS}
+        dashpots = False if regime.sequence == "afc" else None  # a snap into contact needs an instantaneous compliance
         with mpmath.workdps(DIGITS):
-            for count in modes:
-                for index in range(points_at(count, points)):
-                    # a snap into contact needs an instantaneous compliance
-                    point = drawn(args, f"{regime.sequence} {index}", count, dashpots=False if regime.sequence == "afc" else None)
-                    truth = Composition(regime, blocks, point).functions(agreed=count <= AGREED_UP_TO and index < 1)
-                    given = [point.argument(symbol, solver) for symbol in args]
-                    for kind in KINDS:
-                        function = partial(getattr(solver, f"{kind}_{regime.sequence}"), *given)
-                        found[kind].see(function, truth[kind], point.shown())
+            for count, index in grid(modes, points):
+                point = drawn(args, f"{regime.sequence} {index}", count, dashpots=dashpots)
+                truth = Composition(regime, blocks, point).functions(agreed=count <= AGREED_UP_TO and index < 1)
+                for kind, certificate in found.items():
+                    certificate.see(partial(point.called, solver, certificate.name, args), truth[kind], point.shown())
         yield from found.values()

@@ -15,10 +15,8 @@ import numpy as np
 import sympy as sp
 
 from ..check import DerivationError
-from ..functions import evaluator
-from ..modes.regimes import ModeRegime
 from ..modes.symbols import f_0, z, z_0
-from ..sequences import CONTACT, Span
+from ..sequences import CONTACT, Row, Span
 from ..symbols import p, p_in, s, s_0, s_1
 from .measure import FLOOR
 from .point import Point
@@ -27,12 +25,13 @@ from .scaled import Scaled, given, inverted, solved, values
 
 STEP = mpmath.mpf(10) ** -60  # of a difference; an error of its square remains
 AGREED = mpmath.mpf(10) ** -50  # of its scale, between a difference and the derivative put together
+State = tuple[sp.Symbol, np.ndarray]
 
 
 class Composition:
     """The functions of a regime at one point."""
 
-    def __init__(self, regime: ModeRegime, blocks: Callable[[str], Reference], point: Point):
+    def __init__(self, regime: Row, blocks: Callable[[str], Reference], point: Point):
         self.regime, self.blocks, self.point = regime, blocks, point
         self.n = point.modes or 1
         self.onset = point.values[regime.edges[0]]
@@ -42,12 +41,14 @@ class Composition:
 
         ``agreed``: the derivatives, put together as by the emitted functions, are held against differences.
         """
-        state, forgotten = self.state()
+        forgotten, forget, drive = self.period()
+        state = solved(forget, drive)
         residual, passages = self.residual(state), self.passages(state, forgotten)
-        jacobian, return_map = self.jacobian(passages), self.return_map(passages)
+        jacobian, return_map = self.jacobian(passages, forget), self.return_map(passages)
         if agreed:
-            self._agree("jacobian", jacobian, self.jacobian_by_differences())
-            self._agree("return map", return_map, self.return_map_by_differences(values(state)))
+            exact_jacobian, exact_map = self.by_differences(values(state))
+            self._require_same("jacobian", jacobian, exact_jacobian)
+            self._require_same("return map", return_map, exact_map)
         return {
             "state": state,
             "passages": np.concatenate([np.ravel(part) for passage in passages for part in passage]),
@@ -57,7 +58,7 @@ class Composition:
             "means": self.means(state),
         }
 
-    def _agree(self, what: str, composed: np.ndarray, exact: np.ndarray) -> None:
+    def _require_same(self, what: str, composed: np.ndarray, exact: np.ndarray) -> None:
         for one, other in zip(composed.flat, exact.flat, strict=True):
             if abs(one.value - other) > AGREED * max(one.size, FLOOR):
                 name = f"regime {self.regime.sequence}"
@@ -65,34 +66,30 @@ class Composition:
 
     # -- what a zone does ---------------------------------------------------------------------------------------------
 
-    def _block(self, name: str, at: dict[sp.Symbol, Any], state: tuple[sp.Symbol, np.ndarray] | None = None) -> np.ndarray:
-        inputs = {symbol: self._value(value) for symbol, value in at.items()}
-        # What is left of the period for the last zone is known to the period's own digits.
-        rest = {s_1: 2 * mpmath.pi} if at.get(s_1) is self.regime.zones[-1].last else {}
-        point = self.point.moved(inputs, [symbol for symbol in (s, s_0, s_1) if symbol in inputs], rest)
-        return self.blocks(name)(point.at(dict([state])) if state else point)
+    def _block(self, name: str, at: dict[sp.Symbol, Any], *states: State) -> np.ndarray:
+        inputs = {symbol: self.point.value(value) for symbol, value in at.items()}
+        point = self.point.moved(inputs, [symbol for symbol in (s, s_0, s_1) if symbol in inputs])
+        if at.get(s_1) is self.regime.zones[-1].last:  # what is left of the period is known to the period's own digits
+            point = point.at({s_1: Scaled(inputs[s_1], 2 * mpmath.pi)})
+        return self.blocks(name)(point.at(dict(states)))
 
-    def _value(self, expression: Any) -> mpmath.mpf:
-        if isinstance(expression, mpmath.mpf):
-            return expression
-        symbols, evaluate = evaluator(sp.sympify(expression), "mpmath")
-        return mpmath.mpf(evaluate(*(self.point.values[symbol] for symbol in symbols)))
+    def _crossing(self, what: str, zone: Span, *states: State) -> np.ndarray:
+        kind, pressure = ("contact", p_in) if zone.kind == CONTACT else ("relaxation", p)
+        return self._block(f"{kind}_{what}", {s_0: zone.first, s_1: zone.last, pressure: zone.pressure}, *states)
 
-    def _edges(self, zone: Span) -> dict[sp.Symbol, Any]:
-        return {s_0: zone.first, s_1: zone.last}
-
-    def _overstress(self, zone: Span, state: np.ndarray) -> np.ndarray:
-        return self._block("overstress", {p: zone.pressure}, (z, state))
+    def _in_contact(self, name: str, zone: Span, state: np.ndarray) -> np.ndarray:
+        overstress = self._block("overstress", {p: zone.pressure}, (z, state))
+        return self._block(name, {s_0: zone.first, s_1: zone.last}, (f_0, overstress))
 
     def _increment(self, zone: Span, state: np.ndarray) -> np.ndarray:
         if zone.kind == CONTACT:
-            return self._block("contact_increment", self._edges(zone), (f_0, self._overstress(zone, state)))
-        return self._block("relaxation_increment", {**self._edges(zone), p: zone.pressure}, (z_0, state))
+            return self._in_contact("contact_increment", zone, state)
+        return self._crossing("increment", zone, (z_0, state))
 
     def _change(self, zone: Span, state: np.ndarray) -> np.ndarray:
         if zone.kind == CONTACT:
-            return self._block("excess_change", self._edges(zone), (f_0, self._overstress(zone, state)))
-        return self._block("gap_change", {**self._edges(zone), p: zone.pressure}, (z_0, state))
+            return self._in_contact("excess_change", zone, state)
+        return self._block("gap_change", {s_0: zone.first, s_1: zone.last, p: zone.pressure}, (z_0, state))
 
     def _gap(self, state: np.ndarray, pressure: sp.Expr) -> np.ndarray:
         """w - u at the first edge."""
@@ -103,18 +100,16 @@ class Composition:
     def _nothing(self, *shape: int) -> np.ndarray:
         return np.full(shape, Scaled(mpmath.mpf(0), mpmath.mpf(0)))
 
-    def state(self) -> tuple[np.ndarray, list[np.ndarray]]:
-        """The state that returns after a period, at the first edge; what every zone makes it forget."""
+    def period(self) -> tuple[list[np.ndarray], np.ndarray, np.ndarray]:
+        """What every zone makes the state at the first edge forget; what they do together, and what they drive it by."""
         forget, drive, forgotten = self._nothing(self.n, self.n), self._nothing(self.n), []
         for zone in self.regime.zones:
-            name, entry = ("contact_map", p_in) if zone.kind == CONTACT else ("relaxation_map", p)
-            found = self._block(name, {**self._edges(zone), entry: zone.pressure})
-            lost, driven = found[: -self.n], found[-self.n :]
+            lost, driven = np.split(self._crossing("map", zone), [-self.n])
             forgotten.append(lost.reshape(self.n, self.n) if zone.kind == CONTACT else lost)
             matrix = self._matrix(forgotten[-1])
             drive = drive + driven - matrix @ drive
             forget = forget + matrix - matrix @ forget
-        return solved(forget, drive), forgotten
+        return forgotten, forget, drive
 
     def _matrix(self, forget: np.ndarray) -> np.ndarray:
         """What a zone forgets: of a gap zone the diagonal is given."""
@@ -122,56 +117,49 @@ class Composition:
 
     def _along(self, state: np.ndarray) -> Iterator[tuple[Span, np.ndarray]]:
         """Every zone and the state in which it is entered."""
-        for number, zone in enumerate(self.regime.zones):
+        for zone in self.regime.zones[:-1]:
             yield zone, state
-            if number + 1 < len(self.regime.zones):
-                state = state + self._increment(zone, state)
+            state = state + self._increment(zone, state)
+        yield self.regime.zones[-1], state
 
     def residual(self, state: np.ndarray) -> np.ndarray:
-        regime = self.regime
-        parts = [self._gap(state, regime.onset_pressure) - self._constant(regime.onset_gap)]
-        for zone, entered in self._along(state):
-            if zone is not regime.zones[-1]:
-                parts.append(self._constant(zone.missing) + self._change(zone, entered))
-        return np.concatenate(parts)
+        *entered, (last, _) = self._along(state)
+        changes = [self._constant(zone.missing) + self._change(zone, entry) for zone, entry in entered]
+        onset = self._gap(state, last.load) - self._constant(last.exit)
+        return np.concatenate([onset, *changes])
 
     def _constant(self, expression: sp.Expr) -> np.ndarray:
-        return np.sum([given([self._value(term)]) for term in sp.Add.make_args(sp.sympify(expression))], axis=0)
+        return np.sum([given([self.point.value(term)]) for term in sp.Add.make_args(sp.sympify(expression))], axis=0)
 
     def means(self, state: np.ndarray) -> np.ndarray:
         height = work = self._nothing(1)
         for zone, entered in self._along(state):
-            edges = self._edges(zone)
+            edges, load = {s_0: zone.first, s_1: zone.last}, given(self.point.value(zone.load))
             if zone.kind == CONTACT:
-                w = self._block("profile_integral", edges)
-                q = self._block("contact_work", edges, (f_0, self._overstress(zone, entered)))
+                height = height + self._block("profile_integral", edges)
+                work = work + self._in_contact("contact_work", zone, entered)
+                continue
+            work = work + self._block("profile_rise", edges) * load
+            if self.regime.touches:
+                height = height + self._crossing("integral", zone, (z_0, entered))
             else:
-                load = self._value(zone.pressure)
-                q = self._block("profile_rise", edges) * given(load)
-                if self.regime.touches:
-                    w = self._block("relaxation_integral", {**edges, p: zone.pressure}, (z_0, entered))
-                else:
-                    w = given(load * self._value(zone.last - zone.first))
-            height, work = height + w, work + q
+                height = height + load * given(self.point.value(zone.last - zone.first))
         return np.concatenate([height, work]) / given(2 * mpmath.pi)
 
     # -- derivatives --------------------------------------------------------------------------------------------------
 
     def passages(self, state: np.ndarray, forgotten: list[np.ndarray]) -> list[list[np.ndarray]]:
         """Of every zone: z, what of it is forgotten, its change and derivatives by the edges; the same of gap or pressure."""
-        n, found = self.n, []
-        for (zone, entered), lost in zip(self._along(state), forgotten, strict=True):
-            name, entry = ("contact_passage", p_in) if zone.kind == CONTACT else ("relaxation_passage", p)
-            flat = self._block(name, {**self._edges(zone), entry: zone.pressure}, (z_0, entered))
-            found.append([entered, lost, *np.split(flat, np.cumsum([n, n, n, 1, n, 1]))])
-        return found
+        widths = np.cumsum([self.n, self.n, self.n, 1, self.n, 1])
+        return [
+            [entered, lost, *np.split(self._crossing("passage", zone, (z_0, entered)), widths)]
+            for (zone, entered), lost in zip(self._along(state), forgotten, strict=True)
+        ]
 
-    def jacobian(self, passages: list[list[np.ndarray]]) -> np.ndarray:
+    def jacobian(self, passages: list[list[np.ndarray]], forget: np.ndarray) -> np.ndarray:
         """Derivatives of the boundary equations by the edges, the periodic state moving along."""
-        forget, moved = self._nothing(self.n, self.n), self._nothing(self.n, len(passages))
+        moved = self._nothing(self.n, len(passages))
         for k, passage in enumerate(passages):
-            lost = self._matrix(passage[1])
-            forget = forget + lost - lost @ forget
             moved = self._carried(passage, k, moved)
         state = solved(forget, moved)
         rows = [state.sum(axis=0)]
@@ -187,10 +175,10 @@ class Composition:
 
     def _carried(self, passage: list[np.ndarray], k: int, state: np.ndarray) -> np.ndarray:
         """Derivatives of the state by the edges, carried through a zone."""
-        _, forget, _, by_start, by_end, *_ = passage
-        after = state - self._matrix(forget) @ state
+        _, lost, _, by_start, by_end, *_ = passage
+        after = state - self._matrix(lost) @ state
         after[:, k] += by_start
-        after[:, (k + 1) % state.shape[1]] += by_end
+        after[:, (k + 1) % len(self.regime.zones)] += by_end
         return after
 
     def return_map(self, passages: list[list[np.ndarray]]) -> np.ndarray:
@@ -205,20 +193,9 @@ class Composition:
             state = through + np.outer(by_end, shift)
         return through
 
-    # -- the same by differences --------------------------------------------------------------------------------------
-
-    def _moved(self, edge: sp.Symbol, by: mpmath.mpf) -> Composition:
-        return Composition(self.regime, self.blocks, self.point.moved({edge: self.point.values[edge] + by}, ()))
-
-    def jacobian_by_differences(self) -> np.ndarray:
-        def residual(edge: sp.Symbol, step: mpmath.mpf) -> np.ndarray:
-            moved = self._moved(edge, step)
-            return values(moved.residual(moved.state()[0]))
-
-        return _slopes(residual, self.regime.edges)
-
-    def return_map_by_differences(self, state: np.ndarray) -> np.ndarray:
-        """One turn as a function of the state before the first edge and of the edges, which follow it by their events."""
+    def by_differences(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Jacobian and return map from one turn: a function of the state before the first edge, which returns after it, and of
+        the edges, which follow by their events."""
 
         def of_state(mode: int, step: mpmath.mpf) -> np.ndarray:
             changed = state.copy()
@@ -226,15 +203,18 @@ class Composition:
             return self.turn(given(changed), self.onset)
 
         def of_edge(edge: sp.Symbol, step: mpmath.mpf) -> np.ndarray:
-            return self._moved(edge, step).turn(given(state), self.onset)
+            moved = self.point.moved({edge: self.point.values[edge] + step})
+            return Composition(self.regime, self.blocks, moved).turn(given(state), self.onset)
 
         by_state, by_edge = _slopes(of_state, range(self.n)), _slopes(of_edge, self.regime.edges)
-        return by_state[: self.n] - by_edge[: self.n] @ inverted(by_edge[self.n :]) @ by_state[self.n :]
+        (state_z, event_z), (state_e, event_e) = (np.split(each, [self.n]) for each in (by_state, by_edge))
+        periodic = inverted(np.eye(self.n, dtype=object) - state_z) @ state_e
+        return event_e + event_z @ periodic, state_z - state_e @ inverted(event_e) @ event_z
 
     def turn(self, state: np.ndarray, onset: mpmath.mpf) -> np.ndarray:
         """State one period after the phase ``onset``, and what every event's function comes to at its edge."""
         *zones, last = self.regime.zones
-        first = self._value(self.regime.edges[0])
+        first = self.point.value(self.regime.edges[0])
         state = state + self._block("relaxation_increment", {s_0: onset, s_1: first, p: last.pressure}, (z_0, state))
         events = [self._gap(state, last.pressure)]
         for zone in zones:

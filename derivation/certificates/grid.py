@@ -14,8 +14,8 @@ import sympy as sp
 from ..modes.states import exact_modes
 from ..modes.symbols import STATES, m
 from ..printing import source
-from ..symbols import J, L, T_eps, T_sigma, a, alpha, b, beta, c, chi, d, h, l, p, p_0, s, s_0, s_1
-from .point import ZERO, Point, rounded
+from ..symbols import J, L, T_eps, T_sigma, a, alpha, b, beta, c, chi, d, p, p_0, s, s_0, s_1
+from .point import ZERO, Point, following, rounded
 
 PHASES = (d, b, a, c, s, s_0, s_1)
 EDGES = PHASES[:4]
@@ -23,7 +23,6 @@ GROUPS = {alpha, beta, J, L}  # of one relaxation time, drawn together
 PERIOD = 2 * math.pi
 TURN = sp.Symbol("pi", positive=True)  # pi, where it is an input that is known to its own digits
 NARROW = 1e-9  # the narrowest zone
-LEVELS = 5  # of a stack, at most
 Random = random.Random
 Range = tuple[Callable[[Random], float], str]
 
@@ -63,7 +62,6 @@ DOMAIN: dict[str, Range] = {
     "l": (lambda r: log(r, *SI), f"{SI_WIDE} m"),
     "h": (lambda r: log(r, *SI), f"{SI_WIDE} m"),
     "V": (lambda r: r.choice((0.0, log(r, *SI), log(r, -9, 2))), f"0, {SI_WIDE} m/s"),
-    "p_1": (lambda r: log(r, *SI), f"{SI_WIDE} Pa"),
 }
 OF_STATES = (lambda r: r.choice((0.0, signed(r, *FAR), signed(r, -9, 6), signed(r, -2, 1))), f"0, +-{WIDE}, each mode by itself")
 WORDS = {
@@ -84,22 +82,18 @@ def drawn(args: Sequence[sp.Symbol], seed: str, modes: int = 0, moving: bool = F
     draw = Random(f"{seed} {' '.join(map(str, args))} {modes}")
     edges = [symbol for symbol in PHASES if symbol in args]
     exact: dict[sp.Symbol, object] = dict(_phases(draw, edges))
-    coupled = None
+    follow = {}
     if GROUPS & set(args) and m not in args:
-        coupled, material = _one_time(draw, args)
-        exact |= material
+        inputs, follow = _one_time(draw, args)
+        exact |= inputs | following(follow, inputs)
     if m in args:
         exact |= _material(draw, modes, moving, dashpots)
-    several = any(str(symbol) == "p_1" for symbol in args)
     for symbol in args:
         name = source(symbol)
         if symbol in exact or symbol == m:
             continue
         if symbol in STATES:
             exact[symbol] = np.array([mpmath.mpf(OF_STATES[0](draw)) for _ in range(modes)], dtype=object)
-        elif several and symbol in (h, l):
-            count = Random(f"{seed} levels").randint(1, LEVELS)
-            exact[symbol] = np.array([mpmath.mpf(DOMAIN[name][0](draw)) for _ in range(count)], dtype=object)
         else:
             exact[symbol] = mpmath.mpf(DOMAIN[name][0](draw))
     if p in exact and p_0 in exact:
@@ -107,7 +101,7 @@ def drawn(args: Sequence[sp.Symbol], seed: str, modes: int = 0, moving: bool = F
     if T_sigma in exact:
         exact[T_sigma] = mpmath.mpf(float(exact[T_eps] * exact[T_sigma]))
     given = {symbol: rounded(value) for symbol, value in exact.items()}
-    return Point(exact | {TURN: +mpmath.pi}, given, tuple(edges), modes or None, coupled)
+    return Point(exact | {TURN: +mpmath.pi}, given, tuple(edges), modes or None, follow)
 
 
 def _phases(draw: Random, edges: Sequence[sp.Symbol]) -> dict[sp.Symbol, mpmath.mpf]:
@@ -125,17 +119,16 @@ def _phases(draw: Random, edges: Sequence[sp.Symbol]) -> dict[sp.Symbol, mpmath.
     return found
 
 
-def _one_time(draw: Random, args: Sequence[sp.Symbol]) -> tuple[sp.Symbol, dict[sp.Symbol, mpmath.mpf]]:
-    """The independent one of J and L, and all four exactly."""
+def _one_time(draw: Random, args: Sequence[sp.Symbol]) -> tuple[dict[sp.Symbol, mpmath.mpf], dict[sp.Symbol, sp.Expr]]:
+    """beta and the independent one of J and L; how alpha and the other follow."""
     time = mpmath.mpf(draw.choice((0.0, log(draw, -30, 30), log(draw, -2, 2), log(draw, -8, 9), log(draw, -2, 2)))) or ZERO
     trailing, alone = args[0] == d and b not in args and a in args, not {chi, alpha, beta} & set(args)
     snap = trailing or alone  # needs an instantaneous compliance
     kind = draw.choice((J, J, L, L, 1 if snap else 0, 1))
     ratio = mpmath.mpf(log(draw, *draw.choice(((-16, 0) if kind is L else (-30, 0), (-6, 0)))))
     if kind is L:
-        return L, {beta: time, L: ratio, J: 1 - ratio, alpha: (1 - ratio) * time}
-    ratio = ratio if kind is J else mpmath.mpf(kind) or ZERO
-    return J, {beta: time, J: ratio, L: 1 - ratio, alpha: ratio * time}
+        return {beta: time, L: ratio}, {J: 1 - L, alpha: (1 - L) * beta}
+    return {beta: time, J: ratio if kind is J else mpmath.mpf(kind) or ZERO}, {L: 1 - J, alpha: J * beta}
 
 
 def _material(draw: Random, modes: int, moving: bool, dashpots: bool | None) -> dict[sp.Symbol, object]:

@@ -1,7 +1,8 @@
-"""The modes of a material from its parameters: retardation times as roots, everything else rational in the times."""
+"""The modes of a material from its parameters: retardation times as eigenvalues, everything else rational in the times."""
 
 import random
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import mpmath
@@ -11,14 +12,12 @@ import sympy as sp
 from ..model import Model, Series
 from ..modes.states import exact_modes
 from ..modes.symbols import MATERIAL, m
-from .measure import DIGITS, Certificate, points_at
-from .point import STEP
-from .scaled import scaled
+from .measure import DIGITS, Certificate, grid
+from .scaled import STEP, naturally
 
 NAME = "material_modes"
 POINTS = 40
-RANGE = 160  # of the logarithm of a distance
-ROUGH = mpmath.mpf(10) ** -35  # to which it is bisected
+ROUGH = 200  # digits of an eigenvalue, which the nearness of a time can cost 80 of
 NEWTON = 5  # steps from there, or from a neighbouring point: each squares what is left
 
 
@@ -26,18 +25,16 @@ def measure_material(model: Model, series: Series, solver: Any, modes: Sequence[
     """Measure ``material_modes`` of a model that states its Prony series."""
     found = Certificate(NAME, (m,))
     with mpmath.workdps(DIGITS):
-        for count in modes:
+        for count, index in grid(modes, points):
             material = Material(model, series, count)
-            for index in range(points_at(count, points)):
-                given = material.drawn(index)
-                arguments = {key: np.array(value) if isinstance(value, list) else value for key, value in given.items()}
+            given = material.drawn(index)
 
-                def modes(given: Any = arguments) -> tuple[Any, ...]:
-                    K, of_point = solver.material_modes(**given)
-                    return (K, *of_point)
+            def function(given: dict[str, Any] = given) -> tuple[Any, ...]:
+                K, of_point = solver.material_modes(**given)
+                return (K, *of_point)
 
-                shown = {f"{key} {k}": v for key, value in given.items() for k, v in enumerate(np.ravel(value).tolist())}
-                found.see(modes, material.scaled(given), shown)
+            shown = {f"{key} {k}": v for key, value in given.items() for k, v in enumerate(np.ravel(value).tolist())}
+            found.see(function, material.scaled(given), shown)
     return found
 
 
@@ -49,11 +46,11 @@ class Material:
         symbols = [parameter.symbol for parameter in self.model.parameters]
         self.branch = sp.lambdify(symbols, (series.K, series.viscosity, series.time), modules="mpmath")
 
-    def drawn(self, index: int) -> dict[str, float | list[float]]:
+    def drawn(self, index: int) -> dict[str, Any]:
         """Parameters: times over many decades, near-equal ones among them, each with its modulus."""
         draw = random.Random(f"{self.model.parameters} {self.n} {index}")
         spread = draw.choice((1.0, 3.0, 6.0))
-        given: dict[str, float | list[float]] = {}
+        given: dict[str, Any] = {}
         for parameter in self.model.parameters:
             if parameter.symbol not in self.series.arrays:
                 given[parameter.name] = 10.0 ** draw.uniform(-3.0, 9.0)
@@ -61,62 +58,39 @@ class Material:
             values = [10.0 ** draw.uniform(-spread, spread) for _ in range(self.n)]
             if self.n > 1 and draw.random() < 0.25:
                 values[1] = values[0] * (1.0 + 10.0 ** draw.uniform(-12.0, -6.0))
-            given[parameter.name] = values
+            given[parameter.name] = np.array(values)
         return given
 
-    def scaled(self, given: dict[str, float | list[float]]) -> np.ndarray:
+    def scaled(self, given: dict[str, Any]) -> np.ndarray:
         exact = {name: np.array([mpmath.mpf(v) for v in np.ravel(value).tolist()], object) for name, value in given.items()}
-        distances = [self._bisected(mode, *self._branches(exact)) for mode in range(self.n)]
-        values = self._exact(exact, distances)
-        sizes = abs(values)
-        for name, numbers in exact.items():
-            for k in range(len(numbers)):
-                moved = numbers.copy()
-                moved[k] *= 1 + STEP
-                sizes = sizes + abs(self._exact({**exact, name: moved}, distances) - values) / STEP
-        return scaled(values, sizes)
-
-    def _exact(self, given: dict[str, np.ndarray], near: list[mpmath.mpf]) -> np.ndarray:
-        """K and every entry of the modes, in the order of the fields; ``near``: distances of the roots, roughly."""
-        times, viscosities = self._branches(given)
-        roots = [times[mode] + self._polished(mode, times, viscosities, near[mode]) for mode in range(self.n)]
-        found = exact_modes(times, roots)
-        return np.concatenate(
-            [np.ravel(np.array(part, dtype=object)) for part in (self._of_branch(given, 0)[0], *(found[f] for f in MATERIAL))]
+        near = _eigenvalues(*self._branches(exact)[1:])
+        moved = (
+            {**exact, name: numbers * (1 + STEP * (np.arange(len(numbers)) == k))}
+            for name, numbers in exact.items()
+            for k in range(len(numbers))
         )
+        return naturally(partial(self._exact, near), exact, ((1, each) for each in moved))
 
-    def _branches(self, given: dict[str, np.ndarray]) -> tuple[list[mpmath.mpf], list[mpmath.mpf]]:
-        """Relaxation times, ascending, and viscosities."""
-        found = sorted(self._of_branch(given, mode)[:0:-1] for mode in range(self.n))
-        return [time for time, _ in found], [viscosity for _, viscosity in found]
+    def _exact(self, near: np.ndarray, given: dict[str, np.ndarray]) -> np.ndarray:
+        """K and every entry of the modes, in the order of the fields; ``near``: the retardation times, roughly."""
+        K, times, viscosities = self._branches(given)
+        for _ in range(NEWTON):  # on sum eta_i/(lambda - tau_i) = 1, for each of them
+            gaps = near[:, None] - times
+            near = near + ((viscosities / gaps).sum(axis=1) - 1) / (viscosities / gaps**2).sum(axis=1)
+        found = exact_modes(list(times), list(near))
+        return np.concatenate([np.ravel(np.array(part, dtype=object)) for part in (K, *(found[each] for each in MATERIAL))])
 
-    def _of_branch(self, given: dict[str, np.ndarray], mode: int) -> tuple[mpmath.mpf, ...]:
-        """(K, viscosity, time)."""
-        return tuple(map(mpmath.mpf, self.branch(*(values[mode if len(values) > 1 else 0] for values in given.values()))))
-
-    # The stiffness vanishes where sum eta_i/(lambda - tau_i) = 1: once above each relaxation time and below the next. Unknown is
-    # the distance from the relaxation time below.
-
-    def _bisected(self, mode: int, times: list[mpmath.mpf], viscosities: list[mpmath.mpf]) -> mpmath.mpf:
-        with mpmath.workdps(60):
-            high = mpmath.log(sum(viscosities) if mode + 1 == self.n else times[mode + 1] - times[mode])
-            low = high - RANGE
-            while high - low > ROUGH:
-                middle = (low + high) / 2
-                pull, _ = _pull(mode, times, viscosities, mpmath.exp(middle))
-                low, high = (middle, high) if pull > 1 else (low, middle)
-            return mpmath.exp(high)
-
-    def _polished(self, mode: int, times: list[mpmath.mpf], viscosities: list[mpmath.mpf], distance: mpmath.mpf) -> mpmath.mpf:
-        for _ in range(NEWTON):
-            pull, slope = _pull(mode, times, viscosities, distance)
-            distance = distance - (pull - 1) / slope
-        return distance
+    def _branches(self, given: dict[str, np.ndarray]) -> tuple[mpmath.mpf, np.ndarray, np.ndarray]:
+        """K; relaxation times, ascending, and their viscosities."""
+        columns = zip(*np.broadcast_arrays(*given.values()), strict=True)
+        of_branches = [tuple(map(mpmath.mpf, self.branch(*column))) for column in columns]
+        K, viscosities, times = np.array(sorted(of_branches, key=lambda one: one[::-1]), dtype=object).T
+        return K[0], times, viscosities
 
 
-def _pull(
-    mode: int, times: list[mpmath.mpf], viscosities: list[mpmath.mpf], distance: mpmath.mpf
-) -> tuple[mpmath.mpf, mpmath.mpf]:
-    """sum eta_i/(lambda - tau_i), and its derivative by lambda."""
-    terms = [(v, distance + (times[mode] - time)) for v, time in zip(viscosities, times, strict=True)]
-    return sum(v / x for v, x in terms), -sum(v / x**2 for v, x in terms)
+def _eigenvalues(times: np.ndarray, viscosities: np.ndarray) -> np.ndarray:
+    """Where the stiffness vanishes, sum eta_i/(lambda - tau_i) = 1: eigenvalues of diag(tau) + v v^T with v_i^2 = eta_i."""
+    with mpmath.workdps(ROUGH):
+        root = np.array([mpmath.sqrt(each) for each in viscosities], dtype=object)
+        matrix = mpmath.matrix((np.diag(times) + np.outer(root, root)).tolist())
+        return np.array(list(mpmath.eigsy(matrix, eigvals_only=True)), dtype=object)

@@ -1,6 +1,6 @@
 """The worst error of an emitted function over the grid, in ulp of its natural scale."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -49,9 +49,9 @@ class Certificate:
                 self.worst, self.where = ulps, where
 
 
-def points_at(modes: int, few: int) -> int:
-    """How many points are enough with so many modes: each of them is a sample by itself, and costs as much."""
-    return max(1, few // modes)
+def grid(modes: Sequence[int], points: int) -> Iterator[tuple[int, int]]:
+    """(number of modes, number of the point). Fewer points with more modes: each of them is a sample by itself, and costs."""
+    return ((count, index) for count in modes or (0,) for index in range(max(1, points // max(1, count))))
 
 
 def measure(kernel: Kernel, solver: Any, modes: Sequence[int] = (), points: int | None = None) -> Certificate:
@@ -60,38 +60,26 @@ def measure(kernel: Kernel, solver: Any, modes: Sequence[int] = (), points: int 
     ``modes``: the numbers of relaxation times at which a function of a Prony series is measured; empty for one of a single time.
     ``points``: of the grid, with one relaxation time.
     """
-    found = Certificate(kernel.formula.name, kernel.args)
+    name, of_regime = kernel.formula.name, not set(EDGES).isdisjoint(kernel.args)
+    found = Certificate(name, kernel.args)
     if points is None:
-        points = POINTS_OF_REGIME if set(EDGES) & set(kernel.args) else POINTS
-        points = points // 8 if modes else points
+        points = (POINTS_OF_REGIME if of_regime else POINTS) // (8 if modes else 1)
+    # of a regime, the last zone is what is left of 2 pi, known to its own digits
+    named = {sp.pi: TURN} if of_regime else {}
+    exact, *parts = ([sp.sympify(term).xreplace(named) for term in flat(terms)] for terms in (kernel.exact, *kernel.parts))
     with mpmath.workdps(DIGITS):
-        reference = Reference(*_with_rest(kernel))
-        for count in modes or (0,):
-            for index in range(points_at(count or 1, points)):
-                point = drawn(
-                    kernel.args, f"{kernel.formula.name} {index}", count, kernel.moving, False if kernel.springs else None
-                )
-                found.see(partial(_computed, kernel, solver, point), reference(point), point.shown())
+        reference = Reference(exact, parts)
+        for count, index in grid(modes, points):
+            point = drawn(kernel.args, f"{name} {index}", count, kernel.moving)
+            found.see(partial(_computed, kernel, solver, point), reference(point), point.shown())
     return found
 
 
-def _with_rest(kernel: Kernel) -> tuple[Any, Any]:
-    """The exact expression and its parts; of a regime, the last zone is what is left of 2 pi, known to its own digits."""
-    if not set(EDGES) & set(kernel.args):
-        return kernel.exact, kernel.parts
-    named = lambda terms: [sp.sympify(term).xreplace({sp.pi: TURN}) for term in flat(terms)]  # noqa: E731
-    return named(kernel.exact), [named(terms) for terms in kernel.parts]
-
-
 def _computed(kernel: Kernel, solver: Any, point: Point) -> Any:
-    def called(name: str, args: Sequence[sp.Symbol]) -> Any:
-        return getattr(solver, name)(*(point.argument(symbol, solver) for symbol in args))
-
     if kernel.chain is None:
-        return called(kernel.formula.name, kernel.formula.args)
+        return point.called(solver, kernel.formula.name, kernel.formula.args)
     entry, event = kernel.chain
-    constants = called(entry.name, entry.args)
-    return getattr(solver, event.name)(point.argument(event.args[0], solver), *constants)
+    return point.called(solver, event.name, event.args[:1], *point.called(solver, entry.name, entry.args))
 
 
 def _numbers(result: Any) -> list[float]:

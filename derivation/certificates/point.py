@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -10,76 +10,65 @@ import mpmath
 import numpy as np
 import sympy as sp
 
+from ..functions import evaluator
 from ..modes.symbols import MATERIAL, m
-from ..symbols import J, L, alpha, beta, h, l
-from .scaled import sizes, values
+from .scaled import STEP, sizes, values
 
 ZERO = mpmath.mpf(10) ** -110  # stands for a vanishing speed or time: the derived forms divide by it
 VANISHING = ZERO * 10**24  # what is smaller was made from it
-STEP = mpmath.mpf(10) ** -60  # relative change of an input
 Values = dict[sp.Symbol, Any]
 
 
 @dataclass(frozen=True)
 class Point:
-    """Inputs by symbol: numbers, or arrays with one value per mode (of l and h: per level).
+    """Inputs by symbol: numbers, or arrays with one value per mode.
 
     ``phases`` in order: a move of one moves those after it, since what is given exactly are the widths between them. ``weights``:
-    scales of inputs that are themselves computed. ``coupled``: J or L is the independent one of alpha, J and L.
+    scales of inputs that are themselves computed. ``follow``: inputs that follow from others, by expressions in these.
     """
 
     values: Values
     given: Values
     phases: tuple[sp.Symbol, ...] = ()
     modes: int | None = None
-    coupled: sp.Symbol | None = None
+    follow: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
     weights: Values = field(default_factory=dict)
 
-    def at(self, computed: dict[sp.Symbol, Any]) -> Point:
+    def at(self, computed: Mapping[sp.Symbol, Any]) -> Point:
         """The same point with computed inputs, each a number or an array of :class:`Scaled` ones."""
         exact, weights = ({symbol: part(each) for symbol, each in computed.items()} for part in (values, sizes))
-        return replace(self, values={**self.values, **exact}, weights={**self.weights, **weights})
+        return replace(self, values=self.values | exact, weights=self.weights | weights)
 
-    def moved(self, inputs: Values, phases: Sequence[sp.Symbol], known_to: Values | None = None) -> Point:
-        """The same point with other inputs, of which ``phases`` are phases; ``known_to``: scales of inputs, if not their own."""
-        return replace(self, values={**self.values, **inputs}, phases=tuple(phases), weights={**self.weights, **(known_to or {})})
-
-    def levels(self) -> Iterator[Point]:
-        for length, height in zip(self.values[l], self.values[h], strict=True):
-            yield replace(self, values={**self.values, l: length, h: height})
+    def moved(self, inputs: Values, phases: Sequence[sp.Symbol] = ()) -> Point:
+        """The same point with other inputs, of which ``phases`` are phases."""
+        return replace(self, values=self.values | inputs, phases=tuple(phases))
 
     def directions(self, symbols: Sequence[sp.Symbol]) -> Iterator[tuple[Any, Values]]:
-        """(weight, changed inputs) with one independent input of ``symbols`` at a time moved by STEP, relatively."""
+        """(weight, inputs) with one independent input of ``symbols`` at a time moved by STEP, relatively."""
         wanted = set(symbols)
         for number, phase in enumerate(self.phases):
             later = [symbol for symbol in self.phases[number:] if symbol in wanted]
             if later:
                 value = self.values[phase]
                 width = abs(value - self.values[self.phases[number - 1]]) if number else max(mpmath.mpf(1), abs(value))
-                yield self.weights.get(phase, width), {symbol: self.values[symbol] + STEP for symbol in later}
-        for symbol in self._independent(wanted):
+                yield self.weights.get(phase, width), self.values | {symbol: self.values[symbol] + STEP for symbol in later}
+        inputs = set().union(*(self.follow.get(symbol, symbol).free_symbols for symbol in wanted - set(self.phases)))
+        for symbol in sorted(inputs, key=str):
             value = self.values[symbol]
             if symbol in self.weights:
-                yield self.weights[symbol], {symbol: value + STEP}
+                yield self.weights[symbol], self.values | {symbol: value + STEP}
             elif np.any(value):
-                yield 1, self._with_coupled({symbol: value * (1 + STEP)})
+                changed = self.values | {symbol: value * (1 + STEP)}
+                yield 1, changed | following(self.follow, changed)
 
-    def _independent(self, wanted: set[sp.Symbol]) -> list[sp.Symbol]:
-        found = wanted - set(self.phases)
-        if self.coupled is not None and wanted & {alpha, J, L}:
-            found = (found - {alpha, J, L}) | {self.coupled} | ({beta} if alpha in wanted else set())
-        return sorted(found, key=str)
+    def value(self, expression: Any) -> mpmath.mpf:
+        """An expression in the inputs; a number is itself."""
+        return expression if isinstance(expression, mpmath.mpf) else evaluated(expression, self.values)
 
-    def _with_coupled(self, changed: Values) -> Values:
-        if self.coupled is None or not changed.keys() & {beta, self.coupled}:
-            return changed
-        known = {**self.values, **changed}
-        ratio = known[J] if self.coupled is J else 1 - known[L]
-        return {**changed, J: ratio, L: 1 - ratio if self.coupled is J else known[L], alpha: ratio * known[beta]}
-
-    def argument(self, symbol: sp.Symbol, solver: Any) -> Any:
-        """The float64 value of one argument of an emitted function."""
-        return solver.Modes(*(self.given[field] for field in MATERIAL)) if symbol == m else self.given[symbol]
+    def called(self, solver: Any, name: str, symbols: Sequence[sp.Symbol], *more: Any) -> Any:
+        """An emitted function of the float64 values of ``symbols``, and of ``more``."""
+        given = self.given | ({m: solver.Modes(*(self.given[each] for each in MATERIAL))} if m in symbols else {})
+        return getattr(solver, name)(*(given[symbol] for symbol in symbols), *more)
 
     def shown(self) -> dict[str, float]:
         """Every number given, by name."""
@@ -88,6 +77,16 @@ class Point:
             if np.ndim(value) < 2:
                 found |= {f"{symbol}{f'_{k + 1}' * bool(np.ndim(value))}": v for k, v in enumerate(np.ravel(value).tolist())}
         return found
+
+
+def following(follow: Mapping[sp.Symbol, sp.Expr], values: Values) -> Values:
+    """The inputs that follow from the others among ``values``."""
+    return {symbol: evaluated(expression, values) for symbol, expression in follow.items()}
+
+
+def evaluated(expression: Any, values: Values) -> mpmath.mpf:
+    symbols, evaluate = evaluator(sp.sympify(expression), "mpmath")
+    return mpmath.mpf(evaluate(*(values[symbol] for symbol in symbols)))
 
 
 def rounded(value: Any) -> Any:

@@ -11,10 +11,10 @@ import mpmath
 import numpy as np
 import sympy as sp
 
-from ..functions import flat, stack_sum, written_out
-from ..modes.symbols import EVERY_SUM, across, is_matrix, sandwich, total
-from .point import STEP, Point
-from .scaled import given, scaled
+from ..functions import flat, written_out
+from ..modes.symbols import SUMS, across, is_matrix, sandwich, total
+from .point import Point
+from .scaled import given, naturally
 
 MODULES = [{"acos": lambda cosine: mpmath.acos(max(-1, min(1, cosine)))}, "mpmath"]
 Evaluated = Callable[[Point], np.ndarray]
@@ -24,23 +24,14 @@ class Reference:
     """An exact result, nested as it may be: at a point, all its numbers in the order in which NumPy lays them out."""
 
     def __init__(self, exact: Any, parts: Sequence[Sequence[sp.Expr]] = ()):
-        components = [written_out(sp.sympify(component)) for component in flat(exact)]
-        self.groups: list[Any] = []  # of each component: a matrix, or the positions of its parts in what is evaluated together
-        plain: list[sp.Expr] = []
-        for number, component in enumerate(components):
-            if is_matrix(component):
-                self.groups.append(_matrix(component))
-                continue
-            terms = [written_out(term) for term in parts[number]] if parts else [component]
-            self.groups.append(slice(len(plain), len(plain) + len(terms)))
-            plain += terms
-        self.together = Together(plain)
+        components = [[written_out(sp.sympify(term)) for term in terms] for terms in parts or zip(flat(exact), strict=True)]
+        self.together = Together([term for terms in components for term in terms if not is_matrix(term)])
+        self.matrices = [[_matrix(term) if is_matrix(term) else None for term in terms] for terms in components]
 
     def __call__(self, point: Point) -> np.ndarray:
-        found = self.together(point)
-        return np.concatenate(
-            [sum(found[g][1:], found[g][0]) if isinstance(g, slice) else np.ravel(g(point)) for g in self.groups]
-        )
+        plain = iter(self.together(point))
+        found = [[np.ravel(matrix(point)) if matrix else next(plain) for matrix in terms] for terms in self.matrices]
+        return np.concatenate([sum(rest, first) for first, *rest in found])
 
 
 class Together:
@@ -58,12 +49,9 @@ class Together:
     def __call__(self, point: Point) -> list[np.ndarray]:
         if self.sums:
             point = point.at({name: summed(point) for name, summed in self.sums.items()})
-        values = self._at(point.values)
-        sizes = abs(values)
-        for weight, moved in point.directions(self.symbols):
-            sizes = sizes + weight * abs(self._at({**point.values, **moved}) - values) / STEP
-        rows = [any(np.ndim(point.values[symbol]) for symbol in free) for free in self.free]
-        return [row if several else row[:1] for row, several in zip(scaled(values, sizes), rows, strict=True)]
+        found = naturally(self._at, point.values, point.directions(self.symbols))
+        several = (any(np.ndim(point.values[symbol]) for symbol in free) for free in self.free)
+        return [row if of_modes else row[:1] for row, of_modes in zip(found, several, strict=True)]
 
     def _at(self, values: dict[sp.Symbol, Any]) -> np.ndarray:
         """(expressions, modes)."""
@@ -78,9 +66,6 @@ class Together:
 
 def _summed(node: sp.Expr) -> Evaluated:
     """A sum as a function of the point: of one number, or of one for each mode."""
-    if isinstance(node, stack_sum):
-        of_level = Together([node.args[-1]])
-        return lambda point: np.sum([of_level(level)[0] for level in point.levels()])
     vector = _along_modes(node.args[-1])
     if isinstance(node, total):
         return lambda point: vector(point).sum()
@@ -106,6 +91,6 @@ def _matrix(expression: sp.Expr) -> Evaluated:
 
 def _outermost(expression: sp.Expr) -> set[sp.Expr]:
     """The sums of an expression that stand in no other."""
-    if isinstance(expression, EVERY_SUM):
+    if isinstance(expression, SUMS):
         return {expression}
     return set().union(*map(_outermost, expression.args))

@@ -5,11 +5,14 @@ They stand in NumPy arrays of objects, which add, multiply and contract them.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
 import mpmath
 import numpy as np
+
+STEP = mpmath.mpf(10) ** -60  # change of an input, relative or of a phase
 
 
 @dataclass(eq=False, slots=True)
@@ -38,6 +41,15 @@ class Scaled:
 scaled = np.frompyfunc(Scaled, 2, 1)  # of arrays of values and of their scales
 values = np.frompyfunc(lambda number: number.value, 1, 1)
 sizes = np.frompyfunc(lambda number: number.size, 1, 1)
+
+
+def naturally(function: Callable[[Any], np.ndarray], inputs: Any, moves: Iterable[tuple[Any, Any]]) -> np.ndarray:
+    """A function of ``inputs`` with its natural scale; ``moves``: (weight, inputs of which one is moved by STEP)."""
+    exact = function(inputs)
+    size = abs(exact)
+    for weight, moved in moves:
+        size = size + weight * abs(function(moved) - exact) / STEP
+    return scaled(exact, size)
 
 
 def given(value: Any) -> Any:

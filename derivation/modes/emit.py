@@ -1,15 +1,15 @@
 """Emission for n modes: verified kernels and regimes in, values for the template out. Nothing is derived here."""
 
+import re
 from typing import Any
 
 import sympy as sp
 
-from ..functions import Formula, flat, mapped
+from ..functions import Formula, mapped
 from ..model import Model, Parameter, Roots, Series
 from ..outcome import Derivation
-from ..printing import function_text, functions_of, helpers_used, results, source
+from ..printing import functions_of, helpers_used, results, source
 from .functions import zones_function
-from .material import series_of
 from .symbols import MATERIAL as FIELDS
 from .symbols import SUMS
 
@@ -18,18 +18,17 @@ KINDS = ("state", "passages", "residual", "residual_and_jacobian", "return_map",
 """Functions of a regime that the generated ``modes`` makes of its zones."""
 # Used by the template itself, beside what the formulas call.
 FROM_MODES = ("Modes", "Zone", "for_batch", "regime_functions", "scaled")
-FROM_STABLE = ("quotient", "stack_sum")
 
 
 def template_values(derivation: Derivation) -> dict[str, Any]:
     """What the template of a model with n modes is rendered with beside what every model has."""
-    model, series = derivation.model, series_of(derivation.model)
+    model, series = derivation.model, derivation.model.series
     arrays = [] if isinstance(series, Roots) else [source(symbol) for symbol in series.arrays]
     formulas = [kernel.formula for kernel in derivation.kernels]
     sums = functions_of(formulas, SUMS)
     checked = [_checked(parameter, arrays, model.modes is None) for parameter in model.parameters]
-    material, builders = _modes_of_material(model, series)
-    validators = {text.partition("(")[0] for _, text in checked}
+    material = _modes_of_material(model, series)
+    called = [text.partition("(")[0] for _, text in checked] + re.findall(r"(?<![.\w])(\w+)\(", material)
     return {
         "n": model.modes,
         "closures": derivation.regimes[0].closures,
@@ -37,10 +36,10 @@ def template_values(derivation: Derivation) -> dict[str, Any]:
         "checked": checked,
         "modes_of_material": material,
         "series": next(step for step in derivation.steps if step.name == "Prony series"),
-        "sums": sorted({*sums, *FROM_MODES, *validators, *builders}, key=lambda n: (n.islower(), n)),
-        "helpers": sorted({*helpers_used(formulas), *FROM_STABLE}),
+        "sums": sorted({*sums, *FROM_MODES, *called}, key=lambda n: (n.islower(), n)),
+        "helpers": helpers_used(formulas),
         "kinds": KINDS,
-        "zones": {regime.sequence: written(*zones_function(regime)) for regime in derivation.composed},
+        "zones": {regime.sequence: zones_function(regime) for regime in derivation.composed},
     }
 
 
@@ -56,30 +55,19 @@ def _checked(parameter: Parameter, arrays: list[str], any_number: bool) -> tuple
     return name, f'{bound}("{name}", {name})'
 
 
-def _modes_of_material(model: Model, series: Series | Roots) -> tuple[str, tuple[str, ...]]:
-    """The expression that turns the parameters into (K, modes), and the functions it calls."""
+def _modes_of_material(model: Model, series: Series | Roots) -> str:
+    """The expression that turns the parameters into (K, modes)."""
     if isinstance(series, Roots):
-        return f"of_operators({results(model.Q)}, {results(model.P)})", ("of_operators",)
+        return f"of_operators({results(model.Q)}, {results(model.P)})"
     stated = [source(series.viscosity), source(series.time)]
     if series.arrays:
-        return f"{source(series.K)}, spectrum({', '.join(stated)})", ("spectrum",)
-    return f"{source(series.K)}, spectrum({', '.join(f'first_mode({part})' for part in stated)})", ("first_mode", "spectrum")
+        return f"{source(series.K)}, spectrum({', '.join(stated)})"
+    return f"{source(series.K)}, spectrum({', '.join(f'first_mode({part})' for part in stated)})"
 
 
-def written(formula: Formula, record: Any) -> Any:
-    """A formula as the text of a function, in which what is no argument is a field of the material m."""
+def of_material(formula: Formula) -> Formula:
+    """A formula in which what is no argument is a field of the material m."""
     inside = {symbol: named for symbol, named in OF_THE_STRIP.items() if symbol not in formula.args}
-    steps = tuple((label, sp.sympify(term).xreplace(inside)) for label, term in _needed(formula))
+    steps = tuple((label, sp.sympify(term).xreplace(inside)) for label, term in formula.steps)
     result = mapped(formula.result, lambda part: part.xreplace(inside))
-    return function_text(Formula(formula.name, formula.args, result, steps), record)
-
-
-def _needed(formula: Formula) -> list[tuple[sp.Symbol, sp.Expr]]:
-    """The steps of a formula that its result goes back to."""
-    wanted = set().union(*(sp.sympify(part).free_symbols for part in flat(formula.result)))
-    kept = []
-    for label, term in reversed(formula.steps):
-        if label in wanted:
-            wanted |= sp.sympify(term).free_symbols
-            kept.append((label, term))
-    return kept[::-1]
+    return Formula(formula.name, formula.args, result, steps)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from ..check import Derived, derived, zero
+from ..check import Claim, Derived, derived, zero
 from ..flows import solved
 from ..symbols import D, alpha, beta, p, s, s_0
 from .symbols import J, eta, f_0, z_0
@@ -54,3 +54,22 @@ def contact_flow() -> Derived:
         zero("the zone is entered with f_0", flow.subs(s, s_0) - f_0),
     ]
     return derived(contact_flow, flow, checks, emitted=("overstress_after", "contact_pressure"))
+
+
+def passed_once(flows: ModeFlows) -> list[Claim]:
+    """What Eq. 13 asks of the foundation: in contact the pressure passes any value at most once either way."""
+    flow = flows.contact.value
+    harmonic = flow.replace(sp.exp, lambda exponent: sp.Integer(0))
+    creep = u - alpha / eta * harmonic  # of a dashpot in complete contact: e = w - S f, S = alpha/eta
+    return [
+        zero(
+            "in complete contact a dashpot follows the profile, alpha e' + e = u; elsewhere w, which is nowhere below u: "
+            "its e is nowhere below that of complete contact, and f nowhere above",
+            alpha * sp.diff(creep, s) + creep - u,
+        ),
+        zero(
+            "in contact f falls short of complete contact by a decaying exponential; p is one harmonic less such terms, all "
+            "positive, so p passes any p* at most once up and once down",
+            flow - harmonic - (f_0 - harmonic.subs(s, s_0)) * sp.exp(-(s - s_0) / alpha),
+        ),
+    ]

@@ -11,40 +11,23 @@ from dataclasses import replace
 import sympy as sp
 
 from ..check import Derived, derived, zero
-from ..functions import Formula, Helper
+from ..functions import Formula
 from ..kernel import Kernel
-from ..sequences import ADHESION, CONTACT, FREE, Span
-from ..symbols import K, alpha, beta
-from .regimes import ModeRegime
+from ..sequences import ADHESION, CONTACT, FREE, PARTIAL, Row, Span
+from ..symbols import alpha, beta
 from .symbols import J_0, OF_STRIP, J, S, enter, eta, leave, m, share
 
 kV = sp.Symbol("kV", nonnegative=True)
 
 
-class Adhesion(Helper):
-    """A zone of adhesion."""
+KINDS = {ADHESION: sp.Function("Adhesion"), FREE: sp.Function("Free"), CONTACT: sp.Function("Contact")}
+"""The zones of the generated ``modes``."""
 
 
-class Free(Helper):
-    """A free zone."""
-
-
-class Contact(Helper):
-    """A zone of contact."""
-
-
-KINDS = {ADHESION: Adhesion, FREE: Free, CONTACT: Contact}
-
-
-def whole_kernels(springs: bool) -> tuple[Kernel, ...]:
-    """What the functions of the template come to: modes of a strip, and of the material. ``springs``: every branch has one."""
+def whole_kernels() -> tuple[Kernel, ...]:
+    """What the template's modes of a strip come to."""
     passing = (*(kV * time for time in (alpha, beta, eta)), S, J, J_0, enter, leave, share)
-    prony, retardation = (K / S, alpha), (J_0 / K, J / K, beta)
-    return (
-        Kernel(Formula("at_speed", (m, kV), passing), passing, None),
-        *([Kernel(Formula("prony", (K, m), prony), prony, None, moving=True, springs=True)] if springs else []),
-        Kernel(Formula("retardation", (K, m), retardation), retardation, None),
-    )
+    return (Kernel(Formula("at_speed", (m, kV), passing), passing, None),)
 
 
 def period_map() -> Derived:
@@ -62,11 +45,11 @@ def period_map() -> Derived:
         (drive, forget),
         [zero("for matrices, which do not commute", sp.expand(twice - (state + drive - forget * state)))],
         latex=rf"c = {sp.latex(drive)},\quad R = {sp.latex(forget)}",
-        emitted=tuple(f"state_{sequence}" for sequence in ("acaf", "afc", "af", "ac")),
+        emitted=tuple(f"state_{sequence}" for sequence in PARTIAL),
     )
 
 
-def zones_function(regime: ModeRegime) -> tuple[Formula, Derived]:
+def zones_function(regime: Row) -> tuple[Formula, Derived]:
     """The zones of a regime with edges, from which the generated ``modes`` has all its functions."""
     zones = Formula(f"zones_{regime.sequence}", (*regime.edges, *OF_STRIP), tuple(_zone(regime, zone) for zone in regime.zones))
     record = replace(
@@ -78,7 +61,7 @@ def zones_function(regime: ModeRegime) -> tuple[Formula, Derived]:
     return zones, record
 
 
-def _zone(regime: ModeRegime, zone: Span) -> sp.Expr:
+def _zone(regime: Row, zone: Span) -> sp.Expr:
     """The zone as data; the equation of the last one is the onset, w - u - gap = 0 at the first edge."""
-    missing = -regime.onset_gap if zone is regime.zones[-1] else zone.missing
+    missing = -zone.exit if zone is regime.zones[-1] else zone.missing
     return KINDS[zone.kind](zone.first, zone.last, zone.pressure, missing)

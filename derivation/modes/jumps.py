@@ -3,6 +3,7 @@
 import sympy as sp
 
 from ..check import DerivationError, Derived, derived, holds, zero
+from ..jumps import across_a_step
 from ..model import Model
 from ..symbols import alpha, beta, s
 from .symbols import J_0, J, S, eta
@@ -18,13 +19,8 @@ def jump_law() -> Derived:
     """
     steps = step_w, step_p, step_z, step_f = sp.symbols("step_w step_p step_z step_f", real=True)
     w, p, z, f = (before + step * sp.Heaviside(s) for before, step in zip(sp.symbols("w p z f", real=True), steps, strict=True))
-    eps = sp.Symbol("eps", positive=True)
-
-    def across(law: sp.Expr) -> sp.Expr:
-        return sp.expand(sp.limit(sp.integrate(sp.expand(law), (s, -eps, eps)), eps, 0))
-
-    of_mode = across(z + beta * sp.diff(z, s) - J * p)
-    of_branch = across(f + alpha * sp.diff(f, s) - eta * sp.diff(w, s))
+    of_mode = across_a_step(z + beta * sp.diff(z, s) - J * p)
+    of_branch = across_a_step(f + alpha * sp.diff(f, s) - eta * sp.diff(w, s))
     solutions = sp.solve(of_mode, step_z), sp.solve(of_branch, step_f)
     if [len(found) for found in solutions] != [1, 1]:
         raise DerivationError("jump law", f"one step of z and one of f, not {solutions}")

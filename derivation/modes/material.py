@@ -2,8 +2,8 @@
 
 import sympy as sp
 
-from ..check import Claim, DerivationError, Derived, derived, holds, zero
-from ..model import Model, Roots, Series, inadmissible, omega, rate
+from ..check import Claim, Derived, derived, holds, zero
+from ..model import Model, Roots, inadmissible, omega, rate, refuse
 from ..paper.record import CORRECTIONS
 from ..symbols import K, beta
 
@@ -38,7 +38,7 @@ def relaxed_stiffness(model: Model) -> Derived:
 
     .. math:: K = Q_0/P_0
     """
-    series = series_of(model)
+    series = model.series
     stiffness = sp.cancel(model.Q[0] / model.P[0]) if isinstance(series, Roots) else series.K
     load, any_stiffness = sp.symbols("p stiffness", positive=True)
     checks = [
@@ -49,19 +49,13 @@ def relaxed_stiffness(model: Model) -> Derived:
     return derived(relaxed_stiffness, stiffness, checks, latex=rf"K = {sp.latex(stiffness)}", correction=CORRECTIONS[1])
 
 
-def series_of(model: Model) -> Series | Roots:
-    if model.series is None:
-        raise DerivationError("prony series", f"model {model.name!r} states its Prony series, or leaves it to the roots")
-    return model.series
-
-
 def prony_series(model: Model) -> Derived:
     r"""The foundation is a spring K beside branches, each a dashpot (displacement e_i) in line with a spring K_i. A
     branch without spring, tau_i = 0, is a bare dashpot.
 
     .. math:: K^*(s) = K\left(1 + \sum_i \frac{\eta_i s}{1 + \tau_i s}\right),\quad \eta_i = \frac{K_i \tau_i}{K}
     """
-    series = series_of(model)
+    series = model.series
     if isinstance(series, Roots):
         return series_of_roots(model, series)
     stated = series.K * BRANCH.subs({eta_i: series.viscosity, tau_i: series.time}, simultaneous=True)
@@ -103,14 +97,12 @@ def admissibility(model: Model) -> Derived:
 
     .. math:: K > 0,\quad \eta_i \ge 0,\quad \tau_i \ge 0,\qquad \tau_1 \le \lambda_1 \le \tau_2 \le \lambda_2 \le \dots
     """
-    reasons = inadmissible_series(model)
-    if reasons:
-        raise DerivationError("admissibility", f"model {model.name!r} is refused: " + "; ".join(reasons))
+    refuse(model, inadmissible_series(model))
     time = sp.Symbol("tau_i", nonnegative=True)
     loss = sp.simplify(sp.im(sp.expand_complex(BRANCH.subs(tau_i, time).subs(rate, sp.I * omega))))
     claimed = eta_i * omega / (1 + time**2 * omega**2)
     checks = [
-        holds("solid-like: K > 0 carries a constant load at rest", sp.factor(series_of(model).K).is_positive),
+        holds("solid-like: K > 0 carries a constant load at rest", sp.factor(model.series.K).is_positive),
         zero("passive: every branch loses eta_i omega/(1 + tau_i^2 omega^2)", sp.simplify(loss - claimed)),
         holds("passive: which is not negative", claimed.is_nonnegative),
         *_interlaced(),
@@ -137,7 +129,7 @@ def _interlaced() -> list[Claim]:
 
 def inadmissible_series(model: Model) -> list[str]:
     """The reasons against a model with a Prony series; none for an admissible one."""
-    series = series_of(model)
+    series = model.series
     if isinstance(series, Roots):
         return inadmissible(model) or _not_interlaced(model)
     reasons = []

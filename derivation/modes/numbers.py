@@ -12,6 +12,7 @@ import mpmath
 import numpy as np
 import sympy as sp
 
+from ..functions import helper
 from ..symbols import alpha, beta
 from .states import alpha_i, alpha_k, beta_i, beta_j, beta_k, eta_i, exact_modes
 from .symbols import J_0, J, S, across, enter, eta, f, f_0, leave, sandwich, share, z, z_0
@@ -24,22 +25,9 @@ UNITS = sp.symbols(f"unit_:{MODES}")  # of a state: one of its entries
 Sample = Mapping[sp.Symbol, Any]
 
 
-class along(sp.Function):
-    """Sum over one axis."""
-
-    nargs = 2
-
-
-class product_along(sp.Function):
-    """Product over one axis; over k, all but i."""
-
-    nargs = 2
-
-
-class slope(sp.Function):
-    """Derivative by a symbol."""
-
-    nargs = 2
+along = helper("along", lambda terms, axis: along(terms, axis))  # sum over one axis
+product_along = helper("product_along", lambda factors, axis: product_along(factors, axis))  # over k, all but i
+slope = helper("slope", lambda body, by: slope(body, by))  # derivative by a symbol
 
 
 def sample(seed: str) -> Sample:

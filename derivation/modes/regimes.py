@@ -10,28 +10,12 @@ from dataclasses import dataclass
 import sympy as sp
 
 from ..check import BEYOND, derived, zero
-from ..sequences import (
-    CONTACT,
-    EQUATIONS,
-    NOTHING,
-    PERIOD,
-    Inequality,
-    Relation,
-    Row,
-    Span,
-    edgeless_record,
-    obeys_jump_law,
-    relation,
-    require,
-    required,
-    with_edges,
-    zones_of,
-)
+from ..regimes import Edges, System
+from ..sequences import CONTACT, EQUATIONS, PERIOD, Inequality, Relation, Row, Span, obeys_jump_law, relation, zones_of
 from ..symbols import b, d, p_0, s
 from .symbols import J_0
 
 gap_at, gap_slope, pressure_slope = (sp.Function(name) for name in ("g", "g'", "p'"))
-falls, rises = "<=", ">="
 ONSET = {  # by the first edge
     d: ("onset", "the gap falls to delta_0 at d"),
     b: ("contact_begins", "the gap closes at b"),
@@ -39,35 +23,15 @@ ONSET = {  # by the first edge
 
 
 @dataclass(frozen=True)
-class ModeRegime(Row):
-    """A row for n modes: the state at the first edge is met at the end of the last zone."""
-
-    @property
-    def onset_pressure(self) -> sp.Expr:
-        return self.zones[-1].load
-
-    @property
-    def onset_gap(self) -> sp.Expr:
-        return self.zones[-1].exit
-
-    @property
-    def equations(self) -> tuple[tuple[str, str], ...]:
-        """(label, meaning) of each boundary equation."""
-        return _equations(self.zones) if self.edges else ()
-
-
-@dataclass(frozen=True)
 class Zone(Span):
     """A zone at whose end the state comes to an edge with a slope that its fields show."""
 
     def approach(self, edge: sp.Symbol) -> Inequality:
-        what, slope = ("the pressure", pressure_slope) if self.kind == CONTACT else ("the gap", gap_slope)
-        sign, verb = (rises, "rises") if self.rises else (falls, "falls")
-        return require(relation(sign, slope(edge), 0), sentence=f"{what} {verb} just before {edge}: {{}}")
+        return self.comes(edge, (pressure_slope if self.kind == CONTACT else gap_slope)(edge), "just before")
 
 
 @dataclass(frozen=True)
-class SeveralTimes:
+class SeveralTimes(Edges):
     """Makes the rows of the table for n modes."""
 
     closures: tuple[int, ...]
@@ -80,12 +44,10 @@ class SeveralTimes:
     def all_along(self, zone: Zone, sign: str, limit: sp.Expr) -> tuple[tuple[Relation, Relation], str]:
         return (relation(sign, gap_at(s), limit), relation("<=", zone.first, s, zone.last)), "for {}"
 
-    def edgeless(self, by: Callable, sequence: str, kind: str, *admissible: Inequality) -> ModeRegime:
-        zone = Zone(kind, s, s + PERIOD, NOTHING, NOTHING)
-        return ModeRegime(sequence, (zone,), admissible, self.closures, edgeless_record(by, sequence, zone))
-
-    def partial(self, by: Callable, sequence: str, *admissible: Inequality, closures: tuple[int, ...] = ()) -> ModeRegime:
-        zones = self.zones(sequence)
+    def system(
+        self, by: Callable[..., Row], sequence: str, zones: tuple[Zone, ...], closures: tuple[int, ...], said: str
+    ) -> System:
+        equations = (ONSET[zones[0].first], *(EQUATIONS[zone.last] for zone in zones[:-1]))
         record = derived(
             by,
             sequence,
@@ -94,14 +56,10 @@ class SeveralTimes:
                 zero("the zones are one period long", sp.Add(*(zone.last - zone.first for zone in zones)) - PERIOD),
             ],
             f"regime {sequence}",
-            statement=f"{with_edges(sequence, (zone.first for zone in zones))}. The state at the first edge follows from them by "
+            statement=f"{said}. The state at the first edge follows from them by "
             "one linear system, the edges from one event each.",
-            latex=r"R z = c,\qquad \text{" + "; ".join(meaning for _, meaning in _equations(zones)) + "}",
+            latex=r"R z = c,\qquad \text{" + "; ".join(meaning for _, meaning in equations) + "}",
             status=BEYOND,
             emitted=tuple(f"{kind}_{sequence}" for kind in ("state", "residual", "residual_and_jacobian", "return_map")),
         )
-        return ModeRegime(sequence, zones, required(zones, admissible), self.closures, record)
-
-
-def _equations(zones: tuple[Zone, ...]) -> tuple[tuple[str, str], ...]:
-    return (ONSET[zones[0].first], *(EQUATIONS[zone.last] for zone in zones[:-1]))
+        return record, equations

@@ -1,13 +1,13 @@
 """Complete contact of a strip and of a level with n modes: K* at the strip's frequency, threshold, friction."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import sympy as sp
 
 from ..check import Claim, Derived, derived, holds, zero
 from ..kernel import Kernel, kernel
-from ..level import R, Wave, in_complete_contact
-from ..saturated import means, saturation_threshold
+from ..level import Level, R, in_complete_contact
+from ..saturated import Saturated, means, saturation_threshold
 from ..symbols import K, V, alpha, l, s
 from . import stable
 from .flows import ModeFlows, u
@@ -18,26 +18,23 @@ PASSING = AT_SPEED.scaled()
 """Of a level's wave; its modes have times in seconds."""
 
 
-@dataclass(frozen=True)
-class Complete:
-    """Complete contact of a strip and of a level."""
+def saturated(flows: ModeFlows) -> Saturated:
+    """Complete contact of a strip."""
+    _, loss, _ = modulus = modulus_kernels()
+    return Saturated(
+        complex_modulus(),
+        (*modulus, *field_kernels(flows)),
+        means(u, OF_STRIP, loss.exact, stable.LOSS(m)),
+        saturation_threshold(R, "|K^*|/K"),
+    )
 
-    modulus: Derived
-    kernels: tuple[Kernel, ...]
-    threshold: Derived
-    means: Kernel
-    level: tuple[Kernel, ...]
 
-
-def complete_contact(flows: ModeFlows) -> Complete:
-    kernels, least = (*modulus_kernels(), *field_kernels(flows)), saturation_threshold(R, "|K^*|/K")
-    _, loss, ratio = (kernel.exact for kernel in kernels[:3])
+def level(threshold: sp.Expr) -> Level:
+    """A level in complete contact. ``threshold``: D of a strip, by its R."""
     storage, rest = sp.symbols("storage_minus_1 loss", nonnegative=True)
     at_least_one = holds("R >= 1: the storage is at least 1", sp.expand((1 + storage) ** 2 + rest**2 - 1).is_nonnegative)
-    exact, computed = (ratio.subs(PASSING), loss.subs(PASSING)), (stable.MODULUS_RATIO(AT_SPEED), stable.LOSS(AT_SPEED))
-    level = in_complete_contact(Wave((K, m), *exact, *computed, at_least_one), least.value)
-    level = tuple(replace(kernel, moving=True) for kernel in level)
-    return Complete(complex_modulus(), kernels, least, means(u, OF_STRIP, loss, stable.LOSS(m)), level)
+    kernels, stack = in_complete_contact((K, m), stable.MODULUS_RATIO(AT_SPEED), stable.LOSS(AT_SPEED), threshold, at_least_one)
+    return tuple(replace(kernel, moving=True) for kernel in kernels), stack
 
 
 def complex_modulus() -> Derived:

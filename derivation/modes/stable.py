@@ -26,14 +26,19 @@ from ..functions import (
     versine,
 )
 from ..stable import (
+    AHEAD,
     HALVES,
     PROFILE,
     PROFILE_RISE,
     PROFILE_SLOPE,
+    UNIT,
     WIDTH,
     alpha_unit,
+    amplitude,
     cos_ahead,
     half,
+    lag,
+    level,
     middle,
     sin_ahead,
     unit,
@@ -42,17 +47,13 @@ from ..stable import (
 from ..symbols import D, alpha, beta, p, p_0, p_in, s, s_0, s_1
 from .symbols import J_0, J, S, across, back, enter, eta, f, f_0, m, sandwich, share, total, z, z_0
 
-response, level, time, rates, moved, turn, rate_end, rate_start = sp.symbols(
-    "response level time rates moved turn rate_end rate_start", real=True
+response, time, rates, moved, rate_end = sp.symbols("response time rates moved rate_end", real=True)
+harmonic, transient, creep, creep_end, creep_start, lost = sp.symbols(
+    "harmonic transient creep creep_end creep_start lost", real=True
 )
-harmonic, transient, entered, creep, creep_end, creep_start, lost, slope_end = sp.symbols(
-    "harmonic transient entered creep creep_end creep_start lost slope_end", real=True
-)
-lag, moment = sp.symbols("lag moment", real=True)
-amplitude = sp.Symbol("amplitude", real=True)
+decayed, lapsed = sp.symbols("decayed lapsed", real=True)
 
-_unit = ((unit, 1 / hypot(1, alpha)), (alpha_unit, alpha * unit))
-_response = (*_unit, (response, eta * unit**2))
+_response = (UNIT[0], (response, eta * unit**2))
 
 # -- states ------------------------------------------------------------------------------------------------------------
 
@@ -98,12 +99,11 @@ GAP_ENTRY = Formula(
     (s_0, D - p, amplitude, divisible(beta), per_time(amplitude, beta)),
     ((amplitude, z_0 - J * p),),
 )
-_event = ((sp.Symbol("decayed", real=True), sp.exp((s_0 - s_1) / time)),)
 GAP_EVENT = Formula(
     "gap_event",
     (s_1, s_0, level, amplitude, time, rates),
-    (total(amplitude * _event[0][0]) + versine(s_1) - level, sp.sin(s_1) - total(rates * _event[0][0])),
-    _event,
+    (total(amplitude * decayed) + versine(s_1) - level, sp.sin(s_1) - total(rates * decayed)),
+    ((decayed, sp.exp((s_0 - s_1) / time)),),
 )
 
 # -- contact: w = u ----------------------------------------------------------------------------------------------------
@@ -123,11 +123,6 @@ CONTACT_PRESSURE = Formula("contact_pressure", (s, f, D), PROFILE(s, D) + total(
 EXCESS_CHANGE = Formula(
     "excess_change", _contact_zone, PROFILE_RISE(s_0, s_1) + _excess_change, (WIDTH, *HALVES, *_response, _rise, _end)
 )
-_ahead = (  # sine and cosine of atan(alpha) - s_0
-    *_unit,
-    (sin_ahead, alpha_unit * sp.cos(s_0) - unit * sp.sin(s_0)),
-    (cos_ahead, alpha_unit * sp.sin(s_0) + unit * sp.cos(s_0)),
-)
 _creep = (  # change of e over a contact entered without overstress
     creep,
     unit * (sin_ahead * (width * loss_mean(width, alpha) - sine_deficit(width)) - cos_ahead * versine(width)),
@@ -136,13 +131,13 @@ CONTACT_INCREMENT = Formula(
     "contact_increment",
     _contact_zone,
     across(share, creep - S * f_0 * decay_loss(width, alpha)),
-    (WIDTH, *_ahead, _creep),
+    (WIDTH, *AHEAD, _creep),
 )
 CONTACT_MAP = Formula(
     "contact_map",
     (s_0, s_1, p_in, m),
     (-sandwich(share, lost, enter), across(share, creep - lost * across(enter, J) * p_in)),
-    (WIDTH, *_ahead, _creep, (lost, S * decay_loss(width, alpha))),
+    (WIDTH, *AHEAD, _creep, (lost, S * decay_loss(width, alpha))),
 )
 _f_start = response * (alpha * sp.cos(s_0) - sp.sin(s_0))
 CONTACT_PASSAGE = Formula(
@@ -160,7 +155,7 @@ CONTACT_PASSAGE = Formula(
     (
         WIDTH,
         *HALVES,
-        *_ahead,
+        *AHEAD,
         (response, eta * unit**2),
         (f_0, OVERSTRESS(z_0, p_in, m)),
         (lost, decay_loss(width, alpha)),
@@ -187,18 +182,17 @@ EXCESS_ENTRY = Formula(
     ),
     _response,
 )
-_decayed, _lapsed = sp.symbols("decayed lapsed", real=True)
 EXCESS_EVENT = Formula(
     "excess_event",
     (s_1, s_0, level, f_0, response, alpha, time, rates),
     (
-        level - versine(s_1) + total((f_0 + moved) * _decayed - harmonic * _lapsed),
-        -sp.sin(s_1) - total(response * (alpha * sp.sin(s_1) + sp.cos(s_1)) + rates * _decayed),
+        level - versine(s_1) + total((f_0 + moved) * decayed - harmonic * lapsed),
+        -sp.sin(s_1) - total(response * (alpha * sp.sin(s_1) + sp.cos(s_1)) + rates * decayed),
     ),
     (
         *HALVES,
-        (_decayed, sp.exp((s_0 - s_1) / time)),
-        (_lapsed, expm1((s_0 - s_1) / time)),
+        (decayed, sp.exp((s_0 - s_1) / time)),
+        (lapsed, expm1((s_0 - s_1) / time)),
         _rise,
         _end,
     ),
@@ -206,7 +200,7 @@ EXCESS_EVENT = Formula(
 
 # -- work of the contact pressure on the profile: the sums of one mode, per branch -------------------------------------
 
-_work = {label: term for label, term in stable.CONTACT_WORK.steps}
+_work = [step for step in stable.CONTACT_WORK.steps if step[0] != stable.lost_sin]
 _of_branch = f_0 * (sp.sin(s_0) * stable.kept_cos + sp.cos(s_0) * stable.kept_sin) + response * (
     stable.ramp_work + sp.sin(s_0) * sp.sin(s_1) * stable.ramp
 )
@@ -214,14 +208,14 @@ CONTACT_WORK = Formula(
     "contact_work",
     (s_0, s_1, f_0, D, m),
     stable.rise * (PROFILE(s_0, D) + PROFILE(s_1, D)) / 2 - total(_of_branch),
-    (*_work.items(), (response, eta * unit**2)),
+    (*_work, (response, eta * unit**2)),
 )
 
 # -- complete contact --------------------------------------------------------------------------------------------------
 
-STORAGE = Formula("storage", (m,), 1 + total(eta * unit * alpha_unit), _unit)
-LOSS = Formula("loss", (m,), total(eta * unit**2), _unit)
-MODULUS_RATIO = Formula("modulus_ratio", (m,), hypot(1 + total(eta * unit * alpha_unit), total(eta * unit**2)), _unit)
+STORAGE = Formula("storage", (m,), 1 + total(eta * unit * alpha_unit), UNIT)
+LOSS = Formula("loss", (m,), total(eta * unit**2), UNIT[:1])
+MODULUS_RATIO = Formula("modulus_ratio", (m,), hypot(1 + total(eta * unit * alpha_unit), total(eta * unit**2)), UNIT)
 SATURATED_PRESSURE = Formula(
     "saturated_pressure", (s, D, m), PROFILE(s, D) + total(response * (alpha * sp.cos(s) - sp.sin(s))), _response
 )

@@ -20,7 +20,7 @@ from ..symbols import alpha, beta
 from .symbols import J_0, J, S, enter, eta, leave, share
 
 alpha_i, eta_i, alpha_k, beta_i, beta_j, beta_k, J_j = sp.symbols("alpha_i eta_i alpha_k beta_i beta_j beta_k J_j", positive=True)
-f_i, df_i, w, dw, p, dp = sp.symbols("f_i f_i' w w' p p'", real=True)
+f_i, df_i, w, dw, p = sp.symbols("f_i f_i' w w' p", real=True)
 OF_BRANCH = {alpha_i, eta_i, f_i, df_i}
 BRANCH = eta_i * rate / (1 + alpha_i * rate)
 
@@ -157,19 +157,15 @@ def states() -> Derived:
             [(J_j * w, ENTERING), (J_j, OVERSTRESSED), (-1, (LEAVE * f_i, sp.Symbol("left")))],
             J_j * p - sp.Symbol("left"),
         ),
-        zero("a dashpot follows w: alpha_i e_i' + e_i = w", _dashpot(e_i)),
+        zero(
+            "a dashpot follows w: alpha_i e_i' + e_i = w",
+            alpha_i * (dw - alpha_i / eta_i * df_i).subs(df_i, (eta_i * dw - f_i) / alpha_i) + e_i - w,
+        ),
         zero("P/Q vanishes at -1/alpha_i: the sum over j of J_j alpha_i/(beta_j - alpha_i) is J_0", at_pole + pole[0]),
         summed("the columns of leave sum to 1", LEAVE, [(1, (J_j, 1 - J_0)), (1, pole)], sp.Integer(1), over={beta_j, J_j}),
         summed("so w = J_0 p + sum z_j, z_j = J_j p - sum_i leave_ji f_i", -f_i, [(-1, OVERSTRESSED)], w - (J_0 + (1 - J_0)) * p),
     ]
     return derived(states, (ENTER, LEAVE, SHARE), checks)
-
-
-def _dashpot(e_i: sp.Expr) -> sp.Expr:
-    """alpha e' + e - w for e = w - (alpha/eta) f on a motion of the branch."""
-    motion = {f_i: df_i}
-    slope = dw - alpha_i / eta_i * motion[f_i].subs(df_i, (eta_i * dw - f_i) / alpha_i)
-    return sp.expand(alpha_i * slope + e_i - w)
 
 
 _own, _others, _norm = (sp.lambdify(args, form, modules="mpmath") for args, form in (
@@ -179,25 +175,13 @@ _between = sp.lambdify((alpha_i, eta_i, beta_j, J_j), (ENTER, LEAVE, SHARE), mod
 
 def exact_modes(relaxation: Sequence[mpmath.mpf], retardation: Sequence[mpmath.mpf]) -> dict[sp.Symbol, np.ndarray | mpmath.mpf]:
     """Every quantity of the modes with these interlaced times, by symbol, as the derived forms give them."""
-    n = len(relaxation)
-    modes = range(n)
-    viscosity = [
-        mpmath.fprod(
-            [
-                _own(relaxation[i], retardation[i]),
-                *(_others(relaxation[i], relaxation[k], retardation[k]) for k in modes if k != i),
-            ]
-        )
-        for i in modes
-    ]
-    compliance = [1 / (retardation[j] * sum(_norm(relaxation[i], viscosity[i], retardation[j]) for i in modes)) for j in modes]
-    pairs = [[_between(relaxation[i], viscosity[i], retardation[j], compliance[j]) for j in modes] for i in modes]
-    found = {
-        alpha: relaxation, beta: retardation, eta: viscosity, J: compliance,
-        S: [a / b for a, b in zip(relaxation, viscosity, strict=True)],
-        enter: [[pair[0] for pair in row] for row in pairs],
-        leave: [[pairs[i][j][1] for i in modes] for j in modes],
-        share: [[pairs[i][j][2] for i in modes] for j in modes],
+    times, slower = (np.array(each, dtype=object) for each in (relaxation, retardation))
+    itself = np.eye(len(times), dtype=bool)
+    factors = _others(times[:, None], times + itself, slower)  # of branch i and every other
+    viscosity = np.where(itself, _own(times, slower), factors).prod(axis=1)
+    compliance = 1 / (slower * _norm(times[:, None], viscosity[:, None], slower).sum(axis=0))
+    entering, leaving, shared = _between(times[:, None], viscosity[:, None], slower, compliance)
+    return {
+        alpha: times, beta: slower, eta: viscosity, J: compliance, J_0: (times / slower).prod(), S: times / viscosity,
+        enter: entering, leave: leaving.T, share: shared.T,
     }  # fmt: skip
-    instantaneous = mpmath.fprod(a / b for a, b in zip(relaxation, retardation, strict=True))
-    return {symbol: np.array(value, dtype=object) for symbol, value in found.items()} | {J_0: instantaneous}

@@ -8,7 +8,7 @@ from typing import Any
 
 import sympy as sp
 
-from ..functions import Helper, Scaling, helper, stack_sum
+from ..functions import Helper, Scaling, helper
 from ..symbols import D, alpha, beta, delta_0, p_0
 
 m = sp.Symbol("m")  # the material of a strip, in the emitted code
@@ -38,22 +38,10 @@ class total(Helper):
         return total(term)
 
 
-@helper
-def across(matrix, vector):
-    """A matrix times a vector, both along the mode axis."""
-    return across(matrix, vector)
-
-
-@helper
-def back(matrix, vector):
-    """A vector times a matrix: across with the transposed matrix."""
-    return back(matrix, vector)
-
-
-@helper
-def sandwich(left, vector, right):
-    """matrix diag(vector) matrix."""
-    return sandwich(left, vector, right)
+# of vectors and matrices along the mode axis
+across = helper("across", lambda matrix, vector: across(matrix, vector))  # a matrix times a vector
+back = helper("back", lambda vector, matrix: back(vector, matrix))  # a vector times a matrix
+sandwich = helper("sandwich", lambda left, vector, right: sandwich(left, vector, right))  # left diag(vector) right
 
 
 class at_speed(Scaling):
@@ -64,7 +52,6 @@ class at_speed(Scaling):
 
 
 SUMS = (total, across, back, sandwich)
-EVERY_SUM = (*SUMS, stack_sum)
 
 
 def generic(expression: sp.Expr) -> sp.Expr:
@@ -72,11 +59,9 @@ def generic(expression: sp.Expr) -> sp.Expr:
     under = sp.Symbol("total", positive=True)
 
     def factor(node: sp.Expr) -> sp.Expr:
-        if isinstance(node, (total, stack_sum)):
-            return under * node.args[0]
-        return sp.Mul(*node.args)
+        return under * node.args[0] if isinstance(node, total) else sp.Mul(*node.args)
 
-    return expression.replace(lambda e: isinstance(e, EVERY_SUM), factor)
+    return expression.replace(lambda e: isinstance(e, SUMS), factor)
 
 
 def is_matrix(expression: Any) -> bool:

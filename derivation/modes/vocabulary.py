@@ -63,17 +63,9 @@ def _operators(values: list[sp.Expr], words: Names) -> Names:
     return {"d/ds": rate, "w": sp.Integer(1), "p": 1 + total(values[0].subs({alpha_i: alpha, eta_i: eta}))}
 
 
-def _fractions(values: list[sp.Expr], words: Names) -> Names:
-    return {r"\eta_i": eta, "J_j": J}  # of the sample, which is made from the values
-
-
 def _states(values: list[sp.Expr], words: Names) -> Names:
     overstress, w = -across(enter, z - J * p), J_0 * p + total(z)
     return {"f": overstress, "w": w, "e": w - S * overstress}
-
-
-def _dashpots(values: list[sp.Expr], words: Names) -> Names:
-    return _states(values, words) | {"e": values[0]}
 
 
 def _relaxing(values: list[sp.Expr], words: Names) -> Names:
@@ -115,16 +107,6 @@ def _map(contact: bool) -> Binding:
     return names
 
 
-def _means(values: list[sp.Expr], words: Names) -> Names:
-    """Of a closed orbit, complete contact."""
-    pressure = u + total(words["f_sat"].expression)
-    return {"w": u, "p": pressure, r"\barp": D - 1, r"\bar\tau": total(eta / (1 + alpha**2)) / 2}
-
-
-def _threshold(values: list[sp.Expr], words: Names) -> Names:
-    return {**threshold(values, words), "K*": lambda *place: K * R}
-
-
 def _level(values: list[sp.Expr], words: Names) -> Names:
     """Complete contact of a level, by the modulus of its wave."""
     wave = words["K*"]().subs(PASSING)
@@ -133,17 +115,19 @@ def _level(values: list[sp.Expr], words: Names) -> Names:
     return ONE_LEVEL | {"R": ratio, "K*": lambda place: wave} | names
 
 
+CLOSED = {"w": u, r"\barp": D - 1, r"\bar\tau": total(eta / (1 + alpha**2)) / 2}
+"""Of a closed orbit, complete contact."""
 BINDINGS: Mapping[str, Binding] = LEVELS | {
     "foundation law": _law,
     "Prony series": _series,
     "dimensionless groups": _operators,
-    "partial fractions": _fractions,
+    "partial fractions": lambda values, words: {r"\eta_i": eta, "J_j": J},  # of the sample, which is made from the values
     "states": _states,
     "relaxation flow": _relaxing,
     "contact flow": _pressed,
     "displacement": named("w"),
     "overstress": named("f"),
-    "dashpots": _dashpots,
+    "dashpots": lambda values, words: _states(values, words) | {"e": values[0]},
     "relaxation_increment": lambda values, words: {"z_j": words["relaxation"]},
     "gap_after": named("g"),
     "gap_event": named("g"),
@@ -160,13 +144,13 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "modulus_ratio": named("R"),
     "saturated_overstress": named("f_sat,i"),
     "saturated_pressure": named("p_sat"),
-    "saturation threshold": _threshold,
-    "means of a strip": _means,
+    "saturation threshold": lambda values, words: {**threshold(values, words), "K*": lambda *place: K * R},
+    "means of a strip": lambda values, words: CLOSED | {"p": u + total(words["f_sat"].expression)},
     "means_c": lambda values, words: {r"\barp": values[0], r"\bar\tau": values[1], "p": words["p_sat"]},
     "means_": named(r"\barp", r"\bar\tau"),
     "level_saturation_penetration": _level,
     "level_saturation_pressure": _level,
     "level_saturation_friction": _level,
-    "saturated_stack_friction": _level,
+    "stack friction": _level,
 }
 """By the beginning of a step's name."""

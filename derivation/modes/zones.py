@@ -128,8 +128,6 @@ def contact(flows: ModeFlows) -> tuple[Kernel, ...]:
     """
     flow = flows.contact.value
     after = flow.subs(s, s_1)
-    lagging = sp.integrate(sp.expand(flow), s)
-    creep = (lagging.subs(s, s_1) - lagging.subs(s, s_0)) / eta
     rate = sp.expand(flow * sp.diff(u, s))
     work = sp.Add(*(sp.integrate(term, s) for term in sp.Add.make_args(rate)))
     own = sp.integrate(sp.expand(u * sp.diff(u, s)), s)
@@ -142,8 +140,9 @@ def contact(flows: ModeFlows) -> tuple[Kernel, ...]:
         kernel(
             contact,
             stable.CONTACT_INCREMENT,
-            across(share, creep),
-            zero("the antiderivative differentiates to f", sp.diff(lagging, s) - flow, phases=(s_0, s)),
+            across(share, creep_of(flows)),
+            zero("the antiderivative differentiates to f", eta * sp.diff(creep_of(flows), s_1) - after, phases=(s_0, s_1)),
+            zero("and vanishes with the zone", creep_of(flows).subs(s_1, s_0)),
         ),
         kernel(
             contact,
@@ -153,6 +152,12 @@ def contact(flows: ModeFlows) -> tuple[Kernel, ...]:
         ),
         *pair(contact, (stable.EXCESS_ENTRY, stable.EXCESS_EVENT), (excess, slope)),
     )
+
+
+def creep_of(flows: ModeFlows) -> sp.Expr:
+    """Change of a dashpot's displacement over contact."""
+    lagging = sp.integrate(sp.expand(flows.contact.value), s)
+    return (lagging.subs(s, s_1) - lagging.subs(s, s_0)) / eta
 
 
 def passages(flows: ModeFlows) -> tuple[Kernel, ...]:
@@ -178,37 +183,25 @@ def passages(flows: ModeFlows) -> tuple[Kernel, ...]:
     .. math:: \Delta z,\quad \partial_{s_0}\Delta z,\quad \partial_{s_1}\Delta z,\quad \Delta p,\quad
         \partial_{z_0} \Delta p,\quad \partial_{s_0} \Delta p,\quad \partial_{s_1} \Delta p
     """
-    gap_flow = flows.relaxation.value.subs(s, s_1)
-    contact_flow = flows.contact.value
-    lagging = sp.integrate(sp.expand(contact_flow), s)
-    creep = (lagging.subs(s, s_1) - lagging.subs(s, s_0)) / eta
-    pressed = contact_flow.subs(s, s_1)
-    zero_state = {z_0: sp.Integer(0)}
-    change_z = sp.expand(gap_flow - z_0)
-    overstress = sp.expand(-(z_0 - J * p_in))  # under across(enter, .)
+    after, pressed, creep = flows.relaxation.value.subs(s, s_1), flows.contact.value.subs(s, s_1), creep_of(flows)
+    change, pressing = sp.expand(after - z_0), pressed - f_0
+    entered = {f_0: across(enter, sp.expand(-(z_0 - J * p_in)))}
     by_f = sp.diff(creep, f_0)
     relaxation_terms = (
-        change_z,
-        sp.diff(change_z, s_0),
-        sp.diff(change_z, s_1),
-        total(change_z) - (u_1 - u_0),
-        sp.diff(change_z, z_0),
-        total(sp.diff(change_z, s_0)) + sp.diff(u_0, s_0),
-        total(sp.diff(change_z, s_1)) - sp.diff(u_1, s_1),
+        change,
+        *(sp.diff(change, edge) for edge in (s_0, s_1)),
+        total(change) - (u_1 - u_0),
+        sp.diff(change, z_0),
+        *(total(sp.diff(change, edge)) - sp.diff(u_1 - u_0, edge) for edge in (s_0, s_1)),
     )
-    f_entry = across(enter, overstress)
-    entered = {f_0: f_entry}
     contact_terms = (
-        across(share, creep.subs(entered)),
-        across(share, sp.diff(creep, s_0).subs(entered)),
-        across(share, sp.diff(creep, s_1).subs(entered)),
-        u_1 - u_0 + total((pressed - f_0).subs(entered)),
-        -back(enter, sp.diff(pressed - f_0, f_0)),
-        -sp.diff(u_0, s_0) + total(sp.diff(pressed, s_0).subs(entered)),
-        sp.diff(u_1, s_1) + total(sp.diff(pressed, s_1).subs(entered)),
+        *(across(share, part.subs(entered)) for part in (creep, sp.diff(creep, s_0), sp.diff(creep, s_1))),
+        u_1 - u_0 + total(pressing.subs(entered)),
+        -back(enter, sp.diff(pressing, f_0)),
+        *(sp.diff(u_1 - u_0, edge) + total(sp.diff(pressed, edge).subs(entered)) for edge in (s_0, s_1)),
     )
     return (
-        kernel(passages, stable.RELAXATION_MAP, (-sp.diff(change_z, z_0), change_z.subs(zero_state))),
+        kernel(passages, stable.RELAXATION_MAP, (-sp.diff(change, z_0), change.subs(z_0, 0))),
         kernel(
             passages, stable.CONTACT_MAP, (sandwich(share, by_f, enter), across(share, creep.subs(f_0, across(enter, J) * p_in)))
         ),

@@ -7,15 +7,15 @@ from markupsafe import Markup
 
 ROOM = 12  # characters of LaTeX from which a line may break before a sign
 WIDE = 42  # visible characters from which it may break inside brackets too
-SEPARATORS = (r"\\", r",\quad", r",\qquad", r"\quad", r"\qquad")
-SIGNS = (" + ", " - ", " = ", r" \ge ", r" \le ", r" \cdot ")
+SEPARATOR = re.compile(r",?\\q?quad|\\\\")
+SIGN = re.compile(r" (?:[-+=]|\\[gl]e|\\cdot) ")
 ARROW = r"\Rightarrow"
+TOKEN = re.compile(rf"{SEPARATOR.pattern}|{SIGN.pattern}|\\(?:left|right)\s*(?:\\.|.)|\\[,;! ]|\\[A-Za-z]+|.", re.DOTALL)
+OPENING = re.compile(r"[{(\[]|\\left\s*\S+")
+CLOSING = re.compile(r"[})\]]|\\right\s*\S+")
+SIZED = re.compile(r"\\(?:left|right)\s*([()\[\]])")
 FUNCTION = re.compile(r"<mi>(sin|cos|tan|arctan|arccos)</mi>(?=<m[in]>)")  # they touch what follows without a bracket
 LEADING = re.compile(r"(<math[^>]*><mrow>)<mo([^>]*)>(?=(?:&#x0002B;|&#x02212;|&#x0003D;|&#x022C5;|[+=−⋅])</mo>)")
-TOKEN = re.compile(r"\\left\s*(?:\\.|.)|\\right\s*(?:\\.|.)|\\[,;! ]|\\\\|\\[A-Za-z]+|.", re.DOTALL)
-SIZED = re.compile(r"\\(?:left|right)\s*([()\[\]])")
-
-
 ROWS = re.compile(r"\\(?:begin|end)\{aligned\}|&")
 NULL = re.compile(r"\\(?:left|right)\s*\.")
 
@@ -35,10 +35,7 @@ def pieces(latex: str) -> list[str]:
     """The equation cut after separators, and before signs once a line is long; inside brackets only where it must be."""
     found = []
     for piece in _cut(latex, inside=False):
-        if _visible(piece) > WIDE:
-            found += _cut(SIZED.sub(r"\1", piece), inside=True)
-        else:
-            found.append(piece)
+        found += [piece] if _visible(piece) <= WIDE else _cut(SIZED.sub(r"\1", piece), inside=True)
     return found
 
 
@@ -48,33 +45,18 @@ def widest(latex: str) -> int:
 
 
 def _cut(latex: str, inside: bool) -> list[str]:
-    found, depth, position, start = [], 0, 0, 0
-    while position < len(latex):
-        if depth == 0:
-            separator = next((mark for mark in sorted(SEPARATORS, key=len, reverse=True) if latex.startswith(mark, position)), "")
-            if separator:
-                found.append(latex[start : position + separator.startswith(",")])
-                position += len(separator)
-                start = position
-                continue
-            arrow = latex.startswith(ARROW, position)
-            if arrow or position - start > ROOM and latex.startswith(SIGNS, position):
-                found.append(latex[start:position])
-                start = position
-        token = TOKEN.match(latex, position).group()
-        depth += _opens(token, inside)
-        position += len(token)
-    return [piece.strip() for piece in (*found, latex[start:]) if piece.strip()]
-
-
-def _opens(token: str, inside: bool) -> int:
-    if token in "{}":
-        return 1 if token == "{" else -1
-    if inside:
-        return 0
-    if token in ("(", "[") or re.match(r"\\left[\s(\[{\\|.]", token):
-        return 1
-    return -(token in (")", "]") or bool(re.match(r"\\right[\s)\]}\\|.]", token)))
+    found, depth = [""], 0
+    for token in TOKEN.findall(latex):
+        if depth == 0 and SEPARATOR.fullmatch(token):
+            found[-1] += token[: token.startswith(",")]
+            found.append("")
+            continue
+        if depth == 0 and (token == ARROW or len(found[-1]) > ROOM and SIGN.fullmatch(token)):
+            found.append("")
+        found[-1] += token
+        if token in "{}" or not inside:
+            depth += bool(OPENING.fullmatch(token)) - bool(CLOSING.fullmatch(token))
+    return [piece.strip() for piece in found if piece.strip()]
 
 
 def _visible(latex: str) -> int:

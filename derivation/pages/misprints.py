@@ -1,6 +1,6 @@
 """Misprints and silences of the paper, with demonstrations computed from the steps."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import sympy as sp
@@ -42,15 +42,6 @@ def _sign_of_equation_6(step: Derived) -> dict[str, Any]:
     return {"shown": shown, "table": {"head": ["", "w under the crest", "w under the valley"], "rows": rows}}
 
 
-def _stiffness(step: Derived) -> dict[str, Any]:
-    """What K read as the one and as the other would mean."""
-    K_number, pressure = sp.Integer(10) ** 9, sp.Integer(100)
-    right, wrong = _figure(pressure / K_number), _figure(pressure * K_number)
-    rows = [["stiffness, Pa/m", f"{right} m"], ["compliance, m/Pa", f"{wrong} m"]]
-    shown = f"Under 100 Pa a foundation with K = 1e9 yields {right} m, not {wrong} m."
-    return {"shown": shown, "table": {"head": ["K = 1e9 read as", "displacement under 100 Pa"], "rows": rows}}
-
-
 SCENE = {K: "1e9", T_eps: "1/100", T_sigma: "1/10000", p_nominal: "5e6"}
 MICRO = 10**6  # the same lengths in micrometres: the pressures and times stay in Pa and s
 
@@ -73,12 +64,8 @@ def _equation_16(step: Derived) -> dict[str, Any]:
     }
 
 
-NUMBERS: dict[str, Callable[[Derived], dict[str, Any]]] = {
-    "sign_of_equation_6": _sign_of_equation_6,
-    "stiffness": _stiffness,
-    "equation_16": _equation_16,
-}
+NUMBERS = {"sign_of_equation_6": _sign_of_equation_6, "equation_16": _equation_16}
 
 
-def _figure(value: sp.Expr, digits: int = 4) -> str:
-    return f"{float(sp.N(value, 30)):.{digits}g}"
+def _figure(value: sp.Expr) -> str:
+    return f"{float(sp.N(value, 30)):.4g}"

@@ -6,12 +6,13 @@ gone, or no longer the only one, is an error that names the step.
 """
 
 import ast
-import importlib
-import importlib.util
 import inspect
+import pkgutil
 import tomllib
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
+from importlib import resources
 from pathlib import Path
 
 from ..check import DerivationError, Derived
@@ -28,37 +29,6 @@ class Source:
     text: str
 
 
-def deriving(function: str) -> Source:
-    """Source of a deriving function, given as ``module.name``, where a module in a folder has a dot in its name."""
-    module, _, name = function.rpartition(".")
-    lines, first = inspect.getsourcelines(getattr(importlib.import_module(f"{PACKAGE}.{module}"), name))
-    return Source(f"derivation/{module.replace('.', '/')}.py", first, "".join(lines).rstrip())
-
-
-def title(module: str) -> str:
-    """First line of a module's docstring."""
-    return (
-        (importlib.import_module(f"{PACKAGE}.{module}").__doc__ or module).strip().splitlines()[0].rstrip(".").replace("``", "")
-    )
-
-
-def generated(file: str, text: str) -> dict[str, Source]:
-    """Source of every function of a generated module, by name."""
-    lines = text.splitlines()
-    return {
-        name: Source(f"generated/{file}", node.lineno, "\n".join(lines[node.lineno - 1 : node.end_lineno]))
-        for node in ast.parse(text).body
-        for name in _names(node)
-    }
-
-
-def _names(node: ast.stmt) -> list[str]:
-    """Of a function; of several that are the results of one call."""
-    if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple):
-        return [ast.unparse(name) for name in node.targets[0].elts]
-    return [node.name] if isinstance(node, ast.FunctionDef) else []
-
-
 @dataclass(frozen=True)
 class Place:
     file: str
@@ -66,31 +36,49 @@ class Place:
     text: str
 
 
+def deriving(function: str) -> Source:
+    """Source of a deriving function, given as ``module.name``, where a module in a folder has a dot in its name."""
+    lines, first = inspect.getsourcelines(pkgutil.resolve_name(f"{PACKAGE}.{function}"))
+    return Source(f"derivation/{function.rpartition('.')[0].replace('.', '/')}.py", first, "".join(lines).rstrip())
+
+
+def title(module: str) -> str:
+    """First line of a module's docstring."""
+    return inspect.getdoc(pkgutil.resolve_name(f"{PACKAGE}.{module}:")).splitlines()[0].rstrip(".").replace("``", "")
+
+
+def functions(file: str, text: str) -> dict[str, Source]:
+    """Source of every function of a module, by its name, qualified by the class."""
+    lines = text.splitlines()
+    return {
+        name: Source(file, node.lineno, "\n".join(lines[node.lineno - 1 : node.end_lineno]))
+        for name, node in _named(ast.parse(text).body)
+    }
+
+
+def _named(body: Iterable[ast.stmt], within: str = "") -> Iterator[tuple[str, ast.stmt]]:
+    for node in body:
+        if isinstance(node, ast.ClassDef):
+            yield from _named(node.body, f"{node.name}.")
+        elif isinstance(node, ast.FunctionDef):
+            yield within + node.name, node
+        elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple):  # several are the results of one call
+            yield from ((ast.unparse(name), node) for name in node.targets[0].elts)
+
+
 def carried_out(step: Derived) -> list[Place]:
     """The runtime's lines for a step."""
-    return [_place(step.name, *where) for where in RUNTIME.get(step.function, ())]
+    found = []
+    for file, function, piece in RUNTIME.get(step.function, ()):
+        source = _of_runtime(file).get(function)
+        lines = [line.strip() for line in source.text.splitlines() if piece in line] if source else []
+        if len(lines) != 1:
+            claim = f"runtime/{file}: {function} has {len(lines)} lines with {piece!r}, not the one that the audit names"
+            raise DerivationError(step.name, claim)
+        found.append(Place(f"runtime/{file}", function, lines[0]))
+    return found
 
 
-def _place(step: str, file: str, function: str, piece: str) -> Place:
-    text, tree = _parsed(file)
-    name = function.rpartition(".")[2]
-    found = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name == name and not _overload(node)]
-    lines = [line for node in found for line in text.splitlines()[node.lineno - 1 : node.end_lineno] if piece in line]
-    if len(found) != 1 or len(lines) != 1:
-        raise DerivationError(
-            step, f"runtime/{file}: {function} has {len(lines)} lines with {piece!r}, not the one that the audit names"
-        )
-    return Place(f"runtime/{file}", function, lines[0].strip())
-
-
-def _overload(node: ast.FunctionDef) -> bool:
-    return any(ast.unparse(decorator) == "overload" for decorator in node.decorator_list)
-
-
-@lru_cache
-def _parsed(file: str) -> tuple[str, ast.Module]:
-    found = importlib.util.find_spec("hystrip")
-    if found is None or found.origin is None:
-        raise FileNotFoundError("the package hystrip is not installed")
-    text = (Path(found.origin).parent / file).read_text(encoding="utf-8")
-    return text, ast.parse(text)
+@cache
+def _of_runtime(file: str) -> dict[str, Source]:
+    return functions(f"runtime/{file}", resources.files("hystrip").joinpath(file).read_text(encoding="utf-8"))

@@ -9,13 +9,13 @@ from ..certificates import certified_names
 from ..derive import derive
 from ..drift import compare
 from ..emit import emit
-from ..folder import AUDIT, CERTIFICATES, MEASURED, dumped, generated_folder, read_certificates, read_measured, write_files
+from ..folder import AUDIT, MEASURED, dumped, generated_folder, read_certificates, read_measured, write_files
 from ..model import Model
 from ..models import MODELS
-from ..progress import Progress
+from ..progress import reported
 from .render import audit_files
 
-KEPT = ("figure_6",)  # tools/figure6.py
+KEPT = ("figure_6",)  # measured tables that take minutes and have a command of their own, tools/figure6.py
 
 
 class AuditError(Exception):
@@ -38,29 +38,16 @@ def audit(
     chosen = tuple(models) if models is not None else MODELS
     installed = generated_folder()
     target = Path(out_dir) if out_dir is not None else installed / AUDIT
-    say = Progress(progress, len(chosen) + 2)
-    derivations = tuple(say.each(map(derive, chosen)))
+    derivations = tuple(reported(map(derive, chosen), progress, len(chosen)))
     texts = emit(derivations)
-    say()
     drift = compare(installed, texts, {d.model.name: certified_names(d) for d in derivations})
     stale = [record.path for record in drift if record.kind != "stray" and not record.path.startswith(AUDIT)]
     if stale:
         raise AuditError(f"{', '.join(stale)} in {installed} is not what the derivation emits; run `hystrip regenerate` first")
     found = {model.name: figures for model in chosen if (figures := measure(model.name)) is not None}
-    for name, tables in kept(read_measured(installed)).items():
+    for name, stored in read_measured(installed).items():
         if name in found:
-            found[name]["tables"] |= tables
-    pages = audit_files(derivations, texts, read_certificates(installed / CERTIFICATES), found)
+            found[name]["tables"] |= {table: rows for table, rows in stored.get("tables", {}).items() if table in KEPT}
+    pages = audit_files(derivations, texts, read_certificates(installed), found)
     pages[Path(MEASURED).name] = dumped(found)
-    target.mkdir(parents=True, exist_ok=True)
-    written = write_files(target, pages)
-    say()
-    return written
-
-
-def kept(stored: dict[str, Any]) -> dict[str, dict[str, Any]]:
-    """The measured tables, by model, that take minutes and have a command of their own in tools/."""
-    return {
-        name: {table: value for table, value in entry.get("tables", {}).items() if table in KEPT}
-        for name, entry in stored.items()
-    }
+    return write_files(target, pages)

@@ -3,18 +3,16 @@
 import base64
 import json
 import re
-from pathlib import Path
 from typing import Any
 
-import jinja2
 from markupsafe import Markup, escape
 
+from ..emit import rendered
 from ..outcome import Derivation
 from .content import content, identity
 from .latex import mathml
 
 INDEX = "index.html"
-TEMPLATES = Path(__file__).parents[1] / "templates"
 FORMULA = re.compile(r"\$([^$]+)\$")
 
 
@@ -31,7 +29,7 @@ def audit_files(
     for derivation in derivations:
         name = derivation.model.name
         page = content(derivation, files, certificates.get(name, {}).get("functions", {}))
-        pages[f"{name}.json"] = json.dumps(page, indent=1, sort_keys=True) + "\n"
+        pages[f"{name}.json"] = json.dumps(page, indent=1, sort_keys=True, default=vars) + "\n"
         pages[f"{name}.html"] = _render("page", page=page, measured=measured.get(name, {}))
         models.append(page)
     pages[INDEX] = _render("index", models=models, identity=about)
@@ -39,16 +37,8 @@ def audit_files(
 
 
 def _render(kind: str, **values: Any) -> str:
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(TEMPLATES),
-        undefined=jinja2.StrictUndefined,
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
-    environment.filters.update(mathml=mathml, anchor=anchor, picture=_picture, prose=_prose)
-    return environment.get_template(f"audit/{kind}.html.jinja").render(**values)
+    filters = {"mathml": mathml, "anchor": anchor, "picture": _picture, "prose": _prose}
+    return rendered(f"audit/{kind}.html.jinja", filters, **values)
 
 
 def anchor(name: str) -> str:

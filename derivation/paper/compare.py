@@ -15,7 +15,7 @@ from .record import Comparison
 def comparisons(strip: Strip, exact: Mapping[str, sp.Expr], steps: Mapping[str, Any]) -> tuple[Comparison, ...]:
     """Every equation, by number. ``exact``: values of kernels, ``steps``: values of steps, both by name."""
     complete, one_level = in_si(exact["saturated_pressure"]).subs(WAVE), exact["level_saturation_friction"]
-    found = (
+    return (
         foundation.law(strip.foundation),
         *foundation.adhesion(),
         surface.shape(),
@@ -32,4 +32,3 @@ def comparisons(strip: Strip, exact: Mapping[str, sp.Expr], steps: Mapping[str, 
         stack.complete_contact(strip, complete),
         stack.all_complete(steps["Eq. 16 as printed"]),
     )
-    return tuple(sorted(found, key=lambda comparison: comparison.number))

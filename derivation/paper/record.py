@@ -1,6 +1,7 @@
 """Eq. 1 to 16 as printed (``printed.toml``); what a comparison with one is, and the checks that only comparisons need."""
 
 import tomllib
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -9,12 +10,17 @@ import sympy as sp
 
 from ..check import CORRECTED, REPRODUCED, Check, Claim, DerivationError
 from ..exact import is_zero
+from ..latex import Statement, statements
 
-_EQUATIONS = tomllib.loads(Path(__file__).with_name("printed.toml").read_text(encoding="utf-8"))
-PRINTED = {int(number): row["latex"] for number, row in _EQUATIONS.items()}
-SUBJECTS = {int(number): row["subject"] for number, row in _EQUATIONS.items()}
-DERIVED_BY = {int(number): tuple(row["derived_by"]) for number, row in _EQUATIONS.items()}
-CORRECTIONS = {int(number): row["correction"] for number, row in _EQUATIONS.items() if "correction" in row}
+_EQUATIONS = {
+    int(number): row
+    for number, row in tomllib.loads(Path(__file__).with_name("printed.toml").read_text(encoding="utf-8")).items()
+}
+PRINTED = {number: row["latex"] for number, row in _EQUATIONS.items()}
+SUBJECTS = {number: row["subject"] for number, row in _EQUATIONS.items()}
+DERIVED_BY = {number: tuple(row["derived_by"]) for number, row in _EQUATIONS.items()}
+CORRECTIONS = {number: row["correction"] for number, row in _EQUATIONS.items() if "correction" in row}
+FALSE = "not so"
 
 
 @dataclass(frozen=True)
@@ -31,27 +37,28 @@ class Comparison:
     steps: tuple[str, ...]  # names; the first states the equation
 
 
-def compared(
-    number: int, claims: list[Claim], steps: tuple[str, ...], derived: tuple[str, ...] = (), correction: str = ""
-) -> Comparison:
-    """Verify the claims of a comparison; one with a correction must show what is wrong with the printed form."""
-    name, status = f"print of Eq. {number}", CORRECTED if correction else REPRODUCED
+def read(number: int, names: Mapping[str, Any]) -> tuple[Statement, ...]:
+    """An equation as printed, with what the ``names`` in it mean."""
+    return statements(PRINTED[number], names)
+
+
+def compared(number: int, claims: Iterable[Claim], derived: Iterable[str] = (), corrected_as: int | None = None) -> Comparison:
+    """Verify the claims of a comparison; one with a correction must show what is wrong with the printed form.
+
+    ``corrected_as``: the equation whose correction is this one's too.
+    """
+    name, row = f"print of Eq. {number}", _EQUATIONS[number]
     checks = tuple(claim.verified(name) for claim in claims)
     if not checks:
         raise DerivationError(name, "has no check")
-    if correction and not any(check.outcome == FALSE for check in checks):
-        raise DerivationError(name, "a correction is needed because a claim of the printed form is refuted, and says which")
-    return Comparison(number, SUBJECTS[number], PRINTED[number], derived, checks, status, correction, steps)
-
-
-FALSE = "not so"
+    correction, status = "", REPRODUCED
+    if corrected_as:
+        correction, status = f"{CORRECTIONS[corrected_as]} {row.get('besides', '')}".strip(), CORRECTED
+        if not any(check.outcome == FALSE for check in checks):
+            raise DerivationError(name, "a correction is needed because a claim of the printed form is refuted, and says which")
+    return Comparison(number, row["subject"], row["latex"], tuple(derived), checks, status, correction, tuple(row["steps"]))
 
 
 def refuted(claim: str, residual: Any) -> Claim:
     """The claim of the print that does not hold: its residual does not vanish identically."""
-
-    def verify(step: str) -> None:
-        if is_zero(sp.sympify(residual)):
-            raise DerivationError(step, f"the print is wrong in this: {claim}")
-
-    return Claim(claim, FALSE, verify)
+    return Claim(claim, FALSE, lambda: "none, so the print is right in this" if is_zero(sp.sympify(residual)) else None)

@@ -157,7 +157,7 @@ def _turns(pressures: Series, which: np.ndarray, near: np.ndarray, sign: float) 
         _, first, second = pressures(which[sub], t)
         return -sign * first, -sign * second
 
-    return falling_root(slope, _TURNS[np.maximum(near - 1, 0)], _TURNS[np.minimum(near + 1, _TURNS.size - 1)])[0]
+    return falling_root(slope, _TURNS[np.maximum(near - 1, 0)], _TURNS[np.minimum(near + 1, _TURNS.size - 1)])
 
 
 def _pressures(pieces: Sequence[Piece]) -> Series:
@@ -192,5 +192,5 @@ class Inverse:
         share = np.divide(p - p_low, p_high - p_low, out=np.zeros_like(p), where=p_high > p_low)
         # over this t is all but linear, also where the curve turns
         guess = t_low + (t_high - t_low) * parameter(np.clip(share, 0.0, 1.0))
-        t, _ = falling_root(missing, t_low, t_high, guess)
+        t = falling_root(missing, t_low, t_high, guess)
         return np.where(p <= p_low, t_low, np.where(p >= p_high, t_high, t))

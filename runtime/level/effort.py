@@ -28,7 +28,7 @@ class WorkCounters:
 
     def count(self, solved: Solved) -> None:
         """Add the strips of a batch."""
-        searched = int(np.count_nonzero(solved.evaluations))
+        searched = int(np.count_nonzero(solved.searched))
         self.solved += searched
         self.decided += solved.code.size - searched
 

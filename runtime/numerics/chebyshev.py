@@ -128,7 +128,7 @@ def resampled(x: np.ndarray, goal: np.ndarray, values: np.ndarray) -> np.ndarray
         place, slope = clenshaw(rise, row[index], t)
         return place - wanted[index], slope
 
-    inside = rising_root(over, np.full(row.size, -1.0), np.ones(row.size), guess[:, 1:-1].ravel())[0]
+    inside = rising_root(over, np.full(row.size, -1.0), np.ones(row.size), guess[:, 1:-1].ravel())
     t[:, 1:-1] = inside.reshape(m, size - 2)
     return coefficients(evaluate_each(coefficients(values), t))
 

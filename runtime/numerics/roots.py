@@ -22,16 +22,15 @@ def falling_root(
     high: np.ndarray,
     guess: np.ndarray | None = None,
     tolerance: float = 0.0,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Where functions fall through zero, each between ``low`` (m,), where it is positive, and ``high`` (m,), where it is not;
-    and the evaluations each took, (m,).
+) -> np.ndarray:
+    """Where functions fall through zero, each between ``low`` (m,), where it is positive, and ``high`` (m,), where it is not.
 
     ``function(x, index)`` returns the values at ``x`` of the members ``index``, all (k,), or a tuple of values and slopes. The
     signs at the ends are the caller's word: the ends are not evaluated. Where there are several roots one of them is found.
     Ends at two roundings of x, or at ``tolerance`` in x, whichever is larger. A bracket without width is its own root.
     """
     x = 0.5 * (low + high) if guess is None else np.clip(guess, low, high)
-    result, spent = np.where(high > low, x, high), np.zeros(low.shape)
+    result = np.where(high > low, x, high)
     live = np.flatnonzero(high > low)
     x, lo, hi = x[live], low[live], high[live]
     before = hi - lo  # the step before, or the bracket
@@ -43,7 +42,6 @@ def falling_root(
         found = function(x, live)
         newton = isinstance(found, tuple)
         value, slope = found if newton else (found, _secant(last, x, found))
-        spent[live] += 1
         positive = value > 0
         last, lo, hi = (x, value), np.where(positive, x, lo), np.where(positive, hi, x)
         # a slope of the wrong sign, or one that over- or underflowed, gives a step out of the bracket, no number, or none
@@ -71,10 +69,10 @@ def falling_root(
             live, x, lo, hi = live[going], x[going], lo[going], hi[going]
             before, correction, last = before[going], correction[going], tuple(v[going] for v in last)
     result[live] = x
-    return result, spent
+    return result
 
 
-def rising_root(function: Callable, low, high, guess=None, tolerance: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+def rising_root(function: Callable, low, high, guess=None, tolerance: float = 0.0) -> np.ndarray:
     """``falling_root`` of functions that are not positive at ``low`` and positive at ``high``."""
 
     def negative(x, index):

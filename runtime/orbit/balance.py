@@ -32,22 +32,21 @@ from .groups import ROUNDING, TWO_PI, Cycle, arc_versine
 _PARTS = (8, 4, 4)
 
 
-def exclude_out_of_reach(kernel, cycle: Cycle) -> tuple[np.ndarray, np.ndarray]:
-    """Which cycles of strips out of reach, ``D <= -delta_0``, that cannot stay engaged are proven to have no orbit with an onset;
-    and the evaluations spent on each."""
+def exclude_out_of_reach(kernel, cycle: Cycle) -> np.ndarray:
+    """Which cycles of strips out of reach, ``D <= -delta_0``, that cannot stay engaged are proven to have no orbit with an
+    onset."""
     with np.errstate(all="ignore"):
         held = _held_best(cycle)
-        none, spent = balance_bound(kernel, cycle, held, held) > 0, np.ones(cycle.size)
+        none = balance_bound(kernel, cycle, held, held) > 0
         index = np.flatnonzero(none)
         lo, width = np.zeros(index.size), np.pi
         for parts in _PARTS:
             width /= parts
             index, lo = index.repeat(parts), (lo[:, None] + width * np.arange(parts)).ravel()
-            np.add.at(spent, index, 1.0)
             open_ = ~(balance_bound(kernel, cycle.take(index), lo, lo + width) > 0)
             index, lo = index[open_], lo[open_]
     none[index] = False
-    return none, spent
+    return none
 
 
 def _held_best(cycle: Cycle):

@@ -21,13 +21,13 @@ _BOLD = 0.9
 EDGES = {sequence: "x" + "".join(edges[1:]) for sequence, edges in regimes.EDGES.items() if edges}
 
 
-def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Newton from ``edges`` (k, n) for cycles that are all taken to follow ``sequence``.
 
-    Returns the edges, which of them converged, and the evaluations of the links of a period, (n,).
+    Returns the edges, and which of them converged, (n,).
     """
     n = cycle.size
-    result, converged, spent = edges.copy(), np.zeros(n, bool), np.zeros(n)
+    result, converged = edges.copy(), np.zeros(n, bool)
     low, high = arcs(cycle, sequence)
     index, part, gaps = np.arange(n), cycle, gap_zones(cycle, sequence)
     # where a link is lost to rounding or overflows the step is no number, and the strip is left to the search
@@ -40,12 +40,12 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.n
             # there is none
             going = np.flatnonzero((size > STABLE) & ((slope < 1) | (iteration == 1))) if iteration < ITERATIONS else index[:0]
             if going.size < index.size:
-                result[:, index], converged[index], spent[index] = edges, size <= STABLE, iteration
+                result[:, index], converged[index] = edges, size <= STABLE
                 if not going.size:
                     break
                 index, part, gaps = index[going], part.among(going), gaps[..., going]
                 edges, low, high = edges[:, going], low[:, going], high[:, going]
-    return result, converged, spent
+    return result, converged
 
 
 def moved(edges, move, low, high, size):

@@ -35,7 +35,7 @@ class Contact(ABC):
         self._enter(solved, index)
         self.top = self.centre.copy()
         part, every = np.flatnonzero(~self.full), np.arange(index.size)
-        self.top[part], _ = falling_root(lambda phase, sub: self._excess(part[sub], phase)[1], self.b[part], self.a[part])
+        self.top[part] = falling_root(lambda phase, sub: self._excess(part[sub], phase)[1], self.b[part], self.a[part])
         self.p_peak = self.pressure(every, self.top)
         entered = self.b + 1e-12 * (self.a - self.b)
         self.p_least = self.pressure(every, np.where(self.full, self.centre - np.pi, entered))
@@ -97,7 +97,7 @@ class Contact(ABC):
         # as far along as on a parabola about the peak; at exit the excess is zero
         peak, least = self.p_peak[i] / self.unit[i] + self.s.p_0[i], np.where(upward, self.q_b[i], 0.0)
         share = np.divide(peak - goal, peak - least, out=np.zeros(i.size), where=peak > least)
-        found, _ = falling_root(excess, low, high, self.top[i] + (outer - self.top[i]) * np.sqrt(np.clip(share, 0.0, 1.0)))
+        found = falling_root(excess, low, high, self.top[i] + (outer - self.top[i]) * np.sqrt(np.clip(share, 0.0, 1.0)))
         up[rising], down[falling] = found[upward], found[~upward]
         return up, down
 

@@ -65,7 +65,7 @@ class _Batch:
             return
         cycle = adhesive_cycle(self.kernel, self.strips.among(index))
         bounds = orbit_bounds(self.kernel, cycle, FAST) if self.unloading else least_engaged_bounds(self.kernel, cycle)
-        self.record.solved.evaluations[index] += bounds.evaluations
+        self.record.solved.searched[index] = cycle.half_d > 0
         if self.unloading:
             rest = self._contact_with_saturated_adhesion(index, partial & ~bounds.released)
             index, cycle, bounds = index[rest], cycle.among(rest), bounds.among(rest)
@@ -95,7 +95,6 @@ class _Batch:
 
     def _written(self, index, found: Extremal) -> np.ndarray:
         """Keep what was ``found`` of the strips ``index``; returns which have no such orbit."""
-        self.record.solved.evaluations[index] += found.evaluations
         self.record.solved.code[index] = found.code
         for sequence in ZONES:
             pick = np.flatnonzero(found.certified & (found.code == CODE[sequence]))
@@ -112,12 +111,14 @@ class _Batch:
         self.record.constant(index[free], "f", 0.0, 0.0, 0.0, 0.0)
         index = index[~full & ~free]
         if index.size:
+            self.record.solved.searched[index] = True
             self._written(index, unique(self.kernel, bare_cycle(self.kernel, self.strips.among(index)), "cf"))
 
     def _contact_with_saturated_adhesion(self, index, ask):
         """Solve those to ``ask`` of as strips without adhesion at ``D + p_0``; returns which of all have no such orbit."""
         rest, ask = np.ones(index.size, bool), np.flatnonzero(ask)
         if ask.size:
+            self.record.solved.searched[index[ask]] = True
             strips = self.strips.among(index[ask])
             found = unique(self.kernel, bare_cycle(self.kernel, strips), "ac")
             # there is such an orbit without a limit to the gap: one that is not found is not certified, never passed over

@@ -23,21 +23,21 @@ from .orbit_bounds import OrbitBounds, bounds_beside
 from .sensitivity import contact_length, slope_grows, steep_margin
 
 
-def is_extremal(kernel, cycle: Cycle, orbit: Orbit, bounds: OrbitBounds, last: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Which orbits are proven to be the first (``last``: last) of their onset arc, and the event evaluations spent on each.
+def is_extremal(kernel, cycle: Cycle, orbit: Orbit, bounds: OrbitBounds, last: bool) -> np.ndarray:
+    """Which orbits are proven to be the first (``last``: last) of their onset arc.
 
     ``bounds`` get an onset where they had none.
     """
-    proven, spent = falls_from(kernel, cycle, orbit, bounds.x, bounds.c, last), np.zeros(cycle.size)
+    proven = falls_from(kernel, cycle, orbit, bounds.x, bounds.c, last)
     if last:
-        return proven | slope_grows(kernel, cycle, orbit), spent
+        return proven | slope_grows(kernel, cycle, orbit)
     rest = np.flatnonzero(~proven & np.isnan(bounds.x))
     if rest.size:
         part, known = cycle.among(rest), orbit.take(rest)
         beside = bounds_beside(kernel, part, known)
         proven[rest] = falls_from(kernel, part, known, beside.x, beside.c)
-        bounds.x[rest], spent[rest] = beside.x, beside.evaluations
-    return proven, spent
+        bounds.x[rest] = beside.x
+    return proven
 
 
 def falls_from(kernel, cycle: Cycle, known: Orbit, x, c, last: bool = False) -> np.ndarray:

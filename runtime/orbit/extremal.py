@@ -28,7 +28,7 @@ FROZEN = 1e6
 
 @dataclass(slots=True)
 class Extremal(Batch):
-    """Extremal orbits of n cycles: edges, regime code, which are certified and proven to be extremal, and the evaluations spent.
+    """Extremal orbits of n cycles: edges, regime code, and which are certified and proven to be extremal.
 
     A cycle that is proven to have no such orbit is ``UNDECIDED``; all others that are not certified must not be used.
     """
@@ -36,12 +36,11 @@ class Extremal(Batch):
     orbit: Orbit
     code: np.ndarray
     certified: np.ndarray
-    evaluations: np.ndarray
 
     @classmethod
     def blank(cls, n: int) -> "Extremal":
         """None found."""
-        return cls(Orbit.blank(n), np.full(n, UNDECIDED, np.int8), np.zeros(n, bool), np.zeros(n))
+        return cls(Orbit.blank(n), np.full(n, UNDECIDED, np.int8), np.zeros(n, bool))
 
 
 def extremal(kernel, cycle: Cycle, last: bool, bounds: OrbitBounds) -> Extremal:
@@ -58,19 +57,16 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: OrbitBounds) -> Extremal:
     else:
         hanging = np.flatnonzero(~none & (s.D <= -s.delta_0) & (s.beta > FAST))
         if hanging.size:
-            none[hanging], out.evaluations[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
+            none[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
         possible, alone = ~none, np.ones(cycle.size, bool)
     for sequence, may_be in (("acaf", ~cycle.direct & touches), ("afc", cycle.direct), ("af", ~cycle.direct & alone)):
         pick = np.flatnonzero(possible & may_be & np.isnan(out.orbit.x))
         if pick.size:
             part, limits = cycle.among(pick), bounds.take(pick)
             found = _followed(kernel, part, sequence, start(kernel, part, sequence, None if last else limits))
-            found.evaluations += out.evaluations[pick]
-            out.evaluations[pick] = found.evaluations
             here = np.flatnonzero(found.certified)
             pick, found, limits = pick[here], found.take(here), limits.take(here)
-            found.certified, used = is_extremal(kernel, part.among(here), found.orbit, limits, last)
-            found.evaluations += used
+            found.certified = is_extremal(kernel, part.among(here), found.orbit, limits, last)
             out.put(pick, found)
             bounds.x[pick] = limits.x
     rest = np.flatnonzero(~none & ~out.certified)
@@ -93,15 +89,14 @@ def unique(kernel, cycle: Cycle, sequence: str) -> Extremal:
 def _followed(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Extremal:
     """Orbits of ``sequence`` that Newton finds from ``edges`` (k, n); x is NaN where none is certified."""
     out, bare = Extremal.blank(cycle.size), sequence in ("ac", "cf")
-    found, good, out.evaluations = follow(kernel, cycle, sequence, edges)
+    found, good = follow(kernel, cycle, sequence, edges)
     if sequence in ("acaf", "afc"):
         # the links along the chain lose what a period changes to rounding; the start is as good as an orbit
         frozen = np.flatnonzero(~good & (cycle.strips.alpha > FROZEN))
         found[:, frozen], good[frozen] = edges[:, frozen], True
     here = np.flatnonzero(good)
     # next to a fold or a graze the search knows better; a strip without adhesion has neither
-    orbit, good, _, used = refined(kernel, sequence, cycle.among(here), orbit_of(sequence, found[:, here]), blurred=bare)
-    out.evaluations[here] += used
+    orbit, good, _ = refined(kernel, sequence, cycle.among(here), orbit_of(sequence, found[:, here]), blurred=bare)
     here, orbit = here[good], orbit.take(good)
     part = cycle.among(here)
     good = edges_admissible(kernel, part, orbit)
@@ -117,40 +112,38 @@ def _isolate(kernel, cycle: Cycle, last: bool, out: Extremal, rest, limit=np.nan
     ``isolate_extremal``."""
     cycle = cycle.among(rest)
     result = isolate_extremal(kernel, cycle, last, out.orbit.take(rest), limit)
-    orbit, spent = result.left, result.evaluations
+    orbit = result.left
     # a bracket without width is the orbit itself
     pick = np.flatnonzero(result.found & (orbit.x < result.right.x))
     if pick.size:
         part, left, right = cycle.take(pick), orbit.take(pick), result.right.take(pick)
-        new, inside, used = _refined_within(kernel, part, between(left, right), left, right, blurred=False)
+        new, inside = _refined_within(kernel, part, between(left, right), left, right, blurred=False)
         left_out = np.flatnonzero(~inside)
         if left_out.size:
             part, left, right = part.take(left_out), left.take(left_out), right.take(left_out)
-            found, more = located(kernel, part, left, right)
+            found = located(kernel, part, left, right)
             # Newton on the boundary equations is rounded less than the march
-            new[left_out], _, again = _refined_within(kernel, part, found, left, right, blurred=True)
-            used[left_out] += more + again
+            new[left_out], _ = _refined_within(kernel, part, found, left, right, blurred=True)
         orbit.put(pick, new)
-        spent[pick] += used
     direct = np.where(cycle.direct, CODE["afc"], CODE["acaf"])
     code = np.where(result.found, np.where(np.isnan(orbit.b), CODE["af"], direct), UNDECIDED).astype(np.int8)
     certified = result.found & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
-    out.put(rest, Extremal(orbit, code, certified, out.evaluations[rest] + spent))
+    out.put(rest, Extremal(orbit, code, certified))
 
 
 def _refined_within(kernel, cycle: Cycle, orbit: Orbit, left: Orbit, right: Orbit, blurred: bool):
-    """Orbits refined where that leads to one with its onset between those of ``left`` and ``right``, where that is, and the
-    evaluations spent. ``blurred``: see ``refined``."""
-    contact, inside, spent = ~np.isnan(orbit.b), np.zeros(cycle.size, bool), np.zeros(cycle.size)
+    """Orbits refined where that leads to one with its onset between those of ``left`` and ``right``, where that is.
+    ``blurred``: see ``refined``."""
+    contact, inside = ~np.isnan(orbit.b), np.zeros(cycle.size, bool)
     kinds = {"acaf": contact & ~cycle.direct, "afc": cycle.direct & ~cycle.bare, "cf": cycle.bare, "af": ~contact}
     for sequence, kind in kinds.items():
         here = np.flatnonzero(kind)
         if here.size:
             part = cycle.take(here)
-            new, converged, blur, spent[here] = refined(kernel, sequence, part, orbit.take(here), blurred)
+            new, converged, blur = refined(kernel, sequence, part, orbit.take(here), blurred)
             slack = ROUNDING * TWO_PI + blur
             good = converged & (new.x >= left.x[here] - slack) & (new.x <= right.x[here] + slack)
             good[good] = edges_admissible(kernel, part.take(good), new[good])
             inside[here] = good
             orbit.put(here[good], new[good])
-    return orbit, inside, spent
+    return orbit, inside

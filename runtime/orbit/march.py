@@ -44,19 +44,17 @@ class Orbit(Batch):
         return cls(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), np.full(n, np.nan))
 
 
-def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, later: Orbit | None = None):
-    """March every cycle from its onset phase ``x``; returns the orbits and the event evaluations each took, (n,).
+def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, later: Orbit | None = None) -> Orbit:
+    """March every cycle from its onset phase ``x``.
 
     ``earlier`` and ``later``: orbits from an earlier and a later onset, if known. By the order of orbits b lies between theirs, a
     and c too (the other way round), which leaves narrow brackets; NaN edges bound nothing.
     """
-    s, spent = cycle.strips, np.ones(x.shape)
+    s = cycle.strips
 
     def first(edge, event, low, high, index):
         known = _Known(x, earlier, later, edge)
-        phase, used = known.crossing(event, low[index], high[index], index)
-        spent[index] += used
-        return phase
+        return known.crossing(event, low[index], high[index], index)
 
     # downward zero of the gap after the onset, where H + p_0 > 0; NaN where the gap stays open
     rising, falling = cycle.centre - cycle.half_b, cycle.centre + cycle.half_b
@@ -85,7 +83,7 @@ def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, lat
     free = np.flatnonzero(~engaged)
     if free.size:
         r[free] = closing(kernel, cycle.among(free), x[free], b[free], a[free], c[free])
-    return Orbit(x.copy(), b, a, c, engaged, r), spent
+    return Orbit(x.copy(), b, a, c, engaged, r)
 
 
 def between(left: Orbit, right: Orbit) -> Orbit:
@@ -112,18 +110,17 @@ class _Known:
         self.guess = first + share * (second - first)
 
     def crossing(self, event, low, high, index):
-        """Phases where the events of ``index`` fall through zero in the arcs from ``low`` to ``high``, NaN where they do not, and
-        the evaluations spent. That they do is known, or seen from the sign at the end.
+        """Phases where the events of ``index`` fall through zero in the arcs from ``low`` to ``high``, NaN where they do not.
+        That they do is known, or seen from the sign at the end.
 
         Where there is next to no memory the event function follows the harmonic and vanishes at the end but for rounding; it is
         deepest half way.
         """
         meets, high = self.sure[index], np.maximum(low, high)
-        phase, spent = np.full(index.size, np.nan), np.zeros(index.size)
+        phase = np.full(index.size, np.nan)
         for where in (high, 0.5 * (low + high)):
             ask = np.flatnonzero(~meets)
             if ask.size:
-                spent[ask] += 1
                 meets[ask] = event(where[ask], ask)[0] <= 0
         here = np.flatnonzero(meets)
         event, low, high, index, guess = event.take(here), low[here], high[here], index[here], None
@@ -132,9 +129,8 @@ class _Known:
             low = np.where(sure, np.clip(self.low[index], low, high), low)
             high = np.where(sure, np.clip(self.high[index], low, high), high)
             guess = np.where(sure, self.guess[index], 0.5 * (low + high))
-        phase[here], used = falling_root(event, low, high, guess, LEAST_PHASE)
-        spent[here] += used
-        return phase, spent
+        phase[here] = falling_root(event, low, high, guess, LEAST_PHASE)
+        return phase
 
 
 def _rows(size: int, *values) -> np.ndarray:

@@ -61,7 +61,7 @@ class OrbitBounds(Batch):
     """Bounds on all orbits of n cycles, arrays (n,): contact ends before ``a``, adhesion before ``c`` and begins after ``x``
     (NaN: no bound); of ``least_engaged_bounds``: after, after and before.
 
-    ``released``: no orbit is always engaged. ``missed``: none has an onset. ``evaluations``: of events.
+    ``released``: no orbit is always engaged. ``missed``: none has an onset.
     """
 
     x: np.ndarray
@@ -69,12 +69,11 @@ class OrbitBounds(Batch):
     c: np.ndarray
     released: np.ndarray
     missed: np.ndarray
-    evaluations: np.ndarray
 
     @classmethod
     def blank(cls, n: int) -> "OrbitBounds":
         """No bounds."""
-        return cls(*(np.full(n, np.nan) for _ in range(3)), np.zeros(n, bool), np.zeros(n, bool), np.zeros(n))
+        return cls(*(np.full(n, np.nan) for _ in range(3)), np.zeros(n, bool), np.zeros(n, bool))
 
 
 def orbit_bounds(kernel, cycle: Cycle, slowest: float = np.inf) -> OrbitBounds:
@@ -107,17 +106,14 @@ def _follow(kernel, cycle: Cycle, b, q_on, a, index, out: OrbitBounds) -> None:
     """Follow contact that begins at b with ``q_on`` and ends about a to the next onset; bounds go to the elements ``index`` of
     ``out``."""
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        a, spent = _contact_end(kernel, cycle, b, q_on, a)
-        out.evaluations[index] += spent
+        a = _contact_end(kernel, cycle, b, q_on, a)
         go = np.flatnonzero(np.isfinite(a))
         index, cycle, a = index[go], cycle.among(go), a[go]
-        c, _, spent = _adhesion_end(kernel, cycle, a, 0.0, 1.0)
-        out.evaluations[index] += spent
+        c, _ = _adhesion_end(kernel, cycle, a, 0.0, 1.0)
         go = np.flatnonzero(np.isfinite(c))
         index, cycle, a, c = index[go], cycle.among(go), a[go], c[go]
         out.a[index], out.c[index], out.released[index] = a, c, True
-        out.x[index], out.missed[index], spent = next_onset(kernel, cycle, c, -1.0)
-        out.evaluations[index] += spent
+        out.x[index], out.missed[index] = next_onset(kernel, cycle, c, -1.0)
 
 
 def least_engaged_bounds(kernel, cycle: Cycle) -> OrbitBounds:
@@ -129,18 +125,18 @@ def least_engaged_bounds(kernel, cycle: Cycle) -> OrbitBounds:
     start = np.where(touched, a, np.maximum(a, at_rest))
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         gap = np.where(touched, 0.0, np.maximum(kernel.gap_after(at_rest, start, cycle.gap_on, -s.p_0, s.D, s.beta), 0.0))
-        c, stays, spent = _adhesion_end(kernel, cycle, start, gap, -1.0)
+        c, stays = _adhesion_end(kernel, cycle, start, gap, -1.0)
         c = np.fmax(c, np.maximum(start, cycle.centre + cycle.half_c))
-        x, _, used = next_onset(kernel, cycle, c, 1.0)
+        x, _ = next_onset(kernel, cycle, c, 1.0)
     x = np.fmin(x, np.where(touched, np.nan, at_rest))
     missed = stays | (cycle.half_b >= np.pi) | (~touched & (reach > 2))
-    return OrbitBounds(x, a, c, np.zeros(cycle.size, bool), missed, spent + used)
+    return OrbitBounds(x, a, c, np.zeros(cycle.size, bool), missed)
 
 
 def next_onset(kernel, cycle: Cycle, c, side: float):
     """Onsets (less 2 pi) behind (``side`` 1) or before (-1) the next one of cycles released at c, NaN where none was found.
 
-    Also which cycles miss it (asked for -1), and the evaluations spent.
+    Also which cycles miss it (asked for -1).
     """
     s = cycle.strips
     closes = Event(kernel.gap_event, kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta), s.delta_0)
@@ -148,20 +144,20 @@ def next_onset(kernel, cycle: Cycle, c, side: float):
     high = np.maximum(cycle.centre + TWO_PI + cycle.half_d, low)
     # of a foundation that stands still
     start = TWO_PI - np.arccos(np.clip(np.cos(c) + cycle.jump, -1.0, 1.0))
-    x, spent = _beyond(closes, start, low, high, side, s.noise())
+    x = _beyond(closes, start, low, high, side, s.noise())
     missed = np.zeros(cycle.size, bool)
     if side < 0:
         missed = closes(high, np.arange(cycle.size))[0] > s.noise()
         # a surface out of reach of the undeformed foundation is not met if nothing is left of w that would change its gap
         left = np.abs(kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(low - c, s.beta)
         missed |= (s.D <= -s.delta_0) & (left < 0.25 * EPS * s.delta_0)
-        x, spent = np.where(missed, np.nan, x), spent + 1
-    return x - TWO_PI, missed, spent
+        x = np.where(missed, np.nan, x)
+    return x - TWO_PI, missed
 
 
 def _contact_end(kernel, cycle: Cycle, b, q_on, low):
-    """Phases behind the end of contact begun at b with ``q_on``, NaN where none was found, and the evaluations spent. It does not
-    end before ``low``."""
+    """Phases behind the end of contact begun at b with ``q_on``, NaN where none was found. It does not end before
+    ``low``."""
     s = cycle.strips
     entry = kernel.excess_entry(b, q_on, s.p_0, s.D, s.alpha, s.beta, s.L)
     high = cycle.centre + TWO_PI - cycle.half_b
@@ -171,9 +167,9 @@ def _contact_end(kernel, cycle: Cycle, b, q_on, low):
 def _adhesion_end(kernel, cycle: Cycle, a, gap, side: float):
     """Phases behind (``side`` 1) or before (-1) the end of adhesion from a ``gap`` at a, NaN where none was found.
 
-    Also which cycles are certain to stay engaged, and the evaluations spent.
+    Also which cycles are certain to stay engaged.
     """
-    s, spent = cycle.strips, np.ones(cycle.size)
+    s = cycle.strips
     low = np.maximum(a, cycle.centre + cycle.half_c)
     high = np.maximum(low, cycle.centre + TWO_PI - cycle.half_c)
     closed = Event(kernel.gap_event, kernel.gap_entry(a, gap, -s.p_0, s.D, s.beta), s.delta_0, -1.0)
@@ -182,21 +178,19 @@ def _adhesion_end(kernel, cycle: Cycle, a, gap, side: float):
     ask = np.flatnonzero((low < high) & (over > noise))
     # of a foundation that stands still
     start = np.arccos(np.clip(np.cos(a) - s.delta_0, -1.0, 1.0))[ask]
-    c[ask], used = _beyond(closed.take(ask), start, low[ask], high[ask], side, noise[ask])
-    spent[ask] += used
-    return c, over < -noise, spent
+    c[ask] = _beyond(closed.take(ask), start, low[ask], high[ask], side, noise[ask])
+    return c, over < -noise
 
 
 def _beyond(event: Event, start, low, high, side: float, noise):
     """Phases behind (``side`` 1) or before (-1) the zeros through which events fall between ``low`` and ``high``, not far from
-    them if possible, NaN where none is verified; and the evaluations spent. ``start``: about where they fall."""
-    x, spent = falling_root(event, low, high, start, _CLOSE)
+    them if possible, NaN where none is verified. ``start``: about where they fall."""
+    x = falling_root(event, low, high, start, _CLOSE)
     found, ask = np.full(x.size, np.nan), np.arange(x.size)
     for further in (1, 10, np.inf):
         phase = np.minimum(np.maximum(x[ask] + side * further * _CLOSE, low[ask]), high[ask])
         good = side * event(phase, ask)[0] < -noise[ask]
-        spent[ask] += 1
         found[ask[good]], ask = phase[good], ask[~good]
         if not ask.size:
             break
-    return found, spent
+    return found

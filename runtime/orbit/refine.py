@@ -19,20 +19,19 @@ CONVERGED = 1e-13
 
 
 def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = True):
-    """The orbit with its edges refined, whether nothing was left to correct, how far rounding may have moved the edges where it
-    blurs them (else 0), and the evaluations it took.
+    """The orbit with its edges refined, whether nothing was left to correct, and how far rounding may have moved the edges where
+    it blurs them (else 0).
 
     ``blurred``: corrections that rounding blurs may be larger, even where it might pretend an orbit.
     """
     # the cycle of an always adhering strip is the bare one, shifted: its boundary equations are those of "ac" at p_0 = 0
     edges = edges_of(sequence, orbit)
-    correction, stalls, spent = np.full(cycle.size, np.inf), np.zeros(cycle.size, int), np.zeros(cycle.size)
+    correction, stalls = np.full(cycle.size, np.inf), np.zeros(cycle.size, int)
     index = np.arange(cycle.size)
     with np.errstate(all="ignore"):
         for _ in range(ITERATIONS):
             now = edges[:, index]
             move, _ = step(*_equations(kernel, cycle.among(index), sequence, now))
-            spent[index] += 1
             size = np.abs(move).max(axis=0)
             # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction. Once may be chance, and
             # one larger than rounding makes them is a correction, whatever the one before was
@@ -53,7 +52,7 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = T
                 falls = -slope_excess(kernel, part, orbit_of(sequence, edges[:, stalled]))[0]
                 uncertain = np.where(falls > STABLE, np.minimum(uncertain, ROUNDING / np.minimum(falls, 1e-3)), 0.0)
             blur[stalled] = np.fmin(uncertain, STABLE)
-    return orbit_of(sequence, edges), correction <= CONVERGED + blur, blur, spent
+    return orbit_of(sequence, edges), correction <= CONVERGED + blur, blur
 
 
 def _equations(kernel, cycle: Cycle, sequence: str, edges) -> tuple:

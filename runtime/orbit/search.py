@@ -32,12 +32,11 @@ FORGOTTEN = 750
 @dataclass(slots=True)
 class Isolated(Batch):
     """Outcome of a search over n cycles, arrays (n,): whether the arc holds an orbit, ``found``, isolated between the onsets of
-    ``left`` (r >= 0) and ``right`` (r <= 0), and the event evaluations spent."""
+    ``left`` (r >= 0) and ``right`` (r <= 0)."""
 
     found: np.ndarray
     left: Orbit
     right: Orbit
-    evaluations: np.ndarray
 
 
 def isolate_extremal(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, limit=np.nan) -> Isolated:
@@ -58,12 +57,10 @@ class _Search:
         self.sign = -1.0 if last else 1.0  # sign of r on the excluded side
         self.start = np.fmin(cycle.centre + cycle.half_d, limit) if last else np.fmax(cycle.centre - cycle.half_d, limit)
         n = cycle.size
-        self.result = Isolated(np.zeros(n, bool), Orbit.blank(n), Orbit.blank(n), np.zeros(n))
+        self.result = Isolated(np.zeros(n, bool), Orbit.blank(n), Orbit.blank(n))
 
     def march(self, index, x, earlier=None, later=None):
-        orbit, spent = march(self.kernel, self.cycle.take(index), x, earlier, later)
-        np.add.at(self.result.evaluations, index, spent)
-        return orbit
+        return march(self.kernel, self.cycle.take(index), x, earlier, later)
 
     def run(self) -> Isolated:
         index = self._within_reach(self._without_memory(np.flatnonzero(self.cycle.half_d > 0)))
@@ -103,8 +100,7 @@ class _Search:
             return index
         part = self.cycle.take(index)
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            x, missed, spent = next_onset(self.kernel, part, part.centre + TWO_PI - part.half_c, -1.0)
-        self.result.evaluations[index] += spent
+            x, missed = next_onset(self.kernel, part, part.centre + TWO_PI - part.half_c, -1.0)
         self.start[index] = np.fmax(self.start[index], x)
         return index[~missed]
 
@@ -185,14 +181,13 @@ class _Search:
         self.result.right.put(index, right)
 
 
-def located(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[Orbit, np.ndarray]:
-    """The one zero of r between the onsets of ``left`` and ``right``, and the event evaluations spent on each."""
-    best, spent = left.take(np.arange(cycle.size)), np.zeros(cycle.size)
+def located(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> Orbit:
+    """The one zero of r between the onsets of ``left`` and ``right``."""
+    best = left.take(np.arange(cycle.size))
 
     def residual(x, index):
         part = cycle.take(index)
-        orbit, used = march(kernel, part, x, left.take(index), right.take(index))
-        spent[index] += used
+        orbit = march(kernel, part, x, left.take(index), right.take(index))
         released = np.flatnonzero(~orbit.engaged)
         best.put(index[released], orbit.take(released))
         beta, change = part.strips.beta, slope_excess(kernel, part, orbit)[1] - orbit.r
@@ -200,9 +195,9 @@ def located(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[Orbit, np.
         return orbit.r, np.divide(change, beta, out=-kernel.profile_slope(x), where=beta > EPS)
 
     share = left.r / np.where(left.r > right.r, left.r - right.r, 1.0)
-    x, _ = falling_root(residual, left.x, right.x, left.x + (right.x - left.x) * share)
+    x = falling_root(residual, left.x, right.x, left.x + (right.x - left.x) * share)
     residual(x, np.arange(cycle.size))
-    return best, spent
+    return best
 
 
 def excludes(bounds: SlopeBounds, beta, left: Orbit, right: Orbit, last: bool) -> np.ndarray:

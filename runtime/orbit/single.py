@@ -85,7 +85,7 @@ class SingleTime:
         def slope(phase, sub):
             return self.kernel.excess_event(phase, *(constant[sub] for constant in entry))[1]
 
-        top, _ = falling_root(slope, edges[place], edges[place + 1])
+        top = falling_root(slope, edges[place], edges[place + 1])
         return self.kernel.excess_after(edges[place], top, *groups) - p_0 - pressure
 
     def waves(self, rate):

@@ -20,7 +20,7 @@ _SHIFTS = (8, 64, 512)
 @dataclass(slots=True)
 class Solved(Batch):
     """Solutions of a batch, arrays of shape (n,): regime code (``regimes.CODE``), edges as phases (NaN where absent),
-    dimensionless means and fractions, work, and which strips passed their certificate."""
+    dimensionless means and fractions, which strips passed their certificate, and which an orbit was searched for."""
 
     code: np.ndarray
     d: np.ndarray
@@ -32,12 +32,12 @@ class Solved(Batch):
     contact_fraction: np.ndarray
     adhesion_fraction: np.ndarray
     certified: np.ndarray
-    evaluations: np.ndarray
+    searched: np.ndarray
 
     @classmethod
     def empty(cls, n: int) -> "Solved":
         nan = [np.full(n, np.nan) for _ in range(8)]
-        return cls(np.full(n, UNDECIDED, np.int8), *nan, np.zeros(n, bool), np.zeros(n))
+        return cls(np.full(n, UNDECIDED, np.int8), *nan, np.zeros(n, bool), np.zeros(n, bool))
 
 
 def groups(s: Strips) -> tuple:
@@ -109,6 +109,6 @@ def settle(solve: Callable, strips, solved: Solved, unloading: bool) -> None:
         these = strips.take(index)
         shift = roundings * EPS * (1 + np.abs(these.D) + these.p_0 + these.delta_0)
         again = solve(replace(these, D=these.D + (shift if unloading else -shift)))
-        again.evaluations += solved.evaluations[index]
+        again.searched |= solved.searched[index]
         good = np.flatnonzero(again.certified)
         solved.put(index[good], again.take(good))

@@ -82,7 +82,7 @@ class Sweep:
 
         Needs the extra ``dataset``.
         """
-        from ..storage.write import save
+        from ..files import save
 
         return save(self.to_dataset(), path)
 

@@ -209,7 +209,7 @@ def _passages(pressure, crest, breaks) -> tuple[np.ndarray, np.ndarray]:
         at = row[index]
         return short(pressure((crest[at] + run[index] * share)[:, None], at)[:, 0], at) - goal[index]
 
-    share, _ = rising_root(missing, np.zeros(row.size), np.ones(row.size), goal, _CLOSE)
+    share = rising_root(missing, np.zeros(row.size), np.ones(row.size), goal, _CLOSE)
     edges[row, np.where(far > 0, 2 * B - which, 1 + which)] = crest[row] + run * share
     return np.maximum.accumulate(edges, axis=1), breaks[:, -1] < top
 
@@ -234,4 +234,4 @@ def penetrations(columns: LevelBatch, p: np.ndarray) -> tuple[np.ndarray, np.nda
 
     low, high = np.log(p), np.log(np.minimum(p + 0.75, 0.5 * s_sat))
     # crests are paraboloids next to the plane: at rest they carry d^2/(2 pi)
-    return h * np.exp(rising_root(over, low, high, 0.5 * np.log(2 * np.pi * p), _NEAR)[0]), slope
+    return h * np.exp(rising_root(over, low, high, 0.5 * np.log(2 * np.pi * p), _NEAR)), slope

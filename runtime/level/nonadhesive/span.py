@@ -84,6 +84,6 @@ class Span:
         under = over(self.low[column], every) < 0
         passed[~under], met = self.low[column[~under]], np.flatnonzero(under & (over(passed, every) > 0))
         low, high = self.low[column[met]], self.high[column[met]]
-        passed[met] = rising_root(lambda eta, index: over(eta, met[index]), low, high, tolerance=_CLOSE)[0]
+        passed[met] = rising_root(lambda eta, index: over(eta, met[index]), low, high, tolerance=_CLOSE)
         rest = np.maximum(self.high[:, None] - passed.reshape(breaks.shape), 0.0)
         return np.sqrt(np.sort(np.column_stack((np.zeros_like(self.low), rest, self.high - self.low)), axis=1))

@@ -70,17 +70,16 @@ def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
     """Where ``field``, in between at its start, first leaves the range from 0 to ``height`` (inf: no upper limit) before ``end``.
 
     Returns phases (``end`` where it stays inside), which limit was met (``NONE``, ``LOWER``, ``UPPER``; ``LOST`` where
-    the search did not end), the slope of the field there, and the evaluations each took; all of shape (N,).
+    the search did not end), and the slope of the field there; all of shape (N,).
     """
     n = end.size
-    s, which, slope_there, spent = field.start.copy(), np.full(n, LOST), np.zeros(n), np.zeros(n)
+    s, which, slope_there = field.start.copy(), np.full(n, LOST), np.zeros(n)
     go = _Ahead(np.arange(n), field.start, end, np.minimum(height, LARGEST), field.start, field.constant, field.a, field.b,
                 np.hypot(field.a, field.b), field.r, field.amplitudes())  # fmt: skip
     for number in range(_MAX_STEPS):
         if not go.index.size:
             break
         step, low_first, slope, margin = _safe_step(go, number == 0)
-        spent[go.index] += 1
         # a margin of a few roundings, still shrinking, is none: steps too small to change it would never end
         lost_in_rounding = (
             (margin <= _ROUNDINGS * (np.abs(go.constant) + go.size)) & (step <= _SMALL) & (low_first == (slope < 0))
@@ -95,7 +94,7 @@ def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
             which[i] = np.where(beyond[done], NONE, np.where(low_first[done], LOWER, UPPER))
             slope_there[i] = slope[done]
             go = go.take(np.flatnonzero(~done))
-    return s, which, slope_there, spent
+    return s, which, slope_there
 
 
 def _safe_step(f: _Ahead, first: bool):

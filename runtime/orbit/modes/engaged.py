@@ -24,21 +24,18 @@ def engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
     fixed points, each checked by a march.
 
     Returns states, edges b and a (2, N), which are known, which are orbits of the strip itself, as their gaps stay within its
-    reach, and the evaluations."""
+    reach."""
     s, left = strips.raised(), np.arange(strips.size)
-    z, edges, spent = np.full((s.modes, s.size), np.nan), np.full((2, s.size), np.nan), np.zeros(s.size)
+    z, edges = np.full((s.modes, s.size), np.nan), np.full((2, s.size), np.nan)
     known, within = np.zeros((2, s.size), bool)
     if met is None:
-        near = march(kernel, s, np.ones(s.size, bool), lowest_state(kernel, s), s.start)
-        met, spent = near.edges, spent + near.evaluations
+        met = march(kernel, s, np.ones(s.size, bool), lowest_state(kernel, s), s.start).edges
     for last in (False, True):
-        edges[:, left], good, used = certified(kernel, s.take(left), "ac", np.nan_to_num(engaged_edges(met)))
-        spent[left] += used
+        edges[:, left], good = certified(kernel, s.take(left), "ac", np.nan_to_num(engaged_edges(met)))
         k = left[good]
         z[:, k], _ = state_at(kernel, "ac", s.take(k), edges[:, k], s.take(k).start)
         here = s.take(k)
         turn = march(kernel, here, np.ones(k.size, bool), z[:, k], here.start)
-        spent[k] += turn.evaluations
         apart = np.abs(np.mod(engaged_edges(turn.edges) - edges[:, k] + np.pi, TWO_PI) - np.pi).max(axis=0, initial=0.0)
         k = k[(apart <= AGREE) & (turn.contacts == 1) & ~turn.lost]
         known[k] = True
@@ -47,27 +44,25 @@ def engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
         left = np.flatnonzero(~known)
         if last or not left.size:
             break
-        met, used = _fixed_point(kernel, s.take(left))
-        spent[left] += used
-    return z - strips.m.J * strips.p_0, edges, known, within, spent
+        met = _fixed_point(kernel, s.take(left))
+    return z - strips.m.J * strips.p_0, edges, known, within
 
 
 def _fixed_point(kernel, s: ModeStrips):
-    """Edges (4, N) of orbits by Newton's method on the period map, and the evaluations."""
+    """Edges (4, N) of orbits by Newton's method on the period map."""
     z, active, order = lowest_state(kernel, s), np.arange(s.size), Order.of(kernel, s)
-    met, spent = np.full((4, s.size), np.nan), np.zeros(s.size)
+    met = np.full((4, s.size), np.nan)
     for _ in range(_STEPS):
         sub, here = s.take(active), order.take(active)
         period = march(kernel, sub, np.ones(active.size, bool), z[:, active], sub.start)
         met[:, active] = period.edges
-        spent[active] += period.evaluations
         step = solve_order(propagation(sub, here, period, None), here.to_e(period.dz))
         size = np.abs(step).max(axis=0)
         z[:, active] += here.to_z(step)
         active = active[np.isfinite(size) & (size > AGREE * sub.size_of_lengths)]
         if not active.size:
             break
-    return met, spent
+    return met
 
 
 def engaged_edges(met):

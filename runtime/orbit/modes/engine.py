@@ -63,7 +63,7 @@ class _Batch:
             return
         found = extremal(self.kernel, self.strips.take(index), z, engaged, self.unloading, not ask)
         self.solved.code[index] = CODE["acaf"]
-        self.solved.evaluations[index] += found.evaluations
+        self.solved.searched[index] = True
         self._free(index[found.kind == FREE])
         orbit = found.kind == ORBIT
         for number, sequence in enumerate(ROWS, 1):
@@ -94,8 +94,8 @@ class _Batch:
             return np.empty((self.strips.modes, 0)), np.zeros(0, bool)
         s = self.strips.take(index)
         whole = replace(s, bare=True) if sequence == "cf" else s
-        z, edges, known, within, spent = engaged(self.kernel, whole, met)
-        self.solved.evaluations[index] += spent
+        z, edges, known, within = engaged(self.kernel, whole, met)
+        self.solved.searched[index] = True
         k = np.flatnonzero(within)
         self.solved.code[index] = CODE[sequence]
         self.record.orbits(index[k], sequence, orbit_of(sequence, edges[:, k]))

@@ -42,12 +42,11 @@ ENGAGED, FREE, ORBIT, UNRESOLVED = 0, 1, 2, -1
 @dataclass(slots=True)
 class Extremal:
     """Outcome for N strips: ``kind`` (ENGAGED, FREE, ORBIT, UNRESOLVED); orbits by ``edges`` (4, N) in the order d, b, a, c, of
-    the regime ``sequence`` (place in ``SEQUENCES``), or the edges of marches that were engaged all along; evaluations."""
+    the regime ``sequence`` (place in ``SEQUENCES``), or the edges of marches that were engaged all along."""
 
     kind: np.ndarray
     edges: np.ndarray
     sequence: np.ndarray
-    evaluations: np.ndarray
 
 
 def lowest_state(kernel, s: ModeStrips) -> np.ndarray:
@@ -78,7 +77,7 @@ class _Search:
     def __init__(self, kernel, s: ModeStrips, z, engaged, rising: bool):
         self.kernel, self.rising, self.active = kernel, rising, np.arange(s.size)
         nothing = np.full((4, s.size), np.nan)
-        self.out = Extremal(np.full(s.size, UNRESOLVED), nothing, np.zeros(s.size, int), np.zeros(s.size))
+        self.out = Extremal(np.full(s.size, UNRESOLVED), nothing, np.zeros(s.size, int))
         beyond = np.broadcast_to(np.maximum(s.D, 0.0) if rising else -s.p_0, z.shape).copy()
         near, self.orbit = (Period.blank(s.modes, s.size) for _ in range(2))
         if not rising:  # contacts from there are the longest of all
@@ -90,9 +89,7 @@ class _Search:
     def _march(self, i) -> None:
         b = self.bound
         s = b.s.take(i)
-        near = march(self.kernel, s, b.engaged[i], b.z[:, i], s.start)
-        self.out.evaluations[i] += near.evaluations
-        b.near.put(i, near)
+        b.near.put(i, march(self.kernel, s, b.engaged[i], b.z[:, i], s.start))
 
     def step(self, number: int, ends_held: bool) -> None:
         """Decide what the marches from the bounding states decide, and move the others."""
@@ -176,8 +173,7 @@ class _Search:
     def _climb(self, i) -> tuple[np.ndarray, np.ndarray]:
         """By a chain; returns which strips are marched already, and which have ended."""
         b = self.bound.take(i)
-        moved, ends, in_part, inside, e, far, evaluations = climb(self.kernel, b)
-        self.out.evaluations[i] += evaluations
+        moved, ends, in_part, inside, e, far = climb(self.kernel, b)
         self.bound.z[:, i] += b.sign * b.order.to_z(moved)
         clear = ~in_part
         self.bound.near.put(i[clear], ends.take(np.flatnonzero(clear)))
@@ -205,15 +201,13 @@ class _Search:
 
     def _from(self, index, number: int, edges, reach) -> None:
         sequence, s = SEQUENCES[number], self.bound.s.take(index)
-        solved, good, spent = certified(self.kernel, s, sequence, np.maximum.accumulate(edges, axis=0), reach)
-        self.out.evaluations[index] += spent
+        solved, good = certified(self.kernel, s, sequence, np.maximum.accumulate(edges, axis=0), reach)
         k = np.flatnonzero(good)
         if not k.size:
             return
         part = s.take(k)
         z, engaged = state_at(self.kernel, sequence, part, solved[:, k], part.start)
         period = march(self.kernel, part, engaged, z, part.start)
-        self.out.evaluations[index[k]] += period.evaluations
         ok = agrees(sequence, part, solved[:, k], period)
         index, k = index[k[ok]], k[ok]
         self.found[index] = True

@@ -46,4 +46,4 @@ def _value(event, constants, root, low, high) -> np.ndarray:
     def slope(phase, index):
         return event(phase, *(pick(c, index) for c in constants))[1]
 
-    return event(root(slope, low, np.maximum(high, low), tolerance=_PLACED)[0], *constants)[0]
+    return event(root(slope, low, np.maximum(high, low), tolerance=_PLACED), *constants)[0]

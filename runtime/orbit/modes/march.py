@@ -44,7 +44,6 @@ class Period:
     letters: np.ndarray
     ends: np.ndarray
     lost: np.ndarray
-    evaluations: np.ndarray
 
     @classmethod
     def blank(cls, n: int, N: int) -> Period:
@@ -52,7 +51,7 @@ class Period:
         nan, no = (lambda *shape: np.full((*shape, N), np.nan)), (lambda: np.zeros(N, bool))
         onsets, contacts, releases = np.zeros((3, N), int)
         return cls(no(), no(), np.zeros((n, N)), nan(4), onsets, contacts, releases, nan(2), nan(2), np.zeros((2, n, N)), nan(2),
-                   no(), np.full((_MAX_ZONES, N), -1, np.int8), nan(_MAX_ZONES + 1), no(), np.zeros(N))  # fmt: skip
+                   no(), np.full((_MAX_ZONES, N), -1, np.int8), nan(_MAX_ZONES + 1), no())  # fmt: skip
 
     def take(self, index: np.ndarray) -> Period:
         """The records of the points ``index``."""
@@ -139,8 +138,7 @@ def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, o
         f.r[:, apart] = rates(t.m.beta)
     releasable = (letter == ADHESION) & (not s.bare)
     height = np.where(releasable, s.delta_0, np.inf)
-    end, which, slope, spent = first_crossing(f, limit, height)
-    out.evaluations[index] += spent
+    end, which, slope = first_crossing(f, limit, height)
     out.lost[index] |= which == LOST
     if touching.size:
         t, i = s.among(touching), touching

@@ -114,7 +114,7 @@ def climb(kernel, bound: Bound):
     """How far the states may move along chains.
 
     Returns the ways (n, N) in e, and the marches from their ends, but where the first link is known only in part: these strips;
-    which chains end beyond the orbit, the first displacements e (n, N) there and the marches from them; the evaluations.
+    which chains end beyond the orbit, the first displacements e (n, N) there and the marches from them.
     """
     N, every = bound.z.shape[1], np.arange(bound.z.shape[1])
     distance = _chain(bound)
@@ -145,8 +145,7 @@ def climb(kernel, bound: Bound):
     beyond = beyond.reshape(count, N) & (np.arange(count)[:, None] > reached)
     first = beyond.argmax(axis=0) * N + every
     e = bound.order.to_e(bound.z) + bound.sign * away[:, first]
-    evaluations = marches.evaluations.reshape(count, N).sum(axis=0)
-    return moved, marches.take(last), reached == 0, beyond.any(axis=0), e, marches.take(first), evaluations
+    return moved, marches.take(last), reached == 0, beyond.any(axis=0), e, marches.take(first)
 
 
 def _chain(bound: Bound) -> np.ndarray:

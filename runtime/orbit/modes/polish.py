@@ -22,20 +22,20 @@ def arguments(s: ModeStrips):
 
 def certified(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray, reach=np.inf):
     """Orbits of strips in the regime ``sequence`` from ``edges`` (k, N), no further away than ``reach``; which converged, in
-    order within a period; the evaluations spent."""
+    order within a period."""
     with np.errstate(all="ignore"):
-        edges, last, attainable, spent = _newton(kernel, strips, sequence, edges, reach)
+        edges, last, attainable = _newton(kernel, strips, sequence, edges, reach)
     good = last <= _CONVERGED + _ROUNDINGS * np.minimum(attainable, _COARSEST)
     good &= np.all(np.diff(edges, axis=0) >= -ROUNDING, axis=0) & (edges[-1] - edges[0] <= TWO_PI + ROUNDING)
-    return edges, good, spent
+    return edges, good
 
 
 def _newton(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray, reach):
-    """Edges, kept in order; the last steps; how well rounding lets the edges be known; evaluations."""
+    """Edges, kept in order; the last steps; how well rounding lets the edges be known."""
     linearised = getattr(kernel, f"residual_and_jacobian_{sequence}")
     low, high, N = edges - reach, edges + reach, strips.size
     edges = edges.copy()
-    last, attainable, spent = np.full(N, np.inf), np.full(N, np.inf), np.zeros(N)
+    last, attainable = np.full(N, np.inf), np.full(N, np.inf)
     active = np.arange(N)
     for iteration in range(_ITERATIONS):
         s, before = strips.take(active), last[active]
@@ -47,7 +47,6 @@ def _newton(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray, reach)
                 matrix[:, i, j] = entry
         inverted = solved(matrix, np.broadcast_to(np.eye(len(here)), matrix.shape))
         step = -np.einsum("Nij,jN->iN", inverted, np.array(np.broadcast_arrays(*residual)))
-        spent[active] += 1
         size = np.abs(step).max(axis=0)
         # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction
         better = np.isfinite(size) & ((size < 0.5 * last[active]) | (size > _COARSEST))
@@ -66,4 +65,4 @@ def _newton(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray, reach)
         active = active[better & ~settled & on]
         if not active.size:
             break
-    return edges, last, attainable, spent
+    return edges, last, attainable

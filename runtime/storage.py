@@ -1,4 +1,4 @@
-"""Reading what :func:`hystrip.storage.save` has written."""
+"""Results read back from the files that ``save`` has written: equal to the bit, with everything they were solved from."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import numpy as np
 
-from ..dataset import FORMAT
-from ..errors import InputError
-from ..extras import require
-from ..level_solution import Inputs, LevelSolution
-from ..result import Result
-from .inputs import adhesion_of, levels_of, material_of
+from .dataset import FORMAT
+from .errors import InputError
+from .extras import require
+from .inputs.as_json import adhesion_of, levels_of, material_of
+from .level_solution import Inputs, LevelSolution
+from .result import Result
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from ..loading import Solver
+    from .loading import Solver
 
 T = TypeVar("T")
 _WHOLE = "a netCDF file that save() of a hystrip result has written"
@@ -129,7 +129,7 @@ def _level(data: Dataset, solver: Solver | None) -> LevelSolution:
 
 
 def _sweep(data: Dataset, solver: Solver | None) -> Any:
-    from .sweep import sweep_of  # needs the extra of scenes, which nothing else here does
+    from .sweeps.saved import sweep_of  # needs the extra of scenes, which nothing else here does
 
     return sweep_of(data, Path(data.encoding.get("source", "")), solver)
 

@@ -8,15 +8,15 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
-from ..inputs.adhesion import Dugdale, rebuild
-from ..inputs.fitted import FittedBand
-from ..inputs.half_space import HalfSpace
-from ..inputs.material import KelvinVoigt, StandardLinearSolid
-from ..inputs.model import ModelMaterial
-from ..inputs.prony import Prony
-from ..inputs.shift import WLF, Arrhenius
-from ..inputs.surface import Level
 from ..loading import solver_key
+from .adhesion import Dugdale, rebuild
+from .fitted import FittedBand
+from .half_space import HalfSpace
+from .material import KelvinVoigt, StandardLinearSolid
+from .model import ModelMaterial
+from .prony import Prony
+from .shift import WLF, Arrhenius
+from .surface import Level
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
