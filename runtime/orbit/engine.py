@@ -67,7 +67,7 @@ class _Batch:
         bounds = orbit_bounds(self.kernel, cycle, FAST) if self.unloading else least_engaged_bounds(self.kernel, cycle)
         self.record.solved.searched[index] = cycle.half_d > 0
         if self.unloading:
-            rest = self._contact_with_saturated_adhesion(index, partial & ~bounds.released)
+            rest = self._contact_with_saturated_adhesion(index, partial & bounds.engaged)
             index, cycle, bounds = index[rest], cycle.among(rest), bounds.among(rest)
         if index.size:  # orbits that are free once per period
             index = index[self._written(index, extremal(self.kernel, cycle, not self.unloading, bounds))]

@@ -24,14 +24,14 @@ from ..numerics.rounding import EPS
 from .groups import TWO_PI, Cycle, arc_versine
 
 if TYPE_CHECKING:
-    from .orbit_bounds import OrbitBounds
+    from .march import Orbit
 
 #: rounds of Newton for the edge, and the largest a they begin at: ``a sin a`` has its maximum there; up to it ``sin a - a cos a``
 #: is no less than about this part of ``a**3/3``
 _ROUNDS, _LONG, _CUBE = 4, 2.03, 0.65
 
 
-def start(kernel, cycle: Cycle, sequence: str, bounds: OrbitBounds | None = None) -> np.ndarray:
+def start(kernel, cycle: Cycle, sequence: str, bounds: Orbit | None = None) -> np.ndarray:
     """Edges (k, n), in the order of ``chain.EDGES``, for cycles taken to follow ``sequence``: of the stable orbit of a foundation
     that stands still if there is one, else some near its fold. Where adhesion pulls so hard that w moves by more than the
     amplitude in a period, those of the ``bounds`` on all orbits, if there are any."""
@@ -44,7 +44,7 @@ def start(kernel, cycle: Cycle, sequence: str, bounds: OrbitBounds | None = None
     return edges
 
 
-def _bounding(kernel, cycle: Cycle, sequence: str, bounds: OrbitBounds) -> np.ndarray:
+def _bounding(kernel, cycle: Cycle, sequence: str, bounds: Orbit) -> np.ndarray:
     """The edges that bound those of all orbits; contact begins as soon as the gap is closed at the pace it has at the onset."""
     s, x = cycle.strips, bounds.x
     pace = np.maximum(kernel.forcing(x, s.D, s.beta) + s.p_0 + cycle.gap_on, EPS)
