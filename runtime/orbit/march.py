@@ -42,7 +42,7 @@ class Orbit(Batch):
     r: np.ndarray
 
     @classmethod
-    def blank(cls, n: int) -> "Orbit":
+    def blank(cls, n: int) -> Orbit:
         """n places for orbits, none of them known."""
         return cls(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), np.full(n, np.nan))
 
@@ -82,8 +82,8 @@ def contact_end(kernel, cycle: Cycle, b, q, slack=None, after=None):
 
 
 def adhesion_end(kernel, cycle: Cycle, start, gap, slack=None):
-    """Where adhesion that pulls a ``gap`` from ``start`` on ends: at the upward zero of gap - delta_0, where H + p_0 + delta_0 < 0.
-    NaN where the strip stays engaged."""
+    """Where adhesion that pulls a ``gap`` from ``start`` on ends: at the upward zero of gap - delta_0, where
+    H + p_0 + delta_0 < 0. NaN where the strip stays engaged."""
     s, high = cycle.strips, cycle.centre + TWO_PI - cycle.half_c
     c, i = np.full(start.shape, np.nan), np.flatnonzero(~cycle.bare & (start < high))
     first, reach = start[i], s.delta_0[i]
@@ -110,9 +110,10 @@ def _stands_still(phase, rise):
 
 
 def _crossing(event: Event, low, high, guess=None):
-    """Phases where events fall through zero in the arcs from ``low`` to ``high``, NaN where they do not: seen from the sign at the
-    end. Where there is next to no memory an event function follows the harmonic and vanishes at the end but for rounding; it is
-    deepest half way."""
+    """Phases where events fall through zero in the arcs from ``low`` to ``high``, NaN where they do not.
+
+    That is seen from the sign at the end. Where there is next to no memory the event function follows the harmonic and vanishes
+    there but for rounding; it is deepest half way."""
     high = np.maximum(low, high)
     phase, meets = np.full(low.size, np.nan), np.zeros(low.size, bool)
     for where in (high, 0.5 * (low + high)):
