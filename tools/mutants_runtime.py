@@ -83,9 +83,9 @@ MUTANTS = (
     ),
     Mutant(
         "loading saturates beyond what grows with V",
-        "orbit/single.py",
-        "np.minimum(forced, glassy)",
-        "forced",
+        "orbit/foundation.py",
+        "np.minimum(self._forced(l, h, V), glassy)",
+        "self._forced(l, h, V)",
         "test_extreme_velocity.py",
     ),
     Mutant(
