@@ -19,7 +19,7 @@ from .regimes import CODE, ZONES
 from .solved import Solved
 
 if TYPE_CHECKING:
-    from .foundation import Foundation
+    from .common import Foundation
 
 
 class Contact:

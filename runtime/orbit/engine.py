@@ -122,7 +122,7 @@ class _Batch:
             strips = self.strips.among(index[ask])
             found = unique(self.kernel, bare_cycle(self.kernel, strips), "ac")
             # there is such an orbit without a limit to the gap: one that is not found is not certified, never passed over
-            gap = greatest_gap(self.kernel, strips, found.orbit)
+            gap = greatest_gap(self.kernel, strips, found.orbit.a)
             found.code[found.certified & (gap > strips.delta_0)] = UNDECIDED
             rest[ask] = self._written(index[ask], found)
         return np.flatnonzero(rest)

@@ -1,4 +1,4 @@
-"""The foundation with one relaxation time and its generated solver, as ``orbit.foundation.Foundation``."""
+"""The foundation with one relaxation time and its generated solver, as ``orbit.common.Foundation``."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ from types import ModuleType
 import numpy as np
 
 from ..inputs.material import StandardLinearSolid
-from .fields import fields
-from .foundation import Foundation
-from .groups import TWO_PI, Strips, slowed
+from .certificate import greatest_gap
+from .chain import gap_zones
+from .common import Foundation
+from .groups import Strips, adhesive_cycle, bare_cycle, slowed
 from .nonadhesive import SingleWaves
+from .regimes import ZONES
 from .si import refuse_uncertified, solve_si
 
 
@@ -43,9 +45,6 @@ class SingleTime(Foundation):
         refuse_uncertified(solved, dict(zip(names, inputs, strict=True)), edge, branch)
         return solved, strips, scales
 
-    def fields(self, strips, solved, phase):
-        return fields(self.kernel, strips, solved, phase)
-
     def at_rate(self, rate):
         return rate * self.material.T_sigma, rate * self.material.T_eps
 
@@ -65,11 +64,8 @@ class SingleTime(Foundation):
         return fold * (self.kernel.forcing(edges[-1], D, beta) + delta_0 + chi * J * p_0)
 
     def release(self, edges, arguments):
-        """Where the load harmonic rises through ``-p_0 - delta_0`` a gap of delta_0 turns."""
-        _, beta, _, _, p_0, delta_0, D, _ = arguments
-        centre, half = self.kernel.forcing_arc(p_0 + delta_0, D, beta)
-        last = edges[-1]
-        return self.kernel.gap_after(last, np.maximum(centre + TWO_PI - half, last), 0 * D, -p_0, D, beta) - delta_0
+        s = Strips(*arguments)
+        return greatest_gap(self.kernel, s, edges[-1]) - s.delta_0
 
     def closing(self, edges, arguments):
         """Where the load harmonic falls through ``-p_0`` a gap of nothing turns."""
@@ -86,13 +82,23 @@ class SingleTime(Foundation):
         s = strips
         return self.kernel.storage(s.alpha, s.beta), self.kernel.loss(s.alpha, s.beta, s.L), s.J
 
-    def entry(self, sequence, edges, strips):
+    def saturated(self, strips, phase):
         s = strips
-        return self.kernel.snap_onset(s.p_0, s.delta_0, s.J, s.L)[0] if sequence == "afc" else 0 * s.D
+        return self.kernel.saturated_pressure(phase, s.D, s.alpha, s.beta, s.L)
 
-    def excess(self, b, entry, strips):
+    def zones(self, sequence, edges, strips):
         s = strips
-        return self.kernel.excess_entry(b, entry, s.p_0, s.D, s.alpha, s.beta, s.L)
+        cycle = (bare_cycle if sequence in ("ac", "cf") else adhesive_cycle)(self.kernel, s)
+        gaps = iter(gap_zones(cycle, sequence))
+        for zone, start in zip(ZONES[sequence][0], edges, strict=False):
+            yield zone, start, cycle.q_on if zone == "c" else next(gaps)[0]
+
+    def excess(self, start, entry, strips):
+        s = strips
+        return self.kernel.excess_entry(start, entry, s.p_0, s.D, s.alpha, s.beta, s.L)
+
+    def gap(self, start, phase, entry, pressure, strips):
+        return self.kernel.gap_after(start, phase, entry, pressure, strips.D, strips.beta)
 
     def _forced(self, l, h, V):  # noqa: E741
         return 0.5 * h * (1 + np.hypot(1.0, 2 * np.pi / l * V * self.material.T_eps))

@@ -1,4 +1,4 @@
-"""The foundation with several relaxation times and its generated solver, as ``orbit.foundation.Foundation``."""
+"""The foundation with several relaxation times and its generated solver, as ``orbit.common.Foundation``."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ import numpy as np
 
 from ...errors import InputError
 from ...inputs.model import ModelMaterial, modes_of
+from ..common import Foundation
 from ..flat import is_flat, solve_with_flat
-from ..foundation import Foundation
 from ..groups import snaps_in
 from ..materials import parameters
 from ..si import CERTIFIED, refuse_uncertified
 from .engine import solve_modes
 from .extremes import greatest_gap, least_gap
-from .fields import fields, zones_of
+from .fields import zones_of
 from .nonadhesive import ModeWaves
 from .problem import ModeStrips
 
@@ -79,9 +79,6 @@ class ManyTimes(Foundation):
         # a material of arrays was spread over the strips in `flat`; the strip's own values are in K and the modes
         return {n: np.broadcast_to(v, shape) for n, v in named.items() if np.ndim(v) == 0} | {"K": np.broadcast_to(self.K, shape)}
 
-    def fields(self, strips, solved, phase):
-        return fields(self.kernel, strips, solved, phase)
-
     def at_rate(self, rate):
         return (self.kernel.at_speed(self.modes, np.atleast_1d(np.asarray(rate, float))),)
 
@@ -109,12 +106,17 @@ class ManyTimes(Foundation):
     def moduli(self, strips):
         return self.kernel.storage(strips.m), self.kernel.loss(strips.m), strips.m.J_0
 
-    def entry(self, sequence, edges, strips):
-        zones = zones_of(self.kernel, sequence, strips, edges)
-        return next(overstress for zone, _, overstress, _ in zones if zone == "c")
+    def saturated(self, strips, phase):
+        return self.kernel.saturated_pressure(phase, strips.D, strips.m)
 
-    def excess(self, b, entry, strips):
-        return self.kernel.excess_entry(b, entry, strips.p_0, strips.D, strips.m)
+    def zones(self, sequence, edges, strips):
+        return (zone[:3] for zone in zones_of(self.kernel, sequence, strips, edges))
+
+    def excess(self, start, entry, strips):
+        return self.kernel.excess_entry(start, entry, strips.p_0, strips.D, strips.m)
+
+    def gap(self, start, phase, entry, pressure, strips):
+        return self.kernel.gap_after(start, phase, entry, pressure, strips.D, strips.m)
 
 
 def _of_prony(kernel, material):
