@@ -17,10 +17,12 @@ import numpy as np
 from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
 from .batch import Batch
-from .groups import TWO_PI, Cycle
+from .groups import ROUNDING, TWO_PI, Cycle
 
 #: edges this close to the crest are on it: the bracket of one that is on it would be halved a thousand times
 LEAST_PHASE = 1e-60
+#: how closely edges are located for bounds of them, which are ten times further off: so close that starts from them converge
+_CLOSE = 1e-6
 
 
 @dataclass(slots=True)
@@ -66,42 +68,44 @@ def march(kernel, cycle: Cycle, x: np.ndarray) -> Orbit:
     return Orbit(x.copy(), b, a, c, engaged, r)
 
 
-def contact_end(kernel, cycle: Cycle, b, q, slack=None, after=None):
+def contact_end(kernel, cycle: Cycle, b, q, way=0, after=None):
     """Where contacts that begin at b with the excess pressure q end: at its downward zero, where H + p_0 < 0, not before
     ``after``. NaN without contact, inf if it never ends.
 
-    ``slack`` (n,): how far below zero the pressure may come before (here and below: what rounding may move a threshold by).
+    ``way``: 1 for phases that are certain to be later (here and below: -1, earlier), whatever rounding does to the threshold.
     """
     s, low, high = cycle.strips, cycle.centre + cycle.half_b, cycle.centre + TWO_PI - cycle.half_b
     a, i = np.where(np.isnan(b), np.nan, np.inf), np.flatnonzero(~np.isnan(b) & (low < high))
     low = np.fmax(low, b if after is None else after)
     entry = kernel.excess_entry(b[i], q[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
-    event = Event(kernel.excess_event, entry, 0.0 if slack is None else -slack[i])
-    a[i] = np.fmin(_crossing(event, low[i], high[i], None if after is None else low[i]), np.inf)
+    event = Event(kernel.excess_event, entry, -way * (s.noise()[i] + ROUNDING * entry[4]) if way else 0.0)
+    a[i] = np.fmin(_crossing(event, low[i], high[i], None if after is None else low[i], way), np.inf)
     return a
 
 
-def adhesion_end(kernel, cycle: Cycle, start, gap, slack=None):
+def adhesion_end(kernel, cycle: Cycle, start, gap, way=0):
     """Where adhesion that pulls a ``gap`` from ``start`` on ends: at the upward zero of gap - delta_0, where
     H + p_0 + delta_0 < 0. NaN where the strip stays engaged."""
     s, high = cycle.strips, cycle.centre + TWO_PI - cycle.half_c
     c, i = np.full(start.shape, np.nan), np.flatnonzero(~cycle.bare & (start < high))
     first, reach = start[i], s.delta_0[i]
     entry = kernel.gap_entry(first, gap[i], -s.p_0[i], s.D[i], s.beta[i])
-    event = Event(kernel.gap_event, entry, reach if slack is None else reach + slack[i], -1.0)
-    c[i] = _crossing(event, np.maximum((cycle.centre + cycle.half_c)[i], first), high[i], _stands_still(first, reach))
+    event = Event(kernel.gap_event, entry, reach + way * s.noise()[i] if way else reach, -1.0)
+    low = np.maximum((cycle.centre + cycle.half_c)[i], first)
+    c[i] = _crossing(event, low, high[i], _stands_still(first, reach), way)
     return c
 
 
-def next_onset(kernel, cycle: Cycle, c, slack):
+def next_onset(kernel, cycle: Cycle, c, way):
     """Onsets, less 2 pi, that cycles released at c meet next: at the downward zero of gap - delta_0, where H + delta_0 > 0. NaN
     where they miss it."""
     s, low = cycle.strips, np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
-    event = Event(kernel.gap_event, kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta), s.delta_0 + slack)
-    x = _crossing(event, low, cycle.centre + TWO_PI + cycle.half_d, TWO_PI - _stands_still(c, -cycle.jump)) - TWO_PI
+    entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
+    event, guess = Event(kernel.gap_event, entry, s.delta_0 - way * s.noise()), TWO_PI - _stands_still(c, -cycle.jump)
+    x = _crossing(event, low, cycle.centre + TWO_PI + cycle.half_d, guess, way) - TWO_PI
     # a surface out of reach of the undeformed foundation is not met if nothing is left of w that would change its gap
     left = np.abs(kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(low - c, s.beta)
-    return np.where((slack > 0) & (s.D <= -s.delta_0) & (left < 0.25 * EPS * s.delta_0), np.nan, x)
+    return np.where((way < 0) & (s.D <= -s.delta_0) & (left < 0.25 * EPS * s.delta_0), np.nan, x)
 
 
 def _stands_still(phase, rise):
@@ -109,11 +113,12 @@ def _stands_still(phase, rise):
     return np.arccos(np.clip(np.cos(phase) - rise, -1.0, 1.0))
 
 
-def _crossing(event: Event, low, high, guess=None):
-    """Phases where events fall through zero in the arcs from ``low`` to ``high``, NaN where they do not.
+def _crossing(event: Event, low, high, guess=None, way=0):
+    """Phases where events fall through zero in the arcs from ``low`` to ``high``, NaN where they do not; ``way``: phases that are
+    later or earlier by the sign of the event, the end of the arc where none close by is.
 
-    That is seen from the sign at the end. Where there is next to no memory the event function follows the harmonic and vanishes
-    there but for rounding; it is deepest half way."""
+    That they fall is seen from the sign at the end. Where there is next to no memory the event function follows the harmonic and
+    vanishes there but for rounding; it is deepest half way."""
     high = np.maximum(low, high)
     phase, meets = np.full(low.size, np.nan), np.zeros(low.size, bool)
     for where in (high, 0.5 * (low + high)):
@@ -121,7 +126,12 @@ def _crossing(event: Event, low, high, guess=None):
         if ask.size:
             meets[ask] = event(where[ask], ask)[0] <= 0
     here = np.flatnonzero(meets)
-    phase[here] = falling_root(event.among(here), low[here], high[here], None if guess is None else guess[here], LEAST_PHASE)
+    event, low, high, guess = event.among(here), low[here], high[here], None if guess is None else guess[here]
+    x = falling_root(event, low, high, guess, _CLOSE if way else LEAST_PHASE)
+    if way:
+        x = np.clip(x + 10 * way * _CLOSE, low, high)
+        x = np.where(way * event(x, np.arange(x.size))[0] <= 0, x, high if way > 0 else low)
+    phase[here] = x
     return phase
 
 

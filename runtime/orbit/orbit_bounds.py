@@ -34,23 +34,21 @@ From y that step is closed form. E differs from the period of y by adhesion that
 so that z is less than that of y by ``(y - E(y))/(1 - E')``. As contact begins in y, after that has faded over the first adhesion,
 the excess pressure is more by this over J; where y has no contact, by what is more than its gap where ``H + p_0`` turns negative.
 
-All thresholds are moved by what rounding may change, and the phases by theirs: contact or adhesion that is held longer (shorter)
-only leaves the state more (less) engaged than it is. Bounds come as orbits: contact ends before ``a``, adhesion before ``c`` and
-begins after ``x`` (NaN: no bound; inf: there is no onset); ``engaged`` where an orbit may be so all along. Of
-``least_engaged_bounds``: after, after and before (-inf: no onset).
+Each phase that is followed is further off than the event, by the sign of its function, whatever rounding does to that: contact or
+adhesion that is held longer (shorter) only leaves the state more (less) engaged than it is. Bounds come as orbits: contact ends
+before ``a``, adhesion before ``c`` and begins after ``x`` (NaN: no bound; inf: there is no onset); ``engaged`` where an orbit may
+be so all along. Of ``least_engaged_bounds``: after, after and before (-inf: no onset).
 """
 
 import numpy as np
 
-from .groups import ROUNDING, TWO_PI, Cycle, arc_versine
+from .groups import TWO_PI, Cycle, arc_versine
 from .march import Orbit, adhesion_end, contact_end, next_onset
 from .sensitivity import contact_length, fading
 
 #: beta above which a foundation remembers too much of the most engaged state for bounds from it to say much, unless adhesion
 #: moves it by more than the amplitude in a period. 30 to 300 cost about the same
 FAST = 60.0
-#: rounding of a phase
-_TURN = ROUNDING * TWO_PI
 
 
 def orbit_bounds(kernel, cycle: Cycle, slowest: float = np.inf) -> Orbit:
@@ -84,31 +82,29 @@ def _unknown(n: int) -> Orbit:
 
 def _followed(kernel, cycle: Cycle, b, q_on, after) -> Orbit:
     """Bounds from contact that begins at b with ``q_on`` and does not end before ``after``."""
-    noise, out = cycle.strips.noise(), _unknown(cycle.size)
+    out = _unknown(cycle.size)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        pressed = noise + 2 * ROUNDING * kernel.modulus_ratio(cycle.strips.alpha, cycle.strips.beta)
-        out.b, out.a = b, contact_end(kernel, cycle, b, q_on, pressed, after) + _TURN
-        out.c = adhesion_end(kernel, cycle, out.a, 0 * noise, noise) + _TURN
+        out.b, out.a = b, contact_end(kernel, cycle, b, q_on, 1, after)
+        out.c = adhesion_end(kernel, cycle, out.a, np.zeros(cycle.size), 1)
         out.engaged = np.isnan(out.c)
         go = np.flatnonzero(~out.engaged)
-        out.x[go] = np.nan_to_num(next_onset(kernel, cycle.among(go), out.c[go], noise[go]) - _TURN, nan=np.inf)
+        out.x[go] = np.nan_to_num(next_onset(kernel, cycle.among(go), out.c[go], -1), nan=np.inf)
     return out
 
 
 def least_engaged_bounds(kernel, cycle: Cycle) -> Orbit:
     """Bounds from the least engaged state of an orbit with an onset, for cycles of strips within reach, ``D > -delta_0``."""
     s, touched, out = cycle.strips, cycle.touched, _unknown(cycle.size)
-    noise = s.noise()
-    reach = s.D + s.delta_0 - noise
+    reach = s.D + s.delta_0 - s.noise()
     at_rest = -arc_versine(reach)
     out.a = cycle.centre + cycle.half_b
     start = np.where(touched, out.a, np.maximum(out.a, at_rest))
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         gap = np.where(touched, 0.0, np.maximum(kernel.gap_after(at_rest, start, cycle.gap_on, -s.p_0, s.D, s.beta), 0.0))
-        out.c = adhesion_end(kernel, cycle, start, gap, -noise) - _TURN
+        out.c = adhesion_end(kernel, cycle, start, gap, -1)
         missed = np.isnan(out.c) | (cycle.half_b >= np.pi) | (~touched & (reach > 2))
         go = np.flatnonzero(~missed)
         out.c[go] = np.maximum(out.c, np.maximum(start, cycle.centre + cycle.half_c))[go]
-        x = next_onset(kernel, cycle.among(go), out.c[go], -noise[go]) + _TURN
+        x = next_onset(kernel, cycle.among(go), out.c[go], 1)
     out.x[missed], out.x[go] = -np.inf, np.fmin(x, np.where(touched, np.nan, at_rest)[go])
     return out

@@ -19,7 +19,7 @@ import numpy as np
 from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
 from .batch import Batch
-from .groups import ROUNDING, Cycle, arc_versine
+from .groups import Cycle, arc_versine
 from .march import LEAST_PHASE, TWO_PI, Orbit, march, next_onset
 from .sensitivity import falls, over, slope_bounds, slope_excess
 
@@ -98,8 +98,8 @@ class _Search:
             return index
         part = self.cycle.take(index)
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            x = next_onset(self.kernel, part, part.centre + TWO_PI - part.half_c, part.strips.noise())
-        self.start[index] = np.fmax(self.start[index], x - ROUNDING * TWO_PI)
+            x = next_onset(self.kernel, part, part.centre + TWO_PI - part.half_c, -1)
+        self.start[index] = np.fmax(self.start[index], x)
         return index[~np.isnan(x)]
 
     def _start(self, index):
