@@ -72,7 +72,9 @@ def bounds_beside(kernel, cycle: Cycle, known: Orbit) -> Orbit:
         gap = np.where(contact, 0.0, kernel.gap_after(known.x, b, cycle.gap_on, -s.p_0, s.D, s.beta))
         # without instantaneous compliance pressure has no memory
         more = np.divide(np.maximum(less - gap, 0.0), s.J, out=np.zeros(cycle.size), where=s.J > 0)
-    return _followed(kernel, cycle, b, cycle.q_on + more, np.where(contact, known.a, b))
+    out = _followed(kernel, cycle, b, cycle.q_on + more, np.where(contact, known.a, b))
+    out.x[np.isinf(out.x)] = np.nan  # there is an onset, however little rounding leaves of it
+    return out
 
 
 def _unknown(n: int) -> Orbit:

@@ -76,16 +76,10 @@ def _onset(cycle: Cycle, c):
 
 
 def _without_contact(cycle: Cycle) -> np.ndarray:
-    """Phase c where no contact is made: the balance without its right side."""
+    """About the phase c where no contact is made: half way between crest and valley the balance without its right side."""
     s = cycle.strips
-    pull = (s.p_0 - cycle.jump) / np.pi
-    level = s.D - 1 + s.delta_0 + cycle.jump
-    c = np.arccos(np.clip(-level - 0.5 * np.pi * pull, -1.0, 1.0))
-    low = np.arcsin(np.minimum(pull, 1.0))
-    for _ in range(_ROUNDS):
-        slope = np.minimum(pull - np.sin(c), -EPS)
-        c = np.clip(c - (level + np.cos(c) + pull * c) / slope, low, np.pi - low)
-    return c
+    pull = s.p_0 - cycle.jump
+    return np.arccos(np.clip(1 - s.D - s.delta_0 - cycle.jump - 0.5 * pull, -1.0, 1.0))
 
 
 def _contact(cycle: Cycle) -> np.ndarray:
