@@ -83,9 +83,9 @@ MUTANTS = (
     ),
     Mutant(
         "loading saturates beyond what grows with V",
-        "orbit/single.py",
-        "np.minimum(forced, glassy)",
-        "forced",
+        "orbit/common.py",
+        "np.minimum(self._forced(l, h, V), glassy)",
+        "self._forced(l, h, V)",
         "test_extreme_velocity.py",
     ),
     Mutant(
@@ -111,9 +111,9 @@ MUTANTS = (
     ),
     Mutant(
         "a later onset forgets how early its adhesion may end",
-        "orbit/exclusion.py",
-        "known.c, c, shortest",
-        "known.c, known.c, shortest",
+        "orbit/sensitivity.py",
+        "M = np.minimum(release_margin(kernel, cycle, left.c), release_margin(kernel, cycle, right.c))",
+        "M = release_margin(kernel, cycle, left.c)",
         "test_proofs.py",
     ),
     Mutant(
@@ -122,13 +122,6 @@ MUTANTS = (
         "near + far > width",
         "2 * (near + far) > width",
         "test_proofs.py test_extremal.py test_reference_strips.py",
-    ),
-    Mutant(
-        "adhesion that just does not end is taken to end at once",
-        "orbit/search.py",
-        "np.clip(np.pi, right.c, np.maximum(end, right.c))",
-        "right.c",
-        "test_proofs.py",
     ),
     Mutant(
         "errors of an average are a hundredth",

@@ -36,3 +36,8 @@ class Batch:
     @property
     def size(self) -> int:
         return getattr(self, next(iter(self.__dataclass_fields__))).size
+
+
+def pick(value, index):
+    """What belongs to the strips ``index`` of the last axis; a value or an axis of length one is shared and stays."""
+    return value if np.ndim(value) == 0 or value.shape[-1] == 1 else value[..., index]

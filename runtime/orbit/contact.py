@@ -1,63 +1,64 @@
-"""Pressure in the contact of strips: its extremes, and where it passes a given value."""
+"""Pressure in the contact of strips: its extremes, and where it passes a given value.
 
-from abc import ABC, abstractmethod
-from types import ModuleType
-from typing import Any
+With several times ``p = saturated field - C`` in contact, where C sums decaying exponentials. On a periodic orbit w is nowhere
+below the profile, so every dashpot displacement is at or above its value in saturated contact, and the terms of C are all
+positive. Then ``p' = (harmonic) + |C'|``, and where the harmonic falls it is ``-sin``, log-concave, against a log-convex
+``|C'|``: p falls on one interval of a period at most. A contact ends while p falls, so p rises to its peak and falls from there:
+each value is passed once either way.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..numerics.roots import falling_root
-from .regimes import CODE
+from .batch import pick
+from .regimes import CODE, ZONES
 from .solved import Solved
 
+if TYPE_CHECKING:
+    from .common import Foundation
 
-class Contact(ABC):
-    """Contact intervals of the strips ``index`` in phase, with the pressure in Pa inside them, arrays (m,).
+
+class Contact:
+    """Contact intervals of solved strips in phase, with the pressure in Pa inside them, arrays (m,).
 
     ``b``, ``a``: first and last phase (of saturated contact: a period around its peak), ``top``: phase of the peak ``p_peak``;
-    ``p_least``: pressure just after entry (without T_sigma it steps there); in saturated contact the least. The pressure rises
-    to its peak and falls from there: each value is passed once either way.
+    ``p_least``: pressure just after entry (without T_sigma it steps there); in saturated contact the least.
     """
 
-    def __init__(self, kernel: ModuleType, strips: Any, solved: Solved, scales: dict, index: np.ndarray):
-        self.kernel, self.s = kernel, strips.take(index)
-        self.unit, self.flat = scales["p"][index], scales["flat"][index]
-        self.full = solved.code[index] == CODE["c"]
-        self.mean = np.where(self.flat, solved.p_mean[index], self.s.D - 1)
-        storage, loss, compliance = self._foundation()
-        self.amplitude = np.where(self.flat, 0.0, np.hypot(storage, loss))
-        self.centre = np.broadcast_to(-np.arctan2(loss, storage), index.shape)  # phase of the saturated field's maximum
-        self.b = np.where(self.full, self.centre - np.pi, solved.b[index])
-        self.a = np.where(self.full, self.centre + np.pi, solved.a[index])
-        snap = solved.code[index] == CODE["afc"]
-        reach = np.divide(self.s.delta_0, compliance, out=np.zeros(index.size), where=snap)
-        self.q_b = np.where(snap, self.s.p_0 - reach, 0.0)
-        self._enter(solved, index)
+    def __init__(self, foundation: Foundation, strips, solved: Solved, unit: np.ndarray, flat: np.ndarray):
+        """Of dimensionless ``strips``, with the ``unit`` of their pressures, Pa, and which are ``flat``."""
+        self.event, self.s, self.unit = foundation.kernel.excess_event, strips, unit
+        self.full = solved.code == CODE["c"]
+        self.mean = np.where(flat, solved.p_mean, strips.D - 1)
+        storage, loss, compliance = foundation.moduli(strips)
+        self.amplitude = np.where(flat, 0.0, np.hypot(storage, loss))
+        self.centre = np.broadcast_to(-np.arctan2(loss, storage), self.mean.shape)  # phase of the saturated field's maximum
+        self.b = np.where(self.full, self.centre - np.pi, solved.b)
+        self.a = np.where(self.full, self.centre + np.pi, solved.a)
+        snap = solved.code == CODE["afc"]
+        reach = np.divide(strips.delta_0, compliance, out=np.zeros(snap.size), where=snap)
+        self.q_b = np.where(snap, strips.p_0 - reach, 0.0)
+        self.constants = foundation.excess(self.b, _entries(foundation, strips, solved), strips)
         self.top = self.centre.copy()
-        part, every = np.flatnonzero(~self.full), np.arange(index.size)
+        part, every = np.flatnonzero(~self.full), np.arange(snap.size)
         self.top[part] = falling_root(lambda phase, sub: self._excess(part[sub], phase)[1], self.b[part], self.a[part])
         self.p_peak = self.pressure(every, self.top)
         entered = self.b + 1e-12 * (self.a - self.b)
         self.p_least = self.pressure(every, np.where(self.full, self.centre - np.pi, entered))
         # the same for all, to the last digit, where it does not step
         rises = ~self.full & (compliance > 0)
-        self.p_least[rises] = ((self.q_b - self.s.p_0) * self.unit)[rises]
+        self.p_least[rises] = ((self.q_b - strips.p_0) * unit)[rises]
 
-    @abstractmethod
-    def _foundation(self) -> tuple:
-        """Storage and loss of the foundation, and its instantaneous compliance."""
-
-    @abstractmethod
-    def _enter(self, solved: Solved, index: np.ndarray) -> None:
-        """Keep what the pressure in contact starts from."""
-
-    @abstractmethod
     def _excess(self, rows: np.ndarray, phase: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Pressure above -p_0 in partial contact, in the strip's own unit, and its slope; both (m,)."""
-
-    @abstractmethod
-    def _excess_alone(self, rows: np.ndarray, phase: np.ndarray) -> np.ndarray:
-        """The same without its slope, for phases (m,) or (nodes, m)."""
+        """Pressure above -p_0 in partial contact, in the strip's own unit, and its slope, at phases (m,) or (nodes, m)."""
+        constants = [pick(constant, rows) for constant in self.constants]
+        if phase.ndim > 1:
+            constants = [constant[:, None] if constant.ndim > 1 else constant for constant in constants]
+        return self.event(phase, *constants)
 
     def pressure(self, rows: np.ndarray, phase: np.ndarray) -> np.ndarray:
         """Pressure, Pa, of the strips ``rows`` (m,) at the phases ``phase`` (m,) or (nodes, m) in their contact."""
@@ -66,7 +67,7 @@ class Contact(ABC):
         i = rows[full]
         p[..., full] = self.mean[i] + self.amplitude[i] * np.cos(phase[..., full] - self.centre[i])
         i = rows[~full]
-        p[..., ~full] = self._excess_alone(i, phase[..., ~full]) - self.s.p_0[i]
+        p[..., ~full] = self._excess(i, phase[..., ~full])[0] - self.s.p_0[i]
         return p * self.unit[rows]
 
     def slope(self, rows: np.ndarray, phase: np.ndarray) -> np.ndarray:
@@ -102,26 +103,17 @@ class Contact(ABC):
         return up, down
 
 
-class SingleContact(Contact):
-    """Of a foundation with one relaxation time."""
-
-    def _foundation(self) -> tuple:
-        s = self.s
-        return self.kernel.storage(s.alpha, s.beta), self.kernel.loss(s.alpha, s.beta, s.L), s.J
-
-    def _enter(self, solved: Solved, index: np.ndarray) -> None:
-        pass
-
-    def _arguments(self, i: np.ndarray, phase: np.ndarray) -> tuple:
-        s = self.s
-        return self.b[i], phase, self.q_b[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i]
-
-    def _excess(self, rows: np.ndarray, phase: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        start, _, *entry = self._arguments(rows, phase)
-        return self.kernel.excess_event(phase, *self.kernel.excess_entry(start, *entry))
-
-    def _excess_alone(self, rows: np.ndarray, phase: np.ndarray) -> np.ndarray:
-        return self.kernel.excess_after(*self._arguments(rows, phase))
+def _entries(foundation: Foundation, strips, solved: Solved) -> np.ndarray:
+    """What is known of each strip as its contact begins, (..., m); nothing of saturated contact."""
+    out = np.zeros(0)
+    for sequence in ("ac", "cf", "acaf", "afc"):
+        i = np.flatnonzero(solved.code == CODE[sequence])
+        if i.size or not out.size:
+            edges = [getattr(solved, name)[i] for name in ZONES[sequence][1]]
+            found = foundation.entry(sequence, edges, strips.take(i))
+            out = out if out.size else np.zeros((*found.shape[:-1], strips.size))
+            out[..., i] = found
+    return out
 
 
 def passages(level: np.ndarray, mean: np.ndarray, amplitude: np.ndarray, centre: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

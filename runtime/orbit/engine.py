@@ -67,7 +67,7 @@ class _Batch:
         bounds = orbit_bounds(self.kernel, cycle, FAST) if self.unloading else least_engaged_bounds(self.kernel, cycle)
         self.record.solved.searched[index] = cycle.half_d > 0
         if self.unloading:
-            rest = self._contact_with_saturated_adhesion(index, partial & ~bounds.released)
+            rest = self._contact_with_saturated_adhesion(index, partial & bounds.engaged)
             index, cycle, bounds = index[rest], cycle.among(rest), bounds.among(rest)
         if index.size:  # orbits that are free once per period
             index = index[self._written(index, extremal(self.kernel, cycle, not self.unloading, bounds))]
@@ -122,7 +122,7 @@ class _Batch:
             strips = self.strips.among(index[ask])
             found = unique(self.kernel, bare_cycle(self.kernel, strips), "ac")
             # there is such an orbit without a limit to the gap: one that is not found is not certified, never passed over
-            gap = greatest_gap(self.kernel, strips, found.orbit)
+            gap = greatest_gap(self.kernel, strips, found.orbit.a)
             found.code[found.certified & (gap > strips.delta_0)] = UNDECIDED
             rest[ask] = self._written(index[ask], found)
         return np.flatnonzero(rest)

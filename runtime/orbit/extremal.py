@@ -15,7 +15,7 @@ from .chain import follow
 from .exclusion import is_extremal
 from .groups import ROUNDING, Cycle
 from .march import TWO_PI, Orbit, between
-from .orbit_bounds import FAST, OrbitBounds
+from .orbit_bounds import FAST
 from .refine import refined
 from .regimes import CODE
 from .search import isolate_extremal, located
@@ -43,11 +43,11 @@ class Extremal(Batch):
         return cls(Orbit.blank(n), np.full(n, UNDECIDED, np.int8), np.zeros(n, bool))
 
 
-def extremal(kernel, cycle: Cycle, last: bool, bounds: OrbitBounds) -> Extremal:
+def extremal(kernel, cycle: Cycle, last: bool, bounds: Orbit) -> Extremal:
     """The first (``last``: last) orbit on the onset arc of every cycle. ``bounds`` on all orbits: of the most engaged state, for
     ``last`` of the least engaged one."""
     s, out = cycle.strips, Extremal.blank(cycle.size)
-    none = (cycle.half_d <= 0) | bounds.missed
+    none = (cycle.half_d <= 0) | np.isinf(bounds.x)
     # along every orbit w is at least -p_0: a crest that does not come as deep makes no contact
     touches = s.D + s.p_0 > s.noise()
     if last:
@@ -68,7 +68,7 @@ def extremal(kernel, cycle: Cycle, last: bool, bounds: OrbitBounds) -> Extremal:
             pick, found, limits = pick[here], found.take(here), limits.take(here)
             found.certified = is_extremal(kernel, part.among(here), found.orbit, limits, last)
             out.put(pick, found)
-            bounds.x[pick] = limits.x
+            bounds.put(pick, limits)
     rest = np.flatnonzero(~none & ~out.certified)
     if rest.size:
         _isolate(kernel, cycle, last, out, rest, bounds.x[rest])

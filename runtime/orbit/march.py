@@ -8,16 +8,21 @@ Every event of a strip (gap closes, gap reaches delta_0, pressure falls to -p_0)
 inside the arc where the harmonic keeps its sign: the arc is a bracket, in which safeguarded Newton cannot find a wrong zero.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..numerics.roots import falling_root
+from ..numerics.rounding import EPS
 from .batch import Batch
-from .groups import TWO_PI, Cycle
+from .groups import ROUNDING, TWO_PI, Cycle
 
 #: edges this close to the crest are on it: the bracket of one that is on it would be halved a thousand times
 LEAST_PHASE = 1e-60
+#: how closely edges are located for bounds of them, which are ten times further off: so close that starts from them converge
+_CLOSE = 1e-6
 
 
 @dataclass(slots=True)
@@ -39,45 +44,22 @@ class Orbit(Batch):
     r: np.ndarray
 
     @classmethod
-    def blank(cls, n: int) -> "Orbit":
+    def blank(cls, n: int) -> Orbit:
         """n places for orbits, none of them known."""
         return cls(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), np.full(n, np.nan))
 
 
-def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, later: Orbit | None = None) -> Orbit:
-    """March every cycle from its onset phase ``x``.
-
-    ``earlier`` and ``later``: orbits from an earlier and a later onset, if known. By the order of orbits b lies between theirs, a
-    and c too (the other way round), which leaves narrow brackets; NaN edges bound nothing.
-    """
-    s = cycle.strips
-
-    def first(edge, event, low, high, index):
-        known = _Known(x, earlier, later, edge)
-        return known.crossing(event, low[index], high[index], index)
-
+def march(kernel, cycle: Cycle, x: np.ndarray) -> Orbit:
+    """March every cycle from its onset phase ``x``."""
     # downward zero of the gap after the onset, where H + p_0 > 0; NaN where the gap stays open
-    rising, falling = cycle.centre - cycle.half_b, cycle.centre + cycle.half_b
-    b = np.where(cycle.direct, x, np.nan)
-    i = np.flatnonzero(~cycle.direct & (x < falling))
-    if i.size:
-        gap = Event(kernel.gap_event, kernel.gap_entry(x[i], cycle.gap_on[i], -s.p_0[i], s.D[i], s.beta[i]))
-        b[i] = first("b", gap, np.maximum(x, rising), falling, i)
-    # downward zero of the excess pressure p + p_0, where H + p_0 < 0; NaN without contact, +inf if it never ends
+    s, end = cycle.strips, cycle.centre + cycle.half_b
+    b, i = np.where(cycle.direct, x, np.nan), np.flatnonzero(~cycle.direct & (x < end))
+    closes = Event(kernel.gap_event, kernel.gap_entry(x[i], cycle.gap_on[i], -s.p_0[i], s.D[i], s.beta[i]))
+    b[i] = _crossing(closes, np.maximum(x, cycle.centre - cycle.half_b)[i], end[i])
     contact = ~np.isnan(b)
-    a, high = np.where(contact, np.inf, np.nan), rising + TWO_PI
-    i = np.flatnonzero(contact & (falling < high))
-    if i.size:
-        entry = kernel.excess_entry(b[i], cycle.q_on[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
-        a[i] = np.fmin(first("a", Event(kernel.excess_event, entry), np.fmax(falling, b), high, i), np.inf)
-    # upward zero of gap - delta_0, where H + p_0 + delta_0 < 0; NaN where the strip stays engaged
-    c = np.where(cycle.bare & np.isfinite(a), a, np.nan)
-    start, high = np.where(contact, a, x), cycle.centre + TWO_PI - cycle.half_c
-    i = np.flatnonzero(~cycle.bare & (start < high))
-    if i.size:
-        entry = kernel.gap_entry(start[i], np.where(contact, 0.0, cycle.gap_on)[i], -s.p_0[i], s.D[i], s.beta[i])
-        closed = Event(kernel.gap_event, entry, s.delta_0[i], -1.0)
-        c[i] = first("c", closed, np.maximum(cycle.centre + cycle.half_c, start), high, i)
+    a = contact_end(kernel, cycle, b, cycle.q_on)
+    c = adhesion_end(kernel, cycle, np.where(contact, a, x), np.where(contact, 0.0, cycle.gap_on))
+    c = np.where(cycle.bare & np.isfinite(a), a, c)
     engaged = np.isnan(c)
     r = np.full(x.shape, -np.inf)
     free = np.flatnonzero(~engaged)
@@ -86,51 +68,79 @@ def march(kernel, cycle: Cycle, x: np.ndarray, earlier: Orbit | None = None, lat
     return Orbit(x.copy(), b, a, c, engaged, r)
 
 
+def contact_end(kernel, cycle: Cycle, b, q, way=0, after=None):
+    """Where contacts that begin at b with the excess pressure q end: at its downward zero, where H + p_0 < 0, not before
+    ``after``. NaN without contact, inf if it never ends.
+
+    ``way``: 1 for phases that are certain to be later (here and below: -1, earlier), whatever rounding does to the threshold.
+    """
+    s, low, high = cycle.strips, cycle.centre + cycle.half_b, cycle.centre + TWO_PI - cycle.half_b
+    a, i = np.where(np.isnan(b), np.nan, np.inf), np.flatnonzero(~np.isnan(b) & (low < high))
+    low = np.fmax(low, b if after is None else after)
+    entry = kernel.excess_entry(b[i], q[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
+    event = Event(kernel.excess_event, entry, -way * (s.noise()[i] + ROUNDING * entry[4]) if way else 0.0)
+    a[i] = np.fmin(_crossing(event, low[i], high[i], None if after is None else low[i], way), np.inf)
+    return a
+
+
+def adhesion_end(kernel, cycle: Cycle, start, gap, way=0):
+    """Where adhesion that pulls a ``gap`` from ``start`` on ends: at the upward zero of gap - delta_0, where
+    H + p_0 + delta_0 < 0. NaN where the strip stays engaged."""
+    s, high = cycle.strips, cycle.centre + TWO_PI - cycle.half_c
+    c, i = np.full(start.shape, np.nan), np.flatnonzero(~cycle.bare & (start < high))
+    first, reach = start[i], s.delta_0[i]
+    entry = kernel.gap_entry(first, gap[i], -s.p_0[i], s.D[i], s.beta[i])
+    event = Event(kernel.gap_event, entry, reach + way * s.noise()[i] if way else reach, -1.0)
+    low = np.maximum((cycle.centre + cycle.half_c)[i], first)
+    c[i] = _crossing(event, low, high[i], _stands_still(first, reach), way)
+    return c
+
+
+def next_onset(kernel, cycle: Cycle, c, way):
+    """Onsets, less 2 pi, that cycles released at c meet next: at the downward zero of gap - delta_0, where H + delta_0 > 0. NaN
+    where they miss it."""
+    s, low = cycle.strips, np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
+    entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
+    event, guess = Event(kernel.gap_event, entry, s.delta_0 - way * s.noise()), TWO_PI - _stands_still(c, -cycle.jump)
+    x = _crossing(event, low, cycle.centre + TWO_PI + cycle.half_d, guess, way) - TWO_PI
+    # a surface out of reach of the undeformed foundation is not met if nothing is left of w that would change its gap
+    left = np.abs(kernel.profile(c, s.D) + s.delta_0 + cycle.jump) * kernel.decay(low - c, s.beta)
+    return np.where((way < 0) & (s.D <= -s.delta_0) & (left < 0.25 * EPS * s.delta_0), np.nan, x)
+
+
+def _stands_still(phase, rise):
+    """Phase where the gap of a foundation that stands still has grown by ``rise`` since this one."""
+    return np.arccos(np.clip(np.cos(phase) - rise, -1.0, 1.0))
+
+
+def _crossing(event: Event, low, high, guess=None, way=0):
+    """Phases where events fall through zero in the arcs from ``low`` to ``high``, NaN where they do not; ``way``: phases that are
+    later or earlier by the sign of the event, the end of the arc where none close by is.
+
+    That they fall is seen from the sign at the end. Where there is next to no memory the event function follows the harmonic and
+    vanishes there but for rounding; it is deepest half way."""
+    high = np.maximum(low, high)
+    phase, meets = np.full(low.size, np.nan), np.zeros(low.size, bool)
+    for where in (high, 0.5 * (low + high)):
+        ask = np.flatnonzero(~meets)
+        if ask.size:
+            meets[ask] = event(where[ask], ask)[0] <= 0
+    here = np.flatnonzero(meets)
+    event, low, high, guess = event.among(here), low[here], high[here], None if guess is None else guess[here]
+    x = falling_root(event, low, high, guess, _CLOSE if way else LEAST_PHASE)
+    if way:
+        x = np.clip(x + 10 * way * _CLOSE, low, high)
+        x = np.where(way * event(x, np.arange(x.size))[0] <= 0, x, high if way > 0 else low)
+    phase[here] = x
+    return phase
+
+
 def between(left: Orbit, right: Orbit) -> Orbit:
     """Edges interpolated to where r vanishes linearly between two onsets: a start for Newton, not an orbit."""
     fall = left.r - right.r
     share = np.clip(np.divide(left.r, fall, out=np.full(fall.shape, 0.5), where=np.isfinite(fall) & (fall > 0)), 0, 1)
     mixed = [(1 - share) * getattr(left, e) + share * getattr(right, e) for e in ("x", "b", "a", "c")]
     return Orbit(*mixed, left.engaged.copy(), left.r.copy())
-
-
-class _Known:
-    """What orbits from an earlier and a later onset say of an edge: bounds, and whether it exists at all."""
-
-    def __init__(self, x, earlier: Orbit | None, later: Orbit | None, edge: str):
-        if earlier is None or later is None:
-            self.sure = np.zeros(x.shape, bool)
-            return
-        first, second = getattr(earlier, edge), getattr(later, edge)
-        self.sure = np.isfinite(first) & np.isfinite(second)
-        first, second = np.where(self.sure, first, 0.0), np.where(self.sure, second, 0.0)
-        self.low, self.high = np.minimum(first, second), np.maximum(first, second)
-        span = later.x - earlier.x
-        share = np.divide(x - earlier.x, span, out=np.full(x.shape, 0.5), where=span > 0)
-        self.guess = first + share * (second - first)
-
-    def crossing(self, event, low, high, index):
-        """Phases where the events of ``index`` fall through zero in the arcs from ``low`` to ``high``, NaN where they do not.
-        That they do is known, or seen from the sign at the end.
-
-        Where there is next to no memory the event function follows the harmonic and vanishes at the end but for rounding; it is
-        deepest half way.
-        """
-        meets, high = self.sure[index], np.maximum(low, high)
-        phase = np.full(index.size, np.nan)
-        for where in (high, 0.5 * (low + high)):
-            ask = np.flatnonzero(~meets)
-            if ask.size:
-                meets[ask] = event(where[ask], ask)[0] <= 0
-        here = np.flatnonzero(meets)
-        event, low, high, index, guess = event.take(here), low[here], high[here], index[here], None
-        if self.sure.any():
-            sure = self.sure[index]
-            low = np.where(sure, np.clip(self.low[index], low, high), low)
-            high = np.where(sure, np.clip(self.high[index], low, high), high)
-            guess = np.where(sure, self.guess[index], 0.5 * (low + high))
-        phase[here] = falling_root(event, low, high, guess, LEAST_PHASE)
-        return phase
 
 
 def _rows(size: int, *values) -> np.ndarray:
@@ -150,7 +160,10 @@ class Event:
         self.constants = _rows(constants[1].size, offset, *constants)
         self._asked, self._last = None, self.constants
 
-    def take(self, index) -> "Event":
+    def among(self, index) -> Event:
+        """The elements at ``index``, which ascends and repeats nothing."""
+        if index.size == self.constants.shape[1]:
+            return self
         other = object.__new__(Event)
         other.function, other.sign, other.constants = self.function, self.sign, self.constants[:, index]
         other._asked, other._last = None, other.constants

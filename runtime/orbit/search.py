@@ -6,10 +6,9 @@ last one. A zero is skipped by no one: an interval is left behind only when a bo
 
 Exclusion. Write ``R(x) = r(x) exp(x/beta)``; then ``beta R' = exp(x/beta)(N - F)``, ``F = H + delta_0``. From the left end of an
 interval, where r > 0, ``r exp(..) >= r_left - fall (exp((x - x_left)/beta) - 1)`` with ``fall >= F - N``; and likewise from the
-right end. Where ``N < F`` throughout, R falls strictly: a change of sign brackets exactly one zero, a stable orbit. Next to an
-onset from which adhesion just does not end r has no bounded slope, but is no less than free flow leaves of it, however late
-adhesion ends. All other intervals are divided, into one part more each time: most searches end in the second or third round, and
-for those next to a fold or a graze, which go on, the way to rounding is short.
+right end. Where ``N < F`` throughout, R falls strictly: a change of sign brackets exactly one zero, a stable orbit. All other
+intervals are divided, into one part more each time: most searches end in the second or third round, and for those next to a fold
+or a graze, which go on, the way to rounding is short.
 """
 
 from dataclasses import dataclass
@@ -21,9 +20,8 @@ from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
 from .batch import Batch
 from .groups import Cycle, arc_versine
-from .march import LEAST_PHASE, TWO_PI, Orbit, march
-from .orbit_bounds import next_onset
-from .sensitivity import SlopeBounds, over, slope_bounds, slope_excess
+from .march import LEAST_PHASE, TWO_PI, Orbit, march, next_onset
+from .sensitivity import falls, over, slope_bounds, slope_excess
 
 #: retardation times after which a displacement is gone, to the smallest number
 FORGOTTEN = 750
@@ -59,8 +57,8 @@ class _Search:
         n = cycle.size
         self.result = Isolated(np.zeros(n, bool), Orbit.blank(n), Orbit.blank(n))
 
-    def march(self, index, x, earlier=None, later=None):
-        return march(self.kernel, self.cycle.take(index), x, earlier, later)
+    def march(self, index, x):
+        return march(self.kernel, self.cycle.take(index), x)
 
     def run(self) -> Isolated:
         index = self._within_reach(self._without_memory(np.flatnonzero(self.cycle.half_d > 0)))
@@ -100,9 +98,9 @@ class _Search:
             return index
         part = self.cycle.take(index)
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            x, missed = next_onset(self.kernel, part, part.centre + TWO_PI - part.half_c, -1.0)
+            x = next_onset(self.kernel, part, part.centre + TWO_PI - part.half_c, -1)
         self.start[index] = np.fmax(self.start[index], x)
-        return index[~missed]
+        return index[~np.isnan(x)]
 
     def _start(self, index):
         """Marches from both ends of the arc; a known orbit stands for the far one."""
@@ -137,8 +135,7 @@ class _Search:
         every = np.tile(np.arange(n), parts - 1)
         points = [frontier, beyond, stop]
         if parts > 1:
-            earlier, later = (beyond, frontier) if self.last else (frontier, beyond)
-            points.insert(1, self.march(index[every], inner.ravel(), earlier.take(every), later.take(every)))
+            points.insert(1, self.march(index[every], inner.ravel()))
         points = Orbit.joined(points)
         here, there = points.take(slice(0, -n)), points.take(slice(n, None))
         excluded, unique = self._judged(np.tile(index, parts + 1), here, there)
@@ -167,12 +164,8 @@ class _Search:
         open_ = np.flatnonzero(~excluded & ~unique)
         index, left, right, changes = index[open_], left.take(open_), right.take(open_), changes[open_]
         cycle = self.cycle.take(index)
-        bounds = slope_bounds(self.kernel, cycle, left, right)
-        unique[open_] = changes & ~left.engaged & bounds.falls
-        excluded[open_] = ~changes & excludes(bounds, cycle.strips.beta, left, right, self.last)
-        if not self.last:
-            held = np.flatnonzero(left.engaged & ~excluded[open_])
-            excluded[open_[held]] = misses(self.kernel, cycle.take(held), left.x[held], right.take(held))
+        unique[open_] = changes & ~left.engaged & falls(self.kernel, cycle, left, right)
+        excluded[open_] = ~changes & excludes(self.kernel, cycle, left, right, self.last)
         return excluded, unique
 
     def _isolated(self, index, left: Orbit, right: Orbit):
@@ -187,7 +180,7 @@ def located(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> Orbit:
 
     def residual(x, index):
         part = cycle.take(index)
-        orbit = march(kernel, part, x, left.take(index), right.take(index))
+        orbit = march(kernel, part, x)
         released = np.flatnonzero(~orbit.engaged)
         best.put(index[released], orbit.take(released))
         beta, change = part.strips.beta, slope_excess(kernel, part, orbit)[1] - orbit.r
@@ -200,21 +193,13 @@ def located(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> Orbit:
     return best
 
 
-def excludes(bounds: SlopeBounds, beta, left: Orbit, right: Orbit, last: bool) -> np.ndarray:
-    """True where the bounds leave no zero of r between two onsets at which r has the sign of the excluded side."""
-    sign, (of_left, of_right) = (-1.0, (bounds.rise, bounds.fall)) if last else (1.0, (bounds.fall, bounds.rise))
+def excludes(kernel, cycle: Cycle, left: Orbit, right: Orbit, last: bool) -> np.ndarray:
+    """True where bounds of the slope leave no zero of r between two onsets at which r has the sign of the excluded side."""
+    (fall, rise), beta = slope_bounds(kernel, cycle, left, right), cycle.strips.beta
+    sign, (of_left, of_right) = (-1.0, (rise, fall)) if last else (1.0, (fall, rise))
     near = _reach(beta, np.where(left.engaged, 0.0, sign * left.r), of_left, 1.0)
     far, width = _reach(beta, sign * right.r, of_right, -1.0), right.x - left.x
     return near + far > width
-
-
-def misses(kernel, cycle: Cycle, x, right: Orbit) -> np.ndarray:
-    """Whether every onset after ``x`` and not after that of ``right`` is followed by a later one, whenever adhesion ends, but not
-    before that of ``right``: where that grazes r rises too steeply for bounds of its slope."""
-    s, end = cycle.strips, cycle.centre + TWO_PI - cycle.half_c
-    w = kernel.profile(np.clip(np.pi, right.c, np.maximum(end, right.c)), s.D) + s.delta_0 + cycle.jump
-    free = np.where(w > 0, right.x - right.c, np.maximum(x - end, -TWO_PI)) + TWO_PI
-    return w * kernel.decay(free, s.beta) - kernel.profile(np.minimum(right.x, 0.0), s.D) - s.delta_0 > s.noise()
 
 
 def _reach(beta, margin, rate, way):

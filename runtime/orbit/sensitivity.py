@@ -12,22 +12,10 @@ logarithm of T' without its factor of the onset, ``N - F = F (exp(g) - 1) + s_x 
 grazes, grows with g, is linear in F, and keeps its digits at large beta, where T' is one but for terms of order 1/beta.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from .groups import ROUNDING, Cycle
 from .march import TWO_PI, Orbit
-
-
-@dataclass(frozen=True, slots=True)
-class SlopeBounds:
-    """Over an interval: how fast R can fall and rise at most (``N - F`` from below and above, as rates >= 0), and whether it
-    falls strictly."""
-
-    fall: np.ndarray
-    rise: np.ndarray
-    falls: np.ndarray
 
 
 def slope_excess(kernel, cycle: Cycle, orbit: Orbit) -> tuple[np.ndarray, np.ndarray]:
@@ -51,8 +39,9 @@ def release_margin(kernel, cycle: Cycle, c: np.ndarray) -> np.ndarray:
     return -(kernel.forcing(c, s.D, s.beta) + s.delta_0 + s.p_0)
 
 
-def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds:
-    """Bounds over [left.x, right.x]; ``left`` may be engaged (then its edges are replaced by the ends of their arcs)."""
+def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[np.ndarray, np.ndarray]:
+    """How fast R can fall and rise at most over [left.x, right.x] (``N - F`` from below and above, as rates >= 0); ``left`` may
+    be engaged (then its edges are replaced by the ends of their arcs)."""
     last_a = cycle.centre + TWO_PI - cycle.half_b
     last_c = cycle.centre + TWO_PI - cycle.half_c
     b_left = np.where(np.isnan(left.b) & ~np.isnan(right.b), right.b, left.b)
@@ -73,20 +62,17 @@ def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> SlopeBounds
     least, most = (_log_gain(cycle, fading(cycle, length), M) for length, M in ((longest, M_max), (shortest, M_min)))
     fall = -np.minimum(_excess(cycle, F_min, least), _excess(cycle, F_max, least))
     rise = np.maximum(_excess(cycle, F_min, most), _excess(cycle, F_max, most))
-    return SlopeBounds(np.maximum(fall, 0.0), np.maximum(rise, 0.0), (most < 0) & (rise <= 0))
+    return np.maximum(fall, 0.0), np.maximum(rise, 0.0)
 
 
-def steep_margin(kernel, cycle: Cycle, earliest, latest, shortest) -> np.ndarray:
-    """The F beyond which R falls strictly at every onset from which adhesion ends between the phases ``earliest`` and ``latest``,
-    after a contact no shorter than ``shortest``; inf if one of them is unknown, NaN.
-
-    M is least at one of the two phases: ``log T' <= log B + log(1 + s_x/F)`` with a B that does not depend on the onset, negative
-    where ``F > s_x/(1/B - 1)``.
-    """
-    M = np.minimum(release_margin(kernel, cycle, latest), release_margin(kernel, cycle, earliest))
-    # the rounding of the terms of log B, which may cancel
-    log_B = _log_gain(cycle, (1 - ROUNDING) * fading(cycle, shortest), M)
-    return np.divide(cycle.onset_step, np.expm1(np.minimum(-log_B, 700.0)), out=np.full(log_B.shape, np.inf), where=log_B < 0)
+def falls(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> np.ndarray:
+    """Where R falls strictly over [left.x, right.x] by more than rounding blurs: F and M are least at one of its ends, contacts
+    are no shorter than that of ``right``. False where an end is not known (NaN)."""
+    F = np.minimum(onset_margin(kernel, cycle, left.x), onset_margin(kernel, cycle, right.x)) - cycle.strips.noise()
+    M = np.minimum(release_margin(kernel, cycle, left.c), release_margin(kernel, cycle, right.c))
+    # the rounding of the terms of the gain, which may cancel
+    most = _log_gain(cycle, (1 - ROUNDING) * fading(cycle, contact_length(right.b, right.a)), M)
+    return (F > 0) & (most < 0) & (_excess(cycle, F, most) <= 0)
 
 
 def slope_grows(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:

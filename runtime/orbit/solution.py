@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -28,7 +27,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StripSolution:
-    """Steady sliding of strips; arrays have the broadcast shape of the inputs and are made when first asked for.
+    """Steady sliding of strips; arrays have the broadcast shape of the inputs.
 
     Attributes
     ----------
@@ -40,54 +39,21 @@ class StripSolution:
     edge, branch : the edge closure and the branch that was asked for
     """
 
+    p_mean: Floats
+    tau_mean: Floats
+    contact_fraction: Floats
+    adhesion_fraction: Floats
+    regime: npt.NDArray[np.str_]
+    a: Floats
+    b: Floats
+    c: Floats
+    d: Floats
     edge: Edge
     branch: Branch
     _strips: Any
     _solved: Solved
     _scales: dict
     _foundation: Foundation
-
-    @cached_property
-    def p_mean(self) -> Floats:
-        return self._out(self._solved.p_mean) * self._scales["p"]
-
-    @cached_property
-    def tau_mean(self) -> Floats:
-        return self._out(self._solved.tau_mean) * self._scales["p"] * self._scales["k"] * self._scales["A"]
-
-    @cached_property
-    def contact_fraction(self) -> Floats:
-        return self._out(self._solved.contact_fraction)
-
-    @cached_property
-    def adhesion_fraction(self) -> Floats:
-        return self._out(self._solved.adhesion_fraction)
-
-    @cached_property
-    def regime(self) -> npt.NDArray[np.str_]:
-        return self._out(SEQUENCES[self._solved.code])
-
-    @cached_property
-    def a(self) -> Floats:
-        return self._edge(self._solved.a)
-
-    @cached_property
-    def b(self) -> Floats:
-        return self._edge(-self._solved.b)
-
-    @cached_property
-    def c(self) -> Floats:
-        return self._edge(self._solved.c)
-
-    @cached_property
-    def d(self) -> Floats:
-        return self._edge(-self._solved.d)
-
-    def _out(self, flat: np.ndarray) -> np.ndarray:
-        return flat.reshape(self._scales["k"].shape)
-
-    def _edge(self, phase: np.ndarray) -> np.ndarray:
-        return self._out(phase) * (1 / self._scales["k"])
 
     def __repr__(self) -> str:
         from ..display import as_text, of_strips
@@ -214,7 +180,14 @@ def solve_strip(
     flat_in = [_flat(v, shape) for v in (wavelength, A, D, V, adhesion.p_0, adhesion.delta_0)]
     foundation = foundation_of(material).flat(shape)
     solved, strips, scales = foundation.solve(*flat_in, edge, branch)
-    return StripSolution(edge, branch, strips, solved, {n: v.reshape(shape) for n, v in scales.items()}, foundation)
+    scales = {name: value.reshape(shape) for name, value in scales.items()}
+    p_mean, tau_mean, contact, adhesion = (
+        getattr(solved, name).reshape(shape) for name in ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
+    )
+    means = p_mean * scales["p"], tau_mean * scales["p"] * scales["k"] * scales["A"]
+    unit, regime = 1 / scales["k"], SEQUENCES[solved.code].reshape(shape)
+    a, b, c, d = (getattr(solved, name).reshape(shape) * unit for name in "abcd")
+    return StripSolution(*means, contact, adhesion, regime, a, -b, c, -d, edge, branch, strips, solved, scales, foundation)
 
 
 def _flat(values, shape) -> np.ndarray:

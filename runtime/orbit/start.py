@@ -24,14 +24,14 @@ from ..numerics.rounding import EPS
 from .groups import TWO_PI, Cycle, arc_versine
 
 if TYPE_CHECKING:
-    from .orbit_bounds import OrbitBounds
+    from .march import Orbit
 
 #: rounds of Newton for the edge, and the largest a they begin at: ``a sin a`` has its maximum there; up to it ``sin a - a cos a``
 #: is no less than about this part of ``a**3/3``
 _ROUNDS, _LONG, _CUBE = 4, 2.03, 0.65
 
 
-def start(kernel, cycle: Cycle, sequence: str, bounds: OrbitBounds | None = None) -> np.ndarray:
+def start(kernel, cycle: Cycle, sequence: str, bounds: Orbit | None = None) -> np.ndarray:
     """Edges (k, n), in the order of ``chain.EDGES``, for cycles taken to follow ``sequence``: of the stable orbit of a foundation
     that stands still if there is one, else some near its fold. Where adhesion pulls so hard that w moves by more than the
     amplitude in a period, those of the ``bounds`` on all orbits, if there are any."""
@@ -44,7 +44,7 @@ def start(kernel, cycle: Cycle, sequence: str, bounds: OrbitBounds | None = None
     return edges
 
 
-def _bounding(kernel, cycle: Cycle, sequence: str, bounds: OrbitBounds) -> np.ndarray:
+def _bounding(kernel, cycle: Cycle, sequence: str, bounds: Orbit) -> np.ndarray:
     """The edges that bound those of all orbits; contact begins as soon as the gap is closed at the pace it has at the onset."""
     s, x = cycle.strips, bounds.x
     pace = np.maximum(kernel.forcing(x, s.D, s.beta) + s.p_0 + cycle.gap_on, EPS)
@@ -76,16 +76,10 @@ def _onset(cycle: Cycle, c):
 
 
 def _without_contact(cycle: Cycle) -> np.ndarray:
-    """Phase c where no contact is made: the balance without its right side."""
+    """About the phase c where no contact is made: half way between crest and valley the balance without its right side."""
     s = cycle.strips
-    pull = (s.p_0 - cycle.jump) / np.pi
-    level = s.D - 1 + s.delta_0 + cycle.jump
-    c = np.arccos(np.clip(-level - 0.5 * np.pi * pull, -1.0, 1.0))
-    low = np.arcsin(np.minimum(pull, 1.0))
-    for _ in range(_ROUNDS):
-        slope = np.minimum(pull - np.sin(c), -EPS)
-        c = np.clip(c - (level + np.cos(c) + pull * c) / slope, low, np.pi - low)
-    return c
+    pull = s.p_0 - cycle.jump
+    return np.arccos(np.clip(1 - s.D - s.delta_0 - cycle.jump - 0.5 * pull, -1.0, 1.0))
 
 
 def _contact(cycle: Cycle) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Extremes of gap and pressure between the edges of orbits with several times: zero where an orbit ends, or passes a pressure.
+"""Extremes of the gap between the edges of orbits with several times, which tell where an orbit ends.
 
 Each is where a slope vanishes that is a sine against a sum of decaying exponentials with terms of one sign: on the half
 period where the sine does not oppose them, log-concave against log-convex, it has its sign on one interval at most. So the
@@ -8,9 +8,10 @@ brackets hold one zero each.
 import numpy as np
 
 from ...numerics.roots import falling_root, rising_root
+from ..batch import pick
 from .fields import zones_of
 from .march import TWO_PI
-from .problem import ModeStrips, pick
+from .problem import ModeStrips
 
 #: how closely extremes are placed, radians: their values are off by the square
 _PLACED = 1e-9
@@ -29,15 +30,6 @@ def least_gap(kernel, edges: np.ndarray, s: ModeStrips) -> np.ndarray:
     (_, _, z, _), _ = zones_of(kernel, "af", s, edges)
     constants = kernel.gap_entry(start, z, -s.p_0, s.D, s.m)
     return _value(kernel.gap_event, constants, rising_root, np.maximum(start, TWO_PI * np.floor(end / TWO_PI)), end)
-
-
-def peak(kernel, sequence: str, edges: np.ndarray, s: ModeStrips) -> np.ndarray:
-    """Greatest contact pressure of orbits with a contact, (N,)."""
-    zones = list(zones_of(kernel, sequence, s, edges))
-    place = next(i for i, (letter, *_) in enumerate(zones) if letter == "c")
-    _, start, overstress, _ = zones[place]
-    constants = kernel.excess_entry(start, overstress, s.p_0, s.D, s.m)
-    return _value(kernel.excess_event, constants, falling_root, start, edges[place + 1]) - s.p_0
 
 
 def _value(event, constants, root, low, high) -> np.ndarray:

@@ -1,34 +1,11 @@
-"""Pressure and gap of solved strips with several times at any phase, from their edges, without solving again."""
+"""Zones and states of solved strips with several times, from their edges, without solving again."""
 
 import numpy as np
 
-from ..fields import by_regime
 from ..regimes import EQUATIONS, ZONES
-from ..solved import Solved
 from .march import TWO_PI
 from .polish import arguments
 from .problem import ModeStrips
-
-
-def fields(kernel, strips: ModeStrips, solved: Solved, phase: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Dimensionless pressure and gap at ``phase``; all arguments of shape (N,), one phase per strip.
-
-    At an edge the value is that of the zone which begins there.
-    """
-
-    def saturated(s, phase):
-        return kernel.saturated_pressure(phase, s.D, s.m)
-
-    def zones(sequence, s, edges):
-        return zones_of(kernel, sequence, s, edges)
-
-    def contact(s, start, phase, overstress):
-        return kernel.contact_pressure(phase, kernel.overstress_after(start, phase, overstress, s.m), s.D)
-
-    def gap(s, start, phase, z, pressure):
-        return kernel.gap_after(start, phase, z, pressure, s.D, s.m)
-
-    return by_regime(kernel, strips, solved, phase, (saturated, zones, contact, gap))
 
 
 def zones_of(kernel, sequence, s: ModeStrips, edges):

@@ -1,4 +1,4 @@
-"""The foundation with several relaxation times and its generated solver, as ``orbit.foundation.Foundation``."""
+"""The foundation with several relaxation times and its generated solver, as ``orbit.common.Foundation``."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ import numpy as np
 
 from ...errors import InputError
 from ...inputs.model import ModelMaterial, modes_of
+from ..common import Foundation
 from ..flat import is_flat, solve_with_flat
 from ..groups import snaps_in
 from ..materials import parameters
 from ..si import CERTIFIED, refuse_uncertified
-from .contact import ModeContact
 from .engine import solve_modes
-from .extremes import greatest_gap, least_gap, peak
-from .fields import fields
+from .extremes import greatest_gap, least_gap
+from .fields import zones_of
 from .nonadhesive import ModeWaves
 from .problem import ModeStrips
 
 
-class ManyTimes:
-    """See ``orbit.foundation.Foundation``. ``modes``: the kernel's ``Modes`` in seconds, last axis strips or of length one."""
+class ManyTimes(Foundation):
+    """With several relaxation times. ``modes``: the kernel's ``Modes`` in seconds, last axis strips or of length one."""
 
     def __init__(self, kernel: ModuleType, material, K=None, modes=None):
         self.kernel, self.material = kernel, material
         if modes is None:
             K, modes = material.K, material.modes if isinstance(material, ModelMaterial) else _of_prony(kernel, material)[1]
-        self.K, self.modes = K, modes
+        self.K, self.modes, self.parameters, self.J = K, modes, (K, modes), modes.J_0
 
     @property
     def longest_time(self):
@@ -79,11 +79,14 @@ class ManyTimes:
         # a material of arrays was spread over the strips in `flat`; the strip's own values are in K and the modes
         return {n: np.broadcast_to(v, shape) for n, v in named.items() if np.ndim(v) == 0} | {"K": np.broadcast_to(self.K, shape)}
 
-    def fields(self, strips, solved, phase):
-        return fields(self.kernel, strips, solved, phase)
+    def at_rate(self, rate):
+        return (self.kernel.at_speed(self.modes, np.atleast_1d(np.asarray(rate, float))),)
 
     def boundary_arguments(self, rate, D, p_0, delta_0, edge):
-        return self.kernel.at_speed(self.modes, rate), p_0, delta_0, D
+        return *self.at_rate(rate), p_0, delta_0, D
+
+    def strips(self, arguments):
+        return ModeStrips(*arguments)
 
     def fold(self, sequence, edges, arguments):
         """Determinant of the boundary equations' derivatives by the edges."""
@@ -97,35 +100,23 @@ class ManyTimes:
     def closing(self, edges, arguments):
         return least_gap(self.kernel, edges, ModeStrips(*arguments))
 
-    def peak(self, sequence, edges, arguments, pressure):
-        return peak(self.kernel, sequence, edges, ModeStrips(*arguments)) - pressure
-
     def waves(self, rate):
-        return ModeWaves(self.kernel, self.kernel.at_speed(self.modes, rate))
+        return ModeWaves(self.kernel, *self.at_rate(rate))
 
-    def contact(self, strips, solved, scales, index):
-        return ModeContact(self.kernel, strips, solved, scales, index)
+    def moduli(self, strips):
+        return self.kernel.storage(strips.m), self.kernel.loss(strips.m), strips.m.J_0
 
-    def modulus_ratio(self, rate):
-        rate = np.atleast_1d(np.asarray(rate, float))
-        return self.kernel.modulus_ratio(self.kernel.at_speed(self.modes, rate))
+    def saturated(self, strips, phase):
+        return self.kernel.saturated_pressure(phase, strips.D, strips.m)
 
-    def saturation_pressure(self, p_0, l, h, V):  # noqa: E741
-        return self.kernel.level_saturation_pressure(self.K, self.modes, p_0, l, h, np.atleast_1d(V))
+    def zones(self, sequence, edges, strips):
+        return (zone[:3] for zone in zones_of(self.kernel, sequence, strips, edges))
 
-    def saturation_penetration(self, p_0, l, h, V):  # noqa: E741
-        return self.kernel.level_saturation_penetration(self.K, self.modes, p_0, l, h, np.atleast_1d(V))
+    def excess(self, start, entry, strips):
+        return self.kernel.excess_entry(start, entry, strips.p_0, strips.D, strips.m)
 
-    def saturation_friction(self, l, h, V):  # noqa: E741
-        shape = np.broadcast_shapes(np.shape(l), np.shape(V), (1,))
-        l, h, V = (np.broadcast_to(v, shape).ravel() for v in (l, h, V))  # noqa: E741
-        return self.kernel.level_saturation_friction(self.K, self.modes, l, h, V).reshape(shape)
-
-    def surely_saturated(self, p_0, l, h, V):  # noqa: E741
-        """Contact pressure is at least ``K u - sum K_i (e_i - u)`` with no e_i above D: positive excess all along
-        whatever the state."""
-        worst = 0.5 * h * 2 / float(self.modes.J_0[0]) - p_0 / self.K
-        return np.maximum(np.full(np.shape(V), worst), h)
+    def gap(self, start, phase, entry, pressure, strips):
+        return self.kernel.gap_after(start, phase, entry, pressure, strips.D, strips.m)
 
 
 def _of_prony(kernel, material):

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..batch import pick
 from ..groups import snaps_in
 
 #: the greatest rate of decay
@@ -74,11 +75,6 @@ class ModeStrips:
         """The strips that are never released, seen from ``-p_0``: adding ``p_0`` to w, p and every e leaves the
         foundation's law unchanged."""
         return ModeStrips(self.m, np.zeros(self.size), np.zeros(self.size), self.D + self.p_0, self.snaps, bare=True)
-
-
-def pick(value, index):
-    """What belongs to the strips ``index`` of the last axis; a value or an axis of length one is shared and stays."""
-    return value if np.ndim(value) == 0 or value.shape[-1] == 1 else value[..., index]
 
 
 def take_modes(m, index):

@@ -1,0 +1,185 @@
+"""What levels and strips ask of a foundation, and what one relaxation time and several have in common."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..numerics.roots import falling_root
+from .batch import pick
+from .contact import Contact
+from .groups import TWO_PI
+from .regimes import CODE, ZONES
+
+if TYPE_CHECKING:
+    from .nonadhesive import Waves
+    from .solved import Solved
+
+#: how closely a greatest pressure is placed, radians: its value is off by the square
+_PLACED = 1e-9
+
+
+class Foundation(ABC):
+    """A material with its generated solver: all that levels and strips ask of it. Arrays flat, (N,), SI unless said otherwise.
+
+    ``parameters``: what the generated functions of a level take first, K among them. ``J``: instantaneous compliance times K.
+    ``longest_time``: longest retardation time, s. ``lossiest_rate``: rate at which Im K* is greatest, 1/s; inf where it only
+    grows.
+    """
+
+    kernel: ModuleType
+    material: Any
+    K: Any
+    J: Any
+    parameters: tuple
+
+    @property
+    @abstractmethod
+    def longest_time(self): ...
+
+    @property
+    @abstractmethod
+    def lossiest_rate(self): ...
+
+    @abstractmethod
+    def flat(self, shape) -> Foundation:
+        """The same for strips of this shape, flattened: array parameters are broadcast to it."""
+
+    @abstractmethod
+    def solve(self, l, A, D, V, p_0, delta_0, edge: str, branch: str) -> tuple[Solved, Any, dict]:  # noqa: E741
+        """Solve strips: ``Solved`` (dimensionless), the dimensionless strips, and the scales back to SI.
+
+        ``edge`` has passed ``check_edge``. Raises ``SolverError`` for a strip that could not be certified."""
+
+    @abstractmethod
+    def at_rate(self, rate) -> tuple:
+        """The times of the foundation over those of strips at ``rate = k V``, 1/s, as the kernel's functions of it take them."""
+
+    @abstractmethod
+    def boundary_arguments(self, rate, D, p_0, delta_0, edge: str) -> tuple:
+        """What the generated boundary equations take after the edges, for strips at ``rate = k V``, 1/s, the rest
+        dimensionless."""
+
+    @abstractmethod
+    def strips(self, arguments: tuple) -> Any:
+        """The dimensionless strips of such arguments."""
+
+    @abstractmethod
+    def fold(self, sequence: str, edges, arguments: tuple) -> np.ndarray:
+        """Of orbits of a ``sequence`` with a free part: zero at a fold, with a change of sign."""
+
+    @abstractmethod
+    def release(self, edges, arguments: tuple) -> np.ndarray:
+        """Of orbits that are engaged all along, with ``edges`` b, a: positive where they would be released, zero at the end."""
+
+    @abstractmethod
+    def closing(self, edges, arguments: tuple) -> np.ndarray:
+        """Of orbits without contact, with ``edges`` d, c: negative where their gap would close, zero at the end."""
+
+    @abstractmethod
+    def waves(self, rate: np.ndarray) -> Waves:
+        """Strips without adhesion at the rates ``k V`` (N,), 1/s."""
+
+    @abstractmethod
+    def moduli(self, strips) -> tuple:
+        """Storage and loss of the foundation over K, and its instantaneous compliance times K."""
+
+    @abstractmethod
+    def saturated(self, strips, phase) -> np.ndarray:
+        """Dimensionless pressure of saturated contact."""
+
+    @abstractmethod
+    def zones(self, sequence: str, edges, strips) -> Iterable[tuple]:
+        """Zones of orbits of a ``sequence`` in the order met: letter, start, and what they begin with, (..., N)."""
+
+    @abstractmethod
+    def excess(self, start, entry, strips) -> tuple:
+        """The constants of the kernel's ``excess_event`` in a contact that begins so."""
+
+    @abstractmethod
+    def gap(self, start, phase, entry, pressure, strips) -> np.ndarray:
+        """Gap at a phase of a zone that begins so, under its constant pressure."""
+
+    def entry(self, sequence: str, edges, strips) -> np.ndarray:
+        """What contact begins with."""
+        return next(entry for zone, _, entry in self.zones(sequence, edges, strips) if zone == "c")
+
+    def fields(self, strips, solved: Solved, phase) -> tuple[np.ndarray, np.ndarray]:
+        """Dimensionless pressure and gap at one phase of each strip; at an edge those of the zone which begins there."""
+        p, gap = np.zeros(strips.size), np.zeros(strips.size)
+        for sequence, code in CODE.items():
+            index = np.flatnonzero(solved.code == code)
+            if not index.size:
+                continue
+            s, later = strips.take(index), phase[index]
+            if sequence == "c":
+                p[index] = self.saturated(s, later)
+            elif sequence in ("a", "f"):
+                p[index] = 0.0 if sequence == "f" else -s.p_0
+                gap[index] = p[index] - self.kernel.profile(later, s.D)
+            else:
+                edges = [getattr(solved, name)[index] for name in ZONES[sequence][1]]
+                later = edges[0] + np.mod(later - edges[0], TWO_PI)
+                for zone, start, entry in self.zones(sequence, edges, s):
+                    inside, at, none = later >= start, np.maximum(later, start), np.zeros(index.size)
+                    if zone == "c":
+                        pressure, open_ = self.kernel.excess_event(at, *self.excess(start, entry, s))[0] - s.p_0, none
+                    else:
+                        pressure = -s.p_0 if zone == "a" else none
+                        open_ = self.gap(start, at, entry, pressure, s)
+                    p[index], gap[index] = np.where(inside, pressure, p[index]), np.where(inside, open_, gap[index])
+        return p, gap
+
+    def peak(self, sequence: str, edges, arguments: tuple, pressure) -> np.ndarray:
+        """Of orbits of a ``sequence`` with contact: positive where their greatest pressure is above ``pressure``."""
+        s, place, event = self.strips(arguments), ZONES[sequence][0].index("c"), self.kernel.excess_event
+        b, a = edges[place], edges[place + 1]
+        constants = self.excess(b, self.entry(sequence, edges, s), s)
+
+        def slope(phase, rows):
+            return event(phase, *(pick(constant, rows) for constant in constants))[1]
+
+        top = falling_root(slope, b, np.maximum(b, a), tolerance=_PLACED)
+        return event(top, *constants)[0] - s.p_0 - pressure
+
+    def contact(self, strips, solved: Solved, scales: dict, index: np.ndarray) -> Contact:
+        """Contact of the solved strips ``index``, as ``solve`` returned them."""
+        return Contact(self, strips.take(index), solved.take(index), scales["p"][index], scales["flat"][index])
+
+    def modulus_ratio(self, rate) -> np.ndarray:
+        """``|K*(i rate)|/K``."""
+        return self.kernel.modulus_ratio(*self.at_rate(rate))
+
+    def saturation_pressure(self, p_0, l, h, V) -> np.ndarray:  # noqa: E741
+        """Nominal pressure from which a level is in saturated contact when unloading, Pa."""
+        return self._of_level("pressure", l, h, V, p_0)
+
+    def saturation_penetration(self, p_0, l, h, V) -> np.ndarray:  # noqa: E741
+        """Penetration at that pressure, m."""
+        return self._of_level("penetration", l, h, V, p_0)
+
+    def saturation_friction(self, l, h, V) -> np.ndarray:  # noqa: E741
+        """Friction of a level in saturated contact, Pa."""
+        return self._of_level("friction", l, h, V)
+
+    def _of_level(self, name: str, l, h, V, *p_0) -> np.ndarray:  # noqa: E741
+        shape = np.broadcast_shapes(np.shape(l), np.shape(V), (1,))
+        l, h, V = (np.broadcast_to(v, shape).ravel() for v in (l, h, V))  # noqa: E741
+        return getattr(self.kernel, f"level_saturation_{name}")(*self.parameters, *p_0, l, h, V).reshape(shape)
+
+    def surely_saturated(self, p_0, l, h, V) -> np.ndarray:  # noqa: E741
+        """A penetration above which every strip of a level has no orbit but saturated contact, m.
+
+        The excess pressure is positive all along, whatever the state: with the creep behind it not above D the pressure is at
+        least ``K_g u - (K_g - K) D``. Or, with one time, the forcing ``H + p_0`` is, so that contact once made is never left, and
+        no strip is out of reach."""
+        glassy = np.divide(h, self.J, out=np.full(np.shape(self.J), np.inf), where=np.asarray(self.J) > 0)
+        return np.maximum(np.minimum(self._forced(l, h, V), glassy) - p_0 / self.K, h)
+
+    def _forced(self, l, h, V):  # noqa: E741
+        """Penetration above which contact is never left without adhesion, by the load harmonic."""
+        return np.full(np.shape(V), np.inf)
