@@ -58,9 +58,9 @@ class Points:
     closed_form: np.ndarray
     pulled_off: np.ndarray
 
-    def improve(self, index: np.ndarray, finer: Points) -> None:
-        """Put the points ``finer`` (k,) in the place of those at ``index`` (k,) that err by more."""
-        better = np.flatnonzero(finer.error < self.error[index])
+    def improve(self, index: np.ndarray, finer: Points, surely: np.ndarray) -> None:
+        """Put the points ``finer`` (k,) in the place of those at ``index`` (k,) that err by more, or are ``surely`` (k,) worse."""
+        better = np.flatnonzero((finer.error < self.error[index]) | surely)
         for f in fields(self):
             getattr(self, f.name)[..., index[better]] = getattr(finer, f.name)[..., better]
 
@@ -168,7 +168,8 @@ class Surface:
                 finer = replace(surface, rtol=factor * self.rtol, laws=laws * self.rtol, families=factor == 1.0)
                 size = (size + np.where(told, self.friction_floor, 0.0))[missed]
                 again = _Solve(finer, V[missed], load[missed], by_pressure, size)
-                out.improve(missed, again.run(np.zeros(missed.size, bool), None))
+                # a friction of which no digit is told is better told by strips that are searched for, whatever the errors
+                out.improve(missed, again.run(np.zeros(missed.size, bool), None), ~told[missed] & (not finer.families))
         below = self.levels[known:]
         if below:
             out.extend(np.array([self.alone(level, V).tau_sat for level in below]))

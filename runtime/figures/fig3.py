@@ -31,7 +31,8 @@ def data() -> dict[str, Any]:
         saturated = saturation_depth(columns)
         # the threshold decides the unloading orbit only; coming from no contact, all of the surface is met when the edge is
         top = saturated if branch == "unloading" else np.maximum(saturated, 1.5 * scene.levels[0].h)
-        for v, D_top, curve in zip(V, top, trace(columns, np.full(V.size, _RTOL), top), strict=True):
+        rtol = np.full(V.size, _RTOL)
+        for v, D_top, curve in zip(V, top, trace(columns, rtol, columns.atol(rtol), top), strict=True):
             parts = [(b.piece, b.t_low, b.t_high) for b in branches_of([curve], branch == "unloading")[0]]
             for piece in curve.pieces:
                 inside = sorted((low, high) for p, low, high in parts if p is piece)
