@@ -59,7 +59,7 @@ class Points:
     pulled_off: np.ndarray
 
     def improve(self, index: np.ndarray, finer: Points, surely: np.ndarray) -> None:
-        """Put the points ``finer`` (k,) in the place of those at ``index`` (k,) that err by more, or are ``surely`` (k,) worse."""
+        """Put the points ``finer`` (k,) in the place of those at ``index`` (k,) that err by more or are ``surely`` (k,) worse."""
         better = np.flatnonzero((finer.error < self.error[index]) | surely)
         for f in fields(self):
             getattr(self, f.name)[..., index[better]] = getattr(finer, f.name)[..., better]

@@ -210,8 +210,9 @@ def test_a_family_that_goes_further_is_the_same(rtol):
     """Up to the strips asked for, whatever else is in the batch."""
     V, D, top = np.array([1e-4, 1e-2]), HEIGHT * np.array([0.1, 0.4]), np.array([0.6, 2.0]) * HEIGHT
     columns = LevelBatch(SOFT, NONE, LEVEL, "continuous", "unloading", V, top)
-    friction, accuracy = rtol * columns.floors[:, 1], np.full(2, 1e-2 * rtol)
-    slow, floors = np.zeros(2, int), columns.floors
+    floors = 1e-3 * columns.scales
+    friction, accuracy = np.full(2, rtol * floors[1]), np.full(2, 1e-2 * rtol)
+    slow = np.zeros(2, int)
 
     def means(columns, top):
         known = with_family(columns, top, friction[: columns.size], False)
