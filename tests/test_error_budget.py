@@ -89,6 +89,14 @@ def test_an_interval_is_as_accurate_as_the_surface_that_meets_its_pressures():
     assert (_weighed(2.0, p + 1.0, friction, ceiling=0.0) > 1e3 * everywhere).all()
 
 
+@pytest.mark.parametrize("friction", [0.0, 100.0, 100 * (1 + 1e-300)])
+@pytest.mark.parametrize("p", [np.zeros(9), np.linspace(-0.5, 0.5, 9)], ids=["no pressure", "pressures"])
+def test_an_interval_in_which_nothing_rises_may_err_by_numbers(p, friction):
+    with np.errstate(all="raise", under="ignore"):
+        found = _weighed(1.0, p, np.append(np.full(8, friction), friction + 1e-310))
+    assert np.isfinite(found).all() and (found >= 0).all()
+
+
 def test_no_interval_is_asked_for_more_than_the_law():
     atol = _weighed(1e3, np.linspace(-0.5, 0.5, 9), np.linspace(1e4, 2e4, 9))
     assert 0 <= atol[1] < 1e-3 * 1e4

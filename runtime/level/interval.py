@@ -84,10 +84,10 @@ def weighed(columns: LevelBatch, budget: ErrorBudget, intervals: Intervals, valu
         # all that is carried may err by as much of itself as all frictions may; where an interval ends is as well known as
         # pressures are relative to themselves, less of it the narrower it is
         size, rise = (least + floors)[columns.frictions].sum(), np.ptp(v[:, columns.frictions], axis=0).sum()
-        coarse = rtol * friction / size * min(np.ptp(p) / np.abs(p).max(), 1.0)
+        coarse = rtol * friction / size * min(np.ptp(p) / max(np.abs(p).max(), np.finfo(float).tiny), 1.0)
         allowed = coarse * (least + floors)
         # an error of pressure moves frictions that rise steadily with it by as much of their rise
-        even = min(coarse * size / max(rise, np.finfo(float).tiny), _COARSEST)
+        even = coarse * size / rise if coarse * size < _COARSEST * rise else _COARSEST
         allowed[0] = max(coarse, even) * np.ptp(p)
         allowed[columns.fractions] += rtol / met
         atol[k] = np.maximum(atol[k], allowed)
