@@ -83,7 +83,7 @@ MUTANTS = (
     ),
     Mutant(
         "loading saturates beyond what grows with V",
-        "orbit/common.py",
+        "orbit/abstract_foundation.py",
         "np.minimum(self._forced(l, h, V), glassy)",
         "self._forced(l, h, V)",
         "test_extreme_velocity.py",

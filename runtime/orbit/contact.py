@@ -19,7 +19,7 @@ from .regimes import CODE, ZONES
 from .solved import Solved
 
 if TYPE_CHECKING:
-    from .common import Foundation
+    from .abstract_foundation import Foundation
 
 
 class Contact:

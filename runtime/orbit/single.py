@@ -1,4 +1,4 @@
-"""The foundation with one relaxation time and its generated solver, as ``orbit.common.Foundation``."""
+"""The foundation with one relaxation time and its generated solver, as ``orbit.abstract_foundation.Foundation``."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from types import ModuleType
 import numpy as np
 
 from ..inputs.material import StandardLinearSolid
+from .abstract_foundation import Foundation
 from .certificate import greatest_gap
 from .chain import gap_zones
-from .common import Foundation
 from .groups import Strips, adhesive_cycle, bare_cycle, slowed
 from .nonadhesive import SingleWaves
 from .regimes import ZONES

@@ -1,4 +1,4 @@
-"""The foundation with several relaxation times and its generated solver, as ``orbit.common.Foundation``."""
+"""The foundation with several relaxation times and its generated solver, as ``orbit.abstract_foundation.Foundation``."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...inputs.model import ModelMaterial, modes_of
-from ..common import Foundation
+from ..abstract_foundation import Foundation
 from ..flat import is_flat, solve_with_flat
 from ..groups import snaps_in
 from ..materials import parameters
