@@ -55,8 +55,8 @@ _LAZY = {
     "ContactMap": "hystrip.contact_map",
     "ConvergenceWarning": "hystrip.errors",
     "Dugdale": "hystrip.inputs.adhesion",
-    "friction_law": "hystrip.level.solution",
-    "FrictionLaw": "hystrip.level.solution",
+    "friction_law": "hystrip.level_law",
+    "FrictionLaw": "hystrip.level_law",
     "HalfSpace": "hystrip.inputs.half_space",
     "HystripError": "hystrip.errors",
     "InputError": "hystrip.errors",
@@ -73,11 +73,11 @@ _LAZY = {
     "Result": "hystrip.result",
     "Scene": "hystrip.scene",
     "solve": "hystrip.solve",
-    "solve_level": "hystrip.level.solution",
-    "solve_strip": "hystrip.orbit.solution",
+    "solve_level": "hystrip.level_solution",
+    "solve_strip": "hystrip.strip_solution",
     "SolverError": "hystrip.errors",
     "StandardLinearSolid": "hystrip.inputs.material",
-    "StripSolution": "hystrip.orbit.solution",
+    "StripSolution": "hystrip.strip_solution",
     "Sweep": "hystrip.sweeps",
     "sweep": "hystrip.sweeps",
     "WLF": "hystrip.inputs.shift",
@@ -96,15 +96,15 @@ if TYPE_CHECKING:
     from .inputs.prony import Prony
     from .inputs.shift import WLF, Arrhenius
     from .inputs.surface import Level
-    from .level.solution import FrictionLaw, friction_law, solve_level
-    from .level_solution import LevelSolution
+    from .level_law import FrictionLaw, friction_law
+    from .level_solution import LevelSolution, solve_level
     from .loading import load_solver
     from .loop import Loop, loading_loop
-    from .orbit.solution import StripSolution, solve_strip
     from .result import Result
     from .scene import Scene, load_scene
     from .solve import solve
     from .storage import load
+    from .strip_solution import StripSolution, solve_strip
     from .sweeps import Sweep, sweep
 
 

@@ -1,4 +1,4 @@
-"""Checks of arguments that ``solve``, ``solve_level`` and ``friction_law`` share."""
+"""Checks of arguments that ``solve``, ``solve_level``, ``friction_law`` and ``solve_strip`` share."""
 
 from __future__ import annotations
 
@@ -8,15 +8,20 @@ import numpy as np
 
 from .errors import InputError
 from .inputs.adhesion import Dugdale
-from .inputs.checks import SMALLEST, number, sequence
+from .inputs.checks import SMALLEST, choice, number, numbers, sequence
 from .inputs.surface import Level
-from .orbit.materials import check_material, parameters
+from .orbit.materials import check_edge, check_material, parameters
 
 if TYPE_CHECKING:
     from .orbit.materials import Material
 
 #: least pressure over ``K h`` without adhesion: the contact under a smaller one is lost in rounding
 _FAINTEST = 1e-22
+
+
+def check_branch(branch: str) -> str:
+    """``branch`` if it is one."""
+    return choice("branch", branch, ("unloading", "loading"))
 
 
 def refuse_faint(pressure: np.ndarray, material: Material, adhesion: Dugdale, level: Level) -> None:
@@ -71,3 +76,12 @@ def check_rtol(rtol) -> float:
     if rtol > 0.1:
         raise InputError("rtol", rtol, "a number from 1e-12 to 0.1")
     return rtol
+
+
+def check_on_level(material, adhesion, level, V, edge, branch, rtol) -> tuple[Material, np.ndarray, Level, str, str, float]:
+    """Arguments of one level, checked: the material at its wavelength, velocities, level, closure, branch and ``rtol``."""
+    check_single(material, adhesion)
+    if not isinstance(level, Level):
+        raise InputError("level", level, "a hystrip.Level")
+    V, edge = numbers("V", V, "m/s", 0), check_edge(material, edge)
+    return material.at_wavelength(level.l), V, level, edge, check_branch(branch), check_rtol(rtol)

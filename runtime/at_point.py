@@ -9,7 +9,7 @@ import numpy as np
 from .contact_map import Cell, map_of
 from .errors import InputError
 from .inputs.checks import number
-from .level.solution import solve_level
+from .level_solution import solve_level
 
 if TYPE_CHECKING:
     from .result import Result

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .errors import InputError
-from .orbit.solution import solve_strip
+from .strip_solution import solve_strip
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from .inputs.adhesion import Dugdale
     from .inputs.surface import Level
     from .orbit.materials import Material
-    from .orbit.solution import StripSolution
+    from .strip_solution import StripSolution
     from .typing import Bools, Branch, Edge, Floats
 
 #: points over a cell, along x and along y

@@ -9,8 +9,8 @@ import numpy as np
 
 if TYPE_CHECKING:
     from .level_solution import LevelSolution
-    from .orbit.solution import StripSolution
     from .result import Result
+    from .strip_solution import StripSolution
     from .sweeps.run import Sweep
 
 #: heading, and rows of label and text

@@ -1,12 +1,24 @@
-"""What ``hystrip.solve_level`` returns."""
+"""One level: ``hystrip.solve_level`` and what it returns."""
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
+
+from .arguments import check_on_level, check_strips, refuse_faint
+from .errors import ConvergenceWarning, InputError
+from .inputs.adhesion import Dugdale
+from .inputs.checks import broadcast, choice, numbers
+from .inputs.surface import Level
+from .level.effort import WorkCounters
+from .level.inverse import invert
+from .level.means import level_means
+from .level.strips import QUANTITIES, LevelBatch
+from .orbit.groups import ROUNDING
 
 if TYPE_CHECKING:
     import os
@@ -15,10 +27,8 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
     from .contact_map import Cell, ContactMap
-    from .inputs.adhesion import Dugdale
-    from .inputs.surface import Level
     from .orbit.materials import Material
-    from .typing import Bools, Branch, Edge, Floats, LevelPlot
+    from .typing import Bools, Branch, Edge, Floats, LevelPlot, Numbers
 
 
 @dataclass(frozen=True)
@@ -96,8 +106,6 @@ class LevelSolution:
 
         Raises ``InputError`` for an unknown kind, or a point that is pulled off.
         """
-        from .inputs.checks import choice
-
         if choice("kind", kind, ("map", "strip")) == "map":
             return self.contact_map(at).plot()
         return self._cell(at).strip(np.asarray(float(y))).plot()
@@ -110,7 +118,6 @@ class LevelSolution:
 
     def _cell(self, at: int | tuple[int, ...] | None) -> Cell:
         from .contact_map import Cell
-        from .errors import InputError
 
         size = np.size(self.D)
         if at is None and size > 1:
@@ -124,3 +131,104 @@ class LevelSolution:
             raise InputError("at", at, "a point in contact: at this one the level is pulled off")
         asked = self.inputs
         return Cell(asked.material, asked.adhesion, asked.level, D, V, asked.edge, asked.branch)
+
+
+@overload
+def solve_level(
+    material: Material, adhesion: Dugdale, level: Level, *, V: Numbers, D: Numbers, pressure: None = None,
+    edge: Edge = ..., branch: Branch = ..., rtol: float = ..., strips: int | None = None,
+) -> LevelSolution: ...  # fmt: skip
+@overload
+def solve_level(
+    material: Material, adhesion: Dugdale, level: Level, *, V: Numbers, D: None = None, pressure: Numbers,
+    edge: Edge = ..., branch: Branch = ..., rtol: float = ..., strips: None = None,
+) -> LevelSolution: ...  # fmt: skip
+def solve_level(
+    material: Material,
+    adhesion: Dugdale,
+    level: Level,
+    *,
+    V: Numbers,
+    D: Numbers | None = None,
+    pressure: Numbers | None = None,
+    edge: Edge = "continuous",
+    branch: Branch = "unloading",
+    rtol: float = 1e-9,
+    strips: int | None = None,
+) -> LevelSolution:
+    """Means of a level over its strips (Eq. 11) at penetration ``D`` (m) or nominal ``pressure`` (Pa) and velocity ``V`` (m/s).
+
+    ``strips=N``: the paper's equal strips (midpoints of N strips of half a cell) instead of adaptive panels; with ``D`` only.
+    ``rtol`` is relative to ``|value| + 1e-3 scale``, scale ``K h + p_0`` for pressure, times ``h/l`` for friction, 1 for
+    fractions.
+
+    Raises ``InputError`` for inputs out of range, ``SolverError`` for a strip that could not be certified; warns with a
+    ``ConvergenceWarning`` of points that are not ``converged``, as the work on each is bounded.
+
+    >>> import hystrip
+    >>> material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
+    >>> adhesion = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+    >>> level = hystrip.solve_level(material, adhesion, hystrip.Level(l=1e-5, h=1e-6), V=5e-3, D=6e-7, rtol=1e-6)
+    >>> print(f"{float(level.p_mean):.4g} Pa, {float(level.tau_mean):.4g} Pa, {float(level.contact_fraction):.4g}")
+    42.54 Pa, 23.53 Pa, 0.4357
+    """
+    material, V, level, edge, branch, rtol = check_on_level(material, adhesion, level, V, edge, branch, rtol)
+    if (D is None) == (pressure is None):
+        raise InputError("D, pressure", {"D": D, "pressure": pressure}, "exactly one of the two")
+    strips = check_strips(strips)
+    if strips is not None and D is None:
+        raise InputError("strips", strips, "None where the pressure is given: equal strips need D")
+    name, load = ("D", numbers("D", D, "m")) if pressure is None else ("pressure", numbers("pressure", pressure, "Pa"))
+    if name == "pressure":
+        refuse_faint(load, material, adhesion, level)
+    shape = broadcast(**{"V": V, name: load})
+    V, load = (np.broadcast_to(v, shape).ravel() for v in (V, load))
+    if name == "D":
+        load = _not_just_released(load, level.h, adhesion.p_0 / material.K, adhesion.delta_0)
+    work = WorkCounters()
+    inputs = Inputs(material, adhesion, level, V.reshape(shape), edge, branch, rtol, strips)
+    columns = LevelBatch(material, adhesion, level, edge, branch, V, load, strips=strips, work=work)
+    D, values, errors = _means(columns, load if D is None else None, rtol)
+    pulled_off = np.isnan(D)
+    allowed = rtol * np.abs(values) + columns.atol(np.full(load.size, rtol))
+    converged = pulled_off | (errors <= allowed).all(axis=1)
+    if strips is None and not converged.all():
+        lost = np.flatnonzero(~converged)
+        first = f"{name} {load[lost[0]]:g}, V {V[lost[0]]:g}: {work.reason(V[lost[0]])}"
+        missed = f"{lost.size} of {load.size} points did not converge to rtol = {rtol:g}"
+        warnings.warn(f"{missed}; the first: {first} (see error_estimate)", ConvergenceWarning, stacklevel=2)
+    one = lambda v: v.reshape(shape)  # noqa: E731
+    return LevelSolution(
+        one(D),
+        *(one(v) for v in values.T),
+        error_estimate=errors.T.reshape(len(QUANTITIES), *shape),
+        pulled_off=one(pulled_off),
+        converged=one(converged),
+        strips=work.solved + work.decided,
+        inputs=inputs,
+    )
+
+
+def _not_just_released(D: np.ndarray, h: float, stretch: float, delta_0: float) -> np.ndarray:
+    """``D``, or, where it is that at which the valley is just released but for roundings, one at which it adheres: else strips as
+    flat as the rounding would be free or not as it falls."""
+    released, rounding = h - stretch - delta_0, ROUNDING * (h + stretch + delta_0)
+    return np.where(np.abs(D - released) < rounding, released + rounding, D)
+
+
+def _means(columns: LevelBatch, p: np.ndarray | None, rtol: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Penetrations (n,), NaN below pull-off, means and errors (n, 4), at the columns' penetrations or at the pressures ``p``."""
+    accuracy = np.full(columns.size, rtol)
+    if p is None:
+        means = level_means(columns, accuracy)
+        return columns.D, means.values, means.errors
+    found, (values, errors) = invert(columns, p, 0.3 * rtol), np.zeros((2, p.size, len(QUANTITIES)))
+    values[:, 0], touching = p, np.flatnonzero(~np.isnan(found.D))
+    if touching.size:
+        at = found.take(touching)
+        columns = columns.at(touching, at.D)
+        atol = columns.atol(accuracy[touching], pressure=1e-3 if columns.adhesion.p_0 > 0 else 0.0)
+        means = level_means(columns, accuracy[touching], atol)
+        values[touching], errors[touching] = at.meeting(p[touching], means)
+        errors[touching[at.undecided]] += np.abs(values[touching[at.undecided]])
+    return found.D, values, errors

@@ -9,7 +9,8 @@ import numpy as np
 
 from .inputs.checks import number
 from .level.saturated import saturated_level
-from .level.solution import friction_law, solve_level
+from .level_law import friction_law
+from .level_solution import solve_level
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

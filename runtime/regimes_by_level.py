@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from .level.saturated import saturated_level
-from .orbit.solution import solve_strip
+from .strip_solution import solve_strip
 
 PULLED_OFF = "below pull-off: no contact"
 

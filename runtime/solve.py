@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
-from .arguments import check_levels, check_rtol, check_single, check_strips, refuse_faint
+from .arguments import check_branch, check_levels, check_rtol, check_single, check_strips, refuse_faint
 from .errors import ConvergenceWarning, InputError, SolverError
 from .inputs.adhesion import Dugdale
-from .inputs.checks import broadcast, choice, numbers
+from .inputs.checks import broadcast, numbers
 from .inputs.surface import Level
 from .orbit.materials import check_edge
 
@@ -90,13 +90,12 @@ def solve(
     # loaded here: `import hystrip` is to cost next to nothing
     from .level.effort import WorkCounters
     from .multilevel import Surface
-    from .orbit.solution import BRANCHES
 
     levels = check_levels(levels)
     check_single(material, adhesion)
     if temperature is not None:
         material = material.at_temperature(temperature)
-    edge, branch = check_edge(material, edge), choice("branch", branch, BRANCHES)
+    edge, branch = check_edge(material, edge), check_branch(branch)
     rtol = check_rtol(rtol)
     velocity = numbers("velocity", velocity, "m/s", 0)
     if (pressure is None) == (penetration is None):

@@ -131,7 +131,7 @@ def _contact(result: Any) -> list[str]:
 
 def _closer(result: Any) -> list[str]:
     """Pull-off of level 1, and the regimes on every level, at the point of largest friction (the first, if there is none)."""
-    from .level.solution import friction_law
+    from .level_law import friction_law
     from .regimes_by_level import regimes_by_level
 
     mu = np.abs(np.ravel(result.mu))

@@ -24,7 +24,7 @@ import time
 import numpy as np
 
 import hystrip
-from hystrip.orbit.solution import SEQUENCES
+from hystrip.orbit.regimes import SEQUENCES
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 DELTA_0 = 1e-8

@@ -15,7 +15,7 @@ from .units import length, unit_for
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from ..orbit.solution import StripSolution
+    from ..strip_solution import StripSolution
     from ..typing import Floats
 
 

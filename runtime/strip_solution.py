@@ -1,4 +1,4 @@
-"""Public interface of the strip: SI in, SI out, everything broadcasts."""
+"""Single strips: ``hystrip.solve_strip`` and what it returns. SI in, SI out, everything broadcasts."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import InputError
-from ..inputs.adhesion import Dugdale
-from ..inputs.checks import broadcast, choice, numbers
-from .foundation import Foundation, foundation_of
-from .materials import check_edge, check_material, parameters
-from .regimes import CODE, REGIMES, SEQUENCES
-from .solved import Solved
+from .arguments import check_branch
+from .errors import InputError
+from .inputs.adhesion import Dugdale
+from .inputs.checks import broadcast, numbers
+from .orbit.foundation import Foundation, foundation_of
+from .orbit.materials import check_edge, check_material, parameters
+from .orbit.regimes import CODE, REGIMES, SEQUENCES
+from .orbit.solved import Solved
 
-BRANCHES = ("unloading", "loading")
 if TYPE_CHECKING:
     import numpy.typing as npt
     from matplotlib.figure import Figure
 
-    from ..typing import Branch, Edge, Floats, Numbers
-    from .materials import Material
+    from .orbit.materials import Material
+    from .typing import Branch, Edge, Floats, Numbers
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -56,12 +56,12 @@ class StripSolution:
     _foundation: Foundation
 
     def __repr__(self) -> str:
-        from ..display import as_text, of_strips
+        from .display import as_text, of_strips
 
         return as_text(of_strips(self))
 
     def _repr_html_(self) -> str:
-        from ..display import as_html, of_strips
+        from .display import as_html, of_strips
 
         return as_html(of_strips(self))
 
@@ -96,7 +96,7 @@ class StripSolution:
 
     def plot(self) -> Figure:
         """A matplotlib Figure of pressure, foundation and profile of a single strip. Needs the extra ``plot``."""
-        from ..plots import strip_fields
+        from .plots import strip_fields
 
         return strip_fields(self)
 
@@ -166,7 +166,7 @@ def solve_strip(
     A = numbers("A", A, "m", 0)
     D = numbers("D", D, "m")
     V = numbers("V", V, "m/s", 0)
-    edge, branch = check_edge(material, edge), choice("branch", branch, BRANCHES)
+    edge, branch = check_edge(material, edge), check_branch(branch)
     material = material.at_wavelength(wavelength)
     shape = broadcast(
         l=wavelength,
