@@ -13,8 +13,7 @@ from .derive import derive
 from .drift import Drift, check
 from .folder import generated_folder, stored_bounds
 from .model import Model, Parameter, Roots, Series
-from .model_file import load_model
-from .models import GENERALISED, KELVIN_VOIGT, MODELS, STANDARD_LINEAR_SOLID, operator_model, prony_model
+from .models import GENERALISED, KELVIN_VOIGT, MODELS, STANDARD_LINEAR_SOLID, load_model, operator_model, prony_model
 from .outcome import Derivation
 from .pages.publish import AuditError, audit
 from .regenerate import CertificateError, regenerate

@@ -19,7 +19,7 @@ from .modes.flows import mode_flows
 from .multilevel import multilevel, passed_once
 from .outcome import Derivation, records
 from .paper.compare import comparisons
-from .paper.tags import require_all, require_status, require_tags
+from .paper.record import require_all, require_status, require_tags
 from .regime import OneTime
 from .regimes import regimes
 from .sample_roots import sample_roots

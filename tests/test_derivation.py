@@ -21,7 +21,7 @@ from hystrip.derivation.exact import is_zero
 from hystrip.derivation.flows import contact_flow
 from hystrip.derivation.functions import flat
 from hystrip.derivation.model import inadmissible
-from hystrip.derivation.paper.tags import numbers
+from hystrip.derivation.paper.record import numbers
 from hystrip.derivation.symbols import (
     D,
     J,

@@ -45,11 +45,11 @@ def m(subject: str, file: str, before: str, after: str, by: str, run: str = "der
 
 MUTANTS: tuple[Mutant, ...] = (
     # operators of the material
-    m("operator", "models/standard_linear_solid.py", "T_sigma / K)", "-T_sigma / K)", "admissibility"),
-    m("operator", "models/standard_linear_solid.py", "Q=(sp.Integer(1), T_eps)", "Q=(sp.Integer(1), T_sigma)", "model"),
+    m("operator", "models.py", "T_sigma / K)", "-T_sigma / K)", "admissibility"),
+    m("operator", "models.py", "Q=(sp.Integer(1), T_eps)", "Q=(sp.Integer(1), T_sigma)", "model"),
     m(
         "operator",
-        "models/standard_linear_solid.py",
+        "models.py",
         "Q=(sp.Integer(1), T_eps)",
         'Q=(sp.Integer(1), T_eps * sp.Symbol("x"))',
         "model",
@@ -282,7 +282,7 @@ MUTANTS: tuple[Mutant, ...] = (
     ),
     m(
         "print",
-        "paper/surface.py",
+        "paper/level.py",
         "height = (AMPLITUDE * derived_w)",
         "height = -(AMPLITUDE * derived_w)",
         "print of Eq. 6",
@@ -531,7 +531,7 @@ def modes(package: ModuleType) -> None:
 def tags(package: ModuleType) -> None:
     multilevel = part(package, "multilevel")
     steps = (multilevel.local_stress(), multilevel.local_shear())
-    part(package, "paper.tags").require_tags((*steps, multilevel.contact_area(())))
+    part(package, "paper.record").require_tags((*steps, multilevel.contact_area(())))
 
 
 def certificates(package: ModuleType) -> str:

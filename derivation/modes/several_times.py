@@ -6,7 +6,7 @@ from ..displays import STATED, displays, of_modes
 from ..model import Model, Roots
 from ..multilevel import multilevel
 from ..outcome import Derivation, records
-from ..paper.tags import require_all, require_tags
+from ..paper.record import require_all, require_tags
 from ..regimes import regimes
 from ..sample_roots import sample_roots
 from ..strip import adhesion_law, strip_profile
