@@ -240,7 +240,7 @@ MUTANTS: tuple[Mutant, ...] = (
     ),
     m("level", "multilevel.py", "sum(loads) + p_0", "sum(loads) - p_0", "equilibrium"),
     m("level", "multilevel.py", "(2 * width * length(place) for place", "(width * length(place) for place", "contact area"),
-    m("level", "stack.py", "D - threshold.subs", "D + threshold.subs", "least pressure in complete contact"),
+    m("level", "level.py", "D - threshold.subs", "D + threshold.subs", "least pressure in complete contact"),
     # the paper as printed
     m(
         "print",
@@ -358,9 +358,9 @@ MUTANTS: tuple[Mutant, ...] = (
     m("modes", "modes/states.py", "LEAVE = J_j * beta_j /", "LEAVE = J_j * beta_k /", "states", "modes"),
     m(
         "modes",
-        "modes/functions.py",
-        "drive, forget = drive_2 + drive_1 -",
-        "drive, forget = drive_2 + drive_1 +",
+        "modes/chain.py",
+        "drive, forget = c_2 + c_1 -",
+        "drive, forget = c_2 + c_1 +",
         "period map",
         "modes",
     ),
