@@ -2,7 +2,7 @@
 
 The stages, each a function from one frozen dataclass to the next:
 model -> strip -> flows -> jumps -> zones, events -> saturated, level, regimes -> averages, energy, stability -> conditions,
-multilevel, stack -> emit -> certify -> pages. A quantity is derived by one function, whose docstring shows the equation and
+multilevel -> emit -> certify -> pages. A quantity is derived by one function, whose docstring shows the equation and
 the paper's number ("Eq. 13") and whose checks stand under it; :mod:`.check` says what a check is, :mod:`.exact` what zero is.
 
 A model given by its Prony series, with any number of relaxation times, goes through the same stages in :mod:`.modes`.
@@ -13,8 +13,7 @@ from .derive import derive
 from .drift import Drift, check
 from .folder import generated_folder, stored_bounds
 from .model import Model, Parameter, Roots, Series
-from .model_file import load_model
-from .models import GENERALISED, KELVIN_VOIGT, MODELS, STANDARD_LINEAR_SOLID, operator_model, prony_model
+from .models import GENERALISED, KELVIN_VOIGT, MODELS, STANDARD_LINEAR_SOLID, load_model, operator_model, prony_model
 from .outcome import Derivation
 from .pages.publish import AuditError, audit
 from .regenerate import CertificateError, regenerate

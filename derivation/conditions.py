@@ -61,9 +61,9 @@ def strip_problem(strip: Strip, discrete: Row) -> Derived:
         gap_at(onset - 2 * sp.pi / k, leaves, delta_0 + step, sp.Integer(0)) - delta_0,
     )
     places = {onset: -d / k, begins: -b / k, ends: -a / k, leaves: -c / k}
-    unit = (A, K * A, A, A)  # of a gap, of a pressure
+    groups, unit = {p_0: K * A * p_0, delta_0: A * delta_0, D_j: A * D}, (A, K * A, A, A)  # of a gap, of a pressure
     residuals = [
-        _dimensionless(condition, places) / size - zone.misses()
+        sp.expand(condition.subs(groups, simultaneous=True).subs(TIMES).subs(places)) / size - zone.misses()
         for condition, size, zone in zip(left, unit, discrete.zones, strict=True)
     ]
     checks = [
@@ -78,8 +78,3 @@ def strip_problem(strip: Strip, discrete: Row) -> Derived:
         ),
     ]
     return derived(strip_problem, left, checks, emitted=("residual_acaf",))
-
-
-def _dimensionless(condition: sp.Expr, places: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
-    groups = {p_0: K * A * p_0, delta_0: A * delta_0, D_j: A * D}
-    return sp.expand(condition.subs(groups, simultaneous=True).subs(TIMES).subs(places))

@@ -13,14 +13,12 @@ from pathlib import Path
 from typing import Any
 
 from .certificates import SCALE, WORDS, certified_names
-from .derive import derive
+from .derive import Report, derivations_of
 from .emit import emit, input_hash
 from .folder import AUDIT, CERTIFICATES, MEASURED, dumped, generated_folder, read_certificates, read_measured
 from .model import Model
-from .models import MODELS
 from .outcome import Derivation
 from .pages import audit_files
-from .progress import Report, reported
 
 
 @dataclass(frozen=True)
@@ -42,8 +40,7 @@ def check(
 ) -> list[Drift]:
     """Compare the folder of generated files with what the derivation emits now; an empty list means no drift."""
     folder = Path(generated) if generated is not None else generated_folder()
-    chosen = tuple(models) if models is not None else MODELS
-    derivations = tuple(reported(map(derive, chosen), progress, len(chosen)))
+    derivations = derivations_of(models, progress)
     texts = emit(derivations)
     texts |= audit_texts(derivations, texts, _readable_certificates(folder), read_measured(folder))
     return compare(folder, texts, {d.model.name: certified_names(d) for d in derivations})

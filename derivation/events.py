@@ -50,15 +50,7 @@ GAP_EVENT = Formula(
 EXCESS_ENTRY = Formula(
     "excess_entry",
     (s_0, q_0, p_0, D, alpha, beta, L),
-    (
-        q_0,
-        s_0 / 2,
-        divisible(alpha) / 2,
-        lead,
-        2 * ratio,
-        top,
-        per_time(q_0 - top + ratio * versine(s_0 + 2 * lead), alpha),
-    ),
+    (q_0, s_0 / 2, divisible(alpha) / 2, lead, 2 * ratio, top, per_time(q_0 - top + ratio * versine(s_0 + 2 * lead), alpha)),
     (
         (ratio, MODULUS_RATIO(alpha, beta)),
         LABELLED_LOSS,
@@ -74,13 +66,7 @@ EXCESS_EVENT = Formula(
         (q_0 + double * sp.sin(back) * sp.sin(middle)) * decayed - (top - steep * sine) * lapsed,
         -(steep * sp.cos(ahead) + transient_rate * decayed),
     ),
-    (
-        *_times,
-        (ahead, lead + turn),
-        (middle, back + 2 * ahead),
-        (sine, sp.sin(ahead)),
-        (steep, double * sine),
-    ),
+    (*_times, (ahead, lead + turn), (middle, back + 2 * ahead), (sine, sp.sin(ahead)), (steep, double * sine)),
 )
 
 

@@ -101,14 +101,9 @@ class Call(sp.Function):
     formula: Formula
 
 
-_nodes: dict[int, tuple[Formula, type]] = {}
-
-
+@cache
 def _node(formula: Formula) -> type:
-    if id(formula) not in _nodes:
-        node = type(formula.name, (Call,), {"formula": formula, "nargs": len(formula.args)})
-        _nodes[id(formula)] = (formula, node)
-    return _nodes[id(formula)][1]
+    return type(formula.name, (Call,), {"formula": formula, "nargs": len(formula.args)})
 
 
 def written_out(expression: sp.Expr) -> sp.Expr:

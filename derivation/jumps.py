@@ -7,12 +7,6 @@ from .strip import TIMES, Strip
 from .symbols import J, chi, s
 
 
-def jumps(strip: Strip) -> tuple[Derived, Derived, Derived]:
-    """Stage 4a: edge conditions at a pressure step: [w]/[p] by the law, the state that is continuous, and the two closures."""
-    law = jump_law(strip)
-    return law, internal_state(strip), closures(law.value)
-
-
 def jump_law(strip: Strip) -> Derived:
     r"""Read as an equation between distributions, the law integrated over a vanishing interval around a step of p
     gives the step of w.

@@ -80,10 +80,9 @@ class Meaning(lark.Transformer):
 
     names: Names
 
-    negative, plus, minus, times, over, power = (
-        staticmethod(each) for each in (operator.neg, operator.add, operator.sub, operator.mul, operator.truediv, operator.pow)
-    )
-    number, exponential, root, modulus = (staticmethod(each) for each in (sp.Integer, sp.exp, sp.sqrt, sp.Abs))
+    negative, plus, minus = map(staticmethod, (operator.neg, operator.add, operator.sub))
+    times, over, power = map(staticmethod, (operator.mul, operator.truediv, operator.pow))
+    number, exponential, root, modulus, greatest = map(staticmethod, (sp.Integer, sp.exp, sp.sqrt, sp.Abs, sp.Max))
 
     def meant(self, token: lark.Token) -> lark.Token:
         """A name with its meaning as the value, and a type that says what it is."""
@@ -100,9 +99,6 @@ class Meaning(lark.Transformer):
         token.value = value.derivative(order) if order else value
         return token
 
-    def start(self, *found: Statement) -> tuple[Statement, ...]:
-        return found
-
     def statement(self, *parts: Any) -> Statement:
         return Statement(parts[::2], tuple(map(str, parts[1::2])))
 
@@ -115,11 +111,10 @@ class Meaning(lark.Transformer):
     def prefixed(self, function: lark.Token, argument: sp.Expr) -> sp.Expr:
         return function.value.function(argument)
 
-    def arguments(self, *parts: sp.Expr) -> tuple[sp.Expr, ...]:
+    def arguments(self, *parts: Any) -> tuple[Any, ...]:
         return parts
 
-    def greatest(self, arguments: tuple[sp.Expr, ...]) -> sp.Expr:
-        return sp.Max(*arguments)
+    start = arguments
 
     def sine(self, function: lark.Token, argument: sp.Expr) -> sp.Expr:
         return SINES[function](argument)

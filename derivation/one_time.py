@@ -10,23 +10,22 @@ from .events import excess_event, gap_event, links
 from .flows import flows
 from .functions import Formula
 from .half_space import half_space
-from .jumps import jumps
+from .jumps import closures, internal_state, jump_law
 from .kernel import Kernel, Kernels, as_derived
-from .level import level, printed_equation_16
+from .level import least_pressure, level, levels_together, printed_equation_16
 from .membership import require_constructor
 from .model import Model, foundation, inadmissible, refuse
 from .modes.flows import mode_flows
 from .multilevel import multilevel, passed_once
 from .outcome import Derivation, records
 from .paper.compare import comparisons
-from .paper.tags import require_all, require_status, require_tags
+from .paper.record import require_all, require_status, require_tags
 from .regime import OneTime
 from .regimes import regimes
 from .sample_roots import sample_roots
 from .saturated import saturated
 from .sequences import FREE, Row
 from .stability import onset, onset_slope, shift_of_an_event
-from .stack import stack
 from .strip import strip
 from .symbols import PARAMETERS
 from .vocabulary import BINDINGS, vocabulary
@@ -39,13 +38,14 @@ def derive(model: Model) -> Derivation:
     require_constructor(model)
     ground = foundation(model)
     one_strip = strip(ground)
-    flow, jump = flows(one_strip), jumps(one_strip)
+    flow, jump = flows(one_strip), jump_law(one_strip)
+    closure = closures(jump.value)
     zone, chain = zones(flow), links(flow)
     events = (*gap_event(flow), *excess_event(flow))
     full = saturated(flow)
     threshold = full.threshold.value
     whole, stacked = level(threshold)
-    ratio = sp.cancel(jump[-1].value / sp.Symbol("step_p", real=True))  # [w]/[p]
+    ratio = sp.cancel(closure.value / sp.Symbol("step_p", real=True))  # [w]/[p]
     table = regimes(OneTime(ratio), threshold)
     partial = [regime for regime in table if regime.edges]
     of_zones = {kernel.formula.name: kernel for kernel in zone}
@@ -55,14 +55,14 @@ def derive(model: Model) -> Derivation:
     onsets = onset({regime.sequence: regime for regime in partial})
     slopes = tuple(onset_slope(regime) for regime in partial if regime.zones[-1].kind == FREE)
     made = (
-        (ground, one_strip, flow, jump),
+        (ground, one_strip, flow, jump, internal_state(one_strip), closure),
         (zone, events, chain, full, whole, stacked, printed_equation_16(whole[2].exact)),
         (zone_conditions(one_strip.u), strip_problem(one_strip, table[0]), table),
         (sample_roots("one_time", table, mode_flows()), systems, means, still),
         (power_balance(flow), *(friction_balance(regime) for regime in partial)),
         (shift_of_an_event(), onsets, slopes),
         multilevel(table, [passed_once(one_strip)], ("excess_after", "excess_event")),
-        (stack(one_strip, threshold, whole), half_space()),
+        (least_pressure(threshold, whole[1].exact), levels_together(one_strip, whole[2].exact), half_space()),
     )
     sections = (
         ("Rigid profile, load, zones", zone),

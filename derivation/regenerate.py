@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from .certificates import Certificate, certificates_of, certified_names, domain, modes_of
-from .derive import derive
+from .derive import Report, derivations_of, reported
 from .drift import audit_texts, certificates_text
 from .emit import INTERFACE, emit
 from .folder import (
@@ -22,9 +22,6 @@ from .folder import (
     write_files,
 )
 from .model import Model
-from .model_file import require_names
-from .models import MODELS
-from .progress import Report, reported
 
 AIM = 16.0  # ulp of the natural scale
 
@@ -47,11 +44,9 @@ def regenerate(
     says why: ``{"module.function": "reason"}``. ``progress`` is called with (done, in all): of the models to derive, then of
     the functions of each to measure.
     """
-    chosen = tuple(models) if models is not None else MODELS
-    require_names(chosen)
     target = Path(out_dir) if out_dir is not None else generated_folder()
     require_folder(target)
-    derivations = tuple(reported(map(derive, chosen), progress, len(chosen)))
+    derivations = derivations_of(models, progress)
     files = emit(derivations)
     certificates = {}
     with importable(files) as solver:

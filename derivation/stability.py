@@ -76,12 +76,7 @@ def onset_slope(regime: Row) -> Kernel:
     factors = (*sp.Mul.make_args(left_over), loads[0] / before[-1], loads[-1] / before[-2])
     return kernel(
         onset_slope,
-        Formula(
-            f"onset_slope_{regime.sequence}",
-            args,
-            (upper, lower, either(2 * kept, upper - lower, change)),
-            labels,
-        ),
+        Formula(f"onset_slope_{regime.sequence}", args, (upper, lower, either(2 * kept, upper - lower, change)), labels),
         (over, under, over - under),
         zero("the product over the zones, telescoped", over / under - written_out(product), phases=regime.edges),
         zero("the difference where little fades is the same", over - under - nearly, phases=regime.edges),

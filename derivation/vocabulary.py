@@ -12,37 +12,11 @@ from .latex import Of, Prefix
 from .multilevel import pressure, slope_x, tau_below
 from .paper.words import strips
 from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell
-from .symbols import (
-    A,
-    D,
-    J,
-    K,
-    L,
-    V,
-    alpha,
-    beta,
-    excess,
-    gap_0,
-    h,
-    k,
-    l,
-    lag_0,
-    p,
-    p_0,
-    p_in,
-    p_nominal,
-    q_0,
-    s,
-    s_0,
-    s_1,
-    w_0,
-    x,
-    y,
-)
+from .symbols import A, D, J, K, L, V, alpha, beta, gap_0, h, k, l, lag_0, p, p_0, p_in, p_nominal, q_0, s, s_0, s_1, w_0, x, y
 
 BRACES = {ord("{"): None, ord("}"): None}
 SYMBOLS = {sp.latex(each).translate(BRACES): each for each in vars(symbols).values() if isinstance(each, sp.Symbol)}
-PLAIN = SYMBOLS | {"g_0": gap_0, "e": excess, "end": s_1, "i": sp.I, r"\pi": sp.pi, r"\infty": sp.oo}
+PLAIN = SYMBOLS | {"g_0": gap_0, "e": symbols.excess, "end": s_1, "i": sp.I, r"\pi": sp.pi, r"\infty": sp.oo}
 """Symbols by what SymPy prints of them."""
 PERIOD = {"oint": lambda body, phase: sp.Integral(body, (phase, 0, 2 * sp.pi))}
 ONE_LEVEL = {"sum over i": lambda body, *ends: body, "h_i": h, "l_i": l, "k_i": k}  # of a stack, each level is like the other

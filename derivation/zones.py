@@ -10,6 +10,14 @@ from .kernel import Kernel, kernel
 from .symbols import D, J, beta, excess, gap_0, lag_0, p, p_0, p_in, q_0, s, s_0, s_1, w_0
 
 
+def over_zone(integrand: sp.Expr, name: str) -> tuple[sp.Expr, Claim]:
+    """The integral of a flow from s_0 to s_1, and why it is that; ``name``: of the flow."""
+    primitive = sp.Add(*(sp.integrate(term, s) for term in sp.Add.make_args(sp.expand(integrand))))
+    integral = primitive.subs(s, s_1) - primitive.subs(s, s_0)
+    left = [sp.diff(integral, s_1) - integrand.subs(s, s_1), integral.subs(s_1, s_0)]
+    return integral, zero(f"the integral differentiates to {name}, and vanishes with the zone", left, phases=(s_0, s_1))
+
+
 def zones(flows: Flows) -> tuple[Kernel, ...]:
     """Stage 4b: the building blocks of every regime."""
     return (
@@ -41,13 +49,12 @@ def rigid_profile(u: sp.Expr) -> tuple[Kernel, ...]:
 
     .. math:: \int_{s_0}^{s_1} u\,ds
     """
-    integral = sp.integrate(u, s)
-    check = zero("the antiderivative differentiates to u", sp.diff(integral, s) - u)
+    integral, claim = over_zone(u, "u")
     return (
         kernel(rigid_profile, stable.PROFILE, u),
         kernel(rigid_profile, stable.PROFILE_SLOPE, sp.diff(u, s)),
         kernel(rigid_profile, stable.PROFILE_RISE, u.subs(s, s_1) - u.subs(s, s_0)),
-        kernel(rigid_profile, stable.PROFILE_INTEGRAL, integral.subs(s, s_1) - integral.subs(s, s_0), check),
+        kernel(rigid_profile, stable.PROFILE_INTEGRAL, integral, claim),
     )
 
 
@@ -112,15 +119,14 @@ def relaxation(flows: Flows) -> tuple[Kernel, ...]:
     w = flows.relaxation.value
     after = w.subs(s, s_1)
     change = (after - w_0).subs(w_0, p + lag_0)
-    integral = sp.integrate(sp.expand(w), s)
-    total = integral.subs(s, s_1) - integral.subs(s, s_0)
+    total, claim = over_zone(w, "w")
     return (
         kernel(relaxation, stable.RELAXATION_INCREMENT, change),
         kernel(
             relaxation,
             stable.RELAXATION_INTEGRAL,
             total,
-            zero("the antiderivative differentiates to w", sp.diff(integral, s) - w),
+            claim,
             zero(
                 "int (p - w) ds = beta (w(s_1) - w_0): the balance of z",
                 p * (s_1 - s_0) - total - beta * (after - w_0),
@@ -155,27 +161,17 @@ def contact_state(flows: Flows) -> tuple[Kernel, ...]:
     u, pressure = flows.strip.u, flows.contact.value
     rise = u.subs(s, s_1) - u.subs(s, s_0)
     change = rise - J * (pressure.subs(s, s_1) - (q_0 - p_0))
-    integrand = sp.expand(pressure - u)
-    lagging = sp.integrate(integrand, s)
-    balance = lagging.subs(s, s_1) - lagging.subs(s, s_0) - beta * change
-    work_rate = sp.expand(pressure.subs(q_0, p_0 + p_in) * sp.diff(u, s))
-    work = sp.Add(*(sp.integrate(term, s) for term in sp.Add.make_args(work_rate)))
-    total = work.subs(s, s_1) - work.subs(s, s_0)
+    lagging, of_lag = over_zone(pressure - u, "p - u")
+    work, of_work = over_zone(pressure.subs(q_0, p_0 + p_in) * sp.diff(u, s), "p u'")
     return (
         kernel(
             contact_state,
             stable.CONTACT_INCREMENT,
             change,
-            zero("the antiderivative of p - u differentiates back", sp.diff(lagging, s) - integrand),
-            zero("int (p - w) ds = beta (z(s_1) - z(s_0)): the balance of z", balance, phases=(s_0, s_1)),
+            of_lag,
+            zero("int (p - w) ds = beta (z(s_1) - z(s_0)): the balance of z", lagging - beta * change, phases=(s_0, s_1)),
         ),
-        kernel(
-            contact_state,
-            stable.CONTACT_WORK,
-            total,
-            _short_and_wide(),
-            zero("the antiderivative differentiates to p u'", sp.diff(work, s) - work_rate, phases=(s_0, s)),
-        ),
+        kernel(contact_state, stable.CONTACT_WORK, work, _short_and_wide(), of_work),
     )
 
 

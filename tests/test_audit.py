@@ -283,7 +283,7 @@ def test_the_command_names_the_step_that_fails(command: list[str], monkeypatch: 
 
 
 def test_another_solver_than_the_installed_one_is_not_audited(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(publish, "derive", lambda model: derivation())
+    monkeypatch.setattr(publish, "derivations_of", lambda models, report: (derivation(),))
     monkeypatch.setattr(publish, "emit", lambda made: {"stable.py": "another\n"})
     with pytest.raises(AuditError, match="stable.py"):
         publish.audit(tmp_path / "audit")

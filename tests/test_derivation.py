@@ -21,7 +21,7 @@ from hystrip.derivation.exact import is_zero
 from hystrip.derivation.flows import contact_flow
 from hystrip.derivation.functions import flat
 from hystrip.derivation.model import inadmissible
-from hystrip.derivation.paper.tags import numbers
+from hystrip.derivation.paper.record import numbers
 from hystrip.derivation.symbols import (
     D,
     J,
@@ -149,7 +149,7 @@ def test_a_parabola_gives_the_known_pressure() -> None:
 # -- what is refused ----------------------------------------------------------------------------------------------------
 
 TAMPERED = {
-    "admissibility": ("models/standard_linear_solid.py", "T_sigma / K)", "-T_sigma / K)"),
+    "admissibility": ("models.py", "T_sigma / K)", "-T_sigma / K)"),
     "strip profile": ("strip.py", "u = D - 1 + sp.cos(s)", "u = D - 1 - sp.cos(s)"),
     "contact flow": ("flows.py", "(entry - particular.subs(along, since))", "(entry + particular.subs(along, since))"),
     "closures": ("jumps.py", "step_w = chi * J * step", "step_w = -chi * J * step"),
@@ -198,8 +198,8 @@ LATE = {
         "HEIGHT, x) + friction_of_one.subs(lower)",
         "HEIGHT, x) - friction_of_one.subs(lower)",
     ),
-    "least pressure in complete contact": ("stack.py", "D - threshold.subs", "D + threshold.subs"),
-    "levels in complete contact together": ("stack.py", "mean_over_wave(-p * sp.diff", "mean_over_wave(p * sp.diff"),
+    "least pressure in complete contact": ("level.py", "D - threshold.subs", "D + threshold.subs"),
+    "levels in complete contact together": ("level.py", "mean_over_wave(-p * sp.diff", "mean_over_wave(p * sp.diff"),
 }
 
 

@@ -45,11 +45,11 @@ def m(subject: str, file: str, before: str, after: str, by: str, run: str = "der
 
 MUTANTS: tuple[Mutant, ...] = (
     # operators of the material
-    m("operator", "models/standard_linear_solid.py", "T_sigma / K)", "-T_sigma / K)", "admissibility"),
-    m("operator", "models/standard_linear_solid.py", "Q=(sp.Integer(1), T_eps)", "Q=(sp.Integer(1), T_sigma)", "model"),
+    m("operator", "models.py", "T_sigma / K)", "-T_sigma / K)", "admissibility"),
+    m("operator", "models.py", "Q=(sp.Integer(1), T_eps)", "Q=(sp.Integer(1), T_sigma)", "model"),
     m(
         "operator",
-        "models/standard_linear_solid.py",
+        "models.py",
         "Q=(sp.Integer(1), T_eps)",
         'Q=(sp.Integer(1), T_eps * sp.Symbol("x"))',
         "model",
@@ -240,7 +240,7 @@ MUTANTS: tuple[Mutant, ...] = (
     ),
     m("level", "multilevel.py", "sum(loads) + p_0", "sum(loads) - p_0", "equilibrium"),
     m("level", "multilevel.py", "(2 * width * length(place) for place", "(width * length(place) for place", "contact area"),
-    m("level", "stack.py", "D - threshold.subs", "D + threshold.subs", "least pressure in complete contact"),
+    m("level", "level.py", "D - threshold.subs", "D + threshold.subs", "least pressure in complete contact"),
     # the paper as printed
     m(
         "print",
@@ -282,7 +282,7 @@ MUTANTS: tuple[Mutant, ...] = (
     ),
     m(
         "print",
-        "paper/surface.py",
+        "paper/level.py",
         "height = (AMPLITUDE * derived_w)",
         "height = -(AMPLITUDE * derived_w)",
         "print of Eq. 6",
@@ -358,9 +358,9 @@ MUTANTS: tuple[Mutant, ...] = (
     m("modes", "modes/states.py", "LEAVE = J_j * beta_j /", "LEAVE = J_j * beta_k /", "states", "modes"),
     m(
         "modes",
-        "modes/functions.py",
-        "drive, forget = drive_2 + drive_1 -",
-        "drive, forget = drive_2 + drive_1 +",
+        "modes/chain.py",
+        "drive, forget = c_2 + c_1 -",
+        "drive, forget = c_2 + c_1 +",
         "period map",
         "modes",
     ),
@@ -531,7 +531,7 @@ def modes(package: ModuleType) -> None:
 def tags(package: ModuleType) -> None:
     multilevel = part(package, "multilevel")
     steps = (multilevel.local_stress(), multilevel.local_shear())
-    part(package, "paper.tags").require_tags((*steps, multilevel.contact_area(())))
+    part(package, "paper.record").require_tags((*steps, multilevel.contact_area(())))
 
 
 def certificates(package: ModuleType) -> str:

@@ -18,14 +18,4 @@ from .measure import COUNTS, Certificate, measure
 
 SCALE = "|f| + sum |x df/dx| over the parameters, the first phase (at least 1 rad) and the widths of the zones"
 
-__all__ = [
-    "COUNTS",
-    "SCALE",
-    "WORDS",
-    "Certificate",
-    "certificates_of",
-    "certified_names",
-    "domain",
-    "measure",
-    "modes_of",
-]
+__all__ = ["COUNTS", "SCALE", "WORDS", "Certificate", "certificates_of", "certified_names", "domain", "measure", "modes_of"]

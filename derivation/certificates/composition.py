@@ -7,7 +7,7 @@ small that they agree with the derivative to more than 50 digits.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import mpmath
@@ -43,8 +43,8 @@ class Composition:
         """
         forgotten, forget, drive = self.period()
         state = solved(forget, drive)
-        residual, passages = self.residual(state), self.passages(state, forgotten)
-        jacobian, return_map = self.jacobian(passages, forget), self.return_map(passages)
+        passages = self.passages(state, forgotten)
+        residual, jacobian, return_map = self.residual(passages), self.jacobian(passages, forget), self.return_map(passages)
         if agreed:
             exact_jacobian, exact_map = self.by_differences(values(state))
             self._require_same("jacobian", jacobian, exact_jacobian)
@@ -55,7 +55,7 @@ class Composition:
             "residual": residual,
             "residual_and_jacobian": np.append(residual, jacobian),
             "return_map": return_map,
-            "means": self.means(state),
+            "means": self.means(passages),
         }
 
     def _require_same(self, what: str, composed: np.ndarray, exact: np.ndarray) -> None:
@@ -77,19 +77,9 @@ class Composition:
         kind, pressure = ("contact", p_in) if zone.kind == CONTACT else ("relaxation", p)
         return self._block(f"{kind}_{what}", {s_0: zone.first, s_1: zone.last, pressure: zone.pressure}, *states)
 
-    def _in_contact(self, name: str, zone: Span, state: np.ndarray) -> np.ndarray:
-        overstress = self._block("overstress", {p: zone.pressure}, (z, state))
-        return self._block(name, {s_0: zone.first, s_1: zone.last}, (f_0, overstress))
-
-    def _increment(self, zone: Span, state: np.ndarray) -> np.ndarray:
-        if zone.kind == CONTACT:
-            return self._in_contact("contact_increment", zone, state)
-        return self._crossing("increment", zone, (z_0, state))
-
-    def _change(self, zone: Span, state: np.ndarray) -> np.ndarray:
-        if zone.kind == CONTACT:
-            return self._in_contact("excess_change", zone, state)
-        return self._block("gap_change", {s_0: zone.first, s_1: zone.last, p: zone.pressure}, (z_0, state))
+    def _passage(self, zone: Span, state: np.ndarray) -> list[np.ndarray]:
+        """Change of z, its derivatives by the edges; change of the gap or the pressure, its derivatives by z and the edges."""
+        return np.split(self._crossing("passage", zone, (z_0, state)), np.cumsum([self.n, self.n, self.n, 1, self.n, 1]))
 
     def _gap(self, state: np.ndarray, pressure: sp.Expr) -> np.ndarray:
         """w - u at the first edge."""
@@ -115,29 +105,31 @@ class Composition:
         """What a zone forgets: of a gap zone the diagonal is given."""
         return np.where(np.eye(self.n, dtype=bool), forget, self._nothing(1)) if forget.ndim == 1 else forget
 
-    def _along(self, state: np.ndarray) -> Iterator[tuple[Span, np.ndarray]]:
-        """Every zone and the state in which it is entered."""
-        for zone in self.regime.zones[:-1]:
-            yield zone, state
-            state = state + self._increment(zone, state)
-        yield self.regime.zones[-1], state
+    def passages(self, state: np.ndarray, forgotten: list[np.ndarray]) -> list[list[np.ndarray]]:
+        """Of every zone: z on entry, what of it is forgotten, and what happens to it, from the state at the first edge."""
+        found = []
+        for zone, lost in zip(self.regime.zones, forgotten, strict=True):
+            found.append([state, lost, *self._passage(zone, state)])
+            state = state + found[-1][2]
+        return found
 
-    def residual(self, state: np.ndarray) -> np.ndarray:
-        *entered, (last, _) = self._along(state)
-        changes = [self._constant(zone.missing) + self._change(zone, entry) for zone, entry in entered]
-        onset = self._gap(state, last.load) - self._constant(last.exit)
+    def residual(self, passages: list[list[np.ndarray]]) -> np.ndarray:
+        *zones, last = self.regime.zones
+        changes = [self._constant(zone.missing) + passage[5] for zone, passage in zip(zones, passages, strict=False)]
+        onset = self._gap(passages[0][0], last.load) - self._constant(last.exit)
         return np.concatenate([onset, *changes])
 
     def _constant(self, expression: sp.Expr) -> np.ndarray:
         return np.sum([given([self.point.value(term)]) for term in sp.Add.make_args(sp.sympify(expression))], axis=0)
 
-    def means(self, state: np.ndarray) -> np.ndarray:
+    def means(self, passages: list[list[np.ndarray]]) -> np.ndarray:
         height = work = self._nothing(1)
-        for zone, entered in self._along(state):
+        for zone, (entered, *_) in zip(self.regime.zones, passages, strict=True):
             edges, load = {s_0: zone.first, s_1: zone.last}, given(self.point.value(zone.load))
             if zone.kind == CONTACT:
                 height = height + self._block("profile_integral", edges)
-                work = work + self._in_contact("contact_work", zone, entered)
+                overstress = self._block("overstress", {p: zone.pressure}, (z, entered))
+                work = work + self._block("contact_work", edges, (f_0, overstress))
                 continue
             work = work + self._block("profile_rise", edges) * load
             if self.regime.touches:
@@ -147,14 +139,6 @@ class Composition:
         return np.concatenate([height, work]) / given(2 * mpmath.pi)
 
     # -- derivatives --------------------------------------------------------------------------------------------------
-
-    def passages(self, state: np.ndarray, forgotten: list[np.ndarray]) -> list[list[np.ndarray]]:
-        """Of every zone: z, what of it is forgotten, its change and derivatives by the edges; the same of gap or pressure."""
-        widths = np.cumsum([self.n, self.n, self.n, 1, self.n, 1])
-        return [
-            [entered, lost, *np.split(self._crossing("passage", zone, (z_0, entered)), widths)]
-            for (zone, entered), lost in zip(self._along(state), forgotten, strict=True)
-        ]
 
     def jacobian(self, passages: list[list[np.ndarray]], forget: np.ndarray) -> np.ndarray:
         """Derivatives of the boundary equations by the edges, the periodic state moving along."""
@@ -218,8 +202,9 @@ class Composition:
         state = state + self._block("relaxation_increment", {s_0: onset, s_1: first, p: last.pressure}, (z_0, state))
         events = [self._gap(state, last.pressure)]
         for zone in zones:
-            events.append(self._change(zone, state))
-            state = state + self._increment(zone, state)
+            increment, _, _, change, *_ = self._passage(zone, state)
+            events.append(change)
+            state = state + increment
         back = {s_0: last.first, s_1: onset + 2 * mpmath.pi, p: last.pressure}
         state = state + self._block("relaxation_increment", back, (z_0, state))
         return values(np.concatenate([state, *events]))

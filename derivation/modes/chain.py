@@ -1,4 +1,4 @@
-r"""The chain rule over the zones of a period, for any number of zones and of modes.
+r"""The zones of a period in turn, and the chain rule over them, for any number of zones and of modes.
 
 A zone is an affine map of the state, :math:`z \to z + c - R z`, and its event an affine function of it, :math:`q + r z`; their
 coefficients depend on the two edges of the zone. A derivative is what a small number stands before, to first order.
@@ -26,6 +26,23 @@ def change(expression: sp.Expr) -> sp.Expr:
     return sp.expand(sp.expand(expression.xreplace(moved)).coeff(eps, 1))
 
 
+def period_map() -> Derived:
+    r"""A period is an affine map of the state, and R z = c is the state that it returns. What is forgotten is
+    accumulated, not what is kept: slow modes forget little, and that little keeps its digits.
+
+    .. math:: z \to z + c_k - R_k z,\quad c = c_2 + c_1 - R_2 c_1,\ R = R_1 + R_2 - R_2 R_1
+    """
+    twice = through(through(z, c_1, R_1), c_2, R_2)
+    drive, forget = c_2 + c_1 - R_2 * c_1, R_1 + R_2 - R_2 * R_1
+    return derived(
+        period_map,
+        (drive, forget),
+        [zero("for matrices, which do not commute", sp.expand(twice - through(z, drive, forget)))],
+        latex=rf"c = {sp.latex(drive)},\quad R = {sp.latex(forget)}",
+        emitted=tuple(f"state_{sequence}" for sequence in PARTIAL),
+    )
+
+
 def chain_rule(period: Derived) -> Derived:
     r"""The derivative of zones in turn is that of each, in turn: modes.edge_slopes carries it over a period for every edge, and
     closes it with the state that returns; modes.monodromy carries a disturbance of the state, every event moving along.
@@ -33,7 +50,7 @@ def chain_rule(period: Derived) -> Derived:
     .. math:: dz \to dz - R\,dz + m,\quad m = \partial_{s_0}\Delta z\,ds_0 + \partial_{s_1}\Delta z\,ds_1;\qquad m = m_2 + m_1 -
         R_2 m_1;\qquad R\,dz = m
 
-    ``period``: two zones as one, :mod:`.functions`. dc, dR, dq and dr are how far the coefficients move with the edges of a zone:
+    ``period``: two zones as one. dc, dR, dq and dr are how far the coefficients move with the edges of a zone:
     m = dc - dR z.
     """
     halfway = through(z, c_1, R_1)

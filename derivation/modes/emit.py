@@ -1,19 +1,28 @@
-"""Emission for n modes: verified kernels and regimes in, values for the template out. Nothing is derived here."""
+"""Emission for n modes: verified kernels and regimes in, values for the template out. Nothing is derived here.
+
+The zones of a regime are data. Its functions are those of the generated ``modes``: loops over the zones and products of matrices,
+which hold no physics. The boundary equations are the zones' own, what entry and exit leave for the change over each; the state at
+the first edge is the one that a period returns, which the step "period map" composes; derivatives go by the chain rule.
+"""
 
 import re
+from dataclasses import replace
 from typing import Any
 
 import sympy as sp
 
+from ..check import Derived
 from ..functions import Formula, mapped
+from ..kernel import Kernel
 from ..model import Model, Parameter, Roots, Series
 from ..outcome import Derivation
 from ..printing import functions_of, helpers_used, results, source
-from .functions import zones_function
-from .symbols import MATERIAL as FIELDS
-from .symbols import SUMS
+from ..sequences import ADHESION, CONTACT, FREE, Row, Span
+from .symbols import MATERIAL, OF_STRIP, SUMS, at_speed, m
 
-OF_THE_STRIP = {symbol: sp.Symbol(f"m.{symbol.name}", real=True) for symbol in FIELDS}
+kV = sp.Symbol("kV", nonnegative=True)
+ZONES = {ADHESION: sp.Function("Adhesion"), FREE: sp.Function("Free"), CONTACT: sp.Function("Contact")}
+OF_THE_STRIP = {symbol: sp.Symbol(f"m.{symbol.name}", real=True) for symbol in MATERIAL}
 KINDS = ("state", "passages", "residual", "residual_and_jacobian", "return_map", "means")
 """Functions of a regime that the generated ``modes`` makes of its zones."""
 # Used by the template itself, beside what the formulas call.
@@ -41,6 +50,30 @@ def template_values(derivation: Derivation) -> dict[str, Any]:
         "kinds": KINDS,
         "zones": {regime.sequence: zones_function(regime) for regime in derivation.composed},
     }
+
+
+def whole_kernels() -> tuple[Kernel, ...]:
+    """What the template's modes of a strip come to."""
+    passing = tuple(part.xreplace(at_speed(m, kV).scaled()) for part in MATERIAL)
+    return (Kernel(Formula("at_speed", (m, kV), passing), passing, None),)
+
+
+def zones_function(regime: Row) -> tuple[Formula, Derived]:
+    """The zones of a regime with edges, from which the generated ``modes`` has all its functions."""
+    zones = Formula(f"zones_{regime.sequence}", (*regime.edges, *OF_STRIP), tuple(_zone(regime, zone) for zone in regime.zones))
+    record = replace(
+        regime.derived,
+        statement=f"{regime.derived.statement} Of a zone: ends, pressure on entry, and what is missing in its boundary equation. "
+        f"{'; '.join(meaning for _, meaning in (*regime.equations[1:], regime.equations[0])).capitalize()}.",
+        latex=r"R z = c,\quad \text{missing} + \Delta = 0,\quad \Delta\ \text{of the gap or of the pressure}",
+    )
+    return zones, record
+
+
+def _zone(regime: Row, zone: Span) -> sp.Expr:
+    """The zone as the generated ``modes`` has it; the equation of the last is the onset, w - u - gap = 0 at the first edge."""
+    missing = -zone.exit if zone is regime.zones[-1] else zone.missing
+    return ZONES[zone.kind](zone.first, zone.last, zone.pressure, missing)
 
 
 def _checked(parameter: Parameter, arrays: list[str], any_number: bool) -> tuple[str, str]:

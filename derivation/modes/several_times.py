@@ -6,14 +6,14 @@ from ..displays import STATED, displays, of_modes
 from ..model import Model, Roots
 from ..multilevel import multilevel
 from ..outcome import Derivation, records
-from ..paper.tags import require_all, require_tags
+from ..paper.record import require_all, require_tags
 from ..regimes import regimes
 from ..sample_roots import sample_roots
 from ..strip import adhesion_law, strip_profile
 from ..zones import rigid_profile
-from .chain import chain_rule
+from .chain import chain_rule, period_map
+from .emit import whole_kernels
 from .flows import mode_flows, passed_once, u
-from .functions import period_map, whole_kernels
 from .jumps import closures, jump_law
 from .material import admissibility, foundation_law, prony_series, relaxed_stiffness
 from .regimes import SeveralTimes

@@ -171,15 +171,7 @@ CONTACT_PASSAGE = Formula(
 EXCESS_ENTRY = Formula(
     "excess_entry",
     (s_0, f_0, p_0, D, m),
-    (
-        s_0,
-        D + p_0,
-        f_0,
-        response,
-        alpha,
-        divisible(alpha),
-        per_time(f_0 - response * (alpha * sp.cos(s_0) - sp.sin(s_0)), alpha),
-    ),
+    (s_0, D + p_0, f_0, response, alpha, divisible(alpha), per_time(f_0 - _f_start, alpha)),
     _response,
 )
 EXCESS_EVENT = Formula(
@@ -189,13 +181,7 @@ EXCESS_EVENT = Formula(
         level - versine(s_1) + total((f_0 + moved) * decayed - harmonic * lapsed),
         -sp.sin(s_1) - total(response * (alpha * sp.sin(s_1) + sp.cos(s_1)) + rates * decayed),
     ),
-    (
-        *HALVES,
-        (decayed, sp.exp((s_0 - s_1) / time)),
-        (lapsed, expm1((s_0 - s_1) / time)),
-        _rise,
-        _end,
-    ),
+    (*HALVES, (decayed, sp.exp((s_0 - s_1) / time)), (lapsed, expm1((s_0 - s_1) / time)), _rise, _end),
 )
 
 # -- work of the contact pressure on the profile: the sums of one mode, per branch -------------------------------------

@@ -133,10 +133,9 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "gap_event": named("g"),
     "overstress_after": _pressed,
     "contact_pressure": named("p"),
-    "excess_change": _in_contact,
+    "excess_": _in_contact,
     "contact_increment": _in_contact,
     "contact_work": _in_contact,
-    "excess_event": _in_contact,
     "relaxation_map": _map(contact=False),
     "contact_map": _map(contact=True),
     "relaxation_passage": lambda values, words: _passing(values, words, contact=False),
@@ -148,9 +147,7 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "means of a strip": lambda values, words: CLOSED | {"p": u + total(words["f_sat"].expression)},
     "means_c": lambda values, words: {r"\barp": values[0], r"\bar\tau": values[1], "p": words["p_sat"]},
     "means_": named(r"\barp", r"\bar\tau"),
-    "level_saturation_penetration": _level,
-    "level_saturation_pressure": _level,
-    "level_saturation_friction": _level,
+    "level_saturation_": _level,
     "stack friction": _level,
 }
 """By the beginning of a step's name."""

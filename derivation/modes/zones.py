@@ -2,9 +2,9 @@
 
 import sympy as sp
 
-from ..check import zero
 from ..kernel import Kernel, kernel, pair
 from ..symbols import p, p_0, p_in, s, s_0, s_1
+from ..zones import over_zone
 from . import stable
 from .flows import ModeFlows, u
 from .symbols import J_0, J, S, across, back, enter, eta, f, f_0, sandwich, share, total, z, z_0
@@ -47,16 +47,10 @@ def relaxation(flows: ModeFlows) -> tuple[Kernel, ...]:
     .. math:: \int_{s_0}^{s_1} w\,ds
     """
     flow = flows.relaxation.value
-    after = flow.subs(s, s_1)
-    primitive = sp.integrate(sp.expand(flow), s)
+    integral, claim = over_zone(flow, "z")
     return (
-        kernel(relaxation, stable.RELAXATION_INCREMENT, after - z_0),
-        kernel(
-            relaxation,
-            stable.RELAXATION_INTEGRAL,
-            J_0 * p * (s_1 - s_0) + total(primitive.subs(s, s_1) - primitive.subs(s, s_0)),
-            zero("the antiderivative differentiates to z", sp.diff(primitive, s) - flow, phases=(s_0, s)),
-        ),
+        kernel(relaxation, stable.RELAXATION_INCREMENT, flow.subs(s, s_1) - z_0),
+        kernel(relaxation, stable.RELAXATION_INTEGRAL, J_0 * p * (s_1 - s_0) + total(integral), claim),
     )
 
 
@@ -128,36 +122,19 @@ def contact(flows: ModeFlows) -> tuple[Kernel, ...]:
     """
     flow = flows.contact.value
     after = flow.subs(s, s_1)
-    rate = sp.expand(flow * sp.diff(u, s))
-    work = sp.Add(*(sp.integrate(term, s) for term in sp.Add.make_args(rate)))
-    own = sp.integrate(sp.expand(u * sp.diff(u, s)), s)
+    creep, of_creep = over_zone(flow, "f")
+    work, of_work = over_zone(flow * sp.diff(u, s), "f u'")
+    own, of_own = over_zone(u * sp.diff(u, s), "u u'")
     excess = p_0 + u_1 + total(after)
     slope = sp.diff(u_1, s_1) + total(sp.diff(after, s_1))
     return (
         kernel(contact, stable.OVERSTRESS_AFTER, after),
         kernel(contact, stable.CONTACT_PRESSURE, u + total(f)),
         kernel(contact, stable.EXCESS_CHANGE, u_1 - u_0 + total(after - f_0)),
-        kernel(
-            contact,
-            stable.CONTACT_INCREMENT,
-            across(share, creep_of(flows)),
-            zero("the antiderivative differentiates to f", eta * sp.diff(creep_of(flows), s_1) - after, phases=(s_0, s_1)),
-            zero("and vanishes with the zone", creep_of(flows).subs(s_1, s_0)),
-        ),
-        kernel(
-            contact,
-            stable.CONTACT_WORK,
-            own.subs(s, s_1) - own.subs(s, s_0) + total(work.subs(s, s_1) - work.subs(s, s_0)),
-            zero("the antiderivative differentiates to f u'", sp.diff(work, s) - rate, phases=(s_0, s)),
-        ),
+        kernel(contact, stable.CONTACT_INCREMENT, across(share, creep / eta), of_creep),
+        kernel(contact, stable.CONTACT_WORK, own + total(work), of_work, of_own),
         *pair(contact, (stable.EXCESS_ENTRY, stable.EXCESS_EVENT), (excess, slope)),
     )
-
-
-def creep_of(flows: ModeFlows) -> sp.Expr:
-    """Change of a dashpot's displacement over contact."""
-    lagging = sp.integrate(sp.expand(flows.contact.value), s)
-    return (lagging.subs(s, s_1) - lagging.subs(s, s_0)) / eta
 
 
 def passages(flows: ModeFlows) -> tuple[Kernel, ...]:
@@ -183,8 +160,9 @@ def passages(flows: ModeFlows) -> tuple[Kernel, ...]:
     .. math:: \Delta z,\quad \partial_{s_0}\Delta z,\quad \partial_{s_1}\Delta z,\quad \Delta p,\quad
         \partial_{z_0} \Delta p,\quad \partial_{s_0} \Delta p,\quad \partial_{s_1} \Delta p
     """
-    after, pressed, creep = flows.relaxation.value.subs(s, s_1), flows.contact.value.subs(s, s_1), creep_of(flows)
+    after, pressed = (flow.value.subs(s, s_1) for flow in (flows.relaxation, flows.contact))
     change, pressing = sp.expand(after - z_0), pressed - f_0
+    creep = over_zone(flows.contact.value, "f")[0] / eta  # of a dashpot's displacement over contact
     entered = {f_0: across(enter, sp.expand(-(z_0 - J * p_in)))}
     by_f = sp.diff(creep, f_0)
     relaxation_terms = (

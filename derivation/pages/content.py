@@ -12,22 +12,22 @@ import sympy as sp
 from ..certificates import WORDS as DOMAINS
 from ..check import Derived
 from ..emit import INTERFACE, PARAMETERS, input_hash
-from ..functions import HELPERS, flat
+from ..functions import HELPERS, flat, written_out
+from ..modes.symbols import J_0
 from ..outcome import Derivation
-from ..paper.record import SUBJECTS, Comparison
-from ..paper.tags import numbers
-from ..sequences import Row
+from ..paper.record import SUBJECTS, Comparison, numbers
+from ..regime import PERIODIC
+from ..sequences import CONTACT, EQUATIONS, Row
 from . import places
 from .latex import widest
-from .misprints import misprints
-from .wording import WORDS, equations, events, plainly
+from .misprints import WORDS, misprints
 
 LONG = 130  # operations from which a value is only read in the generated function
 PAPER = 108  # characters of a piece too wide for a sheet
 STATED = ("regime ", "onset_slope_")  # steps whose equation is the value written out already
 TOOLS = ("sympy", "jinja2", "ruff", "latex2mathml")
 CLOSURES = {0: "continuous", 1: "constitutive"}
-CONDITIONS = {"one_time": equations, "several_times": events}
+MEANINGS = dict([*EQUATIONS.values(), PERIODIC])
 
 FIRST = {6: "zone conditions", 11: "means over a level", 15: "saturated_pressure"}
 """The step that states an equation, where that is not the first with its number."""
@@ -41,7 +41,8 @@ def content(derivation: Derivation, files: Mapping[str, str], certificates: Mapp
     functions = sorted(name for name in computed if "." not in name)  # and no methods
     helpers = places.functions("generated/stable.py", files["stable.py"])
     deriving = {step.function for step in derivation.steps} | {name for name, _ in WORDS["method"]}
-    regimes = [_regime(regime, CONDITIONS[derivation.kind](regime), computed) for regime in derivation.regimes]
+    conditions = equations if derivation.kind == "one_time" else events
+    regimes = [_regime(regime, conditions(regime), computed) for regime in derivation.regimes]
     return {
         "model": derivation.model.name,
         "title": derivation.model.title,
@@ -125,6 +126,11 @@ def _values(step: Derived) -> list[str]:
     return [] if texts == [step.latex] or _unbraced(plain).endswith(f"= {_unbraced(texts[0])}") else texts
 
 
+def plainly(term: sp.Expr) -> str:
+    """LaTeX with helpers and calls written out; a fraction far wider above than below as a product, to be cut."""
+    return sp.latex(written_out(term), long_frac_ratio=8)
+
+
 def _unbraced(latex: str) -> str:
     """Indices of one sign without braces, as one writes them by hand."""
     return re.sub(r"_\{(\w)\}", r"_\1", latex)
@@ -144,6 +150,26 @@ def _regime(regime: Row, conditions: list[tuple[str, str]], computed: Iterable[s
         "step": regime.derived.name,
         "computed_by": [name for name in computed if name.rpartition("_")[2] == regime.sequence],
     }
+
+
+def equations(regime: Row) -> list[tuple[str, str]]:
+    """Meaning and LaTeX of each boundary equation, for one relaxation time."""
+    return [(MEANINGS[label], f"{plainly(term)} = 0") for label, term in regime.equations]
+
+
+def events(regime: Row) -> list[tuple[str, str]]:
+    """Meaning and LaTeX of each boundary equation, for several relaxation times."""
+    if not regime.edges:
+        return []
+    first, last = sp.latex(regime.edges[0]), regime.zones[-1]
+    elastic = sp.latex(J_0 * last.load) + " + " if last.load != 0 else ""
+    gap = f" - {sp.latex(last.exit)}" if last.exit != 0 else ""
+    changes = [rf"{elastic}\sum_j z_j({first}) - u({first}){gap} = 0"]
+    for zone in regime.zones[:-1]:
+        what = "p" if zone.kind == CONTACT else "g"
+        missing = "" if zone.missing == 0 else f"{sp.latex(zone.missing)} + "
+        changes.append(rf"{missing}[{what}]_{{{sp.latex(zone.first)}}}^{{{sp.latex(zone.last)}}} = 0")
+    return [(meaning, latex) for (_, meaning), latex in zip(regime.equations, changes, strict=True)]
 
 
 def _proven(name: str, steps: Iterable[Derived], regimes: Iterable[Mapping[str, Any]]) -> list[str]:

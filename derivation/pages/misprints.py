@@ -1,6 +1,8 @@
-"""Misprints and silences of the paper, with demonstrations computed from the steps."""
+"""What the pages say in words (``words.toml``): misprints and silences of the paper, demonstrated from the steps."""
 
+import tomllib
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import sympy as sp
@@ -9,7 +11,8 @@ from ..check import Derived
 from ..level import FIGURE_7
 from ..surface import HEIGHT
 from ..symbols import D_level, K, T_eps, T_sigma, V, h, k, l, p_nominal, x, y
-from .wording import WORDS
+
+WORDS = tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
 
 
 def misprints(steps: Mapping[str, Derived], kind: str) -> list[dict[str, Any]]:

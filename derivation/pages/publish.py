@@ -6,13 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from ..certificates import certified_names
-from ..derive import derive
+from ..derive import Report, derivations_of
 from ..drift import compare
 from ..emit import emit
 from ..folder import AUDIT, MEASURED, dumped, generated_folder, read_certificates, read_measured, write_files
 from ..model import Model
-from ..models import MODELS
-from ..progress import reported
 from .render import audit_files
 
 KEPT = ("figure_6",)  # measured tables that take minutes and have a command of their own, tools/figure6.py
@@ -25,7 +23,7 @@ class AuditError(Exception):
 def audit(
     out_dir: str | os.PathLike[str] | None = None,
     models: Iterable[Model] | None = None,
-    progress: Callable[[int, int], None] | None = None,
+    progress: Report | None = None,
     measure: Callable[[str], dict[str, Any] | None] = lambda model: None,
 ) -> list[Path]:
     """Derive, verify and write the audit into ``out_dir`` (the generated folder's own); returns the files written.
@@ -35,16 +33,16 @@ def audit(
     Raises :class:`DerivationError` at the first step that does not verify, and :class:`AuditError` unless the installed
     solver and its certificates are those of this derivation.
     """
-    chosen = tuple(models) if models is not None else MODELS
     installed = generated_folder()
     target = Path(out_dir) if out_dir is not None else installed / AUDIT
-    derivations = tuple(reported(map(derive, chosen), progress, len(chosen)))
+    derivations = derivations_of(models, progress)
     texts = emit(derivations)
-    drift = compare(installed, texts, {d.model.name: certified_names(d) for d in derivations})
+    names = {made.model.name: certified_names(made) for made in derivations}
+    drift = compare(installed, texts, names)
     stale = [record.path for record in drift if record.kind != "stray" and not record.path.startswith(AUDIT)]
     if stale:
         raise AuditError(f"{', '.join(stale)} in {installed} is not what the derivation emits; run `hystrip regenerate` first")
-    found = {model.name: figures for model in chosen if (figures := measure(model.name)) is not None}
+    found = {name: figures for name in names if (figures := measure(name)) is not None}
     for name, stored in read_measured(installed).items():
         if name in found:
             found[name]["tables"] |= {table: rows for table, rows in stored.get("tables", {}).items() if table in KEPT}

@@ -8,7 +8,7 @@ import sympy as sp
 from ..level import in_si
 from ..strip import Strip
 from ..surface import WAVE
-from . import foundation, level, stack, surface
+from . import foundation, level, stack
 from .record import Comparison
 
 
@@ -18,11 +18,11 @@ def comparisons(strip: Strip, exact: Mapping[str, sp.Expr], steps: Mapping[str, 
     return (
         foundation.law(strip.foundation),
         *foundation.adhesion(),
-        surface.shape(),
+        level.shape(),
         foundation.moving(strip),
-        surface.conditions(steps["zone conditions"]),
+        level.conditions(steps["zone conditions"]),
         level.load(complete),
-        surface.penetration(),
+        level.penetration(),
         level.area(),
         level.stress(steps["local stress"]),
         level.means(complete),

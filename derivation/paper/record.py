@@ -1,5 +1,6 @@
-"""Eq. 1 to 16 as printed (``printed.toml``); what a comparison with one is, and the checks that only comparisons need."""
+"""Eq. 1 to 16 as printed (``printed.toml``); what a comparison with one is, and which steps may carry its number."""
 
+import re
 import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -8,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from ..check import CORRECTED, REPRODUCED, Check, Claim, DerivationError
+from ..check import CORRECTED, REPRODUCED, Check, Claim, DerivationError, Derived
 from ..exact import is_zero
 from ..latex import Statement, statements
 
@@ -62,3 +63,33 @@ def compared(number: int, claims: Iterable[Claim], derived: Iterable[str] = (), 
 def refuted(claim: str, residual: Any) -> Claim:
     """The claim of the print that does not hold: its residual does not vanish identically."""
     return Claim(claim, FALSE, lambda: "none, so the print is right in this" if is_zero(sp.sympify(residual)) else None)
+
+
+def numbers(paper: str) -> list[int]:
+    """Equation numbers in a citation such as ``Eq. 2, 3``."""
+    return [int(number) for number in re.findall(r"\d+", paper)]
+
+
+def require_tags(steps: Iterable[Derived]) -> None:
+    """Raise :class:`DerivationError` for a step that carries the number of an equation that it does not derive."""
+    for step in steps:
+        for number in numbers(step.paper):
+            if not step.name.startswith(DERIVED_BY.get(number, ())):
+                raise DerivationError("tags", f"{step.name!r} carries Eq. {number}, which {step.function} does not derive")
+
+
+def require_all(steps: Iterable[Derived]) -> None:
+    """Raise :class:`DerivationError` unless every equation of the paper has a step."""
+    carried = {number for step in steps for number in numbers(step.paper)}
+    missing = sorted(set(DERIVED_BY) - carried)
+    if missing:
+        raise DerivationError("tags", f"Eq. {missing[0]} of the paper has a step")
+
+
+def require_status(steps: Iterable[Derived], comparisons: Iterable[Comparison]) -> None:
+    """Raise :class:`DerivationError` where a step says of the print what its comparison does not."""
+    status = {step.name: step.status for step in steps}
+    for comparison in comparisons:
+        stating = comparison.steps[0]
+        if status[stating] != comparison.status:
+            raise DerivationError(stating, f"Eq. {comparison.number} is {comparison.status}, as its comparison shows")

@@ -19,14 +19,7 @@ MATERIAL = {
 
 def level(index: str, **more: Any) -> dict[str, Any]:
     """Symbols of one level under the index that the paper gives it; its height is Eq. 4."""
-    return {
-        **MATERIAL,
-        f"h_{index}": h,
-        f"l_{index}": l,
-        f"D_{index}": D_level,
-        f"f_{index}": surface,
-        **more,
-    }
+    return {**MATERIAL, f"h_{index}": h, f"l_{index}": l, f"D_{index}": D_level, f"f_{index}": surface, **more}
 
 
 def surface(along: sp.Expr = x, across: sp.Expr = y) -> sp.Expr:

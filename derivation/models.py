@@ -1,0 +1,133 @@
+"""Where models come from: those that ship, constructors of others, and a user's file."""
+
+import keyword
+import os
+import runpy
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+import sympy as sp
+
+from .check import DerivationError
+from .model import Model, Parameter, Roots, Series
+from .symbols import K, T_eps, T_sigma
+
+STEP = "model file"
+TAKEN = ("stable", "modes", "audit", "certificates")  # files that stand beside the emitted solvers
+STIFFNESS = Parameter(K, "K", "Pa/m", "relaxed stiffness of the foundation per area")
+RETARDATION = Parameter(T_eps, "T_eps", "s", "retardation time: creep under constant pressure")
+K_i, tau_i = sp.symbols("K_i tau_i", positive=True)
+
+
+def prony_model(name: str, modes: int | None = None, title: str = "") -> Model:
+    """A spring beside ``modes`` Maxwell branches, or any number: ``p = K w + sum_i K_i (w - e_i)``, ``tau_i e_i' + e_i = w``.
+
+    The solver is given the Prony series as arrays K_i and tau_i. Raises :class:`ValueError` for fewer than one relaxation time.
+    """
+    if modes is not None and modes < 1:
+        raise ValueError(f"prony_model: modes must be at least 1, not {modes}")
+    return Model(
+        name=name,
+        title=title or f"Generalised model with {modes or 'n'} relaxation times",
+        parameters=(
+            STIFFNESS,
+            Parameter(K_i, "K_i", "Pa/m", "branch moduli, one per relaxation time"),
+            Parameter(tau_i, "tau_i", "s", "relaxation times, one per branch"),
+        ),
+        Q=(),
+        P=(),
+        series=Series(K, viscosity=K_i * tau_i / K, time=tau_i, arrays=(K_i, tau_i)),
+        count=modes,
+    )
+
+
+def operator_model(
+    name: str, parameters: Sequence[Parameter], Q: Sequence[sp.Expr], P: Sequence[sp.Expr], title: str = ""
+) -> Model:
+    """A model given by its operators, ``Q(d/dt) w = P(d/dt) p``: their coefficients of the powers 0, 1, ..., n of d/dt.
+
+    Its relaxation and retardation times are found by the solver once the parameters are numbers; numbers that make no passive,
+    stable solid are refused there. Raises :class:`DerivationError` for operators that do not belong together.
+    """
+    Q, P = (tuple(map(sp.sympify, operator)) for operator in (Q, P))
+    if len(Q) != len(P) or len(Q) < 2:
+        raise DerivationError(
+            name, f"Q and P have coefficients of the same powers 0 .. n, n >= 1; these have {len(Q)} and {len(P)}"
+        )
+    known = {parameter.symbol for parameter in parameters}
+    unknown = sorted(str(symbol) for coefficient in (*Q, *P) for symbol in coefficient.free_symbols - known)
+    if unknown:
+        raise DerivationError(name, f"every symbol of the operators is among the parameters; {', '.join(unknown)} is not")
+    return Model(name, title or name, tuple(parameters), Q, P, series=Roots(sp.cancel(Q[0] / P[0])))
+
+
+STANDARD_LINEAR_SOLID = Model(
+    name="standard_linear_solid",
+    title="Standard linear solid",
+    parameters=(
+        STIFFNESS,
+        RETARDATION,
+        Parameter(T_sigma, "T_sigma", "s", "relaxation time: pressure under constant displacement; at most T_eps"),
+    ),
+    Q=(sp.Integer(1), T_eps),
+    P=(1 / K, T_sigma / K),
+    differences=((T_eps, T_sigma + sp.Symbol("T_delta", nonnegative=True)),),
+)
+"""The paper's foundation, Eq. 1: one relaxation time, ``w + T_eps w_t = (p + T_sigma p_t)/K``."""
+
+KELVIN_VOIGT = Model(
+    name="kelvin_voigt",
+    title="Kelvin-Voigt solid",
+    parameters=(STIFFNESS, RETARDATION),
+    Q=(sp.Integer(1), T_eps),
+    P=(1 / K, sp.Integer(0)),
+    series=Series(K, viscosity=T_eps, time=sp.Integer(0)),
+)
+"""A spring and a dashpot side by side, ``p = K (w + T_eps w_t)``; no instantaneous compliance."""
+
+GENERALISED = prony_model("generalised")
+MODELS = (STANDARD_LINEAR_SOLID, KELVIN_VOIGT, GENERALISED)
+"""Those that ship."""
+
+
+def load_model(path: str | os.PathLike[str]) -> tuple[Model, ...]:
+    """The models that a file declares, as ``MODEL`` or ``MODELS``. The file is run: it is code of whoever names it.
+
+    Raises :class:`FileNotFoundError`, and :class:`DerivationError` for a file that does not run or declares no model that
+    can be emitted.
+    """
+    file = Path(path)
+    if not file.is_file():
+        raise FileNotFoundError(f"no model file {file}")
+    try:
+        found = runpy.run_path(str(file))
+    except DerivationError:
+        raise
+    except Exception as problem:
+        raise DerivationError(STEP, f"{file} runs ({type(problem).__name__}: {problem})") from problem
+    declared = found.get("MODELS") or found.get("MODEL")
+    if declared is None:
+        raise DerivationError(STEP, f"{file} declares MODEL, or MODELS, such as MODEL = prony_model('my_rubber', modes=5)")
+    models = tuple(declared) if isinstance(declared, (tuple, list)) else (declared,)
+    require_names(models)
+    return models
+
+
+def require_names(models: Iterable[object]) -> None:
+    """Raise an error unless every model can be the name of a module, and no two are the same."""
+    seen: set[str] = set()
+    for model in models:
+        if not isinstance(model, Model):
+            raise DerivationError(STEP, f"a model is a hystrip.derivation.Model, not {type(model).__name__}")
+        name = model.name
+        if (
+            not (name.isidentifier() and name.isascii() and name == name.lower())
+            or keyword.iskeyword(name)
+            or name.startswith("_")
+        ):
+            raise DerivationError(
+                STEP, f"the name of a model is a lower-case Python name without leading underscore, not {name!r}"
+            )
+        if name in TAKEN or name in seen:
+            raise DerivationError(STEP, f"the name {name!r} is free: {', '.join((*TAKEN, *sorted(seen)))} are taken")
+        seen.add(name)
