@@ -9,12 +9,11 @@ import pytest
 import hystrip
 from hystrip.generated import standard_linear_solid as kernel
 from hystrip.orbit.balance import balance_bound, exclude_out_of_reach
-from hystrip.orbit.closed_form_exclusion import saturates
+from hystrip.orbit.certificate import saturates
 from hystrip.orbit.engine import solve_strips
-from hystrip.orbit.exclusion import is_extremal
 from hystrip.orbit.groups import Strips, adhesive_cycle
 from hystrip.orbit.march import Orbit, march
-from hystrip.orbit.orbit_bounds import FAST, bounds_beside, least_engaged_bounds, orbit_bounds
+from hystrip.orbit.orbit_bounds import FAST, bounds_beside, is_extremal, least_engaged_bounds, orbit_bounds
 from hystrip.orbit.regimes import CODE
 from hystrip.orbit.search import excludes, isolate_extremal
 from hystrip.orbit.sensitivity import falls, slope_excess, slope_grows

@@ -11,15 +11,13 @@ import numpy as np
 from .balance import exclude_out_of_reach
 from .batch import Batch
 from .certificate import attracting, edges_admissible, stable
-from .chain import follow
-from .exclusion import is_extremal
+from .chain import follow, refined
 from .groups import ROUNDING, Cycle
 from .march import TWO_PI, Orbit, between
-from .orbit_bounds import FAST
-from .refine import refined
+from .orbit_bounds import FAST, is_extremal
 from .regimes import CODE
 from .search import isolate_extremal, located
-from .solved import UNDECIDED, orbit_of
+from .solved import UNDECIDED
 from .start import start
 
 #: alpha from which a period moves the foundation by so little that rounding blurs what joins one edge to the next
@@ -96,7 +94,7 @@ def _followed(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Extrema
         found[:, frozen], good[frozen] = edges[:, frozen], True
     here = np.flatnonzero(good)
     # next to a fold or a graze the search knows better; a strip without adhesion has neither
-    orbit, good, _ = refined(kernel, sequence, cycle.among(here), orbit_of(sequence, found[:, here]), blurred=bare)
+    orbit, good, _ = refined(kernel, sequence, cycle.among(here), Orbit.of(sequence, found[:, here]), blurred=bare)
     here, orbit = here[good], orbit.take(good)
     part = cycle.among(here)
     good = edges_admissible(kernel, part, orbit)

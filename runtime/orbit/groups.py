@@ -40,6 +40,11 @@ class Strips(Batch):
             snaps = (self.chi > 0) & snaps_in(self.J * self.p_0, self.delta_0)
             object.__setattr__(self, "snaps", np.broadcast_to(snaps, self.D.shape))
 
+    @property
+    def arguments(self) -> tuple:
+        """What the kernel's functions of a regime take after the edges."""
+        return self.alpha, self.beta, self.J, self.L, self.p_0, self.delta_0, self.D, self.chi
+
     def noise(self) -> np.ndarray:
         """What rounding may change in a displacement, (n,): every bound keeps this distance."""
         return ROUNDING * (1 + np.abs(self.D) + self.p_0 + self.delta_0)

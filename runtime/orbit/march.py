@@ -18,6 +18,7 @@ from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
 from .batch import Batch
 from .groups import ROUNDING, TWO_PI, Cycle
+from .regimes import ORBIT_EDGES
 
 #: edges this close to the crest are on it: the bracket of one that is on it would be halved a thousand times
 LEAST_PHASE = 1e-60
@@ -47,6 +48,21 @@ class Orbit(Batch):
     def blank(cls, n: int) -> Orbit:
         """n places for orbits, none of them known."""
         return cls(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), np.full(n, np.nan))
+
+    @classmethod
+    def of(cls, sequence: str, edges: np.ndarray) -> Orbit:
+        """The periodic orbits of a ``sequence`` with these edges, (k, n) in the order of ``regimes.ORBIT_EDGES``."""
+        out = cls.blank(edges.shape[1])
+        places = {"acaf": (0, 1, 2, 3), "afc": (0, 0, 1, 2), "af": (0, None, None, 1), "ac": (0, 0, 1, 1), "cf": (0, 0, 1, 1)}
+        for edge, place in zip("xbac", places[sequence], strict=True):
+            if place is not None:
+                getattr(out, edge)[:] = edges[place]
+        out.r[:] = 0.0
+        return out
+
+    def edges(self, sequence: str) -> np.ndarray:
+        """The edges of a ``sequence``, (k, n)."""
+        return np.array([getattr(self, edge) for edge in ORBIT_EDGES[sequence]])
 
 
 def march(kernel, cycle: Cycle, x: np.ndarray) -> Orbit:
