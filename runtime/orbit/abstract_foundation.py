@@ -60,24 +60,19 @@ class Foundation(ABC):
         """The times of the foundation over those of strips at ``rate = k V``, 1/s, as the kernel's functions of it take them."""
 
     @abstractmethod
-    def boundary_arguments(self, rate, D, p_0, delta_0, edge: str) -> tuple:
-        """What the generated boundary equations take after the edges, for strips at ``rate = k V``, 1/s, the rest
-        dimensionless."""
+    def strips(self, rate, D, p_0, delta_0, edge: str) -> Any:
+        """Dimensionless strips at ``rate = k V``, 1/s, the rest dimensionless."""
 
     @abstractmethod
-    def strips(self, arguments: tuple) -> Any:
-        """The dimensionless strips of such arguments."""
-
-    @abstractmethod
-    def fold(self, sequence: str, edges, arguments: tuple) -> np.ndarray:
+    def fold(self, sequence: str, edges, strips) -> np.ndarray:
         """Of orbits of a ``sequence`` with a free part: zero at a fold, with a change of sign."""
 
     @abstractmethod
-    def release(self, edges, arguments: tuple) -> np.ndarray:
+    def release(self, edges, strips) -> np.ndarray:
         """Of orbits that are engaged all along, with ``edges`` b, a: positive where they would be released, zero at the end."""
 
     @abstractmethod
-    def closing(self, edges, arguments: tuple) -> np.ndarray:
+    def closing(self, edges, strips) -> np.ndarray:
         """Of orbits without contact, with ``edges`` d, c: negative where their gap would close, zero at the end."""
 
     @abstractmethod
@@ -134,17 +129,17 @@ class Foundation(ABC):
                     p[index], gap[index] = np.where(inside, pressure, p[index]), np.where(inside, open_, gap[index])
         return p, gap
 
-    def peak(self, sequence: str, edges, arguments: tuple, pressure) -> np.ndarray:
+    def peak(self, sequence: str, edges, strips, pressure) -> np.ndarray:
         """Of orbits of a ``sequence`` with contact: positive where their greatest pressure is above ``pressure``."""
-        s, place, event = self.strips(arguments), ZONES[sequence][0].index("c"), self.kernel.excess_event
+        place, event = ZONES[sequence][0].index("c"), self.kernel.excess_event
         b, a = edges[place], edges[place + 1]
-        constants = self.excess(b, self.entry(sequence, edges, s), s)
+        constants = self.excess(b, self.entry(sequence, edges, strips), strips)
 
         def slope(phase, rows):
             return event(phase, *(pick(constant, rows) for constant in constants))[1]
 
         top = falling_root(slope, b, np.maximum(b, a), tolerance=_PLACED)
-        return event(top, *constants)[0] - s.p_0 - pressure
+        return event(top, *constants)[0] - strips.p_0 - pressure
 
     def contact(self, strips, solved: Solved, scales: dict, index: np.ndarray) -> Contact:
         """Contact of the solved strips ``index``, as ``solve`` returned them."""

@@ -13,11 +13,11 @@ from ..abstract_foundation import Foundation
 from ..flat import is_flat, solve_with_flat
 from ..groups import snaps_in
 from ..materials import parameters
+from ..nonadhesive import Waves
 from ..si import CERTIFIED, refuse_uncertified
 from .engine import solve_modes
 from .extremes import greatest_gap, least_gap
 from .fields import zones_of
-from .nonadhesive import ModeWaves
 from .problem import ModeStrips
 
 
@@ -82,26 +82,23 @@ class ManyTimes(Foundation):
     def at_rate(self, rate):
         return (self.kernel.at_speed(self.modes, np.atleast_1d(np.asarray(rate, float))),)
 
-    def boundary_arguments(self, rate, D, p_0, delta_0, edge):
-        return *self.at_rate(rate), p_0, delta_0, D
+    def strips(self, rate, D, p_0, delta_0, edge):
+        return ModeStrips(*self.at_rate(rate), p_0, delta_0, D)
 
-    def strips(self, arguments):
-        return ModeStrips(*arguments)
-
-    def fold(self, sequence, edges, arguments):
+    def fold(self, sequence, edges, strips):
         """Determinant of the boundary equations' derivatives by the edges."""
-        _, rows = getattr(self.kernel, f"residual_and_jacobian_{sequence}")(*edges, *arguments)
+        _, rows = getattr(self.kernel, f"residual_and_jacobian_{sequence}")(*edges, *strips.arguments)
         return np.linalg.det(np.array([np.broadcast_arrays(edges[0], *row)[1:] for row in rows]).transpose(2, 0, 1))
 
-    def release(self, edges, arguments):
-        s = ModeStrips(*arguments)
-        return greatest_gap(self.kernel, edges, s) - s.delta_0
+    def release(self, edges, strips):
+        return greatest_gap(self.kernel, edges, strips) - strips.delta_0
 
-    def closing(self, edges, arguments):
-        return least_gap(self.kernel, edges, ModeStrips(*arguments))
+    def closing(self, edges, strips):
+        return least_gap(self.kernel, edges, strips)
 
     def waves(self, rate):
-        return ModeWaves(self.kernel, *self.at_rate(rate))
+        none = np.zeros(rate.size)
+        return Waves(self, ModeStrips(*self.at_rate(rate), none, none, none))
 
     def moduli(self, strips):
         return self.kernel.storage(strips.m), self.kernel.loss(strips.m), strips.m.J_0
