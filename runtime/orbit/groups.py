@@ -85,11 +85,6 @@ class Cycle(Batch):
         return self.strips.D > -self.jump
 
 
-def slowed(alpha) -> np.ndarray:
-    """Share of its speed at which a strip is solved: 1, or less where it is taken as the limit of infinite speed."""
-    return np.divide(STANDS_STILL, alpha, out=np.ones_like(alpha), where=alpha > STANDS_STILL)
-
-
 def arc_versine(height):
     """Phase where ``1 - cos`` is this much, at most pi."""
     return 2 * np.arcsin(np.sqrt(np.minimum(np.maximum(0.5 * height, 0.0), 1.0)))

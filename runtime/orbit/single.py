@@ -10,10 +10,11 @@ from ..inputs.material import StandardLinearSolid
 from .abstract_foundation import Foundation
 from .certificate import greatest_gap
 from .chain import gap_zones
-from .groups import Strips, adhesive_cycle, bare_cycle, slowed
+from .engine import solve_strips
+from .groups import STANDS_STILL, Strips, adhesive_cycle, bare_cycle
 from .nonadhesive import Waves
 from .regimes import ZONES
-from .si import refuse_uncertified, solve_si
+from .si import every
 
 
 class SingleTime(Foundation):
@@ -37,21 +38,20 @@ class SingleTime(Foundation):
             return self
         return SingleTime(self.kernel, StandardLinearSolid(*(np.broadcast_to(v, shape).ravel() for v in self.parameters)))
 
-    def solve(self, l, A, D, V, p_0, delta_0, edge, branch):  # noqa: E741
-        m = self.material
-        inputs = (l, A, D, V, m.K, m.T_eps, m.T_sigma, p_0, delta_0)
-        solved, strips, scales = solve_si(self.kernel, *inputs, m.J, m.L, edge=edge, branch=branch)
-        names = ("l", "A", "D", "V", "K", "T_eps", "T_sigma", "p_0", "delta_0")
-        refuse_uncertified(solved, dict(zip(names, inputs, strict=True)), edge, branch)
-        return solved, strips, scales
+    def solve_strips(self, strips, unloading):
+        return solve_strips(self.kernel, strips, unloading)
+
+    def pace(self, rate):
+        alpha = rate * self.material.T_sigma
+        return np.divide(STANDS_STILL, alpha, out=np.ones_like(alpha), where=alpha > STANDS_STILL)
 
     def at_rate(self, rate):
         return rate * self.material.T_sigma, rate * self.material.T_eps
 
-    def strips(self, rate, D, p_0, delta_0, edge):
-        m, one = self.material, np.ones(D.size)
-        rate = rate * slowed(rate * m.T_sigma)
-        return Strips(*self.at_rate(rate), one * m.J, one * m.L, p_0, delta_0, D, one * (edge == "constitutive"))
+    def strips(self, rate, D, p_0, delta_0, edge, snaps=None):
+        m, chi = self.material, float(edge == "constitutive")
+        shared = (every(v, D.shape) for v in (*self.at_rate(rate * self.pace(rate)), m.J, m.L))
+        return Strips(*shared, p_0, delta_0, D, every(chi, D.shape), snaps)
 
     def fold(self, sequence, edges, strips):
         """``T' - 1`` times the load at the last edge: no pole there. Those at the other edges vanish where there is no fold."""
