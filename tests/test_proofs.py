@@ -140,7 +140,7 @@ def test_next_to_the_end_of_a_branch_no_orbit_out_of_reach_is_passed_over():
     assert s.size > 800
     for lower in (0.0, 0.003, 0.01, 0.03, 0.1):
         cycle = adhesive_cycle(kernel, replace(s, D=high - lower * (s.p_0 + np.abs(high))))
-        none, found = exclude_out_of_reach(kernel, cycle), isolate_extremal(kernel, cycle, last=False).found
+        none, found = exclude_out_of_reach(kernel, cycle), isolate_extremal(kernel, cycle, last=False)[0]
         assert not (none & found).any()
     assert none.sum() > 250
 

@@ -15,11 +15,11 @@ from .batch import pick
 from .contact import Contact
 from .groups import TWO_PI, snaps_in
 from .materials import parameters
+from .nonadhesive import Waves
 from .regimes import CODE, ZONES
 from .si import CERTIFIED, every, is_flat, once, refuse_uncertified, refuse_velocity, solve_with_flat
 
 if TYPE_CHECKING:
-    from .nonadhesive import Waves
     from .solved import Solved
 
 #: how closely a greatest pressure is placed, radians: its value is off by the square
@@ -77,10 +77,6 @@ class Foundation(ABC):
         """Of orbits without contact, with ``edges`` d, c: negative where their gap would close, zero at the end."""
 
     @abstractmethod
-    def waves(self, rate: np.ndarray) -> Waves:
-        """Strips without adhesion at the rates ``k V`` (N,), 1/s."""
-
-    @abstractmethod
     def moduli(self, strips) -> tuple:
         """Storage and loss of the foundation over K, and its instantaneous compliance times K."""
 
@@ -134,6 +130,11 @@ class Foundation(ABC):
             solved.tau_mean *= np.where(falls, pace, 1.0)
         scales = {"k": k, "A": A, "D": D, "p": self.K * unit, "length": unit, "flat": flat}
         return solved, strips, {name: every(v, shape) for name, v in scales.items()}
+
+    def waves(self, rate: np.ndarray) -> Waves:
+        """Strips without adhesion at the rates ``k V`` (N,), 1/s."""
+        none = np.zeros(rate.size)
+        return Waves(self, self.strips(rate, none, none, none, "constitutive"), self.pace(rate))
 
     def entry(self, sequence: str, edges, strips) -> np.ndarray:
         """What contact begins with."""

@@ -109,12 +109,11 @@ def _isolate(kernel, cycle: Cycle, last: bool, out: Extremal, rest, limit=np.nan
     """Replace the orbits of the cycles ``rest`` in ``out`` by those of the exhaustive search. ``limit``: see
     ``isolate_extremal``."""
     cycle = cycle.among(rest)
-    result = isolate_extremal(kernel, cycle, last, out.orbit.take(rest), limit)
-    orbit = result.left
+    exists, orbit, beyond = isolate_extremal(kernel, cycle, last, out.orbit.take(rest), limit)
     # a bracket without width is the orbit itself
-    pick = np.flatnonzero(result.found & (orbit.x < result.right.x))
+    pick = np.flatnonzero(exists & (orbit.x < beyond.x))
     if pick.size:
-        part, left, right = cycle.take(pick), orbit.take(pick), result.right.take(pick)
+        part, left, right = cycle.take(pick), orbit.take(pick), beyond.take(pick)
         new, inside = _refined_within(kernel, part, between(left, right), left, right, blurred=False)
         left_out = np.flatnonzero(~inside)
         if left_out.size:
@@ -124,8 +123,8 @@ def _isolate(kernel, cycle: Cycle, last: bool, out: Extremal, rest, limit=np.nan
             new[left_out], _ = _refined_within(kernel, part, found, left, right, blurred=True)
         orbit.put(pick, new)
     direct = np.where(cycle.direct, CODE["afc"], CODE["acaf"])
-    code = np.where(result.found, np.where(np.isnan(orbit.b), CODE["af"], direct), UNDECIDED).astype(np.int8)
-    certified = result.found & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
+    code = np.where(exists, np.where(np.isnan(orbit.b), CODE["af"], direct), UNDECIDED).astype(np.int8)
+    certified = exists & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
     out.put(rest, Extremal(orbit, code, certified))
 
 

@@ -159,37 +159,28 @@ def between(left: Orbit, right: Orbit) -> Orbit:
     return Orbit(*mixed, left.engaged.copy(), left.r.copy())
 
 
-def _rows(size: int, *values) -> np.ndarray:
-    """Arrays (size,) and numbers as the rows of one array."""
-    out = np.empty((len(values), size))
-    for row, value in zip(out, values, strict=True):
-        row[:] = value
-    return out
-
-
 class Event:
     """An event function of a batch with its entry data worked into constants once: value and slope at later phases of the
     elements ``sub``, which ascend."""
 
     def __init__(self, function, constants, offset=0.0, sign=1.0):
-        self.function, self.sign = function, sign
-        self.constants = _rows(constants[1].size, offset, *constants)
-        self._asked, self._last = None, self.constants
+        self.function, self.sign, self.rows = function, sign, np.empty((1 + len(constants), constants[1].size))
+        for row, value in zip(self.rows, (offset, *constants), strict=True):
+            row[:] = value
+        self._asked, self._last = None, self.rows
 
     def among(self, index) -> Event:
         """The elements at ``index``, which ascends and repeats nothing."""
-        if index.size == self.constants.shape[1]:
+        if index.size == self.rows.shape[1]:
             return self
-        other = object.__new__(Event)
-        other.function, other.sign, other.constants = self.function, self.sign, self.constants[:, index]
-        other._asked, other._last = None, other.constants
-        return other
+        offset, *constants = self.rows[:, index]
+        return Event(self.function, constants, offset, self.sign)
 
     def __call__(self, phase, sub):
         # iterations ask for the same elements again and again, mostly for all of them
         if sub is not self._asked:
             self._asked = sub
-            self._last = self.constants if sub.size == self.constants.shape[1] else self.constants[:, sub]
+            self._last = self.rows if sub.size == self.rows.shape[1] else self.rows[:, sub]
         offset, *constants = self._last
         value, slope = self.function(phase, *constants)
         return self.sign * (value - offset), self.sign * slope

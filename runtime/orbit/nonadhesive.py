@@ -46,10 +46,11 @@ class Orbits:
 
 
 class Waves:
-    """Waves of N strips without adhesion over a foundation, each at its own speed: ``strips``, at whatever penetration."""
+    """Waves of N strips without adhesion over a foundation, each at its own speed: ``strips``, at whatever penetration, and the
+    share of their speed, ``pace``, that they are had at."""
 
-    def __init__(self, foundation: Foundation, strips: Any):
-        self.foundation, self.kernel, self.strips = foundation, foundation.kernel, strips
+    def __init__(self, foundation: Foundation, strips: Any, pace: np.ndarray):
+        self.foundation, self.kernel, self.strips, self.pace = foundation, foundation.kernel, strips, pace
 
     def _at(self, D: np.ndarray) -> tuple:
         """What the kernel's functions of a regime take after the edges, at the penetrations ``D`` (N,)."""
@@ -87,4 +88,5 @@ class Waves:
         p_mean, tau_mean = self.kernel.means_ac(b, a, *self._at(D)) if means else np.full((2, N), np.nan)
         missed, size = np.abs(left + penetrate * D), np.abs(penetrate).max(axis=0) * (1 + np.abs(D))
         certified = (missed <= _ROUNDING * size).all(axis=0) & (D > 0) & ~(p_mean <= 0)
-        return Orbits(D, b, a, p_mean, tau_mean, certified)
+        # nothing steps: in the limit of infinite speed friction falls like 1/V
+        return Orbits(D, b, a, p_mean, tau_mean * self.pace, certified)

@@ -12,7 +12,6 @@ from .certificate import greatest_gap
 from .chain import gap_zones
 from .engine import solve_strips
 from .groups import STANDS_STILL, Strips, adhesive_cycle, bare_cycle
-from .nonadhesive import Waves
 from .regimes import ZONES
 from .si import every
 
@@ -68,10 +67,6 @@ class SingleTime(Foundation):
         centre, half = self.kernel.forcing_arc(s.p_0, s.D, s.beta)
         first, (gap, _) = edges[0], self.kernel.adhesive_onset(s.p_0, s.delta_0, s.J, s.L, s.chi)
         return self.kernel.gap_after(first, np.maximum(centre + half, first), gap, -s.p_0, s.D, s.beta)
-
-    def waves(self, rate):
-        m, one, none = self.material, np.ones(rate.size), np.zeros(rate.size)
-        return Waves(self, Strips(*self.at_rate(rate), one * m.J, one * m.L, none, none, one, none))
 
     def moduli(self, strips):
         s = strips

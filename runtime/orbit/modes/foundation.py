@@ -9,7 +9,6 @@ import numpy as np
 
 from ...inputs.model import ModelMaterial, modes_of
 from ..abstract_foundation import Foundation
-from ..nonadhesive import Waves
 from .engine import solve_modes
 from .extremes import greatest_gap, least_gap
 from .fields import zones_of
@@ -70,10 +69,6 @@ class ManyTimes(Foundation):
 
     def closing(self, edges, strips):
         return least_gap(self.kernel, edges, strips)
-
-    def waves(self, rate):
-        none = np.zeros(rate.size)
-        return Waves(self, ModeStrips(*self.at_rate(rate), none, none, none))
 
     def moduli(self, strips):
         return self.kernel.storage(strips.m), self.kernel.loss(strips.m), strips.m.J_0
