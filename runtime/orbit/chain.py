@@ -119,7 +119,7 @@ def step(values, before, after) -> tuple[np.ndarray, np.ndarray]:
     return np.array([k + m * first for k, m in zip(constant, linear, strict=True)]), slope
 
 
-def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = True):
+def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = False):
     """The orbit with its edges refined, whether nothing was left to correct, and how far rounding may have moved the edges where
     it blurs them (else 0).
 
@@ -143,17 +143,16 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = T
             index = index[(stalls[index] < 2) & (size > CONVERGED)]
             if not index.size:
                 break
-        blur = np.zeros(cycle.size)
+        orbit, blur = Orbit.of(sequence, edges), np.zeros(cycle.size)
         stalled = np.flatnonzero(stalls > 0)
         if stalled.size:
             part = cycle.take(stalled)
-            uncertain = _attainable(kernel, part, sequence, edges[:, stalled])
-            if not blurred:
-                # of an orbit that others approach in a period, by this share of their distance, rounding leaves no doubt
-                falls = -slope_excess(kernel, part, Orbit.of(sequence, edges[:, stalled]))[0]
-                uncertain = np.where(falls > STABLE, np.minimum(uncertain, ROUNDING / np.minimum(falls, 1e-3)), 0.0)
-            blur[stalled] = np.fmin(uncertain, STABLE)
-    return Orbit.of(sequence, edges), correction <= CONVERGED + blur, blur
+            # of an orbit that others approach in a period, by this share of their distance, rounding leaves no doubt; nor of one
+            # without adhesion, which has no fold nor graze
+            falls = -slope_excess(kernel, part, orbit.take(stalled))[0]
+            sure = np.where(falls > STABLE, ROUNDING / np.minimum(falls, 1e-3), 0.0)
+            blur[stalled] = np.where(blurred | part.bare, STABLE, np.minimum(sure, STABLE))
+    return orbit, correction <= CONVERGED + blur, blur
 
 
 def _equations(kernel, cycle: Cycle, sequence: str, edges) -> tuple:
@@ -168,24 +167,3 @@ def _equations(kernel, cycle: Cycle, sequence: str, edges) -> tuple:
     short = s.beta * (TWO_PI * np.abs(after[-1]) + s.delta_0) + last < 1
     balance = np.where((s.beta < TWO_PI) | short, linked[-1], balance)
     return (*values, balance), before, np.where(after == 0, np.inf, after)
-
-
-def _attainable(kernel, cycle: Cycle, sequence: str, edges) -> np.ndarray:
-    """Greatest uncertainty of an edge that equations known to rounding leave, by elimination of absolute values: of the order of
-    rounding in general, and of its square root where an edge is nearly grazed or at a fold."""
-    s = cycle.strips
-    _, before, after = _equations(kernel, cycle, sequence, edges)
-    size = 1 + np.abs(s.D) + s.p_0
-    slow = TWO_PI / (TWO_PI + s.beta)
-    R = kernel.modulus_ratio(s.alpha, s.beta)
-    gap = ROUNDING * (1 + s.delta_0 + (size + s.delta_0) * slow)
-    excess = ROUNDING * (R + (size + R) * TWO_PI / (TWO_PI + s.alpha))
-    closing = ROUNDING * (size + s.delta_0) * slow
-    constant, linear = [np.zeros(cycle.size)], [np.ones(cycle.size)]
-    for zone, back, on in zip(regimes.ZONES[sequence][0][:-1], before, after, strict=False):
-        noise = excess if zone == "c" else gap
-        closing = closing + noise
-        constant.append((noise + np.abs(back) * constant[-1]) / np.abs(on))
-        linear.append(-back * linear[-1] / on)
-    first = (closing + np.abs(before[-1]) * constant[-1]) / np.abs(before[-1] * linear[-1] + after[-1])
-    return np.max([k + np.abs(m) * first for k, m in zip(constant, linear, strict=True)], axis=0)

@@ -93,8 +93,8 @@ def _followed(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Extrema
         frozen = np.flatnonzero(~good & (cycle.strips.alpha > FROZEN))
         found[:, frozen], good[frozen] = edges[:, frozen], True
     here = np.flatnonzero(good)
-    # next to a fold or a graze the search knows better; a strip without adhesion has neither
-    orbit, good, _ = refined(kernel, sequence, cycle.among(here), Orbit.of(sequence, found[:, here]), blurred=bare)
+    # next to a fold or a graze the search knows better
+    orbit, good, _ = refined(kernel, sequence, cycle.among(here), Orbit.of(sequence, found[:, here]))
     here, orbit = here[good], orbit.take(good)
     part = cycle.among(here)
     good = edges_admissible(kernel, part, orbit)

@@ -19,7 +19,7 @@ from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
 from .groups import Cycle, arc_versine
 from .march import LEAST_PHASE, TWO_PI, Orbit, march, next_onset
-from .sensitivity import falls, over, slope_bounds, slope_excess
+from .sensitivity import falls, over, slope_bounds
 
 #: retardation times after which a displacement is gone, to the smallest number
 FORGOTTEN = 750
@@ -165,21 +165,12 @@ class _Search:
 
 def located(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> Orbit:
     """The one zero of r between the onsets of ``left`` and ``right``."""
-    best = left.take(np.arange(cycle.size))
-
-    def residual(x, index):
-        part = cycle.take(index)
-        orbit = march(kernel, part, x)
-        released = np.flatnonzero(~orbit.engaged)
-        best.put(index[released], orbit.take(released))
-        beta, change = part.strips.beta, slope_excess(kernel, part, orbit)[1] - orbit.r
-        # without memory r is the gap of the undeformed surface
-        return orbit.r, np.divide(change, beta, out=-kernel.profile_slope(x), where=beta > EPS)
-
-    share = left.r / np.where(left.r > right.r, left.r - right.r, 1.0)
-    x = falling_root(residual, left.x, right.x, left.x + (right.x - left.x) * share)
-    residual(x, np.arange(cycle.size))
-    return best
+    x = falling_root(lambda x, index: march(kernel, cycle.take(index), x).r, left.x, right.x)
+    orbit = march(kernel, cycle, x)
+    # at the last bit before the strip stays engaged
+    held = np.flatnonzero(orbit.engaged)
+    orbit.put(held, left.take(held))
+    return orbit
 
 
 def excludes(kernel, cycle: Cycle, left: Orbit, right: Orbit, last: bool) -> np.ndarray:
