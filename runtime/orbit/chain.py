@@ -41,7 +41,9 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.n
         for iteration in range(1, ITERATIONS + 1):
             move, slope = step(*links(kernel, part, sequence, gaps, edges))
             size = np.abs(move).max(axis=0)
-            edges = moved(edges, move, low, high, size)
+            # edges stay inside their arcs and in order
+            edges = np.clip(edges + move, edges + _BOLD * (low - edges), edges + _BOLD * (high - edges))
+            edges = np.maximum.accumulate(edges, axis=0)
             # a step this small leaves an error of its square. Where the map does not contract the extremal orbit is passed, or
             # there is none
             going = np.flatnonzero((size > STABLE) & ((slope < 1) | (iteration == 1))) if iteration < ITERATIONS else index[:0]
@@ -52,17 +54,6 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.n
                 index, part, gaps = index[going], part.among(going), gaps[..., going]
                 edges, low, high = edges[:, going], low[:, going], high[:, going]
     return result, converged
-
-
-def moved(edges, move, low, high, size):
-    """Edges after a step, kept inside their arcs and in order; where the step (of this ``size``) is no number, the edges before
-    it."""
-    new = np.minimum(np.maximum(edges + move, edges + _BOLD * (low - edges)), edges + _BOLD * (high - edges))
-    for before, after in zip(new[:-1], new[1:], strict=True):
-        np.maximum(before, after, out=after)
-    lost = np.flatnonzero(np.isnan(size))
-    new[:, lost] = edges[:, lost]
-    return new
 
 
 def arcs(cycle: Cycle, sequence: str) -> tuple[np.ndarray, np.ndarray]:

@@ -45,9 +45,9 @@ class Orbit(Batch):
     r: np.ndarray
 
     @classmethod
-    def blank(cls, n: int) -> Orbit:
-        """n places for orbits, none of them known."""
-        return cls(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), np.full(n, np.nan))
+    def blank(cls, n: int, engaged: bool = False) -> Orbit:
+        """n places for orbits, none of them known, or for bounds on them."""
+        return cls(*np.full((4, n), np.nan), np.full(n, engaged), np.full(n, np.nan))
 
     @classmethod
     def of(cls, sequence: str, edges: np.ndarray) -> Orbit:

@@ -68,7 +68,7 @@ FAST = 60.0
 
 def orbit_bounds(kernel, cycle: Cycle, slowest: float = np.inf) -> Orbit:
     """Bounds for cycles of strips that are not in saturated contact, up to the beta ``slowest`` (see ``FAST``)."""
-    s, out = cycle.strips, _unknown(cycle.size)
+    s, out = cycle.strips, Orbit.blank(cycle.size, engaged=True)
     says = s.beta <= np.maximum(slowest, TWO_PI * s.p_0)
     index = np.flatnonzero(says & (cycle.half_b > 0) & (cycle.half_b < np.pi))
     if index.size:
@@ -92,14 +92,9 @@ def bounds_beside(kernel, cycle: Cycle, known: Orbit) -> Orbit:
     return out
 
 
-def _unknown(n: int) -> Orbit:
-    """No bounds."""
-    return Orbit(*np.full((4, n), np.nan), np.ones(n, bool), np.full(n, np.nan))
-
-
 def _followed(kernel, cycle: Cycle, b, q_on, after) -> Orbit:
     """Bounds from contact that begins at b with ``q_on`` and does not end before ``after``."""
-    out = _unknown(cycle.size)
+    out = Orbit.blank(cycle.size, engaged=True)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         out.b, out.a = b, contact_end(kernel, cycle, b, q_on, 1, after)
         out.c = adhesion_end(kernel, cycle, out.a, np.zeros(cycle.size), 1)
@@ -111,7 +106,7 @@ def _followed(kernel, cycle: Cycle, b, q_on, after) -> Orbit:
 
 def least_engaged_bounds(kernel, cycle: Cycle) -> Orbit:
     """Bounds from the least engaged state of an orbit with an onset, for cycles of strips within reach, ``D > -delta_0``."""
-    s, touched, out = cycle.strips, cycle.touched, _unknown(cycle.size)
+    s, touched, out = cycle.strips, cycle.touched, Orbit.blank(cycle.size, engaged=True)
     reach = s.D + s.delta_0 - s.noise()
     at_rest = -arc_versine(reach)
     out.a = cycle.centre + cycle.half_b
