@@ -10,7 +10,7 @@ from hystrip.level.interpolation import interpolate
 from hystrip.level.means import level_means
 from hystrip.level.strips import LevelBatch, saturation_depth
 from hystrip.numerics.chebyshev import evaluate, flat_ended, lobatto
-from hystrip.numerics.endpoints import GENTLE, STEEP, graded_share
+from hystrip.numerics.gauss import GENTLE, STEEP, graded_share
 
 POWERS = [(a, b) for a in (GENTLE, STEEP) for b in (GENTLE, STEEP)]
 

@@ -12,8 +12,7 @@ from hystrip.level.averages import Averages
 from hystrip.level.inverse import Inverse
 from hystrip.level.piece import graded
 from hystrip.numerics.chebyshev import coefficients, evaluate, flat_ended, interpolation_errors, lobatto
-from hystrip.numerics.quadrature import interior_nodes, mapped, mapped_weights, sum_errors
-from hystrip.numerics.rules import by_rules
+from hystrip.numerics.quadrature import by_rules, interior_nodes, mapped, mapped_weights, sum_errors
 
 TOOLS = Path(__file__).resolve().parents[1] / "tools"
 

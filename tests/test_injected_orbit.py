@@ -10,9 +10,9 @@ from oracle.orbits import returning_orbits
 
 from hystrip.generated import standard_linear_solid as kernel
 from hystrip.orbit import certificate
+from hystrip.orbit.chain import refined
 from hystrip.orbit.groups import Strips, adhesive_cycle
 from hystrip.orbit.march import Orbit
-from hystrip.orbit.refine import refined
 from hystrip.orbit.sensitivity import slope_excess
 
 # alpha, beta, P0, Delta, delta: a repelling orbit between an attracting one with an onset and another without

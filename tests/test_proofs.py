@@ -9,12 +9,11 @@ import pytest
 import hystrip
 from hystrip.generated import standard_linear_solid as kernel
 from hystrip.orbit.balance import balance_bound, exclude_out_of_reach
-from hystrip.orbit.closed_form_exclusion import saturates
+from hystrip.orbit.certificate import saturates
 from hystrip.orbit.engine import solve_strips
-from hystrip.orbit.exclusion import is_extremal
 from hystrip.orbit.groups import Strips, adhesive_cycle
 from hystrip.orbit.march import Orbit, march
-from hystrip.orbit.orbit_bounds import FAST, bounds_beside, least_engaged_bounds, orbit_bounds
+from hystrip.orbit.orbit_bounds import FAST, bounds_beside, is_extremal, least_engaged_bounds, orbit_bounds
 from hystrip.orbit.regimes import CODE
 from hystrip.orbit.search import excludes, isolate_extremal
 from hystrip.orbit.sensitivity import falls, slope_excess, slope_grows
@@ -141,7 +140,7 @@ def test_next_to_the_end_of_a_branch_no_orbit_out_of_reach_is_passed_over():
     assert s.size > 800
     for lower in (0.0, 0.003, 0.01, 0.03, 0.1):
         cycle = adhesive_cycle(kernel, replace(s, D=high - lower * (s.p_0 + np.abs(high))))
-        none, found = exclude_out_of_reach(kernel, cycle), isolate_extremal(kernel, cycle, last=False).found
+        none, found = exclude_out_of_reach(kernel, cycle), isolate_extremal(kernel, cycle, last=False)[0]
         assert not (none & found).any()
     assert none.sum() > 250
 

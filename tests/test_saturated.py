@@ -28,7 +28,7 @@ def no_strips(monkeypatch):
     def refuse(*args, **kwargs):
         raise AssertionError("a strip was solved")
 
-    monkeypatch.setattr("hystrip.orbit.single.solve_si", refuse)
+    monkeypatch.setattr("hystrip.orbit.abstract_foundation.Foundation.solve", refuse)
 
 
 @pytest.mark.parametrize(("i", "mu"), [(0, 2.92e-4), (1, 5.83e-5), (2, 1.46e-5)])

@@ -1,6 +1,6 @@
 """A Chebyshev series on a piece ``low <= D <= high`` of a curve over penetration.
 
-``D = low + width share(t)`` (``numerics/endpoints.py``): whatever a quantity does next to an end, it is smooth and flat in t
+``D = low + width share(t)`` (``numerics/gauss.py``): whatever a quantity does next to an end, it is smooth and flat in t
 there, which says what it is at the end: the ends are no nodes. They are breaks, and next to one rounding decides which side of it
 a strip is on.
 """
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..numerics.chebyshev import evaluate
-from ..numerics.endpoints import GENTLE, STEEP, graded_share
+from ..numerics.gauss import GENTLE, STEEP, graded_share
 
 
 def graded(t):

@@ -132,7 +132,7 @@ class _System:
         moved, other = moved.reshape(k + 1, -1), np.tile(E if unknown == "A" else A, k + 2)
         A_, E_ = (moved[k], other) if unknown == "A" else (other, moved[k])
         groups = self.columns.groups(np.tile(self.velocity[index], k + 2), A_, E_ + 2 * A_)
-        values = np.array((*self.residual(*moved[:k], *groups), self._event(moved[:k], groups, A_, index)))
+        values = np.array((*self.residual(*moved[:k], *groups.arguments), self._event(moved[:k], groups, A_, index)))
         values = values.reshape(k + 1, k + 2, n)
         matrix = ((values[:, 1:] - values[:, :1]) / length).transpose(2, 0, 1)
         return solved(matrix, -values[:, 0].T[:, :, None])[:, :, 0].T

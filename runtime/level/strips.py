@@ -91,10 +91,10 @@ class LevelBatch:
         """``p_0/K``: how far the adhesive traction draws the foundation out, m."""
         return self.adhesion.p_0 / self.material.K
 
-    def groups(self, V: np.ndarray, A: np.ndarray, D: np.ndarray) -> tuple:
-        """Arguments of the boundary equations of strips at the velocities ``V``, (m,) each."""
+    def groups(self, V: np.ndarray, A: np.ndarray, D: np.ndarray) -> Any:
+        """Dimensionless strips at the velocities ``V``, (m,) each."""
         p_0, delta_0 = self.stretch / A, self.adhesion.delta_0 / A
-        return foundation_of(self.material).boundary_arguments(self.level.k * V, D / A, p_0, delta_0, self.edge)
+        return foundation_of(self.material).strips(self.level.k * V, D / A, p_0, delta_0, self.edge)
 
     def evaluate(self, column: np.ndarray, theta: np.ndarray) -> tuple[np.ndarray, ...]:
         """Of the strips at ``theta``: codes (m,), values to average (m, q), greatest and least pressures over the breaks of the

@@ -1,6 +1,6 @@
 """Chebyshev series of several quantities at once: through values at nested nodes, with the error that is left.
 
-A function that is flat in t at both ends (``endpoints``) is had from the interior nodes: what it is at an end, which is a
+A function that is flat in t at both ends (``gauss``) is had from the interior nodes: what it is at an end, which is a
 breakpoint of the caller's, need not be known. Compare chapter 4 of Mason & Handscomb, "Chebyshev Polynomials" (2003); sums over
 many series are by the recurrence of Clenshaw, "A note on the summation of Chebyshev series" (Math. Tables Aids Comput. 9, 1955,
 118).

@@ -1,4 +1,8 @@
-"""Gaussian sums over an interval on which what is summed begins and ends like a root.
+"""Changes of variable that make functions smooth and flat which begin and end like roots, and Gaussian sums of such functions.
+
+A share of ``t^2`` next to an end makes what ends like a square root of a cube there, or goes on beyond, smooth and flat in t;
+``t^4`` does so to what ends like a square root itself, and nearly so to ``D log D`` (a level does where its crest lets go while
+its neighbours still hold). Being polynomials they leave what is smooth in D as smooth as they can.
 
 With ``x = low + width share(t)``, where ``share`` rises like t^4 from either end, such a function is smooth in t, and the slope
 of ``share`` is the weight ``(t (1 - t))^3`` of Gegenbauer polynomials. Nodes and weights are eigenvalues and first components of
@@ -7,14 +11,29 @@ nodes: they give the coefficients of the function, and how fast those fall tells
 """
 
 from functools import lru_cache
+from math import comb
 
 import numpy as np
 
 from .rounding import EPS
 
+GENTLE, STEEP = 2, 4
 #: how much more than at the pace that coefficients fall at is feared: of 9,863 parts of contacts none was then believed
 #: that erred by more than it was allowed
 _SAFE = 3.0
+
+
+def graded_share(t: np.ndarray, low: int = STEEP, high: int = STEEP) -> np.ndarray:
+    """Share of an interval below ``t``, both in [0, 1]: like ``t^low`` next to 0 and ``1 - (1 - t)^high`` next to 1; to the
+    digits of the distance from either end."""
+    t = np.asarray(t, float)
+    return np.where(t <= 0.5, _beta(t, low, high), 1 - _beta(1 - t, high, low))
+
+
+def _beta(t, a: int, b: int):
+    """Regularised incomplete beta function: sums of positive terms, so that no digits are lost."""
+    n = a + b - 1
+    return sum(comb(n, j) * t**j * (1 - t) ** (n - j) for j in range(a, n + 1))
 
 
 @lru_cache

@@ -3,15 +3,22 @@ coefficients.
 
 ``x = low + width (3 t^2 - 2 t^3)``: what starts or ends like a square root in x is smooth in t, and a polynomial in x stays one
 in t. The ends are no nodes: the weight vanishes there, so that nothing need be known of what happens on them.
+
+Sums by rules with more and more nodes are followed until they are good enough (``by_rules``), with errors from their changes. Of
+a sequence whose changes fall by a ratio r the last member misses its last change times r/(1 - r): Aitken's process (Brezinski &
+Redivo Zaglia, "Extrapolation Methods", 1991, section 2.3). Rules grow by half or more, so sums that converge geometrically do
+better than that, and those that converge by a power of the nodes do as well. A change may be small by chance, as where an
+integrand has a layer or a kink; r is therefore the largest over all quantities, which share their singularities.
 """
 
+from collections.abc import Callable, Sequence
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
-from .chebyshev import COMMON
+from .chebyshev import COMMON, lobatto
 from .rounding import EPS
-from .rules import extrapolated
 
 #: coefficients in the middle of a series that those at its end are held against: one may be small by chance
 _MIDDLE = 3
@@ -29,6 +36,11 @@ _SAFE = 1.5
 _QUIET = 0.01
 #: share of its size by which a constant is taken to change: quotients by less would overflow
 _NOTHING = 1e-290
+#: how much more is feared than the last change times r: 1/(1 - r) up to r = 2/3
+_AITKEN = 3.0
+#: r of a first change, and the share of the roughest quantity's first change, both relative, that every other one is taken to
+#: have at least
+_UNKNOWN, _SHARED = 0.5, 0.1
 
 
 def interleaved(outer: np.ndarray, inner: np.ndarray) -> np.ndarray:
@@ -58,8 +70,7 @@ def gauss(n: int) -> tuple[np.ndarray, np.ndarray]:
 @lru_cache
 def interior_nodes(n: int) -> np.ndarray:
     """Interior Clenshaw-Curtis nodes on (0, 1)."""
-    j = np.arange(1, n)
-    return np.sin(0.5 * np.pi * j / n) ** 2
+    return lobatto(n)[1:-1]
 
 
 @lru_cache
@@ -138,7 +149,7 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     last, which is slower where a layer next to an end is all that is left. Where coefficients fall geometrically the second is
     believed, and the geometric mean of both where it is the smaller one, which may be chance; elsewhere the larger. A run of
     coefficients may be small by chance, where they come and go: no error is less than sums on half and a quarter of the nodes
-    tell, there at the pace of sums that converge geometrically, elsewhere at that of any (``rules``).
+    tell, there at the pace of sums that converge geometrically, elsewhere at that of any (``extrapolated``).
     """
     n = values.shape[1] + 1
     # nodes first and intervals last: largest ones are had fastest so
@@ -180,3 +191,48 @@ def _ratio(last, first):
 def _size(own, roughest, amplitude):
     """Size of the last coefficients of each quantity, given that of the ``roughest`` one relative to its ``amplitude``."""
     return own ** (1 - COMMON) * (roughest * amplitude) ** COMMON
+
+
+def by_rules(
+    sums: Callable[[np.ndarray, Any], np.ndarray],
+    rules: Sequence,
+    goal: np.ndarray,
+    fastest: float,
+    at_once: bool = False,
+    relative: np.ndarray | float = 0.0,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Sums (m, q) by as many of the ``rules`` as it takes for an error of ``goal + relative |sum|``, (m, q) and (m, 1), and the
+    errors (m, q): from the third rule on, or from the second ``at_once``. No r less than ``fastest`` is believed.
+
+    ``sums(rows, rule)`` returns those of the rows by a rule."""
+    left, (out, errors) = np.arange(len(goal)), np.zeros((2, *goal.shape))
+    relative = np.broadcast_to(relative, (len(goal), 1))
+    old = change = None
+    for rule in rules:
+        if not left.size:
+            break
+        new = sums(left, rule)
+        old, last, change = new, change, None if old is None else np.abs(new - old)
+        miss = _missed(new, change, last, fastest, at_once)
+        done = (miss <= goal[left] + relative[left] * np.abs(new)).all(axis=1) | (rule == rules[-1])
+        out[left[done]], errors[left[done]] = new[done], miss[done]
+        left, old, change = left[~done], old[~done], None if change is None else change[~done]
+    return out, errors
+
+
+def extrapolated(change: np.ndarray, ratio: np.ndarray) -> np.ndarray:
+    """What sums miss whose last ``change`` is this and in this ``ratio`` to the one before."""
+    return _AITKEN * change * ratio
+
+
+def _missed(sums, change, last, fastest: float, at_once: bool):
+    """Error of ``sums`` (m, q) whose last ``change`` and the one before, ``last``, are these, or None."""
+    if last is not None:
+        change = np.maximum(change, fastest * last)
+        ratio = np.divide(change, last, out=np.ones_like(change), where=last > change)
+        return extrapolated(change, ratio.max(axis=1, keepdims=True))
+    if change is None or not at_once:
+        return np.full_like(sums, np.inf)
+    # alone it may be small by chance: all quantities change where one does
+    roughest = np.divide(change, np.abs(sums), out=np.zeros_like(change), where=sums != 0).max(axis=1, keepdims=True)
+    return extrapolated(np.maximum(change, _SHARED * roughest * np.abs(sums)), _UNKNOWN)

@@ -10,13 +10,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..numerics.roots import falling_root
+from ..numerics.rounding import LARGEST
 from .batch import pick
 from .contact import Contact
-from .groups import TWO_PI
+from .groups import TWO_PI, snaps_in
+from .materials import parameters
+from .nonadhesive import Waves
 from .regimes import CODE, ZONES
+from .si import CERTIFIED, every, is_flat, once, refuse_uncertified, refuse_velocity, solve_with_flat
 
 if TYPE_CHECKING:
-    from .nonadhesive import Waves
     from .solved import Solved
 
 #: how closely a greatest pressure is placed, radians: its value is off by the square
@@ -50,39 +53,28 @@ class Foundation(ABC):
         """The same for strips of this shape, flattened: array parameters are broadcast to it."""
 
     @abstractmethod
-    def solve(self, l, A, D, V, p_0, delta_0, edge: str, branch: str) -> tuple[Solved, Any, dict]:  # noqa: E741
-        """Solve strips: ``Solved`` (dimensionless), the dimensionless strips, and the scales back to SI.
-
-        ``edge`` has passed ``check_edge``. Raises ``SolverError`` for a strip that could not be certified."""
+    def solve_strips(self, strips, unloading: bool) -> Solved:
+        """Solve dimensionless strips; ``certified`` is false for every one that must not be used."""
 
     @abstractmethod
     def at_rate(self, rate) -> tuple:
         """The times of the foundation over those of strips at ``rate = k V``, 1/s, as the kernel's functions of it take them."""
 
     @abstractmethod
-    def boundary_arguments(self, rate, D, p_0, delta_0, edge: str) -> tuple:
-        """What the generated boundary equations take after the edges, for strips at ``rate = k V``, 1/s, the rest
-        dimensionless."""
+    def strips(self, rate, D, p_0, delta_0, edge: str, snaps=None) -> Any:
+        """Dimensionless strips at ``rate = k V``, 1/s, the rest dimensionless; ``snaps``: see ``groups.Strips``."""
 
     @abstractmethod
-    def strips(self, arguments: tuple) -> Any:
-        """The dimensionless strips of such arguments."""
-
-    @abstractmethod
-    def fold(self, sequence: str, edges, arguments: tuple) -> np.ndarray:
+    def fold(self, sequence: str, edges, strips) -> np.ndarray:
         """Of orbits of a ``sequence`` with a free part: zero at a fold, with a change of sign."""
 
     @abstractmethod
-    def release(self, edges, arguments: tuple) -> np.ndarray:
+    def release(self, edges, strips) -> np.ndarray:
         """Of orbits that are engaged all along, with ``edges`` b, a: positive where they would be released, zero at the end."""
 
     @abstractmethod
-    def closing(self, edges, arguments: tuple) -> np.ndarray:
+    def closing(self, edges, strips) -> np.ndarray:
         """Of orbits without contact, with ``edges`` d, c: negative where their gap would close, zero at the end."""
-
-    @abstractmethod
-    def waves(self, rate: np.ndarray) -> Waves:
-        """Strips without adhesion at the rates ``k V`` (N,), 1/s."""
 
     @abstractmethod
     def moduli(self, strips) -> tuple:
@@ -103,6 +95,46 @@ class Foundation(ABC):
     @abstractmethod
     def gap(self, start, phase, entry, pressure, strips) -> np.ndarray:
         """Gap at a phase of a zone that begins so, under its constant pressure."""
+
+    def pace(self, rate) -> np.ndarray:
+        """Share of its speed at which a strip is solved: 1, or less where it is taken as the limit of infinite speed."""
+        return np.ones_like(rate)
+
+    def solve(self, l, A, D, V, p_0, delta_0, edge: str, branch: str) -> tuple[Solved, Any, dict]:  # noqa: E741
+        """Solve strips: ``Solved`` (dimensionless), the dimensionless strips, and the scales back to SI.
+
+        A strip whose wave is negligible, ``scales["flat"]``, is in units of K alone. ``edge`` has passed ``check_edge``. Raises
+        ``SolverError`` for a strip that could not be certified."""
+        shape, named, adhesion = D.shape, {"l": l, "A": A, "D": D, "V": V}, {"p_0": p_0, "delta_0": delta_0}
+        l, A, D, V, p_0, delta_0 = map(once, (l, A, D, V, p_0, delta_0))  # noqa: E741
+        with np.errstate(over="ignore"):  # refused below, by name
+            k = 2 * np.pi / l
+            rate = k * V
+            longest = rate * self.longest_time
+        refuse_velocity(V, longest > LARGEST, LARGEST)
+        pace, traction, constitutive = self.pace(rate), p_0 / self.K, edge == "constitutive"
+        refuse_velocity(V, longest * pace > CERTIFIED, CERTIFIED)
+        flat = is_flat(A, longest, D, traction, delta_0)
+        unit = np.where(flat, 1.0, A) if flat.any() else A
+        snaps = constitutive & snaps_in(self.J * traction, delta_0)
+        lengths = (every(v, shape) for v in (D / unit, traction / unit, delta_0 / unit))
+        strips = self.strips(rate, *lengths, edge, every(snaps, shape))
+        solved = solve_with_flat(self.solve_strips, strips, every(flat, shape), branch == "unloading")
+        if not solved.certified.all():
+            # an array that was spread over the strips in `flat` is not known by its own name any more
+            of_material = {n: v for n, v in parameters(self.material).items() if np.shape(v) in ((), shape)} | {"K": self.K}
+            refuse_uncertified(solved.certified, named | of_material | adhesion, edge, branch)
+        if (pace < 1).any():
+            # friction falls like 1/V then where nothing steps, that is but for adhesion that begins and ends and lets w step
+            falls = np.isnan(solved.c) | (not constitutive)
+            solved.tau_mean *= np.where(falls, pace, 1.0)
+        scales = {"k": k, "A": A, "D": D, "p": self.K * unit, "length": unit, "flat": flat}
+        return solved, strips, {name: every(v, shape) for name, v in scales.items()}
+
+    def waves(self, rate: np.ndarray) -> Waves:
+        """Strips without adhesion at the rates ``k V`` (N,), 1/s."""
+        none = np.zeros(rate.size)
+        return Waves(self, self.strips(rate, none, none, none, "constitutive"), self.pace(rate))
 
     def entry(self, sequence: str, edges, strips) -> np.ndarray:
         """What contact begins with."""
@@ -134,17 +166,17 @@ class Foundation(ABC):
                     p[index], gap[index] = np.where(inside, pressure, p[index]), np.where(inside, open_, gap[index])
         return p, gap
 
-    def peak(self, sequence: str, edges, arguments: tuple, pressure) -> np.ndarray:
+    def peak(self, sequence: str, edges, strips, pressure) -> np.ndarray:
         """Of orbits of a ``sequence`` with contact: positive where their greatest pressure is above ``pressure``."""
-        s, place, event = self.strips(arguments), ZONES[sequence][0].index("c"), self.kernel.excess_event
+        place, event = ZONES[sequence][0].index("c"), self.kernel.excess_event
         b, a = edges[place], edges[place + 1]
-        constants = self.excess(b, self.entry(sequence, edges, s), s)
+        constants = self.excess(b, self.entry(sequence, edges, strips), strips)
 
         def slope(phase, rows):
             return event(phase, *(pick(constant, rows) for constant in constants))[1]
 
         top = falling_root(slope, b, np.maximum(b, a), tolerance=_PLACED)
-        return event(top, *constants)[0] - s.p_0 - pressure
+        return event(top, *constants)[0] - strips.p_0 - pressure
 
     def contact(self, strips, solved: Solved, scales: dict, index: np.ndarray) -> Contact:
         """Contact of the solved strips ``index``, as ``solve`` returned them."""

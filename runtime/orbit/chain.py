@@ -1,24 +1,30 @@
-"""Newton on the chain of edges of one regime, from a rough start or from a good orbit.
+"""Newton on the chain of edges of one regime, from a rough start, and from a good orbit until its answer counts as converged.
 
 A period is a chain: the onset leads to the next edge, each edge to the one after it, and the last back to the onset. Every
 link is a generated function that gives its value and both derivatives at once, so a step eliminates the edges one after
 another and leaves one unknown, the onset. What comes out is an orbit of the boundary equations, nothing more: whether it is
-admissible, stable and the extremal one is asked elsewhere (``certificate``, ``exclusion``).
+admissible, stable and the extremal one is asked elsewhere (``certificate``, ``orbit_bounds``).
+
+A good orbit is refined on the boundary equations of its regime. Their closing balance, the sum of the changes of z over a period,
+keeps its digits however slow the foundation is. On a fast one, which forgets what is summed, or where the last gap is short, the
+closing link itself is rounded less.
 """
 
 import numpy as np
 
 from . import regimes
 from .certificate import STABLE
-from .groups import TWO_PI, Cycle
+from .groups import ROUNDING, TWO_PI, Cycle
+from .march import Orbit
+from .sensitivity import slope_excess
 
 #: iterations at most. Where there is an orbit with a free part Newton mostly needs a third of them; next to complete contact,
 #: where two edges all but coincide, all. 10 and 24 for these do as well
 ITERATIONS = 14
 #: share of the way to the end of its arc that an edge may move at once
 _BOLD = 0.9
-#: edges of each sequence, x for the onset (of contact, where nothing else is met)
-EDGES = {sequence: "x" + "".join(edges[1:]) for sequence, edges in regimes.EDGES.items() if edges}
+#: largest correction that an orbit may still ask for
+CONVERGED = 1e-13
 
 
 def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -35,7 +41,9 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.n
         for iteration in range(1, ITERATIONS + 1):
             move, slope = step(*links(kernel, part, sequence, gaps, edges))
             size = np.abs(move).max(axis=0)
-            edges = moved(edges, move, low, high, size)
+            # edges stay inside their arcs and in order
+            edges = np.clip(edges + move, edges + _BOLD * (low - edges), edges + _BOLD * (high - edges))
+            edges = np.maximum.accumulate(edges, axis=0)
             # a step this small leaves an error of its square. Where the map does not contract the extremal orbit is passed, or
             # there is none
             going = np.flatnonzero((size > STABLE) & ((slope < 1) | (iteration == 1))) if iteration < ITERATIONS else index[:0]
@@ -48,17 +56,6 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.n
     return result, converged
 
 
-def moved(edges, move, low, high, size):
-    """Edges after a step, kept inside their arcs and in order; where the step (of this ``size``) is no number, the edges before
-    it."""
-    new = np.minimum(np.maximum(edges + move, edges + _BOLD * (low - edges)), edges + _BOLD * (high - edges))
-    for before, after in zip(new[:-1], new[1:], strict=True):
-        np.maximum(before, after, out=after)
-    lost = np.flatnonzero(np.isnan(size))
-    new[:, lost] = edges[:, lost]
-    return new
-
-
 def arcs(cycle: Cycle, sequence: str) -> tuple[np.ndarray, np.ndarray]:
     """Ends of the arcs in which each edge can lie, (k, n)."""
     centre, turned = cycle.centre, cycle.centre + TWO_PI
@@ -68,7 +65,7 @@ def arcs(cycle: Cycle, sequence: str) -> tuple[np.ndarray, np.ndarray]:
         "a": (centre + cycle.half_b, turned - cycle.half_b),
         "c": (centre + cycle.half_c, turned - cycle.half_c),
     }
-    low, high = zip(*(ends[edge] for edge in EDGES[sequence]), strict=True)
+    low, high = zip(*(ends[edge] for edge in regimes.ORBIT_EDGES[sequence]), strict=True)
     return np.array(low), np.array(high)
 
 
@@ -111,3 +108,53 @@ def step(values, before, after) -> tuple[np.ndarray, np.ndarray]:
     slope = -before[-1] * linear[-1] / after[-1]
     first = (values[-1] + before[-1] * constant[-1]) / (after[-1] * (slope - 1))
     return np.array([k + m * first for k, m in zip(constant, linear, strict=True)]), slope
+
+
+def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = False):
+    """The orbit with its edges refined, whether nothing was left to correct, and how far rounding may have moved the edges where
+    it blurs them (else 0).
+
+    ``blurred``: corrections that rounding blurs may be larger, even where it might pretend an orbit.
+    """
+    # the cycle of an always adhering strip is the bare one, shifted: its boundary equations are those of "ac" at p_0 = 0
+    edges = orbit.edges(sequence)
+    correction, stalls = np.full(cycle.size, np.inf), np.zeros(cycle.size, int)
+    index = np.arange(cycle.size)
+    with np.errstate(all="ignore"):
+        for _ in range(ITERATIONS):
+            now = edges[:, index]
+            move, _ = step(*_equations(kernel, cycle.among(index), sequence, now))
+            size = np.abs(move).max(axis=0)
+            # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction. Once may be chance, and
+            # one larger than rounding makes them is a correction, whatever the one before was
+            better = (size < correction[index]) | (size > STABLE)
+            new = np.maximum.accumulate(now + move, axis=0)
+            edges[:, index[better]], correction[index[better]] = new[:, better], size[better]
+            stalls[index[~better]] += 1
+            index = index[(stalls[index] < 2) & (size > CONVERGED)]
+            if not index.size:
+                break
+        orbit, blur = Orbit.of(sequence, edges), np.zeros(cycle.size)
+        stalled = np.flatnonzero(stalls > 0)
+        if stalled.size:
+            part = cycle.take(stalled)
+            # of an orbit that others approach in a period, by this share of their distance, rounding leaves no doubt; nor of one
+            # without adhesion, which has no fold nor graze
+            falls = -slope_excess(kernel, part, orbit.take(stalled))[0]
+            sure = np.where(falls > STABLE, ROUNDING / np.minimum(falls, 1e-3), 0.0)
+            blur[stalled] = np.where(blurred | part.bare, STABLE, np.minimum(sure, STABLE))
+    return orbit, correction <= CONVERGED + blur, blur
+
+
+def _equations(kernel, cycle: Cycle, sequence: str, edges) -> tuple:
+    """The boundary equations, the last freed of what the others miss, and their derivatives by the edge before and the one after;
+    an edge that is grazed stays where it is."""
+    s = cycle.strips
+    linked, before, after = links(kernel, cycle, sequence, gap_zones(cycle, sequence), edges)
+    *values, closing = getattr(kernel, f"residual_{regimes.EQUATIONS[sequence]}")(*edges, *s.arguments)
+    zones = regimes.ZONES[sequence][0]
+    balance = closing - sum(value * (-s.J if zone == "c" else 1.0) for value, zone in zip(values, zones, strict=False))
+    last = edges[0] + TWO_PI - edges[-1]
+    short = s.beta * (TWO_PI * np.abs(after[-1]) + s.delta_0) + last < 1
+    balance = np.where((s.beta < TWO_PI) | short, linked[-1], balance)
+    return (*values, balance), before, np.where(after == 0, np.inf, after)

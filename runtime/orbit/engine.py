@@ -17,8 +17,8 @@ iterates from infinitely far fall to the least engaged one, and there is no long
 
 import numpy as np
 
-from .certificate import greatest_gap
-from .closed_form_exclusion import may_cling, saturates
+from .balance import may_cling
+from .certificate import greatest_gap, saturates
 from .extremal import Extremal, extremal, unique
 from .groups import Strips, adhesive_cycle, bare_cycle
 from .orbit_bounds import FAST, least_engaged_bounds, orbit_bounds

@@ -11,15 +11,13 @@ import numpy as np
 from .balance import exclude_out_of_reach
 from .batch import Batch
 from .certificate import attracting, edges_admissible, stable
-from .chain import follow
-from .exclusion import is_extremal
+from .chain import follow, refined
 from .groups import ROUNDING, Cycle
 from .march import TWO_PI, Orbit, between
-from .orbit_bounds import FAST
-from .refine import refined
+from .orbit_bounds import FAST, is_extremal
 from .regimes import CODE
 from .search import isolate_extremal, located
-from .solved import UNDECIDED, orbit_of
+from .solved import UNDECIDED
 from .start import start
 
 #: alpha from which a period moves the foundation by so little that rounding blurs what joins one edge to the next
@@ -95,8 +93,8 @@ def _followed(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> Extrema
         frozen = np.flatnonzero(~good & (cycle.strips.alpha > FROZEN))
         found[:, frozen], good[frozen] = edges[:, frozen], True
     here = np.flatnonzero(good)
-    # next to a fold or a graze the search knows better; a strip without adhesion has neither
-    orbit, good, _ = refined(kernel, sequence, cycle.among(here), orbit_of(sequence, found[:, here]), blurred=bare)
+    # next to a fold or a graze the search knows better
+    orbit, good, _ = refined(kernel, sequence, cycle.among(here), Orbit.of(sequence, found[:, here]))
     here, orbit = here[good], orbit.take(good)
     part = cycle.among(here)
     good = edges_admissible(kernel, part, orbit)
@@ -111,12 +109,11 @@ def _isolate(kernel, cycle: Cycle, last: bool, out: Extremal, rest, limit=np.nan
     """Replace the orbits of the cycles ``rest`` in ``out`` by those of the exhaustive search. ``limit``: see
     ``isolate_extremal``."""
     cycle = cycle.among(rest)
-    result = isolate_extremal(kernel, cycle, last, out.orbit.take(rest), limit)
-    orbit = result.left
+    exists, orbit, beyond = isolate_extremal(kernel, cycle, last, out.orbit.take(rest), limit)
     # a bracket without width is the orbit itself
-    pick = np.flatnonzero(result.found & (orbit.x < result.right.x))
+    pick = np.flatnonzero(exists & (orbit.x < beyond.x))
     if pick.size:
-        part, left, right = cycle.take(pick), orbit.take(pick), result.right.take(pick)
+        part, left, right = cycle.take(pick), orbit.take(pick), beyond.take(pick)
         new, inside = _refined_within(kernel, part, between(left, right), left, right, blurred=False)
         left_out = np.flatnonzero(~inside)
         if left_out.size:
@@ -126,8 +123,8 @@ def _isolate(kernel, cycle: Cycle, last: bool, out: Extremal, rest, limit=np.nan
             new[left_out], _ = _refined_within(kernel, part, found, left, right, blurred=True)
         orbit.put(pick, new)
     direct = np.where(cycle.direct, CODE["afc"], CODE["acaf"])
-    code = np.where(result.found, np.where(np.isnan(orbit.b), CODE["af"], direct), UNDECIDED).astype(np.int8)
-    certified = result.found & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
+    code = np.where(exists, np.where(np.isnan(orbit.b), CODE["af"], direct), UNDECIDED).astype(np.int8)
+    certified = exists & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit)
     out.put(rest, Extremal(orbit, code, certified))
 
 

@@ -40,6 +40,11 @@ class Strips(Batch):
             snaps = (self.chi > 0) & snaps_in(self.J * self.p_0, self.delta_0)
             object.__setattr__(self, "snaps", np.broadcast_to(snaps, self.D.shape))
 
+    @property
+    def arguments(self) -> tuple:
+        """What the kernel's functions of a regime take after the edges."""
+        return self.alpha, self.beta, self.J, self.L, self.p_0, self.delta_0, self.D, self.chi
+
     def noise(self) -> np.ndarray:
         """What rounding may change in a displacement, (n,): every bound keeps this distance."""
         return ROUNDING * (1 + np.abs(self.D) + self.p_0 + self.delta_0)
@@ -80,11 +85,6 @@ class Cycle(Batch):
         return self.strips.D > -self.jump
 
 
-def slowed(alpha) -> np.ndarray:
-    """Share of its speed at which a strip is solved: 1, or less where it is taken as the limit of infinite speed."""
-    return np.divide(STANDS_STILL, alpha, out=np.ones_like(alpha), where=alpha > STANDS_STILL)
-
-
 def arc_versine(height):
     """Phase where ``1 - cos`` is this much, at most pi."""
     return 2 * np.arcsin(np.sqrt(np.minimum(np.maximum(0.5 * height, 0.0), 1.0)))
@@ -98,26 +98,14 @@ def snaps_in(step, delta_0) -> np.ndarray:
 
 def adhesive_cycle(kernel, strips: Strips) -> Cycle:
     """Cycle of a strip that is free once per period and meets adhesion (or snaps into contact) at its onset."""
-    direct = strips.snaps
+    direct, bare = strips.snaps, np.zeros(strips.size, bool)
     p_0, delta_0, J, L = strips.p_0, strips.delta_0, strips.J, strips.L
-    gap, step = kernel.adhesive_onset(p_0, delta_0, J, L, strips.chi)
+    gap, release_step = kernel.adhesive_onset(p_0, delta_0, J, L, strips.chi)
     excess, snap = kernel.snap_onset(p_0, delta_0, np.where(direct, J, 1.0), L)
-    arcs = np.array([delta_0, p_0, p_0 + delta_0])
-    centre, (half_d, half_b, half_c) = kernel.forcing_arc(arcs, strips.D, strips.beta)
-    return Cycle(
-        strips=strips,
-        direct=direct,
-        bare=np.zeros(strips.size, bool),
-        gap_on=np.where(direct, 0.0, gap),
-        q_on=np.where(direct, np.maximum(excess, 0.0), 0.0),
-        jump=strips.chi * J * p_0,
-        onset_step=np.where(direct, snap, step),
-        release_step=step,
-        centre=centre,
-        half_d=half_d,
-        half_b=half_b,
-        half_c=half_c,
-    )
+    gap_on, q_on = np.where(direct, 0.0, gap), np.where(direct, np.maximum(excess, 0.0), 0.0)
+    jump, onset_step = strips.chi * J * p_0, np.where(direct, snap, release_step)
+    centre, halves = kernel.forcing_arc(np.array([delta_0, p_0, p_0 + delta_0]), strips.D, strips.beta)
+    return Cycle(strips, direct, bare, gap_on, q_on, jump, onset_step, release_step, centre, *halves)
 
 
 def bare_cycle(kernel, strips: Strips) -> Cycle:

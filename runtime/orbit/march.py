@@ -18,6 +18,7 @@ from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
 from .batch import Batch
 from .groups import ROUNDING, TWO_PI, Cycle
+from .regimes import ORBIT_EDGES
 
 #: edges this close to the crest are on it: the bracket of one that is on it would be halved a thousand times
 LEAST_PHASE = 1e-60
@@ -44,9 +45,24 @@ class Orbit(Batch):
     r: np.ndarray
 
     @classmethod
-    def blank(cls, n: int) -> Orbit:
-        """n places for orbits, none of them known."""
-        return cls(*(np.full(n, np.nan) for _ in range(4)), np.zeros(n, bool), np.full(n, np.nan))
+    def blank(cls, n: int, engaged: bool = False) -> Orbit:
+        """n places for orbits, none of them known, or for bounds on them."""
+        return cls(*np.full((4, n), np.nan), np.full(n, engaged), np.full(n, np.nan))
+
+    @classmethod
+    def of(cls, sequence: str, edges: np.ndarray) -> Orbit:
+        """The periodic orbits of a ``sequence`` with these edges, (k, n) in the order of ``regimes.ORBIT_EDGES``."""
+        out = cls.blank(edges.shape[1])
+        places = {"acaf": (0, 1, 2, 3), "afc": (0, 0, 1, 2), "af": (0, None, None, 1), "ac": (0, 0, 1, 1), "cf": (0, 0, 1, 1)}
+        for edge, place in zip("xbac", places[sequence], strict=True):
+            if place is not None:
+                getattr(out, edge)[:] = edges[place]
+        out.r[:] = 0.0
+        return out
+
+    def edges(self, sequence: str) -> np.ndarray:
+        """The edges of a ``sequence``, (k, n)."""
+        return np.array([getattr(self, edge) for edge in ORBIT_EDGES[sequence]])
 
 
 def march(kernel, cycle: Cycle, x: np.ndarray) -> Orbit:
@@ -143,37 +159,28 @@ def between(left: Orbit, right: Orbit) -> Orbit:
     return Orbit(*mixed, left.engaged.copy(), left.r.copy())
 
 
-def _rows(size: int, *values) -> np.ndarray:
-    """Arrays (size,) and numbers as the rows of one array."""
-    out = np.empty((len(values), size))
-    for row, value in zip(out, values, strict=True):
-        row[:] = value
-    return out
-
-
 class Event:
     """An event function of a batch with its entry data worked into constants once: value and slope at later phases of the
     elements ``sub``, which ascend."""
 
     def __init__(self, function, constants, offset=0.0, sign=1.0):
-        self.function, self.sign = function, sign
-        self.constants = _rows(constants[1].size, offset, *constants)
-        self._asked, self._last = None, self.constants
+        self.function, self.sign, self.rows = function, sign, np.empty((1 + len(constants), constants[1].size))
+        for row, value in zip(self.rows, (offset, *constants), strict=True):
+            row[:] = value
+        self._asked, self._last = None, self.rows
 
     def among(self, index) -> Event:
         """The elements at ``index``, which ascends and repeats nothing."""
-        if index.size == self.constants.shape[1]:
+        if index.size == self.rows.shape[1]:
             return self
-        other = object.__new__(Event)
-        other.function, other.sign, other.constants = self.function, self.sign, self.constants[:, index]
-        other._asked, other._last = None, other.constants
-        return other
+        offset, *constants = self.rows[:, index]
+        return Event(self.function, constants, offset, self.sign)
 
     def __call__(self, phase, sub):
         # iterations ask for the same elements again and again, mostly for all of them
         if sub is not self._asked:
             self._asked = sub
-            self._last = self.constants if sub.size == self.constants.shape[1] else self.constants[:, sub]
+            self._last = self.rows if sub.size == self.rows.shape[1] else self.rows[:, sub]
         offset, *constants = self._last
         value, slope = self.function(phase, *constants)
         return self.sign * (value - offset), self.sign * slope

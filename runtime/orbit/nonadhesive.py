@@ -9,16 +9,18 @@ the one in which the mean pressure is positive.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
-from types import ModuleType
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import SolverError
 from ..numerics.rounding import LARGEST
+from .batch import pick
+
+if TYPE_CHECKING:
+    from .abstract_foundation import Foundation
 
 #: how far the equations may be missed, in the size of their terms: rounding alone reaches 1e-12
 _ROUNDING = 1e-9
@@ -43,41 +45,27 @@ class Orbits:
         return self
 
 
-class Waves(ABC):
-    """Waves of N strips without adhesion over a foundation, each at its own speed: all that their orbits ask of the generated
-    solver."""
+class Waves:
+    """Waves of N strips without adhesion over a foundation, each at its own speed: ``strips``, at whatever penetration, and the
+    share of their speed, ``pace``, that they are had at."""
 
-    def __init__(self, kernel: ModuleType, groups: Any):
-        self.kernel, self.groups = kernel, groups
+    def __init__(self, foundation: Foundation, strips: Any, pace: np.ndarray):
+        self.foundation, self.kernel, self.strips, self.pace = foundation, foundation.kernel, strips, pace
 
-    @abstractmethod
-    def take(self, index: np.ndarray) -> Waves:
-        """The strips ``index``."""
-
-    @abstractmethod
-    def _arguments(self, D: np.ndarray) -> tuple:
-        """What the kernel's functions of a regime take after the edges, without adhesion."""
-
-    def residual(self, b, a, D) -> tuple:
-        """Both boundary equations of contact from ``b`` to ``a`` at the penetration ``D`` (N,)."""
-        return self.kernel.residual_ac(b, a, *self._arguments(D))
-
-    def means(self, b, a, D) -> tuple:
-        """Means of pressure and friction."""
-        return self.kernel.means_ac(b, a, *self._arguments(D))
-
-    @abstractmethod
-    def local_pressure(self, orbits: Orbits) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
-        """Pressure in the contact of the strips ``rows`` (k,) at phases (k, n), as a function of both."""
+    def _at(self, D: np.ndarray) -> tuple:
+        """What the kernel's functions of a regime take after the edges, at the penetrations ``D`` (N,)."""
+        return replace(self.strips, D=D).arguments
 
     def pressure(self, orbits: Orbits) -> Callable[..., np.ndarray]:
         """Pressure in the contact of strips at shares (k, n) of it from entry to exit, as a function of them and of the strips'
         rows (k,), all if left out."""
-        local, width = self.local_pressure(orbits), orbits.a - orbits.b
+        s, b, width = replace(self.strips, D=orbits.D), orbits.b, orbits.a - orbits.b
+        constants = self.foundation.excess(b, self.foundation.entry("cf", (b, orbits.a), s), s)
 
         def at(share, rows=None):
             rows = np.arange(width.size) if rows is None else rows
-            return np.maximum(local(rows, orbits.b[rows, None] + width[rows, None] * share), 0.0)
+            known = (c[..., None] if np.ndim(c) else c for c in (pick(constant, rows) for constant in constants))
+            return np.maximum(self.kernel.excess_event(b[rows, None] + width[rows, None] * share, *known)[0], 0.0)
 
         return at
 
@@ -87,36 +75,18 @@ class Waves(ABC):
         # all at once: with D alone, beside which the profile is nothing, and without it what multiplies cos m, and sin m
         middles, D = np.repeat((0.0, 0.0, 0.5 * np.pi), N), np.repeat((LARGEST, 0.0, 0.0), N)
         half = np.tile(0.5 * width, 3)
-        three = self.take(np.tile(np.arange(N), 3)).residual(middles - half, middles + half, D)
+        tiled = replace(self.strips.take(np.tile(np.arange(N), 3)), D=D)
+        three = self.kernel.residual_ac(middles - half, middles + half, *tiled.arguments)
         three = np.array(np.broadcast_arrays(*three)).reshape(2, 3, N)
         penetrate = three[:, 0] / LARGEST
         cosine, sine = (penetrate[1] * three[0, k] - penetrate[0] * three[1, k] for k in (1, 2))
         middle = np.arctan2(-cosine * np.sign(sine), np.abs(sine))
         b, a = middle - 0.5 * width, middle + 0.5 * width
         # D from both equations, each as far as it depends on it
-        left = np.array(np.broadcast_arrays(*self.residual(b, a, none)))
+        left = np.array(np.broadcast_arrays(*self.kernel.residual_ac(b, a, *self._at(none))))
         D = -(left * penetrate).sum(axis=0) / (penetrate * penetrate).sum(axis=0)
-        p_mean, tau_mean = self.means(b, a, D) if means else np.full((2, N), np.nan)
+        p_mean, tau_mean = self.kernel.means_ac(b, a, *self._at(D)) if means else np.full((2, N), np.nan)
         missed, size = np.abs(left + penetrate * D), np.abs(penetrate).max(axis=0) * (1 + np.abs(D))
         certified = (missed <= _ROUNDING * size).all(axis=0) & (D > 0) & ~(p_mean <= 0)
-        return Orbits(D, b, a, p_mean, tau_mean, certified)
-
-
-class SingleWaves(Waves):
-    """Over a foundation with one relaxation time: ``groups`` alpha, beta, J, L of the strips, (N,)."""
-
-    def take(self, index):
-        return SingleWaves(self.kernel, tuple(v[index] for v in self.groups))
-
-    def _arguments(self, D):
-        none = np.zeros(D.size)
-        return *self.groups, none, none, D, none
-
-    def local_pressure(self, orbits):
-        alpha, beta, _, L = self.groups
-        known = (orbits.D, alpha, beta, L)
-
-        def local(rows, phase):
-            return self.kernel.excess_after(orbits.b[rows, None], phase, 0.0, 0.0, *(v[rows, None] for v in known))
-
-        return local
+        # nothing steps: in the limit of infinite speed friction falls like 1/V
+        return Orbits(D, b, a, p_mean, tau_mean * self.pace, certified)

@@ -38,13 +38,28 @@ Each phase that is followed is further off than the event, by the sign of its fu
 adhesion that is held longer (shorter) only leaves the state more (less) engaged than it is. Bounds come as orbits: contact ends
 before ``a``, adhesion before ``c`` and begins after ``x`` (NaN: no bound; inf: there is no onset); ``engaged`` where an orbit may
 be so all along. Of ``least_engaged_bounds``: after, after and before (-inf: no onset).
+
+No orbit is more extremal than one that is known, proven without a march (``is_extremal``; what is not proven is left to
+``search``, and nothing is ever accepted for lack of a counterexample).
+
+Unloading. A more engaged orbit has an earlier onset, so the unloading orbit at x* is proven by excluding zeros of r between the
+earliest onset and x*. It is enough that R falls strictly (``sensitivity.falls``) all along from the onset before which
+bounds on all orbits leave none.
+
+Loading, of a strip within reach, ``D > -delta_0``. A less engaged orbit has a later onset. None has the last one, x_e, nor does
+the map lead on beyond it: there ``H = -delta_0``, so ``z = u + delta_0 = beta sin x_e > 0``, and H is less until the next arc of
+onsets, so that contact, with ``alpha p' + p = H`` and p <= 0 as it begins, has p < 0 like adhesion, and ``beta z' + z = L p``:
+z has fallen when x_e comes round again, and r < 0. Now R falls at a stable orbit and ends below zero. Where the slope T' of the
+onset map grows up to x_e (``sensitivity.slope_grows``), R falls first and rises then: it is negative in between. It is also
+enough if R falls strictly up to an onset before which all orbits have theirs. (From the least engaged state contact is certain,
+and so from all onsets before its own: adhesion ends after its.)
 """
 
 import numpy as np
 
 from .groups import TWO_PI, Cycle, arc_versine
 from .march import Orbit, adhesion_end, contact_end, next_onset
-from .sensitivity import contact_length, fading
+from .sensitivity import contact_length, fading, falls, slope_grows
 
 #: beta above which a foundation remembers too much of the most engaged state for bounds from it to say much, unless adhesion
 #: moves it by more than the amplitude in a period. 30 to 300 cost about the same
@@ -53,7 +68,7 @@ FAST = 60.0
 
 def orbit_bounds(kernel, cycle: Cycle, slowest: float = np.inf) -> Orbit:
     """Bounds for cycles of strips that are not in saturated contact, up to the beta ``slowest`` (see ``FAST``)."""
-    s, out = cycle.strips, _unknown(cycle.size)
+    s, out = cycle.strips, Orbit.blank(cycle.size, engaged=True)
     says = s.beta <= np.maximum(slowest, TWO_PI * s.p_0)
     index = np.flatnonzero(says & (cycle.half_b > 0) & (cycle.half_b < np.pi))
     if index.size:
@@ -77,14 +92,9 @@ def bounds_beside(kernel, cycle: Cycle, known: Orbit) -> Orbit:
     return out
 
 
-def _unknown(n: int) -> Orbit:
-    """No bounds."""
-    return Orbit(*np.full((4, n), np.nan), np.ones(n, bool), np.full(n, np.nan))
-
-
 def _followed(kernel, cycle: Cycle, b, q_on, after) -> Orbit:
     """Bounds from contact that begins at b with ``q_on`` and does not end before ``after``."""
-    out = _unknown(cycle.size)
+    out = Orbit.blank(cycle.size, engaged=True)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         out.b, out.a = b, contact_end(kernel, cycle, b, q_on, 1, after)
         out.c = adhesion_end(kernel, cycle, out.a, np.zeros(cycle.size), 1)
@@ -96,7 +106,7 @@ def _followed(kernel, cycle: Cycle, b, q_on, after) -> Orbit:
 
 def least_engaged_bounds(kernel, cycle: Cycle) -> Orbit:
     """Bounds from the least engaged state of an orbit with an onset, for cycles of strips within reach, ``D > -delta_0``."""
-    s, touched, out = cycle.strips, cycle.touched, _unknown(cycle.size)
+    s, touched, out = cycle.strips, cycle.touched, Orbit.blank(cycle.size, engaged=True)
     reach = s.D + s.delta_0 - s.noise()
     at_rest = -arc_versine(reach)
     out.a = cycle.centre + cycle.half_b
@@ -110,3 +120,20 @@ def least_engaged_bounds(kernel, cycle: Cycle) -> Orbit:
         x = next_onset(kernel, cycle.among(go), out.c[go], 1)
     out.x[missed], out.x[go] = -np.inf, np.fmin(x, np.where(touched, np.nan, at_rest)[go])
     return out
+
+
+def is_extremal(kernel, cycle: Cycle, orbit: Orbit, bounds: Orbit, last: bool) -> np.ndarray:
+    """Which orbits are proven to be the first (``last``: last) of their onset arc.
+
+    ``bounds`` (``orbit_bounds``) are set where there were none.
+    """
+    if last:
+        return falls(kernel, cycle, orbit, bounds) | slope_grows(kernel, cycle, orbit)
+    proven = falls(kernel, cycle, bounds, orbit)
+    rest = np.flatnonzero(~proven & np.isnan(bounds.x))
+    if rest.size:
+        part, known = cycle.among(rest), orbit.among(rest)
+        beside = bounds_beside(kernel, part, known)
+        proven[rest] = falls(kernel, part, beside, known)
+        bounds.put(rest, beside)
+    return proven

@@ -22,6 +22,8 @@ CODE = {sequence: code for code, sequence in enumerate(REGIMES)}
 #: the regime whose boundary equations and means a sequence has, and the unknown edges of those
 EQUATIONS = {sequence: "ac" if sequence == "cf" else sequence for sequence in REGIMES}
 EDGES = {sequence: GENERATED[name]["edges"] for sequence, name in EQUATIONS.items()}
+#: the same edges as those of an orbit: x is the onset (of contact, where nothing else is met)
+ORBIT_EDGES = {sequence: "x" + "".join(edges[1:]) for sequence, edges in EDGES.items() if edges}
 
 
 def _zones(sequence: str) -> tuple[str, str]:

@@ -11,34 +11,23 @@ intervals are divided, into one part more each time: most searches end in the se
 or a graze, which go on, the way to rounding is short.
 """
 
-from dataclasses import dataclass
 from itertools import count
 
 import numpy as np
 
 from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
-from .batch import Batch
 from .groups import Cycle, arc_versine
 from .march import LEAST_PHASE, TWO_PI, Orbit, march, next_onset
-from .sensitivity import falls, over, slope_bounds, slope_excess
+from .sensitivity import falls, over, slope_bounds
 
 #: retardation times after which a displacement is gone, to the smallest number
 FORGOTTEN = 750
 
 
-@dataclass(slots=True)
-class Isolated(Batch):
-    """Outcome of a search over n cycles, arrays (n,): whether the arc holds an orbit, ``found``, isolated between the onsets of
-    ``left`` (r >= 0) and ``right`` (r <= 0)."""
-
-    found: np.ndarray
-    left: Orbit
-    right: Orbit
-
-
-def isolate_extremal(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, limit=np.nan) -> Isolated:
-    """Isolate the first (``last=False``) or last zero of r on the onset arc of every cycle, or prove that there is none.
+def isolate_extremal(kernel, cycle: Cycle, last: bool, known: Orbit | None = None, limit=np.nan):
+    """Isolate the first (``last=False``) or last zero of r on the onset arc of every cycle, or prove that there is none: which
+    arcs (n,) hold an orbit, and it is isolated between the onsets of two marches, left (r >= 0) and right (r <= 0).
 
     ``known``: periodic orbits (r = 0) of some of the cycles, x NaN for the others; nothing beyond them is looked at.
     ``limit``: onsets before which (``last``: after which) no orbit has its own, NaN where there is no such bound.
@@ -55,12 +44,12 @@ class _Search:
         self.sign = -1.0 if last else 1.0  # sign of r on the excluded side
         self.start = np.fmin(cycle.centre + cycle.half_d, limit) if last else np.fmax(cycle.centre - cycle.half_d, limit)
         n = cycle.size
-        self.result = Isolated(np.zeros(n, bool), Orbit.blank(n), Orbit.blank(n))
+        self.found, self.left, self.right = np.zeros(n, bool), Orbit.blank(n), Orbit.blank(n)
 
     def march(self, index, x):
         return march(self.kernel, self.cycle.take(index), x)
 
-    def run(self) -> Isolated:
+    def run(self) -> tuple[np.ndarray, Orbit, Orbit]:
         index = self._within_reach(self._without_memory(np.flatnonzero(self.cycle.half_d > 0)))
         if index.size:
             index, frontier, stop = self._start(index)
@@ -69,7 +58,7 @@ class _Search:
                 if not index.size:
                     break
                 index, frontier, beyond, stop = self._advance(index, frontier, beyond, stop, parts)
-        return self.result
+        return self.found, self.left, self.right
 
     def _without_memory(self, index):
         """Settle the cycles in which w decays to nothing before the next onset, whatever the onset was; returns the others.
@@ -169,28 +158,19 @@ class _Search:
         return excluded, unique
 
     def _isolated(self, index, left: Orbit, right: Orbit):
-        self.result.found[index] = True
-        self.result.left.put(index, left)
-        self.result.right.put(index, right)
+        self.found[index] = True
+        self.left.put(index, left)
+        self.right.put(index, right)
 
 
 def located(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> Orbit:
     """The one zero of r between the onsets of ``left`` and ``right``."""
-    best = left.take(np.arange(cycle.size))
-
-    def residual(x, index):
-        part = cycle.take(index)
-        orbit = march(kernel, part, x)
-        released = np.flatnonzero(~orbit.engaged)
-        best.put(index[released], orbit.take(released))
-        beta, change = part.strips.beta, slope_excess(kernel, part, orbit)[1] - orbit.r
-        # without memory r is the gap of the undeformed surface
-        return orbit.r, np.divide(change, beta, out=-kernel.profile_slope(x), where=beta > EPS)
-
-    share = left.r / np.where(left.r > right.r, left.r - right.r, 1.0)
-    x = falling_root(residual, left.x, right.x, left.x + (right.x - left.x) * share)
-    residual(x, np.arange(cycle.size))
-    return best
+    x = falling_root(lambda x, index: march(kernel, cycle.take(index), x).r, left.x, right.x)
+    orbit = march(kernel, cycle, x)
+    # at the last bit before the strip stays engaged
+    held = np.flatnonzero(orbit.engaged)
+    orbit.put(held, left.take(held))
+    return orbit
 
 
 def excludes(kernel, cycle: Cycle, left: Orbit, right: Orbit, last: bool) -> np.ndarray:

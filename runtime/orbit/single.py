@@ -10,10 +10,10 @@ from ..inputs.material import StandardLinearSolid
 from .abstract_foundation import Foundation
 from .certificate import greatest_gap
 from .chain import gap_zones
-from .groups import Strips, adhesive_cycle, bare_cycle, slowed
-from .nonadhesive import SingleWaves
+from .engine import solve_strips
+from .groups import STANDS_STILL, Strips, adhesive_cycle, bare_cycle
 from .regimes import ZONES
-from .si import refuse_uncertified, solve_si
+from .si import every
 
 
 class SingleTime(Foundation):
@@ -37,46 +37,36 @@ class SingleTime(Foundation):
             return self
         return SingleTime(self.kernel, StandardLinearSolid(*(np.broadcast_to(v, shape).ravel() for v in self.parameters)))
 
-    def solve(self, l, A, D, V, p_0, delta_0, edge, branch):  # noqa: E741
-        m = self.material
-        inputs = (l, A, D, V, m.K, m.T_eps, m.T_sigma, p_0, delta_0)
-        solved, strips, scales = solve_si(self.kernel, *inputs, m.J, m.L, edge=edge, branch=branch)
-        names = ("l", "A", "D", "V", "K", "T_eps", "T_sigma", "p_0", "delta_0")
-        refuse_uncertified(solved, dict(zip(names, inputs, strict=True)), edge, branch)
-        return solved, strips, scales
+    def solve_strips(self, strips, unloading):
+        return solve_strips(self.kernel, strips, unloading)
+
+    def pace(self, rate):
+        alpha = rate * self.material.T_sigma
+        return np.divide(STANDS_STILL, alpha, out=np.ones_like(alpha), where=alpha > STANDS_STILL)
 
     def at_rate(self, rate):
         return rate * self.material.T_sigma, rate * self.material.T_eps
 
-    def boundary_arguments(self, rate, D, p_0, delta_0, edge):
-        m, one = self.material, np.ones(D.size)
-        chi = one * (edge == "constitutive")
-        rate = rate * slowed(rate * m.T_sigma)
-        return *self.at_rate(rate), one * m.J, one * m.L, p_0, delta_0, D, chi
+    def strips(self, rate, D, p_0, delta_0, edge, snaps=None):
+        m, chi = self.material, float(edge == "constitutive")
+        shared = (every(v, D.shape) for v in (*self.at_rate(rate * self.pace(rate)), m.J, m.L))
+        return Strips(*shared, p_0, delta_0, D, every(chi, D.shape), snaps)
 
-    def strips(self, arguments):
-        return Strips(*arguments)
-
-    def fold(self, sequence, edges, arguments):
+    def fold(self, sequence, edges, strips):
         """``T' - 1`` times the load at the last edge: no pole there. Those at the other edges vanish where there is no fold."""
-        _, beta, J, _, p_0, delta_0, D, chi = arguments
-        *_, fold = getattr(self.kernel, f"onset_slope_{sequence}")(*edges, *arguments)
-        return fold * (self.kernel.forcing(edges[-1], D, beta) + delta_0 + chi * J * p_0)
+        s = strips
+        *_, fold = getattr(self.kernel, f"onset_slope_{sequence}")(*edges, *s.arguments)
+        return fold * (self.kernel.forcing(edges[-1], s.D, s.beta) + s.delta_0 + s.chi * s.J * s.p_0)
 
-    def release(self, edges, arguments):
-        s = Strips(*arguments)
-        return greatest_gap(self.kernel, s, edges[-1]) - s.delta_0
+    def release(self, edges, strips):
+        return greatest_gap(self.kernel, strips, edges[-1]) - strips.delta_0
 
-    def closing(self, edges, arguments):
+    def closing(self, edges, strips):
         """Where the load harmonic falls through ``-p_0`` a gap of nothing turns."""
-        _, beta, J, L, p_0, delta_0, D, chi = arguments
-        centre, half = self.kernel.forcing_arc(p_0, D, beta)
-        first, (gap, _) = edges[0], self.kernel.adhesive_onset(p_0, delta_0, J, L, chi)
-        return self.kernel.gap_after(first, np.maximum(centre + half, first), gap, -p_0, D, beta)
-
-    def waves(self, rate):
-        m, one = self.material, np.ones(rate.size)
-        return SingleWaves(self.kernel, (*self.at_rate(rate), one * m.J, one * m.L))
+        s = strips
+        centre, half = self.kernel.forcing_arc(s.p_0, s.D, s.beta)
+        first, (gap, _) = edges[0], self.kernel.adhesive_onset(s.p_0, s.delta_0, s.J, s.L, s.chi)
+        return self.kernel.gap_after(first, np.maximum(centre + half, first), gap, -s.p_0, s.D, s.beta)
 
     def moduli(self, strips):
         s = strips

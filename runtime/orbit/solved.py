@@ -7,8 +7,6 @@ import numpy as np
 
 from ..numerics.rounding import EPS
 from .batch import Batch
-from .chain import EDGES
-from .groups import Strips
 from .march import TWO_PI, Orbit
 from .regimes import CODE, EQUATIONS
 
@@ -40,21 +38,15 @@ class Solved(Batch):
         return cls(np.full(n, UNDECIDED, np.int8), *nan, np.zeros(n, bool), np.zeros(n, bool))
 
 
-def groups(s: Strips) -> tuple:
-    """Dimensionless groups in the order in which the kernel's regime functions take them."""
-    return s.alpha, s.beta, s.J, s.L, s.p_0, s.delta_0, s.D, s.chi
-
-
 class Record:
-    """Writes what is certain about the strips of a batch, of whatever foundation, into ``solved``; ``arguments`` of some of them:
-    what the kernel's functions of a regime take after the edges."""
+    """Writes what is certain about the strips of a batch, of whatever foundation, into ``solved``."""
 
-    def __init__(self, kernel, strips, arguments=groups):
-        self.kernel, self.strips, self.arguments = kernel, strips, arguments
+    def __init__(self, kernel, strips):
+        self.kernel, self.strips = kernel, strips
         self.solved = Solved.empty(strips.size)
 
     def saturated_contact(self, index) -> None:
-        p_mean, tau_mean = self.kernel.means_c(*self.arguments(self.strips.among(index)))
+        p_mean, tau_mean = self.kernel.means_c(*self.strips.among(index).arguments)
         self.constant(index, "c", p_mean, tau_mean, 1.0, 0.0)
 
     def constant(self, index, sequence: str, p_mean, tau_mean, contact: float, adhesion: float) -> None:
@@ -71,7 +63,7 @@ class Record:
         out = self.solved
         out.code[index], out.certified[index] = CODE[sequence], True
         means = getattr(self.kernel, f"means_{EQUATIONS[sequence]}")
-        out.p_mean[index], out.tau_mean[index] = means(*edges_of(sequence, orbit), *self.arguments(self.strips.among(index)))
+        out.p_mean[index], out.tau_mean[index] = means(*orbit.edges(sequence), *self.strips.among(index).arguments)
         contact = np.clip(np.where(np.isnan(orbit.b), 0.0, orbit.a - orbit.b) / TWO_PI, 0.0, 1.0)  # a - b is rounded
         adhesion = {"cf": 0.0, "ac": 1 - contact}.get(sequence)
         out.contact_fraction[index] = contact
@@ -81,19 +73,6 @@ class Record:
             out.c[index] = orbit.c
             if sequence != "afc":
                 out.d[index] = orbit.x
-
-
-def edges_of(sequence: str, orbit: Orbit) -> np.ndarray:
-    """Unknown edges of the regime's boundary equations, (k, n)."""
-    return np.array([getattr(orbit, edge) for edge in EDGES[sequence]])
-
-
-def orbit_of(sequence: str, edges: np.ndarray) -> Orbit:
-    """The periodic orbit with these edges, (k, n) in the order of ``edges_of``."""
-    absent = np.full(edges.shape[1], np.nan)
-    places = {"acaf": (0, 1, 2, 3), "afc": (0, 0, 1, 2), "af": (0, None, None, 1), "ac": (0, 0, 1, 1), "cf": (0, 0, 1, 1)}
-    x, b, a, c = (absent if place is None else edges[place] for place in places[sequence])
-    return Orbit(x.copy(), b.copy(), a.copy(), c.copy(), np.zeros(x.size, bool), np.zeros(x.size))
 
 
 def settle(solve: Callable, strips, solved: Solved, unloading: bool) -> None:

@@ -32,9 +32,9 @@ _ROUNDS, _LONG, _CUBE = 4, 2.03, 0.65
 
 
 def start(kernel, cycle: Cycle, sequence: str, bounds: Orbit | None = None) -> np.ndarray:
-    """Edges (k, n), in the order of ``chain.EDGES``, for cycles taken to follow ``sequence``: of the stable orbit of a foundation
-    that stands still if there is one, else some near its fold. Where adhesion pulls so hard that w moves by more than the
-    amplitude in a period, those of the ``bounds`` on all orbits, if there are any."""
+    """Edges (k, n), in the order of ``regimes.ORBIT_EDGES``, for cycles taken to follow ``sequence``: of the stable orbit of a
+    foundation that stands still if there is one, else some near its fold. Where adhesion pulls so hard that w moves by more than
+    the amplitude in a period, those of the ``bounds`` on all orbits, if there are any."""
     edges = _standing_still(kernel, cycle, sequence)
     if bounds is not None:
         s = cycle.strips

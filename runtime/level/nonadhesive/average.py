@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...numerics.gauss import graded_gauss
+from ...numerics.quadrature import by_rules
 from ...numerics.roots import rising_root
 from ...numerics.rounding import EPS
-from ...numerics.rules import by_rules
 from ...orbit.contact import passages
 from ..averages import Averages
 from .family import CUT, MEANS, SEARCH

@@ -10,11 +10,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..march import Orbit
 from ..regimes import CODE
-from ..solved import Record, Solved, orbit_of, settle
+from ..solved import Record, Solved, settle
 from .engaged import engaged
 from .extremal import ENGAGED, FREE, ORBIT, ROWS, extremal, highest_state, lowest_state
-from .polish import arguments
 from .problem import ModeStrips
 
 #: strips solved at a time: what a call of NumPy costs is shared by more of them than 2,048 (2 to 3 times faster with two times),
@@ -35,7 +35,7 @@ def solve_modes(kernel, strips: ModeStrips, unloading: bool) -> Solved:
 class _Batch:
     def __init__(self, kernel, strips: ModeStrips, unloading: bool):
         self.kernel, self.strips, self.unloading = kernel, strips, unloading
-        self.record = Record(kernel, strips, arguments)
+        self.record = Record(kernel, strips)
         self.solved = self.record.solved
 
     def solve(self) -> Solved:
@@ -68,7 +68,7 @@ class _Batch:
         orbit = found.kind == ORBIT
         for number, sequence in enumerate(ROWS, 1):
             k = np.flatnonzero(orbit & (found.sequence == number))
-            self.record.orbits(index[k], sequence, orbit_of(sequence, found.edges[list(ROWS[sequence])][:, k]))
+            self.record.orbits(index[k], sequence, Orbit.of(sequence, found.edges[list(ROWS[sequence])][:, k]))
         held = found.kind == ENGAGED
         closed = held & self.constant[index] & (not self.unloading)
         self._closed(index[closed])
@@ -98,5 +98,5 @@ class _Batch:
         self.solved.searched[index] = True
         k = np.flatnonzero(within)
         self.solved.code[index] = CODE[sequence]
-        self.record.orbits(index[k], sequence, orbit_of(sequence, edges[:, k]))
+        self.record.orbits(index[k], sequence, Orbit.of(sequence, edges[:, k]))
         return z, known

@@ -19,7 +19,7 @@ from .fields import state_at
 from .forced import rise
 from .march import TWO_PI, Period, march
 from .order import Bound, climb
-from .polish import arguments, certified
+from .polish import certified
 from .problem import ModeStrips
 
 #: the step in which Newton's method starts from the marches: after one period a bounding state is free where the orbits are,
@@ -144,7 +144,7 @@ class _Search:
                 continue
             s, sequence = self.bound.s.take(i[k]), SEQUENCES[number]
             edges = self.out.edges[np.array(ROWS[sequence])[:, None], i[k]]
-            matrix = getattr(self.kernel, f"return_map_{sequence}")(*edges, *arguments(s))
+            matrix = getattr(self.kernel, f"return_map_{sequence}")(*edges, *s.arguments)
             matrix = np.moveaxis(np.broadcast_to(matrix, (s.modes, s.modes, s.size)), -1, 0)
             finite = np.isfinite(matrix).all(axis=(1, 2))
             radius = np.abs(np.linalg.eigvals(np.where(finite[:, None, None], matrix, 0.0))).max(axis=1)

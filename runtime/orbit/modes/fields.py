@@ -4,7 +4,6 @@ import numpy as np
 
 from ..regimes import EQUATIONS, ZONES
 from .march import TWO_PI
-from .polish import arguments
 from .problem import ModeStrips
 
 
@@ -12,7 +11,7 @@ def zones_of(kernel, sequence, s: ModeStrips, edges):
     """Zones of an orbit in the order met: letter, start, the overstress (contact) or the state z (elsewhere) there, and the
     state, (n, N)."""
     zones, _ = ZONES[sequence]
-    z = getattr(kernel, f"state_{EQUATIONS[sequence]}")(*edges, *arguments(s))
+    z = getattr(kernel, f"state_{EQUATIONS[sequence]}")(*edges, *s.arguments)
     for i, (zone, start) in enumerate(zip(zones, edges, strict=True)):
         end = edges[i + 1] if i + 1 < len(edges) else edges[0] + TWO_PI
         if zone == "c":

@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-from functools import lru_cache, partial
+from functools import lru_cache
 from types import ModuleType
 
 import numpy as np
 
-from ...errors import InputError
 from ...inputs.model import ModelMaterial, modes_of
 from ..abstract_foundation import Foundation
-from ..flat import is_flat, solve_with_flat
-from ..groups import snaps_in
-from ..materials import parameters
-from ..si import CERTIFIED, refuse_uncertified
 from .engine import solve_modes
 from .extremes import greatest_gap, least_gap
 from .fields import zones_of
-from .nonadhesive import ModeWaves
 from .problem import ModeStrips
 
 
@@ -32,7 +26,7 @@ class ManyTimes(Foundation):
 
     @property
     def longest_time(self):
-        return float(self.modes.beta.max())
+        return self.modes.beta.max(axis=0)
 
     @property
     def lossiest_rate(self):
@@ -56,52 +50,25 @@ class ManyTimes(Foundation):
         K, moduli, times = spread(m.K), np.stack([spread(v) for v in m.moduli]), np.stack([spread(v) for v in m.times])
         return ManyTimes(self.kernel, m, *modes_of(self.kernel, {"K": K, "K_i": moduli, "tau_i": times}))
 
-    def solve(self, l, A, D, V, p_0, delta_0, edge, branch):  # noqa: E741
-        K, p_0, delta_0 = (np.broadcast_to(np.asarray(v, float), l.shape) for v in (self.K, p_0, delta_0))
-        k = 2 * np.pi / l
-        with np.errstate(over="ignore"):  # refused below, by name
-            m = self.kernel.at_speed(self.modes, k * V)
-            longest = np.broadcast_to(m.beta.max(axis=0), l.shape)
-        if np.any(longest > CERTIFIED):
-            raise InputError(
-                "V", float(V[longest > CERTIFIED][0]), f"k V times the longest retardation time at most {CERTIFIED:g}"
-            )
-        flat = is_flat(A, longest, D, p_0 / K, delta_0)
-        unit = np.where(flat, 1.0, A)
-        strips = ModeStrips(m, p_0 / K / unit, delta_0 / unit, D / unit, snaps_in(m.J_0 * (p_0 / K), delta_0))
-        solved = solve_with_flat(partial(solve_modes, self.kernel), strips, flat, branch == "unloading")
-        named = {"l": l, "A": A, "D": D, "V": V, **self._named(l.shape), "p_0": p_0, "delta_0": delta_0}
-        refuse_uncertified(solved, named, edge, branch)
-        return solved, strips, {"k": k, "A": A, "D": D, "p": K * unit, "length": unit, "flat": flat}
-
-    def _named(self, shape):
-        named = parameters(self.material)
-        # a material of arrays was spread over the strips in `flat`; the strip's own values are in K and the modes
-        return {n: np.broadcast_to(v, shape) for n, v in named.items() if np.ndim(v) == 0} | {"K": np.broadcast_to(self.K, shape)}
+    def solve_strips(self, strips, unloading):
+        return solve_modes(self.kernel, strips, unloading)
 
     def at_rate(self, rate):
         return (self.kernel.at_speed(self.modes, np.atleast_1d(np.asarray(rate, float))),)
 
-    def boundary_arguments(self, rate, D, p_0, delta_0, edge):
-        return *self.at_rate(rate), p_0, delta_0, D
+    def strips(self, rate, D, p_0, delta_0, edge, snaps=None):
+        return ModeStrips(*self.at_rate(np.broadcast_to(rate, D.shape)), p_0, delta_0, D, snaps)
 
-    def strips(self, arguments):
-        return ModeStrips(*arguments)
-
-    def fold(self, sequence, edges, arguments):
+    def fold(self, sequence, edges, strips):
         """Determinant of the boundary equations' derivatives by the edges."""
-        _, rows = getattr(self.kernel, f"residual_and_jacobian_{sequence}")(*edges, *arguments)
+        _, rows = getattr(self.kernel, f"residual_and_jacobian_{sequence}")(*edges, *strips.arguments)
         return np.linalg.det(np.array([np.broadcast_arrays(edges[0], *row)[1:] for row in rows]).transpose(2, 0, 1))
 
-    def release(self, edges, arguments):
-        s = ModeStrips(*arguments)
-        return greatest_gap(self.kernel, edges, s) - s.delta_0
+    def release(self, edges, strips):
+        return greatest_gap(self.kernel, edges, strips) - strips.delta_0
 
-    def closing(self, edges, arguments):
-        return least_gap(self.kernel, edges, ModeStrips(*arguments))
-
-    def waves(self, rate):
-        return ModeWaves(self.kernel, *self.at_rate(rate))
+    def closing(self, edges, strips):
+        return least_gap(self.kernel, edges, strips)
 
     def moduli(self, strips):
         return self.kernel.storage(strips.m), self.kernel.loss(strips.m), strips.m.J_0

@@ -15,11 +15,6 @@ _SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * EPS, 0.1, 4, 0.7
 _CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
 
 
-def arguments(s: ModeStrips):
-    """What every function of a regime takes after the edges."""
-    return s.m, s.p_0, s.delta_0, s.D
-
-
 def certified(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray, reach=np.inf):
     """Orbits of strips in the regime ``sequence`` from ``edges`` (k, N), no further away than ``reach``; which converged, in
     order within a period."""
@@ -41,7 +36,7 @@ def _newton(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray, reach)
         s, before = strips.take(active), last[active]
         here = edges[:, active]
         matrix = np.empty((s.size, len(here), len(here)))
-        residual, rows = linearised(*here, *arguments(s))
+        residual, rows = linearised(*here, *s.arguments)
         for i, row in enumerate(rows):
             for j, entry in enumerate(row):
                 matrix[:, i, j] = entry

@@ -34,6 +34,11 @@ class ModeStrips:
             object.__setattr__(self, "snaps", snaps_in(self.step, self.delta_0))
 
     @property
+    def arguments(self) -> tuple:
+        """What the kernel's functions of a regime take after the edges."""
+        return self.m, self.p_0, self.delta_0, self.D
+
+    @property
     def size(self) -> int:
         return self.D.size
 
