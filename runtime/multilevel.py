@@ -10,14 +10,12 @@ import numpy as np
 from .errors import SolverError
 from .inputs.adhesion import Dugdale
 from .inputs.surface import Level
-from .level.across import peak_pressure, strips_across
+from .level.averages import level_means
 from .level.effort import WorkCounters
-from .level.error_budget import LEAST_CONTACT, error_budget
+from .level.error_budget import LEAST_CONTACT, error_budget, peak_pressure, strips_across
 from .level.inverse import Inverse, cut_penetration, invert
-from .level.law import build_laws
+from .level.law import build_laws, merged
 from .level.lower_levels import LowerLevelLaws
-from .level.means import level_means
-from .level.merge import merged
 from .level.nonadhesive.family import are_families
 from .level.nonadhesive.law import crest_pressure, lower_laws, tolerances, with_family
 from .level.saturated import SaturatedLevel, saturated_friction, saturated_level

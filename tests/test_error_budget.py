@@ -15,16 +15,15 @@ import survey
 
 import hystrip
 from hystrip.level.branches import branches_of, rising
-from hystrip.level.cells import cells_of
 from hystrip.level.curve import Curve
 from hystrip.level.descent import Samples, _Walk
 from hystrip.level.effort import WorkCounters
 from hystrip.level.error_budget import ErrorBudget
-from hystrip.level.interval import Intervals, weighed
+from hystrip.level.interpolation import Intervals, weighed
 from hystrip.level.inverse import Inverse
 from hystrip.level.law import Laws
 from hystrip.level.piece import Errors, Piece
-from hystrip.level.segment import segments_of
+from hystrip.level.segment import cells_of, segments_of
 from hystrip.level.strips import LevelBatch
 from hystrip.multilevel import Surface, _Solve
 

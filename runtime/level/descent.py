@@ -16,8 +16,7 @@ from ..numerics.rounding import LARGEST
 from ..orbit.batch import Batch
 from .breaks import between_breaks, first_contact
 from .effort import CURVE_LIMIT, NO_CURVE
-from .interpolation import interpolate
-from .interval import Intervals
+from .interpolation import Intervals, interpolate
 from .piece import Piece
 from .strips import LevelBatch
 

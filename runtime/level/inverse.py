@@ -9,9 +9,8 @@ import numpy as np
 
 from ..numerics.roots import falling_root
 from ..orbit.batch import Batch
-from .averages import Averages
+from .averages import Averages, level_means
 from .descent import ROUGH, Root, first_passes
-from .means import level_means
 from .nonadhesive.average import penetrations
 from .saturated import saturated_level
 from .strips import QUANTITIES, LevelBatch

@@ -17,10 +17,10 @@ from ..level_solution import Inputs, LevelSolution
 from ..orbit.groups import ROUNDING
 from ..orbit.materials import Material, check_edge
 from ..orbit.solution import BRANCHES
+from .averages import level_means
 from .effort import WorkCounters
 from .inverse import invert
 from .law import Laws, build_laws
-from .means import level_means
 from .saturated import saturated_level
 from .strips import QUANTITIES, LevelBatch
 
