@@ -6,7 +6,7 @@ where the rims of the cells still hold. A rough sample of the curve tells where 
 kept, and only what is kept is interpolated.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -18,34 +18,28 @@ from .interpolation import Intervals, interpolate, means_in, weighed
 from .piece import Piece
 from .strips import LevelBatch
 
-#: accuracy of the look for re-entrant branches, and its nodes at first
-_ROUGH, _NODES = 5e-3, 6
+#: accuracy of the look for re-entrant branches, and its nodes at first; also intervals narrower than this share of ``h`` get one
+_ROUGH, _NODES, _NARROW = 5e-3, 6, 0.02
 #: how much more than its error a pressure keeps above what was before, and than what it bends between two nodes, which are the
 #: first ones or twice as many: a parabola keeps within an eighth of that from its chord
 _DOUBT, _BENDS = 2.0, (1.0, 0.25)
 
 
-@dataclass(frozen=True)
-class Curve:
-    """Pieces in order of falling D; above ``D_top`` (saturation, or the cut) nothing is stored. ``strips``: strips evaluated."""
-
-    pieces: list[Piece]
-    D_top: float
-    strips: int
-
-
 def trace(
     columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, top: np.ndarray, budget: ErrorBudget | None = None
-) -> list[Curve]:
-    """Curves of every column (its ``D`` is not used) up to penetration ``top``, to ``rtol |value| + atol``.
+) -> tuple[list[list[Piece]], np.ndarray]:
+    """Pieces of the curve of every column (its ``D`` is not used) up to penetration ``top`` (saturation, or a cut), to
+    ``rtol |value| + atol``; and strips evaluated for each, (n,).
 
-    Below the penetration at which the crest lets go they hold only what unloading at a falling pressure comes to. ``budget``: how
-    much the pressures of every column's law count.
+    Below the penetration at which the crest lets go, and between breaks that are close, they hold only what unloading at a
+    falling pressure comes to. ``budget``: how much the pressures of every column's law count.
     """
-    n = columns.size
-    strips = np.zeros(n, int)
+    strips = np.zeros(columns.size, int)
     intervals, crest = smooth_intervals(columns, rtol, atol, top)
     looked = intervals.high <= crest[intervals.column]
+    if columns.branch == "unloading":
+        # strips may let go there one after another while the pressure rises, which is no part of a law
+        looked |= intervals.width < _NARROW * columns.level.h
     pieces = interpolate(columns, intervals.take(~looked), strips, budget)
     if looked.any():
         least = [[(piece.low, piece.values(piece.errors.at)[:, 0].min()) for piece in row] for row in pieces]
@@ -57,7 +51,7 @@ def trace(
         parts = reentrant_parts(columns, replace(parts, ceiling=np.array(before)), strips, budget)
         for row, more in zip(pieces, interpolate(columns, parts, strips), strict=True):
             row += more
-    return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
+    return pieces, strips
 
 
 def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, top: np.ndarray) -> tuple[Intervals, np.ndarray]:

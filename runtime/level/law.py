@@ -204,7 +204,7 @@ def build_laws(
     p_max = np.full(columns.size, np.inf) if p_max is None else np.maximum(p_max, -columns.adhesion.p_0)
     top, unloading = cut_penetration(columns, p_max, D_full), columns.branch == "unloading"
     p_max = np.where(top < D_full, p_max, np.inf)
-    curves = trace(columns, rtol, atol, top, budget)
+    curves, strips = trace(columns, rtol, atol, top, budget)
     kept = branches_of(curves, unloading)
     least = np.repeat(1e-15 * np.abs(saturated), [len(row) for row in kept], axis=0)
     flat = [b for row in kept for b in row]
@@ -212,7 +212,7 @@ def build_laws(
     segments = [_joined([next(every) for _ in row], end) for row, end in zip(kept, p_full, strict=True)]
     pull_off = np.array([row[0].p_low if row else end for row, end in zip(kept, p_full, strict=True)])
     p_top = np.array([row[-1].p_high if row and end < np.inf else end for row, end in zip(segments, p_max, strict=True)])
-    return Laws(segments, pull_off, p_full, saturated, p_top, np.array([curve.strips for curve in curves]), unloading)
+    return Laws(segments, pull_off, p_full, saturated, p_top, strips, unloading)
 
 
 def merged(laws: Laws, rtol: np.ndarray, atol: np.ndarray) -> Laws:
