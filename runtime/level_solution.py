@@ -14,9 +14,9 @@ from .errors import ConvergenceWarning, InputError
 from .inputs.adhesion import Dugdale
 from .inputs.checks import broadcast, choice, numbers
 from .inputs.surface import Level
+from .level.averages import level_means
 from .level.effort import WorkCounters
 from .level.inverse import invert
-from .level.means import level_means
 from .level.strips import QUANTITIES, LevelBatch
 from .orbit.groups import ROUNDING
 

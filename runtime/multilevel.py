@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from .errors import SolverError
 from .inputs.adhesion import Dugdale
 from .inputs.surface import Level
-from .level.across import peak_pressure, strips_across
+from .level.averages import level_means
 from .level.effort import WorkCounters
-from .level.error_budget import LEAST_CONTACT, error_budget
+from .level.error_budget import LEAST_CONTACT, error_budget, peak_pressure, strips_across
 from .level.inverse import Inverse, cut_penetration, invert
-from .level.law import build_laws
+from .level.law import build_laws, merged
 from .level.lower_levels import LowerLevelLaws
-from .level.means import level_means
-from .level.merge import merged
 from .level.nonadhesive.family import are_families
 from .level.nonadhesive.law import crest_pressure, lower_laws, tolerances, with_family
 from .level.saturated import SaturatedLevel, saturated_friction, saturated_level
@@ -58,6 +57,11 @@ class Points:
     closed_form: np.ndarray
     pulled_off: np.ndarray
 
+    @classmethod
+    def blank(cls, levels: int, n: int) -> Points:
+        """None of which anything is known."""
+        return cls(np.full(n, np.nan), np.zeros(n), *np.zeros((3, levels, n)), np.zeros(n), *np.zeros((2, n), bool))
+
     def improve(self, index: np.ndarray, finer: Points, surely: np.ndarray) -> None:
         """Put the points ``finer`` (k,) in the place of those at ``index`` (k,) that err by more or are ``surely`` (k,) worse."""
         better = np.flatnonzero((finer.error < self.error[index]) | surely)
@@ -71,6 +75,15 @@ class Points:
         self.tau = np.concatenate((self.tau, touching * tau))
         self.contact = np.concatenate((self.contact, np.broadcast_to(touching, tau.shape)))
         self.adhesion = np.concatenate((self.adhesion, np.zeros(tau.shape)))
+
+
+class Saturation(NamedTuple):
+    """Pressure ``p`` and penetration ``D`` (n,) from which on a level and all below it are saturated, and the ``means`` (n, q)
+    then, in the order of its columns: own, then carried."""
+
+    p: np.ndarray
+    D: np.ndarray
+    means: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -122,35 +135,37 @@ class Surface:
         """Saturation of a level by itself."""
         return saturated_level(self.material, self.adhesion, level, V, self.branch)
 
-    def saturated(self, V) -> Stack:
-        """Saturation of every level, and of each level with all below it."""
-        own = [self.alone(level, V) for level in self.levels]
-        p_full, D_full = [own[-1].p_sat], [own[-1].D_sat]
-        for i in range(len(self.levels) - 2, -1, -1):
-            level, s = self.levels[i], own[i]
-            # the least local pressure, at the crest, has to saturate everything below; and -p_0 keeps the level's own contact
-            needed = np.maximum(s.p_sat, p_full[0] + s.lift)
-            p_full.insert(0, needed)
-            D_full.insert(0, needed / self.at_level(i).K + 0.75 * level.h)
-        return Stack(own, p_full, D_full)
+    def saturated(self, V) -> list[Saturation]:
+        """Saturation of each level with all below it."""
+        out: list[Saturation] = []
+        for i in reversed(range(len(self.levels))):
+            s, one, zero = self.alone(self.levels[i], V), np.ones(V.size), np.zeros(V.size)
+            p, D, means = s.p_sat, s.D_sat, (s.tau_sat, one, zero)
+            if out:
+                # the least local pressure, at the crest, has to saturate everything below; and -p_0 keeps the level's own contact
+                p = np.maximum(s.p_sat, out[0].p + s.lift)
+                D = p / self.at_level(i).K + 0.75 * self.levels[i].h
+                means = (*means, out[0].means[:, 1:], zero)
+            out.insert(0, Saturation(p, D, np.column_stack((p, *means))))
+        return out
 
     def full(self, V, load, by_pressure: bool) -> np.ndarray:
         """Whether all levels are saturated at ``load``, (n,). Thresholds grow with V: what is beyond that of the fastest is
         beyond all."""
-        of = lambda stack: (stack.p_full if by_pressure else stack.D_full)[0]  # noqa: E731
-        if load.size and load.min() >= of(self.saturated(V.max(keepdims=True))):
+        of = lambda V: self.saturated(V)[0].p if by_pressure else self.saturated(V)[0].D  # noqa: E731
+        if load.size and load.min() >= of(V.max(keepdims=True)):
             return np.ones(load.size, bool)
-        return load >= of(self.saturated(V))
+        return load >= of(V)
 
     def levels_needed(self, V, load) -> int:
         """How many levels matter at pressures ``load`` (Pa, (n,)): those that follow rub next to nothing, and are saturated under
         next to all pressure. Without adhesion only, where no level rubs more than in saturated contact."""
         if self.adhesion.p_0 > 0:
             return len(self.levels)
-        stack, counts = self.saturated(V), _TRAILING * self.rtol
-        friction = np.cumsum([own.tau_sat for own in stack.own[::-1]], axis=0)[::-1]
-        matters = (friction > counts * self.friction_floor) | (stack.p_full > counts * load)
-        return 1 + int(np.flatnonzero(matters.any(axis=1)).max(initial=0))
+        # frictions, of a level and all below it, are every third mean; what follows them is zero
+        floor, p_least = _TRAILING * self.rtol * self.friction_floor, _TRAILING * self.rtol * load
+        matters = [((s.means[:, 1::3].sum(axis=1) > floor) | (s.p > p_least)).any() for s in self.saturated(V)]
+        return 1 + int(np.flatnonzero(matters).max(initial=0))
 
     def solve(self, V, load, by_pressure: bool, progress: Callable[[int, int], None] | None = None) -> Points:
         """Solve points; ``V`` (m/s) and ``load`` (Pa or m) of shape (n,)."""
@@ -176,25 +191,6 @@ class Surface:
         return out
 
 
-@dataclass(frozen=True)
-class Stack:
-    """``own[i]``: level i alone. ``p_full[i]``, ``D_full[i]``: from there on level i and all below are saturated."""
-
-    own: list[SaturatedLevel]
-    p_full: list[np.ndarray]
-    D_full: list[np.ndarray]
-
-    def means(self, i: int) -> np.ndarray:
-        """Quantities of level i at full saturation, in the order of its columns: own, then carried."""
-        n = self.p_full[i].size
-        one, zero = np.ones(n), np.zeros(n)
-        values = [self.p_full[i], self.own[i].tau_sat, one, zero]
-        for s in self.own[i + 1 :]:
-            values += [s.tau_sat, one, zero]
-        values += [zero] * (len(self.own) - 1 - i)
-        return np.stack(values, axis=1)
-
-
 class _Solve:
     """Points of a surface; ``friction`` (n,), Pa, that without adhesion errors are held against, if it is known."""
 
@@ -202,18 +198,7 @@ class _Solve:
         self.surface, self.V, self.load, self.by_pressure = surface, V, load, by_pressure
         self.friction = friction
         self.M = len(surface.levels)
-        n = V.size
-        per_level = lambda: np.zeros((self.M, n))  # noqa: E731
-        self.out = Points(
-            np.full(n, np.nan),
-            np.zeros(n),
-            per_level(),
-            per_level(),
-            per_level(),
-            np.zeros(n),
-            np.zeros(n, bool),
-            np.zeros(n, bool),
-        )
+        self.out = Points.blank(self.M, V.size)
 
     def run(self, full, progress) -> Points:
         """Solve them; the points ``full`` (n,) are in saturated contact on every level."""
@@ -252,12 +237,12 @@ class _Solve:
         return self._points(V, index, group, False)
 
     def _points(self, V, index, group, families: bool):
-        surface = self.surface
-        stack = surface.saturated(V)
+        surface, load = self.surface, self.load[index]
         columns = surface.columns(0, V[group])
         if families:
             size = np.full(index.size, _GUESS * surface.friction_floor) if self.friction is None else self.friction[index]
-            columns = with_family(columns, self._deepest(columns, index), surface.rtol * size, carries=self.M > 1)
+            deepest = cut_penetration(columns, load, np.full(load.size, np.inf)) if self.by_pressure else load
+            columns = with_family(columns, deepest, surface.rtol * size, carries=self.M > 1)
         found = self._penetrations(columns, index)
         touching = np.flatnonzero(np.isfinite(found.D))
         index, group = index[touching], group[touching]
@@ -265,10 +250,10 @@ class _Solve:
             return
         columns = columns.at(touching, found.D[touching])
         rtol, atol = np.full(index.size, 0.5 * surface.rtol), None
-        if self.M > 1 and columns.family is not None:
-            columns, atol = self._carrying_families(stack, V, group, columns, index, rtol)
+        if self.M > 1 and families:
+            columns, atol = self._carrying_families(V, group, columns, index, rtol)
         elif self.M > 1:
-            columns = self._carrying(stack, V, group, columns)
+            columns = self._carrying(V, group, columns)
         means = level_means(columns, rtol, atol)
         self._write(index, found.take(touching), means)
 
@@ -283,60 +268,43 @@ class _Solve:
         self.out.p[index[off]] = load[off]
         return out
 
-    def _deepest(self, columns: LevelBatch, index) -> np.ndarray:
-        """Penetrations that level 1 comes to at most."""
-        load = self.load[index]
-        return cut_penetration(columns, load, np.full(load.size, np.inf)) if self.by_pressure else load
-
-    def _carrying(self, stack: Stack, V, group, columns: LevelBatch) -> LevelBatch:
+    def _carrying(self, V, group, columns: LevelBatch) -> LevelBatch:
         """The columns of level 1 with the laws of level 2, built from the smallest level upwards."""
         surface, carry, groups = self.surface, None, np.arange(V.size)
-        across = strips_across(columns)
+        saturated, across = surface.saturated(V), strips_across(columns)
         budget = error_budget(columns, group, across)
         rtol = np.full(V.size, surface.laws)
         friction = rtol * budget.friction_of_laws(self.M - 1, V.size)
-        p_max = np.full(V.size, -np.inf)
-        np.maximum.at(p_max, group, peak_pressure(columns, across))
-        reached = self._reached(stack, V, p_max)
+        # the greatest pressures that the laws of level 2 and below are asked for
+        reached = [_most(group, peak_pressure(columns, across), V.size)]
+        for i in range(1, self.M - 1):
+            highest = surface.columns(i, V, cut_penetration(surface.columns(i, V), reached[-1], saturated[i].D))
+            reached.append(peak_pressure(highest, strips_across(highest)))
         for i in range(self.M - 1, 0, -1):
             level = surface.columns(i, V, None, carry, groups if carry else None)
             atol = level.atol(rtol, fraction=1.0)
             atol[:, level.frictions] = np.maximum(atol[:, level.frictions], friction[:, None])
-            saturated = stack.p_full[i], stack.D_full[i], stack.means(i)
             counts = budget if i == 1 else budget.further_down(2 * (self.M - 1))
-            laws = build_laws(level, rtol, atol, *saturated, reached[i - 1], counts)
+            laws = build_laws(level, rtol, atol, *saturated[i], reached[i - 1], counts)
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error,
             # which never asks for anything
             scales = np.concatenate((level.scales[1:], [LARGEST]))
             carry = LowerLevelLaws(merged(laws, rtol, atol), surface.rtol, scales)
         return replace(columns, carry=carry, group=group)
 
-    def _carrying_families(self, stack: Stack, V, group, columns: LevelBatch, index, rtol) -> tuple[LevelBatch, np.ndarray]:
+    def _carrying_families(self, V, group, columns: LevelBatch, index, rtol) -> tuple[LevelBatch, np.ndarray]:
         """The same without adhesion, and the absolute tolerances that go with ``rtol`` (n,)."""
         surface, rough = self.surface, level_means(columns, np.full(columns.size, _ROUGH)).values
         fractions = max(1.0, _SHARES / surface.rtol)
         size = rough[:, 1] + surface.friction_floor if self.friction is None else self.friction[index]
         # what is carried counts on the contact alone
         rare = 1 / np.maximum(rough[:, 2], LEAST_CONTACT)
-        rarest, friction, p_max = np.zeros(V.size), np.full(V.size, np.inf), np.full(V.size, -np.inf)
-        np.maximum.at(rarest, group, rare)
-        np.minimum.at(friction, group, rare * size)
-        np.maximum.at(p_max, group, crest_pressure(columns))
-        below, laws = range(1, self.M), _LAWS * surface.laws
-        levels = [surface.columns(i, V) for i in below]
-        saturated = [(stack.p_full[i], stack.D_full[i], stack.means(i)) for i in below]
+        rarest, friction = _most(group, rare, V.size), -_most(group, -rare * size, V.size)
+        below, laws, p_max = range(1, self.M), _LAWS * surface.laws, _most(group, crest_pressure(columns), V.size)
+        levels, saturated = [surface.columns(i, V) for i in below], surface.saturated(V)[1:]
         carry = lower_laws(levels, saturated, p_max, laws, laws * friction, laws * fractions * rarest)
         columns = replace(columns, carry=carry, group=group)
         return columns, tolerances(columns, rtol * _OF_TOP / self.M * size, rtol * fractions)
-
-    def _reached(self, stack: Stack, V, p_max) -> list[np.ndarray]:
-        """Greatest pressures (groups,) that the laws of level 2 and below are asked for, those of level 2 up to ``p_max``."""
-        out = [p_max]
-        for i in range(1, self.M - 1):
-            D = cut_penetration(self.surface.columns(i, V), out[-1], stack.D_full[i])
-            highest = self.surface.columns(i, V, D)
-            out.append(peak_pressure(highest, strips_across(highest)))
-        return out
 
     def _write(self, index, root: Inverse, means):
         out, values = self.out, means.values
@@ -356,3 +324,10 @@ class _Solve:
         friction = np.abs(out.tau[:, index])
         out.error[index] = error + np.where(root.undecided, friction.sum(axis=0), 0.0)
         out.error[index] += np.where(root.in_jump & ~root.undecided, friction[1:].sum(axis=0), 0.0)
+
+
+def _most(group: np.ndarray, values: np.ndarray, groups: int) -> np.ndarray:
+    """The greatest of the ``values`` (n,) of each ``group`` (n,), -inf where there is none."""
+    out = np.full(groups, -np.inf)
+    np.maximum.at(out, group, values)
+    return out

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import hystrip
-from hystrip.level.across import peak_pressure, strips_across
+from hystrip.level.error_budget import peak_pressure, strips_across
 from hystrip.level.strips import LevelBatch
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=4.4e-4)

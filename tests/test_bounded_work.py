@@ -7,7 +7,7 @@ import pytest
 
 import hystrip
 from hystrip import multilevel
-from hystrip.level import averages, descent, interpolation, lower_levels
+from hystrip.level import averages, interpolation, inverse, lower_levels
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
@@ -54,7 +54,7 @@ def test_a_branch_that_the_work_leaves_undecided_is_not_claimed(monkeypatch):
     at = {"pressure": pull_off * (1 - 1e-4), "V": 1e-3, "rtol": 1e-6}
     assert hystrip.solve_level(MATERIAL, ADHESION, LEVELS[0], **at | {"pressure": pull_off * (1 + 1e-4)}).pulled_off
     assert hystrip.solve_level(MATERIAL, ADHESION, LEVELS[0], **at).converged
-    for module in (interpolation, descent):
+    for module in (interpolation, inverse):
         monkeypatch.setattr(module, "CURVE_LIMIT", 0)
     with pytest.warns(hystrip.ConvergenceWarning, match="curve"):
         level = hystrip.solve_level(MATERIAL, ADHESION, LEVELS[0], **at)

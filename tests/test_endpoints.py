@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 import hystrip
+from hystrip.level.averages import level_means
 from hystrip.level.curve import smooth_intervals
 from hystrip.level.interpolation import interpolate
-from hystrip.level.means import level_means
 from hystrip.level.strips import LevelBatch, saturation_depth
 from hystrip.numerics.chebyshev import evaluate, flat_ended, lobatto
 from hystrip.numerics.gauss import GENTLE, STEEP, graded_share

@@ -15,16 +15,13 @@ import survey
 
 import hystrip
 from hystrip.level.branches import branches_of, rising
-from hystrip.level.cells import cells_of
-from hystrip.level.curve import Curve
-from hystrip.level.descent import Samples, _Walk
 from hystrip.level.effort import WorkCounters
 from hystrip.level.error_budget import ErrorBudget
-from hystrip.level.interval import Intervals, weighed
-from hystrip.level.inverse import Inverse
+from hystrip.level.interpolation import Intervals, weighed
+from hystrip.level.inverse import Inverse, _Walk
 from hystrip.level.law import Laws
 from hystrip.level.piece import Errors, Piece
-from hystrip.level.segment import segments_of
+from hystrip.level.segment import cells_of, segments_of
 from hystrip.level.strips import LevelBatch
 from hystrip.multilevel import Surface, _Solve
 
@@ -200,7 +197,7 @@ def test_loading_does_not_begin_where_the_curve_only_seems_to_rise():
         Piece(0.0, 1.0, np.array([[10.0] * 4, [90.0] * 4]), Errors.constant(np.full(4, 1e-6))),
     )
     assert len(rising([falling])[0]) > 0
-    ((branch,),) = branches_of([Curve([rise, falling], 1.0, 0)], unloading=False)
+    ((branch,),) = branches_of([[rise, falling]], unloading=False)
     assert branch.p_low == pytest.approx(-80.0) and branch.p_high == pytest.approx(100.0)
 
 
@@ -213,7 +210,8 @@ def test_a_pressure_in_a_jump_of_the_curve_has_the_friction_of_a_mixture(unloadi
     pieces = [Piece(0.0, 1.0, line((0, 0), (1, 1)), none), Piece(1.0, 2.0, line((3, 5), (4, 6)), none)]
     walk = _Walk(0, unloading, 2.0, 1e-6, 1e-6, [])
     for some in [pieces] if at_once else [[piece] for piece in (pieces[::-1] if unloading else pieces)]:
-        walk.go_on(Samples.of(some, unloading), False)
+        (row,) = branches_of([[*walk.known, *some]], unloading)
+        walk.go_on(some, row, False)
     assert walk.root.D == pytest.approx(1.0) and walk.root.slope[1] == pytest.approx(2.0)
 
 

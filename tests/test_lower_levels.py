@@ -10,10 +10,9 @@ from scipy.integrate import quad
 import hystrip
 from hystrip.level import lower_levels
 from hystrip.level.branches import rising
-from hystrip.level.law import Laws
+from hystrip.level.law import Laws, merged
 from hystrip.level.lower_levels import _CANCELLED as CANCELLED
 from hystrip.level.lower_levels import LowerLevelLaws
-from hystrip.level.merge import merged
 from hystrip.level.piece import Errors, Piece, graded
 from hystrip.level.segment import segments_of
 from hystrip.level.strips import LevelBatch

@@ -9,7 +9,7 @@ import hystrip
 import hystrip.level.nonadhesive.law
 import hystrip.multilevel
 from hystrip.errors import SolverError
-from hystrip.level.means import level_means
+from hystrip.level.averages import level_means
 from hystrip.level.nonadhesive.law import with_family
 from hystrip.level.nonadhesive.span import Span
 from hystrip.level.strips import LevelBatch
@@ -228,7 +228,7 @@ def test_a_family_that_goes_further_is_the_same(rtol):
 def test_no_level_is_asked_for_strips_beyond_its_family(monkeypatch, pressure):
     """A low level over steep ones: where these would part a law no pressure reaches."""
     levels = [hystrip.Level(1e-5, 1e-9), hystrip.Level(1e-6, 1e-6), hystrip.Level(3e-7, 1e-6)]
-    monkeypatch.setattr(hystrip.level.means, "average", None)
+    monkeypatch.setattr(hystrip.level.averages, "average", None)
     r = hystrip.solve(SOFT, NONE, levels, pressure=pressure, velocity=1e-2, rtol=1e-2)
     assert r.converged and r.mu > 0
 

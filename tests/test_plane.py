@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import hystrip
+from hystrip.level.averages import level_means
 from hystrip.level.changes import Changes
-from hystrip.level.means import level_means
 from hystrip.level.plane import BOUNDARIES, Boundary
 from hystrip.level.regime_map import located, thresholds
 from hystrip.level.strips import LevelBatch

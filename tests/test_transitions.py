@@ -5,11 +5,9 @@ import pytest
 import surfaces
 
 import hystrip
-from hystrip.level.breaks import between_breaks, first_contact, scan
-from hystrip.level.interior_breaks import IsolatedRegime, Zones, islands, locate_vanishing
-from hystrip.level.interpolation import interpolate
-from hystrip.level.interval import Intervals
-from hystrip.level.means import level_means
+from hystrip.level.averages import level_means
+from hystrip.level.breaks import IsolatedRegime, Zones, between_breaks, first_contact, islands, locate_vanishing, scan
+from hystrip.level.interpolation import Intervals, interpolate
 from hystrip.level.strips import LevelBatch, saturation_depth
 from hystrip.orbit.regimes import CODE
 

@@ -39,7 +39,7 @@ MUTANTS = (
         "stability of an orbit to a tenth", "orbit/certificate.py", "STABLE = 1e-6", "STABLE = 1e-1", "test_injected_orbit.py"
     ),
     Mutant(
-        "all saturated at 0.9 of the lift", "multilevel.py", "p_full[0] + s.lift", "p_full[0] + 0.9 * s.lift", "test_skipping.py"
+        "all saturated at 0.9 of the lift", "multilevel.py", "out[0].p + s.lift", "out[0].p + 0.9 * s.lift", "test_skipping.py"
     ),
     Mutant(
         "what is carried at another pressure is exact",

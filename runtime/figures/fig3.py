@@ -32,9 +32,9 @@ def data() -> dict[str, Any]:
         # the threshold decides the unloading orbit only; coming from no contact, all of the surface is met when the edge is
         top = saturated if branch == "unloading" else np.maximum(saturated, 1.5 * scene.levels[0].h)
         rtol = np.full(V.size, _RTOL)
-        for v, D_top, curve in zip(V, top, trace(columns, rtol, columns.atol(rtol), top), strict=True):
+        for v, D_top, curve in zip(V, top, trace(columns, rtol, columns.atol(rtol), top)[0], strict=True):
             parts = [(b.piece, b.t_low, b.t_high) for b in branches_of([curve], branch == "unloading")[0]]
-            for piece in curve.pieces:
+            for piece in sorted(curve, key=lambda piece: -piece.low):
                 inside = sorted((low, high) for p, low, high in parts if p is piece)
                 ends = sorted({0.0, 1.0, *(t for pair in inside for t in pair)})
                 for low, high in zip(ends[:-1], ends[1:], strict=True):

@@ -1,4 +1,4 @@
-"""Means of a level over y.
+"""Means of a level over y at given penetrations: adaptive panels, or the paper's equal strips.
 
 Between the breakpoints of the integrand Clenshaw-Curtis sums on nested nodes converge geometrically (``quadrature``). Some
 breakpoints are known beforehand: thresholds in closed form, and curves of the plane of strips that were located at neighbouring
@@ -11,7 +11,6 @@ All panels of all columns advance together, each on its own number of nodes: one
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,13 +19,12 @@ from ..numerics.quadrature import interior_nodes, mapped, mapped_weights, sum_er
 from ..numerics.rounding import EPS
 from ..orbit.batch import Batch
 from ..orbit.regimes import CODE
+from .breaks import Zones, zones_of
 from .changes import Changes, locate_changes
 from .effort import AVERAGE_LIMIT
-from .interior_breaks import Zones, zones_of
+from .nonadhesive.average import average as family_average
 from .regime_map import by_equation, hides_another, known_breaks, theta_of
-
-if TYPE_CHECKING:
-    from .strips import LevelBatch
+from .strips import LevelBatch
 
 #: nodes of a panel at first and at most, and one more
 _FIRST, _LAST = 8, 64
@@ -52,6 +50,35 @@ class Averages:
     errors: np.ndarray
     strips: np.ndarray
     zones: list[Zones] = field(default_factory=list)
+
+
+def level_means(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray | None = None) -> Averages:
+    """Means of ``strips.QUANTITIES`` for every column, to ``rtol |value| + atol`` each; ``rtol`` of shape (n,), ``atol`` (n, q),
+    or what goes with it (``LevelBatch.atol``)."""
+    if columns.strips is not None:
+        return equal_strips(columns, columns.strips)
+    atol = columns.atol(rtol) if atol is None else atol
+    if columns.family is None:
+        return average(columns, rtol, atol)
+    return Averages(*family_average(columns, rtol, atol), np.zeros(columns.size, int))
+
+
+def equal_strips(columns: LevelBatch, strips: int) -> Averages:
+    """The paper's average over ``2 N`` equal strips of the cell (Eq. 11): midpoints; the halves are mirror images.
+
+    The error estimate is the difference to the sum over every third strip, whose thirds share their midpoints, where N is a
+    multiple of 3, and to half the strips' trapezoid otherwise.
+    """
+    theta = np.pi * (np.arange(strips) + 0.5) / strips
+    column = np.repeat(np.arange(columns.size), strips)
+    _, values, *_ = columns.evaluate(column, np.tile(theta, columns.size))
+    values = values.reshape(columns.size, strips, -1)
+    mean = values.mean(axis=1)
+    # a jump of the integrand shifts the sum by up to one strip's share of it; a kink by less
+    errors = np.abs(np.diff(values, axis=1)).max(axis=1, initial=0.0) / strips
+    # no transitions are looked for: one zone for all that is known
+    zones = [Zones(np.zeros(1), np.zeros(1), np.full(1, np.pi), *np.zeros((3, 1, mean.shape[1])))] * columns.size
+    return Averages(mean, errors, np.full(columns.size, strips), zones=zones)
 
 
 def average(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> Averages:

@@ -18,7 +18,6 @@ import numpy as np
 from ..numerics.chebyshev import Series, derivatives
 from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
-from .curve import Curve
 from .piece import Errors, Piece, parameter
 
 if TYPE_CHECKING:
@@ -60,10 +59,11 @@ class Branch:
         return float(Inverse([self])(np.zeros(1, int), np.array([p]))[0])
 
 
-def branches_of(curves: Sequence[Curve], unloading: bool) -> list[list[Branch]]:
-    """Branches that load control follows on each of the curves, in order of rising pressure."""
-    found = iter(rising([piece for curve in curves for piece in curve.pieces]))
-    rows = [[part for _ in curve.pieces for part in next(found)] for curve in curves]  # from high D to low D
+def branches_of(curves: Sequence[Sequence[Piece]], unloading: bool) -> list[list[Branch]]:
+    """Branches that load control follows on each of the curves, given by its pieces, in order of rising pressure."""
+    ordered = [sorted(pieces, key=lambda piece: -piece.low) for pieces in curves]  # from high D to low D
+    found = iter(rising([piece for pieces in ordered for piece in pieces]))
+    rows = [[part for _ in pieces for part in next(found)] for pieces in ordered]
     if unloading:
         return [row[::-1] for row in _standing_out(rows, unloading)]
     return _standing_out([loaded(row[::-1]) for row in rows], unloading)

@@ -3,7 +3,13 @@
 The crest strip (y = 0) has everywhere the highest profile: the means lose smoothness at the penetrations where it changes regime,
 and where the flat edge does. Unloading with adhesion it need not be the last to let go: what is pressed in less is drawn out of
 reach later.
+
+As the penetration changes, strips somewhere between crest and edge may enter a regime that no strip was in before: an island in
+y that grows with the distance in D or its square root, and the level's means with it. Such a penetration ends a piece, too. With
+a level below, islands are nested: around a minimum of the peak pressure every break of its law is passed down and up again.
 """
+
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -12,7 +18,13 @@ from .changes import Changes, locate_changes
 from .regime_map import OPENS, by_equation, hides_another, straight
 from .strips import LevelBatch
 
+#: penetrations of a scan where regimes follow one another
 _SCAN = 32
+#: strips looked at across an island and along its way, and how often at most, ever closer to where it vanishes: the tip of a
+#: wedge between two strips is less than a step along the way beyond where they lose it
+_ACROSS, _ALONG, _ROUNDS = 12, 8, 20
+#: what an island may add to the means that is left aside, over their goal, and over what the heaviest beside it adds
+_LEFT, _LIGHT = 0.3, 0.1
 
 
 def first_contact(columns: LevelBatch) -> float:
@@ -79,3 +91,120 @@ def scan(columns: LevelBatch, top: np.ndarray) -> np.ndarray:
     ratio = np.maximum((top - bottom) / np.maximum(near[:, -1] - bottom, 1e-300), 1.0)
     far = bottom + (near[:, -1] - bottom)[:, None] * ratio[:, None] ** np.linspace(0, 1, _SCAN // 4 + 1)
     return np.concatenate((near, far[:, 1:]), axis=1)
+
+
+@dataclass(frozen=True)
+class Zones:
+    """Zones of one column in order of theta: ``code``, ends ``low`` and ``high``, (k,); and the values averaged, next to both
+    ends (``first``, ``last``) and on the ``mean``, (k, q)."""
+
+    code: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    first: np.ndarray
+    last: np.ndarray
+    mean: np.ndarray
+
+    def standing_out(self, k: int) -> np.ndarray:
+        """How far the mean of zone ``k`` is from the values next to it in the neighbouring zones, (q,)."""
+        beside = [*self.last[max(k - 1, 0) : k], *self.first[k + 1 : k + 2]]
+        return np.abs(self.mean[k] - beside).max(axis=0, initial=0.0) if beside else np.zeros(self.mean.shape[1])
+
+
+def zones_of(columns: int, state, code, low, high, first, last, total) -> list[Zones]:
+    """Zones of every column from panels (m,) of the columns ``state``: codes, ends, values at both, and integrals ``total``."""
+    order = np.lexsort((low, state))
+    state, code, low, high, first, last, total = (v[order] for v in (state, code, low, high, first, last, total))
+    start = np.flatnonzero(np.append(True, (state[1:] != state[:-1]) | (code[1:] != code[:-1])))
+    stop = np.append(start[1:], state.size) - 1
+    width = np.add.reduceat(high - low, start)[:, None]
+    every = Zones(code[start], low[start], high[stop], first[start], last[stop], np.add.reduceat(total, start) / width)
+    ends = np.searchsorted(state[start], np.arange(columns + 1))
+    return [
+        Zones(*(v[here] for v in vars(every).values()))
+        for here in (slice(*pair) for pair in zip(ends[:-1], ends[1:], strict=True))
+    ]
+
+
+@dataclass
+class IsolatedRegime:
+    """Strips with ``code`` between the thetas ``low`` and ``high`` at penetration ``present``, none of them at ``absent``.
+    ``weight``: what it adds to the means over their goal."""
+
+    column: int
+    code: int
+    low: float
+    high: float
+    present: float
+    absent: float
+    weight: float
+
+
+def _arrays(islands: list[IsolatedRegime]) -> list[np.ndarray]:
+    """Their fields, (m,) each."""
+    return [np.array([getattr(i, field.name) for i in islands]) for field in fields(IsolatedRegime)]
+
+
+def islands(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) -> list[IsolatedRegime]:
+    """Of the changes in the sequence of codes along y between two of the nodes ``D`` those between the two where one moves the
+    means most, as far as they tell beside the ``goal`` (q,) of their errors: islands may be nested, and vanish one after another.
+    ``zones``: at each node."""
+    most: list[IsolatedRegime] = []
+    for i in range(D.size - 1):
+        one, two = zones[i], zones[i + 1]
+        if np.array_equal(one.code, two.code):
+            continue
+        ends = (D[i], D[i + 1])
+        if one.code.size < two.code.size:
+            one, two, ends = two, one, ends[::-1]
+        same = 0
+        while same < two.code.size and one.code[same] == two.code[same]:
+            same += 1
+        gone = np.setdiff1d(one.code, two.code)
+        places = [np.flatnonzero(one.code == code) for code in gone] or [np.array([min(same, one.code.size - 1)])]
+        found = []
+        for k in places:
+            low, high = one.low[k[0]], one.high[k[-1]]
+            weight = max(float(((high - low) / np.pi * one.standing_out(j) / goal).max()) for j in k)
+            if weight > _LEFT:
+                found.append(IsolatedRegime(column, int(one.code[k[0]]), float(low), float(high), *ends, weight))
+        most = max(most, found, key=lambda some: max((each.weight for each in some), default=0.0))
+    return [each for each in most if each.weight > _LIGHT * max(other.weight for other in most)]
+
+
+def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips: np.ndarray) -> np.ndarray:
+    """Penetrations at which the islands have shrunk so far that what is left does not tell, by ever smaller grids of strips
+    across that and along the way to its end. NaN: one is not absent at all. ``strips`` (per column) counts the work."""
+    out, number = np.full(len(islands), np.nan), np.arange(len(islands))
+    column, code, low, high, present, absent, weight = _arrays(islands)
+    density, start, stop = weight / (high - low), np.zeros(number.size), np.ones(number.size)
+    for _ in range(_ROUNDS):
+        across = (np.arange(_ACROSS) + 0.5) / _ACROSS
+        step = (high - low) / _ACROSS
+        theta = (low[:, None] + (high - low)[:, None] * across)[:, None].repeat(_ALONG, axis=1)
+        share = start[:, None] + (stop - start)[:, None] * np.linspace(0, 1, _ALONG)
+        D = (present[:, None] + (absent - present)[:, None] * share)[:, :, None].repeat(_ACROSS, axis=2)
+        which = np.repeat(column, _ALONG * _ACROSS)
+        np.add.at(strips, which, 1)
+        codes = columns.at(which, D.ravel()).codes(np.arange(which.size), theta.ravel())
+        has = codes.reshape(D.shape) == code[:, None, None]
+        # the last along the way that any strip has it, and from where to where there
+        row = np.where(has.any(axis=2), np.arange(_ALONG), 0).max(axis=1)
+        every = np.arange(number.size)
+        there = has[every, row]
+        first, last = there.argmax(axis=1), _ACROSS - 1 - there[:, ::-1].argmax(axis=1)
+        low = np.maximum(theta[every, 0, first] - 1.5 * step, 0.0)
+        high = np.minimum(theta[every, 0, last] + 1.5 * step, np.pi)
+        keeps = (row == _ALONG - 1) & (stop == 1)
+        further = np.minimum(row + 2, _ALONG - 1)
+        further = np.where(row == _ALONG - 1, np.minimum(2 * stop - start, 1.0), share[every, further])
+        start, stop = share[every, row], further
+        out[number] = np.where(keeps, np.nan, present + (absent - present) * 0.5 * (start + stop))
+        done = keeps | (density * (high - low) <= _LEFT)
+        done |= np.abs((absent - present) * (stop - start)) <= 16 * EPS * np.maximum(np.abs(absent), columns.level.h)
+        if done.all():
+            break
+        number, column, code, present, absent, low, high, density, start, stop = (
+            v[~done] for v in (number, column, code, present, absent, low, high, density, start, stop)
+        )
+    return out

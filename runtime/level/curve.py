@@ -1,44 +1,45 @@
 """A level's means as a function of penetration, from the first contact to saturation, one curve per velocity.
 
-Between its breaks (``breaks.py``) a curve is interpolated (``interpolation.py``). All velocities advance together.
+Between its breaks (``breaks.py``) a curve is interpolated (``interpolation.py``). All velocities advance together. Unloading
+jumps to re-entrant branches: parts of the curve under a pressure below all that came before, as below the fold of the crest,
+where the rims of the cells still hold. A rough sample of the curve tells where these are to a few digits; what it leaves open is
+kept, and only what is kept is interpolated.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from ..numerics.nested import Stage, sampled
+from ..numerics.quadrature import interior_nodes
 from .breaks import between_breaks, clinging_ends, first_contact, scan, threshold_width
 from .error_budget import ErrorBudget
-from .interpolation import interpolate
-from .interval import Intervals
+from .interpolation import Intervals, interpolate, means_in, weighed
 from .piece import Piece
-from .reentrant import falling, reentrant_parts
 from .strips import LevelBatch
 
-
-@dataclass(frozen=True)
-class Curve:
-    """Pieces in order of falling D; above ``D_top`` (saturation, or the cut) nothing is stored. ``strips``: strips evaluated."""
-
-    pieces: list[Piece]
-    D_top: float
-    strips: int
+#: accuracy of the look for re-entrant branches, and its nodes at first; also intervals narrower than this share of ``h`` get one
+_ROUGH, _NODES, _NARROW = 5e-3, 6, 0.02
+#: how much more than its error a pressure keeps above what was before, and than what it bends between two nodes, which are the
+#: first ones or twice as many: a parabola keeps within an eighth of that from its chord
+_DOUBT, _BENDS = 2.0, (1.0, 0.25)
 
 
 def trace(
     columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, top: np.ndarray, budget: ErrorBudget | None = None
-) -> list[Curve]:
-    """Curves of every column (its ``D`` is not used) up to penetration ``top``, to ``rtol |value| + atol``.
+) -> tuple[list[list[Piece]], np.ndarray]:
+    """Pieces of the curve of every column (its ``D`` is not used) up to penetration ``top`` (saturation, or a cut), to
+    ``rtol |value| + atol``; and strips evaluated for each, (n,).
 
-    Below the penetration at which the crest lets go, and where pressure falls between breaks that are close, they hold only what
-    unloading at a falling pressure comes to. ``budget``: how much the pressures of every column's law count.
+    Below the penetration at which the crest lets go, and between breaks that are close, they hold only what unloading at a
+    falling pressure comes to. ``budget``: how much the pressures of every column's law count.
     """
-    n = columns.size
-    strips = np.zeros(n, int)
+    strips = np.zeros(columns.size, int)
     intervals, crest = smooth_intervals(columns, rtol, atol, top)
     looked = intervals.high <= crest[intervals.column]
     if columns.branch == "unloading":
-        looked[~looked] = falling(columns, intervals.take(~looked), strips)
+        # strips may let go there one after another while the pressure rises, which is no part of a law
+        looked |= intervals.width < _NARROW * columns.level.h
     pieces = interpolate(columns, intervals.take(~looked), strips, budget)
     if looked.any():
         least = [[(piece.low, piece.values(piece.errors.at)[:, 0].min()) for piece in row] for row in pieces]
@@ -50,7 +51,7 @@ def trace(
         parts = reentrant_parts(columns, replace(parts, ceiling=np.array(before)), strips, budget)
         for row, more in zip(pieces, interpolate(columns, parts, strips), strict=True):
             row += more
-    return [Curve(sorted(pieces[i], key=lambda piece: -piece.low), float(top[i]), int(strips[i])) for i in range(n)]
+    return pieces, strips
 
 
 def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, top: np.ndarray) -> tuple[Intervals, np.ndarray]:
@@ -70,3 +71,52 @@ def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, to
     # at the top a curve is but cut, or saturates
     intervals.inner_high[:] = intervals.high > (top - 2 * inside)[intervals.column]
     return intervals, crest
+
+
+def reentrant_parts(columns: LevelBatch, intervals: Intervals, strips: np.ndarray, budget: ErrorBudget | None) -> Intervals:
+    """The parts of the ``intervals`` that unloading may come to after the least pressure before each, its ceiling, as coarse as
+    the ``budget`` allows; ``strips`` (per column) counts the work."""
+
+    def rough(parts: Intervals, D: np.ndarray) -> tuple:
+        atol = (_ROUGH / parts.rtol)[:, None] * parts.atol
+        return means_in(columns, replace(parts, rtol=np.full(parts.size, _ROUGH), atol=atol), D, strips)
+
+    def looked(stage: Stage) -> Stage:
+        return sampled([stage], Intervals.evenly, rough)[0]
+
+    stage = looked(Stage(intervals, _NODES))
+    doubtful = np.isin(np.arange(intervals.size), [k for _, k, *_ in _parts([stage], _BENDS[0])])
+    stages = [stage.take(~doubtful)] + ([looked(stage.take(doubtful))] if doubtful.any() else [])
+    found = _parts(stages, _BENDS[1])
+    parts = [replace(stages[s].parts.take([k]), **{name: np.array([v]) for name, v in ends.items()}) for s, k, ends, _ in found]
+    out = Intervals.joined(parts) if parts else intervals.take([])
+    return out if budget is None else weighed(columns, budget, out, [values for *_, values in found])
+
+
+def _parts(stages: list[Stage], bends: float) -> list[tuple[int, int, dict, np.ndarray]]:
+    """Parts of intervals that unloading may come to: the stage and the number of the interval in it, what of it is other, and the
+    means there, (nodes, q)."""
+    met: dict[int, float] = {}
+    out, looks = [], []
+    for s, stage in enumerate(stages):
+        D = stage.parts.evenly(interior_nodes(stage.n))
+        looks += [(s, k, D[k], stage.known[0][k], stage.known[1][k, :, 0]) for k in range(stage.parts.size)]
+    for s, k, D, values, error in sorted(looks, key=lambda look: -look[2][-1]):
+        look, p = stages[s].parts, values[:, 0]
+        least = min(met.get(look.column[k], np.inf), look.ceiling[k])
+        bend = np.pad(np.abs(p[:-2] - 2 * p[1:-1] + p[2:]), 1)
+        slack = _DOUBT * np.maximum(error[:-1], error[1:]) + bends * np.maximum(bend[:-1], bend[1:])
+        floor = np.minimum(p[:-1], p[1:]) - slack
+        # the least that was before, above the upper end of each part
+        above = np.minimum(np.minimum.accumulate((p + error)[:0:-1])[::-1], least)
+        comes = np.flatnonzero(floor < above)
+        for run in np.split(comes, np.flatnonzero(np.diff(comes) > 1) + 1) if comes.size else ():
+            first, last = run[0], run[-1] + 1
+            if last == p.size - 1 and (p - _DOUBT * error)[first:last].min() > least:
+                # the curve goes on from what was met, and rises
+                continue
+            ends = {"low": D[first], "inner_low": True} if first > 0 else {}
+            ends |= {"high": D[last], "inner_high": True} if last < p.size - 1 else {}
+            out.append((s, k, ends, values[first : last + 1]))
+        met[look.column[k]] = min(least, (p + error).min())
+    return out

@@ -5,14 +5,14 @@
   friction in contact of level 1, which they all add to (``friction_of_laws``), if that is more.
 - Level 1 gets the ``rtol`` of the result, halved in ``multilevel``, as its laws err too. Laws of lower levels get a multiple of
   ``rtol``, and less where points miss that.
-- A piece of a law may err by as much more as fewer points meet its pressures (``interval.weighed``), further down than level 2
-  the less contact there is; ``merge`` may take a part of what a law may err, ``lower_levels`` integrates to a part of what the
-  mean over strips may.
-- Of what an interval of a curve may err its means get a part, ``interval.MEAN``.
+- A piece of a law may err by as much more as fewer points meet its pressures (``interpolation.weighed``), further down than
+  level 2 the less contact there is; ``law.merged`` may take a part of what a law may err, ``lower_levels`` integrates to a part
+  of what the mean over strips may.
+- Of what an interval of a curve may err its means get a part, ``interpolation.MEAN``.
 
-Goal-oriented: a law's error counts as much as the part of the surface on which it is used. That part is had from a plain sum over
-the strips of the level above; it deals out accuracy and enters no result, and what a law lacks shows in the error of the friction
-it gives (``lower_levels``).
+Goal-oriented: a law's error counts as much as the part of the surface on which it is used. That part, and the greatest pressure
+that laws are made for, are had from a plain sum over the strips of the level above; it deals out accuracy and enters no result,
+and what a law lacks shows in the error of the friction it gives (``lower_levels``).
 """
 
 from __future__ import annotations
@@ -22,11 +22,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..numerics.quadrature import interior_nodes, mapped, mapped_weights
-from .across import STRIPS
+from ..orbit.foundation import foundation_of
 from .strips import LevelBatch, SolvedStrips
 
-#: points along each contact: shares are needed to a factor of two or so
-_POINTS = 32
+#: strips between crest and valley, and points along each contact: shares of the surface are needed to a factor of two or so
+_STRIPS, _POINTS = 24, 32
+#: crest, the middles of so many equal strips, and next to the valley
+_THETA = np.pi * np.concatenate(([0.0], (np.arange(_STRIPS) + 0.5) / _STRIPS, [0.999]))
 #: a share is not known any better than this: one point of one contact has about a thousandth
 _FINEST = 1e-6
 #: contact is not known to be any less
@@ -35,6 +37,33 @@ LEAST_CONTACT = 1e-3
 _SHARED = 0.2
 #: parts of a law that may each err by what the whole is allowed: mostly one or two branches are used
 _PARTS = 2
+
+
+def strips_across(columns: LevelBatch) -> SolvedStrips:
+    """The crest, ``_STRIPS`` equal strips and one in the valley of each of the ``columns`` (n,), one column after the other."""
+    every = np.arange(columns.size)
+    return columns.solve(np.repeat(every, _THETA.size), np.tile(_THETA, every.size))
+
+
+def peak_pressure(columns: LevelBatch, strips: SolvedStrips) -> np.ndarray:
+    """Greatest local pressure of each of the ``columns``, Pa, (n,), -inf without contact, from their ``strips_across``.
+
+    Mostly it is the crest's. But adhesion may hold flatter strips that steeper ones have let go of: before these do, the pressure
+    is at most that of complete contact, ``K (E + A (1 + R))`` with ``E = D - h``: contact begins with ``p <= H``, the saturated
+    field, and tends to it.
+    """
+    peak = np.full(strips.p_mean.size, -np.inf)
+    index, contact = strips.touching
+    if index.size:
+        peak[index] = contact.p_peak
+    peak = peak.reshape(columns.size, -1)
+    level, R = columns.level, foundation_of(columns.material).modulus_ratio(columns.level.k * columns.V)
+    steeper = (columns.D - level.h)[:, None] + level.amplitude(_THETA[:-1]) * (1 + np.reshape(R, (-1, 1)))
+    rising = peak[:, 1:] > peak[:, :-1]
+    # where no strip touches there may be contact between two in different regimes
+    code = strips.solved.code.reshape(peak.shape)
+    rising |= (peak.max(axis=1) == -np.inf)[:, None] & (code[:, 1:] != code[:, :-1])
+    return np.maximum(peak.max(axis=1), np.where(rising, columns.material.K * steeper, -np.inf).max(axis=1))
 
 
 @dataclass(frozen=True)
@@ -85,7 +114,7 @@ def error_budget(columns: LevelBatch, group: np.ndarray, strips: SolvedStrips) -
         rows, width = np.arange(index.size), contact.a - contact.b
         phase = contact.b[:, None] + width[:, None] * t
         p[index] = contact.pressure(np.repeat(rows, t.size), phase.ravel()).reshape(phase.shape)
-        share[index] = width[:, None] * weights / (2 * np.pi * STRIPS)
+        share[index] = width[:, None] * weights / (2 * np.pi * _STRIPS)
     # crest and valley are none of the equal strips
     p, share = (v.reshape(n, -1, t.size)[:, 1:-1].reshape(n, -1) for v in (p, share))
     order = np.argsort(p, axis=1)

@@ -1,20 +1,49 @@
-"""From nominal pressure to penetration along a branch of loading: where the curve over penetration first passes the pressure
-(``descent``), refined by averages there."""
+"""From nominal pressure to penetration along a branch of loading: where the curve over penetration first passes the pressure,
+refined by averages there.
+
+The curve is interpolated part by part, from the end the branch of loading comes from, until the pressure lies on a branch of it
+(``branches``). Where the interpolation's error leaves open which, the part is interpolated again, finer.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
 from ..numerics.roots import falling_root
+from ..numerics.rounding import LARGEST
 from ..orbit.batch import Batch
-from .averages import Averages
-from .descent import ROUGH, Root, first_passes
-from .means import level_means
+from .averages import Averages, level_means
+from .branches import Branch, branches_of
+from .breaks import between_breaks, first_contact
+from .effort import CURVE_LIMIT, NO_CURVE
+from .interpolation import Intervals, interpolate
 from .nonadhesive.average import penetrations
+from .piece import Piece
 from .saturated import saturated_level
 from .strips import QUANTITIES, LevelBatch
+
+#: accuracy of the first look, of the pressure's scale, and how much finer each further one is; nodes of an interval at first
+ROUGH, _FINER, _FIRST = 1e-2, 0.03, 8
+#: width of the first part of the curve to be looked at, in heights; each further one is twice as wide
+_NEXT = 0.3
+#: penetrations in each of them at which the crest is looked at, and parts of a piece over which a curve is taken to be straight
+_LOOKS, _STEP = 12, 1 / 64
+#: how much more than the estimated error of the interpolation a turn has to keep away from the pressure
+_DOUBT = 2.0
+
+
+class Root(NamedTuple):
+    """Where a coarse curve passes the pressure: between the penetrations ``low`` and ``high``, or (nan) in the jump at ``D``, or
+    (all nan) nowhere; how it rises over D, and the ``slope`` of all quantities over pressure, (q,). Or arrays of several."""
+
+    D: float | np.ndarray
+    rise: float | np.ndarray
+    slope: np.ndarray
+    low: float | np.ndarray = np.nan
+    high: float | np.ndarray = np.nan
 
 
 @dataclass(frozen=True)
@@ -101,9 +130,129 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
 
 def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
     """``invert`` with adhesion."""
-    root, undecided = first_passes(columns, p, cut_penetration(columns, p, full), rtol)
+    root, undecided = _first_passes(columns, p, cut_penetration(columns, p, full), rtol)
     in_jump = ~np.isnan(root.D) & np.isnan(root.low)
     return Inverse(*_refine(columns, p, root, rtol, 1e-3 * columns.scales[0]), undecided, in_jump)
+
+
+def _first_passes(columns: LevelBatch, p: np.ndarray, top: np.ndarray, rtol: float) -> tuple[Root, np.ndarray]:
+    """Where the curve of each column first passes the pressure ``p`` (Pa, (n,)), below ``top`` (n,), where unloading comes from,
+    and which are undecided, (n,). All columns go along their curves together, a part of each at a time."""
+    h, unloading, bottom = columns.level.h, columns.branch == "unloading", first_contact(columns)
+    finest = rtol * (np.abs(p) + 1e-3 * columns.scales[0])
+    goal = np.maximum(ROUGH * (np.abs(p) + columns.scales[0]), finest)
+    parts = [_growing(bottom, D, _NEXT * h, unloading) for D in top]
+    walks = [_Walk(i, unloading, *of) for i, of in enumerate(zip(p, goal, finest, parts, strict=True))]
+    strips, nothing_else = np.zeros(p.size, int), np.full((p.size, columns.scales.size), LARGEST)
+    while going := [walk for walk in walks if walk.waiting or walk.now is not None]:
+        if fresh := [walk for walk in going if walk.now is None]:
+            D = np.linspace(*np.array([walk.waiting.pop() for walk in fresh]).T, _LOOKS, axis=1)
+            column = np.array([walk.column for walk in fresh])
+            row, low, high, _ = between_breaks(columns, column, D)
+            found = Intervals.of(column[row], low, high, np.zeros(p.size), nothing_else)
+            # at the top the curve is but cut, or saturates
+            found.inner_low[:], found.inner_high[:] = (low == D[row, 0]) & (low > bottom), high == D[row, -1]
+            for k, walk in enumerate(fresh):
+                walk.now = found.take(row == k)
+        for walk in going:
+            walk.now.atol[:, 0] = walk.goal
+        pieces = interpolate(columns, Intervals.joined([walk.now for walk in going]), strips, first=_FIRST)
+        known = branches_of([[*walk.known, *pieces[walk.column]] for walk in going], unloading)
+        for walk, row in zip(going, known, strict=True):
+            walk.go_on(pieces[walk.column], row, bool(strips[walk.column] > CURVE_LIMIT))
+    undecided = np.array([walk.undecided for walk in walks])
+    columns.work.limit_reached(columns.V[undecided], columns.level.l, NO_CURVE)
+    nowhere = Root(np.nan, 0.0, np.zeros(columns.scales.size))
+    return Root(*(np.array(v) for v in zip(*(walk.root or nowhere for walk in walks), strict=True))), undecided
+
+
+def _growing(bottom: float, top: float, width: float, unloading: bool) -> list[tuple[float, float]]:
+    """The way between two penetrations in parts that grow from the end at which the branch arrives; the last one first."""
+    gone, parts = 0.0, []
+    while gone < top - bottom:
+        end = gone + width if top - bottom - gone > 2 * width else top - bottom
+        parts.append((max(top - end, bottom), top - gone) if unloading else (bottom + gone, min(bottom + end, top)))
+        gone, width = end, 2 * width
+    return parts[::-1]
+
+
+@dataclass
+class _Walk:
+    """One column along its curve, from the end its branch comes from to where it first passes the pressure ``p``.
+
+    ``goal``: error of the curve's pressure that it may have so far, at last ``finest``, Pa. ``waiting``: what is ahead of it, the
+    next part last; ``now``: the part it goes along. ``known``: pieces of what was gone along before, and ``held``: parts that
+    they are of, loading to less than no pressure, until it is known where the curve is least.
+    """
+
+    column: int
+    unloading: bool
+    p: float
+    goal: float
+    finest: float
+    waiting: list[tuple[float, float]]
+    now: Intervals | None = None
+    known: list[Piece] = field(default_factory=list)
+    held: list[Intervals] = field(default_factory=list)
+    root: Root | None = None
+    undecided: bool = False
+
+    def go_on(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
+        """Along the pieces of a part, with the branches of all that is known by now; where the work is not ``exhausted`` the part
+        may be asked for again, finer."""
+        part, self.now, before = self.now, None, self.known
+        self.known = [*before, *found]
+        clings = self.p < 0 and not self.unloading
+        if not row:
+            return
+        # as the first strips cling the pressure falls below zero, and where it is least is known when it comes back
+        if clings and self.waiting and not (row[-1].p_high >= 0 > row[0].p_low + _DOUBT * row[0].errors.most[0]):
+            self.held.append(part)
+            return
+        k = _place(row, self.p)
+        doubt = _DOUBT * row[min(max(k, 0) // 2, len(row) - 1)].errors.most[0]
+        least, most = _place(row, self.p - doubt), _place(row, self.p + doubt)
+        joints = range(max(least, 0) // 2 + 1, min((most + 1) // 2 + 1, len(row)))
+        certain = least == most or (0 <= least and most < 2 * len(row) - 1 and all(_goes_on(*row[j - 1 : j + 1]) for j in joints))
+        if self.goal > self.finest and not certain:
+            if not exhausted:
+                self.goal, self.now = max(_FINER * self.goal, self.finest), Intervals.joined([*self.held, part])
+                self.known, self.held = ([], []) if clings else (before, [])
+                return
+            self.undecided = True
+        if 0 <= k < 2 * len(row) - 1:
+            self.root = _in_jump(*row[k // 2 : k // 2 + 2], self.unloading) if k % 2 else _in_branch(row[k // 2], self.p)
+        if self.root is not None or clings:
+            self.waiting = []
+
+
+def _place(row: list[Branch], p: float) -> int:
+    """Where a pressure is among branches: 2 k on number k, one more between that and the next one, -1 below all."""
+    k = sum(part.p_low <= p for part in row) - 1
+    return 2 * k + (k < 0 or p > row[k].p_high)
+
+
+def _goes_on(part: Branch, following: Branch) -> bool:
+    """Whether a curve goes over from one branch to the other where it is smooth, or where it jumps, without turning back."""
+    at_break = part.t_high == 1.0 and following.t_low == 0.0 and part.piece.high == following.piece.low
+    return at_break or (part.inner_high and following.inner_low)
+
+
+def _in_branch(part: Branch, p: float) -> Root:
+    """Where a branch carries the pressure."""
+    t = part.reaches(p)
+    ends = np.clip([t - _STEP, t + _STEP], part.t_low, part.t_high)
+    D, (low, high) = part.piece.penetration(np.array([t, *ends, part.t_low, part.t_high])), part.piece.values(ends)
+    step = high - low
+    return Root(float(D[0]), step[0] / (D[2] - D[1]), step / step[0], float(D[3]), float(D[4]))
+
+
+def _in_jump(part: Branch, following: Branch, unloading: bool) -> Root:
+    """A curve that jumps over the pressure carries it at the jump, where strips of both sides can stand side by side: as more of
+    them have changed over, all goes from that of one side to that of the other, evenly as far as is known."""
+    step = np.subtract(*(one.piece.values(np.array([t]))[0] for one, t in ((following, following.t_low), (part, part.t_high))))
+    one, t = (part, part.t_high) if unloading else (following, following.t_low)
+    return Root(float(one.piece.penetration(t)), 0.0, step / step[0] if step[0] else np.zeros(step.size))
 
 
 def _refine(columns: LevelBatch, p, root: Root, rtol, floor, powers: bool = False):

@@ -5,14 +5,17 @@ at most once, each in an arc known in closed form. So the contact is cut at the 
 and each part integrated by itself, on as many nodes as it needs.
 """
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..numerics.gauss import graded_gauss, left_out, summed
+from ..orbit.batch import Batch
 from ..orbit.contact import Contact
 from .law import Laws
-from .parts import Parts, parts_between
 from .strips import SolvedStrips
 
 TWO_PI = 2 * np.pi
@@ -25,6 +28,29 @@ _CANCELLED, _SUMMED = 0.1, 0.3
 _TRIFLE = 1e-9
 #: nodes of a part, tried in turn
 _NODES = (8, 14, 22, 34, 54, 84)
+
+
+@dataclass
+class Parts(Batch):
+    """Parts [low, high] of the contacts ``rows``, ascending, in phase, where the pressure lies between the breaks ``interval``
+    and the next ones; all (m,). ``times``: how often each counts, since in saturated contact the pressure falls as it rises."""
+
+    rows: np.ndarray
+    interval: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    times: np.ndarray
+
+    @property
+    def width(self) -> np.ndarray:
+        return self.high - self.low
+
+    def chunks(self, size: int) -> Iterator[Parts]:
+        """About ``size`` at a time, those of a contact together."""
+        ends = np.searchsorted(self.rows, self.rows[size::size])
+        for some in np.split(np.arange(self.size), np.unique(ends)):
+            if some.size:
+                yield self.take(some)
 
 
 @dataclass(frozen=True)
@@ -87,7 +113,7 @@ class LowerLevelLaws:
         np.add.at(total[:, -1], row[crossing], self._misplaced(contact, group, row[crossing], j[crossing], ups, downs))
         inside = np.zeros(breaks.shape, bool)
         inside[row, j] = ~saturates
-        self._integrate(contact, group, parts_between(contact, inside, ups, downs), total)
+        self._integrate(contact, group, _parts_between(contact, inside, ups, downs), total)
         # what is not known of a law beyond the pressure that it was built for is about as much as it ever carries
         beyond = np.flatnonzero(contact.p_peak > laws.top[group])
         up, down = contact.passes(beyond, laws.top[group[beyond]])
@@ -140,6 +166,18 @@ class LowerLevelLaws:
         between = part * np.abs(np.diff(np.abs(friction).sum(axis=0), axis=0))
         unknown = errors[0] + np.concatenate((between[:1], between))
         return width * summed(weight, law.swapaxes(0, 1)), width * miss, _CANCELLED * width * summed(weight, unknown)
+
+
+def _parts_between(contact: Contact, inside: np.ndarray, ups: np.ndarray, downs: np.ndarray) -> Parts:
+    """Parts of all contacts, (n,), from the breaks ``inside`` (n, B) on: between the phases ``ups`` and ``downs`` (n, B + 1), the
+    last of which is the peak, at which the pressure passes the breaks."""
+    # on the way up, then down
+    low, high = np.stack((ups[:, :-1], downs[:, 1:])), np.stack((ups[:, 1:], downs[:, :-1]))
+    there = inside & (high > low)
+    there[1] &= ~contact.full[:, None]
+    row, interval, way = np.nonzero(np.moveaxis(there, 0, 2))
+    times = np.where(contact.full[row], 2.0, 1.0)
+    return Parts(row, interval, low[way, row, interval], high[way, row, interval], times)
 
 
 def _extremes(contact: Contact):

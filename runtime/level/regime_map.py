@@ -115,9 +115,12 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
 
     ``A`` and ``E`` (m, 2) of the ends of the ``changes``; ``unknown`` "A" or "E": the coordinate they differ in. ``columns``: the
     state of each. Returns that coordinate and which were found, (m,); the points of curves are remembered."""
-    place, found = _by_threshold(columns, changes, A, E, unknown)
     ends = A if unknown == "A" else E
     low, high = ends.min(axis=1), ends.max(axis=1)
+    # along y thresholds are known before any strip is solved
+    place, found = np.full(changes.size, np.nan), np.zeros(changes.size, bool)
+    if unknown == "E":
+        place, found = _by_threshold(columns, changes, A[:, 0], low, high)
     index, pressure = np.zeros(changes.size, int), np.zeros(changes.size)
     if columns.carry is not None:
         breaks = columns.carry.breaks(columns.group)
@@ -141,8 +144,8 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
     return place, found
 
 
-def _by_threshold(columns: LevelBatch, changes: Changes, A, E, unknown: str) -> tuple[np.ndarray, np.ndarray]:
-    """Where the ``changes`` are on a straight curve, and which of them are of that kind."""
+def _by_threshold(columns: LevelBatch, changes: Changes, A, low, high) -> tuple[np.ndarray, np.ndarray]:
+    """E between ``low`` and ``high`` (m,) where the ``changes`` are on a straight curve, and which of them are of that kind."""
     f, c = straight(columns)
     code, unloading = changes.codes % len(CODE), columns.branch == "unloading"
     some = lambda *sequences: np.isin(code, [CODE[s] for s in sequences]).any(axis=1)  # noqa: E731
@@ -152,21 +155,17 @@ def _by_threshold(columns: LevelBatch, changes: Changes, A, E, unknown: str) -> 
         some("c") & differ & (unloading | some("ac", "cf")),
         some("f") & differ,
         # all along y at once
-        some("a") & (_RANK[code] > 1).any(axis=1) & (unknown == "E"),
+        some("a") & (_RANK[code] > 1).any(axis=1),
         some("a") & some("ac", "c"),
         *(some("c") & ~differ & changes.passed.T),
     ]
     known = np.array(kinds) & ~np.isnan(c)
     # of several the last holds
-    line, every = len(kinds) - 1 - known[::-1].argmax(axis=0), np.arange(changes.size)
-    f, c, known = f[line, every], c[line, every], known.any(axis=0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        place = c - f * A[:, 0] if unknown == "E" else (c - E[:, 0]) / f
-    ends = A if unknown == "A" else E
+    line = len(kinds) - 1 - known[::-1].argmax(axis=0)
+    place = (c - f * A)[line, np.arange(changes.size)]
     # a curve over penetration ends at saturation, but for rounding
-    low, high = ends.min(axis=1), ends.max(axis=1)
     slack = 64 * EPS * (np.abs(low) + np.abs(high) + columns.level.h)
-    return np.clip(place, low, high), known & (place >= low - slack) & (place <= high + slack)
+    return np.clip(place, low, high), known.any(axis=0) & (place >= low - slack) & (place <= high + slack)
 
 
 def hides_another(code: np.ndarray, other: np.ndarray) -> np.ndarray:

@@ -16,7 +16,6 @@ from ...numerics.quadrature import by_rules
 from ...numerics.roots import rising_root
 from ...numerics.rounding import EPS
 from ...orbit.contact import passages
-from ..averages import Averages
 from .family import CUT, MEANS, SEARCH
 from .span import Span
 
@@ -41,8 +40,8 @@ _SEARCH, _NEAR = 18, 1e-7
 _CHUNK = 30_000
 
 
-def average(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> Averages:
-    """Means of ``columns`` that have a family to ``rtol |value| + atol``, ``rtol`` (n,), ``atol`` (n, q)."""
+def average(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Means of ``columns`` that have a family to ``rtol |value| + atol``, ``rtol`` (n,), ``atol`` (n, q); and their errors."""
     values, errors = np.zeros((2, columns.size, columns.scales.size))
     index = np.flatnonzero(columns.D > 0)
     sums, own = _Sums(columns.at(index, columns.D[index])), slice(0, 3)
@@ -53,7 +52,7 @@ def average(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> Averages
         q = columns.carry.scales.size
         found = by_rules(sums.carried, _RULES, atol[:, -q:], _FASTEST, True, rtol)
         values[index, -q:], errors[index, -q:] = found
-    return Averages(values, errors, np.zeros(columns.size, int))
+    return values, errors
 
 
 class _Sums:

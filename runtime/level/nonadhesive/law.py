@@ -192,8 +192,9 @@ def _pieces(columns: LevelBatch, cuts: np.ndarray, rtol: float, friction, fracti
         D = low[left, None] + width[left, None] * np.sin(0.5 * np.pi * t) ** 2
         every = np.repeat(group[left], t.size)
         at = columns.at(every, D.ravel())
-        means = average(at, np.full(D.size, _VALUES * rtol), _VALUES * tolerances(at, friction[every], fraction[every]))
-        fresh = np.column_stack((means.values, means.errors[:, columns.frictions].sum(axis=1), means.errors[:, 0]))
+        tolerance = _VALUES * tolerances(at, friction[every], fraction[every])
+        means, errors = average(at, np.full(D.size, _VALUES * rtol), tolerance)
+        fresh = np.column_stack((means, errors[:, columns.frictions].sum(axis=1), errors[:, 0]))
         fresh = fresh.reshape(*D.shape, q + 2)
         known = fresh if known is None else interleaved(known, fresh)
         total = known[:, :, columns.frictions].sum(axis=2)
