@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..certificate import STABLE
 from ..regimes import EDGES
 from .fields import state_at
 from .march import TWO_PI, Period, march
-from .polish import certified
+from .polish import arguments, certified
 from .problem import ModeStrips
 from .windows import Forced, alone, balanced, linearised, links, newton
 
@@ -15,6 +16,8 @@ from .windows import Forced, alone, balanced, linearised, links, newton
 _STEPS = 120
 #: agreement of the edges with a march of the period
 AGREE = 1e-7
+#: windows so close to an orbit's tell it from others by rounding: of that it is asked to be stable, too
+_NARROW = 1e-6
 #: a chain of windows leads to an orbit or to where orbits have vanished: each leaves such a share of the way; the next share
 #: where no link holds
 _RATIOS = np.array([0.65, 0.83, 0.95])
@@ -105,7 +108,22 @@ class _Search:
             orbit = Forced(self.kernel, self.s.take(i[k]), self.orbit[:, i[k]])
             d, b, a, c = edges[:, k]
             proven[k] = alone(orbit, (d, c), (b, a), self.rising, AGREE)
+            narrow = proven[k] & (np.abs(edges[[0, 3]][:, k] - orbit.edges[[0, 3]]).max(axis=0) <= _NARROW)
+            proven[k[narrow]] = self._stable(i[k[narrow]])
         return proven
+
+    def _stable(self, i) -> np.ndarray:
+        """Where the spectral radius of the return map is at most one, as is true of both extremal orbits."""
+        good = np.zeros(i.size, bool)
+        for number, sequence in enumerate(ROWS, 1):
+            k = np.flatnonzero(self.out.sequence[i] == number)
+            s, edges = self.s.take(i[k]), self.out.edges[np.array(ROWS[sequence])[:, None], i[k]]
+            matrix = getattr(self.kernel, f"return_map_{sequence}")(*edges, *arguments(s))
+            matrix = np.moveaxis(np.broadcast_to(matrix, (s.modes, s.modes, s.size)), -1, 0)
+            finite = np.isfinite(matrix).all(axis=(1, 2))
+            radius = np.abs(np.linalg.eigvals(np.where(finite[:, None, None], matrix, 0.0))).max(axis=1)
+            good[k] = finite & (radius <= 1 + STABLE)
+        return good
 
     def _move(self, i, edges, full: bool) -> None:
         """To the orbits forced by the windows of the ``edges``, or to the last of a chain of them."""

@@ -52,9 +52,9 @@ from .problem import ModeStrips, rates
 
 #: cells in which a chord is bounded: more bound it closer, by as much work
 _CELLS = np.linspace(0.0, 1.0, 7) ** 1.5
-#: edges settle as Newton's method converges: what they move by last; what rounding may leave them to move by, not getting less;
-#: and after how many turns they are given up
-_SETTLED, _ROUNDED, _SETTLING = 1e-9, 1e-6, 40
+#: orbits are settled where a turn moves their edges by no more, as they err by the square of that; and after how many turns they
+#: are given up: Newton's method takes three or four, and what it does not find in eight has more than one contact
+_SETTLED, _SETTLING = 1e-7, 12
 
 
 class Forced:
@@ -88,7 +88,7 @@ class Forced:
         The window that is returned ends with the contact that holds at its start, and where its gap closes."""
         left, edges, good = np.arange(s.size), edges.copy(), np.zeros(s.size, bool)
         states = np.full((4, s.modes, s.size), np.nan)
-        wide, last = edges[[0, 3]].copy(), np.full(s.size, np.inf)
+        wide = edges[[0, 3]].copy()
         for _ in range(_SETTLING):
             orbit = cls(kernel, s.take(left), edges[:, left])
             states[..., left] = orbit.states
@@ -98,8 +98,7 @@ class Forced:
                 break
             after, followed = orbit.turned(wide[:, left], exactly)
             moved = np.abs(after - orbit.edges).max(axis=0)
-            good[left] = followed & ((moved <= _SETTLED) | (moved <= _ROUNDED) & (moved > 0.7 * last[left]))
-            last[left] = moved
+            good[left] = followed & (moved <= _SETTLED)
             edges[:, left] = np.where(good[left], orbit.edges, after)
             left = left[~good[left]]
             if not exactly:
