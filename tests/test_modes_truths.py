@@ -36,6 +36,17 @@ def test_contact_all_along_but_for_a_thousandth_of_the_period(seed, place, branc
     assert error <= allowed and sequence == "ac" and 0 < found.adhesion_fraction[0] < 1e-3
 
 
+@pytest.mark.parametrize("materials", [1000, 60, 40])
+def test_an_orbit_beyond_one_that_windows_once_passed(materials):
+    """Adhesion over 1e-4 of the amplitude, on foundations that forget within a period or in 1e5 of them: an earlier proof by windows
+    took an orbit for the first from above that was not."""
+    rng = np.random.default_rng((77, 8, True))
+    scenes = [ms.draw(rng, 8, True) for _ in range(796)]
+    scene = scenes[795] | {name: scenes[795 % materials][name] for name in ("m", "theta")}
+    error, allowed, sequence = ms.compare(scene, "loading", ms.solve([scene], "loading"), 0)
+    assert error <= allowed and sequence == "afc"
+
+
 def test_a_foundation_that_forgets_next_to_nothing_in_a_period():
     """States below all orbits hardly move in a period, and what a period changes is lost in the gains of onset and release."""
     scene = {"m": np.array([1.2, 68.3, 11.4, 8.3, 16.8]), "theta": np.array([5.0, 500.0, 1700.0, 1e4, 9.3e4])}

@@ -69,11 +69,11 @@ class _Ahead:
 def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
     """Where ``field``, in between at its start, first leaves the range from 0 to ``height`` (inf: no upper limit) before ``end``.
 
-    Returns phases (``end`` where it stays inside), which limit was met (``NONE``, ``LOWER``, ``UPPER``; ``LOST`` where
-    the search did not end), and the slope of the field there; all of shape (N,).
+    Returns phases (``end`` where it stays inside), and which limit was met (``NONE``, ``LOWER``, ``UPPER``; ``LOST`` where
+    the search did not end), (N,).
     """
     n = end.size
-    s, which, slope_there = field.start.copy(), np.full(n, LOST), np.zeros(n)
+    s, which = field.start.copy(), np.full(n, LOST)
     go = _Ahead(np.arange(n), field.start, end, np.minimum(height, LARGEST), field.start, field.constant, field.a, field.b,
                 np.hypot(field.a, field.b), field.r, field.amplitudes())  # fmt: skip
     for number in range(_MAX_STEPS):
@@ -92,9 +92,8 @@ def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
             i = go.index[done]
             s[i] = np.where(beyond[done], go.end[done], go.now[done])
             which[i] = np.where(beyond[done], NONE, np.where(low_first[done], LOWER, UPPER))
-            slope_there[i] = slope[done]
             go = go.take(np.flatnonzero(~done))
-    return s, which, slope_there
+    return s, which
 
 
 def _safe_step(f: _Ahead, first: bool):

@@ -7,14 +7,13 @@ it converges quadratically.
 
 import numpy as np
 
-from .coordinates import Order
 from .extremal import AGREE, lowest_state
 from .extremes import greatest_gap
 from .fields import state_at
 from .march import TWO_PI, march
 from .polish import certified
 from .problem import ModeStrips
-from .propagation import propagation, solve_order
+from .windows import Forced
 
 _STEPS = 80
 
@@ -50,19 +49,12 @@ def engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
 
 def _fixed_point(kernel, s: ModeStrips):
     """Edges (4, N) of orbits by Newton's method on the period map."""
-    z, active, order = lowest_state(kernel, s), np.arange(s.size), Order.of(kernel, s)
-    met = np.full((4, s.size), np.nan)
-    for _ in range(_STEPS):
-        sub, here = s.take(active), order.take(active)
-        period = march(kernel, sub, np.ones(active.size, bool), z[:, active], sub.start)
-        met[:, active] = period.edges
-        step = solve_order(propagation(sub, here, period, None), here.to_e(period.dz))
-        size = np.abs(step).max(axis=0)
-        z[:, active] += here.to_z(step)
-        active = active[np.isfinite(size) & (size > AGREE * sub.size_of_lengths)]
-        if not active.size:
-            break
-    return met
+    met = march(kernel, s, np.ones(s.size, bool), lowest_state(kernel, s), s.start).edges
+    met[1] = np.where(np.isnan(met[1]), s.start, met[1])
+    b, a = engaged_edges(met)
+    middle = 0.5 * (a + b + TWO_PI)  # of the adhesion
+    orbit, _ = Forced.settled(kernel, s, np.stack((middle - TWO_PI, b, a, middle)))
+    return orbit.edges
 
 
 def engaged_edges(met):

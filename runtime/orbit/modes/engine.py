@@ -1,7 +1,7 @@
 """The extremal periodic orbit of every strip of a batch with several relaxation times; the same answers as
 ``orbit.engine`` gives for one.
 
-Why the orbits are extremal is shown in ``order``. ``unloading`` takes the always engaged orbit where it is admissible,
+Why the orbits are extremal is shown in ``windows``. ``unloading`` takes the always engaged orbit where it is admissible,
 else the first orbit above it; ``loading`` the free orbit where it is admissible, else the first orbit below
 ``max(D, 0)``.
 """

@@ -1,11 +1,4 @@
-"""Extremal orbits by Newton's method on their edges, proven by states that bound all orbits from one side.
-
-Marches from states below (``unloading``) or above (``loading``) every orbit move towards the first one. Their edges are a start
-for Newton's method; what that finds is the first orbit if the period map contracts between the bounding state and it
-(``contraction``). While it does not the state is moved closer: with a lower bound of the map's derivative it may go further
-than one period takes it, and by a chain of states past places where orbits are about to appear (``order``). Where foundations are
-so slow that it hardly moves, orbits that are periodic in all relaxation times bound the first one (``forced``).
-"""
+"""Extremal orbits by Newton's method on their edges, proven by the windows that bound those of all orbits (``windows``)."""
 
 from dataclasses import dataclass
 
@@ -13,26 +6,25 @@ import numpy as np
 
 from ..certificate import STABLE
 from ..regimes import EDGES
-from .contraction import contracts
-from .coordinates import Order
 from .fields import state_at
-from .forced import rise
 from .march import TWO_PI, Period, march
-from .order import Bound, climb
 from .polish import certified
 from .problem import ModeStrips
+from .windows import Forced, alone, balanced, linearised, links, newton
 
-#: the step in which Newton's method starts from the marches: after one period a bounding state is free where the orbits are,
-#: before that nothing can be proven; the one from which on chains are marched; from which on orbits are forced in
-#: every other step (earlier it takes longer, and next to folds chains of states go further); and where a strip is given up
-_START, _CHAINS, _FORCED, _STEPS = 1, 6, 24, 188
-#: strips in chains of states at a time: 32 states each
-_CHAINED = 512
+#: where a strip is given up
+_STEPS = 120
 #: agreement of the edges with a march of the period
 AGREE = 1e-7
-#: an orbit between states whose edges are so close, and that is stable, is the first one; between those that are less close it is
-#: so where the map contracts
-_NARROW, _NEAR = 1e-6, 1e-3
+#: windows so close to an orbit's tell it from others by rounding: of that it is asked to be stable, too
+_NARROW = 1e-6
+#: a chain of windows leads to an orbit or to where orbits have vanished: each leaves such a share of the way; the next share
+#: where no link holds
+_RATIOS = np.array([0.65, 0.83, 0.95])
+#: so many windows, and from that step on more: as many past there, and farther ones; fewer first are a third faster with 14 times
+_FEW, _FULL, _WINDOWS, _FARTHER = 5, 4, 16, (3, 5, 9, 17)
+#: corrections of such a chain, and the share of the room there is that may be taken
+_BALANCED, _ROOM = 1, 0.9
 #: edges of each sequence, by their rows in the order d, b, a, c
 ROWS = {sequence: tuple("dbac".index(edge) for edge in EDGES[sequence]) for sequence in ("acaf", "afc", "af")}
 SEQUENCES = ("", "acaf", "afc", "af")
@@ -51,15 +43,13 @@ class Extremal:
 
 def lowest_state(kernel, s: ModeStrips) -> np.ndarray:
     """State below every orbit: displacements are nowhere below the profile, nor below ``-p_0``."""
-    overstress = kernel.saturated_overstress(s.start, s.m)
-    order = Order.of(kernel, s)
-    e = kernel.profile(s.start, s.D) - s.m.S * overstress
-    return order.to_z(np.maximum(e, -s.p_0))
+    e = kernel.profile(s.start, s.D) - s.m.S * kernel.saturated_overstress(s.start, s.m)
+    return np.einsum("ij...,j...->i...", s.m.share, np.maximum(e, -s.p_0))
 
 
 def highest_state(kernel, s: ModeStrips) -> np.ndarray:
     """State above every orbit, free."""
-    return Order.of(kernel, s).to_z(np.broadcast_to(np.maximum(s.D, 0.0), (s.modes, s.size)))
+    return s.m.share.sum(axis=1) * np.maximum(s.D, 0.0)
 
 
 def extremal(kernel, s: ModeStrips, z, engaged, rising: bool, released: bool) -> Extremal:
@@ -74,76 +64,60 @@ def extremal(kernel, s: ModeStrips, z, engaged, rising: bool, released: bool) ->
 
 
 class _Search:
-    def __init__(self, kernel, s: ModeStrips, z, engaged, rising: bool):
-        self.kernel, self.rising, self.active = kernel, rising, np.arange(s.size)
-        nothing = np.full((4, s.size), np.nan)
-        self.out = Extremal(np.full(s.size, UNRESOLVED), nothing, np.zeros(s.size, int))
-        beyond = np.broadcast_to(np.maximum(s.D, 0.0) if rising else -s.p_0, z.shape).copy()
-        near, self.orbit = (Period.blank(s.modes, s.size) for _ in range(2))
-        if not rising:  # contacts from there are the longest of all
-            self.orbit = march(kernel, s, np.ones(s.size, bool), lowest_state(kernel, s), s.start)
-        self.bound = Bound(s, Order.of(kernel, s), 1.0 if rising else -1.0, engaged, z, near, beyond)
-        self.found = np.zeros(s.size, bool)
-        self._march(self.active)
+    """``z``, ``engaged``: states at the start that bound all orbits of N strips; ``found``: where an orbit is known."""
 
-    def _march(self, i) -> None:
-        b = self.bound
-        s = b.s.take(i)
-        b.near.put(i, march(self.kernel, s, b.engaged[i], b.z[:, i], s.start))
+    def __init__(self, kernel, s: ModeStrips, z, engaged, rising: bool):
+        self.kernel, self.s, self.rising, self.active = kernel, s, rising, np.arange(s.size)
+        self.z, self.engaged = z, engaged
+        self.out = Extremal(np.full(s.size, UNRESOLVED), np.full((4, s.size), np.nan), np.zeros(s.size, int))
+        self.orbit = np.full((4, s.size), np.nan)
+        self.ratio = np.zeros(s.size, int)
 
     def step(self, number: int, ends_held: bool) -> None:
-        """Decide what the marches from the bounding states decide, and move the others."""
-        i, out, b = self.active, self.out, self.bound
-        near, s = b.near.among(i), b.s.among(i)
+        """March from the bounding states, decide what that decides, and move the others."""
+        i, out = self.active, self.out
+        s = self.s.take(i)
+        near = march(self.kernel, s, self.engaged[i], self.z[:, i], s.start)
         # from above: nothing but engaged orbits; from below: to be seen from the engaged orbit
         held = near.never_free & (ends_held | (not self.rising))
         lets = near.never_engaged & self.rising & (s.D <= -s.delta_0)
         out.kind[i[held]], out.kind[i[lets]] = ENGAGED, FREE
         out.edges[:, i[held]] = near.edges[:, held]
         going = ~(held | lets | near.lost)
-        forced = number >= _FORCED and number % 2 == 1 and self.rising
-        if number == _START or forced:
-            self._newton(i[going & ~self.found[i]], np.inf)
-        going[going] = ~self._proven(i[going])
-        if forced:
-            k = i[going & self.found[i]]
-            k = k[_apart(b.near.take(k), self.orbit.take(k)) <= _NARROW]
-            out.kind[k[self._stable(k)]] = ORBIT
-            going &= out.kind[i] != ORBIT
-        turned = going & (near.engaged != b.engaged[i])
-        b.z[:, i[turned]] += near.dz[:, turned]
-        b.engaged[i[turned]] = near.engaged[turned]
-        on = i[going & ~turned]
-        marched = on[:0]
-        if number < _CHAINS and not forced:
-            self._move(on)
-        elif forced:
-            self._rise(on)
-        elif on.size:
-            parts = [self._climb(few) for few in np.split(on, range(_CHAINED, on.size, _CHAINED))]
-            marched, ended = (np.concatenate(each) for each in zip(*parts, strict=True))
-            going &= ~np.isin(i, ended)
+        once = going & (near.onsets == 1) & (near.releases == 1) & (near.contacts <= 1) & (near.engaged == self.engaged[i])
+        k = np.flatnonzero(once)
+        edges = in_order(near.edges[:, k])
+        edges[1:3] = np.where(np.isnan(edges[1:3]).any(axis=0), edges[0], edges[1:3])
+        if number < 2 or number % 4 == 3:
+            seek = np.isnan(self.orbit[0, i[k]]) | (number > 3)
+            self._newton(i[k[seek]], near.take(k[seek]))
+        proven = self._proven(i[k], edges)
+        out.kind[i[k[proven]]] = ORBIT
+        going[k[proven]] = False
+        k, edges = k[~proven], edges[:, ~proven]
+        self.z[:, i] += near.dz
+        self.engaged[i] = near.engaged
+        if number and k.size:
+            self._move(i[k], edges, number >= _FULL)
         self.active = i[going]
-        self._march(np.setdiff1d(self.active, marched))
 
-    def _proven(self, i) -> np.ndarray:
-        """Which of the strips ``i`` have an orbit, and the period map contracts between the bounding state and that."""
-        proven, k = np.zeros(i.size, bool), np.flatnonzero(self.found[i])
+    def _proven(self, i, edges) -> np.ndarray:
+        """Which of the strips ``i`` have an orbit that is alone in the windows of the ``edges``."""
+        proven, k = np.zeros(i.size, bool), np.flatnonzero(~np.isnan(self.orbit[0, i]))
         if k.size:
-            b = self.bound.take(i[k])
-            proven[k] = contracts(b.s, b.order, *b.ends(b.near, self.orbit.take(i[k])))
-        self.out.kind[i[proven]] = ORBIT
+            orbit = Forced(self.kernel, self.s.take(i[k]), self.orbit[:, i[k]])
+            d, b, a, c = edges[:, k]
+            proven[k] = alone(orbit, (d, c), (b, a), self.rising, AGREE)
+            narrow = proven[k] & (np.abs(edges[[0, 3]][:, k] - orbit.edges[[0, 3]]).max(axis=0) <= _NARROW)
+            proven[k[narrow]] = self._stable(i[k[narrow]])
         return proven
 
     def _stable(self, i) -> np.ndarray:
         """Where the spectral radius of the return map is at most one, as is true of both extremal orbits."""
         good = np.zeros(i.size, bool)
-        for number in range(1, len(SEQUENCES)):
+        for number, sequence in enumerate(ROWS, 1):
             k = np.flatnonzero(self.out.sequence[i] == number)
-            if not k.size:
-                continue
-            s, sequence = self.bound.s.take(i[k]), SEQUENCES[number]
-            edges = self.out.edges[np.array(ROWS[sequence])[:, None], i[k]]
+            s, edges = self.s.take(i[k]), self.out.edges[np.array(ROWS[sequence])[:, None], i[k]]
             matrix = getattr(self.kernel, f"return_map_{sequence}")(*edges, *s.arguments)
             matrix = np.moveaxis(np.broadcast_to(matrix, (s.modes, s.modes, s.size)), -1, 0)
             finite = np.isfinite(matrix).all(axis=(1, 2))
@@ -151,77 +125,80 @@ class _Search:
             good[k] = finite & (radius <= 1 + STABLE)
         return good
 
-    def _move(self, i) -> None:
-        """By a period, or further where an orbit is known."""
-        b = self.bound.take(i)
-        self.bound.z[:, i] += b.sign * b.order.to_z(b.towards(self.orbit.take(i), b.room))
+    def _move(self, i, edges, full: bool) -> None:
+        """To the orbits forced by the windows of the ``edges``, or to the last of a chain of them."""
+        orbit, good = Forced.settled(self.kernel, self.s.take(i), edges, not self.rising)
+        i, orbit = i[good], orbit.take(np.flatnonzero(good))
+        if not i.size:
+            return
+        with np.errstate(all="ignore"):
+            chain, clear = self._chain(i, orbit, full)
+        reached = np.cumprod(clear, axis=0).sum(axis=0)
+        self.ratio[i] = np.where(reached == 0, np.minimum(self.ratio[i] + 1, len(_RATIOS) - 1), self.ratio[i])
+        last = reached * i.size + np.arange(i.size)
+        self.z[:, i], self.engaged[i] = chain.take(last).at(self.s.start[i])
 
-    def _rise(self, i) -> None:
-        """To the end of a chain of forced orbits."""
-        b = self.bound.take(i)
-        near = b.near
-        z, engaged = b.z + near.dz, near.engaged.copy()
-        k = np.flatnonzero((near.onsets == 1) & (near.releases == 1) & (near.contacts <= 1))
-        if k.size:
-            edges = in_order(near.edges[:, k])
-            edges[1:3] = np.where(np.isnan(edges[1:3]), edges[0], edges[1:3])  # no contact
-            risen, held = rise(self.kernel, b.s.take(k), edges)
-            known = np.isfinite(risen).all(axis=0)
-            z[:, k[known]], engaged[k[known]] = risen[:, known], held[known]
-        self.bound.z[:, i], self.bound.engaged[i] = z, engaged
+    def _chain(self, i, orbit: Forced, full: bool):
+        """Orbits forced by windows, strips after strips, that grow from those of ``orbit``, and which links hold between them."""
+        sign = 1.0 if self.rising else -1.0
+        d, _, a, c = orbit.edges
+        # towards the orbit that is known, or past where one has vanished: Newton's step is half as long as the way there
+        way = sign * np.stack((c - self.orbit[3, i], self.orbit[0, i] - d))
+        way = np.where((way > 0).all(axis=0), way, 2 * newton(*linearised(orbit, self.rising)))
+        way[:, ~np.isfinite(way).all(axis=0)] = 0.0
+        room = np.minimum((c - a) / way[0], (c - d) / way.sum(axis=0)) if self.rising else (d + TWO_PI - c) / way.sum(axis=0)
+        rest = _RATIOS[self.ratio[i]] ** np.arange(_WINDOWS if full else _FEW)[:, None]
+        shares = 1 - rest
+        if full:
+            past = np.broadcast_to(np.array(_FARTHER)[:, None], (len(_FARTHER), i.size))
+            shares = np.concatenate((shares, 1 + rest[::-1], past))
+        corrections = _BALANCED if full else 0
+        growth = np.minimum(shares, np.maximum(_ROOM * np.nan_to_num(room), 0.0))[:, None] * way
+        many = np.tile(np.arange(i.size), len(shares))
+        s, first = orbit.s.take(many), (way[0] < way[1])[many]
+        contact = orbit.edges[1:3, many]
+        for corrected in range(corrections + 1):
+            growth = np.maximum.accumulate(np.maximum(growth, 0.0), axis=0)
+            u, v = sign * growth.swapaxes(0, 1).reshape(2, -1)
+            d_1, c_1 = d[many] + v, c[many] - u
+            b_1, a_1 = np.clip(contact, d_1, c_1)
+            guess = np.stack((d_1, b_1, np.clip(a_1, b_1, c_1), c_1))
+            if corrected < corrections:
+                chain, _ = Forced.settled(self.kernel, s, guess, False)
+                contact = chain.edges[1:3]
+                here = balanced(growth.swapaxes(0, 1).reshape(2, -1), *linearised(chain, self.rising), first)
+                growth[1:] = here.reshape(2, -1, i.size).swapaxes(0, 1)[1:]
+        chain, settles = Forced.settled(self.kernel, s, guess, not self.rising)
+        near, far = np.arange(many.size - i.size), np.arange(i.size, many.size)
+        clear = settles[far] & settles[near] & links(chain.take(near), chain.take(far), self.rising)
+        return chain, clear.reshape(-1, i.size)
 
-    def _climb(self, i) -> tuple[np.ndarray, np.ndarray]:
-        """By a chain; returns which strips are marched already, and which have ended."""
-        b = self.bound.take(i)
-        moved, ends, in_part, inside, e, far = climb(self.kernel, b)
-        self.bound.z[:, i] += b.sign * b.order.to_z(moved)
-        clear = ~in_part
-        self.bound.near.put(i[clear], ends.take(np.flatnonzero(clear)))
-        self.bound.beyond[:, i[inside]] = e[:, inside]
-        window = np.where(inside, _apart(ends, far), np.inf)
-        k = np.flatnonzero(window <= _NEAR)
-        near, far, window = ends.take(k), far.take(k), window[k]
-        alone = (window <= _NARROW) | contracts(b.s.take(k), b.order.take(k), *b.ends(near, far))
-        self._newton(i[k], window + _NARROW)
-        k = k[alone & self.found[i[k]] & (_apart(self.orbit.take(i[k]), far) <= window + 2 * _NARROW)]
-        self.out.kind[i[k[self._stable(i[k])]]] = ORBIT
-        return i[clear], i[self.out.kind[i] == ORBIT]
-
-    def _newton(self, i, reach) -> None:
-        """Orbits from the edges that the marches of the strips ``i`` met, no edge further away than ``reach``."""
-        reach = np.broadcast_to(reach, i.shape)
-        met, snaps = self.bound.near.take(i), self.bound.s.snaps[i]
-        edges = in_order(met.edges)
-        usable = np.isfinite(edges[0]) & np.isfinite(edges[3])
-        contact = usable & np.isfinite(edges[1]) & np.isfinite(edges[2])
-        for number, kind in ((1, contact & ~snaps), (2, contact & snaps), (3, usable & ~contact & ~snaps)):
+    def _newton(self, i, met: Period) -> None:
+        """Orbits from the edges that the marches of the strips ``i`` met."""
+        edges, snaps = in_order(met.edges), self.s.snaps[i]
+        contact = np.isfinite(edges[1]) & np.isfinite(edges[2])
+        for number, kind in ((1, contact & ~snaps), (2, contact & snaps), (3, ~contact & ~snaps)):
             k = np.flatnonzero(kind)
             if k.size:
-                self._from(i[k], number, edges[list(ROWS[SEQUENCES[number]])][:, k], reach[k])
+                self._from(i[k], number, edges[list(ROWS[SEQUENCES[number]])][:, k])
 
-    def _from(self, index, number: int, edges, reach) -> None:
-        sequence, s = SEQUENCES[number], self.bound.s.take(index)
-        solved, good = certified(self.kernel, s, sequence, np.maximum.accumulate(edges, axis=0), reach)
+    def _from(self, index, number: int, edges) -> None:
+        sequence, s = SEQUENCES[number], self.s.take(index)
+        solved, good = certified(self.kernel, s, sequence, np.maximum.accumulate(edges, axis=0))
         k = np.flatnonzero(good)
         if not k.size:
             return
-        part = s.take(k)
-        z, engaged = state_at(self.kernel, sequence, part, solved[:, k], part.start)
+        part, solved = s.take(k), solved[:, k]
+        z, engaged = state_at(self.kernel, sequence, part, solved, part.start)
         period = march(self.kernel, part, engaged, z, part.start)
-        ok = agrees(sequence, part, solved[:, k], period)
-        index, k = index[k[ok]], k[ok]
-        self.found[index] = True
-        self.bound.beyond[:, index] = self.bound.order.take(index).to_e(z[:, ok])
+        ok = agrees(sequence, part, solved, period)
+        index, solved = index[k[ok]], solved[:, ok]
         self.out.sequence[index] = number
-        self.out.edges[np.array(ROWS[sequence])[:, None], index] = solved[:, k]
-        self.orbit.put(index, period.take(np.flatnonzero(ok)))
-
-
-def _apart(one: Period, two: Period) -> np.ndarray:
-    """Largest distance between the edges of two marches; infinite where they did not meet the same ones."""
-    one, two = one.edges, two.edges
-    same = np.all(np.isnan(one) == np.isnan(two), axis=0)
-    return np.where(same, np.nan_to_num(np.abs(one - two)).max(axis=0), np.inf)
+        rows = np.array(ROWS[sequence])[:, None]
+        self.out.edges[:, index] = np.nan
+        self.out.edges[rows, index] = solved
+        self.orbit[:, index] = solved[0]
+        self.orbit[rows, index] = solved
 
 
 def agrees(sequence: str, s: ModeStrips, edges, period: Period) -> np.ndarray:

@@ -22,11 +22,8 @@ _MAX_ZONES = 12
 class Period:
     """A period of N points. ``dz``: change of the state (accurate also where it is small), (n, N).
 
-    ``edges``: phase of the last onset, entry, exit and release, NaN where none, (4, N); ``onsets``, ``contacts``,
-    ``releases``: how many. Of onset and release, (2, N): ``slope`` of the gap just before, ``since`` when the zone lasted that
-    the event ends, ``until`` when the one that it begins; ``z_since``: state at the start of the former, (2, n, N).
-    ``smooth_onset``: a gap zone follows that, too. ``letters`` (zones, N) of the zones in turn, -1 where there are no more,
-    and their ``ends`` (zones + 1, N), the start of the first one first. ``lost``: not followed to the end.
+    ``edges``: phase of the first onset, entry, exit and release, NaN where none, (4, N); ``onsets``, ``contacts``,
+    ``releases``: how many. ``lost``: not followed to the end.
     """
 
     engaged_before: np.ndarray
@@ -36,35 +33,11 @@ class Period:
     onsets: np.ndarray
     contacts: np.ndarray
     releases: np.ndarray
-    slope: np.ndarray
-    since: np.ndarray
-    z_since: np.ndarray
-    until: np.ndarray
-    smooth_onset: np.ndarray
-    letters: np.ndarray
-    ends: np.ndarray
     lost: np.ndarray
-
-    @classmethod
-    def blank(cls, n: int, N: int) -> Period:
-        """Records of N points with n times, nothing met."""
-        nan, no = (lambda *shape: np.full((*shape, N), np.nan)), (lambda: np.zeros(N, bool))
-        onsets, contacts, releases = np.zeros((3, N), int)
-        return cls(no(), no(), np.zeros((n, N)), nan(4), onsets, contacts, releases, nan(2), nan(2), np.zeros((2, n, N)), nan(2),
-                   no(), np.full((_MAX_ZONES, N), -1, np.int8), nan(_MAX_ZONES + 1), no())  # fmt: skip
 
     def take(self, index: np.ndarray) -> Period:
         """The records of the points ``index``."""
         return Period(*(getattr(self, name)[..., index] for name in self.__slots__))
-
-    def among(self, index: np.ndarray) -> Period:
-        """The same for an index that ascends and repeats nothing: these records where it is all of them."""
-        return self if index.size == self.lost.size else self.take(index)
-
-    def put(self, index: np.ndarray, other: Period) -> None:
-        """Write the records ``other`` of the points ``index``."""
-        for name in self.__slots__:
-            getattr(self, name)[..., index] = getattr(other, name)
 
     onset, entry, exit, release = (property(lambda self, k=k: self.edges[k]) for k in range(4))
 
@@ -90,30 +63,34 @@ def zone_at(kernel, s: ModeStrips, engaged, z, phase):
     return np.where(engaged, np.where(y < step, CONTACT, ADHESION), FREE), engaged
 
 
-def march(kernel, s: ModeStrips, engaged, z, start) -> Period:
-    """Follow every point from the phase ``start`` (N,) for one turn."""
+def march(kernel, s: ModeStrips, engaged, z, start, length=TWO_PI) -> Period:
+    """Follow every point from the phase ``start`` (N,) for one turn, or for the ``length`` given."""
     n, N = z.shape
-    out = Period.blank(n, N)
-    letter, out.engaged_before[:] = zone_at(kernel, s, engaged, z, start)
-    out.engaged[:], out.ends[0] = out.engaged_before, start
-    index, here, limit, pressure = np.arange(N), s, start + TWO_PI, None
-    for number in range(_MAX_ZONES):
+    letter, engaged_before = zone_at(kernel, s, engaged, z, start)
+    onsets, contacts, releases = np.zeros((3, N), int)
+    out = Period(engaged_before, engaged_before.copy(), np.zeros((n, N)), np.full((4, N), np.nan),
+                 onsets, contacts, releases, np.zeros(N, bool))  # fmt: skip
+    index, here, limit, begin, pressure = np.arange(N), s, start + length, start, None
+    for _ in range(_MAX_ZONES):
         if not index.size:
             break
-        begin, zone_z = out.ends[number, index], z[:, index] + out.dz[:, index]
-        end, following, slope, pressure = _one_zone(kernel, here, index, letter, begin, limit, zone_z, pressure, out)
-        out.letters[number, index], out.ends[number + 1, index] = letter, end
-        _note(out, index, letter, begin, end, zone_z, slope, following)
-        rest = np.flatnonzero((following >= 0) & ~out.lost[index])
-        index, letter, limit = index[rest], following[rest], limit[rest]
+        zone_z = z[:, index] + out.dz[:, index]
+        end, change, following, pressure, lost = one_zone(kernel, here, letter, begin, limit, zone_z, pressure)
+        out.dz[:, index] += change
+        out.lost[index] = lost
+        _note(out, index, letter, end, following)
+        rest = np.flatnonzero((following >= 0) & ~lost)
+        index, letter, limit, begin = index[rest], following[rest], limit[rest], end[rest]
         here, pressure = here.among(rest), pressure[rest]
     out.lost[index] = True
     return out
 
 
-def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, out: Period):
-    """Follow the points ``index`` through the zone they are in; returns its end, the letter of the next (-1: the period is
-    over), the gap's slope at the end, and the pressure with which the next begins."""
+def one_zone(kernel, s: ModeStrips, letter, start, limit, z, pressure):
+    """Follow points through the zone they are in, entered with the ``pressure`` (None or NaN where it follows from the state).
+
+    Returns its end, the change of the state, the letter of the next (-1: at the ``limit``), the pressure with which that begins,
+    and which points were not followed to the end."""
     n, m = z.shape
     contact = letter == CONTACT
     p = np.where(letter == ADHESION, -s.p_0, 0.0)
@@ -138,14 +115,14 @@ def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, o
         f.r[:, apart] = rates(t.m.beta)
     releasable = (letter == ADHESION) & (not s.bare)
     height = np.where(releasable, s.delta_0, np.inf)
-    end, which, slope = first_crossing(f, limit, height)
-    out.lost[index] |= which == LOST
+    end, which = first_crossing(f, limit, height)
+    change = np.empty((n, m))
     if touching.size:
         t, i = s.among(touching), touching
-        out.dz[:, index[i]] += kernel.contact_increment(start[i], end[i], entry, t.m)
+        change[:, i] = kernel.contact_increment(start[i], end[i], entry, t.m)
     if apart.size:
         t, i = s.among(apart), apart
-        out.dz[:, index[i]] += kernel.relaxation_increment(start[i], end[i], z[:, i], p[i], t.m)
+        change[:, i] = kernel.relaxation_increment(start[i], end[i], z[:, i], p[i], t.m)
     snaps = s.snaps
     met = np.where(
         contact, ADHESION, np.where(letter == FREE, np.where(snaps, CONTACT, ADHESION), np.where(which == LOWER, CONTACT, FREE))
@@ -154,24 +131,16 @@ def _one_zone(kernel, s: ModeStrips, index, letter, start, limit, z, pressure, o
     snapped = (letter == FREE) & (following == CONTACT)
     reach = np.divide(s.delta_0, s.m.J_0, out=np.zeros(m), where=snapped)
     pressure = np.where(snapped, -reach, -s.p_0)
-    return end, following, slope, pressure
+    return end, change, following, pressure, which == LOST
 
 
-def _note(out: Period, i, letter, start, end, z, slope, following):
+def _note(out: Period, i, letter, end, following):
     """Write the event that ends a zone of the points ``i`` into the record."""
     onset, release = (letter == FREE) & (following >= 0), following == FREE
     enters, leaves = following == CONTACT, (letter == CONTACT) & (following >= 0)
-    # zones begun by the events before
-    for k, edge in ((0, out.onset), (1, out.release)):
-        after = start == edge[i]
-        out.until[k, i[after]] = end[after]
-    after = start == out.onset[i]
-    out.smooth_onset[i[after]] = letter[after] != CONTACT
-    for k, which in ((0, onset), (1, release)):
-        there = i[which]
-        out.slope[k, there], out.since[k, there], out.z_since[k][:, there] = slope[which], start[which], z[:, which]
     for edge, which in zip(out.edges, (onset, enters, leaves, release), strict=True):
-        edge[i[which]] = end[which]
+        there = i[which]
+        edge[there] = np.where(np.isnan(edge[there]), end[which], edge[there])
     for count, which in ((out.onsets, onset), (out.contacts, enters), (out.releases, release)):
         count[i[which]] += 1
     out.engaged[i[onset]], out.engaged[i[release]] = True, False

@@ -15,21 +15,19 @@ _SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * EPS, 0.1, 4, 0.7
 _CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
 
 
-def certified(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray, reach=np.inf):
-    """Orbits of strips in the regime ``sequence`` from ``edges`` (k, N), no further away than ``reach``; which converged, in
-    order within a period."""
+def certified(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
+    """Orbits of strips in the regime ``sequence`` from ``edges`` (k, N); which converged, in order within a period."""
     with np.errstate(all="ignore"):
-        edges, last, attainable = _newton(kernel, strips, sequence, edges, reach)
+        edges, last, attainable = _newton(kernel, strips, sequence, edges)
     good = last <= _CONVERGED + _ROUNDINGS * np.minimum(attainable, _COARSEST)
     good &= np.all(np.diff(edges, axis=0) >= -ROUNDING, axis=0) & (edges[-1] - edges[0] <= TWO_PI + ROUNDING)
     return edges, good
 
 
-def _newton(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray, reach):
+def _newton(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
     """Edges, kept in order; the last steps; how well rounding lets the edges be known."""
     linearised = getattr(kernel, f"residual_and_jacobian_{sequence}")
-    low, high, N = edges - reach, edges + reach, strips.size
-    edges = edges.copy()
+    edges, N = edges.copy(), strips.size
     last, attainable = np.full(N, np.inf), np.full(N, np.inf)
     active = np.arange(N)
     for iteration in range(_ITERATIONS):
@@ -46,8 +44,7 @@ def _newton(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray, reach)
         # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction
         better = np.isfinite(size) & ((size < 0.5 * last[active]) | (size > _COARSEST))
         moved = active[better]
-        new = np.maximum.accumulate(here[:, better] + step[:, better], axis=0)
-        edges[:, moved] = np.clip(new, low[:, moved], high[:, moved])
+        edges[:, moved] = np.maximum.accumulate(here[:, better] + step[:, better], axis=0)
         last[moved] = size[better]
         # pressures are of the size of the saturated one
         noise = EPS * (s.size_of_lengths + kernel.modulus_ratio(s.m))
