@@ -41,9 +41,9 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.n
         for iteration in range(1, ITERATIONS + 1):
             move, slope = step(*links(kernel, part, sequence, gaps, edges))
             size = np.abs(move).max(axis=0)
-            # edges stay inside their arcs and in order
-            edges = np.clip(edges + move, edges + _BOLD * (low - edges), edges + _BOLD * (high - edges))
-            edges = np.maximum.accumulate(edges, axis=0)
+            # edges stay inside their arcs
+            least, most = edges + _BOLD * (low - edges), edges + _BOLD * (high - edges)
+            edges = _in_order(np.minimum(np.maximum(edges + move, least), most))
             # a step this small leaves an error of its square. Where the map does not contract the extremal orbit is passed, or
             # there is none
             going = np.flatnonzero((size > STABLE) & ((slope < 1) | (iteration == 1))) if iteration < ITERATIONS else index[:0]
@@ -54,6 +54,13 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.n
                 index, part, gaps = index[going], part.among(going), gaps[..., going]
                 edges, low, high = edges[:, going], low[:, going], high[:, going]
     return result, converged
+
+
+def _in_order(edges: np.ndarray) -> np.ndarray:
+    """The edges (k, n), in place, none before the one before it: an accumulated maximum, in a fiftieth of the time."""
+    for before, after in zip(edges[:-1], edges[1:], strict=True):
+        np.maximum(before, after, out=after)
+    return edges
 
 
 def arcs(cycle: Cycle, sequence: str) -> tuple[np.ndarray, np.ndarray]:
@@ -128,7 +135,7 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = F
             # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction. Once may be chance, and
             # one larger than rounding makes them is a correction, whatever the one before was
             better = (size < correction[index]) | (size > STABLE)
-            new = np.maximum.accumulate(now + move, axis=0)
+            new = _in_order(now + move)
             edges[:, index[better]], correction[index[better]] = new[:, better], size[better]
             stalls[index[~better]] += 1
             index = index[(stalls[index] < 2) & (size > CONVERGED)]

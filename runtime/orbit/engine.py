@@ -8,8 +8,9 @@ iterates from infinitely far fall to the least engaged one, and there is no long
 * Always engaged states contract onto one candidate: saturated contact, saturated adhesion, or contact with saturated
   adhesion. If its inequalities hold it is the most engaged orbit; nothing more engaged exists.
   Where it is not, bounds on all orbits (``orbit_bounds``) mostly tell without solving for it.
-* Every other orbit but the free one has an onset phase and is a zero of the onset map's defect ``r``. The first (or last) of
-  them is had from Newton with a proof that it is alone on its side, or else from a search that passes over none (``extremal``).
+* Every other orbit but the free one has an onset phase and is a zero of the onset map's defect ``r``. Most of the first (or last)
+  of them are found by Newton from a rough start, which may find any periodic orbit, or none: what it finds counts only with the
+  certificate of an orbit and the proof that no more extremal one exists. All else is left to ``search``, which passes over none.
 * The free orbit is the least engaged one, where it is admissible: ``D <= -delta_0`` (``D <= 0`` without adhesion).
 
 ``unloading`` asks in the order engaged, first zero, free; ``loading`` in the order free, last zero, engaged.
@@ -17,16 +18,20 @@ iterates from infinitely far fall to the least engaged one, and there is no long
 
 import numpy as np
 
-from .balance import may_cling
-from .certificate import greatest_gap, saturates
-from .extremal import Extremal, extremal, unique
-from .groups import Strips, adhesive_cycle, bare_cycle
-from .orbit_bounds import FAST, least_engaged_bounds, orbit_bounds
-from .regimes import CODE, ZONES
-from .solved import UNDECIDED, Record, Solved, settle
+from .balance import exclude_out_of_reach, may_cling
+from .certificate import attracting, edges_admissible, greatest_gap, saturates, stable
+from .chain import follow, refined
+from .groups import ROUNDING, TWO_PI, Cycle, Strips, adhesive_cycle, bare_cycle
+from .march import Orbit, between
+from .orbit_bounds import FAST, is_extremal, least_engaged_bounds, orbit_bounds
+from .search import isolate_extremal, located
+from .solved import Record, Solved, settle
+from .start import start
 
-#: Strips solved at a time: memory stays bounded. Fewer cost more calls, more leave the cache
+#: strips solved at a time: memory stays bounded. Fewer cost more calls, more leave the cache
 CHUNK = 131072
+#: alpha from which a period moves the foundation by so little that rounding blurs what joins one edge to the next
+FROZEN = 1e6
 
 
 def solve_strips(kernel, strips: Strips, unloading: bool) -> Solved:
@@ -69,8 +74,8 @@ class _Batch:
         if self.unloading:
             rest = self._contact_with_saturated_adhesion(index, partial & bounds.engaged)
             index, cycle, bounds = index[rest], cycle.among(rest), bounds.among(rest)
-        if index.size:  # orbits that are free once per period
-            index = index[self._written(index, extremal(self.kernel, cycle, not self.unloading, bounds))]
+        if index.size:
+            index = self._free_once(index, cycle, bounds)
         if self.unloading:
             self._free(index)
         else:
@@ -93,14 +98,6 @@ class _Batch:
         rest = ~full & ~hold
         return index[rest], clings[rest]
 
-    def _written(self, index, found: Extremal) -> np.ndarray:
-        """Keep what was ``found`` of the strips ``index``; returns which have no such orbit."""
-        self.record.solved.code[index] = found.code
-        for sequence in ZONES:
-            pick = np.flatnonzero(found.certified & (found.code == CODE[sequence]))
-            self.record.orbits(index[pick], sequence, found.orbit.take(pick))
-        return found.code == UNDECIDED
-
     def _without_adhesion(self, index):
         if not index.size:
             return
@@ -111,18 +108,123 @@ class _Batch:
         self.record.constant(index[free], "f", 0.0, 0.0, 0.0, 0.0)
         index = index[~full & ~free]
         if index.size:
-            self.record.solved.searched[index] = True
-            self._written(index, unique(self.kernel, bare_cycle(self.kernel, self.strips.among(index)), "cf"))
+            self.record.orbits(index, "cf", *self._unique(index, "cf"))
 
     def _contact_with_saturated_adhesion(self, index, ask):
         """Solve those to ``ask`` of as strips without adhesion at ``D + p_0``; returns which of all have no such orbit."""
         rest, ask = np.ones(index.size, bool), np.flatnonzero(ask)
         if ask.size:
-            self.record.solved.searched[index[ask]] = True
-            strips = self.strips.among(index[ask])
-            found = unique(self.kernel, bare_cycle(self.kernel, strips), "ac")
+            orbit, certified = self._unique(index[ask], "ac")
             # there is such an orbit without a limit to the gap: one that is not found is not certified, never passed over
-            gap = greatest_gap(self.kernel, strips, found.orbit.a)
-            found.code[found.certified & (gap > strips.delta_0)] = UNDECIDED
-            rest[ask] = self._written(index[ask], found)
+            strips = self.strips.among(index[ask])
+            within = ~certified | (greatest_gap(self.kernel, strips, orbit.a) <= strips.delta_0)
+            self.record.orbits(index[ask], "ac", orbit, certified & within)
+            rest[ask] = ~within
         return np.flatnonzero(rest)
+
+    def _unique(self, index, sequence: str) -> tuple[Orbit, np.ndarray]:
+        """The orbits of bare cycles, and which are certified. Where p does not step the onset map contracts everywhere
+        (``sensitivity``): an orbit that is found is the only one."""
+        self.record.solved.searched[index] = True
+        cycle = bare_cycle(self.kernel, self.strips.among(index))
+        orbit, certified = _followed(self.kernel, cycle, sequence, start(self.kernel, cycle, sequence))
+        rest = np.flatnonzero(~certified)
+        if rest.size:
+            orbit[rest], certified[rest], _ = _isolated(self.kernel, cycle.take(rest), False, orbit.take(rest))
+        return orbit, certified
+
+    def _free_once(self, index, cycle: Cycle, bounds: Orbit):
+        """Orbits that are free once per period: the first (``loading``: last) on the onset arc of every cycle. ``bounds`` on all
+        orbits: of the most engaged state, for ``loading`` of the least engaged one."""
+        kernel, last, s, known = self.kernel, not self.unloading, cycle.strips, Orbit.blank(cycle.size)
+        none, proven = (cycle.half_d <= 0) | np.isinf(bounds.x), np.zeros(cycle.size, bool)
+        # along every orbit w is at least -p_0: a crest that does not come as deep makes no contact
+        touches = s.D + s.p_0 > s.noise()
+        if last:
+            # next to saturated contact a less engaged orbit is rare: ask the search, which sees that first
+            possible = ~none & (s.D - 1 + s.p_0 < kernel.modulus_ratio(s.alpha, s.beta))
+            alone = ~cycle.touched
+        else:
+            hanging = np.flatnonzero(~none & (s.D <= -s.delta_0) & (s.beta > FAST))
+            if hanging.size:
+                none[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
+            possible, alone = ~none, np.ones(cycle.size, bool)
+        for sequence, may_be in (("acaf", ~cycle.direct & touches), ("afc", cycle.direct), ("af", ~cycle.direct & alone)):
+            pick = np.flatnonzero(possible & may_be & np.isnan(known.x))
+            if pick.size:
+                part, limits = cycle.among(pick), bounds.take(pick)
+                orbit, good = _followed(kernel, part, sequence, start(kernel, part, sequence, None if last else limits))
+                pick, part, orbit, limits = pick[good], part.take(good), orbit.take(good), limits.take(good)
+                proven[pick] = is_extremal(kernel, part, orbit, limits, last)
+                known[pick], bounds[pick] = orbit, limits
+                self.record.orbits(index[pick], sequence, orbit, proven[pick])
+        rest = np.flatnonzero(~none & ~proven)
+        if rest.size:
+            cycle = cycle.among(rest)
+            orbit, certified, exists = _isolated(kernel, cycle, last, known.take(rest), bounds.x[rest])
+            for sequence, kind in _kinds(cycle, orbit).items():
+                self.record.orbits(index[rest], sequence, orbit, certified & kind)
+            none[rest] = ~exists
+        return index[none]
+
+
+def _kinds(cycle: Cycle, orbit: Orbit) -> dict[str, np.ndarray]:
+    """Which orbits have which sequence of zones."""
+    contact = ~np.isnan(orbit.b)
+    return {"acaf": contact & ~cycle.direct, "afc": contact & cycle.direct & ~cycle.bare, "cf": cycle.bare, "af": ~contact}
+
+
+def _followed(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[Orbit, np.ndarray]:
+    """Orbits of ``sequence`` that Newton finds from ``edges`` (k, n), and which are certified; x is NaN where none is."""
+    out, certified, bare = Orbit.blank(cycle.size), np.zeros(cycle.size, bool), sequence in ("ac", "cf")
+    found, good = follow(kernel, cycle, sequence, edges)
+    if not bare and sequence != "af":
+        # the links along the chain lose what a period changes to rounding; the start is as good as an orbit
+        frozen = np.flatnonzero(~good & (cycle.strips.alpha > FROZEN))
+        found[:, frozen], good[frozen] = edges[:, frozen], True
+    here = np.flatnonzero(good)
+    # next to a fold or a graze the search knows better
+    orbit, good, _ = refined(kernel, sequence, cycle.among(here), Orbit.of(sequence, found[:, here]))
+    here, orbit = here[good], orbit.take(good)
+    part = cycle.among(here)
+    good = edges_admissible(kernel, part, orbit)
+    if not bare:
+        good &= attracting(kernel, part, orbit)
+    out[here[good]], certified[here[good]] = orbit[good], True
+    return out, certified
+
+
+def _isolated(kernel, cycle: Cycle, last: bool, known: Orbit, limit=np.nan) -> tuple[Orbit, np.ndarray, np.ndarray]:
+    """Orbits by the exhaustive search, which of them are certified, and which exist. ``known``, ``limit``: see
+    ``isolate_extremal``."""
+    exists, orbit, beyond = isolate_extremal(kernel, cycle, last, known, limit)
+    # a bracket without width is the orbit itself
+    pick = np.flatnonzero(exists & (orbit.x < beyond.x))
+    if pick.size:
+        part, left, right = cycle.take(pick), orbit.take(pick), beyond.take(pick)
+        new, inside = _refined_within(kernel, part, between(left, right), left, right, blurred=False)
+        left_out = np.flatnonzero(~inside)
+        if left_out.size:
+            part, left, right = part.take(left_out), left.take(left_out), right.take(left_out)
+            found = located(kernel, part, left, right)
+            # Newton on the boundary equations is rounded less than the march
+            new[left_out], _ = _refined_within(kernel, part, found, left, right, blurred=True)
+        orbit.put(pick, new)
+    return orbit, exists & edges_admissible(kernel, cycle, orbit) & stable(kernel, cycle, orbit), exists
+
+
+def _refined_within(kernel, cycle: Cycle, orbit: Orbit, left: Orbit, right: Orbit, blurred: bool):
+    """Orbits refined where that leads to one with its onset between those of ``left`` and ``right``, where that is.
+    ``blurred``: see ``refined``."""
+    inside = np.zeros(cycle.size, bool)
+    for sequence, kind in _kinds(cycle, orbit).items():
+        here = np.flatnonzero(kind)
+        if here.size:
+            part = cycle.take(here)
+            new, converged, blur = refined(kernel, sequence, part, orbit.take(here), blurred)
+            slack = ROUNDING * TWO_PI + blur
+            good = converged & (new.x >= left.x[here] - slack) & (new.x <= right.x[here] + slack)
+            good[good] = edges_admissible(kernel, part.take(good), new[good])
+            inside[here] = good
+            orbit.put(here[good], new[good])
+    return orbit, inside

@@ -188,18 +188,10 @@ class Event:
 
 def closing(kernel, cycle: Cycle, x, b, a, c):
     """Sum of the increments of z over the period: small when beta is large, and then still exact."""
-    s = cycle.strips
-    r = np.zeros(x.shape)
-    contact = ~np.isnan(b)
-    u_x = kernel.profile(x, s.D)
-    end = x + TWO_PI
-    first_end = np.where(contact, b, c)
-    lead = ~cycle.direct
-    i = np.flatnonzero(lead)
-    r[i] += kernel.relaxation_increment(x[i], first_end[i], u_x[i] + cycle.gap_on[i] + s.p_0[i], s.beta[i])
+    s, contact = cycle.strips, ~np.isnan(b)
+    # a contact that begins at the onset, or ends without adhesion, leaves nothing of the zone beside it
+    r = kernel.relaxation_increment(x, np.where(contact, b, c), kernel.profile(x, s.D) + cycle.gap_on + s.p_0, s.beta)
     i = np.flatnonzero(contact)
     r[i] += kernel.contact_increment(b[i], a[i], cycle.q_on[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.J[i], s.L[i])
-    i = np.flatnonzero(contact & ~cycle.bare)
     r[i] += kernel.relaxation_increment(a[i], c[i], kernel.profile(a[i], s.D[i]) + s.p_0[i], s.beta[i])
-    w_c = kernel.profile(c, s.D) + s.delta_0 + cycle.jump
-    return r + kernel.relaxation_increment(c, end, w_c, s.beta)
+    return r + kernel.relaxation_increment(c, x + TWO_PI, kernel.profile(c, s.D) + s.delta_0 + cycle.jump, s.beta)

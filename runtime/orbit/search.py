@@ -1,6 +1,6 @@
 """The extremal periodic orbit of a cycle, with a proof that no more extremal one was passed over.
 
-The return map of a material point preserves order (see ``solve``), so the onset map T is monotone, and may only jump
+The return map of a material point preserves order (see ``engine``), so the onset map T is monotone, and may only jump
 upward. Hence the most engaged orbit with a free part is the first zero of ``r`` from the left, and the least engaged the
 last one. A zero is skipped by no one: an interval is left behind only when a bound excludes every zero in it.
 

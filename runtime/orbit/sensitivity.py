@@ -42,24 +42,16 @@ def release_margin(kernel, cycle: Cycle, c: np.ndarray) -> np.ndarray:
 def slope_bounds(kernel, cycle: Cycle, left: Orbit, right: Orbit) -> tuple[np.ndarray, np.ndarray]:
     """How fast R can fall and rise at most over [left.x, right.x] (``N - F`` from below and above, as rates >= 0); ``left`` may
     be engaged (then its edges are replaced by the ends of their arcs)."""
-    last_a = cycle.centre + TWO_PI - cycle.half_b
-    last_c = cycle.centre + TWO_PI - cycle.half_c
-    b_left = np.where(np.isnan(left.b) & ~np.isnan(right.b), right.b, left.b)
-    a_left = np.where(left.engaged, last_a, left.a)
-    c_left = np.where(left.engaged, last_c, left.c)
-    longest = np.where(left.engaged & np.isnan(left.b) & np.isnan(right.b), 0.0, contact_length(b_left, a_left))
-    shortest = contact_length(right.b, right.a)
-    F_left, F_right = onset_margin(kernel, cycle, left.x), onset_margin(kernel, cycle, right.x)
-    top = onset_margin(kernel, cycle, cycle.centre)
-    F_min = np.minimum(F_left, F_right)
-    F_max = np.where((left.x < cycle.centre) & (right.x > cycle.centre), top, np.maximum(F_left, F_right))
+    a_left = np.where(left.engaged, cycle.centre + TWO_PI - cycle.half_b, left.a)
+    c_left = np.where(left.engaged, cycle.centre + TWO_PI - cycle.half_c, left.c)
+    longest = contact_length(np.where(np.isnan(left.b), right.b, left.b), a_left)
+    F_min = np.minimum(onset_margin(kernel, cycle, left.x), onset_margin(kernel, cycle, right.x))
+    F_max = onset_margin(kernel, cycle, np.clip(cycle.centre, left.x, right.x))
     M_left = np.where(left.engaged, 0.0, release_margin(kernel, cycle, c_left))
-    M_right = release_margin(kernel, cycle, right.c)
-    middle = cycle.centre + np.pi
-    deepest = release_margin(kernel, cycle, middle)
-    M_max = np.where((right.c < middle) & (c_left > middle), deepest, np.maximum(M_left, M_right))
-    M_min = np.minimum(M_left, M_right)
-    least, most = (_log_gain(cycle, fading(cycle, length), M) for length, M in ((longest, M_max), (shortest, M_min)))
+    M_min = np.minimum(M_left, release_margin(kernel, cycle, right.c))
+    M_max = release_margin(kernel, cycle, np.clip(cycle.centre + np.pi, right.c, c_left))
+    least = _log_gain(cycle, fading(cycle, longest), M_max)
+    most = _log_gain(cycle, fading(cycle, contact_length(right.b, right.a)), M_min)
     fall = -np.minimum(_excess(cycle, F_min, least), _excess(cycle, F_max, least))
     rise = np.maximum(_excess(cycle, F_min, most), _excess(cycle, F_max, most))
     return np.maximum(fall, 0.0), np.maximum(rise, 0.0)

@@ -56,8 +56,9 @@ class Record:
         out.p_mean[index], out.tau_mean[index] = p_mean, tau_mean
         out.contact_fraction[index], out.adhesion_fraction[index] = contact, adhesion
 
-    def orbits(self, index, sequence: str, orbit: Orbit) -> None:
-        """Certified orbits that all have the same sequence of zones."""
+    def orbits(self, index, sequence: str, orbit: Orbit, certified=slice(None)) -> None:
+        """Those of the orbits that are ``certified``, which all have the same sequence of zones."""
+        index, orbit = index[certified], orbit[certified]
         if not index.size:
             return
         out = self.solved
