@@ -12,10 +12,10 @@ import numpy as np
 
 from ..numerics.nested import Stage, sampled
 from ..numerics.quadrature import interior_nodes
+from .branches import Piece
 from .breaks import between_breaks, clinging_ends, first_contact, scan, threshold_width
 from .error_budget import ErrorBudget
 from .interpolation import Intervals, interpolate, means_in, weighed
-from .piece import Piece
 from .strips import LevelBatch
 
 #: accuracy of the look for re-entrant branches, and its nodes at first; intervals narrower than this share of ``h`` are looked at

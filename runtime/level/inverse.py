@@ -16,12 +16,11 @@ from ..numerics.roots import falling_root
 from ..numerics.rounding import LARGEST
 from ..orbit.batch import Batch
 from .averages import Averages, level_means
-from .branches import Branch, branches_of
+from .branches import Branch, Piece, branches_of
 from .breaks import between_breaks, first_contact
 from .effort import CURVE_LIMIT, NO_CURVE
 from .interpolation import Intervals, interpolate
 from .nonadhesive.average import penetrations
-from .piece import Piece
 from .saturated import saturated_level
 from .strips import QUANTITIES, LevelBatch
 
