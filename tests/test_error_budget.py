@@ -14,13 +14,12 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tools"))
 import survey
 
 import hystrip
-from hystrip.level.branches import branches_of, rising
+from hystrip.level.branches import Errors, Piece, branches_of, rising
 from hystrip.level.effort import WorkCounters
 from hystrip.level.error_budget import ErrorBudget
 from hystrip.level.interpolation import Intervals, weighed
 from hystrip.level.inverse import Inverse, _Walk
 from hystrip.level.law import Laws
-from hystrip.level.piece import Errors, Piece
 from hystrip.level.segment import cells_of, segments_of
 from hystrip.level.strips import LevelBatch
 from hystrip.multilevel import Surface, _Solve

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from hystrip.level.averages import Averages
+from hystrip.level.branches import graded
 from hystrip.level.inverse import Inverse
-from hystrip.level.piece import graded
 from hystrip.numerics.chebyshev import coefficients, evaluate, flat_ended, interpolation_errors, lobatto
 from hystrip.numerics.quadrature import by_rules, interior_nodes, mapped, mapped_weights, sum_errors
 

@@ -9,11 +9,10 @@ from scipy.integrate import quad
 
 import hystrip
 from hystrip.level import lower_levels
-from hystrip.level.branches import rising
+from hystrip.level.branches import Errors, Piece, graded, rising
 from hystrip.level.law import Laws, merged
 from hystrip.level.lower_levels import _CANCELLED as CANCELLED
 from hystrip.level.lower_levels import LowerLevelLaws
-from hystrip.level.piece import Errors, Piece, graded
 from hystrip.level.segment import segments_of
 from hystrip.level.strips import LevelBatch
 from hystrip.numerics.chebyshev import coefficients, lobatto

@@ -1,4 +1,8 @@
-"""Branches of a curve that load control follows: where pressure rises with penetration, and is not hidden by other parts.
+"""Pieces of a curve over penetration, and the branches of it that load control follows: where pressure rises with penetration,
+and is not hidden by other parts.
+
+A piece is a Chebyshev series. Whatever a quantity does next to an end, it is smooth and flat in its parameter there, which says
+what it is at the end: the ends are no nodes. They are breaks, and next to one rounding decides which side of it a strip is on.
 
 Unloading follows the largest penetration at which the level carries the pressure: from saturation downwards a part of the curve
 counts only where its pressure lies below everything above it. Loading follows the smallest: from the first contact upwards
@@ -15,10 +19,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..numerics.chebyshev import Series, derivatives
+from ..numerics.chebyshev import Series, derivatives, evaluate
+from ..numerics.gauss import GENTLE, STEEP, graded_share
 from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
-from .piece import Errors, Piece, parameter
 
 if TYPE_CHECKING:
     from .segment import Segment
@@ -26,6 +30,79 @@ if TYPE_CHECKING:
 #: parameters at which turns are looked for: one may hide next to an end, where every piece is flat
 _NEAR = 0.5 ** np.arange(10, 6, -1)
 _TURNS = np.concatenate(([0.0], _NEAR, np.arange(1, 64) / 64, 1 - _NEAR[::-1], [1.0]))
+
+
+def graded(t):
+    """Share of a range of pressure that lies below parameter t: both in [0, 1], flat like t^4 at both ends."""
+    return np.sin(0.5 * np.pi * np.sin(0.5 * np.pi * t) ** 2) ** 2
+
+
+def parameter(share):
+    """t at which ``graded`` is ``share``."""
+    inner = 2 / np.pi * np.arcsin(np.sqrt(share))
+    return 2 / np.pi * np.arcsin(np.sqrt(inner))
+
+
+def share_of(t, inner_low: bool, inner_high: bool):
+    """Share of an interval of D that lies below parameter t, where the curve goes on smoothly beyond either end, or not."""
+    return graded_share(t, *(GENTLE if inner else STEEP for inner in (inner_low, inner_high)))
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Bounds of the errors of quantities, ``bounds`` (k, q), at places ``at`` (k,), ascending; interpolated between.
+
+    Means next to a break are often known a thousand times less well than all others: one bound for a whole piece would be
+    theirs.
+    """
+
+    at: np.ndarray
+    bounds: np.ndarray
+
+    @classmethod
+    def constant(cls, error: np.ndarray) -> Errors:
+        """The same everywhere, (q,)."""
+        return cls(np.zeros(1), error[None])
+
+    @property
+    def most(self) -> np.ndarray:
+        """The largest of each quantity, (q,)."""
+        return self.bounds.max(axis=0)
+
+    def along(self, x: np.ndarray, columns: np.ndarray | int) -> np.ndarray:
+        """Of the sum of some quantities at the places ``x`` (m,), (m,)."""
+        return np.interp(x, self.at, self.bounds[:, np.atleast_1d(columns)].sum(axis=1))
+
+    def plus(self, more: np.ndarray) -> Errors:
+        """Larger by ``more`` (q,)."""
+        return Errors(self.at, self.bounds + more)
+
+    def then(self, other: Errors) -> Errors:
+        """These, then those of what follows."""
+        return Errors(np.concatenate((self.at, other.at)), np.concatenate((self.bounds, other.bounds)))
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Quantities over one interval of D: ``coefficients`` of shape (n + 1, q) in t, and their ``errors`` over t.
+
+    ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end, in another piece.
+    """
+
+    low: float
+    high: float
+    coefficients: np.ndarray
+    errors: Errors
+    inner_low: bool = False
+    inner_high: bool = False
+
+    def penetration(self, t):
+        """D at t."""
+        return self.low + (self.high - self.low) * share_of(t, self.inner_low, self.inner_high)
+
+    def values(self, t) -> np.ndarray:
+        """Quantities at t (m,), shape (m, q)."""
+        return evaluate(self.coefficients, t)
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +190,7 @@ def rising(pieces: Sequence[Piece]) -> list[list[Branch]]:
     if not pieces:
         return []
     pressures = _pressures(pieces)
-    rises = _seen_rising(np.array([piece.coefficients[:, 0] @ _at_turns(len(piece.coefficients)) for piece in pieces]))
+    rises = np.diff([piece.coefficients[:, 0] @ _at_turns(len(piece.coefficients)) for piece in pieces]) > 0
     last = _TURNS.size - 1
     outside = np.zeros((len(pieces), 1), int)
     change = np.diff(rises.astype(int), axis=1, prepend=outside, append=outside)
@@ -129,18 +206,6 @@ def rising(pieces: Sequence[Piece]) -> list[list[Branch]]:
         soft = piece.inner_low and low[k] == 0.0, piece.inner_high and high[k] == 1.0
         parts[which[k]].append(Branch(piece, *(float(v[k]) for v in (low, high, p_low, p_high)), *soft))
     return parts
-
-
-def _seen_rising(p: np.ndarray) -> np.ndarray:
-    """Between which of ``_TURNS`` the pressures ``p`` (pieces, turns) there rise, (pieces, turns - 1)."""
-    steps, last = np.diff(p), _TURNS.size - 1
-    rises = steps > 0
-    # next to the ends rounding tells nothing: there it goes on as before
-    rounded = np.abs(steps) <= 16 * EPS * np.abs(p).max(axis=1, keepdims=True)
-    for inner in range(_NEAR.size, 0, -1):
-        for outer, k in ((inner - 1, inner), (last - inner, last - inner - 1)):
-            rises[:, outer] = np.where(rounded[:, outer], rises[:, k], rises[:, outer])
-    return rises
 
 
 @lru_cache

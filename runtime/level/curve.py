@@ -12,14 +12,15 @@ import numpy as np
 
 from ..numerics.nested import Stage, sampled
 from ..numerics.quadrature import interior_nodes
+from .branches import Piece
 from .breaks import between_breaks, clinging_ends, first_contact, scan, threshold_width
 from .error_budget import ErrorBudget
 from .interpolation import Intervals, interpolate, means_in, weighed
-from .piece import Piece
 from .strips import LevelBatch
 
-#: accuracy of the look for re-entrant branches, and its nodes at first; also intervals narrower than this share of ``h`` get one
-_ROUGH, _NODES, _NARROW = 5e-3, 6, 0.02
+#: accuracy of the look for re-entrant branches, and its nodes at first; intervals narrower than this share of ``h`` are looked at
+#: in two places before
+_ROUGH, _NODES, _NARROW, _APART = 5e-3, 6, 0.1, (0.1, 0.9)
 #: how much more than its error a pressure keeps above what was before, and than what it bends between two nodes, which are the
 #: first ones or twice as many: a parabola keeps within an eighth of that from its chord
 _DOUBT, _BENDS = 2.0, (1.0, 0.25)
@@ -31,15 +32,19 @@ def trace(
     """Pieces of the curve of every column (its ``D`` is not used) up to penetration ``top`` (saturation, or a cut), to
     ``rtol |value| + atol``; and strips evaluated for each, (n,).
 
-    Below the penetration at which the crest lets go, and between breaks that are close, they hold only what unloading at a
-    falling pressure comes to. ``budget``: how much the pressures of every column's law count.
+    Below the penetration at which the crest lets go, and where it falls between breaks that are close, they hold only what
+    unloading at a falling pressure comes to. ``budget``: how much the pressures of every column's law count.
     """
     strips = np.zeros(columns.size, int)
     intervals, crest = smooth_intervals(columns, rtol, atol, top)
     looked = intervals.high <= crest[intervals.column]
     if columns.branch == "unloading":
-        # strips may let go there one after another while the pressure rises, which is no part of a law
-        looked |= intervals.width < _NARROW * columns.level.h
+        # where strips let go one after another while the pressure rises it falls over penetration, which is no part of a law
+        narrow = np.flatnonzero(~looked & (intervals.width < _NARROW * columns.level.h))
+        if narrow.size:
+            D, each = intervals.take(narrow).evenly(np.array(_APART)), intervals.take(np.repeat(narrow, 2))
+            low, high = _rough_means(columns, each, D.ravel(), strips)[0][:, 0].reshape(-1, 2).T
+            looked[narrow] = low > high
     pieces = interpolate(columns, intervals.take(~looked), strips, budget)
     if looked.any():
         least = [[(piece.low, piece.values(piece.errors.at)[:, 0].min()) for piece in row] for row in pieces]
@@ -77,12 +82,8 @@ def reentrant_parts(columns: LevelBatch, intervals: Intervals, strips: np.ndarra
     """The parts of the ``intervals`` that unloading may come to after the least pressure before each, its ceiling, as coarse as
     the ``budget`` allows; ``strips`` (per column) counts the work."""
 
-    def rough(parts: Intervals, D: np.ndarray) -> tuple:
-        atol = (_ROUGH / parts.rtol)[:, None] * parts.atol
-        return means_in(columns, replace(parts, rtol=np.full(parts.size, _ROUGH), atol=atol), D, strips)
-
     def looked(stage: Stage) -> Stage:
-        return sampled([stage], Intervals.evenly, rough)[0]
+        return sampled([stage], Intervals.evenly, lambda parts, D: _rough_means(columns, parts, D, strips))[0]
 
     stage = looked(Stage(intervals, _NODES))
     doubtful = np.isin(np.arange(intervals.size), [k for _, k, *_ in _parts([stage], _BENDS[0])])
@@ -91,6 +92,12 @@ def reentrant_parts(columns: LevelBatch, intervals: Intervals, strips: np.ndarra
     parts = [replace(stages[s].parts.take([k]), **{name: np.array([v]) for name, v in ends.items()}) for s, k, ends, _ in found]
     out = Intervals.joined(parts) if parts else intervals.take([])
     return out if budget is None else weighed(columns, budget, out, [values for *_, values in found])
+
+
+def _rough_means(columns: LevelBatch, intervals: Intervals, D: np.ndarray, strips: np.ndarray) -> tuple:
+    """``means_in`` the intervals, as rough as a look may be."""
+    rough = _ROUGH / intervals.rtol
+    return means_in(columns, replace(intervals, rtol=rough * intervals.rtol, atol=rough[:, None] * intervals.atol), D, strips)
 
 
 def _parts(stages: list[Stage], bends: float) -> list[tuple[int, int, dict, np.ndarray]]:

@@ -16,12 +16,11 @@ from ..numerics.roots import falling_root
 from ..numerics.rounding import LARGEST
 from ..orbit.batch import Batch
 from .averages import Averages, level_means
-from .branches import Branch, branches_of
+from .branches import Branch, Piece, branches_of
 from .breaks import between_breaks, first_contact
 from .effort import CURVE_LIMIT, NO_CURVE
 from .interpolation import Intervals, interpolate
 from .nonadhesive.average import penetrations
-from .piece import Piece
 from .saturated import saturated_level
 from .strips import QUANTITIES, LevelBatch
 
@@ -209,9 +208,7 @@ class _Walk:
         if clings and self.waiting and not (row[-1].p_high >= 0 > row[0].p_low + _DOUBT * row[0].errors.most[0]):
             self.held.append(part)
             return
-        k = _place(row, self.p)
-        doubt = _DOUBT * row[min(max(k, 0) // 2, len(row) - 1)].errors.most[0]
-        least, most = _place(row, self.p - doubt), _place(row, self.p + doubt)
+        least, k, most = (_place(row, self.p, doubts) for doubts in (-_DOUBT, 0.0, _DOUBT))
         joints = range(max(least, 0) // 2 + 1, min((most + 1) // 2 + 1, len(row)))
         certain = least == most or (0 <= least and most < 2 * len(row) - 1 and all(_goes_on(*row[j - 1 : j + 1]) for j in joints))
         if self.goal > self.finest and not certain:
@@ -226,10 +223,11 @@ class _Walk:
             self.waiting = []
 
 
-def _place(row: list[Branch], p: float) -> int:
-    """Where a pressure is among branches: 2 k on number k, one more between that and the next one, -1 below all."""
-    k = sum(part.p_low <= p for part in row) - 1
-    return 2 * k + (k < 0 or p > row[k].p_high)
+def _place(row: list[Branch], p: float, doubts: float) -> int:
+    """Where a pressure, greater by so many errors, is among branches: 2 k on number k, one more between that and the next one, -1
+    below all."""
+    k = sum(part.p_low <= p + doubts * part.errors.most[0] for part in row) - 1
+    return 2 * k + (k < 0 or p + doubts * row[k].errors.most[0] > row[k].p_high)
 
 
 def _goes_on(part: Branch, following: Branch) -> bool:

@@ -15,11 +15,10 @@ from functools import cached_property
 
 import numpy as np
 
-from .branches import branches_of, meets
+from .branches import branches_of, graded, meets, parameter
 from .curve import trace
 from .error_budget import ErrorBudget
 from .inverse import cut_penetration
-from .piece import graded, parameter
 from .segment import SLOTS, Cells, Segment, cells_of, segments_of, slot
 from .strips import LevelBatch
 

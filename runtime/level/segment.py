@@ -11,8 +11,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 
 from ..numerics.chebyshev import Series, clenshaw, coefficients, lobatto
-from .branches import Branch, Inverse
-from .piece import Errors, graded
+from .branches import Branch, Errors, Inverse, graded
 
 #: degree of the polynomials
 _DEGREE = 8
