@@ -15,7 +15,7 @@ import numpy as np
 
 from ..numerics.rounding import EPS
 from .changes import Changes, locate_changes
-from .regime_map import OPENS, by_equation, hides_another, straight
+from .regime_map import OPENS, hides_another, located, straight
 from .strips import LevelBatch
 
 #: penetrations of a scan where regimes follow one another
@@ -61,8 +61,8 @@ def between_breaks(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tu
 
     def equation(changes):
         E = np.stack((changes.low, changes.high), axis=1) - h
-        parent, place = by_equation(columns.at(column[changes.line], changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
-        return parent, place + h, hides_another(*changes.codes[parent].T)
+        place = located(columns.at(column[changes.line], changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
+        return place + h, changes.several | hides_another(*changes.codes.T)
 
     answers = [v.reshape(*D.shape, *v.shape[1:]) for v in probe(np.repeat(np.arange(m), D.shape[1]), D.ravel())]
     changes, *_ = Changes.between(np.arange(m), D, answers)
