@@ -57,7 +57,9 @@ def _bounding(kernel, cycle: Cycle, sequence: str, bounds: Orbit) -> np.ndarray:
 def _standing_still(kernel, cycle: Cycle, sequence: str) -> np.ndarray:
     """The edges at which a foundation that stands still is in balance."""
     if sequence == "af":
-        c = _without_contact(cycle)
+        # about half way between crest and valley the balance without its right side
+        s, pull = cycle.strips, cycle.strips.p_0 - cycle.jump
+        c = np.arccos(np.clip(1 - s.D - s.delta_0 - cycle.jump - 0.5 * pull, -1.0, 1.0))
         return np.array([-_onset(cycle, c), c])
     a = _contact(cycle)
     if sequence in ("ac", "cf"):
@@ -73,13 +75,6 @@ def _release(cycle: Cycle, a):
 
 def _onset(cycle: Cycle, c):
     return np.arccos(np.minimum(np.cos(c) + cycle.jump, 1.0))
-
-
-def _without_contact(cycle: Cycle) -> np.ndarray:
-    """About the phase c where no contact is made: half way between crest and valley the balance without its right side."""
-    s = cycle.strips
-    pull = s.p_0 - cycle.jump
-    return np.arccos(np.clip(1 - s.D - s.delta_0 - cycle.jump - 0.5 * pull, -1.0, 1.0))
 
 
 def _contact(cycle: Cycle) -> np.ndarray:
