@@ -20,13 +20,12 @@ import numpy as np
 
 from .balance import exclude_out_of_reach, may_cling
 from .certificate import attracting, edges_admissible, greatest_gap, saturates, stable
-from .chain import follow, refined
+from .chain import follow, refined, start
 from .groups import ROUNDING, TWO_PI, Cycle, Strips, adhesive_cycle, bare_cycle
 from .march import Orbit, between
 from .orbit_bounds import FAST, is_extremal, least_engaged_bounds, orbit_bounds
 from .search import isolate_extremal, located
 from .solved import Record, Solved, settle
-from .start import start
 
 #: strips solved at a time: memory stays bounded. Fewer cost more calls, more leave the cache
 CHUNK = 131072
