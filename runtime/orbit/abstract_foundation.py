@@ -39,10 +39,7 @@ class Foundation(ABC):
     K: Any
     J: Any
     parameters: tuple
-
-    @property
-    @abstractmethod
-    def longest_time(self): ...
+    longest_time: Any
 
     @property
     @abstractmethod
@@ -107,13 +104,12 @@ class Foundation(ABC):
         ``SolverError`` for a strip that could not be certified."""
         shape, named, adhesion = D.shape, {"l": l, "A": A, "D": D, "V": V}, {"p_0": p_0, "delta_0": delta_0}
         l, A, D, V, p_0, delta_0 = map(once, (l, A, D, V, p_0, delta_0))  # noqa: E741
-        with np.errstate(over="ignore"):  # refused below, by name
+        with np.errstate(over="ignore", invalid="ignore"):  # refused by name
             k = 2 * np.pi / l
             rate = k * V
-            longest = rate * self.longest_time
-        refuse_velocity(V, longest > LARGEST, LARGEST)
-        pace, traction, constitutive = self.pace(rate), p_0 / self.K, edge == "constitutive"
-        refuse_velocity(V, longest * pace > CERTIFIED, CERTIFIED)
+            longest, pace = rate * self.longest_time, self.pace(rate)
+            refuse_velocity(V, (longest > LARGEST) | (longest * pace > CERTIFIED))
+        traction, constitutive = p_0 / self.K, edge == "constitutive"
         flat = is_flat(A, longest, D, traction, delta_0)
         unit = np.where(flat, 1.0, A) if flat.any() else A
         snaps = constitutive & snaps_in(self.J * traction, delta_0)

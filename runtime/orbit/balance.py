@@ -32,6 +32,8 @@ negative: a and c lie between 0 and pi.
 
 import numpy as np
 
+from hystrip.generated.stable import versine
+
 from .groups import ROUNDING, TWO_PI, Cycle, Strips, arc_versine
 
 #: parts into which the onsets are divided, and each part that is not excluded again: without the second and third division ten
@@ -76,7 +78,7 @@ def _held_best(cycle: Cycle):
 
 def balance_bound(kernel, cycle: Cycle, lo, hi):
     """Lower bound of the balance of all orbits with an onset between -hi and -lo, both between 0 and pi."""
-    s, low = cycle.strips, _versine(lo)
+    s, low = cycle.strips, versine(lo)
     noise, out, mean = s.noise(), low - s.D - s.delta_0, s.D - 1 + s.p_0
     # contact, at least: the pressure of complete contact, and what fades of its difference to the one at -t
     t = _contact(cycle, lo, low)
@@ -92,7 +94,7 @@ def balance_bound(kernel, cycle: Cycle, lo, hi):
     holds = (t > 0) & (late > blur)
     held, drop = np.where(holds, e, 0.0), np.where(holds, 1 - cos_e, 0.0)
     # engagement, at most
-    high = _versine(hi) + noise
+    high = versine(hi) + noise
     away = (high - s.D - s.delta_0) * np.expm1(np.maximum(TWO_PI - 2 * lo, 0.0) / s.beta)
     longest = hi + np.minimum(arc_versine(high + cycle.jump + away), np.pi)
     # displacement, at least
@@ -103,20 +105,16 @@ def balance_bound(kernel, cycle: Cycle, lo, hi):
     return np.where(possible, pressed - s.p_0 * longest + apart - TWO_PI * noise, np.inf)
 
 
-def _contact(cycle: Cycle, lo, versine):
-    """Phase t, so that contact begins before -t if the onset is not after -lo, of this ``versine``; 0 where it may not begin, inf
+def _contact(cycle: Cycle, lo, low):
+    """Phase t, so that contact begins before -t if the onset is not after -lo, of versine ``low``; 0 where it may not begin, inf
     where no orbit may have such an onset: its w would be less than -p_0."""
     s = cycle.strips
-    rise = versine - cycle.gap_on - s.noise()
+    rise = low - cycle.gap_on - s.noise()
     lag = np.maximum(s.p_0 + s.D - rise, 0.0)
     t = arc_versine(rise)
     most = arc_versine(rise - lag * np.expm1((t - lo) / s.beta))
     least = -lag * np.expm1(np.minimum(most - lo, 0.0) / s.beta)
     return np.where(lag > 0, arc_versine(rise + least), np.inf)
-
-
-def _versine(phase):
-    return 2 * np.sin(0.5 * phase) ** 2
 
 
 def _sine_cosine(phase):

@@ -20,13 +20,12 @@ import numpy as np
 
 from .balance import exclude_out_of_reach, may_cling
 from .certificate import attracting, edges_admissible, greatest_gap, saturates, stable
-from .chain import follow, refined
+from .chain import follow, refined, start
 from .groups import ROUNDING, TWO_PI, Cycle, Strips, adhesive_cycle, bare_cycle
 from .march import Orbit, between
 from .orbit_bounds import FAST, is_extremal, least_engaged_bounds, orbit_bounds
 from .search import isolate_extremal, located
 from .solved import Record, Solved, settle
-from .start import start
 
 #: strips solved at a time: memory stays bounded. Fewer cost more calls, more leave the cache
 CHUNK = 131072
@@ -138,19 +137,11 @@ class _Batch:
         orbits: of the most engaged state, for ``loading`` of the least engaged one."""
         kernel, last, s, known = self.kernel, not self.unloading, cycle.strips, Orbit.blank(cycle.size)
         none, proven = (cycle.half_d <= 0) | np.isinf(bounds.x), np.zeros(cycle.size, bool)
-        # along every orbit w is at least -p_0: a crest that does not come as deep makes no contact
-        touches = s.D + s.p_0 > s.noise()
-        if last:
-            # next to saturated contact a less engaged orbit is rare: ask the search, which sees that first
-            possible = ~none & (s.D - 1 + s.p_0 < kernel.modulus_ratio(s.alpha, s.beta))
-            alone = ~cycle.touched
-        else:
-            hanging = np.flatnonzero(~none & (s.D <= -s.delta_0) & (s.beta > FAST))
-            if hanging.size:
-                none[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
-            possible, alone = ~none, np.ones(cycle.size, bool)
-        for sequence, may_be in (("acaf", ~cycle.direct & touches), ("afc", cycle.direct), ("af", ~cycle.direct & alone)):
-            pick = np.flatnonzero(possible & may_be & np.isnan(known.x))
+        hanging = np.flatnonzero(~none & (s.D <= -s.delta_0) & (s.beta > FAST) & (not last))
+        if hanging.size:
+            none[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
+        for sequence, may_be in (("acaf", ~cycle.direct), ("afc", cycle.direct), ("af", ~cycle.direct & ~cycle.touched)):
+            pick = np.flatnonzero(~none & may_be & np.isnan(known.x))
             if pick.size:
                 part, limits = cycle.among(pick), bounds.take(pick)
                 orbit, good = _followed(kernel, part, sequence, start(kernel, part, sequence, None if last else limits))

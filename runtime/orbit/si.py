@@ -17,33 +17,24 @@ def is_flat(A, beta, D, p_0_over_K, delta_0):
     return A * (1 + beta) <= _NEGLIGIBLE * (np.abs(D) + p_0_over_K + delta_0)
 
 
-def solve_flat(D, p_0_over_K, delta_0, unloading: bool):
-    """Regime code and mean pressure over K of a flat strip; arrays of shape (n,).
+def solve_with_flat(solve, strips, flat, unloading: bool) -> Solved:
+    """Solve strips of which some are ``flat``, in units of K alone, the others by ``solve(strips, unloading)``.
 
-    Contact carries ``p = K D`` down to ``-p_0``; the gap adheres (``w = -p_0/K``) while it is at most ``delta_0``. Unloading
+    Flat contact carries ``p = K D`` down to ``-p_0``; the gap adheres (``w = -p_0/K``) while it is at most ``delta_0``. Unloading
     holds on as long as it can; loading stays free until the gap of the undeformed surface is ``delta_0``.
     """
-    contact = D >= -p_0_over_K
-    clinging = ~contact & (-p_0_over_K - D <= delta_0)
-    free = ~contact & ~clinging
-    if not unloading:
-        free |= D <= -delta_0
-    code = np.where(free, CODE["f"], np.where(contact, CODE["c"], CODE["a"]))
-    p = np.where(free, 0.0, np.where(contact, D, -p_0_over_K))
-    return code.astype(np.int8), p
-
-
-def solve_with_flat(solve, strips, flat, unloading: bool) -> Solved:
-    """Solve strips of which some are ``flat``, in units of K alone, the others by ``solve(strips, unloading)``."""
     if not flat.any():
         return solve(strips, unloading)
     solved = Solved.empty(strips.size)
     wavy, level = np.flatnonzero(~flat), np.flatnonzero(flat)
     if wavy.size:
         solved.put(wavy, solve(strips.take(wavy), unloading))
-    code, p = solve_flat(strips.D[level], strips.p_0[level], strips.delta_0[level], unloading)
-    solved.code[level], solved.p_mean[level], solved.tau_mean[level] = code, p, 0.0
-    solved.contact_fraction[level], solved.adhesion_fraction[level] = code == CODE["c"], code == CODE["a"]
+    D, p_0, delta_0 = strips.D[level], strips.p_0[level], strips.delta_0[level]
+    free = (D < -p_0) & (-p_0 - D > delta_0) | (D <= -delta_0) & (not unloading)
+    contact, clinging = ~free & (D >= -p_0), ~free & (D < -p_0)
+    solved.code[level] = np.select((free, contact), (CODE["f"], CODE["c"]), CODE["a"])
+    solved.p_mean[level], solved.tau_mean[level] = np.select((free, contact), (0.0, D), -p_0), 0.0
+    solved.contact_fraction[level], solved.adhesion_fraction[level] = contact, clinging
     solved.certified[level] = True
     return solved
 
@@ -59,10 +50,10 @@ def every(values, shape) -> np.ndarray:
     return values if np.shape(values) == shape else np.broadcast_to(values, shape)
 
 
-def refuse_velocity(V, where, most: float) -> None:
+def refuse_velocity(V, where) -> None:
     """``InputError`` with the first of the velocities ``where`` ``k V`` is too large."""
     if np.any(where):
-        allowed = f"k V times the longest retardation time at most {most:g}"
+        allowed = f"k V times the longest retardation time at most {CERTIFIED:g}"
         raise InputError("V", float(np.broadcast_to(V, where.shape)[where][0]), allowed)
 
 

@@ -21,11 +21,7 @@ class SingleTime(Foundation):
 
     def __init__(self, kernel: ModuleType, material: StandardLinearSolid):
         self.kernel, self.material, self.K, self.J = kernel, material, material.K, material.J
-        self.parameters = material.K, material.T_eps, material.T_sigma
-
-    @property
-    def longest_time(self):
-        return self.material.T_eps
+        self.parameters, self.longest_time = (material.K, material.T_eps, material.T_sigma), material.T_eps
 
     @property
     def lossiest_rate(self):

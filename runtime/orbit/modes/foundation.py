@@ -22,11 +22,7 @@ class ManyTimes(Foundation):
         self.kernel, self.material = kernel, material
         if modes is None:
             K, modes = material.K, material.modes if isinstance(material, ModelMaterial) else _of_prony(kernel, material)[1]
-        self.K, self.modes, self.parameters, self.J = K, modes, (K, modes), modes.J_0
-
-    @property
-    def longest_time(self):
-        return self.modes.beta.max(axis=0)
+        self.K, self.modes, self.parameters, self.J, self.longest_time = K, modes, (K, modes), modes.J_0, modes.beta.max(axis=0)
 
     @property
     def lossiest_rate(self):
