@@ -145,7 +145,7 @@ def test_rounding_does_not_decide_which_contacts_pass_a_break_where_all_begin(ca
     begins = np.flatnonzero(np.abs(contact.p_least / WEAK.p_0 + 1) < 1e-10)
     assert begins.size > 3
     law = replace(carry, laws=SimpleNamespace(breaks=np.array([[np.median(contact.p_least[begins])]])))
-    crossed = law.crossed(strips, np.zeros(columns.size, int))[index[begins]]
+    crossed = law.crossed(law.heights(strips, np.zeros(columns.size, int)))[index[begins]]
     assert np.unique(crossed).size == 1
 
 
@@ -175,7 +175,7 @@ def _carried(law, V=2e-3):
 def test_what_a_law_was_cut_below_is_in_the_error():
     """Cut so low that nothing of it is left, a law carries nothing as far as is known."""
     whole = _stepwise(BREAKS[1], 0.0, 6e4)
-    cut = replace(whole, segments=[[]], pull_off=whole.p_sat, p_top=BREAKS[1:2])
+    cut = replace(whole, segments=[[]], pull_off=whole.p_sat, top=BREAKS[1:2])
     one, other = _carried(whole), _carried(cut)
     assert not other[:, 0].any() and (one[:, 0] > 10.0).all()
     assert (one[:, 0] <= 1.001 * other[:, -1]).all()

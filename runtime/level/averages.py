@@ -101,6 +101,13 @@ class Panels(Batch):
     first: np.ndarray
     last: np.ndarray
 
+    @classmethod
+    def between(cls, *ends: tuple[np.ndarray, np.ndarray, np.ndarray]) -> Panels:
+        """Panels from each start to the stop that follows: ``ends`` are states, thetas and strips known beside them, of all
+        starts, then of all stops."""
+        (state, low, first), (_, high, last) = ([v[np.lexsort((each[1], each[0]))] for v in each] for each in ends)
+        return cls(state, low, high, first, last)
+
     @property
     def width(self) -> np.ndarray:
         return self.high - self.low
@@ -135,27 +142,21 @@ class _Work:
     def start(self, state: np.ndarray, theta: np.ndarray, ends: np.ndarray) -> Panels:
         """Panels between the breaks (k,) that are known. Strips are looked at beside those at which an orbit ``ends``, as at the
         crest and next to the valley: of a third regime there may be so few that no node meets them."""
-        n, none = self.rtol.size, np.full(theta.size + self.rtol.size, -1)
-        every, outermost = np.arange(n), np.repeat([0.0, np.pi], n)
-        crest, valley = self._later(every, outermost[:n]), self._later(every, self.valley)
-        before, after = np.concatenate((none, valley)), np.concatenate((none[n:], crest, none[:n]))
-        ends = np.flatnonzero(ends)
+        n, every = self.rtol.size, np.arange(self.rtol.size)
+        # what lies beyond the last strip before the valley does not matter at a column's accuracy
+        share = (np.where(self.atol > 0, self.atol, np.inf) / self.columns.scales).min(axis=1)
+        near_valley = np.pi * (1 - np.clip(_VALLEY * share, _NEAREST, _FARTHEST))
+        crest, valley = self._later(every, np.zeros(n)), self._later(every, near_valley)
+        ends, (before, after) = np.flatnonzero(ends), np.full((2, theta.size), -1)
         before[ends], after[ends] = self._beside(state[ends], theta[ends])
-        state, theta = np.concatenate((state, every, every)), np.concatenate((theta, outermost))
-        order = np.lexsort((theta, state))
-        state, theta, before, after = state[order], theta[order], before[order], after[order]
-        inside = np.flatnonzero((state[1:] == state[:-1]) & (np.diff(theta) > 64 * EPS * np.pi))
-        return Panels(state[inside], theta[inside], theta[inside + 1], after[inside], before[inside + 1])
+        state = np.concatenate((state, every))
+        starts = state, np.concatenate((theta, np.zeros(n))), np.concatenate((after, crest))
+        panels = Panels.between(starts, (state, np.concatenate((theta, np.full(n, np.pi))), np.concatenate((before, valley))))
+        return panels.take(panels.width > 64 * EPS * np.pi)
 
     def zones(self) -> list[Zones]:
         """See ``Averages.zones``."""
         return zones_of(self.strips.size, *(np.concatenate(v) for v in zip(*self.accepted, strict=True)))
-
-    @property
-    def valley(self) -> np.ndarray:
-        """Theta next to the valley of each column: what lies beyond does not matter at its accuracy."""
-        share = (np.where(self.atol > 0, self.atol, np.inf) / self.columns.scales).min(axis=1)
-        return np.pi * (1 - np.clip(_VALLEY * share, _NEAREST, _FARTHEST))
 
     def refine(self, stages: list[Stage]) -> list[Stage]:
         """Sum up what converges under doubling; return what is left, divided where regimes change."""
@@ -288,10 +289,8 @@ class _Work:
         np.add.at(self.errors, state, 0.5 * sliver * np.abs(found.values[:, 1] - found.values[:, 0]))
         # the parts between the brackets, and the outermost ones
         every = np.arange(panels.size)
-        starts, first = np.concatenate((panels.low, found.high)), np.concatenate((panels.first, after))
-        stops, last = np.concatenate((found.low, panels.high)), np.concatenate((before, panels.last))
-        order_start = np.lexsort((starts, np.concatenate((every, found.line))))
-        order_stop = np.lexsort((stops, np.concatenate((found.line, every))))
-        line = np.concatenate((every, found.line))[order_start]
-        parts = Panels(panels.state[line], starts[order_start], stops[order_stop], first[order_start], last[order_stop])
+        starts = (every, found.line), (panels.low, found.high), (panels.first, after)
+        stops = (found.line, every), (found.low, panels.high), (before, panels.last)
+        parts = Panels.between(*([np.concatenate(pair) for pair in ends] for ends in (starts, stops)))
+        parts.state = panels.state[parts.state]
         return parts.take(parts.width > 0)

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..numerics.rounding import EPS
 from .changes import Changes, locate_changes
-from .regime_map import OPENS, hides_another, located, straight
+from .regime_map import hides_another, located, straight
 from .strips import LevelBatch
 
 #: penetrations of a scan where regimes follow one another
@@ -35,17 +35,6 @@ def first_contact(columns: LevelBatch) -> float:
         return -reach
     # w is never above -p_0/K where it adheres, and after a step it recovers by J_0 p_0 <= p_0/K at most
     return -(2 * a.p_0 / columns.material.K + reach) * (1 + 1e-9)
-
-
-def threshold_width(columns: LevelBatch, top):
-    """Distance in D from a threshold below which rounding may decide it the other way."""
-    a = columns.adhesion
-    return 64 * EPS * (columns.level.h + np.abs(top) + 2 * a.p_0 / columns.material.K + a.delta_0)
-
-
-def clinging_ends(columns: LevelBatch) -> np.ndarray:
-    """Penetrations (n,) down to which strips cling by adhesion all along when unloading; NaN: they don't."""
-    return columns.level.h + straight(columns)[1][OPENS]
 
 
 def between_breaks(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tuple[np.ndarray, ...]:

@@ -12,10 +12,12 @@ import numpy as np
 
 from ..numerics.nested import Stage, sampled
 from ..numerics.quadrature import interior_nodes
+from ..numerics.rounding import EPS
 from .branches import Piece
-from .breaks import between_breaks, clinging_ends, first_contact, scan, threshold_width
+from .breaks import between_breaks, first_contact, scan
 from .error_budget import ErrorBudget
 from .interpolation import Intervals, interpolate, means_in, weighed
+from .regime_map import OPENS, straight
 from .strips import LevelBatch
 
 #: accuracy of the look for re-entrant branches, and its nodes at first; intervals narrower than this share of ``h`` are looked at
@@ -67,11 +69,13 @@ def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, to
     So where two breaks all but coincide, as where memory is short and all strips let go at one height of the valley, the curve
     falls, which is no part of a law, or it rises by less than pressure may err. What is that narrow is left out.
     """
-    inside = threshold_width(columns, top)
+    K, h = columns.material.K, columns.level.h
+    # closer to a threshold rounding may decide it the other way
+    inside = 64 * EPS * (h + np.abs(top) + 2 * columns.stretch + columns.adhesion.delta_0)
     column, low, high, crest = between_breaks(columns, np.arange(columns.size), scan(columns, top))
     # down to there strips cling by adhesion all along when unloading
-    start = np.where(np.isfinite(crest), np.fmin(crest, clinging_ends(columns)), first_contact(columns))
-    wide = high - low > np.maximum(2 * inside, atol[:, 0] / columns.material.K)[column]
+    start = np.where(np.isfinite(crest), np.fmin(crest, h + straight(columns)[1][OPENS]), first_contact(columns))
+    wide = high - low > np.maximum(2 * inside, atol[:, 0] / K)[column]
     intervals = Intervals.of(column, low, high, rtol, atol).take(wide & (low >= start[column]))
     # at the top a curve is but cut, or saturates
     intervals.inner_high[:] = intervals.high > (top - 2 * inside)[intervals.column]

@@ -42,7 +42,7 @@ class Laws:
         segments: of each law, in order of rising pressure. pull_off: below it there is no contact, (n,).
         p_sat: pressure of saturated contact, (n,); ``saturated`` are the means there, (n, q) (from there on constant, but for
             pressure).
-        p_top: largest pressure a law is known for (inf, unless it was cut below ``p_sat``), (n,).
+        top: largest pressure a law is known for, to rounding (inf, unless it was cut below ``p_sat``), (n,).
         strips: evaluated for each, (n,). unloading: the branch of loading they follow.
     """
 
@@ -50,7 +50,7 @@ class Laws:
     pull_off: np.ndarray
     p_sat: np.ndarray
     saturated: np.ndarray
-    p_top: np.ndarray
+    top: np.ndarray
     strips: np.ndarray
     unloading: bool
 
@@ -103,11 +103,6 @@ class Laws:
             left, entered = errors[::-1] if self.unloading else errors
             known_to[group, j] = np.where(left > 0, left, entered)
         return jumps, known_to
-
-    @cached_property
-    def top(self) -> np.ndarray:
-        """``p_top`` and what rounding may make of it, (n,)."""
-        return self.p_top + _SAME * np.where(np.isfinite(self.p_top), np.abs(self.p_top), 0.0)
 
     @cached_property
     def _ends(self) -> np.ndarray:
@@ -210,8 +205,9 @@ def build_laws(
     every = iter(segments_of(flat, np.maximum(np.reshape([b.errors.most for b in flat], least.shape), least)))
     segments = [_joined([next(every) for _ in row], end) for row, end in zip(kept, p_full, strict=True)]
     pull_off = np.array([row[0].p_low if row else end for row, end in zip(kept, p_full, strict=True)])
-    p_top = np.array([row[-1].p_high if row and end < np.inf else end for row, end in zip(segments, p_max, strict=True)])
-    return Laws(segments, pull_off, p_full, saturated, p_top, strips, unloading)
+    top = np.array([row[-1].p_high if row and end < np.inf else end for row, end in zip(segments, p_max, strict=True)])
+    top += _SAME * np.where(np.isfinite(top), np.abs(top), 0.0)
+    return Laws(segments, pull_off, p_full, saturated, top, strips, unloading)
 
 
 def merged(laws: Laws, rtol: np.ndarray, atol: np.ndarray) -> Laws:

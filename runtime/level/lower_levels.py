@@ -69,17 +69,6 @@ class LowerLevelLaws:
         """Pressures (m, k), Pa, ascending, at which the laws of each ``group`` are not smooth; inf where there are fewer."""
         return self.laws.breaks[group]
 
-    def crossed(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
-        """Codes (m,) of the law breaks that each strip's pressure passes: how many breaks its greatest exceeds, and how many it
-        exceeds all along (or at entry)."""
-        crossed = np.zeros(group.size, int)
-        index, contact = strips.touching
-        if index.size:
-            breaks = self.laws.breaks[group[index]]
-            top, least = (np.count_nonzero(breaks < p[:, None], axis=1) for p in _extremes(contact))
-            crossed[index] = 1 + top + (breaks.shape[1] + 1) * least
-        return crossed
-
     def heights(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Greatest, then least pressure of each strip over the law's breaks, (m, k), Pa; NaN without contact."""
         out = np.full((group.size, 2 * self.laws.breaks.shape[1]), np.nan)
@@ -88,6 +77,13 @@ class LowerLevelLaws:
             breaks = self.laws.breaks[group[index]]
             out[index] = np.concatenate([p[:, None] - breaks for p in _extremes(contact)], axis=1)
         return out
+
+    @staticmethod
+    def crossed(heights: np.ndarray) -> np.ndarray:
+        """Codes (m,) of the law breaks that each strip's pressure passes, from its ``heights``: how many breaks its greatest
+        exceeds, and how many it exceeds all along (or at entry)."""
+        top, least = (np.count_nonzero(half > 0, axis=1) for half in np.split(heights, 2, axis=1))
+        return np.where(np.isnan(heights[:, 0]), 0, 1 + top + (heights.shape[1] // 2 + 1) * least)
 
     def over_contact(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Contributions averaged over the period, (m, q): the law's quantities from friction on, then their error."""

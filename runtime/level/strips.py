@@ -100,26 +100,22 @@ class LevelBatch:
         """Of the strips at ``theta``: codes (m,), values to average (m, q), greatest and least pressures over the breaks of the
         law below (m, k), NaN without contact, and the edges d, b, a, c (m, 4), NaN where there are none."""
         strips = self.solve(column, theta)
-        s = strips.solved
-        heights = np.empty((theta.size, 0)) if self.carry is None else self.carry.heights(strips, self.group[column])
-        return self._codes(strips, column), self._values(strips, column), heights, np.stack((s.d, s.b, s.a, s.c), axis=1)
+        s, values, (codes, heights) = strips.solved, strips.values, self._codes(strips, column)
+        if self.carry is not None:
+            values = np.concatenate((values, self.carry.over_contact(strips, self.group[column])), axis=1)
+        return codes, values, heights, np.stack((s.d, s.b, s.a, s.c), axis=1)
 
     def codes(self, column: np.ndarray, theta: np.ndarray) -> np.ndarray:
         """Codes that change wherever the integrand may not be smooth, (m,): the regime, and the breaks of the law below that are
         passed."""
-        return self._codes(self.solve(column, theta), column)
+        return self._codes(self.solve(column, theta), column)[0]
 
-    def _values(self, strips: SolvedStrips, column):
-        if self.carry is None:
-            return strips.values
-        carried = self.carry.over_contact(strips, self.group[column])
-        return np.concatenate((strips.values, carried), axis=1)
-
-    def _codes(self, strips: SolvedStrips, column):
+    def _codes(self, strips: SolvedStrips, column) -> tuple[np.ndarray, np.ndarray]:
         codes = strips.solved.code.astype(int)
         if self.carry is None:
-            return codes
-        return codes + len(CODE) * self.carry.crossed(strips, self.group[column])
+            return codes, np.empty((codes.size, 0))
+        heights = self.carry.heights(strips, self.group[column])
+        return codes + len(CODE) * self.carry.crossed(heights), heights
 
     @property
     def frictions(self) -> np.ndarray:
