@@ -88,21 +88,18 @@ class _Search:
         k = np.flatnonzero(once)
         edges = in_order(near.edges[:, k])
         edges[1:3] = np.where(np.isnan(edges[1:3]).any(axis=0), edges[0], edges[1:3])
-        if number < 2 or number % 4 == 3:
+        if number < 4 or number % 4 == 3:
             seek = np.isnan(self.orbit[0, i[k]]) | (number > 3)
             self._newton(i[k[seek]], near.take(k[seek]))
-        proven = self._proven(i[k], edges)
-        out.kind[i[k[proven]]] = ORBIT
-        going[k[proven]] = False
-        k, edges = k[~proven], edges[:, ~proven]
         self.z[:, i] += near.dz
         self.engaged[i] = near.engaged
-        if number and k.size:
-            self._move(i[k], edges, number >= _FULL)
-        self.active = i[going]
+        left = np.flatnonzero(~self._proven(i[k], edges))
+        if number and left.size:
+            self._move(i[k[left]], edges[:, left], number >= _FULL)
+        self.active = i[going & (out.kind[i] != ORBIT)]
 
     def _proven(self, i, edges) -> np.ndarray:
-        """Which of the strips ``i`` have an orbit that is alone in the windows of the ``edges``."""
+        """Which of the strips ``i`` have an orbit that is alone in the windows of the ``edges``, and is the first one."""
         proven, k = np.zeros(i.size, bool), np.flatnonzero(~np.isnan(self.orbit[0, i]))
         if k.size:
             orbit = Forced(self.kernel, self.s.take(i[k]), self.orbit[:, i[k]])
@@ -110,6 +107,7 @@ class _Search:
             proven[k] = alone(orbit, (d, c), (b, a), self.rising, AGREE)
             narrow = proven[k] & (np.abs(edges[[0, 3]][:, k] - orbit.edges[[0, 3]]).max(axis=0) <= _NARROW)
             proven[k[narrow]] = self._stable(i[k[narrow]])
+            self.out.kind[i[proven]] = ORBIT
         return proven
 
     def _stable(self, i) -> np.ndarray:
@@ -135,8 +133,9 @@ class _Search:
             chain, clear = self._chain(i, orbit, full)
         reached = np.cumprod(clear, axis=0).sum(axis=0)
         self.ratio[i] = np.where(reached == 0, np.minimum(self.ratio[i] + 1, len(_RATIOS) - 1), self.ratio[i])
-        last = reached * i.size + np.arange(i.size)
-        self.z[:, i], self.engaged[i] = chain.take(last).at(self.s.start[i])
+        last = chain.take(reached * i.size + np.arange(i.size))
+        self.z[:, i], self.engaged[i] = last.at(self.s.start[i])
+        self._proven(i, last.edges)
 
     def _chain(self, i, orbit: Forced, full: bool):
         """Orbits forced by windows, strips after strips, that grow from those of ``orbit``, and which links hold between them."""

@@ -23,6 +23,9 @@ upper orbit touches, and as in a gap elsewhere, which keeps more in every entry.
 the lower orbit. All are sums of decaying modes, bounded over ranges of phases: r >= 0, (2, 2), is what y gains at c and d per
 growth at either (``responses``).
 
+From d - v on the lower orbit has ``w >= u``: the upper one, free there, is higher by its gap y at most, a known curve, and
+deviations fade no less than in contact. Where contact follows the onset closely that is the better bound (``apart``).
+
 *Alone* (``alone``). Let all orbits be free in [c_0, d_0], and the orbit in [c, d], which is larger. Let the first orbit be
 free from c + u to d - v. At c + u the orbit, had it stayed engaged, would be beyond the release by s_c u at least, where s_c
 bounds the chords of a known curve; the other is not beyond it. So ``s_c u <= r_cc u + r_cd v``, likewise at d. If the
@@ -211,12 +214,13 @@ def sine_range(low, high):
     return np.where(holds(-0.5 * np.pi), -1.0, np.minimum(*ends)), np.where(holds(0.5 * np.pi), 1.0, np.maximum(*ends))
 
 
-def responses(kernel, s: ModeStrips, contact, c, d, forcing, upper: bool, moved=None):
+def responses(kernel, s: ModeStrips, contact, c, d, forcing, upper: bool, moved=None, apart=None):
     """Bounds (2, 2, N) of what y gains at release and onset, per growth of the window at either, by steps of w of heights
     ``forcing``.
 
     ``contact``: its first and last phase; ``c``, ``d``: ranges of the edges. ``moved``: where the contact moves with the
-    onset, the least and greatest time between them, and what w gains where it begins."""
+    onset, the least and greatest time between them, and what w gains where it begins. ``apart``: by how much w is higher
+    at most, on average, where the window grew at its onset."""
     (b, a), (c_1, c_2), (d_1, d_2), n = contact, c, d, s.modes
     rate, kicks = rates(s.m.beta), s.m.J * rates(s.m.beta) / s.m.J_0
     back = np.stack([kernel.dashpots(np.eye(n)[:, j, None], 0.0, s.m) for j in range(n)], axis=1)
@@ -234,6 +238,8 @@ def responses(kernel, s: ModeStrips, contact, c, d, forcing, upper: bool, moved=
         forcing[0] * sums(back, kicks, b + TWO_PI - c_2, b + shift + TWO_PI - c_1),
         forcing[1] * sums(back, kicks, soonest, latest),
     ]
+    if apart is not None:
+        columns[1] = np.minimum(columns[1], apart * sums(back, kicks, soonest, soonest))
     if moved is not None:
         columns[1] = np.maximum(columns[1] + at_contact * np.einsum("ij...,j...->i...", back, kicks), 0.0)
     # what a period forgets: small where foundations are slow, so it is added up by itself
@@ -263,8 +269,8 @@ def alone(orbit: Forced, window, contact, rising: bool, agree: float) -> np.ndar
     with np.errstate(all="ignore"):
         if rising:
             steep_c, steep_d = orbit.adhering(c_0)[0], -orbit.falling(d_0)[1]
-            highest = s.delta_0 - orbit.falling(d_0)[0] * (d - d_0)
-            contact = b, a
+            apart = s.delta_0 - 0.5 * orbit.falling(d_0)[0] * (d - d_0)
+            contact, highest = (b, a), s.step
             c_range, d_range = (c, c_0), (d_0, d)
         else:
             z_b = orbit.states[3]
@@ -285,11 +291,12 @@ def alone(orbit: Forced, window, contact, rising: bool, agree: float) -> np.ndar
             steep_d = -orbit.falling(q)[1]
             steep_d = np.where(closes, np.minimum(steep_d, (s.delta_0 + s.m.J_0 * rise * (d_0 - q)) / (d_0 - d)), steep_d)
             good &= orbit.pressed(c, q + TWO_PI, d_0 + TWO_PI, orbit.states[1]) >= 0
+            apart = None
             highest = np.where(excess(d_0)[0] >= excess(d)[0], s.delta_0, np.inf)
             c_range, d_range = (c_0, c), (d, d_0)
             good &= (d_0 <= contact[0] + agree) & (contact[1] <= c_0 + agree)
         forcing = s.step, np.where(s.snaps, np.minimum(s.step, highest), s.step)
-        r = responses(kernel, s, contact, c_range, d_range, forcing, True)
+        r = responses(kernel, s, contact, c_range, d_range, forcing, True, apart=apart)
         on, off = steep_d - r[1, 1], steep_c - r[0, 0]
         return good & (on > 0) & (off > 0) & (on * off > r[0, 1] * r[1, 0])
 
