@@ -13,7 +13,7 @@ import numpy as np
 from ..regimes import CODE
 from ..solved import Record, Solved, orbit_of, settle
 from .engaged import engaged
-from .extremal import ENGAGED, FREE, ORBIT, ROWS, extremal, highest_state, lowest_state
+from .extremal import ENGAGED, FREE, ORBIT, ROWS, Search, highest_state, lowest_state
 from .polish import arguments
 from .problem import ModeStrips
 
@@ -61,7 +61,7 @@ class _Batch:
         """Strips ``index`` from the states ``z`` beyond all orbits; ``ask``: the engaged orbit is not known yet."""
         if not index.size:
             return
-        found = extremal(self.kernel, self.strips.take(index), z, engaged, self.unloading, not ask)
+        found = Search(self.kernel, self.strips.take(index), z, engaged, self.unloading, not ask).run()
         self.solved.code[index] = CODE["acaf"]
         self.solved.searched[index] = True
         self._free(index[found.kind == FREE])

@@ -64,24 +64,25 @@ class Forced:
     """Periodic orbits of N strips forced by ``edges`` d, b, a, c (4, N), without contact b = a: free from c to d, in contact from
     b to a, and else in adhesion. ``states`` at a, c, d, b (n, N)."""
 
-    def __init__(self, kernel, s: ModeStrips, edges: np.ndarray):
+    def __init__(self, kernel, s: ModeStrips, edges: np.ndarray, states=None):
         self.kernel, self.s, self.edges = kernel, s, edges
-        (d, b, a, c), m, none = edges, s.m, np.zeros((s.modes, 1))
+        self.states = self._periodic() if states is None else states
+
+    def _periodic(self):
+        (d, b, a, c), kernel, s, m, none = self.edges, self.kernel, self.s, self.s.m, np.zeros((self.s.modes, 1))
         lost, driven = kernel.contact_map(b, a, kernel.profile(b, s.D) / m.J_0, m)
         # a contact that is entered with any state: the pressure there follows from it
         creep = [kernel.contact_increment(b, a, kernel.overstress(none, p, m), m) for p in (1.0, 0.0)]
         contact = lost + (creep[0] - creep[1])[:, None] / m.J_0, driven
         maps = (kernel.relaxation_map(a, c, -s.p_0, m), kernel.relaxation_map(c, d + TWO_PI, 0.0, m),
                 kernel.relaxation_map(d, b, -s.p_0, m), contact)  # fmt: skip
-        self.states = [solved_modes(*over_period(maps))]
+        states = [solved_modes(*over_period(maps))]
         for lost, driven in maps[:-1]:
-            self.states.append(self.states[-1] + driven - lost * self.states[-1])
+            states.append(states[-1] + driven - lost * states[-1])
+        return np.stack(states)
 
     def take(self, index) -> Forced:
-        part = object.__new__(Forced)
-        part.kernel, part.s, part.edges = self.kernel, self.s.take(index), self.edges[:, index]
-        part.states = [z[:, index] for z in self.states]
-        return part
+        return Forced(self.kernel, self.s.take(index), self.edges[:, index], self.states[..., index])
 
     @classmethod
     def settled(cls, kernel, s: ModeStrips, edges: np.ndarray, exactly: bool = True):
@@ -89,29 +90,18 @@ class Forced:
         those of one turn, bounds from below.
 
         The window that is returned ends with the contact that holds at its start, and where its gap closes."""
-        left, edges, good = np.arange(s.size), edges.copy(), np.zeros(s.size, bool)
-        states = np.full((4, s.modes, s.size), np.nan)
-        wide = edges[[0, 3]].copy()
-        for _ in range(_SETTLING):
-            orbit = cls(kernel, s.take(left), edges[:, left])
-            states[..., left] = orbit.states
-            known = np.isfinite(orbit.states).all(axis=(0, 1))
-            left, orbit = left[known], orbit.take(np.flatnonzero(known))
+        found, left, good = cls(kernel, s, edges.copy()), np.arange(s.size), np.zeros(s.size, bool)
+        for _ in range(_SETTLING if exactly else 1):
+            left = left[np.isfinite(found.states[..., left]).all(axis=(0, 1))]
             if not left.size:
                 break
-            after, followed = orbit.turned(wide[:, left], exactly)
-            moved = np.abs(after - orbit.edges).max(axis=0)
-            good[left] = followed & (moved <= _SETTLED)
-            edges[:, left] = np.where(good[left], orbit.edges, after)
-            left = left[~good[left]]
-            if not exactly:
-                orbit = cls(kernel, s.take(left), edges[:, left])
-                states[..., left] = orbit.states
-                good[left] = np.isfinite(orbit.states).all(axis=(0, 1))
-                break
-        found = object.__new__(cls)
-        found.kernel, found.s, found.edges, found.states = kernel, s, edges, list(states)
-        return found, good
+            here = found.take(left)
+            after, followed = here.turned(edges[[0, 3]][:, left], exactly)
+            good[left] = followed & (np.abs(after - here.edges).max(axis=0) <= _SETTLED)
+            left, after = left[~good[left]], after[:, ~good[left]]
+            found.edges[:, left] = after
+            found.states[..., left] = cls(kernel, s.take(left), after).states
+        return found, good if exactly else np.isfinite(found.states).all(axis=(0, 1))
 
     def turned(self, wide, exactly: bool):
         """Edges of a turn that starts from the orbit at the onset, in the window ``wide`` (d, c); and whether it was followed.
