@@ -38,8 +38,8 @@ def test_contact_all_along_but_for_a_thousandth_of_the_period(seed, place, branc
 
 @pytest.mark.parametrize("materials", [1000, 60, 40])
 def test_an_orbit_beyond_one_that_windows_once_passed(materials):
-    """Adhesion over 1e-4 of the amplitude, on foundations that forget within a period or in 1e5 of them: an earlier proof by windows
-    took an orbit for the first from above that was not."""
+    """Adhesion over 1e-4 of the amplitude, on foundations that forget within a period or in 1e5 of them: an earlier proof by
+    windows took an orbit for the first from above that was not."""
     rng = np.random.default_rng((77, 8, True))
     scenes = [ms.draw(rng, 8, True) for _ in range(796)]
     scene = scenes[795] | {name: scenes[795 % materials][name] for name in ("m", "theta")}

@@ -15,8 +15,6 @@ from .polish import certified
 from .problem import ModeStrips
 from .windows import Forced
 
-_STEPS = 80
-
 
 def engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
     """The same orbits by Newton's method on their edges, from those (4, N) that marches ``met`` or else those of the period map's

@@ -14,7 +14,7 @@ from ..march import Orbit
 from ..regimes import CODE
 from ..solved import Record, Solved, settle
 from .engaged import engaged
-from .extremal import ENGAGED, FREE, ORBIT, ROWS, extremal, highest_state, lowest_state
+from .extremal import ENGAGED, FREE, ORBIT, ROWS, Search, highest_state, lowest_state
 from .problem import ModeStrips
 
 #: strips solved at a time: what a call of NumPy costs is shared by more of them than 2,048 (2 to 3 times faster with two times),
@@ -61,7 +61,7 @@ class _Batch:
         """Strips ``index`` from the states ``z`` beyond all orbits; ``ask``: the engaged orbit is not known yet."""
         if not index.size:
             return
-        found = extremal(self.kernel, self.strips.take(index), z, engaged, self.unloading, not ask)
+        found = Search(self.kernel, self.strips.take(index), z, engaged, self.unloading, not ask).run()
         self.solved.code[index] = CODE["acaf"]
         self.solved.searched[index] = True
         self._free(index[found.kind == FREE])

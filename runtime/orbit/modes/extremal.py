@@ -1,7 +1,5 @@
 """Extremal orbits by Newton's method on their edges, proven by the windows that bound those of all orbits (``windows``)."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..certificate import STABLE
@@ -31,16 +29,6 @@ SEQUENCES = ("", "acaf", "afc", "af")
 ENGAGED, FREE, ORBIT, UNRESOLVED = 0, 1, 2, -1
 
 
-@dataclass(slots=True)
-class Extremal:
-    """Outcome for N strips: ``kind`` (ENGAGED, FREE, ORBIT, UNRESOLVED); orbits by ``edges`` (4, N) in the order d, b, a, c, of
-    the regime ``sequence`` (place in ``SEQUENCES``), or the edges of marches that were engaged all along."""
-
-    kind: np.ndarray
-    edges: np.ndarray
-    sequence: np.ndarray
-
-
 def lowest_state(kernel, s: ModeStrips) -> np.ndarray:
     """State below every orbit: displacements are nowhere below the profile, nor below ``-p_0``."""
     e = kernel.profile(s.start, s.D) - s.m.S * kernel.saturated_overstress(s.start, s.m)
@@ -52,72 +40,70 @@ def highest_state(kernel, s: ModeStrips) -> np.ndarray:
     return s.m.share.sum(axis=1) * np.maximum(s.D, 0.0)
 
 
-def extremal(kernel, s: ModeStrips, z, engaged, rising: bool, released: bool) -> Extremal:
-    """The first orbit above (``rising``) or below the states ``z`` (n, N); ``released``: none is engaged
-    all along."""
-    search = _Search(kernel, s, z.copy(), engaged.copy(), rising)
-    for step in range(_STEPS):
-        if not search.active.size:
-            break
-        search.step(step, rising and not released)
-    return search.out
+class Search:
+    """Search for the first orbits above (``rising``) or below the states ``z`` (n, N), with their ``kind`` (ENGAGED, FREE, ORBIT,
+    UNRESOLVED), ``edges`` (4, N) in the order d, b, a, c, those that are missing like d, and regime ``sequence`` (place in
+    ``SEQUENCES``); or the edges of marches that were engaged all along, unless those are ``released``.
 
+    ``z``, ``engaged``: states at the start that bound all orbits; ``edges``: also of orbits that may not be the first."""
 
-class _Search:
-    """``z``, ``engaged``: states at the start that bound all orbits of N strips; ``found``: where an orbit is known."""
-
-    def __init__(self, kernel, s: ModeStrips, z, engaged, rising: bool):
+    def __init__(self, kernel, s: ModeStrips, z, engaged, rising: bool, released: bool):
         self.kernel, self.s, self.rising, self.active = kernel, s, rising, np.arange(s.size)
-        self.z, self.engaged = z, engaged
-        self.out = Extremal(np.full(s.size, UNRESOLVED), np.full((4, s.size), np.nan), np.zeros(s.size, int))
-        self.orbit = np.full((4, s.size), np.nan)
-        self.ratio = np.zeros(s.size, int)
+        self.z, self.engaged, self.ends_held = z, engaged, not (rising and released)
+        self.kind, self.edges = np.full(s.size, UNRESOLVED), np.full((4, s.size), np.nan)
+        self.sequence, self.ratio = np.zeros((2, s.size), int)
 
-    def step(self, number: int, ends_held: bool) -> None:
+    def run(self):
+        """The search at its end."""
+        for step in range(_STEPS):
+            if not self.active.size:
+                break
+            self.step(step)
+        return self
+
+    def step(self, number: int) -> None:
         """March from the bounding states, decide what that decides, and move the others."""
-        i, out = self.active, self.out
+        i = self.active
         s = self.s.take(i)
         near = march(self.kernel, s, self.engaged[i], self.z[:, i], s.start)
         # from above: nothing but engaged orbits; from below: to be seen from the engaged orbit
-        held = near.never_free & (ends_held | (not self.rising))
+        held = near.never_free & self.ends_held
         lets = near.never_engaged & self.rising & (s.D <= -s.delta_0)
-        out.kind[i[held]], out.kind[i[lets]] = ENGAGED, FREE
-        out.edges[:, i[held]] = near.edges[:, held]
+        self.kind[i[held]], self.kind[i[lets]] = ENGAGED, FREE
+        self.edges[:, i[held]] = near.edges[:, held]
         going = ~(held | lets | near.lost)
         once = going & (near.onsets == 1) & (near.releases == 1) & (near.contacts <= 1) & (near.engaged == self.engaged[i])
         k = np.flatnonzero(once)
         edges = in_order(near.edges[:, k])
         edges[1:3] = np.where(np.isnan(edges[1:3]).any(axis=0), edges[0], edges[1:3])
-        if number < 2 or number % 4 == 3:
-            seek = np.isnan(self.orbit[0, i[k]]) | (number > 3)
+        if number < 4 or number % 4 == 3:
+            seek = np.isnan(self.edges[0, i[k]]) | (number > 3)
             self._newton(i[k[seek]], near.take(k[seek]))
-        proven = self._proven(i[k], edges)
-        out.kind[i[k[proven]]] = ORBIT
-        going[k[proven]] = False
-        k, edges = k[~proven], edges[:, ~proven]
         self.z[:, i] += near.dz
         self.engaged[i] = near.engaged
-        if number and k.size:
-            self._move(i[k], edges, number >= _FULL)
-        self.active = i[going]
+        left = np.flatnonzero(~self._proven(i[k], edges))
+        if number and left.size:
+            self._move(i[k[left]], edges[:, left], number >= _FULL)
+        self.active = i[going & (self.kind[i] != ORBIT)]
 
     def _proven(self, i, edges) -> np.ndarray:
-        """Which of the strips ``i`` have an orbit that is alone in the windows of the ``edges``."""
-        proven, k = np.zeros(i.size, bool), np.flatnonzero(~np.isnan(self.orbit[0, i]))
+        """Which of the strips ``i`` have an orbit that is alone in the windows of the ``edges``, and is the first one."""
+        proven, k = np.zeros(i.size, bool), np.flatnonzero(~np.isnan(self.edges[0, i]))
         if k.size:
-            orbit = Forced(self.kernel, self.s.take(i[k]), self.orbit[:, i[k]])
+            orbit = Forced(self.kernel, self.s.take(i[k]), self.edges[:, i[k]])
             d, b, a, c = edges[:, k]
             proven[k] = alone(orbit, (d, c), (b, a), self.rising, AGREE)
             narrow = proven[k] & (np.abs(edges[[0, 3]][:, k] - orbit.edges[[0, 3]]).max(axis=0) <= _NARROW)
             proven[k[narrow]] = self._stable(i[k[narrow]])
+            self.kind[i[proven]] = ORBIT
         return proven
 
     def _stable(self, i) -> np.ndarray:
         """Where the spectral radius of the return map is at most one, as is true of both extremal orbits."""
         good = np.zeros(i.size, bool)
         for number, sequence in enumerate(ROWS, 1):
-            k = np.flatnonzero(self.out.sequence[i] == number)
-            s, edges = self.s.take(i[k]), self.out.edges[np.array(ROWS[sequence])[:, None], i[k]]
+            k = np.flatnonzero(self.sequence[i] == number)
+            s, edges = self.s.take(i[k]), self.edges[np.array(ROWS[sequence])[:, None], i[k]]
             matrix = getattr(self.kernel, f"return_map_{sequence}")(*edges, *s.arguments)
             matrix = np.moveaxis(np.broadcast_to(matrix, (s.modes, s.modes, s.size)), -1, 0)
             finite = np.isfinite(matrix).all(axis=(1, 2))
@@ -135,15 +121,16 @@ class _Search:
             chain, clear = self._chain(i, orbit, full)
         reached = np.cumprod(clear, axis=0).sum(axis=0)
         self.ratio[i] = np.where(reached == 0, np.minimum(self.ratio[i] + 1, len(_RATIOS) - 1), self.ratio[i])
-        last = reached * i.size + np.arange(i.size)
-        self.z[:, i], self.engaged[i] = chain.take(last).at(self.s.start[i])
+        last = chain.take(reached * i.size + np.arange(i.size))
+        self.z[:, i], self.engaged[i] = last.at(self.s.start[i])
+        self._proven(i, last.edges)
 
     def _chain(self, i, orbit: Forced, full: bool):
         """Orbits forced by windows, strips after strips, that grow from those of ``orbit``, and which links hold between them."""
         sign = 1.0 if self.rising else -1.0
         d, _, a, c = orbit.edges
         # towards the orbit that is known, or past where one has vanished: Newton's step is half as long as the way there
-        way = sign * np.stack((c - self.orbit[3, i], self.orbit[0, i] - d))
+        way = sign * np.stack((c - self.edges[3, i], self.edges[0, i] - d))
         way = np.where((way > 0).all(axis=0), way, 2 * newton(*linearised(orbit, self.rising)))
         way[:, ~np.isfinite(way).all(axis=0)] = 0.0
         room = np.minimum((c - a) / way[0], (c - d) / way.sum(axis=0)) if self.rising else (d + TWO_PI - c) / way.sum(axis=0)
@@ -193,12 +180,9 @@ class _Search:
         period = march(self.kernel, part, engaged, z, part.start)
         ok = agrees(sequence, part, solved, period)
         index, solved = index[k[ok]], solved[:, ok]
-        self.out.sequence[index] = number
-        rows = np.array(ROWS[sequence])[:, None]
-        self.out.edges[:, index] = np.nan
-        self.out.edges[rows, index] = solved
-        self.orbit[:, index] = solved[0]
-        self.orbit[rows, index] = solved
+        self.sequence[index] = number
+        self.edges[:, index] = solved[0]
+        self.edges[np.array(ROWS[sequence])[:, None], index] = solved
 
 
 def agrees(sequence: str, s: ModeStrips, edges, period: Period) -> np.ndarray:

@@ -23,6 +23,9 @@ upper orbit touches, and as in a gap elsewhere, which keeps more in every entry.
 the lower orbit. All are sums of decaying modes, bounded over ranges of phases: r >= 0, (2, 2), is what y gains at c and d per
 growth at either (``responses``).
 
+From d - v on the lower orbit has ``w >= u``: the upper one, free there, is higher by its gap y at most, a known curve, and
+deviations fade no less than in contact. Where contact follows the onset closely that is the better bound (``apart``).
+
 *Alone* (``alone``). Let all orbits be free in [c_0, d_0], and the orbit in [c, d], which is larger. Let the first orbit be
 free from c + u to d - v. At c + u the orbit, had it stayed engaged, would be beyond the release by s_c u at least, where s_c
 bounds the chords of a known curve; the other is not beyond it. So ``s_c u <= r_cc u + r_cd v``, likewise at d. If the
@@ -61,24 +64,25 @@ class Forced:
     """Periodic orbits of N strips forced by ``edges`` d, b, a, c (4, N), without contact b = a: free from c to d, in contact from
     b to a, and else in adhesion. ``states`` at a, c, d, b (n, N)."""
 
-    def __init__(self, kernel, s: ModeStrips, edges: np.ndarray):
+    def __init__(self, kernel, s: ModeStrips, edges: np.ndarray, states=None):
         self.kernel, self.s, self.edges = kernel, s, edges
-        (d, b, a, c), m, none = edges, s.m, np.zeros((s.modes, 1))
+        self.states = self._periodic() if states is None else states
+
+    def _periodic(self):
+        (d, b, a, c), kernel, s, m, none = self.edges, self.kernel, self.s, self.s.m, np.zeros((self.s.modes, 1))
         lost, driven = kernel.contact_map(b, a, kernel.profile(b, s.D) / m.J_0, m)
         # a contact that is entered with any state: the pressure there follows from it
         creep = [kernel.contact_increment(b, a, kernel.overstress(none, p, m), m) for p in (1.0, 0.0)]
         contact = lost + (creep[0] - creep[1])[:, None] / m.J_0, driven
         maps = (kernel.relaxation_map(a, c, -s.p_0, m), kernel.relaxation_map(c, d + TWO_PI, 0.0, m),
                 kernel.relaxation_map(d, b, -s.p_0, m), contact)  # fmt: skip
-        self.states = [solved_modes(*over_period(maps))]
+        states = [solved_modes(*over_period(maps))]
         for lost, driven in maps[:-1]:
-            self.states.append(self.states[-1] + driven - lost * self.states[-1])
+            states.append(states[-1] + driven - lost * states[-1])
+        return np.stack(states)
 
     def take(self, index) -> Forced:
-        part = object.__new__(Forced)
-        part.kernel, part.s, part.edges = self.kernel, self.s.take(index), self.edges[:, index]
-        part.states = [z[:, index] for z in self.states]
-        return part
+        return Forced(self.kernel, self.s.take(index), self.edges[:, index], self.states[..., index])
 
     @classmethod
     def settled(cls, kernel, s: ModeStrips, edges: np.ndarray, exactly: bool = True):
@@ -86,29 +90,18 @@ class Forced:
         those of one turn, bounds from below.
 
         The window that is returned ends with the contact that holds at its start, and where its gap closes."""
-        left, edges, good = np.arange(s.size), edges.copy(), np.zeros(s.size, bool)
-        states = np.full((4, s.modes, s.size), np.nan)
-        wide = edges[[0, 3]].copy()
-        for _ in range(_SETTLING):
-            orbit = cls(kernel, s.take(left), edges[:, left])
-            states[..., left] = orbit.states
-            known = np.isfinite(orbit.states).all(axis=(0, 1))
-            left, orbit = left[known], orbit.take(np.flatnonzero(known))
+        found, left, good = cls(kernel, s, edges.copy()), np.arange(s.size), np.zeros(s.size, bool)
+        for _ in range(_SETTLING if exactly else 1):
+            left = left[np.isfinite(found.states[..., left]).all(axis=(0, 1))]
             if not left.size:
                 break
-            after, followed = orbit.turned(wide[:, left], exactly)
-            moved = np.abs(after - orbit.edges).max(axis=0)
-            good[left] = followed & (moved <= _SETTLED)
-            edges[:, left] = np.where(good[left], orbit.edges, after)
-            left = left[~good[left]]
-            if not exactly:
-                orbit = cls(kernel, s.take(left), edges[:, left])
-                states[..., left] = orbit.states
-                good[left] = np.isfinite(orbit.states).all(axis=(0, 1))
-                break
-        found = object.__new__(cls)
-        found.kernel, found.s, found.edges, found.states = kernel, s, edges, list(states)
-        return found, good
+            here = found.take(left)
+            after, followed = here.turned(edges[[0, 3]][:, left], exactly)
+            good[left] = followed & (np.abs(after - here.edges).max(axis=0) <= _SETTLED)
+            left, after = left[~good[left]], after[:, ~good[left]]
+            found.edges[:, left] = after
+            found.states[..., left] = cls(kernel, s.take(left), after).states
+        return found, good if exactly else np.isfinite(found.states).all(axis=(0, 1))
 
     def turned(self, wide, exactly: bool):
         """Edges of a turn that starts from the orbit at the onset, in the window ``wide`` (d, c); and whether it was followed.
@@ -211,12 +204,13 @@ def sine_range(low, high):
     return np.where(holds(-0.5 * np.pi), -1.0, np.minimum(*ends)), np.where(holds(0.5 * np.pi), 1.0, np.maximum(*ends))
 
 
-def responses(kernel, s: ModeStrips, contact, c, d, forcing, upper: bool, moved=None):
+def responses(kernel, s: ModeStrips, contact, c, d, forcing, upper: bool, moved=None, apart=None):
     """Bounds (2, 2, N) of what y gains at release and onset, per growth of the window at either, by steps of w of heights
     ``forcing``.
 
     ``contact``: its first and last phase; ``c``, ``d``: ranges of the edges. ``moved``: where the contact moves with the
-    onset, the least and greatest time between them, and what w gains where it begins."""
+    onset, the least and greatest time between them, and what w gains where it begins. ``apart``: by how much w is higher
+    at most, on average, where the window grew at its onset."""
     (b, a), (c_1, c_2), (d_1, d_2), n = contact, c, d, s.modes
     rate, kicks = rates(s.m.beta), s.m.J * rates(s.m.beta) / s.m.J_0
     back = np.stack([kernel.dashpots(np.eye(n)[:, j, None], 0.0, s.m) for j in range(n)], axis=1)
@@ -234,6 +228,8 @@ def responses(kernel, s: ModeStrips, contact, c, d, forcing, upper: bool, moved=
         forcing[0] * sums(back, kicks, b + TWO_PI - c_2, b + shift + TWO_PI - c_1),
         forcing[1] * sums(back, kicks, soonest, latest),
     ]
+    if apart is not None:
+        columns[1] = np.minimum(columns[1], apart * sums(back, kicks, soonest, soonest))
     if moved is not None:
         columns[1] = np.maximum(columns[1] + at_contact * np.einsum("ij...,j...->i...", back, kicks), 0.0)
     # what a period forgets: small where foundations are slow, so it is added up by itself
@@ -263,8 +259,8 @@ def alone(orbit: Forced, window, contact, rising: bool, agree: float) -> np.ndar
     with np.errstate(all="ignore"):
         if rising:
             steep_c, steep_d = orbit.adhering(c_0)[0], -orbit.falling(d_0)[1]
-            highest = s.delta_0 - orbit.falling(d_0)[0] * (d - d_0)
-            contact = b, a
+            apart = s.delta_0 - 0.5 * orbit.falling(d_0)[0] * (d - d_0)
+            contact, highest = (b, a), s.step
             c_range, d_range = (c, c_0), (d_0, d)
         else:
             z_b = orbit.states[3]
@@ -285,11 +281,12 @@ def alone(orbit: Forced, window, contact, rising: bool, agree: float) -> np.ndar
             steep_d = -orbit.falling(q)[1]
             steep_d = np.where(closes, np.minimum(steep_d, (s.delta_0 + s.m.J_0 * rise * (d_0 - q)) / (d_0 - d)), steep_d)
             good &= orbit.pressed(c, q + TWO_PI, d_0 + TWO_PI, orbit.states[1]) >= 0
+            apart = None
             highest = np.where(excess(d_0)[0] >= excess(d)[0], s.delta_0, np.inf)
             c_range, d_range = (c_0, c), (d, d_0)
             good &= (d_0 <= contact[0] + agree) & (contact[1] <= c_0 + agree)
         forcing = s.step, np.where(s.snaps, np.minimum(s.step, highest), s.step)
-        r = responses(kernel, s, contact, c_range, d_range, forcing, True)
+        r = responses(kernel, s, contact, c_range, d_range, forcing, True, apart=apart)
         on, off = steep_d - r[1, 1], steep_c - r[0, 0]
         return good & (on > 0) & (off > 0) & (on * off > r[0, 1] * r[1, 0])
 
