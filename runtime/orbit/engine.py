@@ -82,7 +82,7 @@ class _Batch:
 
     def _free(self, index):
         s = self.strips
-        free = s.D[index] <= -s.delta_0[index]
+        free = s.D[index] <= np.where(s.p_0[index] > 0, -s.delta_0[index], 0.0)
         self.record.constant(index[free], "f", 0.0, 0.0, 0.0, 0.0)
         return index[~free]
 
@@ -98,14 +98,8 @@ class _Batch:
         return index[rest], clings[rest]
 
     def _without_adhesion(self, index):
-        if not index.size:
-            return
-        s = self.strips.among(index)
-        full = saturates(self.kernel, s)
-        free = ~full & (s.D <= 0)
-        self.record.saturated_contact(index[full])
-        self.record.constant(index[free], "f", 0.0, 0.0, 0.0, 0.0)
-        index = index[~full & ~free]
+        if index.size:
+            index, _ = self._saturated(self._free(index))
         if index.size:
             self.record.orbits(index, "cf", *self._unique(index, "cf"))
 
