@@ -5,8 +5,7 @@ import pytest
 
 import hystrip
 from hystrip.level.effort import WorkCounters
-from hystrip.level.inverse import cut_penetration
-from hystrip.level.strips import LevelBatch
+from hystrip.level.strips import LevelBatch, cut_penetration
 from hystrip.multilevel import Surface
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)

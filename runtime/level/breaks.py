@@ -9,7 +9,7 @@ y that grows with the distance in D or its square root, and the level's means wi
 a level below, islands are nested: around a minimum of the peak pressure every break of its law is passed down and up again.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import astuple, dataclass
 
 import numpy as np
 
@@ -129,11 +129,6 @@ class IsolatedRegime:
     weight: float
 
 
-def _arrays(islands: list[IsolatedRegime]) -> list[np.ndarray]:
-    """Their fields, (m,) each."""
-    return [np.array([getattr(i, field.name) for i in islands]) for field in fields(IsolatedRegime)]
-
-
 def islands(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) -> list[IsolatedRegime]:
     """Of the changes in the sequence of codes along y between two of the nodes ``D`` those between the two where one moves the
     means most, as far as they tell beside the ``goal`` (q,) of their errors: islands may be nested, and vanish one after another.
@@ -165,7 +160,7 @@ def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips:
     """Penetrations at which the islands have shrunk so far that what is left does not tell, by ever smaller grids of strips
     across that and along the way to its end. NaN: one is not absent at all. ``strips`` (per column) counts the work."""
     out, number = np.full(len(islands), np.nan), np.arange(len(islands))
-    column, code, low, high, present, absent, weight = _arrays(islands)
+    column, code, low, high, present, absent, weight = map(np.array, zip(*map(astuple, islands), strict=True))
     density, start, stop = weight / (high - low), np.zeros(number.size), np.ones(number.size)
     for _ in range(_ROUNDS):
         across = (np.arange(_ACROSS) + 0.5) / _ACROSS

@@ -22,7 +22,7 @@ from .effort import CURVE_LIMIT, NO_CURVE
 from .interpolation import Intervals, interpolate
 from .nonadhesive.average import penetrations
 from .saturated import saturated_level
-from .strips import QUANTITIES, LevelBatch
+from .strips import QUANTITIES, LevelBatch, cut_penetration
 
 #: accuracy of the first look, of the pressure's scale, and how much finer each further one is; nodes of an interval at first
 ROUGH, _FINER, _FIRST = 1e-2, 0.03, 8
@@ -80,17 +80,6 @@ class Inverse(Batch):
         errors[:, 1:] += (np.abs(secant) * errors[:, :1] + doubt * np.abs(miss))[:, 1:]
         errors[:, :1] += np.abs(miss)
         return own, errors
-
-
-def cut_penetration(columns: LevelBatch, p_max: np.ndarray, full: np.ndarray) -> np.ndarray:
-    """A penetration from which the level carries more than ``p_max`` (Pa, (n,)) on either branch, at most ``full`` (m, (n,)).
-
-    Averaged over a period Eq. 5 says ``p_mean = K w_mean`` (the steps of w and p cancel), and w is nowhere below the profile: so
-    ``p_mean >= K (D - 3 h/4)``. No pressure is below ``-p_0``; -inf, for a level that nothing presses on, counts as that.
-    """
-    level = columns.level
-    p_max = np.maximum(p_max, -columns.adhesion.p_0)
-    return np.minimum(p_max / columns.material.K + 0.75 * level.h + 1e-9 * (level.h + np.abs(p_max) / columns.material.K), full)
 
 
 def invert(columns: LevelBatch, p: np.ndarray, rtol: float) -> Inverse:

@@ -18,9 +18,8 @@ import numpy as np
 from .branches import branches_of, graded, meets, parameter
 from .curve import trace
 from .error_budget import ErrorBudget
-from .inverse import cut_penetration
 from .segment import SLOTS, Cells, Segment, cells_of, segments_of, slot
-from .strips import LevelBatch
+from .strips import LevelBatch, cut_penetration
 
 #: breaks closer than this, relative to the largest, are one
 _SAME = 1e-12

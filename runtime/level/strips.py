@@ -154,3 +154,14 @@ class SolvedStrips:
 def saturation_depth(columns: LevelBatch) -> np.ndarray:
     """Penetration from which the whole level is in contact, m; shape (n,)."""
     return saturated_level(columns.material, columns.adhesion, columns.level, columns.V, columns.branch).D_sat
+
+
+def cut_penetration(columns: LevelBatch, p_max: np.ndarray, full: np.ndarray) -> np.ndarray:
+    """A penetration from which the level carries more than ``p_max`` (Pa, (n,)) on either branch, at most ``full`` (m, (n,)).
+
+    Averaged over a period Eq. 5 says ``p_mean = K w_mean`` (the steps of w and p cancel), and w is nowhere below the profile: so
+    ``p_mean >= K (D - 3 h/4)``. No pressure is below ``-p_0``; -inf, for a level that nothing presses on, counts as that.
+    """
+    level = columns.level
+    p_max = np.maximum(p_max, -columns.adhesion.p_0)
+    return np.minimum(p_max / columns.material.K + 0.75 * level.h + 1e-9 * (level.h + np.abs(p_max) / columns.material.K), full)

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,12 +17,9 @@ from ...numerics.chebyshev import lobatto, resampled
 from ...numerics.quadrature import interleaved
 from ...numerics.rounding import EPS, LARGEST
 from ...orbit.foundation import foundation_of
-from ..inverse import cut_penetration
+from ..strips import LevelBatch, cut_penetration
 from .average import average, penetrations
 from .family import CONTACT, Family, errors_alone
-
-if TYPE_CHECKING:
-    from ..strips import LevelBatch
 
 #: nodes of a piece, tried in turn
 _NODES = (16, 32, 64, 128)
