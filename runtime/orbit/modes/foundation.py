@@ -13,12 +13,11 @@ from ..abstract_foundation import Foundation
 from ..flat import is_flat, solve_with_flat
 from ..groups import snaps_in
 from ..materials import parameters
+from ..nonadhesive import Waves
 from ..si import CERTIFIED, refuse_uncertified
 from .engine import solve_modes
-from .extremes import greatest_gap, least_gap
-from .fields import zones_of
-from .nonadhesive import ModeWaves
-from .problem import ModeStrips
+from .fields import greatest_gap, least_gap, zones_of
+from .problem import ModeStrips, take_modes
 
 
 class ManyTimes(Foundation):
@@ -117,6 +116,28 @@ class ManyTimes(Foundation):
 
     def gap(self, start, phase, entry, pressure, strips):
         return self.kernel.gap_after(start, phase, entry, pressure, strips.D, strips.m)
+
+
+class ModeWaves(Waves):
+    """Strips without adhesion. ``groups``: the kernel's ``Modes`` at the strips' speeds."""
+
+    def take(self, index):
+        return ModeWaves(self.kernel, take_modes(self.groups, index))
+
+    def _arguments(self, D):
+        none = np.zeros(D.size)
+        return self.groups, none, none, D
+
+    def local_pressure(self, orbits):
+        state = self.kernel.state_ac(orbits.b, orbits.a, *self._arguments(orbits.D))
+        entry = self.kernel.overstress(state, 0.0, self.groups)
+
+        def local(rows, phase):
+            m = type(self.groups)(*(v[..., None] if np.ndim(v) else v for v in take_modes(self.groups, rows)))
+            after = self.kernel.overstress_after(orbits.b[rows, None], phase, entry[:, rows, None], m)
+            return self.kernel.contact_pressure(phase, after, orbits.D[rows, None])
+
+        return local
 
 
 def _of_prony(kernel, material):
