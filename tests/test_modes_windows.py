@@ -8,9 +8,10 @@ from hystrip.generated import generalised
 from hystrip.inputs.model import modes_of
 from hystrip.orbit.modes.engine import solve_modes
 from hystrip.orbit.modes.extremal import in_order
+from hystrip.orbit.modes.forced import Forced, chords
 from hystrip.orbit.modes.march import CONTACT, march, zone_at
 from hystrip.orbit.modes.problem import ModeStrips
-from hystrip.orbit.modes.windows import Forced, alone, chords, linearised, links, responses
+from hystrip.orbit.modes.windows import alone, linearised, links, responses
 from hystrip.orbit.regimes import SEQUENCES
 
 TIMES = (2, 3)

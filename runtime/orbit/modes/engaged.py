@@ -8,12 +8,11 @@ it converges quadratically.
 import numpy as np
 
 from .extremal import AGREE, lowest_state
-from .extremes import greatest_gap
-from .fields import state_at
+from .fields import greatest_gap, state_at
+from .forced import Forced
 from .march import TWO_PI, march
 from .polish import certified
 from .problem import ModeStrips
-from .windows import Forced
 
 
 def engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):

@@ -5,10 +5,11 @@ import numpy as np
 from ..certificate import STABLE
 from ..regimes import EDGES
 from .fields import state_at
+from .forced import Forced
 from .march import TWO_PI, Period, march
 from .polish import certified
 from .problem import ModeStrips
-from .windows import Forced, alone, balanced, linearised, links, newton
+from .windows import alone, balanced, linearised, links, newton
 
 #: where a strip is given up
 _STEPS = 120
@@ -78,7 +79,7 @@ class Search:
         edges[1:3] = np.where(np.isnan(edges[1:3]).any(axis=0), edges[0], edges[1:3])
         if number < 4 or number % 4 == 3:
             seek = np.isnan(self.edges[0, i[k]]) | (number > 3)
-            self._newton(i[k[seek]], near.take(k[seek]))
+            self._newton(i[k[seek]], edges[:, seek])
         self.z[:, i] += near.dz
         self.engaged[i] = near.engaged
         left = np.flatnonzero(~self._proven(i[k], edges))
@@ -160,10 +161,9 @@ class Search:
         clear = settles[far] & settles[near] & links(chain.take(near), chain.take(far), self.rising)
         return chain, clear.reshape(-1, i.size)
 
-    def _newton(self, i, met: Period) -> None:
-        """Orbits from the edges that the marches of the strips ``i`` met."""
-        edges, snaps = in_order(met.edges), self.s.snaps[i]
-        contact = np.isfinite(edges[1]) & np.isfinite(edges[2])
+    def _newton(self, i, edges) -> None:
+        """Orbits from the ``edges`` that the marches of the strips ``i`` met."""
+        contact, snaps = edges[2] > edges[1], self.s.snaps[i]
         for number, kind in ((1, contact & ~snaps), (2, contact & snaps), (3, ~contact & ~snaps)):
             k = np.flatnonzero(kind)
             if k.size:

@@ -35,10 +35,6 @@ class Period:
     releases: np.ndarray
     lost: np.ndarray
 
-    def take(self, index: np.ndarray) -> Period:
-        """The records of the points ``index``."""
-        return Period(*(getattr(self, name)[..., index] for name in self.__slots__))
-
     onset, entry, exit, release = (property(lambda self, k=k: self.edges[k]) for k in range(4))
 
     @property
