@@ -9,11 +9,11 @@ import numpy as np
 from .errors import InputError
 from .inputs.adhesion import Dugdale
 from .inputs.checks import SMALLEST, choice, number, numbers, sequence
+from .inputs.materials import check_edge, check_material, parameters
 from .inputs.surface import Level
-from .orbit.materials import check_edge, check_material, parameters
 
 if TYPE_CHECKING:
-    from .orbit.materials import Material
+    from .inputs.materials import Material
 
 #: least pressure over ``K h`` without adhesion: the contact under a smaller one is lost in rounding
 _FAINTEST = 1e-22

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .inputs.adhesion import Dugdale
+    from .inputs.materials import Material
     from .inputs.surface import Level
-    from .orbit.materials import Material
     from .strip_solution import StripSolution
     from .typing import Bools, Branch, Edge, Floats
 

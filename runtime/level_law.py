@@ -21,7 +21,7 @@ from .level.strips import LevelBatch
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from .orbit.materials import Material
+    from .inputs.materials import Material
     from .typing import Branch, Edge, Floats, Numbers
 
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
     from .contact_map import Cell, ContactMap
-    from .orbit.materials import Material
+    from .inputs.materials import Material
     from .typing import Bools, Branch, Edge, Floats, LevelPlot, Numbers
 
 

@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .inputs.adhesion import Dugdale
+    from .inputs.materials import Material
     from .inputs.surface import Level
     from .level_solution import LevelSolution
-    from .orbit.materials import Material
     from .typing import Branch, Edge, Floats, Number
 
 #: penetrations of the first look; then the middle of every interval over which the pressure changes by more than this part

@@ -10,6 +10,7 @@ import numpy as np
 
 from .errors import SolverError
 from .inputs.adhesion import Dugdale
+from .inputs.materials import Material
 from .inputs.surface import Level
 from .level.averages import level_means
 from .level.effort import WorkCounters
@@ -23,7 +24,6 @@ from .level.saturated import SaturatedLevel, saturated_friction, saturated_level
 from .level.strips import QUANTITIES, LevelBatch, cut_penetration
 from .numerics.rounding import LARGEST
 from .orbit.foundation import foundation_of
-from .orbit.materials import Material
 
 #: velocities solved at a time: enough of them for the batch to pay, few enough to show progress
 _BLOCK = 256

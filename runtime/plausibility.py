@@ -10,8 +10,8 @@ import numpy as np
 from .inputs.fitted import POOR
 
 if TYPE_CHECKING:
+    from .inputs.materials import Material
     from .inputs.surface import Level
-    from .orbit.materials import Material
     from .typing import Floats
 
 #: slopes of Eq. 4 reach k h/2, about 1 here: the model is linear in them

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
     from .contact_map import ContactMap
     from .inputs.adhesion import Dugdale
+    from .inputs.materials import Material
     from .inputs.surface import Level
-    from .orbit.materials import Material
     from .typing import Bools, Branch, Edge, Floats, ResultPlot
 
 

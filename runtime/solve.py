@@ -13,14 +13,14 @@ from .arguments import check_branch, check_levels, check_rtol, check_single, che
 from .errors import ConvergenceWarning, InputError, SolverError
 from .inputs.adhesion import Dugdale
 from .inputs.checks import broadcast, numbers
+from .inputs.materials import check_edge
 from .inputs.surface import Level
-from .orbit.materials import check_edge
 
 if TYPE_CHECKING:
     from typing import Unpack
 
+    from .inputs.materials import Material
     from .multilevel import Surface
-    from .orbit.materials import Material
     from .result import Result
     from .typing import Branch, Edge, Numbers, Options, Progress
 

@@ -12,8 +12,8 @@ from .arguments import check_branch
 from .errors import InputError
 from .inputs.adhesion import Dugdale
 from .inputs.checks import broadcast, numbers
+from .inputs.materials import check_edge, check_material, parameters
 from .orbit.foundation import Foundation, foundation_of
-from .orbit.materials import check_edge, check_material, parameters
 from .orbit.regimes import CODE, REGIMES, SEQUENCES
 from .orbit.solved import Solved
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     from matplotlib.figure import Figure
 
-    from .orbit.materials import Material
+    from .inputs.materials import Material
     from .typing import Branch, Edge, Floats, Numbers
 
 

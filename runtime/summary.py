@@ -6,8 +6,8 @@ import numpy as np
 
 from .display import percent, span
 from .inputs.half_space import HalfSpace
+from .inputs.materials import parameters
 from .orbit.foundation import Foundation, foundation_of
-from .orbit.materials import parameters
 from .plausibility import excited
 from .tables import shares
 

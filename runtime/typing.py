@@ -8,9 +8,9 @@ import numpy.typing as npt
 
 from .inputs.half_space import HalfSpace
 from .inputs.material import KelvinVoigt, StandardLinearSolid
+from .inputs.materials import Material
 from .inputs.model import ModelMaterial
 from .inputs.prony import Prony
-from .orbit.materials import Material
 
 __all__ = [
     "Array",

@@ -7,9 +7,9 @@ from functools import cached_property
 import numpy as np
 
 from ..inputs.adhesion import Dugdale
+from ..inputs.materials import Material
 from ..inputs.surface import Level
 from ..orbit.foundation import Foundation, foundation_of
-from ..orbit.materials import Material
 
 #: velocities of a block of the closed form: its temporaries stay in the cache
 _BLOCK = 4096

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..inputs.adhesion import Dugdale
+from ..inputs.materials import Material
 from ..inputs.surface import Level
 from ..orbit.foundation import Foundation, foundation_of
-from ..orbit.materials import Material
 from ..orbit.regimes import CODE
 from ..orbit.solved import Solved
 from .effort import WorkCounters

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..inputs.materials import parameters
 from ..numerics.roots import falling_root
 from ..numerics.rounding import LARGEST
 from .batch import pick
 from .contact import Contact
 from .groups import TWO_PI, snaps_in
-from .materials import parameters
 from .nonadhesive import Waves
 from .regimes import CODE, ZONES
 from .si import CERTIFIED, every, is_flat, once, refuse_uncertified, refuse_velocity, solve_with_flat

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from ..inputs.half_space import HalfSpace
 from ..inputs.material import StandardLinearSolid
+from ..inputs.materials import kernel_of, reduced
 from .abstract_foundation import Foundation
-from .materials import kernel_of, reduced
 
 __all__ = ["Foundation", "foundation_of"]
 

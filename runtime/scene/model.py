@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
     from ..inputs.adhesion import Dugdale
+    from ..inputs.materials import Material
     from ..inputs.surface import Level
-    from ..orbit.materials import Material
     from ..result import Result
     from ..typing import Branch, Edge, Floats, Progress
 

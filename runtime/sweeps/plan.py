@@ -14,9 +14,9 @@ import numpy as np
 from ..arguments import check_levels
 from ..errors import InputError
 from ..inputs.checks import numbers
+from ..inputs.materials import check_edge, kernel_of
 from ..inputs.shift import check_exponents
 from ..loading import solver_key
-from ..orbit.materials import check_edge, kernel_of
 from ..scene.errors import SceneError, nearest
 from ..scene.load import (
     build_adhesion,

@@ -4,11 +4,11 @@ from types import ModuleType
 from typing import Any
 
 from ..errors import InputError
-from ..inputs.checks import choice
-from ..inputs.half_space import HalfSpace
-from ..inputs.material import StandardLinearSolid
-from ..inputs.model import ModelMaterial
-from ..inputs.prony import Prony
+from .checks import choice
+from .half_space import HalfSpace
+from .material import StandardLinearSolid
+from .model import ModelMaterial
+from .prony import Prony
 
 EDGES = ("continuous", "constitutive")
 #: what may be given as a material
