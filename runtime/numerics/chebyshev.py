@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebder, chebvander
 
 from .roots import rising_root
 from .rounding import EPS
@@ -95,19 +96,14 @@ def evaluate_each(table: np.ndarray, x: np.ndarray) -> np.ndarray:
     """Chebyshev sums of a ``table`` (m, n + 1, q), each at its own ``x`` (m, nodes) in [-1, 1], (m, nodes, q)."""
     out, rows = np.empty((*x.shape, table.shape[2])), max(1, _CHUNK // x.shape[1])
     for some in (slice(start, start + rows) for start in range(0, len(x), rows)):
-        # Chebyshev polynomials, one after the other
-        polynomials = np.ones((table.shape[1], *x[some].shape))
-        polynomials[1:2], twice = x[some], 2 * x[some]
-        for k in range(2, len(polynomials)):
-            np.subtract(twice * polynomials[k - 1], polynomials[k - 2], out=polynomials[k])
-        out[some] = np.moveaxis(polynomials, 0, 2) @ table[some]
+        out[some] = chebvander(x[some], table.shape[1] - 1) @ table[some]
     return out
 
 
 @lru_cache
 def _differentiation(n: int) -> np.ndarray:
     """Matrix from n Chebyshev coefficients to those of the derivative over [-1, 1], the last one zero."""
-    return np.concatenate([np.polynomial.chebyshev.chebder(np.eye(n)), np.zeros((1, n))]) if n > 1 else np.zeros((1, 1))
+    return np.concatenate([chebder(np.eye(n)), np.zeros((1, n))]) if n > 1 else np.zeros((1, 1))
 
 
 def derivatives(table: np.ndarray) -> np.ndarray:

@@ -59,7 +59,8 @@ class Foundation(ABC):
 
     @abstractmethod
     def strips(self, rate, D, p_0, delta_0, edge: str, snaps=None) -> Any:
-        """Dimensionless strips at ``rate = k V``, 1/s, the rest dimensionless; ``snaps``: see ``groups.Strips``."""
+        """Dimensionless strips at ``rate = k V``, 1/s, the rest dimensionless; ``snaps``: where a step of w at the adhesion
+        onset closes the gap (see ``groups.Strips``), if it is known."""
 
     @abstractmethod
     def fold(self, sequence: str, edges, strips) -> np.ndarray:
@@ -76,10 +77,6 @@ class Foundation(ABC):
     @abstractmethod
     def moduli(self, strips) -> tuple:
         """Storage and loss of the foundation over K, and its instantaneous compliance times K."""
-
-    @abstractmethod
-    def saturated(self, strips, phase) -> np.ndarray:
-        """Dimensionless pressure of saturated contact."""
 
     @abstractmethod
     def zones(self, sequence: str, edges, strips) -> Iterable[tuple]:
@@ -109,10 +106,10 @@ class Foundation(ABC):
             rate = k * V
             longest, pace = rate * self.longest_time, self.pace(rate)
             refuse_velocity(V, (longest > LARGEST) | (longest * pace > CERTIFIED))
-        traction, constitutive = p_0 / self.K, edge == "constitutive"
+        traction = p_0 / self.K
         flat = is_flat(A, longest, D, traction, delta_0)
         unit = np.where(flat, 1.0, A) if flat.any() else A
-        snaps = constitutive & snaps_in(self.J * traction, delta_0)
+        snaps = snaps_in(self.J * traction, delta_0)
         lengths = (every(v, shape) for v in (D / unit, traction / unit, delta_0 / unit))
         strips = self.strips(rate, *lengths, edge, every(snaps, shape))
         solved = solve_with_flat(self.solve_strips, strips, every(flat, shape), branch == "unloading")
@@ -122,7 +119,7 @@ class Foundation(ABC):
             refuse_uncertified(solved.certified, named | of_material | adhesion, edge, branch)
         if (pace < 1).any():
             # friction falls like 1/V then where nothing steps, that is but for adhesion that begins and ends and lets w step
-            falls = np.isnan(solved.c) | (not constitutive)
+            falls = np.isnan(solved.c) | (edge == "continuous")
             solved.tau_mean *= np.where(falls, pace, 1.0)
         scales = {"k": k, "A": A, "D": D, "p": self.K * unit, "length": unit, "flat": flat}
         return solved, strips, {name: every(v, shape) for name, v in scales.items()}
@@ -145,7 +142,8 @@ class Foundation(ABC):
                 continue
             s, later = strips.take(index), phase[index]
             if sequence == "c":
-                p[index] = self.saturated(s, later)
+                storage, loss, _ = self.moduli(s)
+                p[index] = s.D - 1 + storage * np.cos(later) - loss * np.sin(later)
             elif sequence in ("a", "f"):
                 p[index] = 0.0 if sequence == "f" else -s.p_0
                 gap[index] = p[index] - self.kernel.profile(later, s.D)

@@ -44,9 +44,9 @@ class SingleTime(Foundation):
         return rate * self.material.T_sigma, rate * self.material.T_eps
 
     def strips(self, rate, D, p_0, delta_0, edge, snaps=None):
-        m, chi = self.material, float(edge == "constitutive")
+        m, steps = self.material, edge == "constitutive"
         shared = (every(v, D.shape) for v in (*self.at_rate(rate * self.pace(rate)), m.J, m.L))
-        return Strips(*shared, p_0, delta_0, D, every(chi, D.shape), snaps)
+        return Strips(*shared, p_0, delta_0, D, every(float(steps), D.shape), None if snaps is None else snaps & steps)
 
     def fold(self, sequence, edges, strips):
         """``T' - 1`` times the load at the last edge: no pole there. Those at the other edges vanish where there is no fold."""
@@ -67,10 +67,6 @@ class SingleTime(Foundation):
     def moduli(self, strips):
         s = strips
         return self.kernel.storage(s.alpha, s.beta), self.kernel.loss(s.alpha, s.beta, s.L), s.J
-
-    def saturated(self, strips, phase):
-        s = strips
-        return self.kernel.saturated_pressure(phase, s.D, s.alpha, s.beta, s.L)
 
     def zones(self, sequence, edges, strips):
         s = strips

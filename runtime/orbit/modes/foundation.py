@@ -68,9 +68,6 @@ class ManyTimes(Foundation):
     def moduli(self, strips):
         return self.kernel.storage(strips.m), self.kernel.loss(strips.m), strips.m.J_0
 
-    def saturated(self, strips, phase):
-        return self.kernel.saturated_pressure(phase, strips.D, strips.m)
-
     def zones(self, sequence, edges, strips):
         return (zone[:3] for zone in zones_of(self.kernel, sequence, strips, edges))
 
