@@ -197,7 +197,9 @@ class _Walk:
         if clings and self.waiting and not (row[-1].p_high >= 0 > row[0].p_low + _DOUBT * row[0].errors.most[0]):
             self.held.append(part)
             return
-        least, k, most = (_place(row, self.p, doubts) for doubts in (-_DOUBT, 0.0, _DOUBT))
+        # where unloading comes from the curve carries more than the pressure, but for errors
+        end = 2 * (len(row) - self.unloading)
+        least, k, most = (min(_place(row, self.p, doubts), end) for doubts in (-_DOUBT, 0.0, _DOUBT))
         joints = range(max(least, 0) // 2 + 1, min((most + 1) // 2 + 1, len(row)))
         certain = least == most or (0 <= least and most < 2 * len(row) - 1 and all(_goes_on(*row[j - 1 : j + 1]) for j in joints))
         if self.goal > self.finest and not certain:
