@@ -77,7 +77,7 @@ class Search:
         k = np.flatnonzero(once)
         edges = in_order(near.edges[:, k])
         edges[1:3] = np.where(np.isnan(edges[1:3]).any(axis=0), edges[0], edges[1:3])
-        if number < 4 or number % 4 == 3:
+        if number < 2 or number % 4 == 3:
             seek = np.isnan(self.edges[0, i[k]]) | (number > 3)
             self._newton(i[k[seek]], edges[:, seek])
         self.z[:, i] += near.dz
