@@ -90,3 +90,23 @@ def test_a_law_within_a_surface_reaches_down_to_pull_off():
     found = hystrip.solve(material, adhesion, levels, pressure=0.476661, velocity=6.64162e-4, rtol=1e-4)
     # at 1e-8
     assert found.converged and abs(found.mu - 16.68530215) <= found.error_estimate
+
+
+@pytest.mark.parametrize("i", [0, 1], ids=["one level", "two levels"])
+def test_loading_at_next_to_no_pressure_stands_beyond_the_dip(i):
+    """As the first strips cling the pressure falls below zero, and jumps: the least penetration that carries little more than
+    none is where it has come back, not in that jump."""
+    T_sigma, p_0, delta_0, V, p, h = (
+        (0.00099676052828308, 0.0486008, 3.65445e-9, 0.361275, 0.00066288, 3.36233e-7),
+        (1e-4, 0.8, 2e-9, 4.77465e-6, 0.002, 1e-6),
+    )[i]
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=T_sigma)
+    adhesion, level = hystrip.Dugdale(p_0=p_0, delta_0=delta_0), hystrip.Level(1e-5, h)
+    levels = [level, hystrip.Level(1e-6, 1e-8)][: i + 1]
+    found = hystrip.solve(material, adhesion, levels, pressure=p, velocity=V, branch="loading", rtol=1e-4)
+    assert found.converged and found.contact_fraction > 0
+    D = np.linspace(-delta_0, float(found.penetration) * (1 - 1e-3), 300)
+    before = hystrip.solve_level(material, adhesion, level, V=V, D=D, branch="loading", rtol=1e-4)
+    assert before.p_mean.min() < 0 and (before.p_mean < p).all()
+    at = hystrip.solve_level(material, adhesion, level, V=V, D=float(found.penetration), branch="loading", rtol=1e-6)
+    assert at.p_mean == pytest.approx(p, rel=1e-2)

@@ -21,8 +21,8 @@ from .surface import Level
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from .materials import Material
     from ..loading import Solver
+    from .materials import Material
 
 #: constructor arguments of each model, but for the solver
 _ARGUMENTS = {
