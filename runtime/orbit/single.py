@@ -7,13 +7,12 @@ from types import ModuleType
 import numpy as np
 
 from ..inputs.material import StandardLinearSolid
-from .abstract_foundation import Foundation
+from .abstract_foundation import Foundation, every
 from .certificate import greatest_gap
 from .chain import gap_zones
 from .engine import solve_strips
 from .groups import STANDS_STILL, Strips, adhesive_cycle, bare_cycle
 from .regimes import ZONES
-from .si import every
 
 
 class SingleTime(Foundation):
