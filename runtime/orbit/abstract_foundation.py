@@ -1,5 +1,5 @@
-"""What levels and strips ask of a foundation, and what one relaxation time and several have in common: strips in SI units, the flat
-strip apart, and the refusal of what could not be certified."""
+"""What levels and strips ask of a foundation, and what one relaxation time and several have in common: strips in SI units, the
+flat strip apart, and the refusal of what could not be certified."""
 
 from __future__ import annotations
 

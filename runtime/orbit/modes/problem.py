@@ -52,11 +52,6 @@ class ModeStrips(Batch):
         return np.broadcast_to(self.m.J_0 * self.p_0, self.D.shape)
 
     @property
-    def jump_on(self) -> np.ndarray:
-        """How far w steps at an onset: the whole gap where the point snaps into contact, (N,)."""
-        return np.where(self.snaps, self.delta_0, self.step)
-
-    @property
     def start(self) -> np.ndarray:
         """Where periods are counted from, in the middle of the valley: free where a strip is free at all, (N,)."""
         return np.full(self.size, np.pi)
