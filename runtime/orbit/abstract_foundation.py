@@ -118,10 +118,16 @@ class Foundation(ABC):
         lengths = (every(v, shape) for v in (D / unit, traction / unit, delta_0 / unit))
         strips = self.strips(rate, *lengths, edge, every(snaps, shape))
         solved = self._solve_with_flat(strips, every(flat, shape), branch == "unloading")
-        if not solved.certified.all():
+        bad = np.flatnonzero(~solved.certified)
+        if bad.size:
             # an array that was spread over the strips in `flat` is not known by its own name any more
             of_material = {n: v for n, v in parameters(self.material).items() if np.shape(v) in ((), shape)} | {"K": self.K}
-            _refuse_uncertified(solved.certified, named | of_material | adhesion, edge, branch)
+            inputs = (named | of_material | adhesion).items()
+            first = ", ".join(f"{n}={float(np.broadcast_to(v, shape)[bad[0]])!r}" for n, v in inputs)
+            raise SolverError(
+                f"{bad.size} of {solved.size} strips could not be certified; the first, strip {bad[0]}: "
+                f"{first}, edge={edge!r}, branch={branch!r}"
+            )
         if (pace < 1).any():
             # friction falls like 1/V then where nothing steps, that is but for adhesion that begins and ends and lets w step
             falls = np.isnan(solved.c) | (edge == "continuous")
@@ -241,13 +247,3 @@ def once(values) -> np.ndarray:
 def every(values, shape) -> np.ndarray:
     """The values for all strips, left a view where they are a single number."""
     return values if np.shape(values) == shape else np.broadcast_to(values, shape)
-
-
-def _refuse_uncertified(certified: np.ndarray, inputs: dict[str, np.ndarray], edge: str, branch: str) -> None:
-    """``SolverError`` naming the first strip that is not ``certified``, by its inputs (name to number or flat array)."""
-    bad = np.flatnonzero(~certified)
-    strip = ", ".join(f"{n}={float(np.broadcast_to(v, certified.shape)[bad[0]])!r}" for n, v in inputs.items())
-    raise SolverError(
-        f"{bad.size} of {certified.size} strips could not be certified; the first, strip {bad[0]}: "
-        f"{strip}, edge={edge!r}, branch={branch!r}"
-    )

@@ -68,15 +68,13 @@ class SingleTime(Foundation):
         return self.kernel.storage(s.alpha, s.beta), self.kernel.loss(s.alpha, s.beta, s.L), s.J
 
     def zones(self, sequence, edges, strips):
-        s = strips
-        cycle = (bare_cycle if sequence in ("ac", "cf") else adhesive_cycle)(self.kernel, s)
+        cycle = (bare_cycle if sequence in ("ac", "cf") else adhesive_cycle)(self.kernel, strips)
         gaps = iter(gap_zones(cycle, sequence))
         for zone, start in zip(ZONES[sequence][0], edges, strict=False):
             yield zone, start, cycle.q_on if zone == "c" else next(gaps)[0]
 
     def excess(self, start, entry, strips):
-        s = strips
-        return self.kernel.excess_entry(start, entry, s.p_0, s.D, s.alpha, s.beta, s.L)
+        return self.kernel.excess_entry(start, entry, strips.p_0, strips.D, strips.alpha, strips.beta, strips.L)
 
     def gap(self, start, phase, entry, pressure, strips):
         return self.kernel.gap_after(start, phase, entry, pressure, strips.D, strips.beta)
