@@ -1,29 +1,30 @@
-"""What levels and strips ask of a foundation, and what one relaxation time and several have in common."""
+"""What levels and strips ask of a foundation, and what one relaxation time and several have in common: strips in SI units, the
+flat strip apart, and the refusal of what could not be certified."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ..errors import InputError, SolverError
 from ..inputs.materials import parameters
 from ..numerics.roots import falling_root
 from ..numerics.rounding import LARGEST
-from .batch import pick
 from .contact import Contact
 from .groups import TWO_PI, snaps_in
+from .march import extreme
 from .nonadhesive import Waves
 from .regimes import CODE, ZONES
-from .si import CERTIFIED, every, is_flat, once, refuse_uncertified, refuse_velocity, solve_with_flat
+from .solved import Solved
 
-if TYPE_CHECKING:
-    from .solved import Solved
-
-#: how closely a greatest pressure is placed, radians: its value is off by the square
-_PLACED = 1e-9
+#: beta, or its largest, up to which the emitted functions are certified (the domain in generated/certificates.json)
+CERTIFIED = 1e30
+#: a wave this much smaller than every other length is below their rounding
+_NEGLIGIBLE = 1e-18
 
 
 class Foundation(ABC):
@@ -105,24 +106,55 @@ class Foundation(ABC):
             k = 2 * np.pi / l
             rate = k * V
             longest, pace = rate * self.longest_time, self.pace(rate)
-            refuse_velocity(V, (longest > LARGEST) | (longest * pace > CERTIFIED))
+            fast = (longest > LARGEST) | (longest * pace > CERTIFIED)
+        if fast.any():
+            allowed = f"k V times the longest retardation time at most {CERTIFIED:g}"
+            raise InputError("V", float(np.broadcast_to(V, fast.shape)[fast][0]), allowed)
         traction = p_0 / self.K
-        flat = is_flat(A, longest, D, traction, delta_0)
+        # the amplitude does not count where nothing of the wave, stiffened by the motion, shows in the other lengths
+        flat = A * (1 + longest) <= _NEGLIGIBLE * (np.abs(D) + traction + delta_0)
         unit = np.where(flat, 1.0, A) if flat.any() else A
         snaps = snaps_in(self.J * traction, delta_0)
         lengths = (every(v, shape) for v in (D / unit, traction / unit, delta_0 / unit))
         strips = self.strips(rate, *lengths, edge, every(snaps, shape))
-        solved = solve_with_flat(self.solve_strips, strips, every(flat, shape), branch == "unloading")
-        if not solved.certified.all():
+        solved = self._solve_with_flat(strips, every(flat, shape), branch == "unloading")
+        bad = np.flatnonzero(~solved.certified)
+        if bad.size:
             # an array that was spread over the strips in `flat` is not known by its own name any more
             of_material = {n: v for n, v in parameters(self.material).items() if np.shape(v) in ((), shape)} | {"K": self.K}
-            refuse_uncertified(solved.certified, named | of_material | adhesion, edge, branch)
+            inputs = (named | of_material | adhesion).items()
+            first = ", ".join(f"{n}={float(np.broadcast_to(v, shape)[bad[0]])!r}" for n, v in inputs)
+            raise SolverError(
+                f"{bad.size} of {solved.size} strips could not be certified; the first, strip {bad[0]}: "
+                f"{first}, edge={edge!r}, branch={branch!r}"
+            )
         if (pace < 1).any():
             # friction falls like 1/V then where nothing steps, that is but for adhesion that begins and ends and lets w step
             falls = np.isnan(solved.c) | (edge == "continuous")
             solved.tau_mean *= np.where(falls, pace, 1.0)
         scales = {"k": k, "A": A, "D": D, "p": self.K * unit, "length": unit, "flat": flat}
         return solved, strips, {name: every(v, shape) for name, v in scales.items()}
+
+    def _solve_with_flat(self, strips, flat, unloading: bool) -> Solved:
+        """Solve strips of which some are ``flat``, in units of K alone, the others by ``solve_strips``.
+
+        Flat contact carries ``p = K D`` down to ``-p_0``; the gap adheres (``w = -p_0/K``) while it is at most ``delta_0``.
+        Unloading holds on as long as it can; loading stays free until the gap of the undeformed surface is ``delta_0``.
+        """
+        if not flat.any():
+            return self.solve_strips(strips, unloading)
+        solved = Solved.empty(strips.size)
+        wavy, level = np.flatnonzero(~flat), np.flatnonzero(flat)
+        if wavy.size:
+            solved.put(wavy, self.solve_strips(strips.take(wavy), unloading))
+        D, p_0, delta_0 = strips.D[level], strips.p_0[level], strips.delta_0[level]
+        free = (D < -p_0) & (-p_0 - D > delta_0) | (D <= -delta_0) & (not unloading)
+        contact, clinging = ~free & (D >= -p_0), ~free & (D < -p_0)
+        solved.code[level] = np.select((free, contact), (CODE["f"], CODE["c"]), CODE["a"])
+        solved.p_mean[level], solved.tau_mean[level] = np.select((free, contact), (0.0, D), -p_0), 0.0
+        solved.contact_fraction[level], solved.adhesion_fraction[level] = contact, clinging
+        solved.certified[level] = True
+        return solved
 
     def waves(self, rate: np.ndarray) -> Waves:
         """Strips without adhesion at the rates ``k V`` (N,), 1/s."""
@@ -162,15 +194,10 @@ class Foundation(ABC):
 
     def peak(self, sequence: str, edges, strips, pressure) -> np.ndarray:
         """Of orbits of a ``sequence`` with contact: positive where their greatest pressure is above ``pressure``."""
-        place, event = ZONES[sequence][0].index("c"), self.kernel.excess_event
+        place = ZONES[sequence][0].index("c")
         b, a = edges[place], edges[place + 1]
         constants = self.excess(b, self.entry(sequence, edges, strips), strips)
-
-        def slope(phase, rows):
-            return event(phase, *(pick(constant, rows) for constant in constants))[1]
-
-        top = falling_root(slope, b, np.maximum(b, a), tolerance=_PLACED)
-        return event(top, *constants)[0] - strips.p_0 - pressure
+        return extreme(self.kernel.excess_event, constants, falling_root, b, a) - strips.p_0 - pressure
 
     def contact(self, strips, solved: Solved, scales: dict, index: np.ndarray) -> Contact:
         """Contact of the solved strips ``index``, as ``solve`` returned them."""
@@ -209,3 +236,14 @@ class Foundation(ABC):
     def _forced(self, l, h, V):  # noqa: E741
         """Penetration above which contact is never left without adhesion, by the load harmonic."""
         return np.full(np.shape(V), np.inf)
+
+
+def once(values) -> np.ndarray:
+    """One element of a view of a single number, else the array itself: what is the same for all strips is worked out once."""
+    values = np.asarray(values, float)
+    return values[:1] if values.strides == (0,) else values
+
+
+def every(values, shape) -> np.ndarray:
+    """The values for all strips, left a view where they are a single number."""
+    return values if np.shape(values) == shape else np.broadcast_to(values, shape)

@@ -7,8 +7,6 @@ from ..inputs.material import StandardLinearSolid
 from ..inputs.materials import kernel_of, reduced
 from .abstract_foundation import Foundation
 
-__all__ = ["Foundation", "foundation_of"]
-
 
 def foundation_of(material) -> Foundation:
     """The material under one level, with its solver; with one time it is the standard linear solid, however it is written."""

@@ -16,12 +16,14 @@ import numpy as np
 
 from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
-from .batch import Batch
+from .batch import Batch, pick
 from .groups import ROUNDING, TWO_PI, Cycle
 from .regimes import ORBIT_EDGES
 
 #: edges this close to the crest are on it: the bracket of one that is on it would be halved a thousand times
 LEAST_PHASE = 1e-60
+#: how closely extremes are placed, radians: their values are off by the square
+_PLACED = 1e-9
 #: how closely edges are located for bounds of them, which are ten times further off: so close that starts from them converge
 _CLOSE = 1e-6
 
@@ -184,6 +186,15 @@ class Event:
         offset, *constants = self._last
         value, slope = self.function(phase, *constants)
         return self.sign * (value - offset), self.sign * slope
+
+
+def extreme(event, constants, root, low, high) -> np.ndarray:
+    """Value of an ``event`` function with these ``constants`` where its slope passes zero between ``low`` and ``high``."""
+
+    def slope(phase, index):
+        return event(phase, *(pick(constant, index) for constant in constants))[1]
+
+    return event(root(slope, low, np.maximum(high, low), tolerance=_PLACED), *constants)[0]
 
 
 def closing(kernel, cycle: Cycle, x, b, a, c):

@@ -52,10 +52,6 @@ class Waves:
     def __init__(self, foundation: Foundation, strips: Any, pace: np.ndarray):
         self.foundation, self.kernel, self.strips, self.pace = foundation, foundation.kernel, strips, pace
 
-    def _at(self, D: np.ndarray) -> tuple:
-        """What the kernel's functions of a regime take after the edges, at the penetrations ``D`` (N,)."""
-        return replace(self.strips, D=D).arguments
-
     def pressure(self, orbits: Orbits) -> Callable[..., np.ndarray]:
         """Pressure in the contact of strips at shares (k, n) of it from entry to exit, as a function of them and of the strips'
         rows (k,), all if left out."""
@@ -83,9 +79,9 @@ class Waves:
         middle = np.arctan2(-cosine * np.sign(sine), np.abs(sine))
         b, a = middle - 0.5 * width, middle + 0.5 * width
         # D from both equations, each as far as it depends on it
-        left = np.array(np.broadcast_arrays(*self.kernel.residual_ac(b, a, *self._at(none))))
+        left = np.array(np.broadcast_arrays(*self.kernel.residual_ac(b, a, *replace(self.strips, D=none).arguments)))
         D = -(left * penetrate).sum(axis=0) / (penetrate * penetrate).sum(axis=0)
-        p_mean, tau_mean = self.kernel.means_ac(b, a, *self._at(D)) if means else np.full((2, N), np.nan)
+        p_mean, tau_mean = self.kernel.means_ac(b, a, *replace(self.strips, D=D).arguments) if means else np.full((2, N), np.nan)
         missed, size = np.abs(left + penetrate * D), np.abs(penetrate).max(axis=0) * (1 + np.abs(D))
         certified = (missed <= _ROUNDING * size).all(axis=0) & (D > 0) & ~(p_mean <= 0)
         # nothing steps: in the limit of infinite speed friction falls like 1/V

@@ -7,13 +7,12 @@ from types import ModuleType
 import numpy as np
 
 from ..inputs.material import StandardLinearSolid
-from .abstract_foundation import Foundation
+from .abstract_foundation import Foundation, every
 from .certificate import greatest_gap
 from .chain import gap_zones
 from .engine import solve_strips
 from .groups import STANDS_STILL, Strips, adhesive_cycle, bare_cycle
 from .regimes import ZONES
-from .si import every
 
 
 class SingleTime(Foundation):
@@ -69,15 +68,13 @@ class SingleTime(Foundation):
         return self.kernel.storage(s.alpha, s.beta), self.kernel.loss(s.alpha, s.beta, s.L), s.J
 
     def zones(self, sequence, edges, strips):
-        s = strips
-        cycle = (bare_cycle if sequence in ("ac", "cf") else adhesive_cycle)(self.kernel, s)
+        cycle = (bare_cycle if sequence in ("ac", "cf") else adhesive_cycle)(self.kernel, strips)
         gaps = iter(gap_zones(cycle, sequence))
         for zone, start in zip(ZONES[sequence][0], edges, strict=False):
             yield zone, start, cycle.q_on if zone == "c" else next(gaps)[0]
 
     def excess(self, start, entry, strips):
-        s = strips
-        return self.kernel.excess_entry(start, entry, s.p_0, s.D, s.alpha, s.beta, s.L)
+        return self.kernel.excess_entry(start, entry, strips.p_0, strips.D, strips.alpha, strips.beta, strips.L)
 
     def gap(self, start, phase, entry, pressure, strips):
         return self.kernel.gap_after(start, phase, entry, pressure, strips.D, strips.beta)

@@ -13,8 +13,10 @@ import numpy as np
 from ..march import Orbit
 from ..regimes import CODE
 from ..solved import Record, Solved, settle
-from .engaged import engaged
-from .extremal import ENGAGED, FREE, ORBIT, ROWS, Search, highest_state, lowest_state
+from .extremal import ENGAGED, FREE, ORBIT, ROWS, Search, agrees, certified
+from .fields import greatest_gap, state_at
+from .forced import Forced
+from .march import TWO_PI, march
 from .problem import ModeStrips
 
 #: strips solved at a time: what a call of NumPy costs is shared by more of them than 2,048 (2 to 3 times faster with two times),
@@ -53,7 +55,7 @@ class _Batch:
         left = left[sticky[left]]
         s = s.take(left)
         # states beyond all orbits
-        z = lowest_state(self.kernel, s) if self.unloading else highest_state(self.kernel, s)
+        z = _lowest_state(self.kernel, s) if self.unloading else _highest_state(self.kernel, s)
         self._first(left, z, np.full(left.size, self.unloading), ask=True)
         return self.solved
 
@@ -94,9 +96,64 @@ class _Batch:
             return np.empty((self.strips.modes, 0)), np.zeros(0, bool)
         s = self.strips.take(index)
         whole = replace(s, bare=True) if sequence == "cf" else s
-        z, edges, known, within = engaged(self.kernel, whole, met)
+        z, edges, known, within = _engaged(self.kernel, whole, met)
         self.solved.searched[index] = True
         k = np.flatnonzero(within)
         self.solved.code[index] = CODE[sequence]
         self.record.orbits(index[k], sequence, Orbit.of(sequence, edges[:, k]))
         return z, known
+
+
+def _lowest_state(kernel, s: ModeStrips) -> np.ndarray:
+    """State below every orbit: displacements are nowhere below the profile, nor below ``-p_0``."""
+    e = kernel.profile(s.start, s.D) - s.m.S * kernel.saturated_overstress(s.start, s.m)
+    return np.einsum("ij...,j...->i...", s.m.share, np.maximum(e, -s.p_0))
+
+
+def _highest_state(kernel, s: ModeStrips) -> np.ndarray:
+    """State above every orbit, free."""
+    return s.m.share.sum(axis=1) * np.maximum(s.D, 0.0)
+
+
+def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
+    """The one orbit of each strip that is never released, by Newton's method on its edges, from those (4, N) that marches ``met``
+    or else those of orbits forced by windows of no length, checked by a march.
+
+    Without release ``w = u + max(z - u - J_0 p_0, 0)`` is a convex function of the state, so the period map is convex and
+    monotone: each Newton step from below lands below the fixed point again, higher up. It cannot miss.
+
+    Returns states, edges b and a (2, N), which are known, which are orbits of the strip itself, as their gaps stay within its
+    reach."""
+    left, none = np.arange(strips.size), np.zeros(strips.size)
+    # seen from -p_0: adding p_0 to w, p and every e leaves the foundation's law unchanged
+    s = replace(strips, p_0=none, delta_0=none, D=strips.D + strips.p_0, bare=True)
+    z, edges = np.full((s.modes, s.size), np.nan), np.full((2, s.size), np.nan)
+    known, within = np.zeros((2, s.size), bool)
+    for forced in (False, True):
+        here = s.take(left)
+        if forced or met is None:
+            met = march(kernel, here, np.ones(left.size, bool), _lowest_state(kernel, here), here.start).edges
+        guess = _engaged_edges(met)
+        if forced:
+            middle = 0.5 * (guess.sum(axis=0) + TWO_PI)  # of the adhesion
+            guess = Forced.settled(kernel, here, np.stack((middle - TWO_PI, *guess, middle)))[0].edges[1:3]
+        edges[:, left], good = certified(kernel, here, "ac", np.nan_to_num(guess))
+        k = left[good]
+        here = s.take(k)
+        z[:, k], _ = state_at(kernel, "ac", here, edges[:, k], here.start)
+        turn = march(kernel, here, np.ones(k.size, bool), z[:, k], here.start)
+        k = k[agrees(_engaged_edges(turn.edges), edges[:, k]) & (turn.contacts == 1) & ~turn.lost]
+        known[k] = True
+        # not seen from -p_0: where that is large against the gap, rounding would decide
+        within[k] = strips.bare or greatest_gap(kernel, edges[:, k], s.take(k)) <= strips.delta_0[k]
+        left = np.flatnonzero(~known)
+        if not left.size:
+            break
+    return z - strips.m.J * strips.p_0, edges, known, within
+
+
+def _engaged_edges(met):
+    """Edges b, a of an always engaged orbit, b first, of those (4, N) that a march met; b in the valley where it met none."""
+    b, a = np.where(np.isnan(met[1]), np.pi, met[1]), met[2]
+    b = np.where(b > a, b - TWO_PI, b)
+    return np.array([b, a]) - TWO_PI * np.floor((a + 0.5 * np.pi) / TWO_PI)

@@ -2,12 +2,14 @@
 
 import numpy as np
 
+from ...numerics.linear import solved
+from ...numerics.rounding import EPS
 from ..certificate import STABLE
+from ..groups import ROUNDING, TWO_PI
 from ..regimes import EDGES
 from .fields import state_at
 from .forced import Forced
-from .march import TWO_PI, Period, march
-from .polish import certified
+from .march import march
 from .problem import ModeStrips
 from .windows import alone, balanced, linearised, links, newton
 
@@ -24,21 +26,17 @@ _RATIOS = np.array([0.65, 0.83, 0.95])
 _FEW, _FULL, _WINDOWS, _FARTHER = 5, 4, 16, (3, 5, 9, 17)
 #: corrections of such a chain, and the share of the room there is that may be taken
 _BALANCED, _ROOM = 1, 0.9
+#: steps of Newton's method
+_ITERATIONS = 12
+#: a step expected to be this small is not taken; steps as large as that after so many, or that hardly shrink, lead nowhere
+_SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * EPS, 0.1, 4, 0.7
+#: the last step of an orbit is this small, or the multiple of what rounding lets the edges be known to, which is no more than the
+#: last; steps larger than that are corrections, whatever the one before was
+_CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
 #: edges of each sequence, by their rows in the order d, b, a, c
 ROWS = {sequence: tuple("dbac".index(edge) for edge in EDGES[sequence]) for sequence in ("acaf", "afc", "af")}
 SEQUENCES = ("", "acaf", "afc", "af")
 ENGAGED, FREE, ORBIT, UNRESOLVED = 0, 1, 2, -1
-
-
-def lowest_state(kernel, s: ModeStrips) -> np.ndarray:
-    """State below every orbit: displacements are nowhere below the profile, nor below ``-p_0``."""
-    e = kernel.profile(s.start, s.D) - s.m.S * kernel.saturated_overstress(s.start, s.m)
-    return np.einsum("ij...,j...->i...", s.m.share, np.maximum(e, -s.p_0))
-
-
-def highest_state(kernel, s: ModeStrips) -> np.ndarray:
-    """State above every orbit, free."""
-    return s.m.share.sum(axis=1) * np.maximum(s.D, 0.0)
 
 
 class Search:
@@ -171,30 +169,25 @@ class Search:
 
     def _from(self, index, number: int, edges) -> None:
         sequence, s = SEQUENCES[number], self.s.take(index)
-        solved, good = certified(self.kernel, s, sequence, np.maximum.accumulate(edges, axis=0))
+        edges, good = certified(self.kernel, s, sequence, np.maximum.accumulate(edges, axis=0))
         k = np.flatnonzero(good)
         if not k.size:
             return
-        part, solved = s.take(k), solved[:, k]
-        z, engaged = state_at(self.kernel, sequence, part, solved, part.start)
+        part, edges, rows = s.take(k), edges[:, k], list(ROWS[sequence])
+        z, engaged = state_at(self.kernel, sequence, part, edges, part.start)
         period = march(self.kernel, part, engaged, z, part.start)
-        ok = agrees(sequence, part, solved, period)
-        index, solved = index[k[ok]], solved[:, ok]
+        # a turn meets these edges, each once, and nothing else
+        once = (period.onsets == 1) & (period.releases == 1) & (period.contacts == sequence.count("c"))
+        ok = once & ~period.lost & (period.engaged == period.engaged_before) & agrees(period.edges[rows], edges)
+        index, edges = index[k[ok]], edges[:, ok]
         self.sequence[index] = number
-        self.edges[:, index] = solved[0]
-        self.edges[np.array(ROWS[sequence])[:, None], index] = solved
+        self.edges[:, index] = edges[0]
+        self.edges[np.array(rows)[:, None], index] = edges
 
 
-def agrees(sequence: str, s: ModeStrips, edges, period: Period) -> np.ndarray:
-    """Whether a turn from a state of the orbit met the edges (k, N) of ``sequence``, each once, and nothing else."""
-    row = dict(zip(EDGES[sequence], edges, strict=True))
-    near = lambda met, edge: np.abs(np.mod(met - edge + np.pi, TWO_PI) - np.pi) <= AGREE  # noqa: E731
-    ok = ~period.lost & (period.onsets == 1) & (period.releases == 1) & (period.engaged == period.engaged_before)
-    ok &= near(period.onset, row["d"]) & near(period.release, row["c"])
-    if sequence == "af":
-        return ok & (period.contacts == 0)
-    ok &= near(period.exit, row["a"])
-    return ok & (period.contacts == 1) & near(period.entry, row["b"] if sequence == "acaf" else row["d"])
+def agrees(met, edges):
+    """Where the edges (k, N) that marches met are these."""
+    return np.abs(np.mod(met - edges + np.pi, TWO_PI) - np.pi).max(axis=0) <= AGREE
 
 
 def in_order(edges):
@@ -203,3 +196,48 @@ def in_order(edges):
     shifted = [np.where(e > c, e - TWO_PI, e) for e in (d, b, a)]
     turns = TWO_PI * np.floor(c / TWO_PI)
     return np.array([*shifted, c]) - turns
+
+
+def certified(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
+    """Orbits of strips in the regime ``sequence`` from ``edges`` (k, N); which converged, in order within a period."""
+    with np.errstate(all="ignore"):
+        edges, last, attainable = _converging(kernel, strips, sequence, edges)
+    good = last <= _CONVERGED + _ROUNDINGS * np.minimum(attainable, _COARSEST)
+    good &= np.all(np.diff(edges, axis=0) >= -ROUNDING, axis=0) & (edges[-1] - edges[0] <= TWO_PI + ROUNDING)
+    return edges, good
+
+
+def _converging(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
+    """Edges, kept in order; the last steps; how well rounding lets the edges be known."""
+    linearised = getattr(kernel, f"residual_and_jacobian_{sequence}")
+    edges, N = edges.copy(), strips.size
+    last, attainable = np.full(N, np.inf), np.full(N, np.inf)
+    active = np.arange(N)
+    for iteration in range(_ITERATIONS):
+        s, before = strips.take(active), last[active]
+        here = edges[:, active]
+        matrix = np.empty((s.size, len(here), len(here)))
+        residual, rows = linearised(*here, *s.arguments)
+        for i, row in enumerate(rows):
+            for j, entry in enumerate(row):
+                matrix[:, i, j] = entry
+        inverted = solved(matrix, np.broadcast_to(np.eye(len(here)), matrix.shape))
+        step = -np.einsum("Nij,jN->iN", inverted, np.array(np.broadcast_arrays(*residual)))
+        size = np.abs(step).max(axis=0)
+        # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction
+        better = np.isfinite(size) & ((size < 0.5 * last[active]) | (size > _COARSEST))
+        moved = active[better]
+        edges[:, moved] = np.maximum.accumulate(here[:, better] + step[:, better], axis=0)
+        last[moved] = size[better]
+        # pressures are of the size of the saturated one
+        noise = EPS * (1 + np.abs(s.D) + s.p_0 + s.delta_0 + kernel.modulus_ratio(s.m))
+        attainable[moved] = (np.abs(inverted).sum(axis=2).max(axis=1) * noise)[better]
+        # steps that shrink as fast again: the next one need not be taken
+        ahead = size * np.divide(size, before, out=np.ones_like(size), where=(size < before) & np.isfinite(before))
+        settled = ahead <= _SETTLED
+        last[active[better & settled]] = ahead[better & settled]
+        on = (size < _LOST) & ((size < _SHRINKS * before) | (size < _COARSEST)) | (iteration < _LOST_AFTER)
+        active = active[better & ~settled & on]
+        if not active.size:
+            break
+    return edges, last, attainable

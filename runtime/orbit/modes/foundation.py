@@ -39,11 +39,11 @@ class ManyTimes(Foundation):
 
     def flat(self, shape) -> ManyTimes:
         m = self.material
-        if isinstance(m, ModelMaterial) or not any(np.ndim(v) for v in (m.K, *m.moduli, *m.times)):
+        if isinstance(m, ModelMaterial) or not _varies(m):
             return self
         spread = lambda v: np.broadcast_to(v, shape).ravel()  # noqa: E731
-        K, moduli, times = spread(m.K), np.stack([spread(v) for v in m.moduli]), np.stack([spread(v) for v in m.times])
-        return ManyTimes(self.kernel, m, *modes_of(self.kernel, {"K": K, "K_i": moduli, "tau_i": times}))
+        each = [spread(v) for v in m.moduli], [spread(v) for v in m.times]
+        return ManyTimes(self.kernel, m, *_found(self.kernel, spread(m.K), *each))
 
     def solve_strips(self, strips, unloading):
         return solve_modes(self.kernel, strips, unloading)
@@ -78,18 +78,21 @@ class ManyTimes(Foundation):
         return self.kernel.gap_after(start, phase, entry, pressure, strips.D, strips.m)
 
 
+def _varies(material) -> bool:
+    return any(np.ndim(v) for v in (material.K, *material.moduli, *material.times))
+
+
 def _of_prony(kernel, material):
-    if any(np.ndim(v) for v in (material.K, *material.moduli, *material.times)):
-        column = lambda v: np.stack(np.broadcast_arrays(*v)).reshape(len(v), -1)  # noqa: E731
-        return modes_of(kernel, {"K": np.ravel(material.K), "K_i": column(material.moduli), "tau_i": column(material.times)})
-    return _of_numbers(kernel, material.K, material.moduli, material.times)
+    return (_found if _varies(material) else _found_once)(kernel, material.K, material.moduli, material.times)
 
 
-@lru_cache(maxsize=256)
-def _of_numbers(kernel, K: float, moduli: tuple[float, ...], times: tuple[float, ...]):
-    """Found once for all strips of a foundation: with fourteen times it takes as long as hundreds of strips."""
-    column = lambda v: np.array(v, float)[:, None]  # noqa: E731
-    K, modes = modes_of(kernel, {"K": np.array([K]), "K_i": column(moduli), "tau_i": column(times)})
+def _found(kernel, K, moduli, times):
+    column = lambda v: np.stack(np.broadcast_arrays(*v)).reshape(len(v), -1)  # noqa: E731
+    K, modes = modes_of(kernel, {"K": np.ravel(K), "K_i": column(moduli), "tau_i": column(times)})
     for shared in (K, *modes):
         shared.setflags(write=False)
     return K, modes
+
+
+#: once for all strips of a foundation: with fourteen times it takes as long as hundreds of strips
+_found_once = lru_cache(maxsize=256)(_found)

@@ -50,12 +50,8 @@ class Period:
 
 def zone_at(kernel, s: ModeStrips, engaged, z, phase):
     """Zone of points with state ``z`` at ``phase``, and which of them are engaged there."""
-    y = z.sum(axis=0) - kernel.profile(phase, s.D)
-    step = s.step
-    if s.bare:
-        engaged = np.ones(y.shape, bool)
-    else:
-        engaged = np.where(engaged, y <= s.delta_0 + step, y <= s.delta_0)
+    y, step = z.sum(axis=0) - kernel.profile(phase, s.D), s.step
+    engaged = np.ones(y.shape, bool) if s.bare else np.where(engaged, y <= s.delta_0 + step, y <= s.delta_0)
     return np.where(engaged, np.where(y < step, CONTACT, ADHESION), FREE), engaged
 
 
@@ -93,36 +89,30 @@ def one_zone(kernel, s: ModeStrips, letter, start, limit, z, pressure):
     f = Field(start, np.empty(m), np.empty(m), np.zeros(m), np.empty((n, m)), np.empty((n, m)))
     touching, apart = np.flatnonzero(contact), np.flatnonzero(~contact)
     entry = None
+    pressed, open_ = s.among(touching), s.among(apart)  # taking costs: once each
     if touching.size:
-        t = s.among(touching)
-        level = (kernel.profile(start[touching], t.D) - z[:, touching].sum(axis=0)) / t.m.J_0
+        level = (kernel.profile(start[touching], pressed.D) - z[:, touching].sum(axis=0)) / pressed.m.J_0
         p_in = level if pressure is None else np.where(np.isnan(pressure[touching]), level, pressure[touching])
-        entry = kernel.overstress(z[:, touching], p_in, t.m)
-        f.constant[touching] = t.p_0 + (t.D - 1)
-        f.a[touching], f.b[touching] = kernel.storage(t.m), -kernel.loss(t.m)
-        f.c[:, touching] = entry - kernel.saturated_overstress(start[touching], t.m)
-        f.r[:, touching] = rates(t.m.alpha)
+        entry = kernel.overstress(z[:, touching], p_in, pressed.m)
+        f.constant[touching] = pressed.p_0 + (pressed.D - 1)
+        f.a[touching], f.b[touching] = kernel.storage(pressed.m), -kernel.loss(pressed.m)
+        f.c[:, touching] = entry - kernel.saturated_overstress(start[touching], pressed.m)
+        f.r[:, touching] = rates(pressed.m.alpha)
     if apart.size:
-        t = s.among(apart)
-        level = np.where(letter[apart] == FREE, t.delta_0, 0.0)
-        f.constant[apart] = p[apart] - (t.D - 1) - level
+        f.constant[apart] = p[apart] - (open_.D - 1) - np.where(letter[apart] == FREE, open_.delta_0, 0.0)
         f.a[apart] = -1.0
-        f.c[:, apart] = z[:, apart] - t.m.J * p[apart]
-        f.r[:, apart] = rates(t.m.beta)
+        f.c[:, apart] = z[:, apart] - open_.m.J * p[apart]
+        f.r[:, apart] = rates(open_.m.beta)
     releasable = (letter == ADHESION) & (not s.bare)
     height = np.where(releasable, s.delta_0, np.inf)
     end, which = first_crossing(f, limit, height)
     change = np.empty((n, m))
     if touching.size:
-        t, i = s.among(touching), touching
-        change[:, i] = kernel.contact_increment(start[i], end[i], entry, t.m)
+        change[:, touching] = kernel.contact_increment(start[touching], end[touching], entry, pressed.m)
     if apart.size:
-        t, i = s.among(apart), apart
-        change[:, i] = kernel.relaxation_increment(start[i], end[i], z[:, i], p[i], t.m)
-    snaps = s.snaps
-    met = np.where(
-        contact, ADHESION, np.where(letter == FREE, np.where(snaps, CONTACT, ADHESION), np.where(which == LOWER, CONTACT, FREE))
-    )
+        change[:, apart] = kernel.relaxation_increment(start[apart], end[apart], z[:, apart], p[apart], open_.m)
+    onto = np.where(s.snaps, CONTACT, ADHESION)
+    met = np.where(contact, ADHESION, np.where(letter == FREE, onto, np.where(which == LOWER, CONTACT, FREE)))
     following = np.where((which == NONE) | (which == LOST), -1, met)
     snapped = (letter == FREE) & (following == CONTACT)
     reach = np.divide(s.delta_0, s.m.J_0, out=np.zeros(m), where=snapped)

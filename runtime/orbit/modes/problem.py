@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..batch import pick
+from ..batch import Batch, pick
 from ..groups import snaps_in
 
 #: the greatest rate of decay
@@ -14,7 +14,7 @@ _FASTEST = 1e13
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class ModeStrips:
+class ModeStrips(Batch):
     """Dimensionless groups of N strips: lengths in A, pressures in K A, times in 1/(k V).
 
     ``m``: the kernel's ``Modes`` at the strips' speeds, per-mode arrays (n, N) or, where all strips share one material,
@@ -52,39 +52,14 @@ class ModeStrips:
         return np.broadcast_to(self.m.J_0 * self.p_0, self.D.shape)
 
     @property
-    def jump_on(self) -> np.ndarray:
-        """How far w steps at an onset: the whole gap where the point snaps into contact, (N,)."""
-        return np.where(self.snaps, self.delta_0, self.step)
-
-    @property
     def start(self) -> np.ndarray:
         """Where periods are counted from, in the middle of the valley: free where a strip is free at all, (N,)."""
         return np.full(self.size, np.pi)
 
-    @property
-    def size_of_lengths(self) -> np.ndarray:
-        """Scale that lengths are rounded at, (N,)."""
-        return 1 + np.abs(self.D) + self.p_0 + self.delta_0
-
     def take(self, index) -> ModeStrips:
-        """The strips at ``index``."""
-        return ModeStrips(
-            take_modes(self.m, index), self.p_0[index], self.delta_0[index], self.D[index], self.snaps[index], self.bare
-        )
-
-    def among(self, index) -> ModeStrips:
-        """The same for an index that ascends and repeats nothing: these strips where it is all of them."""
-        return self if index.size == self.size else self.take(index)
-
-    def raised(self) -> ModeStrips:
-        """The strips that are never released, seen from ``-p_0``: adding ``p_0`` to w, p and every e leaves the
-        foundation's law unchanged."""
-        return ModeStrips(self.m, np.zeros(self.size), np.zeros(self.size), self.D + self.p_0, self.snaps, bare=True)
-
-
-def take_modes(m, index):
-    """``Modes`` at ``index`` of the last axis."""
-    return type(m)(*(pick(a, index) for a in m))
+        """The strips at ``index``; of ``Modes`` the last axis."""
+        m = type(self.m)(*(pick(each, index) for each in self.m))
+        return ModeStrips(m, self.p_0[index], self.delta_0[index], self.D[index], self.snaps[index], self.bare)
 
 
 def rates(times):

@@ -179,7 +179,8 @@ def linearised(orbit: Forced, rising: bool):
     d, b, a, c = orbit.edges
     y_c, y_d = orbit.gaps()
     room = np.stack((y_c - s.delta_0 - s.step, y_d - s.delta_0)) * (1 if rising else -1)
-    falls = -responses(orbit.kernel, s, (b, a), (c, c), (d, d), (s.step, s.jump_on), True)
+    jump = np.where(s.snaps, s.delta_0, s.step)  # of w at an onset: the whole gap where the point snaps into contact
+    falls = -responses(orbit.kernel, s, (b, a), (c, c), (d, d), (s.step, jump), True)
     falls[[0, 1], [0, 1]] += orbit.adhering(c)[0], -orbit.falling(d)[0]
     return room, falls
 
