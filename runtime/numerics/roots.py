@@ -72,16 +72,6 @@ def falling_root(
     return result
 
 
-def rising_root(function: Callable, low, high, guess=None, tolerance: float = 0.0) -> np.ndarray:
-    """``falling_root`` of functions that are not positive at ``low`` and positive at ``high``."""
-
-    def negative(x, index):
-        found = function(x, index)
-        return tuple(-v for v in found) if isinstance(found, tuple) else -found
-
-    return falling_root(negative, low, high, guess, tolerance)
-
-
 def _secant(last, x, value):
     """Slope of the secant through the last two points; none at first."""
     if last is None:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...numerics.gauss import graded_gauss
 from ...numerics.quadrature import by_rules
-from ...numerics.roots import rising_root
+from ...numerics.roots import falling_root
 from ...numerics.rounding import EPS
 from ...orbit.contact import passages
 from .family import CUT, MEANS, SEARCH
@@ -204,11 +204,11 @@ def _passages(pressure, crest, breaks) -> tuple[np.ndarray, np.ndarray]:
     short = lambda p, rows: np.sqrt(np.maximum(1 - p / top[rows], 0.0))  # noqa: E731
     goal, run = short(breaks[row, which], row), far - crest[row]
 
-    def missing(share, index):
+    def beyond(share, index):
         at = row[index]
-        return short(pressure((crest[at] + run[index] * share)[:, None], at)[:, 0], at) - goal[index]
+        return goal[index] - short(pressure((crest[at] + run[index] * share)[:, None], at)[:, 0], at)
 
-    share = rising_root(missing, np.zeros(row.size), np.ones(row.size), goal, _CLOSE)
+    share = falling_root(beyond, np.zeros(row.size), np.ones(row.size), goal, _CLOSE)
     edges[row, np.where(far > 0, 2 * B - which, 1 + which)] = crest[row] + run * share
     return np.maximum.accumulate(edges, axis=1), breaks[:, -1] < top
 
@@ -220,7 +220,7 @@ def penetrations(columns: LevelBatch, p: np.ndarray) -> tuple[np.ndarray, np.nda
     p = p / (columns.material.K * h)
     s_sat, slope = family.s_sat[group], np.ones(p.size)
 
-    def over(log_d, index):
+    def missing(log_d, index):
         d, at = np.exp(log_d), group[index]
         u, s, weight = Span(d, s_sat[index]).nodes(_SEARCH)
         mean, mean_slope = family.at(at, s, SEARCH)
@@ -229,8 +229,8 @@ def penetrations(columns: LevelBatch, p: np.ndarray) -> tuple[np.ndarray, np.nda
         # s rises by 2/u with d
         rise = (weight * mean_slope).sum(axis=1) + rest / np.pi
         slope[index] = rise * d / pressure
-        return np.log(pressure / p[index]), slope[index]
+        return -np.log(pressure / p[index]), -slope[index]
 
     low, high = np.log(p), np.log(np.minimum(p + 0.75, 0.5 * s_sat))
     # crests are paraboloids next to the plane: at rest they carry d^2/(2 pi)
-    return h * np.exp(rising_root(over, low, high, 0.5 * np.log(2 * np.pi * p), _NEAR)), slope
+    return h * np.exp(falling_root(missing, low, high, 0.5 * np.log(2 * np.pi * p), _NEAR)), slope

@@ -7,7 +7,7 @@ it has its sign on one interval at most. So the brackets hold one zero each.
 
 import numpy as np
 
-from ...numerics.roots import falling_root, rising_root
+from ...numerics.roots import falling_root
 from ..batch import pick
 from ..regimes import EQUATIONS, ZONES
 from .march import TWO_PI
@@ -52,7 +52,7 @@ def greatest_gap(kernel, edges: np.ndarray, s: ModeStrips) -> np.ndarray:
     """Of orbits that are engaged all along, edges b and a, (N,): the gap opens at a, and turns before the valley."""
     _, (_, start, z, _) = zones_of(kernel, "ac", s, edges)
     constants = kernel.gap_entry(start, z, -s.p_0, s.D, s.m)
-    return _value(kernel.gap_event, constants, falling_root, start, start + np.mod(np.pi - start, TWO_PI))
+    return _value(kernel.gap_event, constants, 1, start, start + np.mod(np.pi - start, TWO_PI))
 
 
 def least_gap(kernel, edges: np.ndarray, s: ModeStrips) -> np.ndarray:
@@ -60,13 +60,13 @@ def least_gap(kernel, edges: np.ndarray, s: ModeStrips) -> np.ndarray:
     start, end = edges
     (_, _, z, _), _ = zones_of(kernel, "af", s, edges)
     constants = kernel.gap_entry(start, z, -s.p_0, s.D, s.m)
-    return _value(kernel.gap_event, constants, rising_root, np.maximum(start, TWO_PI * np.floor(end / TWO_PI)), end)
+    return _value(kernel.gap_event, constants, -1, np.maximum(start, TWO_PI * np.floor(end / TWO_PI)), end)
 
 
-def _value(event, constants, root, low, high) -> np.ndarray:
-    """Value of ``event`` where its slope passes zero between ``low`` and ``high``."""
+def _value(event, constants, sign: int, low, high) -> np.ndarray:
+    """Value of ``event`` where its slope, of this ``sign`` at ``low``, passes zero between there and ``high``."""
 
     def slope(phase, index):
-        return event(phase, *(pick(c, index) for c in constants))[1]
+        return event(phase, *(pick(c, index) for c in constants))[1] * sign
 
-    return event(root(slope, low, np.maximum(high, low), tolerance=_PLACED), *constants)[0]
+    return event(falling_root(slope, low, np.maximum(high, low), tolerance=_PLACED), *constants)[0]
