@@ -83,12 +83,6 @@ def interpolation_errors(c: np.ndarray, noise: np.ndarray, blur: np.ndarray | fl
     return _SAFE * end * np.clip(2 * pace / np.maximum(1 - pace, 1e-3), _FASTEST, _SLOWEST)
 
 
-def evaluate(coefficients: np.ndarray, t) -> np.ndarray:
-    """Chebyshev sums of ``coefficients`` (..., n + 1, q) at ``t`` in [0, 1] (m,), shape (..., m, q)."""
-    angle = np.arccos(np.clip(2 * np.asarray(t, float) - 1, -1.0, 1.0))
-    return np.cos(angle[:, None] * np.arange(coefficients.shape[-2])) @ coefficients
-
-
 def evaluate_each(table: np.ndarray, x: np.ndarray) -> np.ndarray:
     """Chebyshev sums of a ``table`` (m, n + 1, q), each at its own ``x`` (m, nodes) in [-1, 1], (m, nodes, q)."""
     out, rows = np.empty((*x.shape, table.shape[2])), max(1, _CHUNK // x.shape[1])
