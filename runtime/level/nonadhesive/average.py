@@ -66,20 +66,22 @@ class _Sums:
         self.s_sat = self.family.s_sat[self.group]
         self.partly = self.d < 0.5 * self.s_sat
         if self.carry is not None:
-            self.ends = self._ends()
+            part = np.flatnonzero(self.partly)
+            breaks = self.carry.breaks[self.law[part]] / (0.5 * self.pressure)
+            # ends (m, e) of the panels of strips in partial contact
+            self.ends = np.zeros((self.d.size, 2 + breaks.shape[1]))
+            self.ends[part] = Span(self.d[part], self.s_sat[part]).parted(self.family, self.group[part], breaks)
 
     def own(self, some: np.ndarray, strips: int, of: tuple = MEANS) -> np.ndarray:
         """Mean pressure, friction (Pa) and contact fraction of the columns ``some`` (m,), by so many strips, (m, 3); or what is
         cut ``of`` the series of these."""
         values = self._complete(some) if of == MEANS else np.zeros((some.size, 3))
         part = np.flatnonzero(self.partly[some])
-        if part.size:
-            index = some[part]
-            u, s, weight = Span(self.d[index], self.s_sat[index]).nodes(strips)
-            p, tau, share = self.family.at(self.group[index], s, of)
-            A = 0.5 * u
-            each = np.stack((A * p, A * A * tau, share), axis=2) * weight[:, :, None]
-            values[part] += self.units * each.sum(axis=1)
+        index = some[part]
+        u, s, weight = Span(self.d[index], self.s_sat[index]).nodes(strips)
+        p, tau, share = self.family.at(self.group[index], s, of)
+        A = 0.5 * u
+        values[part] += self.units * (np.stack((A * p, A * A * tau, share), axis=2) * weight[:, :, None]).sum(axis=1)
         return values
 
     def of_series(self) -> np.ndarray:
@@ -111,14 +113,6 @@ class _Sums:
         u_square = (1.5 * rest - 2 * np.sin(rest) + 0.25 * np.sin(2 * rest)) / (4 * np.pi)
         friction = 0.25 * self.family.full[self.group[some]] * u_square
         return self.units * np.stack((pressure, friction, rest / np.pi), axis=1)
-
-    def _ends(self):
-        """Ends (m, e) of the panels of strips in partial contact."""
-        part, ends = np.flatnonzero(self.partly), np.zeros((self.d.size, 2 + self.carry.breaks.shape[1]))
-        if part.size:
-            breaks = self.carry.breaks[self.law[part]] / (0.5 * self.pressure)
-            ends[part] = Span(self.d[part], self.s_sat[part]).parted(self.family, self.group[part], breaks)
-        return ends
 
     def _partly(self, some, strips, nodes):
         """Strips in partial contact."""
