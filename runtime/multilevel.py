@@ -20,7 +20,7 @@ from .level.law import build_laws, merged
 from .level.lower_levels import LowerLevelLaws
 from .level.nonadhesive.family import are_families
 from .level.nonadhesive.law import crest_pressure, lower_laws, tolerances, with_family
-from .level.saturated import SaturatedLevel, saturated_friction, saturated_level
+from .level.saturated import saturated_friction, saturated_level
 from .level.strips import QUANTITIES, LevelBatch, cut_penetration
 from .numerics.rounding import LARGEST
 from .orbit.foundation import foundation_of
@@ -56,11 +56,6 @@ class Points:
     error: np.ndarray
     closed_form: np.ndarray
     pulled_off: np.ndarray
-
-    @classmethod
-    def blank(cls, levels: int, n: int) -> Points:
-        """None of which anything is known."""
-        return cls(np.full(n, np.nan), np.zeros(n), *np.zeros((3, levels, n)), np.zeros(n), *np.zeros((2, n), bool))
 
     def improve(self, index: np.ndarray, finer: Points, surely: np.ndarray) -> None:
         """Put the points ``finer`` (k,) in the place of those at ``index`` (k,) that err by more or are ``surely`` (k,) worse."""
@@ -126,20 +121,12 @@ class Surface:
             self.at_level(i), self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, strips, work=self.work
         )
 
-    def are_families(self, V) -> bool:
-        """Whether the strips of all levels are families at the velocities ``V``."""
-        possible = self.families and self.strips is None
-        return possible and are_families(foundation_of(self.at_level(0)), self.adhesion.p_0, self.levels, V)
-
-    def alone(self, level: Level, V) -> SaturatedLevel:
-        """Saturation of a level by itself."""
-        return saturated_level(self.material, self.adhesion, level, V, self.branch)
-
     def saturated(self, V) -> list[Saturation]:
         """Saturation of each level with all below it."""
         out: list[Saturation] = []
         for i in reversed(range(len(self.levels))):
-            s, one, zero = self.alone(self.levels[i], V), np.ones(V.size), np.zeros(V.size)
+            s = saturated_level(self.material, self.adhesion, self.levels[i], V, self.branch)
+            one, zero = np.ones(V.size), np.zeros(V.size)
             p, D, means = s.p_sat, s.D_sat, (s.tau_sat, one, zero)
             if out:
                 # the least local pressure, at the crest, has to saturate everything below; and -p_0 keeps the level's own contact
@@ -185,9 +172,8 @@ class Surface:
                 again = _Solve(finer, V[missed], load[missed], by_pressure, size)
                 # a friction of which no digit is told is better told by strips that are searched for, whatever the errors
                 out.improve(missed, again.run(np.zeros(missed.size, bool), None), ~told[missed] & (not finer.families))
-        below = self.levels[known:]
-        if below:
-            out.extend(np.array([self.alone(level, V).tau_sat for level in below]))
+        if known < len(self.levels):
+            out.extend(saturated_friction(self.material, self.levels[known:], V))
         return out
 
 
@@ -197,25 +183,23 @@ class _Solve:
     def __init__(self, surface: Surface, V, load, by_pressure: bool, friction=None):
         self.surface, self.V, self.load, self.by_pressure = surface, V, load, by_pressure
         self.friction = friction
-        self.M = len(surface.levels)
-        self.out = Points.blank(self.M, V.size)
+        self.M, n = len(surface.levels), V.size
+        # nothing is known of them yet
+        self.out = Points(np.full(n, np.nan), np.zeros(n), *np.zeros((3, self.M, n)), np.zeros(n), *np.zeros((2, n), bool))
 
     def run(self, full, progress) -> Points:
         """Solve them; the points ``full`` (n,) are in saturated contact on every level."""
-        out = self.out
         self._closed_form(full)
         if progress:
             progress(int(full.sum()), self.V.size)
         rest = np.flatnonzero(~full)
-        if not rest.size:
-            return out
         velocities, group = np.unique(self.V[rest], return_inverse=True)
         for start in range(0, velocities.size, _BLOCK):
             chosen = (group >= start) & (group < start + _BLOCK)
             self._block(velocities[start : start + _BLOCK], rest[chosen], group[chosen] - start)
             if progress:
                 progress(int(full.sum() + np.count_nonzero(group < start + _BLOCK)), self.V.size)
-        return out
+        return self.out
 
     def _closed_form(self, full):
         """Points ``full`` (n,) are in saturated contact on every level."""
@@ -228,7 +212,9 @@ class _Solve:
 
     def _block(self, V, index, group):
         """Points ``index`` whose velocities are ``V[group]``."""
-        if self.surface.are_families(V):
+        surface = self.surface
+        possible = surface.families and surface.strips is None
+        if possible and are_families(foundation_of(surface.at_level(0)), surface.adhesion.p_0, surface.levels, V):
             try:
                 return self._points(V, index, group, True)
             except SolverError:
@@ -243,8 +229,9 @@ class _Solve:
             size = np.full(index.size, _GUESS * surface.friction_floor) if self.friction is None else self.friction[index]
             deepest = cut_penetration(columns, load, np.full(load.size, np.inf)) if self.by_pressure else load
             columns = with_family(columns, deepest, surface.rtol * size, carries=self.M > 1)
-        found = self._penetrations(columns, index)
-        touching = np.flatnonzero(np.isfinite(found.D))
+        found = invert(columns, load, 0.5 * surface.rtol) if self.by_pressure else Inverse.at(load)
+        off, touching = np.isnan(found.D), np.flatnonzero(np.isfinite(found.D))
+        self.out.pulled_off[index[off]], self.out.p[index[off]] = True, load[off]
         index, group = index[touching], group[touching]
         if not index.size:
             return
@@ -256,17 +243,6 @@ class _Solve:
             columns = self._carrying(V, group, columns)
         means = level_means(columns, rtol, atol)
         self._write(index, found.take(touching), means)
-
-    def _penetrations(self, columns: LevelBatch, index) -> Inverse:
-        """Penetration of each point (NaN below pull-off) and the slopes of level 1 over pressure there."""
-        load = self.load[index]
-        if not self.by_pressure:
-            return Inverse.at(load.copy())
-        out = invert(columns, load, 0.5 * self.surface.rtol)
-        off = np.isnan(out.D)
-        self.out.pulled_off[index[off]] = True
-        self.out.p[index[off]] = load[off]
-        return out
 
     def _carrying(self, V, group, columns: LevelBatch) -> LevelBatch:
         """The columns of level 1 with the laws of level 2, built from the smallest level upwards."""

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hystrip.numerics.roots import falling_root, rising_root
+from hystrip.numerics.roots import falling_root
 
 RNG_SEED = 7
 
@@ -32,7 +32,7 @@ def test_roots_of_many_functions(with_slope):
 def test_roots_of_functions_that_jump_or_do_not_cross():
     one = np.ones(1)
     assert falling_root(lambda x, i: np.where(x < 0.3, 1.0, -1.0), 0 * one, one) == pytest.approx(0.3, abs=1e-15)
-    assert rising_root(lambda x, i: (x - 0.25, np.ones_like(x)), 0 * one, one) == pytest.approx(0.25)
+    assert falling_root(lambda x, i: (0.25 - x, -np.ones_like(x)), 0 * one, one) == pytest.approx(0.25)
     assert falling_root(lambda x, i: 1 / 0, one, one) == 1 and falling_root(lambda x, i: 1 / 0, 2 * one, one) == 1
     # the caller's word is not kept: the search ends at an end
     assert falling_root(lambda x, i: one, 0 * one, one) == pytest.approx(1.0, abs=1e-15)

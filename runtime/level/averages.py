@@ -14,8 +14,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..numerics.nested import Stage, sampled
-from ..numerics.quadrature import interior_nodes, mapped, mapped_weights, sum_errors
+from ..numerics.quadrature import Stage, interior_nodes, mapped, mapped_weights, sampled, sum_errors
 from ..numerics.rounding import EPS
 from ..orbit.batch import Batch
 from ..orbit.regimes import CODE

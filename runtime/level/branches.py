@@ -18,8 +18,9 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebval
 
-from ..numerics.chebyshev import Series, derivatives, evaluate
+from ..numerics.chebyshev import Series, derivatives
 from ..numerics.gauss import GENTLE, STEEP, graded_share
 from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
@@ -102,7 +103,7 @@ class Piece:
 
     def values(self, t) -> np.ndarray:
         """Quantities at t (m,), shape (m, q)."""
-        return evaluate(self.coefficients, t)
+        return chebval(2 * t - 1, self.coefficients).T
 
 
 @dataclass(frozen=True, slots=True)

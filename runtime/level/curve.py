@@ -10,8 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..numerics.nested import Stage, sampled
-from ..numerics.quadrature import interior_nodes
+from ..numerics.quadrature import Stage, interior_nodes, sampled
 from ..numerics.rounding import EPS
 from .branches import Piece
 from .breaks import between_breaks, first_contact, scan

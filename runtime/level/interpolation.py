@@ -9,8 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..numerics.chebyshev import flat_ended, interpolation_errors
-from ..numerics.nested import Stage, sampled
-from ..numerics.quadrature import interior_nodes
+from ..numerics.quadrature import Stage, interior_nodes, sampled
 from ..orbit.batch import Batch
 from .averages import level_means
 from .branches import Errors, Piece, share_of

@@ -12,7 +12,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.polynomial.chebyshev import chebder, chebvander
 
-from .roots import rising_root
+from .roots import falling_root
 from .rounding import EPS
 
 #: all quantities share their singularities: power of the roughest one's coefficients, relative to its own, in those of the others
@@ -58,12 +58,9 @@ def flat_ended(n: int) -> np.ndarray:
     return every[:, 1:-1] + every[:, [0, -1]] @ ends
 
 
-def interpolation_errors(
-    c: np.ndarray, noise: np.ndarray, blur: np.ndarray | float = 0.0, rounding: np.ndarray | float = 0.0
-) -> np.ndarray:
+def interpolation_errors(c: np.ndarray, noise: np.ndarray, blur: np.ndarray | float = 0.0) -> np.ndarray:
     """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q), a guess if 6; ``noise`` (p, q): changes
-    that don't matter; ``blur`` (p, q): how uncertain the coefficients are themselves; ``rounding`` (p, q): what of each is
-    rounding and not counted.
+    that don't matter; ``blur`` (p, q): how uncertain the coefficients are themselves.
 
     What is left is extrapolated from the end of the series, at the pace that coefficients fell at since the middle: those of a
     quantity itself, as far as they don't fall faster than those of the roughest one, for all share their singularities.
@@ -71,7 +68,7 @@ def interpolation_errors(
     n = c.shape[1] - 1
     c = np.abs(c)
     # what is rounding says nothing of the singularities
-    c = np.maximum(c - (16 * EPS * c.max(axis=1) + rounding)[:, None], 0.0)
+    c = np.maximum(c - 16 * EPS * c.max(axis=1, keepdims=True), 0.0)
     amplitude = (c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny)[:, None]
     blur = np.broadcast_to(blur, noise.shape)[:, None]
     roughest = (np.maximum(c - blur, 0.0) / amplitude).max(axis=2, keepdims=True)
@@ -86,12 +83,6 @@ def interpolation_errors(
     return _SAFE * end * np.clip(2 * pace / np.maximum(1 - pace, 1e-3), _FASTEST, _SLOWEST)
 
 
-def evaluate(coefficients: np.ndarray, t) -> np.ndarray:
-    """Chebyshev sums of ``coefficients`` (..., n + 1, q) at ``t`` in [0, 1] (m,), shape (..., m, q)."""
-    angle = np.arccos(np.clip(2 * np.asarray(t, float) - 1, -1.0, 1.0))
-    return np.cos(angle[:, None] * np.arange(coefficients.shape[-2])) @ coefficients
-
-
 def evaluate_each(table: np.ndarray, x: np.ndarray) -> np.ndarray:
     """Chebyshev sums of a ``table`` (m, n + 1, q), each at its own ``x`` (m, nodes) in [-1, 1], (m, nodes, q)."""
     out, rows = np.empty((*x.shape, table.shape[2])), max(1, _CHUNK // x.shape[1])
@@ -100,15 +91,9 @@ def evaluate_each(table: np.ndarray, x: np.ndarray) -> np.ndarray:
     return out
 
 
-@lru_cache
-def _differentiation(n: int) -> np.ndarray:
-    """Matrix from n Chebyshev coefficients to those of the derivative over [-1, 1], the last one zero."""
-    return np.concatenate([chebder(np.eye(n)), np.zeros((1, n))]) if n > 1 else np.zeros((1, 1))
-
-
 def derivatives(table: np.ndarray) -> np.ndarray:
     """Coefficients (..., n, q) of the derivatives over [-1, 1] of the series ``table`` (..., n, q)."""
-    return _differentiation(table.shape[-2]) @ table
+    return np.concatenate((chebder(table, axis=-2), np.zeros_like(table[..., :1, :])), axis=-2)
 
 
 def resampled(x: np.ndarray, goal: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -120,11 +105,11 @@ def resampled(x: np.ndarray, goal: np.ndarray, values: np.ndarray) -> np.ndarray
     guess = np.array([np.interp(g, row, nodes) for g, row in zip(goal, known, strict=True)])
     row, wanted, t = np.repeat(np.arange(m), size - 2), goal[:, 1:-1].ravel(), np.tile(nodes, (m, 1))
 
-    def over(t, index):
+    def missing(t, index):
         place, slope = clenshaw(rise, row[index], t)
-        return place - wanted[index], slope
+        return wanted[index] - place, -slope
 
-    inside = rising_root(over, np.full(row.size, -1.0), np.ones(row.size), guess[:, 1:-1].ravel())
+    inside = falling_root(missing, np.full(row.size, -1.0), np.ones(row.size), guess[:, 1:-1].ravel())
     t[:, 1:-1] = inside.reshape(m, size - 2)
     return coefficients(evaluate_each(coefficients(values), t))
 

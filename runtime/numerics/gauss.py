@@ -26,14 +26,10 @@ _SAFE = 3.0
 def graded_share(t: np.ndarray, low: int = STEEP, high: int = STEEP) -> np.ndarray:
     """Share of an interval below ``t``, both in [0, 1]: like ``t^low`` next to 0 and ``1 - (1 - t)^high`` next to 1; to the
     digits of the distance from either end."""
-    t = np.asarray(t, float)
-    return np.where(t <= 0.5, _beta(t, low, high), 1 - _beta(1 - t, high, low))
-
-
-def _beta(t, a: int, b: int):
-    """Regularised incomplete beta function: sums of positive terms, so that no digits are lost."""
-    n = a + b - 1
-    return sum(comb(n, j) * t**j * (1 - t) ** (n - j) for j in range(a, n + 1))
+    t, n = np.asarray(t, float), low + high - 1
+    # the regularised incomplete beta function: sums of positive terms, so that no digits are lost
+    terms = [comb(n, j) * t**j * (1 - t) ** (n - j) for j in range(n + 1)]
+    return np.where(t <= 0.5, sum(terms[low:]), 1 - sum(terms[:low]))
 
 
 @lru_cache

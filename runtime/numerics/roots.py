@@ -35,13 +35,17 @@ def falling_root(
     x, lo, hi = x[live], low[live], high[live]
     before = hi - lo  # the step before, or the bracket
     correction = np.zeros(live.size)  # the step before if it was no bisection, else 0
-    last = None  # the point before and its value, for the secant
+    last = x, np.zeros(live.size)  # the point before and its value, for the secant: none at first
     for _ in range(_MOST):
         if not live.size:
             break
         found = function(x, live)
         newton = isinstance(found, tuple)
-        value, slope = found if newton else (found, _secant(last, x, found))
+        if newton:
+            value, slope = found
+        else:
+            value, run = found, x - last[0]
+            slope = np.divide(value - last[1], run, out=np.zeros_like(value), where=run != 0)
         positive = value > 0
         last, lo, hi = (x, value), np.where(positive, x, lo), np.where(positive, hi, x)
         # a slope of the wrong sign, or one that over- or underflowed, gives a step out of the bracket, no number, or none
@@ -70,21 +74,3 @@ def falling_root(
             before, correction, last = before[going], correction[going], tuple(v[going] for v in last)
     result[live] = x
     return result
-
-
-def rising_root(function: Callable, low, high, guess=None, tolerance: float = 0.0) -> np.ndarray:
-    """``falling_root`` of functions that are not positive at ``low`` and positive at ``high``."""
-
-    def negative(x, index):
-        found = function(x, index)
-        return tuple(-v for v in found) if isinstance(found, tuple) else -found
-
-    return falling_root(negative, low, high, guess, tolerance)
-
-
-def _secant(last, x, value):
-    """Slope of the secant through the last two points; none at first."""
-    if last is None:
-        return np.zeros_like(value)
-    run = x - last[0]
-    return np.divide(value - last[1], run, out=np.zeros_like(value), where=run != 0)

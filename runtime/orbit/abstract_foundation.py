@@ -12,7 +12,6 @@ import numpy as np
 
 from ..errors import InputError, SolverError
 from ..inputs.materials import parameters
-from ..numerics.roots import falling_root
 from ..numerics.rounding import LARGEST
 from .contact import Contact
 from .groups import TWO_PI, snaps_in
@@ -197,7 +196,7 @@ class Foundation(ABC):
         place = ZONES[sequence][0].index("c")
         b, a = edges[place], edges[place + 1]
         constants = self.excess(b, self.entry(sequence, edges, strips), strips)
-        return extreme(self.kernel.excess_event, constants, falling_root, b, a) - strips.p_0 - pressure
+        return extreme(self.kernel.excess_event, constants, 1, b, a) - strips.p_0 - pressure
 
     def contact(self, strips, solved: Solved, scales: dict, index: np.ndarray) -> Contact:
         """Contact of the solved strips ``index``, as ``solve`` returned them."""

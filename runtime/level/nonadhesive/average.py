@@ -13,7 +13,7 @@ import numpy as np
 
 from ...numerics.gauss import graded_gauss
 from ...numerics.quadrature import by_rules
-from ...numerics.roots import rising_root
+from ...numerics.roots import falling_root
 from ...numerics.rounding import EPS
 from ...orbit.contact import passages
 from .family import CUT, MEANS, SEARCH
@@ -66,20 +66,22 @@ class _Sums:
         self.s_sat = self.family.s_sat[self.group]
         self.partly = self.d < 0.5 * self.s_sat
         if self.carry is not None:
-            self.ends = self._ends()
+            part = np.flatnonzero(self.partly)
+            breaks = self.carry.breaks[self.law[part]] / (0.5 * self.pressure)
+            # ends (m, e) of the panels of strips in partial contact
+            self.ends = np.zeros((self.d.size, 2 + breaks.shape[1]))
+            self.ends[part] = Span(self.d[part], self.s_sat[part]).parted(self.family, self.group[part], breaks)
 
     def own(self, some: np.ndarray, strips: int, of: tuple = MEANS) -> np.ndarray:
         """Mean pressure, friction (Pa) and contact fraction of the columns ``some`` (m,), by so many strips, (m, 3); or what is
         cut ``of`` the series of these."""
         values = self._complete(some) if of == MEANS else np.zeros((some.size, 3))
         part = np.flatnonzero(self.partly[some])
-        if part.size:
-            index = some[part]
-            u, s, weight = Span(self.d[index], self.s_sat[index]).nodes(strips)
-            p, tau, share = self.family.at(self.group[index], s, of)
-            A = 0.5 * u
-            each = np.stack((A * p, A * A * tau, share), axis=2) * weight[:, :, None]
-            values[part] += self.units * each.sum(axis=1)
+        index = some[part]
+        u, s, weight = Span(self.d[index], self.s_sat[index]).nodes(strips)
+        p, tau, share = self.family.at(self.group[index], s, of)
+        A = 0.5 * u
+        values[part] += self.units * (np.stack((A * p, A * A * tau, share), axis=2) * weight[:, :, None]).sum(axis=1)
         return values
 
     def of_series(self) -> np.ndarray:
@@ -111,14 +113,6 @@ class _Sums:
         u_square = (1.5 * rest - 2 * np.sin(rest) + 0.25 * np.sin(2 * rest)) / (4 * np.pi)
         friction = 0.25 * self.family.full[self.group[some]] * u_square
         return self.units * np.stack((pressure, friction, rest / np.pi), axis=1)
-
-    def _ends(self):
-        """Ends (m, e) of the panels of strips in partial contact."""
-        part, ends = np.flatnonzero(self.partly), np.zeros((self.d.size, 2 + self.carry.breaks.shape[1]))
-        if part.size:
-            breaks = self.carry.breaks[self.law[part]] / (0.5 * self.pressure)
-            ends[part] = Span(self.d[part], self.s_sat[part]).parted(self.family, self.group[part], breaks)
-        return ends
 
     def _partly(self, some, strips, nodes):
         """Strips in partial contact."""
@@ -204,11 +198,11 @@ def _passages(pressure, crest, breaks) -> tuple[np.ndarray, np.ndarray]:
     short = lambda p, rows: np.sqrt(np.maximum(1 - p / top[rows], 0.0))  # noqa: E731
     goal, run = short(breaks[row, which], row), far - crest[row]
 
-    def missing(share, index):
+    def beyond(share, index):
         at = row[index]
-        return short(pressure((crest[at] + run[index] * share)[:, None], at)[:, 0], at) - goal[index]
+        return goal[index] - short(pressure((crest[at] + run[index] * share)[:, None], at)[:, 0], at)
 
-    share = rising_root(missing, np.zeros(row.size), np.ones(row.size), goal, _CLOSE)
+    share = falling_root(beyond, np.zeros(row.size), np.ones(row.size), goal, _CLOSE)
     edges[row, np.where(far > 0, 2 * B - which, 1 + which)] = crest[row] + run * share
     return np.maximum.accumulate(edges, axis=1), breaks[:, -1] < top
 
@@ -220,7 +214,7 @@ def penetrations(columns: LevelBatch, p: np.ndarray) -> tuple[np.ndarray, np.nda
     p = p / (columns.material.K * h)
     s_sat, slope = family.s_sat[group], np.ones(p.size)
 
-    def over(log_d, index):
+    def missing(log_d, index):
         d, at = np.exp(log_d), group[index]
         u, s, weight = Span(d, s_sat[index]).nodes(_SEARCH)
         mean, mean_slope = family.at(at, s, SEARCH)
@@ -229,8 +223,8 @@ def penetrations(columns: LevelBatch, p: np.ndarray) -> tuple[np.ndarray, np.nda
         # s rises by 2/u with d
         rise = (weight * mean_slope).sum(axis=1) + rest / np.pi
         slope[index] = rise * d / pressure
-        return np.log(pressure / p[index]), slope[index]
+        return -np.log(pressure / p[index]), -slope[index]
 
     low, high = np.log(p), np.log(np.minimum(p + 0.75, 0.5 * s_sat))
     # crests are paraboloids next to the plane: at rest they carry d^2/(2 pi)
-    return h * np.exp(rising_root(over, low, high, 0.5 * np.log(2 * np.pi * p), _NEAR)), slope
+    return h * np.exp(falling_root(missing, low, high, 0.5 * np.log(2 * np.pi * p), _NEAR)), slope

@@ -61,8 +61,10 @@ class Family:
     def __init__(self, foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, accuracy: np.ndarray, carries: bool):
         self.foundation, self.rate, self.carries, self.found = foundation, rate, carries, _FOUND * accuracy
         self.s_sat = 1 + np.broadcast_to(foundation.modulus_ratio(rate), rate.shape)
-        self.full, self.top = _full_friction(foundation, rate), np.zeros(rate.size)
-        self.strips, self.errors, self.degree = 0, np.zeros((rate.size, 3)), np.zeros(rate.size, int)
+        # a level of height h averages K A kA loss/2 over its strips, half the loss modulus, and the mean of A^2 is 3 h^2/32
+        self.full = foundation.saturation_friction(2 * np.pi, 1.0, rate) * 32 / (3 * foundation.K)
+        self.strips, self.top = 0, np.zeros(rate.size)
+        self.errors, self.degree = np.zeros((rate.size, 3)), np.zeros(rate.size, int)
         series: list[np.ndarray] = [np.empty((0, 10))] * rate.size
         most = self._reaching(s_top)
         left, n, known = np.arange(rate.size), _FIRST, None
@@ -180,13 +182,6 @@ def _inside(share):
 
 def _xi(s, s_sat):
     return np.arcsin(np.sqrt(np.clip(s / s_sat, 0.0, 1.0)))
-
-
-def _full_friction(foundation, rate):
-    """In complete contact, K A kA: half the loss modulus."""
-    # a level of height h averages K A kA loss/2 over its strips, and the mean of A^2 is 3 h^2/32
-    l = 2 * np.pi  # noqa: E741
-    return foundation.saturation_friction(l, 1.0, rate) * 32 / (3 * foundation.K)
 
 
 def _peaks(pressure, rows):

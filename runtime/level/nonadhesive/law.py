@@ -193,8 +193,10 @@ def _pieces(columns: LevelBatch, cuts: np.ndarray, rtol: float, friction, fracti
         fresh = np.column_stack((means, errors[:, columns.frictions].sum(axis=1), errors[:, 0]))
         fresh = fresh.reshape(*D.shape, q + 2)
         known = fresh if known is None else interleaved(known, fresh)
-        total = known[:, :, columns.frictions].sum(axis=2)
-        slope = _greatest_slope(known[:, :, 0], total)
+        total, step = known[:, :, columns.frictions].sum(axis=2), np.diff(known[:, :, 0], axis=1)
+        # differences of pressures that rounding or quadrature would make slopes of are none
+        told = step > _STEP * known[:, -1:, 0]
+        slope = np.divide(np.abs(np.diff(total, axis=1)), step, out=np.zeros_like(step), where=told).max(axis=1)
         goal = (rtol * total.min(axis=1) + friction[group[left]])[:, None]
         fitted, miss = _fit(known[:, :, :q], piece[left] == 0, columns.frictions, goal)
         done = (miss <= goal).all(axis=1) | (n == _NODES[-1])
@@ -219,11 +221,3 @@ def _fit(values: np.ndarray, quartic: np.ndarray, frictions: np.ndarray, goal: n
     )
     of = fitted[:, :, frictions - 1]
     return fitted, errors_alone(np.concatenate((of.sum(axis=2, keepdims=True), of), axis=2), goal)
-
-
-def _greatest_slope(p: np.ndarray, friction: np.ndarray) -> np.ndarray:
-    """Greatest slope of ``friction`` over pressures ``p`` of pieces, (m, nodes), (m,): differences of pressures that rounding or
-    quadrature would make slopes of are none."""
-    step = np.diff(p, axis=1)
-    slopes = np.divide(np.abs(np.diff(friction, axis=1)), step, out=np.zeros_like(step), where=step > _STEP * p[:, -1:])
-    return slopes.max(axis=1, initial=0.0)

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...numerics.gauss import graded_gauss
 from ...numerics.quadrature import gauss, mapped, mapped_slope
-from ...numerics.roots import rising_root
+from ...numerics.roots import falling_root
 from ...numerics.rounding import EPS
 from .family import CONTACT, Family
 
@@ -84,6 +84,6 @@ class Span:
         under = over(self.low[column], every) < 0
         passed[~under], met = self.low[column[~under]], np.flatnonzero(under & (over(passed, every) > 0))
         low, high = self.low[column[met]], self.high[column[met]]
-        passed[met] = rising_root(lambda eta, index: over(eta, met[index]), low, high, tolerance=_CLOSE)
+        passed[met] = falling_root(lambda eta, index: -over(eta, met[index]), low, high, tolerance=_CLOSE)
         rest = np.maximum(self.high[:, None] - passed.reshape(breaks.shape), 0.0)
         return np.sqrt(np.sort(np.column_stack((np.zeros_like(self.low), rest, self.high - self.low)), axis=1))

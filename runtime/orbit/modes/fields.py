@@ -7,7 +7,6 @@ it has its sign on one interval at most. So the brackets hold one zero each.
 
 import numpy as np
 
-from ...numerics.roots import falling_root, rising_root
 from ..march import TWO_PI, extreme
 from ..regimes import EQUATIONS, ZONES
 from .problem import ModeStrips
@@ -48,7 +47,7 @@ def greatest_gap(kernel, edges: np.ndarray, s: ModeStrips) -> np.ndarray:
     """Of orbits that are engaged all along, edges b and a, (N,): the gap opens at a, and turns before the valley."""
     _, (_, start, z, _) = zones_of(kernel, "ac", s, edges)
     constants = kernel.gap_entry(start, z, -s.p_0, s.D, s.m)
-    return extreme(kernel.gap_event, constants, falling_root, start, start + np.mod(np.pi - start, TWO_PI))
+    return extreme(kernel.gap_event, constants, 1, start, start + np.mod(np.pi - start, TWO_PI))
 
 
 def least_gap(kernel, edges: np.ndarray, s: ModeStrips) -> np.ndarray:
@@ -56,4 +55,4 @@ def least_gap(kernel, edges: np.ndarray, s: ModeStrips) -> np.ndarray:
     start, end = edges
     (_, _, z, _), _ = zones_of(kernel, "af", s, edges)
     constants = kernel.gap_entry(start, z, -s.p_0, s.D, s.m)
-    return extreme(kernel.gap_event, constants, rising_root, np.maximum(start, TWO_PI * np.floor(end / TWO_PI)), end)
+    return extreme(kernel.gap_event, constants, -1, np.maximum(start, TWO_PI * np.floor(end / TWO_PI)), end)
