@@ -21,10 +21,9 @@ from ..orbit.batch import Batch
 from ..orbit.regimes import CODE
 from .breaks import Zones, zones_of
 from .changes import Changes, locate_changes
-from .effort import AVERAGE_LIMIT
 from .nonadhesive.average import average as family_average
 from .regime_map import hides_another, known_breaks, located, theta_of
-from .strips import LevelBatch
+from .strips import AVERAGE_LIMIT, LevelBatch
 
 #: nodes of a panel at first and at most, and one more
 _FIRST, _LAST = 8, 64
@@ -88,7 +87,8 @@ def average(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> Averages
     stages = [Stage(work.start(*known_breaks(columns)), _FIRST)]
     while stages:
         stages = work.refine(stages)
-    return Averages(work.values / np.pi, work.errors / np.pi, work.strips, work.zones())
+    zones = zones_of(n, *(np.concatenate(v) for v in zip(*work.accepted, strict=True)))
+    return Averages(work.values / np.pi, work.errors / np.pi, work.strips, zones)
 
 
 @dataclass
@@ -153,10 +153,6 @@ class _Work:
         starts = state, np.concatenate((theta, np.zeros(n))), np.concatenate((after, crest))
         panels = Panels.between(starts, (state, np.concatenate((theta, np.full(n, np.pi))), np.concatenate((before, valley))))
         return panels.take(panels.width > 64 * EPS * np.pi)
-
-    def zones(self) -> list[Zones]:
-        """See ``Averages.zones``."""
-        return zones_of(self.strips.size, *(np.concatenate(v) for v in zip(*self.accepted, strict=True)))
 
     def refine(self, stages: list[Stage]) -> list[Stage]:
         """Sum up what converges under doubling; return what is left, divided where regimes change."""

@@ -15,9 +15,8 @@ from ..orbit.batch import Batch
 from .averages import level_means
 from .branches import Errors, Piece, share_of
 from .breaks import islands, locate_vanishing
-from .effort import CURVE_LIMIT, NO_CURVE
 from .error_budget import ErrorBudget
-from .strips import LevelBatch
+from .strips import CURVE_LIMIT, NO_CURVE, LevelBatch
 
 #: share of the error allowed that each mean may have
 MEAN = 0.4
