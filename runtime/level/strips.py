@@ -140,7 +140,8 @@ class LevelBatch:
         """Of the strips at ``theta``: codes (m,), values to average (m, q), greatest and least pressures over the breaks of the
         law below (m, k), NaN without contact, and the edges d, b, a, c (m, 4), NaN where there are none."""
         strips = self.solve(column, theta)
-        s, values, (codes, heights) = strips.solved, strips.values, self._codes(strips, column)
+        s, (codes, heights) = strips.solved, self._codes(strips, column)
+        values = np.column_stack((strips.p_mean, strips.tau_mean, s.contact_fraction, s.adhesion_fraction))
         if self.carry is not None:
             values = np.concatenate((values, self.carry.over_contact(strips, self.group[column])), axis=1)
         return codes, values, heights, np.stack((s.d, s.b, s.a, s.c), axis=1)
@@ -184,11 +185,6 @@ class SolvedStrips:
         """Which strips are in contact, and their contact."""
         index = np.flatnonzero(self.solved.contact_fraction > 0)
         return index, self.foundation.contact(self.strips, self.solved, self.scales, index)
-
-    @property
-    def values(self) -> np.ndarray:
-        s = self.solved
-        return np.column_stack([self.p_mean, self.tau_mean, s.contact_fraction, s.adhesion_fraction])
 
 
 def cut_penetration(columns: LevelBatch, p_max: np.ndarray, full: np.ndarray) -> np.ndarray:
