@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..numerics.gauss import graded_gauss, left_out, summed
-from ..orbit.batch import Batch
+from ..orbit.batch import Ranges
 from ..orbit.contact import Contact
 from .law import Laws
 from .strips import SolvedStrips
@@ -31,19 +31,13 @@ _NODES = (8, 14, 22, 34, 54, 84)
 
 
 @dataclass
-class Parts(Batch):
+class Parts(Ranges):
     """Parts [low, high] of the contacts ``rows``, ascending, in phase, where the pressure lies between the breaks ``interval``
     and the next ones; all (m,). ``times``: how often each counts, since in saturated contact the pressure falls as it rises."""
 
     rows: np.ndarray
     interval: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
     times: np.ndarray
-
-    @property
-    def width(self) -> np.ndarray:
-        return self.high - self.low
 
 
 @dataclass(frozen=True)
@@ -171,7 +165,7 @@ def _parts_between(contact: Contact, inside: np.ndarray, ups: np.ndarray, downs:
     there[1] &= ~contact.full[:, None]
     row, interval, way = np.nonzero(np.moveaxis(there, 0, 2))
     times = np.where(contact.full[row], 2.0, 1.0)
-    return Parts(row, interval, low[way, row, interval], high[way, row, interval], times)
+    return Parts(low[way, row, interval], high[way, row, interval], row, interval, times)
 
 
 def _by_strip(values, strip):
