@@ -65,7 +65,7 @@ def cell_of(result: Result, at: int | tuple[int, ...] | None, number_of_level: i
 
 def stresses_along(result: Result, cell: Cell, y: float) -> tuple[Floats, list[Floats]]:
     """Tangential stress along a strip of level 1 at ``y`` (m): x (m), and its own and that of all lower levels, Pa (Fig. 5)."""
-    from .level.effort import WorkCounters
+    from .level.strips import WorkCounters
     from .multilevel import Surface
 
     level = cell.level

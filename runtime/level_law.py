@@ -13,10 +13,8 @@ from .errors import ConvergenceWarning, InputError
 from .inputs.adhesion import Dugdale
 from .inputs.checks import number, numbers
 from .inputs.surface import Level
-from .level.effort import WorkCounters
 from .level.law import Laws, build_laws
-from .level.saturated import saturated_level
-from .level.strips import LevelBatch
+from .level.strips import LevelBatch, WorkCounters
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -123,7 +121,7 @@ def friction_law(
 
 def _laws(columns: LevelBatch, rtol: float, top) -> Laws:
     n = columns.size
-    s = saturated_level(columns.material, columns.adhesion, columns.level, columns.V, columns.branch)
+    s = columns.saturated
     saturated = np.stack([s.p_sat, s.tau_sat, np.ones(n), np.zeros(n)], axis=1)
     accuracy = np.full(n, rtol)
     return build_laws(columns, accuracy, columns.atol(accuracy), s.p_sat, s.D_sat, saturated, top)

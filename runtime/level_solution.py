@@ -15,9 +15,8 @@ from .inputs.adhesion import Dugdale
 from .inputs.checks import broadcast, choice, numbers
 from .inputs.surface import Level
 from .level.averages import level_means
-from .level.effort import WorkCounters
 from .level.inverse import invert
-from .level.strips import QUANTITIES, LevelBatch
+from .level.strips import QUANTITIES, LevelBatch, WorkCounters
 from .orbit.groups import ROUNDING
 
 if TYPE_CHECKING:

@@ -13,7 +13,6 @@ from .inputs.adhesion import Dugdale
 from .inputs.materials import Material
 from .inputs.surface import Level
 from .level.averages import level_means
-from .level.effort import WorkCounters
 from .level.error_budget import LEAST_CONTACT, error_budget, peak_pressure, strips_across
 from .level.inverse import Inverse, invert
 from .level.law import build_laws, merged
@@ -21,7 +20,7 @@ from .level.lower_levels import LowerLevelLaws
 from .level.nonadhesive.family import are_families
 from .level.nonadhesive.law import crest_pressure, lower_laws, tolerances, with_family
 from .level.saturated import saturated_friction, saturated_level
-from .level.strips import QUANTITIES, LevelBatch, cut_penetration
+from .level.strips import QUANTITIES, LevelBatch, WorkCounters, cut_penetration
 from .numerics.rounding import LARGEST
 from .orbit.foundation import foundation_of
 

@@ -88,7 +88,7 @@ def solve(
     [9.30e-05 2.72e-04]
     """
     # loaded here: `import hystrip` is to cost next to nothing
-    from .level.effort import WorkCounters
+    from .level.strips import WorkCounters
     from .multilevel import Surface
 
     levels = check_levels(levels)

@@ -26,7 +26,7 @@ def _told(place):
 def _located(line, width, equation=_told(np.nan)):
     ends = [v[None] for v in line(np.zeros(2, int), np.array([0.0, 1.0]))]
     line.asked = 0
-    return locate_changes(line, equation, Changes(np.zeros(1, int), np.zeros(1), np.ones(1), *ends), np.full(1, width))
+    return locate_changes(line, equation, Changes(np.zeros(1), np.ones(1), np.zeros(1, int), *ends), np.full(1, width))
 
 
 @pytest.mark.parametrize("place", [1e-3, 0.1, 0.37, 0.999])

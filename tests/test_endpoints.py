@@ -9,7 +9,7 @@ import hystrip
 from hystrip.level.averages import level_means
 from hystrip.level.curve import smooth_intervals
 from hystrip.level.interpolation import interpolate
-from hystrip.level.strips import LevelBatch, saturation_depth
+from hystrip.level.strips import LevelBatch
 from hystrip.numerics.chebyshev import flat_ended, lobatto
 from hystrip.numerics.gauss import GENTLE, STEEP, graded_share
 
@@ -49,7 +49,7 @@ def _columns():
 
 def _intervals(columns):
     rtol = np.full(1, 1e-5)
-    return smooth_intervals(columns, rtol, columns.atol(rtol), saturation_depth(columns))
+    return smooth_intervals(columns, rtol, columns.atol(rtol), columns.saturated.D_sat)
 
 
 def test_the_top_of_a_curve_ends_gently_and_no_break_does():

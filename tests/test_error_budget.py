@@ -15,13 +15,12 @@ import survey
 
 import hystrip
 from hystrip.level.branches import Errors, Piece, branches_of, rising
-from hystrip.level.effort import WorkCounters
 from hystrip.level.error_budget import ErrorBudget
 from hystrip.level.interpolation import Intervals, weighed
 from hystrip.level.inverse import Inverse, _Walk
 from hystrip.level.law import Laws
 from hystrip.level.segment import cells_of, segments_of
-from hystrip.level.strips import LevelBatch
+from hystrip.level.strips import LevelBatch, WorkCounters
 from hystrip.multilevel import Surface, _Solve
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
@@ -171,10 +170,15 @@ def test_cells_say_what_they_miss():
         assert 0 < np.abs(cells(x).T - steps(np.full(x.size, k), x)).mean() < cells.error[0]
 
 
+def constant(error):
+    """Errors that are the same everywhere, (q,)."""
+    return Errors(np.zeros(1), error[None])
+
+
 def _branch(p_low, p_high, error):
     """A branch along which pressure and three other quantities rise evenly."""
     middle, half = 0.5 * (p_high + p_low), 0.5 * (p_high - p_low)
-    return rising([Piece(p_low, p_high, np.array([[middle] * 4, [half] * 4]), Errors.constant(np.full(4, error)))])[0][0]
+    return rising([Piece(p_low, p_high, np.array([[middle] * 4, [half] * 4]), constant(np.full(4, error)))])[0][0]
 
 
 @pytest.mark.parametrize("unloading", [True, False])
@@ -192,8 +196,8 @@ def test_loading_does_not_begin_where_the_curve_only_seems_to_rise():
     ripple = np.zeros((10, 4))
     ripple[[0, 1, 9]] = np.array([-40.0, -40.0, 0.6])[:, None]
     falling, rise = (
-        Piece(-1.0, 0.0, ripple, Errors.constant(np.full(4, 2.0))),
-        Piece(0.0, 1.0, np.array([[10.0] * 4, [90.0] * 4]), Errors.constant(np.full(4, 1e-6))),
+        Piece(-1.0, 0.0, ripple, constant(np.full(4, 2.0))),
+        Piece(0.0, 1.0, np.array([[10.0] * 4, [90.0] * 4]), constant(np.full(4, 1e-6))),
     )
     assert len(rising([falling])[0]) > 0
     ((branch,),) = branches_of([[rise, falling]], unloading=False)
@@ -205,7 +209,7 @@ def test_loading_does_not_begin_where_the_curve_only_seems_to_rise():
 def test_a_pressure_in_a_jump_of_the_curve_has_the_friction_of_a_mixture(unloading, at_once):
     """From 1 to 3 Pa the curve jumps at D = 1, its friction from 1 to 5 Pa."""
     line = lambda *ends: np.array([np.mean(ends, axis=0), 0.5 * np.subtract(*ends[::-1])])  # noqa: E731
-    none = Errors.constant(np.zeros(2))
+    none = constant(np.zeros(2))
     pieces = [Piece(0.0, 1.0, line((0, 0), (1, 1)), none), Piece(1.0, 2.0, line((3, 5), (4, 6)), none)]
     walk = _Walk(0, unloading, 2.0, 1e-6, 1e-6, [])
     for some in [pieces] if at_once else [[piece] for piece in (pieces[::-1] if unloading else pieces)]:

@@ -46,11 +46,16 @@ def friction(p):
     return np.select([p < BREAKS[0], p < BREAKS[1], p < BREAKS[2]], [0.0, *law], 1e5)
 
 
+def constant(error):
+    """Errors that are the same everywhere, (q,)."""
+    return Errors(np.zeros(1), error[None])
+
+
 def _piece(low, high, law):
     t = lobatto(64)
     share, rest = graded(t), graded(1 - t)
     values = np.stack((low + (high - low) * share, law(share, rest), share, rest), axis=1)
-    return Piece(low, high, coefficients(values), Errors.constant(np.zeros(4)))
+    return Piece(low, high, coefficients(values), constant(np.zeros(4)))
 
 
 def _laws(segments, saturated, pull_off=BREAKS[0], p_sat=BREAKS[2]):
@@ -158,7 +163,7 @@ def _stepwise(at, low, high, known_to=(0.0, 0.0)):
         _piece(at, BREAKS[2], lambda share, rest: high + 0 * share),
     ]
     segments = segments_of([part for row in rising(pieces) for part in row], np.full((2, 4), 1e-9))
-    segments = [replace(s, errors=Errors.constant(error)) for s in segments]
+    segments = [replace(s, errors=constant(error)) for s in segments]
     return _laws(segments, [BREAKS[2], high, 1.0, 0.0])
 
 
@@ -202,7 +207,7 @@ def test_a_law_errs_by_what_the_means_next_to_a_pressure_err_by():
     upper = replace(branch, t_low=0.45, p_low=float(piece.values(np.array([0.45]))[0, 0]))
     assert upper.errors_by_pressure().at == pytest.approx([upper.p_low, upper.p_low, 50.0], rel=1e-9)
     segments = segments_of([branch], np.full((1, 4), 1e-9))
-    other = replace(segments[0], p_low=100.0, p_high=200.0, errors=Errors.constant(np.full(4, 7.0)))
+    other = replace(segments[0], p_low=100.0, p_high=200.0, errors=constant(np.full(4, 7.0)))
     one = replace(segments[0], p_high=200.0, errors=segments[0].errors.then(replace(other.errors, at=np.array([100.0]))))
     p = np.array([0.1, branch.errors_by_pressure().at[1], 60.0, 99.0])
     for law, expected in (([segments[0]], 0.5), ([one], np.interp(60.0, [50.0, 100.0], [0.5, 7.0]))):

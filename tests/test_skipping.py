@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import hystrip
-from hystrip.level.effort import WorkCounters
-from hystrip.level.strips import LevelBatch, cut_penetration
+from hystrip.level.strips import LevelBatch, WorkCounters, cut_penetration
 from hystrip.multilevel import Surface
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)

@@ -8,7 +8,7 @@ import hystrip
 from hystrip.level.averages import level_means
 from hystrip.level.breaks import IsolatedRegime, Zones, between_breaks, first_contact, islands, locate_vanishing, scan
 from hystrip.level.interpolation import Intervals, interpolate
-from hystrip.level.strips import LevelBatch, saturation_depth
+from hystrip.level.strips import LevelBatch
 from hystrip.orbit.regimes import CODE
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
@@ -25,7 +25,7 @@ def _columns(V, edge="continuous", branch="unloading", adhesion=WEAK, level=SMAL
 @pytest.mark.parametrize("edge", ["continuous", "constitutive"])
 def test_breaks_are_where_the_crest_changes(edge, branch):
     columns = _columns([1e-5, 1e-3, 1e-2], edge, branch)
-    top = saturation_depth(columns)
+    top = columns.saturated.D_sat
     row, _, high, _ = between_breaks(columns, np.arange(columns.size), scan(columns, top))
     for i in range(columns.size):
         points = high[row == i]

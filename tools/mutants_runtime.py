@@ -132,7 +132,7 @@ MUTANTS = (
     ),
     Mutant(
         "work that was cut short is not told",
-        "level/effort.py",
+        "level/strips.py",
         "self.limits.setdefault((v, wavelength), what)",
         "pass",
         "test_bounded_work.py",

@@ -20,7 +20,7 @@ def data() -> dict[str, Any]:
     """
     from ..level.branches import branches_of
     from ..level.curve import trace
-    from ..level.strips import LevelBatch, saturation_depth
+    from ..level.strips import LevelBatch
     from ..scene import load_scene
 
     scene = load_scene("paper_fig3")
@@ -28,7 +28,7 @@ def data() -> dict[str, Any]:
     rows: list[tuple] = []
     for branch in ("unloading", "loading"):
         columns = LevelBatch(scene.material, scene.adhesion, scene.levels[0], scene.edge, branch, V, np.zeros(V.size))
-        saturated = saturation_depth(columns)
+        saturated = columns.saturated.D_sat
         # the threshold decides the unloading orbit only; coming from no contact, all of the surface is met when the edge is
         top = saturated if branch == "unloading" else np.maximum(saturated, 1.5 * scene.levels[0].h)
         rtol = np.full(V.size, _RTOL)

@@ -16,14 +16,13 @@ import numpy as np
 
 from ..numerics.quadrature import Stage, interior_nodes, mapped, mapped_weights, sampled, sum_errors
 from ..numerics.rounding import EPS
-from ..orbit.batch import Batch
+from ..orbit.batch import Ranges
 from ..orbit.regimes import CODE
 from .breaks import Zones, zones_of
 from .changes import Changes, locate_changes
-from .effort import AVERAGE_LIMIT
 from .nonadhesive.average import average as family_average
 from .regime_map import hides_another, known_breaks, located, theta_of
-from .strips import LevelBatch
+from .strips import AVERAGE_LIMIT, LevelBatch
 
 #: nodes of a panel at first and at most, and one more
 _FIRST, _LAST = 8, 64
@@ -87,16 +86,15 @@ def average(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> Averages
     stages = [Stage(work.start(*known_breaks(columns)), _FIRST)]
     while stages:
         stages = work.refine(stages)
-    return Averages(work.values / np.pi, work.errors / np.pi, work.strips, work.zones())
+    zones = zones_of(n, *(np.concatenate(v) for v in zip(*work.accepted, strict=True)))
+    return Averages(work.values / np.pi, work.errors / np.pi, work.strips, zones)
 
 
 @dataclass
-class Panels(Batch):
+class Panels(Ranges):
     """Panels of ``state`` between thetas; ``first`` and ``last``: the strip known next to each end, -1: none."""
 
     state: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
     first: np.ndarray
     last: np.ndarray
 
@@ -105,11 +103,7 @@ class Panels(Batch):
         """Panels from each start to the stop that follows: ``ends`` are states, thetas and strips known beside them, of all
         starts, then of all stops."""
         (state, low, first), (_, high, last) = ([v[np.lexsort((each[1], each[0]))] for v in each] for each in ends)
-        return cls(state, low, high, first, last)
-
-    @property
-    def width(self) -> np.ndarray:
-        return self.high - self.low
+        return cls(low, high, state, first, last)
 
     def halves(self) -> list[Panels]:
         """Both halves of each."""
@@ -118,7 +112,7 @@ class Panels(Batch):
 
     def at(self, t: np.ndarray) -> np.ndarray:
         """Thetas at the parameters ``t`` of every panel, (panels, t)."""
-        return self.low[:, None] + self.width[:, None] * mapped(t)
+        return self.evenly(mapped(t))
 
     def sums(self, values: np.ndarray) -> np.ndarray:
         """Integrals (panels, q) of what has the ``values`` (panels, n - 1, q) at the interior ones of n nodes."""
@@ -152,10 +146,6 @@ class _Work:
         starts = state, np.concatenate((theta, np.zeros(n))), np.concatenate((after, crest))
         panels = Panels.between(starts, (state, np.concatenate((theta, np.full(n, np.pi))), np.concatenate((before, valley))))
         return panels.take(panels.width > 64 * EPS * np.pi)
-
-    def zones(self) -> list[Zones]:
-        """See ``Averages.zones``."""
-        return zones_of(self.strips.size, *(np.concatenate(v) for v in zip(*self.accepted, strict=True)))
 
     def refine(self, stages: list[Stage]) -> list[Stage]:
         """Sum up what converges under doubling; return what is left, divided where regimes change."""
@@ -283,7 +273,7 @@ class _Work:
         doubtful = np.flatnonzero((found.low == found.high) & hides_another(*found.codes.T))
         before, after = np.full((2, found.size), -1)
         before[doubtful], after[doubtful] = self._beside(panels.state[found.line[doubtful]], found.low[doubtful])
-        state, sliver = panels.state[found.line], (found.high - found.low)[:, None]
+        state, sliver = panels.state[found.line], found.width[:, None]
         np.add.at(self.values, state, 0.5 * sliver * found.values.sum(axis=1))
         np.add.at(self.errors, state, 0.5 * sliver * np.abs(found.values[:, 1] - found.values[:, 0]))
         # the parts between the brackets, and the outermost ones

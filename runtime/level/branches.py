@@ -60,11 +60,6 @@ class Errors:
     at: np.ndarray
     bounds: np.ndarray
 
-    @classmethod
-    def constant(cls, error: np.ndarray) -> Errors:
-        """The same everywhere, (q,)."""
-        return cls(np.zeros(1), error[None])
-
     @property
     def most(self) -> np.ndarray:
         """The largest of each quantity, (q,)."""

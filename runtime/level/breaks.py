@@ -10,10 +10,12 @@ a level below, islands are nested: around a minimum of the peak pressure every b
 """
 
 from dataclasses import astuple, dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from ..numerics.rounding import EPS
+from ..orbit.batch import Batch
 from .changes import Changes, locate_changes
 from .regime_map import hides_another, located, straight
 from .strips import LevelBatch
@@ -83,7 +85,7 @@ def scan(columns: LevelBatch, top: np.ndarray) -> np.ndarray:
 
 
 @dataclass(frozen=True)
-class Zones:
+class Zones(Batch):
     """Zones of one column in order of theta: ``code``, ends ``low`` and ``high``, (k,); and the values averaged, next to both
     ends (``first``, ``last``) and on the ``mean``, (k, q)."""
 
@@ -109,10 +111,7 @@ def zones_of(columns: int, state, code, low, high, first, last, total) -> list[Z
     width = np.add.reduceat(high - low, start)[:, None]
     every = Zones(code[start], low[start], high[stop], first[start], last[stop], np.add.reduceat(total, start) / width)
     ends = np.searchsorted(state[start], np.arange(columns + 1))
-    return [
-        Zones(*(v[here] for v in vars(every).values()))
-        for here in (slice(*pair) for pair in zip(ends[:-1], ends[1:], strict=True))
-    ]
+    return [every.take(slice(*pair)) for pair in pairwise(ends)]
 
 
 @dataclass
@@ -141,9 +140,7 @@ def islands(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) ->
         ends = (D[i], D[i + 1])
         if one.code.size < two.code.size:
             one, two, ends = two, one, ends[::-1]
-        same = 0
-        while same < two.code.size and one.code[same] == two.code[same]:
-            same += 1
+        same = np.append(one.code[: two.code.size] != two.code, True).argmax()
         gone = np.setdiff1d(one.code, two.code)
         places = [np.flatnonzero(one.code == code) for code in gone] or [np.array([min(same, one.code.size - 1)])]
         found = []

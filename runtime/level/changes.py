@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..numerics.rounding import EPS
-from ..orbit.batch import Batch
+from ..orbit.batch import Ranges
 
 #: more than enough to divide any bracket of numbers in double precision to nothing
 _ROUNDS = 100
@@ -27,13 +27,11 @@ Equation = Callable[["Changes"], tuple[np.ndarray, np.ndarray]]
 
 
 @dataclass
-class Changes(Batch):
+class Changes(Ranges):
     """Brackets of single changes, arrays (m,): the ``line`` each lies on, ``low`` and ``high``; and what is known at the ends:
     ``codes`` (m, 2), ``values`` (m, 2, q), ``heights`` (m, 2, k), ``edges`` (m, 2, 4)."""
 
     line: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
     codes: np.ndarray
     values: np.ndarray
     heights: np.ndarray
@@ -55,7 +53,7 @@ class Changes(Batch):
         ``known``: codes, values, heights and edges at the points, (lines, points, ...)."""
         row, first = np.nonzero(known[0][:, 1:] != known[0][:, :-1])
         both = row[:, None], np.stack((first, first + 1), axis=1)
-        return cls(line[row], *x[both].T, *(v[both] for v in known)), row, first
+        return cls(*x[both].T, line[row], *(v[both] for v in known)), row, first
 
 
 def locate_changes(probe: Probe, equation: Equation, changes: Changes, width: np.ndarray) -> tuple[Changes, int]:
@@ -68,7 +66,7 @@ def locate_changes(probe: Probe, equation: Equation, changes: Changes, width: np
     found, divided = [], 0
     for _ in range(_ROUNDS):
         finest = 4 * EPS * np.maximum(np.abs(changes.low), np.abs(changes.high))
-        done = changes.high - changes.low <= np.maximum(width, finest)
+        done = changes.width <= np.maximum(width, finest)
         found.append(changes.take(done))
         changes, width = changes.take(~done), width[~done]
         if not changes.size:

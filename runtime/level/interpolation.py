@@ -10,13 +10,12 @@ import numpy as np
 
 from ..numerics.chebyshev import flat_ended, interpolation_errors
 from ..numerics.quadrature import Stage, interior_nodes, sampled
-from ..orbit.batch import Batch
+from ..orbit.batch import Ranges
 from .averages import level_means
 from .branches import Errors, Piece, share_of
 from .breaks import islands, locate_vanishing
-from .effort import CURVE_LIMIT, NO_CURVE
 from .error_budget import ErrorBudget
-from .strips import LevelBatch
+from .strips import CURVE_LIMIT, NO_CURVE, LevelBatch
 
 #: share of the error allowed that each mean may have
 MEAN = 0.4
@@ -34,7 +33,7 @@ _SPREAD = 0.05
 
 
 @dataclass
-class Intervals(Batch):
+class Intervals(Ranges):
     """Intervals of D of columns; ``inner_low``, ``inner_high``: the curve goes on smoothly beyond that end; all (m,).
 
     Quantities in them may err by ``rtol`` (m,) times the least that they are in an interval, and ``atol`` (m, q). Pressures above
@@ -42,8 +41,6 @@ class Intervals(Batch):
     """
 
     column: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
     inner_low: np.ndarray
     inner_high: np.ndarray
     rtol: np.ndarray
@@ -54,11 +51,7 @@ class Intervals(Batch):
     def of(cls, column, low, high, rtol, atol) -> Intervals:
         """Intervals between breaks of the columns ``column`` (m,), as accurate as these, ``rtol`` (n,) and ``atol`` (n, q)."""
         inner = np.zeros((2, column.size), bool)
-        return cls(column, low, high, *inner, rtol[column], atol[column], np.full(column.size, np.inf))
-
-    @property
-    def width(self) -> np.ndarray:
-        return self.high - self.low
+        return cls(low, high, column, *inner, rtol[column], atol[column], np.full(column.size, np.inf))
 
     def split(self, D: np.ndarray, soft: bool) -> tuple[Intervals, Intervals]:
         """The parts below and above D of each; the curve goes on smoothly there, or not."""
@@ -75,10 +68,6 @@ class Intervals(Batch):
         """Penetrations at the parameters ``t`` (nodes,) of each, (m, nodes)."""
         shares = np.array([share_of(t, low, high) for low in (False, True) for high in (False, True)])
         return self.low[:, None] + self.width[:, None] * shares[2 * self.inner_low + self.inner_high]
-
-    def evenly(self, t: np.ndarray) -> np.ndarray:
-        """Penetrations at the shares ``t`` (nodes,) of the width of each, (m, nodes)."""
-        return self.low[:, None] + self.width[:, None] * t
 
 
 def means_in(columns: LevelBatch, intervals: Intervals, D: np.ndarray, strips: np.ndarray) -> tuple:

@@ -18,11 +18,9 @@ from ..orbit.batch import Batch
 from .averages import Averages, level_means
 from .branches import Branch, Piece, branches_of
 from .breaks import between_breaks, first_contact
-from .effort import CURVE_LIMIT, NO_CURVE
 from .interpolation import Intervals, interpolate
 from .nonadhesive.average import penetrations
-from .saturated import saturated_level
-from .strips import QUANTITIES, LevelBatch, cut_penetration
+from .strips import CURVE_LIMIT, NO_CURVE, QUANTITIES, LevelBatch, cut_penetration
 
 #: accuracy of the first look, of the pressure's scale, and how much finer each further one is; nodes of an interval at first
 ROUGH, _FINER, _FIRST = 1e-2, 0.03, 8
@@ -87,9 +85,8 @@ def invert(columns: LevelBatch, p: np.ndarray, rtol: float) -> Inverse:
 
     The root is refined with averages to ``rtol``.
     """
-    level, K = columns.level, columns.material.K
-    saturated = saturated_level(columns.material, columns.adhesion, level, columns.V, columns.branch)
-    out = Inverse.at(np.where(p >= saturated.p_sat, p / K + 0.75 * level.h, np.nan))
+    saturated = columns.saturated
+    out = Inverse.at(np.where(p >= saturated.p_sat, p / columns.material.K + 0.75 * columns.level.h, np.nan))
     # without adhesion there is no contact at no pressure
     rest = np.flatnonzero((p < saturated.p_sat) & ((p > 0) | (columns.adhesion.p_0 > 0)))
     if rest.size:

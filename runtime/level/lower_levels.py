@@ -7,13 +7,13 @@ and each part integrated by itself, on as many nodes as it needs.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from ..numerics.gauss import graded_gauss, left_out, summed
-from ..orbit.batch import Batch
+from ..orbit.batch import Ranges
 from ..orbit.contact import Contact
 from .law import Laws
 from .strips import SolvedStrips
@@ -31,26 +31,13 @@ _NODES = (8, 14, 22, 34, 54, 84)
 
 
 @dataclass
-class Parts(Batch):
+class Parts(Ranges):
     """Parts [low, high] of the contacts ``rows``, ascending, in phase, where the pressure lies between the breaks ``interval``
     and the next ones; all (m,). ``times``: how often each counts, since in saturated contact the pressure falls as it rises."""
 
     rows: np.ndarray
     interval: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
     times: np.ndarray
-
-    @property
-    def width(self) -> np.ndarray:
-        return self.high - self.low
-
-    def chunks(self, size: int) -> Iterator[Parts]:
-        """About ``size`` at a time, those of a contact together."""
-        ends = np.searchsorted(self.rows, self.rows[size::size])
-        for some in np.split(np.arange(self.size), np.unique(ends)):
-            if some.size:
-                yield self.take(some)
 
 
 @dataclass(frozen=True)
@@ -75,7 +62,9 @@ class LowerLevelLaws:
         index, contact = strips.touching
         if index.size:
             breaks = self.laws.breaks[group[index]]
-            out[index] = np.concatenate([p[:, None] - breaks for p in _extremes(contact)], axis=1)
+            # many contacts begin at ``-p_0``, all along y, where a law may let go too: rounding must not decide which pass that
+            least = contact.p_least + _TRIFLE * np.abs(contact.p_least)
+            out[index] = np.concatenate([p[:, None] - breaks for p in (contact.p_peak, least)], axis=1)
         return out
 
     @staticmethod
@@ -128,7 +117,10 @@ class LowerLevelLaws:
     def _integrate(self, contact: Contact, group, every: Parts, total) -> None:
         """Add the integrals of the law over ``every`` part of the contacts, on as many nodes as it takes, with their errors."""
         frictions = self.laws.frictions
-        for parts in every.chunks(_CHUNK):
+        # those of a contact together
+        ends = np.append(np.searchsorted(every.rows, every.rows[::_CHUNK]), every.size)
+        for begin, end in pairwise(np.unique(ends)):
+            parts = every.take(slice(begin, end))
             strip = parts.rows - parts.rows[0]
             spread, ready = (contact.a - contact.b)[parts.rows], np.zeros(parts.size, bool)
             floor = 1e-3 * self.scales[frictions, None]
@@ -173,13 +165,7 @@ def _parts_between(contact: Contact, inside: np.ndarray, ups: np.ndarray, downs:
     there[1] &= ~contact.full[:, None]
     row, interval, way = np.nonzero(np.moveaxis(there, 0, 2))
     times = np.where(contact.full[row], 2.0, 1.0)
-    return Parts(row, interval, low[way, row, interval], high[way, row, interval], times)
-
-
-def _extremes(contact: Contact):
-    """Greatest and least pressure of contacts, Pa: the least a trifle above itself. Many begin at ``-p_0``, all along y, where a
-    law may let go too: rounding must not decide which of them pass that."""
-    return contact.p_peak, contact.p_least + _TRIFLE * np.abs(contact.p_least)
+    return Parts(low[way, row, interval], high[way, row, interval], row, interval, times)
 
 
 def _by_strip(values, strip):

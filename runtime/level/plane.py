@@ -9,7 +9,7 @@ unknown, with E given A is.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -66,16 +66,16 @@ def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str)
 
     ``start`` holds orbits of the boundary's sequence nearby. Points that are not found are no numbers to be used.
     """
-    edges, plane = start.edges.T.copy(), {"A": start.A.copy(), "E": start.E.copy()}
+    at = replace(start, A=start.A.copy(), E=start.E.copy(), edges=start.edges.copy())
+    edges, own = at.edges.T, getattr(at, unknown)
     k, n = edges.shape
     found, active = np.zeros(n, bool), np.arange(n)
-    system = _System(columns, boundary, start)
     with np.errstate(all="ignore"):  # what is lost is no number, and is dropped
         for largest in 10 * _FALLS ** np.arange(_ITERATIONS):
             if not active.size:
                 break
-            step = system.step(active, edges[:, active], plane["A"][active], plane["E"][active], unknown)
-            share = np.abs(step[k]) / (plane["A"][active] + np.abs(plane["E"][active]))
+            step = _step(columns, boundary, at.take(active), unknown)
+            share = np.abs(step[k]) / (at.A[active] + np.abs(at.E[active]))
             size = np.maximum(np.abs(np.cumsum(step[:k], axis=0)).max(axis=0), share)
             usable = np.isfinite(step).all(axis=0) & (size < largest)
             active, step, size = active[usable], step[:, usable], size[usable]
@@ -84,13 +84,12 @@ def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str)
             rest, grown = TWO_PI - (edges[-1] - edges[0])[active], damping * step[1:k].sum(axis=0)
             damping *= np.where(rest > 0, rest / (rest + np.maximum(grown, 0.0)), 1.0)
             edges[:, active] = _moved(edges[:, active], damping * step[:k])
-            own, moved = plane[unknown][active], damping * step[k]
-            plane[unknown][active] = _added(own, moved) if unknown == "A" else own + moved
+            moved = damping * step[k]
+            own[active] = _added(own[active], moved) if unknown == "A" else own[active] + moved
             done = np.cbrt(EPS) * size < EPS  # differences of such a length leave so much of an error
             found[active[done]] = True
             active = active[~done]
-    found &= (np.diff(edges, axis=0) >= -np.sqrt(EPS)).all(axis=0) & (edges[-1] <= edges[0] + TWO_PI)
-    return Points(start.velocity, plane["A"], plane["E"], edges.T, start.pressure, start.index), found
+    return at, found & (np.diff(edges, axis=0) >= -np.sqrt(EPS)).all(axis=0) & (edges[-1] <= edges[0] + TWO_PI)
 
 
 def _moved(edges: np.ndarray, step: np.ndarray) -> np.ndarray:
@@ -106,42 +105,32 @@ def _added(value: np.ndarray, step: np.ndarray) -> np.ndarray:
     return np.where((step < 0) & (value > 0), value**2 / (value - step), value + step)
 
 
-class _System:
-    """Boundary equations of a sequence and the equation of an event."""
-
-    def __init__(self, columns: LevelBatch, boundary: Boundary, start: Points):
-        self.columns, self.boundary, self.velocity = columns, boundary, start.velocity
-        self.stretch = start.pressure / columns.material.K
-        self.foundation = foundation_of(columns.material)
-        # contact without adhesion is contact with saturated adhesion of no strength
-        equations = "ac" if boundary.sequence == "cf" else boundary.sequence
-        self.residual = getattr(self.foundation.kernel, f"residual_{equations}")
-
-    def step(self, index, edges, A, E, unknown: str) -> np.ndarray:
-        """Newton step (k + 1, n) of the first edge, of the zones behind it, and of the unknown of the plane."""
-        k, n = edges.shape
-        own = A if unknown == "A" else E
-        # differences that stand for derivatives: of zones of 1e-8 radians a determinant keeps 8 digits, so they are no shorter
-        zones = np.maximum(np.diff(edges, axis=0), np.sqrt(EPS))
-        length = np.cbrt(EPS) * np.concatenate((np.ones((1, n)), zones, np.maximum(np.abs(own), A)[None]))
-        # the point itself, then one copy for each unknown that is moved a little: all edges, those behind a zone, the plane's
-        moved = np.concatenate((edges, own[None]))[:, None].repeat(k + 2, axis=1)
-        for i in range(k):
-            moved[i:k, i + 1] += length[i]
-        moved[k, k + 1] += length[k]
-        moved, other = moved.reshape(k + 1, -1), np.tile(E if unknown == "A" else A, k + 2)
-        A_, E_ = (moved[k], other) if unknown == "A" else (other, moved[k])
-        groups = self.columns.groups(np.tile(self.velocity[index], k + 2), A_, E_ + 2 * A_)
-        values = np.array((*self.residual(*moved[:k], *groups.arguments), self._event(moved[:k], groups, A_, index)))
-        values = values.reshape(k + 1, k + 2, n)
-        matrix = ((values[:, 1:] - values[:, :1]) / length).transpose(2, 0, 1)
-        return solved(matrix, -values[:, 0].T[:, :, None])[:, :, 0].T
-
-    def _event(self, edges, groups, A, index) -> np.ndarray:
-        """What vanishes at the event, for the copies of the points ``index``."""
-        if self.boundary.event == "fold":
-            return self.foundation.fold(self.boundary.sequence, edges, groups)
-        if self.boundary.event == "peak":
-            pressure = np.tile(self.stretch[index], A.size // index.size) / A
-            return self.foundation.peak(self.boundary.sequence, edges, groups, pressure)
-        return getattr(self.foundation, self.boundary.event)(edges, groups)
+def _step(columns: LevelBatch, boundary: Boundary, at: Points, unknown: str) -> np.ndarray:
+    """Newton step (k + 1, n) of the first edge, of the zones behind it, and of the unknown of the plane, for the boundary
+    equations of a sequence and the equation of its event."""
+    foundation, edges, own, A = foundation_of(columns.material), at.edges.T, getattr(at, unknown), at.A
+    k, n = edges.shape
+    # differences that stand for derivatives: of zones of 1e-8 radians a determinant keeps 8 digits, so they are no shorter
+    zones = np.maximum(np.diff(edges, axis=0), np.sqrt(EPS))
+    length = np.cbrt(EPS) * np.concatenate((np.ones((1, n)), zones, np.maximum(np.abs(own), A)[None]))
+    # the point itself, then one copy for each unknown that is moved a little: all edges, those behind a zone, the plane's
+    moved = np.concatenate((edges, own[None]))[:, None].repeat(k + 2, axis=1)
+    for i in range(k):
+        moved[i:k, i + 1] += length[i]
+    moved[k, k + 1] += length[k]
+    moved, every = moved.reshape(k + 1, -1), at.take(np.tile(np.arange(n), k + 2))
+    edges, A, E = moved[:k], *((moved[k], every.E) if unknown == "A" else (every.A, moved[k]))
+    groups = columns.groups(every.velocity, A, E + 2 * A)
+    # contact without adhesion is contact with saturated adhesion of no strength
+    equations = "ac" if boundary.sequence == "cf" else boundary.sequence
+    values = getattr(foundation.kernel, f"residual_{equations}")(*edges, *groups.arguments)
+    # and what vanishes at the event
+    if boundary.event == "fold":
+        event = foundation.fold(boundary.sequence, edges, groups)
+    elif boundary.event == "peak":
+        event = foundation.peak(boundary.sequence, edges, groups, every.pressure / columns.material.K / A)
+    else:
+        event = getattr(foundation, boundary.event)(edges, groups)
+    values = np.array((*values, event)).reshape(k + 1, k + 2, n)
+    matrix = ((values[:, 1:] - values[:, :1]) / length).transpose(2, 0, 1)
+    return solved(matrix, -values[:, 0].T[:, :, None])[:, :, 0].T

@@ -11,6 +11,7 @@ curve that is not found is met by bisection (and counted), one too many costs a 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -74,9 +75,10 @@ def thresholds(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
 def known_breaks(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """States and thetas (k,) at which strips pass a threshold in closed form, or a curve that is known nearby; and at which of
     these curves orbits end, with any other beyond."""
-    (state, theta), (crossing, A, ends) = thresholds(columns), columns.crossings.expected(columns)
-    ends = np.concatenate((np.zeros(state.size, bool), ends))
-    return np.concatenate((state, crossing)), np.concatenate((theta, theta_of(columns, A))), ends
+    state, theta = thresholds(columns)
+    every = [(state, theta, np.zeros(state.size, bool)), *columns.crossings.expected(columns)]
+    state, theta, ends = (np.concatenate(v) for v in zip(*every, strict=True))
+    return state, theta, ends
 
 
 def theta_of(columns: LevelBatch, A) -> np.ndarray:
@@ -189,11 +191,10 @@ class Crossings:
         fresh = np.append(True, ~_together(points) | (np.diff(place) != 0))
         self.points[boundary] = points.take(np.flatnonzero(fresh))
 
-    def expected(self, columns: LevelBatch) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Columns and amplitudes, m, at which ``columns`` cross what is known of the curves, by Newton from between the two
-        points nearest on each, or from the parabola through three where the curve turns; and which orbits end there; (k,)."""
+    def expected(self, columns: LevelBatch) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        """Columns and thetas at which ``columns`` cross what is known of each curve, by Newton from between the two points
+        nearest on it, or from the parabola through three where it turns; and whether orbits end there; (k,)."""
         E = columns.D - columns.level.h
-        states, amplitudes, ends = [np.empty(0, int)], [np.empty(0)], [np.empty(0, bool)]
         for boundary, known in self.points.items():
             starts = _between(known, columns.V, E), _at_turns(known, columns.V, E)
             state, lower, share = (np.concatenate(v) for v in zip(*starts, strict=True))
@@ -206,10 +207,7 @@ class Crossings:
             found &= (points.A > 0) & (2 * points.A < columns.level.h)
             points, state = points.take(np.flatnonzero(found)), state[found]
             self.remember(columns, boundary, points)
-            states.append(state)
-            amplitudes.append(points.A)
-            ends.append(np.full(state.size, boundary.event in ("fold", "release")))
-        return np.concatenate(states), np.concatenate(amplitudes), np.concatenate(ends)
+            yield state, theta_of(columns, points.A), np.full(state.size, boundary.event in ("fold", "release"))
 
 
 def _between(known: Points, velocity, E) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

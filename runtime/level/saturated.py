@@ -2,14 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from ..inputs.adhesion import Dugdale
 from ..inputs.materials import Material
 from ..inputs.surface import Level
-from ..orbit.foundation import Foundation, foundation_of
+from ..orbit.foundation import foundation_of
 
 #: velocities of a block of the closed form: its temporaries stay in the cache
 _BLOCK = 4096
@@ -17,7 +16,7 @@ _BLOCK = 4096
 
 @dataclass(frozen=True)
 class SaturatedLevel:
-    """Saturated contact of one level at velocities V (n,): arrays (n,), SI, evaluated when first asked for.
+    """Saturated contact of one level at velocities V (n,): arrays (n,), SI.
 
     ``p_sat``: nominal pressure from which the branch is in saturated contact. ``tau_sat``: its friction. ``D_sat``: penetration
     at ``p_sat``. ``lift``: nominal pressure over the least local pressure in saturated contact, ``K h (2R - 1)/4``. All but
@@ -25,36 +24,10 @@ class SaturatedLevel:
     the retardation time lambda of each longer than its relaxation time tau.
     """
 
-    foundation: Foundation
-    p_0: float
-    level: Level
-    V: np.ndarray
-    branch: str
-
-    @cached_property
-    def _unloading_p_sat(self) -> np.ndarray:
-        return self.foundation.saturation_pressure(self.p_0, self.level.l, self.level.h, self.V)
-
-    @property
-    def _loads_later(self) -> bool:
-        return self.branch == "loading" and self.p_0 > 0
-
-    @cached_property
-    def p_sat(self) -> np.ndarray:
-        return self.foundation.K * (self.D_sat - 0.75 * self.level.h) if self._loads_later else self._unloading_p_sat
-
-    @cached_property
-    def D_sat(self) -> np.ndarray:
-        of = self.foundation.surely_saturated if self._loads_later else self.foundation.saturation_penetration
-        return of(self.p_0, self.level.l, self.level.h, self.V)
-
-    @cached_property
-    def lift(self) -> np.ndarray:
-        return self._unloading_p_sat + self.p_0
-
-    @cached_property
-    def tau_sat(self) -> np.ndarray:
-        return self.foundation.saturation_friction(self.level.l, self.level.h, self.V)
+    p_sat: np.ndarray
+    D_sat: np.ndarray
+    lift: np.ndarray
+    tau_sat: np.ndarray
 
 
 def saturated_level(
@@ -65,7 +38,12 @@ def saturated_level(
     Unloading leaves saturated contact exactly at ``p_sat``. Loading may reach it later than unloading leaves it, at a penetration
     with no closed form; the threshold given for it is one above which nothing else can be.
     """
-    return SaturatedLevel(foundation_of(material.at_wavelength(level.l)), adhesion.p_0, level, V, branch)
+    foundation, p_0, of = foundation_of(material.at_wavelength(level.l)), adhesion.p_0, (level.l, level.h, V)
+    left_at, tau_sat = foundation.saturation_pressure(p_0, *of), foundation.saturation_friction(*of)
+    if branch == "loading" and p_0 > 0:
+        D_sat = foundation.surely_saturated(p_0, *of)
+        return SaturatedLevel(foundation.K * (D_sat - 0.75 * level.h), D_sat, left_at + p_0, tau_sat)
+    return SaturatedLevel(left_at, foundation.saturation_penetration(p_0, *of), left_at + p_0, tau_sat)
 
 
 def saturated_friction(material: Material, levels: Sequence[Level], V: np.ndarray) -> np.ndarray:

@@ -1,6 +1,7 @@
 """Records of arrays, one element for each strip: some of the strips, and several records joined."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
@@ -36,6 +37,22 @@ class Batch:
     @property
     def size(self) -> int:
         return getattr(self, next(iter(self.__dataclass_fields__))).size
+
+
+@dataclass
+class Ranges(Batch):
+    """Base of records of ranges from ``low`` to ``high`` of a coordinate, (n,)."""
+
+    low: np.ndarray
+    high: np.ndarray
+
+    @property
+    def width(self) -> np.ndarray:
+        return self.high - self.low
+
+    def evenly(self, t: np.ndarray) -> np.ndarray:
+        """Places at the shares ``t`` (k,) of the width of each, (n, k)."""
+        return self.low[:, None] + self.width[:, None] * t
 
 
 def pick(value, index):
