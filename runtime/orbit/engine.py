@@ -83,7 +83,7 @@ class _Batch:
     def _free(self, index):
         s = self.strips
         free = s.D[index] <= np.where(s.p_0[index] > 0, -s.delta_0[index], 0.0)
-        self.record.constant(index[free], "f", 0.0, 0.0, 0.0, 0.0)
+        self.record.constant(index[free], "f")
         return index[~free]
 
     def _saturated(self, index):

@@ -49,7 +49,7 @@ class Record:
         p_mean, tau_mean = self.kernel.means_c(*self.strips.among(index).arguments)
         self.constant(index, "c", p_mean, tau_mean, 1.0, 0.0)
 
-    def constant(self, index, sequence: str, p_mean, tau_mean, contact: float, adhesion: float) -> None:
+    def constant(self, index, sequence: str, p_mean=0.0, tau_mean=0.0, contact: float = 0.0, adhesion: float = 0.0) -> None:
         """A regime without edges."""
         out = self.solved
         out.code[index], out.certified[index] = CODE[sequence], True

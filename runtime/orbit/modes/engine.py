@@ -48,7 +48,7 @@ class _Batch:
         self.constant = self.full | sticky & (s.D <= -s.p_0) & (2 - s.D - s.p_0 <= s.delta_0)
         free = np.where(sticky, (s.D <= -s.delta_0) & (not self.unloading), s.D <= 0)
         closed = ~free & self.constant & (self.unloading | ~sticky)
-        self._free(np.flatnonzero(free))
+        self.record.constant(np.flatnonzero(free), "f")
         self._closed(np.flatnonzero(closed))
         left = np.flatnonzero(~free & ~closed)
         self._always_engaged(left[~sticky[left]], "cf")
@@ -66,7 +66,7 @@ class _Batch:
         found = Search(self.kernel, self.strips.take(index), z, engaged, self.unloading, not ask).run()
         self.solved.code[index] = CODE["acaf"]
         self.solved.searched[index] = True
-        self._free(index[found.kind == FREE])
+        self.record.constant(index[found.kind == FREE], "f")
         orbit = found.kind == ORBIT
         for number, sequence in enumerate(ROWS, 1):
             k = np.flatnonzero(orbit & (found.sequence == number))
@@ -78,9 +78,6 @@ class _Batch:
         z, known = self._always_engaged(index[held], "ac", found.edges[:, held])
         rest = np.flatnonzero(known & ~self.solved.certified[index[held]] & self.unloading)
         self._first(index[held[rest]], z[:, rest], np.ones(rest.size, bool), False)
-
-    def _free(self, index):
-        self.record.constant(index, "f", 0.0, 0.0, 0.0, 0.0)
 
     def _closed(self, index):
         """Saturated contact, or adhesion all along."""
