@@ -20,7 +20,7 @@ from .branches import Branch, Piece, branches_of
 from .breaks import between_breaks, first_contact
 from .effort import CURVE_LIMIT, NO_CURVE
 from .interpolation import Intervals, interpolate
-from .nonadhesive.average import penetrations
+from .nonadhesive.law import penetrations
 from .saturated import saturated_level
 from .strips import QUANTITIES, LevelBatch, cut_penetration
 
