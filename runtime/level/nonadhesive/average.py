@@ -54,8 +54,7 @@ def average(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> tuple[np
     errors[index, own] += sums.of_series()
     if columns.carry is not None:
         q = columns.carry.scales.size
-        found = by_rules(sums.carried, _RULES, atol[:, -q:], _FASTEST, True, rtol)
-        values[index, -q:], errors[index, -q:] = found
+        values[index, -q:], errors[index, -q:] = by_rules(sums.carried, _RULES, atol[:, -q:], _FASTEST, True, rtol)
     return values, errors
 
 

@@ -145,14 +145,14 @@ class Family:
         """The strips ``s`` (k, n) at the rates ``group`` (k,), in a row: their waves, orbits, and about where in contact the
         pressure is greatest."""
         share, _, place, slope = self.at(group, s, CONTACT).reshape(4, -1)
-        nodes, s, share = s.shape[1], s.ravel(), _inside(share)
-        waves = self.foundation.waves(np.repeat(self.rate[group], nodes))
-        missed, allowed = s - waves.orbits(2 * np.pi * share, means=False).D, np.repeat(self.found[group], nodes)
-        for _ in range(_STEPS):
-            share = _inside(share + slope * missed)
+        nodes, s, missed = s.shape[1], s.ravel(), 0.0
+        waves, allowed = self.foundation.waves(np.repeat(self.rate[group], nodes)), np.repeat(self.found[group], nodes)
+        for step in range(1 + _STEPS):
+            # contact is neither none nor all
+            share = np.clip(share + slope * missed, _LEAST, 1 - _LEAST)
             orbits = waves.orbits(2 * np.pi * share, means=False)
             missed = s - orbits.D
-            if (np.abs(missed) <= np.maximum(allowed, _ROUNDING * s)).all():
+            if step and (np.abs(missed) <= np.maximum(allowed, _ROUNDING * s)).all():
                 break
         return waves, orbits.sure(), np.clip(place, 0.0, 1.0)
 
@@ -173,11 +173,6 @@ def errors_alone(c: np.ndarray, goal: np.ndarray) -> np.ndarray:
     m, n, q = c.shape
     alone = np.swapaxes(c, 1, 2).reshape(m * q, n, 1)
     return interpolation_errors(alone, np.broadcast_to(0.1 * goal, (m, q)).reshape(-1, 1)).reshape(m, q)
-
-
-def _inside(share):
-    """Shares of contact that are neither none nor all."""
-    return np.clip(share, _LEAST, 1 - _LEAST)
 
 
 def _xi(s, s_sat):

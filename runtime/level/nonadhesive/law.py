@@ -217,8 +217,7 @@ def _pieces(columns: LevelBatch, cuts: np.ndarray, rtol: float, friction, fracti
         at = columns.at(every, D.ravel())
         tolerance = _VALUES * tolerances(at, friction[every], fraction[every])
         means, errors = average(at, np.full(D.size, _VALUES * rtol), tolerance)
-        fresh = np.column_stack((means, errors[:, columns.frictions].sum(axis=1), errors[:, 0]))
-        fresh = fresh.reshape(*D.shape, q + 2)
+        fresh = np.column_stack((means, errors[:, columns.frictions].sum(axis=1), errors[:, 0])).reshape(*D.shape, q + 2)
         known = fresh if known is None else interleaved(known, fresh)
         total, step = known[:, :, columns.frictions].sum(axis=2), np.diff(known[:, :, 0], axis=1)
         # differences of pressures that rounding or quadrature would make slopes of are none
