@@ -180,8 +180,7 @@ class _Solve:
     """Points of a surface; ``friction`` (n,), Pa, that without adhesion errors are held against, if it is known."""
 
     def __init__(self, surface: Surface, V, load, by_pressure: bool, friction=None):
-        self.surface, self.V, self.load, self.by_pressure = surface, V, load, by_pressure
-        self.friction = friction
+        self.surface, self.V, self.load, self.by_pressure, self.friction = surface, V, load, by_pressure, friction
         self.M, n = len(surface.levels), V.size
         # nothing is known of them yet
         self.out = Points(np.full(n, np.nan), np.zeros(n), *np.zeros((3, self.M, n)), np.zeros(n), *np.zeros((2, n), bool))
@@ -240,8 +239,7 @@ class _Solve:
             columns, atol = self._carrying_families(V, group, columns, index, rtol)
         elif self.M > 1:
             columns = self._carrying(V, group, columns)
-        means = level_means(columns, rtol, atol)
-        self._write(index, found.take(touching), means)
+        self._write(index, found.take(touching), level_means(columns, rtol, atol))
 
     def _carrying(self, V, group, columns: LevelBatch) -> LevelBatch:
         """The columns of level 1 with the laws of level 2, built from the smallest level upwards."""

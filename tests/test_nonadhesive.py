@@ -10,8 +10,8 @@ import hystrip.level.nonadhesive.law
 import hystrip.multilevel
 from hystrip.errors import SolverError
 from hystrip.level.averages import level_means
+from hystrip.level.nonadhesive.average import Span
 from hystrip.level.nonadhesive.law import with_family
-from hystrip.level.nonadhesive.span import Span
 from hystrip.level.strips import LevelBatch
 from hystrip.orbit.foundation import foundation_of
 

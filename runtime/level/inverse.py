@@ -19,7 +19,7 @@ from .averages import Averages, level_means
 from .branches import Branch, Piece, branches_of
 from .breaks import between_breaks, first_contact
 from .interpolation import Intervals, interpolate
-from .nonadhesive.average import penetrations
+from .nonadhesive.law import penetrations
 from .strips import CURVE_LIMIT, NO_CURVE, QUANTITIES, LevelBatch, cut_penetration
 
 #: accuracy of the first look, of the pressure's scale, and how much finer each further one is; nodes of an interval at first

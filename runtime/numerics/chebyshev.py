@@ -91,9 +91,15 @@ def evaluate_each(table: np.ndarray, x: np.ndarray) -> np.ndarray:
     return out
 
 
+@lru_cache
+def _differentiation(n: int) -> np.ndarray:
+    """Matrix from n Chebyshev coefficients to those of the derivative over [-1, 1], the last one zero."""
+    return np.concatenate((chebder(np.eye(n)), np.zeros((1, n))))[:n]
+
+
 def derivatives(table: np.ndarray) -> np.ndarray:
     """Coefficients (..., n, q) of the derivatives over [-1, 1] of the series ``table`` (..., n, q)."""
-    return np.concatenate((chebder(table, axis=-2), np.zeros_like(table[..., :1, :])), axis=-2)
+    return _differentiation(table.shape[-2]) @ table
 
 
 def resampled(x: np.ndarray, goal: np.ndarray, values: np.ndarray) -> np.ndarray:

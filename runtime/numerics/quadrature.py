@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from .chebyshev import COMMON, lobatto
+from .chebyshev import COMMON, coefficients, lobatto
 from .rounding import EPS
 
 #: coefficients in the middle of a series that those at its end are held against: one may be small by chance
@@ -70,7 +70,6 @@ def gauss(n: int) -> tuple[np.ndarray, np.ndarray]:
     return 0.5 * (x + 1), 0.5 * w
 
 
-@lru_cache
 def interior_nodes(n: int) -> np.ndarray:
     """Interior Clenshaw-Curtis nodes on (0, 1)."""
     return lobatto(n)[1:-1]
@@ -114,13 +113,9 @@ def sampled(
 @lru_cache
 def mapped_weights(n: int) -> np.ndarray:
     """Clenshaw-Curtis weights at the interior nodes, times the derivative of ``mapped`` (zero at both ends)."""
-    j = np.arange(1, n)
-    m = np.arange(1, n // 2 + 1)
-    b = np.where(m == n / 2, 1.0, 2.0)
-    angle = 2 * np.outer(j, m) * np.pi / n
-    weights = (2 / n) * (1 - (b * np.cos(angle) / (4 * m**2 - 1)).sum(axis=1)) / 2
-    t = interior_nodes(n)
-    return weights * mapped_slope(t)
+    # Chebyshev polynomials of even order j have the mean 1/(1 - j^2), the others none
+    means = 1 / (1 - np.arange(0, n + 1, 2) ** 2)
+    return means @ coefficients(np.eye(n + 1))[::2, 1:-1] * mapped_slope(interior_nodes(n))
 
 
 @lru_cache

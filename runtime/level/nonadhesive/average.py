@@ -3,6 +3,11 @@ second term of Eq. 13.
 
 What a strip carries is not smooth where its pressure passes a break of the law, nor is it over the strips where their greatest
 pressure does: both are cut there.
+
+With ``u = cos^2(theta/2)`` a strip has the amplitude ``h u/2`` and ``s = 2 - 2 (1 - D/h)/u``. Where the crests of the
+cell's edge are out of reach, D < h, contact ends at u = 1 - D/h; else the strips of small u are in complete contact,
+from ``s = s_sat`` on. Hyperbolic functions of ``eta`` for ``u/|1 - D/h|`` make all scales alike however near D is to h; the
+crest of the level is where eta is greatest, and the root of the distance from it takes the root out of the integrand there.
 """
 
 from __future__ import annotations
@@ -12,12 +17,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...numerics.gauss import graded_gauss
-from ...numerics.quadrature import by_rules
+from ...numerics.quadrature import by_rules, gauss, mapped, mapped_slope
 from ...numerics.roots import falling_root
 from ...numerics.rounding import EPS
 from ...orbit.contact import passages
-from .family import CUT, MEANS, SEARCH
-from .span import Span
+from .family import CONTACT, CUT, MEANS, Family
 
 if TYPE_CHECKING:
     from ..strips import LevelBatch
@@ -32,10 +36,10 @@ _SURE, _NODES, _FEW, _PACE = 3.0, 30, 32, (1.25, 0.6, 2.5)
 #: share of what is allowed that these sums may miss, and the fastest that they are believed to converge: of 2,056 random points
 #: of two and three levels none erred by more than it said
 _QUADRATURE, _FASTEST = 0.7, 0.01
-#: how closely it is known where a contact's pressure passes the breaks of the law
-_CLOSE = 1e-4
-#: strips that penetrations are looked for with, and how well, relative
-_SEARCH, _NEAR = 18, 1e-7
+#: how closely it is known where a contact's pressure, and the greatest ones of strips, pass the breaks of the law
+_CLOSE, _CLOSER = 1e-4, 1e-5
+#: least penetration in heights: squares of what is smaller underflow
+_LEAST = 1e-60
 #: nodes of all parts together, about, that are summed at a time: what is known of them stays in the cache
 _CHUNK = 30_000
 
@@ -50,9 +54,75 @@ def average(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> tuple[np
     errors[index, own] += sums.of_series()
     if columns.carry is not None:
         q = columns.carry.scales.size
-        found = by_rules(sums.carried, _RULES, atol[:, -q:], _FASTEST, True, rtol)
-        values[index, -q:], errors[index, -q:] = found
+        values[index, -q:], errors[index, -q:] = by_rules(sums.carried, _RULES, atol[:, -q:], _FASTEST, True, rtol)
     return values, errors
+
+
+class Span:
+    """Strips in partial contact at ``d = D/h`` (m,), 0 < d < s_sat/2: eta between ``low`` and ``high``."""
+
+    def __init__(self, d: np.ndarray, s_sat: np.ndarray):
+        d = np.maximum(d, _LEAST)
+        self.under, self.even = d < 1, d == 1
+        self.off = np.where(self.even, 1.0, np.abs(d - 1))
+        start = np.minimum(np.divide(2 * self.off, s_sat - 2, out=np.ones_like(d), where=s_sat > 2), 1.0)
+        self.high = np.arcsinh(np.sqrt(np.where(self.under, d, 1.0) / self.off))
+        low = np.where(self.under | self.even, 0.0, np.arcsinh(np.sqrt(start / self.off)))
+        # at saturation nothing but rounding is left of them
+        self.low = np.minimum(low, self.high * (1 - 4 * EPS))
+
+    def strips(self, column: np.ndarray, eta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """u and s of the strips at ``eta`` (k, n) of the columns (k,)."""
+        under = self.under[column, None]
+        sinh, cosh = np.sinh(eta), np.cosh(eta)
+        u = self.off[column, None] * np.where(under, cosh, sinh) ** 2
+        with np.errstate(divide="ignore"):
+            s = np.where(under, 2 * (sinh / cosh) ** 2, 2 + 2 / sinh**2)
+        # at d = 1 all strips are alike
+        s[self.even[column]] = 2.0
+        return u, s
+
+    def at(self, column: np.ndarray, root: np.ndarray, share: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """u, s and weights in the mean over the cell of the strips of the columns (k,) at ``root`` (k, n), that of the distance
+        of eta from the crest, of which each stands for the ``share`` (k, n)."""
+        crest, rest = self.high[column, None], root * root
+        eta = np.maximum(crest - rest, self.low[column, None])
+        slope = np.where(self.under[column, None], np.sinh(eta), np.cosh(eta))
+        return *self.strips(column, eta), share * 4 / np.pi * root * slope / np.sqrt(np.sinh(rest) * np.sinh(crest + eta))
+
+    def nodes(self, n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """n strips of every column as in ``at``, (m, n) each: towards complete contact the integrand ends like a root again."""
+        t, w = gauss(n)
+        length, rest = (self.high - self.low)[:, None], 1 - mapped(t)
+        root = np.sqrt(length * rest)
+        return self.at(np.arange(self.high.size), root, 0.5 * length * w * mapped_slope(t) / root)
+
+    def panels(self, ends: np.ndarray, n: int) -> tuple[np.ndarray, ...]:
+        """Panels with n strips each between the ``ends`` (m, e), ascending roots of the distance of eta from the crest, of each
+        column: that (k,), and the strips as in ``at``."""
+        column, k = np.nonzero(np.diff(ends, axis=1) > 1e-9 * ends[:, -1:])
+        low, width = ends[column, k, None], np.diff(ends, axis=1)[column, k, None]
+        share, weight, _ = graded_gauss(n)
+        return column, *self.at(column, low + width * share, width * weight)
+
+    def parted(self, family: Family, group: np.ndarray, breaks: np.ndarray) -> np.ndarray:
+        """Ends (m, e) of panels, between which the greatest pressure of strips passes none of ``breaks`` (m, B), K h/2."""
+        column, wanted = np.repeat(np.arange(group.size), breaks.shape[1]), breaks.ravel()
+
+        def over(eta, index):
+            at = column[index]
+            u, s = self.strips(at, eta[:, None])
+            share, greatest, *_ = family.at(group[at], s, CONTACT)
+            return (u * share * np.maximum(greatest, 0.0))[:, 0] - wanted[index]
+
+        # what is not met is next to one end: both ends are that
+        passed, every = self.high[column], np.arange(column.size)
+        under = over(self.low[column], every) < 0
+        passed[~under], met = self.low[column[~under]], np.flatnonzero(under & (over(passed, every) > 0))
+        low, high = self.low[column[met]], self.high[column[met]]
+        passed[met] = falling_root(lambda eta, index: -over(eta, met[index]), low, high, tolerance=_CLOSER)
+        rest = np.maximum(self.high[:, None] - passed.reshape(breaks.shape), 0.0)
+        return np.sqrt(np.sort(np.column_stack((np.zeros_like(self.low), rest, self.high - self.low)), axis=1))
 
 
 class _Sums:
@@ -109,7 +179,7 @@ class _Sums:
 
     def _complete(self, some):
         """What strips in complete contact add to the own means, (m, 3): ``p = D_j - A``."""
-        rest, pressure = _completely(self.d[some], self.s_sat[some])
+        rest, pressure = completely(self.d[some], self.s_sat[some])
         u_square = (1.5 * rest - 2 * np.sin(rest) + 0.25 * np.sin(2 * rest)) / (4 * np.pi)
         friction = 0.25 * self.family.full[self.group[some]] * u_square
         return self.units * np.stack((pressure, friction, rest / np.pi), axis=1)
@@ -167,7 +237,7 @@ class _Sums:
         return total + np.bincount(column, weight * saturated, minlength=law.size)[:, None] * self.carry.full[law]
 
 
-def _completely(d, s_sat):
+def completely(d: np.ndarray, s_sat: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The angle theta, from the valley, over which strips of columns at ``d`` > 0 are in complete contact, and what pressure, K
     h, they add to the mean."""
     start = np.minimum(np.divide(2 * (d - 1), s_sat - 2, out=np.ones_like(d), where=s_sat > 2), 1.0)
@@ -205,26 +275,3 @@ def _passages(pressure, crest, breaks) -> tuple[np.ndarray, np.ndarray]:
     share = falling_root(beyond, np.zeros(row.size), np.ones(row.size), goal, _CLOSE)
     edges[row, np.where(far > 0, 2 * B - which, 1 + which)] = crest[row] + run * share
     return np.maximum.accumulate(edges, axis=1), breaks[:, -1] < top
-
-
-def penetrations(columns: LevelBatch, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """About the penetrations (m) at which ``columns`` that have a family carry ``p`` > 0 (Pa, (n,)), below saturation, and the
-    slopes of the logarithm of pressure over that of penetration."""
-    group, family, h = columns.family.of(columns), columns.family, columns.level.h
-    p = p / (columns.material.K * h)
-    s_sat, slope = family.s_sat[group], np.ones(p.size)
-
-    def missing(log_d, index):
-        d, at = np.exp(log_d), group[index]
-        u, s, weight = Span(d, s_sat[index]).nodes(_SEARCH)
-        mean, mean_slope = family.at(at, s, SEARCH)
-        rest, complete = _completely(d, s_sat[index])
-        pressure = np.maximum((0.5 * u * weight * mean).sum(axis=1) + complete, np.finfo(float).tiny)
-        # s rises by 2/u with d
-        rise = (weight * mean_slope).sum(axis=1) + rest / np.pi
-        slope[index] = rise * d / pressure
-        return -np.log(pressure / p[index]), -slope[index]
-
-    low, high = np.log(p), np.log(np.minimum(p + 0.75, 0.5 * s_sat))
-    # crests are paraboloids next to the plane: at rest they carry d^2/(2 pi)
-    return h * np.exp(falling_root(missing, low, high, 0.5 * np.log(2 * np.pi * p), _NEAR)), slope

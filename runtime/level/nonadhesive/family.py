@@ -114,7 +114,7 @@ class Family:
         self.strips += row.size
         waves, part = self.foundation.waves(self.rate[group[row]]), np.maximum(share[row, node], _LEAST)
         orbits = waves.orbits(2 * np.pi * part).sure()
-        greatest, place = _peaks(waves.pressure(orbits), np.arange(row.size)) if self.carries else (part, part)
+        greatest, place = _peaks(waves.pressure(orbits)) if self.carries else (part, part)
         values = (orbits.D, orbits.p_mean, orbits.tau_mean, share[row, node], greatest / part, place)
         out[row, node] = np.stack(values, axis=1)
         out[share == 0, :3] = 0.0
@@ -145,14 +145,14 @@ class Family:
         """The strips ``s`` (k, n) at the rates ``group`` (k,), in a row: their waves, orbits, and about where in contact the
         pressure is greatest."""
         share, _, place, slope = self.at(group, s, CONTACT).reshape(4, -1)
-        nodes, s, share = s.shape[1], s.ravel(), _inside(share)
-        waves = self.foundation.waves(np.repeat(self.rate[group], nodes))
-        missed, allowed = s - waves.orbits(2 * np.pi * share, means=False).D, np.repeat(self.found[group], nodes)
-        for _ in range(_STEPS):
-            share = _inside(share + slope * missed)
+        nodes, s, missed = s.shape[1], s.ravel(), 0.0
+        waves, allowed = self.foundation.waves(np.repeat(self.rate[group], nodes)), np.repeat(self.found[group], nodes)
+        for step in range(1 + _STEPS):
+            # contact is neither none nor all
+            share = np.clip(share + slope * missed, _LEAST, 1 - _LEAST)
             orbits = waves.orbits(2 * np.pi * share, means=False)
             missed = s - orbits.D
-            if (np.abs(missed) <= np.maximum(allowed, _ROUNDING * s)).all():
+            if step and (np.abs(missed) <= np.maximum(allowed, _ROUNDING * s)).all():
                 break
         return waves, orbits.sure(), np.clip(place, 0.0, 1.0)
 
@@ -175,23 +175,18 @@ def errors_alone(c: np.ndarray, goal: np.ndarray) -> np.ndarray:
     return interpolation_errors(alone, np.broadcast_to(0.1 * goal, (m, q)).reshape(-1, 1)).reshape(m, q)
 
 
-def _inside(share):
-    """Shares of contact that are neither none nor all."""
-    return np.clip(share, _LEAST, 1 - _LEAST)
-
-
 def _xi(s, s_sat):
     return np.arcsin(np.sqrt(np.clip(s / s_sat, 0.0, 1.0)))
 
 
-def _peaks(pressure, rows):
-    """Greatest ``pressure`` in the contacts ``rows``, and its place: from looks at them that are closest at either end."""
+def _peaks(pressure):
+    """Greatest ``pressure`` in every contact, and its place: from looks at them that are closest at either end."""
     t = np.linspace(0, 1, _LOOKS)
-    looks = pressure(np.broadcast_to(mapped(t), (rows.size, _LOOKS)), rows)
+    looks = pressure(mapped(t)[None])
     # the vertex of the parabola through the highest look and those next to it
-    every, highest = np.arange(rows.size), np.clip(looks.argmax(axis=1), 1, _LOOKS - 2)
+    every, highest = np.arange(len(looks)), np.clip(looks.argmax(axis=1), 1, _LOOKS - 2)
     before, at, after = (looks[every, highest + k] for k in (-1, 0, 1))
     bend = before + after - 2 * at
     offset = np.divide(0.5 * (before - after), bend, out=np.zeros_like(bend), where=bend < 0)
     vertex = mapped(np.clip(t[highest] + offset * t[1], 0.0, 1.0))
-    return np.maximum(pressure(vertex[:, None], rows)[:, 0], looks.max(axis=1)), vertex
+    return np.maximum(pressure(vertex[:, None])[:, 0], looks.max(axis=1)), vertex

@@ -4,6 +4,7 @@ smooth.
 A law is not smooth at p = 0, where the crests touch (its powers are those of ``p^(1/4)``); at D = h, where the strips at the edge
 of the cell come into contact; where the level is in complete contact; and where all below it is. Towards these pressures it has
 roots of the distance. It is sampled over penetration, where these are known, and resampled over pressure.
+Penetrations at which a level carries given pressures are roots of its mean pressure.
 """
 
 from __future__ import annotations
@@ -15,11 +16,12 @@ import numpy as np
 
 from ...numerics.chebyshev import lobatto, resampled
 from ...numerics.quadrature import interleaved
+from ...numerics.roots import falling_root
 from ...numerics.rounding import EPS, LARGEST
 from ...orbit.foundation import foundation_of
 from ..strips import LevelBatch, cut_penetration
-from .average import average, penetrations
-from .family import CONTACT, Family, errors_alone
+from .average import Span, average, completely
+from .family import CONTACT, SEARCH, Family, errors_alone
 
 #: nodes of a piece, tried in turn
 _NODES = (16, 32, 64, 128)
@@ -35,6 +37,8 @@ _STEP = 1e-3
 _BLUNT = 1e-4
 #: by how much more a greatest pressure is allowed for, and a penetration; and ends of pieces that are one, relative
 _BETWEEN, _FURTHER, _SAME = 1.02, 1e-3, 1e-6
+#: strips that penetrations are looked for with, and how well, relative
+_SEARCH, _NEAR = 18, 1e-7
 
 
 @dataclass(frozen=True)
@@ -100,6 +104,29 @@ def with_family(columns: LevelBatch, D: np.ndarray, friction: np.ndarray, carrie
     family = Family(foundation_of(columns.material), rate, np.where(d < 1, 2 * d, np.inf), accuracy, carries)
     columns.work.solved += family.strips
     return replace(columns, family=family)
+
+
+def penetrations(columns: LevelBatch, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """About the penetrations (m) at which ``columns`` that have a family carry ``p`` > 0 (Pa, (n,)), below saturation, and the
+    slopes of the logarithm of pressure over that of penetration."""
+    group, family, h = columns.family.of(columns), columns.family, columns.level.h
+    p = p / (columns.material.K * h)
+    s_sat, slope = family.s_sat[group], np.ones(p.size)
+
+    def missing(log_d, index):
+        d, at = np.exp(log_d), group[index]
+        u, s, weight = Span(d, s_sat[index]).nodes(_SEARCH)
+        mean, mean_slope = family.at(at, s, SEARCH)
+        rest, complete = completely(d, s_sat[index])
+        pressure = np.maximum((0.5 * u * weight * mean).sum(axis=1) + complete, np.finfo(float).tiny)
+        # s rises by 2/u with d
+        rise = (weight * mean_slope).sum(axis=1) + rest / np.pi
+        slope[index] = rise * d / pressure
+        return -np.log(pressure / p[index]), -slope[index]
+
+    low, high = np.log(p), np.log(np.minimum(p + 0.75, 0.5 * s_sat))
+    # crests are paraboloids next to the plane: at rest they carry d^2/(2 pi)
+    return h * np.exp(falling_root(missing, low, high, 0.5 * np.log(2 * np.pi * p), _NEAR)), slope
 
 
 def crest_pressure(columns: LevelBatch) -> np.ndarray:
@@ -190,8 +217,7 @@ def _pieces(columns: LevelBatch, cuts: np.ndarray, rtol: float, friction, fracti
         at = columns.at(every, D.ravel())
         tolerance = _VALUES * tolerances(at, friction[every], fraction[every])
         means, errors = average(at, np.full(D.size, _VALUES * rtol), tolerance)
-        fresh = np.column_stack((means, errors[:, columns.frictions].sum(axis=1), errors[:, 0]))
-        fresh = fresh.reshape(*D.shape, q + 2)
+        fresh = np.column_stack((means, errors[:, columns.frictions].sum(axis=1), errors[:, 0])).reshape(*D.shape, q + 2)
         known = fresh if known is None else interleaved(known, fresh)
         total, step = known[:, :, columns.frictions].sum(axis=2), np.diff(known[:, :, 0], axis=1)
         # differences of pressures that rounding or quadrature would make slopes of are none
