@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..numerics.chebyshev import flat_ended, interpolation_errors
+from ..numerics.chebyshev import flat_ended, interpolation_errors, lobatto
 from ..numerics.quadrature import Stage, interior_nodes, sampled
+from ..numerics.rounding import EPS
 from ..orbit.batch import Ranges
 from .averages import level_means
 from .branches import Errors, Piece, share_of
@@ -28,8 +29,9 @@ _LOOK, _FIRST, _LAST = 6, 12, 96
 _BLUR = 0.1
 #: a piece narrower than this, relative to D, is taken as it is; breaks in an interval are this far apart, relative to it
 _NARROWEST, _APART = 1e-11, 1e-9
-#: share of the largest error of a mean that an interpolant has far from it: means mostly err by a tenth of their bounds
-_SPREAD = 0.05
+#: error of a piece by what rounding may make of each of its coefficients, and the share of the largest error of a mean that an
+#: interpolant has far from it: means mostly err by a tenth of their bounds
+_ROUNDED, _SPREAD = 8.0, 0.05
 
 
 @dataclass
@@ -140,10 +142,10 @@ class _Work:
         columns, intervals, (values, errors, _) = self.columns, stage.parts, stage.known
         column, c = intervals.column, flat_ended(stage.n) @ values
         goal = intervals.rtol[:, None] * np.abs(values).min(axis=1) + intervals.atol
-        blur, spread = _BLUR * errors.max(axis=1), np.ptp(values, axis=1)
+        blur, rounding, spread = _BLUR * errors.max(axis=1), _rounding(columns, stage, c), np.ptp(values, axis=1)
         # where next to nothing changes there is little to miss, whatever nobody marked there
         noise = 0.1 * goal
-        error = np.minimum(interpolation_errors(c, noise, blur), 2 * spread)
+        error = np.minimum(interpolation_errors(c, noise, blur, rounding), 2 * spread)
         # what the means leave of it, at least what they may not have
         goal = np.maximum(goal - errors.max(axis=1), (1 - MEAN) * goal)
         done = (error <= goal).all(axis=1)
@@ -152,7 +154,7 @@ class _Work:
         if ended.any():
             columns.work.limit_reached(columns.V[column[ended]], columns.level.l, NO_CURVE)
             error[ended], done = np.maximum(error, spread)[ended], done | ended
-        bounds = errors + (error + _SPREAD * errors.max(axis=1))[:, None]
+        bounds = errors + (error + _ROUNDED * rounding + _SPREAD * errors.max(axis=1))[:, None]
         for k in np.flatnonzero(done):
             known = Errors(interior_nodes(stage.n), bounds[k])
             ends = float(intervals.low[k]), float(intervals.high[k])
@@ -160,7 +162,7 @@ class _Work:
         missed, before = error / goal, np.full_like(goal, np.inf)
         if stage.n >= _FIRST:
             half = flat_ended(stage.n // 2) @ values[:, 1::2]
-            before = np.maximum(interpolation_errors(half, noise, blur) / goal, 1.0)
+            before = np.maximum(interpolation_errors(half, noise, blur, rounding) / goal, 1.0)
         # coefficients fall geometrically: where missed (missed / before)^2 on twice the nodes is over the goal, halves are better
         hopeless = (missed > before ** (2 / 3)).any(axis=1) | (stage.n >= _LAST)
         return stage.take(~done), goal[~done], hopeless[~done]
@@ -182,3 +184,15 @@ class _Work:
                     whole = False
             parts.append(rest.halves if whole else rest)
         return parts
+
+
+def _rounding(columns: LevelBatch, stage: Stage, c: np.ndarray) -> np.ndarray:
+    """What the rounding of D makes of the coefficients ``c``, (intervals, q): next to a break where the means are like square
+    roots it tells."""
+    n = stage.n
+    ends = np.stack(((-1.0) ** np.arange(n + 1) @ c, c.sum(axis=1)), axis=1)
+    values, D = np.concatenate((ends[:, :1], stage.known[0], ends[:, 1:]), axis=1), stage.parts.at(lobatto(n))
+    apart, digit = np.diff(D), EPS * np.maximum(np.abs(D).max(axis=1), columns.level.h)
+    share = np.minimum(np.divide(digit[:, None], apart, out=np.ones_like(apart), where=apart > 0), 1.0)
+    steps = np.abs(np.diff(values, axis=1)) * share[:, :, None]
+    return (np.abs(flat_ended(n)) @ np.maximum(steps[:, 1:], steps[:, :-1])).max(axis=1)

@@ -58,9 +58,12 @@ def flat_ended(n: int) -> np.ndarray:
     return every[:, 1:-1] + every[:, [0, -1]] @ ends
 
 
-def interpolation_errors(c: np.ndarray, noise: np.ndarray, blur: np.ndarray | float = 0.0) -> np.ndarray:
+def interpolation_errors(
+    c: np.ndarray, noise: np.ndarray, blur: np.ndarray | float = 0.0, rounding: np.ndarray | float = 0.0
+) -> np.ndarray:
     """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q), a guess if 6; ``noise`` (p, q): changes
-    that don't matter; ``blur`` (p, q): how uncertain the coefficients are themselves.
+    that don't matter; ``blur`` (p, q): how uncertain the coefficients are themselves; ``rounding`` (p, q): what of each is
+    rounding and not counted.
 
     What is left is extrapolated from the end of the series, at the pace that coefficients fell at since the middle: those of a
     quantity itself, as far as they don't fall faster than those of the roughest one, for all share their singularities.
@@ -68,7 +71,7 @@ def interpolation_errors(c: np.ndarray, noise: np.ndarray, blur: np.ndarray | fl
     n = c.shape[1] - 1
     c = np.abs(c)
     # what is rounding says nothing of the singularities
-    c = np.maximum(c - 16 * EPS * c.max(axis=1, keepdims=True), 0.0)
+    c = np.maximum(c - (16 * EPS * c.max(axis=1) + rounding)[:, None], 0.0)
     amplitude = (c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny)[:, None]
     blur = np.broadcast_to(blur, noise.shape)[:, None]
     roughest = (np.maximum(c - blur, 0.0) / amplitude).max(axis=2, keepdims=True)
