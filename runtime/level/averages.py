@@ -21,7 +21,7 @@ from ..orbit.regimes import CODE
 from .breaks import Zones, zones_of
 from .changes import Changes, locate_changes
 from .nonadhesive.average import average as family_average
-from .regime_map import hides_another, known_breaks, located, theta_of
+from .regime_map import by_equation, hides_another, known_breaks, theta_of
 from .strips import AVERAGE_LIMIT, LevelBatch
 
 #: nodes of a panel at first and at most, and one more
@@ -264,8 +264,8 @@ class _Work:
             at, level = panels.state[changes.line], self.columns.level
             theta = np.stack((changes.low, changes.high), axis=1)
             E = np.broadcast_to((self.columns.D[at] - level.h)[:, None], theta.shape)
-            A = located(self.columns.at(at, self.columns.D[at]), changes, level.amplitude(theta), E, "A")
-            return theta_of(self.columns, A), changes.several
+            parent, A = by_equation(self.columns.at(at, self.columns.D[at]), changes, level.amplitude(theta), E, "A")
+            return parent, theta_of(self.columns, A), np.zeros(parent.size, bool)
 
         found, halved = locate_changes(probe, equation, changes, width)
         self.columns.work.bisected += halved

@@ -17,7 +17,7 @@ import numpy as np
 from ..numerics.rounding import EPS
 from ..orbit.batch import Batch
 from .changes import Changes, locate_changes
-from .regime_map import hides_another, located, straight
+from .regime_map import by_equation, hides_another, straight
 from .strips import LevelBatch
 
 #: penetrations of a scan where regimes follow one another
@@ -52,8 +52,8 @@ def between_breaks(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tu
 
     def equation(changes):
         E = np.stack((changes.low, changes.high), axis=1) - h
-        place = located(columns.at(column[changes.line], changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
-        return place + h, changes.several | hides_another(*changes.codes.T)
+        parent, place = by_equation(columns.at(column[changes.line], changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
+        return parent, place + h, hides_another(*changes.codes[parent].T)
 
     answers = [v.reshape(*D.shape, *v.shape[1:]) for v in probe(np.repeat(np.arange(m), D.shape[1]), D.ravel())]
     changes, *_ = Changes.between(np.arange(m), D, answers)

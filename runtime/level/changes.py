@@ -21,9 +21,9 @@ _ASIDE = 1e-6
 
 #: (line, x) -> codes (m,), values (m, q), heights (m, k) and edges (m, 4)
 Probe = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
-#: (changes) -> where equations tell that they are (NaN: nowhere), and whether that is doubtful, as something else may lie in the
-#: bracket, too; (m,) both
-Equation = Callable[["Changes"], tuple[np.ndarray, np.ndarray]]
+#: (changes) -> changes of which equations tell all there is, where that is, several places for some, and whether that is
+#: doubtful, as something else may lie next to it: one place then; all (k,)
+Equation = Callable[["Changes"], tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 
 @dataclass
@@ -41,11 +41,6 @@ class Changes(Ranges):
     def passed(self) -> np.ndarray:
         """Which heights change sign, (m, k)."""
         return (self.heights[:, 0] > 0) != (self.heights[:, 1] > 0)
-
-    @property
-    def several(self) -> np.ndarray:
-        """Where more heights than one change sign, (m,)."""
-        return self.passed.sum(axis=1) > 1
 
     @classmethod
     def between(cls, line: np.ndarray, x: np.ndarray, known) -> tuple[Changes, np.ndarray, np.ndarray]:
@@ -71,11 +66,13 @@ def locate_changes(probe: Probe, equation: Equation, changes: Changes, width: np
         changes, width = changes.take(~done), width[~done]
         if not changes.size:
             break
-        where, doubtful = equation(changes)
+        parent, place, doubtful = equation(changes)
         # rounding may push it out of its bracket, which would then come back as it was
-        where, sure = np.clip(where, changes.low, changes.high), ~np.isnan(where) & ~doubtful
-        found.append(_at(where[sure], changes.take(sure)))
-        changes, width, where = changes.take(~sure), width[~sure], where[~sure]
+        place = np.clip(place, changes.low[parent], changes.high[parent])
+        found.append(_at(place[~doubtful], changes.take(parent[~doubtful])))
+        left, where = np.setdiff1d(np.arange(changes.size), parent[~doubtful]), np.full(changes.size, np.nan)
+        where[parent[doubtful]] = place[doubtful]
+        changes, width, where = changes.take(left), width[left], where[left]
         if not changes.size:
             break
         told, low, high = ~np.isnan(where), changes.low[:, None], changes.high[:, None]

@@ -5,7 +5,7 @@ in closed form. Others are met between two strips in different regimes, and loca
 from that orbit's edges. What was located is remembered: neighbouring segments cross the same curve nearby.
 
 Two questions are answered, over y at a penetration and over D at the crest: where breaks are known before strips are solved
-(``known_breaks``), and where those are that lie between two strips (``located``). Nothing here decides what a strip does: a
+(``known_breaks``), and where those are that lie between two strips (``by_equation``). Nothing here decides what a strip does: a
 curve that is not found is met by bisection (and counted), one too many costs a panel.
 """
 
@@ -111,16 +111,18 @@ def _equations(columns: LevelBatch, changes: Changes, side: int) -> list[tuple[B
     return found
 
 
-def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str) -> np.ndarray:
+def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str) -> tuple[np.ndarray, np.ndarray]:
     """Where regimes that meet between two strips of the plane do, by the equation of an orbit that ends there; or where its
-    greatest pressure passes a break of the law below, the first of several.
+    greatest pressure passes a break of the law below.
 
     ``A`` and ``E`` (m, 2) of the ends of the ``changes``; ``unknown`` "A" or "E": the coordinate they differ in. ``columns``: the
-    state of each. Returns that coordinate (m,), NaN where no equation tells; the points of curves are remembered."""
+    state of each. Returns that coordinate and which were found, (m,); the points of curves are remembered."""
     ends = A if unknown == "A" else E
     low, high = ends.min(axis=1), ends.max(axis=1)
     # along y thresholds are known before any strip is solved
-    place = np.full(changes.size, np.nan) if unknown == "A" else _by_threshold(columns, changes, A[:, 0], low, high)
+    place, found = np.full(changes.size, np.nan), np.zeros(changes.size, bool)
+    if unknown == "E":
+        place, found = _by_threshold(columns, changes, A[:, 0], low, high)
     index, pressure = np.zeros(changes.size, int), np.zeros(changes.size)
     if columns.carry is not None:
         breaks = columns.carry.breaks(columns.group)
@@ -129,7 +131,7 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
     for side in (0, 1):
         near, at_A, at_E = changes.edges[:, side], A[:, side], E[:, side]
         for boundary, rows in _equations(columns, changes, side):
-            rows = rows[np.isnan(place[rows])]
+            rows = rows[~found[rows]]
             if not rows.size:
                 continue
             names, peak = ["dbac".index(name) for name in EDGES[boundary.sequence]], boundary.event == "peak"
@@ -138,14 +140,14 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
             got, good = plane.locate(columns, boundary, start, unknown)
             at = getattr(got, unknown)
             good &= (at > low[rows]) & (at < high[rows])
-            place[rows[good]] = at[good]
+            place[rows[good]], found[rows[good]] = at[good], True
             if good.any():
                 columns.crossings.remember(columns, boundary, got.take(np.flatnonzero(good)))
-    return place
+    return place, found
 
 
-def _by_threshold(columns: LevelBatch, changes: Changes, A, low, high) -> np.ndarray:
-    """E between ``low`` and ``high`` (m,) where the ``changes`` are on a straight curve, NaN for those of another kind."""
+def _by_threshold(columns: LevelBatch, changes: Changes, A, low, high) -> tuple[np.ndarray, np.ndarray]:
+    """E between ``low`` and ``high`` (m,) where the ``changes`` are on a straight curve, and which of them are of that kind."""
     f, c = straight(columns)
     code, unloading = changes.codes % len(CODE), columns.branch == "unloading"
     some = lambda *sequences: np.isin(code, [CODE[s] for s in sequences]).any(axis=1)  # noqa: E731
@@ -165,12 +167,31 @@ def _by_threshold(columns: LevelBatch, changes: Changes, A, low, high) -> np.nda
     place = (c - f * A)[line, np.arange(changes.size)]
     # a curve over penetration ends at saturation, but for rounding
     slack = 64 * EPS * (np.abs(low) + np.abs(high) + columns.level.h)
-    return np.where(known.any(axis=0) & (place >= low - slack) & (place <= high + slack), np.clip(place, low, high), np.nan)
+    return np.clip(place, low, high), known.any(axis=0) & (place >= low - slack) & (place <= high + slack)
 
 
 def hides_another(code: np.ndarray, other: np.ndarray) -> np.ndarray:
     """Codes of regimes, (m,) both, that do not follow one another as a strip is drawn out: a third may lie between."""
     return np.abs(_RANK[code % len(CODE)] - _RANK[other % len(CODE)]) > 1
+
+
+def by_equation(
+    columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str
+) -> tuple[np.ndarray, np.ndarray]:
+    """Of ``located``: the changes of which equations tell all, once for each break of the law below that is passed, and where
+    that is, (k,)."""
+    passed = changes.passed & (changes.codes[:, :1] % len(CODE) == changes.codes[:, 1:] % len(CODE))
+    parent, which = np.nonzero(passed)
+    several = passed.sum(axis=1)[parent] > 1
+    parent, which = parent[several], which[several]
+    one = np.setdiff1d(np.arange(changes.size), parent)
+    parts = changes.take(parent)
+    # of the other breaks nothing is known, so that they are not passed
+    parts.heights = np.where((np.arange(passed.shape[1]) != which[:, None])[:, None], np.nan, parts.heights)
+    each, parent = Changes.joined([changes.take(one), parts]), np.concatenate((one, parent))
+    place, found = located(columns.at(parent, columns.D[parent]), each, A[parent], E[parent], unknown)
+    every = np.bincount(parent[~found], minlength=changes.size)[parent] == 0
+    return parent[every], place[every]
 
 
 @dataclass
