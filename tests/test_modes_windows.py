@@ -167,7 +167,7 @@ def test_what_hides_an_orbit_is_never_proven(n, rising):
     s, orbit = orbits(n)
     rng, (d, _, _, c) = np.random.default_rng(60 + n), orbit.edges
     hidden = proven = linked = 0
-    for _ in range(40):
+    for _ in range(16):
         # a share of the time that it is free, or engaged, from both its ends
         part = rng.random(s.size)
         total = 0.98 * 10 ** rng.uniform(-6, 0, s.size) * (d + 2 * np.pi - c if rising else c - d)
@@ -191,7 +191,7 @@ def test_what_hides_an_orbit_is_never_proven(n, rising):
                 assert not (good & (sign * u < -1e-9)).any()
             else:
                 linked += good.sum()
-    assert hidden > 10 and proven > 1000 and linked > 1000
+    assert hidden > 5 and proven > 1000 and linked > 1000
 
 
 @pytest.mark.parametrize("n", TIMES)
