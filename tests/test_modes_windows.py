@@ -1,6 +1,8 @@
 """The claims that the choice of the extremal orbit rests on (``runtime/orbit/modes/windows.py``), on random states and windows,
 and the orbits it leads to."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -144,6 +146,7 @@ def test_chords_are_bounded():
         assert np.all(chord >= least - 1e-8) and np.all(chord <= greatest + 1e-8)
 
 
+@cache
 def orbits(n, count=1500):
     """Strips with an orbit that is free once a period, extremal on one branch, and that orbit."""
     kernel, s = strips(np.random.default_rng(50 + n), n, count)
