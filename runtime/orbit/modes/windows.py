@@ -48,14 +48,14 @@ from .march import TWO_PI
 from .problem import ModeStrips, rates
 
 
-def responses(kernel, s: ModeStrips, contact, c, d, forcing, upper: bool, moved=None, apart=None):
+def responses(kernel, s: ModeStrips, contact, ends, forcing, upper: bool, moved=None, apart=None):
     """Bounds (2, 2, N) of what y gains at release and onset, per growth of the window at either, by steps of w of heights
     ``forcing``.
 
-    ``contact``: its first and last phase; ``c``, ``d``: ranges of the edges. ``moved``: where the contact moves with the
+    ``contact``: its first and last phase; ``ends``: ranges of the edges c and d. ``moved``: where the contact moves with the
     onset, the least and greatest time between them, and what w gains where it begins. ``apart``: by how much w is higher
     at most, on average, where the window grew at its onset."""
-    (b, a), (c_1, c_2), (d_1, d_2), n = contact, c, d, s.modes
+    (b, a), ((c_1, c_2), (d_1, d_2)), n = contact, ends, s.modes
     rate, kicks = rates(s.m.beta), s.m.J * rates(s.m.beta) / s.m.J_0
     back = np.stack([kernel.dashpots(np.eye(n)[:, j, None], 0.0, s.m) for j in range(n)], axis=1)
 
@@ -130,7 +130,7 @@ def alone(orbit: Forced, window, contact, rising: bool, agree: float) -> np.ndar
             c_range, d_range = (c_0, c), (d, d_0)
             good &= (d_0 <= contact[0] + agree) & (contact[1] <= c_0 + agree)
         forcing = s.step, np.where(s.snaps, np.minimum(s.step, highest), s.step)
-        r = responses(kernel, s, contact, c_range, d_range, forcing, True, apart=apart)
+        r = responses(kernel, s, contact, (c_range, d_range), forcing, True, apart=apart)
         on, off = steep_d - r[1, 1], steep_c - r[0, 0]
         return good & (on > 0) & (off > 0) & (on * off > r[0, 1] * r[1, 0])
 
@@ -167,7 +167,7 @@ def links(orbit: Forced, target: Forced, rising: bool) -> np.ndarray:
             good &= target.gaps()[1] + target.falling(d)[0] * v >= 0
         forcing = force_c, np.clip(lowest, 0.0, s.step)
         order = lambda x, y: (np.minimum(x, y), np.maximum(x, y))  # noqa: E731
-        r = responses(kernel, s, contact, order(c, c_1), order(d, d_1), forcing, False, moved)
+        r = responses(kernel, s, contact, (order(c, c_1), order(d, d_1)), forcing, False, moved)
         left = room + np.stack((-steep_c * u, least * v)) + r[:, 0] * u + r[:, 1] * v
         return good & (room > 0).all(axis=0) & (left > 0).all(axis=0) & (c_1 > d_1) & (c_1 < d_1 + TWO_PI)
 
@@ -180,7 +180,7 @@ def linearised(orbit: Forced, rising: bool):
     y_c, y_d = orbit.gaps()
     room = np.stack((y_c - s.delta_0 - s.step, y_d - s.delta_0)) * (1 if rising else -1)
     jump = np.where(s.snaps, s.delta_0, s.step)  # of w at an onset: the whole gap where the point snaps into contact
-    falls = -responses(orbit.kernel, s, (b, a), (c, c), (d, d), (s.step, jump), True)
+    falls = -responses(orbit.kernel, s, (b, a), ((c, c), (d, d)), (s.step, jump), True)
     falls[[0, 1], [0, 1]] += orbit.adhering(c)[0], -orbit.falling(d)[0]
     return room, falls
 
