@@ -48,10 +48,9 @@ class SingleTime(Foundation):
         return Strips(*shared, p_0, delta_0, D, every(float(steps), D.shape), None if snaps is None else snaps & steps)
 
     def fold(self, sequence, edges, strips):
-        """``T' - 1`` times the load at the last edge: no pole there. Those at the other edges vanish where there is no fold."""
-        s = strips
-        *_, fold = getattr(self.kernel, f"onset_slope_{sequence}")(*edges, *s.arguments)
-        return fold * (self.kernel.forcing(edges[-1], s.D, s.beta) + s.delta_0 + s.chi * s.J * s.p_0)
+        """The numerator of ``T'`` less its denominator: where the free zone is short next to linear in its length."""
+        *_, fold = getattr(self.kernel, f"onset_slope_{sequence}")(*edges, *strips.arguments)
+        return fold
 
     def release(self, edges, strips):
         return greatest_gap(self.kernel, strips, edges[-1]) - strips.delta_0
