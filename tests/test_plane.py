@@ -107,3 +107,38 @@ def test_a_curve_that_is_known_does_not_hide_a_thin_zone_next_to_it():
             again.zones[k].code.tolist() == alone[k].zones[0].code.tolist() == [CODE[s] for s in ("acaf", "f", "acaf", "ac", "c")]
         )
         assert (np.abs(again.values[k] - alone[k].values[0]) <= again.errors[k] + alone[k].errors[0]).all()
+
+
+def test_islands_end_where_their_curve_turns():
+    """The free strips of the curve above vanish at its turn, whose place is known to the square of that along the curve."""
+    material, adhesion = hystrip.StandardLinearSolid(K, 1e-2, 1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+    level, V, turn = hystrip.Level(l=10e-6, h=1e-6), np.full(8, 1e-2), 0.382436550468
+    columns = LevelBatch(material, adhesion, level, "continuous", "unloading", V, np.linspace(0.3, 0.38, 8) * level.h)
+    level_means(columns, np.full(8, 1e-4))
+    turns = columns.crossings.turned(columns)
+    near = np.flatnonzero(np.abs(turns.E / level.h + 1 - turn) < 1e-6)
+    assert near.size == 1 and abs(turns.E[near[0]] / level.h + 1 - turn) < 1e-11 and turns.way[near[0]] == 1
+    theta = 2 * np.arccos(np.sqrt(2 * turns.A[near] / level.h))
+    for aside, free in ((-1e-8, True), (1e-8, False)):
+        at = columns.at(np.zeros(1, int), (turn + aside) * level.h * np.ones(1))
+        assert (at.codes(np.zeros(1, int), theta)[0] == CODE["f"]) == free
+    # asked again nothing is located anew
+    known = columns.crossings.turned(columns)
+    assert known.size == turns.size
+    # next to the turn, on the far side, the strips bend like sqrt(s^2 + distance): the panels end there
+    for aside in (1e-12, 1e-9, 1e-6):
+        one = columns.at(np.zeros(1, int), (turn + aside) * level.h * np.ones(1))
+        rough, fine = (level_means(one, np.full(1, rtol)) for rtol in (1e-3, 1e-11))
+        assert (np.abs(rough.values - fine.values) <= rough.errors + fine.errors).all()
+
+
+def test_a_fold_of_a_short_free_zone_is_told_by_its_equation():
+    """On a stiff foundation strips that are loaded are held all along once hardly anything of their free zone is left: the fold
+    is found from orbits whose free zone is thousands of times as long."""
+    material = hystrip.StandardLinearSolid(K, 1e-2, 5e-7)
+    adhesion, level = hystrip.Dugdale(gamma=2.35e-9, delta_0=8e-10), hystrip.Level(l=5.6e-8, h=1.46e-9)
+    D = np.geomspace(1e-9, 3e-6, 12)
+    columns = LevelBatch(material, adhesion, level, "continuous", "loading", np.full(12, 0.57), D)
+    means = level_means(columns, np.full(12, 1e-4))
+    assert sum((CODE["acaf"] in z.code) and (CODE["ac"] in z.code) for z in means.zones) >= 6
+    assert columns.work.bisected <= 0.03 * columns.work.solved

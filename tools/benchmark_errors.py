@@ -13,7 +13,8 @@ its own (``tests/oracle/level.py``): nothing of the library.
 
 Prints how many points meet the tolerance, at how many the estimate bounds the error, and the median of estimate over error; then
 every point at which it does not hold, with the scene's number to draw it again. The table goes to the CSV as it grows. Points in
-closed form and below pull-off are exact and are not counted, nor are errors that rounding hides. A scene that takes more than
+closed form and below pull-off are exact and are not counted, nor are errors that rounding hides, nor points whose reference says
+that it did not converge (they are listed). A scene that takes more than
 ``--limit`` seconds of processor time counts as refused. Exit status 1 if the estimate bounds the error in fewer than 99 of 100
 points, its median exceeds 100 times the error, or a scene was refused.
 """
@@ -51,10 +52,11 @@ COLUMNS = ("scene", "levels", "edge", "branch", "point", "rtol", "error", "estim
 @dataclass
 class Survey:
     """``points``: rows (scene, index, tolerance, error, estimate), error and estimate relative to friction plus floor;
-    ``refused``: (scene, error)."""
+    ``refused``: (scene, error). ``unknown``: scenes and points whose reference did not converge, which are not counted."""
 
     points: list = field(default_factory=list)
     refused: list = field(default_factory=list)
+    unknown: list = field(default_factory=list)
     exact: int = 0
 
     @property
@@ -111,8 +113,9 @@ def survey(scenes, seed, tolerances, tighter, levels=None, report=None, first=0,
         size = np.abs(fine.tau) + surface.floor
         counted = ~(fine.closed_form | (fine.pulled_off & coarse.pulled_off))
         out.exact += int(np.count_nonzero(~counted))
+        out.unknown += [(number, i) for i in np.flatnonzero(counted & ~fine.converged).tolist()]
         rows = []
-        for i in np.flatnonzero(counted):
+        for i in np.flatnonzero(counted & fine.converged):
             error = abs(coarse.tau[i] - fine.tau[i])
             out.points.append((number, i, rtol, error / size[i], coarse.tau_error[i] / size[i]))
             about = (number, len(surface.levels), surface.edge, surface.branch)
@@ -233,6 +236,8 @@ def main():
     for number, i, rtol, error, estimate in out.points:
         if error > max(estimate, ROUNDING) or error > rtol:
             print(f"  scene {number}, point {i}, rtol {rtol:g}: error {error:.1e}, estimate {estimate:.1e}")
+    for number, i in out.unknown:
+        print(f"  scene {number}, point {i}: the reference did not converge")
     for number, error in out.refused:
         print(f"  scene {number} refused: {error}")
     return 1 if out.bounded < NEEDED or out.pessimism > PESSIMISTIC or out.refused else 0

@@ -17,7 +17,7 @@ import numpy as np
 from ..numerics.rounding import EPS
 from ..orbit.batch import Batch
 from .changes import Changes, locate_changes
-from .regime_map import by_equation, hides_another, straight
+from .regime_map import by_equation, hides_another, straight, theta_of
 from .strips import LevelBatch
 
 #: penetrations of a scan where regimes follow one another
@@ -25,6 +25,8 @@ _SCAN = 32
 #: strips looked at across an island and along its way, and how often at most, ever closer to where it vanishes: the tip of a
 #: wedge between two strips is less than a step along the way beyond where they lose it
 _ACROSS, _ALONG, _ROUNDS = 12, 8, 20
+#: how far to either side of a turn, of the way to where an island is absent, it is looked for
+_ASIDE = 1e-6
 #: what an island may add to the means that is left aside, over their goal, and over what the heaviest beside it adds
 _LEFT, _LIGHT = 0.3, 0.1
 
@@ -154,10 +156,16 @@ def islands(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) ->
 
 
 def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips: np.ndarray) -> np.ndarray:
-    """Penetrations at which the islands have shrunk so far that what is left does not tell, by ever smaller grids of strips
-    across that and along the way to its end. NaN: one is not absent at all. ``strips`` (per column) counts the work."""
-    out, number = np.full(len(islands), np.nan), np.arange(len(islands))
+    """Penetrations at which the islands have shrunk so far that what is left does not tell; NaN: one is not absent at all.
+
+    Where a curve turns, if an island ends there; else by ever smaller grids of strips across an island and along the way to its
+    end. ``strips`` (per column) counts the work."""
     column, code, low, high, present, absent, weight = map(np.array, zip(*map(astuple, islands), strict=True))
+    out = _at_turns(columns, column, code, low, high, present, absent, strips)
+    number = np.flatnonzero(np.isnan(out))
+    if not number.size:
+        return out
+    column, code, low, high, present, absent, weight = (v[number] for v in (column, code, low, high, present, absent, weight))
     density, start, stop = weight / (high - low), np.zeros(number.size), np.ones(number.size)
     for _ in range(_ROUNDS):
         across = (np.arange(_ACROSS) + 0.5) / _ACROSS
@@ -188,4 +196,23 @@ def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips:
         number, column, code, present, absent, low, high, density, start, stop = (
             v[~done] for v in (number, column, code, present, absent, low, high, density, start, stop)
         )
+    return out
+
+
+def _at_turns(columns: LevelBatch, column, code, low, high, present, absent, strips: np.ndarray) -> np.ndarray:
+    """Penetrations at which islands (see ``IsolatedRegime``), (n,), end at the turn of a curve, the one nearest to where they are
+    absent; NaN where no turn has them on the one side and not on the other."""
+    turns, h, out = columns.crossings.turned(columns), columns.level.h, np.full(column.size, np.nan)
+    D, theta, away = turns.E + h, theta_of(columns, turns.A), absent - present
+    share = (D - present[:, None]) / away[:, None]
+    inside = (columns.V[column, None] == turns.velocity) & (share > 0) & (share < 1)
+    island, turn = np.nonzero(inside & (theta > low[:, None]) & (theta < high[:, None]))
+    if island.size:
+        beside = D[turn] + _ASIDE * away[island] * np.array([[-1], [1]])
+        np.add.at(strips, column[island], 2)
+        at = columns.at(np.tile(column[island], 2), beside.ravel())
+        has = at.codes(np.arange(at.size), np.tile(theta[turn], 2)).reshape(2, -1) == code[island]
+        ends = np.flatnonzero(has[0] & ~has[1])
+        ends = ends[np.argsort(share[island[ends], turn[ends]])]
+        out[island[ends]] = D[turn[ends]]
     return out

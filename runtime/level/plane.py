@@ -109,8 +109,8 @@ def _added(value: np.ndarray, step: np.ndarray) -> np.ndarray:
 
 
 def _left(share: np.ndarray) -> np.ndarray:
-    """What a step down by this ``share`` (>= 0) of a positive number leaves of it: all but the share up to nine tenths; from there
-    on it falls like a reciprocal, at the same slope at first."""
+    """What a step down by this ``share`` (>= 0) of a positive number leaves of it: all but the share up to nine tenths; from
+    there on it falls like a reciprocal, at the same slope at first."""
     return np.where(share <= 0.9, 1 - share, 0.01 / np.maximum(share - 0.8, 0.1))
 
 

@@ -23,6 +23,7 @@ from ..orbit.regimes import CODE
 from . import plane
 from .changes import Changes
 from .plane import BOUNDARIES, Boundary, Points
+from .turns import Turns, locate_turns, together, turning
 
 if TYPE_CHECKING:
     from .strips import LevelBatch
@@ -196,10 +197,11 @@ def by_equation(
 
 @dataclass
 class Crossings:
-    """Points of the curves of the plane that were located, for every velocity. Belongs to one level with one material, adhesion,
-    closure and branch."""
+    """Points of the curves of the plane that were located, for every velocity, and where they turn, once that was asked. Belongs
+    to one level with one material, adhesion, closure and branch."""
 
     points: dict[Boundary, Points] = field(default_factory=dict)
+    turns: dict[Boundary, Turns] = field(default_factory=dict)
 
     def remember(self, columns: LevelBatch, boundary: Boundary, points: Points) -> None:
         known = self.points.get(boundary)
@@ -209,12 +211,13 @@ class Crossings:
         place = np.floor(points.A * (_GRID / columns.level.h))
         order = np.lexsort((points.A, points.index, points.velocity))
         points, place = points.take(order), place[order]
-        fresh = np.append(True, ~_together(points) | (np.diff(place) != 0))
+        fresh = np.append(True, ~together(points) | (np.diff(place) != 0))
         self.points[boundary] = points.take(np.flatnonzero(fresh))
 
     def expected(self, columns: LevelBatch) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
         """Columns and thetas at which ``columns`` cross what is known of each curve, by Newton from between the two points
-        nearest on it, or from the parabola through three where it turns; and whether orbits end there; (k,)."""
+        nearest on it, or from the parabola through three where it turns, or pass by a turn at which orbits end; and whether
+        orbits end there; (k,)."""
         E = columns.D - columns.level.h
         for boundary, known in self.points.items():
             starts = _between(known, columns.V, E), _at_turns(known, columns.V, E)
@@ -229,6 +232,17 @@ class Crossings:
             points, state = points.take(np.flatnonzero(found)), state[found]
             self.remember(columns, boundary, points)
             yield state, theta_of(columns, points.A), np.full(state.size, boundary.event in ("fold", "release"))
+        for turns in (turns for boundary, turns in self.turns.items() if boundary.event == "fold"):
+            beyond = turns.way * (E[:, None] - turns.E) >= 0
+            state, turn = np.nonzero((columns.V[:, None] == turns.velocity) & beyond)
+            yield state, theta_of(columns, turns.A[turn]), np.zeros(state.size, bool)
+
+    def turned(self, columns: LevelBatch) -> Turns:
+        """Where the curves turn, as far as is known at the velocities of ``columns``."""
+        for boundary, known in self.points.items():
+            had = self.turns.get(boundary, Turns.none())
+            self.turns[boundary] = Turns.joined([had, locate_turns(columns, boundary, known, had)])
+        return Turns.joined([Turns.none(), *self.turns.values()])
 
 
 def _between(known: Points, velocity, E) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -238,21 +252,19 @@ def _between(known: Points, velocity, E) -> tuple[np.ndarray, np.ndarray, np.nda
     segments = np.maximum(np.searchsorted(known.velocity, velocity, "right") - 1 - first, 0)
     state = np.repeat(np.arange(E.size), segments)
     lower = first[state] + np.arange(state.size) - np.repeat(np.cumsum(segments) - segments, segments)
-    together = np.concatenate(([False], _together(known), [False]))
+    one = np.concatenate(([False], together(known), [False]))
     rise = known.E[lower + 1] - known.E[lower]
     share = np.divide(E[state] - known.E[lower], rise, out=np.full(state.size, np.inf), where=rise != 0)
     # only the outermost segments of a curve go on beyond their ends
-    low, high = np.where(together[lower], 0.0, -_BEYOND), np.where(together[lower + 2], 1.0, 1 + _BEYOND)
-    near = together[lower + 1] & (share >= low) & (share <= high)
+    low, high = np.where(one[lower], 0.0, -_BEYOND), np.where(one[lower + 2], 1.0, 1 + _BEYOND)
+    near = one[lower + 1] & (share >= low) & (share <= high)
     return state[near], lower[near], share[near]
 
 
 def _at_turns(known: Points, velocity, E) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """``_between`` for states beyond the last point of a curve before it turns back in E: each crosses the parabola through the
     three points there, twice."""
-    together = _together(known)
-    steps = np.diff(known.E)
-    middle = 1 + np.flatnonzero(together[:-1] & together[1:] & (steps[:-1] != 0) & (steps[:-1] * steps[1:] <= 0))
+    middle = turning(known)
     # E = E_middle + slope (A - A_middle) + bend (A - A_middle)^2
     before, after = (known.A[middle + k] - known.A[middle] for k in (-1, 1))
     low, high = ((known.E[middle + k] - known.E[middle]) / (known.A[middle + k] - known.A[middle]) for k in (-1, 1))
@@ -267,8 +279,3 @@ def _at_turns(known: Points, velocity, E) -> tuple[np.ndarray, np.ndarray, np.nd
     lower = middle[at] - (moved < 0)
     share = (known.A[middle[at]] + moved - known.A[lower]) / (known.A[lower + 1] - known.A[lower])
     return np.tile(state, 2), lower, share
-
-
-def _together(points: Points) -> np.ndarray:
-    """Which points stand on the same curve as the next one."""
-    return (np.diff(points.velocity) == 0) & (np.diff(points.index) == 0)
