@@ -262,7 +262,8 @@ def _missed(sums, change, last, fastest: float, at_once: bool):
     """Error of ``sums`` (m, q) whose last ``change`` and the one before, ``last``, are these, or None."""
     if last is not None:
         change = np.maximum(change, fastest * last)
-        ratio = np.divide(change, last, out=np.ones_like(change), where=last > change)
+        # what doesn't change at all says nothing
+        ratio = np.divide(change, last, out=(change > 0).astype(float), where=last > change)
         return extrapolated(change, ratio.max(axis=1, keepdims=True))
     if change is None or not at_once:
         return np.full_like(sums, np.inf)
