@@ -31,8 +31,9 @@ _BLOCK = 256
 _TRAILING = 0.1
 #: tolerances over the one asked for, of averages and of the laws of lower levels, at which points are solved in turn until they
 #: converge, the last time with strips that are searched for; none finer than that. Contacts average over the errors of laws, and
-#: few of their pieces err by all they may
-_ATTEMPTS, _FINEST = ((1.0, 2.0), (1.0, 0.5), (0.3, 0.15)), 1e-12
+#: few of their pieces err by all they may: of 90 random surfaces of two levels, solved again where that does not do, a fifth of
+#: the time went with laws four times as accurate
+_ATTEMPTS, _FINEST = ((1.0, 8.0), (1.0, 0.5), (0.3, 0.15)), 1e-12
 #: accuracy of the friction and the contact that say how well laws without adhesion have to be known; friction of level 1 is at
 #: first taken to be so many times what counts beside it
 _ROUGH, _GUESS = 1e-2, 30.0
@@ -230,9 +231,11 @@ class _Solve:
         found = invert(columns, load, 0.5 * surface.rtol) if self.by_pressure else Inverse.at(load)
         off, touching = np.isnan(found.D), np.flatnonzero(np.isfinite(found.D))
         self.out.pulled_off[index[off]], self.out.p[index[off]] = True, load[off]
-        index, group = index[touching], group[touching]
-        if not index.size:
+        if not touching.size:
             return
+        # nobody asks for laws of a velocity at which nothing touches
+        index, (touched, group) = index[touching], np.unique(group[touching], return_inverse=True)
+        V = V[touched]
         columns = columns.at(touching, found.D[touching])
         rtol, atol = np.full(index.size, 0.5 * surface.rtol), None
         if self.M > 1 and families:

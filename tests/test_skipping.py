@@ -1,5 +1,7 @@
 """What a scene does not need is left out, is counted, and leaves the result as it is."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -21,6 +23,17 @@ def test_saturated_points_solve_no_strip():
 def test_below_pull_off_nothing_is_carried():
     r = hystrip.solve(MATERIAL, WEAK, LEVELS, pressure=-2e3, velocity=[1e-3], rtol=1e-3)
     assert r.pulled_off.all() and r.mu[0] == 0 and r.counts["points_below_pull_off"] == 1
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_velocity_below_pull_off_asks_for_no_law():
+    """Beside one at which the surface touches it costs what it costs alone, on level 1, and no tolerance of a law is without end."""
+    material, adhesion = replace(MATERIAL, T_sigma=3.934e-5), hystrip.Dugdale(gamma=1.207e-8, delta_0=1.8305e-10)
+    levels = hystrip.Level(l=1e-5, h=1.4092e-7), hystrip.Level(l=1.268e-6, h=6.863e-8)
+    V, given = np.array([2.904e-5, 3.4526e-4]), {"pressure": -8.196, "edge": "continuous", "rtol": 1e-3}
+    both, on, off = (hystrip.solve(material, adhesion, levels, velocity=some, **given) for some in (V, V[:1], V[1:]))
+    assert both.pulled_off.tolist() == [False, True] and both.tau[0] == on.tau[0]
+    assert both.counts["strips_solved"] == on.counts["strips_solved"] + off.counts["strips_solved"]
 
 
 @pytest.mark.parametrize("levels", [LEVELS[:1], LEVELS])
