@@ -27,7 +27,7 @@ def test_below_pull_off_nothing_is_carried():
 
 @pytest.mark.filterwarnings("error")
 def test_a_velocity_below_pull_off_asks_for_no_law():
-    """Beside one at which the surface touches it costs what it costs alone, on level 1, and no tolerance of a law is without end."""
+    """Beside one at which the surface touches it costs what it costs alone; no tolerance of a law is without end."""
     material, adhesion = replace(MATERIAL, T_sigma=3.934e-5), hystrip.Dugdale(gamma=1.207e-8, delta_0=1.8305e-10)
     levels = hystrip.Level(l=1e-5, h=1.4092e-7), hystrip.Level(l=1.268e-6, h=6.863e-8)
     V, given = np.array([2.904e-5, 3.4526e-4]), {"pressure": -8.196, "edge": "continuous", "rtol": 1e-3}
