@@ -30,9 +30,8 @@ _BLOCK = 256
 #: tolerance is not missed, and no scene of up to a dozen similar levels has any
 _TRAILING = 0.1
 #: tolerances over the one asked for, of averages and of the laws of lower levels, at which points are solved in turn until they
-#: converge, the last time with strips that are searched for; none finer than that. Contacts average over the errors of laws, and
-#: few of their pieces err by all they may: of 90 random surfaces of two levels, solved again where that does not do, a fifth of
-#: the time went with laws four times as accurate
+#: converge, the last time with strips that are searched for; none finer than that. Contacts average over the errors of laws: such
+#: as are four times finer at first take a fifth more time (90 random surfaces)
 _ATTEMPTS, _FINEST = ((1.0, 8.0), (1.0, 0.5), (0.3, 0.15)), 1e-12
 #: accuracy of the friction and the contact that say how well laws without adhesion have to be known; friction of level 1 is at
 #: first taken to be so many times what counts beside it

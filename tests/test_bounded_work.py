@@ -138,6 +138,26 @@ def test_a_level_whose_strips_let_go_all_but_at_once_has_no_piece_between():
     assert abs(coarse.tau - fine.tau) <= coarse.tau_error
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("V", [2.09173e-6, 4e-6])
+def test_what_loading_has_passed_by_where_all_strips_let_go_is_left_out(V):
+    """Within 1e-5 of ``h`` all gaps stop to open and pressure falls; nearer rounding decides it strip by strip. The law, built at
+    once, is that of single pressures, searched for one by one, on both sides of what is jumped over."""
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1.2743545e-5)
+    adhesion = hystrip.Dugdale(gamma=2.95002e-8, delta_0=9.50719e-9)
+    levels, how = (
+        [hystrip.Level(1e-5, 7.90435e-7), hystrip.Level(1.67879e-6, 1.4224e-7)],
+        {"edge": "constitutive", "branch": "loading"},
+    )
+    coarse, fine = (hystrip.solve(material, adhesion, levels, pressure=0.425761, velocity=V, rtol=r, **how) for r in (1e-3, 1e-6))
+    assert coarse.converged.all() and fine.converged.all() and fine.counts["strips_solved"] < 6_000
+    assert abs(coarse.tau - fine.tau) <= coarse.tau_error
+    law = hystrip.friction_law(material, adhesion, levels[1], V=V, rtol=1e-5, **how)
+    for p in np.geomspace(0.3, 0.9, 7) * law.p_sat:
+        one = hystrip.solve_level(material, adhesion, levels[1], V=V, pressure=p, rtol=1e-6, **how)
+        assert abs(law([p])[0] - one.tau_mean) <= law.error_estimate + one.error_estimate[1] + 1e-6 * law.tau_sat
+
+
 @pytest.mark.parametrize("V", [2e-6, 5e-6, 2e-5])
 def test_what_unloading_jumps_over_is_only_looked_at(V):
     """The same with ever longer memory: strips let go within 1e-9 to 1e-2 of ``h``, while the pressure rises."""

@@ -22,6 +22,8 @@ from .strips import LevelBatch
 #: accuracy of the look for re-entrant branches, and its nodes at first; intervals narrower than this share of ``h`` are looked at
 #: in two places before
 _ROUGH, _NODES, _NARROW, _APART = 5e-3, 6, 0.1, (0.1, 0.9)
+#: how close to where gaps that adhere throughout open the crest lets go with short memory, in heights
+_SHORT = 1e-3
 #: how much more than its error a pressure keeps above what was before, and than what it bends between two nodes, which are the
 #: first ones or twice as many: a parabola keeps within an eighth of that from its chord
 _DOUBT, _BENDS = 2.0, (1.0, 0.25)
@@ -46,14 +48,14 @@ def trace(
             D, each = intervals.take(narrow).evenly(np.array(_APART)), intervals.take(np.repeat(narrow, 2))
             low, high = _rough_means(columns, each, D.ravel(), strips)[0][:, 0].reshape(-1, 2).T
             looked[narrow] = low > high
+    else:
+        _leave_out_hidden(columns, intervals, strips)
     pieces = interpolate(columns, intervals.take(~looked), strips, budget)
     if looked.any():
         least = [[(piece.low, piece.values(piece.errors.at)[:, 0].min()) for piece in row] for row in pieces]
         parts = intervals.take(looked)
-        before = [
-            min((p for low, p in least[i] if low >= high), default=np.inf)
-            for i, high in zip(parts.column, parts.high, strict=True)
-        ]
+        ends = zip(parts.column, parts.high, strict=True)
+        before = [min((p for low, p in least[i] if low >= high), default=np.inf) for i, high in ends]
         parts = reentrant_parts(columns, replace(parts, ceiling=np.array(before)), strips, budget)
         for row, more in zip(pieces, interpolate(columns, parts, strips), strict=True):
             row += more
@@ -79,6 +81,24 @@ def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, to
     # at the top a curve is but cut, or saturates
     intervals.inner_high[:] = intervals.high > (top - 2 * inside)[intervals.column]
     return intervals, crest
+
+
+def _leave_out_hidden(columns: LevelBatch, intervals: Intervals, strips: np.ndarray) -> None:
+    """Leave out what little of the ``intervals`` is above where gaps that adhere throughout open, if loading comes to no pressure
+    there, but for what it may err, that it has not met before: where memory is short all strips let go at once and it falls."""
+    K, h = columns.material.K, columns.level.h
+    opens = h - columns.stretch - columns.adhesion.delta_0
+    k = np.flatnonzero((intervals.low < opens) & (opens < intervals.high) & (intervals.high - opens < _SHORT * h))
+    if not k.size:
+        return
+    some, width = intervals.take(np.repeat(k, 4)), (intervals.high[k] - opens)[:, None]
+    shares = np.concatenate((np.minimum(some.atol[::4, :1] / (K * width), _APART[0]) * [-1, 1], [_APART] * k.size), axis=1)
+    values, errors, _ = _rough_means(columns, some, (opens + shares * width).ravel(), strips)
+    low, high = (each[:, 0].reshape(-1, 4) for each in (values - errors, values + errors))
+    # pressure rises by K times the penetration at most
+    most = high[:, 1:] + K * width * np.diff(shares[:, 1:], axis=1, append=1.0)
+    # the pressure falls below zero as the first strips cling: loading begins where it is least
+    intervals.high[k[(low[:, 0] > 0) & (most.max(axis=1) <= low[:, 0])]] = opens
 
 
 def reentrant_parts(columns: LevelBatch, intervals: Intervals, strips: np.ndarray, budget: ErrorBudget | None) -> Intervals:

@@ -239,10 +239,11 @@ class Crossings:
 
     def turned(self, columns: LevelBatch) -> Turns:
         """Where the curves turn, as far as is known at the velocities of ``columns``."""
+        none = Turns(*np.empty((4, 0)))
         for boundary, known in self.points.items():
-            had = self.turns.get(boundary, Turns.none())
+            had = self.turns.get(boundary, none)
             self.turns[boundary] = Turns.joined([had, locate_turns(columns, boundary, known, had)])
-        return Turns.joined([Turns.none(), *self.turns.values()])
+        return Turns.joined([none, *self.turns.values()])
 
 
 def _between(known: Points, velocity, E) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -33,10 +33,6 @@ class Turns(Batch):
     E: np.ndarray
     way: np.ndarray
 
-    @classmethod
-    def none(cls) -> Turns:
-        return cls(*np.empty((4, 0)))
-
 
 def together(points: Points) -> np.ndarray:
     """Which points stand on the same curve as the next one."""
