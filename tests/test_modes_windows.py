@@ -6,6 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+import hystrip
 from hystrip.generated import generalised
 from hystrip.inputs.model import modes_of
 from hystrip.orbit.modes.engine import solve_modes
@@ -234,3 +235,18 @@ def test_plain_iteration_ends_at_the_returned_orbits(n):
         assert {"acaf", "ac", "f", "afc"} <= set(SEQUENCES[solved.code[settled]])
         settled_in_all += settled.sum()
     assert settled_in_all > 0.8 * 2 * s.size
+
+
+def test_next_to_where_orbits_vanish_nothing_is_refused():
+    """Ever closer to where unloading lets go of a strip on three times: below it, iterates pass by the place of the orbits that
+    have vanished ever more slowly, and no link of windows leads past it. Nothing touches there; above, adhesion holds a while."""
+    moduli, times = [5.44134255e10, 1.5198808e10, 8.79312096e10], [5.3902384e-5, 9.85717043e-5, 7.69386906e-2]
+    material, adhesion = hystrip.Prony(1.12859266e10, moduli, times), hystrip.Dugdale(p_0=633.854681, delta_0=8.01046486e-08)
+    given = {"l": 1.10813026e-06, "A": 1.19878806e-07, "V": 4.94028286e-06, "edge": "constitutive"}
+    low, high = -8.28e-8, -8.26e-8
+    while high - low > 1e-21:
+        D = np.linspace(low, high, 16)
+        regime = hystrip.solve_strip(material, adhesion, D=D, **given).regime.tolist()
+        free = regime.count("f")
+        assert 0 < free < 16 and regime == free * ["f"] + (16 - free) * ["af"]
+        low, high = D[free - 1 : free + 1]

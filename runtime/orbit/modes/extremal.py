@@ -13,21 +13,19 @@ from .march import march
 from .problem import ModeStrips
 from .windows import alone, balanced, linearised, links, newton
 
-#: where a strip is given up
-_STEPS = 120
+#: where a strip is given up; steps of Newton's method
+_STEPS, _ITERATIONS = 120, 12
 #: agreement of the edges with a march of the period
 AGREE = 1e-7
 #: windows so close to an orbit's tell it from others by rounding: of that it is asked to be stable, too
 _NARROW = 1e-6
 #: a chain of windows leads to an orbit or to where orbits have vanished: each leaves such a share of the way; the next share
-#: where no link holds
-_RATIOS = np.array([0.65, 0.83, 0.95])
+#: where no link holds. Next to where orbits have just vanished none does: windows then grow by a factor, as far as links hold
+_RATIOS, _GROWING = np.array([0.65, 0.83, 0.95, np.nan]), 4.0
 #: so many windows, and from that step on more: as many past there, and farther ones; fewer first are a third faster with 14 times
 _FEW, _FULL, _WINDOWS, _FARTHER = 5, 4, 16, (3, 5, 9, 17)
 #: corrections of such a chain, and the share of the room there is that may be taken
 _BALANCED, _ROOM = 1, 0.9
-#: steps of Newton's method
-_ITERATIONS = 12
 #: a step expected to be this small is not taken; steps as large as that after so many, or that hardly shrink, lead nowhere
 _SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * EPS, 0.1, 4, 0.7
 #: the last step of an orbit is this small, or the multiple of what rounding lets the edges be known to, which is no more than the
@@ -119,7 +117,7 @@ class Search:
         with np.errstate(all="ignore"):
             chain, clear = self._chain(i, orbit, full)
         reached = np.cumprod(clear, axis=0).sum(axis=0)
-        self.ratio[i] = np.where(reached == 0, np.minimum(self.ratio[i] + 1, len(_RATIOS) - 1), self.ratio[i])
+        self.ratio[i] = np.minimum(self.ratio[i] + (reached == 0), len(_RATIOS) - 1 - (reached > 0))
         last = chain.take(reached * i.size + np.arange(i.size))
         self.z[:, i], self.engaged[i] = last.at(self.s.start[i])
         self._proven(i, last.edges)
@@ -133,11 +131,11 @@ class Search:
         way = np.where((way > 0).all(axis=0), way, 2 * newton(*linearised(orbit, self.rising)))
         way[:, ~np.isfinite(way).all(axis=0)] = 0.0
         room = np.minimum((c - a) / way[0], (c - d) / way.sum(axis=0)) if self.rising else (d + TWO_PI - c) / way.sum(axis=0)
-        rest = _RATIOS[self.ratio[i]] ** np.arange(_WINDOWS if full else _FEW)[:, None]
-        shares = 1 - rest
+        number, ratio = np.arange(_WINDOWS if full else _FEW)[:, None], _RATIOS[self.ratio[i]]
+        shares = np.where(np.isnan(ratio), (number > 0) * _GROWING ** (number - number[-1]), 1 - ratio**number)
         if full:
             past = np.broadcast_to(np.array(_FARTHER)[:, None], (len(_FARTHER), i.size))
-            shares = np.concatenate((shares, 1 + rest[::-1], past))
+            shares = np.concatenate((shares, 2 - shares[::-1], past))
         corrections = _BALANCED if full else 0
         growth = np.minimum(shares, np.maximum(_ROOM * np.nan_to_num(room), 0.0))[:, None] * way
         many = np.tile(np.arange(i.size), len(shares))
