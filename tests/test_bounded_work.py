@@ -158,6 +158,18 @@ def test_what_loading_has_passed_by_where_all_strips_let_go_is_left_out(V):
         assert abs(law([p])[0] - one.tau_mean) <= law.error_estimate + one.error_estimate[1] + 1e-6 * law.tau_sat
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_pressure_is_not_looked_for_where_the_curve_can_only_fall():
+    """On the way to it all strips of a foundation with two times let go within 4e-6 of ``h``, where rounding decides the regimes:
+    over what is narrow pressure rises by less than it may err."""
+    material = hystrip.Prony(1e9, [3.3393926e9, 1.1034303e8], [2.1465324e-5, 6.9118596e-4])
+    adhesion, level = hystrip.Dugdale(gamma=1.2428381e-7, delta_0=8.3911943e-9), hystrip.Level(1e-5, 4.0924018e-7)
+    how = {"pressure": 287.81111, "velocity": [1.1071410e-4], "edge": "constitutive", "branch": "loading"}
+    coarse, fine = (hystrip.solve(material, adhesion, [level], rtol=rtol, **how) for rtol in (1e-3, 1e-5))
+    assert coarse.converged.all() and fine.converged.all() and fine.counts["strips_solved"] < 12_000
+    assert abs(coarse.tau - fine.tau) <= coarse.tau_error + fine.tau_error
+
+
 @pytest.mark.parametrize("V", [2e-6, 5e-6, 2e-5])
 def test_what_unloading_jumps_over_is_only_looked_at(V):
     """The same with ever longer memory: strips let go within 1e-9 to 1e-2 of ``h``, while the pressure rises."""

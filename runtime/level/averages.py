@@ -24,10 +24,8 @@ from .nonadhesive.average import average as family_average
 from .regime_map import by_equation, hides_another, known_breaks, theta_of
 from .strips import AVERAGE_LIMIT, LevelBatch
 
-#: nodes of a panel at first and at most, and one more
-_FIRST, _LAST = 8, 64
-#: nodes of a panel in saturated contact, where strips take no search: its sum may as well be exact
-_COSTLESS = 32
+#: nodes of a panel at first and at most, and one more; and in saturated contact, where strips take no search: as good as exact
+_FIRST, _LAST, _COSTLESS = 8, 64, 32
 #: a panel's part of what a state may err, and of that what brackets of changes may
 _SHARE, _SLIVER = 0.4, 0.03
 #: how far from the valley the strip next to it is, in parts of the accuracy, relative to natural scales, at least and at most

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..numerics.chebyshev import flat_ended, interpolation_errors, lobatto
 from ..numerics.quadrature import Stage, interior_nodes, sampled
-from ..numerics.rounding import EPS
+from ..numerics.rounding import EPS, LARGEST
 from ..orbit.batch import Ranges
 from .averages import level_means
 from .branches import Errors, Piece, share_of
@@ -133,8 +133,14 @@ class _Work:
             else:
                 going.append(replace(stage, parts=weighed(self.columns, self.budget, stage.parts, stage.known[0])))
         parts = [part for stage, goal in divided for part in self._divided(stage, goal)]
-        fresh = [Stage(Intervals.joined(parts), self.first)] if parts else []
+        fresh = [Stage(self._counting(Intervals.joined(parts)), self.first)] if parts else []
         return [stage for stage in (*going, *fresh) if stage.parts.size]
+
+    def _counting(self, intervals: Intervals) -> Intervals:
+        """Without those of which nothing but pressure is asked, over which it falls, or rises by no more than it may err: by K
+        times the penetration at most."""
+        rises = self.columns.material.K * intervals.width > intervals.atol[:, 0]
+        return intervals.take(rises | (intervals.atol[:, 1:] < LARGEST).any(axis=1))
 
     def _converged(self, stage: Stage) -> tuple[Stage, np.ndarray, np.ndarray]:
         """Append what has converged to the pieces; of columns with too many strips all as it is, with the spread of the values as

@@ -33,17 +33,14 @@ _FASTEST, _LAYERED, _SLOWEST = {8: 0.45, 16: 0.42, 32: 0.65}, 0.65, 0.97
 _MANY, _GEOMETRIC = 16, (0.15, 0.05)
 #: ratio of them above which they may fall by a power only, and how much more than by that of the last ones the next may count
 _POWER, _TURNS = 0.2, 2.5
-#: how much more is feared than what is left at the pace that coefficients fall at
-_SAFE = 1.5
-#: coefficients below this share of a change that doesn't matter say nothing of a pace
-_QUIET = 0.01
+#: how much more is feared than what is left at the pace that coefficients fall at; below this share of a change that doesn't
+#: matter they say nothing of a pace
+_SAFE, _QUIET = 1.5, 0.01
 #: share of its size by which a constant is taken to change: quotients by less would overflow
 _NOTHING = 1e-290
-#: how much more is feared than the last change times r: 1/(1 - r) up to r = 2/3
-_AITKEN = 3.0
-#: r of a first change, and the share of the roughest quantity's first change, both relative, that every other one is taken to
-#: have at least
-_UNKNOWN, _SHARED = 0.5, 0.1
+#: how much more is feared than the last change times r: 1/(1 - r) up to r = 2/3; r of a first change, and the share of the
+#: roughest quantity's first change, both relative, that every other one is taken to have at least
+_AITKEN, _UNKNOWN, _SHARED = 3.0, 0.5, 0.1
 
 
 def interleaved(outer: np.ndarray, inner: np.ndarray) -> np.ndarray:
