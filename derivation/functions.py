@@ -53,7 +53,6 @@ sine_lag = helper("sine_lag", lambda tau, T: sp.sin(tau) - T * (1 - sp.exp(-tau 
 either = helper("either", lambda width, short, wide: short)
 versine = helper("versine", lambda angle: 1 - sp.cos(angle))
 hypot = helper("hypot", lambda one, other: sp.sqrt(one**2 + other**2))
-quotient = helper("quotient", lambda upper, lower: upper / lower)  # infinite where lower = 0
 # half width of the arc where a cosine is above a level, from twice its distances to 1 and to -1 (times any scale)
 arc_half = helper("arc_half", lambda to_top, to_bottom: sp.acos((to_bottom - to_top) / (to_bottom + to_top)))
 

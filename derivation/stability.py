@@ -6,7 +6,7 @@ import sympy as sp
 
 from . import stable
 from .check import Derived, derived, zero
-from .functions import Formula, decay, decay_loss, either, quotient, written_out
+from .functions import Formula, decay, decay_loss, either, written_out
 from .kernel import Kernel, kernel
 from .regime import Zone
 from .sequences import CONTACT, NOTHING, PERIOD, Row
@@ -49,7 +49,8 @@ def shift_of_an_event() -> Derived:
 
 def onset_slope(regime: Row) -> Kernel:
     r"""A shift of the onset fades over contact with alpha, over the rest of the period with beta, and is scaled where p steps: T'
-    as numerator and denominator, and the one less the other, which vanishes at a fold; an orbit is stable when T' < 1.
+    as numerator and denominator, and the one less the other, which vanishes at a fold; an orbit is stable when T' < 1. Both are
+    products of loads, so that Newton's method finds a fold from far off.
 
     .. math:: T' = \prod_{\text{zones}} \frac{ds_{last}}{ds_{first}}
     """
@@ -66,11 +67,11 @@ def onset_slope(regime: Row) -> Kernel:
         (kept, left_over),
         (load, before[-1]),
         (released, loads[-1]),
-        (upper, kept * (load + onset)),
-        (lower, load * quotient(released - release, released)),
+        (upper, -kept * (load + onset) * released),
+        (lower, load * (release - released)),
     )
-    change = lost * (load + onset) + quotient(_grown(regime.zones[-1], onset, release), released)
-    over, under = map(written_out, (left_over * loads[0], before[-1] * before[-2] / loads[-1]))
+    change = -lost * (load + onset) * released - _grown(regime.zones[-1], onset, release)
+    over, under = map(written_out, (-left_over * loads[0] * loads[-1], -before[-1] * before[-2]))
     args = (*regime.edges, *PARAMETERS)
     nearly = Formula("nearly", args, change, labels).written_out(args)
     factors = (*sp.Mul.make_args(left_over), loads[0] / before[-1], loads[-1] / before[-2])

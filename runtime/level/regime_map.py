@@ -130,14 +130,18 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
         index = changes.passed.argmax(axis=1) % breaks.shape[1]
         pressure = breaks[np.arange(changes.size), index]
     for side in (0, 1):
-        near, at_A, at_E = changes.edges[:, side], A[:, side], E[:, side]
         for boundary, rows in _equations(columns, changes, side):
             rows = rows[~found[rows]]
             if not rows.size:
                 continue
             names, peak = ["dbac".index(name) for name in EDGES[boundary.sequence]], boundary.event == "peak"
-            passed = pressure[rows] * peak, index[rows] * peak
-            start = Points(columns.V[rows], at_A[rows], at_E[rows], near[rows][:, names], *passed)
+            ends = [v[rows] for v in (A, E, changes.edges[:, :, names])]
+            near = [v[:, side] for v in ends]
+            if peak and not side:
+                # between two orbits of one regime, as far along as their greatest pressures tell
+                height = changes.heights[rows, :, index[rows]].T
+                near = [((height[0] * v[:, 1].T - height[1] * v[:, 0].T) / (height[0] - height[1])).T for v in ends]
+            start = Points(columns.V[rows], *near, pressure[rows] * peak, index[rows] * peak)
             got, good = plane.locate(columns, boundary, start, unknown)
             at = getattr(got, unknown)
             good &= (at > low[rows]) & (at < high[rows])

@@ -7,11 +7,9 @@ last one. A zero is skipped by no one: an interval is left behind only when a bo
 Exclusion. Write ``R(x) = r(x) exp(x/beta)``; then ``beta R' = exp(x/beta)(N - F)``, ``F = H + delta_0``. From the left end of an
 interval, where r > 0, ``r exp(..) >= r_left - fall (exp((x - x_left)/beta) - 1)`` with ``fall >= F - N``; and likewise from the
 right end. Where ``N < F`` throughout, R falls strictly: a change of sign brackets exactly one zero, a stable orbit. All other
-intervals are divided, into one part more each time: most searches end in the second or third round, and for those next to a fold
-or a graze, which go on, the way to rounding is short.
+intervals are divided, into three parts more each time: most searches end in the second or third round, and for those next to a
+fold or a graze, which go on, the way to rounding is short.
 """
-
-from itertools import count
 
 import numpy as np
 
@@ -53,11 +51,10 @@ class _Search:
         index = self._within_reach(self._without_memory(np.flatnonzero(self.cycle.half_d > 0)))
         if index.size:
             index, frontier, stop = self._start(index)
-            beyond = stop
-            for parts in count(1):
-                if not index.size:
-                    break
+            beyond, parts = stop, 1
+            while index.size:
                 index, frontier, beyond, stop = self._advance(index, frontier, beyond, stop, parts)
+                parts += 3
         return self.found, self.left, self.right
 
     def _without_memory(self, index):

@@ -48,9 +48,8 @@ class SingleTime(Foundation):
         return Strips(*shared, p_0, delta_0, D, every(float(steps), D.shape), None if snaps is None else snaps & steps)
 
     def fold(self, sequence, edges, strips):
-        """The numerator of ``T'`` less its denominator: where the free zone is short next to linear in its length."""
-        *_, fold = getattr(self.kernel, f"onset_slope_{sequence}")(*edges, *strips.arguments)
-        return fold
+        """The numerator of ``T'`` less its denominator, products of loads: all but linear where adhesion or gap is short."""
+        return getattr(self.kernel, f"onset_slope_{sequence}")(*edges, *strips.arguments)[-1]
 
     def release(self, edges, strips):
         return greatest_gap(self.kernel, strips, edges[-1]) - strips.delta_0
