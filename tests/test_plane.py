@@ -142,3 +142,19 @@ def test_a_fold_of_a_short_free_zone_is_told_by_its_equation():
     means = level_means(columns, np.full(12, 1e-4))
     assert sum((CODE["acaf"] in z.code) and (CODE["ac"] in z.code) for z in means.zones) >= 6
     assert columns.work.bisected <= 0.03 * columns.work.solved
+
+
+@pytest.mark.parametrize(("T_sigma", "gamma", "delta_0", "l", "h", "V"), [
+    (1.2381e-4, 7.8212e-9, 1.70792e-9, 7.03226e-8, 1.42635e-8, 8.5625e-5),
+    (2.8255e-7, 2.594e-7, 4.13988e-10, 3.92195e-8, 3.225e-9, 0.126229),
+])  # fmt: skip
+def test_a_fold_where_adhesion_barely_ends_is_told_by_its_equation(T_sigma, gamma, delta_0, l, h, V):  # noqa: E741
+    """What loading holds all along ends where the load at the release is a hundredth of its step: up to there the slope of the
+    onset map hardly changes, its numerator and denominator fall in proportion."""
+    material, adhesion = hystrip.StandardLinearSolid(K, 1e-2, T_sigma), hystrip.Dugdale(gamma=gamma, delta_0=delta_0)
+    columns = LevelBatch(
+        material, adhesion, hystrip.Level(l=l, h=h), "constitutive", "loading", np.full(12, V), np.linspace(0.02, 3, 12) * h
+    )
+    means = level_means(columns, np.full(12, 1e-4))
+    assert sum((CODE["acaf"] in z.code) and (CODE["ac"] in z.code) for z in means.zones) >= 8
+    assert columns.work.bisected <= 0.03 * columns.work.solved
