@@ -23,9 +23,8 @@ if TYPE_CHECKING:
     from .strips import LevelBatch
 
 TWO_PI = 2 * np.pi
-#: Newton's iterations; the largest step of the first, how much less that of each may be than before, and the farthest that edges
-#: (radians), A and E (shares of their size) are moved at once
-_ITERATIONS, _LARGEST, _FALLS, _FAR = 20, 30.0, 0.6, 0.5
+#: Newton's iterations, and how much less the step of each may be than before: nearly all that is found falls faster
+_ITERATIONS, _FALLS = 16, 0.46
 
 
 @dataclass(frozen=True)
@@ -72,7 +71,7 @@ def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str)
     k, n = edges.shape
     found, active = np.zeros(n, bool), np.arange(n)
     with np.errstate(all="ignore"):  # what is lost is no number, and is dropped
-        for largest in _LARGEST * _FALLS ** np.arange(_ITERATIONS):
+        for largest in 10 * _FALLS ** np.arange(_ITERATIONS):
             if not active.size:
                 break
             step = _step(columns, boundary, at.take(active), unknown)
@@ -80,7 +79,7 @@ def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str)
             size = np.maximum(np.abs(np.cumsum(step[:k], axis=0)).max(axis=0), share)
             usable = np.isfinite(step).all(axis=0) & (size < largest)
             active, step, size = active[usable], step[:, usable], size[usable]
-            damping = _FAR / np.maximum(size, _FAR)
+            damping = 1 / np.maximum(size, 1.0)  # no edge moves by more than a radian, A and E by no more than their size
             # of the zone behind the last edge, too, some is left
             rest, grown = TWO_PI - (edges[-1] - edges[0])[active], damping * step[1:k].sum(axis=0)
             share = np.divide(grown, rest, out=np.zeros_like(rest), where=(rest > 0) & (grown > 0))
