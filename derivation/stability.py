@@ -50,7 +50,7 @@ def shift_of_an_event() -> Derived:
 def onset_slope(regime: Row) -> Kernel:
     r"""A shift of the onset fades over contact with alpha, over the rest of the period with beta, and is scaled where p steps: T'
     as numerator and denominator, and the one less the other, which vanishes at a fold; an orbit is stable when T' < 1. Both are
-    products of loads, so that Newton's method finds a fold from far off.
+    products of loads, so that Newton's method finds a fold from far off, over ``1 + beta``, which all loads grow with.
 
     .. math:: T' = \prod_{\text{zones}} \frac{ds_{last}}{ds_{first}}
     """
@@ -66,12 +66,12 @@ def onset_slope(regime: Row) -> Kernel:
     labels = (
         (kept, left_over),
         (load, before[-1]),
-        (released, loads[-1]),
+        (released, loads[-1] / (1 + beta)),
         (upper, -kept * (load + onset) * released),
-        (lower, load * (release - released)),
+        (lower, load * (release / (1 + beta) - released)),
     )
-    change = -lost * (load + onset) * released - _grown(regime.zones[-1], onset, release)
-    over, under = map(written_out, (-left_over * loads[0] * loads[-1], -before[-1] * before[-2]))
+    change = -lost * (load + onset) * released - _grown(regime.zones[-1], onset, release) / (1 + beta)
+    over, under = (written_out(-two) / (1 + beta) for two in (left_over * loads[0] * loads[-1], before[-1] * before[-2]))
     args = (*regime.edges, *PARAMETERS)
     nearly = Formula("nearly", args, change, labels).written_out(args)
     factors = (*sp.Mul.make_args(left_over), loads[0] / before[-1], loads[-1] / before[-2])

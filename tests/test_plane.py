@@ -149,8 +149,8 @@ def test_a_fold_of_a_short_free_zone_is_told_by_its_equation():
     (2.8255e-7, 2.594e-7, 4.13988e-10, 3.92195e-8, 3.225e-9, 0.126229),
 ])  # fmt: skip
 def test_a_fold_where_adhesion_barely_ends_is_told_by_its_equation(T_sigma, gamma, delta_0, l, h, V):  # noqa: E741
-    """What loading holds all along ends where the load at the release is a hundredth of its step: up to there the slope of the
-    onset map hardly changes, its numerator and denominator fall in proportion."""
+    """What loading lets go of is held all along from where the load at its release is a hundredth of the step there, or less: the
+    slope of the onset map, a quotient, hardly changes before."""
     material, adhesion = hystrip.StandardLinearSolid(K, 1e-2, T_sigma), hystrip.Dugdale(gamma=gamma, delta_0=delta_0)
     columns = LevelBatch(
         material, adhesion, hystrip.Level(l=l, h=h), "constitutive", "loading", np.full(12, V), np.linspace(0.02, 3, 12) * h

@@ -204,7 +204,7 @@ MUTANTS: tuple[Mutant, ...] = (
     m("mean", "averages.py", "as_derived(work, zones)),", "-as_derived(work, zones)),", "means_acaf"),
     m("energy", "energy.py", "sp.diff(w, s) - beta / L", "sp.diff(w, s) + beta / L", "power balance"),
     m("stability", "stability.py", "(load_0 + gap_0 - p) * decay", "(load_0 - gap_0 - p) * decay", "shift of an event"),
-    m("stability", "stability.py", "(release - released)", "(release + released)", "onset_slope_acaf"),
+    m("stability", "stability.py", "(release / (1 + beta) - released)", "(release / (1 + beta) + released)", "onset_slope_acaf"),
     m("stability", "stability.py", "spare - 2 * sp.sin(half)", "spare + 2 * sp.sin(half)", "onset_slope_acaf"),
     # complete contact, levels
     m("complete contact", "saturated.py", "sp.I**n for n, q", "(-sp.I) ** n for n, q", "complex modulus"),

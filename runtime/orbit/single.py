@@ -48,7 +48,7 @@ class SingleTime(Foundation):
         return Strips(*shared, p_0, delta_0, D, every(float(steps), D.shape), None if snaps is None else snaps & steps)
 
     def fold(self, sequence, edges, strips):
-        """The numerator of ``T'`` less its denominator, products of loads: all but linear where adhesion or gap is short."""
+        """The numerator of ``T'`` less its denominator, products of loads: all but linear next to where adhesion ends."""
         return getattr(self.kernel, f"onset_slope_{sequence}")(*edges, *strips.arguments)[-1]
 
     def release(self, edges, strips):
