@@ -159,6 +159,23 @@ def test_what_loading_has_passed_by_where_all_strips_let_go_is_left_out(V):
 
 
 @pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("T_sigma", "gamma", "delta_0", "levels", "pressure", "V"),
+    [
+        (2.6357e-9, 1.532e-9, 1.15831e-8, [(1e-5, 3.19361e-6), (1.05554e-6, 9.94736e-10)], 7.58029, 3.294e-7),
+        (4.7046e-4, 1.3e-11, 2.07728e-8, [(1e-5, 3.781e-8), (3.847e-6, 2.299e-8), (2.193e-7, 6.236e-10)], 1.092, 6.54e-7),
+    ],
+)
+def test_what_rounding_decides_is_not_looked_at(T_sigma, gamma, delta_0, levels, pressure, V):
+    """All strips let go within less than there is between two numbers, and nearer than that rounding decides each by itself."""
+    material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma), hystrip.Dugdale(gamma=gamma, delta_0=delta_0)
+    levels, how = [hystrip.Level(*each) for each in levels], {"branch": "loading", "edge": "continuous"}
+    coarse, fine = (hystrip.solve(material, adhesion, levels, pressure=pressure, velocity=V, rtol=r, **how) for r in (1e-2, 1e-4))
+    assert coarse.converged.all() and fine.converged.all() and fine.counts["strips_solved"] < 8_000
+    assert abs(coarse.tau - fine.tau) <= coarse.tau_error
+
+
+@pytest.mark.filterwarnings("error")
 def test_a_pressure_is_not_looked_for_where_the_curve_can_only_fall():
     """On the way to it all strips of a foundation with two times let go within 4e-6 of ``h``, where rounding decides the regimes:
     over what is narrow pressure rises by less than it may err."""

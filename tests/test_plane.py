@@ -158,3 +158,19 @@ def test_a_fold_where_adhesion_barely_ends_is_told_by_its_equation(T_sigma, gamm
     means = level_means(columns, np.full(12, 1e-4))
     assert sum((CODE["acaf"] in z.code) and (CODE["ac"] in z.code) for z in means.zones) >= 8
     assert columns.work.bisected <= 0.03 * columns.work.solved
+
+
+@pytest.mark.parametrize("branch", ["unloading", "loading"])
+@pytest.mark.parametrize("V", [2e-9, 1e-7, 1e-5])
+def test_where_contact_appears_with_short_memory_is_told_by_its_equation(V, branch):
+    """Without memory w is ``-p_0/K`` all through adhesion, and contact appears where the crest of a strip comes that deep, at
+    ``E + 2 A = -p_0/K``; and the load at an edge tells nothing of the rate of the gap there, nor whether it lets go."""
+    material, adhesion = hystrip.StandardLinearSolid(K, 1e-2, 5.7e-8), hystrip.Dugdale(gamma=6.2e-10, delta_0=3.9e-9)
+    level, memory = hystrip.Level(l=2.6e-6, h=1.6e-8), 2 * np.pi / 2.6e-6 * V * 1e-2
+    columns = LevelBatch(material, adhesion, level, "constitutive", branch, np.full(8, V), np.linspace(0.05, 0.95, 8) * level.h)
+    means = level_means(columns, np.full(8, 1e-4))
+    met = [(D, z.low[k]) for D, z in zip(columns.D, means.zones, strict=True) for k in np.flatnonzero(z.code == CODE["af"])]
+    assert len(met) >= 4 and columns.work.bisected <= 0.03 * columns.work.solved
+    for D, theta in met:
+        nearest = np.arccos(np.sqrt((level.h - D - columns.stretch) / level.h)) * 2
+        assert abs(theta - nearest) < 0.01 * memory**2 + 1e-12

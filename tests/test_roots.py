@@ -40,3 +40,11 @@ def test_roots_of_functions_that_jump_or_do_not_cross():
     loose = falling_root(lambda x, i: asked.append("loose") or np.cos(x), 0 * one, 3 * one, tolerance=1e-3)
     falling_root(lambda x, i: asked.append("close") or np.cos(x), 0 * one, 3 * one)
     assert asked.count("loose") < asked.count("close") and abs(loose - np.pi / 2) < 1e-3
+
+
+@pytest.mark.filterwarnings("error")
+def test_roots_of_functions_that_are_infinite():
+    """As what a strip misses that stays engaged: no secant goes through two such values."""
+    roots = np.array([0.31, 1e-9])
+    found = falling_root(lambda x, index: np.where(x > roots[index], -np.inf, np.inf), np.zeros(2), np.ones(2))
+    assert np.allclose(found, roots, rtol=1e-15, atol=0)

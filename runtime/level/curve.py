@@ -88,11 +88,15 @@ def _leave_out_hidden(columns: LevelBatch, intervals: Intervals, strips: np.ndar
     there, but for what it may err, that it has not met before: where memory is short all strips let go at once and it falls."""
     K, h = columns.material.K, columns.level.h
     opens = h - columns.stretch - columns.adhesion.delta_0
-    k = np.flatnonzero((intervals.low < opens) & (opens < intervals.high) & (intervals.high - opens < _SHORT * h))
+    # nearer to a threshold rounding decides strip by strip
+    nearest = 64 * EPS * (h + columns.stretch + columns.adhesion.delta_0)
+    above = intervals.high - opens
+    k = np.flatnonzero((intervals.low < opens) & (above > nearest / _APART[0]) & (above < _SHORT * h))
     if not k.size:
         return
-    some, width = intervals.take(np.repeat(k, 4)), (intervals.high[k] - opens)[:, None]
-    shares = np.concatenate((np.minimum(some.atol[::4, :1] / (K * width), _APART[0]) * [-1, 1], [_APART] * k.size), axis=1)
+    some, width = intervals.take(np.repeat(k, 4)), above[k, None]
+    beside = np.minimum(np.maximum(some.atol[::4, :1] / K, nearest) / width, _APART[0])
+    shares = np.concatenate((beside * [-1, 1], [_APART] * k.size), axis=1)
     values, errors, _ = _rough_means(columns, some, (opens + shares * width).ravel(), strips)
     low, high = (each[:, 0].reshape(-1, 4) for each in (values - errors, values + errors))
     # pressure rises by K times the penetration at most

@@ -18,6 +18,8 @@ from ..numerics.linear import solved
 from ..numerics.rounding import EPS
 from ..orbit.batch import Batch
 from ..orbit.foundation import foundation_of
+from ..orbit.march import turn
+from ..orbit.regimes import ZONES
 
 if TYPE_CHECKING:
     from .strips import LevelBatch
@@ -35,6 +37,11 @@ class Boundary:
     sequence: str
     event: str
 
+    @property
+    def zone(self) -> int:
+        """Number of the zone in which the pressure, or the gap, turns as it grazes what it passes; not of a fold."""
+        return {"peak": ZONES[self.sequence][0].find("c"), "release": 1, "closing": 0}[self.event]
+
 
 #: every way in which the orbit of a regime with edges ends, but for thresholds that are straight lines (``thresholds``); first
 #: that nothing happens to it but to its pressure
@@ -50,8 +57,8 @@ BOUNDARIES = (
 
 @dataclass
 class Points(Batch):
-    """Points of curves: ``velocity`` (m/s), ``A`` and ``E`` (m), ``edges`` (n, k) of the orbit that ends there, and the
-    ``pressure`` (Pa) that it passes, break number ``index`` of its law."""
+    """Points of curves: ``velocity`` (m/s), ``A`` and ``E`` (m), ``edges`` (n, k) of the orbit that ends there, with the phase of
+    what it grazes in order (``grazing``), and the ``pressure`` (Pa) that it passes, break number ``index`` of its law."""
 
     velocity: np.ndarray
     A: np.ndarray
@@ -61,10 +68,22 @@ class Points(Batch):
     index: np.ndarray
 
 
+def grazing(columns: LevelBatch, boundary: Boundary, at: Points) -> Points:
+    """Orbits that are ``at`` these places with the phase at which their pressure or gap turns as one more edge, but at a fold."""
+    if boundary.event == "fold":
+        return at
+    edges, number = at.edges.T, boundary.zone
+    groups = columns.groups(at.velocity, at.A, at.E + 2 * at.A)
+    event = foundation_of(columns.material).event(boundary.sequence, number, edges, groups)
+    end = edges[number + 1] if number + 1 < len(edges) else edges[0] + TWO_PI
+    phase = turn(*event, -1 if boundary.event == "closing" else 1, edges[number], end)
+    return replace(at, edges=np.insert(at.edges, number + 1, phase, axis=1))
+
+
 def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str) -> tuple[Points, np.ndarray]:
     """Points of a curve by Newton from ``start``, with ``unknown`` "A" or "E" and the other one kept; and which were found.
 
-    ``start`` holds orbits of the boundary's sequence nearby. Points that are not found are no numbers to be used.
+    ``start`` holds orbits of the boundary's sequence nearby, ``grazing``. Points that are not found are no numbers to be used.
     """
     at = replace(start, A=start.A.copy(), E=start.E.copy(), edges=start.edges.copy())
     edges, own = at.edges.T, getattr(at, unknown)
@@ -83,11 +102,11 @@ def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str)
             # of the zone behind the last edge, too, some is left
             rest, grown = TWO_PI - (edges[-1] - edges[0])[active], damping * step[1:k].sum(axis=0)
             share = np.divide(grown, rest, out=np.zeros_like(rest), where=(rest > 0) & (grown > 0))
-            damping *= np.divide(1 - _left(share), share, out=np.ones_like(share), where=share > 0)
+            damping *= np.where(share > 0.9, (1 - _left(share)) / share, 1.0)
             edges[:, active] = _moved(edges[:, active], damping * step[:k])
             moved = damping * step[k]
             own[active] = _added(own[active], moved) if unknown == "A" else own[active] + moved
-            done = np.cbrt(EPS) * size < EPS  # differences of such a length leave so much of an error
+            done = size < np.sqrt(EPS)  # a step this small leaves an error of its square
             found[active[done]] = True
             active = active[~done]
     return at, found & (np.diff(edges, axis=0) >= -np.sqrt(EPS)).all(axis=0) & (edges[-1] <= edges[0] + TWO_PI)
@@ -122,24 +141,27 @@ def _step(columns: LevelBatch, boundary: Boundary, at: Points, unknown: str) -> 
     # differences that stand for derivatives: of zones of 1e-8 radians a determinant keeps 8 digits, so they are no shorter
     zones = np.maximum(np.diff(edges, axis=0), np.sqrt(EPS))
     length = np.cbrt(EPS) * np.concatenate((np.ones((1, n)), zones, np.maximum(np.abs(own), A)[None]))
-    # the point itself, then one copy for each unknown that is moved a little: all edges, those behind a zone, the plane's
-    moved = np.concatenate((edges, own[None]))[:, None].repeat(k + 2, axis=1)
-    for i in range(k):
-        moved[i:k, i + 1] += length[i]
-    moved[k, k + 1] += length[k]
-    moved, every = moved.reshape(k + 1, -1), at.take(np.tile(np.arange(n), k + 2))
+    # the point itself, then copies with each unknown moved a little to both sides: all edges, those behind a zone, the plane's
+    moved = np.concatenate((edges, own[None]))[:, None].repeat(2 * k + 3, axis=1)
+    for i in range(k + 1):
+        unknowns = slice(i, max(k, i + 1))
+        moved[unknowns, 1 + i] += length[i]
+        moved[unknowns, k + 2 + i] -= length[i]
+    moved, every = moved.reshape(k + 1, -1), at.take(np.tile(np.arange(n), 2 * k + 3))
     edges, A, E = moved[:k], *((moved[k], every.E) if unknown == "A" else (every.A, moved[k]))
     groups = columns.groups(every.velocity, A, E + 2 * A)
     # contact without adhesion is contact with saturated adhesion of no strength
     equations = "ac" if boundary.sequence == "cf" else boundary.sequence
-    values = getattr(foundation.kernel, f"residual_{equations}")(*edges, *groups.arguments)
     # and what vanishes at the event
     if boundary.event == "fold":
-        event = foundation.fold(boundary.sequence, edges, groups)
-    elif boundary.event == "peak":
-        event = foundation.peak(boundary.sequence, edges, groups, every.pressure / columns.material.K / A)
+        events = (foundation.fold(boundary.sequence, edges, groups),)
     else:
-        event = getattr(foundation, boundary.event)(edges, groups)
-    values = np.array((*values, event)).reshape(k + 1, k + 2, n)
-    matrix = ((values[:, 1:] - values[:, :1]) / length).transpose(2, 0, 1)
+        edges, phase = np.delete(edges, boundary.zone + 1, axis=0), edges[boundary.zone + 1]
+        function, constants = foundation.event(boundary.sequence, boundary.zone, edges, groups)
+        value, slope = function(phase, *constants)
+        peak = groups.p_0 + every.pressure / columns.material.K / A
+        events = value - {"peak": peak, "release": groups.delta_0, "closing": 0.0}[boundary.event], slope
+    values = getattr(foundation.kernel, f"residual_{equations}")(*edges, *groups.arguments)
+    values = np.array((*values, *events)).reshape(k + 1, 2 * k + 3, n)
+    matrix = ((values[:, 1 : k + 2] - values[:, k + 2 :]) / (2 * length)).transpose(2, 0, 1)
     return solved(matrix, -values[:, 0].T[:, :, None])[:, :, 0].T

@@ -142,7 +142,7 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
                 height = changes.heights[rows, :, index[rows]].T
                 near = [((height[0] * v[:, 1].T - height[1] * v[:, 0].T) / (height[0] - height[1])).T for v in ends]
             start = Points(columns.V[rows], *near, pressure[rows] * peak, index[rows] * peak)
-            got, good = plane.locate(columns, boundary, start, unknown)
+            got, good = plane.locate(columns, boundary, plane.grazing(columns, boundary, start), unknown)
             at = getattr(got, unknown)
             good &= (at > low[rows]) & (at < high[rows])
             place[rows[good]], found[rows[good]] = at[good], True

@@ -35,22 +35,18 @@ def falling_root(
     x, lo, hi = x[live], low[live], high[live]
     before = hi - lo  # the step before, or the bracket
     correction = np.zeros(live.size)  # the step before if it was no bisection, else 0
-    last = x, np.zeros(live.size)  # the point before and its value, for the secant: none at first
+    last = x, np.full(live.size, np.nan)  # the point before and its value, for the secant: none at first
     for _ in range(_MOST):
         if not live.size:
             break
         found = function(x, live)
         newton = isinstance(found, tuple)
-        if newton:
-            value, slope = found
-        else:
-            value, run = found, x - last[0]
-            slope = np.divide(value - last[1], run, out=np.zeros_like(value), where=run != 0)
-        positive = value > 0
-        last, lo, hi = (x, value), np.where(positive, x, lo), np.where(positive, hi, x)
+        value, slope = found if newton else (found, None)
         # a slope of the wrong sign, or one that over- or underflowed, gives a step out of the bracket, no number, or none
         with np.errstate(all="ignore"):
-            step = value / -slope
+            step = value / -(slope if newton else (value - last[1]) / (x - last[0]))
+        positive = value > 0
+        last, lo, hi = (x, value), np.where(positive, x, lo), np.where(positive, hi, x)
         small = np.maximum(2 * EPS * np.maximum(np.abs(lo), np.abs(hi)), tolerance)
         if not newton:
             # a small step may be that of a steep secant: only a narrow bracket tells, and steps that are not too small make one

@@ -15,7 +15,6 @@ from ..inputs.materials import parameters
 from ..numerics.rounding import LARGEST
 from .contact import Contact
 from .groups import TWO_PI, snaps_in
-from .march import extreme
 from .nonadhesive import Waves
 from .regimes import CODE, ZONES
 from .solved import Solved
@@ -67,14 +66,6 @@ class Foundation(ABC):
         """Of orbits of a ``sequence`` with a free part: zero at a fold, with a change of sign."""
 
     @abstractmethod
-    def release(self, edges, strips) -> np.ndarray:
-        """Of orbits that are engaged all along, with ``edges`` b, a: positive where they would be released, zero at the end."""
-
-    @abstractmethod
-    def closing(self, edges, strips) -> np.ndarray:
-        """Of orbits without contact, with ``edges`` d, c: negative where their gap would close, zero at the end."""
-
-    @abstractmethod
     def moduli(self, strips) -> tuple:
         """Storage and loss of the foundation over K, and its instantaneous compliance times K."""
 
@@ -87,8 +78,8 @@ class Foundation(ABC):
         """The constants of the kernel's ``excess_event`` in a contact that begins so."""
 
     @abstractmethod
-    def gap(self, start, phase, entry, pressure, strips) -> np.ndarray:
-        """Gap at a phase of a zone that begins so, under its constant pressure."""
+    def gap(self, start, entry, pressure, strips) -> tuple:
+        """The constants of the kernel's ``gap_event`` in a zone that begins so, under its constant pressure."""
 
     def pace(self, rate) -> np.ndarray:
         """Share of its speed at which a strip is solved: 1, or less where it is taken as the limit of infinite speed."""
@@ -187,16 +178,17 @@ class Foundation(ABC):
                         pressure, open_ = self.kernel.excess_event(at, *self.excess(start, entry, s))[0] - s.p_0, none
                     else:
                         pressure = -s.p_0 if zone == "a" else none
-                        open_ = self.gap(start, at, entry, pressure, s)
+                        open_ = self.kernel.gap_event(at, *self.gap(start, entry, pressure, s))[0]
                     p[index], gap[index] = np.where(inside, pressure, p[index]), np.where(inside, open_, gap[index])
         return p, gap
 
-    def peak(self, sequence: str, edges, strips, pressure) -> np.ndarray:
-        """Of orbits of a ``sequence`` with contact: positive where their greatest pressure is above ``pressure``."""
-        place = ZONES[sequence][0].index("c")
-        b, a = edges[place], edges[place + 1]
-        constants = self.excess(b, self.entry(sequence, edges, strips), strips)
-        return extreme(self.kernel.excess_event, constants, 1, b, a) - strips.p_0 - pressure
+    def event(self, sequence: str, number: int, edges, strips) -> tuple:
+        """Of orbits of a ``sequence`` the event function of a zone, and its constants: the excess pressure in contact, else the
+        gap."""
+        zone, start, entry = list(self.zones(sequence, edges, strips))[number]
+        if zone == "c":
+            return self.kernel.excess_event, self.excess(start, entry, strips)
+        return self.kernel.gap_event, self.gap(start, entry, -strips.p_0 if zone == "a" else 0 * strips.p_0, strips)
 
     def contact(self, strips, solved: Solved, scales: dict, index: np.ndarray) -> Contact:
         """Contact of the solved strips ``index``, as ``solve`` returned them."""

@@ -188,14 +188,14 @@ class Event:
         return self.sign * (value - offset), self.sign * slope
 
 
-def extreme(event, constants, sign: int, low, high) -> np.ndarray:
-    """Value of an ``event`` function with these ``constants`` where its slope, of this ``sign`` at ``low``, passes zero between
-    there and ``high``."""
+def turn(event, constants, sign: int, low, high) -> np.ndarray:
+    """Phases at which the slope of an ``event`` function with these ``constants``, of this ``sign`` at ``low``, passes zero,
+    ``high`` at most."""
 
     def slope(phase, index):
         return event(phase, *(pick(constant, index) for constant in constants))[1] * sign
 
-    return event(falling_root(slope, low, np.maximum(high, low), tolerance=_PLACED), *constants)[0]
+    return falling_root(slope, low, np.maximum(high, low), tolerance=_PLACED)
 
 
 def closing(kernel, cycle: Cycle, x, b, a, c):

@@ -8,8 +8,7 @@ import numpy as np
 
 from ..inputs.material import StandardLinearSolid
 from .abstract_foundation import Foundation, every
-from .certificate import greatest_gap
-from .chain import gap_zones
+from .chain import gap_zones, links, step
 from .engine import solve_strips
 from .groups import STANDS_STILL, Strips, adhesive_cycle, bare_cycle
 from .regimes import ZONES
@@ -48,18 +47,13 @@ class SingleTime(Foundation):
         return Strips(*shared, p_0, delta_0, D, every(float(steps), D.shape), None if snaps is None else snaps & steps)
 
     def fold(self, sequence, edges, strips):
-        """The numerator of ``T'`` less its denominator, products of loads: all but linear next to where adhesion ends."""
-        return getattr(self.kernel, f"onset_slope_{sequence}")(*edges, *strips.arguments)[-1]
-
-    def release(self, edges, strips):
-        return greatest_gap(self.kernel, strips, edges[-1]) - strips.delta_0
-
-    def closing(self, edges, strips):
-        """Where the load harmonic falls through ``-p_0`` a gap of nothing turns."""
-        s = strips
-        centre, half = self.kernel.forcing_arc(s.p_0, s.D, s.beta)
-        first, (gap, _) = edges[0], self.kernel.adhesive_onset(s.p_0, s.delta_0, s.J, s.L, s.chi)
-        return self.kernel.gap_after(first, np.maximum(centre + half, first), gap, -s.p_0, s.D, s.beta)
+        """The numerator of ``T'`` less its denominator, products of loads: all but linear next to where adhesion ends. With a
+        short memory, which leaves nothing of a load but next to an edge, of the rates at which gaps pass their thresholds."""
+        cycle = adhesive_cycle(self.kernel, strips)
+        linked = links(self.kernel, cycle, sequence, gap_zones(cycle, sequence), np.array(np.broadcast_arrays(*edges)))
+        rates = (step(*linked)[1] - 1) * linked[2, -1] * linked[2, -2]
+        loads = getattr(self.kernel, f"onset_slope_{sequence}")(*edges, *strips.arguments)[-1]
+        return np.where(strips.beta < 1, rates, loads)
 
     def moduli(self, strips):
         s = strips
@@ -74,8 +68,8 @@ class SingleTime(Foundation):
     def excess(self, start, entry, strips):
         return self.kernel.excess_entry(start, entry, strips.p_0, strips.D, strips.alpha, strips.beta, strips.L)
 
-    def gap(self, start, phase, entry, pressure, strips):
-        return self.kernel.gap_after(start, phase, entry, pressure, strips.D, strips.beta)
+    def gap(self, start, entry, pressure, strips):
+        return self.kernel.gap_entry(start, entry, pressure, strips.D, strips.beta)
 
     def _forced(self, l, h, V):  # noqa: E741
         return 0.5 * h * (1 + np.hypot(1.0, 2 * np.pi / l * V * self.material.T_eps))

@@ -10,11 +10,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..march import Orbit
+from ..march import Orbit, turn
 from ..regimes import CODE
 from ..solved import Record, Solved, settle
 from .extremal import ENGAGED, FREE, ORBIT, ROWS, Search, agrees, certified
-from .fields import greatest_gap, state_at
+from .fields import state_at, zones_of
 from .forced import Forced
 from .march import TWO_PI, march
 from .problem import ModeStrips
@@ -138,11 +138,16 @@ def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
         k = left[good]
         here = s.take(k)
         z[:, k], _ = state_at(kernel, "ac", here, edges[:, k], here.start)
-        turn = march(kernel, here, np.ones(k.size, bool), z[:, k], here.start)
-        k = k[agrees(_engaged_edges(turn.edges), edges[:, k]) & (turn.contacts == 1) & ~turn.lost]
+        round_ = march(kernel, here, np.ones(k.size, bool), z[:, k], here.start)
+        k = k[agrees(_engaged_edges(round_.edges), edges[:, k]) & (round_.contacts == 1) & ~round_.lost]
         known[k] = True
         # not seen from -p_0: where that is large against the gap, rounding would decide
-        within[k] = strips.bare or greatest_gap(kernel, edges[:, k], s.take(k)) <= strips.delta_0[k]
+        here = s.take(k)
+        _, (_, start, entry, _) = zones_of(kernel, "ac", here, edges[:, k])
+        gap = kernel.gap_entry(start, entry, -here.p_0, here.D, here.m)
+        # it opens at a, and turns before the valley
+        widest = turn(kernel.gap_event, gap, 1, start, start + np.mod(np.pi - start, TWO_PI))
+        within[k] = strips.bare or kernel.gap_event(widest, *gap)[0] <= strips.delta_0[k]
         left = np.flatnonzero(~known)
         if not left.size:
             break

@@ -1,13 +1,8 @@
-"""Zones, states and extreme gaps of orbits with several times, from their edges, without solving again.
-
-Extremes of the gap tell where an orbit ends. Each is where a slope vanishes that is a sine against a sum of decaying
-exponentials with terms of one sign: on the half period where the sine does not oppose them, log-concave against log-convex,
-it has its sign on one interval at most. So the brackets hold one zero each.
-"""
+"""Zones and states of orbits with several times, from their edges, without solving again."""
 
 import numpy as np
 
-from ..march import TWO_PI, extreme
+from ..march import TWO_PI
 from ..regimes import EQUATIONS, ZONES
 from .problem import ModeStrips
 
@@ -41,18 +36,3 @@ def state_at(kernel, sequence, s: ModeStrips, edges, phase):
             change = kernel.relaxation_increment(start, later, z, -s.p_0 if zone == "a" else 0.0, s.m)
         state, engaged = np.where(inside, z + change, state), np.where(inside, zone != "f", engaged)
     return state, engaged
-
-
-def greatest_gap(kernel, edges: np.ndarray, s: ModeStrips) -> np.ndarray:
-    """Of orbits that are engaged all along, edges b and a, (N,): the gap opens at a, and turns before the valley."""
-    _, (_, start, z, _) = zones_of(kernel, "ac", s, edges)
-    constants = kernel.gap_entry(start, z, -s.p_0, s.D, s.m)
-    return extreme(kernel.gap_event, constants, 1, start, start + np.mod(np.pi - start, TWO_PI))
-
-
-def least_gap(kernel, edges: np.ndarray, s: ModeStrips) -> np.ndarray:
-    """Of orbits without contact, edges d and c, (N,): the gap falls up to the crest at least, and rises at c."""
-    start, end = edges
-    (_, _, z, _), _ = zones_of(kernel, "af", s, edges)
-    constants = kernel.gap_entry(start, z, -s.p_0, s.D, s.m)
-    return extreme(kernel.gap_event, constants, -1, np.maximum(start, TWO_PI * np.floor(end / TWO_PI)), end)

@@ -10,7 +10,7 @@ import numpy as np
 from ...inputs.model import ModelMaterial, modes_of
 from ..abstract_foundation import Foundation
 from .engine import solve_modes
-from .fields import greatest_gap, least_gap, zones_of
+from .fields import zones_of
 from .problem import ModeStrips
 
 
@@ -59,12 +59,6 @@ class ManyTimes(Foundation):
         _, rows = getattr(self.kernel, f"residual_and_jacobian_{sequence}")(*edges, *strips.arguments)
         return np.linalg.det(np.array([np.broadcast_arrays(edges[0], *row)[1:] for row in rows]).transpose(2, 0, 1))
 
-    def release(self, edges, strips):
-        return greatest_gap(self.kernel, edges, strips) - strips.delta_0
-
-    def closing(self, edges, strips):
-        return least_gap(self.kernel, edges, strips)
-
     def moduli(self, strips):
         return self.kernel.storage(strips.m), self.kernel.loss(strips.m), strips.m.J_0
 
@@ -74,8 +68,8 @@ class ManyTimes(Foundation):
     def excess(self, start, entry, strips):
         return self.kernel.excess_entry(start, entry, strips.p_0, strips.D, strips.m)
 
-    def gap(self, start, phase, entry, pressure, strips):
-        return self.kernel.gap_after(start, phase, entry, pressure, strips.D, strips.m)
+    def gap(self, start, entry, pressure, strips):
+        return self.kernel.gap_entry(start, entry, pressure, strips.D, strips.m)
 
 
 def _varies(material) -> bool:
