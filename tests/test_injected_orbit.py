@@ -8,6 +8,7 @@ from mpmath import mp
 from oracle.flow import Strip
 from oracle.orbits import returning_orbits
 
+import hystrip
 from hystrip.generated import standard_linear_solid as kernel
 from hystrip.orbit import certificate
 from hystrip.orbit.chain import refined
@@ -81,3 +82,13 @@ def test_a_repelling_orbit_next_to_the_fold_is_refused_too():
         seen.append(slope)
         assert not certificate.stable(kernel, cycle, orbit).any()
     assert min(seen) < 0.08
+
+
+def test_an_orbit_that_newton_finds_a_period_later_is_none():
+    """On a foundation that hardly moves, strong adhesion snaps in: Newton's method may come to the right orbit a period on, which
+    is past all onsets that a search looks at."""
+    material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, 1.198267784e-4), hystrip.Dugdale(p_0=165.418, delta_0=7.9344e-11)
+    D = 3.911971639541966e-9 * (1 + np.linspace(-1e-3, 1e-3, 5))
+    how = {"edge": "constitutive", "branch": "loading"}
+    s = hystrip.solve_strip(material, adhesion, l=1.087e-7, A=1.9291445e-9, D=D, V=3388.345, **how)
+    assert (s.regime == "afc").all() and (np.diff(s.p_mean) > 0).all() and (np.abs(s.b) < 1.087e-7 / 2).all()

@@ -169,8 +169,8 @@ class _Work:
         return [stage for stage in left if stage.parts.size]
 
     def _accept(self, stage: Stage, goal: np.ndarray, usable: np.ndarray) -> np.ndarray:
-        """Add up the ``usable`` panels (m,) whose sums have converged, and those of states with too many strips as they are, with
-        the spread of their values as error; which they were, (m,)."""
+        """Add up the ``usable`` panels (m,) whose sums have converged, and with the spread of their values as error those of
+        states with too many strips and others so narrow that it is of no account; which they were, (m,)."""
         panels, (codes, values, *_) = stage.parts, stage.known
         sums = panels.sums(values)
         width, state = panels.width[:, None], panels.state
@@ -181,8 +181,10 @@ class _Work:
         if stage.n < _COSTLESS:
             # laws, whose fractions hardly count, are no more accurate than they have to be
             done &= (codes[:, 0] % len(CODE) != CODE["c"]) | (self.atol[state, 2] >= self.rtol[state])
-        ended = ~done & (self.strips[state] > AVERAGE_LIMIT)
-        error[ended] = (width * np.ptp(values, axis=1))[ended]
+        spread = width * np.ptp(values, axis=1)
+        narrow = ~usable & (width[:, 0] < _NEXT) & (spread <= _SLIVER * _SHARE * goal).all(axis=1)
+        ended = narrow | (~done & (self.strips[state] > AVERAGE_LIMIT))
+        error[ended] = spread[ended]
         done |= ended
         self.accepted.append(
             (state[done], *(v[done] for v in (codes[:, 0], panels.low, panels.high, values[:, 0], values[:, -1], sums)))

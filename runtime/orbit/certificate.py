@@ -30,7 +30,8 @@ def edges_admissible(kernel, cycle: Cycle, orbit: Orbit) -> np.ndarray:
     contact = ~np.isnan(orbit.b)
     slack = ROUNDING * (1 + np.abs(s.D) + s.beta + s.p_0 + s.delta_0)
     turn = ROUNDING * TWO_PI
-    ok = kernel.forcing(orbit.x, s.D, s.beta) + s.delta_0 >= -slack
+    # Newton's method may have gone on by a period
+    ok = (kernel.forcing(orbit.x, s.D, s.beta) + s.delta_0 >= -slack) & (np.abs(orbit.x - cycle.centre) <= np.pi + turn)
     b, a = np.where(contact, orbit.b, orbit.x), np.where(contact, orbit.a, orbit.c)
     ok &= ~contact | (cycle.direct | (kernel.forcing(b, s.D, s.beta) + s.p_0 >= -slack))
     ok &= ~contact | (kernel.forcing(a, s.D, s.beta) + s.p_0 <= slack)
