@@ -258,12 +258,14 @@ class _Solve:
         for i in range(self.M - 1, 0, -1):
             level = surface.columns(i, V, None, carry, groups if carry else None)
             atol = level.atol(rtol, fraction=1.0)
-            atol[:, level.frictions] = np.maximum(atol[:, level.frictions], friction[:, None])
+            least = np.minimum(atol[:, level.frictions], (rtol * surface.friction_floor)[:, None])
+            atol[:, level.frictions] = np.maximum(least, friction[:, None])
             counts = budget if i == 1 else budget.further_down(2 * (self.M - 1))
             laws = build_laws(level, rtol, atol, *saturated[i], reached[i - 1], counts)
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error,
             # which never asks for anything
             scales = np.concatenate((level.scales[1:], [LARGEST]))
+            scales[level.frictions - 1] = np.minimum(scales[level.frictions - 1], 1e3 * surface.friction_floor)
             carry = LowerLevelLaws(merged(laws, rtol, atol), surface.rtol, scales)
         return replace(columns, carry=carry, group=group)
 

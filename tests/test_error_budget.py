@@ -229,3 +229,32 @@ def test_what_lower_levels_carry_in_a_jump_of_the_curve_is_uncertain(in_jump):
     assert solve.out.tau[:, 0].tolist() == [4.0, 5.0]
     # the pressure is met to half: friction goes from 3 to 4, contact from 0.5 to 1.5, and what is carried goes with both
     assert solve.out.error[0] == pytest.approx(1.0 + (1 / 4 + 1 / 1.5) * 5.0 + (5.0 if in_jump else 0.0), rel=1e-15)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("T_sigma", "gamma", "delta_0", "levels", "pressure", "V", "rtol", "how"),
+    [
+        (
+            2.99e-9,
+            3.22e-11,
+            2.083e-8,
+            [(1e-5, 3.06e-8), (3.665e-6, 2.885e-7)],
+            1.964e-3,
+            1.3032,
+            2e-5,
+            ("unloading", "continuous"),
+        ),
+        (5.56e-4, 6.395e-18, 3.24e-14, [(1e-5, 1.35e-9), (2.65e-6, 7.94e-7)], 3.06e-4, 5.1, 5e-5, ("loading", "continuous")),
+    ],
+)
+def test_a_lower_level_that_is_far_rougher_errs_by_no_more_than_the_friction_of_level_1(
+    T_sigma, gamma, delta_0, levels, pressure, V, rtol, how
+):
+    """Its own natural scale is a thousand times that of what is asked for."""
+    material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma), hystrip.Dugdale(gamma=gamma, delta_0=delta_0)
+    levels, how = [hystrip.Level(*each) for each in levels], dict(zip(("branch", "edge"), how, strict=True))
+    r = hystrip.solve(material, adhesion, levels, pressure=pressure, velocity=V, rtol=rtol, **how)
+    fine = hystrip.solve(material, adhesion, levels, pressure=pressure, velocity=V, rtol=0.1 * rtol, **how)
+    assert r.converged.all() and r.counts["strips_solved"] < 5_000
+    assert fine.converged.all() and abs(r.tau - fine.tau) <= r.tau_error + fine.tau_error

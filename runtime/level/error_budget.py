@@ -1,8 +1,8 @@
 """Error budget: how accurate every quantity of every level has to be. All that decides it, in one place:
 
 - A quantity is asked for to ``rtol |value| + atol``; ``atol`` is that of a thousandth of its natural scale (``LevelBatch.atol``);
-  of fractions it is ``rtol`` itself where only pressure and friction count, and of frictions of laws that of a share of the
-  friction in contact of level 1, which they all add to (``friction_of_laws``), if that is more.
+  of fractions it is ``rtol`` itself where only pressure and friction count. No friction has a larger scale than that of level 1,
+  which all add to; those of laws that of a share of the friction in its contact (``friction_of_laws``), if that is more.
 - Level 1 gets the ``rtol`` of the result, halved in ``multilevel``, as its laws err too. Laws of lower levels get a multiple of
   ``rtol``, and less where points miss that.
 - A piece of a law may err by as much more as fewer points meet its pressures (``interpolation.weighed``), further down than
