@@ -40,6 +40,8 @@ def trace(
     """
     strips = np.zeros(columns.size, int)
     intervals, crest = smooth_intervals(columns, rtol, atol, top)
+    if columns.branch == "loading":
+        intervals = _without_hidden(columns, intervals, strips)
     looked = intervals.high <= crest[intervals.column]
     if columns.branch == "unloading":
         # where strips let go one after another while the pressure rises it falls over penetration, which is no part of a law
@@ -48,8 +50,6 @@ def trace(
             D, each = intervals.take(narrow).evenly(np.array(_APART)), intervals.take(np.repeat(narrow, 2))
             low, high = _rough_means(columns, each, D.ravel(), strips)[0][:, 0].reshape(-1, 2).T
             looked[narrow] = low > high
-    else:
-        _leave_out_hidden(columns, intervals, strips)
     pieces = interpolate(columns, intervals.take(~looked), strips, budget)
     if looked.any():
         least = [[(piece.low, piece.values(piece.errors.at)[:, 0].min()) for piece in row] for row in pieces]
@@ -83,26 +83,32 @@ def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, to
     return intervals, crest
 
 
-def _leave_out_hidden(columns: LevelBatch, intervals: Intervals, strips: np.ndarray) -> None:
-    """Leave out what little of the ``intervals`` is above where gaps that adhere throughout open, if loading comes to no pressure
-    there, but for what it may err, that it has not met before: where memory is short all strips let go at once and it falls."""
+def _without_hidden(columns: LevelBatch, intervals: Intervals, strips: np.ndarray) -> Intervals:
+    """The intervals ending where gaps that adhere throughout open, if they end little above: where memory is short all strips let
+    go there at once and the pressure falls. If loading comes to more there, but for what it may err, than it has met before, an
+    interval of its own."""
     K, h = columns.material.K, columns.level.h
     opens = h - columns.stretch - columns.adhesion.delta_0
     # nearer to a threshold rounding decides strip by strip
     nearest = 64 * EPS * (h + columns.stretch + columns.adhesion.delta_0)
-    above = intervals.high - opens
-    k = np.flatnonzero((intervals.low < opens) & (above > nearest / _APART[0]) & (above < _SHORT * h))
-    if not k.size:
-        return
-    some, width = intervals.take(np.repeat(k, 4)), above[k, None]
-    beside = np.minimum(np.maximum(some.atol[::4, :1] / K, nearest) / width, _APART[0])
-    shares = np.concatenate((beside * [-1, 1], [_APART] * k.size), axis=1)
-    values, errors, _ = _rough_means(columns, some, (opens + shares * width).ravel(), strips)
-    low, high = (each[:, 0].reshape(-1, 4) for each in (values - errors, values + errors))
-    # pressure rises by K times the penetration at most
-    most = high[:, 1:] + K * width * np.diff(shares[:, 1:], axis=1, append=1.0)
-    # the pressure falls below zero as the first strips cling: loading begins where it is least
-    intervals.high[k[(low[:, 0] > 0) & (most.max(axis=1) <= low[:, 0])]] = opens
+    inside = (intervals.low < opens) & (opens < intervals.high) & (intervals.high - opens < _SHORT * h)
+    if not inside.any():
+        return intervals
+    lower, upper = intervals.take(inside).split(np.full(np.count_nonzero(inside), opens), soft=False)
+    upper = upper.take(upper.width > np.maximum(nearest / _APART[0], upper.atol[:, 0] / K))
+    if upper.size:
+        width = upper.width[:, None]
+        beside = np.minimum(np.maximum(upper.atol[:, :1] / K, nearest) / width, _APART[0])
+        shares = np.concatenate((beside * [-1, 1], [_APART] * upper.size), axis=1)
+        D, each = (opens + shares * width).ravel(), upper.take(np.repeat(np.arange(upper.size), 4))
+        values, errors, _ = _rough_means(columns, each, D, strips)
+        low, high = (each[:, 0].reshape(-1, 4) for each in (values - errors, values + errors))
+        # pressure rises by K times the penetration at most
+        most = high[:, 1:] + K * width * np.diff(shares[:, 1:], axis=1, append=1.0)
+        # the pressure falls below zero as the first strips cling: loading begins where it is least
+        upper = upper.take((low[:, 0] <= 0) | (most.max(axis=1) > low[:, 0]))
+    parts = Intervals.joined([intervals.take(~inside), lower, upper])
+    return parts.take(parts.width > nearest)
 
 
 def reentrant_parts(columns: LevelBatch, intervals: Intervals, strips: np.ndarray, budget: ErrorBudget | None) -> Intervals:
