@@ -50,3 +50,16 @@ def test_a_law_asks_no_more_strips_than_its_pieces_need():
     """Zones of a thousandth of a period, and a curve that turns: means that miss them would be halved down to rounding."""
     found = hystrip.friction_law(MATERIAL, ADHESION, hystrip.Level(l=10e-6, h=1e-6), V=1e-3, rtol=1e-4)
     assert found.strips < 20_000 and found.error_estimate < 1e-3
+
+
+@pytest.mark.filterwarnings("error")
+def test_pieces_beyond_saturation_are_none():
+    """Next to it curves are known to their errors: small pieces end, or even begin, at pressures above."""
+    material, adhesion = (
+        hystrip.StandardLinearSolid(1e9, 1e-2, 4.125599759e-5),
+        hystrip.Dugdale(gamma=1.51068207e-12, delta_0=2.75025e-10),
+    )
+    levels = [hystrip.Level(1e-5, 1.31396e-6), hystrip.Level(1.94459e-6, 2.30941e-9), hystrip.Level(2.33219e-7, 1.83657e-9)]
+    at = {"pressure": 0.0331885, "velocity": 4.53034546e-8, "branch": "loading", "edge": "constitutive"}
+    one, other = (hystrip.solve(material, adhesion, levels, **at, rtol=rtol) for rtol in (1.3981e-5, 1e-4))
+    assert one.converged and other.converged and abs(one.tau - other.tau) <= one.tau_error + other.tau_error

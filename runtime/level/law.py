@@ -170,8 +170,9 @@ def _padded(rows: Sequence[np.ndarray]) -> np.ndarray:
 
 
 def _joined(kept: list[Segment], p_sat: float) -> list[Segment]:
-    """The segments, those stretched that end next to where another begins, or at saturation, but for their errors: there is one
-    break of the law, not two."""
+    """The segments up to saturation, those stretched that end next to where another begins, or there, but for their errors: there
+    is one break of the law, not two."""
+    kept = [s for s in kept if s.p_low < p_sat]
     ends = [*(s.p_low for s in kept[1:]), p_sat]
     return [
         replace(s, p_high=end) if meets(s, abs(end - s.p_high)) else s for s, end in zip(kept, ends[: len(kept)], strict=True)
