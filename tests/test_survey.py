@@ -24,6 +24,14 @@ def test_a_scene_can_be_replayed():
     assert {scene["adhesion"].p_0 > 0 for scene in kinds} == {True, False}
 
 
+@pytest.mark.parametrize("number", range(8))
+def test_wide_scenes_end_well(number):
+    scene = survey.draw(20261127, number, wide=True)
+    assert repr(scene) != repr(survey.draw(20261127, number))
+    seconds, converged, _, problem = survey.solve(scene, 60.0)
+    assert seconds < 30 and converged and not problem
+
+
 def test_a_scene_that_takes_long_is_ended():
     scene = survey.demonstration() | {"velocity": 1e-3, "rtol": 1e-2}
     seconds, converged, strips, problem = survey.solve(scene, 60.0)

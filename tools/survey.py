@@ -2,6 +2,7 @@
 
     python tools/survey.py [--scenes 200] [--seed 1] [--demos 10]
     python tools/survey.py --seed 1 --only 17          # one scene again
+    python tools/survey.py --seed 1 --wide             # ranges wider than anybody's
 
 A scene has one to four levels, adhesive or not, either closure, either branch, an accuracy of 1e-1 to 1e-6, pressures of either
 sign, and in one of five cases round numbers, as people type them. Times are CPU seconds of a process of its own, over those of
@@ -26,17 +27,19 @@ import numpy as np
 
 import hystrip
 
-#: least share of the relaxation time in the retardation time; nominal pressures and tractions over K h of the first level
-_STIFFENING, _PRESSURES, _TRACTIONS = 1e5, (1e-5, 2.0), (1e-4, 3.0)
-#: each level's wavelength over the next one's, heights over wavelengths, ranges of adhesion over heights
-_NEXT, _SLOPES, _RANGES = (1.5, 30.0), (0.01, 0.3), (1e-4, 0.3)
+#: retardation over relaxation time, Deborah number, nominal pressures and tractions over K h of the first level; each level's
+#: wavelength over the next one's, heights over wavelengths, ranges of adhesion over heights: usual ones and wide ones
+_USUAL = {"stiffening": (1.5, 1e5), "speed": (1e-2, 1e4), "pressure": (1e-5, 2.0), "traction": (1e-4, 3.0)}
+_USUAL |= {"next": (1.5, 30.0), "slope": (0.01, 0.3), "range": (1e-4, 0.3)}
+_WIDE = {"stiffening": (1.001, 1e7), "speed": (1e-6, 1e8), "pressure": (1e-6, 3.0), "traction": (1e-6, 30.0)}
+_WIDE |= {"next": (1.2, 100.0), "slope": (1e-4, 0.5), "range": (1e-6, 3.0)}
 #: seconds that the reference scene is given, and how often it is timed
 _PATIENCE, _REFERENCES = 600.0, 2
 
 
-def draw(seed: int, number: int) -> dict[str, Any]:
+def draw(seed: int, number: int, wide: bool = False) -> dict[str, Any]:
     """Arguments of ``hystrip.solve`` for scene ``number`` of a seed."""
-    rng = random.Random(f"survey {seed} {number}")
+    rng, ranges = random.Random(f"survey {seed} {number}"), _WIDE if wide else _USUAL
     round_numbers = rng.random() < 0.2
 
     def between(low: float, high: float) -> float:
@@ -44,20 +47,20 @@ def draw(seed: int, number: int) -> dict[str, Any]:
         return float(f"{value:.0e}") if round_numbers else float(f"{value:.6g}")
 
     K, T_eps = 1e9, 1e-2
-    material = hystrip.StandardLinearSolid(K, T_eps, T_eps / between(1.5, _STIFFENING))
+    material = hystrip.StandardLinearSolid(K, T_eps, T_eps / between(*ranges["stiffening"]))
     length, levels = 1e-5, []
     for _ in range(rng.choice((1, 2, 2, 3, 3, 4))):
-        levels.append(hystrip.Level(length, float(f"{between(*_SLOPES) * length:.6g}")))
-        length = float(f"{length / between(*_NEXT):.6g}")
+        levels.append(hystrip.Level(length, float(f"{between(*ranges['slope']) * length:.6g}")))
+        length = float(f"{length / between(*ranges['next']):.6g}")
     h = levels[0].h
-    p_0 = float(f"{between(*_TRACTIONS) * K * h:.6g}") if rng.random() < 0.85 else 0.0
-    delta_0 = float(f"{between(*_RANGES) * h:.6g}")
+    p_0 = float(f"{between(*ranges['traction']) * K * h:.6g}") if rng.random() < 0.85 else 0.0
+    delta_0 = float(f"{between(*ranges['range']) * h:.6g}")
     if p_0 and rng.random() < 0.05:
         delta_0 = p_0 / K * material.T_sigma / T_eps  # the tie: whether a point snaps in is decided by a rounding
-    pressure = float(f"{between(*_PRESSURES) * K * h:.6g}")
+    pressure = float(f"{between(*ranges['pressure']) * K * h:.6g}")
     if p_0 and rng.random() < 0.15:
         pressure = -0.3 * rng.random() * p_0
-    velocity = levels[0].l / (2 * math.pi * T_eps) * between(1e-2, 1e4)
+    velocity = levels[0].l / (2 * math.pi * T_eps) * between(*ranges["speed"])
     return {
         "material": material,
         "adhesion": hystrip.Dugdale(p_0=p_0, delta_0=delta_0) if p_0 else hystrip.Dugdale(gamma=0),
@@ -115,16 +118,16 @@ def solve(scene: dict[str, Any], seconds: float) -> tuple[float, bool, int, str]
     return answer
 
 
-def survey(seed: int, numbers: list[int], demos: float, say: Callable[[str], None]) -> int:
+def survey(seed: int, numbers: list[int], demos: float, say: Callable[[str], None], wide: bool = False) -> int:
     """Solve scenes of a seed and report; returns how many were wrong."""
     timed = [solve(demonstration(), _PATIENCE) for _ in range(_REFERENCES)]
     demo = min(seconds for seconds, *_ in timed)
     say(f"the demonstration: {demo:.2f} s")
-    answers = {}
+    answers, replay = {}, f"python tools/survey.py --seed {seed}{' --wide' * wide} --only"
     for number in numbers:
-        answers[number] = solve(draw(seed, number), demos * demo)
+        answers[number] = solve(draw(seed, number, wide), demos * demo)
         if not math.isfinite(answers[number][0]):  # at once: whoever waits may look into it
-            say(f"did not end: python tools/survey.py --seed {seed} --only {number}")
+            say(f"did not end: {replay} {number}")
     times = np.array([seconds / demo for seconds, *_ in answers.values()])
     wrong = {number: problem for number, (*_, problem) in answers.items() if problem}
     open_ = [number for number, (seconds, converged, _, problem) in answers.items() if not (converged or problem)]
@@ -136,9 +139,9 @@ def survey(seed: int, numbers: list[int], demos: float, say: Callable[[str], Non
         number, (_, converged, strips, _) = list(answers.items())[i]
         state = "" if converged else ", not converged"
         took = f"{times[i]:6.2f} demonstrations, {strips} strips{state}" if math.isfinite(times[i]) else "did not end"
-        say(f"{took}: python tools/survey.py --seed {seed} --only {number}")
+        say(f"{took}: {replay} {number}")
     for number, problem in wrong.items():
-        say(f"{problem}: python tools/survey.py --seed {seed} --only {number}")
+        say(f"{problem}: {replay} {number}")
     return len(wrong)
 
 
@@ -148,13 +151,14 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--scenes", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--demos", type=float, default=10.0)
+    parser.add_argument("--wide", action="store_true", help="draw from wider ranges")
     parser.add_argument("--only", type=int, nargs="+", metavar="NUMBER", help="these scenes alone")
     options = parser.parse_args(argv)
     numbers = options.only or list(range(options.scenes))
     say = lambda text: print(text, flush=True)  # noqa: E731
     for number in options.only or []:
-        say(", ".join(f"{name}={value!r}" for name, value in draw(options.seed, number).items()))
-    return 1 if survey(options.seed, numbers, options.demos, say) else 0
+        say(", ".join(f"{name}={value!r}" for name, value in draw(options.seed, number, options.wide).items()))
+    return 1 if survey(options.seed, numbers, options.demos, say, options.wide) else 0
 
 
 if __name__ == "__main__":
