@@ -138,14 +138,15 @@ def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
         k = left[good]
         here = s.take(k)
         z[:, k], _ = state_at(kernel, "ac", here, edges[:, k], here.start)
-        round_ = march(kernel, here, np.ones(k.size, bool), z[:, k], here.start)
-        k = k[agrees(_engaged_edges(round_.edges), edges[:, k]) & (round_.contacts == 1) & ~round_.lost]
+        period = march(kernel, here, np.ones(k.size, bool), z[:, k], here.start)
+        k = k[agrees(_engaged_edges(period.edges), edges[:, k]) & (period.contacts == 1) & ~period.lost]
         known[k] = True
         # not seen from -p_0: where that is large against the gap, rounding would decide
         here = s.take(k)
         _, (_, start, entry, _) = zones_of(kernel, "ac", here, edges[:, k])
         gap = kernel.gap_entry(start, entry, -here.p_0, here.D, here.m)
-        # it opens at a, and turns before the valley
+        # it opens at a, and turns once before the valley: there its slope is a sine, log-concave, less decaying exponentials, whose
+        # sum is log-convex
         widest = turn(kernel.gap_event, gap, 1, start, start + np.mod(np.pi - start, TWO_PI))
         within[k] = strips.bare or kernel.gap_event(widest, *gap)[0] <= strips.delta_0[k]
         left = np.flatnonzero(~known)
