@@ -145,7 +145,7 @@ def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
         here = s.take(k)
         _, (_, start, entry, _) = zones_of(kernel, "ac", here, edges[:, k])
         gap = kernel.gap_entry(start, entry, -here.p_0, here.D, here.m)
-        # it opens at a, and turns once before the valley: there its slope is a sine, log-concave, less decaying exponentials, whose
+        # it opens at a, and turns once before the valley: there its slope is a sine, log-concave, less exponentials, whose
         # sum is log-convex
         widest = turn(kernel.gap_event, gap, 1, start, start + np.mod(np.pi - start, TWO_PI))
         within[k] = strips.bare or kernel.gap_event(widest, *gap)[0] <= strips.delta_0[k]
