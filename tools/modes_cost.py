@@ -52,9 +52,9 @@ def cost(n, wide, count):
     return np.median(seconds) / (2 * count) * 1e6, sum(steps) / (2 * count), lost
 
 
-def _counted(safe_step, steps, field, first):
-    steps.append(field.index.size)
-    return safe_step(field, first)
+def _counted(safe_step, steps, ahead, *parts):
+    steps.append(ahead.shape[1])
+    return safe_step(ahead, *parts)
 
 
 def main():

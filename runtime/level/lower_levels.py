@@ -5,8 +5,6 @@ at most once, each in an arc known in closed form. So the contact is cut at the 
 and each part integrated by itself, on as many nodes as it needs.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 

@@ -1,7 +1,5 @@
 """A material with its generated solver, as levels and strips use it."""
 
-from __future__ import annotations
-
 from ..inputs.half_space import HalfSpace
 from ..inputs.material import StandardLinearSolid
 from ..inputs.materials import kernel_of, reduced

@@ -7,8 +7,6 @@ roots of the distance. It is sampled over penetration, where these are known, an
 Penetrations at which a level carries given pressures are roots of its mean pressure.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

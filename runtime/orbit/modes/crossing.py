@@ -13,8 +13,6 @@ Stepping to the farther of their zeros approaches the first zero of G, cannot pa
 method where it is simple. No sign of any coefficient is assumed, and nothing is sampled.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,26 +44,6 @@ class Field:
         return np.stack((above, falling, falling * self.r, self.c - above, rising, rising * self.r))
 
 
-@dataclass(slots=True)
-class _Ahead:
-    """Fields on their way: strips ``index``, where each is ``now``, up to where it goes, upper limit, and the field's parts."""
-
-    index: np.ndarray
-    now: np.ndarray
-    end: np.ndarray
-    height: np.ndarray
-    start: np.ndarray
-    constant: np.ndarray
-    a: np.ndarray
-    b: np.ndarray
-    size: np.ndarray
-    r: np.ndarray
-    terms: np.ndarray
-
-    def take(self, rest) -> _Ahead:
-        return _Ahead(*(getattr(self, name)[..., rest] for name in self.__slots__))
-
-
 def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
     """Where ``field``, in between at its start, first leaves the range from 0 to ``height`` (inf: no upper limit) before ``end``.
 
@@ -74,37 +52,40 @@ def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
     """
     n = end.size
     s, which = field.start.copy(), np.full(n, LOST)
-    go = _Ahead(np.arange(n), field.start, end, np.minimum(height, LARGEST), field.start, field.constant, field.a, field.b,
-                np.hypot(field.a, field.b), field.r, field.amplitudes())  # fmt: skip
+    # of the strips that go on, ``index``: where each is now, up to where it goes, the upper limit, and the field's parts
+    index, r, terms = np.arange(n), field.r, field.amplitudes()
+    ahead = np.stack((field.start, end, np.broadcast_to(np.minimum(height, LARGEST), n), field.start, field.constant,
+                      field.a, field.b, np.hypot(field.a, field.b)))  # fmt: skip
     for number in range(_MAX_STEPS):
-        if not go.index.size:
+        if not index.size:
             break
-        step, low_first, slope, margin = _safe_step(go, number == 0)
+        step, low_first, slope, margin = _safe_step(ahead, r, terms, number == 0)
+        now, end, _, _, constant, _, _, size = ahead
         # a margin of a few roundings, still shrinking, is none: steps too small to change it would never end
-        lost_in_rounding = (
-            (margin <= _ROUNDINGS * (np.abs(go.constant) + go.size)) & (step <= _SMALL) & (low_first == (slope < 0))
-        )
-        reached = (step <= _ROUNDINGS * np.maximum(1.0, np.abs(go.now))) | lost_in_rounding
-        go.now = go.now + step
-        beyond = go.now >= go.end
+        lost_in_rounding = (margin <= _ROUNDINGS * (np.abs(constant) + size)) & (step <= _SMALL) & (low_first == (slope < 0))
+        reached = (step <= _ROUNDINGS * np.maximum(1.0, np.abs(now))) | lost_in_rounding
+        now += step
+        beyond = now >= end
         done = reached | beyond
         if done.any():
-            i = go.index[done]
-            s[i] = np.where(beyond[done], go.end[done], go.now[done])
+            i = index[done]
+            s[i] = np.where(beyond[done], end[done], now[done])
             which[i] = np.where(beyond[done], NONE, np.where(low_first[done], LOWER, UPPER))
-            go = go.take(np.flatnonzero(~done))
+            rest = np.flatnonzero(~done)
+            index, ahead, r, terms = index[rest], ahead[:, rest], r[:, rest], terms[..., rest]
     return s, which
 
 
-def _safe_step(f: _Ahead, first: bool):
+def _safe_step(ahead, r, terms, first: bool):
     """A step over which the field stays in its range, whether the lower limit bounds it, the field's slope where it is and
     its distance from that limit."""
-    cosine, sine = np.cos(f.now), np.sin(f.now)
-    above, fast, bend, below, slow, lift = np.einsum("kiN,iN->kN", f.terms, np.exp((f.start - f.now) * f.r))
-    harmonic = f.b * cosine - f.a * sine
-    value = f.constant + f.a * cosine + f.b * sine + above + below
+    now, _, height, start, constant, a, b, size = ahead
+    cosine, sine = np.cos(now), np.sin(now)
+    above, fast, bend, below, slow, lift = np.einsum("kiN,iN->kN", terms, np.exp((start - now) * r))
+    harmonic = b * cosine - a * sine
+    value = constant + a * cosine + b * sine + above + below
     slope = harmonic - fast - slow
-    low, room = value, f.height - value
+    low, room = value, height - value
     if first:
         # a zone begins on the very limit that ended the zone before, and leads away from it
         low = np.where(slope > 0, np.maximum(low, 0.0), low)
@@ -113,7 +94,7 @@ def _safe_step(f: _Ahead, first: bool):
     gaps, rates, curvatures = np.empty((3, 4, value.size))
     gaps[:2], gaps[2:] = low, room
     rates[0], rates[1], rates[2], rates[3] = harmonic - fast, slope, slow - harmonic, -slope
-    curvatures[:] = f.size
+    curvatures[:] = size
     curvatures[1] -= lift
     curvatures[3] += bend
     reach = _reach(gaps, rates, curvatures)

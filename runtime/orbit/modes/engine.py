@@ -134,12 +134,12 @@ def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
         if forced:
             middle = 0.5 * (guess.sum(axis=0) + TWO_PI)  # of the adhesion
             guess = Forced.settled(kernel, here, np.stack((middle - TWO_PI, *guess, middle)))[0].edges[1:3]
-        edges[:, left], good = certified(kernel, here, "ac", np.nan_to_num(guess))
+        edges[:, left], good, rounded = certified(kernel, here, "ac", np.nan_to_num(guess))
         k = left[good]
         here = s.take(k)
         z[:, k], _ = state_at(kernel, "ac", here, edges[:, k], here.start)
         period = march(kernel, here, np.ones(k.size, bool), z[:, k], here.start)
-        k = k[agrees(_engaged_edges(period.edges), edges[:, k]) & (period.contacts == 1) & ~period.lost]
+        k = k[agrees(_engaged_edges(period.edges), edges[:, k], rounded[good]) & (period.contacts == 1) & ~period.lost]
         known[k] = True
         # not seen from -p_0: where that is large against the gap, rounding would decide
         here = s.take(k)

@@ -14,18 +14,17 @@ from .problem import ModeStrips
 from .windows import alone, balanced, linearised, links, newton
 
 #: where a strip is given up; steps of Newton's method
-_STEPS, _ITERATIONS = 120, 12
+_STEPS, _ITERATIONS = 300, 12
 #: agreement of the edges with a march of the period
 AGREE = 1e-7
 #: windows so close to an orbit's tell it from others by rounding: of that it is asked to be stable, too
 _NARROW = 1e-6
-#: a chain of windows leads to an orbit or to where orbits have vanished: each leaves such a share of the way; the next share
-#: where no link holds. Next to where orbits have just vanished none does: windows then grow by a factor, as far as links hold
-_RATIOS, _GROWING = np.array([0.65, 0.83, 0.95, np.nan]), 4.0
+#: a chain of windows leads to an orbit or to where orbits have vanished: each goes such a share of what is left, at most
+_SHARE = 0.35
 #: so many windows, and from that step on more: as many past there, and farther ones; fewer first are a third faster with 14 times
 _FEW, _FULL, _WINDOWS, _FARTHER = 5, 4, 16, (3, 5, 9, 17)
-#: corrections of such a chain, and the share of the room there is that may be taken
-_BALANCED, _ROOM = 1, 0.9
+#: the share of the room there is that a chain may take
+_ROOM = 0.9
 #: a step expected to be this small is not taken; steps as large as that after so many, or that hardly shrink, lead nowhere
 _SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * EPS, 0.1, 4, 0.7
 #: the last step of an orbit is this small, or the multiple of what rounding lets the edges be known to, which is no more than the
@@ -48,7 +47,7 @@ class Search:
         self.kernel, self.s, self.rising, self.active = kernel, s, rising, np.arange(s.size)
         self.z, self.engaged, self.ends_held = z, engaged, not (rising and released)
         self.kind, self.edges = np.full(s.size, UNRESOLVED), np.full((4, s.size), np.nan)
-        self.sequence, self.ratio = np.zeros((2, s.size), int)
+        self.sequence, self.share = np.zeros(s.size, int), np.full(s.size, _SHARE)
 
     def run(self):
         """The search at its end."""
@@ -117,7 +116,9 @@ class Search:
         with np.errstate(all="ignore"):
             chain, clear = self._chain(i, orbit, full)
         reached = np.cumprod(clear, axis=0).sum(axis=0)
-        self.ratio[i] = np.minimum(self.ratio[i] + (reached == 0), len(_RATIOS) - 1 - (reached > 0))
+        # shorter links where few hold, longer ones where all do
+        change = np.select((reached == 0, reached < 4, reached >= _WINDOWS - 1), (0.125, 0.5, 4.0), 1.0)
+        self.share[i] = np.minimum(self.share[i] * change, _SHARE)
         last = chain.take(reached * i.size + np.arange(i.size))
         self.z[:, i], self.engaged[i] = last.at(self.s.start[i])
         self._proven(i, last.edges)
@@ -131,23 +132,20 @@ class Search:
         way = np.where((way > 0).all(axis=0), way, 2 * newton(*linearised(orbit, self.rising)))
         way[:, ~np.isfinite(way).all(axis=0)] = 0.0
         room = np.minimum((c - a) / way[0], (c - d) / way.sum(axis=0)) if self.rising else (d + TWO_PI - c) / way.sum(axis=0)
-        number, ratio = np.arange(_WINDOWS if full else _FEW)[:, None], _RATIOS[self.ratio[i]]
-        shares = np.where(np.isnan(ratio), (number > 0) * _GROWING ** (number - number[-1]), 1 - ratio**number)
+        shares = 1 - (1 - self.share[i]) ** np.arange(_WINDOWS if full else _FEW)[:, None]
         if full:
             past = np.broadcast_to(np.array(_FARTHER)[:, None], (len(_FARTHER), i.size))
             shares = np.concatenate((shares, 2 - shares[::-1], past))
-        corrections = _BALANCED if full else 0
         growth = np.minimum(shares, np.maximum(_ROOM * np.nan_to_num(room), 0.0))[:, None] * way
         many = np.tile(np.arange(i.size), len(shares))
         s, first = orbit.s.take(many), (way[0] < way[1])[many]
         contact = orbit.edges[1:3, many]
-        for corrected in range(corrections + 1):
+        for last in (False, True) if full else (True,):
             growth = np.maximum.accumulate(np.maximum(growth, 0.0), axis=0)
             u, v = sign * growth.swapaxes(0, 1).reshape(2, -1)
             d_1, c_1 = d[many] + v, c[many] - u
-            b_1, a_1 = np.clip(contact, d_1, c_1)
-            guess = np.stack((d_1, b_1, np.clip(a_1, b_1, c_1), c_1))
-            if corrected < corrections:
+            guess = np.stack((d_1, *np.clip(contact, d_1, c_1), c_1))
+            if not last:
                 chain, _ = Forced.settled(self.kernel, s, guess, False)
                 contact = chain.edges[1:3]
                 here = balanced(growth.swapaxes(0, 1).reshape(2, -1), *linearised(chain, self.rising), first)
@@ -167,7 +165,7 @@ class Search:
 
     def _from(self, index, number: int, edges) -> None:
         sequence, s = SEQUENCES[number], self.s.take(index)
-        edges, good = certified(self.kernel, s, sequence, np.maximum.accumulate(edges, axis=0))
+        edges, good, known = certified(self.kernel, s, sequence, np.maximum.accumulate(edges, axis=0))
         k = np.flatnonzero(good)
         if not k.size:
             return
@@ -176,16 +174,16 @@ class Search:
         period = march(self.kernel, part, engaged, z, part.start)
         # a turn meets these edges, each once, and nothing else
         once = (period.onsets == 1) & (period.releases == 1) & (period.contacts == sequence.count("c"))
-        ok = once & ~period.lost & (period.engaged == period.engaged_before) & agrees(period.edges[rows], edges)
+        ok = once & ~period.lost & (period.engaged == period.engaged_before) & agrees(period.edges[rows], edges, known[k])
         index, edges = index[k[ok]], edges[:, ok]
         self.sequence[index] = number
         self.edges[:, index] = edges[0]
         self.edges[np.array(rows)[:, None], index] = edges
 
 
-def agrees(met, edges):
-    """Where the edges (k, N) that marches met are these."""
-    return np.abs(np.mod(met - edges + np.pi, TWO_PI) - np.pi).max(axis=0) <= AGREE
+def agrees(met, edges, known):
+    """Where the edges (k, N) that marches met are these, as far as they can be ``known``."""
+    return np.abs(np.mod(met - edges + np.pi, TWO_PI) - np.pi).max(axis=0) <= AGREE + known
 
 
 def in_order(edges):
@@ -197,12 +195,14 @@ def in_order(edges):
 
 
 def certified(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
-    """Orbits of strips in the regime ``sequence`` from ``edges`` (k, N); which converged, in order within a period."""
+    """Orbits of strips in the regime ``sequence`` from ``edges`` (k, N); which converged, in order within a period; how well
+    rounding lets the edges be known."""
     with np.errstate(all="ignore"):
         edges, last, attainable = _converging(kernel, strips, sequence, edges)
-    good = last <= _CONVERGED + _ROUNDINGS * np.minimum(attainable, _COARSEST)
+    known = np.minimum(attainable, _COARSEST)
+    good = last <= _CONVERGED + _ROUNDINGS * known
     good &= np.all(np.diff(edges, axis=0) >= -ROUNDING, axis=0) & (edges[-1] - edges[0] <= TWO_PI + ROUNDING)
-    return edges, good
+    return edges, good, known
 
 
 def _converging(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
@@ -227,9 +227,10 @@ def _converging(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
         moved = active[better]
         edges[:, moved] = np.maximum.accumulate(here[:, better] + step[:, better], axis=0)
         last[moved] = size[better]
-        # pressures are of the size of the saturated one
-        noise = EPS * (1 + np.abs(s.D) + s.p_0 + s.delta_0 + kernel.modulus_ratio(s.m))
-        attainable[moved] = (np.abs(inverted).sum(axis=2).max(axis=1) * noise)[better]
+        # pressures are of the size of the saturated one; edges are rounded, too, and some change a pressure within 1e-8
+        noise = 1 + np.abs(s.D) + s.p_0 + s.delta_0 + kernel.modulus_ratio(s.m)
+        noise = EPS * (noise[:, None] + np.pi * np.abs(matrix).sum(axis=2))
+        attainable[moved] = np.einsum("Nij,Nj->Ni", np.abs(inverted), noise).max(axis=1)[better]
         # steps that shrink as fast again: the next one need not be taken
         ahead = size * np.divide(size, before, out=np.ones_like(size), where=(size < before) & np.isfinite(before))
         settled = ahead <= _SETTLED

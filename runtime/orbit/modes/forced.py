@@ -109,14 +109,23 @@ class Forced:
         z = np.where(engaged, adhering, free)
         z = z + self.kernel.relaxation_increment(start, phase, z, np.where(engaged, -s.p_0, 0.0), s.m)
         start, later = b + TWO_PI, np.maximum(b + TWO_PI, phase)
-        pressure = (self.kernel.profile(start, s.D) - touching.sum(axis=0)) / s.m.J_0
-        overstress = self.kernel.overstress(touching, pressure, s.m)
-        return np.where(contact, touching + self.kernel.contact_increment(start, later, overstress, s.m), z), engaged
+        crept = self.kernel.contact_increment(start, later, self.entry(), s.m)
+        return np.where(contact, touching + crept, z), engaged
 
     def gaps(self):
         """y at release and onset."""
         (d, _, _, c), (_, z_c, z_d, _) = self.edges, self.states
         return z_c.sum(axis=0) - self.kernel.profile(c, self.s.D), z_d.sum(axis=0) - self.kernel.profile(d, self.s.D)
+
+    def excess(self, phase):
+        """Pressure above ``-p_0`` at a ``phase``, and its slope, in a contact that goes on from b."""
+        s, kernel = self.s, self.kernel
+        return kernel.excess_event(phase, *kernel.excess_entry(self.edges[1], self.entry(), s.p_0, s.D, s.m))
+
+    def entry(self):
+        """Overstress at the begin of contact, where the pressure follows from the state."""
+        z, s, kernel = self.states[3], self.s, self.kernel
+        return kernel.overstress(z, (kernel.profile(self.edges[1], s.D) - z.sum(axis=0)) / s.m.J_0, s.m)
 
     def adhering(self, to):
         """Least and greatest slope of chords of y from the release to phases up to ``to``, along the adhesion before it."""

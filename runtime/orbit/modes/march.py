@@ -3,8 +3,6 @@
 The state handed from zone to zone is ``z`` (n, N), continuous also where the pressure steps, and whether the point is engaged.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -23,8 +23,9 @@ upper orbit touches, and as in a gap elsewhere, which keeps more in every entry.
 the lower orbit. All are sums of decaying modes, bounded over ranges of phases: r >= 0, (2, 2), is what y gains at c and d per
 growth at either (``responses``).
 
-From d - v on the lower orbit has ``w >= u``: the upper one, free there, is higher by its gap y at most, a known curve, and
-deviations fade no less than in contact. Where contact follows the onset closely that is the better bound (``apart``).
+From d - v on the lower orbit has ``w >= u``: the upper one, free there, is higher by its gap y at most, and deviations fade no
+less than in contact. Where contact follows the onset closely that is the better bound (``apart``). The gap is a known curve, or
+from above ``delta_0`` and what responses make of it.
 
 *Alone* (``alone``). Let all orbits be free in [c_0, d_0], and the orbit in [c, d], which is larger. Let the first orbit be
 free from c + u to d - v. At c + u the orbit, had it stayed engaged, would be beyond the release by s_c u at least, where s_c
@@ -36,7 +37,9 @@ gap: then ``w = u + max(y, 0)`` bounds the others, also those with another free 
 *Links* (``links``). Let all orbits be free in a window, and gaps along F be beyond an orbit's at c and at d, strictly, for
 all windows on a straight way to a larger one. Then all orbits are free in that one: at the last that is within an orbit's,
 the orbit is released before c and engaged after d. Along the way these gaps are no less than linear ones, so the far end
-decides. From above likewise. Links are as long as Newton's steps: next to a fold, where the map from window to window hardly
+decides. From above likewise. There a contact that lasts up to c may last on, so that y stays below ``J_0 p_0`` as its own curve
+tells; and gaps may close within their windows, if that of F leaves them too little to open again: pressures that nearly vanish
+move y by ``1/J_0`` of it. Links are as long as Newton's steps: next to a fold, where the map from window to window hardly
 moves, each halves the way.
 """
 
@@ -53,9 +56,12 @@ def responses(kernel, s: ModeStrips, contact, ends, forcing, upper: bool, moved=
     ``forcing``.
 
     ``contact``: its first and last phase; ``ends``: ranges of the edges c and d. ``moved``: where the contact moves with the
-    onset, the least and greatest time between them, and what w gains where it begins. ``apart``: by how much w is higher
+    onset, the time between them, and what w gains where it begins. ``apart``: by how much w is higher
     at most, on average, where the window grew at its onset."""
     (b, a), ((c_1, c_2), (d_1, d_2)), n = contact, ends, s.modes
+    # no contact: as one of no length, where what the edges did to fast modes is forgotten
+    none = b >= a
+    b, a = (np.where(none, 0.5 * (d_2 + c_1), edge) for edge in contact)
     rate, kicks = rates(s.m.beta), s.m.J * rates(s.m.beta) / s.m.J_0
     back = np.stack([kernel.dashpots(np.eye(n)[:, j, None], 0.0, s.m) for j in range(n)], axis=1)
 
@@ -66,16 +72,20 @@ def responses(kernel, s: ModeStrips, contact, ends, forcing, upper: bool, moved=
 
     share, one = np.swapaxes(s.m.share, 0, 1), np.ones((n, s.size))
     rows = sums(share, one, c_1 - a, c_2 - a), sums(share, one, d_1 + TWO_PI - a, d_2 + TWO_PI - a)
-    soonest, latest, at_contact = (b - d_2, b - d_1, None) if moved is None else moved
-    shift = 0.0 if moved is None else d_2 - d_1
+    soonest, latest, shift = b - d_2, b - d_1, 0.0
+    if moved is not None:
+        soonest, latest, shift = np.where(none, (soonest, latest, 0.0 * b), (moved[0], moved[0], d_2 - d_1))
     columns = [
         forcing[0] * sums(back, kicks, b + TWO_PI - c_2, b + shift + TWO_PI - c_1),
         forcing[1] * sums(back, kicks, soonest, latest),
     ]
     if apart is not None:
-        columns[1] = np.minimum(columns[1], apart * sums(back, kicks, soonest, soonest))
+        fills = -np.expm1(-(d_2 - d_1) * rates(s.m.alpha))  # the dashpots, in the contact of the lower orbit
+        fills = np.divide(fills, d_2 - d_1, out=rates(s.m.alpha) * np.ones_like(fills), where=d_2 > d_1)
+        z = np.einsum("ij...,j...->i...", s.m.share, apart * fills) * np.exp(-np.maximum(soonest, 0.0) * rate)
+        columns[1] = np.minimum(columns[1], np.einsum("ij...,j...->i...", back, z))
     if moved is not None:
-        columns[1] = np.maximum(columns[1] + at_contact * np.einsum("ij...,j...->i...", back, kicks), 0.0)
+        columns[1] = np.maximum(columns[1] + moved[1] * np.einsum("ij...,j...->i...", back, kicks), 0.0)
     # what a period forgets: small where foundations are slow, so it is added up by itself
     fade = np.expm1(-(a - b) * rates(s.m.alpha))
     forgets = np.moveaxis(back, -1, 0) @ (np.expm1((a - b - TWO_PI) * rate).T[:, :, None] * np.moveaxis(s.m.share, -1, 0))
@@ -107,10 +117,7 @@ def alone(orbit: Forced, window, contact, rising: bool, agree: float) -> np.ndar
             contact, highest = (b, a), s.step
             c_range, d_range = (c, c_0), (d_0, d)
         else:
-            z_b = orbit.states[3]
-            entry = kernel.overstress(z_b, (kernel.profile(b, s.D) - z_b.sum(axis=0)) / s.m.J_0, s.m)
-            within = kernel.excess_entry(b, entry, s.p_0, s.D, s.m)
-            excess = lambda phase: kernel.excess_event(np.clip(phase, b, a), *within)  # noqa: E731
+            excess = lambda phase: orbit.excess(np.clip(phase, b, a))  # noqa: E731
             storage, loss = kernel.storage(s.m), kernel.loss(s.m)
             lead = np.arctan2(loss, storage)
             steep_c, u = orbit.adhering(np.maximum(c_0, a))[0], c - c_0
@@ -131,6 +138,9 @@ def alone(orbit: Forced, window, contact, rising: bool, agree: float) -> np.ndar
             good &= (d_0 <= contact[0] + agree) & (contact[1] <= c_0 + agree)
         forcing = s.step, np.where(s.snaps, np.minimum(s.step, highest), s.step)
         r = responses(kernel, s, contact, (c_range, d_range), forcing, True, apart=apart)
+        if not rising:
+            apart = s.delta_0 + r[1, 0] * u + r[1, 1] * (d_0 - d)
+            r = responses(kernel, s, contact, (c_range, d_range), forcing, True, apart=apart)
         on, off = steep_d - r[1, 1], steep_c - r[0, 0]
         return good & (on > 0) & (off > 0) & (on * off > r[0, 1] * r[1, 0])
 
@@ -150,25 +160,30 @@ def links(orbit: Forced, target: Forced, rising: bool) -> np.ndarray:
         room = np.stack((y_c - s.delta_0 - s.step, y_d - s.delta_0)) * (1 if rising else -1)
         if rising:
             none = a <= b
-            contact, good = (
-                (np.where(none, d_1, b), np.where(none, d_1, a)),
-                (a <= c_1) & (c_1 <= c) & (d_1 >= d) & (none | (b + v <= a)),
-            )
+            contact, good = (b, a), (a <= c_1) & (c_1 <= c) & (d_1 >= d) & (none | (b + v <= a))
             force_c, lowest = s.step, s.step
             rate, lead = rates(s.m.beta), b - d
             z_b = orbit.states[2] * np.exp(-lead * rate)
             y_b = orbit.states[3].sum(axis=0) - kernel.profile(b, s.D)
             enters = y_b - s.step + np.minimum(0.0, chords(z_b, rate, b, b, b + v)[0] * v)
-            moved = np.where(none, 0.0, lead), np.where(none, v, lead), np.where(none, 0.0, np.minimum(enters, 0.0))
+            rise = steep_c * u
+            moved = lead, np.where(none, 0.0, np.minimum(enters, 0.0))
         else:
             moved = None
             contact, good = (b_1, a_1), (c_1 >= c) & (d_1 <= d)
-            force_c, lowest = np.where(c >= a_1, s.step, 0.0), y_d - np.maximum(0.0, greatest * v)
-            good &= target.gaps()[1] + target.falling(d)[0] * v >= 0
+            z_c = orbit.states[1]
+            open_ = np.minimum(z_c, z_c * np.exp(-u * rates(s.m.beta))).sum(axis=0)
+            open_ = open_ - np.maximum(kernel.profile(c, s.D), kernel.profile(c_1, s.D))
+            held = (a >= c) & (c > -np.arctan2(kernel.loss(s.m), kernel.storage(s.m)))
+            touching = s.delta_0 - s.m.J_0 * np.minimum(orbit.excess(c)[1], orbit.excess(c_1)[1]) * u
+            rise = np.where(held, np.minimum(steep_c * u, touching), steep_c * u)
+            force_c = np.where(c >= a_1, s.step, np.clip(open_, 0.0, s.step))
+            lowest = y_d - np.maximum(0.0, greatest * v)
+            good &= (target.gaps()[1] + target.falling(d)[0] * v >= 0) | (y_d < s.m.J_0 * s.delta_0)
         forcing = force_c, np.clip(lowest, 0.0, s.step)
         order = lambda x, y: (np.minimum(x, y), np.maximum(x, y))  # noqa: E731
         r = responses(kernel, s, contact, (order(c, c_1), order(d, d_1)), forcing, False, moved)
-        left = room + np.stack((-steep_c * u, least * v)) + r[:, 0] * u + r[:, 1] * v
+        left = room + np.stack((-rise, least * v)) + r[:, 0] * u + r[:, 1] * v
         return good & (room > 0).all(axis=0) & (left > 0).all(axis=0) & (c_1 > d_1) & (c_1 < d_1 + TWO_PI)
 
 
@@ -181,7 +196,8 @@ def linearised(orbit: Forced, rising: bool):
     room = np.stack((y_c - s.delta_0 - s.step, y_d - s.delta_0)) * (1 if rising else -1)
     jump = np.where(s.snaps, s.delta_0, s.step)  # of w at an onset: the whole gap where the point snaps into contact
     falls = -responses(orbit.kernel, s, (b, a), ((c, c), (d, d)), (s.step, jump), True)
-    falls[[0, 1], [0, 1]] += orbit.adhering(c)[0], -orbit.falling(d)[0]
+    steep_c = np.where(a < c, orbit.adhering(c)[0], -s.m.J_0 * orbit.excess(c)[1])
+    falls[[0, 1], [0, 1]] += steep_c, -orbit.falling(d)[0]
     return room, falls
 
 
