@@ -54,8 +54,8 @@ class _Batch:
         self._always_engaged(left[~sticky[left]], "cf")
         left = left[sticky[left]]
         s = s.take(left)
-        # states beyond all orbits
-        z = _lowest_state(self.kernel, s) if self.unloading else _highest_state(self.kernel, s)
+        # states beyond all orbits; the highest is free
+        z = _lowest_state(self.kernel, s) if self.unloading else s.m.share.sum(axis=1) * np.maximum(s.D, 0.0)
         self._first(left, z, np.full(left.size, self.unloading), ask=True)
         return self.solved
 
@@ -72,8 +72,8 @@ class _Batch:
             k = np.flatnonzero(orbit & (found.sequence == number))
             self.record.orbits(index[k], sequence, Orbit.of(sequence, found.edges[list(ROWS[sequence])][:, k]))
         held = found.kind == ENGAGED
-        closed = held & self.constant[index] & (not self.unloading)
-        self._closed(index[closed])
+        closed = self.constant[index] & (not self.unloading)
+        self._closed(index[held & closed])
         held = np.flatnonzero(held & ~closed)
         z, known = self._always_engaged(index[held], "ac", found.edges[:, held])
         rest = np.flatnonzero(known & ~self.solved.certified[index[held]] & self.unloading)
@@ -107,14 +107,9 @@ def _lowest_state(kernel, s: ModeStrips) -> np.ndarray:
     return np.einsum("ij...,j...->i...", s.m.share, np.maximum(e, -s.p_0))
 
 
-def _highest_state(kernel, s: ModeStrips) -> np.ndarray:
-    """State above every orbit, free."""
-    return s.m.share.sum(axis=1) * np.maximum(s.D, 0.0)
-
-
 def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
-    """The one orbit of each strip that is never released, by Newton's method on its edges, from those (4, N) that marches ``met``
-    or else those of orbits forced by windows of no length, checked by a march.
+    """The one orbit of each strip that is never released, by Newton's method on its edges, checked by a march:
+    from edges (4, N) that marches ``met``, those met from below all orbits, or those of orbits forced by windows of no length.
 
     Without release ``w = u + max(z - u - J_0 p_0, 0)`` is a convex function of the state, so the period map is convex and
     monotone: each Newton step from below lands below the fixed point again, higher up. It cannot miss.
@@ -126,12 +121,12 @@ def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
     s = replace(strips, p_0=none, delta_0=none, D=strips.D + strips.p_0, bare=True)
     z, edges = np.full((s.modes, s.size), np.nan), np.full((2, s.size), np.nan)
     known, within = np.zeros((2, s.size), bool)
-    for forced in (False, True):
+    for attempt in range(met is None, 3):
         here = s.take(left)
-        if forced or met is None:
+        if attempt:
             met = march(kernel, here, np.ones(left.size, bool), _lowest_state(kernel, here), here.start).edges
         guess = _engaged_edges(met)
-        if forced:
+        if attempt == 2:
             middle = 0.5 * (guess.sum(axis=0) + TWO_PI)  # of the adhesion
             guess = Forced.settled(kernel, here, np.stack((middle - TWO_PI, *guess, middle)))[0].edges[1:3]
         edges[:, left], good, rounded = certified(kernel, here, "ac", np.nan_to_num(guess))

@@ -46,11 +46,10 @@ class Search:
     def __init__(self, kernel, s: ModeStrips, z, engaged, rising: bool, released: bool):
         self.kernel, self.s, self.rising, self.active = kernel, s, rising, np.arange(s.size)
         self.z, self.engaged, self.ends_held = z, engaged, not (rising and released)
-        self.kind, self.edges = np.full(s.size, UNRESOLVED), np.full((4, s.size), np.nan)
+        self.kind, self.edges, self.known = np.full(s.size, UNRESOLVED), np.full((4, s.size), np.nan), np.zeros(s.size)
         self.sequence, self.share = np.zeros(s.size, int), np.full(s.size, _SHARE)
 
     def run(self):
-        """The search at its end."""
         for step in range(_STEPS):
             if not self.active.size:
                 break
@@ -88,8 +87,9 @@ class Search:
         if k.size:
             orbit = Forced(self.kernel, self.s.take(i[k]), self.edges[:, i[k]])
             d, b, a, c = edges[:, k]
-            proven[k] = alone(orbit, (d, c), (b, a), self.rising, AGREE)
-            narrow = proven[k] & (np.abs(edges[[0, 3]][:, k] - orbit.edges[[0, 3]]).max(axis=0) <= _NARROW)
+            apart = np.abs(edges[[0, 3]][:, k] - orbit.edges[[0, 3]]).max(axis=0)
+            proven[k] = alone(orbit, (d, c), (b, a), self.rising, AGREE) | (apart <= AGREE + self.known[i[k]])
+            narrow = proven[k] & (apart <= _NARROW + self.known[i[k]])
             proven[k[narrow]] = self._stable(i[k[narrow]])
             self.kind[i[proven]] = ORBIT
         return proven
@@ -117,8 +117,8 @@ class Search:
             chain, clear = self._chain(i, orbit, full)
         reached = np.cumprod(clear, axis=0).sum(axis=0)
         # shorter links where few hold, longer ones where all do
-        change = np.select((reached == 0, reached < 4, reached >= _WINDOWS - 1), (0.125, 0.5, 4.0), 1.0)
-        self.share[i] = np.minimum(self.share[i] * change, _SHARE)
+        factor = np.select((reached == 0, reached < 4, reached >= _WINDOWS - 1), (0.125, 0.5, 4.0), 1.0)
+        self.share[i] = np.minimum(self.share[i] * factor, _SHARE)
         last = chain.take(reached * i.size + np.arange(i.size))
         self.z[:, i], self.engaged[i] = last.at(self.s.start[i])
         self._proven(i, last.edges)
@@ -176,7 +176,7 @@ class Search:
         once = (period.onsets == 1) & (period.releases == 1) & (period.contacts == sequence.count("c"))
         ok = once & ~period.lost & (period.engaged == period.engaged_before) & agrees(period.edges[rows], edges, known[k])
         index, edges = index[k[ok]], edges[:, ok]
-        self.sequence[index] = number
+        self.sequence[index], self.known[index] = number, known[k[ok]]
         self.edges[:, index] = edges[0]
         self.edges[np.array(rows)[:, None], index] = edges
 
@@ -195,14 +195,13 @@ def in_order(edges):
 
 
 def certified(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
-    """Orbits of strips in the regime ``sequence`` from ``edges`` (k, N); which converged, in order within a period; how well
-    rounding lets the edges be known."""
+    """Orbits of strips in the regime ``sequence`` from ``edges`` (k, N); which converged, in order within a period; how well a
+    march tells their edges: its pressures come from displacements over ``J_0``."""
     with np.errstate(all="ignore"):
         edges, last, attainable = _converging(kernel, strips, sequence, edges)
-    known = np.minimum(attainable, _COARSEST)
-    good = last <= _CONVERGED + _ROUNDINGS * known
+    good = last <= _CONVERGED + _ROUNDINGS * np.minimum(attainable, _COARSEST)
     good &= np.all(np.diff(edges, axis=0) >= -ROUNDING, axis=0) & (edges[-1] - edges[0] <= TWO_PI + ROUNDING)
-    return edges, good, known
+    return edges, good, np.minimum(attainable / strips.m.J_0, _COARSEST)
 
 
 def _converging(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):

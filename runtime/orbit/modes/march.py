@@ -14,26 +14,27 @@ TWO_PI = 2 * np.pi
 CONTACT, ADHESION, FREE = 0, 1, 2
 #: zones in a period: more than seven were never met but by points that find no end of them
 _MAX_ZONES = 12
+#: retardation times that rounding of the state or of a phase shows in how fast it moves
+_FAST = 1e-6
 
 
 @dataclass(slots=True)
 class Period:
     """A period of N points. ``dz``: change of the state (accurate also where it is small), (n, N).
 
-    ``edges``: phase of the first onset, entry, exit and release, NaN where none, (4, N); ``onsets``, ``contacts``,
-    ``releases``: how many. ``lost``: not followed to the end.
+    ``edges``: phase of the first onset, entry, exit and release, NaN where none, (4, N); ``counts``: onsets, entries and
+    releases, (3, N). ``lost``: not followed to the end.
     """
 
     engaged_before: np.ndarray
     engaged: np.ndarray
     dz: np.ndarray
     edges: np.ndarray
-    onsets: np.ndarray
-    contacts: np.ndarray
-    releases: np.ndarray
+    counts: np.ndarray
     lost: np.ndarray
 
     onset, entry, exit, release = (property(lambda self, k=k: self.edges[k]) for k in range(4))
+    onsets, contacts, releases = (property(lambda self, k=k: self.counts[k]) for k in range(3))
 
     @property
     def never_free(self) -> np.ndarray:
@@ -57,9 +58,8 @@ def march(kernel, s: ModeStrips, engaged, z, start, length=TWO_PI) -> Period:
     """Follow every point from the phase ``start`` (N,) for one turn, or for the ``length`` given."""
     n, N = z.shape
     letter, engaged_before = zone_at(kernel, s, engaged, z, start)
-    onsets, contacts, releases = np.zeros((3, N), int)
-    out = Period(engaged_before, engaged_before.copy(), np.zeros((n, N)), np.full((4, N), np.nan),
-                 onsets, contacts, releases, np.zeros(N, bool))  # fmt: skip
+    out = Period(engaged_before, engaged_before.copy(), np.zeros((n, N)), np.full((4, N), np.nan), np.zeros((3, N), int),
+                 np.zeros(N, bool))  # fmt: skip
     index, here, limit, begin, pressure = np.arange(N), s, start + length, start, None
     for _ in range(_MAX_ZONES):
         if not index.size:
@@ -107,14 +107,24 @@ def one_zone(kernel, s: ModeStrips, letter, start, limit, z, pressure):
     change = np.empty((n, m))
     if touching.size:
         change[:, touching] = kernel.contact_increment(start[touching], end[touching], entry, pressed.m)
+        # fast modes where adhesion begins: from how fast they move, as that decides whether it lasts; at once like the profile
+        f_end, at = kernel.overstress_after(start[touching], end[touching], entry, pressed.m), end[touching]
+        moves = np.divide(f_end, pressed.m.eta, out=np.zeros_like(f_end) - np.sin(at), where=pressed.m.eta > 0)
+        moves = pressed.m.beta * np.einsum("ij...,j...->i...", pressed.m.share, moves)
+        fast = (pressed.m.beta < _FAST) & (which[touching] == LOWER)
+        change[:, touching] = np.where(fast, -pressed.m.J * pressed.p_0 - moves - z[:, touching], change[:, touching])
     if apart.size:
         change[:, apart] = kernel.relaxation_increment(start[apart], end[apart], z[:, apart], p[apart], open_.m)
+    entered = np.flatnonzero((letter == ADHESION) & (which == LOWER))
+    if entered.size:
+        # the fastest mode moves within the rounding of the phase
+        here, beyond = s.among(entered), (z + change)[:, entered].sum(axis=0)
+        change[here.m.beta.argmin(axis=0), entered] -= beyond - kernel.profile(end[entered], here.D) - here.step
     onto = np.where(s.snaps, CONTACT, ADHESION)
     met = np.where(contact, ADHESION, np.where(letter == FREE, onto, np.where(which == LOWER, CONTACT, FREE)))
     following = np.where((which == NONE) | (which == LOST), -1, met)
     snapped = (letter == FREE) & (following == CONTACT)
-    reach = np.divide(s.delta_0, s.m.J_0, out=np.zeros(m), where=snapped)
-    pressure = np.where(snapped, -reach, -s.p_0)
+    pressure = -np.divide(s.delta_0, s.m.J_0, out=s.p_0.astype(float), where=snapped)
     return end, change, following, pressure, which == LOST
 
 
@@ -125,6 +135,6 @@ def _note(out: Period, i, letter, end, following):
     for edge, which in zip(out.edges, (onset, enters, leaves, release), strict=True):
         there = i[which]
         edge[there] = np.where(np.isnan(edge[there]), end[which], edge[there])
-    for count, which in ((out.onsets, onset), (out.contacts, enters), (out.releases, release)):
+    for count, which in zip(out.counts, (onset, enters, release), strict=True):
         count[i[which]] += 1
     out.engaged[i[onset]], out.engaged[i[release]] = True, False

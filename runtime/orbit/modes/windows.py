@@ -37,10 +37,9 @@ gap: then ``w = u + max(y, 0)`` bounds the others, also those with another free 
 *Links* (``links``). Let all orbits be free in a window, and gaps along F be beyond an orbit's at c and at d, strictly, for
 all windows on a straight way to a larger one. Then all orbits are free in that one: at the last that is within an orbit's,
 the orbit is released before c and engaged after d. Along the way these gaps are no less than linear ones, so the far end
-decides. From above likewise. There a contact that lasts up to c may last on, so that y stays below ``J_0 p_0`` as its own curve
-tells; and gaps may close within their windows, if that of F leaves them too little to open again: pressures that nearly vanish
-move y by ``1/J_0`` of it. Links are as long as Newton's steps: next to a fold, where the map from window to window hardly
-moves, each halves the way.
+decides. From above likewise. There a contact that lasts up to c may last on, and y stays below ``J_0 p_0`` as its curve tells;
+and gaps may close in their windows if that of F is too small to open again (pressures move y by ``1/J_0`` of it). Links are as
+long as Newton's steps: next to a fold, where the map from window to window hardly moves, each halves the way.
 """
 
 import numpy as np
@@ -56,8 +55,8 @@ def responses(kernel, s: ModeStrips, contact, ends, forcing, upper: bool, moved=
     ``forcing``.
 
     ``contact``: its first and last phase; ``ends``: ranges of the edges c and d. ``moved``: where the contact moves with the
-    onset, the time between them, and what w gains where it begins. ``apart``: by how much w is higher
-    at most, on average, where the window grew at its onset."""
+    onset, the time between, and what w gains where it begins. ``apart``: by how much w is higher on average, at most, where the
+    window grew at its onset."""
     (b, a), ((c_1, c_2), (d_1, d_2)), n = contact, ends, s.modes
     # no contact: as one of no length, where what the edges did to fast modes is forgotten
     none = b >= a
@@ -115,7 +114,6 @@ def alone(orbit: Forced, window, contact, rising: bool, agree: float) -> np.ndar
             steep_c, steep_d = orbit.adhering(c_0)[0], -orbit.falling(d_0)[1]
             apart = s.delta_0 - 0.5 * orbit.falling(d_0)[0] * (d - d_0)
             contact, highest = (b, a), s.step
-            c_range, d_range = (c, c_0), (d_0, d)
         else:
             excess = lambda phase: orbit.excess(np.clip(phase, b, a))  # noqa: E731
             storage, loss = kernel.storage(s.m), kernel.loss(s.m)
@@ -134,13 +132,13 @@ def alone(orbit: Forced, window, contact, rising: bool, agree: float) -> np.ndar
             good &= orbit.pressed(c, q + TWO_PI, d_0 + TWO_PI, orbit.states[1]) >= 0
             apart = None
             highest = np.where(excess(d_0)[0] >= excess(d)[0], s.delta_0, np.inf)
-            c_range, d_range = (c_0, c), (d, d_0)
             good &= (d_0 <= contact[0] + agree) & (contact[1] <= c_0 + agree)
         forcing = s.step, np.where(s.snaps, np.minimum(s.step, highest), s.step)
-        r = responses(kernel, s, contact, (c_range, d_range), forcing, True, apart=apart)
+        ends = ((c, c_0), (d_0, d)) if rising else ((c_0, c), (d, d_0))
+        r = responses(kernel, s, contact, ends, forcing, True, apart=apart)
         if not rising:
             apart = s.delta_0 + r[1, 0] * u + r[1, 1] * (d_0 - d)
-            r = responses(kernel, s, contact, (c_range, d_range), forcing, True, apart=apart)
+            r = responses(kernel, s, contact, ends, forcing, True, apart=apart)
         on, off = steep_d - r[1, 1], steep_c - r[0, 0]
         return good & (on > 0) & (off > 0) & (on * off > r[0, 1] * r[1, 0])
 
