@@ -23,8 +23,6 @@ _NARROW = 1e-6
 _SHARE = 0.35
 #: so many windows, and from that step on more: as many past there, and farther ones; fewer first are a third faster with 14 times
 _FEW, _FULL, _WINDOWS, _FARTHER = 5, 4, 16, (3, 5, 9, 17)
-#: the share of the room there is that a chain may take
-_ROOM = 0.9
 #: a step expected to be this small is not taken; steps as large as that after so many, or that hardly shrink, lead nowhere
 _SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * EPS, 0.1, 4, 0.7
 #: the last step of an orbit is this small, or the multiple of what rounding lets the edges be known to, which is no more than the
@@ -136,7 +134,7 @@ class Search:
         if full:
             past = np.broadcast_to(np.array(_FARTHER)[:, None], (len(_FARTHER), i.size))
             shares = np.concatenate((shares, 2 - shares[::-1], past))
-        growth = np.minimum(shares, np.maximum(_ROOM * np.nan_to_num(room), 0.0))[:, None] * way
+        growth = np.minimum(shares, np.maximum(0.9 * np.nan_to_num(room), 0.0))[:, None] * way  # not all the room
         many = np.tile(np.arange(i.size), len(shares))
         s, first = orbit.s.take(many), (way[0] < way[1])[many]
         contact = orbit.edges[1:3, many]

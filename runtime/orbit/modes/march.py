@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...numerics.rounding import EPS
 from .crossing import LOST, LOWER, NONE, Field, first_crossing
 from .problem import ModeStrips, rates
 
@@ -86,7 +87,6 @@ def one_zone(kernel, s: ModeStrips, letter, start, limit, z, pressure):
     p = np.where(letter == ADHESION, -s.p_0, 0.0)
     f = Field(start, np.empty(m), np.empty(m), np.zeros(m), np.empty((n, m)), np.empty((n, m)))
     touching, apart = np.flatnonzero(contact), np.flatnonzero(~contact)
-    entry = None
     pressed, open_ = s.among(touching), s.among(apart)  # taking costs: once each
     if touching.size:
         level = (kernel.profile(start[touching], pressed.D) - z[:, touching].sum(axis=0)) / pressed.m.J_0
@@ -118,8 +118,10 @@ def one_zone(kernel, s: ModeStrips, letter, start, limit, z, pressure):
     entered = np.flatnonzero((letter == ADHESION) & (which == LOWER))
     if entered.size:
         # the fastest mode moves within the rounding of the phase
-        here, beyond = s.among(entered), (z + change)[:, entered].sum(axis=0)
-        change[here.m.beta.argmin(axis=0), entered] -= beyond - kernel.profile(end[entered], here.D) - here.step
+        here, at, inside = s.among(entered), end[entered], (z + change)[:, entered]
+        room = 4 * EPS * (1 + np.abs(at)) * np.abs((inside + here.m.J * here.p_0) * rates(here.m.beta)).max(axis=0)
+        beyond = inside.sum(axis=0) - kernel.profile(at, here.D) - here.step
+        change[here.m.beta.argmin(axis=0), entered] -= np.clip(beyond, -room, room)
     onto = np.where(s.snaps, CONTACT, ADHESION)
     met = np.where(contact, ADHESION, np.where(letter == FREE, onto, np.where(which == LOWER, CONTACT, FREE)))
     following = np.where((which == NONE) | (which == LOST), -1, met)
