@@ -80,7 +80,7 @@ class Search:
         self.active = i[going & (self.kind[i] != ORBIT)]
 
     def _proven(self, i, edges) -> np.ndarray:
-        """Which strips ``i`` have an orbit that is alone in the windows of the ``edges``, the first one, or all that fits in them."""
+        """Which strips ``i`` have an orbit that is alone in the windows of the ``edges``, the first one, or fills them."""
         proven, k = np.zeros(i.size, bool), np.flatnonzero(~np.isnan(self.edges[0, i]))
         if k.size:
             orbit = Forced(self.kernel, self.s.take(i[k]), self.edges[:, i[k]])
