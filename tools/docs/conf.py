@@ -39,6 +39,7 @@ html_math_renderer = "mathml"
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # the docstrings say shapes and units
+napoleon_attr_annotations = False
 napoleon_google_docstring = False
 
 sphinx_gallery_conf = {
