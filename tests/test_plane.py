@@ -88,6 +88,22 @@ def test_both_points_are_found_where_a_curve_turns():
     assert np.allclose(np.diff(np.log(width)), 0.5 * np.log(10 ** (-6 / 5)), rtol=0.05)
 
 
+def test_both_points_are_found_next_to_the_valley():
+    """The same where a curve turns so close to the valley that all amplitudes on it are small."""
+    material, adhesion = hystrip.StandardLinearSolid(K, 1e-2, 8.835e-6), hystrip.Dugdale(gamma=2.744e-10, delta_0=3.43554e-10)
+    level, V = hystrip.Level(l=2.62737e-7, h=6.78941e-8), np.full(8, 3.25677e-5)
+    columns = LevelBatch(material, adhesion, level, "constitutive", "unloading", V, np.linspace(0.9852, 0.985312, 8) * level.h)
+    level_means(columns, np.full(8, 1e-6))
+    turns = columns.crossings.turned(columns)
+    turn = turns.E[np.abs(turns.E / level.h + 1 - 0.985312).argmin()] / level.h + 1
+    near = columns.at(np.zeros(3, int), (turn - np.geomspace(1e-6, 1e-8, 3)) * level.h)
+    means = level_means(near, np.full(3, 1e-6))
+    # free strips in between
+    assert all(CODE["f"] in zones.code for zones in means.zones)
+    width = [np.diff([zones.low[k], zones.high[k]])[0] for zones in means.zones for k in np.flatnonzero(zones.code == CODE["f"])]
+    assert np.allclose(np.diff(np.log(width)), -0.5 * np.log(10), rtol=0.05)
+
+
 def test_a_curve_that_is_known_does_not_hide_a_thin_zone_next_to_it():
     """Next to strips that cling all along, a thousandth of a period is in partial contact: no node of a panel meets it."""
     material, adhesion = hystrip.StandardLinearSolid(K, 1e-2, 1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)

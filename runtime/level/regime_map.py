@@ -36,8 +36,8 @@ _RANK = np.array([{"c": 0, "a": 1, "ac": 1, "af": 3, "f": 4}.get(sequence, 2) fo
 OPENS, _CLOSES, _PRESSURES = 2, 3, 4
 #: how far beyond the outermost points that are known of a curve it is expected to go on, as a share of their distance
 _BEYOND = 0.5
-#: points of a curve that are kept, over the amplitude of the crest
-_GRID = 512
+#: points of a curve that are kept for each natural logarithm of the amplitude: next to the valley all of it is small
+_GRID = 256
 
 
 def straight(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
@@ -212,7 +212,7 @@ class Crossings:
         if known is not None:
             points = Points.joined([known, points])
         # by velocity and along the curve, which has one E for each A; what is closer than this says nothing new
-        place = np.floor(points.A * (_GRID / columns.level.h))
+        place = np.floor(_GRID * np.log(points.A))
         order = np.lexsort((points.A, points.index, points.velocity))
         points, place = points.take(order), place[order]
         fresh = np.append(True, ~together(points) | (np.diff(place) != 0))
