@@ -1,11 +1,15 @@
 """Strips on times that differ by ten decades, next to where their branch ends: there one time is over within the windows that
 prove an orbit to be the first, or within the adhesion before a contact (``runtime/orbit/modes/windows.py``)."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from oracle import modes as oracle
 
 import hystrip
+from hystrip.orbit.foundation import foundation_of
+from hystrip.orbit.modes.extremal import certified
 
 K = 1e9
 #: how close to that end, in units of A + |D| + delta_0, strips are asked for
@@ -127,6 +131,17 @@ def test_strips_ever_closer_to_the_end_of_a_branch_are_found(case):
 
 #: contact ends, or begins, within rounding of what the state or a phase can tell: as ``STRIPS``
 SHORT = {
+    "saturation missed by 4e-12, adhesion 18 times what the profile presses": (
+        "unloading",
+        [51297032.38051403, 115753853968.27475, 297558068210.2359],
+        [2.5771800981079484e-09, 3.4608350850287612e-09, 1.1622998481874256e-07],
+        305.4867666031254,
+        7.30986957903053e-08,
+        1e-05,
+        1.69e-08,
+        -2.428605753296377e-07,
+        0.114,
+    ),
     "saturation missed by 1e-8, ten times": (
         "loading",
         [
@@ -237,3 +252,23 @@ def test_adhesion_that_hardly_lasts_is_found(case):
     true = [oracle.solve_si(K, moduli, times, V, l, A, each, p_0, delta_0, branch, digits=30) for each in D]
     assert found.regime.tolist() == [each.sequence for each in true]
     assert found.p_mean == pytest.approx([float(each.p_mean) for each in true], rel=1e-12)
+
+
+def test_edges_are_known_as_well_as_is_said():
+    """Next to saturation: from any start Newton's method ends in the same orbit, but for what rounding leaves of pressures, which
+    are displacements over ``J_0``."""
+    moduli = [31015789220.0, 566303414.6, 25455017.56, 4189039032.0, 576524010500.0, 105510379.8, 52432292720.0]
+    times = [2.537206869e-12, 3.534562524e-12, 5.252151931e-12, 3.686583657e-08, 6.844830864e-08, 8.802449044e-08]
+    moduli, times = [*moduli, 883827083600.0, 2506121726.0, 140231124.6], [*times, 1.038310865e-07, 1.020859582e-05]
+    foundation = foundation_of(hystrip.Prony(K, moduli, [*times, 0.0001534684317, 0.01366997248]))
+    kernel, none = foundation.kernel, np.zeros(8)
+    kV = 2 * np.pi / 1e-5 * 0.00015530823555748394
+    ratio = kernel.modulus_ratio(foundation.strips(np.full(8, kV), none, none, none, "constitutive").m)
+    # strips that cling all along are strips without adhesion, pressed deeper
+    strips = foundation.strips(np.full(8, kV), 1 + ratio * (1 - 1.3e-9), none, none, "constitutive")
+    strips = replace(strips, bare=True)
+    half = 2 * np.arcsin(np.sqrt(0.5 * 1.3e-9))
+    end = np.pi - np.arctan2(kernel.loss(strips.m), kernel.storage(strips.m)) - half
+    edges, good, known = certified(kernel, strips, "ac", np.stack((end - 2 * np.pi + np.linspace(2.1, 4, 8) * half, end)))
+    assert good.all() and (known < 1e-6).all()
+    assert (np.ptp(edges, axis=1) < known.min()).all()

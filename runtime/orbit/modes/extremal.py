@@ -27,7 +27,7 @@ _FEW, _FULL, _WINDOWS, _FARTHER = 5, 4, 16, (3, 5, 9, 17)
 _SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * EPS, 0.1, 4, 0.7
 #: the last step of an orbit is this small, or the multiple of what rounding lets the edges be known to, which is no more than the
 #: last; steps larger than that are corrections, whatever the one before was
-_CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 64, 1e-6
+_CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 8, 1e-6
 #: edges of each sequence, by their rows in the order d, b, a, c
 ROWS = {sequence: tuple("dbac".index(edge) for edge in EDGES[sequence]) for sequence in ("acaf", "afc", "af")}
 SEQUENCES = ("", "acaf", "afc", "af")
@@ -59,8 +59,8 @@ class Search:
         i = self.active
         s = self.s.take(i)
         near = march(self.kernel, s, self.engaged[i], self.z[:, i], s.start)
-        # from above: nothing but engaged orbits; from below: to be seen from the engaged orbit
-        held = near.never_free & self.ends_held
+        # from above: nothing but engaged orbits; from below: to be seen from the engaged orbit, which is the first if it is one
+        held = near.never_free & (self.rising | ~near.lost) & self.ends_held
         lets = near.never_engaged & self.rising & (s.D <= -s.delta_0)
         self.kind[i[held]], self.kind[i[lets]] = ENGAGED, FREE
         self.edges[:, i[held]] = near.edges[:, held]
@@ -193,13 +193,13 @@ def in_order(edges):
 
 
 def certified(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
-    """Orbits of strips in the regime ``sequence`` from ``edges`` (k, N); which converged, in order within a period; how well a
-    march tells their edges: its pressures come from displacements over ``J_0``."""
+    """Orbits of strips in the regime ``sequence`` from ``edges`` (k, N); which converged, in order within a period; how well
+    their edges are known."""
     with np.errstate(all="ignore"):
         edges, last, attainable = _converging(kernel, strips, sequence, edges)
     good = last <= _CONVERGED + _ROUNDINGS * np.minimum(attainable, _COARSEST)
     good &= np.all(np.diff(edges, axis=0) >= -ROUNDING, axis=0) & (edges[-1] - edges[0] <= TWO_PI + ROUNDING)
-    return edges, good, np.minimum(attainable / strips.m.J_0, _COARSEST)
+    return edges, good, np.minimum(attainable, _COARSEST)
 
 
 def _converging(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
@@ -224,8 +224,8 @@ def _converging(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
         moved = active[better]
         edges[:, moved] = np.maximum.accumulate(here[:, better] + step[:, better], axis=0)
         last[moved] = size[better]
-        # pressures are of the size of the saturated one; edges are rounded, too, and some change a pressure within 1e-8
-        noise = 1 + np.abs(s.D) + s.p_0 + s.delta_0 + kernel.modulus_ratio(s.m)
+        # pressures come from displacements over J_0; edges are rounded, too, and some change a pressure within 1e-8
+        noise = (1 + np.abs(s.D) + s.delta_0) / s.m.J_0 + s.p_0
         noise = EPS * (noise[:, None] + np.pi * np.abs(matrix).sum(axis=2))
         attainable[moved] = np.einsum("Nij,Nj->Ni", np.abs(inverted), noise).max(axis=1)[better]
         # steps that shrink as fast again: the next one need not be taken

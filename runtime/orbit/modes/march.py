@@ -39,8 +39,8 @@ class Period:
 
     @property
     def never_free(self) -> np.ndarray:
-        """Engaged from the start to the end, without a release."""
-        return self.engaged_before & self.engaged & (self.releases == 0) & ~self.lost
+        """Engaged from the start on, as far as it was followed, without a release."""
+        return self.engaged_before & self.engaged & (self.releases == 0)
 
     @property
     def never_engaged(self) -> np.ndarray:
