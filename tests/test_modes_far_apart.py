@@ -131,6 +131,17 @@ def test_strips_ever_closer_to_the_end_of_a_branch_are_found(case):
 
 #: contact ends, or begins, within rounding of what the state or a phase can tell: as ``STRIPS``
 SHORT = {
+    "saturation missed by 5e-14, three times alike": (
+        "loading",
+        [8384927903.018941, 354925371151.6566, 649338330.8648149],
+        [8.135874972592146e-08, 9.966152444823257e-08, 1.2252346101663588e-07],
+        7.78137e-05,
+        1.62546e-13,
+        1e-05,
+        1.2142943899999308e-09,
+        2.4285110819936266e-09,
+        1.9174294590930402e-05,
+    ),
     "saturation missed by 4e-12, adhesion 18 times what the profile presses": (
         "unloading",
         [51297032.38051403, 115753853968.27475, 297558068210.2359],

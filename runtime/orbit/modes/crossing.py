@@ -37,6 +37,13 @@ class Field:
     c: np.ndarray
     r: np.ndarray
 
+    def rise(self, index, limit) -> None:
+        """Let the strips ``index``, which begin below zero, begin where they rise through it, at the ``limit`` at the latest."""
+        below = Field(self.start[index], *(-v[..., index] for v in (self.constant, self.a, self.b, self.c)), self.r[:, index])
+        start, _ = first_crossing(below, limit[index], np.full(index.size, np.inf))
+        self.c[:, index] *= np.exp((self.start[index] - start) * self.r[:, index])
+        self.start[index] = start
+
     def amplitudes(self) -> np.ndarray:
         """Of the positive terms, their rates and the rates of those, then of the negative terms, (6, n, N)."""
         above = np.maximum(self.c, 0.0)

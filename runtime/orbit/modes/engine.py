@@ -15,7 +15,6 @@ from ..regimes import CODE
 from ..solved import Record, Solved, settle
 from .extremal import ENGAGED, FREE, ORBIT, ROWS, Search, agrees, certified
 from .fields import state_at, zones_of
-from .forced import Forced
 from .march import TWO_PI, march
 from .problem import ModeStrips
 
@@ -50,9 +49,8 @@ class _Batch:
         closed = ~free & self.constant & (self.unloading | ~sticky)
         self.record.constant(np.flatnonzero(free), "f")
         self._closed(np.flatnonzero(closed))
-        left = np.flatnonzero(~free & ~closed)
-        self._always_engaged(left[~sticky[left]], "cf")
-        left = left[sticky[left]]
+        self._always_engaged(np.flatnonzero(~free & ~closed & ~sticky), "cf")
+        left = np.flatnonzero(~free & ~closed & sticky)
         s = s.take(left)
         # states beyond all orbits; the highest is free
         z = _lowest_state(self.kernel, s) if self.unloading else s.m.share.sum(axis=1) * np.maximum(s.D, 0.0)
@@ -71,10 +69,9 @@ class _Batch:
         for number, sequence in enumerate(ROWS, 1):
             k = np.flatnonzero(orbit & (found.sequence == number))
             self.record.orbits(index[k], sequence, Orbit.of(sequence, found.edges[list(ROWS[sequence])][:, k]))
-        held = found.kind == ENGAGED
-        closed = self.constant[index] & (not self.unloading)
-        self._closed(index[held & closed])
-        held = np.flatnonzero(held & ~closed)
+        closed = (found.kind == ENGAGED) & self.constant[index] & (not self.unloading)
+        self._closed(index[closed])
+        held = np.flatnonzero((found.kind == ENGAGED) & ~closed)
         z, known = self._always_engaged(index[held], "ac", found.edges[:, held])
         rest = np.flatnonzero(known & ~self.solved.certified[index[held]] & self.unloading)
         self._first(index[held[rest]], z[:, rest], np.ones(rest.size, bool), False)
@@ -92,8 +89,7 @@ class _Batch:
         if not index.size:
             return np.empty((self.strips.modes, 0)), np.zeros(0, bool)
         s = self.strips.take(index)
-        whole = replace(s, bare=True) if sequence == "cf" else s
-        z, edges, known, within = _engaged(self.kernel, whole, met)
+        z, edges, known, within = _engaged(self.kernel, replace(s, bare=True) if sequence == "cf" else s, met)
         self.solved.searched[index] = True
         k = np.flatnonzero(within)
         self.solved.code[index] = CODE[sequence]
@@ -109,7 +105,7 @@ def _lowest_state(kernel, s: ModeStrips) -> np.ndarray:
 
 def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
     """The one orbit of each strip that is never released, by Newton's method on its edges, checked by a march:
-    from edges (4, N) that marches ``met``, those met from below all orbits, or those of orbits forced by windows of no length.
+    from edges (4, N) that marches ``met``, then from those met from below all orbits.
 
     Without release ``w = u + max(z - u - J_0 p_0, 0)`` is a convex function of the state, so the period map is convex and
     monotone: each Newton step from below lands below the fixed point again, higher up. It cannot miss.
@@ -121,15 +117,11 @@ def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
     s = replace(strips, p_0=none, delta_0=none, D=strips.D + strips.p_0, bare=True)
     z, edges = np.full((s.modes, s.size), np.nan), np.full((2, s.size), np.nan)
     known, within = np.zeros((2, s.size), bool)
-    for attempt in range(met is None, 3):
+    for attempt in range(met is None, 2):
         here = s.take(left)
         if attempt:
             met = march(kernel, here, np.ones(left.size, bool), _lowest_state(kernel, here), here.start).edges
-        guess = _engaged_edges(met)
-        if attempt == 2:
-            middle = 0.5 * (guess.sum(axis=0) + TWO_PI)  # of the adhesion
-            guess = Forced.settled(kernel, here, np.stack((middle - TWO_PI, *guess, middle)))[0].edges[1:3]
-        edges[:, left], good, rounded = certified(kernel, here, "ac", np.nan_to_num(guess))
+        edges[:, left], good, rounded = certified(kernel, here, "ac", np.nan_to_num(_engaged_edges(met)))
         k = left[good]
         here = s.take(k)
         z[:, k], _ = state_at(kernel, "ac", here, edges[:, k], here.start)

@@ -48,6 +48,7 @@ class Search:
         self.sequence, self.share = np.zeros(s.size, int), np.full(s.size, _SHARE)
 
     def run(self):
+        """Search until all strips are decided, or given up."""
         for step in range(_STEPS):
             if not self.active.size:
                 break
@@ -59,8 +60,8 @@ class Search:
         i = self.active
         s = self.s.take(i)
         near = march(self.kernel, s, self.engaged[i], self.z[:, i], s.start)
-        # from above: nothing but engaged orbits; from below: to be seen from the engaged orbit, which is the first if it is one
-        held = near.never_free & (self.rising | ~near.lost) & self.ends_held
+        # from above: nothing but engaged orbits; from below: to be seen from the engaged orbit
+        held = near.never_free & self.ends_held
         lets = near.never_engaged & self.rising & (s.D <= -s.delta_0)
         self.kind[i[held]], self.kind[i[lets]] = ENGAGED, FREE
         self.edges[:, i[held]] = near.edges[:, held]

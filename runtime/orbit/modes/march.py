@@ -15,8 +15,6 @@ TWO_PI = 2 * np.pi
 CONTACT, ADHESION, FREE = 0, 1, 2
 #: zones in a period: more than seven were never met but by points that find no end of them
 _MAX_ZONES = 12
-#: retardation times that rounding of the state or of a phase shows in how fast it moves
-_FAST = 1e-6
 
 
 @dataclass(slots=True)
@@ -39,8 +37,8 @@ class Period:
 
     @property
     def never_free(self) -> np.ndarray:
-        """Engaged from the start on, as far as it was followed, without a release."""
-        return self.engaged_before & self.engaged & (self.releases == 0)
+        """Engaged from the start to the end, without a release."""
+        return self.engaged_before & self.engaged & (self.releases == 0) & ~self.lost
 
     @property
     def never_engaged(self) -> np.ndarray:
@@ -85,7 +83,7 @@ def one_zone(kernel, s: ModeStrips, letter, start, limit, z, pressure):
     n, m = z.shape
     contact = letter == CONTACT
     p = np.where(letter == ADHESION, -s.p_0, 0.0)
-    f = Field(start, np.empty(m), np.empty(m), np.zeros(m), np.empty((n, m)), np.empty((n, m)))
+    f = Field(start.copy(), np.empty(m), np.empty(m), np.zeros(m), np.empty((n, m)), np.empty((n, m)))
     touching, apart = np.flatnonzero(contact), np.flatnonzero(~contact)
     pressed, open_ = s.among(touching), s.among(apart)  # taking costs: once each
     if touching.size:
@@ -101,18 +99,19 @@ def one_zone(kernel, s: ModeStrips, letter, start, limit, z, pressure):
         f.a[apart] = -1.0
         f.c[:, apart] = z[:, apart] - open_.m.J * p[apart]
         f.r[:, apart] = rates(open_.m.beta)
+    if pressure is not None:
+        # contact that begins where adhesion ends presses, and adhesion opens: where rounding says no, as next to saturation, from
+        # where it rises through that limit on
+        slope = f.b * np.cos(start) - f.a * np.sin(start) - (f.c * f.r).sum(axis=0)
+        sinks = np.flatnonzero((letter != FREE) & (pressure == -s.p_0) & (slope <= 0))
+        if sinks.size:
+            f.rise(sinks, limit)
     releasable = (letter == ADHESION) & (not s.bare)
     height = np.where(releasable, s.delta_0, np.inf)
     end, which = first_crossing(f, limit, height)
     change = np.empty((n, m))
     if touching.size:
         change[:, touching] = kernel.contact_increment(start[touching], end[touching], entry, pressed.m)
-        # fast modes where adhesion begins: from how fast they move, as that decides whether it lasts; at once like the profile
-        f_end, at = kernel.overstress_after(start[touching], end[touching], entry, pressed.m), end[touching]
-        moves = np.divide(f_end, pressed.m.eta, out=np.zeros_like(f_end) - np.sin(at), where=pressed.m.eta > 0)
-        moves = pressed.m.beta * np.einsum("ij...,j...->i...", pressed.m.share, moves)
-        fast = (pressed.m.beta < _FAST) & (which[touching] == LOWER)
-        change[:, touching] = np.where(fast, -pressed.m.J * pressed.p_0 - moves - z[:, touching], change[:, touching])
     if apart.size:
         change[:, apart] = kernel.relaxation_increment(start[apart], end[apart], z[:, apart], p[apart], open_.m)
     entered = np.flatnonzero((letter == ADHESION) & (which == LOWER))
@@ -126,7 +125,8 @@ def one_zone(kernel, s: ModeStrips, letter, start, limit, z, pressure):
     met = np.where(contact, ADHESION, np.where(letter == FREE, onto, np.where(which == LOWER, CONTACT, FREE)))
     following = np.where((which == NONE) | (which == LOST), -1, met)
     snapped = (letter == FREE) & (following == CONTACT)
-    pressure = -np.divide(s.delta_0, s.m.J_0, out=s.p_0.astype(float), where=snapped)
+    pressure = np.where(letter == FREE, np.nan, -s.p_0)
+    np.divide(-s.delta_0, s.m.J_0, out=pressure, where=snapped)
     return end, change, following, pressure, which == LOST
 
 
