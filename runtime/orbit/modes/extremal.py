@@ -25,8 +25,7 @@ _SHARE = 0.35
 _FEW, _FULL, _WINDOWS, _FARTHER = 5, 4, 16, (3, 5, 9, 17)
 #: a step expected to be this small is not taken; steps as large as that after so many, or that hardly shrink, lead nowhere
 _SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * EPS, 0.1, 4, 0.7
-#: the last step of an orbit is this small, or the multiple of what rounding lets the edges be known to, which is no more than the
-#: last; steps larger than that are corrections, whatever the one before was
+#: the last step of an orbit is this, or so many times what rounding leaves of its edges, at most the last; more is a correction
 _CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 8, 1e-6
 #: edges of each sequence, by their rows in the order d, b, a, c
 ROWS = {sequence: tuple("dbac".index(edge) for edge in EDGES[sequence]) for sequence in ("acaf", "afc", "af")}

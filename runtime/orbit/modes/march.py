@@ -15,6 +15,8 @@ TWO_PI = 2 * np.pi
 CONTACT, ADHESION, FREE = 0, 1, 2
 #: zones in a period: more than seven were never met but by points that find no end of them
 _MAX_ZONES = 12
+#: phase within which rounding decides whether a zone that begins where its limit is leads away from it
+_BRIEF = 1e-5
 
 
 @dataclass(slots=True)
@@ -78,8 +80,8 @@ def march(kernel, s: ModeStrips, engaged, z, start, length=TWO_PI) -> Period:
 def one_zone(kernel, s: ModeStrips, letter, start, limit, z, pressure):
     """Follow points through the zone they are in, entered with the ``pressure`` (None or NaN where it follows from the state).
 
-    Returns its end, the change of the state, the letter of the next (-1: at the ``limit``), the pressure with which that begins,
-    and which points were not followed to the end."""
+    Returns its end, the change of the state, the letter of the next (-1: at the ``limit``), the pressure with which that begins
+    (NaN after an onset), and which points were not followed to the end."""
     n, m = z.shape
     contact = letter == CONTACT
     p = np.where(letter == ADHESION, -s.p_0, 0.0)
@@ -100,12 +102,11 @@ def one_zone(kernel, s: ModeStrips, letter, start, limit, z, pressure):
         f.c[:, apart] = z[:, apart] - open_.m.J * p[apart]
         f.r[:, apart] = rates(open_.m.beta)
     if pressure is not None:
-        # contact that begins where adhesion ends presses, and adhesion opens: where rounding says no, as next to saturation, from
-        # where it rises through that limit on
+        # contact that is entered presses, adhesion then opens: where rounding says no, from where it rises through the limit
         slope = f.b * np.cos(start) - f.a * np.sin(start) - (f.c * f.r).sum(axis=0)
         sinks = np.flatnonzero((letter != FREE) & (pressure == -s.p_0) & (slope <= 0))
         if sinks.size:
-            f.rise(sinks, limit)
+            f.rise(sinks, np.minimum(limit, start + _BRIEF))
     releasable = (letter == ADHESION) & (not s.bare)
     height = np.where(releasable, s.delta_0, np.inf)
     end, which = first_crossing(f, limit, height)
