@@ -12,7 +12,7 @@ TOOLS = Path(__file__).resolve().parents[1] / "tools"
 sys.path.insert(0, str(TOOLS))
 import survey  # noqa: E402
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="a scene is a fork")
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="a scene is a fork of a server")
 
 
 def test_a_scene_can_be_replayed():

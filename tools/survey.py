@@ -106,8 +106,10 @@ def _answer(pipe: Any, scene: dict[str, Any], seconds: float) -> None:
 def solve(scene: dict[str, Any], seconds: float) -> tuple[float, bool, int, str]:
     """CPU seconds (inf: the limit ended it), whether all points converged, strips solved, what was wrong (or "")."""
     here, there = multiprocessing.Pipe(duplex=False)
-    # a fork has the library already
-    process = multiprocessing.get_context("fork").Process(target=_answer, args=(there, scene, seconds))
+    # a fork of a server, which has the library already and no threads
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(["hystrip"])
+    process = context.Process(target=_answer, args=(there, scene, seconds))
     process.start()
     there.close()
     try:
