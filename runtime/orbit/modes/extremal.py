@@ -196,10 +196,10 @@ def certified(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
     """Orbits of strips in the regime ``sequence`` from ``edges`` (k, N); which converged, in order within a period; how well
     their edges are known."""
     with np.errstate(all="ignore"):
-        edges, last, attainable = _converging(kernel, strips, sequence, edges)
-    good = last <= _CONVERGED + _ROUNDINGS * np.minimum(attainable, _COARSEST)
+        edges, last, known = _converging(kernel, strips, sequence, edges)
+    good = last <= _CONVERGED + _ROUNDINGS * known
     good &= np.all(np.diff(edges, axis=0) >= -ROUNDING, axis=0) & (edges[-1] - edges[0] <= TWO_PI + ROUNDING)
-    return edges, good, np.minimum(attainable, _COARSEST)
+    return edges, good, known
 
 
 def _converging(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
@@ -236,4 +236,4 @@ def _converging(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
         active = active[better & ~settled & on]
         if not active.size:
             break
-    return edges, last, attainable
+    return edges, last, np.minimum(attainable, _COARSEST)
