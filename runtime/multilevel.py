@@ -17,11 +17,11 @@ from .level.error_budget import LEAST_CONTACT, error_budget, peak_pressure, stri
 from .level.inverse import Inverse, invert
 from .level.law import build_laws, merged
 from .level.lower_levels import LowerLevelLaws
-from .level.nonadhesive.family import are_families
+from .level.nonadhesive.family import are_families, is_wavy
 from .level.nonadhesive.law import crest_pressure, lower_laws, tolerances, with_family
 from .level.saturated import saturated_friction, saturated_level
 from .level.strips import QUANTITIES, LevelBatch, WorkCounters, cut_penetration
-from .numerics.rounding import LARGEST
+from .numerics.rounding import EPS, LARGEST
 from .orbit.foundation import foundation_of
 
 #: velocities solved at a time: enough of them for the batch to pay, few enough to show progress
@@ -70,6 +70,13 @@ class Points:
         self.contact = np.concatenate((self.contact, np.broadcast_to(touching, tau.shape)))
         self.adhesion = np.concatenate((self.adhesion, np.zeros(tau.shape)))
 
+    def put_flat(self, kept: np.ndarray, touching: np.ndarray) -> None:
+        """Put flat levels where others are not ``kept`` (levels,): they touch where the level above does, the first where
+        ``touching`` (n,)."""
+        above = np.cumsum(kept) - 1
+        self.contact = np.concatenate((self.contact, np.ones((1, touching.size))))[above] * touching
+        self.tau, self.adhesion = (np.where(kept[:, None], v[above], 0.0) * touching for v in (self.tau, self.adhesion))
+
 
 class Saturation(NamedTuple):
     """Pressure ``p`` and penetration ``D`` (n,) from which on a level and all below it are saturated, and the ``means`` (n, q)
@@ -103,9 +110,10 @@ class Surface:
 
     @property
     def friction_floor(self) -> float:
-        """Friction, Pa, that counts beside its own size where ``rtol`` is relative."""
-        level = self.levels[0]
-        return 1e-3 * (self.at_level(0).K * level.h + self.adhesion.p_0) * level.h / level.l
+        """Friction, Pa, that counts beside its own size where ``rtol`` is relative: of the largest level that is not flat beside
+        the others."""
+        sizes = [(self.at_level(i).K * level.h + self.adhesion.p_0) * level.h / level.l for i, level in enumerate(self.levels)]
+        return 1e-3 * max(next((size for size in sizes if size > EPS * max(sizes)), 0.0), 1 / LARGEST)
 
     def converged(self, points: Points) -> np.ndarray:
         """Which points err by no more than ``rtol`` allows, (n,)."""
@@ -154,7 +162,26 @@ class Surface:
         return 1 + int(np.flatnonzero(matters).max(initial=0))
 
     def solve(self, V, load, by_pressure: bool, progress: Callable[[int, int], None] | None = None) -> Points:
-        """Solve points; ``V`` (m/s) and ``load`` (Pa or m) of shape (n,)."""
+        """Solve points; ``V`` (m/s) and ``load`` (Pa or m) of shape (n,). Flat levels are left out: they pass on what presses
+        them while they touch, as all but the first do, unless ``loading``, where the level above does."""
+        K, p_0, loading = self.at_level(0).K, self.adhesion.p_0, self.adhesion.p_0 > 0 and self.branch == "loading"
+        kept = np.array([is_wavy(level) for level in self.levels])
+        kept |= loading & (np.cumsum(kept) > 0)
+        # there is at least one to solve; and one that is flat clings, at a given penetration, beyond any pressure
+        kept[0] |= not kept.any() or (p_0 > 0 and not by_pressure)
+        rest = replace(self, levels=[level for level, keep in zip(self.levels, kept, strict=True) if keep])
+        if kept[0]:
+            points, touching = rest._solve(V, load, by_pressure, progress), np.ones(load.size, bool)
+        else:
+            p = load if by_pressure else K * np.maximum(load, 0.0)
+            points = replace(rest, strips=None)._solve(V, p, True, progress)
+            points.pulled_off = p < -(min(p_0, K * self.adhesion.delta_0) if loading else p_0)
+            points.D = np.where(points.pulled_off, np.nan, p / K) if by_pressure else load
+            touching = ~points.pulled_off & (by_pressure | (load >= 0))
+        points.put_flat(kept, touching)
+        return points
+
+    def _solve(self, V, load, by_pressure: bool, progress) -> Points:
         full = self.full(V, load, by_pressure) if self.skip else np.zeros(V.size, bool)
         known = self.levels_needed(V, load) if by_pressure and self.skip and not full.all() else len(self.levels)
         surface = replace(self, levels=self.levels[:known], laws=_ATTEMPTS[0][1] * self.rtol)

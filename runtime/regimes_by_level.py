@@ -73,7 +73,7 @@ class _Strips:
 
     def in_contact(self, weight: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Local pressures in contact, Pa, and their shares of the area, both (m,); ``weight`` (n,): of each depth."""
-        touching = self._solved.gap(self._x) <= 0
+        touching = (self._solved.gap(self._x) <= 0) & (weight > 0)[:, None, None]
         share = np.broadcast_to(weight[:, None, None], touching.shape) / touching[0].size
         return self._solved.pressure(self._x)[touching], share[touching]
 

@@ -60,7 +60,8 @@ def solve(
     pressure : nominal pressure, Pa; or penetration : D of level 1, m. Exactly one of them
     velocity : sliding velocity, m/s, >= 0; broadcasts with the load. No input may exceed 1e40 in magnitude
     edge, branch : edge closure and branch of loading, as in ``solve_strip``
-    rtol : accuracy asked for, relative to ``|tau| + 1e-3 (K h + p_0) h/l`` of level 1, 1e-12 to 0.1
+    rtol : accuracy asked for, relative to ``|tau| + 1e-3 (K h + p_0) h/l`` of level 1 (were it flat: of the largest that is
+        not), 1e-12 to 0.1
     strips : average level 1 over the paper's so many equal strips of half a cell (midpoints) instead of adaptive
         panels: to compare with the paper. The laws of the levels below stay adaptive, ``rtol`` holds for them alone,
         and the error estimate says the rest

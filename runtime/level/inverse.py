@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..numerics.roots import falling_root
-from ..numerics.rounding import LARGEST
+from ..numerics.rounding import EPS, LARGEST
 from ..orbit.batch import Batch
 from .averages import Averages, level_means
 from .branches import Branch, Piece, branches_of
@@ -153,7 +153,7 @@ def _first_passes(columns: LevelBatch, p: np.ndarray, top: np.ndarray, rtol: flo
 
 def _growing(bottom: float, top: float, width: float, unloading: bool) -> list[tuple[float, float]]:
     """The way between two penetrations in parts that grow from the end at which the branch arrives; the last one first."""
-    gone, parts = 0.0, []
+    gone, width, parts = 0.0, max(width, EPS * (top - bottom)), []
     while gone < top - bottom:
         end = gone + width if top - bottom - gone > 2 * width else top - bottom
         parts.append((max(top - end, bottom), top - gone) if unloading else (bottom + gone, min(bottom + end, top)))
@@ -229,8 +229,9 @@ def _in_branch(part: Branch, p: float) -> Root:
     t = part.reaches(p)
     ends = np.clip([t - _STEP, t + _STEP], part.t_low, part.t_high)
     D, (low, high) = part.piece.penetration(np.array([t, *ends, part.t_low, part.t_high])), part.piece.values(ends)
-    step = high - low
-    return Root(float(D[0]), step[0] / (D[2] - D[1]), step / step[0], float(D[3]), float(D[4]))
+    # a piece may be narrower than the rounding of D
+    step, apart = high - low, max(D[2] - D[1], EPS * abs(D[0]), 1 / LARGEST)
+    return Root(float(D[0]), step[0] / apart, step / step[0], float(D[3]), float(D[4]))
 
 
 def _in_jump(part: Branch, following: Branch, unloading: bool) -> Root:

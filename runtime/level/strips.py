@@ -12,6 +12,7 @@ import numpy as np
 from ..inputs.adhesion import Dugdale
 from ..inputs.materials import Material
 from ..inputs.surface import Level
+from ..numerics.rounding import LARGEST
 from ..orbit.foundation import Foundation, foundation_of
 from ..orbit.regimes import CODE
 from ..orbit.solved import Solved
@@ -105,7 +106,7 @@ class LevelBatch:
     def scales(self) -> np.ndarray:
         """Natural scale of each quantity: ``K h + p_0``, that times ``h/l``, 1, 1, and those of what is carried."""
         p = self.material.K * self.level.h + self.adhesion.p_0
-        own = np.array([p, p * self.level.h / self.level.l, 1.0, 1.0])
+        own = np.maximum([p, p * self.level.h / self.level.l, 1.0, 1.0], 1 / LARGEST)
         return own if self.carry is None else np.concatenate((own, self.carry.scales))
 
     def atol(self, rtol: np.ndarray, pressure: float = 1e-3, fraction: float = 1e-3) -> np.ndarray:

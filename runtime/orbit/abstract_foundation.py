@@ -13,6 +13,7 @@ import numpy as np
 from ..errors import InputError, SolverError
 from ..inputs.materials import parameters
 from ..numerics.rounding import LARGEST
+from .at_rest import AT_REST, SLOW, solve_at_rest
 from .contact import Contact
 from .groups import TWO_PI, snaps_in
 from .nonadhesive import Waves
@@ -107,7 +108,7 @@ class Foundation(ABC):
         snaps = snaps_in(self.J * traction, delta_0)
         lengths = (every(v, shape) for v in (D / unit, traction / unit, delta_0 / unit))
         strips = self.strips(rate, *lengths, edge, every(snaps, shape))
-        solved = self._solve_with_flat(strips, every(flat, shape), branch == "unloading")
+        solved = self._solve(strips, every(flat, shape), every(longest, shape), branch == "unloading")
         bad = np.flatnonzero(~solved.certified)
         if bad.size:
             # an array that was spread over the strips in `flat` is not known by its own name any more
@@ -125,25 +126,18 @@ class Foundation(ABC):
         scales = {"k": k, "A": A, "D": D, "p": self.K * unit, "length": unit, "flat": flat}
         return solved, strips, {name: every(v, shape) for name, v in scales.items()}
 
-    def _solve_with_flat(self, strips, flat, unloading: bool) -> Solved:
-        """Solve strips of which some are ``flat``, in units of K alone, the others by ``solve_strips``.
-
-        Flat contact carries ``p = K D`` down to ``-p_0``; the gap adheres (``w = -p_0/K``) while it is at most ``delta_0``.
-        Unloading holds on as long as it can; loading stays free until the gap of the undeformed surface is ``delta_0``.
-        """
-        if not flat.any():
+    def _solve(self, strips, flat, longest, unloading: bool) -> Solved:
+        """Solve strips of which some are ``flat``, in units of K alone; ``longest``: longest time over that of their passage."""
+        still = flat | (longest <= AT_REST)
+        if not (flat.any() or (longest <= SLOW).any()):
             return self.solve_strips(strips, unloading)
-        solved = Solved.empty(strips.size)
-        wavy, level = np.flatnonzero(~flat), np.flatnonzero(flat)
-        if wavy.size:
-            solved.put(wavy, self.solve_strips(strips.take(wavy), unloading))
-        D, p_0, delta_0 = strips.D[level], strips.p_0[level], strips.delta_0[level]
-        free = (D < -p_0) & (-p_0 - D > delta_0) | (D <= -delta_0) & (not unloading)
-        contact, clinging = ~free & (D >= -p_0), ~free & (D < -p_0)
-        solved.code[level] = np.select((free, contact), (CODE["f"], CODE["c"]), CODE["a"])
-        solved.p_mean[level], solved.tau_mean[level] = np.select((free, contact), (0.0, D), -p_0), 0.0
-        solved.contact_fraction[level], solved.adhesion_fraction[level] = contact, clinging
-        solved.certified[level] = True
+        solved, moving = Solved.empty(strips.size), np.flatnonzero(~still)
+        if moving.size:
+            solved.put(moving, self.solve_strips(strips.take(moving), unloading))
+        rest = np.flatnonzero(still | ~solved.certified & (longest <= SLOW))
+        solved.put(rest, solve_at_rest(self.kernel, strips.take(rest), flat[rest], unloading))
+        # at rest nothing is lost but where adhesion ends
+        solved.tau_mean[(longest == 0) & np.isnan(solved.c)] = 0.0
         return solved
 
     def waves(self, rate: np.ndarray) -> Waves:

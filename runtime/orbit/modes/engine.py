@@ -126,7 +126,9 @@ def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
         here = s.take(k)
         z[:, k], _ = state_at(kernel, "ac", here, edges[:, k], here.start)
         period = march(kernel, here, np.ones(k.size, bool), z[:, k], here.start)
-        k = k[agrees(_engaged_edges(period.edges), edges[:, k], rounded[good]) & (period.contacts == 1) & ~period.lost]
+        # rounding may make one of no length in the valley of a contact all but a period long: its middle is next to the crest
+        one = (period.contacts == 1) & ~period.lost & (np.abs(edges[:, k].sum(axis=0)) < np.pi)
+        k = k[agrees(_engaged_edges(period.edges), edges[:, k], rounded[good]) & one]
         known[k] = True
         # not seen from -p_0: where that is large against the gap, rounding would decide
         here = s.take(k)
