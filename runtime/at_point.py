@@ -65,6 +65,7 @@ def cell_of(result: Result, at: int | tuple[int, ...] | None, number_of_level: i
 
 def stresses_along(result: Result, cell: Cell, y: float) -> tuple[Floats, list[Floats]]:
     """Tangential stress along a strip of level 1 at ``y`` (m): x (m), and its own and that of all lower levels, Pa (Fig. 5)."""
+    from .flat_levels import solve_points
     from .level.strips import WorkCounters
     from .multilevel import Surface
 
@@ -79,6 +80,6 @@ def stresses_along(result: Result, cell: Cell, y: float) -> tuple[Floats, list[F
     below = np.zeros(x.size)
     inside = gap <= 0
     lower = Surface(result.material, result.adhesion, result.levels[1:], cell.edge, cell.branch, _RTOL, True, WorkCounters())
-    solved = lower.solve(np.full(int(inside.sum()), cell.V), p[inside], True, None)
+    solved = solve_points(lower, np.full(int(inside.sum()), cell.V), p[inside], True)
     below[inside] = solved.tau.sum(axis=0)
     return x, [own, below]

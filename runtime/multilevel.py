@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -17,12 +17,13 @@ from .level.error_budget import LEAST_CONTACT, error_budget, peak_pressure, stri
 from .level.inverse import Inverse, invert
 from .level.law import build_laws, merged
 from .level.lower_levels import LowerLevelLaws
-from .level.nonadhesive.family import are_families, is_wavy
+from .level.nonadhesive.family import are_families
 from .level.nonadhesive.law import crest_pressure, lower_laws, tolerances, with_family
 from .level.saturated import saturated_friction, saturated_level
 from .level.strips import QUANTITIES, LevelBatch, WorkCounters, cut_penetration
 from .numerics.rounding import EPS, LARGEST
 from .orbit.foundation import foundation_of
+from .points import Points
 
 #: velocities solved at a time: enough of them for the batch to pay, few enough to show progress
 _BLOCK = 256
@@ -41,41 +42,6 @@ _DIGIT = 0.1
 #: contact fractions without adhesion are averaged no finer; their laws may err by so many times what others may, and the friction
 #: of each level in the contact of level 1 by so much of the whole, over the number of levels
 _SHARES, _LAWS, _OF_TOP = 1e-4, 2.0, 0.3
-
-
-@dataclass
-class Points:
-    """Results at points (velocity, load), arrays (n,) and (levels, n), SI."""
-
-    D: np.ndarray
-    p: np.ndarray
-    tau: np.ndarray
-    contact: np.ndarray
-    adhesion: np.ndarray
-    error: np.ndarray
-    closed_form: np.ndarray
-    pulled_off: np.ndarray
-
-    def improve(self, index: np.ndarray, finer: Points, surely: np.ndarray) -> None:
-        """Put the points ``finer`` (k,) in the place of those at ``index`` (k,) that err by more or are ``surely`` (k,) worse."""
-        better = np.flatnonzero((finer.error < self.error[index]) | surely)
-        for f in fields(self):
-            getattr(self, f.name)[..., index[better]] = getattr(finer, f.name)[..., better]
-
-    def extend(self, tau: np.ndarray) -> None:
-        """Add levels below that are saturated wherever the last one touches, with the frictions ``tau`` (more levels, n), Pa."""
-        touching = self.contact[-1:]
-        self.error = self.error + np.where(self.closed_form, 0.0, tau.sum(axis=0))
-        self.tau = np.concatenate((self.tau, touching * tau))
-        self.contact = np.concatenate((self.contact, np.broadcast_to(touching, tau.shape)))
-        self.adhesion = np.concatenate((self.adhesion, np.zeros(tau.shape)))
-
-    def put_flat(self, kept: np.ndarray, touching: np.ndarray) -> None:
-        """Put flat levels where others are not ``kept`` (levels,): they touch where the level above does, the first where
-        ``touching`` (n,)."""
-        above = np.cumsum(kept) - 1
-        self.contact = np.concatenate((self.contact, np.ones((1, touching.size))))[above] * touching
-        self.tau, self.adhesion = (np.where(kept[:, None], v[above], 0.0) * touching for v in (self.tau, self.adhesion))
 
 
 class Saturation(NamedTuple):
@@ -162,26 +128,7 @@ class Surface:
         return 1 + int(np.flatnonzero(matters).max(initial=0))
 
     def solve(self, V, load, by_pressure: bool, progress: Callable[[int, int], None] | None = None) -> Points:
-        """Solve points; ``V`` (m/s) and ``load`` (Pa or m) of shape (n,). Flat levels are left out: they pass on what presses
-        them while they touch, as all but the first do, unless ``loading``, where the level above does."""
-        K, p_0, loading = self.at_level(0).K, self.adhesion.p_0, self.adhesion.p_0 > 0 and self.branch == "loading"
-        kept = np.array([is_wavy(level) for level in self.levels])
-        kept |= loading & (np.cumsum(kept) > 0)
-        # there is at least one to solve; and one that is flat clings, at a given penetration, beyond any pressure
-        kept[0] |= not kept.any() or (p_0 > 0 and not by_pressure)
-        rest = replace(self, levels=[level for level, keep in zip(self.levels, kept, strict=True) if keep])
-        if kept[0]:
-            points, touching = rest._solve(V, load, by_pressure, progress), np.ones(load.size, bool)
-        else:
-            p = load if by_pressure else K * np.maximum(load, 0.0)
-            points = replace(rest, strips=None)._solve(V, p, True, progress)
-            points.pulled_off = p < -(min(p_0, K * self.adhesion.delta_0) if loading else p_0)
-            points.D = np.where(points.pulled_off, np.nan, p / K) if by_pressure else load
-            touching = ~points.pulled_off & (by_pressure | (load >= 0))
-        points.put_flat(kept, touching)
-        return points
-
-    def _solve(self, V, load, by_pressure: bool, progress) -> Points:
+        """Solve points; ``V`` (m/s) and ``load`` (Pa or m) of shape (n,). Flat levels have been left out (``flat_levels``)."""
         full = self.full(V, load, by_pressure) if self.skip else np.zeros(V.size, bool)
         known = self.levels_needed(V, load) if by_pressure and self.skip and not full.all() else len(self.levels)
         surface = replace(self, levels=self.levels[:known], laws=_ATTEMPTS[0][1] * self.rtol)

@@ -89,6 +89,7 @@ def solve(
     [9.30e-05 2.72e-04]
     """
     # loaded here: `import hystrip` is to cost next to nothing
+    from .flat_levels import solve_points
     from .level.strips import WorkCounters
     from .multilevel import Surface
 
@@ -110,7 +111,7 @@ def solve(
     V, L = (np.broadcast_to(v, shape).reshape(-1) for v in (velocity, load))
     work = WorkCounters()
     surface = Surface(material, adhesion, levels, edge, branch, rtol, skip, work, check_strips(strips))
-    points = surface.solve(V, L, name == "pressure", progress)
+    points = solve_points(surface, V, L, name == "pressure", progress)
     if not (np.isfinite(points.tau).all() and np.isfinite(points.error).all()):
         lost = np.flatnonzero(~(np.isfinite(points.tau).all(axis=0) & np.isfinite(points.error)))
         first = f"{name} {L[lost[0]]:g}, velocity {V[lost[0]]:g}"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..numerics.rounding import LARGEST
 from .checks import number, numbers
 
 if TYPE_CHECKING:
@@ -39,6 +40,11 @@ class Level:
     def k(self) -> float:
         """Wave number, 1/m."""
         return 2 * np.pi / self.l
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether there is no wave to speak of: friction goes with ``k h^2``, and this one's is below any number."""
+        return self.k * self.h**2 <= 1 / LARGEST
 
     def amplitude(self, theta: Numbers) -> Floats:
         """Amplitude A of the strip at ``theta = k y`` (Eq. 8), m: zero at ``theta = pi``."""

@@ -43,7 +43,7 @@ def saturated_level(
     if branch == "loading" and p_0 > 0:
         D_sat = foundation.surely_saturated(p_0, *of)
         return SaturatedLevel(foundation.K * (D_sat - 0.75 * level.h), D_sat, left_at + p_0, tau_sat)
-    return SaturatedLevel(left_at, foundation.saturation_penetration(p_0, *of), left_at + p_0, tau_sat)
+    return SaturatedLevel(left_at, left_at / foundation.K + 0.75 * level.h, left_at + p_0, tau_sat)
 
 
 def saturated_friction(material: Material, levels: Sequence[Level], V: np.ndarray) -> np.ndarray:

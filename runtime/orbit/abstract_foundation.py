@@ -132,8 +132,7 @@ class Foundation(ABC):
         if not (flat.any() or (longest <= SLOW).any()):
             return self.solve_strips(strips, unloading)
         solved, moving = Solved.empty(strips.size), np.flatnonzero(~still)
-        if moving.size:
-            solved.put(moving, self.solve_strips(strips.take(moving), unloading))
+        solved.put(moving, self.solve_strips(strips.take(moving), unloading))
         rest = np.flatnonzero(still | ~solved.certified & (longest <= SLOW))
         solved.put(rest, solve_at_rest(self.kernel, strips.take(rest), flat[rest], unloading))
         # at rest nothing is lost but where adhesion ends
@@ -195,10 +194,6 @@ class Foundation(ABC):
     def saturation_pressure(self, p_0, l, h, V) -> np.ndarray:  # noqa: E741
         """Nominal pressure from which a level is in saturated contact when unloading, Pa."""
         return self._of_level("pressure", l, h, V, p_0)
-
-    def saturation_penetration(self, p_0, l, h, V) -> np.ndarray:  # noqa: E741
-        """Penetration at that pressure, m."""
-        return self._of_level("penetration", l, h, V, p_0)
 
     def saturation_friction(self, l, h, V) -> np.ndarray:  # noqa: E741
         """Friction of a level in saturated contact, Pa."""

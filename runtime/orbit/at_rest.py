@@ -1,9 +1,8 @@
 """Strips at rest: the limit of vanishing speed, and the flat strip, which knows no speed.
 
-The foundation is elastic then: ``w = p/K`` but for transients of no length, so edges lie where the profile passes a level, and
+The foundation is elastic then, ``w = p/K`` but for transients of no length: edges lie where the profile passes a level, and
 both closures are one. Adhesion ends where the gap is ``delta_0`` with ``w = -p_0/K``, and begins where it is with ``w = 0``;
-contact begins there at once if the gap closes under ``p_0``. Friction is what these two snaps lose, and in contact goes with
-speed.
+contact begins there at once if the gap closes under ``p_0``. Friction is what these two snaps lose, and that of contact.
 """
 
 import numpy as np

@@ -29,15 +29,10 @@ from .solved import Record, Solved, settle
 
 #: strips solved at a time: memory stays bounded. Fewer cost more calls, more leave the cache
 CHUNK = 131072
-#: alpha from which a period moves the foundation by so little that rounding blurs what joins one edge to the next
-FROZEN = 1e6
 
 
 def solve_strips(kernel, strips: Strips, unloading: bool) -> Solved:
     """Solve a batch with the generated ``kernel``; ``certified`` is false for every strip that must not be used."""
-    if strips.size > CHUNK // 128:
-        # glibc hands freed memory back at once, page by page, beyond twice the largest block that was ever freed
-        np.empty(31 * CHUNK)
     solved = _Batch(kernel, strips, unloading).solve()
     settle(lambda nearby: _Batch(kernel, nearby, unloading).solve(), strips, solved, unloading)
     return solved
@@ -163,10 +158,6 @@ def _followed(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[O
     """Orbits of ``sequence`` that Newton finds from ``edges`` (k, n), and which are certified; x is NaN where none is."""
     out, certified, bare = Orbit.blank(cycle.size), np.zeros(cycle.size, bool), sequence in ("ac", "cf")
     found, good = follow(kernel, cycle, sequence, edges)
-    if not bare and sequence != "af":
-        # the links along the chain lose what a period changes to rounding; the start is as good as an orbit
-        frozen = np.flatnonzero(~good & (cycle.strips.alpha > FROZEN))
-        found[:, frozen], good[frozen] = edges[:, frozen], True
     here = np.flatnonzero(good)
     # next to a fold or a graze the search knows better
     orbit, good, _ = refined(kernel, sequence, cycle.among(here), Orbit.of(sequence, found[:, here]))

@@ -17,7 +17,7 @@ from ...errors import SolverError
 from ...inputs.surface import Level
 from ...numerics.chebyshev import coefficients, derivatives, evaluate_each, interpolation_errors, lobatto, resampled
 from ...numerics.quadrature import interleaved, mapped
-from ...numerics.rounding import EPS, LARGEST
+from ...numerics.rounding import EPS
 from ...orbit.foundation import Foundation
 from ...orbit.nonadhesive import Orbits, Waves
 
@@ -44,16 +44,10 @@ _LEAST, _TINY = 1e-9, 1e-150
 _STEPS, _FOUND = 4, 1e-3
 
 
-def is_wavy(level: Level) -> bool:
-    """Whether a level without adhesion has strips: what is flatter is taken as a plane."""
-    return level.k * level.h**2 > 1 / LARGEST
-
-
 def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V: np.ndarray) -> bool:
-    """Whether the strips of all ``levels``, which are wavy if the first is, are families at the velocities ``V``: without
-    adhesion (``p_0``)."""
+    """Whether the strips of all ``levels``, none flat if the first is not, are families at velocities ``V``: without adhesion."""
     fastest = max(level.k for level in levels) * V.max(initial=0.0) * foundation.longest_time
-    return p_0 == 0 and is_wavy(levels[0]) and bool(fastest < _FASTEST)
+    return p_0 == 0 and not levels[0].is_flat and bool(fastest < _FASTEST)
 
 
 class Family:

@@ -1,0 +1,35 @@
+"""What is solved at points of velocity and load."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+
+@dataclass
+class Points:
+    """Results at points (velocity, load), arrays (n,) and (levels, n), SI."""
+
+    D: np.ndarray
+    p: np.ndarray
+    tau: np.ndarray
+    contact: np.ndarray
+    adhesion: np.ndarray
+    error: np.ndarray
+    closed_form: np.ndarray
+    pulled_off: np.ndarray
+
+    def improve(self, index: np.ndarray, finer: Points, surely: np.ndarray) -> None:
+        """Put the points ``finer`` (k,) in the place of those at ``index`` (k,) that err by more or are ``surely`` (k,) worse."""
+        better = np.flatnonzero((finer.error < self.error[index]) | surely)
+        for f in fields(self):
+            getattr(self, f.name)[..., index[better]] = getattr(finer, f.name)[..., better]
+
+    def extend(self, tau: np.ndarray) -> None:
+        """Add levels below that are saturated wherever the last one touches, with the frictions ``tau`` (more levels, n), Pa."""
+        touching = self.contact[-1:]
+        self.error = self.error + np.where(self.closed_form, 0.0, tau.sum(axis=0))
+        self.tau = np.concatenate((self.tau, touching * tau))
+        self.contact = np.concatenate((self.contact, np.broadcast_to(touching, tau.shape)))
+        self.adhesion = np.concatenate((self.adhesion, np.zeros(tau.shape)))
