@@ -130,7 +130,8 @@ def _contact(result: Any) -> list[str]:
 
 
 def _closer(result: Any) -> list[str]:
-    """Pull-off of level 1, and the regimes on every level, at the point of largest friction (the first, if there is none)."""
+    """Pull-off of level 1 (where it is unloaded to), and the regimes on every level, at the point of largest friction (the first,
+    if there is none)."""
     from .level_law import friction_law
     from .regimes_by_level import regimes_by_level
 
@@ -139,12 +140,13 @@ def _closer(result: Any) -> list[str]:
         return []
     at = int(np.nanargmax(mu)) if np.isfinite(mu).any() else 0
     V, p = float(np.ravel(result.velocity)[at]), float(np.ravel(result.pressure)[at])
-    how = {"edge": result.edge, "branch": result.branch}
-    pull_off = 0.0
-    if result.adhesion.p_0 > 0:
-        law = friction_law(result.material, result.adhesion, result.levels[0], V=V, rtol=1e-2, below=0.0, **how)
-        pull_off = law.pull_off
-    out = [f"at V = {V:.4g} m/s, p = {p:.4g} Pa: pull-off of level 1 at {pull_off:.4g} Pa; regimes of strips:"]
+    ends = ""
+    if result.branch == "unloading":
+        pull_off, of = 0.0, (result.material, result.adhesion, result.levels[0])
+        if result.adhesion.p_0 > 0:
+            pull_off = friction_law(*of, V=V, rtol=1e-2, below=0.0, edge=result.edge).pull_off
+        ends = f"pull-off of level 1 at {pull_off:.4g} Pa; "
+    out = [f"at V = {V:.4g} m/s, p = {p:.4g} Pa: {ends}regimes of strips:"]
     for number, each in enumerate(regimes_by_level(result, at), start=1):
         place = "all the area" if number == 1 else f"the contact of level {number - 1}, {100 * each.area:.3g} % of the area"
         out.append(f"           level {number} ({place}):")

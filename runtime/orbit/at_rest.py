@@ -7,6 +7,7 @@ contact begins there at once if the gap closes under ``p_0``. Friction is what t
 
 import numpy as np
 
+from ..numerics.rounding import EPS
 from .groups import arc_versine
 from .march import Orbit
 from .regimes import ORBIT_EDGES
@@ -22,16 +23,15 @@ def solve_at_rest(kernel, strips, flat, unloading: bool) -> Solved:
     p_0, D, record = strips.p_0, strips.D, Record(kernel, strips)
     # without adhesion contact ends to free, and the reach of adhesion has no part in it
     reach = np.where(p_0 > 0, strips.delta_0, 0.0)
-    valley = D - np.where(flat, 0.0, 2.0)
+    valley, noise = D - np.where(flat, 0.0, 2.0), EPS * (2 + np.abs(D) + p_0)
     released = -valley - p_0 > reach
     free = (D <= -reach) & (released | (not unloading))
-    full, hold = (~free & ~released & holds for holds in (valley >= -p_0, (valley < -p_0) & (D <= -p_0)))
+    full, hold = (~free & ~released & holds for holds in (valley >= -p_0 - noise, (valley < -p_0 - noise) & (D <= -p_0)))
     record.constant(np.flatnonzero(free), "f")
     record.constant(np.flatnonzero(hold), "a", -p_0[hold], 0.0, 0.0, 1.0)
     record.saturated_contact(np.flatnonzero(full & ~flat))
     record.constant(np.flatnonzero(full & flat), "c", D[full & flat], 0.0, 1.0)
-    wavy, touches = ~(free | full | hold), D > -np.minimum(p_0, reach)
-    steps = released & (p_0 > 0)
+    wavy, touches, steps = ~(free | full | hold), D > -np.minimum(p_0, reach), released & (p_0 > 0)
     d, b, a, c = (arc_versine(D + low) for low in (reach, np.where(released, np.minimum(p_0, reach), p_0), p_0, p_0 + reach))
     edges = {"x": -np.where(steps, d, b), "b": -b, "a": a, "c": c}
     kinds = {"ac": ~released, "cf": released & (p_0 == 0), "af": steps & ~touches, "afc": steps & touches & strips.snaps}
