@@ -97,6 +97,15 @@ def test_no_speed_is_too_low(material, edge, branch, times):
     assert (np.abs(s.p_mean - still.p_mean)[same] < (1e-11 + 100 * times) * (1 + p_0[same])).all()
 
 
+@pytest.mark.parametrize("branch", BRANCHES)
+@pytest.mark.parametrize("times", [2e-13, 3e-13, 1e-12])
+def test_a_contact_all_but_a_period_long_is_not_none(branch, times):
+    """Within rounding of saturated contact the edges of the gap are in the wrong order; the contact came out without length."""
+    of = np.array([[0.0030263420823940955], [0.7593508551350551], [1.9969736579176058]])
+    _, s = _solve("two times", "constitutive", branch, times, *of)
+    assert s.certified and s.contact_fraction == pytest.approx(1.0, abs=1e-6) and s.p_mean == pytest.approx(of[2] - 1, abs=1e-9)
+
+
 def test_strips_are_left_to_the_limit_by_need_alone(monkeypatch):
     """Above ``AT_REST`` what the solvers certify stands; above ``SLOW`` nothing else does."""
     asked = []

@@ -101,3 +101,10 @@ def test_a_plane_that_is_loaded_jumps_into_contact(height):
         assert result.tau == pytest.approx(float(alone.tau), rel=1e-3)
     beyond = _solve(STICKY, [(1e-5, height), (5e-7, 1e-7)], pressure=-10.1, branch="loading")
     assert beyond.pulled_off and beyond.tau == 0 and (beyond.contact_by_level == 0).all()
+
+
+def test_a_plane_clings_where_the_wave_on_it_has_let_go():
+    held = _solve(STICKY, [(1e-5, 0.0), (5e-7, 1e-7)], pressure=[-2499.0, -2501.0])
+    assert held.pulled_off.tolist() == [False, True] and held.contact_by_level[:, 0].tolist() == [1.0, 0.0]
+    assert held.penetration[0] == pytest.approx(-2.499e-6) and (held.tau == 0).all() and held.converged.all()
+    assert _solve(STICKY, [(5e-7, 1e-7)], pressure=-2499.0).pulled_off

@@ -35,6 +35,35 @@ class Mutant:
 
 
 MUTANTS = (
+    Mutant("slow strips are taken to be at rest", "orbit/at_rest.py", "SLOW = 1e-13,", "SLOW = 1e-3,", "test_at_rest.py"),
+    Mutant(
+        "strips at rest snap at the wrong end",
+        "orbit/at_rest.py",
+        "np.where(steps, d, b)",
+        "np.where(steps, b, b)",
+        "test_at_rest.py",
+    ),
+    Mutant(
+        "a contact without length is one",
+        "orbit/modes/engine.py",
+        "np.abs(edges[:, k].sum(axis=0)) < np.pi",
+        "np.abs(edges[:, k].sum(axis=0)) < 9",
+        "test_at_rest.py",
+    ),
+    Mutant(
+        "flat levels rub like those above",
+        "flat_levels.py",
+        "np.where(kept[:, None], v[above], 0.0)",
+        "np.where(True, v[above], 0.0)",
+        "test_flat_levels.py",
+    ),
+    Mutant(
+        "flat levels are pulled off like those below",
+        "flat_levels.py",
+        "points.pulled_off = p <",
+        "points.pulled_off |= p <",
+        "test_flat_levels.py",
+    ),
     Mutant(
         "stability of an orbit to a tenth", "orbit/certificate.py", "STABLE = 1e-6", "STABLE = 1e-1", "test_injected_orbit.py"
     ),
