@@ -76,8 +76,7 @@ class Surface:
 
     @property
     def friction_floor(self) -> float:
-        """Friction, Pa, that counts beside its own size where ``rtol`` is relative: of the largest level that is not flat beside
-        the others."""
+        """Friction, Pa, that counts beside its own for ``rtol``: of the largest level that is not flat beside the others."""
         sizes = [(self.at_level(i).K * level.h + self.adhesion.p_0) * level.h / level.l for i, level in enumerate(self.levels)]
         return 1e-3 * max(next((size for size in sizes if size > EPS * max(sizes)), 0.0), 1 / LARGEST)
 

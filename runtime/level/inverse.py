@@ -225,11 +225,10 @@ def _goes_on(part: Branch, following: Branch) -> bool:
 
 
 def _in_branch(part: Branch, p: float) -> Root:
-    """Where a branch carries the pressure."""
+    """Where a branch, which may be narrower than the rounding of D, carries the pressure."""
     t = part.reaches(p)
     ends = np.clip([t - _STEP, t + _STEP], part.t_low, part.t_high)
     D, (low, high) = part.piece.penetration(np.array([t, *ends, part.t_low, part.t_high])), part.piece.values(ends)
-    # a piece may be narrower than the rounding of D
     step, apart = high - low, max(D[2] - D[1], EPS * abs(D[0]), 1 / LARGEST)
     return Root(float(D[0]), step[0] / apart, step / step[0], float(D[3]), float(D[4]))
 

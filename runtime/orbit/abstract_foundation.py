@@ -128,12 +128,11 @@ class Foundation(ABC):
 
     def _solve(self, strips, flat, longest, unloading: bool) -> Solved:
         """Solve strips of which some are ``flat``, in units of K alone; ``longest``: longest time over that of their passage."""
-        still = flat | (longest <= AT_REST)
         if not (flat.any() or (longest <= SLOW).any()):
             return self.solve_strips(strips, unloading)
-        solved, moving = Solved.empty(strips.size), np.flatnonzero(~still)
+        solved, moving = Solved.empty(strips.size), np.flatnonzero(~flat & (longest > AT_REST))
         solved.put(moving, self.solve_strips(strips.take(moving), unloading))
-        rest = np.flatnonzero(still | ~solved.certified & (longest <= SLOW))
+        rest = np.flatnonzero(~solved.certified & (flat | (longest <= SLOW)))
         solved.put(rest, solve_at_rest(self.kernel, strips.take(rest), flat[rest], unloading))
         # at rest nothing is lost but where adhesion ends
         solved.tau_mean[(longest == 0) & np.isnan(solved.c)] = 0.0

@@ -33,6 +33,9 @@ CHUNK = 131072
 
 def solve_strips(kernel, strips: Strips, unloading: bool) -> Solved:
     """Solve a batch with the generated ``kernel``; ``certified`` is false for every strip that must not be used."""
+    if strips.size > CHUNK // 128:
+        # glibc hands freed memory back at once, page by page, beyond twice the largest block that was ever freed
+        np.empty(31 * CHUNK)
     solved = _Batch(kernel, strips, unloading).solve()
     settle(lambda nearby: _Batch(kernel, nearby, unloading).solve(), strips, solved, unloading)
     return solved
