@@ -126,7 +126,8 @@ class Result:
         return save(self.to_dataset(), path)
 
     def summary(self) -> str:
-        """Where the friction comes from, as text: levels, shares of mu, real contact, pull-off, saturation, what was skipped."""
+        """Where the friction comes from, as text: levels, shares of mu, real contact, saturation, what was skipped; and
+        the pull-off where the branch is ``unloading``."""
         from .summary import summary
 
         return summary(self)

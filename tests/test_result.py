@@ -122,3 +122,11 @@ def test_pictures(grid, tmp_path):
     assert all((tmp_path / name).stat().st_size > 1000 for name in ("velocity.svg", "pressure.png", "law.png", "strip.png"))
     with pytest.raises(hystrip.InputError, match="one point is no curve"):
         solved(5e6, 1e-3).plot()
+
+
+def test_a_summary_tells_pull_off_where_a_level_is_unloaded_to_it():
+    solid, sticky = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4), hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
+    for branch, told in (("unloading", True), ("loading", False)):
+        at = {"pressure": 200.0, "velocity": 2e-3, "rtol": 1e-3, "branch": branch}
+        text = hystrip.solve(solid, sticky, hystrip.Level(5e-7, 1e-7), **at).summary()
+        assert ("pull-off of level 1 at" in text) == told and "regimes of strips:" in text

@@ -39,11 +39,11 @@ def saturated_level(
     with no closed form; the threshold given for it is one above which nothing else can be.
     """
     foundation, p_0, of = foundation_of(material.at_wavelength(level.l)), adhesion.p_0, (level.l, level.h, V)
-    left_at, tau_sat = foundation.saturation_pressure(p_0, *of), foundation.saturation_friction(*of)
+    (left_at, D_left), tau_sat = foundation.saturation(p_0, *of), foundation.saturation_friction(*of)
     if branch == "loading" and p_0 > 0:
         D_sat = foundation.surely_saturated(p_0, *of)
         return SaturatedLevel(foundation.K * (D_sat - 0.75 * level.h), D_sat, left_at + p_0, tau_sat)
-    return SaturatedLevel(left_at, left_at / foundation.K + 0.75 * level.h, left_at + p_0, tau_sat)
+    return SaturatedLevel(left_at, D_left, left_at + p_0, tau_sat)
 
 
 def saturated_friction(material: Material, levels: Sequence[Level], V: np.ndarray) -> np.ndarray:

@@ -190,9 +190,9 @@ class Foundation(ABC):
         """``|K*(i rate)|/K``."""
         return self.kernel.modulus_ratio(*self.at_rate(rate))
 
-    def saturation_pressure(self, p_0, l, h, V) -> np.ndarray:  # noqa: E741
-        """Nominal pressure from which a level is in saturated contact when unloading, Pa."""
-        return self._of_level("pressure", l, h, V, p_0)
+    def saturation(self, p_0, l, h, V) -> tuple[np.ndarray, np.ndarray]:  # noqa: E741
+        """Nominal pressure, Pa, and penetration, m, from which a level is in saturated contact when unloading."""
+        return self._of_level("pressure", l, h, V, p_0), self._of_level("penetration", l, h, V, p_0)
 
     def saturation_friction(self, l, h, V) -> np.ndarray:  # noqa: E741
         """Friction of a level in saturated contact, Pa."""

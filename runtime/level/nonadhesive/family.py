@@ -45,9 +45,9 @@ _STEPS, _FOUND = 4, 1e-3
 
 
 def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V: np.ndarray) -> bool:
-    """Whether the strips of all ``levels``, none flat if the first is not, are families at velocities ``V``: without adhesion."""
+    """Whether the strips of all ``levels`` are families at the velocities ``V``: without adhesion (``p_0``), and wavy."""
     fastest = max(level.k for level in levels) * V.max(initial=0.0) * foundation.longest_time
-    return p_0 == 0 and not levels[0].is_flat and bool(fastest < _FASTEST)
+    return p_0 == 0 and not any(level.is_flat for level in levels) and bool(fastest < _FASTEST)
 
 
 class Family:
