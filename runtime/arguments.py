@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -76,6 +77,21 @@ def check_rtol(rtol) -> float:
     if rtol > 0.1:
         raise InputError("rtol", rtol, "a number from 1e-12 to 0.1")
     return rtol
+
+
+def point_index(at: int | tuple[int, ...], shape: tuple[int, ...]) -> int:
+    """Flat index of the point ``at``, an index or a tuple of them, among points of a ``shape``."""
+    try:
+        return int(np.ravel_multi_index(at, shape)) if isinstance(at, tuple) and at else range(math.prod(shape))[at or 0]
+    except (IndexError, ValueError, TypeError):
+        raise InputError("at", at, f"an index into the {math.prod(shape)} points, of shape {shape}") from None
+
+
+def check_level_number(level, levels: int) -> int:
+    """The number of a level, the first being 1, as an int."""
+    if isinstance(level, bool) or not isinstance(level, (int, np.integer)) or not 1 <= level <= levels:
+        raise InputError("level", level, f"the number of a level, 1 to {levels}")
+    return int(level)
 
 
 def check_on_level(material, adhesion, level, V, edge, branch, rtol) -> tuple[Material, np.ndarray, Level, str, str, float]:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .arguments import check_level_number, point_index
 from .contact_map import Cell, map_of
 from .errors import InputError
 from .inputs.checks import number
@@ -25,17 +26,12 @@ _X = 601
 
 def index_of(result: Result, at: int | tuple[int, ...] | None) -> int:
     """Flat index of a point: the given one, or that of the largest friction coefficient (the first, if there is none)."""
-    size = np.size(result.mu)
-    if not size:
+    if not np.size(result.mu):
         raise InputError("result", "no points", "a result with a point to look at")
     if at is None:
         mu = np.abs(np.ravel(result.mu))
         return int(np.nanargmax(mu)) if np.isfinite(mu).any() else 0
-    try:
-        index = np.ravel_multi_index(at, result.mu.shape) if isinstance(at, tuple) else range(size)[at]
-    except (IndexError, ValueError, TypeError):
-        raise InputError("at", at, f"an index into the {size} points, of shape {result.mu.shape}") from None
-    return int(index)
+    return point_index(at, result.mu.shape)
 
 
 def cell_of(result: Result, at: int | tuple[int, ...] | None, number_of_level: int) -> Cell:
@@ -43,8 +39,7 @@ def cell_of(result: Result, at: int | tuple[int, ...] | None, number_of_level: i
 
     Raises InputError where there is no contact to look into, or no such level.
     """
-    if isinstance(number_of_level, bool) or number_of_level not in range(1, len(result.levels) + 1):
-        raise InputError("level", number_of_level, f"the number of a level, 1 to {len(result.levels)}")
+    number_of_level = check_level_number(number_of_level, len(result.levels))
     index = index_of(result, at)
     V, D = float(np.ravel(result.velocity)[index]), float(np.ravel(result.penetration)[index])
     if not np.isfinite(D):

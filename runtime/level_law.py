@@ -98,7 +98,7 @@ def friction_law(
     material, V, level, edge, branch, rtol = check_on_level(material, adhesion, level, V, edge, branch, rtol)
     if V.ndim:
         raise InputError("V", V, "a single number: a finite number >= 0 (m/s)")
-    top = None if below is None else np.array([number("below", below, "Pa")])
+    top = np.array([np.inf if below is None else number("below", below, "Pa")])
     work = WorkCounters()
     columns = LevelBatch(material, adhesion, level, edge, branch, V.reshape(1), np.zeros(1), work=work)
     laws = _laws(columns, rtol, top)
@@ -106,7 +106,7 @@ def friction_law(
     built = p_sat if below is None or below >= p_sat else float(below)
     if built < p_sat and laws.pull_off[0] >= built:
         # nothing is carried up to there: what can be is seen above
-        laws = _laws(columns, rtol, None)
+        laws = _laws(columns, rtol, np.full(1, np.inf))
     pull_off, error = float(laws.pull_off[0]), float(laws.friction_error[0])
     if not adhesion.p_0 > 0:
         # contact begins at zero pressure, and there is none at it

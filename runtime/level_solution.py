@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
-from .arguments import check_on_level, check_strips, refuse_faint
+from .arguments import check_on_level, check_strips, point_index, refuse_faint
 from .errors import ConvergenceWarning, InputError
 from .inputs.adhesion import Dugdale
-from .inputs.checks import broadcast, choice, numbers
+from .inputs.checks import broadcast, choice, number, numbers
 from .inputs.surface import Level
 from .level.averages import level_means
 from .level.inverse import invert
@@ -107,7 +107,7 @@ class LevelSolution:
         """
         if choice("kind", kind, ("map", "strip")) == "map":
             return self.contact_map(at).plot()
-        return self._cell(at).strip(np.asarray(float(y))).plot()
+        return self._cell(at).strip(np.asarray(number("y", y, "m"))).plot()
 
     def contact_map(self, at: int | tuple[int, ...] | None = None) -> ContactMap:
         """Pressure, gap and zones over the cell at a point. Raises ``InputError`` where the level is pulled off."""
@@ -121,10 +121,7 @@ class LevelSolution:
         size = np.size(self.D)
         if at is None and size > 1:
             raise InputError("at", at, f"which of the {size} points to look at")
-        try:
-            index = np.ravel_multi_index(at, self.D.shape) if isinstance(at, tuple) and at else range(size)[at or 0]
-        except (IndexError, ValueError, TypeError):
-            raise InputError("at", at, f"an index into the {size} points, of shape {self.D.shape}") from None
+        index = point_index(at, self.D.shape)
         D, V = float(np.ravel(self.D)[index]), float(np.ravel(self.inputs.velocity)[index])
         if not np.isfinite(D):
             raise InputError("at", at, "a point in contact: at this one the level is pulled off")

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .arguments import check_on_level
+from .errors import InputError
 from .inputs.checks import number
 from .level.saturated import saturated_level
 from .level_law import friction_law
@@ -87,15 +89,17 @@ def loading_loop(
     >>> print(f"{loop.pull_off:.0f} Pa, {loop.work:.2g} J/m^2")
     -707 Pa, 0.0014 J/m^2
     """
-    V = number("V", V, "m/s", 0)
-    K = float(material.at_wavelength(level.l).K)
+    at_level, *_ = check_on_level(material, adhesion, level, V := number("V", V, "m/s", 0), edge, "loading", rtol)
+    K = float(at_level.K)
     reach = 2 * float(adhesion.p_0) / K + (float(adhesion.delta_0) if adhesion.p_0 > 0 else 0.0)
     if D_max is None:
         full = float(saturated_level(material, adhesion, level, np.array([V])).D_sat[0])
         top = max(min(1.1 * full + 0.1 * level.h, 2 * level.h + 0.3 * reach), 1.5 * level.h) if level.h > 0 else reach or 1e-9
     else:
         top = number("D_max", D_max, "m")
-    low = min(-reach, 0.0) - 0.05 * (level.h or top)
+        if top <= -reach:
+            raise InputError("D_max", D_max, f"more than {-reach:g} m, below which nothing touches")
+    low = -reach - 0.05 * (level.h or top)
     curves = [
         _curve(material, adhesion, level, V, np.linspace(low, top, _FIRST), edge, b, rtol) for b in ("loading", "unloading")
     ]

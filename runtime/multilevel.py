@@ -14,7 +14,7 @@ from .inputs.materials import Material
 from .inputs.surface import Level
 from .level.averages import level_means
 from .level.error_budget import LEAST_CONTACT, error_budget, peak_pressure, strips_across
-from .level.inverse import Inverse, invert
+from .level.inverse import Penetrations, invert
 from .level.law import build_laws, merged
 from .level.lower_levels import LowerLevelLaws
 from .level.nonadhesive.family import are_families
@@ -200,7 +200,7 @@ class _Solve:
             size = np.full(index.size, _GUESS * surface.friction_floor) if self.friction is None else self.friction[index]
             deepest = cut_penetration(columns, load, np.full(load.size, np.inf)) if self.by_pressure else load
             columns = with_family(columns, deepest, surface.rtol * size, carries=self.M > 1)
-        found = invert(columns, load, 0.5 * surface.rtol) if self.by_pressure else Inverse.at(load)
+        found = invert(columns, load, 0.5 * surface.rtol) if self.by_pressure else Penetrations.at(load)
         off, touching = np.isnan(found.D), np.flatnonzero(np.isfinite(found.D))
         self.out.pulled_off[index[off]], self.out.p[index[off]] = True, load[off]
         if not touching.size:
@@ -229,7 +229,7 @@ class _Solve:
             highest = surface.columns(i, V, cut_penetration(surface.columns(i, V), reached[-1], saturated[i].D))
             reached.append(peak_pressure(highest, strips_across(highest)))
         for i in range(self.M - 1, 0, -1):
-            level = surface.columns(i, V, None, carry, groups if carry else None)
+            level = surface.columns(i, V, None, carry, groups)
             atol = level.atol(rtol, fraction=1.0)
             least = np.minimum(atol[:, level.frictions], (rtol * surface.friction_floor)[:, None])
             atol[:, level.frictions] = np.maximum(least, friction[:, None])
@@ -256,7 +256,7 @@ class _Solve:
         columns = replace(columns, carry=carry, group=group)
         return columns, tolerances(columns, rtol * _OF_TOP / self.M * size, rtol * fractions)
 
-    def _write(self, index, root: Inverse, means):
+    def _write(self, index, root: Penetrations, means):
         out, values = self.out, means.values
         out.D[index] = root.D
         p = out.p[index] = self.load[index] if self.by_pressure else values[:, 0]

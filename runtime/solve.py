@@ -112,8 +112,8 @@ def solve(
     work = WorkCounters()
     surface = Surface(material, adhesion, levels, edge, branch, rtol, skip, work, check_strips(strips))
     points = solve_points(surface, V, L, name == "pressure", progress)
-    if not (np.isfinite(points.tau).all() and np.isfinite(points.error).all()):
-        lost = np.flatnonzero(~(np.isfinite(points.tau).all(axis=0) & np.isfinite(points.error)))
+    lost = np.flatnonzero(~(np.isfinite(points.tau).all(axis=0) & np.isfinite(points.error)))
+    if lost.size:
         first = f"{name} {L[lost[0]]:g}, velocity {V[lost[0]]:g}"
         raise SolverError(f"{lost.size} of {L.size} points have no finite friction; the first: {first}")
     converged = surface.converged(points)

@@ -132,13 +132,13 @@ def _contact(result: Any) -> list[str]:
 def _closer(result: Any) -> list[str]:
     """Pull-off of level 1 (where it is unloaded to), and the regimes on every level, at the point of largest friction (the first,
     if there is none)."""
+    from .at_point import index_of
     from .level_law import friction_law
     from .regimes_by_level import regimes_by_level
 
-    mu = np.abs(np.ravel(result.mu))
-    if not mu.size:
+    if not np.size(result.mu):
         return []
-    at = int(np.nanargmax(mu)) if np.isfinite(mu).any() else 0
+    at = index_of(result, None)
     V, p = float(np.ravel(result.velocity)[at]), float(np.ravel(result.pressure)[at])
     ends = ""
     if result.branch == "unloading":

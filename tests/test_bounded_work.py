@@ -68,6 +68,17 @@ def test_equal_strips_say_what_they_are_without_a_warning():
     assert not r.converged and r.converged.shape == ()
 
 
+@pytest.mark.parametrize("strips", [1, 2, 3, 5, 8, 30])
+def test_equal_strips_however_few_say_what_they_miss(strips):
+    """Also where none of them touches, or one stands for all: the crest and the valley are looked at."""
+    bare, level = hystrip.Dugdale(gamma=0), LEVELS[0]
+    for adhesion, given in ((bare, {"V": 1e-5, "D": 5e-8}), (bare, {"V": 1e-3, "D": 8e-7}), (ADHESION, {"V": 5e-3, "D": 6e-7})):
+        few = hystrip.solve_level(MATERIAL, adhesion, level, **given, strips=strips, rtol=1e-3)
+        many = hystrip.solve_level(MATERIAL, adhesion, level, **given, rtol=1e-8)
+        means = [np.array([s.p_mean, s.tau_mean, s.contact_fraction, s.adhesion_fraction]) for s in (few, many)]
+        assert (np.abs(np.subtract(*means)) <= few.error_estimate + many.error_estimate).all() and not few.converged
+
+
 def test_tiny_trailing_levels_are_not_solved_and_change_nothing_that_counts():
     """Without adhesion: saturated under next to all pressure, and rubbing next to nothing, they follow in closed form."""
     bare, levels = hystrip.Dugdale(gamma=0), [hystrip.Level(1e-2, 1e-3), hystrip.Level(5e-3, 4e-4), hystrip.Level(1e-8, 1e-10)]

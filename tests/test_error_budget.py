@@ -17,7 +17,7 @@ import hystrip
 from hystrip.level.branches import Errors, Piece, branches_of, rising
 from hystrip.level.error_budget import ErrorBudget
 from hystrip.level.interpolation import Intervals, weighed
-from hystrip.level.inverse import Inverse, _Walk
+from hystrip.level.inverse import Penetrations, _Walk
 from hystrip.level.law import Laws
 from hystrip.level.segment import cells_of, segments_of
 from hystrip.level.strips import LevelBatch, WorkCounters
@@ -224,11 +224,11 @@ def test_what_lower_levels_carry_in_a_jump_of_the_curve_is_uncertain(in_jump):
     surface = Surface(MATERIAL, ADHESION, LEVELS, "continuous", "unloading", 1e-3, True, WorkCounters())
     solve = _Solve(surface, np.ones(1), np.full(1, 2.0), True)
     values = np.array([[1.0, 3.0, 0.5, 0.0, 5.0, 0.5, 0.0, 0.0]])
-    root = replace(Inverse.at(np.ones(1)), slope=np.ones((1, 4)), in_jump=np.array([in_jump]))
+    root = replace(Penetrations.at(np.ones(1)), slope=np.array([[1.0, 1.0, 0.25, 1.0]]), in_jump=np.array([in_jump]))
     solve._write(np.zeros(1, int), root, SimpleNamespace(values=values, errors=np.zeros_like(values)))
     assert solve.out.tau[:, 0].tolist() == [4.0, 5.0]
-    # the pressure is met to half: friction goes from 3 to 4, contact from 0.5 to 1.5, and what is carried goes with both
-    assert solve.out.error[0] == pytest.approx(1.0 + (1 / 4 + 1 / 1.5) * 5.0 + (5.0 if in_jump else 0.0), rel=1e-15)
+    # the pressure is met to half: friction goes from 3 to 4, contact from 0.5 to 0.75, and what is carried goes with both
+    assert solve.out.error[0] == pytest.approx(1.0 + (1 / 4 + 0.25 / 0.75) * 5.0 + (5.0 if in_jump else 0.0), rel=1e-15)
 
 
 @pytest.mark.filterwarnings("error")

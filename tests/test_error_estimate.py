@@ -11,7 +11,7 @@ from numpy.polynomial.chebyshev import chebval
 
 from hystrip.level.averages import Averages
 from hystrip.level.branches import graded
-from hystrip.level.inverse import Inverse
+from hystrip.level.inverse import Penetrations
 from hystrip.numerics.chebyshev import coefficients, flat_ended, interpolation_errors, lobatto
 from hystrip.numerics.quadrature import by_rules, interior_nodes, mapped, mapped_weights, sum_errors
 
@@ -182,7 +182,7 @@ def test_a_step_within_what_either_average_misses_is_no_slope():
     near, missed = slope + [[0, 4e-7, 0, 0]], np.full((1, 4), 5e-7)
     means = Averages(slope * (1 + 1e-8), np.full((1, 4), 1e-12), np.ones(1, int))
     for errors, off in ((missed, 1e-12), (0 * missed, 3e-7)):
-        at = Inverse(np.zeros(1), near, errors, slope, *np.zeros((2, 1), bool))
+        at = Penetrations(np.zeros(1), near, errors, slope, *np.zeros((2, 1), bool))
         values, bounds = at.meeting(np.ones(1), means)
         error = abs(values[0, 1] - 0.5)
         assert error <= bounds[0, 1] and (error <= off if errors.any() else error > off)

@@ -1,5 +1,7 @@
 """Pictures show what the numbers say: legends inside the canvas, units from the data, maps and loops as the means have it."""
 
+import functools
+
 import numpy as np
 import pytest
 
@@ -120,6 +122,40 @@ def test_a_loop_has_pull_off_and_closes():
     bare = hystrip.loading_loop(MATERIAL, hystrip.Dugdale(gamma=0), SMALL, V=1e-3, rtol=1e-2)
     assert bare.pull_off == 0 and bare.work == pytest.approx(0, abs=1e-6 * 1e9 * SMALL.h**2)
     assert "pull-off" in repr(loop) and inside(loop.plot()) and inside(bare.plot())
+
+
+@pytest.mark.parametrize(
+    ("changed", "field"),
+    [
+        ({"material": None}, "material"),
+        ({"adhesion": None}, "adhesion"),
+        ({"level": LEVELS}, "level"),
+        ({"material": hystrip.StandardLinearSolid(K=[1e9, 2e9], T_eps=1e-2, T_sigma=1e-4)}, "material.K"),
+        ({"D_max": -1.0}, "D_max"),
+        ({"D_max": [1e-7]}, "D_max"),
+        ({"V": [1e-3]}, "V"),
+        ({"rtol": 2.0}, "rtol"),
+        ({"edge": "open"}, "edge"),
+    ],
+)
+def test_what_has_no_loop(changed, field):
+    given = {"material": MATERIAL, "adhesion": ADHESION, "level": SMALL, "V": 1e-3} | changed
+    with pytest.raises(hystrip.InputError) as refused:
+        hystrip.loading_loop(**given)
+    assert refused.value.field == field
+
+
+def test_what_is_no_place_or_level_to_look_at():
+    result = hystrip.solve(MATERIAL, ADHESION, [SMALL], pressure=3e3, velocity=1e-3, rtol=1e-2)
+    solved = hystrip.solve_level(MATERIAL, ADHESION, SMALL, V=1e-3, D=1e-7, rtol=1e-2)
+    for level in (1.0, True, "1", None, 0, 2):
+        for look in (result.contact_map, functools.partial(result.plot, "loop"), functools.partial(result.plot, "map")):
+            with pytest.raises(hystrip.InputError, match="^level"):
+                look(level=level)
+    for y in ("a", None, [1e-6], np.inf):
+        for look in (result.plot, solved.plot):
+            with pytest.raises(hystrip.InputError, match="^y"):
+                look("strip", y=y)
 
 
 def test_a_level_says_its_strips_and_profile():

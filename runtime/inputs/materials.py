@@ -10,7 +10,7 @@ from .material import StandardLinearSolid
 from .model import ModelMaterial
 from .prony import Prony
 
-EDGES = ("continuous", "constitutive")
+CLOSURES = ("continuous", "constitutive")
 #: what may be given as a material
 MATERIALS = (StandardLinearSolid, Prony, HalfSpace, ModelMaterial)
 Material = StandardLinearSolid | Prony | HalfSpace | ModelMaterial
@@ -40,7 +40,7 @@ def check_material(material) -> None:
 
 def check_edge(material, edge: str) -> str:
     """``edge`` if it is a closure that determines the edges of ``material``, else ``InputError``."""
-    edge = choice("edge", edge, EDGES)
+    edge = choice("edge", edge, CLOSURES)
     if edge == "continuous" and not isinstance(reduced(material), StandardLinearSolid):
         raise InputError(
             "edge",

@@ -18,7 +18,7 @@ from ..numerics.quadrature import Stage, interior_nodes, mapped, mapped_weights,
 from ..numerics.rounding import EPS
 from ..orbit.batch import Ranges
 from ..orbit.regimes import CODE
-from .breaks import Zones, zones_of
+from .breaks import Zones, zones_along_y
 from .changes import Changes, locate_changes
 from .nonadhesive.average import average as family_average
 from .regime_map import by_equation, hides_another, known_breaks, theta_of
@@ -30,9 +30,9 @@ _FIRST, _LAST, _COSTLESS = 8, 64, 32
 _SHARE, _SLIVER = 0.4, 0.03
 #: how far from the valley the strip next to it is, in parts of the accuracy, relative to natural scales, at least and at most
 _VALLEY, _NEAREST, _FARTHEST = 10.0, 1e-14, 1e-3
-#: how far from a known break a strip is that tells of a narrow zone: narrower ones are of no account at any accuracy worth having
+#: distance from a known break at which a strip is solved to detect a narrow zone; narrower ones do not affect the result
 _NEXT = 1e-6
-#: share of it below which no panel's error is claimed to be: a layer may be too thin to show at its nodes
+#: smallest error claimed for a panel, as a share of its tolerance: a layer may be too thin to show at its nodes
 _LEAST = 1e-5
 
 
@@ -62,19 +62,19 @@ def level_means(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray | None =
 def equal_strips(columns: LevelBatch, strips: int) -> Averages:
     """The paper's average over ``2 N`` equal strips of the cell (Eq. 11): midpoints; the halves are mirror images.
 
-    The error estimate is the difference to the sum over every third strip, whose thirds share their midpoints, where N is a
-    multiple of 3, and to half the strips' trapezoid otherwise.
+    The error estimate is the sum of the two largest differences between neighbours over N: so much jumps of the integrand at both
+    ends of a zone may shift the sum by, and kinks less. The crest and the valley are neighbours that do not count for the sum.
     """
-    theta = np.pi * (np.arange(strips) + 0.5) / strips
-    column = np.repeat(np.arange(columns.size), strips)
+    theta = np.pi * np.concatenate(([0.0], (np.arange(strips) + 0.5) / strips, [1.0]))
+    column = np.repeat(np.arange(columns.size), theta.size)
     _, values, *_ = columns.evaluate(column, np.tile(theta, columns.size))
-    values = values.reshape(columns.size, strips, -1)
+    around = values.reshape(columns.size, theta.size, -1)
+    values = around[:, 1:-1]
     mean = values.mean(axis=1)
-    # a jump of the integrand shifts the sum by up to one strip's share of it; a kink by less
-    errors = np.abs(np.diff(values, axis=1)).max(axis=1, initial=0.0) / strips
+    errors = np.sort(np.abs(np.diff(around, axis=1)), axis=1)[:, -2:].sum(axis=1) / strips
     # no transitions are looked for: one zone for all that is known
     zones = [Zones(np.zeros(1), np.zeros(1), np.full(1, np.pi), *np.zeros((3, 1, mean.shape[1])))] * columns.size
-    return Averages(mean, errors, np.full(columns.size, strips), zones=zones)
+    return Averages(mean, errors, np.full(columns.size, theta.size), zones=zones)
 
 
 def average(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> Averages:
@@ -84,7 +84,7 @@ def average(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> Averages
     stages = [Stage(work.start(*known_breaks(columns)), _FIRST)]
     while stages:
         stages = work.refine(stages)
-    zones = zones_of(n, *(np.concatenate(v) for v in zip(*work.accepted, strict=True)))
+    zones = zones_along_y(n, *(np.concatenate(v) for v in zip(*work.accepted, strict=True)))
     return Averages(work.values / np.pi, work.errors / np.pi, work.strips, zones)
 
 
@@ -228,8 +228,8 @@ class _Work:
             self._evaluated(np.empty(0, int), np.empty(0))
 
     def _outer(self, stage: Stage) -> tuple[np.ndarray, ...]:
-        """What is known at the nodes of panels, and their thetas, with one more at either end: what is known beyond the outermost
-        node, where nothing is what is known there."""
+        """What is known at the nodes of panels, and their thetas, with one more at either end: the strip known beyond the
+        outermost node, or that node again where there is none."""
         panels, theta = stage.parts, stage.parts.at(interior_nodes(stage.n))
         number, outermost = np.stack((panels.first, panels.last), axis=1), theta[:, [0, -1]]
         place = self.beside[1][number]

@@ -34,7 +34,7 @@ _TURNS = np.concatenate(([0.0], _NEAR, np.arange(1, 64) / 64, 1 - _NEAR[::-1], [
 
 
 def graded(t):
-    """Share of a range of pressure that lies below parameter t: both in [0, 1], flat like t^4 at both ends."""
+    """Share of a range of pressure that lies below parameter t: from 0 to 1, flat like t^4 at both ends."""
     return np.sin(0.5 * np.pi * np.sin(0.5 * np.pi * t) ** 2) ** 2
 
 
@@ -65,9 +65,9 @@ class Errors:
         """The largest of each quantity, (q,)."""
         return self.bounds.max(axis=0)
 
-    def along(self, x: np.ndarray, columns: np.ndarray | int) -> np.ndarray:
+    def along(self, x: np.ndarray, columns: np.ndarray | list[int]) -> np.ndarray:
         """Of the sum of some quantities at the places ``x`` (m,), (m,)."""
-        return np.interp(x, self.at, self.bounds[:, np.atleast_1d(columns)].sum(axis=1))
+        return np.interp(x, self.at, self.bounds[:, columns].sum(axis=1))
 
     def plus(self, more: np.ndarray) -> Errors:
         """Larger by ``more`` (q,)."""
@@ -129,7 +129,7 @@ class Branch:
 
     def reaches(self, p: float) -> float:
         """t at which the one pressure ``p`` is reached, clipped to the branch."""
-        return float(Inverse([self])(np.zeros(1, int), np.array([p]))[0])
+        return float(ParameterAt([self])(np.zeros(1, int), np.array([p]))[0])
 
 
 def branches_of(curves: Sequence[Sequence[Piece]], unloading: bool) -> list[list[Branch]]:
@@ -148,8 +148,8 @@ def meets(part: Branch | Segment, overlap: float) -> bool:
 
 
 def loaded(parts: list[Branch]) -> list[Branch]:
-    """Of parts in order of rising D those that loading follows: as the first strips cling the pressure falls below zero, and what
-    rises before it is least is left again."""
+    """Of parts in order of rising D those that loading follows. When the first strips adhere the pressure falls below zero:
+    rising parts before its minimum are none of them."""
     back = next((k for k, part in enumerate(parts) if part.p_high >= 0), len(parts) - 1)
     return parts[min(range(back + 1), key=lambda k: parts[k].p_low, default=0) :]
 
@@ -170,7 +170,7 @@ def _standing_out(rows: list[list[Branch]], unloading: bool) -> list[list[Branch
                 cut.append((part, bound, before))
         if not cut:
             continue
-        reached = Inverse([part for part, *_ in cut])(np.arange(len(cut)), np.array([p for _, p, _ in cut]))
+        reached = ParameterAt([part for part, *_ in cut])(np.arange(len(cut)), np.array([p for _, p, _ in cut]))
         for (part, p, before), t in zip(cut, reached.tolist(), strict=True):
             if unloading and t > part.t_low:
                 soft = part.inner_high and meets(part, part.p_high - p)
@@ -186,7 +186,7 @@ def rising(pieces: Sequence[Piece]) -> list[list[Branch]]:
     if not pieces:
         return []
     pressures = _pressures(pieces)
-    rises = np.diff([piece.coefficients[:, 0] @ _at_turns(len(piece.coefficients)) for piece in pieces]) > 0
+    rises = np.diff([piece.coefficients[:, 0] @ _chebyshev_at_turns(len(piece.coefficients)) for piece in pieces]) > 0
     last = _TURNS.size - 1
     outside = np.zeros((len(pieces), 1), int)
     change = np.diff(rises.astype(int), axis=1, prepend=outside, append=outside)
@@ -205,7 +205,7 @@ def rising(pieces: Sequence[Piece]) -> list[list[Branch]]:
 
 
 @lru_cache
-def _at_turns(size: int) -> np.ndarray:
+def _chebyshev_at_turns(size: int) -> np.ndarray:
     """Chebyshev polynomials at ``_TURNS``, (size, turns)."""
     return np.cos(np.arange(size)[:, None] * np.arccos(2 * _TURNS - 1))
 
@@ -231,7 +231,7 @@ def _pressures(pieces: Sequence[Piece]) -> Series:
     return Series(every)
 
 
-class Inverse:
+class ParameterAt:
     """Parameters at which branches reach pressures."""
 
     def __init__(self, parts: Sequence[Branch]):

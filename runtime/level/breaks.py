@@ -104,7 +104,7 @@ class Zones(Batch):
         return np.abs(self.mean[k] - beside).max(axis=0, initial=0.0) if beside else np.zeros(self.mean.shape[1])
 
 
-def zones_of(columns: int, state, code, low, high, first, last, total) -> list[Zones]:
+def zones_along_y(columns: int, state, code, low, high, first, last, total) -> list[Zones]:
     """Zones of every column from panels (m,) of the columns ``state``: codes, ends, values at both, and integrals ``total``."""
     order = np.lexsort((low, state))
     state, code, low, high, first, last, total = (v[order] for v in (state, code, low, high, first, last, total))
@@ -131,9 +131,8 @@ class IsolatedRegime:
 
 
 def islands(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) -> list[IsolatedRegime]:
-    """Of the changes in the sequence of codes along y between two of the nodes ``D`` those between the two where one moves the
-    means most, as far as they tell beside the ``goal`` (q,) of their errors: islands may be nested, and vanish one after another.
-    ``zones``: at each node."""
+    """Regimes along y that appear or vanish between two neighbouring nodes ``D``, of which ``zones`` are known: those of the two
+    nodes where one moves the means most, beside the ``goal`` (q,) of their errors. Islands may be nested, and vanish in turn."""
     most: list[IsolatedRegime] = []
     for i in range(D.size - 1):
         one, two = zones[i], zones[i + 1]
@@ -161,7 +160,7 @@ def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips:
     Where a curve turns, if an island ends there; else by ever smaller grids of strips across an island and along the way to its
     end. ``strips`` (per column) counts the work."""
     column, code, low, high, present, absent, weight = map(np.array, zip(*map(astuple, islands), strict=True))
-    out = _at_turns(columns, column, code, low, high, present, absent, strips)
+    out = _vanish_at_turns(columns, column, code, low, high, present, absent, strips)
     number = np.flatnonzero(np.isnan(out))
     if not number.size:
         return out
@@ -199,7 +198,7 @@ def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips:
     return out
 
 
-def _at_turns(columns: LevelBatch, column, code, low, high, present, absent, strips: np.ndarray) -> np.ndarray:
+def _vanish_at_turns(columns: LevelBatch, column, code, low, high, present, absent, strips: np.ndarray) -> np.ndarray:
     """Penetrations at which islands (see ``IsolatedRegime``), (n,), end at the turn of a curve, the one nearest to where they are
     absent; NaN where no turn has them on the one side and not on the other."""
     turns, h, out = columns.crossings.turned(columns), columns.level.h, np.full(column.size, np.nan)

@@ -21,8 +21,8 @@ _ASIDE = 1e-6
 
 #: (line, x) -> codes (m,), values (m, q), heights (m, k) and edges (m, 4)
 Probe = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
-#: (changes) -> changes of which equations tell all there is, where that is, several places for some, and whether that is
-#: doubtful, as something else may lie next to it: one place then; all (k,)
+#: (changes) -> which of them equations locate completely, their places (several for some), and whether another change may lie
+#: next to each, which has one place then; all (k,)
 Equation = Callable[["Changes"], tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 

@@ -2,8 +2,8 @@
 
 Between its breaks (``breaks.py``) a curve is interpolated (``interpolation.py``). All velocities advance together. Unloading
 jumps to re-entrant branches: parts of the curve under a pressure below all that came before, as below the fold of the crest,
-where the rims of the cells still hold. A rough sample of the curve tells where these are to a few digits; what it leaves open is
-kept, and only what is kept is interpolated.
+where strips near the edge of the cell still adhere. A rough sample of the curve tells where these are to a few digits; what it
+leaves open is kept, and only what is kept is interpolated.
 """
 
 from dataclasses import replace
@@ -92,8 +92,6 @@ def _without_hidden(columns: LevelBatch, intervals: Intervals, strips: np.ndarra
     # nearer to a threshold rounding decides strip by strip
     nearest = 64 * EPS * (h + columns.stretch + columns.adhesion.delta_0)
     inside = (intervals.low < opens) & (opens < intervals.high) & (intervals.high - opens < _SHORT * h)
-    if not inside.any():
-        return intervals
     lower, upper = intervals.take(inside).split(np.full(np.count_nonzero(inside), opens), soft=False)
     upper = upper.take(upper.width > np.maximum(nearest / _APART[0], upper.atol[:, 0] / K))
     if upper.size:

@@ -44,7 +44,7 @@ class Root(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Inverse(Batch):
+class Penetrations(Batch):
     """Penetrations that carry given pressures: ``D`` (n,), NaN below pull-off; ``strips.QUANTITIES`` as last averaged ``near``
     them (NaN: nowhere), their ``near_errors`` and ``slope`` over pressure, (n, 4); which are ``undecided`` (n,): the work ended
     before it was known which part of the curve it is; and which lie ``in_jump`` (n,), where D stands for one side of a curve that
@@ -58,15 +58,15 @@ class Inverse(Batch):
     in_jump: np.ndarray
 
     @classmethod
-    def at(cls, D: np.ndarray) -> Inverse:
+    def at(cls, D: np.ndarray) -> Penetrations:
         """Of pressures of which nothing else is known, or asked, than ``D`` (n,)."""
         shape = D.size, len(QUANTITIES)
         return cls(D, np.full(shape, np.nan), *np.zeros((2, *shape)), *np.zeros((2, D.size), bool))
 
     def meeting(self, p: np.ndarray, means: Averages) -> tuple[np.ndarray, np.ndarray]:
-        """Means (n, 4), and their errors, at the pressures ``p`` (Pa, (n,)) next to those of the ``means`` at D: along the secant
-        from those near it, and how far that differs from the slope before and what errors make of it; but for the pressure, which
-        is that at D."""
+        """Means (n, 4) at the pressures ``p`` (Pa, (n,)), along the secant from those near D to the ``means`` at D, but for the
+        pressure, which is that at D; and their errors. These grow by the change of slope since the average before, and by what
+        the errors of both averages make of the slope."""
         own, errors = (v[:, : len(QUANTITIES)].copy() for v in (means.values, means.errors))
         steps, miss, unknown = own - self.near, (p - own[:, 0])[:, None], errors + self.near_errors
         # a step of no more than what is not known tells nothing
@@ -75,28 +75,31 @@ class Inverse(Batch):
         blurred = np.divide(unknown + np.abs(secant) * unknown[:, :1], np.abs(steps[:, :1]), out=np.zeros_like(own), where=told)
         doubt = np.abs(secant - np.where(told, self.slope, 0.0)) + blurred
         own[:, 1:] += (secant * miss)[:, 1:]
+        # along a secant fractions leave what they can be, by less than their errors
+        own[:, 2:] = np.clip(own[:, 2:], 0.0, 1.0)
         errors[:, 1:] += (np.abs(secant) * errors[:, :1] + doubt * np.abs(miss))[:, 1:]
         errors[:, :1] += np.abs(miss)
         return own, errors
 
 
-def invert(columns: LevelBatch, p: np.ndarray, rtol: float) -> Inverse:
+def invert(columns: LevelBatch, p: np.ndarray, rtol: float) -> Penetrations:
     """Largest penetration (``unloading``) or smallest (``loading``) at which each column carries ``p`` (Pa, (n,)).
 
     The root is refined with averages to ``rtol``.
     """
     saturated = columns.saturated
-    out = Inverse.at(np.where(p >= saturated.p_sat, p / columns.material.K + 0.75 * columns.level.h, np.nan))
-    # without adhesion there is no contact at no pressure
-    rest = np.flatnonzero((p < saturated.p_sat) & ((p > 0) | (columns.adhesion.p_0 > 0)))
+    out = Penetrations.at(np.where(p >= saturated.p_sat, p / columns.material.K + 0.75 * columns.level.h, np.nan))
+    # without adhesion there is no contact at no pressure, and adhesion holds no more than p_0
+    p_0 = columns.adhesion.p_0
+    rest = np.flatnonzero((p < saturated.p_sat) & ((p > 0) | ((p_0 > 0) & (p >= -p_0))))
     if rest.size:
-        search = _with_adhesion if columns.adhesion.p_0 > 0 else _without_adhesion
+        search = _with_adhesion if p_0 > 0 else _without_adhesion
         found = search(columns.at(rest, np.zeros(rest.size)), p[rest], saturated.D_sat[rest], rtol)
         out.put(rest, found)
     return out
 
 
-def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
+def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Penetrations:
     """``invert`` at p > 0 without adhesion. Orbits are in the order of w, which rises with D, no faster: there is one root, and
     no turn to look for; and w lies between the profile, 3 h/4 below its crests on average, and these. Next to the plane crests
     are paraboloids, at rest they carry ``K D^2/(2 pi h)``: pressures are nearly powers."""
@@ -110,14 +113,14 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
         # however little the pressure is, friction goes with it
         x, near, errors, slope = _refine(columns, p, at, accuracy, 0.0, powers=True)
         D = np.clip(np.exp(x), low, high)
-    return Inverse(D, near, errors, np.nan_to_num(slope), *np.zeros((2, p.size), bool))
+    return Penetrations(D, near, errors, np.nan_to_num(slope), *np.zeros((2, p.size), bool))
 
 
-def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Inverse:
+def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Penetrations:
     """``invert`` with adhesion."""
     root, undecided = _first_passes(columns, p, cut_penetration(columns, p, full), rtol)
     in_jump = ~np.isnan(root.D) & np.isnan(root.low)
-    return Inverse(*_refine(columns, p, root, rtol, 1e-3 * columns.scales[0]), undecided, in_jump)
+    return Penetrations(*_refine(columns, p, root, rtol, 1e-3 * columns.scales[0]), undecided, in_jump)
 
 
 def _first_passes(columns: LevelBatch, p: np.ndarray, top: np.ndarray, rtol: float) -> tuple[Root, np.ndarray]:
@@ -183,8 +186,8 @@ class _Walk:
     undecided: bool = False
 
     def go_on(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
-        """Along the pieces of a part, with the branches of all that is known by now; where the work is not ``exhausted`` the part
-        may be asked for again, finer."""
+        """Look for the root in the branches of all that is known by now, the pieces ``found`` last included; where the work is
+        not ``exhausted`` the part may be asked for again, finer."""
         part, self.now, before = self.now, None, self.known
         self.known = [*before, *found]
         clings = self.p < 0 and not self.unloading
@@ -194,8 +197,8 @@ class _Walk:
         if clings and self.waiting and not (row[-1].p_high >= 0 > row[0].p_low + _DOUBT * row[0].errors.most[0]):
             self.held.append(part)
             return
-        # where unloading comes from the curve carries more than the pressure, but for errors
-        end = 2 * (len(row) - self.unloading)
+        # where unloading comes from, and where the way of loading ends, the curve carries more than the pressure, but for errors
+        end = 2 * (len(row) - (self.unloading or not self.waiting))
         least, k, most = (min(_place(row, self.p, doubts), end) for doubts in (-_DOUBT, 0.0, _DOUBT))
         joints = range(max(least, 0) // 2 + 1, min((most + 1) // 2 + 1, len(row)))
         certain = least == most or (0 <= least and most < 2 * len(row) - 1 and all(_goes_on(*row[j - 1 : j + 1]) for j in joints))

@@ -118,7 +118,7 @@ class Laws:
         """Errors of friction, its own and what it carries, and of pressure in the middle of every slot, (2, slots)."""
         share, columns = graded((np.arange(SLOTS) + 0.5) / SLOTS), 1 + self.frictions
         every = [(s.errors, s.p_low + (s.p_high - s.p_low) * share) for row in self.segments for s in row]
-        return np.concatenate([[errors.along(p, which) for which in (columns, 0)] for errors, p in every], axis=1)
+        return np.concatenate([[errors.along(p, which) for which in (columns, [0])] for errors, p in every], axis=1)
 
     @cached_property
     def _between(self) -> list[np.ndarray]:
@@ -186,16 +186,16 @@ def build_laws(
     p_full: np.ndarray,
     D_full: np.ndarray,
     saturated: np.ndarray,
-    p_max: np.ndarray | None,
+    p_max: np.ndarray,
     budget: ErrorBudget | None = None,
 ) -> Laws:
     """The friction law of every column (its ``D`` is not used) along its branch of loading, as far up as it will be asked for, to
     ``rtol |value| + atol``.
 
     ``p_full``, ``D_full`` (n,): where the level, and all it carries, is saturated; ``saturated`` (n, q): means there. ``p_max``
-    (n,): greatest pressure that will be asked for, or None for the whole law. ``budget``: how much its pressures count.
+    (n,): greatest pressure that will be asked for, inf for the whole law. ``budget``: how much its pressures count.
     """
-    p_max = np.full(columns.size, np.inf) if p_max is None else np.maximum(p_max, -columns.adhesion.p_0)
+    p_max = np.maximum(p_max, -columns.adhesion.p_0)
     top, unloading = cut_penetration(columns, p_max, D_full), columns.branch == "unloading"
     p_max = np.where(top < D_full, p_max, np.inf)
     curves, strips = trace(columns, rtol, atol, top, budget)

@@ -13,10 +13,10 @@ import numpy as np
 from ..numerics.gauss import graded_gauss, left_out, summed
 from ..orbit.batch import Ranges
 from ..orbit.contact import Contact
+from ..orbit.groups import TWO_PI
 from .law import Laws
 from .strips import SolvedStrips
 
-TWO_PI = 2 * np.pi
 #: a part's share of the error that an average of strips is allowed, and parts integrated at a time
 _SHARE, _CHUNK = 0.1, 4096
 #: what is left in a mean over contacts of the errors of a law, and of sums over parts: most panels and parts err by a hundredth

@@ -18,13 +18,13 @@ from ..numerics.linear import solved
 from ..numerics.rounding import EPS
 from ..orbit.batch import Batch
 from ..orbit.foundation import foundation_of
+from ..orbit.groups import TWO_PI
 from ..orbit.march import turn
-from ..orbit.regimes import ZONES
+from ..orbit.regimes import EQUATIONS, ZONES
 
 if TYPE_CHECKING:
     from .strips import LevelBatch
 
-TWO_PI = 2 * np.pi
 #: Newton's iterations, and how much less the step of each may be than before: nearly all that is found falls faster
 _ITERATIONS, _FALLS = 16, 0.46
 
@@ -56,7 +56,7 @@ BOUNDARIES = (
 
 
 @dataclass
-class Points(Batch):
+class CurvePoints(Batch):
     """Points of curves: ``velocity`` (m/s), ``A`` and ``E`` (m), ``edges`` (n, k) of the orbit that ends there, with the phase of
     what it grazes in order (``grazing``), and the ``pressure`` (Pa) that it passes, break number ``index`` of its law."""
 
@@ -68,7 +68,7 @@ class Points(Batch):
     index: np.ndarray
 
 
-def grazing(columns: LevelBatch, boundary: Boundary, at: Points) -> Points:
+def grazing(columns: LevelBatch, boundary: Boundary, at: CurvePoints) -> CurvePoints:
     """Orbits that are ``at`` these places with the phase at which their pressure or gap turns as one more edge, but at a fold."""
     if boundary.event == "fold":
         return at
@@ -80,7 +80,7 @@ def grazing(columns: LevelBatch, boundary: Boundary, at: Points) -> Points:
     return replace(at, edges=np.insert(at.edges, number + 1, phase, axis=1))
 
 
-def locate(columns: LevelBatch, boundary: Boundary, start: Points, unknown: str) -> tuple[Points, np.ndarray]:
+def locate(columns: LevelBatch, boundary: Boundary, start: CurvePoints, unknown: str) -> tuple[CurvePoints, np.ndarray]:
     """Points of a curve by Newton from ``start``, with ``unknown`` "A" or "E" and the other one kept; and which were found.
 
     ``start`` holds orbits of the boundary's sequence nearby, ``grazing``. Points that are not found are no numbers to be used.
@@ -133,7 +133,7 @@ def _left(share: np.ndarray) -> np.ndarray:
     return np.where(share <= 0.9, 1 - share, 0.01 / np.maximum(share - 0.8, 0.1))
 
 
-def _step(columns: LevelBatch, boundary: Boundary, at: Points, unknown: str) -> np.ndarray:
+def _step(columns: LevelBatch, boundary: Boundary, at: CurvePoints, unknown: str) -> np.ndarray:
     """Newton step (k + 1, n) of the first edge, of the zones behind it, and of the unknown of the plane, for the boundary
     equations of a sequence and the equation of its event."""
     foundation, edges, own, A = foundation_of(columns.material), at.edges.T, getattr(at, unknown), at.A
@@ -150,8 +150,6 @@ def _step(columns: LevelBatch, boundary: Boundary, at: Points, unknown: str) -> 
     moved, every = moved.reshape(k + 1, -1), at.take(np.tile(np.arange(n), 2 * k + 3))
     edges, A, E = moved[:k], *((moved[k], every.E) if unknown == "A" else (every.A, moved[k]))
     groups = columns.groups(every.velocity, A, E + 2 * A)
-    # contact without adhesion is contact with saturated adhesion of no strength
-    equations = "ac" if boundary.sequence == "cf" else boundary.sequence
     # and what vanishes at the event
     if boundary.event == "fold":
         events = (foundation.fold(boundary.sequence, edges, groups),)
@@ -161,7 +159,7 @@ def _step(columns: LevelBatch, boundary: Boundary, at: Points, unknown: str) -> 
         value, slope = function(phase, *constants)
         peak = groups.p_0 + every.pressure / columns.material.K / A
         events = value - {"peak": peak, "release": groups.delta_0, "closing": 0.0}[boundary.event], slope
-    values = getattr(foundation.kernel, f"residual_{equations}")(*edges, *groups.arguments)
+    values = getattr(foundation.kernel, f"residual_{EQUATIONS[boundary.sequence]}")(*edges, *groups.arguments)
     values = np.array((*values, *events)).reshape(k + 1, 2 * k + 3, n)
     matrix = ((values[:, 1 : k + 2] - values[:, k + 2 :]) / (2 * length)).transpose(2, 0, 1)
     return solved(matrix, -values[:, 0].T[:, :, None])[:, :, 0].T

@@ -1,4 +1,4 @@
-"""The map of regimes: curves that divide the plane of strips, asked where a level crosses them.
+"""The map of regimes: where a level crosses the curves that divide the plane of strips.
 
 A level at penetration D is a horizontal segment of the plane of strips (``plane``), ``E = D - h``. Straight curves are thresholds
 in closed form. Others are met between two strips in different regimes, and located by the equation of the orbit that ends there,
@@ -19,17 +19,15 @@ import numpy as np
 
 from ..numerics.rounding import EPS
 from ..orbit.foundation import foundation_of
-from ..orbit.regimes import CODE
+from ..orbit.regimes import CODE, ZONES
 from . import plane
 from .changes import Changes
-from .plane import BOUNDARIES, Boundary, Points
+from .plane import BOUNDARIES, Boundary, CurvePoints
 from .turns import Turns, locate_turns, together, turning
 
 if TYPE_CHECKING:
     from .strips import LevelBatch
 
-#: edges of the orbits of a regime, in order of phase
-EDGES = {"acaf": "dbac", "afc": "bac", "af": "dc", "ac": "ba", "cf": "ba"}
 #: place of each regime in the order in which a strip that is drawn out passes them: up to 1 it is engaged all along
 _RANK = np.array([{"c": 0, "a": 1, "ac": 1, "af": 3, "f": 4}.get(sequence, 2) for sequence in CODE])
 #: of the lines of ``straight``: where a gap that adheres throughout opens, and closes, and the first one of a pressure
@@ -78,8 +76,7 @@ def known_breaks(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray, np.ndarra
     these curves orbits end, with any other beyond."""
     state, theta = thresholds(columns)
     every = [(state, theta, np.zeros(state.size, bool)), *columns.crossings.expected(columns)]
-    state, theta, ends = (np.concatenate(v) for v in zip(*every, strict=True))
-    return state, theta, ends
+    return tuple(np.concatenate(v) for v in zip(*every, strict=True))
 
 
 def theta_of(columns: LevelBatch, A) -> np.ndarray:
@@ -134,20 +131,20 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
             rows = rows[~found[rows]]
             if not rows.size:
                 continue
-            names, peak = ["dbac".index(name) for name in EDGES[boundary.sequence]], boundary.event == "peak"
+            names, peak = ["dbac".index(name) for name in ZONES[boundary.sequence][1]], boundary.event == "peak"
             ends = [v[rows] for v in (A, E, changes.edges[:, :, names])]
             near = [v[:, side] for v in ends]
             if peak and not side:
                 # between two orbits of one regime, as far along as their greatest pressures tell
                 height = changes.heights[rows, :, index[rows]].T
                 near = [((height[0] * v[:, 1].T - height[1] * v[:, 0].T) / (height[0] - height[1])).T for v in ends]
-            start = Points(columns.V[rows], *near, pressure[rows] * peak, index[rows] * peak)
+            start = CurvePoints(columns.V[rows], *near, pressure[rows] * peak, index[rows] * peak)
             got, good = plane.locate(columns, boundary, plane.grazing(columns, boundary, start), unknown)
             at = getattr(got, unknown)
             good &= (at > low[rows]) & (at < high[rows])
             place[rows[good]], found[rows[good]] = at[good], True
             if good.any():
-                columns.crossings.remember(columns, boundary, got.take(np.flatnonzero(good)))
+                columns.crossings.remember(boundary, got.take(np.flatnonzero(good)))
     return place, found
 
 
@@ -183,8 +180,7 @@ def hides_another(code: np.ndarray, other: np.ndarray) -> np.ndarray:
 def by_equation(
     columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Of ``located``: the changes of which equations tell all, once for each break of the law below that is passed, and where
-    that is, (k,)."""
+    """Which changes equations locate completely, once for each break of the law below that is passed, and where, (k,) both."""
     passed = changes.passed & (changes.codes[:, :1] % len(CODE) == changes.codes[:, 1:] % len(CODE))
     parent, which = np.nonzero(passed)
     several = passed.sum(axis=1)[parent] > 1
@@ -204,13 +200,13 @@ class Crossings:
     """Points of the curves of the plane that were located, for every velocity, and where they turn, once that was asked. Belongs
     to one level with one material, adhesion, closure and branch."""
 
-    points: dict[Boundary, Points] = field(default_factory=dict)
+    points: dict[Boundary, CurvePoints] = field(default_factory=dict)
     turns: dict[Boundary, Turns] = field(default_factory=dict)
 
-    def remember(self, columns: LevelBatch, boundary: Boundary, points: Points) -> None:
+    def remember(self, boundary: Boundary, points: CurvePoints) -> None:
         known = self.points.get(boundary)
         if known is not None:
-            points = Points.joined([known, points])
+            points = CurvePoints.joined([known, points])
         # by velocity and along the curve, which has one E for each A; what is closer than this says nothing new
         place = np.floor(_GRID * np.log(points.A))
         order = np.lexsort((points.A, points.index, points.velocity))
@@ -224,17 +220,17 @@ class Crossings:
         orbits end there; (k,)."""
         E = columns.D - columns.level.h
         for boundary, known in self.points.items():
-            starts = _between(known, columns.V, E), _at_turns(known, columns.V, E)
+            starts = _between(known, columns.V, E), _crossings_beyond_turns(known, columns.V, E)
             state, lower, share = (np.concatenate(v) for v in zip(*starts, strict=True))
             if not state.size:
                 continue
             blend = lambda x: (x[lower].T + share * (x[lower + 1] - x[lower]).T).T  # noqa: E731, B023
             A, passed = np.maximum(blend(known.A), 0.5 * known.A[lower]), (known.pressure[lower], known.index[lower])
-            start = Points(columns.V[state], A, E[state], blend(known.edges), *passed)
+            start = CurvePoints(columns.V[state], A, E[state], blend(known.edges), *passed)
             points, found = plane.locate(columns, boundary, start, "A")
             found &= (points.A > 0) & (2 * points.A < columns.level.h)
             points, state = points.take(np.flatnonzero(found)), state[found]
-            self.remember(columns, boundary, points)
+            self.remember(boundary, points)
             yield state, theta_of(columns, points.A), np.full(state.size, boundary.event in ("fold", "release"))
         for turns in (turns for boundary, turns in self.turns.items() if boundary.event == "fold"):
             beyond = turns.way * (E[:, None] - turns.E) >= 0
@@ -250,7 +246,7 @@ class Crossings:
         return Turns.joined([none, *self.turns.values()])
 
 
-def _between(known: Points, velocity, E) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _between(known: CurvePoints, velocity, E) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """States that cross a curve between two neighbouring points of it, or not far beyond its ends; the first of the two, and the
     share of the straight line through them on which that is."""
     first = np.searchsorted(known.velocity, velocity, "left")
@@ -266,7 +262,7 @@ def _between(known: Points, velocity, E) -> tuple[np.ndarray, np.ndarray, np.nda
     return state[near], lower[near], share[near]
 
 
-def _at_turns(known: Points, velocity, E) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _crossings_beyond_turns(known: CurvePoints, velocity, E) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """``_between`` for states beyond the last point of a curve before it turns back in E: each crosses the parabola through the
     three points there, twice."""
     middle = turning(known)

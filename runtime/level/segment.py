@@ -11,7 +11,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 
 from ..numerics.chebyshev import Series, clenshaw, coefficients, lobatto
-from .branches import Branch, Errors, Inverse, graded
+from .branches import Branch, Errors, ParameterAt, graded
 
 #: degree of the polynomials
 _DEGREE = 8
@@ -115,7 +115,7 @@ def segments_of(branches: Sequence[Branch], tolerance: np.ndarray) -> list[Segme
     """A segment for each branch, to its ``tolerance`` (branches, q)."""
     if not branches:
         return []
-    t_at, quantities = Inverse(branches), Series([b.piece.coefficients for b in branches])
+    t_at, quantities = ParameterAt(branches), Series([b.piece.coefficients for b in branches])
     low, span = np.array([b.p_low for b in branches]), np.array([b.p_high - b.p_low for b in branches])
     cells = cells_of(lambda which, u: quantities(which, t_at(which, low[which] + span[which] * graded(u))).T, tolerance, graded)
     return [

@@ -120,9 +120,8 @@ class LevelBatch:
         """Strips at ``theta = k y`` of the given columns, both of shape (m,). Raises ``SolverError`` for one not certified."""
         A = self.level.amplitude(theta)
         D = self.D[column] - self.level.drop(theta)
-        l, a = np.full(column.size, self.level.l), self.adhesion  # noqa: E741
-        foundation = foundation_of(self.material)
-        solved, strips, scales = foundation.solve(l, A, D, self.V[column], a.p_0, a.delta_0, self.edge, self.branch)
+        foundation, a = foundation_of(self.material), self.adhesion
+        solved, strips, scales = foundation.solve(self.level.l, A, D, self.V[column], a.p_0, a.delta_0, self.edge, self.branch)
         self.work.count(solved)
         tau = solved.tau_mean * scales["p"] * scales["k"] * scales["A"]
         return SolvedStrips(solved, strips, scales, solved.p_mean * scales["p"], tau, foundation)

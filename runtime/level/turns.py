@@ -14,7 +14,7 @@ import numpy as np
 from ..numerics.roots import falling_root
 from ..orbit.batch import Batch
 from . import plane
-from .plane import Boundary, Points
+from .plane import Boundary, CurvePoints
 
 if TYPE_CHECKING:
     from .strips import LevelBatch
@@ -34,18 +34,18 @@ class Turns(Batch):
     way: np.ndarray
 
 
-def together(points: Points) -> np.ndarray:
+def together(points: CurvePoints) -> np.ndarray:
     """Which points stand on the same curve as the next one."""
     return (np.diff(points.velocity) == 0) & (np.diff(points.index) == 0)
 
 
-def turning(points: Points) -> np.ndarray:
+def turning(points: CurvePoints) -> np.ndarray:
     """Numbers of the points between whose neighbours their curve turns."""
     one, steps = together(points), np.diff(points.E)
     return 1 + np.flatnonzero(one[:-1] & one[1:] & (steps[:-1] != 0) & (steps[:-1] * steps[1:] <= 0))
 
 
-def locate_turns(columns: LevelBatch, boundary: Boundary, known: Points, had: Turns) -> Turns:
+def locate_turns(columns: LevelBatch, boundary: Boundary, known: CurvePoints, had: Turns) -> Turns:
     """Turns of the curves through the points ``known``, where their slope vanishes, beside those that are ``had``; those that are
     found."""
     middle = turning(known)

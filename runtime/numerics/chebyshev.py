@@ -16,7 +16,7 @@ from .roots import falling_root
 from .rounding import EPS
 
 #: all quantities share their singularities: power of the roughest one's coefficients, relative to its own, in those of the others
-COMMON = 0.2
+_COMMON = 0.2
 #: ratio of the last coefficients to those in the middle below which they surely fall geometrically
 _GEOMETRIC = 0.01
 #: how much of the last coefficient a sum of the rest is at least and at most, and how much more than that sum is feared: a sum
@@ -75,15 +75,25 @@ def interpolation_errors(
     amplitude = (c[:, 1:].max(axis=1) + noise + np.finfo(float).tiny)[:, None]
     blur = np.broadcast_to(blur, noise.shape)[:, None]
     roughest = (np.maximum(c - blur, 0.0) / amplitude).max(axis=2, keepdims=True)
-    c = c ** (1 - COMMON) * (roughest * amplitude) ** COMMON
+    c = shared_size(c, roughest, amplitude)
     # a run long enough that a kink's coefficients, which come and go, are not all small in it
     few = max(3, n // 5)
     last, middle = c[:, n - few :].max(axis=1), c[:, n // 2 - 2 : n // 2 + 1].max(axis=1)
-    ratio = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0)
+    ratio = fall_ratio(last, middle)
     pace = ratio ** (1 / (n / 2 + 1 - few / 2))
     onward = (c[:, n - few :] * pace[:, None] ** np.arange(few, -1, -1)[:, None]).max(axis=1)
     end = np.where(ratio < _GEOMETRIC, onward, last)
     return _SAFE * end * np.clip(2 * pace / np.maximum(1 - pace, 1e-3), _FASTEST, _SLOWEST)
+
+
+def fall_ratio(last: np.ndarray, first: np.ndarray) -> np.ndarray:
+    """``last`` over ``first``, neither negative; 1 where that is more."""
+    return np.divide(last, first, out=np.ones_like(last), where=first > last)
+
+
+def shared_size(own: np.ndarray, roughest: np.ndarray, amplitude: np.ndarray) -> np.ndarray:
+    """Size of coefficients of each quantity, given that of the ``roughest`` one relative to its ``amplitude``."""
+    return own ** (1 - _COMMON) * (roughest * amplitude) ** _COMMON
 
 
 def evaluate_each(table: np.ndarray, x: np.ndarray) -> np.ndarray:
@@ -141,7 +151,7 @@ class Series:
     """Chebyshev series over t in [0, 1], coefficients (n_i + 1, q) each: those with as many are summed together."""
 
     def __init__(self, coefficients: Sequence[np.ndarray]):
-        self._size, self._q = np.array([len(c) for c in coefficients]), coefficients[0].shape[1] if coefficients else 0
+        self._size, self._q = np.array([len(c) for c in coefficients]), coefficients[0].shape[1]
         self._rank, self._tables = np.empty(self._size.size, int), {}
         for size in np.unique(self._size).tolist():
             members = np.flatnonzero(self._size == size)

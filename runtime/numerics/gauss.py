@@ -15,6 +15,7 @@ from math import comb
 
 import numpy as np
 
+from .chebyshev import fall_ratio
 from .rounding import EPS
 
 GENTLE, STEEP = 2, 4
@@ -48,8 +49,7 @@ def left_out(projection: np.ndarray, values: np.ndarray) -> np.ndarray:
     known = projection[[n // 2 - 1, n // 2, n // 2, n - 3, n - 2, n - 1]]
     c = np.abs(summed(known, values)) - 16 * EPS * np.abs(values).max(axis=0)
     middle, last = np.maximum(c, 0.0).reshape(2, 3, *values.shape[1:]).max(axis=1)
-    ratio = np.minimum(np.divide(last, middle, out=np.ones_like(last), where=middle > last), 1.0)
-    return last * ratio**1.5
+    return last * fall_ratio(last, middle) ** 1.5
 
 
 def summed(weights: np.ndarray, values: np.ndarray) -> np.ndarray:

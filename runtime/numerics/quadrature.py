@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from .chebyshev import COMMON, coefficients, lobatto
+from .chebyshev import coefficients, fall_ratio, lobatto, shared_size
 from .rounding import EPS
 
 #: coefficients in the middle of a series that those at its end are held against: one may be small by chance
@@ -90,7 +90,7 @@ def sampled(
     places: Callable[[Any, np.ndarray], np.ndarray],
     evaluate: Callable[[Any, np.ndarray], Sequence[np.ndarray]],
 ) -> list[Stage]:
-    """The stages on their first nodes, or on twice as many of which every other one is known, all of one evaluation.
+    """The stages on their first nodes, or on twice as many, of which every other one is known: all in one evaluation.
 
     ``places(parts, t)``: where the parameters ``t`` (nodes,) in [0, 1] are, (parts, nodes). ``evaluate(parts, x)`` returns arrays
     (m, ...) of what is at ``x`` (m,) of ``parts`` (m,)."""
@@ -194,33 +194,24 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     shape = (c / amplitude).max(axis=1)
     many, few = _runs(n)
     step = _step(n)
-    ratio = _ratio(_last(shape, many), shape[n // 2 - _MIDDLE : n // 2].max(axis=0))
+    ratio = fall_ratio(_last(shape, many), shape[n // 2 - _MIDDLE : n // 2].max(axis=0))
     since = ratio ** (1 / (0.5 * (n + 1 - many)))
     recent = np.maximum(
-        _ratio(_last(c, step), _last(c, step, step) + _QUIET * noise), _ratio(_last(shape, step), _last(shape, step, step))
+        fall_ratio(_last(c, step), _last(c, step, step) + _QUIET * noise),
+        fall_ratio(_last(shape, step), _last(shape, step, step)),
     )
     since = np.where(recent > since**step, np.maximum(since, _LAYERED), since)
-    size = _size(_last(c, many), _last(shape, many), amplitude)
+    size = shared_size(_last(c, many), _last(shape, many), amplitude)
     first = size * np.interp(since, *_left(n, True))
-    second = _size(_last(c, few), _last(shape, few), amplitude) * np.interp(recent, *_left(n, False))
+    second = shared_size(_last(c, few), _last(shape, few), amplitude) * np.interp(recent, *_left(n, False))
     sure = ratio < _GEOMETRIC[int(n >= _MANY)]
     doubtful = _SAFE * np.maximum(first, second)
     # as those of a kink may fall: by a power, and coming and going; so the next ones by as much as these
     slow = np.where(ratio > _POWER, np.maximum(doubtful, _TURNS * size * ratio), doubtful)
-    fall = _ratio(change, before)
+    fall = fall_ratio(change, before)
     # where sums fall geometrically what is left is in the square of that ratio to the last change
     least = np.where(sure, change * fall**2, extrapolated(change, fall))
     return np.maximum(least, np.where(sure, _SAFE * np.sqrt(np.maximum(first, second) * second), slow)).T
-
-
-def _ratio(last, first):
-    """``last`` over ``first``, at most 1."""
-    return np.minimum(np.divide(last, first, out=np.ones_like(last), where=first > last), 1.0)
-
-
-def _size(own, roughest, amplitude):
-    """Size of the last coefficients of each quantity, given that of the ``roughest`` one relative to its ``amplitude``."""
-    return own ** (1 - COMMON) * (roughest * amplitude) ** COMMON
 
 
 def by_rules(

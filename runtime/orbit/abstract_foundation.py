@@ -30,8 +30,8 @@ class Foundation(ABC):
     """A material with its generated solver: all that levels and strips ask of it. Arrays flat, (N,), SI unless said otherwise.
 
     ``parameters``: what the generated functions of a level take first, K among them. ``J``: instantaneous compliance times K.
-    ``longest_time``: longest retardation time, s. ``lossiest_rate``: rate at which Im K* is greatest, 1/s; inf where it only
-    grows.
+    ``longest_time``: longest retardation time, s. ``lossiest_rate``: rate of the greatest loss modulus, 1/s; inf where
+    that grows without bound.
     """
 
     kernel: ModuleType

@@ -13,8 +13,8 @@ from .march import Orbit
 from .regimes import ORBIT_EDGES
 from .solved import Record, Solved
 
-#: longest time over that of a passage up to which rounding leaves nothing of the speed but in friction; and up to which it may
-#: hide from the solvers of moving strips what happens next to where they are released
+#: longest time over that of a passage up to which speed shows in nothing but friction, for rounding; and up to which the solvers
+#: of moving strips may fail next to a release, so that a strip is solved at rest
 AT_REST, SLOW = 1e-13, 1e-9
 
 
@@ -28,7 +28,7 @@ def solve_at_rest(kernel, strips, flat, unloading: bool) -> Solved:
     free = (D <= -reach) & (released | (not unloading))
     full, hold = (~free & ~released & holds for holds in (valley >= -p_0 - noise, (valley < -p_0 - noise) & (D <= -p_0)))
     record.constant(np.flatnonzero(free), "f")
-    record.constant(np.flatnonzero(hold), "a", -p_0[hold], 0.0, 0.0, 1.0)
+    record.saturated_adhesion(np.flatnonzero(hold))
     record.saturated_contact(np.flatnonzero(full & ~flat))
     record.constant(np.flatnonzero(full & flat), "c", D[full & flat], 0.0, 1.0)
     wavy, touches, steps = ~(free | full | hold), D > -np.minimum(p_0, reach), released & (p_0 > 0)

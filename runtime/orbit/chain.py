@@ -250,8 +250,8 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = F
 
 
 def _equations(kernel, cycle: Cycle, sequence: str, edges) -> tuple:
-    """The boundary equations, the last freed of what the others miss, and their derivatives by the edge before and the one after;
-    an edge that is grazed stays where it is."""
+    """The boundary equations, the last corrected by what the others miss, and their derivatives by the edge before and the one
+    after; an edge that is grazed stays where it is."""
     s = cycle.strips
     linked, before, after = links(kernel, cycle, sequence, gap_zones(cycle, sequence), edges)
     *values, closing = getattr(kernel, f"residual_{regimes.EQUATIONS[sequence]}")(*edges, *s.arguments)

@@ -34,7 +34,7 @@ CHUNK = 131072
 def solve_strips(kernel, strips: Strips, unloading: bool) -> Solved:
     """Solve a batch with the generated ``kernel``; ``certified`` is false for every strip that must not be used."""
     if strips.size > CHUNK // 128:
-        # glibc hands freed memory back at once, page by page, beyond twice the largest block that was ever freed
+        # one large block, freed at once: glibc then keeps freed memory, up to twice as much, for the next batches
         np.empty(31 * CHUNK)
     solved = _Batch(kernel, strips, unloading).solve()
     settle(lambda nearby: _Batch(kernel, nearby, unloading).solve(), strips, solved, unloading)
@@ -91,7 +91,7 @@ class _Batch:
         self.record.saturated_contact(index[full])
         clings = ~full & may_cling(self.kernel, s)
         hold = clings & (s.D <= -s.p_0)
-        self.record.constant(index[hold], "a", -s.p_0[hold], 0.0, 0.0, 1.0)
+        self.record.saturated_adhesion(index[hold])
         rest = ~full & ~hold
         return index[rest], clings[rest]
 

@@ -118,6 +118,4 @@ def _excess(cycle: Cycle, F, gain):
 def over(numerator, denominator):
     """``numerator/denominator`` for ``numerator >= 0``: 0 if it is 0, inf where the denominator is not positive or too small."""
     out = np.where(numerator > 0, np.inf, 0.0)
-    return np.divide(
-        numerator, denominator, out=out, where=(denominator > 0) & (denominator > 1e-290 * numerator) & (numerator > 0)
-    )
+    return np.divide(numerator, denominator, out=out, where=(denominator > 1e-290 * numerator) & (numerator > 0))

@@ -10,7 +10,6 @@ from .batch import Batch
 from .march import TWO_PI, Orbit
 from .regimes import CODE, EQUATIONS
 
-UNDECIDED = -1
 #: distances in roundings of D at which a strip on the end of a branch is settled
 _SHIFTS = (8, 64, 512)
 
@@ -35,7 +34,7 @@ class Solved(Batch):
     @classmethod
     def empty(cls, n: int) -> "Solved":
         nan = [np.full(n, np.nan) for _ in range(8)]
-        return cls(np.full(n, UNDECIDED, np.int8), *nan, np.zeros(n, bool), np.zeros(n, bool))
+        return cls(np.full(n, -1, np.int8), *nan, np.zeros(n, bool), np.zeros(n, bool))
 
 
 class Record:
@@ -48,6 +47,9 @@ class Record:
     def saturated_contact(self, index) -> None:
         p_mean, tau_mean = self.kernel.means_c(*self.strips.among(index).arguments)
         self.constant(index, "c", p_mean, tau_mean, 1.0, 0.0)
+
+    def saturated_adhesion(self, index) -> None:
+        self.constant(index, "a", *self.kernel.means_a(*self.strips.among(index).arguments), adhesion=1.0)
 
     def constant(self, index, sequence: str, p_mean=0.0, tau_mean=0.0, contact: float = 0.0, adhesion: float = 0.0) -> None:
         """A regime without edges."""

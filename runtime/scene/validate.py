@@ -26,7 +26,9 @@ def validated(raw: dict[str, Any]) -> dict[str, Any]:
     ----------
     raw : content of the file
 
-    Returns ------- dict with the keys of :class:`hystrip.scene.schema.SceneFile`; a quantity is an array of shape (), a
+    Returns
+    -------
+    dict with the keys of :class:`hystrip.scene.schema.SceneFile`; a quantity is an array of shape (), a
     list or range of them one of shape (n,); moduli and times are lists of such arrays; absent optional keys are None or
     their default
 

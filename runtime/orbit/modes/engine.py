@@ -66,8 +66,8 @@ class _Batch:
         self.solved.searched[index] = True
         self.record.constant(index[found.kind == FREE], "f")
         orbit = found.kind == ORBIT
-        for number, sequence in enumerate(ROWS, 1):
-            k = np.flatnonzero(orbit & (found.sequence == number))
+        for sequence in ROWS:
+            k = np.flatnonzero(orbit & (found.sequence == CODE[sequence]))
             self.record.orbits(index[k], sequence, Orbit.of(sequence, found.edges[list(ROWS[sequence])][:, k]))
         closed = (found.kind == ENGAGED) & self.constant[index] & (not self.unloading)
         self._closed(index[closed])
@@ -79,8 +79,7 @@ class _Batch:
     def _closed(self, index):
         """Saturated contact, or adhesion all along."""
         self.record.saturated_contact(index[self.full[index]])
-        hold = index[~self.full[index]]
-        self.record.constant(hold, "a", -self.strips.p_0[hold], 0.0, 0.0, 1.0)
+        self.record.saturated_adhesion(index[~self.full[index]])
 
     def _always_engaged(self, index, sequence, met=None):
         """Solve the always engaged orbits of the strips ``index``; write those that are orbits of the strip.
@@ -103,7 +102,7 @@ def _lowest_state(kernel, s: ModeStrips) -> np.ndarray:
     return np.einsum("ij...,j...->i...", s.m.share, np.maximum(e, -s.p_0))
 
 
-def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None = None):
+def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None):
     """The one orbit of each strip that is never released, by Newton's method on its edges, checked by a march:
     from edges (4, N) that marches ``met``, then from those met from below all orbits.
 

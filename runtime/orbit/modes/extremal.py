@@ -6,7 +6,7 @@ from ...numerics.linear import solved
 from ...numerics.rounding import EPS
 from ..certificate import STABLE
 from ..groups import ROUNDING, TWO_PI
-from ..regimes import EDGES
+from ..regimes import CODE, EDGES
 from .fields import state_at
 from .forced import Forced
 from .march import march
@@ -29,7 +29,6 @@ _SETTLED, _LOST, _LOST_AFTER, _SHRINKS = 2 * EPS, 0.1, 4, 0.7
 _CONVERGED, _ROUNDINGS, _COARSEST = 1e-13, 8, 1e-6
 #: edges of each sequence, by their rows in the order d, b, a, c
 ROWS = {sequence: tuple("dbac".index(edge) for edge in EDGES[sequence]) for sequence in ("acaf", "afc", "af")}
-SEQUENCES = ("", "acaf", "afc", "af")
 ENGAGED, FREE, ORBIT, UNRESOLVED = 0, 1, 2, -1
 
 
@@ -95,8 +94,8 @@ class Search:
     def _stable(self, i) -> np.ndarray:
         """Where the spectral radius of the return map is at most one, as is true of both extremal orbits."""
         good = np.zeros(i.size, bool)
-        for number, sequence in enumerate(ROWS, 1):
-            k = np.flatnonzero(self.sequence[i] == number)
+        for sequence in ROWS:
+            k = np.flatnonzero(self.sequence[i] == CODE[sequence])
             s, edges = self.s.take(i[k]), self.edges[np.array(ROWS[sequence])[:, None], i[k]]
             matrix = getattr(self.kernel, f"return_map_{sequence}")(*edges, *s.arguments)
             matrix = np.moveaxis(np.broadcast_to(matrix, (s.modes, s.modes, s.size)), -1, 0)
@@ -156,13 +155,13 @@ class Search:
     def _newton(self, i, edges) -> None:
         """Orbits from the ``edges`` that the marches of the strips ``i`` met."""
         contact, snaps = edges[2] > edges[1], self.s.snaps[i]
-        for number, kind in ((1, contact & ~snaps), (2, contact & snaps), (3, ~contact & ~snaps)):
+        for sequence, kind in (("acaf", contact & ~snaps), ("afc", contact & snaps), ("af", ~contact & ~snaps)):
             k = np.flatnonzero(kind)
             if k.size:
-                self._from(i[k], number, edges[list(ROWS[SEQUENCES[number]])][:, k])
+                self._from(i[k], sequence, edges[list(ROWS[sequence])][:, k])
 
-    def _from(self, index, number: int, edges) -> None:
-        sequence, s = SEQUENCES[number], self.s.take(index)
+    def _from(self, index, sequence: str, edges) -> None:
+        s = self.s.take(index)
         edges, good, known = certified(self.kernel, s, sequence, np.maximum.accumulate(edges, axis=0))
         k = np.flatnonzero(good)
         if not k.size:
@@ -174,7 +173,7 @@ class Search:
         once = (period.onsets == 1) & (period.releases == 1) & (period.contacts == sequence.count("c"))
         ok = once & ~period.lost & (period.engaged == period.engaged_before) & agrees(period.edges[rows], edges, known[k])
         index, edges = index[k[ok]], edges[:, ok]
-        self.sequence[index], self.known[index] = number, known[k[ok]]
+        self.sequence[index], self.known[index] = CODE[sequence], known[k[ok]]
         self.edges[:, index] = edges[0]
         self.edges[np.array(rows)[:, None], index] = edges
 

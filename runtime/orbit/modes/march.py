@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...numerics.rounding import EPS
+from ..groups import TWO_PI
 from .crossing import LOST, LOWER, NONE, Field, first_crossing
 from .problem import ModeStrips, rates
 
-TWO_PI = 2 * np.pi
 CONTACT, ADHESION, FREE = 0, 1, 2
 #: zones in a period: more than seven were never met but by points that find no end of them
 _MAX_ZONES = 12
