@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, overload
 
@@ -17,7 +17,6 @@ from .inputs.surface import Level
 from .level.averages import level_means
 from .level.inverse import invert
 from .level.strips import QUANTITIES, LevelBatch, WorkCounters
-from .orbit.groups import ROUNDING
 
 if TYPE_CHECKING:
     import os
@@ -179,11 +178,11 @@ def solve_level(
         refuse_faint(load, material, adhesion, level)
     shape = broadcast(**{"V": V, name: load})
     V, load = (np.broadcast_to(v, shape).ravel() for v in (V, load))
-    if name == "D":
-        load = _not_just_released(load, level.h, adhesion.p_0 / material.K, adhesion.delta_0)
     work = WorkCounters()
     inputs = Inputs(material, adhesion, level, V.reshape(shape), edge, branch, rtol, strips)
     columns = LevelBatch(material, adhesion, level, edge, branch, V, load, strips=strips, work=work)
+    if name == "D":
+        columns = replace(columns, D=columns.not_just_released(load))
     D, values, errors = _means(columns, load if D is None else None, rtol)
     pulled_off = np.isnan(D)
     allowed = rtol * np.abs(values) + columns.atol(np.full(load.size, rtol))
@@ -203,13 +202,6 @@ def solve_level(
         strips=work.solved + work.decided,
         inputs=inputs,
     )
-
-
-def _not_just_released(D: np.ndarray, h: float, stretch: float, delta_0: float) -> np.ndarray:
-    """``D``, or, where it is that at which the valley is just released but for roundings, one at which it adheres: else strips as
-    flat as the rounding would be free or not as it falls."""
-    released, rounding = h - stretch - delta_0, ROUNDING * (h + stretch + delta_0)
-    return np.where(np.abs(D - released) < rounding, released + rounding, D)
 
 
 def _means(columns: LevelBatch, p: np.ndarray | None, rtol: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

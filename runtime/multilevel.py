@@ -200,7 +200,8 @@ class _Solve:
             size = np.full(index.size, _GUESS * surface.friction_floor) if self.friction is None else self.friction[index]
             deepest = cut_penetration(columns, load, np.full(load.size, np.inf)) if self.by_pressure else load
             columns = with_family(columns, deepest, surface.rtol * size, carries=self.M > 1)
-        found = invert(columns, load, 0.5 * surface.rtol) if self.by_pressure else Penetrations.at(load)
+        D = load if families else columns.not_just_released(load)
+        found = invert(columns, load, 0.5 * surface.rtol) if self.by_pressure else Penetrations.at(D)
         off, touching = np.isnan(found.D), np.flatnonzero(np.isfinite(found.D))
         self.out.pulled_off[index[off]], self.out.p[index[off]] = True, load[off]
         if not touching.size:

@@ -137,6 +137,18 @@ def test_a_level_whose_valley_is_just_released_is_like_one_next_to_it(V, p_0, br
     assert V > 0 or abs(at.tau_mean) <= at.error_estimate[1]
 
 
+@pytest.mark.parametrize("branch", ["unloading", "loading"])
+@pytest.mark.parametrize("T_sigma", [1e-2, 1e-3])
+@pytest.mark.filterwarnings("error")
+def test_a_surface_whose_valleys_are_just_released_is_like_one_next_to_it(T_sigma, branch):
+    material, adhesion = hystrip.StandardLinearSolid(1e9, 1e-2, T_sigma), hystrip.Dugdale(p_0=50.0, delta_0=5e-8)
+    given = {"velocity": 1e-3, "edge": "constitutive", "branch": branch}
+    for levels in ([hystrip.Level(1e-5, 5e-7)], [hystrip.Level(1e-5, 5e-7), hystrip.Level(1e-6, 5e-9)]):
+        at, beside = (hystrip.solve(material, adhesion, levels, penetration=D, **given) for D in (4e-7, 4e-7 * (1 + 1e-12)))
+        assert at.counts["strips_solved"] <= 2 * beside.counts["strips_solved"] + 10
+        assert abs(at.tau - beside.tau) <= at.tau_error + beside.tau_error + 1e-9 * abs(beside.tau)
+
+
 @pytest.mark.filterwarnings("error")
 def test_a_level_whose_strips_let_go_all_but_at_once_has_no_piece_between():
     """With a short memory all strips of the smallest level let go at one height of the valley, within 3e-16 m of D."""

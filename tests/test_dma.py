@@ -5,6 +5,7 @@ import pytest
 
 import hystrip
 from hystrip.dma import DynamicModulus, fit_prony, read_dma
+from hystrip.dma.fit import ACCURACY
 from hystrip.scene import load_scene
 
 OMEGA = np.geomspace(1e-2, 1e4, 61)
@@ -149,6 +150,12 @@ def test_as_few_times_as_reach_the_accuracy():
         with np.errstate(all="raise"):
             fewer = fit_prony(fractional_zener, band=(1e-2, 1e6), terms=len(series.times) - 1)
         assert fewer.rms > accuracy
+
+
+def test_times_beyond_the_band_count_among_those_that_reach_the_accuracy():
+    """Of a spring-pot next to a dashpot no number of times evenly over the band gets there."""
+    series = fit_prony(lambda omega: 1e6 * (1j * omega) ** 0.9, band=(1e-2, 1e3))
+    assert series.rms <= ACCURACY and len(series.times) < 12
 
 
 def test_table_function_and_data_give_the_same_series():

@@ -18,8 +18,9 @@ from .series import PronySeries
 ACCURACY = 0.02
 #: a branch below this share of the glassy modulus is rounding of the solver
 _NOTHING = 1e-12
-#: what does not reach the accuracy takes the fewest times that come this near to the best
-_AS_GOOD = 1.05
+#: numbers of times that are tried where evenly spaced ones don't reach the accuracy; what does not reach it at all takes the
+#: fewest that come this near to the best
+_TRIED, _AS_GOOD = (5, 10, 20), 1.05
 
 
 def fit_prony(
@@ -139,32 +140,34 @@ def _rms(residuals: np.ndarray) -> float:
 
 
 def _fewest(data: DynamicModulus, accuracy: float) -> np.ndarray:
-    """As few times as reach the accuracy: first how many evenly spaced ones do, then how many fewer where they fit best."""
+    """As few times as reach the accuracy, where they fit best; or, if none do, as few as leave about as little as any.
+
+    How many are enough is seen from evenly spaced ones, if there are enough of these, which is had at once."""
     most = min(MOST_TIMES, (2 * data.omega.size - 1) // 2)
     found: dict[int, tuple[float, np.ndarray]] = {}
 
-    def at(count: int) -> float:
+    def left(count: int) -> float:
         if count not in found:
             times = _placed(data, count)
             found[count] = (_rms(solved(data, times)[1]), times)
         return found[count][0]
 
-    even, enough = [], most
-    for count in range(1, most + 1):
-        even.append(_rms(solved(data, _evenly(data, count))[1]))
-        if even[-1] <= accuracy:
-            enough = count
-            break
-    else:
-        # noise, or more decades than so many times can span: where they are best placed matters little then
-        enough = 1 + next(i for i, rms in enumerate(even) if rms <= _AS_GOOD * min(even))
-        accuracy = max(accuracy, _AS_GOOD * at(enough))
-    low, high = 0, enough  # fewer than `high` times may do, `low` do not
-    if at(high) > accuracy:
+    def spread(count: int) -> float:
+        # what fits noise as well counts for nothing: what is left per number measured that is not used up
+        return left(count) / np.sqrt(max(1 - (2 * count + 1) / (2 * data.omega.size), 1e-3))
+
+    counts = [count for count in _TRIED if count < most] + [most]
+    even = next((count for count in range(1, most + 1) if _rms(solved(data, _evenly(data, count))[1]) <= accuracy), None)
+    enough = even or next((count for count in counts if left(count) <= accuracy), None)
+    # noise, or more decades than so many times can span
+    good, goal = (left, accuracy) if enough else (spread, _AS_GOOD * min(map(spread, counts)))
+    enough = enough or next(count for count in counts if spread(count) <= goal)
+    if good(enough) > goal:
         return _evenly(data, enough)
+    low, high = 0, enough  # fewer than `high` times may do, `low` do not
     while high - low > 1:
         middle = (low + high) // 2
-        low, high = (low, middle) if at(middle) <= accuracy else (middle, high)
+        low, high = (low, middle) if good(middle) <= goal else (middle, high)
     return found[high][1]
 
 

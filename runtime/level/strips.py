@@ -14,6 +14,7 @@ from ..inputs.materials import Material
 from ..inputs.surface import Level
 from ..numerics.rounding import LARGEST
 from ..orbit.foundation import Foundation, foundation_of
+from ..orbit.groups import ROUNDING
 from ..orbit.regimes import CODE
 from ..orbit.solved import Solved
 from .regime_map import Crossings
@@ -92,6 +93,13 @@ class LevelBatch:
         """The columns ``index`` at other penetrations ``D``."""
         group = None if self.group is None else self.group[index]
         return replace(self, V=self.V[index], D=D, group=group)
+
+    def not_just_released(self, D: np.ndarray) -> np.ndarray:
+        """``D`` (n,), or, where it is that at which the valley is just released but for roundings, one at which it adheres: else
+        strips as flat as the rounding would be free or not as it falls."""
+        reach = self.stretch + self.adhesion.delta_0
+        released, rounding = self.level.h - reach, ROUNDING * (self.level.h + reach)
+        return np.where(np.abs(D - released) < rounding, released + rounding, D)
 
     @property
     def size(self) -> int:
