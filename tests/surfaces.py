@@ -1,4 +1,4 @@
-"""Random surfaces of one to three levels: both closures and branches, hardly touching to nearly saturated."""
+"""Random surfaces of one to three levels: both closures and branches, hardly touching to nearly saturated. Heights of Eq. 4."""
 
 from dataclasses import dataclass
 
@@ -55,3 +55,13 @@ def draw(rng, velocities=3, levels=None):
     return Surface(
         material, adhesion, tuple(surface), pressure, velocity, str(rng.choice(EDGES)), str(rng.choice(BRANCHES, p=(0.8, 0.2)))
     )
+
+
+def eq4(levels, size, n):
+    """Eq. 4, summed over the levels, on a grid of n by n points."""
+    x = np.arange(n) * (size / n)
+    out = np.zeros((n, n))
+    for wavelength, height in levels:
+        wave = np.cos(2 * np.pi / wavelength * x) + 1
+        out += height - height / 4 * np.multiply.outer(wave, wave)
+    return out

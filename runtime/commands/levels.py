@@ -19,7 +19,7 @@ def command(
         "gradient", "--wavelength", help="A level keeps the rms gradient of its band, or stands at its centre."
     ),
     channel: str = typer.Option(None, "--channel", help="Name of the channel [the file's default]."),
-    unit: str = typer.Option(None, "--unit", help="Length unit, for a file that does not say."),
+    unit: str = typer.Option(None, "--unit", help="Unit of what the file states no unit of: heights, lengths or both."),
     size: list[float] = typer.Option(
         None, "--size", help="Length of the scan in that unit, once for each direction, if the file does not say."
     ),
@@ -68,6 +68,6 @@ def command(
 
             save(roughness_levels(found, scan), files.path(names[1]))
         record_origin(files, names, surface)
-    say(found.report())
+    say(f"{scan.report()}\n{found.report()}")
     for name in names:
         say(f"wrote {out / name}")

@@ -1,6 +1,9 @@
 """Reading measured topographies, in any format that SurfaceTopography knows."""
 
+import io
 import os
+import re
+import warnings
 from typing import Any
 
 import numpy as np
@@ -9,6 +12,18 @@ from ..errors import InputError
 from ..extras import require
 from ..files import path_of
 from .scan import Scan
+from .units import Units, lacks_lengths, units_of
+
+#: share of points that are filled without a warning: their roughness is missing from the levels
+_FEW = 0.02
+#: a number with a decimal comma or without decimals, or an undefined one
+_NUMBER = re.compile(rb"[-+]?\d+(,\d+)?(e[-+]?\d+)?|nan|bad", re.IGNORECASE)
+#: bytes of a file in which they are looked for
+_HEAD = 100_000
+
+
+class ScanWarning(UserWarning):
+    """A scan of which a good part had to be made up. Says how much."""
 
 
 def read_surface(
@@ -21,20 +36,22 @@ def read_surface(
 ) -> Scan:
     """Read a scan with SurfaceTopography (extra ``roughness``).
 
-    Points that the instrument left undefined are filled by its harmonic interpolation; a line with uneven steps is
-    interpolated to even ones.
+    Points that the instrument left undefined are filled by its harmonic interpolation, which is smooth: their share is
+    in ``Scan.filled``, and beyond 2 % there is a :class:`ScanWarning`. A line with uneven steps is interpolated to even
+    ones. Text may have decimal commas. ``Scan.units`` says what heights and lengths were taken for.
 
     Parameters
     ----------
     path : the file; its format is found out
     channel : name of the channel; the file's default without it
-    unit : length unit of heights and sizes, for a file that does not say
-    sizes : lengths of the scan, in that unit, for a file that does not say
-    height_factor : what heights in the file have to be multiplied with to be in that unit, for a file that does not say
+    unit : length unit of all that the file states no unit of: heights, lengths, or both. Where it states both, either
+        the same or None
+    sizes : lengths of the scan, one for each direction, in ``unit``, for a file that does not say
+    height_factor : what heights in the file have to be multiplied with to be in their unit, for a file that does not say
 
     Raises
     ------
-    InputError : the file cannot be read, or lacks something; names it
+    InputError : the file cannot be read, lacks something, contradicts what is given, or has no defined point; names it
     MissingExtra : SurfaceTopography is not installed
     """
     topographies = require("SurfaceTopography", "roughness", "reading a measured surface")
@@ -42,42 +59,77 @@ def read_surface(
     if not os.path.isfile(where):
         is_other = ": this is a folder, a pipe or a device" if os.path.exists(where) else ""
         raise InputError(where, where, f"a file with a measured surface{is_other}")
-    given = {"physical_sizes": sizes, "height_scale_factor": height_factor, "unit": unit}
-    options = {key: each for key, each in given.items() if each is not None}
     try:
-        with topographies.open_topography(where) as reader:
-            if channel is not None:
-                options |= _channel(reader, channel, where)
-            return Scan(*_even(reader.topography(**options), where))
+        with topographies.open_topography(_with_points(where)) as reader:
+            found = reader.default_channel if channel is None else _channel(reader, channel, where)
+            options: dict[str, Any] = {} if found.index == reader.default_channel.index else {"channel_index": found.index}
+            options |= _lengths(found, sizes, where)
+            units = units_of(reader, found, unit, where)
+            if found.unit is None:
+                options["unit"] = units.heights
+            if height_factor is not None:
+                options["height_scale_factor"] = height_factor
+            return _even(reader.topography(**options), units, where)
     except InputError:
         raise
     except Exception as error:  # readers of forty formats end in errors of as many kinds
         said = (str(error).strip() or type(error).__name__).splitlines()[0]
+        allowed = "a measured surface, with sizes and unit in the file or else given (--size, --unit), not both"
         if type(error).__name__ == "CannotDetectFileFormat":
             said = "no format that SurfaceTopography knows"
-        allowed = "a measured surface, with sizes and unit in the file or else given (--size, --unit), not both"
+            allowed += "; a matrix as text has blanks or tabs between numbers and nan for undefined points"
         raise InputError(where, said, allowed) from None
 
 
-def _channel(reader: Any, name: str, where: str) -> dict[str, int]:
+def _with_points(where: str) -> Any:
+    """The file; of one with decimal commas a copy without."""
+    with open(where, "rb") as file:
+        if not any(map(_has_decimal_commas, file.read(_HEAD).splitlines())):
+            return where
+        file.seek(0)
+        return io.BytesIO(file.read().replace(b",", b".").replace(b";", b"\t"))
+
+
+def _has_decimal_commas(line: bytes) -> bool:
+    words = line.replace(b";", b" ").split()
+    return len(words) > 1 and b"," in line and all(_NUMBER.fullmatch(word) for word in words)
+
+
+def _channel(reader: Any, name: str, where: str) -> Any:
     names = [each.name for each in reader.channels]
     if name not in names:
         raise InputError(f"{where}, channel", name, f"one of {', '.join(map(repr, names))}")
-    index = names.index(name)
-    return {} if index == reader.default_channel.index else {"channel_index": index}
+    return reader.channels[names.index(name)]
 
 
-def _even(topography: Any, where: str) -> tuple[np.ndarray, tuple[float, ...], bool]:
-    """Heights and lengths in metres, on an even grid without gaps."""
-    if topography.unit is None:
-        raise InputError(f"{where}, unit", None, "a length unit such as 'um', since the file does not say (--unit)")
+def _lengths(channel: Any, sizes: tuple[float, ...] | None, where: str) -> dict[str, Any]:
+    if lacks_lengths(channel) and sizes is None:
+        allowed = "lengths of the scan, one for each direction, since the file does not say (--size, --unit)"
+        raise InputError(f"{where}, sizes", None, allowed)
+    if not lacks_lengths(channel) and sizes is not None:
+        stated = " x ".join(f"{each:.6g}" for each in channel.physical_sizes or ()) or "where each point lies"
+        raise InputError(f"{where}, sizes", sizes, f"none, since the file says: {stated} {channel.unit or ''}".rstrip())
+    return {} if sizes is None else {"physical_sizes": sizes}
+
+
+def _even(topography: Any, units: Units, where: str) -> Scan:
+    """The scan in metres, on an even grid without gaps."""
     topography = topography.to_unit("m")
     if not topography.is_uniform:
         topography = topography.to_uniform(nb_points=len(topography.heights()))
-    if topography.has_undefined_data:
+    filled = float(np.mean(np.ma.getmaskarray(topography.heights())))
+    if filled == 1:
+        raise InputError(f"{where}, heights", "no defined point", "a scan with some")
+    if filled:
         topography = topography.interpolate_undefined_data()
-    return (
+    if filled > _FEW:
+        text = f"{where}: {100 * filled:.2g} % of the points were undefined and are filled smoothly: levels come out too low"
+        warnings.warn(text, ScanWarning, stacklevel=3)
+    lengths = zip(topography.physical_sizes, units.factors, strict=True)
+    return Scan(
         np.array(topography.heights(), dtype=float),
-        tuple(map(float, topography.physical_sizes)),
+        tuple(float(length * factor) for length, factor in lengths),
         bool(topography.is_periodic),
+        filled=filled,
+        units=units.said,
     )

@@ -8,6 +8,9 @@ import numpy as np
 from ..errors import InputError
 from ..inputs.checks import numbers
 
+#: standard deviations of the others by which a value that several points share is off if it marks what was not measured
+_FAR = 20
+
 
 @dataclass(frozen=True, eq=False)
 class Scan:
@@ -18,15 +21,20 @@ class Scan:
     heights : m, shape (n,) for a line or (n, m) for an area, at least 8 points in each direction
     sizes : length of the scan in each direction, m, > 0: the number of points times their distance
     periodic : the scan is one period of a periodic surface: neither trend nor window is needed
+    filled : share of the points that were not measured, from 0 to 1; their heights have been made up
+    units : what lengths and heights were taken to be in, as text; empty where none had to be found out
 
     Raises
     ------
-    InputError : a value outside its range, or shapes that do not fit
+    InputError : a value outside its range, or shapes that do not fit; heights that differ by more than the scan is long;
+        one height far off that several points share, which marks points that were not measured
     """
 
     heights: np.ndarray
     sizes: tuple[float, ...]
     periodic: bool = False
+    filled: float = 0.0
+    units: str = ""
 
     def __post_init__(self):
         heights = numbers("scan.heights", self.heights, "m")
@@ -35,8 +43,18 @@ class Scan:
             raise InputError("scan.heights", heights.shape, "shape (n,) or (n, m) with at least 8 points in each direction")
         if sizes.shape != (heights.ndim,):
             raise InputError("scan.sizes", self.sizes, f"{heights.ndim} numbers, one for each direction of the heights")
+        _refuse_marks(heights)
+        if np.ptp(heights) > sizes.max():
+            what = f"heights that differ by {np.ptp(heights):.4g} m on a scan of {sizes.max():.4g} m"
+            raise InputError("scan.heights", what, f"heights that differ by less than that: check the units{_after(self.units)}")
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "sizes", tuple(sizes.tolist()))
+
+    def report(self) -> str:
+        """Points, lengths, units and how much was made up, as text."""
+        points, lengths = (" x ".join(f"{each:.6g}" for each in of) for of in (self.heights.shape, self.sizes))
+        filled = f"; {100 * self.filled:.2g} % of the points were undefined and are filled" if self.filled else ""
+        return f"scan: {points} points, {lengths} m{_after(self.units)}{filled}"
 
     @property
     def longest(self) -> float:
@@ -59,6 +77,21 @@ class Scan:
         axes = [2 * np.pi * np.fft.fftfreq(n, size / n) for n, size in zip(heights.shape, self.sizes, strict=True)]
         q = np.sqrt(sum(np.square(each) for each in np.meshgrid(*axes, indexing="ij")))
         return q.ravel()[1:], variance.ravel()[1:]
+
+
+def _after(units: str) -> str:
+    return f" ({units})" if units else ""
+
+
+def _refuse_marks(heights: np.ndarray) -> None:
+    """Refuse a value such as -99999 in place of heights that were not measured."""
+    ends = heights.min(), heights.max()
+    others = heights[(heights != ends[0]) & (heights != ends[1])]
+    for end in ends:
+        shared = np.count_nonzero(heights == end)
+        if others.size and shared > 1 and abs(end - others.mean()) > _FAR * others.std() > 0:
+            what = f"{end:.6g} m at {shared} points, {abs(end - others.mean()) / others.std():.3g} standard deviations off"
+            raise InputError("scan.heights", what, "heights that were measured; points that were not are nan in a file")
 
 
 def _tapered(heights: np.ndarray) -> np.ndarray:

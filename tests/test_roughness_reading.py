@@ -1,0 +1,189 @@
+"""Reading measured roughness: units, gaps and decimal commas, the command, and what cannot be read is named."""
+
+import re
+
+import numpy as np
+import pytest
+from surfaces import eq4
+
+import hystrip
+from hystrip.roughness import Scan, levels_of, read_surface
+from hystrip.scene import load_scene
+
+LEVELS = [(1e-5, 1e-6), (5e-7, 1e-7)]
+
+
+def found(result):
+    return [(level.l, level.h) for level in result.levels]
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    topography = pytest.importorskip("SurfaceTopography")
+    folder = tmp_path_factory.mktemp("scans")
+    heights = eq4(LEVELS, 20.0e-6, 400) * 1e6
+    topography.Topography(heights, (20.0, 20.0), unit="um", periodic=True).to_netcdf(str(folder / "scan.nc"))
+    np.savetxt(folder / "plain.txt", heights)
+    (folder / "text.csv").write_text("no,surface\n", encoding="utf-8")
+    return folder
+
+
+def test_a_file_with_units_is_read(files):
+    scan = read_surface(files / "scan.nc")
+    assert scan.periodic and scan.sizes == pytest.approx((2e-5, 2e-5), rel=1e-7)
+    # this format keeps lengths in single precision
+    assert np.allclose(found(levels_of(scan)), LEVELS, rtol=1e-7)
+
+
+def test_a_file_without_sizes_and_unit_takes_them(files):
+    scan = read_surface(files / "plain.txt", sizes=(20.0, 20.0), unit="um")
+    assert scan.sizes == pytest.approx((2e-5, 2e-5)) and np.allclose(scan.heights.std(), eq4(LEVELS, 2e-5, 400).std())
+
+
+HEADS = {
+    "nothing": "# Channel: Height\n",
+    "lengths": "# Width: 0.02 mm\n# Height: 0.02 mm\n",
+    "heights": "# Width: 20\n# Height: 20\n# Value units: µm\n",
+    "both": "# Width: 20 µm\n# Height: 0.02 mm\n# Value units: um\n",
+}
+SIZES = {"sizes": (20.0, 20.0)}
+
+
+def text_scan(path, head, factor=1e6, write=str):
+    """Two levels on 20 x 20 um, as text below a head; heights in um unless the factor is another one."""
+    rows = (" ".join(write(f"{each:.9g}") for each in row) for row in eq4(LEVELS, 2e-5, 160) * factor)
+    path.write_text(HEADS[head] + "\n".join(rows) + "\n", encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("head", "options", "said"),
+    [
+        ("nothing", SIZES | {"unit": "um"}, "lengths in µm as given, heights in µm as given"),
+        ("lengths", {"unit": "um"}, "lengths in mm as the file says, heights in µm as given"),
+        ("heights", {"unit": "um"}, "lengths in µm as given, heights in µm as the file says"),
+        ("both", {}, "lengths in µm as the file says x mm as the file says, heights in µm as the file says"),
+    ],
+)
+def test_a_unit_stands_for_what_the_file_does_not_state(files, tmp_path, head, options, said):
+    scan = read_surface(text_scan(tmp_path / "scan.txt", head), **options)
+    assert scan.units == said and said in scan.report()
+    assert scan.sizes == pytest.approx((2e-5, 2e-5)) and scan.heights.std() / eq4(LEVELS, 2e-5, 160).std() == pytest.approx(1)
+
+
+def test_a_unit_of_lengths_leaves_stated_heights_alone(files, tmp_path):
+    scan = read_surface(text_scan(tmp_path / "scan.txt", "heights"), unit="mm")
+    assert scan.sizes == pytest.approx((0.02, 0.02)) and np.ptp(scan.heights) == pytest.approx(np.ptp(eq4(LEVELS, 2e-5, 160)))
+
+
+@pytest.mark.parametrize(
+    ("head", "options", "said"),
+    [
+        ("nothing", {}, "sizes: got None; .. (--size, --unit)"),
+        ("nothing", SIZES, "unit: got None; .. of the lengths and heights"),
+        ("lengths", {}, "unit: got None; .. of the heights"),
+        ("heights", {}, "unit: got None; .. of the lengths"),
+        ("heights", {"unit": "inch"}, "unit: got 'inch'; allowed: one of .. mm"),
+        ("both", {"unit": "nm"}, "unit: got 'nm'; .. says: lengths in µm x mm, heights in µm"),
+        ("both", SIZES, "sizes: got .. says: 20 x 20 um"),
+        (
+            "lengths",
+            {"unit": "mm"},
+            "scan.heights: .. on a scan of 2e-05 m'; .. (lengths in mm as the file says, heights in mm as given",
+        ),
+    ],
+)
+def test_units_that_lack_or_contradict(files, tmp_path, head, options, said):
+    path = text_scan(tmp_path / "scan.txt", head)
+    with pytest.raises(hystrip.InputError, match=re.escape(said).replace(re.escape(" .. "), ".*")):
+        read_surface(path, **options)
+
+
+def test_a_unit_that_the_file_states_too_may_be_given(files):
+    assert read_surface(files / "scan.nc", unit="um").sizes == read_surface(files / "scan.nc").sizes
+
+
+@pytest.mark.parametrize(
+    ("head", "sizes", "height"),
+    [
+        ("Lateral units: mm\n", 1e-2, 9e-6),
+        ("Value units: nm\n", 1e-5, 9e-9),
+        ("Lateral units: mm\n# Value units: nm\n", 1e-2, 9e-9),
+    ],
+)
+def test_units_of_coordinates_may_be_stated_one_by_one(files, tmp_path, head, sizes, height):
+    rows = "".join(f"{i} {j} {i * j / 9:.9g}\n" for i in range(10) for j in range(10))
+    path = tmp_path / "scan.xyz"
+    path.write_text(f"# Channel: Height\n# {head}{rows}", encoding="utf-8")
+    scan = read_surface(path, unit=None if head.count("units") == 2 else "um")
+    assert scan.sizes == pytest.approx((sizes, sizes)) and np.ptp(scan.heights) / height == pytest.approx(1)
+
+
+def test_decimal_commas_are_read(files, tmp_path):
+    path = text_scan(tmp_path / "scan.txt", "lengths", write=lambda number: number.replace(".", ","))
+    assert np.allclose(read_surface(path, unit="um").heights.std(), eq4(LEVELS, 2e-5, 160).std(), rtol=1e-6, atol=0)
+
+
+def test_gaps_and_uneven_steps_are_filled(files, tmp_path):
+    topography = pytest.importorskip("SurfaceTopography")
+    heights = eq4([(1e-6, 1e-7)], 4e-6, 64)
+    gaps = heights.copy()
+    gaps[5, 7] = np.nan
+    np.savetxt(tmp_path / "gaps.txt", gaps)
+    scan = read_surface(tmp_path / "gaps.txt", sizes=(4e-6, 4e-6), unit="m")
+    assert scan.heights.T[5, 7] == pytest.approx(heights[5, 7], abs=5e-9) and scan.filled == 1 / 64**2
+    assert "0.024 % of the points were undefined" in scan.report()
+    x = np.linspace(0, 1, 200) ** 1.1
+    topography.NonuniformLineScan(x, 0.1 * np.sin(20 * x), unit="mm").to_netcdf(str(tmp_path / "line.nc"))
+    even = read_surface(tmp_path / "line.nc")
+    assert even.heights.shape == (200,) and even.sizes[0] == pytest.approx(1e-3, rel=0.01)
+
+
+def test_large_gaps_are_warned_of_and_nothing_but_gaps_refused(files, run, tmp_path):
+    heights = eq4(LEVELS, 2e-5, 64) * 1e6
+    heights[8:24, 8:24] = np.nan
+    np.savetxt(tmp_path / "hole.txt", heights)
+    status, out, err = run("levels", "hole.txt", "--pressure", "1", *2 * ["--size", "20"], "--unit", "um", "--no-plot")
+    assert status == 0 and "6.2 % of the points were undefined" in out and "warning: " in err and "6.2 % of the points" in err
+    np.savetxt(tmp_path / "none.txt", np.full((16, 16), np.nan))
+    with pytest.raises(hystrip.InputError, match="no defined point"):
+        read_surface(tmp_path / "none.txt", sizes=(20.0, 20.0), unit="um")
+
+
+def test_a_number_that_marks_what_was_not_measured_is_refused():
+    heights = eq4(LEVELS, 2e-5, 64)
+    heights[::9, ::9] = -9.99e-6
+    with pytest.raises(hystrip.InputError, match="-9.99e-06 m at 64 points, .* standard deviations off"):
+        Scan(heights, (2e-3, 2e-3))
+
+
+def test_command_writes_a_scene_that_loads(run, files, tmp_path):
+    status, out, err = run("levels", files / "scan.nc", "--pressure", "0.1 MPa")
+    assert (status, err) == (0, "") and "left out" in out and "lengths in µm as the file says" in out
+    assert sorted(path.name for path in (tmp_path / "hystrip-out").glob("[!.]*")) == ["scan.levels.toml", "scan.spectrum.png"]
+    scene = load_scene(tmp_path / "hystrip-out/scan.levels.toml")
+    assert np.allclose([(level.l, level.h) for level in scene.levels], LEVELS, rtol=1e-5)
+    assert (scene.title, float(scene.pressure)) == ("Surface of scan.nc", 1e5)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["absent.nc"], "a file with a measured surface"),
+        (["text.csv"], "--pressure: got None"),
+        (["text.csv", "--scene", "paper_fig3"], "text.csv: got 'no format that SurfaceTopography knows'"),
+        (["plain.txt"], "(--size, --unit)"),
+        (["plain.txt", "--size", "20", "--size", "20"], "plain.txt, unit: got None"),
+        (["scan.nc", "--unit", "nm"], "unit: got 'nm'"),
+        (["scan.nc", "--channel", "Phase"], "channel: got 'Phase'; allowed: one of 'Default'"),
+        (["scan.nc", "--count", "0"], "count: got 0"),
+        (["scan.nc", "--longest", "20"], "longest: got 20.0; allowed: a wavelength from 1e-07 to 2e-05 m"),
+        (["scan.nc", "--shortest", "ten"], "--shortest: got 'ten'"),
+        (["scan.nc", "--scene", "absent.toml"], "no such file"),
+    ],
+)
+def test_wrong_calls_leave_nothing(run, files, tmp_path, arguments, said):
+    name, *rest = arguments
+    status, out, err = run("levels", files / name, *rest, *([] if "--scene" in rest or name == "text.csv" else ["--pressure", 1]))
+    assert status == 2 and out == "" and said in err and err.count("\n") == 1
+    assert not list(tmp_path.iterdir())
