@@ -40,6 +40,33 @@ def test_known_levels_are_recovered_from_stated_bands(options, count):
     assert np.allclose(found(levels_of(scan, **options)), levels, rtol=1e-9)
 
 
+def test_bounds_do_not_part_the_waves_of_a_level():
+    """The oblique wave of the first level has wave number sqrt(2) k: a bound between k and that does not cut it off."""
+    scan = Scan(eq4(LEVELS, 1e-5, 400), (1e-5, 1e-5), periodic=True)
+    for bound in (9.9e-6, 8e-6, 7.1e-6):
+        result = levels_of(scan, edges=[2e-5, bound, 1.1e-7])
+        assert np.allclose(found(result), LEVELS, rtol=1e-9) and "note" not in result.report()
+
+
+def test_the_shorter_of_two_spacings_is_no_bound():
+    """256 x 192 points: the oblique wave of a level of 4.8 points is shorter than four of the coarser direction."""
+    x, y = (np.cos(2 * np.pi * 40 * np.arange(n) / n) + 1 for n in (256, 192))
+    scan = Scan(1e-7 - 1e-7 / 4 * np.multiply.outer(x, y), (4e-6, 4e-6), periodic=True)
+    assert np.allclose(found(levels_of(scan, count=1)), [(1e-7, 1e-7)], rtol=1e-9)
+
+
+@pytest.mark.parametrize(("modes", "noted"), [(11.3, True), (8.0, False)])
+def test_a_wave_that_the_taper_spreads_over_a_bound_is_noted(modes, noted):
+    # the bound is at a wavelength of 0.0884 of the scan: mode 11.3
+    size, n = 1e-4, 256
+    result = levels_of(Scan(eq4([(size / modes, 1e-6)], size, n), (size, size)), count=2)
+    assert ("note: more than half of level 1, 2" in result.report()) == noted
+    level = result.levels[0]
+    assert (level.h / 1e-6 == pytest.approx(1, rel=1e-3)) != noted
+    if not noted:
+        assert 1 - level.l * modes / size == pytest.approx(0.3 / modes**2, rel=0.15)
+
+
 def test_a_tilted_piece_that_is_no_period_gives_nearly_the_same():
     n, size = 1024, 1.07e-4
     levels = [(1e-5, 1e-6), (8e-7, 1e-7)]
@@ -50,7 +77,7 @@ def test_a_tilted_piece_that_is_no_period_gives_nearly_the_same():
 def test_height_and_gradient_of_a_random_surface_are_kept():
     """The surface of Eq. 4 with the level's l and h has the rms height and the rms gradient of what was measured."""
     heights, gradient = isotropic()
-    result = levels_of(Scan(heights, (1e-4, 1e-4), periodic=True), count=1, longest=1.2e-5, shortest=9e-7)
+    result = levels_of(Scan(heights, (1e-4, 1e-4), periodic=True), count=1, longest=1.5e-5, shortest=9e-7)
     (level,) = result.levels
     copy = eq4([(1.0, level.h / level.l)], 1.0, 64) * level.l
     slopes = np.gradient(np.pad(copy, 1, mode="wrap"), level.l / 64)
@@ -64,11 +91,11 @@ def test_bands_add_up():
     heights, _ = isotropic()
     scan = Scan(heights, (1e-4, 1e-4), periodic=True)
     for count in (1, 2, 3):
-        result = levels_of(scan, count=count, longest=1.2e-5, shortest=9e-7)
+        result = levels_of(scan, count=count, longest=1.5e-5, shortest=9e-7)
         assert len(result.levels) == count and np.sum(result.rms_height**2) / heights.var() == pytest.approx(1)
         assert (np.diff([level.l for level in result.levels]) < 0).all()
         for (long, short), level in zip(result.bands, result.levels, strict=True):
-            assert short <= level.l / np.sqrt(6 / 5) <= long
+            assert short / np.sqrt(2) <= level.l / np.sqrt(6 / 5) <= long
     centre = levels_of(scan, count=1, longest=1.6e-5, shortest=1e-6, wavelength="centre")
     assert centre.levels[0].l == pytest.approx(4e-6)
 
@@ -76,7 +103,7 @@ def test_bands_add_up():
 def test_lines_of_an_isotropic_surface_stand_for_it():
     heights, _ = isotropic()
     limits = {"count": 1, "shortest": 9e-7}
-    (whole,) = levels_of(Scan(heights, (1e-4, 1e-4), periodic=True), longest=1.2e-5, **limits).levels
+    (whole,) = levels_of(Scan(heights, (1e-4, 1e-4), periodic=True), longest=1.5e-5, **limits).levels
     # a line sees oblique waves stretched: all of it up to its length
     lines = [levels_of(Scan(line, 1e-4, periodic=True), longest=1e-4, **limits).levels[0] for line in heights]
     assert np.sqrt(np.mean([line.h**2 for line in lines])) == pytest.approx(whole.h, rel=0.01)

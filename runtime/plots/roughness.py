@@ -18,7 +18,7 @@ def roughness_levels(found: Any, scan: Any) -> Any:
     matplotlib Figure
     """
     q, variance = scan.spectrum()
-    wavelengths = 2 * np.pi / q
+    wavelengths = 2 * np.pi / q.max(axis=0)
     low, high = np.log10(wavelengths.min()), np.log10(wavelengths.max())
     edges = np.logspace(low, high + 1e-9, max(int(_PER_DECADE * (high - low)), 2) + 1)
     binned, _ = np.histogram(wavelengths, edges, weights=variance)

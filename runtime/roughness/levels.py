@@ -18,6 +18,8 @@ GRADIENT = 6 / 5
 _WAVELENGTHS = ("gradient", "centre")
 #: a band with a smaller part of the variance is empty
 _NOTHING = 1e-12
+#: spacings of the Fourier modes over which the taper of a scan spreads a wave
+_SPREAD = 1.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,6 +31,8 @@ class RoughnessLevels:
     levels : the largest first
     bands : wavelengths between which each level takes its share, m, shape (levels, 2), longest first
     rms_height : root mean square height in each band, m, (levels,); rms_gradient : the same of the gradient, (levels,)
+    at_bounds : share of each band's variance that lies where the taper spreads a wave over a bound between two bands,
+        from 0 to 1, (levels,); zero for a periodic scan
     rms_left_out : root mean square height of everything that no level stands for, m
     """
 
@@ -36,6 +40,7 @@ class RoughnessLevels:
     bands: np.ndarray
     rms_height: np.ndarray
     rms_gradient: np.ndarray
+    at_bounds: np.ndarray
     rms_left_out: float
 
     def report(self) -> str:
@@ -48,7 +53,11 @@ class RoughnessLevels:
             lines.append((str(i + 1), band, *rms, f"{level.l:.4g}", f"{level.h:.4g}"))
         widths = [max(len(line[j]) for line in lines) for j in range(len(heads))]
         table = ["  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True)) for line in lines]
-        return "\n".join([*table, f"left out: rms height {self.rms_left_out:.3g} m (beyond the bands)"])
+        table.append(f"left out: rms height {self.rms_left_out:.3g} m (beyond the bands)")
+        split = ", ".join(str(i) for i, share in enumerate(self.at_bounds, start=1) if share > 0.5)
+        if split:
+            table.append(f"note: more than half of level {split} is so near another band that the taper spreads it over both")
+        return "\n".join(table)
 
 
 def levels_of(
@@ -64,12 +73,19 @@ def levels_of(
     """Levels with the roughness of a scan.
 
     The rule: the range of wavelengths is cut into bands, one level for each. A band holds the Fourier modes of the
-    heights (of an area: of all directions) whose wavelength lies in it; their variances add up to the square of its
-    rms height, and weighted with the square of the wave number to the square of its rms gradient. The level's height
-    is that at which the surface of Eq. 4 has the same rms height: Eq. 4 has the variance ``5 h^2/64``, so
-    ``h = 8/sqrt(5) rms``. Its wavelength is that at which Eq. 4 has the same rms gradient too: its mean square
-    gradient is ``6/5 k^2`` times its variance. So a surface that is made of levels, each inside its band, gives just
-    these. A line is taken as a cut through an isotropic surface: the same variance, half the mean square gradient.
+    heights whose wavelength lies in it: of a mode of an area, the shorter of those that cuts along the two directions
+    see. Their variances add up to the square of the band's rms height, and weighted with the square of the wave number
+    (that of the mode itself) to the square of its rms gradient. The level's height is that at which the surface of Eq. 4
+    has the same rms height: Eq. 4 has the variance ``5 h^2/64``, so ``h = 8/sqrt(5) rms``. Its wavelength is that at
+    which Eq. 4 has the same rms gradient too: its mean square gradient is ``6/5 k^2`` times its variance. A line is
+    taken as a cut through an isotropic surface: the same variance, half the mean square gradient.
+
+    Eq. 4 has a fifth of its variance in the oblique wave ``cos(kx)cos(ky)``, of wave number ``sqrt(2) k``; along either
+    direction that has the wavelength ``l`` too. So a periodic scan of levels gives just these if each ``l`` has a band
+    to itself and the waves run along the directions of the scan. One that is no period is tapered, which spreads every
+    wave over 1.5 spacings ``2 pi/size`` of the modes: if that stays within the band too, ``h`` comes out, and ``l`` less
+    a part of about ``0.3 (l/size)^2``. The report notes bands that have more than half of their variance so close to
+    another.
 
     Parameters
     ----------
@@ -82,7 +98,8 @@ def levels_of(
     longest, shortest : the range, m; by default ``scan.longest`` and ``scan.shortest``
     wavelength : ``"gradient"``, as said above, or ``"centre"``, the geometric mean of the band's bounds
 
-    A band with less than 1e-12 of the variance gives no level.
+    The shortest wavelength is by default that of four points of the *coarser* direction: shorter waves along the finer one
+    are left out. A band with less than 1e-12 of the variance gives no level.
 
     Raises
     ------
@@ -103,25 +120,30 @@ def levels_of(
     if sum(each is not None for each in given.values()) > 1:
         raise InputError("count, ratio, edges", {k: v for k, v in given.items() if v is not None}, "one of the three")
     bounds = _listed(edges, longest, shortest) if edges is not None else _spread(scan, count, ratio, longest, shortest)
-    q, variance = scan.spectrum()
+    vectors, variance = scan.spectrum()
+    # all waves of a level have its wave number along one direction at least, and no larger one
+    q = vectors.max(axis=0)
     total = variance.sum()
     # a mode on a bound belongs to the band of shorter waves, on the last one to the last band, whatever rounding says
     at = np.searchsorted(2 * np.pi / bounds * (1 - 1e-9), q, side="right") - 1
     at[(at == bounds.size - 1) & (q <= 2 * np.pi / bounds[-1] * (1 + 1e-9))] -= 1
     inside = (at >= 0) & (at < bounds.size - 1)
     add = lambda weight: np.bincount(at[inside], weight[inside], minlength=bounds.size - 1)  # noqa: E731
+    spread = 0.0 if scan.periodic else _SPREAD * 2 * np.pi / min(scan.sizes)
+    near = (np.abs(np.subtract.outer(2 * np.pi / bounds[1:-1], q)) < spread).any(axis=0)
     height2 = add(variance)
     # of a surface's mean square gradient a cut sees half
-    gradient2 = add(variance * q**2) * (2 if scan.heights.ndim == 1 else 1)
+    gradient2 = add(variance * np.sum(vectors**2, axis=0)) * (2 if scan.heights.ndim == 1 else 1)
     kept = np.flatnonzero(height2 > _NOTHING * total)
     if not kept.size:
         problem = f"no roughness between {bounds[0]:.3g} and {bounds[-1]:.3g} m"
         raise InputError("scan", problem, "bands in which there is some")
     bands = np.stack((bounds[:-1], bounds[1:]), axis=1)[kept]
-    height2, gradient2 = height2[kept], gradient2[kept]
+    height2, gradient2, at_bounds = height2[kept], gradient2[kept], add(variance * near)[kept] / height2[kept]
     k = np.sqrt(gradient2 / (GRADIENT * height2)) if wavelength == "gradient" else 2 * np.pi / np.sqrt(bands.prod(axis=1))
     levels = tuple(Level(l=2 * np.pi / each, h=np.sqrt(each2 / VARIANCE)) for each, each2 in zip(k, height2, strict=True))
-    return RoughnessLevels(levels, bands, np.sqrt(height2), np.sqrt(gradient2), float(np.sqrt(max(total - height2.sum(), 0.0))))
+    left_out = float(np.sqrt(max(total - height2.sum(), 0.0)))
+    return RoughnessLevels(levels, bands, np.sqrt(height2), np.sqrt(gradient2), at_bounds, left_out)
 
 
 def _listed(edges: Any, longest: Any, shortest: Any) -> np.ndarray:

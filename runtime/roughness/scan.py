@@ -67,16 +67,20 @@ class Scan:
         return 4 * max(size / n for size, n in zip(self.sizes, self.heights.shape, strict=True))
 
     def spectrum(self) -> tuple[np.ndarray, np.ndarray]:
-        """Wave number, rad/m, and share of the variance, m^2, of each Fourier mode but the constant; both (modes,).
+        """Wave vectors of the Fourier modes but the constant, and their shares of the variance.
 
         Unless the scan is periodic its least-squares plane (line) is subtracted and it is tapered by a Hann window in
         each direction, scaled so that the variance of a stationary roughness stays what it is.
+
+        Returns
+        -------
+        magnitudes of the components along each direction, rad/m, (directions, modes); shares, m^2, (modes,)
         """
         heights = self.heights - self.heights.mean() if self.periodic else _tapered(self.heights)
         variance = np.abs(np.fft.fftn(heights) / heights.size) ** 2
-        axes = [2 * np.pi * np.fft.fftfreq(n, size / n) for n, size in zip(heights.shape, self.sizes, strict=True)]
-        q = np.sqrt(sum(np.square(each) for each in np.meshgrid(*axes, indexing="ij")))
-        return q.ravel()[1:], variance.ravel()[1:]
+        axes = [2 * np.pi * np.abs(np.fft.fftfreq(n, size / n)) for n, size in zip(heights.shape, self.sizes, strict=True)]
+        q = np.stack([each.ravel() for each in np.meshgrid(*axes, indexing="ij")])
+        return q[:, 1:], variance.ravel()[1:]
 
 
 def _after(units: str) -> str:
