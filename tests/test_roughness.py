@@ -111,6 +111,20 @@ def test_lines_of_an_isotropic_surface_stand_for_it():
     assert slope2 == pytest.approx((whole.h / whole.l) ** 2, rel=0.03)
 
 
+def test_levels_are_drawn_on_the_scale_of_the_spectrum():
+    """Parts of the spectrum, and the stretches of the levels, add up to the same variance."""
+    pytest.importorskip("matplotlib")
+    heights, _ = isotropic()
+    scan = Scan(heights, (1e-4, 1e-4), periodic=True)
+    result = levels_of(scan, count=2, longest=1.5e-5, shortest=9e-7)
+    (panel,) = hystrip.plots.roughness_levels(result, scan).axes
+    parts, edges, _ = panel.patches[0].get_data()
+    assert np.allclose(np.diff(np.log10(edges)), 1 / 8) and np.nansum(parts**2) / heights.var() == pytest.approx(1)
+    stretches = [line.get_data() for line in panel.lines if len(line.get_data()[0]) == 2 and line.get_linestyle() == "-"]
+    variance = [8 * np.log10(band[0] / band[1]) * height[0] ** 2 for band, height in stretches]
+    assert np.allclose(variance, result.rms_height**2, rtol=1e-9, atol=0) and len(variance) == 2
+
+
 FLAT = Scan(np.zeros((16, 16)), (1.0, 1.0))
 ROUGH = Scan(eq4([(1e-6, 1e-7)], 4e-6, 64), (4e-6, 4e-6), periodic=True)
 
