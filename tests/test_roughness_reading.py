@@ -1,6 +1,7 @@
 """Reading measured roughness: units, gaps and decimal commas, the command, and what cannot be read is named."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -187,3 +188,13 @@ def test_wrong_calls_leave_nothing(run, files, tmp_path, arguments, said):
     status, out, err = run("levels", files / name, *rest, *([] if "--scene" in rest or name == "text.csv" else ["--pressure", 1]))
     assert status == 2 and out == "" and said in err and err.count("\n") == 1
     assert not list(tmp_path.iterdir())
+
+
+def test_steps_of_the_example_are_named_and_their_files_documented(files, run, tmp_path):
+    pytest.importorskip("matplotlib")
+    said = run("init", "--example", "rubber", ".")[1]
+    page = (Path(__file__).parent.parent / "tools/docs/files.md").read_text(encoding="utf-8")
+    for step in ("master raw.csv --vertical", "levels scan.txt --count 3"):
+        assert f"hystrip {step}" in said and run(*step.split(), *["--scene", "scene.toml"] * step.startswith("levels"))[0] == 0
+    written = [path.name.split(".", 1)[1] for path in (tmp_path / "hystrip-out").glob("[!.]*")]
+    assert len(written) == 5 and all(f"`name.{part}`" in page for part in written)

@@ -56,6 +56,7 @@ def _example(name: str, folder: Path | None, force: bool) -> None:
         say(f"wrote {folder / each}")
     say(
         f"now: cd {folder}\n"
+        "     hystrip master raw.csv --vertical\n"
         "     hystrip fit rubber.csv --nu 0.49 --scene scene.toml\n"
         "     hystrip levels scan.txt --count 3 --scene hystrip-out/rubber.fitted.toml\n"
         "     hystrip solve hystrip-out/scan.levels.toml --summary"
