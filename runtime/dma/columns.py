@@ -2,38 +2,44 @@
 
 import re
 import unicodedata
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..errors import InputError
+from .pairs import PAIRS
 
-_BRACKETED = re.compile(r"^(?P<name>.*?)\s*[\[(](?P<unit>[^\[\]()]*(?:\([^()]*\)[^\[\]()]*)?)[\])]$")
-_SLASHED = re.compile(r"^(?P<name>.+?)\s+(?:/|in)\s+(?P<unit>\S+)$")
+_BRACKETED = re.compile(r"^(?P<name>.*?)\s*/?\s*[\[({<](?P<unit>[^\[\]()]*(?:\([^()]*\)[^\[\]()]*)?)[\])}>]$")
+_SLASHED = re.compile(r"^(?P<name>.+?)(?:\s*/\s*|\s+in\s+)(?P<unit>\S+)$")
 _COMMA = re.compile(r"^(?P<name>[^,]+),\s*(?P<unit>[^\s,]+)$")
 
 #: names as they stand after ``_plain``: without spaces, signs and case, primes as ' and "
 _NAMES = {
-    "frequency": ("f", "freq", "frequency", "frequenz", "testfrequency", "oscillationfrequency", "reducedfrequency"),
-    "omega": ("omega", "ω", "w", "angularfrequency", "angfrequency", "kreisfrequenz", "reducedangularfrequency"),
-    "storage": ("'", "stor", "storage", "storagemodulus", "storagemod", "modulus'", "prime", "speichermodul", "1"),
-    "loss": ('"', "loss", "lossmodulus", "lossmod", 'modulus"', "doubleprime", "primeprime", "verlustmodul", "2"),
-    "tan": ("tandelta", "tand", "tanδ", "losstangent", "lossfactor", "dampingfactor", "tan", "verlustfaktor"),
-    "absolute": ("*", "star", "abs", "complexmodulus", "absolutemodulus", "dynamicmodulus", "modulus*"),
-    "temperature": ("t", "temp", "temperature", "temperatur", "sampletemperature", "testtemperature"),
-    "set": ("set",),
+    "frequency": "f freq frequency frequenz testfrequency oscillationfrequency reducedfrequency",
+    "omega": "omega ω w angularfrequency angfrequency angularfreq angfreq kreisfrequenz reducedangularfrequency",
+    "storage": "' stor storage storagemodulus storagemod modulus' 'modulus 'modul prime speichermodul 1",
+    "loss": '" loss lossmodulus lossmod modulus" "modulus "modul doubleprime primeprime verlustmodul 2',
+    "tan": "tandelta tand tanδ losstangent lossfactor dampingfactor tan verlustfaktor",
+    "phase": "delta δ phase phaseangle phaseangledelta phaseangleδ lossangle phasenwinkel verlustwinkel",
+    "absolute": "* star abs complexmodulus absolutemodulus dynamicmodulus modulus* *modulus",
+    "temperature": "t temp temperature temperatur sampletemperature testtemperature",
+    "set": "set",
 }
+_NAMES = {role: tuple(names.split()) for role, names in _NAMES.items()}
 #: roles that may have the letter of the modulus before or after them: E', G'', E_stor, storage modulus E'
 _MODULI = ("storage", "loss", "absolute")
-#: single letters that mean something else in the other case: force, time
-_OTHER_CASE = ("F", "t", "W")
-_KINDS = {"tensile": "E", "tension": "E", "youngs": "E", "compression": "E", "elongational": "E", "shear": "G"}
+#: single letters that mean something else in the other case: force, time, difference
+_OTHER_CASE = ("F", "t", "W", "Δ")
+_KINDS = {"tensile": "E", "tension": "E", "young's": "E", "youngs": "E", "compression": "E", "elongational": "E", "shear": "G"}
 
 _PA = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9}
 _HZ = {"mHz": 1e-3, "Hz": 1.0, "kHz": 1e3, "MHz": 1e6, "GHz": 1e9}
-_PER_SECOND = ("1/s", "s^-1", "s-1", "s⁻¹", "s**-1", "1/sec")
-_RADIANS = {"rad/s": 1.0, "rad s^-1": 1.0, "rad/sec": 1.0, "rad·s⁻¹": 1.0, "rad s-1": 1.0, "krad/s": 1e3}
+_PER_SECOND = ("1/s", "s**-1", "1/sec")
+_RADIANS = ("rad/s", "rad/sec", "rad s**-1", "rad*s**-1")
+_ANGLES = {**dict.fromkeys(("°", "deg", "degree", "degrees"), np.pi / 180), **dict.fromkeys(("rad", "radian", "radians"), 1.0)}
 _TURNS = re.compile(r"rad|deg|rev|turn|rpm|rps|cyc|count")
+_RAISED = str.maketrans("⁻\u2212¹²³", "--123")
+_PRIMES = str.maketrans(dict.fromkeys("″“”", '"') | dict.fromkeys("′’´`‘", "'"))
 _KELVIN = ("K", "kelvin", "degK")
 _CELSIUS = ("C", "°C", "ºC", "degC", "deg C", "celsius", "℃")
 _FAHRENHEIT = ("F", "°F", "degF", "deg F", "fahrenheit")
@@ -61,20 +67,27 @@ def columns_of(names: list[str]) -> list[Column]:
             continue
         name, unit = _split(written)
         role, kind = _role(name)
-        if role:
+        if role and not _role(unit)[0]:  # E''/E' is a ratio
             found.append(Column(index, written, role, kind, unit))
     return found
 
 
-def is_header(cells: list[str]) -> bool:
-    """Whether a row names a frequency and two of storage modulus, loss modulus, its absolute value and tan delta."""
-    roles = {column.role for column in columns_of(cells)}
-    return bool(roles & {"frequency", "omega"}) and len(roles & {"storage", "loss", "tan", "absolute"}) >= 2
+def lacking(names: list[str]) -> tuple[int, str]:
+    """How many of the three columns that are needed a row of names lacks, and these in words."""
+    roles = {column.role for column in columns_of(names)}
+    frequency, moduli = bool(roles & {"frequency", "omega"}), max(len(roles & set(pair)) for pair in PAIRS)
+    words = [] if frequency else ["frequency or omega"]
+    if moduli < 2:
+        words.append(f"{'one more' if moduli else 'two'} of storage, loss (E', E'' or G', G''), |E*|, and tan delta or delta")
+    return 3 - frequency - moduli, "; ".join(words)
 
 
 def factor(column: Column, where: str) -> float:
-    """What numbers of a column are multiplied with: for moduli to Pa, for frequencies to rad/s. Raises ``InputError``."""
-    place, unit = f"{where}, column {column.name!r}, unit", column.unit
+    """What numbers of a column are multiplied with: for moduli to Pa, for frequencies to rad/s, for angles to rad.
+
+    Raises ``InputError`` for a unit of something else, or a missing one.
+    """
+    place, unit = f"{where}, column {column.name!r}, unit", _plain_unit(column.unit)
     if column.role in _MODULI:
         return _PA[unit] if unit in _PA else _converted(unit, "Pa", place, "a unit of stress such as MPa")
     if column.role == "tan":
@@ -83,16 +96,43 @@ def factor(column: Column, where: str) -> float:
         if unit == "%":
             return 0.01
         raise InputError(place, unit, "none, or %")
+    if column.role == "phase":
+        if unit not in _ANGLES:
+            raise InputError(place, unit or None, "deg (°) or rad")
+        return _ANGLES[unit]
     wanted = "Hz, or rad/s" if column.role == "frequency" else "rad/s"
-    if unit in _RADIANS:
-        return _RADIANS[unit]
-    if unit in _PER_SECOND:  # as the name says
+    if per_second(column):  # as the name says
         return 1.0 if column.role == "omega" else 2 * np.pi
+    if "rad" in unit:
+        return 1.0 if unit in _RADIANS else _converted(unit, "rad/s", place, wanted)
     if column.role == "frequency":
         return 2 * np.pi * (_HZ[unit] if unit in _HZ else _converted(unit, "Hz", place, wanted))
-    if "rad" in unit:
-        return _converted(unit, "rad/s", place, wanted)
     raise InputError(place, unit or None, f"{wanted}, since it is an angular frequency")
+
+
+def per_second(column: Column) -> bool:
+    """Whether the unit says neither Hz nor rad/s."""
+    return _plain_unit(column.unit) in _PER_SECOND
+
+
+def with_unit_below(column: Column, below: str, where: str) -> Column:
+    """The column with the unit that stands below its name.
+
+    Raises ``InputError`` if the name has another, or what stands below is none.
+    """
+    bracketed = _BRACKETED.match(below)
+    below = bracketed["unit"] if bracketed and not bracketed["name"] else below
+    if column.role == "set" or not below:
+        return column
+    found = replace(column, unit=below)
+    if column.unit and _one(found, where) != _one(column, where):
+        raise InputError(f"{where}, column {column.name!r}, unit below it", below, f"{column.unit!r} as in the name, or none")
+    return found
+
+
+def _one(column: Column, where: str) -> float:
+    """What a 1 in the column is."""
+    return float(to_kelvin(np.ones(1), column, where)[0]) if column.role == "temperature" else factor(column, where)
 
 
 def to_kelvin(values: np.ndarray, column: Column, where: str) -> np.ndarray:
@@ -129,12 +169,14 @@ def _split(written: str) -> tuple[str, str]:
     return written, ""
 
 
+def _plain_unit(unit: str) -> str:
+    """A unit with its powers as ``**``: ``cm2``, ``cm^2`` and ``cm²`` are one, as are ``rad.s-1`` and ``rad·s⁻¹``."""
+    unit = re.sub(r"[.·⋅](?=[^\W\d_])", "*", unit.translate(_RAISED))
+    return re.sub(r"(?<=[^\W\d_])\^?(-?\d)", r"**\1", unit)
+
+
 def _plain(name: str) -> str:
-    text = unicodedata.normalize("NFKC", name).casefold()
-    for sign in ("″", "“", "”", "''", "′′", "’’", "´´", "``"):
-        text = text.replace(sign, '"')
-    for sign in ("′", "’", "´", "`", "‘"):
-        text = text.replace(sign, "'")
+    text = unicodedata.normalize("NFKC", name.translate(_PRIMES)).casefold()  # which would take an acute accent apart
     text = text.replace("''", '"').replace("(delta)", "delta").replace("(δ)", "δ")
     return re.sub(r"[\s_\-.|]", "", text)
 
@@ -153,10 +195,10 @@ def _role(name: str) -> tuple[str, str]:
     for letter in "eg":
         if kind not in ("", letter.upper()):
             continue
-        # E', E_stor, Estorage; storage modulus E'
+        # E', E_stor, Estorage; storage modulus E', storage (E')
         symbols = (
             text.removeprefix(letter),
-            re.sub(rf"^(storage|loss|complex|speicher|verlust)(modul(?:us)?){letter}\W*$", r"\1\2", text),
+            re.sub(rf"^(storage|loss|complex|speicher|verlust)(modul(?:us)?|)\(?{letter}\W*$", r"\1\2", text),
         )
         for role in _MODULI:
             if any(each != text and each in _NAMES[role] for each in symbols):

@@ -23,7 +23,7 @@ class DynamicModulus:
 
     Parameters
     ----------
-    omega : angular frequency, rad/s, > 0, shape (n,), n >= 2
+    omega : angular frequency, rad/s, > 0, shape (n,), n >= 2, of which two differ
     storage, loss : moduli, Pa, > 0 and >= 0, shape (n,)
     kind : ``"E"`` (tension, compression) or ``"G"`` (shear)
     temperature : at which it was measured, K, or None
@@ -57,6 +57,8 @@ class DynamicModulus:
         shapes = [each.shape for each in (omega, storage, loss)]
         if omega.ndim != 1 or omega.size < 2 or len(set(shapes)) > 1:
             raise InputError("dma", shapes, "omega, storage and loss of one shape (n,), n >= 2")
+        if omega.max() <= omega.min() * (1 + 1e-12):
+            raise InputError("dma.omega", float(omega[0]), "at least two different frequencies (rad/s)")
         if self.kind not in ("E", "G"):
             raise InputError("dma.kind", self.kind, "'E' (tension) or 'G' (shear)")
         if self.temperature is not None:

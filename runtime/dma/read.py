@@ -2,59 +2,26 @@
 
 import os
 import re
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, replace
 
 import numpy as np
 
 from ..errors import InputError
 from ..inputs.shift import WLF, Arrhenius, Shift
-from .columns import Column, columns_of, factor, is_header, to_kelvin
+from .columns import Column, columns_of, factor, lacking, per_second, to_kelvin, with_unit_below
 from .modulus import DynamicModulus
+from .pairs import PAIRS, in_range, moduli
+from .readings import Readings, celsius
 from .table import Table, as_number, decimal_comma, read_table
 
-#: in which order of preference two columns give storage and loss modulus
-_PAIRS = (("storage", "loss"), ("storage", "tan"), ("loss", "tan"), ("absolute", "tan"))
 #: columns that mean nothing without a unit
-_WITH_UNIT = ("frequency", "omega", "storage", "loss", "absolute")
+_WITH_UNIT = ("frequency", "omega", "storage", "loss", "absolute", "phase")
 _NUMBER = re.compile(r"[-+\u2212]?[.,]?\d[\d.,]*([eE][-+]?\d+)?$|[-+]?(nan|inf)", re.IGNORECASE)
-#: K: temperatures closer than this are one step of a furnace
-_ONE_STEP = 1.0
 
 
-@dataclass(frozen=True, eq=False)
-class Readings:
-    """What a file holds, row by row (n,): angular frequency (rad/s), moduli (Pa), temperature (K) and the text in the
-    column ``Set``, None where there is no such column; and what each column was taken for."""
-
-    where: str
-    omega: np.ndarray
-    storage: np.ndarray
-    loss: np.ndarray
-    kind: str
-    temperature: np.ndarray | None
-    set: np.ndarray | None
-    columns: tuple[str, ...]
-
-    def of(self, rows: np.ndarray) -> DynamicModulus:
-        """The modulus of some rows, at their mean temperature."""
-        if np.count_nonzero(rows) < 2:
-            raise InputError(self.where, f"{np.count_nonzero(rows)} rows of numbers", "two or more, at different frequencies")
-        T = None if self.temperature is None else float(self.temperature[rows].mean())
-        return DynamicModulus(self.omega[rows], self.storage[rows], self.loss[rows], self.kind, T, self.columns)
-
-    def isotherms(self) -> list[np.ndarray]:
-        """Rows of each temperature, or of each set where the file has sets; one of all rows without either."""
-        if self.set is not None:
-            return [self.set == name for name in dict.fromkeys(self.set.tolist())]
-        if self.temperature is None:
-            return [np.ones(self.omega.size, bool)]
-        ordered = np.sort(self.temperature)
-        starts = np.concatenate(([-np.inf], 0.5 * (ordered[1:] + ordered[:-1])[np.diff(ordered) > _ONE_STEP], [np.inf]))
-        steps = [(self.temperature > low) & (self.temperature <= high) for low, high in zip(starts, starts[1:], strict=False)]
-        return [rows for rows in steps if rows.any()]
-
-
-def read_dma(path: str | os.PathLike[str], temperature_set: str | None = None, decimal: str | None = None) -> DynamicModulus:
+def read_dma(
+    path: str | os.PathLike[str], temperature_set: str | None = None, decimal: str | None = None, shear: bool = False
+) -> DynamicModulus:
     """Read frequency, storage and loss modulus from what an instrument exports as text.
 
     Columns are parted by comma, semicolon or tab; numbers have a decimal point or comma. A row of names, in any order and
@@ -65,78 +32,95 @@ def read_dma(path: str | os.PathLike[str], temperature_set: str | None = None, d
         0.01, 1.02, 0.11
 
     Names: ``f``, ``frequency``, ``omega``, ``angular frequency``; ``E'``, ``E_stor``, ``storage modulus`` and the like for
-    storage and loss, of E or G; ``tan delta``, ``E*``. Two of storage, loss (or the absolute value) and tan delta will do.
-    Units: any of stress and of frequency (other than Pa, kPa, MPa, GPa, Hz, kHz, rad/s: extra ``units``). Other columns
-    are ignored, but for ``Set`` and temperature: raw data at several temperatures have to become a master curve first
-    (``hystrip.dma.master_curve``). Rows with an empty or undefined number are left out. ``columns`` of what is returned says
-    what was taken for what.
+    storage and loss, of E or G; ``E*``; ``tan delta``, or the phase angle ``delta`` in deg or rad. Two of storage, loss, the
+    absolute value and one of the last two will do. Units: any of stress and of frequency (other than Pa, kPa, MPa, GPa, Hz,
+    kHz, rad/s: extra ``units``). Other columns are ignored, but for ``Set`` and temperature: raw data at several temperatures,
+    more than 2 K apart or in steps of 1 K, have to become a master curve first (``hystrip.dma.master_curve``). Rows with an
+    empty or undefined number are left out. ``columns`` of what is returned says what was taken for what.
 
     Parameters
     ----------
     path : the file
     temperature_set : of raw data at several temperatures, take the rows with this entry in the column ``Set``
     decimal : ``"."`` or ``","``, for a file that can be read both ways
+    shear : moduli without a letter in their names are shear moduli, G; otherwise they are taken for Young's, E
 
     Raises
     ------
     InputError : the file cannot be read, or a column, unit or number in it not be used; names file, place and what is
         allowed
     """
-    readings = read_readings(path, decimal)
+    readings = read_readings(path, decimal, shear)
+    rows, sets = np.arange(readings.omega.size), readings.sets()
     if temperature_set is not None:
-        names = [] if readings.set is None else list(dict.fromkeys(readings.set.tolist()))
-        if temperature_set not in names:
-            has = f"one of {', '.join(names)}" if names else f"None: {readings.where} has no column 'Set'"
+        if temperature_set not in sets:
+            has = f"one of {', '.join(sets)}" if sets else f"None: {readings.where} has no column 'Set'"
             raise InputError("temperature_set", temperature_set, has)
-        return readings.of(readings.set == temperature_set)
-    isotherms = readings.isotherms()
-    if len(isotherms) > 1:
-        _refuse_raw(readings, isotherms)
-    return readings.of(np.ones(readings.omega.size, bool))
+        rows = sets[temperature_set]
+    elif len(sets) > 1:
+        one = "one temperature: a master curve (`hystrip master` makes one), or the rows of one set"
+        raise InputError(f"{readings.where}, Set", list(sets), one)
+    found = readings.of(rows)
+    if readings.temperature is None:
+        return found
+    at = f"temperature of the rows used: {celsius(readings.temperature[rows])}"
+    return replace(found, columns=(*found.columns, at))
 
 
-def read_readings(path: str | os.PathLike[str], decimal: str | None = None) -> Readings:
+def read_readings(path: str | os.PathLike[str], decimal: str | None = None, shear: bool = False) -> Readings:
     """All rows of a file, as :func:`read_dma` reads it. Raises ``InputError`` as that does."""
-    table = read_table(path, is_header)
+    table = read_table(path, lacking)
     where = table.where
     columns = columns_of(table.names)
     pair, chosen = _chosen(where, table, columns)
-    units, rows = _with_units(table, list(chosen.values()))
-    chosen = {role: _given(column, unit) for (role, column), unit in zip(chosen.items(), units, strict=True)}
+    chosen, rows = _with_units(table, chosen)
     used = [column for role, column in chosen.items() if role != "set"]
-    comma = decimal_comma(where, [table.cell(row, column.index) for _, row in rows for column in used], decimal)
-    factors = {role: 1.0 if role == "temperature" else factor(each, where) for role, each in chosen.items() if role != "set"}
+    comma = decimal_comma(table, [table.number(row, column.index) for _, row in rows for column in used], decimal)
+    factors = {column.role: 1.0 if column.role == "temperature" else factor(column, where) for column in used}
     numbers, kept = _numbers(table, rows, used, comma)
     if not numbers.size:
         raise InputError(where, "no row of numbers", "two or more, each with frequency and moduli")
-    frequency = used[0].role
     values = {column.role: numbers[:, i] * factors[column.role] for i, column in enumerate(used)}
-    for role in (frequency, *pair):
-        good = values[role] >= 0 if role in ("loss", "tan") else values[role] > 0
+
+    def refuse(role: str, good: np.ndarray, allowed: str) -> None:
         if not good.all():
-            bound = ">= 0" if role in ("loss", "tan") else "> 0"
-            at = int(np.argmin(good))
-            raise InputError(
-                f"{where}, line {kept[at][0]}, column {chosen[role].name!r}",
-                float(values[role][at] / factors[role]),
-                f"numbers {bound}",
-            )
-    storage, loss = _moduli(pair, values)
-    if pair == ("loss", "tan") and not np.isfinite(storage).all():
-        raise InputError(
-            f"{where}, column {chosen['tan'].name!r}", 0.0, "numbers > 0 where the storage modulus follows from them"
-        )
+            at, column = int(np.argmin(good)), chosen[role]
+            written = float(numbers[at, used.index(column)])
+            raise InputError(f"{where}, line {kept[at][0]}, column {column.name!r}", written, allowed)
+
+    for role in (used[0].role, *pair):
+        refuse(role, *in_range(role, values[role]))
+    storage, loss = moduli(pair, values)
+    first, second = (values[role] for role in pair)
+    if pair[1] == "absolute":
+        good, rule = (second >= first, "not below") if pair[0] == "storage" else (second > first, "above")
+        refuse("absolute", good, f"numbers {rule} those of {chosen[pair[0]].name!r}")
+    refuse(pair[1], np.isfinite(storage), "numbers > 0 where the storage modulus follows from them")
     temperature = to_kelvin(values["temperature"], chosen["temperature"], where) if "temperature" in chosen else None
-    names = np.array([table.cell(row, chosen["set"].index) for _, row in kept]) if "set" in chosen else None
-    kind = next((chosen[role].kind for role in pair if chosen[role].kind), "E")
-    said = _said(table, columns, chosen, comma, len(rows) - len(kept))
-    return Readings(where, values[frequency], storage, loss, kind, temperature, names, said)
+    names = np.array([table.cell(row, chosen["set"].index) for _, row in kept], object) if "set" in chosen else None
+    kind, taken = _kind(where, [chosen[role] for role in pair], shear)
+    said = _said(table, chosen, taken, comma, len(rows) - len(kept))
+    return Readings(where, values[used[0].role], storage, loss, kind, temperature, names, said)
+
+
+def _kind(where: str, columns: list[Column], shear: bool) -> tuple[str, str]:
+    """E or G, and what has to be said about it where the names of the columns do not."""
+    kinds = {column.kind for column in columns} - {""}
+    if len(kinds) > 1:
+        raise InputError(where, [column.name for column in columns], "both of E or both of G")
+    if shear and kinds == {"E"}:
+        raise InputError("shear", shear, f"False: {[column.name for column in columns]} in {where} are moduli E")
+    if kinds:
+        return kinds.pop(), ""
+    if shear:
+        return "G", "moduli: of shear, G, as asked for"
+    return "E", "moduli: taken for Young's, E; for shear moduli, G: names such as G', or shear=True (`hystrip fit --shear`)"
 
 
 def _chosen(where: str, table: Table, columns: list[Column]) -> tuple[tuple[str, str], dict[str, Column]]:
     """The two columns that give the moduli, and all that are used: frequency first. Raises ``InputError`` for two of a kind."""
     roles = {column.role for column in columns}
-    pair = next(each for each in _PAIRS if set(each) <= roles)
+    pair = next(each for each in PAIRS if set(each) <= roles)
     frequency = "frequency" if "frequency" in roles else "omega"
     chosen = {}
     for role in (frequency, *pair, *(each for each in ("temperature", "set") if each in roles)):
@@ -144,27 +128,17 @@ def _chosen(where: str, table: Table, columns: list[Column]) -> tuple[tuple[str,
         if len(found) > 1:
             raise InputError(f"{where}, line {table.line}", [column.name for column in found], f"one column of {role}")
         chosen[role] = found[0]
-    kinds = {chosen[role].kind for role in pair} - {""}
-    if len(kinds) > 1:
-        raise InputError(f"{where}, line {table.line}", [chosen[role].name for role in pair], "both of E or both of G")
     return pair, chosen
 
 
-def _with_units(table: Table, columns: list[Column]) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    """Units of the columns from the row below the names, if that is one of units; and the rows of numbers."""
-    none = [""] * len(columns)
-    if not table.rows or all(column.unit for column in columns if column.role in _WITH_UNIT):
-        return none, table.rows
-    cells = [table.cell(table.rows[0][1], column.index) for column in columns]
-    needed = [cell for cell, column in zip(cells, columns, strict=True) if column.role in _WITH_UNIT]
+def _with_units(table: Table, chosen: dict[str, Column]) -> tuple[dict[str, Column], list[tuple[int, list[str]]]]:
+    """The columns with the units in the row below the names, if that is one of units; and the rows of numbers."""
+    below = table.rows[0][1] if table.rows else []
+    needed = [table.number(below, column.index) for role, column in chosen.items() if role in _WITH_UNIT]
     if not any(needed) or any(_NUMBER.match(cell) for cell in needed):
-        return none, table.rows
-    return cells, table.rows[1:]
-
-
-def _given(column: Column, unit: str) -> Column:
-    """The column with the unit that stands below its name, unless the name has one."""
-    return Column(column.index, column.name, column.role, column.kind, column.unit or unit)
+        return chosen, table.rows
+    found = {role: with_unit_below(each, table.cell(below, each.index), table.where) for role, each in chosen.items()}
+    return found, table.rows[1:]
 
 
 def _numbers(
@@ -175,7 +149,7 @@ def _numbers(
     for line, row in rows:
         values = []
         for column in columns:
-            text = table.cell(row, column.index)
+            text = table.number(row, column.index)
             try:
                 values.append(as_number(text, comma))
             except ValueError:
@@ -193,34 +167,27 @@ def _numbers(
     return np.array(out, dtype=float).reshape(-1, len(columns)), kept
 
 
-def _moduli(pair: tuple[str, str], values: dict[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    first, second = (values[role] for role in pair)
-    if pair == ("storage", "loss"):
-        return first, second
-    if pair == ("storage", "tan"):
-        return first, first * second
-    if pair == ("loss", "tan"):
-        return np.divide(first, second, out=np.full(first.shape, np.inf), where=second > 0), first
-    size = first / np.hypot(1.0, second)
-    return size, size * second
-
-
-def _said(table: Table, columns: list[Column], chosen: dict[str, Column], comma: bool, left_out: int) -> tuple[str, ...]:
+def _said(table: Table, chosen: dict[str, Column], taken: str, comma: bool, left_out: int) -> tuple[str, ...]:
     words = {
         "frequency": "frequency",
         "omega": "angular frequency",
         "storage": "storage modulus",
         "loss": "loss modulus",
         "tan": "tan delta",
+        "phase": "phase angle delta",
         "absolute": "absolute value of the modulus",
         "temperature": "temperature",
         "set": "set of one temperature",
     }
     lines = []
     for role, column in chosen.items():
-        unit = "rad/s" if column.role == "frequency" and "rad" in column.unit else column.unit
-        word = "angular frequency" if unit == "rad/s" else words[role] + (f" {column.kind}" if column.kind else "")
-        lines.append(f"{column.name!r}: {word}" + (f", in {unit}" if unit and role not in ("tan", "set") else ""))
+        word = words["omega" if "rad" in column.unit and role == "frequency" else role] + f" {column.kind}".rstrip()
+        unit = f", in {column.unit}" if column.unit and role not in ("tan", "set") else ""
+        if role in ("frequency", "omega") and per_second(column):
+            unit += ", taken for Hz, cycles per second" if role == "frequency" else ", taken for rad/s"
+        lines.append(f"{column.name!r}: {word}{unit}")
+    if taken:
+        lines.append(taken)
     ignored = [name for i, name in enumerate(table.names) if name and i not in {column.index for column in chosen.values()}]
     if ignored:
         lines.append(f"ignored: {', '.join(map(repr, ignored[:8]))}" + (", ..." if len(ignored) > 8 else ""))
@@ -228,24 +195,6 @@ def _said(table: Table, columns: list[Column], chosen: dict[str, Column], comma:
     if left_out:
         lines.append(f"{left_out} rows left out: a number is missing")
     return tuple(lines)
-
-
-def _refuse_raw(readings: Readings, isotherms: list[np.ndarray]) -> None:
-    """Refuse raw data at several temperatures: their bands overlap. A temperature that drifts along one sweep does not matter."""
-    bands = [(readings.omega[rows].min(), readings.omega[rows].max()) for rows in isotherms]
-    bands.sort()
-    apart = all(before[1] < after[0] * (1 - 1e-9) for before, after in zip(bands, bands[1:], strict=False))
-    if readings.set is None and apart:
-        return
-    if readings.set is not None:
-        shown: list = list(dict.fromkeys(readings.set.tolist()))
-        raise InputError(
-            f"{readings.where}, Set",
-            shown,
-            "one temperature: a master curve (`hystrip master` makes one), or the rows of one set",
-        )
-    shown = [f"{readings.temperature[rows].mean():.1f} K" for rows in isotherms]
-    raise InputError(f"{readings.where}, temperature", shown, "one temperature: a master curve (`hystrip master` makes one)")
 
 
 def shift_remark(shift: Shift) -> str:
@@ -259,7 +208,7 @@ def read_shift(path: str | os.PathLike[str]) -> WLF | Arrhenius | None:
 
     Raises ``InputError`` for a remark that is no shift, or a file that cannot be read.
     """
-    table = read_table(path, is_header)
+    table = read_table(path, lacking)
     for line in table.remarks:
         if not line.startswith("# shift:"):
             continue

@@ -1,6 +1,7 @@
 """Reading a table of numbers as instruments export it: any of three separators, decimal point or comma, one row of names."""
 
 import csv
+import itertools
 import os
 import re
 from collections.abc import Callable, Sequence
@@ -16,7 +17,9 @@ _PREAMBLE = 200
 #: of so many cells a row is no table
 _WIDEST = 10_000
 _SWAPPED = str.maketrans(".,", ",.")
-_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(,\d{3})+")
+_THOUSANDS = {sign: re.compile(rf"[-+]?[1-9]\d{{0,2}}(\{sign}\d{{3}})+") for sign in ",."}
+#: thousands parted by blanks or apostrophes, which no decimal sign looks like
+_PARTED = re.compile(r"[-+\u2212]?\d{1,3}([\s'’])\d{3}(\1\d{3})*([.,]\d*)?([eE][-+]?\d+)?")
 
 
 @dataclass(frozen=True)
@@ -35,27 +38,53 @@ class Table:
         """A cell, empty beyond the end of its row."""
         return row[column] if column < len(row) else ""
 
+    def number(self, row: Sequence[str], column: int) -> str:
+        """A cell that is to hold a number, without blanks or apostrophes between thousands."""
+        text = self.cell(row, column)
+        parted = _PARTED.fullmatch(text)
+        return text.replace(parted[1], "") if parted else text
 
-def read_table(path: str | os.PathLike[str], is_header: Callable[[list[str]], bool]) -> Table:
-    """The table in a text file, from the first row on that ``is_header``.
 
-    Raises ``InputError`` naming the file: not readable, not text, or without such a row.
+def read_table(path: str | os.PathLike[str], lacking: Callable[[list[str]], tuple[int, str]]) -> Table:
+    """The table in a text file, from the first row of names on that lacks nothing.
+
+    ``lacking`` : of a row of names, how many of the columns that are needed are not there, and these in words
+
+    Raises ``InputError`` naming the file: not readable, not text, without such a row, or with more cells in a row than names.
     """
     where = str(path_of(path, "path", "a text file with a table"))
     lines = _text(where).splitlines()
-    for separator in _SEPARATORS:
-        rows = _rows(where, lines, separator)
+    nearest = (lacking([])[0], "", 0, [])
+    # first line by line: a quotation mark in a remark opens no cell of many lines
+    for whole, separator in itertools.product((False, True), _SEPARATORS):
+        rows = _rows(where, lines, separator, whole)
         for at, (line, cells) in enumerate(rows[:_PREAMBLE]):
-            if is_header(cells):
-                return Table(where, cells, rows[at + 1 :], _SEPARATORS[separator], line, tuple(lines[: line - 1]))
+            count, words = lacking(cells)
+            if not count:
+                return _checked(Table(where, cells, rows[at + 1 :], _SEPARATORS[separator], line, tuple(lines[: line - 1])))
+            if count < nearest[0]:
+                nearest = (count, words, line, cells)
+    _, words, line, cells = nearest
+    if cells:
+        raise InputError(f"{where}, line {line}", cells, f"in this row of names also {words}")
     first = next((line for line in lines if line.strip()), "")
     if not first:
         raise InputError(where, "no text", "a row of names (frequency, storage and loss modulus, with units), then numbers")
     allowed = "a row of names, in one of them frequency or omega, in two of them storage, loss (E', E'' or G', G'') or tan delta"
-    raise InputError(where, first, f"{allowed}; separated by comma, semicolon or tab")
+    raise InputError(where, first, f"{allowed}; separated by comma, semicolon or tab; among the first {_PREAMBLE} rows")
 
 
-def decimal_comma(where: str, cells: Sequence[str], given: str | None) -> bool:
+def _checked(table: Table) -> Table:
+    """Refuse rows of more cells than names: it is not known which of them stands below which name."""
+    width = max(i for i, name in enumerate(table.names, 1) if name)
+    for line, row in table.rows:
+        if any(row[width:]):
+            hint = "; with a decimal comma, parted by semicolon or tab" if table.separator == "comma" else ""
+            raise InputError(f"{table.where}, line {line}", row, f"{width} cells, as many as there are names{hint}")
+    return table
+
+
+def decimal_comma(table: Table, cells: Sequence[str], given: str | None) -> bool:
     """Whether a comma in these cells is the decimal sign. Raises ``InputError`` where both readings are possible.
 
     ``given``: ``"."`` or ``","`` decides; None: from the cells themselves.
@@ -64,17 +93,20 @@ def decimal_comma(where: str, cells: Sequence[str], given: str | None) -> bool:
         if given not in (".", ","):
             raise InputError("decimal", given, "'.' or ','")
         return given == ","
-    with_comma = [cell for cell in cells if "," in cell]
-    if not with_comma:
-        return False
-    both = [cell for cell in with_comma if "." in cell]
-    if both:  # the sign further to the right is the decimal one
-        return both[0].rfind(",") > both[0].rfind(".")
-    if any(not _THOUSANDS.fullmatch(cell) for cell in with_comma):
-        return True
-    if any("." in cell for cell in cells):  # 1,000 beside 2.5
-        return False
-    raise InputError(where, with_comma[0], 'a number that can be read in one way; say decimal="," or "." (--decimal)')
+    for cell in cells:
+        if "," in cell and "." in cell:  # the sign further to the right is the decimal one
+            return cell.rfind(",") > cell.rfind(".")
+    having = {sign: [cell for cell in cells if sign in cell] for sign in ",."}
+    for sign, found in having.items():
+        if any(not _THOUSANDS[sign].fullmatch(cell) for cell in found):
+            return sign == ","
+    for sign, found in having.items():
+        if any(cell.count(sign) > 1 for cell in found):
+            return sign == "."
+    for sign, found in having.items():
+        if found and (sign, table.separator) != (".", "comma"):  # 2.100 between commas is no 2100
+            raise InputError(table.where, found[0], 'a number that can be read in one way; say decimal="," or "." (--decimal)')
+    return False
 
 
 def as_number(text: str, comma: bool) -> float:
@@ -83,7 +115,7 @@ def as_number(text: str, comma: bool) -> float:
     if comma:
         text = text.translate(_SWAPPED)
     if "," in text:  # between thousands alone
-        if not _THOUSANDS.fullmatch(text.partition(".")[0]):
+        if not _THOUSANDS[","].fullmatch(text.partition(".")[0]):
             raise ValueError(text)
         text = text.replace(",", "")
     if "_" in text:
@@ -109,17 +141,20 @@ def _text(where: str) -> str:
     raise InputError(where, where, "a text file (UTF-8, UTF-16 or Windows-1252)")
 
 
-def _rows(where: str, lines: list[str], separator: str) -> list[tuple[int, list[str]]]:
-    """Rows that hold something, with their line numbers."""
+def _rows(where: str, lines: list[str], separator: str, whole: bool) -> list[tuple[int, list[str]]]:
+    """Rows that hold something, with their line numbers; ``whole``: a cell in quotes may go on in the next line."""
     found = []
     try:
-        reader = csv.reader(lines, delimiter=separator)
-        for row in reader:
-            if len(row) > _WIDEST:
-                raise InputError(where, f"{len(row)} columns in line {reader.line_num}", f"at most {_WIDEST}")
-            cells = [cell.strip() for cell in row]
-            if any(cells):
-                found.append((reader.line_num, cells))
+        for above, part in enumerate([lines] if whole else ([line] for line in lines)):
+            reader = csv.reader(part, delimiter=separator, strict=whole)
+            for row in reader:
+                if len(row) > _WIDEST:
+                    raise InputError(where, f"{len(row)} columns in line {above + reader.line_num}", f"at most {_WIDEST}")
+                cells = [cell.strip() for cell in row]
+                if any(cells):
+                    found.append((above + reader.line_num, cells))
     except csv.Error as error:
+        if whole:
+            return []
         raise InputError(where, where, f"a table of text ({error})") from None
     return found

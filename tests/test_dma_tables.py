@@ -1,0 +1,188 @@
+"""Tables of moduli as instruments export them: each is read as the same four numbers, or refused by name."""
+
+import numpy as np
+import pytest
+
+import hystrip
+from hystrip.dma import DynamicModulus, read_dma, read_isotherms
+
+
+def written(tmp_path, text):
+    (tmp_path / "table.csv").write_text(text, encoding="utf-8")
+    return tmp_path / "table.csv"
+
+
+def rows(*cells):
+    return "".join(";".join(map(str, row)) + "\n" for row in cells)
+
+
+# storage 1.5 and 3 MPa, loss 0.25 and 0.75 MPa at 0.5 and 5 Hz
+HZ, RAD = (0.5, 5), (np.pi, 10 * np.pi)
+MPA = ((1.5, 0.25), (3, 0.75))
+SIZE = (np.hypot(1.5, 0.25), np.hypot(3, 0.75))
+DELTA = (np.arctan2(0.25, 1.5), np.arctan2(0.75, 3))
+
+
+def table(names, frequency=HZ, moduli=MPA, scale=1.0):
+    return names + "\n" + rows(*((f, *(scale * each for each in E)) for f, E in zip(frequency, moduli, strict=True)))
+
+
+EXPORTS = {
+    "units below in square brackets": table("Frequency;Storage Modulus;Loss Modulus\n[Hz];[MPa];[MPa]"),
+    "per second below in brackets": table("Angular frequency;E';E''\n[1/s];[MPa];[MPa]", RAD),
+    "acute accents": table("f [Hz];E´ [MPa];E´´ [MPa]"),
+    "slashes without blanks": table("f/Hz;E'/MPa;E''/MPa"),
+    "slash and brackets": table("f/(Hz);E'/(N/mm²);E''/(N/mm²)"),
+    "curly and angle brackets": table("f {Hz};E' <MPa>;E'' <MPa>"),
+    "a ratio is no modulus": table("f/Hz;E'/MPa;E''/MPa;E''/E'"),
+    "dyn/cm2": table("f [Hz];E' [dyn/cm2];E'' [dyn/cm²]", scale=1e7),
+    "N/mm2": table("f [Hz];E' [N/mm2];E'' [N mm-2]"),
+    "N/m2": table("f [Hz];E' [N/m2];E'' [N·m⁻²]", scale=1e6),
+    "rad s⁻¹": table("f [rad s⁻¹];E' [MPa];E'' [MPa]", RAD),
+    "rad.s-1": table("Angular freq [rad.s-1];E' [MPa];E'' [MPa]", RAD),
+    "rad·s-1": table("Ang. Freq. [rad·s-1];E' [MPa];E'' [MPa]", RAD),
+    "rad/min": table("f [rad/min];E' [MPa];E'' [MPa]", (60 * np.pi, 600 * np.pi)),
+    "s⁻¹": table("f [s⁻¹];E' [MPa];E'' [MPa]"),
+    "modulus behind the symbol": table("f [Hz];E' modulus [MPa];E''-Modul [MPa]"),
+    "Young's": table("f [Hz];Young's storage modulus [MPa];Young’s loss modulus [MPa]"),
+    "symbol in brackets": table("f [Hz];Storage (E') [MPa];Loss (E'') [MPa]"),
+    "unit in name and below, the same": table("f [Hz];E' [MPa];E''\nHz;N/mm2;MPa"),
+    "phase angle in degrees": table("f [Hz];|E*| [MPa];Phase angle [°]", moduli=zip(SIZE, np.degrees(DELTA), strict=True)),
+    "delta in rad": table("f [Hz];E* [MPa];delta [rad]", moduli=zip(SIZE, DELTA, strict=True)),
+    "storage and delta": table("f [Hz];E' [MPa];δ\n;;deg", moduli=zip((1.5, 3), np.degrees(DELTA), strict=True)),
+    "storage and absolute": table("f [Hz];E' [MPa];|E*| [MPa]", moduli=zip((1.5, 3), SIZE, strict=True)),
+    "loss and absolute": table("f [Hz];E'' [MPa];|E*| [MPa]", moduli=zip((0.25, 0.75), SIZE, strict=True)),
+    "thousands parted by blanks": "f [Hz];E' [Pa];E'' [Pa]\n0.5;1 500 000;250 000.0\n5;3 000 000;750 000.0\n",
+    "by no-break blanks": "f [Hz];E' [Pa];E'' [Pa]\n0,5;1\u00a0500\u00a0000;250\u202f000\n5;3\u00a0000\u00a0000;750\u202f000,0\n",
+    "by apostrophes": "f [Hz];E' [Pa];E'' [Pa]\n0.5;1'500'000;250’000\n5;3'000'000;750’000\n",
+    "by points, comma elsewhere": "f [Hz];E' [kPa];E'' [kPa]\n0,5;1.500;250\n5;3.000;750\n",
+    "by points, twice": "f [mHz];E' [Pa];E'' [Pa]\n500;1.500.000;250.000\n5.000;3.000.000;750.000\n",
+    "by commas, point elsewhere": "f [Hz];E' [kPa];E'' [kPa]\n0.5;1,500;250\n5;3,000;750\n",
+    "three digits between commas": "f [Hz],E' [MPa],E'' [kPa]\n0.5,1.500,250\n5,3,750\n".replace("0.5", "0.500"),
+    "quotation mark in a remark": '"Sample: foo\nx\n' + table("f [Hz];E' [MPa];E'' [MPa]"),
+    "quotation mark below": table("f [Hz];E' [MPa];E'' [MPa];note").replace("0.25\n", '0.25;"3 inch\n'),
+    "name of two lines": table('f [Hz];"E\'\n[MPa]";"E\'\'\n[MPa]"'),
+    "blank cells to the right": table("f [Hz];E' [MPa];E'' [MPa];;").replace("0.25\n", "0.25;;;;\n"),
+}
+
+
+@pytest.mark.parametrize("name", EXPORTS)
+def test_exports_are_read_as_the_same_numbers(tmp_path, name):
+    data = read_dma(written(tmp_path, EXPORTS[name]))
+    assert data.kind == "E" and data.frequency == pytest.approx(HZ, rel=1e-12)
+    assert data.storage == pytest.approx([1.5e6, 3e6], rel=1e-12) and data.loss == pytest.approx([2.5e5, 7.5e5], rel=1e-12)
+
+
+def test_all_digits_in_threes_between_commas_are_decimal_points(tmp_path):
+    data = read_dma(written(tmp_path, "f [Hz],E' [MPa],E'' [MPa]\n1.000,2.100,1.200\n2.000,2.200,1.300\n"))
+    assert data.storage == pytest.approx([2.1e6, 2.2e6]) and data.loss == pytest.approx([1.2e6, 1.3e6])
+
+
+HEAD = "f [Hz];E' [MPa];E'' [MPa]\n"
+REFUSED = {
+    "decimal commas between commas": (
+        "f [Hz],E' [MPa],E'' [MPa]\n1,2,1,0,3\n2,3,2,0,4\n",
+        r"line 2: got \['1', '2', '1', '0', '3'\]; allowed: 3 cells, as many as there are names; with a decimal comma",
+    ),
+    "a cell without a name": ("f [Hz];E' [MPa];E'' [MPa];;\n1;2;1\n2;3;2;;x\n", "line 3: .*allowed: 3 cells"),
+    "absolute below storage": (
+        "f [Hz];E' [MPa];|E*| [MPa]\n1;2;3\n2;3;2.9\n",
+        r"line 3, column '\|E\*\| \[MPa\]': got 2.9; allowed: numbers not below those of \"E' \[MPa\]\"",
+    ),
+    "absolute is loss": ("f [Hz];E'' [MPa];|E*| [MPa]\n1;2;3\n2;3;3\n", "got 3.0; allowed: numbers above those of"),
+    "phase without unit": ("f [Hz];|E*| [MPa];delta\n1;2;3\n2;3;3\n", r"'delta', unit: got None; allowed: deg \(°\) or rad"),
+    "phase of a liquid": ("f [Hz];|E*| [MPa];delta [deg]\n1;2;3\n2;3;90\n", "got 90.0; allowed: angles >= 0, below 90 degrees"),
+    "units that disagree": ("f;E' [MPa];E''\nHz;kPa;MPa\n1;2;1\n2;3;2\n", "unit below it: got 'kPa'; allowed: 'MPa' as in"),
+    "frequencies that disagree": ("f [Hz];E';E''\nrad/s;MPa;MPa\n1;2;1\n2;3;2\n", "got 'rad/s'; allowed: 'Hz' as in the name"),
+    "degrees that disagree": ("f;E';E'';T [K]\nHz;MPa;MPa;°C\n1;2;1;20\n2;3;2;20\n", "got '°C'; allowed: 'K' as in the name"),
+    "one frequency": (HEAD + "5;2;0.3\n5;2.1;0.31\n", "frequency: got '2 rows of numbers, at 5 Hz alone'; .*two different"),
+    "points or thousands": ("f [Hz];E' [kPa];E'' [kPa]\n1;2.100;210\n2;2.200;220\n", "got '2.100'; .*read in one way"),
+    "both in threes": ("f [Hz];E' [kPa];E'' [kPa]\n1;2.100;1,210\n2;2.200;220\n", "read in one way"),
+    "no frequency": ("remark\nTime;G' [MPa];G'' [MPa]\n1;2;1\n", "line 2: got .*in this row of names also frequency or omega$"),
+    "no loss": ("f, Hz;E' [MPa];Elost [MPa]\n1;2;1\n", "line 1: got .*also one more of storage, loss .*tan delta or delta$"),
+    "no moduli": ("f, Hz;Ep [MPa];Edp [MPa]\n1;2;1\n", "line 1: got .*also two of storage, loss"),
+    "kinds that contradict": ("f [Hz];E' [MPa];G'' [MPa]\n1;2;1\n2;3;2\n", "both of E or both of G"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_can_be_read_wrongly_is_refused(tmp_path, name):
+    text, said = REFUSED[name]
+    with pytest.raises(hystrip.InputError, match=said) as refused:
+        read_dma(written(tmp_path, text))
+    assert "table.csv" in str(refused.value)
+
+
+def test_one_frequency_in_python_is_refused():
+    with pytest.raises(hystrip.InputError, match="dma.omega: got 5.0; allowed: at least two different frequencies"):
+        DynamicModulus([5.0, 5.0], [1e6, 1e6], [1e5, 1e5])
+
+
+def test_decimal_sign_can_be_said_for_points_too(tmp_path):
+    path = written(tmp_path, "f [Hz];E' [kPa];E'' [kPa]\n1;2.100;210\n2;2.200;220\n")
+    assert read_dma(path, decimal=".").storage == pytest.approx([2100, 2200])
+    assert read_dma(path, decimal=",").storage == pytest.approx([2.1e6, 2.2e6])
+
+
+def test_moduli_without_a_letter(tmp_path):
+    path = written(tmp_path, table("f [1/s];Storage Modulus [MPa];Loss Modulus [MPa]"))
+    found = read_dma(path)
+    said = "\n".join(found.columns)
+    assert found.kind == "E" and "taken for Young's, E" in said and "shear=True (`hystrip fit --shear`)" in said
+    assert "in 1/s, taken for Hz, cycles per second" in said
+    shear = read_dma(path, shear=True)
+    assert shear.kind == "G" and shear.storage.tolist() == found.storage.tolist() and "of shear, G" in "\n".join(shear.columns)
+    named = read_dma(written(tmp_path, table("f [Hz];G' [MPa];G'' [MPa]")), shear=True)
+    assert named.kind == "G" and "taken for" not in "\n".join(named.columns)
+    with pytest.raises(hystrip.InputError, match="shear: got True; allowed: False: .*are moduli E"):
+        read_dma(written(tmp_path, HEAD + "1;2;1\n2;3;2\n"), shear=True)
+
+
+def at_temperatures(tmp_path, celsius, per=3):
+    """A table of ``per`` frequencies at each temperature."""
+    cells = ((T, 10**i, 2 + i, 1 + 0.001 * n) for n, T in enumerate(celsius) for i in range(per))
+    return written(tmp_path, "T [degC];f [Hz];E' [MPa];E'' [MPa]\n" + rows(*cells))
+
+
+def test_a_slow_ramp_is_no_single_temperature(tmp_path):
+    steps = np.arange(-30, 60.1, 0.5)
+    path = at_temperatures(tmp_path, steps)
+    with pytest.raises(hystrip.InputError, match="temperature: got '543 rows at -30.0 to 60.0 degC'; .*`hystrip master`"):
+        read_dma(path)
+    found = read_isotherms(path)
+    assert [each.temperature - 273.15 for each in found] == pytest.approx(steps) and {each.omega.size for each in found} == {3}
+
+
+@pytest.mark.parametrize("celsius", [(19, 20), (20, 20.7, 21.4, 22.1), (20, 21.5)])
+def test_steps_are_not_pooled(tmp_path, celsius):
+    path = at_temperatures(tmp_path, celsius)
+    assert [each.temperature - 273.15 for each in read_isotherms(path)] == pytest.approx(celsius)
+    with pytest.raises(hystrip.InputError, match="temperature: got"):
+        read_dma(path)
+
+
+def test_bands_that_do_not_overlap_are_not_pooled_either(tmp_path):
+    cells = [(T, f, 2 + f, 1) for T, band in ((60, (0.1, 0.5)), (20, (1, 5)), (-20, (10, 50))) for f in band]
+    with pytest.raises(hystrip.InputError, match="6 rows at -20.0 to 60.0 degC"):
+        read_dma(written(tmp_path, "T [degC];f [Hz];E' [MPa];E'' [MPa]\n" + rows(*cells)))
+
+
+def test_drift_within_two_kelvin_is_one_temperature_and_said(tmp_path):
+    found = read_dma(at_temperatures(tmp_path, (19.2, 19.8, 20.4, 21.2), per=2))
+    assert found.temperature == pytest.approx(293.3) and found.columns[-1] == "temperature of the rows used: 19.2 to 21.2 degC"
+
+
+def test_drift_is_told_from_steps_by_its_gaps(tmp_path):
+    """Furnace steps of 1.4 K with a drift of 0.6 K each: no gap of 1 K between neighbours."""
+    celsius = [T + drift for T in (20.0, 21.4, 22.8) for drift in (0, 0.3, 0.6)]
+    found = read_isotherms(at_temperatures(tmp_path, celsius))
+    assert [each.temperature - 273.15 for each in found] == pytest.approx([20.3, 21.7, 23.1])
+
+
+def test_a_set_has_one_temperature(tmp_path):
+    text = "Set;T [degC];f [Hz];E' [MPa];E'' [MPa]\n" + rows(
+        (1, 20, 1, 2, 1), (1, 35, 2, 3, 1), (2, 20, 1, 2, 1), (2, 20, 2, 3, 1)
+    )
+    assert read_dma(written(tmp_path, text), "2").storage.tolist() == [2e6, 3e6]
+    with pytest.raises(hystrip.InputError, match="2 rows at 20.0 to 35.0 degC"):
+        read_dma(tmp_path / "table.csv", "1")
