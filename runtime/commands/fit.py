@@ -2,10 +2,13 @@
 
 import warnings
 from pathlib import Path
+from urllib.parse import quote
 
 import typer
 
 from .output import say
+
+_SHEAR = "The moduli are shear moduli, G; Young's modulus is E = 2 (1 + nu) G."
 
 
 def command(
@@ -23,6 +26,7 @@ def command(
     accuracy: float = typer.Option(None, "--accuracy", help="As few relaxation times as fit to this rms [0.02]."),
     terms: int = typer.Option(None, "--terms", help="Or so many relaxation times, 1 to 40, placed where they fit best."),
     per_decade: float = typer.Option(None, "--per-decade", help="Or so many in each decade of the data."),
+    shear: bool = typer.Option(False, "--shear", help="Moduli whose names do not say it are shear moduli, G."),
     low: float = typer.Option(None, "--low", help="Lowest frequency to fit [Hz]."),
     high: float = typer.Option(None, "--high", help="Highest frequency to fit [Hz]."),
     temperature_set: str = typer.Option(None, "--set", help="Of raw data at several temperatures, the rows of this set."),
@@ -42,7 +46,7 @@ def command(
     from ..dma import fit_prony, read_dma
     from ..dma.output import material_tables, rows
     from ..dma.read import read_shift
-    from ..errors import FitWarning, InputError
+    from ..errors import FitWarning, InputError, printable
     from ..extras import require
     from ..files import Outputs, refuse_unwritable
     from ..inputs.fitted import POOR
@@ -60,28 +64,34 @@ def command(
         raise InputError("--nu, --length", (nu, length), "one of the two: a half-space, or one stiffness for all levels")
     over = metres(length, "--length")
     writes_scene = nu is not None or over is not None
-    given = settings(scene if writes_scene else "", pascals(pressure, "--pressure"), title, f"Rubber of {data.name}")
-    measured, shift = read_dma(data, temperature_set, decimal), read_shift(data)
+    source, stem = data.name, data.stem
+    if temperature_set is not None:  # the results of one set do not take the place of another's
+        source, stem = f"{source}, set {printable(temperature_set)}", f"{stem}.{quote(temperature_set, safe=' ')}"
+    given = settings(scene if writes_scene else "", pascals(pressure, "--pressure"), title, f"Rubber of {source}")
+    measured, shift = read_dma(data, temperature_set, decimal, shear), read_shift(data)
     refuse_unwritable(out, "--out")
-    names = [f"{data.stem}.{each}" for each in ("fit.csv", *["fitted.toml"] * writes_scene, *["fit.png"] * plot)]
+    names = [f"{stem}.{each}" for each in ("fit.csv", *["fitted.toml"] * writes_scene, *["fit.png"] * plot)]
     refuse_other_origin(out, names, data)
-    about = [*about_version(), f"data: {data.name}"]
+    about = [*about_version(), f"data: {source}"]
     measured = measured.between(low, high)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", FitWarning)  # said below, with everything else about the fit
         series = fit_prony(measured, accuracy=accuracy, per_decade=per_decade, terms=terms)
-    files = {f"{data.stem}.fit.csv": lambda path: write_csv(path, rows(series, measured), about)}
+    files = {f"{stem}.fit.csv": lambda path: write_csv(path, rows(series, measured), about)}
     if writes_scene:
         material = series.half_space(nu, shift) if nu is not None else series.material(over, shift)
         if len(series.times) > 1:  # the other closure does not determine the edges of such a material
             given["edge"] = "constitutive"
+        tables, comment = material_tables(material, series, source, over)
+        if over is not None and series.kind == "G":
+            comment += f"\n{_SHEAR}"
         with located(scene):
-            text = with_material(with_settings(scene_text(scene)[0], given), *material_tables(material, series, data.name, over))
-        files[f"{data.stem}.fitted.toml"] = lambda path: path.write_text(text, encoding="utf-8", newline="\n")
+            text = with_material(with_settings(scene_text(scene)[0], given), tables, comment)
+        files[f"{stem}.fitted.toml"] = lambda path: path.write_text(text, encoding="utf-8", newline="\n")
     if plot:
         from ..plots import fitted_modulus, save
 
-        files[f"{data.stem}.fit.png"] = lambda path: save(fitted_modulus(series, measured), path)
+        files[f"{stem}.fit.png"] = lambda path: save(fitted_modulus(series, measured), path)
     with Outputs(out) as outputs:
         for name, write in files.items():
             write(outputs.path(name))
@@ -89,6 +99,8 @@ def command(
     for line in measured.columns:
         say(f"read       {line}")
     say(series.report())
+    if over is not None and series.kind == "G":
+        say(f"note       stiffness per area is G over the length. {_SHEAR}")
     if series.rms > POOR:
         say(f"note       poor fit: {series.quality}")
     for name in files:

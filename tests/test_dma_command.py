@@ -1,0 +1,57 @@
+"""``hystrip fit``: what it says of the moduli, and that the results of one set never stand beside another's."""
+
+import numpy as np
+
+from hystrip.scene import load_scene
+
+F = np.geomspace(0.01, 100, 9)
+X = 2j * np.pi * F * 0.1
+G = 1e6 + 3e6 * X / (1 + X)
+FIT = ("--terms", 1, "--pressure", "1e5", "--no-plot")
+
+
+def table(names, *moduli, before=""):
+    """Rows of one relaxation time, 0.1 s; ``moduli``: factors of what is above, each with the cells before its rows."""
+    lines = [names]
+    for cells, factor in moduli or ((before, 1.0),):
+        lines += [f"{cells}{f!r};{factor * E.real!r};{factor * E.imag!r}" for f, E in zip(F.tolist(), G.tolist(), strict=True)]
+    return "\n".join(lines) + "\n"
+
+
+def test_shear_moduli_of_a_layer_are_called_so(run, tmp_path):
+    (tmp_path / "rubber.csv").write_text(table("f [Hz];Storage modulus [Pa];Loss modulus [Pa]"), encoding="utf-8")
+    status, out, err = run("fit", "rubber.csv", *FIT, "--length", "2 mm", "--shear")
+    scene = tmp_path / "hystrip-out/rubber.fitted.toml"
+    assert (status, err) == (0, "") and "read       moduli: of shear, G, as asked for" in out
+    for text in (out, scene.read_text(encoding="utf-8")):
+        assert "shear moduli, G; Young's modulus is E = 2 (1 + nu) G" in text
+    assert abs(float(load_scene(scene).material.single.K) / (1e6 / 2e-3) - 1) < 1e-5
+    # a half-space takes E = 2 (1 + nu) G
+    assert run("fit", "rubber.csv", *FIT, "--nu", 0.5, "--shear")[0] == 0
+    assert abs(float(load_scene(scene).material.E) / 3e6 - 1) < 1e-5
+    status, out, err = run("fit", "rubber.csv", *FIT, "--length", "2 mm")
+    assert status == 0 and "taken for Young's, E" in out and "2 (1 + nu)" not in out + scene.read_text(encoding="utf-8")
+
+
+def test_each_set_has_its_own_files(run, tmp_path):
+    text = table("Set;T [degC];f [Hz];E' [Pa];E'' [Pa]", ("1;0;", 1.0), ("23 °C/b;30;", 2.0))
+    (tmp_path / "rep.csv").write_text(text, encoding="utf-8")
+    status, out, err = run("fit", "rep.csv", *FIT, "--set", "1", "--nu", 0.5)
+    assert (status, err) == (0, "") and "read       temperature of the rows used: 0.0 degC" in out
+    folder = tmp_path / "hystrip-out"
+    before = {path: path.read_bytes() for path in folder.glob("[!.]*")}
+    assert sorted(path.name for path in before) == ["rep.1.fit.csv", "rep.1.fitted.toml"]
+    assert "Fitted to rep.csv, set 1:" in (folder / "rep.1.fitted.toml").read_text(encoding="utf-8")
+    assert run("fit", "rep.csv", *FIT, "--set", "23 °C/b")[0] == 0
+    assert before == {path: path.read_bytes() for path in before}
+    added = [path for path in folder.glob("[!.]*") if path not in before]
+    assert [path.name for path in added] == ["rep.23 %C2%B0C%2Fb.fit.csv"]
+    assert "set 23 °C/b" in added[0].read_text(encoding="utf-8")
+
+
+def test_several_temperatures_leave_nothing(run, tmp_path):
+    text = table("T [degC];f [Hz];E' [Pa];E'' [Pa]", *((f"{20 + 0.5 * i};", 1.0) for i in range(9)))
+    (tmp_path / "ramp.csv").write_text(text, encoding="utf-8")
+    status, out, err = run("fit", "ramp.csv", *FIT)
+    assert status == 2 and out == "" and "81 rows at 20.0 to 24.0 degC" in err and "`hystrip master`" in err
+    assert [path.name for path in tmp_path.iterdir()] == ["ramp.csv"]
