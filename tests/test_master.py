@@ -14,15 +14,23 @@ MODULI = 2e7 * np.exp(-(((np.log10(TIMES) + 4) / 2.2) ** 2) / 2)
 FREQUENCY = np.geomspace(0.1, 100, 13)
 
 
-def isotherms(shift, celsius, noise=0.0):
-    rng = np.random.default_rng(0)
+WILLIAMS = hystrip.WLF(8.86, 101.6, 293.15)
+
+
+def isotherms(shift, celsius, noise=0.0, frequency=FREQUENCY, seed=0):
+    rng = np.random.default_rng(seed)
     found = []
     for T in np.array(celsius) + 273.15:
-        x = 2j * np.pi * float(shift.factor(T)) * np.multiply.outer(FREQUENCY, TIMES)
+        x = 2j * np.pi * float(shift.factor(T)) * np.multiply.outer(frequency, TIMES)
         E = (1e6 + (x / (1 + x)) @ MODULI) * float(shift.modulus_factor(T))
-        scatter = 1 + noise * rng.standard_normal((2, 13))
-        found.append(DynamicModulus(2 * np.pi * FREQUENCY, E.real * scatter[0], E.imag * scatter[1], temperature=T))
+        scatter = 1 + noise * rng.standard_normal((2, len(frequency)))
+        found.append(DynamicModulus(2 * np.pi * frequency, E.real * scatter[0], E.imag * scatter[1], temperature=T))
     return found
+
+
+def decades_off(found, shift=WILLIAMS):
+    """log10 of the shift factors less their true values, (n,)."""
+    return np.log10(found.a_T * shift.factor(found.T_ref) / shift.factor(found.temperatures))
 
 
 @pytest.mark.parametrize(
@@ -53,10 +61,110 @@ def test_shift_of_made_isotherms_comes_back(shift, vertical):
 
 
 def test_reference_and_law_are_chosen():
-    shift = hystrip.WLF(8.86, 101.6, 293.15)
-    found = master_curve(isotherms(shift, [10, 20, 30, 40]), T_ref=304.0, law="Arrhenius")
-    assert found.T_ref == pytest.approx(303.15) and isinstance(found.shift, hystrip.Arrhenius)
+    found = master_curve(isotherms(WILLIAMS, [10, 20, 30, 40]), T_ref=304.0, law="Arrhenius")
+    assert found.T_ref == found.data.temperature == 304.0 and isinstance(found.shift, hystrip.Arrhenius)
     assert "Arrhenius: E_a" in found.report()
+
+
+def test_master_curve_moves_to_any_measured_temperature():
+    given = isotherms(hystrip.WLF(8.86, 101.6, 293.15, vertical=1.0), [0, 10, 20, 30, 40])
+    at = {T_ref: master_curve(given, T_ref=T_ref, vertical=True) for T_ref in (293.15, 297.0, 303.15)}
+    for T_ref, found in at.items():
+        assert found.T_ref == T_ref and np.abs(decades_off(found)).max() < 0.005
+        assert found.shift.factor(273.15) == pytest.approx(WILLIAMS.factor(273.15) / WILLIAMS.factor(T_ref), rel=0.02)
+        assert found.b_T == pytest.approx(found.temperatures / T_ref, rel=0.01)
+    # between isotherms none is certain, and the two next to the reference are the least uncertain
+    errors = at[297.0].a_T_error
+    assert errors.min() > 0 and set(np.argsort(errors)[:2]) == {2, 3}
+    for outside in (25.0, 473.15):
+        with pytest.raises(hystrip.InputError, match=r"T_ref.* 0.0 degC \(273.15 K\) to 40.0 degC \(313.15 K\)"):
+            master_curve(given, T_ref=outside)
+
+
+@pytest.mark.parametrize(
+    ("celsius", "frequency", "pair"),
+    [
+        ([-30, 20, 60], FREQUENCY, "-30.0 degC .* and 20.0 degC .* more than a decade is missing"),
+        ([-7, 20], FREQUENCY, "-7.0 degC .* and 20.0 degC .* about 0.[12] decades are missing"),
+        ([-5, 20, 30], FREQUENCY, "-5.0 degC .* and 20.0 degC .* they share 0.1"),
+        (range(-55, -29, 5), FREQUENCY, "-55.0 degC .* and -50.0 degC .* and . more pairs"),
+        (range(-30, 61, 6), np.array([1.0, 10.0]), "-30.0 degC .* and -24.0 degC .* decades are missing"),
+    ],
+)
+def test_neighbours_that_do_not_overlap_after_shifting_are_refused(celsius, frequency, pair):
+    with pytest.raises(hystrip.InputError, match=pair):
+        master_curve(isotherms(WILLIAMS, celsius, frequency=frequency))
+
+
+def test_modulus_of_another_sample_is_refused():
+    given = isotherms(WILLIAMS, range(-30, 61, 6))
+    glass = given[0]
+    given[0] = DynamicModulus(glass.omega, 3 * glass.storage, 3 * glass.loss, temperature=glass.temperature)
+    with pytest.raises(hystrip.InputError, match="-30.0 degC .* and -24.0 degC .* no modulus in common"):
+        master_curve(given)
+
+
+def test_moduli_that_do_not_change_with_frequency_are_refused():
+    flat = [DynamicModulus([1.0, 10.0, 100.0], np.full(3, 1e6), np.full(3, 1e5), temperature=T) for T in (290, 300)]
+    with pytest.raises(hystrip.InputError, match="change with frequency determines the shift"):
+        master_curve(flat)
+
+
+def test_two_frequencies_determine_shifts_of_near_temperatures():
+    found = master_curve(isotherms(WILLIAMS, range(0, 61, 4), frequency=np.array([1.0, 10.0])))
+    assert np.abs(decades_off(found)).max() < 0.005 and np.ptp(np.log10(found.a_T)) > 4.5
+
+
+def test_law_of_a_ramp_in_small_steps():
+    found = master_curve(isotherms(WILLIAMS, np.arange(0, 24, 0.4), frequency=np.array([1.0, 10.0, 100.0])))
+    assert np.abs(decades_off(found)).max() < 0.005 and found.shift.C_1 == pytest.approx(8.86, rel=0.02)
+
+
+def test_standard_errors_are_the_scatter_of_the_shifts():
+    """Of isotherms with 2 % noise: usual ones, those with two frequencies, and a pair that shares a third of a decade."""
+    sets = [(range(-20, 61, 8), FREQUENCY, False), (range(-20, 61, 8), FREQUENCY, True)]
+    sets += [(range(0, 61, 4), np.array([1.0, 10.0]), False), ([-3.5, 20], FREQUENCY, False)]
+    for celsius, frequency, vertical in sets:
+        off = []
+        for seed in range(12):
+            found = master_curve(isotherms(WILLIAMS, celsius, 0.02, frequency, seed), T_ref=293.15, vertical=vertical)
+            kept = found.a_T_error > 0
+            off += list(decades_off(found)[kept] * np.log(10) / found.a_T_error[kept])
+        assert 0.7 < np.sqrt(np.mean(np.square(off))) < 1.5, (list(celsius), len(frequency), vertical)
+
+
+def test_shift_across_a_whole_number_of_decades_is_certain_as_its_neighbours():
+    """The number of knots of the smooth curve once changed with the shifts, which made one of them certain to 3e-8."""
+    given = isotherms(hystrip.WLF(8.86, 101.6, 293.15, vertical=1.0), range(-30, 61, 6))
+    for T_ref in np.arange(290.0, 297.0, 1.0):
+        errors = master_curve(given, T_ref=T_ref, vertical=True).a_T_error
+        assert 0.3 < errors[0] / errors[1] < 3
+
+
+def test_neighbours_that_share_little_are_remarked_on():
+    found = master_curve(isotherms(WILLIAMS, [-3, 20, 30]), T_ref=293.15)
+    assert found.remarks == ("-3.0 degC and 20.0 degC share 0.4 decades: the shift between them rests on little",)
+    assert f"note       {found.remarks[0]}" in found.report()
+    assert not master_curve(isotherms(WILLIAMS, [0, 20, 30])).remarks
+
+
+def test_repeat_at_one_temperature_has_a_shift_of_its_own():
+    given = isotherms(WILLIAMS, [0, 10, 20, 30])
+    later = given[2].shifted(1.1)
+    found = master_curve([*given, later])
+    assert found.temperatures[2] == found.temperatures[3] == found.T_ref == 293.15
+    assert found.a_T[2] == 1 and found.a_T[3] == pytest.approx(1 / 1.1, rel=0.003)
+    # two temperatures determine no curvature, however often they were measured
+    assert isinstance(master_curve([given[2], later, given[3]]).shift, hystrip.Arrhenius)
+
+
+def test_repeats_that_differ_are_remarked_on():
+    given = isotherms(WILLIAMS, [0, 10, 20, 30])
+    x = given[2]
+    both = {name: np.tile(getattr(x, name), 2) for name in ("omega", "storage", "loss")}
+    both["storage"][13:] *= 1.3
+    given[2] = DynamicModulus(**both, temperature=x.temperature)
+    assert master_curve(given).remarks[0].startswith("at 20.0 degC moduli measured twice differ by up to 30 %")
 
 
 @pytest.mark.parametrize(
@@ -64,10 +172,12 @@ def test_reference_and_law_are_chosen():
     [
         (lambda given: given[:1], "two or more"),
         (lambda given: 3, "two or more"),
-        (lambda given: [*given, given[0]], "different temperatures"),
+        (lambda given: given * 501, "at most 1000"),
+        (lambda given: [given[0], given[0]], "temperatures that differ"),
+        (lambda given: [given[0], DynamicModulus([1.0, 2.0], [1e6, 1e6], [1e5, 1e5], "G", 300)], "kind: got 'G'"),
         (lambda given: [given[0], DynamicModulus([1.0, 2.0], [1e6, 1e6], [1e5, 1e5])], "temperature: got None"),
         (lambda given: [given[0], DynamicModulus([1.0, 2.0], [1e6, 1e6], [0, 1e5], temperature=300)], "loss moduli > 0"),
-        (lambda given: [given[0], DynamicModulus([1e9, 2e9], [1e6, 1e6], [1e5, 1e5], temperature=300)], "frequency overlap"),
+        (lambda given: [given[0], DynamicModulus([1e9, 2e9], [1e6, 1e6], [1e5, 1e5], temperature=300)], "that overlap"),
     ],
 )
 def test_what_is_no_set_of_isotherms_is_refused(change, said):
@@ -84,7 +194,7 @@ def test_files_without_temperatures_are_refused(tmp_path):
     with pytest.raises(hystrip.InputError, match="no column of temperatures"):
         read_isotherms(tmp_path / "a.csv")
     (tmp_path / "b.csv").write_text("T [K],f [Hz],E' [Pa],E'' [Pa]\n300,1,2,3\n300.2,2,3,4\n", encoding="utf-8")
-    with pytest.raises(hystrip.InputError, match="one temperature, 300.1 K"):
+    with pytest.raises(hystrip.InputError, match=r"one temperature, 27.0 degC \(300.10 K\)"):
         read_isotherms(tmp_path / "b.csv")
     (tmp_path / "c.csv").write_text("# shift: WLF C_1=8\nf [Hz],E' [Pa],E'' [Pa]\n1,2,3\n2,3,4\n", encoding="utf-8")
     with pytest.raises(hystrip.InputError, match="shift: got .# shift: WLF C_1=8"):

@@ -2,7 +2,8 @@
 
 from ..errors import FitWarning
 from .fit import fit_prony
-from .master import MasterCurve, master_curve, read_isotherms
+from .isotherms import read_isotherms
+from .master import MasterCurve, master_curve
 from .modulus import DynamicModulus
 from .read import read_dma
 from .series import Foundation, PronySeries

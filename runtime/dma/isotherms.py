@@ -1,0 +1,145 @@
+"""Isotherms from a file of readings at several temperatures: which rows were measured at one temperature."""
+
+import os
+from dataclasses import replace
+
+import numpy as np
+
+from ..errors import InputError
+from .modulus import DynamicModulus
+from .read import Readings, read_readings
+
+#: K: gaps wider than this part temperatures whatever was measured
+_APART = 1.0
+#: K: a frequency measured twice within this was repeated at one temperature
+_ONE = 0.75
+#: K: so far the temperature of one sweep of frequency may drift
+_DRIFT = 3.0
+#: K, and times the gaps within an isotherm: gaps that part isotherms closer than ``_APART``
+_GAP, _CLEAR = 0.2, 2.0
+#: decades: frequencies nearer than this are one
+_SAME = 0.002
+
+
+def read_isotherms(path: str | os.PathLike[str], decimal: str | None = None) -> list[DynamicModulus]:
+    """Isotherms in a file with a column of temperatures, in the order of the file.
+
+    Read as :func:`read_dma` does. Each entry of a column ``Set`` is an isotherm, so that a temperature measured twice gives
+    two, each with a shift of its own. Without such a column temperatures more than 1 K apart are different ones, and sweeps
+    repeated within 0.75 K are one isotherm; closer steps, of a ramp or of a furnace that drifts, are parted by clear gaps of
+    temperature, or else by sweeps: rows along which frequency only grows, or only falls, while temperature changes by 3 K at
+    most. Each isotherm has the mean temperature of its rows; ``columns`` says where it drifts.
+
+    Raises
+    ------
+    InputError : as from :func:`read_dma`; for fewer than two isotherms, temperatures that cannot be told apart, and
+        isotherms of one frequency
+    """
+    readings = read_readings(path, decimal)
+    if readings.temperature is None:
+        raise InputError(readings.where, "no column of temperatures", "one such as 'T [degC]', with at least two temperatures")
+    groups = grouped(readings)
+    for rows in groups:
+        if _count(readings, rows) < 2:
+            raise InputError(
+                f"{readings.where}, temperature",
+                f"one frequency at {degrees(readings.temperature[rows].mean())}",
+                "two or more frequencies at each temperature",
+            )
+    drift = max(np.ptp(readings.temperature[rows]) for rows in groups)
+    if drift > _ONE:
+        line = f"temperature drifts by up to {drift:.1f} K within an isotherm: its mean is taken, and shifts are as uncertain"
+        readings = replace(readings, columns=(*readings.columns, line))
+    found = [readings.of(np.isin(np.arange(readings.omega.size), rows)) for rows in groups]
+    if len(found) < 2:
+        raise InputError(readings.where, f"one temperature, {degrees(found[0].temperature)}", "at least two temperatures")
+    return found
+
+
+def grouped(readings: Readings) -> list[np.ndarray]:
+    """Indices of the rows of each isotherm, of readings with temperatures. Raises ``InputError`` where they are no isotherms."""
+    return _by_set(readings) if readings.set is not None else _by_temperature(readings)
+
+
+def repeats_differ(isotherm: DynamicModulus) -> float:
+    """By how much moduli measured twice at one frequency of an isotherm differ at most, relative; 0 where none was."""
+    x = np.log10(isotherm.omega)
+    starts = np.concatenate(([0], np.flatnonzero(np.diff(x) > _SAME) + 1))
+    ratios = [np.maximum.reduceat(each, starts) / np.minimum.reduceat(each, starts) for each in (isotherm.storage, isotherm.loss)]
+    return float(np.max(ratios)) - 1
+
+
+def degrees(T: float) -> str:
+    """A temperature (K) for a message, in both units."""
+    return f"{T - 273.15:.1f} degC ({T:.2f} K)"
+
+
+def _by_set(readings: Readings) -> list[np.ndarray]:
+    groups = [np.flatnonzero(readings.set == name) for name in dict.fromkeys(readings.set.tolist())]
+    for rows in groups:
+        T = readings.temperature[rows]
+        if np.ptp(T) > _DRIFT:
+            raise InputError(
+                f"{readings.where}, Set {str(readings.set[rows[0]])!r}",
+                f"{degrees(T.min())} to {degrees(T.max())}",
+                f"one temperature, within {_DRIFT:g} K",
+            )
+    return groups
+
+
+def _by_temperature(readings: Readings) -> list[np.ndarray]:
+    order = np.argsort(readings.temperature, kind="stable")
+    found = []
+    for rows in np.split(order, np.flatnonzero(np.diff(readings.temperature[order]) > _APART) + 1):
+        if np.ptp(readings.temperature[rows]) < _ONE or _is_one(readings, rows):
+            found.append(rows)
+            continue
+        parts = _at_gaps(readings, rows) or _sweeps(readings, np.sort(rows))
+        if not parts:
+            T = readings.temperature[rows]
+            raise InputError(
+                f"{readings.where}, temperature",
+                f"{degrees(T.min())} to {degrees(T.max())}, without gaps of {_APART:g} K",
+                "temperatures that can be told apart, a sweep of frequency at each from row to row, or a column Set",
+            )
+        found += parts
+    return found
+
+
+def _is_one(readings: Readings, rows: np.ndarray) -> bool:
+    """Whether rows are one isotherm: near in temperature, or one sweep of a temperature that drifts."""
+    span, count = np.ptp(readings.temperature[rows]), _count(readings, rows)
+    return count > 1 and (span < _ONE or (span <= _DRIFT and count == rows.size))
+
+
+def _at_gaps(readings: Readings, rows: np.ndarray) -> list[np.ndarray]:
+    """Rows, sorted by temperature, parted at gaps that are clearly wider than all others; none where no gaps are."""
+    steps = np.diff(readings.temperature[rows])
+    sizes = np.unique(steps)
+    clear = (sizes[1:] >= _GAP) & (sizes[1:] >= _CLEAR * sizes[:-1])
+    for least in sizes[1:][clear][::-1]:
+        parts = np.split(rows, np.flatnonzero(steps >= least) + 1)
+        if all(_is_one(readings, part) for part in parts):
+            return parts
+    return []
+
+
+def _sweeps(readings: Readings, rows: np.ndarray) -> list[np.ndarray]:
+    """Rows, in the order of the file, parted where frequency turns back; none where that gives no isotherms."""
+    x = np.log10(readings.omega[rows])
+    starts, direction = [], 0
+    for i in range(1, rows.size):
+        step = x[i] - x[i - 1]
+        way = 0 if abs(step) <= _SAME or rows[i] > rows[i - 1] + 1 else int(np.sign(step))
+        if way == 0 or way == -direction:
+            starts.append(i)
+            direction = 0
+        else:
+            direction = way
+    parts = np.split(rows, starts)
+    return parts if all(_is_one(readings, part) for part in parts) else []
+
+
+def _count(readings: Readings, rows: np.ndarray) -> int:
+    """How many frequencies were measured."""
+    return 1 + int(np.count_nonzero(np.diff(np.sort(np.log10(readings.omega[rows]))) > _SAME))
