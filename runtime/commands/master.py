@@ -9,7 +9,11 @@ from .output import say
 
 def command(
     data: Path = typer.Argument(help="Table of temperature, frequency, storage and loss modulus at several temperatures."),
-    reference: str = typer.Option(None, "--reference", help='Temperature of the master curve, such as "25 degC" [20 degC].'),
+    reference: str = typer.Option(
+        None,
+        "--reference",
+        help='Temperature of the master curve, within the measured ones, such as "25 degC" [of the isotherm nearest to 20 degC].',
+    ),
     law: str = typer.Option("best", "--law", help="Law of the shift factors: WLF, Arrhenius, or best, the nearer of the two."),
     vertical: bool = typer.Option(False, "--vertical", help="Shift moduli too."),
     decimal: str = typer.Option(None, "--decimal", help='"." or ",", for a file that can be read both ways.'),
@@ -23,6 +27,7 @@ def command(
     """
     from ..dma import master_curve, read_isotherms
     from ..dma.read import shift_remark
+    from ..errors import InputError
     from ..extras import require
     from ..files import Outputs, refuse_unwritable
     from ..tables import about_version, write_csv
@@ -36,7 +41,10 @@ def command(
     refuse_unwritable(out, "--out")
     names = [f"{data.stem}.{part}" for part in ("master.csv", "shifts.csv", *["master.png"] * plot)]
     refuse_other_origin(out, names, data)
-    found = master_curve(isotherms, T_ref=T_ref, law=law, vertical=vertical)
+    try:
+        found = master_curve(isotherms, T_ref=T_ref, law=law, vertical=vertical)
+    except InputError as error:
+        raise InputError("--reference" if error.field == "T_ref" else error.field, error.value, error.allowed) from None
     curve, kind = found.data, found.data.kind
     points = {"f [Hz]": curve.frequency, f"{kind}_stor [Pa]": curve.storage, f"{kind}_loss [Pa]": curve.loss}
     factors = {
