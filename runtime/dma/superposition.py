@@ -44,7 +44,7 @@ def superpose(isotherms: list[DynamicModulus], at: int, vertical: bool) -> Super
     parted = apart(isotherms, found, _LEAST_SHARED)
     if parted:
         i, shared = parted[0]
-        others = f", and {len(parted) - 1} more pairs of neighbours" * (len(parted) > 1)
+        others = f", and {len(parted) - 1} more" * (len(parted) > 1)
         lack = "they have no modulus in common"
         if shared < 0:  # the curve cannot be continued by more than a decade
             lack = f"about {-shared:.1f} decades are missing" if shared > -1 else "more than a decade is missing"
