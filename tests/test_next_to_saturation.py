@@ -11,8 +11,8 @@ import pytest
 import hystrip
 
 LEVEL = hystrip.Level(l=1e-5, h=1e-6)
-#: nearer than a part in 1e8 to where unloading leaves it rounding decides strips next to the valley
-SHARES = np.concatenate((-np.logspace(-1, -8, 8), np.logspace(-8, -1, 3)))
+#: nearer to where unloading leaves it loading takes strips next to the valley to their rounding
+SHARES = np.concatenate((-np.logspace(-1, -8, 8), np.logspace(-6, -1, 3)))
 
 
 def scene(seed):

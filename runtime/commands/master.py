@@ -17,6 +17,7 @@ def command(
     law: str = typer.Option("best", "--law", help="Law of the shift factors: WLF, Arrhenius, or best, the nearer of the two."),
     vertical: bool = typer.Option(False, "--vertical", help="Shift moduli too."),
     decimal: str = typer.Option(None, "--decimal", help='"." or ",", for a file that can be read both ways.'),
+    shear: bool = typer.Option(False, "--shear", help="Moduli whose names do not say it are shear moduli, G."),
     out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
     plot: bool = typer.Option(True, help="Draw isotherms, master curve and shift factors (PNG)."),
 ) -> None:
@@ -37,7 +38,7 @@ def command(
     if plot:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
     T_ref = kelvins(reference, "--reference")
-    isotherms = read_isotherms(data, decimal)
+    isotherms = read_isotherms(data, decimal, shear)
     refuse_unwritable(out, "--out")
     names = [f"{data.stem}.{part}" for part in ("master.csv", "shifts.csv", *["master.png"] * plot)]
     refuse_other_origin(out, names, data)

@@ -7,7 +7,8 @@ import numpy as np
 
 from ..errors import InputError
 from .modulus import DynamicModulus
-from .read import Readings, read_readings
+from .read import read_readings
+from .readings import Readings
 
 #: K: gaps wider than this part temperatures whatever was measured
 _APART = 1.0
@@ -21,7 +22,7 @@ _GAP, _CLEAR = 0.2, 2.0
 _SAME = 0.002
 
 
-def read_isotherms(path: str | os.PathLike[str], decimal: str | None = None) -> list[DynamicModulus]:
+def read_isotherms(path: str | os.PathLike[str], decimal: str | None = None, shear: bool = False) -> list[DynamicModulus]:
     """Isotherms in a file with a column of temperatures, in the order of the file.
 
     Read as :func:`read_dma` does. Each entry of a column ``Set`` is an isotherm, so that a temperature measured twice gives
@@ -35,7 +36,7 @@ def read_isotherms(path: str | os.PathLike[str], decimal: str | None = None) -> 
     InputError : as from :func:`read_dma`; for fewer than two isotherms, temperatures that cannot be told apart, and
         isotherms of one frequency
     """
-    readings = read_readings(path, decimal)
+    readings = read_readings(path, decimal, shear)
     if readings.temperature is None:
         raise InputError(readings.where, "no column of temperatures", "one such as 'T [degC]', with at least two temperatures")
     groups = grouped(readings)
@@ -50,7 +51,7 @@ def read_isotherms(path: str | os.PathLike[str], decimal: str | None = None) -> 
     if drift > _ONE:
         line = f"temperature drifts by up to {drift:.1f} K within an isotherm: its mean is taken, and shifts are as uncertain"
         readings = replace(readings, columns=(*readings.columns, line))
-    found = [readings.of(np.isin(np.arange(readings.omega.size), rows)) for rows in groups]
+    found = [readings.of(rows) for rows in groups]
     if len(found) < 2:
         raise InputError(readings.where, f"one temperature, {degrees(found[0].temperature)}", "at least two temperatures")
     return found
@@ -75,16 +76,16 @@ def degrees(T: float) -> str:
 
 
 def _by_set(readings: Readings) -> list[np.ndarray]:
-    groups = [np.flatnonzero(readings.set == name) for name in dict.fromkeys(readings.set.tolist())]
-    for rows in groups:
+    groups = readings.sets()
+    for name, rows in groups.items():
         T = readings.temperature[rows]
         if np.ptp(T) > _DRIFT:
             raise InputError(
-                f"{readings.where}, Set {str(readings.set[rows[0]])!r}",
+                f"{readings.where}, Set {name!r}",
                 f"{degrees(T.min())} to {degrees(T.max())}",
                 f"one temperature, within {_DRIFT:g} K",
             )
-    return groups
+    return list(groups.values())
 
 
 def _by_temperature(readings: Readings) -> list[np.ndarray]:

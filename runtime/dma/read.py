@@ -60,6 +60,7 @@ def read_dma(
     elif len(sets) > 1:
         one = "one temperature: a master curve (`hystrip master` makes one), or the rows of one set"
         raise InputError(f"{readings.where}, Set", list(sets), one)
+    readings.refuse_several_temperatures(rows)
     found = readings.of(rows)
     if readings.temperature is None:
         return found

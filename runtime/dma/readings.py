@@ -7,10 +7,8 @@ import numpy as np
 from ..errors import InputError
 from .modulus import DynamicModulus
 
-#: K: temperatures so far apart are two steps of a furnace
-_ONE_STEP = 1.0
-#: K: by so much may the temperature drift in one step
-_DRIFT = 2.0
+#: K: temperatures so far apart are two steps of a furnace, and what it may drift by in one
+_ONE_STEP, _DRIFT = 1.0, 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,23 +26,25 @@ class Readings:
     columns: tuple[str, ...]
 
     def of(self, rows: np.ndarray) -> DynamicModulus:
-        """The modulus of some rows, given by their indices, at their mean temperature.
-
-        Raises ``InputError`` for rows of several temperatures, or at fewer than two frequencies.
-        """
-        omega, at = self.omega[rows], ""
-        if self.temperature is not None:
-            at = f" at {celsius(self.temperature[rows])}"
-            if len(steps(self.temperature, rows)) > 1:
-                allowed = f"rows within {_DRIFT:g} K and without steps of {_ONE_STEP:g} K; of several temperatures"
-                allowed += " `hystrip master` makes a master curve"
-                raise InputError(f"{self.where}, temperature", f"{omega.size} rows{at}", allowed)
+        """The modulus of some rows, given by their indices, at their mean temperature. Raises ``InputError`` for rows at fewer
+        than two frequencies."""
+        omega, at = self.omega[rows], "" if self.temperature is None else f" at {celsius(self.temperature[rows])}"
         if omega.max() <= omega.min() * (1 + 1e-12):
             found = f"{omega.size} rows of numbers{at}, at {omega[0] / (2 * np.pi):.4g} Hz alone"
             together = f" at one temperature, within {_DRIFT:g} K" if at else ""
             raise InputError(f"{self.where}, frequency", found, f"at least two different{together}")
         T = None if self.temperature is None else float(self.temperature[rows].mean())
         return DynamicModulus(omega, self.storage[rows], self.loss[rows], self.kind, T, self.columns)
+
+    def refuse_several_temperatures(self, rows: np.ndarray) -> None:
+        """Raise ``InputError`` for rows, given by their indices, that were not measured at one temperature."""
+        if self.temperature is None:
+            return
+        T = np.sort(self.temperature[rows]).round(6)  # degrees are kelvin but for rounding
+        if np.ptp(T) > _DRIFT or np.diff(T).max(initial=0.0) >= _ONE_STEP:
+            allowed = f"rows within {_DRIFT:g} K and without steps of {_ONE_STEP:g} K; of several temperatures"
+            allowed += " `hystrip master` makes a master curve"
+            raise InputError(f"{self.where}, temperature", f"{rows.size} rows at {celsius(T)}", allowed)
 
     def sets(self) -> dict[str, np.ndarray]:
         """Indices of the rows of each set, in the order of the file; empty without such a column."""
@@ -53,28 +53,6 @@ class Readings:
         names, first, of = np.unique(self.set, return_index=True, return_inverse=True)
         rows = np.split(np.argsort(of, kind="stable"), np.cumsum(np.bincount(of))[:-1])
         return {str(names[i]): rows[i] for i in np.argsort(first)}
-
-    def isotherms(self) -> list[np.ndarray]:
-        """Indices of the rows of each temperature, or of each set where the file has sets; one of all rows without either."""
-        rows = np.arange(self.omega.size)
-        if self.set is not None:
-            return list(self.sets().values())
-        return [rows] if self.temperature is None else steps(self.temperature, rows)
-
-
-def steps(temperature: np.ndarray, rows: np.ndarray) -> list[np.ndarray]:
-    """Rows of each temperature, ascending: those within 2 K, with no gap of 1 K between them.
-
-    temperature : K, shape (n,); rows : indices. Steps of less than 1 K, as in a slow ramp, are told by their wider gaps.
-    """
-    order = rows[np.argsort(temperature[rows], kind="stable")]
-    gaps = np.diff(temperature[order]).round(6)  # degrees are kelvin but for rounding
-    widest = gaps.max(initial=0.0)
-    if widest < _ONE_STEP and gaps.sum() <= _DRIFT:
-        return [np.sort(rows)]
-    wide = gaps >= _ONE_STEP if widest >= _ONE_STEP else gaps > widest / 2
-    parts = np.split(order, np.flatnonzero(wide) + 1)
-    return [step for part in parts for step in steps(temperature, part)]
 
 
 def celsius(temperature: np.ndarray) -> str:
