@@ -88,6 +88,7 @@ def about_result(result: Result, scene: str = "") -> list[str]:
         *about_version(),
         *([f"scene: {scene}"] if scene else []),
         f"material: {material_text(result.material)}",
+        *([] if result.temperature is None else [f"temperature: {result.temperature:g} K, at which the material is given"]),
         f"adhesion: {adhesion_text(result.adhesion)}",
         f"levels: {levels_text(result.levels)}",
         f"edge {result.edge}, branch {result.branch}, rtol {result.rtol:g}{panels}",

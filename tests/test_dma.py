@@ -169,6 +169,8 @@ def test_table_function_and_data_give_the_same_series():
             fit_prony(bad)
     with pytest.raises(hystrip.InputError, match="band: got None"):
         fit_prony(fractional_zener)
+    with pytest.raises(hystrip.InputError, match=r"modulus: .*shape \(3,\)'; allowed: one for each omega"):
+        fit_prony(lambda omega: np.ones(3), band=(1e-2, 1e2))
 
 
 def test_poor_fit_warns_with_its_band():

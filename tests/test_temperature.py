@@ -9,6 +9,7 @@ import hystrip
 from hystrip.dma import DynamicModulus, fit_prony
 from hystrip.plausibility import excited_band, notes
 from hystrip.scene import parse_scene
+from hystrip.tables import about_result
 
 LEVELS = [hystrip.Level(l=1e-3, h=2e-5), hystrip.Level(l=1e-4, h=2e-6)]
 WLF = hystrip.WLF(C_1=8.86, C_2=101.6, T_ref=293.15, vertical=1)
@@ -31,6 +32,8 @@ def test_friction_at_a_temperature_is_that_at_another_velocity_and_load(material
     hot = hystrip.solve(material, hystrip.Dugdale(gamma=0), LEVELS, pressure=p, velocity=V, temperature=T, **how)
     same = hystrip.solve(material, hystrip.Dugdale(gamma=0), LEVELS, pressure=p / b_T, velocity=V * a_T, **how)
     assert hot.mu == pytest.approx(same.mu, rel=1e-9) and hot.temperature == T and "at 313.15 K" in hot.summary()
+    said = [[line for line in about_result(each) if line.startswith("temperature")] for each in (hot, same)]
+    assert said == [["temperature: 313.15 K, at which the material is given"], []]
     assert type(hot.material) is type(material) and material == pickle.loads(pickle.dumps(material))
 
 

@@ -103,7 +103,10 @@ class DynamicModulus:
             raise InputError("low, high", (low, high), "a lowest frequency below the highest (Hz)")
         count = max(round(per_decade * np.log10(high / low)) + 1, 2)
         omega = 2 * np.pi * np.geomspace(low, high, count)
-        return cls.from_complex(omega, np.broadcast_to(modulus(omega), omega.shape), kind)
+        values = modulus(omega)
+        if np.shape(values) not in ((), omega.shape):
+            raise InputError("modulus", f"values of shape {np.shape(values)}", f"one for each omega, of shape {omega.shape}")
+        return cls.from_complex(omega, np.broadcast_to(values, omega.shape), kind)
 
     @property
     def frequency(self) -> np.ndarray:

@@ -20,10 +20,11 @@ from .branches import Branch, Piece, branches_of
 from .breaks import between_breaks, first_contact
 from .interpolation import Intervals, interpolate
 from .nonadhesive.law import penetrations
-from .strips import CURVE_LIMIT, NO_CURVE, QUANTITIES, LevelBatch, cut_penetration
+from .strips import AT_JUMP, CURVE_LIMIT, NO_CURVE, QUANTITIES, LevelBatch, cut_penetration
 
-#: accuracy of the first look, of the pressure's scale, and how much finer each further one is; nodes of an interval at first
-ROUGH, _FINER, _FIRST = 1e-2, 0.03, 8
+#: accuracy of the first look, of the pressure's scale, how much finer each further one is, and the finest: a pressure so close to
+#: a turn of the curve is left undecided; nodes of an interval at first
+ROUGH, _FINER, _CLOSEST, _FIRST = 1e-2, 0.03, 1e-8, 8
 #: width of the first part of the curve to be looked at, in heights; each further one is twice as wide
 _NEXT = 0.3
 #: penetrations in each of them at which the crest is looked at, and parts of a piece over which a curve is taken to be straight
@@ -127,8 +128,8 @@ def _first_passes(columns: LevelBatch, p: np.ndarray, top: np.ndarray, rtol: flo
     """Where the curve of each column first passes the pressure ``p`` (Pa, (n,)), below ``top`` (n,), where unloading comes from,
     and which are undecided, (n,). All columns go along their curves together, a part of each at a time."""
     h, unloading, bottom = columns.level.h, columns.branch == "unloading", first_contact(columns)
-    finest = rtol * (np.abs(p) + 1e-3 * columns.scales[0])
-    goal = np.maximum(ROUGH * (np.abs(p) + columns.scales[0]), finest)
+    finest = _CLOSEST * (np.abs(p) + 1e-3 * columns.scales[0])
+    goal = np.maximum(ROUGH * (np.abs(p) + columns.scales[0]), rtol * (np.abs(p) + 1e-3 * columns.scales[0]))
     parts = [_growing(bottom, D, _NEXT * h, unloading) for D in top]
     walks = [_Walk(i, unloading, *of) for i, of in enumerate(zip(p, goal, finest, parts, strict=True))]
     strips, nothing_else = np.zeros(p.size, int), np.full((p.size, columns.scales.size), LARGEST)
@@ -148,10 +149,11 @@ def _first_passes(columns: LevelBatch, p: np.ndarray, top: np.ndarray, rtol: flo
         known = branches_of([[*walk.known, *pieces[walk.column]] for walk in going], unloading)
         for walk, row in zip(going, known, strict=True):
             walk.go_on(pieces[walk.column], row, bool(strips[walk.column] > CURVE_LIMIT))
-    undecided = np.array([walk.undecided for walk in walks])
-    columns.work.limit_reached(columns.V[undecided], columns.level.l, NO_CURVE)
+    undecided = np.array([walk.undecided for walk in walks], object)
+    for why in (NO_CURVE, AT_JUMP):
+        columns.work.limit_reached(columns.V[undecided == why], columns.level.l, why)
     nowhere = Root(np.nan, 0.0, np.zeros(columns.scales.size))
-    return Root(*(np.array(v) for v in zip(*(walk.root or nowhere for walk in walks), strict=True))), undecided
+    return Root(*(np.array(v) for v in zip(*(walk.root or nowhere for walk in walks), strict=True))), undecided != ""
 
 
 def _growing(bottom: float, top: float, width: float, unloading: bool) -> list[tuple[float, float]]:
@@ -170,7 +172,7 @@ class _Walk:
 
     ``goal``: error of the curve's pressure that it may have so far, at last ``finest``, Pa. ``waiting``: what is ahead of it, the
     next part last; ``now``: the part it goes along. ``known``: pieces of what was gone along before, and ``held``: parts that
-    they are of, loading to less than no pressure, until it is known where the curve is least.
+    they are of, loading to less than no pressure, until it is known where the curve is least. ``undecided``: why, if it is.
     """
 
     column: int
@@ -183,7 +185,7 @@ class _Walk:
     known: list[Piece] = field(default_factory=list)
     held: list[Intervals] = field(default_factory=list)
     root: Root | None = None
-    undecided: bool = False
+    undecided: str = ""
 
     def go_on(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
         """Look for the root in the branches of all that is known by now, the pieces ``found`` last included; where the work is
@@ -200,14 +202,18 @@ class _Walk:
         # where unloading comes from, and where the way of loading ends, the curve carries more than the pressure, but for errors
         end = 2 * (len(row) - (self.unloading or not self.waiting))
         least, k, most = (min(_place(row, self.p, doubts), end) for doubts in (-_DOUBT, 0.0, _DOUBT))
-        joints = range(max(least, 0) // 2 + 1, min((most + 1) // 2 + 1, len(row)))
-        certain = least == most or (0 <= least and most < 2 * len(row) - 1 and all(_goes_on(*row[j - 1 : j + 1]) for j in joints))
-        if self.goal > self.finest and not certain:
-            if not exhausted:
+        joints = [row[j - 1 : j + 1] for j in range(max(least, 0) // 2 + 1, min((most + 1) // 2 + 1, len(row)))]
+        inside = 0 <= least and most < 2 * len(row) - 1
+        whole = inside and all(a.t_high == 1 and b.t_low == 0 and a.piece.high == b.piece.low for a, b in joints)
+        if not (least == most or whole):
+            if self.goal > self.finest and not exhausted:
                 self.goal, self.now = max(_FINER * self.goal, self.finest), Intervals.joined([*self.held, part])
                 self.known, self.held = ([], []) if clings else (before, [])
                 return
-            self.undecided = True
+            # two branches that overlap by less than they are known to may be one
+            if not (inside and all(a.inner_high and b.inner_low for a, b in joints)):
+                self.undecided = NO_CURVE if exhausted else AT_JUMP
+            k = max(k, 0)
         if 0 <= k < 2 * len(row) - 1:
             self.root = _in_jump(*row[k // 2 : k // 2 + 2], self.unloading) if k % 2 else _in_branch(row[k // 2], self.p)
         if self.root is not None or clings:
@@ -219,12 +225,6 @@ def _place(row: list[Branch], p: float, doubts: float) -> int:
     below all."""
     k = sum(part.p_low <= p + doubts * part.errors.most[0] for part in row) - 1
     return 2 * k + (k < 0 or p + doubts * row[k].errors.most[0] > row[k].p_high)
-
-
-def _goes_on(part: Branch, following: Branch) -> bool:
-    """Whether a curve goes over from one branch to the other where it is smooth, or where it jumps, without turning back."""
-    at_break = part.t_high == 1.0 and following.t_low == 0.0 and part.piece.high == following.piece.low
-    return at_break or (part.inner_high and following.inner_low)
 
 
 def _in_branch(part: Branch, p: float) -> Root:

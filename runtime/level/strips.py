@@ -31,8 +31,9 @@ QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
 #: Strips of one average, and of all averages of one curve over penetration. Three levels at rtol 1e-9 take 600 and 50,000, six
 #: at 1e-3 1,500 and 120,000, two at 1e-12 500 and 130,000; what takes more does not converge.
 AVERAGE_LIMIT, CURVE_LIMIT = 10_000, 150_000
-#: what came to the limit of a curve
+#: why the curve over penetration did not tell a point
 NO_CURVE = "the curve over penetration did not converge"
+AT_JUMP = "the pressure is that of a jump, as at pull-off, to all digits that are known"
 
 
 @dataclass
@@ -95,8 +96,7 @@ class LevelBatch:
         return replace(self, V=self.V[index], D=D, group=group)
 
     def not_just_released(self, D: np.ndarray) -> np.ndarray:
-        """``D`` (n,), or, where it is that at which the valley is just released but for roundings, one at which it adheres: else
-        strips as flat as the rounding would be free or not as it falls."""
+        """``D`` (n,), but where it just releases the valley, so that rounding would decide strip by strip: there it adheres."""
         reach = self.stretch + self.adhesion.delta_0
         released, rounding = self.level.h - reach, ROUNDING * (self.level.h + reach)
         return np.where(np.abs(D - released) < rounding, released + rounding, D)

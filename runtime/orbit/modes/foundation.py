@@ -19,8 +19,11 @@ class ManyTimes(Foundation):
 
     def __init__(self, kernel: ModuleType, material, K=None, modes=None):
         self.kernel, self.material = kernel, material
-        if modes is None:
-            K, modes = material.K, material.modes if isinstance(material, ModelMaterial) else _of_prony(kernel, material)[1]
+        if modes is None and isinstance(material, ModelMaterial):
+            K, modes = material.K, material.modes
+        elif modes is None:
+            found, K = _found if _varies(material) else _found_once, material.K
+            modes = found(kernel, K, material.moduli, material.times)[1]
         self.K, self.modes, self.parameters, self.J, self.longest_time = K, modes, (K, modes), modes.J_0, modes.beta.max(axis=0)
 
     @property
@@ -74,10 +77,6 @@ class ManyTimes(Foundation):
 
 def _varies(material) -> bool:
     return any(np.ndim(v) for v in (material.K, *material.moduli, *material.times))
-
-
-def _of_prony(kernel, material):
-    return (_found if _varies(material) else _found_once)(kernel, material.K, material.moduli, material.times)
 
 
 def _found(kernel, K, moduli, times):

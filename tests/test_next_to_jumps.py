@@ -1,0 +1,52 @@
+"""Pressures next to those at which a law jumps, as at pull-off: a coarse accuracy must not decide the side."""
+
+import numpy as np
+import pytest
+
+import hystrip
+from hystrip.level.branches import Errors, Piece, branches_of
+from hystrip.level.inverse import _Walk
+from hystrip.level.strips import AT_JUMP
+
+K, LEVEL = 1e9, hystrip.Level(l=1e-5, h=1e-6)
+SLS, KELVIN_VOIGT, PRONY = hystrip.StandardLinearSolid, hystrip.KelvinVoigt, hystrip.Prony
+#: material, p_0, delta_0, V, edge, branch, pressures on either side of a jump, accuracy; of some points no friction was told
+CASES = {
+    "unloading to a part of the curve that comes back": (
+        PRONY(K, [348680209.16754144, 1792146260.405797], [1e-3, 1e-1]), 589.0130472211182, 3.3980009401062786e-07,
+        0.04216064865263931, "constitutive", "unloading", -113.57727 + np.array([-1e-2, -1e-4, 1.75e-4, 1e-2]), 1e-2,
+    ),
+    "pull-off": (
+        SLS(K, 1e-2, 1.788234019699544e-06), 2433.448772540675, 3.1790295306435897e-07,
+        0.009092285485940288, "continuous", "unloading", -1358.3363 + np.array([-1e-2, -1e-3, 7e-5, 1e-3]), 1e-2,
+    ),
+    "the least pressure that loading comes from": (
+        KELVIN_VOIGT(K, 1e-2), 1807.3982292672977, 1.6821666038986525e-06,
+        0.0008324823074798203, "continuous", "loading", -1344.06931 + np.array([-1e-2, -1e-3, 6e-5, 1e-3]), 2.5e-3,
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_side_of_a_jump_is_told(case):
+    material, p_0, delta_0, V, edge, branch, p, rtol = CASES[case]
+    given = {"pressure": p, "velocity": V, "edge": edge, "branch": branch}
+    coarse, fine = (
+        hystrip.solve(material, hystrip.Dugdale(p_0=p_0, delta_0=delta_0), LEVEL, rtol=r, **given) for r in (rtol, 1e-7)
+    )
+    assert coarse.converged.all() and coarse.pulled_off.tolist() == fine.pulled_off.tolist()
+    assert (np.abs(coarse.tau - fine.tau) <= coarse.tau_error + fine.tau_error).all()
+    # both sides are among them
+    assert np.ptp(np.abs(np.diff(fine.tau))) > 0.1 * fine.tau.max()
+
+
+@pytest.mark.parametrize("unloading", [True, False])
+def test_at_a_jump_itself_either_side_may_be_meant(unloading):
+    """A curve from 1 to 2 Pa, known to 1e-8: 1 Pa less 1e-6 is not on it, 1 Pa to the last digits is, or is not."""
+    piece = Piece(0.0, 1.0, np.array([[1.5, 1.5], [0.5, 0.5]]), Errors(np.array([0.5]), np.full((1, 2), 1e-8)))
+    (row,) = branches_of([[piece]], unloading)
+    for p, told, why in ((1 - 1e-6, False, ""), (1 - 1e-9, True, AT_JUMP), (1 + 1e-9, True, AT_JUMP), (1 + 1e-6, True, "")):
+        walk = _Walk(0, unloading, p, 1e-8, 1e-8, [])
+        walk.go_on([piece], row, False)
+        assert (walk.root is not None) is told and walk.undecided == why
+        assert not told or walk.root.D == pytest.approx(0.0, abs=1e-9)
