@@ -14,11 +14,11 @@ SLS, KELVIN_VOIGT, PRONY = hystrip.StandardLinearSolid, hystrip.KelvinVoigt, hys
 CASES = {
     "unloading to a part of the curve that comes back": (
         PRONY(K, [348680209.16754144, 1792146260.405797], [1e-3, 1e-1]), 589.0130472211182, 3.3980009401062786e-07,
-        0.04216064865263931, "constitutive", "unloading", -113.57727 + np.array([-1e-2, -1e-4, 1.75e-4, 1e-2]), 1e-2,
+        0.04216064865263931, "constitutive", "unloading", -113.57727 + np.array([-1e-4, 1.75e-4]), 1e-2,
     ),
     "pull-off": (
         SLS(K, 1e-2, 1.788234019699544e-06), 2433.448772540675, 3.1790295306435897e-07,
-        0.009092285485940288, "continuous", "unloading", -1358.3363 + np.array([-1e-2, -1e-3, 7e-5, 1e-3]), 1e-2,
+        0.009092285485940288, "continuous", "unloading", -1358.3363 + np.array([-1e-3, 7e-5]), 1e-2,
     ),
     "the least pressure that loading comes from": (
         KELVIN_VOIGT(K, 1e-2), 1807.3982292672977, 1.6821666038986525e-06,
@@ -32,12 +32,12 @@ def test_the_side_of_a_jump_is_told(case):
     material, p_0, delta_0, V, edge, branch, p, rtol = CASES[case]
     given = {"pressure": p, "velocity": V, "edge": edge, "branch": branch}
     coarse, fine = (
-        hystrip.solve(material, hystrip.Dugdale(p_0=p_0, delta_0=delta_0), LEVEL, rtol=r, **given) for r in (rtol, 1e-7)
+        hystrip.solve(material, hystrip.Dugdale(p_0=p_0, delta_0=delta_0), LEVEL, rtol=r, **given) for r in (rtol, 1e-6)
     )
     assert coarse.converged.all() and coarse.pulled_off.tolist() == fine.pulled_off.tolist()
     assert (np.abs(coarse.tau - fine.tau) <= coarse.tau_error + fine.tau_error).all()
     # both sides are among them
-    assert np.ptp(np.abs(np.diff(fine.tau))) > 0.1 * fine.tau.max()
+    assert np.ptp(fine.tau) > 0.1 * fine.tau.max()
 
 
 @pytest.mark.parametrize("unloading", [True, False])
