@@ -5,6 +5,7 @@ import pytest
 
 import hystrip
 from hystrip.level.branches import Errors, Piece, branches_of
+from hystrip.level.interpolation import Intervals
 from hystrip.level.inverse import _Walk
 from hystrip.level.strips import AT_JUMP
 
@@ -50,3 +51,19 @@ def test_at_a_jump_itself_either_side_may_be_meant(unloading):
         walk.go_on([piece], row, False)
         assert (walk.root is not None) is told and walk.undecided == why
         assert not told or walk.root.D == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("p", [1.998, 2.002])
+def test_a_curve_that_may_turn_back_where_branches_meet_is_asked_for_again(p):
+    """From 1 Pa up to 2.003 at D = 1, and from 2 Pa on above: either errors of 0.01 Pa, or a turn."""
+    known = Errors(np.array([0.5]), np.full((1, 2), 1e-2))
+    flags = {"inner_low": True, "inner_high": True}
+    pieces = [
+        Piece(D, D + 1, np.array([[c] * 2, [half] * 2]), known, **flags) for D, c, half in ((0, 1.5015, 0.5015), (1, 2.5, 0.5))
+    ]
+    (row,) = branches_of([pieces], True)
+    part = Intervals.of(np.array([0]), np.zeros(1), np.full(1, 2.0), np.zeros(1), np.zeros((1, 2)))
+    for goal, again in ((1e-2, True), (1e-8, False)):
+        walk = _Walk(0, True, p, goal, 1e-8, [], now=part)
+        walk.go_on(pieces, row, False)
+        assert (walk.now is not None) is again and (walk.root is None) is again and not walk.undecided
