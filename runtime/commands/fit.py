@@ -8,8 +8,6 @@ import typer
 
 from .output import say
 
-_SHEAR = "The moduli are shear moduli, G; Young's modulus is E = 2 (1 + nu) G."
-
 
 def command(
     data: Path = typer.Argument(
@@ -44,7 +42,7 @@ def command(
     with its own replaced. A master curve of `hystrip master` brings its temperature shift along.
     """
     from ..dma import fit_prony, read_dma
-    from ..dma.output import material_tables, rows
+    from ..dma.output import SHEAR, material_tables, rows
     from ..dma.read import read_shift
     from ..errors import FitWarning, InputError, printable
     from ..extras import require
@@ -83,8 +81,6 @@ def command(
         if len(series.times) > 1:  # the other closure does not determine the edges of such a material
             given["edge"] = "constitutive"
         tables, comment = material_tables(material, series, source, over)
-        if over is not None and series.kind == "G":
-            comment += f"\n{_SHEAR}"
         with located(scene):
             text = with_material(with_settings(scene_text(scene)[0], given), tables, comment)
         files[f"{stem}.fitted.toml"] = lambda path: path.write_text(text, encoding="utf-8", newline="\n")
@@ -100,7 +96,7 @@ def command(
         say(f"read       {line}")
     say(series.report())
     if over is not None and series.kind == "G":
-        say(f"note       stiffness per area is G over the length. {_SHEAR}")
+        say(f"note       stiffness per area is G over the length. {SHEAR}")
     if series.rms > POOR:
         say(f"note       poor fit: {series.quality}")
     for name in files:

@@ -8,7 +8,7 @@ import numpy as np
 from ..errors import InputError
 from .modulus import DynamicModulus
 from .read import read_readings
-from .readings import Readings
+from .readings import Readings, degrees
 
 #: K: gaps wider than this part temperatures whatever was measured
 _APART = 1.0
@@ -68,11 +68,6 @@ def repeats_differ(isotherm: DynamicModulus) -> float:
     starts = np.concatenate(([0], np.flatnonzero(np.diff(x) > _SAME) + 1))
     ratios = [np.maximum.reduceat(each, starts) / np.minimum.reduceat(each, starts) for each in (isotherm.storage, isotherm.loss)]
     return float(np.max(ratios)) - 1
-
-
-def degrees(T: float) -> str:
-    """A temperature (K) for a message, in both units."""
-    return f"{T - 273.15:.1f} degC ({T:.2f} K)"
 
 
 def _by_set(readings: Readings) -> list[np.ndarray]:

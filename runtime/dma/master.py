@@ -9,8 +9,9 @@ import numpy as np
 from ..errors import InputError
 from ..inputs.checks import choice, number
 from ..inputs.shift import R_GAS, WLF, Arrhenius
-from .isotherms import degrees, repeats_differ
+from .isotherms import repeats_differ
 from .modulus import DynamicModulus
+from .readings import celsius, degrees
 from .superposition import Superposition, apart, superpose
 
 LAWS = ("best", "WLF", "Arrhenius")
@@ -63,9 +64,9 @@ class MasterCurve:
         s, f = self.shift, self.data.frequency
         law = f"C_1 = {s.C_1:.4g}, C_2 = {s.C_2:.4g} K" if isinstance(s, WLF) else f"E_a = {s.E_a / 1e3:.4g} kJ/mol"
         lines = [
-            f"isotherms  {len(self.temperatures)}, {_celsius(self.temperatures[0])} to {_celsius(self.temperatures[-1])}, "
+            f"isotherms  {len(self.temperatures)}, {celsius(self.temperatures[0])} to {celsius(self.temperatures[-1])}, "
             f"{f.size} points",
-            f"master     at {_celsius(self.T_ref)}: {f[0]:.3g} to {f[-1]:.3g} Hz; points lie {100 * self.rms:.2g} % rms off one "
+            f"master     at {celsius(self.T_ref)}: {f[0]:.3g} to {f[-1]:.3g} Hz; points lie {100 * self.rms:.2g} % rms off one "
             "smooth curve",
             f"shift      {type(s).__name__}: {law}, vertical exponent {s.vertical:.3g}; "
             f"log10 a_T is {self.law_rms:.2g} rms off it",
@@ -141,12 +142,12 @@ def _moved(T: np.ndarray, found: Superposition, at: int, T_ref: float, law: str)
 def _remarks(isotherms: list[DynamicModulus], found: Superposition) -> tuple[str, ...]:
     said = []
     for i, shared in apart(isotherms, found, _POOR_OVERLAP):
-        lower, upper = (_celsius(each.temperature) for each in isotherms[i : i + 2])
+        lower, upper = (celsius(each.temperature) for each in isotherms[i : i + 2])
         said.append(f"{lower} and {upper} share {shared:.1f} decades: the shift between them rests on little")
     for each in isotherms:
         if (differ := repeats_differ(each)) > _POOR_REPEAT:
             percent = f"{100 * differ:.2g} %"
-            said.append(f"at {_celsius(each.temperature)} moduli measured twice differ by up to {percent} (Set keeps them apart)")
+            said.append(f"at {celsius(each.temperature)} moduli measured twice differ by up to {percent} (Set keeps them apart)")
     return tuple(said)
 
 
@@ -209,7 +210,3 @@ def _wlf(T, log_a, weight, T_ref: float, exponent: float) -> WLF:
     start = np.log([10.0, max(100.0, 1.5 * lowest)])
     C_1, C_2 = np.exp(least_squares(residuals, start, bounds=bounds, xtol=1e-12, ftol=1e-14).x)
     return WLF(float(C_1), float(C_2), T_ref, exponent)
-
-
-def _celsius(T: float) -> str:
-    return f"{T - 273.15:.1f} degC"

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from ..inputs.shift import Shift
 
 
+SHEAR = "The moduli are shear moduli, G; Young's modulus is E = 2 (1 + nu) G."
+
+
 def rows(series: PronySeries, data: DynamicModulus) -> dict[str, np.ndarray]:
     """Measured and fitted moduli, one row for each frequency."""
     fitted, kind = series.modulus(data.omega), series.kind
@@ -41,6 +44,8 @@ def material_tables(
     else:
         own = {"model": "prony", "K": material.K}
         comment += f"\nStiffness per area is modulus over {length:.4g} m."
+        if series.kind == "G":
+            comment += f"\n{SHEAR}"
     tables = {"material": own | {"moduli": material.moduli, "times": material.times}}
     if material.shift is not None:
         tables["material.shift"] = shift_table(material.shift)

@@ -55,7 +55,12 @@ class Readings:
         return {str(names[i]): rows[i] for i in np.argsort(first)}
 
 
-def celsius(temperature: np.ndarray) -> str:
+def celsius(T: float | np.ndarray) -> str:
     """Temperatures, K, as text: one, or a range."""
-    low, high = (f"{T - 273.15:.1f}" for T in (temperature.min(), temperature.max()))
+    low, high = (f"{each - 273.15:.1f}" for each in (np.min(T), np.max(T)))
     return f"{low} degC" if low == high else f"{low} to {high} degC"
+
+
+def degrees(T: float) -> str:
+    """A temperature (K) for a message, in both units."""
+    return f"{celsius(T)} ({T:.2f} K)"

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError
-from .isotherms import degrees
 from .modulus import DynamicModulus
+from .readings import degrees
 
 #: knots of the smooth curve per decade of reduced frequency
 _KNOTS = 1.0
