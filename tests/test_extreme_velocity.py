@@ -76,6 +76,25 @@ def test_adhesion_that_hardly_holds_in_the_valley_does_so_at_50_digits(groups):
     assert found.certified.all() and SEQUENCES[found.code[0]] == true.sequence == "a"
 
 
+@pytest.mark.parametrize("branch", ["unloading", "loading"])
+@pytest.mark.parametrize("J", [0.0, 1e-9, 1e-13])
+def test_next_to_no_instantaneous_compliance_strips_are_right_or_refused(J, branch):
+    rng = np.random.default_rng(8)
+    for beta in 10.0 ** np.arange(12, 30, 3):
+        D, p_0, delta_0 = rng.uniform(-0.1, 1), 10 ** rng.uniform(-4, -1), 10 ** rng.uniform(-3, -0.5)
+        solid, adhesion = hystrip.StandardLinearSolid(1.0, beta, J * beta), hystrip.Dugdale(p_0=p_0, delta_0=delta_0)
+        scene = {"l": 2 * np.pi, "A": 1.0, "D": D, "V": 1.0, "edge": "constitutive", "branch": branch}
+        if beta > 1e18:
+            with pytest.raises(hystrip.InputError, match=r"at most 1e\+18"):
+                hystrip.solve_strip(solid, adhesion, **scene)
+            continue
+        found = hystrip.solve_strip(solid, adhesion, **scene)
+        true = march.solve(J * beta, beta, p_0, delta_0, D, closure="constitutive", branch=branch, J=J)
+        assert found.regime == true.sequence
+        assert found.p_mean == pytest.approx(float(true.p_mean), rel=1e-11, abs=1e-11)
+        assert found.tau_mean == pytest.approx(float(true.tau_mean), rel=1e-11, abs=1e-11)
+
+
 @pytest.mark.parametrize(("edge", "branch"), [("constitutive", "unloading"), ("continuous", "loading")])
 def test_two_levels_end_and_do_not_change(edge, branch):
     V = FAST[[0, 3]]

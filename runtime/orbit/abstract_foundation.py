@@ -20,8 +20,6 @@ from .nonadhesive import Waves
 from .regimes import CODE, ZONES
 from .solved import Solved
 
-#: beta, or its largest, up to which the emitted functions are certified (the domain in generated/certificates.json)
-CERTIFIED = 1e30
 #: a wave this much smaller than every other length is below their rounding
 _NEGLIGIBLE = 1e-18
 
@@ -31,8 +29,11 @@ class Foundation(ABC):
 
     ``parameters``: what the generated functions of a level take first, K among them. ``J``: instantaneous compliance times K.
     ``longest_time``: longest retardation time, s. ``lossiest_rate``: rate of the greatest loss modulus, 1/s; inf where
-    that grows without bound.
+    that grows without bound. ``fastest``: the longest time over that of a passage, at the ``pace`` of a strip, up to which its
+    orbits are told from rounding; by default what the emitted functions are certified for (generated/certificates.json).
     """
+
+    fastest = 1e30
 
     kernel: ModuleType
     material: Any
@@ -97,9 +98,9 @@ class Foundation(ABC):
             k = 2 * np.pi / l
             rate = k * V
             longest, pace = rate * self.longest_time, self.pace(rate)
-            fast = (longest > LARGEST) | (longest * pace > CERTIFIED)
+            fast = (longest > LARGEST) | (longest * pace > self.fastest)
         if fast.any():
-            allowed = f"k V times the longest retardation time at most {CERTIFIED:g}"
+            allowed = f"k V times the longest retardation time at most {self.fastest:g}"
             raise InputError("V", float(np.broadcast_to(V, fast.shape)[fast][0]), allowed)
         traction = p_0 / self.K
         # the amplitude does not count where nothing of the wave, stiffened by the motion, shows in the other lengths
