@@ -6,6 +6,7 @@ import pytest
 import hystrip
 from hystrip.dma import DynamicModulus, fit_prony, read_dma
 from hystrip.dma.fit import ACCURACY
+from hystrip.dma.projection import solved
 from hystrip.scene import load_scene
 
 OMEGA = np.geomspace(1e-2, 1e4, 61)
@@ -45,6 +46,27 @@ def test_times_are_placed_where_they_were(terms):
     moduli = 10 ** rng.uniform(5, 9, terms)
     series = fit_prony(known(1e6, moduli, times), terms=terms)
     assert np.allclose(series.times, times, rtol=1e-7) and np.allclose(series.moduli, moduli, rtol=1e-7)
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.02])
+def test_no_other_times_fit_better(noise):
+    """Of all that was measured, not only of the few numbers in which times are looked for."""
+    omega = np.geomspace(1e-2, 1e4, 200)
+    z, rng = (1j * omega) ** 0.4, np.random.default_rng(5)
+    exact = 1e6 * (1 + 100 * z) / (1 + z)
+    measured = exact + noise * (exact.real * rng.standard_normal(200) + 1j * exact.imag * rng.standard_normal(200))
+    data = DynamicModulus.from_complex(omega, measured)
+    series = fit_prony(data, terms=6)
+
+    def misfit(times):
+        return np.sum(solved(data, np.asarray(times))[1] ** 2)
+
+    least = misfit(series.times)
+    for i in range(6):
+        for by in (-1e-3, 1e-3):
+            moved = np.array(series.times)
+            moved[i] *= 1 + by
+            assert least < misfit(moved)
 
 
 def test_noise_moves_the_modulus_by_less_than_itself():

@@ -11,7 +11,8 @@ from ..inputs.checks import number, numbers
 from ..inputs.fitted import POOR, FittedBand
 from ..inputs.prony import MOST_TIMES
 from .modulus import DynamicModulus
-from .projection import placed, relative_errors, solved
+from .placement import Placement
+from .projection import relative_errors, solved
 from .series import PronySeries
 
 #: rms of the relative residuals that is asked for where nothing else is
@@ -83,7 +84,7 @@ def fit_prony(
         if isinstance(terms, bool) or not isinstance(terms, (int, np.integer)) or not 1 <= terms <= MOST_TIMES:
             raise InputError("terms", terms, f"an integer from 1 to {MOST_TIMES}")
         _refuse_too_many(int(terms), 2 * int(terms) + 1, data)
-        series = _series(data, _placed(data, int(terms)), True)
+        series = _series(data, _placed(Placement(data), int(terms)), True)
     elif times is not None:
         offered = np.unique(np.atleast_1d(numbers("times", times, "s", 0, strict=True)))
         _refuse_too_many(offered.size, offered.size + 1, data)
@@ -145,10 +146,11 @@ def _fewest(data: DynamicModulus, accuracy: float) -> np.ndarray:
     How many are enough is seen from evenly spaced ones, if there are enough of these, which is had at once."""
     most = min(MOST_TIMES, (2 * data.omega.size - 1) // 2)
     found: dict[int, tuple[float, np.ndarray]] = {}
+    placement = Placement(data)
 
     def left(count: int) -> float:
         if count not in found:
-            times = _placed(data, count)
+            times = _placed(placement, count)
             found[count] = (_rms(solved(data, times)[1]), times)
         return found[count][0]
 
@@ -171,9 +173,9 @@ def _fewest(data: DynamicModulus, accuracy: float) -> np.ndarray:
     return found[high][1]
 
 
-def _placed(data: DynamicModulus, terms: int) -> np.ndarray:
+def _placed(placement: Placement, terms: int) -> np.ndarray:
     """Times at which ``terms`` branches fit best; their moduli follow from them."""
-    return min((placed(data, start) for start in _starts(data, terms)), key=lambda found: found[1])[0]
+    return min(map(placement.refined, _starts(placement.data, terms)), key=lambda found: found[1])[0]
 
 
 def _starts(data: DynamicModulus, terms: int) -> list[np.ndarray]:

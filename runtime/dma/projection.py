@@ -1,8 +1,7 @@
-"""Moduli that fit best at given relaxation times, and the times that fit best (variable projection).
+"""Moduli that fit best at given relaxation times, and how well moduli and times are known.
 
 The residuals are those of storage and loss modulus, each relative to what was measured. For given times they are linear in
-the moduli: non-negative least squares. The times then have a problem of their own, whose Jacobian is Kaufman's: the
-derivative of the columns, less what a change of the moduli takes up (BIT 15, 1975, 49).
+the moduli: non-negative least squares.
 """
 
 import numpy as np
@@ -23,9 +22,13 @@ def system(data: DynamicModulus, times: np.ndarray) -> tuple[np.ndarray, np.ndar
 
 def solved(data: DynamicModulus, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Moduli (1 + times,), Pa, and relative residuals (2 n,)."""
+    return nonnegative(*system(data, times))
+
+
+def nonnegative(rows: np.ndarray, goal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The moduli that fit best, and their residuals."""
     from scipy.optimize import nnls
 
-    rows, goal = system(data, times)
     # columns of one size: moduli of rubber span decades, and the solver's tolerance is absolute
     size = np.linalg.norm(rows, axis=0)
     size[size == 0] = 1.0
@@ -41,30 +44,6 @@ def by_log_times(data: DynamicModulus, times: np.ndarray, moduli: np.ndarray) ->
     storage = 2 * (small / (1 + small**2)) ** 2
     loss = small / (1 + small**2) * np.where(x > 1, -1, 1) * (1 - small**2) / (1 + small**2)
     return np.concatenate((storage, loss)) * moduli / _size(data)[:, None]
-
-
-def placed(data: DynamicModulus, start: np.ndarray) -> tuple[np.ndarray, float]:
-    """Times that fit best, starting from ``start``, s, and half the sum of squares."""
-    from scipy.optimize import least_squares
-
-    low, high = np.log(1 / data.omega[-1]), np.log(1 / data.omega[0])
-
-    def residuals(s):
-        return solved(data, np.exp(s))[1]
-
-    def jacobian(s):
-        times = np.exp(s)
-        moduli = solved(data, times)[0]
-        rows, _ = system(data, times)
-        basis, _ = np.linalg.qr((rows / np.maximum(np.linalg.norm(rows, axis=0), 1e-300))[:, moduli > 0])
-        change = by_log_times(data, times, moduli[1:])
-        return change - basis @ (basis.T @ change)
-
-    # within a decade of what was measured: beyond, a branch cannot be told from a constant
-    bounds = low - np.log(10), high + np.log(10)
-    inside = np.clip(np.log(start), bounds[0] + 1e-9, bounds[1] - 1e-9)
-    found = least_squares(residuals, inside, jacobian, bounds=bounds, xtol=1e-12, ftol=1e-12, gtol=1e-14, max_nfev=200)
-    return np.unique(np.exp(found.x)), float(found.cost)
 
 
 def relative_errors(

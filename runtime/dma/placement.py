@@ -1,0 +1,69 @@
+"""The relaxation times that fit best (variable projection).
+
+The moduli that belong to given times leave the times a problem of their own, whose Jacobian is Kaufman's: the derivative of the
+columns, less what a change of the moduli takes up (BIT 15, 1975, 49).
+"""
+
+import numpy as np
+
+from .modulus import DynamicModulus
+from .projection import by_log_times, nonnegative, system
+
+#: relaxation times per decade whose columns span those of all times between, to rounding: over the logarithm of the time they are
+#: analytic up to pi/2 beside the real axis; and how many more of them on either side
+_PER_DECADE, _BEYOND = 8, 12
+#: directions of that space, over the largest, that are nothing but rounding
+_ROUNDING = 1e-14
+#: frequencies summed over at a time: products of small matrices stay in one thread
+_AT_ONCE = 64
+
+
+class Placement:
+    """Where relaxation times fit ``data`` best. Residuals are told in the space that columns can span: some dozens of numbers,
+    however many were measured. Where a machine is busy, threads that share larger matrices wait for one another far longer than
+    they compute."""
+
+    def __init__(self, data: DynamicModulus):
+        self.data = data
+        # within a decade of what was measured: beyond, a branch cannot be told from a constant
+        self.bounds = np.log(1 / data.omega[-1]) - np.log(10), np.log(1 / data.omega[0]) + np.log(10)
+        count = _PER_DECADE * int(np.ceil((self.bounds[1] - self.bounds[0]) / np.log(10))) + 2 * _BEYOND
+        margin = _BEYOND * np.log(10) / _PER_DECADE
+        rows, goal = system(data, np.exp(np.linspace(self.bounds[0] - margin, self.bounds[1] + margin, count + 1)))
+        directions, sizes, _ = np.linalg.svd(rows / np.linalg.norm(rows, axis=0), full_matrices=False)
+        self._directions = _in_parts(directions[:, sizes > _ROUNDING * sizes[0]])
+        self._goal = self._shares(goal[:, None])[:, 0]
+
+    def _shares(self, columns: np.ndarray) -> np.ndarray:
+        """Columns (2 n, k) in the space that columns span."""
+        return (self._directions.swapaxes(1, 2) @ _in_parts(columns)).sum(axis=0)
+
+    def refined(self, start: np.ndarray) -> tuple[np.ndarray, float]:
+        """Times that fit best, starting from ``start``, s, and half the sum of the squares of what they leave in the space."""
+        from scipy.optimize import least_squares
+
+        def solved(s):
+            rows = self._shares(system(self.data, np.exp(s))[0])
+            return rows, *nonnegative(rows, self._goal)
+
+        def jacobian(s):
+            rows, moduli, _ = solved(s)
+            basis, _ = np.linalg.qr((rows / np.maximum(np.linalg.norm(rows, axis=0), 1e-300))[:, moduli > 0])
+            change = self._shares(by_log_times(self.data, np.exp(s), moduli[1:]))
+            return change - basis @ (basis.T @ change)
+
+        low, high = self.bounds
+        inside = np.clip(np.log(start), low + 1e-9, high - 1e-9)
+        found = least_squares(
+            lambda s: solved(s)[2], inside, jacobian, bounds=self.bounds, xtol=1e-12, ftol=1e-12, gtol=1e-14, max_nfev=200
+        )
+        return np.unique(np.exp(found.x)), float(found.cost)
+
+
+def _in_parts(columns: np.ndarray) -> np.ndarray:
+    """Columns (N, k) as (parts, at once, k), with zeros at the end."""
+    N, k = columns.shape
+    parts = -(-N // _AT_ONCE)
+    out = np.zeros((parts * _AT_ONCE, k))
+    out[:N] = columns
+    return out.reshape(parts, _AT_ONCE, k)
