@@ -14,6 +14,7 @@ from .inputs.adhesion import Dugdale
 from .inputs.checks import number, numbers
 from .inputs.surface import Level
 from .level.law import Laws, build_laws
+from .level.saturated import Saturation
 from .level.strips import LevelBatch, WorkCounters
 
 if TYPE_CHECKING:
@@ -121,8 +122,6 @@ def friction_law(
 
 
 def _laws(columns: LevelBatch, rtol: float, top) -> Laws:
-    n = columns.size
-    s = columns.saturated
-    saturated = np.stack([s.p_sat, s.tau_sat, np.ones(n), np.zeros(n)], axis=1)
-    accuracy = np.full(n, rtol)
-    return build_laws(columns, accuracy, columns.atol(accuracy), s.p_sat, s.D_sat, saturated, top)
+    s, accuracy = columns.saturated, np.full(columns.size, rtol)
+    means = np.column_stack((s.p_sat, s.tau_sat, np.ones(columns.size), np.zeros(columns.size)))
+    return build_laws(columns, accuracy, columns.atol(accuracy), Saturation(s.p_sat, s.D_sat, means), top, None)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from .level.law import build_laws, merged
 from .level.lower_levels import LowerLevelLaws
 from .level.nonadhesive.family import are_families
 from .level.nonadhesive.law import crest_pressure, lower_laws, tolerances, with_family
-from .level.saturated import saturated_friction, saturated_level
+from .level.saturated import Saturation, saturated_friction, saturated_level
 from .level.strips import QUANTITIES, LevelBatch, WorkCounters, cut_penetration
 from .numerics.rounding import EPS, LARGEST
 from .orbit.foundation import foundation_of
@@ -42,15 +41,6 @@ _DIGIT = 0.1
 #: contact fractions without adhesion are averaged no finer; their laws may err by so many times what others may, and the friction
 #: of each level in the contact of level 1 by so much of the whole, over the number of levels
 _SHARES, _LAWS, _OF_TOP = 1e-4, 2.0, 0.3
-
-
-class Saturation(NamedTuple):
-    """Pressure ``p`` and penetration ``D`` (n,) from which on a level and all below it are saturated, and the ``means`` (n, q)
-    then, in the order of its columns: own, then carried."""
-
-    p: np.ndarray
-    D: np.ndarray
-    means: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -235,7 +225,7 @@ class _Solve:
             least = np.minimum(atol[:, level.frictions], (rtol * surface.friction_floor)[:, None])
             atol[:, level.frictions] = np.maximum(least, friction[:, None])
             counts = budget if i == 1 else budget.further_down(2 * (self.M - 1))
-            laws = build_laws(level, rtol, atol, *saturated[i], reached[i - 1], counts)
+            laws = build_laws(level, rtol, atol, saturated[i], reached[i - 1], counts)
             # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error,
             # which never asks for anything
             scales = np.concatenate((level.scales[1:], [LARGEST]))

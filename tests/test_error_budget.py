@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tools"))
 import survey
 
 import hystrip
-from hystrip.level.branches import Errors, Piece, branches_of, rising
+from hystrip.level.branches import Errors, Piece, branches_of, parameter, rising
 from hystrip.level.error_budget import ErrorBudget
 from hystrip.level.interpolation import Intervals, weighed
 from hystrip.level.inverse import Penetrations, _Walk
@@ -153,7 +153,7 @@ def test_cells_follow_functions_as_closely_as_asked():
         return np.where(which[:, None] == 0, smooth, np.cos(np.stack((x, 40 * x), axis=1)))
 
     tolerance = np.array([[1e-7, 1e-9], [1e-4, 1e-5]])
-    every = cells_of(functions, tolerance, lambda x: x)
+    every = cells_of(functions, tolerance)
     x = np.random.default_rng(1).random(2000)
     for k, cells in enumerate(every):
         assert (np.abs(cells(x).T - functions(np.full(x.size, k), x)).max(axis=0) <= tolerance[k]).all()
@@ -165,8 +165,8 @@ def test_cells_say_what_they_miss():
     def steps(which, x):
         return np.where(x < 0.3, 0.0, which + 1.0)[:, None]
 
-    x = (np.arange(200_000) + 0.5) / 200_000
-    for k, cells in enumerate(cells_of(steps, np.array([[1e-9], [1e-9]]), lambda x: x)):
+    x = parameter((np.arange(200_000) + 0.5) / 200_000)
+    for k, cells in enumerate(cells_of(steps, np.array([[1e-9], [1e-9]]))):
         assert 0 < np.abs(cells(x).T - steps(np.full(x.size, k), x)).mean() < cells.error[0]
 
 

@@ -52,19 +52,20 @@ def level_means(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray | None =
     """Means of ``strips.QUANTITIES`` for every column, to ``rtol |value| + atol`` each; ``rtol`` of shape (n,), ``atol`` (n, q),
     or what goes with it (``LevelBatch.atol``)."""
     if columns.strips is not None:
-        return equal_strips(columns, columns.strips)
+        return equal_strips(columns)
     atol = columns.atol(rtol) if atol is None else atol
     if columns.family is None:
         return average(columns, rtol, atol)
     return Averages(*family_average(columns, rtol, atol), np.zeros(columns.size, int))
 
 
-def equal_strips(columns: LevelBatch, strips: int) -> Averages:
+def equal_strips(columns: LevelBatch) -> Averages:
     """The paper's average over ``2 N`` equal strips of the cell (Eq. 11): midpoints; the halves are mirror images.
 
     The error estimate is the sum of the two largest differences between neighbours over N: so much jumps of the integrand at both
     ends of a zone may shift the sum by, and kinks less. The crest and the valley are neighbours that do not count for the sum.
     """
+    strips = columns.strips
     theta = np.pi * np.concatenate(([0.0], (np.arange(strips) + 0.5) / strips, [1.0]))
     column = np.repeat(np.arange(columns.size), theta.size)
     _, values, *_ = columns.evaluate(column, np.tile(theta, columns.size))

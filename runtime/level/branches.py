@@ -127,10 +127,6 @@ class Branch:
         p = self.piece.values(np.clip(known.at, self.t_low, self.t_high))[:, 0]
         return Errors(np.maximum.accumulate(p), known.bounds)
 
-    def reaches(self, p: float) -> float:
-        """t at which the one pressure ``p`` is reached, clipped to the branch."""
-        return float(ParameterAt([self])(np.zeros(1, int), np.array([p]))[0])
-
 
 def branches_of(curves: Sequence[Sequence[Piece]], unloading: bool) -> list[list[Branch]]:
     """Branches that load control follows on each of the curves, given by its pieces, in order of rising pressure."""

@@ -16,7 +16,7 @@ from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS, LARGEST
 from ..orbit.batch import Batch
 from .averages import Averages, level_means
-from .branches import Branch, Piece, branches_of
+from .branches import Branch, ParameterAt, Piece, branches_of
 from .breaks import between_breaks, first_contact
 from .interpolation import Intervals, interpolate
 from .nonadhesive.law import penetrations
@@ -229,7 +229,7 @@ def _place(row: list[Branch], p: float, doubts: float) -> int:
 
 def _in_branch(part: Branch, p: float) -> Root:
     """Where a branch, which may be narrower than the rounding of D, carries the pressure."""
-    t = part.reaches(p)
+    t = float(ParameterAt([part])(np.zeros(1, int), np.array([p]))[0])
     ends = np.clip([t - _STEP, t + _STEP], part.t_low, part.t_high)
     D, (low, high) = part.piece.penetration(np.array([t, *ends, part.t_low, part.t_high])), part.piece.values(ends)
     step, apart = high - low, max(D[2] - D[1], EPS * abs(D[0]), 1 / LARGEST)

@@ -18,6 +18,7 @@ import numpy as np
 from .branches import branches_of, graded, meets, parameter
 from .curve import trace
 from .error_budget import ErrorBudget
+from .saturated import Saturation
 from .segment import SLOTS, Cells, Segment, cells_of, segments_of, slot
 from .strips import LevelBatch, cut_penetration
 
@@ -180,34 +181,26 @@ def _joined(kept: list[Segment], p_sat: float) -> list[Segment]:
 
 
 def build_laws(
-    columns: LevelBatch,
-    rtol: np.ndarray,
-    atol: np.ndarray,
-    p_full: np.ndarray,
-    D_full: np.ndarray,
-    saturated: np.ndarray,
-    p_max: np.ndarray,
-    budget: ErrorBudget | None = None,
+    columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, saturated: Saturation, p_max: np.ndarray, budget: ErrorBudget | None
 ) -> Laws:
     """The friction law of every column (its ``D`` is not used) along its branch of loading, as far up as it will be asked for, to
     ``rtol |value| + atol``.
 
-    ``p_full``, ``D_full`` (n,): where the level, and all it carries, is saturated; ``saturated`` (n, q): means there. ``p_max``
-    (n,): greatest pressure that will be asked for, inf for the whole law. ``budget``: how much its pressures count.
+    ``p_max`` (n,): greatest pressure that will be asked for, inf for the whole law. ``budget``: how much its pressures count.
     """
     p_max = np.maximum(p_max, -columns.adhesion.p_0)
-    top, unloading = cut_penetration(columns, p_max, D_full), columns.branch == "unloading"
-    p_max = np.where(top < D_full, p_max, np.inf)
+    top, unloading = cut_penetration(columns, p_max, saturated.D), columns.branch == "unloading"
+    p_max = np.where(top < saturated.D, p_max, np.inf)
     curves, strips = trace(columns, rtol, atol, top, budget)
     kept = branches_of(curves, unloading)
-    least = np.repeat(1e-15 * np.abs(saturated), [len(row) for row in kept], axis=0)
+    least = np.repeat(1e-15 * np.abs(saturated.means), [len(row) for row in kept], axis=0)
     flat = [b for row in kept for b in row]
     every = iter(segments_of(flat, np.maximum(np.reshape([b.errors.most for b in flat], least.shape), least)))
-    segments = [_joined([next(every) for _ in row], end) for row, end in zip(kept, p_full, strict=True)]
-    pull_off = np.array([row[0].p_low if row else end for row, end in zip(kept, p_full, strict=True)])
+    segments = [_joined([next(every) for _ in row], end) for row, end in zip(kept, saturated.p, strict=True)]
+    pull_off = np.array([row[0].p_low if row else end for row, end in zip(kept, saturated.p, strict=True)])
     top = np.array([row[-1].p_high if row and end < np.inf else end for row, end in zip(segments, p_max, strict=True)])
     top += _SAME * np.where(np.isfinite(top), np.abs(top), 0.0)
-    return Laws(segments, pull_off, p_full, saturated, top, strips, unloading)
+    return Laws(segments, pull_off, saturated.p, saturated.means, top, strips, unloading)
 
 
 def merged(laws: Laws, rtol: np.ndarray, atol: np.ndarray) -> Laws:
@@ -242,7 +235,7 @@ def _fits(laws: Laws, pairs: list[tuple[int, Segment, Segment]], rtol, atol) -> 
     allowed = _SHARE * (rtol[law, None] * np.abs(known).min(axis=1) + atol[law])
     # a pressure is what it is
     allowed[:, 0] = np.inf
-    cells = cells_of(at, allowed, graded, _FINEST)
+    cells = cells_of(at, allowed, _FINEST)
     fitted = np.array([each(row).T for each, row in zip(cells, u, strict=True)])
     error = _SAFE * np.maximum(np.abs(fitted - known).max(axis=1), np.abs(known[:, -1] - known[:, -2]))
     error[:, 0] = 0.0

@@ -50,10 +50,6 @@ class LowerLevelLaws:
     rtol: float
     scales: np.ndarray
 
-    def breaks(self, group: np.ndarray) -> np.ndarray:
-        """Pressures (m, k), Pa, ascending, at which the laws of each ``group`` are not smooth; inf where there are fewer."""
-        return self.laws.breaks[group]
-
     def heights(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Greatest, then least pressure of each strip over the law's breaks, (m, k), Pa; NaN without contact."""
         out = np.full((group.size, 2 * self.laws.breaks.shape[1]), np.nan)

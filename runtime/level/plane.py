@@ -5,6 +5,10 @@ At one velocity, with one material, adhesion and closure, a strip is a point of 
 regime ceases to exist its edges obey one equation more than the boundary equations of its regime (physics: a fold, where
 the return map has the slope one, or a grazing event). That is one point on every line across the plane: with A given E is
 unknown, with E given A is.
+
+Where a curve turns back over E two crossings of a level meet, and the island between them ends. Just beyond no strip of the level
+is on the curve, but one is next to it: where orbits end on the curve the strips' means bend there like ``sqrt(s^2 + distance)``,
+as sharp as any kink.
 """
 
 from __future__ import annotations
@@ -15,6 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..numerics.linear import solved
+from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
 from ..orbit.batch import Batch
 from ..orbit.foundation import foundation_of
@@ -27,6 +32,9 @@ if TYPE_CHECKING:
 
 #: Newton's iterations, and how much less the step of each may be than before: nearly all that is found falls faster
 _ITERATIONS, _FALLS = 16, 0.46
+#: how closely a turn is placed on its curve, of A: its E is known to the square; and how far apart the points are that tell the
+#: slope of the curve
+_PLACED, _APART = 1e-7, 1e-5
 
 
 @dataclass(frozen=True)
@@ -163,3 +171,50 @@ def _step(columns: LevelBatch, boundary: Boundary, at: CurvePoints, unknown: str
     values = np.array((*values, *events)).reshape(k + 1, 2 * k + 3, n)
     matrix = ((values[:, 1 : k + 2] - values[:, k + 2 :]) / (2 * length)).transpose(2, 0, 1)
     return solved(matrix, -values[:, 0].T[:, :, None])[:, :, 0].T
+
+
+@dataclass
+class Turns(Batch):
+    """Turns of curves, (n,): ``velocity`` (m/s), ``A`` and ``E`` (m); ``way``: 1 where E is greatest, -1 where it is least."""
+
+    velocity: np.ndarray
+    A: np.ndarray
+    E: np.ndarray
+    way: np.ndarray
+
+
+def together(points: CurvePoints) -> np.ndarray:
+    """Which points stand on the same curve as the next one."""
+    return (np.diff(points.velocity) == 0) & (np.diff(points.index) == 0)
+
+
+def turning(points: CurvePoints) -> np.ndarray:
+    """Numbers of the points between whose neighbours their curve turns."""
+    one, steps = together(points), np.diff(points.E)
+    return 1 + np.flatnonzero(one[:-1] & one[1:] & (steps[:-1] != 0) & (steps[:-1] * steps[1:] <= 0))
+
+
+def locate_turns(columns: LevelBatch, boundary: Boundary, known: CurvePoints, had: Turns) -> Turns:
+    """Turns of the curves through the points ``known``, where their slope vanishes, beside those that are ``had``; those that are
+    found."""
+    middle = turning(known)
+    low, high = known.A[middle - 1, None], known.A[middle + 1, None]
+    new = ~((known.velocity[middle, None] == had.velocity) & (low < had.A) & (had.A < high)).any(axis=1)
+    before, near, after = (known.take(middle[new] + k) for k in (-1, 0, 1))
+    way, found = np.where((before.E < near.E) | (near.E > after.E), 1.0, -1.0), np.ones(near.size, bool)
+
+    def slope(A, index):
+        """Of E over A, from two points; the next ones start from there."""
+        at = replace(near.take(np.tile(index, 2)), A=np.concatenate((A, A * (1 + _APART))))
+        points, good = locate(columns, boundary, at, "E")
+        found[index] = good.reshape(2, -1).all(axis=0)
+        here = np.flatnonzero(found[index])
+        near[index[here]] = points.take(here)
+        # what is lost on the way is dropped in the end
+        E = np.where(good, points.E, 0.0).reshape(2, -1)
+        return way[index] * (E[1] - E[0]) / (A * _APART)
+
+    if near.size:
+        A = falling_root(slope, before.A, after.A, near.A, _PLACED * near.A.min())
+        slope(A, np.arange(A.size))
+    return Turns(near.velocity, near.A, near.E, way).take(np.flatnonzero(found))

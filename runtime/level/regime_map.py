@@ -20,10 +20,8 @@ import numpy as np
 from ..numerics.rounding import EPS
 from ..orbit.foundation import foundation_of
 from ..orbit.regimes import CODE, ZONES
-from . import plane
 from .changes import Changes
-from .plane import BOUNDARIES, Boundary, CurvePoints
-from .turns import Turns, locate_turns, together, turning
+from .plane import BOUNDARIES, Boundary, CurvePoints, Turns, grazing, locate, locate_turns, together, turning
 
 if TYPE_CHECKING:
     from .strips import LevelBatch
@@ -50,7 +48,7 @@ def straight(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
     c = [np.full(R.size, at) for at in (-P, none if unloading and P > 0 else -reach, opens, closes)]
     f = [1 - R, *(np.full(R.size, slope) for slope in (2.0, 0.0, 2.0))]
     if columns.carry is not None:
-        level = columns.carry.breaks(columns.group).T / columns.material.K
+        level = columns.carry.laws.breaks[columns.group].T / columns.material.K
         c, f = [*c, *level, *level], f + [1 + R] * len(level) + [1 - R] * len(level)
     return np.array(f), np.array(c)
 
@@ -123,7 +121,7 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
         place, found = _by_threshold(columns, changes, A[:, 0], low, high)
     index, pressure = np.zeros(changes.size, int), np.zeros(changes.size)
     if columns.carry is not None:
-        breaks = columns.carry.breaks(columns.group)
+        breaks = columns.carry.laws.breaks[columns.group]
         index = changes.passed.argmax(axis=1) % breaks.shape[1]
         pressure = breaks[np.arange(changes.size), index]
     for side in (0, 1):
@@ -139,7 +137,7 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
                 height = changes.heights[rows, :, index[rows]].T
                 near = [((height[0] * v[:, 1].T - height[1] * v[:, 0].T) / (height[0] - height[1])).T for v in ends]
             start = CurvePoints(columns.V[rows], *near, pressure[rows] * peak, index[rows] * peak)
-            got, good = plane.locate(columns, boundary, plane.grazing(columns, boundary, start), unknown)
+            got, good = locate(columns, boundary, grazing(columns, boundary, start), unknown)
             at = getattr(got, unknown)
             good &= (at > low[rows]) & (at < high[rows])
             place[rows[good]], found[rows[good]] = at[good], True
@@ -227,7 +225,7 @@ class Crossings:
             blend = lambda x: (x[lower].T + share * (x[lower + 1] - x[lower]).T).T  # noqa: E731, B023
             A, passed = np.maximum(blend(known.A), 0.5 * known.A[lower]), (known.pressure[lower], known.index[lower])
             start = CurvePoints(columns.V[state], A, E[state], blend(known.edges), *passed)
-            points, found = plane.locate(columns, boundary, start, "A")
+            points, found = locate(columns, boundary, start, "A")
             found &= (points.A > 0) & (2 * points.A < columns.level.h)
             points, state = points.take(np.flatnonzero(found)), state[found]
             self.remember(boundary, points)

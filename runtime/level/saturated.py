@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,6 +29,15 @@ class SaturatedLevel:
     D_sat: np.ndarray
     lift: np.ndarray
     tau_sat: np.ndarray
+
+
+class Saturation(NamedTuple):
+    """Pressure ``p`` and penetration ``D`` (n,) from which on a level and all below it are saturated, and the ``means`` (n, q)
+    then, in the order of its columns: own, then carried."""
+
+    p: np.ndarray
+    D: np.ndarray
+    means: np.ndarray
 
 
 def saturated_level(

@@ -25,7 +25,7 @@ _NEGLIGIBLE = 0.1
 class Cells:
     """Chebyshev ``coefficients`` (degree + 1, q, cells) on cells that begin at slot ``start`` (cells,) of their function and are
     ``size`` (cells,) slots wide; ``of``: the cell that a slot belongs to, SLOTS of them for each function. ``error`` (q,): what
-    the smallest cells of a function still miss, on average."""
+    the smallest cells of a function still miss, on average over pressure."""
 
     coefficients: np.ndarray
     start: np.ndarray
@@ -56,16 +56,10 @@ class Cells:
         )
 
 
-def cells_of(
-    function: Callable[[np.ndarray, np.ndarray], np.ndarray],
-    tolerance: np.ndarray,
-    measure: Callable[[np.ndarray], np.ndarray],
-    smallest: int = 1,
-) -> list[Cells]:
+def cells_of(function: Callable[[np.ndarray, np.ndarray], np.ndarray], tolerance: np.ndarray, smallest: int = 1) -> list[Cells]:
     """Several functions of [0, 1], each to its ``tolerance`` (functions, q).
 
-    ``function``: (which (m,), x (m,)) -> (m, q). ``measure``: how much of what is averaged over lies below an x, 0 to 1.
-    ``smallest``: slots of the smallest cells.
+    ``function``: (which (m,), x (m,)) -> (m, q). ``smallest``: slots of the smallest cells.
     """
     transform, nodes, count = coefficients(np.eye(_DEGREE + 1)), lobatto(_DEGREE), tolerance.shape[0]
     which, start = np.repeat(np.arange(count), 2), np.tile([0, SLOTS // 2], count)
@@ -77,7 +71,7 @@ def cells_of(
         last = np.abs(c[:, -2:]).max(axis=1)
         done = (last <= _NEGLIGIBLE * tolerance[which]).all(axis=1)
         if size == smallest:
-            share = measure((start + size) / SLOTS) - measure(start / SLOTS)
+            share = graded((start + size) / SLOTS) - graded(start / SLOTS)
             np.add.at(error, which[~done], share[~done, None] * last[~done] / _NEGLIGIBLE)
             done[:] = True
         found.append((which[done], c[done], start[done], np.full(np.count_nonzero(done), size)))
@@ -117,7 +111,7 @@ def segments_of(branches: Sequence[Branch], tolerance: np.ndarray) -> list[Segme
         return []
     t_at, quantities = ParameterAt(branches), Series([b.piece.coefficients for b in branches])
     low, span = np.array([b.p_low for b in branches]), np.array([b.p_high - b.p_low for b in branches])
-    cells = cells_of(lambda which, u: quantities(which, t_at(which, low[which] + span[which] * graded(u))).T, tolerance, graded)
+    cells = cells_of(lambda which, u: quantities(which, t_at(which, low[which] + span[which] * graded(u))).T, tolerance)
     return [
         Segment(b.p_low, b.p_high, c, b.errors_by_pressure().plus(c.error), b.inner_low, b.inner_high)
         for b, c in zip(branches, cells, strict=True)

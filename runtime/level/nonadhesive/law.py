@@ -17,6 +17,7 @@ from ...numerics.quadrature import interleaved
 from ...numerics.roots import falling_root
 from ...numerics.rounding import EPS, LARGEST
 from ...orbit.foundation import foundation_of
+from ..saturated import Saturation
 from ..strips import LevelBatch, cut_penetration
 from .average import Span, average, completely
 from .family import CONTACT, SEARCH, Family, errors_alone
@@ -150,39 +151,34 @@ def tolerances(columns: LevelBatch, friction: np.ndarray, fraction: np.ndarray) 
 
 
 def lower_laws(
-    levels: Sequence[LevelBatch],
-    saturated: Sequence[tuple],
-    p_max: np.ndarray,
-    rtol: float,
-    friction: np.ndarray,
-    fraction: np.ndarray,
+    levels: Sequence[LevelBatch], saturated: Sequence[Saturation], p_max: np.ndarray, rtol: float, friction, fraction
 ) -> Laws:
     """The laws of level 2 with all that it carries, from those of the smallest level upwards, ``levels`` 2 and below at
-    velocities (G,), up to the pressures ``p_max`` (G,), Pa. ``saturated``: of each level its pressure and penetration with all
-    below saturated, and the means there. To ``rtol``, and ``friction``, Pa, and a ``fraction`` of the surface, (G,)."""
+    velocities (G,), up to the pressures ``p_max`` (G,), Pa. To ``rtol``, and ``friction``, Pa, and a ``fraction`` of the surface,
+    (G,)."""
     reached = []
-    for columns, (_, D_full, _) in zip(levels, saturated, strict=True):
+    for columns, full in zip(levels, saturated, strict=True):
         carries, K, h = columns.level is not levels[-1].level, columns.material.K, columns.level.h
-        columns = with_family(columns, cut_penetration(columns, p_max, D_full), friction, carries)
+        columns = with_family(columns, cut_penetration(columns, p_max, full.D), friction, carries)
         D = p_max / K + 0.75 * h
         part = np.flatnonzero((p_max > 0) & (D < 0.5 * h * columns.family.s_sat))
         D[part] = (1 + _FURTHER) * penetrations(columns.at(part, D[part]), p_max[part])[0]
-        reached.append(replace(columns, D=np.minimum(D, D_full)))
+        reached.append(replace(columns, D=np.minimum(D, full.D)))
         p_max = crest_pressure(reached[-1]) if carries else p_max
     laws = None
     for columns, full in zip(reached[::-1], saturated[::-1], strict=True):
-        laws = _law(replace(columns, carry=laws, group=np.arange(columns.size)), *full, rtol, friction, fraction)
+        laws = _law(replace(columns, carry=laws, group=np.arange(columns.size)), full, rtol, friction, fraction)
     return laws
 
 
-def _law(columns: LevelBatch, p_full, D_full, full, rtol, friction, fraction) -> Laws:
+def _law(columns: LevelBatch, saturated: Saturation, rtol, friction, fraction) -> Laws:
     """The law of ``columns`` up to their penetrations."""
     K, h, top, zero = columns.material.K, columns.level.h, columns.D, np.zeros((columns.size, 1))
     D_sat = 0.5 * columns.family.s_sat * h
     cuts = [zero, zero + h, D_sat[:, None], top[:, None]]
     if columns.carry is not None:
         # where the pressure at the edges of the cells, all one, passes a break of the law below
-        sharp = friction < _BLUNT * full[:, columns.frictions].sum(axis=1)
+        sharp = friction < _BLUNT * saturated.means[:, columns.frictions].sum(axis=1)
         cuts.append(h + np.where(sharp[:, None], columns.carry.breaks, np.inf) / K)
     cuts = np.sort(np.minimum(np.concatenate(cuts, axis=1), top[:, None]), axis=1)
     near = np.diff(cuts, axis=1) <= _SAME * np.minimum(cuts[:, 1:], h)
@@ -191,11 +187,11 @@ def _law(columns: LevelBatch, p_full, D_full, full, rtol, friction, fraction) ->
     ends, series, steepest = _pieces(columns, cuts, rtol, friction, fraction)
     p_top = np.where(np.isfinite(ends[1]), ends[1], 0.0).max(axis=1)
     edge = np.where(cuts[:, 1:] == h, ends[1], np.inf).min(axis=1)
-    p_full = np.where(top >= D_full, p_full, np.inf)
+    p_full = np.where(top >= saturated.D, saturated.p, np.inf)
     breaks = np.stack((edge, K * (D_sat - 0.75 * h), p_full), axis=1)
     breaks = np.sort(np.where(breaks < np.where(np.isinf(p_full), p_top, np.inf)[:, None], breaks, np.inf), axis=1)
     scales = np.concatenate((columns.scales[1:], [LARGEST]))
-    return Laws(ends, series, breaks, p_full, np.column_stack((full[:, 1:], zero)), p_top, steepest, scales)
+    return Laws(ends, series, breaks, p_full, np.column_stack((saturated.means[:, 1:], zero)), p_top, steepest, scales)
 
 
 def _pieces(columns: LevelBatch, cuts: np.ndarray, rtol: float, friction, fraction) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
