@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, overload
@@ -10,13 +9,14 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 
 from .arguments import check_on_level, check_strips, point_index, refuse_faint
-from .errors import ConvergenceWarning, InputError
+from .errors import InputError
 from .inputs.adhesion import Dugdale
 from .inputs.checks import broadcast, choice, number, numbers
 from .inputs.surface import Level
 from .level.averages import level_means
 from .level.inverse import invert
 from .level.strips import QUANTITIES, LevelBatch, WorkCounters
+from .points import warn_unconverged
 
 if TYPE_CHECKING:
     import os
@@ -187,11 +187,8 @@ def solve_level(
     pulled_off = np.isnan(D)
     allowed = rtol * np.abs(values) + columns.atol(np.full(load.size, rtol))
     converged = pulled_off | (errors <= allowed).all(axis=1)
-    if strips is None and not converged.all():
-        lost = np.flatnonzero(~converged)
-        first = f"{name} {load[lost[0]]:g}, V {V[lost[0]]:g}: {work.reason(V[lost[0]])}"
-        missed = f"{lost.size} of {load.size} points did not converge to rtol = {rtol:g}"
-        warnings.warn(f"{missed}; the first: {first} (see error_estimate)", ConvergenceWarning, stacklevel=2)
+    if strips is None:
+        warn_unconverged(converged, rtol, work, **{name: load, "V": V})
     one = lambda v: v.reshape(shape)  # noqa: E731
     return LevelSolution(
         one(D),

@@ -10,6 +10,7 @@ import numpy as np
 from .arguments import check_on_level
 from .errors import InputError
 from .inputs.checks import number
+from .level.breaks import reach
 from .level.saturated import saturated_level
 from .level_law import friction_law
 from .level_solution import solve_level
@@ -90,16 +91,15 @@ def loading_loop(
     -707 Pa, 0.0014 J/m^2
     """
     at_level, *_ = check_on_level(material, adhesion, level, V := number("V", V, "m/s", 0), edge, "loading", rtol)
-    K = float(at_level.K)
-    reach = 2 * float(adhesion.p_0) / K + (float(adhesion.delta_0) if adhesion.p_0 > 0 else 0.0)
+    above = reach(adhesion, at_level.K)
     if D_max is None:
         full = float(saturated_level(material, adhesion, level, np.array([V])).D_sat[0])
-        top = max(min(1.1 * full + 0.1 * level.h, 2 * level.h + 0.3 * reach), 1.5 * level.h) if level.h > 0 else reach or 1e-9
+        top = max(min(1.1 * full + 0.1 * level.h, 2 * level.h + 0.3 * above), 1.5 * level.h) if level.h > 0 else above or 1e-9
     else:
         top = number("D_max", D_max, "m")
-        if top <= -reach:
-            raise InputError("D_max", D_max, f"more than {-reach:g} m, below which nothing touches")
-    low = -reach - 0.05 * (level.h or top)
+        if top <= -above:
+            raise InputError("D_max", D_max, f"more than {-above:g} m, below which nothing touches")
+    low = -above - 0.05 * (level.h or top)
     curves = [
         _curve(material, adhesion, level, V, np.linspace(low, top, _FIRST), edge, b, rtol) for b in ("loading", "unloading")
     ]

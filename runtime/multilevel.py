@@ -99,8 +99,7 @@ class Surface:
         return out
 
     def full(self, V, load, by_pressure: bool) -> np.ndarray:
-        """Whether all levels are saturated at ``load``, (n,). Thresholds grow with V: what is beyond that of the fastest is
-        beyond all."""
+        """Whether all levels are saturated at ``load``, (n,). Thresholds grow with V: beyond that of the fastest all are."""
         of = lambda V: self.saturated(V)[0].p if by_pressure else self.saturated(V)[0].D  # noqa: E731
         if load.size and load.min() >= of(V.max(keepdims=True)):
             return np.ones(load.size, bool)
@@ -226,8 +225,7 @@ class _Solve:
             atol[:, level.frictions] = np.maximum(least, friction[:, None])
             counts = budget if i == 1 else budget.further_down(2 * (self.M - 1))
             laws = build_laws(level, rtol, atol, saturated[i], reached[i - 1], counts)
-            # what the next level up carries: this level's friction, contact and adhesion, all that it carries, and an error,
-            # which never asks for anything
+            # what the next level up carries: all but this level's pressure, and an error, which never asks for anything
             scales = np.concatenate((level.scales[1:], [LARGEST]))
             scales[level.frictions - 1] = np.minimum(scales[level.frictions - 1], 1e3 * surface.friction_floor)
             carry = LowerLevelLaws(merged(laws, rtol, atol), surface.rtol, scales)

@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+from .errors import ConvergenceWarning
+
+if TYPE_CHECKING:
+    from .level.strips import WorkCounters
 
 
 @dataclass
@@ -33,3 +40,13 @@ class Points:
         self.tau = np.concatenate((self.tau, touching * tau))
         self.contact = np.concatenate((self.contact, np.broadcast_to(touching, tau.shape)))
         self.adhesion = np.concatenate((self.adhesion, np.zeros(tau.shape)))
+
+
+def warn_unconverged(converged: np.ndarray, rtol: float, work: WorkCounters, **of: np.ndarray) -> None:
+    """Warn, where the caller was called, of points that are not ``converged``; ``of`` (n,): their load, then their velocity."""
+    lost = np.flatnonzero(~converged)
+    if lost.size:
+        first = ", ".join(f"{name} {values[lost[0]]:g}" for name, values in of.items())
+        reason = work.reason(list(of.values())[-1][lost[0]])
+        missed = f"{lost.size} of {converged.size} points did not converge to rtol = {rtol:g}"
+        warnings.warn(f"{missed}; the first: {first}: {reason} (see error_estimate)", ConvergenceWarning, stacklevel=3)

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from .level.breaks import reach
 from .level.saturated import saturated_level
 from .strip_solution import solve_strip
 
@@ -83,7 +84,7 @@ def _depths(result: Any, i: int, V: float, most: float) -> np.ndarray:
     """Penetrations from no contact to the one that carries ``most`` (Pa), in three even pieces."""
     a, level, K = result.adhesion, result.levels[i], result.material.at_wavelength(result.levels[i].l).K
     full = saturated_level(result.material, a, level, np.array([V]), result.branch).D_sat[0]
-    low = -(2 * a.p_0 / K + (a.delta_0 if a.p_0 > 0 else 0.0))
+    low = -reach(a, K)
     # at high speed saturation is far up, and what carries little lives near first contact
     near = low + min(2 * level.h + a.delta_0 + 2 * a.p_0 / K, full - low)
     ends = (low, near, full, max(full, most / K + 0.75 * level.h))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, overload
@@ -10,7 +9,7 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 
 from .arguments import check_branch, check_levels, check_rtol, check_single, check_strips, refuse_faint
-from .errors import ConvergenceWarning, InputError, SolverError
+from .errors import InputError, SolverError
 from .inputs.adhesion import Dugdale
 from .inputs.checks import broadcast, numbers
 from .inputs.materials import check_edge
@@ -92,6 +91,7 @@ def solve(
     from .flat_levels import solve_points
     from .level.strips import WorkCounters
     from .multilevel import Surface
+    from .points import warn_unconverged
 
     levels = check_levels(levels)
     check_single(material, adhesion)
@@ -117,11 +117,8 @@ def solve(
         first = f"{name} {L[lost[0]]:g}, velocity {V[lost[0]]:g}"
         raise SolverError(f"{lost.size} of {L.size} points have no finite friction; the first: {first}")
     converged = surface.converged(points)
-    if strips is None and not converged.all():
-        lost = np.flatnonzero(~converged)
-        first = f"{name} {L[lost[0]]:g}, velocity {V[lost[0]]:g}: {work.reason(V[lost[0]])}"
-        missed = f"{lost.size} of {L.size} points did not converge to rtol = {rtol:g}"
-        warnings.warn(f"{missed}; the first: {first} (see error_estimate)", ConvergenceWarning, stacklevel=2)
+    if strips is None:
+        warn_unconverged(converged, rtol, work, **{name: L, "velocity": V})
     result = _result(points, surface, shape, V, name, converged)
     return result if temperature is None else replace(result, temperature=float(temperature))
 

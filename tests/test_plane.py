@@ -7,7 +7,7 @@ import hystrip
 from hystrip.level.averages import level_means
 from hystrip.level.changes import Changes
 from hystrip.level.plane import BOUNDARIES, Boundary
-from hystrip.level.regime_map import located, thresholds
+from hystrip.level.regime_map import locate_boundaries, thresholds
 from hystrip.level.strips import LevelBatch
 from hystrip.orbit.regimes import CODE
 
@@ -45,7 +45,7 @@ def test_located_points_are_where_regimes_meet(branch, several):
         changes, *_ = Changes.between(np.arange(3), np.tile(D, (3, 1)), answers)
         line, codes = changes.line, changes.codes
         E = np.stack((changes.low, changes.high), axis=1) - h
-        place, found = located(columns.at(line, changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
+        place, found = locate_boundaries(columns.at(line, changes.low), changes, np.full(E.shape, 0.5 * h), E, "E")
         asked, told = asked + line.size, told + int(found.sum())
         # drawn out, what is engaged all along opens by its threshold, whatever it opens to
         assert branch == "loading" or found[np.isin(codes, [CODE["c"], CODE["a"]]).any(axis=1)].all()

@@ -20,7 +20,7 @@ from ..orbit.batch import Ranges
 from ..orbit.regimes import CODE
 from .breaks import Zones, zones_along_y
 from .changes import Changes, locate_changes
-from .nonadhesive.average import average as family_average
+from .nonadhesive.average import family_means
 from .regime_map import by_equation, hides_another, known_breaks, theta_of
 from .strips import AVERAGE_LIMIT, LevelBatch
 
@@ -56,7 +56,7 @@ def level_means(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray | None =
     atol = columns.atol(rtol) if atol is None else atol
     if columns.family is None:
         return average(columns, rtol, atol)
-    return Averages(*family_average(columns, rtol, atol), np.zeros(columns.size, int))
+    return Averages(*family_means(columns, rtol, atol), np.zeros(columns.size, int))
 
 
 def equal_strips(columns: LevelBatch) -> Averages:
@@ -99,8 +99,7 @@ class Panels(Ranges):
 
     @classmethod
     def between(cls, *ends: tuple[np.ndarray, np.ndarray, np.ndarray]) -> Panels:
-        """Panels from each start to the stop that follows: ``ends`` are states, thetas and strips known beside them, of all
-        starts, then of all stops."""
+        """Panels from each start to the next stop; ``ends``: states, thetas and strips beside them, of starts, then of stops."""
         (state, low, first), (_, high, last) = ([v[np.lexsort((each[1], each[0]))] for v in each] for each in ends)
         return cls(low, high, state, first, last)
 
@@ -127,7 +126,7 @@ class _Work:
     errors: np.ndarray
     strips: np.ndarray
     accepted: list[tuple] = field(default_factory=list)
-    #: states and thetas of strips next to the ends of panels; and of those solved codes, values, heights and edges
+    #: states and thetas of strips next to the ends of panels; and of those solved codes, values, pressures over breaks and edges
     beside: tuple[np.ndarray, np.ndarray] = (np.empty(0, int), np.empty(0))
     ends: list[np.ndarray] | None = None
 
@@ -195,7 +194,7 @@ class _Work:
         return done
 
     def _evaluated(self, state, theta) -> list[np.ndarray]:
-        """Codes, values, heights and edges of strips (m,); with them those next to the ends of panels that are not known yet."""
+        """Codes, values, pressures over breaks and edges of strips (m,); solved with them: those next to panels that are due."""
         m = theta.size
         known = 0 if self.ends is None else self.ends[0].size
         state, theta = (np.concatenate((v, beside[known:])) for v, beside in zip((state, theta), self.beside, strict=True))

@@ -1,13 +1,11 @@
-"""Pieces of a curve over penetration, and the branches of it that load control follows: where pressure rises with penetration,
-and is not hidden by other parts.
+"""Pieces of a curve over penetration, and the branches of it that load control follows: rising, not hidden by other parts.
 
 A piece is a Chebyshev series. Whatever a quantity does next to an end, it is smooth and flat in its parameter there, which says
 what it is at the end: the ends are no nodes. They are breaks, and next to one rounding decides which side of it a strip is on.
 
 Unloading follows the largest penetration at which the level carries the pressure: from saturation downwards a part of the curve
-counts only where its pressure lies below everything above it. Loading follows the smallest: from the first contact upwards
-only where the pressure lies above everything below. What remains is a stack of monotone branches in disjoint intervals of
-pressure.
+counts only where its pressure lies below everything above it. Loading follows the smallest: from the first contact upwards only
+where the pressure lies above everything below. What remains is a stack of rising branches in disjoint intervals of pressure.
 """
 
 from __future__ import annotations
@@ -53,8 +51,7 @@ def share_of(t, inner_low: bool, inner_high: bool):
 class Errors:
     """Bounds of the errors of quantities, ``bounds`` (k, q), at places ``at`` (k,), ascending; interpolated between.
 
-    Means next to a break are often known a thousand times less well than all others: one bound for a whole piece would be
-    theirs.
+    Means next to a break are often known a thousand times less well than all others: one bound would not do.
     """
 
     at: np.ndarray

@@ -1,8 +1,7 @@
 """Penetrations at which a level's means over penetration are not smooth.
 
-The crest strip (y = 0) has everywhere the highest profile: the means lose smoothness at the penetrations where it changes regime,
-and where the flat edge does. Unloading with adhesion it need not be the last to let go: what is pressed in less is drawn out of
-reach later.
+The crest strip (y = 0) has everywhere the highest profile: the means lose smoothness where it changes regime, and where the flat
+edge does. Unloading with adhesion it need not be the last to let go: what is pressed in less is drawn out of reach later.
 
 As the penetration changes, strips somewhere between crest and edge may enter a regime that no strip was in before: an island in
 y that grows with the distance in D or its square root, and the level's means with it. Such a penetration ends a piece, too. With
@@ -14,6 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from ..inputs.adhesion import Dugdale
 from ..numerics.rounding import EPS
 from ..orbit.batch import Batch
 from .changes import Changes, locate_changes
@@ -31,22 +31,25 @@ _ASIDE = 1e-6
 _LEFT, _LIGHT = 0.3, 0.1
 
 
+def reach(adhesion: Dugdale, K: float) -> float:
+    """Distance, m, from the undeformed foundation beyond which every strip is free on either branch."""
+    # w is never above -p_0/K where it adheres, and after a step it recovers by J_0 p_0 <= p_0/K at most
+    return float(2 * adhesion.p_0 / K + (adhesion.delta_0 if adhesion.p_0 > 0 else 0.0))
+
+
 def first_contact(columns: LevelBatch) -> float:
     """A penetration at and below which every strip of the level is free."""
     a = columns.adhesion
-    reach = a.delta_0 if a.p_0 > 0 else 0.0
     if columns.branch == "loading":
-        return -reach
-    # w is never above -p_0/K where it adheres, and after a step it recovers by J_0 p_0 <= p_0/K at most
-    return -(2 * a.p_0 / columns.material.K + reach) * (1 + 1e-9)
+        return -(a.delta_0 if a.p_0 > 0 else 0.0)
+    return -reach(a, columns.material.K) * (1 + 1e-9)
 
 
 def between_breaks(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tuple[np.ndarray, ...]:
     """Intervals between the penetrations at which a curve may not be smooth, from the first to the last of the penetrations ``D``
     (m, points) of each ``column`` (m,), by the changes these show.
 
-    Returns their rows, lower and upper ends, ascending, (k,); and the lowest penetration at which the crest of each row changes
-    regime (inf: none), (m,)."""
+    Returns rows, lower and upper ends, ascending, (k,); and the least D at which the crest of each row changes regime, or inf."""
     h, m = columns.level.h, column.size
 
     def probe(line, x):
@@ -75,12 +78,11 @@ def between_breaks(columns: LevelBatch, column: np.ndarray, D: np.ndarray) -> tu
 
 
 def scan(columns: LevelBatch, top: np.ndarray) -> np.ndarray:
-    """Penetrations at which to look, (n, m): dense where regimes follow one another, geometric above, for saturation may be far
-    up."""
+    """Penetrations at which to look, (n, m): dense where regimes follow one another, geometric above, up to saturation."""
     a = columns.adhesion
     bottom = first_contact(columns)
-    reach = 2 * columns.level.h + a.delta_0 + 2 * a.p_0 / columns.material.K
-    near = bottom + np.minimum(reach, top - bottom)[:, None] * np.linspace(0, 1, _SCAN)
+    span = 2 * columns.level.h + a.delta_0 + 2 * a.p_0 / columns.material.K
+    near = bottom + np.minimum(span, top - bottom)[:, None] * np.linspace(0, 1, _SCAN)
     ratio = np.maximum((top - bottom) / np.maximum(near[:, -1] - bottom, 1e-300), 1.0)
     far = bottom + (near[:, -1] - bottom)[:, None] * ratio[:, None] ** np.linspace(0, 1, _SCAN // 4 + 1)
     return np.concatenate((near, far[:, 1:]), axis=1)

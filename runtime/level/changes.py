@@ -1,7 +1,6 @@
 """Where a code changes along a line: the slow way, for what no equation tells.
 
-Between two points whose codes differ lies a change. Its bracket is divided in three, again and again: a call for two strips costs
-no more than one for one.
+Between two points whose codes differ lies a change. Its bracket is divided in three: a call for two strips costs as one for one.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ _ROUNDS = 100
 #: how far beside a place that an equation tells it is checked, as a share of the bracket
 _ASIDE = 1e-6
 
-#: (line, x) -> codes (m,), values (m, q), heights (m, k) and edges (m, 4)
+#: (line, x) -> codes (m,), values (m, q), pressures over breaks (m, k) and edges (m, 4)
 Probe = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
 #: (changes) -> which of them equations locate completely, their places (several for some), and whether another change may lie
 #: next to each, which has one place then; all (k,)
@@ -29,23 +28,23 @@ Equation = Callable[["Changes"], tuple[np.ndarray, np.ndarray, np.ndarray]]
 @dataclass
 class Changes(Ranges):
     """Brackets of single changes, arrays (m,): the ``line`` each lies on, ``low`` and ``high``; and what is known at the ends:
-    ``codes`` (m, 2), ``values`` (m, 2, q), ``heights`` (m, 2, k), ``edges`` (m, 2, 4)."""
+    ``codes`` (m, 2), ``values`` (m, 2, q), ``over_breaks`` (m, 2, k), ``edges`` (m, 2, 4)."""
 
     line: np.ndarray
     codes: np.ndarray
     values: np.ndarray
-    heights: np.ndarray
+    over_breaks: np.ndarray
     edges: np.ndarray
 
     @property
     def passed(self) -> np.ndarray:
-        """Which heights change sign, (m, k)."""
-        return (self.heights[:, 0] > 0) != (self.heights[:, 1] > 0)
+        """Which pressures over breaks change sign, (m, k)."""
+        return (self.over_breaks[:, 0] > 0) != (self.over_breaks[:, 1] > 0)
 
     @classmethod
     def between(cls, line: np.ndarray, x: np.ndarray, known) -> tuple[Changes, np.ndarray, np.ndarray]:
         """Brackets between neighbouring points ``x`` (lines, points) whose codes differ, with their rows and first points.
-        ``known``: codes, values, heights and edges at the points, (lines, points, ...)."""
+        ``known``: codes, values, pressures over breaks and edges at the points, (lines, points, ...)."""
         row, first = np.nonzero(known[0][:, 1:] != known[0][:, :-1])
         both = row[:, None], np.stack((first, first + 1), axis=1)
         return cls(*x[both].T, line[row], *(v[both] for v in known)), row, first
@@ -55,8 +54,7 @@ def locate_changes(probe: Probe, equation: Equation, changes: Changes, width: np
     """Narrow every bracket to ``width`` (m,) or to neighbouring numbers; where a third code shows up inside, there are two.
 
     Where an ``equation`` tells the place, both ends are there, with the codes and values that were known; where that is doubtful,
-    with those found next to it, and what else changes in the bracket is located too. Returns the changes, and how many points it
-    took where no equation told.
+    with those next to it, and other changes of the bracket are located too. Returns also how many points were tried without it.
     """
     found, divided = [], 0
     for _ in range(_ROUNDS):
@@ -80,7 +78,7 @@ def locate_changes(probe: Probe, equation: Equation, changes: Changes, width: np
         beside = np.clip(where[:, None] + _ASIDE * (high - low) * [-1, 1], low, high)
         x = np.where(told[:, None], beside, low + (high - low) * [1 / 3, 2 / 3])
         answers = [v.reshape(*x.shape, *v.shape[1:]) for v in probe(np.repeat(changes.line, 2), x.ravel())]
-        ends = changes.codes, changes.values, changes.heights, changes.edges
+        ends = changes.codes, changes.values, changes.over_breaks, changes.edges
         known = [np.concatenate((end[:, :1], new, end[:, 1:]), axis=1) for end, new in zip(ends, answers, strict=True)]
         changes, row, part = Changes.between(changes.line, np.concatenate((low, x, high), axis=1), known)
         exact = told[row] & (part == 1)

@@ -19,8 +19,7 @@ from .interpolation import Intervals, interpolate, means_in, weighed
 from .regime_map import OPENS, straight
 from .strips import LevelBatch
 
-#: accuracy of the look for re-entrant branches, and its nodes at first; intervals narrower than this share of ``h`` are looked at
-#: in two places before
+#: accuracy of the look for re-entrant branches, its first nodes; share of ``h`` below which intervals are tried before, and where
 _ROUGH, _NODES, _NARROW, _APART = 5e-3, 6, 0.1, (0.1, 0.9)
 #: how close to where gaps that adhere throughout open the crest lets go with short memory, in heights
 _SHORT = 1e-3
@@ -63,8 +62,7 @@ def trace(
 
 
 def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, top: np.ndarray) -> tuple[Intervals, np.ndarray]:
-    """The intervals between the breaks of the curve of every column, ascending; and where its crest lets go (inf: never seen),
-    (n,).
+    """The intervals between the breaks of the curve of every column, ascending; where its crest lets go, inf if never, (n,).
 
     Pressure, ``K mean(w)``, rises by ``K`` times the penetration at most: w rises as the profile does, less where more touches.
     So where two breaks all but coincide, as where memory is short and all strips let go at one height of the valley, the curve
@@ -84,9 +82,8 @@ def smooth_intervals(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, to
 
 
 def _without_hidden(columns: LevelBatch, intervals: Intervals, strips: np.ndarray) -> Intervals:
-    """The intervals ending where gaps that adhere throughout open, if they end little above: where memory is short all strips let
-    go there at once and the pressure falls. If loading comes to more there, but for what it may err, than it has met before, an
-    interval of its own."""
+    """The intervals ending where gaps that adhere throughout open, if they end little above: with short memory all strips let go
+    there at once and the pressure falls. Above that an interval of its own, unless loading surely met more pressure before."""
     K, h = columns.material.K, columns.level.h
     opens = h - columns.stretch - columns.adhesion.delta_0
     # nearer to a threshold rounding decides strip by strip
@@ -132,8 +129,7 @@ def _rough_means(columns: LevelBatch, intervals: Intervals, D: np.ndarray, strip
 
 
 def _parts(stages: list[Stage], bends: float) -> list[tuple[int, int, dict, np.ndarray]]:
-    """Parts of intervals that unloading may come to: the stage and the number of the interval in it, what of it is other, and the
-    means there, (nodes, q)."""
+    """Parts of intervals that unloading may come to: stage, number of the interval in it, new ends, means there (nodes, q)."""
     met: dict[int, float] = {}
     out, looks = [], []
     for s, stage in enumerate(stages):

@@ -3,11 +3,9 @@
 - A quantity is asked for to ``rtol |value| + atol``; ``atol`` is that of a thousandth of its natural scale (``LevelBatch.atol``);
   of fractions it is ``rtol`` itself where only pressure and friction count. No friction has a larger scale than that of level 1,
   which all add to; those of laws that of a share of the friction in its contact (``friction_of_laws``), if that is more.
-- Level 1 gets the ``rtol`` of the result, halved in ``multilevel``, as its laws err too. Laws of lower levels get a multiple of
-  ``rtol``, and less where points miss that.
-- A piece of a law may err by as much more as fewer points meet its pressures (``interpolation.weighed``), further down than
-  level 2 the less contact there is; ``law.merged`` may take a part of what a law may err, ``lower_levels`` integrates to a part
-  of what the mean over strips may.
+- Level 1 gets half the ``rtol`` of the result, as its laws err too; those of lower levels a multiple, less if points miss that.
+- A piece of a law may err by as much more as fewer points meet its pressures (``interpolation.weighed``), further down than level
+  2 the less contact there is; ``law.merged`` takes a part of what a law may err, ``lower_levels`` of what strip means may.
 - Of what an interval of a curve may err its means get a part, ``interpolation.MEAN``.
 
 Goal-oriented: a law's error counts as much as the part of the surface on which it is used. That part, and the greatest pressure
@@ -49,8 +47,7 @@ def peak_pressure(columns: LevelBatch, strips: SolvedStrips) -> np.ndarray:
     """Greatest local pressure of each of the ``columns``, Pa, (n,), -inf without contact, from their ``strips_across``.
 
     Mostly it is the crest's. But adhesion may hold flatter strips that steeper ones have let go of: before these do, the pressure
-    is at most that of complete contact, ``K (E + A (1 + R))`` with ``E = D - h``: contact begins with ``p <= H``, the saturated
-    field, and tends to it.
+    is at most that of complete contact, ``K (E + A (1 + R))``, ``E = D - h``: it begins below that field and tends to it.
     """
     peak = np.full(strips.p_mean.size, -np.inf)
     index, contact = strips.touching
@@ -103,8 +100,7 @@ class ErrorBudget:
 
 
 def error_budget(columns: LevelBatch, group: np.ndarray, strips: SolvedStrips) -> ErrorBudget:
-    """Share of the surface of ``columns`` (n,) on which each pressure is met, from their ``strips_across``; ``group`` (n,): the
-    law that each uses."""
+    """Share of the surface of ``columns`` (n,) that has each pressure, from their ``strips_across``; ``group``: of their laws."""
     n = columns.size
     index, contact = strips.touching
     t, weights = mapped(interior_nodes(_POINTS)), mapped_weights(_POINTS)

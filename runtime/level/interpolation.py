@@ -1,5 +1,4 @@
-"""Interpolation of a level's means over intervals of penetration, on nested nodes; what does not converge is halved, or split
-where strips enter a new regime."""
+"""A level's means interpolated over penetration, on nested nodes; what does not converge is halved, or split at new regimes."""
 
 from __future__ import annotations
 
@@ -22,8 +21,7 @@ from .strips import CURVE_LIMIT, NO_CURVE, LevelBatch
 MEAN = 0.4
 #: pressures in an interval are known at least this well, of their range, unless all in it may err by more
 _COARSEST = 1e-3
-#: nodes of an interval, and one more: those that tell what pressures it comes to, the first, and the last, for what they do not
-#: tell is divided
+#: nodes of an interval, and one more: those that tell what pressures it comes to, the first, and the last before it is divided
 _LOOK, _FIRST, _LAST = 6, 12, 96
 #: coefficients below this share of what the means may err say nothing of how smooth they are
 _BLUR = 0.1
@@ -62,8 +60,7 @@ class Intervals(Ranges):
 
     @property
     def halves(self) -> Intervals:
-        """Halves by parameter, so that the one next to an end that is like a root is the smaller by far; the curve goes on
-        smoothly between them."""
+        """Halves by parameter: next to an end that is like a root far less than half; the curve goes on smoothly between them."""
         return Intervals.joined(self.split(self.at(np.array([0.5]))[:, 0], soft=True))
 
     def at(self, t: np.ndarray) -> np.ndarray:
@@ -137,8 +134,7 @@ class _Work:
         return [stage for stage in (*going, *fresh) if stage.parts.size]
 
     def _counting(self, intervals: Intervals) -> Intervals:
-        """Without those of which nothing but pressure is asked, over which it falls, or rises by no more than it may err: by K
-        times the penetration at most."""
+        """Without those asked for nothing but pressure that fall, or rise (by K times D at most) by no more than it may err."""
         rises = self.columns.material.K * intervals.width > intervals.atol[:, 0]
         return intervals.take(rises | (intervals.atol[:, 1:] < LARGEST).any(axis=1))
 
@@ -193,8 +189,7 @@ class _Work:
 
 
 def _rounding(columns: LevelBatch, stage: Stage, c: np.ndarray) -> np.ndarray:
-    """What the rounding of D makes of the coefficients ``c``, (intervals, q): next to a break where the means are like square
-    roots it tells."""
+    """What rounding of D makes of the coefficients ``c``, (intervals, q): it tells next to a break with a root."""
     n = stage.n
     ends = np.stack(((-1.0) ** np.arange(n + 1) @ c, c.sum(axis=1)), axis=1)
     values, D = np.concatenate((ends[:, :1], stage.known[0], ends[:, 1:]), axis=1), stage.parts.at(lobatto(n))

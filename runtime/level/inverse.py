@@ -1,5 +1,4 @@
-"""From nominal pressure to penetration along a branch of loading: where the curve over penetration first passes the pressure,
-refined by averages there.
+"""From pressure to penetration along a branch: where the curve first passes the pressure, refined by averages there.
 
 The curve is interpolated part by part, from the end the branch of loading comes from, until the pressure lies on a branch of it
 (``branches``). Where the interpolation's error leaves open which, the part is interpolated again, finer.
@@ -47,9 +46,8 @@ class Root(NamedTuple):
 @dataclass(frozen=True)
 class Penetrations(Batch):
     """Penetrations that carry given pressures: ``D`` (n,), NaN below pull-off; ``strips.QUANTITIES`` as last averaged ``near``
-    them (NaN: nowhere), their ``near_errors`` and ``slope`` over pressure, (n, 4); which are ``undecided`` (n,): the work ended
-    before it was known which part of the curve it is; and which lie ``in_jump`` (n,), where D stands for one side of a curve that
-    jumps over the pressure."""
+    them (NaN: nowhere), their ``near_errors`` and ``slope`` over pressure, (n, 4); which are ``undecided`` (n,): it is not known
+    which part of the curve it is; and which lie ``in_jump`` (n,): D is one side of a curve that jumps over the pressure."""
 
     D: np.ndarray
     near: np.ndarray
@@ -221,8 +219,7 @@ class _Walk:
 
 
 def _place(row: list[Branch], p: float, doubts: float) -> int:
-    """Where a pressure, greater by so many errors, is among branches: 2 k on number k, one more between that and the next one, -1
-    below all."""
+    """Where a pressure, greater by so many errors, is: below all branches (-1), on number k (2 k), between that and the next."""
     k = sum(part.p_low <= p + doubts * part.errors.most[0] for part in row) - 1
     return 2 * k + (k < 0 or p + doubts * row[k].errors.most[0] > row[k].p_high)
 

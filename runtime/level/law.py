@@ -5,8 +5,7 @@ A law is a stack of smooth segments in disjoint intervals of pressure, at first 
 what it is at the beginning of the next one.
 
 Every break of a law leaves kinks behind in the laws of all levels above, three for one and ever weaker ones; each costs panels
-over x, over y and over penetration. What is no larger than a law may err is no break: neighbouring segments are ``merged`` where
-a smooth function is as good as both.
+over x, y and penetration. So neighbouring segments are ``merged`` where a smooth function is as good as both.
 """
 
 from collections.abc import Sequence
@@ -84,8 +83,7 @@ class Laws:
 
     @cached_property
     def at_breaks(self) -> tuple[np.ndarray, np.ndarray]:
-        """Change of friction, its own and what it carries, at each break, and how well the pressure of the break is known, Pa;
-        (n, B) both."""
+        """Change of all friction, own and carried, at each break, and how well the pressure of the break is known, Pa, (n, B)."""
         # what has no segments is saturated from pull-off on
         everywhere = np.abs(self.saturated[:, 1 + self.frictions]).sum(axis=1, keepdims=True)
         jumps, known_to = np.where(np.isfinite(self.breaks), everywhere, 0.0), np.zeros(self.breaks.shape)
@@ -152,8 +150,7 @@ class Laws:
         return np.concatenate((p[None], self.smooth(group, interval, p[None])[0][:, 0])).T
 
     def __call__(self, group: np.ndarray, p: np.ndarray) -> np.ndarray:
-        """Quantities of the laws ``group`` at the nominal pressures ``p``, both (m,), shape (m, q): zero below pull-off, and
-        saturated above ``p_sat``."""
+        """Quantities (m, q) of the laws ``group`` at pressures ``p``, (m,) both: 0 below pull-off, saturated above ``p_sat``."""
         out = np.where(p[:, None] < self.p_sat[group, None], 0.0, self.saturated[group])
         out[:, 0] = p
         inside = np.flatnonzero((p >= self.pull_off[group]) & (p < self.p_sat[group]))
@@ -171,8 +168,7 @@ def _padded(rows: Sequence[np.ndarray]) -> np.ndarray:
 
 
 def _joined(kept: list[Segment], p_sat: float) -> list[Segment]:
-    """The segments up to saturation, those stretched that end next to where another begins, or there, but for their errors: there
-    is one break of the law, not two."""
+    """The segments up to saturation; those that end where another begins, but for their errors, end there: that is one break."""
     kept = [s for s in kept if s.p_low < p_sat]
     ends = [*(s.p_low for s in kept[1:]), p_sat]
     return [
@@ -183,8 +179,7 @@ def _joined(kept: list[Segment], p_sat: float) -> list[Segment]:
 def build_laws(
     columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray, saturated: Saturation, p_max: np.ndarray, budget: ErrorBudget | None
 ) -> Laws:
-    """The friction law of every column (its ``D`` is not used) along its branch of loading, as far up as it will be asked for, to
-    ``rtol |value| + atol``.
+    """The law of every column (its ``D`` is not used) along its branch, as far up as it is asked for, to ``rtol |value| + atol``.
 
     ``p_max`` (n,): greatest pressure that will be asked for, inf for the whole law. ``budget``: how much its pressures count.
     """

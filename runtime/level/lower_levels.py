@@ -40,8 +40,7 @@ class Parts(Ranges):
 
 @dataclass(frozen=True)
 class LowerLevelLaws:
-    """Contributions of the next level down. ``laws`` holds one for each group; the last column is an error estimate of
-    friction.
+    """Contributions of the next level down, the last an error estimate of friction; ``laws`` holds a law for each group.
 
     ``scales`` (q,): natural scales of the contributions. ``rtol``: accuracy of the averages that they go into.
     """
@@ -50,7 +49,7 @@ class LowerLevelLaws:
     rtol: float
     scales: np.ndarray
 
-    def heights(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
+    def over_breaks(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Greatest, then least pressure of each strip over the law's breaks, (m, k), Pa; NaN without contact."""
         out = np.full((group.size, 2 * self.laws.breaks.shape[1]), np.nan)
         index, contact = strips.touching
@@ -62,11 +61,11 @@ class LowerLevelLaws:
         return out
 
     @staticmethod
-    def crossed(heights: np.ndarray) -> np.ndarray:
-        """Codes (m,) of the law breaks that each strip's pressure passes, from its ``heights``: how many breaks its greatest
+    def crossed(over_breaks: np.ndarray) -> np.ndarray:
+        """Codes (m,) of the law breaks that each strip's pressure passes, from its ``over_breaks``: how many breaks its greatest
         exceeds, and how many it exceeds all along (or at entry)."""
-        top, least = (np.count_nonzero(half > 0, axis=1) for half in np.split(heights, 2, axis=1))
-        return np.where(np.isnan(heights[:, 0]), 0, 1 + top + (heights.shape[1] // 2 + 1) * least)
+        top, least = (np.count_nonzero(half > 0, axis=1) for half in np.split(over_breaks, 2, axis=1))
+        return np.where(np.isnan(over_breaks[:, 0]), 0, 1 + top + (over_breaks.shape[1] // 2 + 1) * least)
 
     def over_contact(self, strips: SolvedStrips, group: np.ndarray) -> np.ndarray:
         """Contributions averaged over the period, (m, q): the law's quantities from friction on, then their error."""

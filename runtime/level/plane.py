@@ -1,14 +1,12 @@
 """The curves that divide the plane of strips into regimes, as equations.
 
-At one velocity, with one material, adhesion and closure, a strip is a point of a plane: its amplitude ``A`` and
-``E = D - h``, the penetration of the valley of its level; its own penetration is ``D_j = E + 2 A``. Where an orbit of one
-regime ceases to exist its edges obey one equation more than the boundary equations of its regime (physics: a fold, where
-the return map has the slope one, or a grazing event). That is one point on every line across the plane: with A given E is
-unknown, with E given A is.
+At one velocity, with one material, adhesion and closure, a strip is a point of a plane: its amplitude ``A`` and ``E = D - h``,
+the penetration of the valley of its level; its own is ``D_j = E + 2 A``. Where an orbit of one regime ceases to exist its edges
+obey one equation more than its boundary equations (physics: a fold, where the return map has the slope one, or a grazing event).
+That is one point on every line across the plane: with A given E is unknown, with E given A is.
 
-Where a curve turns back over E two crossings of a level meet, and the island between them ends. Just beyond no strip of the level
-is on the curve, but one is next to it: where orbits end on the curve the strips' means bend there like ``sqrt(s^2 + distance)``,
-as sharp as any kink.
+Where a curve turns back over E two crossings of a level meet, and the island between them ends. Just beyond, one strip is next to
+the curve: where orbits end on it the strips' means bend like ``sqrt(s^2 + distance)``, as sharp as any kink.
 """
 
 from __future__ import annotations
@@ -32,8 +30,7 @@ if TYPE_CHECKING:
 
 #: Newton's iterations, and how much less the step of each may be than before: nearly all that is found falls faster
 _ITERATIONS, _FALLS = 16, 0.46
-#: how closely a turn is placed on its curve, of A: its E is known to the square; and how far apart the points are that tell the
-#: slope of the curve
+#: how closely a turn is placed, of A: its E is known to the square; and how far apart two points are that tell a slope
 _PLACED, _APART = 1e-7, 1e-5
 
 
@@ -81,8 +78,8 @@ def grazing(columns: LevelBatch, boundary: Boundary, at: CurvePoints) -> CurvePo
     if boundary.event == "fold":
         return at
     edges, number = at.edges.T, boundary.zone
-    groups = columns.groups(at.velocity, at.A, at.E + 2 * at.A)
-    event = foundation_of(columns.material).event(boundary.sequence, number, edges, groups)
+    strips = columns.dimensionless(at.velocity, at.A, at.E + 2 * at.A)
+    event = foundation_of(columns.material).event(boundary.sequence, number, edges, strips)
     end = edges[number + 1] if number + 1 < len(edges) else edges[0] + TWO_PI
     phase = turn(*event, -1 if boundary.event == "closing" else 1, edges[number], end)
     return replace(at, edges=np.insert(at.edges, number + 1, phase, axis=1))
@@ -157,17 +154,17 @@ def _step(columns: LevelBatch, boundary: Boundary, at: CurvePoints, unknown: str
         moved[unknowns, k + 2 + i] -= length[i]
     moved, every = moved.reshape(k + 1, -1), at.take(np.tile(np.arange(n), 2 * k + 3))
     edges, A, E = moved[:k], *((moved[k], every.E) if unknown == "A" else (every.A, moved[k]))
-    groups = columns.groups(every.velocity, A, E + 2 * A)
+    strips = columns.dimensionless(every.velocity, A, E + 2 * A)
     # and what vanishes at the event
     if boundary.event == "fold":
-        events = (foundation.fold(boundary.sequence, edges, groups),)
+        events = (foundation.fold(boundary.sequence, edges, strips),)
     else:
         edges, phase = np.delete(edges, boundary.zone + 1, axis=0), edges[boundary.zone + 1]
-        function, constants = foundation.event(boundary.sequence, boundary.zone, edges, groups)
+        function, constants = foundation.event(boundary.sequence, boundary.zone, edges, strips)
         value, slope = function(phase, *constants)
-        peak = groups.p_0 + every.pressure / columns.material.K / A
-        events = value - {"peak": peak, "release": groups.delta_0, "closing": 0.0}[boundary.event], slope
-    values = getattr(foundation.kernel, f"residual_{EQUATIONS[boundary.sequence]}")(*edges, *groups.arguments)
+        peak = strips.p_0 + every.pressure / columns.material.K / A
+        events = value - {"peak": peak, "release": strips.delta_0, "closing": 0.0}[boundary.event], slope
+    values = getattr(foundation.kernel, f"residual_{EQUATIONS[boundary.sequence]}")(*edges, *strips.arguments)
     values = np.array((*values, *events)).reshape(k + 1, 2 * k + 3, n)
     matrix = ((values[:, 1 : k + 2] - values[:, k + 2 :]) / (2 * length)).transpose(2, 0, 1)
     return solved(matrix, -values[:, 0].T[:, :, None])[:, :, 0].T
@@ -195,8 +192,7 @@ def turning(points: CurvePoints) -> np.ndarray:
 
 
 def locate_turns(columns: LevelBatch, boundary: Boundary, known: CurvePoints, had: Turns) -> Turns:
-    """Turns of the curves through the points ``known``, where their slope vanishes, beside those that are ``had``; those that are
-    found."""
+    """Turns of the curves through the points ``known``, where their slope vanishes, that are found beside those ``had``."""
     middle = turning(known)
     low, high = known.A[middle - 1, None], known.A[middle + 1, None]
     new = ~((known.velocity[middle, None] == had.velocity) & (low < had.A) & (had.A < high)).any(axis=1)

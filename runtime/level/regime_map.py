@@ -39,8 +39,7 @@ _GRID = 256
 def straight(columns: LevelBatch) -> tuple[np.ndarray, np.ndarray]:
     """Straight curves ``E + f A = c`` of the plane, f and c (lines, n), m: what a closed form tells of every state. Where
     saturated contact opens; strips are touched; a gap that adheres throughout opens over its valley; and where it closes at its
-    crest (NaN: not on this branch); and the greatest, then the least pressure of saturated contact, ``K (E + A (1 +- R))``, at
-    the breaks of the law below."""
+    crest (NaN: not on this branch); where pressures of saturated contact, ``K (E + A (1 +- R))``, are breaks of the law below."""
     P, reach, none = columns.stretch, columns.adhesion.delta_0 if columns.stretch > 0 else 0.0, np.nan
     unloading = columns.branch == "unloading"
     R = foundation_of(columns.material).modulus_ratio(columns.level.k * columns.V) * np.ones(columns.size)
@@ -94,7 +93,7 @@ def _equations(columns: LevelBatch, changes: Changes, side: int) -> list[tuple[B
     for boundary in BOUNDARIES:
         rows = code == CODE[boundary.sequence]
         if boundary.event == "peak":
-            greatest = changes.passed[:, : changes.heights.shape[2] // 2]
+            greatest = changes.passed[:, : changes.over_breaks.shape[2] // 2]
             rows &= (code == other) & greatest.any(axis=1)
         elif boundary.event == "release":
             rows &= unloading
@@ -107,7 +106,9 @@ def _equations(columns: LevelBatch, changes: Changes, side: int) -> list[tuple[B
     return found
 
 
-def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str) -> tuple[np.ndarray, np.ndarray]:
+def locate_boundaries(
+    columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray, unknown: str
+) -> tuple[np.ndarray, np.ndarray]:
     """Where regimes that meet between two strips of the plane do, by the equation of an orbit that ends there; or where its
     greatest pressure passes a break of the law below.
 
@@ -134,7 +135,7 @@ def located(columns: LevelBatch, changes: Changes, A: np.ndarray, E: np.ndarray,
             near = [v[:, side] for v in ends]
             if peak and not side:
                 # between two orbits of one regime, as far along as their greatest pressures tell
-                height = changes.heights[rows, :, index[rows]].T
+                height = changes.over_breaks[rows, :, index[rows]].T
                 near = [((height[0] * v[:, 1].T - height[1] * v[:, 0].T) / (height[0] - height[1])).T for v in ends]
             start = CurvePoints(columns.V[rows], *near, pressure[rows] * peak, index[rows] * peak)
             got, good = locate(columns, boundary, grazing(columns, boundary, start), unknown)
@@ -186,9 +187,9 @@ def by_equation(
     one = np.setdiff1d(np.arange(changes.size), parent)
     parts = changes.take(parent)
     # of the other breaks nothing is known, so that they are not passed
-    parts.heights = np.where((np.arange(passed.shape[1]) != which[:, None])[:, None], np.nan, parts.heights)
+    parts.over_breaks = np.where((np.arange(passed.shape[1]) != which[:, None])[:, None], np.nan, parts.over_breaks)
     each, parent = Changes.joined([changes.take(one), parts]), np.concatenate((one, parent))
-    place, found = located(columns.at(parent, columns.D[parent]), each, A[parent], E[parent], unknown)
+    place, found = locate_boundaries(columns.at(parent, columns.D[parent]), each, A[parent], E[parent], unknown)
     every = np.bincount(parent[~found], minlength=changes.size)[parent] == 0
     return parent[every], place[every]
 
@@ -213,9 +214,8 @@ class Crossings:
         self.points[boundary] = points.take(np.flatnonzero(fresh))
 
     def expected(self, columns: LevelBatch) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """Columns and thetas at which ``columns`` cross what is known of each curve, by Newton from between the two points
-        nearest on it, or from the parabola through three where it turns, or pass by a turn at which orbits end; and whether
-        orbits end there; (k,)."""
+        """Columns and thetas (k,) at which ``columns`` cross what is known of each curve, by Newton from between the two points
+        nearest on it, or from the parabola through three where it turns, or pass by a turn; and whether orbits end there."""
         E = columns.D - columns.level.h
         for boundary, known in self.points.items():
             starts = _between(known, columns.V, E), _crossings_beyond_turns(known, columns.V, E)
@@ -261,8 +261,7 @@ def _between(known: CurvePoints, velocity, E) -> tuple[np.ndarray, np.ndarray, n
 
 
 def _crossings_beyond_turns(known: CurvePoints, velocity, E) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """``_between`` for states beyond the last point of a curve before it turns back in E: each crosses the parabola through the
-    three points there, twice."""
+    """``_between`` for states beyond the last point before a curve turns back in E: each crosses the parabola there twice."""
     middle = turning(known)
     # E = E_middle + slope (A - A_middle) + bend (A - A_middle)^2
     before, after = (known.A[middle + k] - known.A[middle] for k in (-1, 1))

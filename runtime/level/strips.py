@@ -1,5 +1,4 @@
-"""The strips of a level as the integrand of its averages; what they cost, and the limits that keep the work on every point
-bounded."""
+"""The strips of a level as the integrand of its averages; what they cost, and the limits of the work on every point."""
 
 from __future__ import annotations
 
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
     from ..orbit.contact import Contact
     from .lower_levels import LowerLevelLaws
     from .nonadhesive.family import Family
-    from .nonadhesive.law import Laws
+    from .nonadhesive.law import FamilyLaws
 
 #: What is averaged over the strips of a level, in this order; what lower levels carry in its contact follows.
 QUANTITIES = ("p_mean", "tau_mean", "contact_fraction", "adhesion_fraction")
@@ -48,12 +47,6 @@ class WorkCounters:
     decided: int = 0
     bisected: int = 0
     limits: dict[tuple[float, float], str] = field(default_factory=dict)
-
-    def count(self, solved: Solved) -> None:
-        """Add the strips of a batch."""
-        searched = int(np.count_nonzero(solved.searched))
-        self.solved += searched
-        self.decided += solved.code.size - searched
 
     def limit_reached(self, V: np.ndarray, wavelength: float, what: str) -> None:
         """Record that the work at the velocities ``V`` (n,) on the level of this ``wavelength`` ended before it converged."""
@@ -83,7 +76,7 @@ class LevelBatch:
     branch: str
     V: np.ndarray
     D: np.ndarray
-    carry: LowerLevelLaws | Laws | None = None
+    carry: LowerLevelLaws | FamilyLaws | None = None
     group: np.ndarray | None = None
     strips: int | None = None
     work: WorkCounters = field(default_factory=WorkCounters, compare=False)
@@ -130,7 +123,8 @@ class LevelBatch:
         D = self.D[column] - self.level.drop(theta)
         foundation, a = foundation_of(self.material), self.adhesion
         solved, strips, scales = foundation.solve(self.level.l, A, D, self.V[column], a.p_0, a.delta_0, self.edge, self.branch)
-        self.work.count(solved)
+        searched = int(np.count_nonzero(solved.searched))
+        self.work.solved, self.work.decided = self.work.solved + searched, self.work.decided + solved.size - searched
         tau = solved.tau_mean * scales["p"] * scales["k"] * scales["A"]
         return SolvedStrips(solved, strips, scales, solved.p_mean * scales["p"], tau, foundation)
 
@@ -139,7 +133,7 @@ class LevelBatch:
         """``p_0/K``: how far the adhesive traction draws the foundation out, m."""
         return self.adhesion.p_0 / self.material.K
 
-    def groups(self, V: np.ndarray, A: np.ndarray, D: np.ndarray) -> Any:
+    def dimensionless(self, V: np.ndarray, A: np.ndarray, D: np.ndarray) -> Any:
         """Dimensionless strips at the velocities ``V``, (m,) each."""
         p_0, delta_0 = self.stretch / A, self.adhesion.delta_0 / A
         return foundation_of(self.material).strips(self.level.k * V, D / A, p_0, delta_0, self.edge)
@@ -148,23 +142,22 @@ class LevelBatch:
         """Of the strips at ``theta``: codes (m,), values to average (m, q), greatest and least pressures over the breaks of the
         law below (m, k), NaN without contact, and the edges d, b, a, c (m, 4), NaN where there are none."""
         strips = self.solve(column, theta)
-        s, (codes, heights) = strips.solved, self._codes(strips, column)
+        s, (codes, over_breaks) = strips.solved, self._codes(strips, column)
         values = np.column_stack((strips.p_mean, strips.tau_mean, s.contact_fraction, s.adhesion_fraction))
         if self.carry is not None:
             values = np.concatenate((values, self.carry.over_contact(strips, self.group[column])), axis=1)
-        return codes, values, heights, np.stack((s.d, s.b, s.a, s.c), axis=1)
+        return codes, values, over_breaks, np.stack((s.d, s.b, s.a, s.c), axis=1)
 
     def codes(self, column: np.ndarray, theta: np.ndarray) -> np.ndarray:
-        """Codes that change wherever the integrand may not be smooth, (m,): the regime, and the breaks of the law below that are
-        passed."""
+        """Codes (m,) that change where the integrand may not be smooth: regime, and breaks of the law below that are passed."""
         return self._codes(self.solve(column, theta), column)[0]
 
     def _codes(self, strips: SolvedStrips, column) -> tuple[np.ndarray, np.ndarray]:
         codes = strips.solved.code.astype(int)
         if self.carry is None:
             return codes, np.empty((codes.size, 0))
-        heights = self.carry.heights(strips, self.group[column])
-        return codes + len(CODE) * self.carry.crossed(heights), heights
+        over_breaks = self.carry.over_breaks(strips, self.group[column])
+        return codes + len(CODE) * self.carry.crossed(over_breaks), over_breaks
 
     @property
     def frictions(self) -> np.ndarray:

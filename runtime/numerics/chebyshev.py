@@ -1,9 +1,8 @@
 """Chebyshev series of several quantities at once: through values at nested nodes, with the error that is left.
 
-A function that is flat in t at both ends (``gauss``) is had from the interior nodes: what it is at an end, which is a
-breakpoint of the caller's, need not be known. Compare chapter 4 of Mason & Handscomb, "Chebyshev Polynomials" (2003); sums over
-many series are by the recurrence of Clenshaw, "A note on the summation of Chebyshev series" (Math. Tables Aids Comput. 9, 1955,
-118).
+A function that is flat in t at both ends (``gauss``) is had from the interior nodes: what it is at an end, a breakpoint of the
+caller's, need not be known. Compare chapter 4 of Mason & Handscomb, "Chebyshev Polynomials" (2003); sums over many series are by
+the recurrence of Clenshaw, "A note on the summation of Chebyshev series" (Math. Tables Aids Comput. 9, 1955, 118).
 """
 
 from collections.abc import Sequence
@@ -49,8 +48,7 @@ def _transform(n: int) -> np.ndarray:
 
 @lru_cache
 def flat_ended(n: int) -> np.ndarray:
-    """Matrix (n + 1, n - 1) from values at the interior nodes of ``lobatto(n)`` to coefficients of the interpolant whose slope
-    vanishes at both ends."""
+    """Matrix (n + 1, n - 1) from values at the interior ``lobatto(n)`` to coefficients of the interpolant flat at both ends."""
     every, degree = _transform(n), np.arange(n + 1)
     # slopes of the Chebyshev polynomials are k^2 at one end and (-1)^(k + 1) k^2 at the other
     slopes = np.stack((degree**2, (-1.0) ** degree * degree**2)) @ every
@@ -61,9 +59,8 @@ def flat_ended(n: int) -> np.ndarray:
 def interpolation_errors(
     c: np.ndarray, noise: np.ndarray, blur: np.ndarray | float = 0.0, rounding: np.ndarray | float = 0.0
 ) -> np.ndarray:
-    """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q), a guess if 6; ``noise`` (p, q): changes
-    that don't matter; ``blur`` (p, q): how uncertain the coefficients are themselves; ``rounding`` (p, q): what of each is
-    rounding and not counted.
+    """Error of interpolants with the coefficients ``c`` (p, n + 1, q), n >= 8, (p, q), a guess if 6; (p, q) each: ``noise``,
+    changes that don't matter; ``blur``, how uncertain coefficients are themselves; ``rounding`` of each, not counted.
 
     What is left is extrapolated from the end of the series, at the pace that coefficients fell at since the middle: those of a
     quantity itself, as far as they don't fall faster than those of the roughest one, for all share their singularities.

@@ -33,8 +33,7 @@ _FASTEST, _LAYERED, _SLOWEST = {8: 0.45, 16: 0.42, 32: 0.65}, 0.65, 0.97
 _MANY, _GEOMETRIC = 16, (0.15, 0.05)
 #: ratio of them above which they may fall by a power only, and how much more than by that of the last ones the next may count
 _POWER, _TURNS = 0.2, 2.5
-#: how much more is feared than what is left at the pace that coefficients fall at; below this share of a change that doesn't
-#: matter they say nothing of a pace
+#: how much more is feared than what is left at the pace of coefficients; share of the noise below which they show no pace
 _SAFE, _QUIET = 1.5, 0.01
 #: share of its size by which a constant is taken to change: quotients by less would overflow
 _NOTHING = 1e-290
@@ -140,9 +139,8 @@ def _runs(n: int) -> tuple[int, int]:
 @lru_cache
 def _left(n: int, turning: bool) -> tuple[np.ndarray, np.ndarray]:
     """What the sum misses of a quantity whose coefficients are ``rho^j``, over the largest of the last ones it shows, and the
-    ratios by which it shows how fast they fall: rho itself where the coefficients are told from the middle on, where they may
-    also turn (``turning``) from order to order, ``rho^j exp(i psi j)``, as those of a singularity inside; else that of the last
-    ones to those before.
+    ratios by which it shows how fast they fall: that of the last ones to those before; or rho itself, where the coefficients are
+    told from the middle on and may turn from order to order (``turning``), ``rho^j exp(i psi j)``, as near a singularity inside.
 
     Order j has the integral ``m(j) = -3/(j (j^2 - 4))``, zero for even j. At the nodes orders ``2 n - j`` and ``2 n + j`` look
     like j but for a sign: where coefficients fall slowly and don't turn, as where an end has a layer, most of it cancels.
@@ -172,8 +170,7 @@ def _last(c: np.ndarray, size: int, skipped: int = 0) -> np.ndarray:
 
 
 def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
-    """Error of the sum over nodes of each interval, per width, (p, q); ``values`` (p, n - 1, q), ``noise`` (p, q): changes that
-    don't matter.
+    """Error of the sums over nodes, per width, (p, q), of ``values`` (p, n - 1, q); ``noise`` (p, q): changes that don't matter.
 
     The last coefficients say how much is left, and their pace how fast it falls: the one since the middle, or the one among the
     last, which is slower where a layer next to an end is all that is left. Where coefficients fall geometrically the second is

@@ -49,8 +49,7 @@ def may_cling(kernel, s: Strips) -> np.ndarray:
 
 
 def exclude_out_of_reach(kernel, cycle: Cycle) -> np.ndarray:
-    """Which cycles of strips out of reach, ``D <= -delta_0``, that cannot stay engaged are proven to have no orbit with an
-    onset."""
+    """Cycles of strips out of reach, ``D <= -delta_0``, that cannot stay engaged, proven to have no orbit with an onset."""
     with np.errstate(all="ignore"):
         held = _held_best(cycle)
         none = balance_bound(kernel, cycle, held, held) > 0

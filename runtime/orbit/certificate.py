@@ -8,18 +8,16 @@ zones between them stay within their gaps, and when it is stable: an extremal or
 import numpy as np
 
 from ..numerics.rounding import EPS
-from .groups import ROUNDING, Cycle, Strips
-from .march import TWO_PI, Orbit
+from .groups import ROUNDING, TWO_PI, Cycle, Strips
+from .march import Orbit
 from .sensitivity import slope_excess
 
-#: Near a fold the slope of the onset map approaches one like the square root of the distance: rounding blurs it, and the edges,
-#: by no more than this.
+#: near a fold the slope of the onset map is one but for the root of the distance: rounding blurs both by no more
 STABLE = 1e-6
 
 
 def saturates(kernel, s: Strips) -> np.ndarray:
-    """Where saturated contact exists, ``D - 1 + p_0 >= R``, or fails to by less than the terms are rounded to: a gap of that size
-    is none."""
+    """Where saturated contact exists, ``D - 1 + p_0 >= R``, but for rounding: a gap of that size is none."""
     R = kernel.modulus_ratio(s.alpha, s.beta)
     return s.D - 1 + s.p_0 >= R - EPS * (1 + np.abs(s.D) + s.p_0 + R)
 

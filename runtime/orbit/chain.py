@@ -21,8 +21,7 @@ another and leaves one unknown, the onset. What comes out is an orbit of the bou
 admissible, stable and the extremal one is asked elsewhere (``certificate``, ``orbit_bounds``).
 
 A good orbit is refined on the boundary equations of its regime. Their closing balance, the sum of the changes of z over a period,
-keeps its digits however slow the foundation is. On a fast one, which forgets what is summed, or where the last gap is short, the
-closing link itself is rounded less.
+keeps its digits on slow foundations; on a fast one, or where the last gap is short, the closing link is rounded less.
 """
 
 import numpy as np
@@ -112,8 +111,7 @@ def _contact(cycle: Cycle) -> np.ndarray:
 
 
 def _nearly_complete(kernel, cycle: Cycle, x, a) -> np.ndarray:
-    """Edges (2, n) of strips without adhesion: where the saturated field hardly pulls, contact ends as it begins to and is closed
-    again soon after; elsewhere at x and a."""
+    """Edges (2, n) of strips without adhesion: x and a, but for the short gaps where the saturated field hardly pulls."""
     s = cycle.strips
     pull = 1 - (s.D - 1) / kernel.modulus_ratio(s.alpha, s.beta)
     near = pull < 1
@@ -140,8 +138,7 @@ def follow(kernel, cycle: Cycle, sequence: str, edges: np.ndarray) -> tuple[np.n
             # edges stay inside their arcs
             least, most = edges + _BOLD * (low - edges), edges + _BOLD * (high - edges)
             edges = _in_order(np.minimum(np.maximum(edges + move, least), most))
-            # a step this small leaves an error of its square. Where the map does not contract the extremal orbit is passed, or
-            # there is none
+            # a step this small leaves an error of its square. Where the map does not contract there is no extremal orbit ahead
             going = np.flatnonzero((size > STABLE) & ((slope < 1) | (iteration == 1))) if iteration < ITERATIONS else index[:0]
             if going.size < index.size:
                 result[:, index], converged[index] = edges, size <= STABLE
@@ -214,8 +211,7 @@ def step(values, before, after) -> tuple[np.ndarray, np.ndarray]:
 
 
 def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = False):
-    """The orbit with its edges refined, whether nothing was left to correct, and how far rounding may have moved the edges where
-    it blurs them (else 0).
+    """The orbit with its edges refined, whether nothing was left to correct, and by how much rounding may have moved the edges.
 
     ``blurred``: corrections that rounding blurs may be larger, even where it might pretend an orbit.
     """

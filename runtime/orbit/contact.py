@@ -78,8 +78,7 @@ class Contact:
         return out
 
     def passes(self, rows: np.ndarray, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Phases at which the pressure of the strips ``rows`` (k,) passes ``p`` (k,), Pa, not above their peaks, upward and
-        downward."""
+        """Phases at which the strips ``rows`` pass the pressures ``p``, Pa, at most their peaks, upward and downward, (k,)."""
         level, full = p / self.unit[rows], self.full[rows]
         at = rows[full]
         up, down = self.b[rows], self.a[rows]

@@ -91,8 +91,7 @@ def arc_versine(height):
 
 
 def snaps_in(step, delta_0) -> np.ndarray:
-    """Where a ``step`` of w by ``J_0 p_0`` closes the gap ``delta_0``, in whatever unit; equal but for rounding counts as
-    equal."""
+    """Where a ``step`` of w by ``J_0 p_0`` closes the gap ``delta_0``, in whatever unit; what is equal but for rounding does."""
     return (step > 0) & (step >= delta_0 * (1 - ROUNDING))
 
 

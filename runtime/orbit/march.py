@@ -115,8 +115,7 @@ def adhesion_end(kernel, cycle: Cycle, start, gap, way=0):
 
 
 def next_onset(kernel, cycle: Cycle, c, way):
-    """Onsets, less 2 pi, that cycles released at c meet next: at the downward zero of gap - delta_0, where H + delta_0 > 0. NaN
-    where they miss it."""
+    """Onsets, less 2 pi, that cycles released at c meet next, or NaN: gap - delta_0 falls through zero where H + delta_0 > 0."""
     s, low = cycle.strips, np.maximum(cycle.centre + TWO_PI - cycle.half_d, c)
     entry = kernel.gap_entry(c, s.delta_0 + cycle.jump, 0.0, s.D, s.beta)
     event, guess = Event(kernel.gap_event, entry, s.delta_0 - way * s.noise()), TWO_PI - _stands_still(c, -cycle.jump)
@@ -162,8 +161,7 @@ def between(left: Orbit, right: Orbit) -> Orbit:
 
 
 class Event:
-    """An event function of a batch with its entry data worked into constants once: value and slope at later phases of the
-    elements ``sub``, which ascend."""
+    """An event function of a batch, its constants worked out once: value and slope at phases of the elements ``sub``."""
 
     def __init__(self, function, constants, offset=0.0, sign=1.0):
         self.function, self.sign, self.rows = function, sign, np.empty((1 + len(constants), constants[1].size))
@@ -189,8 +187,7 @@ class Event:
 
 
 def turn(event, constants, sign: int, low, high) -> np.ndarray:
-    """Phases at which the slope of an ``event`` function with these ``constants``, of this ``sign`` at ``low``, passes zero,
-    ``high`` at most."""
+    """Phases up to ``high`` at which the slope of an ``event`` with these ``constants``, of this ``sign`` at ``low``, ends."""
 
     def slope(phase, index):
         return event(phase, *(pick(constant, index) for constant in constants))[1] * sign

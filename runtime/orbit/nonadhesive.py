@@ -53,8 +53,7 @@ class Waves:
         self.foundation, self.kernel, self.strips, self.pace = foundation, foundation.kernel, strips, pace
 
     def pressure(self, orbits: Orbits) -> Callable[..., np.ndarray]:
-        """Pressure in the contact of strips at shares (k, n) of it from entry to exit, as a function of them and of the strips'
-        rows (k,), all if left out."""
+        """Pressure in contacts, as a function of shares (k, n) of them from entry to exit and the rows (k,) of strips, or all."""
         s, b, width = replace(self.strips, D=orbits.D), orbits.b, orbits.a - orbits.b
         constants = self.foundation.excess(b, self.foundation.entry("cf", (b, orbits.a), s), s)
 

@@ -1,5 +1,4 @@
-"""What no orbit of a strip can exceed: bounds from the most engaged state that it can be in without being in contact all the
-time, and from the least engaged one.
+"""What no orbit of a strip can exceed: bounds from the most engaged state short of contact all the time, and the least engaged.
 
 Contact is left where ``H + p_0 <= 0`` and made where ``H + p_0 >= 0`` (a snap into contact: where ``H + delta_0 >= 0``, and
 ``p_0 > delta_0``). So every orbit but saturated contact is in a gap at the phase where ``H + p_0`` turns positive, and there

@@ -14,8 +14,8 @@ grazes, grows with g, is linear in F, and keeps its digits at large beta, where 
 
 import numpy as np
 
-from .groups import ROUNDING, Cycle
-from .march import TWO_PI, Orbit
+from .groups import ROUNDING, TWO_PI, Cycle
+from .march import Orbit
 
 
 def slope_excess(kernel, cycle: Cycle, orbit: Orbit) -> tuple[np.ndarray, np.ndarray]:

@@ -7,7 +7,8 @@ import numpy as np
 
 from ..numerics.rounding import EPS
 from .batch import Batch
-from .march import TWO_PI, Orbit
+from .groups import TWO_PI
+from .march import Orbit
 from .regimes import CODE, EQUATIONS
 
 #: distances in roundings of D at which a strip on the end of a branch is settled

@@ -1,2 +1,1 @@
-"""Levels without adhesion: all strips of a level at one velocity are one family, solved in closed form over the width of
-their contact."""
+"""Levels without adhesion: at one velocity all strips are one family, solved in closed form over the width of their contact."""

@@ -1,8 +1,6 @@
-"""Means of a level without adhesion: sums over its strips, and over the contact of each where the level below has a law, the
-second term of Eq. 13.
+"""Means of a level without adhesion: over its strips, and over the contact of each where the level below has a law (Eq. 13).
 
-What a strip carries is not smooth where its pressure passes a break of the law, nor is it over the strips where their greatest
-pressure does: both are cut there.
+What a strip carries has a kink where its pressure passes a break of the law, the sum where the greatest does: both are cut.
 
 With ``u = cos^2(theta/2)`` a strip has the amplitude ``h u/2`` and ``s = 2 - 2 (1 - D/h)/u``. Where the crests of the
 cell's edge are out of reach, D < h, contact ends at u = 1 - D/h; else the strips of small u are in complete contact,
@@ -29,9 +27,8 @@ if TYPE_CHECKING:
 #: nodes over a panel of strips and over each part of a contact, tried in turn; and over all strips where nothing is carried
 _RULES = ((2, 3), (4, 6), (7, 9), (11, 14), (16, 20), (24, 30), (36, 44), (54, 66), (81, 98))
 _ALONE = (10, 15, 22, 33, 50, 75, 112)
-#: how much more than by the next terms of a series its values are feared to err; strips for means of what series leave out; and
-#: means of Chebyshev polynomials in pressure, friction and contact times their degree, where that is not low: medians of 40
-#: random surfaces
+#: how much more than by the next terms of a series its values are feared to err; strips for means of what series leave out; means
+#: of Chebyshev polynomials in pressure, friction, contact times their degree, where that is not low: medians of 40 surfaces
 _SURE, _NODES, _FEW, _PACE = 3.0, 30, 32, (1.25, 0.6, 2.5)
 #: share of what is allowed that these sums may miss, and the fastest that they are believed to converge, alone and over contacts:
 #: of 1,014 random points of two and three levels four erred by more than they said, by a third at most
@@ -44,7 +41,7 @@ _LEAST = 1e-60
 _CHUNK = 30_000
 
 
-def average(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def family_means(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Means of ``columns`` that have a family to ``rtol |value| + atol``, ``rtol`` (n,), ``atol`` (n, q); and their errors."""
     values, errors = np.zeros((2, columns.size, columns.scales.size))
     index = np.flatnonzero(columns.D > 0)
@@ -238,8 +235,7 @@ class _Sums:
 
 
 def completely(d: np.ndarray, s_sat: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The angle theta, from the valley, over which strips of columns at ``d`` > 0 are in complete contact, and what pressure, K
-    h, they add to the mean."""
+    """Angle theta, from the valley, over which strips at ``d`` > 0 are in complete contact; and the pressure they add, K h."""
     start = np.minimum(np.divide(2 * (d - 1), s_sat - 2, out=np.ones_like(d), where=s_sat > 2), 1.0)
     rest = np.where((d > 1) | (d >= 0.5 * s_sat), np.pi - 2 * np.arccos(np.sqrt(np.clip(start, 0.0, 1.0))), 0.0)
     return rest, (d - 1) * rest / np.pi + (rest - np.sin(rest)) / (4 * np.pi)

@@ -53,10 +53,9 @@ def are_families(foundation: Foundation, p_0: float, levels: Sequence[Level], V:
 class Family:
     """Strips at the rates ``k V`` (G,), ascending, up to the penetrations ``s_top`` (G,) over their amplitudes.
 
-    ``s_sat`` (G,): where contact becomes complete. ``full`` (G,): friction then, K A kA. ``strips``: strips it took. Series
-    are known to ``accuracy`` (G,), of pressure (K A) and friction, where that can be reached, and where contacts are pressed most
-    if it ``carries`` a level; ``errors`` (G, 3): how well those are
-    known, and contact."""
+    ``s_sat`` (G,): where contact becomes complete. ``full`` (G,): friction then, K A kA. ``strips``: strips it took. Series are
+    known to ``accuracy`` (G,), of pressure (K A) and friction, where that can be reached, and where contacts are pressed most if
+    it ``carries`` a level; ``errors`` (G, 3): how well these are known, and contact."""
 
     def __init__(self, foundation: Foundation, rate: np.ndarray, s_top: np.ndarray, accuracy: np.ndarray, carries: bool):
         self.foundation, self.rate, self.carries, self.found = foundation, rate, carries, _FOUND * accuracy
@@ -142,8 +141,7 @@ class Family:
         return out
 
     def orbits(self, group: np.ndarray, s: np.ndarray) -> tuple[Waves, Orbits, np.ndarray]:
-        """The strips ``s`` (k, n) at the rates ``group`` (k,), in a row: their waves, orbits, and about where in contact the
-        pressure is greatest."""
+        """The strips ``s`` (k, n) at the rates ``group`` (k,), in a row: waves, orbits, and about where they press most."""
         share, _, place, slope = self.at(group, s, CONTACT).reshape(4, -1)
         nodes, s, missed = s.shape[1], s.ravel(), 0.0
         waves, allowed = self.foundation.waves(np.repeat(self.rate[group], nodes)), np.repeat(self.found[group], nodes)

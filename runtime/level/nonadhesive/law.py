@@ -1,5 +1,4 @@
-"""Friction laws of levels without adhesion over nominal pressure, as Chebyshev series between the pressures at which they are not
-smooth.
+"""Friction laws of levels without adhesion over nominal pressure, as Chebyshev series between their breaks.
 
 A law is not smooth at p = 0, where the crests touch (its powers are those of ``p^(1/4)``); at D = h, where the strips at the edge
 of the cell come into contact; where the level is in complete contact; and where all below it is. Towards these pressures it has
@@ -19,7 +18,7 @@ from ...numerics.rounding import EPS, LARGEST
 from ...orbit.foundation import foundation_of
 from ..saturated import Saturation
 from ..strips import LevelBatch, cut_penetration
-from .average import Span, average, completely
+from .average import Span, completely, family_means
 from .family import CONTACT, SEARCH, Family, errors_alone
 
 #: nodes of a piece, tried in turn
@@ -41,7 +40,7 @@ _SEARCH, _NEAR = 18, 1e-7
 
 
 @dataclass(frozen=True)
-class Laws:
+class FamilyLaws:
     """Laws of a level at velocities (G,), in J pieces: ``ends`` (2, G, J), the pressures between which each lies, inf for none,
     and ``series`` (G, J, n, q) over ``omega``. ``breaks`` (G, 3): the pressures that part the sharpest of them, ascending, inf
     for none; from ``p_full`` (G,) on everything below is saturated, with the means ``full`` (G, q). ``top`` (G,): as far as the
@@ -92,8 +91,7 @@ def _moments(x, weight, start, count):
 
 
 def with_family(columns: LevelBatch, D: np.ndarray, friction: np.ndarray, carries: bool) -> LevelBatch:
-    """The ``columns`` with the family of their strips up to the penetrations ``D`` (n,), known to an error of ``friction`` (n,),
-    Pa; whether these ``carries`` a level."""
+    """The ``columns`` with their family up to ``D`` (n,), m, known to ``friction`` (n,), Pa; whether it ``carries`` a level."""
     h, k = columns.level.h, columns.level.k
     rate, row = np.unique(k * columns.V, return_inverse=True)
     d, accuracy = np.full(rate.size, EPS), np.full(rate.size, _COARSE)
@@ -152,7 +150,7 @@ def tolerances(columns: LevelBatch, friction: np.ndarray, fraction: np.ndarray) 
 
 def lower_laws(
     levels: Sequence[LevelBatch], saturated: Sequence[Saturation], p_max: np.ndarray, rtol: float, friction, fraction
-) -> Laws:
+) -> FamilyLaws:
     """The laws of level 2 with all that it carries, from those of the smallest level upwards, ``levels`` 2 and below at
     velocities (G,), up to the pressures ``p_max`` (G,), Pa. To ``rtol``, and ``friction``, Pa, and a ``fraction`` of the surface,
     (G,)."""
@@ -171,7 +169,7 @@ def lower_laws(
     return laws
 
 
-def _law(columns: LevelBatch, saturated: Saturation, rtol, friction, fraction) -> Laws:
+def _law(columns: LevelBatch, saturated: Saturation, rtol, friction, fraction) -> FamilyLaws:
     """The law of ``columns`` up to their penetrations."""
     K, h, top, zero = columns.material.K, columns.level.h, columns.D, np.zeros((columns.size, 1))
     D_sat = 0.5 * columns.family.s_sat * h
@@ -191,7 +189,7 @@ def _law(columns: LevelBatch, saturated: Saturation, rtol, friction, fraction) -
     breaks = np.stack((edge, K * (D_sat - 0.75 * h), p_full), axis=1)
     breaks = np.sort(np.where(breaks < np.where(np.isinf(p_full), p_top, np.inf)[:, None], breaks, np.inf), axis=1)
     scales = np.concatenate((columns.scales[1:], [LARGEST]))
-    return Laws(ends, series, breaks, p_full, np.column_stack((saturated.means[:, 1:], zero)), p_top, steepest, scales)
+    return FamilyLaws(ends, series, breaks, p_full, np.column_stack((saturated.means[:, 1:], zero)), p_top, steepest, scales)
 
 
 def _pieces(columns: LevelBatch, cuts: np.ndarray, rtol: float, friction, fraction) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -210,7 +208,7 @@ def _pieces(columns: LevelBatch, cuts: np.ndarray, rtol: float, friction, fracti
         every = np.repeat(group[left], t.size)
         at = columns.at(every, D.ravel())
         tolerance = _VALUES * tolerances(at, friction[every], fraction[every])
-        means, errors = average(at, np.full(D.size, _VALUES * rtol), tolerance)
+        means, errors = family_means(at, np.full(D.size, _VALUES * rtol), tolerance)
         fresh = np.column_stack((means, errors[:, columns.frictions].sum(axis=1), errors[:, 0])).reshape(*D.shape, q + 2)
         known = fresh if known is None else interleaved(known, fresh)
         total, step = known[:, :, columns.frictions].sum(axis=2), np.diff(known[:, :, 0], axis=1)

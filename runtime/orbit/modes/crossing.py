@@ -1,8 +1,7 @@
 """First crossings of sums of exponentials and one harmonic, for a whole batch at once, approached from one side.
 
-Every event of a strip is a zero of ``G(s) = constant + a cos s + b sin s + sum_i c_i exp(-(s - start) r_i)``. With
-several times its zeros lie in no closed-form arcs. But where G > 0 two parabolas bound it from below at all later
-phases:
+Every event of a strip is a zero of ``G(s) = constant + a cos s + b sin s + sum_i c_i exp(-(s - start) r_i)``. With several times
+its zeros lie in no closed-form arcs. But where G > 0 two parabolas bound it from below at all later phases:
 
 * a decaying term with ``c > 0`` is convex: its tangent lies below it; one with ``c < 0`` only rises. So with the slopes
   of the harmonic and of the positive terms alone G lies above ``G + slope t - hypot(a, b) t^2/2``;
@@ -27,8 +26,7 @@ _MAX_STEPS = 600
 
 @dataclass(slots=True)
 class Field:
-    """``value = constant + a cos s + b sin s + sum_i c_i exp(-(s - start) r_i)`` of N strips: (N,), and (n, N) for
-    ``c`` and ``r``."""
+    """``constant + a cos s + b sin s + sum_i c_i exp(-(s - start) r_i)`` of N strips: (N,), and (n, N) for ``c`` and ``r``."""
 
     start: np.ndarray
     constant: np.ndarray
@@ -44,23 +42,19 @@ class Field:
         self.c[:, index] *= np.exp((self.start[index] - start) * self.r[:, index])
         self.start[index] = start
 
-    def amplitudes(self) -> np.ndarray:
-        """Of the positive terms, their rates and the rates of those, then of the negative terms, (6, n, N)."""
-        above = np.maximum(self.c, 0.0)
-        falling, rising = above * self.r, (self.c - above) * self.r
-        return np.stack((above, falling, falling * self.r, self.c - above, rising, rising * self.r))
-
 
 def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
     """Where ``field``, in between at its start, first leaves the range from 0 to ``height`` (inf: no upper limit) before ``end``.
 
-    Returns phases (``end`` where it stays inside), and which limit was met (``NONE``, ``LOWER``, ``UPPER``; ``LOST`` where
-    the search did not end), (N,).
+    Returns phases (``end`` where it stays inside), and which limit was met (``LOST``: the search did not end), (N,).
     """
     n = end.size
     s, which = field.start.copy(), np.full(n, LOST)
     # of the strips that go on, ``index``: where each is now, up to where it goes, the upper limit, and the field's parts
-    index, r, terms = np.arange(n), field.r, field.amplitudes()
+    index, r, above = np.arange(n), field.r, np.maximum(field.c, 0.0)
+    below, falling, rising = field.c - above, above * r, (field.c - above) * r
+    # of the positive terms, their rates and the rates of those, then of the negative ones
+    terms = np.stack((above, falling, falling * r, below, rising, rising * r))
     ahead = np.stack((field.start, end, np.broadcast_to(np.minimum(height, LARGEST), n), field.start, field.constant,
                       field.a, field.b, np.hypot(field.a, field.b)))  # fmt: skip
     for number in range(_MAX_STEPS):
@@ -84,8 +78,7 @@ def first_crossing(field: Field, end: np.ndarray, height: np.ndarray):
 
 
 def _safe_step(ahead, r, terms, first: bool):
-    """A step over which the field stays in its range, whether the lower limit bounds it, the field's slope where it is and
-    its distance from that limit."""
+    """A step that keeps the field in its range, whether the lower limit bounds it, the field's slope and room to that limit."""
     now, _, height, start, constant, a, b, size = ahead
     cosine, sine = np.cos(now), np.sin(now)
     above, fast, bend, below, slow, lift = np.einsum("kiN,iN->kN", terms, np.exp((start - now) * r))
@@ -111,8 +104,7 @@ def _safe_step(ahead, r, terms, first: bool):
 
 
 def _reach(value, slope, curvature):
-    """Zero of ``value + slope t - curvature t^2/2`` that follows t = 0; 0 where the value is not positive but for a
-    rise from zero."""
+    """Zero of ``value + slope t - curvature t^2/2`` that follows t = 0; 0 where the value is not positive nor rises from 0."""
     safe = np.maximum(value, 0.0)
     root = np.sqrt(slope * slope + 2 * curvature * safe)
     rising = slope > 0

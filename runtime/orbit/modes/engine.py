@@ -1,22 +1,20 @@
-"""The extremal periodic orbit of every strip of a batch with several relaxation times; the same answers as
-``orbit.engine`` gives for one.
+"""The extremal periodic orbit of every strip of a batch with several relaxation times; compare ``orbit.engine``, with one.
 
-Why the orbits are extremal is shown in ``windows``. ``unloading`` takes the always engaged orbit where it is admissible,
-else the first orbit above it; ``loading`` the free orbit where it is admissible, else the first orbit below
-``max(D, 0)``.
+Why the orbits are extremal is shown in ``windows``. ``unloading`` takes the always engaged orbit where it is admissible, else the
+first orbit above it; ``loading`` the free orbit where it is admissible, else the first orbit below ``max(D, 0)``.
 """
 
 from dataclasses import replace
 
 import numpy as np
 
+from ..groups import TWO_PI
 from ..march import Orbit, turn
 from ..regimes import CODE
 from ..solved import Record, Solved, settle
 from .extremal import ENGAGED, FREE, ORBIT, ROWS, Search, agrees, certified
-from .fields import state_at, zones_of
-from .march import TWO_PI, march
-from .problem import ModeStrips
+from .march import march
+from .problem import ModeStrips, state_at, zones_of
 
 #: strips solved at a time: what a call of NumPy costs is shared by more of them than 2,048 (2 to 3 times faster with two times),
 #: and memory stays bounded (with 15 times 30 MB a matrix)
@@ -109,8 +107,7 @@ def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None):
     Without release ``w = u + max(z - u - J_0 p_0, 0)`` is a convex function of the state, so the period map is convex and
     monotone: each Newton step from below lands below the fixed point again, higher up. It cannot miss.
 
-    Returns states, edges b and a (2, N), which are known, which are orbits of the strip itself, as their gaps stay within its
-    reach."""
+    Returns states, edges b and a (2, N), which are known, and which are orbits of the strip: their gaps stay within its reach."""
     left, none = np.arange(strips.size), np.zeros(strips.size)
     # seen from -p_0: adding p_0 to w, p and every e leaves the foundation's law unchanged
     s = replace(strips, p_0=none, delta_0=none, D=strips.D + strips.p_0, bare=True)
@@ -133,8 +130,7 @@ def _engaged(kernel, strips: ModeStrips, met: np.ndarray | None):
         here = s.take(k)
         _, (_, start, entry, _) = zones_of(kernel, "ac", here, edges[:, k])
         gap = kernel.gap_entry(start, entry, -here.p_0, here.D, here.m)
-        # it opens at a, and turns once before the valley: there its slope is a sine, log-concave, less exponentials, whose
-        # sum is log-convex
+        # it opens at a, and turns once before the valley: its slope is a sine, log-concave, less a log-convex sum
         widest = turn(kernel.gap_event, gap, 1, start, start + np.mod(np.pi - start, TWO_PI))
         within[k] = strips.bare or kernel.gap_event(widest, *gap)[0] <= strips.delta_0[k]
         left = np.flatnonzero(~known)

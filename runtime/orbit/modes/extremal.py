@@ -7,10 +7,9 @@ from ...numerics.rounding import EPS
 from ..certificate import STABLE
 from ..groups import ROUNDING, TWO_PI
 from ..regimes import CODE, EDGES
-from .fields import state_at
 from .forced import Forced
 from .march import march
-from .problem import ModeStrips
+from .problem import ModeStrips, state_at
 from .windows import alone, balanced, linearised, links, newton
 
 #: where a strip is given up; steps of Newton's method
@@ -192,8 +191,7 @@ def in_order(edges):
 
 
 def certified(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
-    """Orbits of strips in the regime ``sequence`` from ``edges`` (k, N); which converged, in order within a period; how well
-    their edges are known."""
+    """Orbits in the regime ``sequence`` from ``edges`` (k, N); which converged, in order; how well their edges are known."""
     with np.errstate(all="ignore"):
         edges, last, known = _converging(kernel, strips, sequence, edges)
     good = last <= _CONVERGED + _ROUNDINGS * known

@@ -9,7 +9,8 @@ import numpy as np
 from hystrip.generated.modes import over_period
 from hystrip.generated.modes import solved as solved_modes
 
-from .march import CONTACT, FREE, TWO_PI, march, one_zone
+from ..groups import TWO_PI
+from .march import CONTACT, FREE, march, one_zone
 from .problem import ModeStrips, rates
 
 #: cells in which a chord is bounded: more bound it closer, by as much work
@@ -45,8 +46,7 @@ class Forced:
 
     @classmethod
     def settled(cls, kernel, s: ModeStrips, edges: np.ndarray, exactly: bool = True):
-        """Orbits in the windows of ``edges`` with the contacts that they come to, and which settled; not ``exactly``: with
-        those of one turn, bounds from below.
+        """Orbits in the windows of ``edges`` with the contacts they come to (not ``exactly``: in one turn), and which settled.
 
         The window that is returned ends with the contact that holds at its start, and where its gap closes."""
         found, left, good = cls(kernel, s, edges.copy()), np.arange(s.size), np.zeros(s.size, bool)
@@ -143,8 +143,7 @@ class Forced:
 
 
 def chords(amplitude, rate, start, at, to):
-    """Least and greatest slope of chords of ``-cos x + sum_j amplitude_j exp(-(x - start) rate_j)`` from ``at`` to any x up
-    to ``to``.
+    """Least and greatest slope of chords of ``-cos x + sum_j amplitude_j exp(-(x - start) rate_j)`` from ``at`` up to ``to``.
 
     In a cell the slope is bounded term by term, at its ends the value is known."""
     x = at + _CELLS[:, None] * (to - at)

@@ -10,8 +10,7 @@ import numpy as np
 from ...inputs.model import ModelMaterial, modes_of
 from ..abstract_foundation import Foundation
 from .engine import solve_modes
-from .fields import zones_of
-from .problem import ModeStrips
+from .problem import ModeStrips, zones_of
 
 
 class ManyTimes(Foundation):

@@ -1,4 +1,4 @@
-"""A batch of strips on a foundation with n relaxation times, in dimensionless form."""
+"""A batch of strips on a foundation with n relaxation times, in dimensionless form; zones and states of their orbits."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..batch import Batch, pick
-from ..groups import snaps_in
+from ..groups import TWO_PI, snaps_in
+from ..regimes import EQUATIONS, ZONES
 
 #: the greatest rate of decay
 _FASTEST = 1e13
@@ -17,9 +18,8 @@ _FASTEST = 1e13
 class ModeStrips(Batch):
     """Dimensionless groups of N strips: lengths in A, pressures in K A, times in 1/(k V).
 
-    ``m``: the kernel's ``Modes`` at the strips' speeds, per-mode arrays (n, N) or, where all strips share one material,
-    (n, 1) and matrices (n, n, 1). ``p_0``, ``delta_0``, ``D``: shape (N,). ``snaps``: see ``groups.Strips``. ``bare``: nothing is
-    ever released.
+    ``m``: the kernel's ``Modes`` at the strips' speeds, per-mode arrays (n, N) or, where all strips share one material, (n, 1)
+    and matrices (n, n, 1). The others (N,). ``snaps``: see ``groups.Strips``. ``bare``: nothing is ever released.
     """
 
     m: tuple
@@ -65,3 +65,33 @@ class ModeStrips(Batch):
 def rates(times):
     """Rates of decay ``1/times``, capped: beyond, an exponential is gone before the next double precision phase."""
     return np.minimum(np.divide(1.0, times, out=np.full(times.shape, _FASTEST), where=times > 1 / _FASTEST), _FASTEST)
+
+
+def zones_of(kernel, sequence, s: ModeStrips, edges):
+    """Zones of an orbit in the order met: letter, start, overstress (contact) or state z (elsewhere) there, state; (n, N)."""
+    zones, _ = ZONES[sequence]
+    z = getattr(kernel, f"state_{EQUATIONS[sequence]}")(*edges, *s.arguments)
+    for i, (zone, start) in enumerate(zip(zones, edges, strict=True)):
+        end = edges[i + 1] if i + 1 < len(edges) else edges[0] + TWO_PI
+        if zone == "c":
+            snapped = sequence == "afc"
+            overstress = kernel.overstress(z, -s.delta_0 / s.m.J_0 if snapped else -s.p_0, s.m)
+            yield zone, start, overstress, z
+            z = z + kernel.contact_increment(start, end, overstress, s.m)
+        else:
+            yield zone, start, z, z
+            z = z + kernel.relaxation_increment(start, end, z, -s.p_0 if zone == "a" else 0.0, s.m)
+
+
+def state_at(kernel, sequence, s: ModeStrips, edges, phase):
+    """State z (n, N) of orbits at a ``phase`` (N,), and whether they are engaged there."""
+    phase = edges[0] + np.mod(phase - edges[0], TWO_PI)
+    state, engaged = np.empty((s.modes, s.size)), np.zeros(s.size, bool)
+    for zone, start, entry, z in zones_of(kernel, sequence, s, edges):
+        inside, later = phase >= start, np.maximum(phase, start)
+        if zone == "c":
+            change = kernel.contact_increment(start, later, entry, s.m)
+        else:
+            change = kernel.relaxation_increment(start, later, z, -s.p_0 if zone == "a" else 0.0, s.m)
+        state, engaged = np.where(inside, z + change, state), np.where(inside, zone != "f", engaged)
+    return state, engaged

@@ -45,14 +45,13 @@ long as Newton's steps: next to a fold, where the map from window to window hard
 import numpy as np
 
 from ...numerics.linear import solved
+from ..groups import TWO_PI
 from .forced import Forced, chords
-from .march import TWO_PI
 from .problem import ModeStrips, rates
 
 
 def responses(kernel, s: ModeStrips, contact, ends, forcing, upper: bool, moved=None, apart=None):
-    """Bounds (2, 2, N) of what y gains at release and onset, per growth of the window at either, by steps of w of heights
-    ``forcing``.
+    """Bounds (2, 2, N) of what y gains at release and onset, per growth of the window at either, by steps ``forcing`` of w.
 
     ``contact``: its first and last phase; ``ends``: ranges of the edges c and d. ``moved``: where the contact moves with the
     onset, the time between, and what w gains where it begins. ``apart``: by how much w is higher on average, at most, where the
@@ -98,9 +97,8 @@ def responses(kernel, s: ModeStrips, contact, ends, forcing, upper: bool, moved=
 
 
 def alone(orbit: Forced, window, contact, rising: bool, agree: float) -> np.ndarray:
-    """Whether no orbit lies between ``orbit`` and those that are free in the ``window`` (d, c) (``rising``), or engaged
-    outside of it and in contact in the ``contact`` (b, a) at least. Where it is within the window by no more than ``agree``,
-    it is as if at its edge.
+    """Whether no orbit lies between ``orbit`` and those that are free in the ``window`` (d, c) (``rising``), or engaged outside
+    of it and in contact in ``contact`` (b, a) at least. Where it is within by no more than ``agree``, it is as if at its edge.
 
     From above the chord behind c may lead into the contact, where y is ``J_0 p_0`` less J_0 times the excess pressure: that
     rises to one peak, and its slope is concave where the harmonic part falls (``contact``)."""
@@ -144,11 +142,9 @@ def alone(orbit: Forced, window, contact, rising: bool, agree: float) -> np.ndar
 
 
 def links(orbit: Forced, target: Forced, rising: bool) -> np.ndarray:
-    """Whether all orbits that are free in the window of ``orbit`` (``rising``), or engaged outside of it, are so for that of
-    ``target``.
+    """Whether all orbits free in the window of ``orbit`` (``rising``), or engaged outside of it, are so for that of ``target``.
 
-    Rising, the contact imposed along the way begins as long behind the onset as that of ``orbit``: it need not be the true
-    one."""
+    Rising, the imposed contact begins as long behind the onset all along: it need not be the true one."""
     s, kernel = orbit.s, orbit.kernel
     (d, b, a, c), (d_1, b_1, a_1, c_1) = orbit.edges, target.edges
     u, v = np.abs(c_1 - c), np.abs(d_1 - d)
