@@ -189,7 +189,7 @@ class _Work:
 
 
 def _rounding(columns: LevelBatch, stage: Stage, c: np.ndarray) -> np.ndarray:
-    """What rounding of D makes of the coefficients ``c``, (intervals, q): it tells next to a break with a root."""
+    """What rounding of D makes of coefficients ``c``, (intervals, q): seen next to breaks where means are like square roots."""
     n = stage.n
     ends = np.stack(((-1.0) ** np.arange(n + 1) @ c, c.sum(axis=1)), axis=1)
     values, D = np.concatenate((ends[:, :1], stage.known[0], ends[:, 1:]), axis=1), stage.parts.at(lobatto(n))

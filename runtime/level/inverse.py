@@ -219,7 +219,7 @@ class _Walk:
 
 
 def _place(row: list[Branch], p: float, doubts: float) -> int:
-    """Where a pressure, greater by so many errors, is: below all branches (-1), on number k (2 k), between that and the next."""
+    """Where a pressure, greater by so many errors, is: below all branches (-1), on number k (2 k), or just above it (2 k + 1)."""
     k = sum(part.p_low <= p + doubts * part.errors.most[0] for part in row) - 1
     return 2 * k + (k < 0 or p + doubts * row[k].errors.most[0] > row[k].p_high)
 

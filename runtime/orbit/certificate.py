@@ -12,7 +12,7 @@ from .groups import ROUNDING, TWO_PI, Cycle, Strips
 from .march import Orbit
 from .sensitivity import slope_excess
 
-#: near a fold the slope of the onset map is one but for the root of the distance: rounding blurs both by no more
+#: most that rounding blurs edges by, and the slope of the onset map, which is one at a fold but for a root of the distance
 STABLE = 1e-6
 
 

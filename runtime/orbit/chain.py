@@ -211,7 +211,7 @@ def step(values, before, after) -> tuple[np.ndarray, np.ndarray]:
 
 
 def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = False):
-    """The orbit with its edges refined, whether nothing was left to correct, and by how much rounding may have moved the edges.
+    """The orbit with its edges refined, whether nothing was left to correct, how far rounding may have moved edges (else 0).
 
     ``blurred``: corrections that rounding blurs may be larger, even where it might pretend an orbit.
     """

@@ -161,7 +161,7 @@ def between(left: Orbit, right: Orbit) -> Orbit:
 
 
 class Event:
-    """An event function of a batch, its constants worked out once: value and slope at phases of the elements ``sub``."""
+    """An event function of a batch, its constants worked out once: value and slope at phases of elements, ascending."""
 
     def __init__(self, function, constants, offset=0.0, sign=1.0):
         self.function, self.sign, self.rows = function, sign, np.empty((1 + len(constants), constants[1].size))
@@ -187,7 +187,7 @@ class Event:
 
 
 def turn(event, constants, sign: int, low, high) -> np.ndarray:
-    """Phases up to ``high`` at which the slope of an ``event`` with these ``constants``, of this ``sign`` at ``low``, ends."""
+    """Phases up to ``high`` where the slope of an ``event`` with these ``constants``, of this ``sign`` at ``low``, is zero."""
 
     def slope(phase, index):
         return event(phase, *(pick(constant, index) for constant in constants))[1] * sign

@@ -1,6 +1,6 @@
 """Means of a level without adhesion: over its strips, and over the contact of each where the level below has a law (Eq. 13).
 
-What a strip carries has a kink where its pressure passes a break of the law, the sum where the greatest does: both are cut.
+What is carried is not smooth where a pressure passes a break of the law, along a strip or as the strips' greatest: cut there.
 
 With ``u = cos^2(theta/2)`` a strip has the amplitude ``h u/2`` and ``s = 2 - 2 (1 - D/h)/u``. Where the crests of the
 cell's edge are out of reach, D < h, contact ends at u = 1 - D/h; else the strips of small u are in complete contact,

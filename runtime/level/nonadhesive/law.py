@@ -151,9 +151,8 @@ def tolerances(columns: LevelBatch, friction: np.ndarray, fraction: np.ndarray) 
 def lower_laws(
     levels: Sequence[LevelBatch], saturated: Sequence[Saturation], p_max: np.ndarray, rtol: float, friction, fraction
 ) -> FamilyLaws:
-    """The laws of level 2 with all that it carries, from those of the smallest level upwards, ``levels`` 2 and below at
-    velocities (G,), up to the pressures ``p_max`` (G,), Pa. To ``rtol``, and ``friction``, Pa, and a ``fraction`` of the surface,
-    (G,)."""
+    """The laws of level 2 with all that it carries, from the smallest upwards: ``levels`` 2 and below at velocities (G,), up
+    to the pressures ``p_max`` (G,), Pa, to ``rtol``, ``friction``, Pa, and a ``fraction`` of the surface, (G,)."""
     reached = []
     for columns, full in zip(levels, saturated, strict=True):
         carries, K, h = columns.level is not levels[-1].level, columns.material.K, columns.level.h

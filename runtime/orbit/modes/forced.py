@@ -46,7 +46,7 @@ class Forced:
 
     @classmethod
     def settled(cls, kernel, s: ModeStrips, edges: np.ndarray, exactly: bool = True):
-        """Orbits in the windows of ``edges`` with the contacts they come to (not ``exactly``: in one turn), and which settled.
+        """Orbits in the windows of ``edges`` with contacts they come to; which settled. Not ``exactly``: in a turn, from below.
 
         The window that is returned ends with the contact that holds at its start, and where its gap closes."""
         found, left, good = cls(kernel, s, edges.copy()), np.arange(s.size), np.zeros(s.size, bool)
