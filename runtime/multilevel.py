@@ -74,14 +74,11 @@ class Surface:
         """Which points err by no more than ``rtol`` allows, (n,)."""
         return points.error <= self.rtol * (np.abs(points.tau.sum(axis=0)) + self.friction_floor)
 
-    def columns(self, i: int, V, D=None, carry=None, group=None) -> LevelBatch:
-        """Columns of level ``i``."""
-        D = np.zeros(V.size) if D is None else D
+    def columns(self, i: int, V) -> LevelBatch:
+        """Columns of level ``i``, at no penetration yet."""
+        of, D = (self.adhesion, self.levels[i], self.edge, self.branch), np.zeros(V.size)
         # the curves behind the laws of lower levels are interpolated over D: equal strips would make steps of them
-        strips = self.strips if i == 0 else None
-        return LevelBatch(
-            self.at_level(i), self.adhesion, self.levels[i], self.edge, self.branch, V, D, carry, group, strips, work=self.work
-        )
+        return LevelBatch(self.at_level(i), *of, V, D, strips=self.strips if i == 0 else None, work=self.work)
 
     def saturated(self, V) -> list[Saturation]:
         """Saturation of each level with all below it."""
@@ -216,10 +213,11 @@ class _Solve:
         # the greatest pressures that the laws of level 2 and below are asked for
         reached = [_most(group, peak_pressure(columns, across), V.size)]
         for i in range(1, self.M - 1):
-            highest = surface.columns(i, V, cut_penetration(surface.columns(i, V), reached[-1], saturated[i].D))
+            level = surface.columns(i, V)
+            highest = replace(level, D=cut_penetration(level, reached[-1], saturated[i].D))
             reached.append(peak_pressure(highest, strips_across(highest)))
         for i in range(self.M - 1, 0, -1):
-            level = surface.columns(i, V, None, carry, groups)
+            level = replace(surface.columns(i, V), carry=carry, group=groups)
             atol = level.atol(rtol, fraction=1.0)
             least = np.minimum(atol[:, level.frictions], (rtol * surface.friction_floor)[:, None])
             atol[:, level.frictions] = np.maximum(least, friction[:, None])

@@ -78,26 +78,14 @@ def _levels(result: Any) -> list[str]:
 
     De, V_peak, part = deborah(result), peak_velocities(result), shares(result)
     V = np.atleast_1d(np.asarray(result.velocity)).ravel()
-    rows = [
-        (
-            "level",
-            "l [m]",
-            "h [m]",
-            "De = k V T_eps",
-            "V of its peak if",
-            "p_sat alone",
-            "share of mu",
-            "in contact",
-            "in adhesion",
-        )
-    ]
-    rows.append(("", "", "", "", "saturated [m/s]", "[Pa]", "", "", ""))
+    head = ["level", "l [m]", "h [m]", "De = k V T_eps", "V of its peak if", "p_sat alone"]
+    rows = [[*head, "share of mu", "in contact", "in adhesion"], ["", "", "", "", "saturated [m/s]", "[Pa]", "", "", ""]]
     for i, level in enumerate(result.levels):
         p_sat = saturated_level(result.material, result.adhesion, level, V).p_sat
-        rows.append((
+        rows.append([
             str(i + 1), f"{level.l:.4g}", f"{level.h:.4g}", span(De[i]), f"{V_peak[i]:.4g}", span(p_sat),
             percent(part[i]), percent(result.contact_by_level[i]), percent(result.adhesion_by_level[i]),
-        ))  # fmt: skip
+        ])  # fmt: skip
     widths = [max(len(row[j]) for row in rows) for j in range(len(rows[0]))]
     return ["  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True)).rstrip() for row in rows]
 

@@ -125,7 +125,7 @@ class _Work:
     values: np.ndarray
     errors: np.ndarray
     strips: np.ndarray
-    accepted: list[tuple] = field(default_factory=list)
+    accepted: list[list[np.ndarray]] = field(default_factory=list)
     #: states and thetas of strips next to the ends of panels; and of those solved codes, values, pressures over breaks and edges
     beside: tuple[np.ndarray, np.ndarray] = (np.empty(0, int), np.empty(0))
     ends: list[np.ndarray] | None = None
@@ -186,9 +186,8 @@ class _Work:
         ended = narrow | (~done & (self.strips[state] > AVERAGE_LIMIT))
         error[ended] = spread[ended]
         done |= ended
-        self.accepted.append(
-            (state[done], *(v[done] for v in (codes[:, 0], panels.low, panels.high, values[:, 0], values[:, -1], sums)))
-        )
+        known = state, codes[:, 0], panels.low, panels.high, values[:, 0], values[:, -1], sums
+        self.accepted.append([v[done] for v in known])
         np.add.at(self.values, state[done], sums[done])
         np.add.at(self.errors, state[done], (error + _LEAST * goal * (error > 0))[done])
         return done
@@ -215,8 +214,7 @@ class _Work:
         return self._later(state, np.maximum(theta - _NEXT, 0.0)), self._later(state, np.minimum(theta + _NEXT, np.pi))
 
     def _look_beside_thresholds(self, stage: Stage) -> None:
-        """Strips to either side of thresholds where the codes of the panels that meet do not follow one another: a third
-        zone may be narrower than the first step."""
+        """Strips beside thresholds where codes of panels do not follow one another: a third zone may be narrower than a step."""
         panels, codes = stage.parts, stage.known[0]
         order = np.lexsort((panels.low, panels.state))
         left, right = order[:-1], order[1:]

@@ -20,8 +20,7 @@ _ASIDE = 1e-6
 
 #: (line, x) -> codes (m,), values (m, q), pressures over breaks (m, k) and edges (m, 4)
 Probe = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
-#: (changes) -> which of them equations locate completely, their places (several for some), and whether another change may lie
-#: next to each, which has one place then; all (k,)
+#: (changes) -> which of them equations locate completely, places (several for some), whether another may lie next to it; (k,)
 Equation = Callable[["Changes"], tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 

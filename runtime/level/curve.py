@@ -2,8 +2,7 @@
 
 Between its breaks (``breaks.py``) a curve is interpolated (``interpolation.py``). All velocities advance together. Unloading
 jumps to re-entrant branches: parts of the curve under a pressure below all that came before, as below the fold of the crest,
-where strips near the edge of the cell still adhere. A rough sample of the curve tells where these are to a few digits; what it
-leaves open is kept, and only what is kept is interpolated.
+where strips near the edge of the cell still adhere. Only what a rough sample of the curve leaves open is interpolated.
 """
 
 from dataclasses import replace

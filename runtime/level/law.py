@@ -1,8 +1,7 @@
 """Friction laws of a level: what it carries at a given nominal pressure, on one branch of loading.
 
-A law is a stack of smooth segments in disjoint intervals of pressure, at first one for each branch of the curve
-(``branches.py``); it may jump between them. Between segments whose pressures do not meet, where the curve itself jumps, it is
-what it is at the beginning of the next one.
+A law is a stack of smooth segments in disjoint intervals of pressure, at first one for each branch of the curve (``branches``);
+it may jump between them. Where their pressures do not meet, as the curve itself jumps, it is as at the beginning of the next.
 
 Every break of a law leaves kinks behind in the laws of all levels above, three for one and ever weaker ones; each costs panels
 over x, y and penetration. So neighbouring segments are ``merged`` where a smooth function is as good as both.

@@ -22,8 +22,6 @@ _SHARE, _CHUNK = 0.1, 4096
 #: what is left in a mean over contacts of the errors of a law, and of sums over parts: most panels and parts err by a hundredth
 #: of their bounds, which have to hold for each, and along a law's pieces errors change sign
 _CANCELLED, _SUMMED = 0.1, 0.3
-#: share of a pressure by which two that are next to one another are told apart
-_TRIFLE = 1e-9
 #: nodes of a part, tried in turn
 _NODES = (12, 20, 34, 54, 84)
 
@@ -56,7 +54,7 @@ class LowerLevelLaws:
         if index.size:
             breaks = self.laws.breaks[group[index]]
             # many contacts begin at ``-p_0``, all along y, where a law may let go too: rounding must not decide which pass that
-            least = contact.p_least + _TRIFLE * np.abs(contact.p_least)
+            least = contact.p_least + 1e-9 * np.abs(contact.p_least)
             out[index] = np.concatenate([p[:, None] - breaks for p in (contact.p_peak, least)], axis=1)
         return out
 

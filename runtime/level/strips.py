@@ -124,7 +124,8 @@ class LevelBatch:
         foundation, a = foundation_of(self.material), self.adhesion
         solved, strips, scales = foundation.solve(self.level.l, A, D, self.V[column], a.p_0, a.delta_0, self.edge, self.branch)
         searched = int(np.count_nonzero(solved.searched))
-        self.work.solved, self.work.decided = self.work.solved + searched, self.work.decided + solved.size - searched
+        self.work.solved += searched
+        self.work.decided += solved.size - searched
         tau = solved.tau_mean * scales["p"] * scales["k"] * scales["A"]
         return SolvedStrips(solved, strips, scales, solved.p_mean * scales["p"], tau, foundation)
 

@@ -23,8 +23,6 @@ import numpy as np
 from .chebyshev import coefficients, fall_ratio, lobatto, shared_size
 from .rounding import EPS
 
-#: coefficients in the middle of a series that those at its end are held against: one may be small by chance
-_MIDDLE = 3
 #: fastest pace believed of coefficients, by number of nodes, and of those that fall more slowly at the end than before, as where
 #: there is a layer; and the slowest that is told apart from a slower one
 _FASTEST, _LAYERED, _SLOWEST = {8: 0.45, 16: 0.42, 32: 0.65}, 0.65, 0.97
@@ -191,7 +189,8 @@ def sum_errors(values: np.ndarray, noise: np.ndarray) -> np.ndarray:
     shape = (c / amplitude).max(axis=1)
     many, few = _runs(n)
     step = _step(n)
-    ratio = fall_ratio(_last(shape, many), shape[n // 2 - _MIDDLE : n // 2].max(axis=0))
+    # against three in the middle, of which one may be small by chance
+    ratio = fall_ratio(_last(shape, many), shape[n // 2 - 3 : n // 2].max(axis=0))
     since = ratio ** (1 / (0.5 * (n + 1 - many)))
     recent = np.maximum(
         fall_ratio(_last(c, step), _last(c, step, step) + _QUIET * noise),

@@ -1,10 +1,9 @@
 """Orbits of strips without adhesion in closed form, from the width of their contact.
 
-With the width ``a - b`` of the contact given, the boundary equations (``residual_ac`` at p_0 = 0) are linear and
-homogeneous in ``(D - 1, cos m, sin m)``, m the phase in the middle of the contact: two equations that leave one
-direction, and so m and D without any search. Orbits are ordered: at a larger penetration more of the period is in
-contact. So every strip has one width and every width one strip, and the direction is that strip's: of its two senses
-the one in which the mean pressure is positive.
+With the width ``a - b`` of the contact given, the boundary equations (``residual_ac`` at p_0 = 0) are linear and homogeneous in
+``(D - 1, cos m, sin m)``, m the phase in the middle of the contact: two equations that leave one direction, and so m and D
+without any search. Orbits are ordered: at a larger penetration more of the period is in contact. So every strip has one width
+and every width one strip, and the direction is that strip's, in the sense that makes the mean pressure positive.
 """
 
 from __future__ import annotations

@@ -72,8 +72,8 @@ class Forced:
         z_d, none = self.states[2], np.zeros(s.size)
         turn = march(kernel, replace(s, bare=True), np.ones(s.size, bool), z_d, d, c_0 - d)
         touching = z_d.sum(axis=0) - kernel.profile(d, s.D) < s.step
-        b = np.where(touching, d, np.where(np.isnan(turn.entry), c_0, turn.entry))
-        a = np.where(np.isnan(turn.exit), c_0, turn.exit)
+        _, entry, end, _ = turn.edges
+        b, a = np.where(touching, d, np.where(np.isnan(entry), c_0, entry)), np.where(np.isnan(end), c_0, end)
         b, a = (np.where(touching | (turn.contacts > 0), edge, d) for edge in (b, a))
         if not exactly:
             return np.stack((d, b, a, c)), ~turn.lost

@@ -34,7 +34,6 @@ class Period:
     counts: np.ndarray
     lost: np.ndarray
 
-    onset, entry, exit, release = (property(lambda self, k=k: self.edges[k]) for k in range(4))
     onsets, contacts, releases = (property(lambda self, k=k: self.counts[k]) for k in range(3))
 
     @property
