@@ -50,11 +50,16 @@ def check_levels(levels) -> tuple[Level, ...]:
     return levels
 
 
-def check_single(material, adhesion) -> None:
-    """Refuse anything but one material and one adhesion law with single values."""
+def check_types(material, adhesion) -> None:
+    """Refuse anything but a material and an adhesion law."""
     check_material(material)
     if not isinstance(adhesion, Dugdale):
         raise InputError("adhesion", adhesion, "a hystrip.Dugdale (gamma=0: no adhesion)")
+
+
+def check_single(material, adhesion) -> None:
+    """Refuse anything but one material and one adhesion law with single values."""
+    check_types(material, adhesion)
     given = {f"material.{name}": value for name, value in parameters(material).items()}
     given |= {f"adhesion.{name}": getattr(adhesion, name) for name in ("p_0", "delta_0")}
     for name, value in given.items():

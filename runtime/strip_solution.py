@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .arguments import check_branch
-from .errors import InputError
+from .arguments import check_branch, check_types
 from .inputs.adhesion import Dugdale
 from .inputs.checks import broadcast, numbers
-from .inputs.materials import check_edge, check_material, parameters
+from .inputs.materials import check_edge, parameters
 from .orbit.foundation import Foundation, foundation_of
 from .orbit.regimes import CODE, REGIMES, SEQUENCES
 from .orbit.solved import Solved
@@ -159,9 +158,7 @@ def solve_strip(
     >>> print(strips.contact_fraction.round(3))
     [0.162 0.296 1.   ]
     """
-    check_material(material)
-    if not isinstance(adhesion, Dugdale):
-        raise InputError("adhesion", adhesion, "a hystrip.Dugdale (gamma=0: no adhesion)")
+    check_types(material, adhesion)
     wavelength = numbers("l", l, "m", 0, strict=True)
     A = numbers("A", A, "m", 0)
     D = numbers("D", D, "m")

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from hystrip.numerics.linear import solved
+from hystrip.numerics.linear import solve_each
 
 
 def test_one_singular_matrix_spoils_no_other():
@@ -15,10 +15,10 @@ def test_one_singular_matrix_spoils_no_other():
     matrix[2, 3] = matrix[2, 0]
     right[3, 1, 0] = np.inf
     matrix[4, 0, 0] = np.nan
-    found = solved(matrix, right)
+    found = solve_each(matrix, right)
     assert np.isnan(found[1:5]).all()
     assert np.allclose(found[[0, 5]], x[[0, 5]], rtol=1e-10)
 
 
 def test_nothing_to_solve():
-    assert solved(np.empty((0, 3, 3)), np.empty((0, 3, 1))).shape == (0, 3, 1)
+    assert solve_each(np.empty((0, 3, 3)), np.empty((0, 3, 1))).shape == (0, 3, 1)

@@ -193,7 +193,7 @@ class _Work:
         return done
 
     def _evaluated(self, state, theta) -> list[np.ndarray]:
-        """Codes, values, pressures over breaks and edges of strips (m,); solved with them: those next to panels that are due."""
+        """Codes, values, pressures over breaks and edges of strips (m,); with them all that ``_later`` numbered are solved."""
         m = theta.size
         known = 0 if self.ends is None else self.ends[0].size
         state, theta = (np.concatenate((v, beside[known:])) for v, beside in zip((state, theta), self.beside, strict=True))

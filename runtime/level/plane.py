@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..numerics.linear import solved
+from ..numerics.linear import solve_each
 from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
 from ..orbit.batch import Batch
@@ -167,7 +167,7 @@ def _step(columns: LevelBatch, boundary: Boundary, at: CurvePoints, unknown: str
     values = getattr(foundation.kernel, f"residual_{EQUATIONS[boundary.sequence]}")(*edges, *strips.arguments)
     values = np.array((*values, *events)).reshape(k + 1, 2 * k + 3, n)
     matrix = ((values[:, 1 : k + 2] - values[:, k + 2 :]) / (2 * length)).transpose(2, 0, 1)
-    return solved(matrix, -values[:, 0].T[:, :, None])[:, :, 0].T
+    return solve_each(matrix, -values[:, 0].T[:, :, None])[:, :, 0].T
 
 
 @dataclass

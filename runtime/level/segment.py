@@ -84,7 +84,7 @@ def cells_of(function: Callable[[np.ndarray, np.ndarray], np.ndarray], tolerance
     return [Cells(c[:, :, i], start[i], sizes[i], np.repeat(np.arange(i.size), sizes[i]), error[k]) for k, i in enumerate(parts)]
 
 
-def slot(x: np.ndarray, which: np.ndarray | int = 0) -> np.ndarray:
+def slot(x: np.ndarray, which: np.ndarray | int) -> np.ndarray:
     """The slot that each ``x`` in [0, 1] lies in, of the functions ``which``."""
     return which * SLOTS + np.minimum((x * SLOTS).astype(int), SLOTS - 1)
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 
-def solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+def solve_each(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
     """``x`` of ``matrix x = right`` for matrices (N, k, k) and columns (N, k, m), every row scaled by its largest entry.
 
     NaN where a matrix is singular or something is not finite."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...numerics.linear import solved
+from ...numerics.linear import solve_each
 from ...numerics.rounding import EPS
 from ..certificate import STABLE
 from ..groups import ROUNDING, TWO_PI
@@ -213,7 +213,7 @@ def _converging(kernel, strips: ModeStrips, sequence: str, edges: np.ndarray):
         for i, row in enumerate(rows):
             for j, entry in enumerate(row):
                 matrix[:, i, j] = entry
-        inverted = solved(matrix, np.broadcast_to(np.eye(len(here)), matrix.shape))
+        inverted = solve_each(matrix, np.broadcast_to(np.eye(len(here)), matrix.shape))
         step = -np.einsum("Nij,jN->iN", inverted, np.array(np.broadcast_arrays(*residual)))
         size = np.abs(step).max(axis=0)
         # at the limit of rounding a step no longer shrinks: it is the uncertainty, not a correction

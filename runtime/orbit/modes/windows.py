@@ -44,7 +44,7 @@ long as Newton's steps: next to a fold, where the map from window to window hard
 
 import numpy as np
 
-from ...numerics.linear import solved
+from ...numerics.linear import solve_each
 from ..groups import TWO_PI
 from .forced import Forced, chords
 from .problem import ModeStrips, rates
@@ -89,7 +89,7 @@ def responses(kernel, s: ModeStrips, contact, ends, forcing, upper: bool, moved=
     forgets = np.moveaxis(back, -1, 0) @ (np.expm1((a - b - TWO_PI) * rate).T[:, :, None] * np.moveaxis(s.m.share, -1, 0))
     matrix = -(1 + fade.T)[:, :, None] * forgets
     matrix[:, range(n), range(n)] -= fade.T
-    x = solved(matrix, np.moveaxis((1 + fade) * np.stack(columns), -1, 0).swapaxes(1, 2))
+    x = solve_each(matrix, np.moveaxis((1 + fade) * np.stack(columns), -1, 0).swapaxes(1, 2))
     r = np.einsum("kiN,Nij->kjN", np.stack(rows), x)
     between = d_1 + TWO_PI - c_2 if upper else d_2 + TWO_PI - c_1
     r[1, 0] += forcing[0] * (kicks * np.exp(-np.maximum(between, 0.0) * rate)).sum(axis=0)
