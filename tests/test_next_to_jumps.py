@@ -64,6 +64,6 @@ def test_a_curve_that_may_turn_back_where_branches_meet_is_asked_for_again(p):
     (row,) = branches_of([pieces], True)
     part = Intervals.of(np.array([0]), np.zeros(1), np.full(1, 2.0), np.zeros(1), np.zeros((1, 2)))
     for goal, again in ((1e-2, True), (1e-8, False)):
-        walk = _Walk(0, True, p, goal, 1e-8, [], now=part)
+        walk = _Walk(0, True, p, goal, 1e-8, [], [part])
         walk.go_on(pieces, row, False)
         assert (walk.now is not None) is again and (walk.root is None) is again and not walk.undecided

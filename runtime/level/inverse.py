@@ -15,7 +15,7 @@ from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS, LARGEST
 from ..orbit.batch import Batch
 from .averages import Averages, level_means
-from .branches import Branch, ParameterAt, Piece, branches_of
+from .branches import Branch, ParameterAt, Piece, branches_of, rising
 from .breaks import between_breaks, first_contact
 from .interpolation import Intervals, interpolate
 from .nonadhesive.law import penetrations
@@ -141,8 +141,8 @@ def _first_passes(columns: LevelBatch, p: np.ndarray, top: np.ndarray, rtol: flo
             found.inner_low[:], found.inner_high[:] = (low == D[row, 0]) & (low > bottom), high == D[row, -1]
             for k, walk in enumerate(fresh):
                 walk.now = found.take(row == k)
-        for walk in going:
-            walk.now.atol[:, 0] = walk.goal
+                walk.now.atol[:, 0] = walk.goal
+                walk.asked.append(walk.now)
         pieces = interpolate(columns, Intervals.joined([walk.now for walk in going]), strips, first=_FIRST)
         known = branches_of([[*walk.known, *pieces[walk.column]] for walk in going], unloading)
         for walk, row in zip(going, known, strict=True):
@@ -169,8 +169,8 @@ class _Walk:
     """One column along its curve, from the end its branch comes from to where it first passes the pressure ``p``.
 
     ``goal``: error of the curve's pressure that it may have so far, at last ``finest``, Pa. ``waiting``: what is ahead of it, the
-    next part last; ``now``: the part it goes along. ``known``: pieces of what was gone along before, and ``held``: parts that
-    they are of, loading to less than no pressure, until it is known where the curve is least. ``undecided``: why, if it is.
+    next part last; ``asked``: the parts it has gone along; ``now``: the one it goes along, or what is asked for again of all;
+    ``known``: pieces of the others. ``undecided``: why, if it is.
     """
 
     column: int
@@ -179,23 +179,21 @@ class _Walk:
     goal: float
     finest: float
     waiting: list[tuple[float, float]]
+    asked: list[Intervals] = field(default_factory=list)
     now: Intervals | None = None
     known: list[Piece] = field(default_factory=list)
-    held: list[Intervals] = field(default_factory=list)
     root: Root | None = None
     undecided: str = ""
 
     def go_on(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
         """Look for the root in the branches of all that is known by now, the pieces ``found`` last included; where the work is
-        not ``exhausted`` the part may be asked for again, finer."""
-        part, self.now, before = self.now, None, self.known
-        self.known = [*before, *found]
+        not ``exhausted`` what comes to the pressure may be asked for again, finer."""
+        self.now, self.known = None, [*self.known, *found]
         clings = self.p < 0 and not self.unloading
         if not row:
             return
         # as the first strips cling the pressure falls below zero, and where it is least is known when it comes back
         if clings and self.waiting and not (row[-1].p_high >= 0 > row[0].p_low + _DOUBT * row[0].errors.most[0]):
-            self.held.append(part)
             return
         # where unloading comes from, and where the way of loading ends, the curve carries more than the pressure, but for errors
         end = 2 * (len(row) - (self.unloading or not self.waiting))
@@ -205,8 +203,12 @@ class _Walk:
         whole = inside and all(a.t_high == 1 and b.t_low == 0 and a.piece.high == b.piece.low for a, b in joints)
         if not (least == most or whole):
             if self.goal > self.finest and not exhausted:
-                self.goal, self.now = max(_FINER * self.goal, self.finest), Intervals.joined([*self.held, part])
-                self.known, self.held = ([], []) if clings else (before, [])
+                asked, start = Intervals.joined(self.asked), np.array([piece.low for piece in self.known])
+                of = (asked.low[:, None] <= start) & (start < asked.high[:, None])
+                again = (of & [_comes_to(self.p, piece, self.goal) for piece in self.known]).any(axis=1)
+                self.goal, self.now = max(_FINER * self.goal, self.finest), asked.take(np.flatnonzero(again))
+                self.now.atol[:, 0] = self.goal
+                self.known = [piece for piece, by in zip(self.known, of[again].any(axis=0), strict=True) if not by]
                 return
             # two branches that overlap by less than they are known to may be one
             if not (inside and all(a.inner_high and b.inner_low for a, b in joints)):
@@ -216,6 +218,14 @@ class _Walk:
             self.root = _in_jump(*row[k // 2 : k // 2 + 2], self.unloading) if k % 2 else _in_branch(row[k // 2], self.p)
         if self.root is not None or clings:
             self.waiting = []
+
+
+def _comes_to(p: float, piece: Piece, goal: float) -> bool:
+    """Whether the curve carries the pressure in a piece or next to it, but for errors; by less than the ``goal`` it may rise in
+    what was left out."""
+    t = np.array([0.0, 1.0, *(end for part in rising([piece])[0] for end in (part.t_low, part.t_high))])
+    met, doubt = piece.values(t)[:, 0], max(_DOUBT * piece.errors.most[0], goal)
+    return bool(met.min() - doubt <= p <= met.max() + doubt)
 
 
 def _place(row: list[Branch], p: float, doubts: float) -> int:

@@ -210,10 +210,11 @@ def step(values, before, after) -> tuple[np.ndarray, np.ndarray]:
     return np.array([k + m * first for k, m in zip(constant, linear, strict=True)]), slope
 
 
-def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = False):
+def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, exists: bool = False, blurred: bool = False):
     """The orbit with its edges refined, whether nothing was left to correct, how far rounding may have moved edges (else 0).
 
-    ``blurred``: corrections that rounding blurs may be larger, even where it might pretend an orbit.
+    Corrections that rounding blurs may be larger: where an orbit ``exists`` those of a gap that all but grazes what ends it, and
+    ``blurred`` all.
     """
     # the cycle of an always adhering strip is the bare one, shifted: its boundary equations are those of "ac" at p_0 = 0
     edges = orbit.edges(sequence)
@@ -240,7 +241,11 @@ def refined(kernel, sequence: str, cycle: Cycle, orbit: Orbit, blurred: bool = F
             # of an orbit that others approach in a period, by this share of their distance, rounding leaves no doubt; nor of one
             # without adhesion, which has no fold nor graze
             falls = -slope_excess(kernel, part, orbit.take(stalled))[0]
-            sure = np.where(falls > STABLE, ROUNDING / np.minimum(falls, 1e-3), 0.0)
+            wide = 1 / np.minimum(falls, 1e-3)
+            if exists:
+                rates = np.abs(_equations(kernel, part, sequence, edges[:, stalled])[-1]).min(axis=0)
+                wide = np.maximum(wide, (1 + np.abs(part.strips.D) + part.strips.p_0 + part.strips.delta_0) / rates)
+            sure = np.where(falls > STABLE, ROUNDING * wide, 0.0)
             blur[stalled] = np.where(blurred | part.bare, STABLE, np.minimum(sure, STABLE))
     return orbit, correction <= CONVERGED + blur, blur
 

@@ -200,7 +200,7 @@ def _refined_within(kernel, cycle: Cycle, orbit: Orbit, left: Orbit, right: Orbi
         here = np.flatnonzero(kind)
         if here.size:
             part = cycle.take(here)
-            new, converged, blur = refined(kernel, sequence, part, orbit.take(here), blurred)
+            new, converged, blur = refined(kernel, sequence, part, orbit.take(here), True, blurred)
             slack = ROUNDING * TWO_PI + blur
             good = converged & (new.x >= left.x[here] - slack) & (new.x <= right.x[here] + slack)
             good[good] = edges_admissible(kernel, part.take(good), new[good])
