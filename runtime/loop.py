@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -24,9 +25,11 @@ if TYPE_CHECKING:
     from .level_solution import LevelSolution
     from .typing import Branch, Edge, Floats, Number
 
-#: penetrations of the first look; then the middle of every interval over which the pressure changes by more than this part
-#: of its range, so many times: what is still steep after that is a jump
-_FIRST, _STEEP, _ROUNDS = 80, 0.015, 7
+#: penetrations of the first look, and of another one where adhesion lets go
+_FIRST, _NEAR = 80, 40
+#: intervals are divided at these parts of them, so many times, where a pressure changes by more than a part of its range (at the
+#: finest width, a part of all penetrations, that is a jump), or where the area between the curves errs by more than a part of it
+_PARTS, _ROUNDS, _STEEP, _FINEST, _AREA = (0.25, 0.5, 0.75), 12, 0.015, 1e-4, 2e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +41,7 @@ class Loop:
     loading, unloading : penetration (m), mean pressure (Pa), friction stress (Pa) and contact fraction, each (n,), ascending in
         penetration, as :class:`hystrip.LevelSolution`
     pull_off : least mean pressure when pulled back, Pa: where the level comes off under load control; 0 without adhesion
-    pull_off_penetration : penetration at which that is, m
+    pull_off_penetration : penetration at which that is, m, also where it lies beyond ``D_max``
     work : area between the two curves, J/m^2: what a slow cycle of pressing in and pulling back costs, sliding apart
     """
 
@@ -91,45 +94,53 @@ def loading_loop(
     -707 Pa, 0.0014 J/m^2
     """
     at_level, *_ = check_on_level(material, adhesion, level, V := number("V", V, "m/s", 0), edge, "loading", rtol)
-    above = reach(adhesion, at_level.K)
-    if D_max is None:
-        full = float(saturated_level(material, adhesion, level, np.array([V])).D_sat[0])
-        top = max(min(1.1 * full + 0.1 * level.h, 2 * level.h + 0.3 * above), 1.5 * level.h) if level.h > 0 else above or 1e-9
-    else:
-        top = number("D_max", D_max, "m")
-        if top <= -above:
-            raise InputError("D_max", D_max, f"more than {-above:g} m, below which nothing touches")
-    low = -above - 0.05 * (level.h or top)
-    curves = [
-        _curve(material, adhesion, level, V, np.linspace(low, top, _FIRST), edge, b, rtol) for b in ("loading", "unloading")
-    ]
-    loading, unloading = curves
-    at = int(np.argmin(unloading.p_mean))
-    sticks = bool(adhesion.p_0 > 0)
-    joint = np.union1d(loading.D, unloading.D)
-    pressures = [np.interp(joint, each.D, each.p_mean) for each in (loading, unloading)]
-    apart = pressures[0] - pressures[1]
-    work = float(np.sum(0.5 * (apart[1:] + apart[:-1]) * np.diff(joint)))
+    K = float(at_level.K)
+    above = reach(adhesion, K)
+    full = float(saturated_level(material, adhesion, level, np.array([V])).D_sat[0])
+    usual = max(min(1.1 * full + 0.1 * level.h, 2 * level.h + 0.3 * above), 1.5 * level.h) if level.h > 0 else above or 1e-9
+    top = usual if D_max is None else number("D_max", D_max, "m")
+    if top <= -above:
+        raise InputError("D_max", D_max, f"more than {-above:g} m, below which nothing touches")
+    low, sticks = -above - 0.05 * (level.h or max(top, usual)), bool(adhesion.p_0 > 0)
+    near = min(top, usual)
+    rest = np.linspace(near, max(top, usual), _FIRST)
+    first = np.unique([*np.linspace(low, near, _FIRST), *np.linspace(-above, min(2 * above, usual), _NEAR), *rest])
+
+    def solved(branch: Branch, D: Floats) -> LevelSolution:
+        return solve_level(material, adhesion, level, V=V, D=D, edge=edge, branch=branch, rtol=rtol)
+
+    least = 1e-3 * rtol * (K * level.h + float(adhesion.p_0)) * (usual - low)
+    D, p, at = _sampled(solved, first, near, top, least, sticks)
+    kept = D <= top
+    loading, unloading = solved("loading", D[kept]), solved("unloading", D[kept])
+    apart = p[0, kept] - p[1, kept]
+    work = float(np.sum(0.5 * (apart[1:] + apart[:-1]) * np.diff(D[kept])))
     pull_off = 0.0
     if sticks:  # the least of the curve itself, of which the points are only near
         pull_off = friction_law(material, adhesion, level, V=V, edge=edge, rtol=rtol, below=0.0).pull_off
-    return Loop(loading, unloading, pull_off, float(unloading.D[at]) if sticks else 0.0, work)
+    return Loop(loading, unloading, pull_off, float(D[at]) if sticks else 0.0, work)
 
 
-def _curve(
-    material: Material, adhesion: Dugdale, level: Level, V: float, D: Floats, edge: Edge, branch: Branch, rtol: float
-) -> LevelSolution:
-    """A branch over penetrations, more of them where the pressure is steep."""
-    p = np.empty(0)
-    seen = np.empty(0)
+def _sampled(
+    solved: Callable[[Branch, Floats], LevelSolution], D: Floats, near: float, top: float, least: float, sticks: bool
+) -> tuple[Floats, Floats, int]:
+    """Penetrations (n,), more of them where a curve is steep up to ``near``, where the area between both up to ``top`` bends (to
+    no less than ``least``, J/m^2) and where unloading pulls most; pressures (2, n), loading and unloading; where the least is."""
+    seen, p, finest = np.empty(0), np.empty((2, 0)), _FINEST * (near - D[0])
     for _ in range(_ROUNDS):
-        new = np.setdiff1d(D, seen)
-        values = solve_level(material, adhesion, level, V=V, D=new, edge=edge, branch=branch, rtol=rtol).p_mean
-        seen, p = np.concatenate((seen, new)), np.concatenate((p, values))
+        p = np.concatenate((p, [solved("loading", D).p_mean, solved("unloading", D).p_mean]), axis=1)
+        seen = np.concatenate((seen, D))
         order = np.argsort(seen)
-        seen, p = seen[order], p[order]
-        steep = np.abs(np.diff(p)) > _STEEP * np.ptp(p)
-        if not steep.any():
+        seen, p = seen[order], p[:, order]
+        width, apart, at = np.diff(seen), np.where(seen <= top, p[0] - p[1], 0.0), int(np.argmin(p[1]))
+        # trapezoids err as what they are put under bends
+        bends = np.pad(np.abs(np.diff(np.diff(apart) / width)), 1)
+        area = float(np.sum(np.abs(apart[1:] + apart[:-1]) * width)) / 2
+        split = width**2 * (bends[1:] + bends[:-1]) / 12 > _AREA * max(area, least)
+        fine = (np.abs(np.diff(p)).max(axis=0) > _STEEP * np.ptp(p[:, seen <= near])) & (seen[1:] <= near)
+        fine[max(at - 1, 0) : at + 1] |= sticks
+        split |= fine & (width > finest)
+        D = np.setdiff1d((seen[:-1] + np.multiply.outer(_PARTS, width))[:, split], seen)
+        if not D.size:
             break
-        D = 0.5 * (seen[:-1] + seen[1:])[steep]
-    return solve_level(material, adhesion, level, V=V, D=seen, edge=edge, branch=branch, rtol=rtol)
+    return seen, p, at

@@ -124,6 +124,17 @@ def test_a_loop_has_pull_off_and_closes():
     assert "pull-off" in repr(loop) and inside(loop.plot()) and inside(bare.plot())
 
 
+def test_work_and_pull_off_of_a_loop_are_those_of_many_penetrations():
+    """Adhesion that pulls by a thousandth of what full contact is pressed by, and a loop that goes far beyond that."""
+    adhesion, level = hystrip.Dugdale(p_0=100.0, delta_0=5e-8), hystrip.Level(l=1e-5, h=1e-6)
+    far, short = (hystrip.loading_loop(MATERIAL, adhesion, level, V=1e-3, D_max=D_max, rtol=1e-2) for D_max in (4e-6, -4e-8))
+    # of 20,001 penetrations from -1 to 2.5 um at rtol 1e-3
+    assert far.work == pytest.approx(1.14925e-6, rel=2e-3)
+    assert far.unloading.p_mean.min() == pytest.approx(far.pull_off, rel=1e-3) and short.unloading.D[-1] == -4e-8
+    for loop in (far, short):
+        assert loop.pull_off_penetration == pytest.approx(-9.15e-9, abs=2e-10)
+
+
 @pytest.mark.parametrize(
     ("changed", "field"),
     [
