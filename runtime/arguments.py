@@ -87,7 +87,9 @@ def check_rtol(rtol) -> float:
 def point_index(at: int | tuple[int, ...], shape: tuple[int, ...]) -> int:
     """Flat index of the point ``at``, an index or a tuple of them, among points of a ``shape``."""
     try:
-        return int(np.ravel_multi_index(at, shape)) if isinstance(at, tuple) and at else range(math.prod(shape))[at or 0]
+        if isinstance(at, tuple):
+            return int(np.ravel_multi_index(at, shape)) if at or shape else 0
+        return range(math.prod(shape))[0 if at is None else at]
     except (IndexError, ValueError, TypeError):
         raise InputError("at", at, f"an index into the {math.prod(shape)} points, of shape {shape}") from None
 

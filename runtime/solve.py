@@ -99,6 +99,10 @@ def solve(
         material = material.at_temperature(temperature)
     edge, branch = check_edge(material, edge), check_branch(branch)
     rtol = check_rtol(rtol)
+    if not isinstance(skip, (bool, np.bool_)):
+        raise InputError("skip", skip, "True or False")
+    if progress is not None and not callable(progress):
+        raise InputError("progress", progress, "a function of the points done and their total")
     velocity = numbers("velocity", velocity, "m/s", 0)
     if (pressure is None) == (penetration is None):
         given = {"pressure": pressure, "penetration": penetration}

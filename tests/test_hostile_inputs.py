@@ -10,6 +10,7 @@ import time
 from contextlib import contextmanager
 
 import numpy as np
+import pint
 import pytest
 from scene_text import ONE_LEVEL
 
@@ -184,6 +185,14 @@ CALLS = [
     ("K of many digits", lambda: hystrip.StandardLinearSolid(**(SLS | {"K": 10**5000})), "material.K"),
     ("a range without end", lambda: hystrip.StandardLinearSolid(**(SLS | {"K": range(10**12)})), "material.K"),
     ("nested K", lambda: hystrip.StandardLinearSolid(**(SLS | {"K": nested(5000)})), "material.K"),
+    ("arrays with units", lambda: surface(velocity=[pint.Quantity(np.ones(2), "mm/s")] * 2), "velocity"),
+    ("a shift that is not made", lambda: hystrip.StandardLinearSolid(**SLS, shift=hystrip.WLF), "material.shift"),
+    ("where WLF ends", lambda: hystrip.WLF(C_1=8.86, C_2=101.6, T_ref=293.15).factor(191.55), "temperature"),
+    ("moduli beyond numbers", lambda: hystrip.Arrhenius(E_a=1e5, T_ref=300.0, vertical=10).modulus_factor(1e38), "temperature"),
+    ("progress", lambda: surface(progress=1), "progress"),
+    ("skip", lambda: surface(skip="no"), "skip"),
+    ("no point", lambda: surface(velocity=[1.0, 2.0]).contact_map(""), "at"),
+    ("an empty point", lambda: surface(velocity=[1.0, 2.0]).contact_map(()), "at"),
     ("over with a number", lambda: hystrip.sweep("paper_fig7", over={1: [1]}), "over"),
     ("over as a list", lambda: hystrip.sweep("paper_fig7", over=[1]), "over"),
     ("over as a text", lambda: hystrip.sweep("paper_fig7", over="velocity=1"), "over"),
@@ -206,6 +215,11 @@ def nested(depth):
     for _ in range(depth):
         value = [value]
     return value
+
+
+def test_integers_of_more_than_64_bits_are_numbers():
+    many = hystrip.StandardLinearSolid(K=[10**20, 1], T_eps=10**30, T_sigma=0)
+    assert many.K.tolist() == [1e20, 1.0] and many.T_eps == 1e30
 
 
 @pytest.mark.filterwarnings("error")

@@ -29,7 +29,8 @@ def numbers(field: str, value: Any, unit: str, minimum: float = -np.inf, strict:
     allowed = _allowed(unit, minimum, strict)
     if isinstance(value, (str, bytes, bool)) or value is None:
         raise InputError(field, value, allowed)
-    if hasattr(value, "to") and (hasattr(value, "units") or hasattr(value, "unit")):
+    parts = value if isinstance(value, (list, tuple)) and value and not isinstance(value[0], (int, float)) else ()
+    if any(hasattr(each, "to") and (hasattr(each, "units") or hasattr(each, "unit")) for each in (value, *parts)):
         raise InputError(field, value, f"{allowed}, without a unit of its own: convert it first")
     if "numpy.ma" in sys.modules and np.ma.is_masked(value):  # loading it takes longer than most calls
         raise InputError(field, value, f"{allowed}, none of them masked")
@@ -37,11 +38,13 @@ def numbers(field: str, value: Any, unit: str, minimum: float = -np.inf, strict:
         raise InputError(field, value, f"{allowed}, at most {_MOST:.0e} of them")
     try:
         raw = np.asarray(value)
+        if raw.dtype.kind == "O" and all(type(each) in (int, float) for each in raw.flat):  # integers of more than 64 bits
+            raw = raw.astype(np.float64)
         if raw.dtype.kind not in "iuf":
             raise InputError(field, value, allowed)
         with np.errstate(over="ignore"):  # a longer float: refused below, by name
             array = raw.astype(np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError(field, value, allowed) from None
     bad = ~np.isfinite(array) | ((array <= minimum) if strict else (array < minimum))
     if bad.any():

@@ -10,7 +10,7 @@ from .checks import number, numbers
 
 #: gas constant, J/(mol K) (exact since 2019)
 R_GAS = 8.314462618
-#: decades that a shift may span: beyond, no time is one of the material's
+#: decades that a shift may span: beyond, no time and no modulus is one of the material's
 _FURTHEST = 30.0
 
 
@@ -62,11 +62,13 @@ class WLF:
     def factor(self, T: Any) -> np.ndarray:
         """``a_T``: relaxation times at T (K, any shape) over those at ``T_ref``."""
         T = temperatures(T, max(self.T_ref - self.C_2, 0.0))
-        return _power(-self.C_1 * (T - self.T_ref) / (self.C_2 + T - self.T_ref), T)
+        with np.errstate(divide="ignore"):  # next to the bound: refused below, by name
+            decades = -self.C_1 * (T - self.T_ref) / (self.C_2 + T - self.T_ref)
+        return 10.0 ** _refuse_far(decades, T)
 
     def modulus_factor(self, T: Any) -> np.ndarray:
         """``b_T``: moduli at T (K, any shape) over those at ``T_ref``."""
-        return (temperatures(T) / self.T_ref) ** self.vertical
+        return _modulus_factor(self, T)
 
 
 @dataclass(frozen=True)
@@ -97,11 +99,11 @@ class Arrhenius:
     def factor(self, T: Any) -> np.ndarray:
         """``a_T``: relaxation times at T (K, any shape) over those at ``T_ref``."""
         T = temperatures(T)
-        return _power(self.E_a / R_GAS * (1 / T - 1 / self.T_ref) / np.log(10), T)
+        return 10.0 ** _refuse_far(self.E_a / R_GAS * (1 / T - 1 / self.T_ref) / np.log(10), T)
 
     def modulus_factor(self, T: Any) -> np.ndarray:
         """``b_T``: moduli at T (K, any shape) over those at ``T_ref``."""
-        return (temperatures(T) / self.T_ref) ** self.vertical
+        return _modulus_factor(self, T)
 
 
 def factors_at(shift: Shift | None, temperature: Any) -> tuple[float, float]:
@@ -115,7 +117,7 @@ def factors_at(shift: Shift | None, temperature: Any) -> tuple[float, float]:
 
 def check_shift(value: Any) -> None:
     """``InputError`` unless ``value`` is a shift or None."""
-    if value is not None and not (hasattr(value, "factor") and hasattr(value, "modulus_factor")):
+    if value is not None and not isinstance(value, (WLF, Arrhenius)):
         raise InputError("material.shift", value, "None, a hystrip.WLF or a hystrip.Arrhenius")
 
 
@@ -124,13 +126,19 @@ def temperatures(T: Any, above: float = 0.0) -> np.ndarray:
     return numbers("temperature", T, "K", above, strict=True)
 
 
-def _power(decades: np.ndarray, T: np.ndarray) -> np.ndarray:
+def _modulus_factor(shift: Shift, T: Any) -> np.ndarray:
+    T = temperatures(T)
+    _refuse_far(shift.vertical * np.log10(T / shift.T_ref), T)
+    return (T / shift.T_ref) ** shift.vertical
+
+
+def _refuse_far(decades: np.ndarray, T: np.ndarray) -> np.ndarray:
+    """The ``decades`` by which T shifts, none of them too many."""
     far = np.abs(decades) > _FURTHEST
     if far.any():
-        raise InputError(
-            "temperature", float(T[far].flat[0]), f"a temperature (K) that shifts times by at most {_FURTHEST:g} decades"
-        )
-    return 10.0**decades
+        allowed = f"a temperature (K) that shifts times and moduli by at most {_FURTHEST:g} decades"
+        raise InputError("temperature", float(T[far].flat[0]), allowed)
+    return decades
 
 
 def check_exponents(field: str, vertical: Any) -> None:
