@@ -1,6 +1,7 @@
 """DMA data: what is read, and that a known spectrum comes back."""
 
 import numpy as np
+import pint
 import pytest
 
 import hystrip
@@ -298,11 +299,35 @@ def test_bad_files_are_named(tmp_path, text, said):
         ({"accuracy": 0.9}, "accuracy: got 0.9"),
         ({"band": 3}, "band: got 3"),
         ({"times": [1.0, -1.0]}, "times: got -1.0"),
+        ({"times": []}, "at least one relaxation time"),
+        ({"times": 1e30}, "one gets a modulus, such as those from 0.0001 to 100 s"),
     ],
 )
 def test_bad_arguments(options, said):
     with pytest.raises(hystrip.InputError, match=said):
         fit_prony(known(7e5, MODULI, TIMES), **options)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda data: DynamicModulus.from_function(np.sqrt, 1, 10, per_decade="12"), "per_decade: got '12'"),
+        (lambda data: DynamicModulus.from_function(np.sqrt, 1, 10, per_decade=np.nan), "per_decade: got nan"),
+        (lambda data: DynamicModulus.from_function(np.sqrt, 1, 10, per_decade=0), "per_decade: got 0"),
+        (lambda data: DynamicModulus.from_function(np.sqrt, 1, 10, per_decade=1e6), "per_decade: .*up to 1000"),
+        (lambda data: DynamicModulus.from_function(None, 1, 10), "modulus: got None; allowed: a function"),
+        (lambda data: DynamicModulus.from_complex([1, 2], pint.Quantity([1, 2], "MPa")), "modulus: .*without a unit"),
+        (lambda data: fit_prony((OMEGA, pint.Quantity(data.storage + 1j * data.loss, "MPa"))), "modulus: .*without a unit"),
+        (lambda data: data.between("1", 2), "low: got '1'"),
+        (lambda data: data.shifted(2.0, 0), "vertical: got 0"),
+        (lambda data: data.shifted("2"), "factor: got '2'"),
+        (lambda data: fit_prony(data).modulus("1"), "omega: got '1'"),
+    ],
+)
+def test_calls_of_the_wrong_kind_are_named(call, said):
+    with pytest.raises(hystrip.InputError, match=said):
+        call(known(7e5, MODULI, TIMES))
 
 
 def test_what_is_no_relaxing_solid_is_refused():

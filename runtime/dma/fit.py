@@ -87,6 +87,8 @@ def fit_prony(
         series = _series(data, _placed(Placement(data), int(terms)), True)
     elif times is not None:
         offered = np.unique(np.atleast_1d(numbers("times", times, "s", 0, strict=True)))
+        if not offered.size:
+            raise InputError("times", times, "at least one relaxation time (s)")
         _refuse_too_many(offered.size, offered.size + 1, data)
         series = _series(data, offered, False)
     elif per_decade is not None:
@@ -198,6 +200,9 @@ def _series(data: DynamicModulus, times: np.ndarray, free: bool) -> PronySeries:
     offered = times.size
     moduli, residuals = solved(data, times)
     keep = moduli[1:] > _NOTHING * moduli.sum()
+    if not keep.any() and data.loss.any():
+        band = f"{1 / data.omega[-1]:.3g} to {1 / data.omega[0]:.3g} s"
+        raise InputError("relaxation times", times.tolist(), f"times of which one gets a modulus, such as those from {band}")
     if not keep.any():
         raise InputError("dma", "no relaxation", "data whose loss modulus is not zero throughout")
     f = data.frequency

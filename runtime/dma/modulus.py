@@ -9,10 +9,12 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..inputs.checks import LARGEST, number, numbers
+from ..inputs.checks import LARGEST, has_unit, number, numbers
 
 #: frequencies per decade at which a function is tabulated: several to each relaxation time of the finest series
 _PER_DECADE = 12
+#: the most that may be asked for
+_MOST = 1000
 #: Pa, least modulus: a vacuum is stiffer, and residuals relative to less leave the range of a double when squared
 _SMALLEST = 1e-20
 
@@ -73,10 +75,13 @@ class DynamicModulus:
 
         Raises ``InputError`` as for :class:`DynamicModulus`.
         """
+        allowed = "complex numbers, storage + i loss (Pa)"
+        if has_unit(modulus):
+            raise InputError("modulus", modulus, f"{allowed}, without a unit of their own: convert them first")
         try:
             values = np.asarray(modulus, dtype=complex)
         except (TypeError, ValueError):
-            raise InputError("modulus", modulus, "complex numbers, storage + i loss (Pa)") from None
+            raise InputError("modulus", modulus, allowed) from None
         return cls(omega, values.real, values.imag, kind)
 
     @classmethod
@@ -88,9 +93,9 @@ class DynamicModulus:
         Parameters
         ----------
         low, high : band, Hz, > 0
-        per_decade : frequencies in each decade
+        per_decade : frequencies in each decade, up to 1000
 
-        Raises ``InputError`` for a bad band, or for values that are no modulus of a solid.
+        Raises ``InputError`` for a bad argument, or for values that are no modulus of a solid.
 
         >>> def fractional_zener(omega):
         ...     x = (1j * omega * 1e-4) ** 0.5
@@ -101,12 +106,16 @@ class DynamicModulus:
         low, high = number("low", low, "Hz", 0, strict=True), number("high", high, "Hz", 0, strict=True)
         if not low < high:
             raise InputError("low, high", (low, high), "a lowest frequency below the highest (Hz)")
-        count = max(round(per_decade * np.log10(high / low)) + 1, 2)
-        omega = 2 * np.pi * np.geomspace(low, high, count)
+        each = number("per_decade", per_decade, "", 0, strict=True)
+        if each > _MOST:
+            raise InputError("per_decade", per_decade, f"a number up to {_MOST}")
+        if not callable(modulus):
+            raise InputError("modulus", modulus, "a function E*(omega) of rad/s")
+        omega = 2 * np.pi * np.geomspace(low, high, max(round(each * np.log10(high / low)) + 1, 2))
         values = modulus(omega)
         if np.shape(values) not in ((), omega.shape):
             raise InputError("modulus", f"values of shape {np.shape(values)}", f"one for each omega, of shape {omega.shape}")
-        return cls.from_complex(omega, np.broadcast_to(values, omega.shape), kind)
+        return cls.from_complex(omega, values if np.ndim(values) else np.full(omega.shape, values), kind)
 
     @property
     def frequency(self) -> np.ndarray:
@@ -114,17 +123,22 @@ class DynamicModulus:
         return self.omega / (2 * np.pi)
 
     def between(self, low: float | None = None, high: float | None = None) -> DynamicModulus:
-        """The part from ``low`` to ``high``, in Hz. Raises InputError if fewer than two frequencies remain."""
+        """The part from ``low`` to ``high``, in Hz. Raises InputError for no numbers, or if fewer than two frequencies remain."""
         f = self.frequency
+        least = 0.0 if low is None else number("low", low, "Hz")
+        most = LARGEST if high is None else number("high", high, "Hz")
         # a limit as written and a frequency that came through 2 pi and back differ by rounding
-        keep = (f >= (low or 0) * (1 - 1e-12)) & (f <= (LARGEST if high is None else high * (1 + 1e-12)))
+        keep = (f >= least * (1 - 1e-12)) & (f <= most * (1 + 1e-12))
         if keep.sum() < 2:
             span = f"{f[0]:.4g} to {f[-1]:.4g} Hz"
             raise InputError("frequencies", (low, high), f"a range with two measured frequencies or more; measured: {span}")
         return self._with(self.omega[keep], self.storage[keep], self.loss[keep])
 
     def shifted(self, factor: float, vertical: float = 1.0) -> DynamicModulus:
-        """At ``factor`` times the frequency (a_T) and moduli over ``vertical`` (b_T): moved along a master curve."""
+        """At ``factor`` times the frequency (a_T) and moduli over ``vertical`` (b_T), both > 0: moved along a master curve.
+
+        Raises ``InputError`` for other factors."""
+        factor, vertical = number("factor", factor, "", 0, strict=True), number("vertical", vertical, "", 0, strict=True)
         return self._with(self.omega * factor, self.storage / vertical, self.loss / vertical)
 
     def _with(self, omega, storage, loss) -> DynamicModulus:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError
-from ..inputs.checks import number
+from ..inputs.checks import number, numbers
 from ..inputs.fitted import FittedBand
 from ..inputs.material import StandardLinearSolid
 
@@ -87,8 +87,10 @@ class PronySeries:
         return self.relaxed + sum(self.moduli)
 
     def modulus(self, omega: Any) -> np.ndarray:
-        """Complex modulus (storage + i loss), Pa, at angular frequencies ``omega``, rad/s, any shape."""
-        x = np.multiply.outer(np.asarray(omega, dtype=float), np.array(self.times))
+        """Complex modulus (storage + i loss), Pa, at angular frequencies ``omega``, rad/s, any shape.
+
+        Raises ``InputError`` for what is no number."""
+        x = np.multiply.outer(numbers("omega", omega, "rad/s"), np.array(self.times))
         return self.relaxed + (1j * x / (1 + 1j * x)) @ np.array(self.moduli)
 
     def foundation(self, length: float) -> Foundation:

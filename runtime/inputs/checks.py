@@ -30,7 +30,7 @@ def numbers(field: str, value: Any, unit: str, minimum: float = -np.inf, strict:
     if isinstance(value, (str, bytes, bool)) or value is None:
         raise InputError(field, value, allowed)
     parts = value if isinstance(value, (list, tuple)) and value and not isinstance(value[0], (int, float)) else ()
-    if any(hasattr(each, "to") and (hasattr(each, "units") or hasattr(each, "unit")) for each in (value, *parts)):
+    if any(map(has_unit, (value, *parts))):
         raise InputError(field, value, f"{allowed}, without a unit of its own: convert it first")
     if "numpy.ma" in sys.modules and np.ma.is_masked(value):  # loading it takes longer than most calls
         raise InputError(field, value, f"{allowed}, none of them masked")
@@ -90,6 +90,11 @@ def broadcast(**arrays: np.ndarray) -> tuple[int, ...]:
     except ValueError:
         shapes = {name: np.shape(a) for name, a in arrays.items() if np.ndim(a)}
         raise InputError(", ".join(shapes), list(shapes.values()), "shapes that broadcast together") from None
+
+
+def has_unit(value: Any) -> bool:
+    """Whether a value is a quantity of Pint, Astropy or the like, whose unit would be dropped."""
+    return hasattr(value, "to") and (hasattr(value, "units") or hasattr(value, "unit"))
 
 
 def _length(value: Any) -> float:
