@@ -204,6 +204,8 @@ def solve_level(
 def _means(columns: LevelBatch, p: np.ndarray | None, rtol: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Penetrations (n,), NaN below pull-off, means and errors (n, 4), at the columns' penetrations or at the pressures ``p``."""
     accuracy = np.full(columns.size, rtol)
+    if not columns.size:
+        return columns.D, *np.zeros((2, 0, len(QUANTITIES)))
     if p is None:
         means = level_means(columns, accuracy)
         return columns.D, means.values, means.errors

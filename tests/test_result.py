@@ -112,6 +112,16 @@ def test_a_result_without_points():
     assert "points     0" in none.summary() and "no points" in none.summary()
 
 
+@pytest.mark.parametrize("load", [{"D": []}, {"D": np.zeros((0, 2)), "strips": 5}, {"pressure": []}])
+@pytest.mark.parametrize("gamma", [0, 2.5e-5])
+def test_a_level_without_points(load, gamma):
+    none = hystrip.solve_level(MATERIAL, hystrip.Dugdale(gamma=gamma, delta_0=1e-8), hystrip.Level(1e-5, 1e-6), V=1e-3, **load)
+    assert none.p_mean.size == 0 and none.error_estimate.shape == (4, *none.D.shape) and none.strips == 0
+    assert "0 points" in repr(none) and none.to_dataset().p_mean.shape == none.D.shape
+    with pytest.raises(hystrip.InputError, match="^l: got"):
+        hystrip.solve_strip(hystrip.HalfSpace(1e6, 0.5, [1e7], [1e-3]), hystrip.Dugdale(gamma=0), l=[], A=1e-8, D=0, V=0)
+
+
 def test_pictures(grid, tmp_path):
     save(grid.plot(), tmp_path / "velocity.svg")
     save(solved([5e6, 1e7], 1e-3).plot(), tmp_path / "pressure.png")

@@ -107,6 +107,8 @@ class HalfSpace:
     def at_wavelength(self, l: Numbers) -> Prony:  # noqa: E741 - the paper's symbol
         """The foundation under a level of wavelength ``l``, m, > 0; an array gives a foundation for each strip."""
         l = numbers("l", l, "m", 0, strict=True)  # noqa: E741
+        if not l.size:
+            raise InputError("l", l, "a wavelength (m), or an array of at least one")
         return self._at(float(l)) if l.ndim == 0 else self._foundation(l)
 
     def _foundation(self, l) -> Prony:  # noqa: E741 - the paper's symbol
