@@ -30,9 +30,9 @@ class FrictionLaw:
 
     ``p_sat`` is where unloading leaves saturated contact; on the loading branch it is a pressure that suffices for it. Zero
     below ``pull_off``, ``tau_sat`` from ``p_sat`` on. ``breaks``: pressures at which it jumps or has a kink. ``below``: largest
-    pressure it was built for; asking for more is an ``InputError``. ``error_estimate``: absolute error of the friction, Pa,
-    but next to a jump, whose pressure is known to about ``rtol`` of itself. ``converged``: it is within ``rtol`` of the
-    greatest friction.
+    pressure it was built for, ``p_sat`` at most; where it is less, asking for more is an ``InputError``. ``error_estimate``:
+    absolute error of the friction, Pa, but next to a jump, whose pressure is known to about ``rtol`` of itself. ``converged``:
+    it is within ``rtol`` of the greatest friction.
     """
 
     pull_off: float

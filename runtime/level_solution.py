@@ -47,9 +47,9 @@ class Inputs:
 class LevelSolution:
     """Means of a level; arrays have the broadcast shape of V and D (or pressure), SI units.
 
-    ``D`` and means are NaN and zero below pull-off (``pulled_off``). ``error_estimate``: of ``p_mean``, ``tau_mean``,
-    ``contact_fraction``, ``adhesion_fraction``, absolute, shape (4, ...). ``converged``: bool, all four errors are within
-    ``rtol``. ``strips``: strips evaluated, in all.
+    Below pull-off (``pulled_off``) ``D`` is NaN, ``p_mean`` the pressure that was given, and the other means are zero.
+    ``error_estimate``: of ``p_mean``, ``tau_mean``, ``contact_fraction``, ``adhesion_fraction``, absolute, shape (4, ...).
+    ``converged``: bool, all four errors are within ``rtol``. ``strips``: strips evaluated, in all.
     ``inputs``: the material, the adhesion, the level, the velocities and the options it was solved with.
     """
 
