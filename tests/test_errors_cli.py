@@ -1,4 +1,4 @@
-"""Eighty wrong scenes and calls: each ends with one message, a non-zero status, and no file."""
+"""Ninety wrong scenes and calls: each ends with one message, a non-zero status, and no file."""
 
 import importlib.util
 
@@ -82,6 +82,10 @@ CALLS = [
     (["sweep", "paper_fig7", "--out", "binary.toml"], ["--out", "binary.toml", "a folder"]),
     (["sweep", "paper_fig7", "--scheduler", "nonsense"], ["--scheduler", "nonsense"]),
     (["figures", "fig9"], ["figures", "fig9", "fig3"]),
+    (["show", "paper_fig7", "--level", "4"], ["--level", "4", "1 to 3"]),
+    (["show", "paper_fig7", "--strip", "0", "--level", "2"], ["--level", "2", "1 with --strip"]),
+    (["show", "paper_fig7", "--map", "--pressure", "-1e9"], ["the surface is pulled off"]),
+    (["show", "paper_fig7", "--velocity", "-1"], ["--velocity", "-1", ">= 0"]),
     (["init", "nowhere/scene.toml"], ["nowhere/scene.toml", "folder that exists"]),
     (["init", "binary.toml"], ["binary.toml", "--force"]),
     (["regenerate", "--out", "binary.toml"], ["--out", "binary.toml", "a folder"]),

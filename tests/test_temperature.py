@@ -172,6 +172,12 @@ def test_sweep_over_a_shift(run, tmp_path):
         assert status != 0 and said in err, wrong
 
 
+def test_a_look_into_a_scene_is_at_its_temperature(run, tmp_path):
+    (tmp_path / "shift.toml").write_text(SCENE, encoding="utf-8")
+    status, out, err = run("show", "shift.toml")
+    assert (status, err) == (0, "") and out.strip() == parse_scene(SCENE).solve().summary()
+
+
 def test_temperature_needs_a_shift():
     table = SCENE.index("[material.shift]"), SCENE.index("[material.fit]")
     with pytest.raises(hystrip.InputError, match=r"temperature: .*\[material.shift\]"):

@@ -24,6 +24,7 @@ def command(
 
     Prints where the friction comes from there; draws what is asked for.
     """
+    from ..errors import InputError
     from ..extras import require
     from ..files import Outputs, refuse_unwritable
     from ..scene import load_scene
@@ -32,6 +33,10 @@ def command(
     from .quantities import metres
 
     case = load_scene(scene, allow_solver=allow_solver)
+    if not 1 <= level <= len(case.levels):
+        raise InputError("--level", level, f"the number of a level, 1 to {len(case.levels)}")
+    if strip is not None and level > 1:
+        raise InputError("--level", level, "1 with --strip: lower levels rub along it")
     drawn = {"map": map, "strip": strip is not None, "loop": loop}
     if any(drawn.values()):
         require("matplotlib", "plot", "drawing")
@@ -40,15 +45,14 @@ def command(
     names = [f"{case.name}.{kind}{f'_{level}' if level > 1 else ''}.png" for kind, wanted in drawn.items() if wanted]
     refuse_other_origin(out, names, case.source)
     result = point_of(case, pressure, velocity)
-    say(result.summary())
-    if not names:
-        return
-    from ..plots import save
+    if names:
+        from ..plots import save
 
-    kinds = [kind for kind, wanted in drawn.items() if wanted]
-    with Outputs(out) as files:
-        for kind, name in zip(kinds, names, strict=True):
-            save(result.plot(kind, at=0, level=level, y=y), files.path(name))
-        record_origin(files, names, case.source)
+        kinds = [kind for kind, wanted in drawn.items() if wanted]
+        with Outputs(out) as files:
+            for kind, name in zip(kinds, names, strict=True):
+                save(result.plot(kind, at=0, level=level, y=y), files.path(name))
+            record_origin(files, names, case.source)
+    say(result.summary())
     for name in names:
         say(f"wrote {out / name}")
