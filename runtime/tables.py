@@ -63,7 +63,8 @@ def write_csv(path: str | os.PathLike[str], columns: dict[str, Sequence[Any]], a
 
     ``about``: lines that stand above the heading, each behind ``# `` (``pandas.read_csv(path, comment="#")`` skips them).
     """
-    with open(path, "w", encoding="utf-8", newline="") as file:
+    # a file's name, which may stand in a line, need not be text that can be encoded
+    with open(path, "w", encoding="utf-8", errors="backslashreplace", newline="") as file:
         file.writelines(f"# {line}\n" for text in about for line in text.splitlines())
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)

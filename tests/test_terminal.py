@@ -11,6 +11,8 @@ import pytest
 from scene_text import ONE_LEVEL
 
 from hystrip.commands import entry, progress
+from hystrip.scene import parse_scene
+from hystrip.scene.edit import with_material, with_settings
 
 STEERING = "\\u001b[31mred\\u001b]0;owned\\u0007\\u009b2J\\u202e"
 SATURATED = ONE_LEVEL.replace("pressure = 100", "pressure = 5e6\nrtol = 1e-2").replace("gamma = 2.5e-5", "gamma = 0")
@@ -52,6 +54,38 @@ def test_the_name_of_a_file_does_not_steer_the_terminal(run, tmp_path):
     for arguments in (["solve", f"{name}.toml"], ["solve", name], ["init", f"{name}.toml"], ["fit", f"{name}.toml"]):
         status, out, err = run(*arguments)
         assert not steers(out) and not steers(err)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="a name that is no text")
+def test_the_name_of_a_file_need_not_be_text(run, tmp_path):
+    name = os.fsdecode(b"sc\xe8ne.toml")
+    (tmp_path / name).write_text(SATURATED, encoding="utf-8")
+    for command in (["solve", "--no-plot"], ["sweep", "--over", "velocity=[1e-3, 2e-3]"]):
+        status, out, err = run(*command, name)
+        assert (status, err) == (0, "") and "sc\\udce8ne" in out
+    for path in (tmp_path / "hystrip-out").glob("*.csv"):
+        assert "# scene: sc\\udce8ne" in path.read_text(encoding="utf-8")
+    text = with_settings(with_material(ONE_LEVEL, {"material": {"K": 1e9, "T_eps": 1, "T_sigma": 0}}, name), {"title": name})
+    assert parse_scene(text.encode().decode()).title == "sc\\udce8ne.toml" and "# sc\\udce8ne.toml\n[material]" in text
+
+
+def test_no_number_is_cut_short_in_a_narrow_terminal(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "40")
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("NO_COLOR", "1")
+    (tmp_path / "mine.toml").write_text(SATURATED.replace("= 5e-3", "= 1.23456e-5") + "[[levels]]\nl = 5e-7\nh = 1e-7\n")
+    status, out, err = run("solve", "mine.toml", "--no-plot")
+    assert (status, err) == (0, "") and "…" not in out
+    cells = [line.split("│") for line in out.splitlines() if line.startswith("│")]
+    assert "".join(row[1].strip() for row in cells) == "1.235e-05"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="closes a standard stream in a shell")
+def test_no_standard_output_is_no_failure(tmp_path):
+    (tmp_path / "mine.toml").write_text(SATURATED)
+    command = f"{sys.executable} -m hystrip solve mine.toml >&-"
+    done = subprocess.run(command, shell=True, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    assert (done.returncode, done.stderr) == (0, "") and (tmp_path / "hystrip-out/mine.csv").is_file()
 
 
 def test_the_progress_bar_shows_a_title_as_text(monkeypatch, capsys):

@@ -78,6 +78,8 @@ def _show_warnings() -> None:
 
 def _discard_closed_output() -> None:
     """Keep the interpreter's last flush from complaining about a pipe that nobody reads."""
+    if sys.stdout is None:  # started without one
+        return
     try:
         sys.stdout.flush()
     except BrokenPipeError:

@@ -21,9 +21,9 @@ def show_friction(scene: Scene, columns: dict[str, np.ndarray]) -> None:
     table = Table(title=Text(printable(scene.title or scene.name)), title_justify="left", title_style="bold")
     load_column = next(iter(columns))
     if load.ndim:
-        table.add_column(load_column, justify="right")
+        table.add_column(load_column, justify="right", overflow="fold")
     for heading in ("V [m/s]", "mu", *(f"level {level}" for level in levels), "error of mu"):
-        table.add_column(heading, justify="right")
+        table.add_column(heading, justify="right", overflow="fold")  # a number cut short would be another number
     for row in range(len(columns["mu"])):
         at = {name: values[row] for name, values in columns.items()}
         cells = [f"{at[load_column]:.4g}"] if load.ndim else []

@@ -61,13 +61,13 @@ def with_settings(text: str, values: Mapping[str, Any]) -> str:
 
 
 def _table(header: str, table: Mapping[str, Any], comment: str) -> str:
-    lines = [f"# {line}" for line in comment.splitlines()]
+    lines = [f"# {line}" for line in _encodable(comment).splitlines()]
     return "\n".join([*lines, header, *(f"{key} = {_value(value)}" for key, value in table.items())])
 
 
 def _value(value: Any) -> str:
     if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+        return json.dumps(_encodable(value), ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, (list, tuple)):
         shown = list(map(_value, value))
         if len(shown) <= _IN_A_LINE:
@@ -75,6 +75,11 @@ def _value(value: Any) -> str:
         lines = (", ".join(shown[i : i + _IN_A_LINE]) for i in range(0, len(shown), _IN_A_LINE))
         return "[\n" + "".join(f"  {line},\n" for line in lines) + "]"
     return f"{value:.{_DIGITS}g}"
+
+
+def _encodable(text: str) -> str:
+    """The text with an escape for what UTF-8 lacks: a name of a file may hold it."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def _replaced(text: str, name: str, tables: list[str]) -> str:
