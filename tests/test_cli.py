@@ -124,6 +124,20 @@ def test_what_cannot_be_swept_is_refused(run, tmp_path, given, says):
     assert status == 2 and says in " ".join(err.split()) and not (tmp_path / "hystrip-out").exists()
 
 
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        (("velocity=1e-3", "velocity = 2e-3"), "velocity once, with all its values"),
+        (("pressure=1e5, 2e5", "penetration=1e-6"), "one of the two"),
+        (("adhesion.p_0=1e3", "adhesion.gamma=[0, 1e-5]"), "one of the two"),
+    ],
+)
+def test_no_swept_quantity_takes_the_place_of_another(run, tmp_path, given, says):
+    (tmp_path / "mine.toml").write_text(SCENE)
+    status, _, err = run("sweep", "mine.toml", *(part for each in given for part in ("--over", each)))
+    assert status == 2 and says in err and not (tmp_path / "hystrip-out").exists()
+
+
 def test_solve_without_picture_and_table(run, tmp_path):
     (tmp_path / "mine.toml").write_text(SCENE)
     status, out, _ = run("solve", "mine.toml", "--no-plot", "--no-table")

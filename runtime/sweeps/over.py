@@ -25,6 +25,8 @@ def over_of(texts: Sequence[str], half_space: bool = False) -> dict[str, np.ndar
             raise InputError("--over", text, "KEY=VALUES, such as levels[0].h=[1e-6, 2e-6] or velocity=1e-3")
         if not has_unit(key):
             raise InputError("--over", key, "the dotted key of a quantity of the scene, such as material.times[0]")
+        if key in found:
+            raise InputError("--over", text, f"{key} once, with all its values")
         found[key] = values_in_si(_read(key, written), written_unit(key, half_space), key)
     return found
 

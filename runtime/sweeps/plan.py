@@ -151,6 +151,9 @@ def _last(key: str) -> str:
 def plan_of(values: dict[str, Any], name: str, text: str, over: dict[str, Any], combine: str | None, batch: int | None) -> Plan:
     """The sweep of a validated scene, with the values in ``over`` (dotted key -> values in SI) in place of the scene's."""
     values = copy.deepcopy(values)
+    for pair in (_LOADS, ("adhesion.gamma", "adhesion.p_0")):
+        if all(key in over for key in pair):
+            raise InputError("over", [*pair], "one of the two: each takes the place of the other")
     for key, given in over.items():
         _put(values, key, given)
     refuse_ambiguous(values)
