@@ -72,6 +72,44 @@ def test_no_line_through_the_pole_nor_across_pull_off(over_pressure):
     assert np.isnan(tau[np.flatnonzero(tau == off) + 1]).all()
 
 
+def test_no_line_over_velocity_through_the_pole_nor_across_pull_off():
+    V = np.geomspace(1e-4, 1e-1, 13)
+    held = hystrip.solve(MATERIAL, ADHESION, LEVELS[:1], penetration=5.5e-7, velocity=V, rtol=1e-2)
+    pulled = hystrip.solve(MATERIAL, ADHESION, [SMALL], pressure=-1000, velocity=V, rtol=1e-2)
+    for result, changes in ((held, np.sign(held.pressure)), (pulled, pulled.pulled_off)):
+        x, y = result.plot("mu").axes[0].lines[0].get_data()
+        (at,) = np.flatnonzero(changes[1:] != changes[:-1])
+        assert np.array_equal(np.insert(V, at + 1, np.nan), x, equal_nan=True) and np.isnan(y[at + 1])
+    low, high = held.plot("mu").axes[0].get_ylim()
+    assert high - low < np.ptp(held.mu)
+
+
+def test_velocity_is_found_along_any_axis():
+    p, V = np.array([1e3, 2e3, 3e3]), np.array([1e-3, 1e-2])
+    one, other = (
+        hystrip.solve(MATERIAL, ADHESION, [SMALL], pressure=load, velocity=velocity, rtol=1e-2).plot().axes
+        for load, velocity in ((p[:, None], V), (p, V[:, None]))
+    )
+    assert [axis.get_title() for axis in other] == ["pressure 1 kPa", "pressure 2 kPa", "pressure 3 kPa"]
+    for a, b in zip(one, other, strict=True):
+        assert a.get_title() == b.get_title() and np.allclose(a.lines[0].get_data(), b.lines[0].get_data(), rtol=1e-2)
+    (panel, _) = hystrip.solve(MATERIAL, ADHESION, [SMALL], pressure=p[:2], velocity=V, rtol=1e-2).plot().axes
+    assert panel.get_title() == "pressure 1 to 2 kPa"
+    with pytest.raises(hystrip.InputError, match="two different points"):
+        hystrip.solve(MATERIAL, ADHESION, [SMALL], pressure=[1e3, 1e3], velocity=[1e-3, 1e-3], rtol=1e-2).plot()
+
+
+@pytest.mark.parametrize("ends", [(1e-3, 1.2e-3), (1e-3, 2e-3), (3e-3, 5e-2), (1e-3, 1e-2), (1.1e-3, 9e-2), (1e-6, 1.0)])
+def test_labels_of_velocities_do_not_overlap(ends):
+    figure = hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), [SMALL], pressure=1e8, velocity=ends).plot()
+    figure.draw_without_rendering()
+    axis = figure.axes[-1].xaxis
+    labels = [each for minor in (False, True) for each in axis.get_ticklabels(minor=minor) if each.get_text()]
+    boxes = [each.get_window_extent() for each in labels if ends[0] * 0.999 <= each.get_position()[0] <= ends[1] * 1.001]
+    boxes.sort(key=lambda box: box.x0)
+    assert len(boxes) > 1 and all(a.x1 < b.x0 for a, b in zip(boxes[:-1], boxes[1:], strict=True))
+
+
 def test_every_kind_is_drawn(over_pressure):
     at = int(np.argmax(over_pressure.pressure))
     for kind in (None, "mu", "tau", "contact", "map", "strip"):

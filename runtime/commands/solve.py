@@ -20,6 +20,8 @@ def command(
 
     Writes a CSV and, for more than one point, a picture of the friction with the share of every level.
     """
+    import numpy as np
+
     from ..extras import require
     from ..files import Outputs, refuse_unwritable
     from ..scene import load_scene
@@ -28,7 +30,7 @@ def command(
     from .progress import progress
 
     case = load_scene(scene, allow_solver=allow_solver)
-    draws = plot and case.load[1].size * case.velocity.size > 1
+    draws = plot and np.unique(case.load[1]).size * np.unique(case.velocity).size > 1
     # What can fail without the work fails before it.
     if draws:
         require("matplotlib", "plot", "drawing (or give --no-plot)")

@@ -47,35 +47,43 @@ _QUANTITIES = {
 
 @styled
 def friction(result: Result, kind: str | None = None) -> Figure:
-    """Draw a result over log velocity, one panel for each of at most six loads; over the load where there is one velocity.
+    """Draw a result over velocity, one panel for each of at most six loads; over the load where there is one velocity.
 
     Parameters
     ----------
-    result : a :class:`hystrip.Result` with at least two points
+    result : a :class:`hystrip.Result` at two velocities or loads at least
     kind : ``"mu"``, ``"tau"`` or ``"contact"``, each with every level's part. None: over velocity mu and, for a single load, the
         contact below it; over the load all three and the penetration, one above the other. At p = 0 the line of mu is broken:
-        mu has a pole there
+        mu has a pole there. So are all lines at pull-off
 
     Returns
     -------
     matplotlib Figure
     """
-    if np.size(result.mu) < 2:
-        raise InputError("result", f"{np.size(result.mu)} point", "a result of two points or more: one point is no curve")
-    if np.unique(result.velocity).size > 1:
-        one_load = np.size(result.mu) == np.shape(result.mu)[-1]
+    velocities, loads = np.unique(result.velocity).size, np.unique(getattr(result, result.load)).size
+    if velocities * loads < 2:
+        raise InputError("result", f"{np.size(result.mu)} point", "a result of two different points or more: one is no curve")
+    if velocities > 1:
+        one_load = np.size(result.mu) == np.shape(result.mu)[_axis_of_velocity(result)]
         kinds = [kind] if kind else ["mu", "contact"] if one_load else ["mu"]
         return _over_velocity(result, [_QUANTITIES[each] for each in kinds])
     other = "penetration" if result.load == "pressure" else "pressure"
     return _over_load(result, [_QUANTITIES[each] for each in ([kind] if kind else ["tau", "contact", other, "mu"])])
 
 
+def _axis_of_velocity(result: Result) -> int:
+    """The last axis along which the velocity changes."""
+    velocity = np.asarray(result.velocity)
+    return max(axis for axis in range(velocity.ndim) if np.ptp(velocity, axis=axis).any())
+
+
 def _over_velocity(result: Result, quantities: list[_Quantity]) -> Figure:
     """Panels one above the other: of several quantities, for one load; of several loads, for one quantity."""
-    shape = np.shape(result.mu)
-    rows = int(np.prod(shape[:-1], dtype=int))
-    flat = lambda values: np.reshape(values, (rows, shape[-1]))  # noqa: E731
-    velocity, load = flat(result.velocity), flat(getattr(result, result.load))
+    axis = _axis_of_velocity(result)
+    count = np.shape(result.mu)[axis]
+    flat = lambda values: np.moveaxis(values, axis, -1).reshape(-1, count)  # noqa: E731
+    velocity, load, pressure, off = map(flat, (result.velocity, getattr(result, result.load), result.pressure, result.pulled_off))
+    rows = len(velocity)
     shown = np.unique(np.linspace(0, rows - 1, min(rows, _PANELS)).round().astype(int))
     places = [(quantity, row) for row in shown for quantity in quantities]
     panels = stacked(len(places), COLUMN, (0.68 * len(places) + 0.1) * COLUMN)
@@ -83,16 +91,29 @@ def _over_velocity(result: Result, quantities: list[_Quantity]) -> Figure:
         curves = _curves(result, quantity)
         unit = unit_for(quantity.unit, *(values for values, _, _ in curves))
         order = np.argsort(velocity[row], kind="stable")
-        _draw(panel, velocity[row][order], [(flat(v)[row][order], style, label) for v, style, label in curves], unit)
-        _label(panel, quantity, unit)
-        if shown.size > 1:
-            factor, name = unit_for(_LOADS[result.load][1], load[row][0])
-            panel.set_title(f"{result.load} {load[row][0] / factor:.4g} {name}", fontsize=7)
-        if velocity[row].min() > 0:
-            panel.set_xscale("log")
-        panel.set_xlim(velocity[row][order][0], velocity[row][order][-1])
-    panels[-1].set_xlabel("sliding velocity $V$ (m/s)")
+        here = [(flat(values)[row][order], style, label) for values, style, label in curves]
+        _draw(panel, quantity, velocity[row][order], here, unit, pressure[row][order], off[row][order])
+        if shown.size > 1 or np.ptp(load[row]):
+            factor, name = unit_for(_LOADS[result.load][1], load[row])
+            ends = dict.fromkeys(f"{each / factor:.4g}" for each in (load[row].min(), load[row].max()))
+            panel.set_title(f"{result.load} {' to '.join(ends)} {name}", fontsize=7)
+    _velocity_axis(panels[-1], velocity[shown].min(), velocity[shown].max())
     return _with_legend(panels[0])
+
+
+def _velocity_axis(panel: Any, low: float, high: float) -> None:
+    """Logarithmic where that has a decade to show, with labels that do not overlap."""
+    from matplotlib.ticker import LogFormatterSciNotation, LogLocator
+
+    if 0 < 10 * low <= high * (1 + 1e-12):
+        panel.set_xscale("log")
+        if high < 100 * low:
+            panel.xaxis.set_minor_locator(LogLocator(subs=(2, 5)))
+            panel.xaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))
+    else:
+        panel.locator_params(axis="x", nbins=5)
+    panel.set_xlim(low, high)
+    panel.set_xlabel("sliding velocity $V$ (m/s)")
 
 
 def _over_load(result: Result, quantities: list[_Quantity]) -> Figure:
@@ -107,14 +128,7 @@ def _over_load(result: Result, quantities: list[_Quantity]) -> Figure:
     for panel, quantity in zip(panels, quantities, strict=True):
         curves = [(np.ravel(values)[order], style, label) for values, style, label in _curves(result, quantity)]
         drawn = unit_for(quantity.unit, *(values for values, _, _ in curves))
-        pole = quantity is _QUANTITIES["mu"] and pressure.min() <= 0
-        if pole:
-            panel.set_ylim(*_limits_apart_from_the_pole(pressure, [values / drawn[0] for values, _, _ in curves]))
-        # no line through the pole, nor across the jump at pull-off
-        at = np.union1d(_changes(off), _changes(np.sign(pressure)) if pole else []).astype(int)
-        curves = [(np.insert(np.asarray(values, float), at, np.nan), style, label) for values, style, label in curves]
-        _draw(panel, np.insert(load, at, np.nan) / factor, curves, drawn)
-        _label(panel, quantity, drawn)
+        _draw(panel, quantity, load / factor, curves, drawn, pressure, off)
         if load[0] < 0 < load[-1]:
             panel.axvline(0, color="0.75", linewidth=0.5, zorder=0)
     panels[-1].set_xlim(load[0] / factor, load[-1] / factor)
@@ -148,13 +162,24 @@ def _changes(values: np.ndarray) -> np.ndarray:
     return np.flatnonzero(values[1:] != values[:-1]) + 1
 
 
-def _draw(panel: Any, x: np.ndarray, curves: Any, unit: tuple[float, str]) -> None:
+def _draw(
+    panel: Any, quantity: _Quantity, x: np.ndarray, curves: Any, unit: tuple[float, str], pressure: np.ndarray, off: np.ndarray
+) -> None:
+    """Curves over ascending x, at which the pressure is ``pressure`` and the surface pulled off where ``off`` says so."""
+    pole = quantity is _QUANTITIES["mu"] and pressure.min() <= 0
+    if pole:
+        panel.set_ylim(*_limits_apart_from_the_pole(pressure, [values / unit[0] for values, _, _ in curves]))
+    # no line through the pole, nor across the jump at pull-off
+    at = np.union1d(_changes(off), _changes(np.sign(pressure)) if pole else []).astype(int)
+    x = np.insert(x, at, np.nan)
     for values, style, label in curves:
-        panel.plot(x, values / unit[0], label=label, **style)
+        y = np.insert(np.asarray(values, float), at, np.nan) / unit[0]
+        panel.plot(x, y, label=label, **style)
+        seen = np.pad(np.isfinite(x + y), 1)
+        alone = seen[1:-1] & ~seen[:-2] & ~seen[2:]  # of such a point no line would be drawn
+        if alone.any():
+            panel.plot(x[alone], y[alone], ".", **style)
     panel.axhline(0, color="0.6", linewidth=0.5, zorder=0)
-
-
-def _label(panel: Any, quantity: _Quantity, unit: tuple[float, str]) -> None:
     panel.set_ylabel(quantity.label + (f" ({unit[1]})" if unit[1] else ""))
 
 
