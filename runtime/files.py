@@ -102,8 +102,6 @@ def named(path: Path) -> Iterator[None]:
 
 
 def _name(error: OSError, path: Path) -> None:
-    if error.errno is None and "No space left" in str(error):  # HDF5 says it in words
-        error.errno, error.strerror = errno.ENOSPC, os.strerror(errno.ENOSPC)
     error.filename = str(path)
 
 
@@ -181,5 +179,18 @@ def save(data: Dataset, path: str | os.PathLike[str]) -> Path:
     require("h5netcdf", "dataset", "writing netCDF")
     target = Path(path)
     with Outputs(target.parent) as files:
-        data.to_netcdf(files.path(target.name), engine="h5netcdf")
+        write_netcdf(data, files.path(target.name))
     return target
+
+
+def write_netcdf(data: Dataset, path: Path) -> None:
+    """Write a dataset as netCDF. It is made in memory: HDF5 brings the process down where the disk is full."""
+    from io import BytesIO
+
+    import h5netcdf
+    from xarray.backends import H5NetCDFStore
+
+    made = BytesIO()
+    with h5netcdf.File(made, "w") as file:
+        data.dump_to_store(H5NetCDFStore(file))
+    path.write_bytes(made.getbuffer())

@@ -1,5 +1,8 @@
 """Results are saved and loaded equal to the bit; what is no such file is refused with the reason."""
 
+import errno
+import subprocess
+import sys
 from dataclasses import fields
 
 import numpy as np
@@ -178,3 +181,17 @@ def test_a_sweep_is_kept_with_the_variables_of_a_result(over, tmp_path):
         assert again.columns[column] == values if column == "failed" else bits(again.columns[column]) == bits(values), column
     assert again.plan.fingerprint == sweep.plan.fingerprint and again.path == tmp_path / "s.nc"
     assert again.to_dataset().identical(data) and list(again.to_dataframe().columns) == list(sweep.columns)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
+def test_a_disk_that_is_full_brings_nothing_down(tmp_path):
+    code = (
+        "import hystrip, resource\n"
+        "result = hystrip.load_scene('paper_fig7').solve()\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (16384, 16384))\n"
+        "try:\n    result.save('a.nc')\n"
+        "except OSError as error:\n    print(error.errno, error.filename)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (0, f"{errno.EFBIG} a.nc\n", "")
+    assert not [*tmp_path.iterdir()]

@@ -23,7 +23,7 @@ def command(
     import numpy as np
 
     from ..extras import require
-    from ..files import Outputs, refuse_unwritable
+    from ..files import Outputs, refuse_unwritable, write_netcdf
     from ..scene import load_scene
     from ..tables import about_result, friction_rows, write_csv
     from .origin import record_origin, refuse_other_origin
@@ -46,7 +46,7 @@ def command(
     with Outputs(out) as files:
         write_csv(files.path(f"{case.name}.csv"), columns, about_result(result, case.title or case.name))
         if netcdf:
-            result.to_dataset().to_netcdf(files.path(f"{case.name}.nc"), engine="h5netcdf")
+            write_netcdf(result.to_dataset(), files.path(f"{case.name}.nc"))
         if draws:
             from ..plots import save
 

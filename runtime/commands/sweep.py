@@ -28,7 +28,7 @@ def command(
     command goes on where it was. A point that cannot be solved is recorded with its reason.
     """
     from ..extras import require
-    from ..files import Outputs
+    from ..files import Outputs, write_netcdf
     from ..scene.load import parse_toml, scene_text
     from ..sweeps import sweep
     from ..sweeps.over import over_of
@@ -53,7 +53,7 @@ def command(
     if netcdf:
         with Outputs(out) as files:
             name = done.path.with_suffix(".nc").name
-            done.to_dataset().to_netcdf(files.path(name), engine="h5netcdf")
+            write_netcdf(done.to_dataset(), files.path(name))
         written.append(out / name)
     again = f", {done.kept} of {done.kept + done.solved} batches from before" if done.kept else ""
     say(f"{done.plan.size} points{again}")
