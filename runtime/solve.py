@@ -137,7 +137,7 @@ def _result(points, surface: Surface, shape, V, load: str, converged) -> Result:
     one = lambda v: v.reshape(shape)  # noqa: E731
     many = lambda v: v.reshape(len(surface.levels), *shape)  # noqa: E731
     return Result(
-        mu=one(mu),
+        mu=one(mu + 0.0),  # under a pull 0, not -0
         tau=one(tau),
         tau_by_level=many(points.tau),
         pressure=one(points.p),

@@ -19,7 +19,7 @@ def parts_of_mu(result: Any) -> np.ndarray:
     """What every level adds to mu, shape (levels, ...). Where there is no friction the parts are as zero (or undefined) as mu."""
     tau, mu, parts = (np.asarray(each) for each in (result.tau, result.mu, result.tau_by_level))
     per_tau = np.divide(mu, tau, out=np.zeros(tau.shape), where=tau != 0)
-    return np.where(tau != 0, parts * per_tau, mu)
+    return np.where(tau != 0, parts * per_tau + 0.0, mu)
 
 
 def shares(result: Any) -> np.ndarray:

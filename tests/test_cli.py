@@ -240,5 +240,8 @@ def test_no_output_takes_the_place_of_another_of_the_same_stem(run, tmp_path):
     assert (tmp_path / "hystrip-out/mine.csv").read_bytes() == before
     (tmp_path / "a/mine.toml").write_text(SCENE.replace("two velocities", "changed"))
     assert run("solve", "a/mine.toml", "--no-plot")[0] == 0  # the same scene, edited, takes its own place
+    (tmp_path / "out/mine.csv").mkdir(parents=True)
+    status, out, err = run("solve", "a/mine.toml", "--out", "out")
+    assert status == 2 and out == "" and "mine.csv in it is a folder" in err
     head = (tmp_path / "hystrip-out/mine.csv").read_text().splitlines()[:3]
     assert head[0].startswith("# hystrip ") and head[1].startswith("# units: SI") and head[2] == "# scene: changed"

@@ -10,6 +10,7 @@ from hystrip.plots import save
 from hystrip.regimes_by_level import PULLED_OFF, regimes_by_level
 from hystrip.scene import load_scene
 from hystrip.summary import deborah, peak_velocities
+from hystrip.tables import friction_rows
 
 xarray = pytest.importorskip("xarray")
 
@@ -104,6 +105,12 @@ def test_summary_of_zero_pressure_and_of_no_contact():
     level = [hystrip.Level(l=500e-9, h=100e-9)]
     assert "zero pressure" in solved(0.0, 5e-3, level).summary()
     assert "below pull-off" in solved(-1e5, 5e-3, level).summary()
+
+
+def test_no_friction_under_a_pull_is_no_minus_zero():
+    for result in (solved(-1e5, 5e-3), solved(-200.0, 0.0)):
+        columns = friction_rows(result)
+        assert all(columns[name] == 0 and not np.signbit(columns[name]) for name in ("mu", "mu of level 1", "mu of level 2"))
 
 
 def test_a_result_without_points():

@@ -13,9 +13,11 @@ _INDEX = ".origins.json"
 
 
 def refuse_other_origin(out: Path, names: Sequence[str], source: str | os.PathLike[str]) -> None:
-    """Raise InputError if a file of these names is there that was made from another input of the same stem."""
+    """Raise InputError if a file of these names is there that was made from another input of the same stem, or a folder is."""
     known, mine = _read(out), _origin(out, source)
     for name in names:
+        if (out / name).is_dir():
+            raise InputError("--out", str(out), f"another folder: {name} in it is a folder, not a file to replace")
         other = known.get(name, mine)
         if other != mine and (out / name).exists():
             raise InputError("--out", str(out), f"another folder: {name} in it was made from {other}, this would be from {mine}")
