@@ -245,3 +245,12 @@ def test_no_output_takes_the_place_of_another_of_the_same_stem(run, tmp_path):
     assert status == 2 and out == "" and "mine.csv in it is a folder" in err
     head = (tmp_path / "hystrip-out/mine.csv").read_text().splitlines()[:3]
     assert head[0].startswith("# hystrip ") and head[1].startswith("# units: SI") and head[2] == "# scene: changed"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need a privilege there")
+def test_a_scene_reached_by_a_link_is_the_same_scene(run, tmp_path):
+    (tmp_path / "a").mkdir()
+    (tmp_path / "a/mine.toml").write_text(SCENE)
+    (tmp_path / "link").symlink_to("a", target_is_directory=True)
+    for way in ("a/mine.toml", tmp_path / "link/mine.toml"):
+        assert run("solve", way, "--no-plot", "--out", "link/out")[::2] == (0, "")

@@ -31,7 +31,9 @@ def record_origin(files: Outputs, names: Sequence[str], source: str | os.PathLik
 
 def _origin(out: Path, source: str | os.PathLike[str]) -> str:
     text = os.fspath(source)
-    return Path(os.path.relpath(text, out)).as_posix() if os.path.exists(text) else text
+    if not os.path.exists(text):
+        return text
+    return Path(os.path.relpath(os.path.realpath(text), os.path.realpath(out))).as_posix()  # by whatever links it is reached
 
 
 def _read(out: Path) -> dict[str, str]:
