@@ -110,6 +110,12 @@ def test_labels_of_velocities_do_not_overlap(ends):
     assert len(boxes) > 1 and all(a.x1 < b.x0 for a, b in zip(boxes[:-1], boxes[1:], strict=True))
 
 
+def test_the_law_of_a_flat_level_is_drawn_about_its_pull_off():
+    figure = hystrip.friction_law(MATERIAL, ADHESION, hystrip.Level(l=1e-6, h=0), V=1e-3, rtol=1e-3).plot()
+    low, high = figure.axes[-1].get_xlim()
+    assert (low + high) / 2 == pytest.approx(-2.5) and high - low == pytest.approx(5e-4)
+
+
 def test_every_kind_is_drawn(over_pressure):
     at = int(np.argmax(over_pressure.pressure))
     for kind in (None, "mu", "tau", "contact", "map", "strip"):

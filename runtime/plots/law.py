@@ -17,7 +17,8 @@ def law_over_pressure(law: Any, points: int = 400) -> Any:
     matplotlib Figure
     """
     reach = law.p_sat if law.below >= law.p_sat else law.below
-    span = max(reach - law.pull_off, np.finfo(float).tiny)
+    # a flat level is saturated where it is pulled off
+    span = max(reach - law.pull_off, 1e-3 * abs(law.pull_off), np.finfo(float).tiny)
     end = reach + 0.1 * span if law.below >= law.p_sat else reach
     upper, lower = stacked(2, COLUMN, 1.2 * COLUMN)
     (pascals, unit), (stress, stress_unit) = unit_for("Pa", law.pull_off, end), unit_for("Pa", law.tau_sat)
