@@ -81,6 +81,7 @@ CALLS = [
     (["sweep", "paper_fig7", "--batch", "0"], ["batch", "0", ">= 1"]),
     (["sweep", "paper_fig7", "--out", "binary.toml"], ["--out", "binary.toml", "a folder"]),
     (["sweep", "paper_fig7", "--scheduler", "nonsense"], ["--scheduler", "nonsense"]),
+    (["sweep", "paper_fig7", "--scheduler", ""], ["scheduler", "''", "the address of a Dask scheduler"]),
     (["figures", "fig9"], ["figures", "fig9", "fig3"]),
     (["show", "paper_fig7", "--level", "4"], ["--level", "4", "1 to 3"]),
     (["show", "paper_fig7", "--strip", "0", "--level", "2"], ["--level", "2", "1 with --strip"]),

@@ -143,7 +143,7 @@ def sweep(
 
     if over is not None and not isinstance(over, Mapping):
         raise InputError("over", over, "a dict of dotted key of the scene -> values in SI")
-    if scheduler is not None and not isinstance(scheduler, str):
+    if scheduler is not None and not (isinstance(scheduler, str) and scheduler):
         raise InputError("scheduler", scheduler, "the address of a Dask scheduler, such as 'tcp://host:8786'")
     for key, switch in (("restart", restart), ("allow_solver", allow_solver)):
         if not isinstance(switch, (bool, np.bool_)):
