@@ -247,6 +247,14 @@ def test_no_output_takes_the_place_of_another_of_the_same_stem(run, tmp_path):
     assert head[0].startswith("# hystrip ") and head[1].startswith("# units: SI") and head[2] == "# scene: changed"
 
 
+def test_measured_data_are_not_replaced(run, tmp_path):
+    (tmp_path / "mine.toml").write_text(SCENE)
+    (tmp_path / "mine.csv").write_text("f,E_stor,E_loss\n")
+    status, out, err = run("solve", "mine.toml", "--out", ".", "--no-plot")
+    assert (status, out) == (2, "") and "mine.csv in it was not written by" in err
+    assert (tmp_path / "mine.csv").read_text() == "f,E_stor,E_loss\n"
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="links need a privilege there")
 def test_a_scene_reached_by_a_link_is_the_same_scene(run, tmp_path):
     (tmp_path / "a").mkdir()

@@ -6,18 +6,21 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..errors import InputError
-from ..files import Outputs
+from ..files import Outputs, read_at_most
 
 #: a hidden file in the output folder: name -> the input, as a path from the folder on, or the name of a built-in scene
 _INDEX = ".origins.json"
 
 
 def refuse_other_origin(out: Path, names: Sequence[str], source: str | os.PathLike[str]) -> None:
-    """Raise InputError if a file of these names is there that was made from another input of the same stem, or a folder is."""
+    """Raise InputError if a file of these names is there that was made from another input of the same stem, or a folder is, or
+    a table that hystrip has not written: measured data, say."""
     known, mine = _read(out), _origin(out, source)
     for name in names:
         if (out / name).is_dir():
             raise InputError("--out", str(out), f"another folder: {name} in it is a folder, not a file to replace")
+        if name.endswith(".csv") and (out / name).is_file() and read_at_most(out / name, 8) != b"# hystrip":
+            raise InputError("--out", str(out), f"another folder: {name} in it was not written by this version of hystrip")
         other = known.get(name, mine)
         if other != mine and (out / name).exists():
             raise InputError("--out", str(out), f"another folder: {name} in it was made from {other}, this would be from {mine}")
