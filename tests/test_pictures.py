@@ -35,6 +35,15 @@ def test_legends_stand_inside_the_canvas(count):
     assert inside(saturated(count).plot())
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_legend_may_be_longer_than_the_figure():
+    (panel,) = stacked(1, COLUMN, 0.5 * COLUMN)
+    for i in range(15):
+        panel.plot([0, 1], [0, i], label=f"level {i} of a surface that has very many of them")
+    legend_above(panel.figure, *panel.get_legend_handles_labels())
+    assert inside(panel.figure)
+
+
 def test_long_labels_are_wrapped():
     (panel,) = stacked(1, COLUMN, COLUMN)
     handles = [panel.plot([0, 1], [0, i])[0] for i in range(3)]

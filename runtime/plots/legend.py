@@ -19,10 +19,18 @@ def legend_above(figure: Any, handles: Sequence[Any], labels: Sequence[str]) -> 
             legend = figure.legend(
                 handles, texts, loc="outside upper center", ncols=columns, handlelength=2.2, columnspacing=1.0, handletextpad=0.6
             )
-            figure.draw_without_rendering()
-            box = legend.get_window_extent()
+            box = _extent(figure, legend)
             if box.width <= figure.bbox.width - 2 * _MARGIN * figure.dpi / 72:
                 figure.set_figheight(figure.get_figheight() + box.height / figure.dpi)
                 return legend
             legend.remove()
     return figure.legend(handles, texts, loc="outside upper center", ncols=1)
+
+
+def _extent(figure: Any, legend: Any) -> Any:
+    """What a legend takes, without a layout: there may be no room for it yet."""
+    layout = figure.get_layout_engine()
+    figure.set_layout_engine("none")
+    figure.draw_without_rendering()
+    figure.set_layout_engine(layout)
+    return legend.get_window_extent()
