@@ -34,7 +34,7 @@ class StripSolution:
     contact_fraction, adhesion_fraction : parts of the period in contact and in adhesion
     regime : zones in the order a material point meets them (f free, a adhesion, c contact), as in ``"acaf"``
     a, b, c, d : edges, m: contact from ``x = -a`` to ``b``, adhesion from ``-c`` to ``-a`` and from ``b`` to ``d``; NaN where
-    absent
+        absent
     edge, branch : the edge closure and the branch that was asked for
     """
 

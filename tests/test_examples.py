@@ -1,7 +1,8 @@
 """The examples of the README and of the documentation run as they stand there; so does every example in a docstring."""
 
 import doctest
-import importlib
+import importlib.util
+import inspect
 import pkgutil
 import re
 from pathlib import Path
@@ -56,6 +57,29 @@ CALLED = ("Dugdale", "Level", *MATERIALS, "friction_law", "load_scene", "solve",
 @pytest.mark.parametrize("name", CALLED)
 def test_what_a_user_calls_has_an_example(name):
     assert ">>> " in getattr(hystrip, name).__doc__
+
+
+@pytest.mark.skipif(not (ROOT / "tools/docs").is_dir(), reason="reads the documentation of the repository")
+def test_lists_of_names_hold_nothing_but_names():
+    """On the pages of the reference a paragraph below a list of arguments was read as one more of them."""
+    spec = importlib.util.spec_from_file_location("field_lists", ROOT / "tools/docs/_extensions/field_lists.py")
+    spec.loader.exec_module(lists := importlib.util.module_from_spec(spec))
+    things = {f"{m.__name__}.{name}": thing for m in (hystrip, hystrip.dma, hystrip.roughness) for name, thing in vars(m).items()}
+    things |= {f"{name}.{n}": t for name, of in things.items() if isinstance(of, type) for n, t in vars(of).items()}
+    listed = 0
+    for name, thing in things.items():
+        lines = (inspect.getdoc(thing) or "").splitlines()
+        lists.process(None, "class", name, thing, None, lines)
+        section = ""
+        for before, line, after in zip(["", *lines], lines, [*lines[1:], ""], strict=False):
+            if after and set(after) == {"-"}:
+                section = line
+            elif not line and not before:
+                section = ""
+            elif section in ("Parameters", "Attributes", "Raises", "Warns") and line[:1].strip() and set(line) != {"-"}:
+                assert re.fullmatch(r"[\w*]+(, [\w*]+)*", line), (name, line)
+                listed += 1
+    assert listed > 50
 
 
 def test_every_public_name_is_described():
