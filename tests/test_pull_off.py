@@ -40,6 +40,8 @@ def test_a_law_that_is_asked_for_nothing_it_carries_knows_its_pull_off():
 def test_below_pull_off_there_is_no_contact():
     found = hystrip.solve_level(MATERIAL, ADHESION, LEVEL, V=1e-2, pressure=-690.0, rtol=1e-3)
     assert bool(found.pulled_off) and np.isnan(found.D) and found.tau_mean == 0
+    surface = hystrip.solve(MATERIAL, ADHESION, [LEVEL], pressure=-690.0, velocity=1e-2, rtol=1e-3)
+    assert surface.mu == 0 and not np.signbit(surface.mu) and "-0" not in str(surface)
 
 
 def test_rims_count_with_the_friction_that_they_carry():
