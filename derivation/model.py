@@ -196,8 +196,12 @@ def inadmissible(model: Model) -> list[str]:
     if not Q[-1].is_positive:
         reasons.append("stable: the highest coefficient of Q must be positive")
     for label, operator in (("Q", Q), ("P", P)):
-        if not all(_nonnegative(c) for c in operator):
+        if any(c.is_negative for c in operator):
             reasons.append(f"stable: {label} has a negative coefficient, so a motion that grows in time")
+        elif unknown := [c for c in operator if not _nonnegative(c)]:
+            reasons.append(
+                f"stable: {label} has the coefficient {unknown[0]}, which may be negative: are its symbols declared positive?"
+            )
     if isinstance(model.series, Roots) and any(c.free_symbols for c in (*Q, *P)):
         return reasons  # the rest depends on the numbers: the emitted solver refuses those that are no passive solid
     if not reasons and len(Q) > 3:  # up to degree 2 positive coefficients suffice

@@ -7,13 +7,16 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from .check import DerivationError
 from .model import Model, Parameter, Roots, Series
-from .symbols import K, T_eps, T_sigma
+from .printing import FUNCTIONS, source
+from .symbols import K, T_eps, T_sigma, rate
 
 STEP = "model file"
 TAKEN = ("stable", "modes", "audit", "certificates")  # files that stand beside the emitted solvers
+CALLED = ("np", "positive", "nonnegative", "finite", "of_operators")  # by the emitted function that takes the parameters
 STIFFNESS = Parameter(K, "K", "Pa/m", "relaxed stiffness of the foundation per area")
 RETARDATION = Parameter(T_eps, "T_eps", "s", "retardation time: creep under constant pressure")
 K_i, tau_i = sp.symbols("K_i tau_i", positive=True)
@@ -22,10 +25,10 @@ K_i, tau_i = sp.symbols("K_i tau_i", positive=True)
 def prony_model(name: str, modes: int | None = None, title: str = "") -> Model:
     """A spring beside ``modes`` Maxwell branches, or any number: ``p = K w + sum_i K_i (w - e_i)``, ``tau_i e_i' + e_i = w``.
 
-    The solver is given the Prony series as arrays K_i and tau_i. Raises :class:`ValueError` for fewer than one relaxation time.
+    The solver is given the Prony series as arrays K_i and tau_i. Raises :class:`ValueError` for what is no number of them.
     """
-    if modes is not None and modes < 1:
-        raise ValueError(f"prony_model: modes must be at least 1, not {modes}")
+    if modes is not None and not (isinstance(modes, int) and modes >= 1):
+        raise ValueError(f"prony_model: modes must be an integer, at least 1, not {modes!r}")
     return Model(
         name=name,
         title=title or f"Generalised model with {modes or 'n'} relaxation times",
@@ -46,18 +49,25 @@ def operator_model(
 ) -> Model:
     """A model given by its operators, ``Q(d/dt) w = P(d/dt) p``: their coefficients of the powers 0, 1, ..., n of d/dt.
 
-    Its relaxation and retardation times are found by the solver once the parameters are numbers; numbers that make no passive,
-    stable solid are refused there. Raises :class:`DerivationError` for operators that do not belong together.
+    A parameter is named like its symbol: ``Parameter(sp.Symbol("T", positive=True), "T", "s", "retardation time")``. The times of
+    the model are found by the solver once the parameters are numbers; numbers that make no passive, stable solid are refused
+    there. Raises :class:`DerivationError` for operators that do not belong together, or that the solver could not compute.
     """
     Q, P = (tuple(map(sp.sympify, operator)) for operator in (Q, P))
     if len(Q) != len(P) or len(Q) < 2:
         raise DerivationError(
             name, f"Q and P have coefficients of the same powers 0 .. n, n >= 1; these have {len(Q)} and {len(P)}"
         )
-    known = {parameter.symbol for parameter in parameters}
-    unknown = sorted(str(symbol) for coefficient in (*Q, *P) for symbol in coefficient.free_symbols - known)
+    require_parameters(name, parameters)
+    known = {parameter.symbol for parameter in parameters} | {rate}  # d/dt itself: refused with its reason when derived
+    linear = [coefficient for coefficient in (*Q, *P) if not coefficient.atoms(AppliedUndef)]  # and so are the others
+    unknown = sorted({str(symbol) for coefficient in linear for symbol in coefficient.free_symbols - known})
     if unknown:
         raise DerivationError(name, f"every symbol of the operators is among the parameters; {', '.join(unknown)} is not")
+    beyond = sorted({str(f.func) for each in linear for f in each.atoms(sp.Function) if f.func not in FUNCTIONS})
+    if beyond:
+        usable = ", ".join(function.__name__ for function in FUNCTIONS)
+        raise DerivationError(name, f"the operators hold powers and {usable} alone; {', '.join(beyond)} is not among them")
     return Model(name, title or name, tuple(parameters), Q, P, series=Roots(sp.cancel(Q[0] / P[0])))
 
 
@@ -105,10 +115,13 @@ def load_model(path: str | os.PathLike[str]) -> tuple[Model, ...]:
         raise
     except Exception as problem:
         raise DerivationError(STEP, f"{file} runs ({type(problem).__name__}: {problem})") from problem
-    declared = found.get("MODELS") or found.get("MODEL")
-    if declared is None:
-        raise DerivationError(STEP, f"{file} declares MODEL, or MODELS, such as MODEL = prony_model('my_rubber', modes=5)")
-    models = tuple(declared) if isinstance(declared, (tuple, list)) else (declared,)
+    declared = [found[name] for name in ("MODEL", "MODELS") if found.get(name) is not None]
+    if declared[1:] == [MODELS]:  # imported with everything else
+        del declared[1]
+    if len(declared) != 1:
+        wanted = "declares MODEL, or MODELS, such as MODEL = prony_model('my_rubber', modes=5)"
+        raise DerivationError(STEP, f"{file} {wanted}{', not both' if declared else ''}")
+    models = tuple(declared[0]) if isinstance(declared[0], (tuple, list)) else (declared[0],)
     require_names(models)
     return models
 
@@ -130,4 +143,19 @@ def require_names(models: Iterable[object]) -> None:
             )
         if name in TAKEN or name in seen:
             raise DerivationError(STEP, f"the name {name!r} is free: {', '.join((*TAKEN, *sorted(seen)))} are taken")
+        seen.add(name)
+        require_parameters(name, model.parameters)
+
+
+def require_parameters(model: str, parameters: Iterable[object]) -> None:
+    """Raise :class:`DerivationError` unless a function can take the parameters, under the names that their symbols have in it."""
+    seen: set[str] = set()
+    for parameter in parameters:
+        if not (isinstance(parameter, Parameter) and isinstance(parameter.symbol, sp.Symbol)):
+            raise DerivationError(model, f"a parameter is a hystrip.derivation.Parameter of a SymPy symbol, not {parameter!r}")
+        name, printed = parameter.name, source(parameter.symbol)
+        if name != printed or not name.isidentifier() or keyword.iskeyword(name) or name in (*CALLED, *seen):
+            taken = ", ".join((*CALLED, *sorted(seen)))
+            claim = f"a parameter is named like its symbol, and that is a Python name that is free: {taken} are taken"
+            raise DerivationError(model, f"{claim}; {name!r} of the symbol {printed} is not such")
         seen.add(name)

@@ -328,6 +328,8 @@ def test_a_refused_model_leaves_nothing_behind(tmp_path: Path) -> None:
         (FILE.replace("my_rubber", "My rubber"), "lower-case Python name"),
         (FILE.replace("my_rubber", "stable"), "taken"),
         (FILE.replace('my_rubber")', 'my_rubber", modes=0)'), "at least 1"),
+        (FILE.replace('my_rubber")', 'my_rubber", modes=2.5)'), "an integer, at least 1, not 2.5"),
+        (FILE + "MODELS = (MODEL,)\n", "not both"),
     ],
 )
 def test_a_file_without_a_model_is_refused(tmp_path: Path, text: str, message: str) -> None:
@@ -335,6 +337,41 @@ def test_a_file_without_a_model_is_refused(tmp_path: Path, text: str, message: s
     file.write_text(text, encoding="utf-8")
     with pytest.raises(DerivationError, match=message):
         load_model(file)
+
+
+def test_a_file_that_imports_everything_declares_its_own_model(tmp_path: Path) -> None:
+    file = tmp_path / "my_model.py"
+    file.write_text(FILE.replace("import prony_model", "import *"), encoding="utf-8")
+    assert [model.name for model in load_model(file)] == ["my_rubber"]
+
+
+@pytest.mark.parametrize("name", ["tau", "1", "np", "lambda", "G"])
+def test_a_parameter_that_the_solver_could_not_take_is_refused(name: str) -> None:
+    """It was emitted, with a body in another name than the argument, and failed where it was used."""
+    symbol = T_1 if name in ("tau", "G") else sp.Symbol(name, positive=True)
+    parameters = (OF_ONE[0], Parameter(symbol, name, "s", "time"))
+    with pytest.raises(DerivationError, match=f"named like its symbol, .*'{name}' of the symbol {symbol}"):
+        operator_model("bad", parameters, (1, symbol), (1 / G, 0))
+
+
+@pytest.mark.parametrize(
+    ("Q", "P", "reason"),
+    [
+        ((1, T_1), (1 / G, T_1 * sp.tanh(T_1)), "sqrt, atan, acos, exp alone; tanh is not"),
+        ((1, T_1 * sp.Symbol("rate") ** sp.Rational(1, 2)), (1 / G, 0), "fractional element.*prony_model"),
+        ((1, T_1 * sp.Function("w")(sp.Symbol("t"))), (1 / G, 0), "nonlinear dashpot.*prony_model"),
+    ],
+)
+def test_operators_that_no_solver_computes_are_refused_with_the_reason(Q, P, reason: str) -> None:
+    with pytest.raises(DerivationError, match=reason):
+        derive(operator_model("bad", OF_ONE, Q, P))
+
+
+def test_symbols_without_a_sign_are_not_called_negative() -> None:
+    free = sp.Symbol("T")
+    with pytest.raises(DerivationError, match="Q has the coefficient T, which may be negative: .* declared positive") as refusal:
+        derive(operator_model("bad", (Parameter(free, "T", "s", "time"), OF_ONE[0]), (1, free), (1 / G, 0)))
+    assert "negative coefficient" not in str(refusal.value)
 
 
 def test_a_missing_file_is_named(tmp_path: Path) -> None:
