@@ -18,6 +18,7 @@ from hystrip.commands.measurements import readings
 from hystrip.commands.measurements.measured import measured
 from hystrip.commands.measurements.pictures import ADHESION, CONTACT, missed, scenes, solved
 from hystrip.derivation import MODELS, AuditError, DerivationError, generated_folder
+from hystrip.derivation.displays import AGREED
 from hystrip.derivation.emit import input_hash
 from hystrip.derivation.folder import read_measured
 from hystrip.derivation.pages import places
@@ -29,6 +30,7 @@ pytestmark = pytest.mark.xdist_group("derivation")
 
 PAGE = "audit/standard_linear_solid.html"
 REPOSITORY = (generated_folder().parent / "pyproject.toml").is_file()  # not an installed wheel
+PROSE = generated_folder().parent / "tools/docs/audit.md"
 
 
 MODEL_NAMES = [model.name for model in MODELS]
@@ -115,6 +117,16 @@ def test_figure_6_says_what_its_table_holds() -> None:
         assert min(inside) < 2.5e-5 < max(inside)
         assert all((counts == [2, 2]) == (min(inside) <= gamma <= max(inside)) for gamma, counts in band.items())
         assert several[("2.5e-05", edge, "loading")] == [1, 2]
+        if REPOSITORY:
+            bounds = [max(g for g in band if g < min(inside)), min(inside), max(inside), min(g for g in band if g > max(inside))]
+            below, first, last, above = (f"{gamma:g}".replace("e-0", "e-") for gamma in bounds)
+            pattern = rf"from {first} to {last} [^.;]*not at {below} [^.;]*nor at {above} "
+            assert re.search(pattern, re.sub(r"\s+", " ", PROSE.read_text(encoding="utf-8"))), edge
+
+
+@pytest.mark.skipif(not REPOSITORY, reason="reads the documentation of the repository")
+def test_the_documentation_says_to_how_many_digits_displays_are_compared() -> None:
+    assert f"compared with what it derived, to {AGREED} digits" in PROSE.read_text(encoding="utf-8")
 
 
 def test_the_readings_of_equation_13_differ_as_measured() -> None:
