@@ -144,7 +144,8 @@ def saturation_threshold(R: sp.Expr, ratio: str) -> Derived:
     least = D - 1 - R
     solution = sp.solve(least + p_0, D)[0]
     claims = [
-        zero("p_sat = D - 1 + R cos(s + arg K*), at least D - 1 - R", sp.expand_trig(D - 1 + R * sp.cos(s + lag)) - harmonic),
+        zero("p_sat = D - 1 + R cos(s + arg K*)", sp.expand_trig(D - 1 + R * sp.cos(s + lag)) - harmonic),
+        zero("least where the cosine is -1: D - 1 - R", sp.expand_trig(harmonic.subs(s, sp.pi - lag)) - least),
         zero("at the threshold the least pressure is -p_0", least.subs(D, solution) + p_0),
         holds("and it grows with D", sp.diff(least, D).is_positive),
     ]

@@ -34,6 +34,9 @@ def test_there_are_enough_of_every_kind() -> None:
     }
 
 
-@pytest.mark.parametrize("mutant", QUICK[::3], ids=lambda each: f"{each.subject}-{each.by}")
+THRESHOLD = [each for each in QUICK if each.by == "saturation threshold"]
+
+
+@pytest.mark.parametrize("mutant", [*QUICK[::3], *THRESHOLD], ids=lambda each: f"{each.subject}-{each.by}")
 def test_a_mutant_is_refused_by_the_step_that_is_named(mutant) -> None:
     assert refused_by(mutant) == mutant.by

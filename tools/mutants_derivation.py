@@ -208,6 +208,7 @@ MUTANTS: tuple[Mutant, ...] = (
     m("stability", "stability.py", "spare - 2 * sp.sin(half)", "spare + 2 * sp.sin(half)", "onset_slope_acaf"),
     # complete contact, levels
     m("complete contact", "saturated.py", "sp.I**n for n, q", "(-sp.I) ** n for n, q", "complex modulus"),
+    m("complete contact", "saturated.py", "least = D - 1 - R", "least = D - 1 + R", "saturation threshold", "displays"),
     m("level", "level.py", "(2 * ratio - 1) - p_0", "(2 * ratio - 1) + p_0", "level_saturation_pressure"),
     m(
         "level",
