@@ -77,16 +77,11 @@ def test_what_is_lost_at_rest_is_lost_in_two_snaps(material, edge, branch):
 @pytest.mark.parametrize("branch", BRANCHES)
 @pytest.mark.parametrize(
     ("material", "edge", "times"),
-    [
-        (*case, times)
-        for case in CASES
-        for times in (1e-17, AT_REST, 3e-13, 1e-12, 1e-11, 1e-10)
-        if case in CASES[:2] or times > 5e-12
-    ],
+    [(*case, times) for case in CASES for times in (1e-17, AT_REST, 2 * AT_REST, 1e-12, 1e-11, 1e-10)],
 )
 def test_no_speed_is_too_low(material, edge, branch, times):
     """Next to where a strip is released rounding hides from the solvers of moving strips what happens: they refused 1 in 100."""
-    p_0, delta_0, D = _strips(1500 if material == "one time" else 100, 5, 1e-17)
+    p_0, delta_0, D = _strips(1500 if material == "one time" else 300, 5, 1e-17)
     _, s = _solve(material, edge, branch, times, p_0, delta_0, D)
     assert s.certified.all()
     _, still = _solve(material, edge, branch, 0.0, p_0, delta_0, D)
@@ -98,7 +93,7 @@ def test_no_speed_is_too_low(material, edge, branch, times):
 
 
 @pytest.mark.parametrize("branch", BRANCHES)
-@pytest.mark.parametrize("times", [2e-13, 3e-13, 1e-12])
+@pytest.mark.parametrize("times", [4e-13, 6e-13, 1e-12])
 def test_a_contact_all_but_a_period_long_is_not_none(branch, times):
     """Within rounding of saturated contact the edges of the gap are in the wrong order; the contact came out without length."""
     of = np.array([[0.0030263420823940955], [0.7593508551350551], [1.9969736579176058]])

@@ -15,7 +15,7 @@ from .solved import Record, Solved
 
 #: longest time over that of a passage up to which speed shows in nothing but friction, for rounding; and up to which the solvers
 #: of moving strips may fail next to a release, so that a strip is solved at rest
-AT_REST, SLOW = 1e-13, 1e-9
+AT_REST, SLOW = 3e-13, 1e-9
 
 
 def solve_at_rest(kernel, strips, flat, unloading: bool) -> Solved:

@@ -55,7 +55,7 @@ class Search:
     def step(self, number: int) -> None:
         """March from the bounding states, decide what that decides, and move the others."""
         i = self.active
-        s = self.s.take(i)
+        s, before = self.s.take(i), self._states(i)
         near = march(self.kernel, s, self.engaged[i], self.z[:, i], s.start)
         # from above: nothing but engaged orbits; from below: to be seen from the engaged orbit
         held = near.never_free & self.ends_held
@@ -75,7 +75,13 @@ class Search:
         left = np.flatnonzero(~self._proven(i[k], edges))
         if number and left.size:
             self._move(i[k[left]], edges[:, left], number >= _FULL)
-        self.active = i[going & (self.kind[i] != ORBIT)]
+        # what a whole round of trials leaves as it was stays so
+        still = (number % 4 == 3) & (self._states(i) == before).all(axis=0)
+        self.active = i[going & (self.kind[i] != ORBIT) & ~still]
+
+    def _states(self, i) -> np.ndarray:
+        """All that the next step goes by."""
+        return np.concatenate((self.z[:, i], [self.engaged[i], self.share[i]]))
 
     def _proven(self, i, edges) -> np.ndarray:
         """Which strips ``i`` have an orbit that is alone in the windows of the ``edges``, the first one, or fills them."""
