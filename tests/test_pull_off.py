@@ -37,6 +37,17 @@ def test_a_law_that_is_asked_for_nothing_it_carries_knows_its_pull_off():
     assert law.pull_off == pytest.approx(-660.0, abs=1.0) and law(-2100.0) == 0
 
 
+def test_a_law_does_not_go_on_within_a_jump_of_its_curve():
+    """Strips let go of the valley at once at V = 2 mm/s: the pressure falls from -1011.8 to -1016.85 Pa within 1e-17 m."""
+    solid = hystrip.StandardLinearSolid(1.0233668770254136e9, 2.7566273099692666e-3, 2.7566273099692668e-5)
+    level, at = hystrip.Level(l=1e-5, h=1e-6), {"V": 2e-3, "rtol": 1e-2}
+    law = hystrip.friction_law(solid, ADHESION, level, below=-1000.0, **at)
+    assert law.converged and law.pull_off == pytest.approx(-1016.853, abs=0.002)
+    p = np.array([-1017.3, -1016.9, -1016.8])
+    found = hystrip.solve_level(solid, ADHESION, level, pressure=p, **at)
+    assert law(p) == pytest.approx(found.tau_mean, rel=1e-3) and (law(p) > 0).tolist() == [False, False, True]
+
+
 def test_below_pull_off_there_is_no_contact():
     found = hystrip.solve_level(MATERIAL, ADHESION, LEVEL, V=1e-2, pressure=-690.0, rtol=1e-3)
     assert bool(found.pulled_off) and np.isnan(found.D) and found.tau_mean == 0

@@ -151,13 +151,15 @@ class _Work:
         # what the means leave of it, at least what they may not have
         goal = np.maximum(goal - errors.max(axis=1), (1 - MEAN) * goal)
         done = (error <= goal).all(axis=1)
-        done |= intervals.width <= _NARROWEST * np.maximum(np.abs(intervals.high), columns.level.h)
+        # pressure rises by K times the penetration at most: across what is so narrow it falls, which is no part of a branch
+        jump = ~done & (intervals.width <= _NARROWEST * np.maximum(np.abs(intervals.high), columns.level.h))
+        done |= jump
         ended = ~done & (self.strips[column] > CURVE_LIMIT)
         if ended.any():
             columns.work.limit_reached(columns.V[column[ended]], columns.level.l, NO_CURVE)
             error[ended], done = np.maximum(error, spread)[ended], done | ended
         bounds = errors + (error + _ROUNDED * rounding + _SPREAD * errors.max(axis=1))[:, None]
-        for k in np.flatnonzero(done):
+        for k in np.flatnonzero(done & ~jump):
             known = Errors(interior_nodes(stage.n), bounds[k])
             ends = float(intervals.low[k]), float(intervals.high[k])
             self.pieces[column[k]].append(Piece(*ends, c[k], known, bool(intervals.inner_low[k]), bool(intervals.inner_high[k])))
