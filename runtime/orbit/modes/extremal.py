@@ -43,6 +43,7 @@ class Search:
         self.z, self.engaged, self.ends_held = z, engaged, not (rising and released)
         self.kind, self.edges, self.known = np.full(s.size, UNRESOLVED), np.full((4, s.size), np.nan), np.zeros(s.size)
         self.sequence, self.share = np.zeros(s.size, int), np.full(s.size, _SHARE)
+        self.before = np.full((s.modes + 1, s.size), np.nan)
 
     def run(self):
         """Search until all strips are decided, or given up."""
@@ -55,7 +56,7 @@ class Search:
     def step(self, number: int) -> None:
         """March from the bounding states, decide what that decides, and move the others."""
         i = self.active
-        s, before = self.s.take(i), self._states(i)
+        s = self.s.take(i)
         near = march(self.kernel, s, self.engaged[i], self.z[:, i], s.start)
         # from above: nothing but engaged orbits; from below: to be seen from the engaged orbit
         held = near.never_free & self.ends_held
@@ -75,13 +76,17 @@ class Search:
         left = np.flatnonzero(~self._proven(i[k], edges))
         if number and left.size:
             self._move(i[k[left]], edges[:, left], number >= _FULL)
-        # what a whole round of trials leaves as it was stays so
-        still = (number % 4 == 3) & (self._states(i) == before).all(axis=0)
-        self.active = i[going & (self.kind[i] != ORBIT) & ~still]
+        self.active = i[going & (self.kind[i] != ORBIT) & ~self._stays(i, number)]
 
-    def _states(self, i) -> np.ndarray:
-        """All that the next step goes by."""
-        return np.concatenate((self.z[:, i], [self.engaged[i], self.share[i]]))
+    def _stays(self, i, number: int) -> np.ndarray:
+        """Which strips ``i`` get nowhere: a whole round of trials leaves them where they were, but for rounding, or the links of
+        their chains have become none."""
+        still = self.share[i] < EPS
+        if number % 4 == 3:
+            now = np.concatenate((self.z[:, i], self.share[None, i]))
+            moved, self.before[:, i] = np.abs(now - self.before[:, i]), now
+            still |= (moved[:-1].max(axis=0) <= ROUNDING * np.abs(now[:-1]).max(axis=0)) & (moved[-1] == 0)
+        return still
 
     def _proven(self, i, edges) -> np.ndarray:
         """Which strips ``i`` have an orbit that is alone in the windows of the ``edges``, the first one, or fills them."""
