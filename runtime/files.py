@@ -137,11 +137,11 @@ def refuse_unwritable(folder: str | os.PathLike[str], field: str) -> None:
     """Raise InputError, naming `field`, if files cannot be put into `folder` or it cannot be made."""
     path = path_of(folder, field, "a folder")
     try:
-        nearest = next(each for each in (path, *path.absolute().parents) if each.exists())
+        nearest = next(each for each in (path, *path.absolute().parents) if each.exists() or each.is_symlink())
     except OSError as error:
         raise InputError(field, str(folder), f"a folder that can be written to ({error.strerror or error})") from None
     if not nearest.is_dir():
-        raise InputError(field, str(folder), f"a folder; {nearest} is a file")
+        raise InputError(field, str(folder), f"a folder; {nearest} is {'a file' if nearest.exists() else 'a link to nothing'}")
     if not os.access(nearest, os.W_OK | os.X_OK):
         raise InputError(field, str(folder), f"a folder that can be written to; {nearest} cannot")
 

@@ -113,7 +113,7 @@ def _contact(result: Any) -> list[str]:
     return [
         f"real contact (touching on every level)  {percent(result.contact_fraction)}",
         f"level 1 is saturated from {span(result.p_sat, 'Pa')}",
-        *([f"{off} points lie below pull-off: no contact, mu = 0, nothing to solve"] if off else []),
+        *([f"{off} point{'s lie' if off > 1 else ' lies'} below pull-off: no contact, mu = 0, nothing to solve"] if off else []),
     ]
 
 

@@ -1,6 +1,7 @@
 """Ninety wrong scenes and calls: each ends with one message, a non-zero status, and no file."""
 
 import importlib.util
+import sys
 
 import pytest
 from scene_text import ONE_LEVEL
@@ -131,3 +132,10 @@ def test_wrong_call(run, tmp_path, arguments, said):
     message = fails(run, tmp_path, arguments)
     for part in said:
         assert part in message
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
+def test_a_link_to_nothing_is_refused_before_the_work(run, tmp_path):
+    (tmp_path / "link").symlink_to("nowhere")
+    message = fails(run, tmp_path, ["solve", "paper_fig6", "--out", "link"])
+    assert "--out" in message and "link to nothing" in message
