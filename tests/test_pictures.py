@@ -1,5 +1,6 @@
 """Pictures show what the numbers say: legends inside the canvas, units from the data, maps and loops as the means have it."""
 
+import dataclasses
 import functools
 
 import numpy as np
@@ -33,6 +34,17 @@ def inside(figure):
 @pytest.mark.parametrize("count", [2, 3, 6, 8])
 def test_legends_stand_inside_the_canvas(count):
     assert inside(saturated(count).plot())
+
+
+@pytest.mark.parametrize("kind", ["mu", "tau", None])
+def test_points_that_did_not_converge_are_marked(kind):
+    result = saturated(2)
+    assert "not converged" not in [line.get_label() for axis in result.plot(kind).axes for line in axis.lines]
+    doubtful = dataclasses.replace(result, converged=np.array([True, False]))
+    for axis in doubtful.plot(kind).axes:
+        total, (marks,) = axis.lines[0], [line for line in axis.lines if line.get_label() == "not converged"]
+        assert total.get_label() == "total"
+        assert marks.get_xdata() == [1e-3] and marks.get_ydata() == total.get_ydata()[1:]
 
 
 @pytest.mark.filterwarnings("error")

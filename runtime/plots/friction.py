@@ -54,7 +54,7 @@ def friction(result: Result, kind: str | None = None) -> Figure:
     result : a :class:`hystrip.Result` at two velocities or loads at least
     kind : ``"mu"``, ``"tau"`` or ``"contact"``, each with every level's part. None: over velocity mu and, for a single load, the
         contact below it; over the load all three and the penetration, one above the other. At p = 0 the line of mu is broken:
-        mu has a pole there. So are all lines at pull-off
+        mu has a pole there. So are all lines at pull-off. Circles mark points that did not converge
 
     Returns
     -------
@@ -82,7 +82,9 @@ def _over_velocity(result: Result, quantities: list[_Quantity]) -> Figure:
     axis = _axis_of_velocity(result)
     count = np.shape(result.mu)[axis]
     flat = lambda values: np.moveaxis(values, axis, -1).reshape(-1, count)  # noqa: E731
-    velocity, load, pressure, off = map(flat, (result.velocity, getattr(result, result.load), result.pressure, result.pulled_off))
+    velocity, load, pressure, off, sure = map(
+        flat, (result.velocity, getattr(result, result.load), result.pressure, result.pulled_off, result.converged)
+    )
     rows = len(velocity)
     shown = np.unique(np.linspace(0, rows - 1, min(rows, _PANELS)).round().astype(int))
     places = [(quantity, row) for row in shown for quantity in quantities]
@@ -92,7 +94,7 @@ def _over_velocity(result: Result, quantities: list[_Quantity]) -> Figure:
         unit = unit_for(quantity.unit, *(values for values, _, _ in curves))
         order = np.argsort(velocity[row], kind="stable")
         here = [(flat(values)[row][order], style, label) for values, style, label in curves]
-        _draw(panel, quantity, velocity[row][order], here, unit, pressure[row][order], off[row][order])
+        _draw(panel, quantity, velocity[row][order], here, unit, *(each[row][order] for each in (pressure, off, sure)))
         if shown.size > 1 or np.ptp(load[row]):
             factor, name = unit_for(_LOADS[result.load][1], load[row])
             ends = dict.fromkeys(f"{each / factor:.4g}" for each in (load[row].min(), load[row].max()))
@@ -124,11 +126,11 @@ def _over_load(result: Result, quantities: list[_Quantity]) -> Figure:
     factor, name = unit_for(unit, load)
     height = 0.75 if len(quantities) == 1 else 0.5 * len(quantities) + 0.1
     panels = stacked(len(quantities), COLUMN, height * COLUMN)
-    pressure, off = (np.ravel(values)[order] for values in (result.pressure, result.pulled_off))
+    of_points = [np.ravel(values)[order] for values in (result.pressure, result.pulled_off, result.converged)]
     for panel, quantity in zip(panels, quantities, strict=True):
         curves = [(np.ravel(values)[order], style, label) for values, style, label in _curves(result, quantity)]
         drawn = unit_for(quantity.unit, *(values for values, _, _ in curves))
-        _draw(panel, quantity, load / factor, curves, drawn, pressure, off)
+        _draw(panel, quantity, load / factor, curves, drawn, *of_points)
         if load[0] < 0 < load[-1]:
             panel.axvline(0, color="0.75", linewidth=0.5, zorder=0)
     panels[-1].set_xlim(load[0] / factor, load[-1] / factor)
@@ -163,12 +165,21 @@ def _changes(values: np.ndarray) -> np.ndarray:
 
 
 def _draw(
-    panel: Any, quantity: _Quantity, x: np.ndarray, curves: Any, unit: tuple[float, str], pressure: np.ndarray, off: np.ndarray
+    panel: Any,
+    quantity: _Quantity,
+    x: np.ndarray,
+    curves: Any,
+    unit: tuple[float, str],
+    pressure: np.ndarray,
+    off: np.ndarray,
+    sure: np.ndarray,
 ) -> None:
-    """Curves over ascending x, at which the pressure is ``pressure`` and the surface pulled off where ``off`` says so."""
+    """Curves over ascending x, at which the pressure is ``pressure``, the surface pulled off where ``off`` says so, and which has
+    converged where it is ``sure``."""
     pole = quantity is _QUANTITIES["mu"] and pressure.min() <= 0
     if pole:
         panel.set_ylim(*_limits_apart_from_the_pole(pressure, [values / unit[0] for values, _, _ in curves]))
+    doubtful, there = x[~sure], np.asarray(curves[0][0], float)[~sure] / unit[0]
     # no line through the pole, nor across the jump at pull-off
     at = np.union1d(_changes(off), _changes(np.sign(pressure)) if pole else []).astype(int)
     x = np.insert(x, at, np.nan)
@@ -179,6 +190,8 @@ def _draw(
         alone = seen[1:-1] & ~seen[:-2] & ~seen[2:]  # of such a point no line would be drawn
         if alone.any():
             panel.plot(x[alone], y[alone], ".", **style)
+    if doubtful.size:
+        panel.plot(doubtful, there, "o", markersize=4, markerfacecolor="none", color="black", zorder=4, label="not converged")
     panel.axhline(0, color="0.6", linewidth=0.5, zorder=0)
     panel.set_ylabel(quantity.label + (f" ({unit[1]})" if unit[1] else ""))
 
