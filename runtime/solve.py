@@ -54,9 +54,11 @@ def solve(
 
     Parameters
     ----------
-    material, adhesion : the foundation and the adhesion, single values
+    material : the foundation, of single values
+    adhesion : a Dugdale adhesion, of single values; none with ``gamma=0``
     levels : from the largest to the smallest, at least one
-    pressure : nominal pressure, Pa; or penetration : D of level 1, m. Exactly one of them
+    pressure : nominal pressure, Pa
+    penetration : that of level 1, m, in place of a pressure
     velocity : sliding velocity, m/s, >= 0; broadcasts with the load. No input may exceed 1e40 in magnitude
     edge, branch : edge closure and branch of loading, as in ``solve_strip``
     rtol : accuracy asked for, relative to ``|tau| + 1e-3 (K h + p_0) h/l`` of level 1 (were it flat: of the largest that is
