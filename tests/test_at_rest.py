@@ -7,6 +7,7 @@ import hystrip
 from hystrip.orbit import abstract_foundation
 from hystrip.orbit.at_rest import AT_REST, SLOW
 from hystrip.orbit.foundation import foundation_of
+from hystrip.orbit.modes.extremal import Search
 from hystrip.orbit.regimes import CODE
 
 MATERIALS = {
@@ -110,6 +111,15 @@ def test_strips_are_left_to_the_limit_by_need_alone(monkeypatch):
     for times in (2 * AT_REST, 0.5 * SLOW, 2 * SLOW):
         _solve("one time", "constitutive", "unloading", times, p_0, delta_0, D)
     assert sum(asked) < 20
+
+
+def test_a_search_that_gets_nowhere_ends(monkeypatch):
+    """Two of these strips are left to the limit at rest; they took 300 rounds each."""
+    rounds, step = [], Search.step
+    monkeypatch.setattr(Search, "step", lambda search, number: rounds.append(number) or step(search, number))
+    p_0, delta_0, D = _strips(200, 3, 1e-10)
+    _, s = _solve("two times", "constitutive", "unloading", 1e-11, p_0, delta_0, D)
+    assert s.certified.all() and max(rounds) < 20
 
 
 @pytest.mark.filterwarnings("error")
