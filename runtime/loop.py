@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -106,19 +106,32 @@ def loading_loop(
     rest = np.linspace(near, max(top, usual), _FIRST)
     first = np.unique([*np.linspace(low, near, _FIRST), *np.linspace(-above, min(2 * above, usual), _NEAR), *rest])
 
+    found: dict[Branch, list[LevelSolution]] = {"loading": [], "unloading": []}
+
     def solved(branch: Branch, D: Floats) -> LevelSolution:
-        return solve_level(material, adhesion, level, V=V, D=D, edge=edge, branch=branch, rtol=rtol)
+        found[branch].append(solve_level(material, adhesion, level, V=V, D=D, edge=edge, branch=branch, rtol=rtol))
+        return found[branch][-1]
 
     least = 1e-3 * rtol * (K * level.h + float(adhesion.p_0)) * (usual - low)
     D, p, at = _sampled(solved, first, near, top, least, sticks)
     kept = D <= top
-    loading, unloading = solved("loading", D[kept]), solved("unloading", D[kept])
+    loading, unloading = (_in_order(parts, top) for parts in found.values())
     apart = p[0, kept] - p[1, kept]
     work = float(np.sum(0.5 * (apart[1:] + apart[:-1]) * np.diff(D[kept])))
     pull_off = 0.0
     if sticks:  # the least of the curve itself, of which the points are only near
         pull_off = friction_law(material, adhesion, level, V=V, edge=edge, rtol=rtol, below=0.0).pull_off
     return Loop(loading, unloading, pull_off, float(D[at]) if sticks else 0.0, work)
+
+
+def _in_order(parts: list[LevelSolution], top: float) -> LevelSolution:
+    """One solution of all ``parts``, ascending in penetration, up to ``top``."""
+    first, D = parts[0], np.concatenate([part.D for part in parts])
+    order = np.argsort(D)[: np.count_nonzero(D <= top)]
+    arrays = [f.name for f in fields(first) if isinstance(getattr(first, f.name), np.ndarray)]
+    every = {name: np.concatenate([getattr(part, name) for part in parts], axis=-1)[..., order] for name in arrays}
+    inputs = replace(first.inputs, velocity=np.full(order.size, first.inputs.velocity[0]))
+    return replace(first, strips=sum(part.strips for part in parts), inputs=inputs, **every)
 
 
 def _sampled(

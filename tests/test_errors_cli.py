@@ -134,7 +134,7 @@ def test_wrong_call(run, tmp_path, arguments, said):
         assert part in message
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
+@pytest.mark.skipif(sys.platform == "win32", reason="links need a privilege there")
 def test_a_link_to_nothing_is_refused_before_the_work(run, tmp_path):
     (tmp_path / "link").symlink_to("nowhere")
     message = fails(run, tmp_path, ["solve", "paper_fig6", "--out", "link"])

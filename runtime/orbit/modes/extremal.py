@@ -43,6 +43,7 @@ class Search:
         self.z, self.engaged, self.ends_held = z, engaged, not (rising and released)
         self.kind, self.edges, self.known = np.full(s.size, UNRESOLVED), np.full((4, s.size), np.nan), np.zeros(s.size)
         self.sequence, self.share = np.zeros(s.size, int), np.full(s.size, _SHARE)
+        # states and shares a round of trials ago
         self.before = np.full((s.modes + 1, s.size), np.nan)
 
     def run(self):
