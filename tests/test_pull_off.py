@@ -1,9 +1,13 @@
 """Pull-off of a level whose crest lets go first: with adhesion and V > 0 the flat rims of the cells hold on longer."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import hystrip
+from hystrip.level import curve
+from hystrip.level.interpolation import Intervals
 
 MATERIAL = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=1e-4)
 ADHESION = hystrip.Dugdale(gamma=2.5e-5, delta_0=1e-8)
@@ -123,3 +127,19 @@ def test_loading_at_next_to_no_pressure_stands_beyond_the_dip(i):
     assert before.p_mean.min() < 0 and (before.p_mean < p).all()
     at = hystrip.solve_level(material, adhesion, level, V=V, D=float(found.penetration), branch="loading", rtol=1e-6)
     assert at.p_mean == pytest.approx(p, rel=1e-2)
+
+
+@pytest.mark.parametrize("falls", [0.2, 1.0, 5.0])
+@pytest.mark.parametrize("rises", [0.5, 1.0, 5.0])
+def test_a_least_pressure_at_a_break_is_not_passed_over(falls, rises, monkeypatch):
+    """A curve that is least at the break between two intervals, and only next to it below the least pressure before."""
+
+    def means(columns, intervals, D, strips):
+        values = np.where(D > 1, rises * (D - 1), falls * (1 - D))[:, None] - 0.005 * rises
+        return values, np.zeros(values.shape), np.zeros(D.size, object)
+
+    monkeypatch.setattr(curve, "_rough_means", means)
+    breaks = np.array([0.0, 1.0, 2.0])
+    whole = Intervals.of(np.zeros(2, int), breaks[:-1], breaks[1:], np.full(1, 1e-3), np.full((1, 1), 1e-3))
+    parts = curve.reentrant_parts(None, replace(whole, ceiling=np.zeros(2)), None, None)
+    assert ((parts.low <= 1) & (parts.high >= 1.005)).any()

@@ -19,7 +19,7 @@ from .regime_map import OPENS, straight
 from .strips import LevelBatch
 
 #: accuracy of the look for re-entrant branches, its first nodes; share of ``h`` below which intervals are tried before, and where
-_ROUGH, _NODES, _NARROW, _APART = 5e-3, 6, 0.1, (0.1, 0.9)
+_ROUGH, _NODES, _NARROW, _APART = 5e-3, 4, 0.1, (0.1, 0.9)
 #: how close to where gaps that adhere throughout open the crest lets go with short memory, in heights
 _SHORT = 1e-3
 #: how much more than its error a pressure keeps above what was before, and than what it bends between two nodes, which are the
@@ -132,16 +132,21 @@ def _parts(stages: list[Stage], bends: float) -> list[tuple[int, int, dict, np.n
     met: dict[int, float] = {}
     out, looks = [], []
     for s, stage in enumerate(stages):
-        D = stage.parts.evenly(interior_nodes(stage.n))
-        looks += [(s, k, D[k], stage.known[0][k], stage.known[1][k, :, 0]) for k in range(stage.parts.size)]
-    for s, k, D, values, error in sorted(looks, key=lambda look: -look[2][-1]):
-        look, p = stages[s].parts, values[:, 0]
+        t, parts = interior_nodes(stage.n), stage.parts
+        D = np.column_stack((parts.low, parts.evenly(t), parts.high))
+        looks += [(s, k, t, D[k], stage.known[0][k], stage.known[1][k, :, 0]) for k in range(parts.size)]
+    for s, k, t, D, values, error in sorted(looks, key=lambda look: -look[3][-1]):
+        look, known = stages[s].parts, values[:, 0]
         least = min(met.get(look.column[k], np.inf), look.ceiling[k])
-        bend = np.pad(np.abs(p[:-2] - 2 * p[1:-1] + p[2:]), 1)
+        # on to the ends, which are no nodes: a curve is often least at a break
+        beyond = t[0] / (t[1] - t[0]) * np.array([known[0] - known[1], known[-1] - known[-2]])
+        p, error = np.insert(known, [0, known.size], known[[0, -1]] + beyond), np.pad(error, 1, "edge")
+        bend = np.pad(np.abs(known[:-2] - 2 * known[1:-1] + known[2:]), 2, "edge")
         slack = _DOUBT * np.maximum(error[:-1], error[1:]) + bends * np.maximum(bend[:-1], bend[1:])
         floor = np.minimum(p[:-1], p[1:]) - slack
         # the least that was before, above the upper end of each part
-        above = np.minimum(np.minimum.accumulate((p + error)[:0:-1])[::-1], least)
+        before = np.minimum.accumulate((known + error[1:-1])[::-1])[::-1]
+        above = np.minimum(np.concatenate((before, [np.inf])), least)
         comes = np.flatnonzero(floor < above)
         for run in np.split(comes, np.flatnonzero(np.diff(comes) > 1) + 1) if comes.size else ():
             first, last = run[0], run[-1] + 1
@@ -150,6 +155,6 @@ def _parts(stages: list[Stage], bends: float) -> list[tuple[int, int, dict, np.n
                 continue
             ends = {"low": D[first], "inner_low": True} if first > 0 else {}
             ends |= {"high": D[last], "inner_high": True} if last < p.size - 1 else {}
-            out.append((s, k, ends, values[first : last + 1]))
-        met[look.column[k]] = min(least, (p + error).min())
+            out.append((s, k, ends, values[max(first - 1, 0) : max(last, 2)]))
+        met[look.column[k]] = min(least, (known + error[1:-1]).min())
     return out
