@@ -143,3 +143,17 @@ def test_a_least_pressure_at_a_break_is_not_passed_over(falls, rises, monkeypatc
     whole = Intervals.of(np.zeros(2, int), breaks[:-1], breaks[1:], np.full(1, 1e-3), np.full((1, 1), 1e-3))
     parts = curve.reentrant_parts(None, replace(whole, ceiling=np.zeros(2)), None, None)
     assert ((parts.low <= 1) & (parts.high >= 1.005)).any()
+
+
+@pytest.mark.parametrize("level", [LEVEL, hystrip.Level(l=1e-5, h=1e-6)])
+def test_next_to_pull_off_estimates_hold(level):
+    """Where the curve turns quantities go like the root of the distance: slopes from beyond it were 40 times too small."""
+    at = {"V": 1e-2, "edge": "constitutive"}
+    law = hystrip.friction_law(MATERIAL, ADHESION, level, **at, rtol=1e-6, below=0.0)
+    p = law.pull_off + np.abs(law.pull_off) * np.array([1e-5, 1e-6, 1e-7])
+    exact = hystrip.solve_level(MATERIAL, ADHESION, level, pressure=p, **at, rtol=1e-10)
+    for rtol in (1e-3, 1e-4, 1e-6):
+        found = hystrip.solve_level(MATERIAL, ADHESION, level, pressure=p, **at, rtol=rtol)
+        error = np.abs(found.tau_mean - exact.tau_mean)
+        assert found.converged.all() and (error <= rtol * np.abs(exact.tau_mean)).all()
+        assert (error <= found.error_estimate[1]).all()

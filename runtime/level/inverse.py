@@ -26,8 +26,9 @@ from .strips import AT_JUMP, CURVE_LIMIT, NO_CURVE, QUANTITIES, LevelBatch, cut_
 ROUGH, _FINER, _CLOSEST, _FIRST = 1e-2, 0.03, 1e-8, 8
 #: width of the first part of the curve to be looked at, in heights; each further one is twice as wide
 _NEXT = 0.3
-#: penetrations in each of them at which the crest is looked at, and parts of a piece over which a curve is taken to be straight
-_LOOKS, _STEP = 12, 1 / 64
+#: penetrations in each of them at which the crest is looked at, and part of a piece over which a curve is taken to be straight,
+#: at least and at most
+_LOOKS, _STEPS = 12, (1e-5, 1 / 64)
 #: how much more than the estimated error of the interpolation a turn has to keep away from the pressure
 _DOUBT = 2.0
 
@@ -237,7 +238,9 @@ def _place(row: list[Branch], p: float, doubts: float) -> int:
 def _in_branch(part: Branch, p: float) -> Root:
     """Where a branch, which may be narrower than the rounding of D, carries the pressure."""
     t = float(ParameterAt([part])(np.zeros(1, int), np.array([p]))[0])
-    ends = np.clip([t - _STEP, t + _STEP], part.t_low, part.t_high)
+    # nearer to a turn it bends more
+    step = np.clip(0.5 * min(t - part.t_low, part.t_high - t), _STEPS[0], _STEPS[1])
+    ends = np.clip([t - step, t + step], part.t_low, part.t_high)
     D, (low, high) = part.piece.penetration(np.array([t, *ends, part.t_low, part.t_high])), part.piece.values(ends)
     step, apart = high - low, max(D[2] - D[1], EPS * abs(D[0]), 1 / LARGEST)
     return Root(float(D[0]), step[0] / apart, step / step[0], float(D[3]), float(D[4]))

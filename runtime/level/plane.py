@@ -191,8 +191,18 @@ def turning(points: CurvePoints) -> np.ndarray:
     return 1 + np.flatnonzero(one[:-1] & one[1:] & (steps[:-1] != 0) & (steps[:-1] * steps[1:] <= 0))
 
 
-def locate_turns(columns: LevelBatch, boundary: Boundary, known: CurvePoints, had: Turns) -> Turns:
-    """Turns of the curves through the points ``known``, where their slope vanishes, that are found beside those ``had``."""
+def locate_between(columns: LevelBatch, boundary: Boundary, known: CurvePoints) -> CurvePoints:
+    """Points of the curves through the points ``known`` half way between two at one E, where they turn between them."""
+    one = np.flatnonzero(together(known) & (np.diff(known.E) == 0) & (np.diff(known.A) > 0))
+    start = known.take(one)
+    start.A, start.edges = (0.5 * (v[one] + v[one + 1]) for v in (known.A, known.edges))
+    points, found = locate(columns, boundary, start, "E")
+    return points.take(np.flatnonzero(found))
+
+
+def locate_turns(columns: LevelBatch, boundary: Boundary, known: CurvePoints, had: Turns) -> tuple[Turns, CurvePoints]:
+    """Turns of the curves through the points ``known``, where their slope vanishes, that are found beside those ``had``; and the
+    points there."""
     middle = turning(known)
     low, high = known.A[middle - 1, None], known.A[middle + 1, None]
     new = ~((known.velocity[middle, None] == had.velocity) & (low < had.A) & (had.A < high)).any(axis=1)
@@ -213,4 +223,5 @@ def locate_turns(columns: LevelBatch, boundary: Boundary, known: CurvePoints, ha
     if near.size:
         A = falling_root(slope, before.A, after.A, near.A, _PLACED * near.A.min())
         slope(A, np.arange(A.size))
-    return Turns(near.velocity, near.A, near.E, way).take(np.flatnonzero(found))
+    turns, found = Turns(near.velocity, near.A, near.E, way), np.flatnonzero(found)
+    return turns.take(found), near.take(found)

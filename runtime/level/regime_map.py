@@ -21,7 +21,7 @@ from ..numerics.rounding import EPS
 from ..orbit.foundation import foundation_of
 from ..orbit.regimes import CODE, ZONES
 from .changes import Changes
-from .plane import BOUNDARIES, Boundary, CurvePoints, Turns, grazing, locate, locate_turns, together, turning
+from .plane import BOUNDARIES, Boundary, CurvePoints, Turns, grazing, locate, locate_between, locate_turns, together, turning
 
 if TYPE_CHECKING:
     from .strips import LevelBatch
@@ -211,6 +211,7 @@ class Crossings:
         order = np.lexsort((points.A, points.index, points.velocity))
         points, place = points.take(order), place[order]
         fresh = np.append(True, ~together(points) | (np.diff(place) != 0))
+        fresh[turning(points)] = True
         self.points[boundary] = points.take(np.flatnonzero(fresh))
 
     def expected(self, columns: LevelBatch) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
@@ -218,7 +219,7 @@ class Crossings:
         nearest on it, or from the parabola through three where it turns, or pass by a turn; and whether orbits end there."""
         E = columns.D - columns.level.h
         for boundary, known in self.points.items():
-            starts = _between(known, columns.V, E), _crossings_beyond_turns(known, columns.V, E)
+            starts = _between(known, columns.V, E), _next_to_turns(known, columns.V, E)
             state, lower, share = (np.concatenate(v) for v in zip(*starts, strict=True))
             if not state.size:
                 continue
@@ -238,9 +239,12 @@ class Crossings:
     def turned(self, columns: LevelBatch) -> Turns:
         """Where the curves turn, as far as is known at the velocities of ``columns``."""
         none = Turns(*np.empty((4, 0)))
-        for boundary, known in self.points.items():
+        for boundary in list(self.points):
+            self.remember(boundary, locate_between(columns, boundary, self.points[boundary]))
             had = self.turns.get(boundary, none)
-            self.turns[boundary] = Turns.joined([had, locate_turns(columns, boundary, known, had)])
+            turns, points = locate_turns(columns, boundary, self.points[boundary], had)
+            self.turns[boundary] = Turns.joined([had, turns])
+            self.remember(boundary, points)
         return Turns.joined([none, *self.turns.values()])
 
 
@@ -257,23 +261,27 @@ def _between(known: CurvePoints, velocity, E) -> tuple[np.ndarray, np.ndarray, n
     # only the outermost segments of a curve go on beyond their ends
     low, high = np.where(one[lower], 0.0, -_BEYOND), np.where(one[lower + 2], 1.0, 1 + _BEYOND)
     near = one[lower + 1] & (share >= low) & (share <= high)
+    turns = np.isin(np.arange(known.size), turning(known))
+    near &= ~(turns[lower] | turns[lower + 1]) | (share < 0) | (share > 1)
     return state[near], lower[near], share[near]
 
 
-def _crossings_beyond_turns(known: CurvePoints, velocity, E) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """``_between`` for states beyond the last point before a curve turns back in E: each crosses the parabola there twice."""
+def _next_to_turns(known: CurvePoints, velocity, E) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """``_between`` for states next to the last point before a curve turns back in E, or beyond it, which cross the parabola
+    through it and its neighbours."""
     middle = turning(known)
     # E = E_middle + slope (A - A_middle) + bend (A - A_middle)^2
-    before, after = (known.A[middle + k] - known.A[middle] for k in (-1, 1))
-    low, high = ((known.E[middle + k] - known.E[middle]) / (known.A[middle + k] - known.A[middle]) for k in (-1, 1))
+    ends = np.array([-1, 1])[:, None]
+    (before, after), rises = (v[middle + ends] - v[middle] for v in (known.A, known.E))
+    low, high = rises / (before, after)
     bend = (high - low) / (after - before)
     slope = low - bend * before
-    square = (E - known.E[middle, None]) / bend[:, None] + 0.25 * (slope / bend)[:, None] ** 2
-    beyond = (E - known.E[middle, None]) * bend[:, None] < 0
-    at, state = np.nonzero((known.velocity[middle, None] == velocity) & beyond & (square > 0))
-    root = np.sqrt(square[at, state])
-    moved = np.concatenate((-root, root)) - 0.5 * np.tile((slope / bend)[at], 2)
-    at = np.tile(at, 2)
+    off = E - known.E[middle, None]
+    square = off / bend[:, None] + 0.25 * (slope / bend)[:, None] ** 2
+    # on either side as far as the neighbour there
+    there = (known.velocity[middle, None] == velocity) & (square > 0) & ((off - rises[:, :, None]) * bend[:, None] <= 0)
+    side, at, state = np.nonzero(there)
+    moved = ends[side, 0] * np.sqrt(square[at, state]) - 0.5 * (slope / bend)[at]
     lower = middle[at] - (moved < 0)
     share = (known.A[middle[at]] + moved - known.A[lower]) / (known.A[lower + 1] - known.A[lower])
-    return np.tile(state, 2), lower, share
+    return state, lower, share
