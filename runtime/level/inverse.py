@@ -238,10 +238,13 @@ def _place(row: list[Branch], p: float, doubts: float) -> int:
 def _in_branch(part: Branch, p: float) -> Root:
     """Where a branch, which may be narrower than the rounding of D, carries the pressure."""
     t = float(ParameterAt([part])(np.zeros(1, int), np.array([p]))[0])
-    # nearer to a turn it bends more
-    step = np.clip(0.5 * min(t - part.t_low, part.t_high - t), _STEPS[0], _STEPS[1])
-    ends = np.clip([t - step, t + step], part.t_low, part.t_high)
-    D, (low, high) = part.piece.penetration(np.array([t, *ends, part.t_low, part.t_high])), part.piece.values(ends)
+    # nearer to a turn it bends more, but for rounding
+    for step in (np.clip(0.5 * min(t - part.t_low, part.t_high - t), *_STEPS), _STEPS[1]):
+        ends = np.clip([t - step, t + step], part.t_low, part.t_high)
+        low, high = part.piece.values(ends)
+        if high[0] != low[0]:
+            break
+    D = part.piece.penetration(np.array([t, *ends, part.t_low, part.t_high]))
     step, apart = high - low, max(D[2] - D[1], EPS * abs(D[0]), 1 / LARGEST)
     return Root(float(D[0]), step[0] / apart, step / step[0], float(D[3]), float(D[4]))
 
