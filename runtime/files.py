@@ -135,6 +135,8 @@ def _alive(pid: int) -> bool:
 
 def refuse_unwritable(folder: str | os.PathLike[str], field: str) -> None:
     """Raise InputError, naming `field`, if files cannot be put into `folder` or it cannot be made."""
+    import tempfile
+
     path = path_of(folder, field, "a folder")
     try:
         nearest = next(each for each in (path, *path.absolute().parents) if each.exists() or each.is_symlink())
@@ -142,8 +144,10 @@ def refuse_unwritable(folder: str | os.PathLike[str], field: str) -> None:
         raise InputError(field, str(folder), f"a folder that can be written to ({error.strerror or error})") from None
     if not nearest.is_dir():
         raise InputError(field, str(folder), f"a folder; {nearest} is {'a file' if nearest.exists() else 'a link to nothing'}")
-    if not os.access(nearest, os.W_OK | os.X_OK):
-        raise InputError(field, str(folder), f"a folder that can be written to; {nearest} cannot")
+    try:
+        tempfile.TemporaryFile(dir=nearest).close()  # what permissions say does not hold on every file system, nor for every user
+    except OSError as error:
+        raise InputError(field, str(folder), f"a folder that can be written to; {nearest} cannot ({error.strerror})") from None
 
 
 def path_of(given: str | os.PathLike[str], field: str, what: str) -> Path:

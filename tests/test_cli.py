@@ -247,6 +247,23 @@ def test_no_output_takes_the_place_of_another_of_the_same_stem(run, tmp_path):
     assert head[0].startswith("# hystrip ") and head[1].startswith("# units: SI") and head[2] == "# scene: changed"
 
 
+def test_no_output_takes_the_place_of_another_kinds(run, tmp_path):
+    """The table of a sweep of x and that of a scene named x.sweep have one name, as the paper's figures and a scene named so."""
+    for name in ("x", "x.sweep", "fig7"):
+        (tmp_path / f"{name}.toml").write_text(SCENE)
+    assert run("sweep", "x.toml")[0] == run("solve", "fig7.toml", "--no-plot")[0] == 0
+    before = (tmp_path / "hystrip-out/x.sweep.csv").read_bytes()
+    status, out, err = run("solve", "x.sweep.toml", "--no-plot")
+    assert (status, out) == (2, "") and "x.sweep.csv in it was made from ../x.toml" in err
+    status, out, err = run("figures", "fig7", "--out", "hystrip-out")
+    assert (status, out) == (2, "") and "fig7.csv in it was made from ../fig7.toml" in err
+    assert (tmp_path / "hystrip-out/x.sweep.csv").read_bytes() == before
+    assert run("solve", "x.sweep.toml", "--no-plot", "--out", "other")[0] == 0
+    status, out, err = run("sweep", "x.toml", "--out", "other")
+    assert (status, out) == (2, "") and "x.sweep.csv in it was made from ../x.sweep.toml" in err
+    assert not (tmp_path / "other/x.parts").exists()
+
+
 def test_measured_data_are_not_replaced(run, tmp_path):
     (tmp_path / "mine.toml").write_text(SCENE)
     (tmp_path / "mine.csv").write_text("f,E_stor,E_loss\n")

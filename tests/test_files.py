@@ -1,13 +1,17 @@
 """Sets of output files: all of them, or none."""
 
+import json
 import os
 import re
 import subprocess
 import sys
+import threading
 
 import pytest
 
-from hystrip.files import Outputs, write_text
+from hystrip.errors import InputError
+from hystrip.files import Outputs, refuse_unwritable, write_text
+from hystrip.origins import outputs_from
 
 
 def filled(folder, *names):
@@ -69,3 +73,35 @@ def test_files_are_on_the_disk_before_they_get_their_names(tmp_path, monkeypatch
     monkeypatch.setattr(os, "replace", lambda part, final: (done.append("rename"), replace(part, final)))
     filled(tmp_path, "a.csv", "b.csv")
     assert done == ["sync", "sync", "rename", "rename"]
+
+
+def test_runs_into_one_folder_at_once_all_note_what_their_files_are_made_from(tmp_path):
+    together = threading.Barrier(8)
+
+    def run(source):
+        with outputs_from(source, tmp_path, [f"{source}.csv"]) as files:
+            files.path(f"{source}.csv").write_text("# hystrip")
+            together.wait()
+
+    runs = [threading.Thread(target=run, args=(name,)) for name in "abcdefgh"]
+    for each in runs:
+        each.start()
+    for each in runs:
+        each.join()
+    assert json.loads((tmp_path / ".origins.json").read_text()) == {f"{name}.csv": name for name in "abcdefgh"}
+
+
+def test_of_two_runs_at_once_for_files_of_one_name_the_second_is_refused(tmp_path):
+    with pytest.raises(InputError, match="made from second, this would be from first"):
+        with outputs_from("first", tmp_path, ["a.csv"]) as files:
+            files.path("a.csv").write_text("# hystrip of the first")
+            with outputs_from("second", tmp_path, ["a.csv"]) as others:
+                others.path("a.csv").write_text("# hystrip of the second")
+    assert (tmp_path / "a.csv").read_text() == "# hystrip of the second"
+    assert sorted(path.name for path in tmp_path.iterdir() if ".part." in path.name) == []
+
+
+@pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="no folder here that its permissions alone make writable")
+def test_a_folder_that_only_its_permissions_make_writable_is_refused():
+    with pytest.raises(InputError, match="/proc cannot"):
+        refuse_unwritable("/proc/x", "--out")

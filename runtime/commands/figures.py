@@ -17,11 +17,9 @@ def command(
     """
     from ..extras import require
     from ..figures import draw
-    from ..files import refuse_unwritable
     from .progress import progress
 
     require("matplotlib", "plot", "drawing")
-    refuse_unwritable(out, "--out")
     with progress("figures") as report:
         written = draw(only, out, report)
     for path in written:

@@ -46,13 +46,13 @@ def command(
     from ..dma.read import read_shift
     from ..errors import FitWarning, InputError, printable
     from ..extras import require
-    from ..files import Outputs, refuse_unwritable
+    from ..files import refuse_unwritable
     from ..inputs.fitted import POOR
+    from ..origins import outputs_from, refuse_other_origin
     from ..scene.edit import with_material, with_settings
     from ..scene.errors import located
     from ..scene.load import scene_text
     from ..tables import about_version, write_csv
-    from .origin import record_origin, refuse_other_origin
     from .quantities import metres, pascals
     from .scene_options import settings
 
@@ -88,10 +88,9 @@ def command(
         from ..plots import fitted_modulus, save
 
         files[f"{stem}.fit.png"] = lambda path: save(fitted_modulus(series, measured), path)
-    with Outputs(out) as outputs:
+    with outputs_from(data, out, names) as outputs:
         for name, write in files.items():
             write(outputs.path(name))
-        record_origin(outputs, names, data)
     for line in measured.columns:
         say(f"read       {line}")
     say(series.report())

@@ -36,12 +36,12 @@ def command(
     holds them: SCENE with its own replaced. Needs the extra `roughness`.
     """
     from ..extras import require
-    from ..files import Outputs, refuse_unwritable
+    from ..files import refuse_unwritable
+    from ..origins import outputs_from, refuse_other_origin
     from ..roughness import levels_of, read_surface
     from ..scene.edit import with_levels, with_settings, with_solver_seen_from
     from ..scene.errors import located
     from ..scene.load import scene_text
-    from .origin import record_origin, refuse_other_origin
     from .quantities import metres, pascals
     from .scene_options import settings
 
@@ -61,13 +61,12 @@ def command(
         text = with_solver_seen_from(out, text, scene)
         levels = [{"l": each.l, "h": each.h} for each in found.levels]
         text = with_levels(text, levels, comment, folder=out, allow_solver=allow_solver)
-    with Outputs(out) as files:
+    with outputs_from(surface, out, names) as files:
         files.path(names[0]).write_text(text, encoding="utf-8", newline="\n")
         if plot:
             from ..plots import roughness_levels, save
 
             save(roughness_levels(found, scan), files.path(names[1]))
-        record_origin(files, names, surface)
     say(f"{scan.report()}\n{found.report()}")
     for name in names:
         say(f"wrote {out / name}")

@@ -30,9 +30,9 @@ def command(
     from ..dma.read import shift_remark
     from ..errors import InputError
     from ..extras import require
-    from ..files import Outputs, refuse_unwritable
+    from ..files import refuse_unwritable
+    from ..origins import outputs_from, refuse_other_origin
     from ..tables import about_version, write_csv
-    from .origin import record_origin, refuse_other_origin
     from .quantities import kelvins
 
     if plot:
@@ -56,7 +56,7 @@ def command(
         "b_T": found.b_T,
     }
     about = [*about_version(), f"data: {data.name}", shift_remark(found.shift)]
-    with Outputs(out) as files:
+    with outputs_from(data, out, names) as files:
         write_csv(files.path(names[0]), points, about)
         write_csv(files.path(names[1]), factors, about)
         if plot:
@@ -64,7 +64,6 @@ def command(
             from ..plots.master import master_curve as draw
 
             save(draw(found), files.path(names[2]))
-        record_origin(files, names, data)
     for line in curve.columns:
         say(f"read       {line}")
     say(found.report())

@@ -26,10 +26,10 @@ def command(
     """
     from ..errors import InputError
     from ..extras import require
-    from ..files import Outputs, refuse_unwritable
+    from ..files import refuse_unwritable
+    from ..origins import outputs_from, refuse_other_origin
     from ..scene import load_scene
     from .at import point_of
-    from .origin import record_origin, refuse_other_origin
     from .quantities import metres
 
     case = load_scene(scene, allow_solver=allow_solver)
@@ -49,10 +49,9 @@ def command(
         from ..plots import save
 
         kinds = [kind for kind, wanted in drawn.items() if wanted]
-        with Outputs(out) as files:
+        with outputs_from(case.source, out, names) as files:
             for kind, name in zip(kinds, names, strict=True):
                 save(result.plot(kind, at=0, level=level, y=y), files.path(name))
-            record_origin(files, names, case.source)
     say(result.summary())
     for name in names:
         say(f"wrote {out / name}")

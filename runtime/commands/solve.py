@@ -23,10 +23,10 @@ def command(
     import numpy as np
 
     from ..extras import require
-    from ..files import Outputs, refuse_unwritable, write_netcdf
+    from ..files import refuse_unwritable, write_netcdf
+    from ..origins import outputs_from, refuse_other_origin
     from ..scene import load_scene
     from ..tables import about_result, friction_rows, write_csv
-    from .origin import record_origin, refuse_other_origin
     from .progress import progress
 
     case = load_scene(scene, allow_solver=allow_solver)
@@ -43,7 +43,7 @@ def command(
     with progress(case.title or case.name) as report:
         result = case.solve(progress=report)
     columns = friction_rows(result)
-    with Outputs(out) as files:
+    with outputs_from(case.source, out, names) as files:
         write_csv(files.path(f"{case.name}.csv"), columns, about_result(result, case.title or case.name))
         if netcdf:
             write_netcdf(result.to_dataset(), files.path(f"{case.name}.nc"))
@@ -51,7 +51,6 @@ def command(
             from ..plots import save
 
             save(result.plot(), files.path(f"{case.name}.png"))
-        record_origin(files, names, case.source)
     if table:
         from .terminal import show_friction
 

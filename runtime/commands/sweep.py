@@ -28,7 +28,8 @@ def command(
     command goes on where it was. A point that cannot be solved is recorded with its reason.
     """
     from ..extras import require
-    from ..files import Outputs, write_netcdf
+    from ..files import write_netcdf
+    from ..origins import outputs_from, refuse_other_origin
     from ..scene.load import parse_toml, scene_text
     from ..sweeps import sweep
     from ..sweeps.over import over_of
@@ -39,7 +40,10 @@ def command(
     if netcdf:
         require("xarray", "dataset", "writing netCDF")
         require("h5netcdf", "dataset", "writing netCDF")
-    swept = over_of(over, is_half_space(parse_toml(scene_text(scene)[0]))) if over else {}
+    text, name = scene_text(scene)
+    more = [f"{name}.sweep.nc"] * netcdf
+    refuse_other_origin(out, more, scene)
+    swept = over_of(over, is_half_space(parse_toml(text))) if over else {}
     try:
         with progress("sweeping", rate=True) as report:
             done = sweep(
@@ -49,12 +53,9 @@ def command(
     except (KeyboardInterrupt, Terminated):
         say("hystrip: finished batches are kept; the same command goes on from there", err=True)
         raise
-    written = [done.path]
     if netcdf:
-        with Outputs(out) as files:
-            name = done.path.with_suffix(".nc").name
-            write_netcdf(done.to_dataset(), files.path(name))
-        written.append(out / name)
+        with outputs_from(scene, out, more) as files:
+            write_netcdf(done.to_dataset(), files.path(more[0]))
     again = f", {done.kept} of {done.kept + done.solved} batches from before" if done.kept else ""
     say(f"{done.plan.size} points{again}")
     if done.failed:
@@ -62,7 +63,7 @@ def command(
             f"{len(done.failed)} points failed; the column 'failed' says why, the first: {next(iter(done.failed.values()))}",
             err=True,
         )
-    for path in written:
+    for path in (done.path, *(out / name for name in more)):
         say(f"wrote {path}")
     if len(done.failed) == done.plan.size:
         raise typer.Exit(1)

@@ -1,13 +1,16 @@
 """Figures 3 to 7 of the paper, one module each: ``data`` solves and returns a table, ``paint`` draws it."""
 
 import importlib
+import itertools
 import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ..errors import InputError
-from ..files import Outputs
+from ..files import path_of, refuse_unwritable
+from ..origins import outputs_from, refuse_other_origin
 
+_SOURCE = "hystrip figures"
 FIGURES = ("fig3", "fig4", "fig5", "fig6", "fig7")
 
 
@@ -25,18 +28,19 @@ def draw(
     for name in names:
         if name not in FIGURES:
             raise InputError("figures", name, ", ".join(FIGURES))
-    written = []
+    folder, of = path_of(out, "--out", "a folder"), {name: [f"{name}.{kind}" for kind in ("csv", "png", "svg")] for name in names}
+    refuse_unwritable(folder, "--out")
+    refuse_other_origin(folder, [*itertools.chain(*of.values())], _SOURCE)
     if progress:
         progress(0, len(names))
     for done, name in enumerate(names, start=1):
         module = importlib.import_module(f"hystrip.figures.{name}")
         table = module.data()
-        with Outputs(out) as files:
+        with outputs_from(_SOURCE, folder, of[name]) as files:
             write_csv(files.path(f"{name}.csv"), table, [*about_version(), f"figure: {(module.__doc__ or name).splitlines()[0]}"])
             figure = module.paint(table)
             for kind in ("png", "svg"):
                 save(figure, files.path(f"{name}.{kind}"))
-        written += [Path(out) / f"{name}.{kind}" for kind in ("csv", "png", "svg")]
         if progress:
             progress(done, len(names))
-    return written
+    return [folder / each for each in itertools.chain(*of.values())]

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ..errors import ConvergenceWarning, HystripError, InputError
-from ..files import Outputs, path_of, refuse_unwritable
+from ..files import path_of, refuse_unwritable
+from ..origins import outputs_from, refuse_other_origin
 from ..tables import about_version, write_csv
 from .batch import OTHER_CODE, Batch, Task, solve_batch
 from .code import code_key, fresh_code_key
@@ -156,8 +157,9 @@ def sweep(
         resolve_solver(values, os.fspath(scene), allow_solver)
     with located(os.fspath(scene)) if not over else contextlib.nullcontext():
         plan = plan_of(values, name, text, dict(over or {}), combine, batch)
-    folder = path_of(out, "--out", "a folder")
+    folder, done = path_of(out, "--out", "a folder"), f"{name}.sweep.csv"
     refuse_unwritable(folder, "--out")
+    refuse_other_origin(folder, [done], scene)
     if executor is not None and not hasattr(executor, "submit"):
         raise InputError("executor", executor, "anything with the concurrent.futures interface")
     check_workers(workers)
@@ -170,10 +172,10 @@ def sweep(
         run = _Run(plan, store, progress)
         run.all(runs_on, in_flight)
         columns = _collected(plan, store)
-        with Outputs(folder) as files:
-            write_csv(files.path(f"{name}.sweep.csv"), columns, _about(plan))
+        with outputs_from(scene, folder, [done]) as files:
+            write_csv(files.path(done), columns, _about(plan))
     _warn_of_missed(columns["converged"], plan)
-    return Sweep(columns, folder / f"{name}.sweep.csv", plan, run.solved, run.kept)
+    return Sweep(columns, folder / done, plan, run.solved, run.kept)
 
 
 def _warn_of_missed(converged: np.ndarray, plan: Plan) -> None:

@@ -1,15 +1,18 @@
 """Which input each file of an output folder was made from: results of one input never take the place of another's."""
 
+import contextlib
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from ..errors import InputError
-from ..files import Outputs, read_at_most
+from .errors import InputError
+from .extras import require
+from .files import Outputs, read_at_most
 
-#: a hidden file in the output folder: name -> the input, as a path from the folder on, or the name of a built-in scene
-_INDEX = ".origins.json"
+#: hidden files in the output folder. Of names -> the input, as a path from the folder on, or the name of a built-in scene; and
+#: held by the run that puts its files there, released by the system even when it is killed
+_INDEX, _LOCK = ".origins.json", ".origins.lock"
 
 
 def refuse_other_origin(out: Path, names: Sequence[str], source: str | os.PathLike[str]) -> None:
@@ -26,10 +29,21 @@ def refuse_other_origin(out: Path, names: Sequence[str], source: str | os.PathLi
             raise InputError("--out", str(out), f"another folder: {name} in it was made from {other}, this would be from {mine}")
 
 
-def record_origin(files: Outputs, names: Sequence[str], source: str | os.PathLike[str]) -> None:
-    """Note what the files of a set are made from; the note appears together with them."""
-    known = _read(files.folder) | dict.fromkeys(names, _origin(files.folder, source))
-    files.path(_INDEX).write_text(json.dumps(known, indent=1, sort_keys=True) + "\n", encoding="utf-8", newline="\n")
+@contextlib.contextmanager
+def outputs_from(source: str | os.PathLike[str], out: Path, names: Sequence[str]) -> Iterator[Outputs]:
+    """Files called ``names`` in the folder ``out`` that are made from ``source``; a note of that appears together with them.
+
+    They are put there by one run at a time, which sees what others have put there while it worked: InputError if that was made from
+    another input.
+    """
+    filelock = require("filelock", "cli", "noting what files are made from")
+    with contextlib.ExitStack() as alone, Outputs(out) as files:
+        yield files
+        with contextlib.suppress(NotImplementedError):  # a file system without locks
+            alone.enter_context(filelock.FileLock(out / _LOCK))
+        refuse_other_origin(out, names, source)
+        known = _read(out) | dict.fromkeys(names, _origin(out, source))
+        files.path(_INDEX).write_text(json.dumps(known, indent=1, sort_keys=True) + "\n", encoding="utf-8", newline="\n")
 
 
 def _origin(out: Path, source: str | os.PathLike[str]) -> str:
