@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -86,10 +87,12 @@ def check_rtol(rtol) -> float:
 
 def point_index(at: int | tuple[int, ...], shape: tuple[int, ...]) -> int:
     """Flat index of the point ``at``, an index or a tuple of them, among points of a ``shape``."""
+    index, sizes = (at, shape) if isinstance(at, tuple) else ((0 if at is None else at,), (math.prod(shape),))
     try:
-        if isinstance(at, tuple):
-            return int(np.ravel_multi_index(at, shape)) if at or shape else 0
-        return range(math.prod(shape))[0 if at is None else at]
+        flat = 0
+        for place, size in zip(index, sizes, strict=True):
+            flat = flat * size + range(size)[operator.index(place)]
+        return flat
     except (IndexError, ValueError, TypeError):
         raise InputError("at", at, f"an index into the {math.prod(shape)} points, of shape {shape}") from None
 

@@ -33,8 +33,7 @@ def refuse_other_origin(out: Path, names: Sequence[str], source: str | os.PathLi
 def outputs_from(source: str | os.PathLike[str], out: Path, names: Sequence[str]) -> Iterator[Outputs]:
     """Files called ``names`` in the folder ``out`` that are made from ``source``; a note of that appears together with them.
 
-    They are put there by one run at a time, which sees what others have put there while it worked: InputError if that was made from
-    another input.
+    One run at a time puts them there. It sees what others have put there while it worked: InputError if that has another input.
     """
     filelock = require("filelock", "cli", "noting what files are made from")
     with contextlib.ExitStack() as alone, Outputs(out) as files:

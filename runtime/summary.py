@@ -1,5 +1,6 @@
 """Where the friction of a result comes from, in words."""
 
+import warnings
 from typing import Any
 
 import numpy as np
@@ -121,6 +122,7 @@ def _closer(result: Any) -> list[str]:
     """Pull-off of level 1 (where it is unloaded to), and the regimes on every level, at the point of largest friction (the first,
     if there is none)."""
     from .at_point import index_of
+    from .errors import ConvergenceWarning
     from .level_law import friction_law
     from .regimes_by_level import regimes_by_level
 
@@ -130,12 +132,16 @@ def _closer(result: Any) -> list[str]:
     V, p = float(np.ravel(result.velocity)[at]), float(np.ravel(result.pressure)[at])
     ends = ""
     if result.branch == "unloading":
-        pull_off, of = 0.0, (result.material, result.adhesion, result.levels[0])
+        pull_off, sure, of = 0.0, True, (result.material, result.adhesion, result.levels[0])
         if result.adhesion.p_0 > 0:
-            pull_off = friction_law(*of, V=V, rtol=1e-2, below=0.0, edge=result.edge).pull_off
-        ends = f"pull-off of level 1 at {pull_off:.4g} Pa; "
-    out = [f"at V = {V:.4g} m/s, p = {p:.4g} Pa: {ends}regimes of strips:"]
-    for number, each in enumerate(regimes_by_level(result, at), start=1):
+            with warnings.catch_warnings():  # nobody asked for this law: what it lacks is said in the text
+                warnings.simplefilter("ignore", ConvergenceWarning)
+                law = friction_law(*of, V=V, rtol=1e-2, below=0.0, edge=result.edge)
+            pull_off, sure = law.pull_off, law.converged
+        ends = f"pull-off of level 1 at {pull_off:.4g} Pa{'' if sure else ' (not converged)'}; "
+    regimes = regimes_by_level(result, at)
+    out = [f"at V = {V:.4g} m/s, p = {p:.4g} Pa: {ends}{'regimes of strips:' if regimes else 'nothing touches'}"]
+    for number, each in enumerate(regimes, start=1):
         place = "all the area" if number == 1 else f"the contact of level {number - 1}, {100 * each.area:.3g} % of the area"
         out.append(f"           level {number} ({place}):")
         out += [f"           {100 * share:6.3g} %  {name}" for name, share in each.shares.items()]

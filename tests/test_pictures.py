@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import hystrip
+from hystrip.arguments import point_index
 from hystrip.at_point import cell_of, stresses_along
 from hystrip.plots.legend import legend_above
 from hystrip.plots.style import COLUMN, stacked
@@ -129,6 +130,32 @@ def test_labels_of_velocities_do_not_overlap(ends):
     boxes = [each.get_window_extent() for each in labels if ends[0] * 0.999 <= each.get_position()[0] <= ends[1] * 1.001]
     boxes.sort(key=lambda box: box.x0)
     assert len(boxes) > 1 and all(a.x1 < b.x0 for a, b in zip(boxes[:-1], boxes[1:], strict=True))
+
+
+@pytest.mark.parametrize("name", ["pressure", "penetration"])
+@pytest.mark.parametrize(
+    "load", [np.geomspace(1e4, 1e7, 4), [1e4, 3e4, 1e5], np.linspace(1e4, 1e7, 9), [0, 1e4, 1e7], [1e4, 2e4]]
+)
+def test_a_load_over_decades_has_a_logarithmic_axis(name, load):
+    scale = "log" if len(load) in (3, 4) and load[0] > 0 else "linear"
+    of = {name: np.asarray(load) / (1e12 if name == "penetration" else 1)}
+    figure = hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), [SMALL], velocity=1e-3, rtol=1e-2, **of).plot("tau")
+    assert figure.axes[-1].get_xscale() == scale and inside(figure)
+    if scale == "log":
+        assert figure.axes[-1].get_xlim() == pytest.approx((of[name][0], of[name][-1]))
+        assert figure.axes[-1].get_xlabel().endswith("(Pa)" if name == "pressure" else "(m)")
+
+
+@pytest.mark.parametrize("at, same", [((-1,), 16), (-1, 16), ((np.int64(15),), 15), (15, 15), ((-2,), 15)])
+def test_points_are_counted_from_the_end_in_a_tuple_too(over_pressure, at, same):
+    assert point_index(at, over_pressure.mu.shape) == same
+    assert point_index((-1, -3), (2, 4)) == 5 and point_index((), ()) == 0 == point_index(-1, ())
+
+
+@pytest.mark.parametrize("at", [17, -18, (17,), (-18,), (0, 0), (), 1.0, (1.0,), "a", slice(0, 1), (slice(0, 1),), [1]])
+def test_what_is_no_point_is_refused(over_pressure, at):
+    with pytest.raises(hystrip.InputError, match="^at: got .*an index into the 17 points, of shape"):
+        point_index(at, over_pressure.mu.shape)
 
 
 def test_the_law_of_a_flat_level_is_drawn_about_its_pull_off():

@@ -1,6 +1,8 @@
 """What a result can do: a labelled dataset, a summary, a picture."""
 
+import dataclasses
 import json
+import warnings
 
 import numpy as np
 import pytest
@@ -105,6 +107,27 @@ def test_summary_of_zero_pressure_and_of_no_contact():
     level = [hystrip.Level(l=500e-9, h=100e-9)]
     assert "zero pressure" in solved(0.0, 5e-3, level).summary()
     assert "below pull-off" in solved(-1e5, 5e-3, level).summary()
+
+
+@pytest.mark.parametrize("branch", ["unloading", "loading"])
+def test_summary_where_nothing_touches(branch):
+    text = hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), LEVELS, pressure=-5, velocity=1e-3, branch=branch).summary()
+    assert "p = -5 Pa: " in text and "nothing touches\n" in text and "regimes of strips" not in text
+
+
+@pytest.mark.filterwarnings("error")
+def test_summary_says_that_its_pull_off_did_not_converge(monkeypatch):
+    """And does not warn of a law that nobody asked for."""
+    law = hystrip.level_law.friction_law
+
+    def unconverged(*of, **how):
+        warnings.warn("the friction law did not converge", hystrip.ConvergenceWarning, stacklevel=2)
+        return dataclasses.replace(law(*of, **how), converged=False)
+
+    result = solved(-5.0, 5e-3, LEVELS[:1])
+    assert " Pa; regimes" in result.summary()
+    monkeypatch.setattr(hystrip.level_law, "friction_law", unconverged)
+    assert " Pa (not converged); regimes" in result.summary()
 
 
 def test_no_friction_under_a_pull_is_no_minus_zero():

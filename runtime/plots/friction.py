@@ -99,15 +99,23 @@ def _over_velocity(result: Result, quantities: list[_Quantity]) -> Figure:
             factor, name = unit_for(_LOADS[result.load][1], load[row])
             ends = dict.fromkeys(f"{each / factor:.4g}" for each in (load[row].min(), load[row].max()))
             panel.set_title(f"{result.load} {' to '.join(ends)} {name}", fontsize=7)
-    _velocity_axis(panels[-1], velocity[shown].min(), velocity[shown].max())
+    low, high = velocity[shown].min(), velocity[shown].max()
+    _scale(panels[-1], low, high, 0 < 10 * low <= high * (1 + 1e-12))
+    panels[-1].set_xlabel("sliding velocity $V$ (m/s)")
     return _with_legend(panels[0])
 
 
-def _velocity_axis(panel: Any, low: float, high: float) -> None:
-    """Logarithmic where that has a decade to show, with labels that do not overlap."""
+def _over_decades(x: np.ndarray) -> bool:
+    """Whether positive values in ascending order are spaced as on a logarithmic axis rather than a linear one."""
+    low, high = x[0], x[-1]
+    return bool(0 < 10 * low <= high * (1 + 1e-12) and np.median(x) - np.sqrt(low * high) < (low + high) / 2 - np.median(x))
+
+
+def _scale(panel: Any, low: float, high: float, logarithmic: bool) -> None:
+    """Limits of the horizontal axis and its kind, with labels that do not overlap."""
     from matplotlib.ticker import LogFormatterSciNotation, LogLocator
 
-    if 0 < 10 * low <= high * (1 + 1e-12):
+    if logarithmic:
         panel.set_xscale("log")
         if high < 100 * low:
             panel.xaxis.set_minor_locator(LogLocator(subs=(2, 5)))
@@ -115,7 +123,6 @@ def _velocity_axis(panel: Any, low: float, high: float) -> None:
     else:
         panel.locator_params(axis="x", nbins=5)
     panel.set_xlim(low, high)
-    panel.set_xlabel("sliding velocity $V$ (m/s)")
 
 
 def _over_load(result: Result, quantities: list[_Quantity]) -> Figure:
@@ -123,7 +130,8 @@ def _over_load(result: Result, quantities: list[_Quantity]) -> Figure:
     load = np.ravel(getattr(result, result.load))
     order = np.argsort(load, kind="stable")
     load = load[order]
-    factor, name = unit_for(unit, load)
+    logarithmic = _over_decades(np.unique(load))
+    factor, name = (1.0, unit) if logarithmic else unit_for(unit, load)
     height = 0.75 if len(quantities) == 1 else 0.5 * len(quantities) + 0.1
     panels = stacked(len(quantities), COLUMN, height * COLUMN)
     of_points = [np.ravel(values)[order] for values in (result.pressure, result.pulled_off, result.converged)]
@@ -133,7 +141,7 @@ def _over_load(result: Result, quantities: list[_Quantity]) -> Figure:
         _draw(panel, quantity, load / factor, curves, drawn, *of_points)
         if load[0] < 0 < load[-1]:
             panel.axvline(0, color="0.75", linewidth=0.5, zorder=0)
-    panels[-1].set_xlim(load[0] / factor, load[-1] / factor)
+    _scale(panels[-1], load[0] / factor, load[-1] / factor, logarithmic)
     panels[-1].set_xlabel(f"{text} ({name})")
     return _with_legend(panels[0])
 
