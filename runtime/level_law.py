@@ -59,7 +59,7 @@ class FrictionLaw:
 
     def contact_fraction(self, p: Numbers) -> Floats:
         """Contact fraction at nominal pressure ``p`` (Pa), same shape."""
-        return self._evaluate(p, 2)
+        return np.clip(self._evaluate(p, 2), 0.0, 1.0)  # an interpolant may be a rounding outside
 
     def plot(self) -> Figure:
         """A matplotlib Figure of friction stress and contact fraction over nominal pressure. Needs the extra ``plot``."""

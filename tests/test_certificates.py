@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,6 +16,9 @@ from hystrip.derivation.certificates import measure
 from hystrip.derivation.folder import CERTIFICATES
 from hystrip.derivation.regenerate import AIM, bounds_of
 from hystrip.generated import stable, standard_linear_solid
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tools"))
+from mutants_derivation import beyond_bounds  # noqa: E402
 
 pytestmark = pytest.mark.xdist_group("derivation")
 
@@ -144,3 +149,12 @@ def test_degenerate_materials_raise_no_warning() -> None:
                             [np.ravel(np.asarray(part, dtype=float)) for part in np.atleast_1d(regime[kind](*given))]
                         )
                         assert np.all(np.isfinite(flat)), (sequence, kind, alpha, beta, J)
+
+
+def test_every_function_that_a_mutant_of_what_is_emitted_gets_wrong_is_named() -> None:
+    """Also one that none of the mutants here was written for, and one that is no number."""
+    kernels = [each for each in derivation().kernels if each.formula.name in ("profile", "loss", "saturated_pressure", "means_c")]
+    bounds, true = stored_bounds()["standard_linear_solid"], vars(standard_linear_solid)
+    assert beyond_bounds(kernels, standard_linear_solid, bounds) == ""
+    mutated = {"loss": lambda *of: -true["loss"](*of), "means_c": lambda *of: (float("nan"), 0.0)}
+    assert beyond_bounds(kernels, SimpleNamespace(**(true | mutated)), bounds) == "certificate of loss, means_c"
