@@ -49,6 +49,12 @@ class Outputs:
         self._parts[self.folder / name] = part
         return part
 
+    def flush(self) -> None:
+        """Have what is written so far on the disk."""
+        for final, part in self._parts.items():
+            with named(final):
+                synced(part)
+
     def __enter__(self) -> Outputs:
         self._made = [each for each in (self.folder, *self.folder.parents) if not each.exists()]
         self.folder.mkdir(parents=True, exist_ok=True)
@@ -63,9 +69,7 @@ class Outputs:
                 for final in self._parts:  # the one thing that would stop the renaming half-way
                     if final.is_dir():
                         raise IsADirectoryError(errno.EISDIR, "a folder stands where the file would go", str(final))
-                for final, part in self._parts.items():
-                    with named(final):
-                        synced(part)
+                self.flush()
                 for final, part in self._parts.items():
                     os.replace(part, final)
                 placed = True

@@ -38,8 +38,10 @@ def outputs_from(source: str | os.PathLike[str], out: Path, names: Sequence[str]
     filelock = require("filelock", "cli", "noting what files are made from")
     with contextlib.ExitStack() as alone, Outputs(out) as files:
         yield files
-        with contextlib.suppress(NotImplementedError):  # a file system without locks
-            alone.enter_context(filelock.FileLock(out / _LOCK))
+        files.flush()  # a full disk is seen while nothing but the files is there
+        # of another user in the same folder too; a file system that knows no locks is no reason to lose the work
+        with contextlib.suppress(OSError, NotImplementedError):
+            alone.enter_context(filelock.FileLock(out / _LOCK, mode=0o666))
         refuse_other_origin(out, names, source)
         known = _read(out) | dict.fromkeys(names, _origin(out, source))
         files.path(_INDEX).write_text(json.dumps(known, indent=1, sort_keys=True) + "\n", encoding="utf-8", newline="\n")

@@ -264,6 +264,13 @@ def test_no_output_takes_the_place_of_another_kinds(run, tmp_path):
     assert not (tmp_path / "other/x.parts").exists()
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no such names there")
+def test_a_name_of_two_lines_is_told_on_one(run, tmp_path):
+    (tmp_path / "new\nwrote.toml").write_text(SCENE)
+    status, out, err = run("solve", "new\nwrote.toml", "--no-plot", "--no-table")
+    assert (status, err, out) == (0, "", "wrote hystrip-out/new\\nwrote.csv\n")
+
+
 def test_measured_data_are_not_replaced(run, tmp_path):
     (tmp_path / "mine.toml").write_text(SCENE)
     (tmp_path / "mine.csv").write_text("f,E_stor,E_loss\n")

@@ -94,11 +94,18 @@ def test_runs_into_one_folder_at_once_all_note_what_their_files_are_made_from(tm
 def test_of_two_runs_at_once_for_files_of_one_name_the_second_is_refused(tmp_path):
     with pytest.raises(InputError, match="made from second, this would be from first"):
         with outputs_from("first", tmp_path, ["a.csv"]) as files:
-            files.path("a.csv").write_text("# hystrip of the first")
             with outputs_from("second", tmp_path, ["a.csv"]) as others:
                 others.path("a.csv").write_text("# hystrip of the second")
+            files.path("a.csv").write_text("# hystrip of the first")
     assert (tmp_path / "a.csv").read_text() == "# hystrip of the second"
     assert sorted(path.name for path in tmp_path.iterdir() if ".part." in path.name) == []
+
+
+def test_files_are_written_where_no_lock_can_be_had(tmp_path):
+    (tmp_path / ".origins.lock").mkdir()
+    with outputs_from("a", tmp_path, ["a.csv"]) as files:
+        files.path("a.csv").write_text("# hystrip")
+    assert json.loads((tmp_path / ".origins.json").read_text()) == {"a.csv": "a"}
 
 
 @pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="no folder here that its permissions alone make writable")

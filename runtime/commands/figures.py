@@ -4,7 +4,7 @@ from pathlib import Path
 
 import typer
 
-from .output import say
+from .output import say_written
 
 
 def command(
@@ -22,5 +22,4 @@ def command(
     require("matplotlib", "plot", "drawing")
     with progress("figures") as report:
         written = draw(only, out, report)
-    for path in written:
-        say(f"wrote {path}")
+    say_written(written)

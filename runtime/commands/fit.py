@@ -6,7 +6,7 @@ from urllib.parse import quote
 
 import typer
 
-from .output import say
+from .output import say, say_written
 
 
 def command(
@@ -98,5 +98,4 @@ def command(
         say(f"note       stiffness per area is G over the length. {SHEAR}")
     if series.rms > POOR:
         say(f"note       poor fit: {series.quality}")
-    for name in files:
-        say(f"wrote {out / name}")
+    say_written(out / name for name in files)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import typer
 
-from .output import say
+from .output import say, say_written
 
 
 def command(
@@ -52,8 +52,7 @@ def _example(name: str, folder: Path | None, force: bool) -> None:
     with Outputs(folder) as outputs:
         for each, text in files.items():
             outputs.path(each).write_text(text, encoding="utf-8", newline="\n")
-    for each in files:
-        say(f"wrote {folder / each}")
+    say_written(folder / each for each in files)
     say(
         f"now: cd {folder}\n"
         "     hystrip master raw.csv --vertical\n"

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import typer
 
-from .output import say
+from .output import say, say_written
 
 
 def command(
@@ -68,5 +68,4 @@ def command(
 
             save(roughness_levels(found, scan), files.path(names[1]))
     say(f"{scan.report()}\n{found.report()}")
-    for name in names:
-        say(f"wrote {out / name}")
+    say_written(out / name for name in names)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import typer
 
-from .output import say
+from .output import say, say_written
 
 
 def command(
@@ -67,5 +67,4 @@ def command(
     for line in curve.columns:
         say(f"read       {line}")
     say(found.report())
-    for name in names:
-        say(f"wrote {out / name}")
+    say_written(out / name for name in names)

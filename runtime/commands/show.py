@@ -4,7 +4,7 @@ from pathlib import Path
 
 import typer
 
-from .output import say
+from .output import say, say_written
 
 
 def command(
@@ -53,5 +53,4 @@ def command(
             for kind, name in zip(kinds, names, strict=True):
                 save(result.plot(kind, at=0, level=level, y=y), files.path(name))
     say(result.summary())
-    for name in names:
-        say(f"wrote {out / name}")
+    say_written(out / name for name in names)

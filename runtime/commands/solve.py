@@ -4,7 +4,7 @@ from pathlib import Path
 
 import typer
 
-from .output import say
+from .output import say, say_written
 
 
 def command(
@@ -60,5 +60,4 @@ def command(
     else:
         for note in result.notes:
             say(f"note       {note}")
-    for name in names:
-        say(f"wrote {out / name}")
+    say_written(out / name for name in names)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import typer
 
-from .output import say
+from .output import say, say_written
 
 
 def command(
@@ -63,7 +63,6 @@ def command(
             f"{len(done.failed)} points failed; the column 'failed' says why, the first: {next(iter(done.failed.values()))}",
             err=True,
         )
-    for path in (done.path, *(out / name for name in more)):
-        say(f"wrote {path}")
+    say_written([done.path, *(out / name for name in more)])
     if len(done.failed) == done.plan.size:
         raise typer.Exit(1)
