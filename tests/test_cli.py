@@ -229,6 +229,14 @@ def test_show_draws_the_contact(run, tmp_path):
     assert visible(tmp_path / "hystrip-out") == ["mine.map.png", "mine.strip.png"]
 
 
+@pytest.mark.parametrize("given", [("--map",), ("--strip", 0)])
+def test_what_is_pulled_off_is_not_drawn(run, tmp_path, given):
+    (tmp_path / "mine.toml").write_text(SCENE)
+    status, out, err = run("show", "mine.toml", *given, "--pressure", -1e9)
+    assert (status, out) == (2, "") and err.startswith("hystrip: --pressure: got -1000000000.0; allowed: one at which")
+    assert not (tmp_path / "hystrip-out").exists()
+
+
 def test_no_output_takes_the_place_of_another_of_the_same_stem(run, tmp_path):
     for folder, title in (("a", "one"), ("b", "other")):
         (tmp_path / folder).mkdir()

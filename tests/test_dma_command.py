@@ -1,6 +1,7 @@
 """``hystrip fit``: what it says of the moduli, and that the results of one set never stand beside another's."""
 
 import numpy as np
+import pytest
 
 from hystrip.scene import load_scene
 
@@ -55,3 +56,22 @@ def test_several_temperatures_leave_nothing(run, tmp_path):
     status, out, err = run("fit", "ramp.csv", *FIT)
     assert status == 2 and out == "" and "81 rows at 20.0 to 24.0 degC" in err and "`hystrip master`" in err
     assert [path.name for path in tmp_path.iterdir()] == ["ramp.csv"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("--nu", 0.7), "--nu: got 0.7; allowed: a Poisson ratio from 0 to 0.5"),
+        (("--length", 0), "--length: got 0.0"),
+        (("--terms", 50), "--terms: got 50"),
+        (("--per-decade", 0), "--per-decade: got 0.0"),
+        (("--low", 1000), "--low, --high: got (1000.0, None)"),
+        (("--decimal", "x"), "--decimal: got 'x'"),
+        (("--set", "3"), "--set: got '3'; allowed: None: rubber.csv has no column 'Set'"),
+    ],
+)
+def test_what_is_wrong_with_an_option_names_it(run, tmp_path, arguments, said):
+    (tmp_path / "rubber.csv").write_text(table("f [Hz];E' [Pa];E'' [Pa]"))
+    status, out, err = run("fit", "rubber.csv", "--pressure", "1e5", "--no-plot", *arguments)
+    assert (status, out) == (2, "") and err.startswith(f"hystrip: {said}")
+    assert [path.name for path in tmp_path.iterdir()] == ["rubber.csv"]

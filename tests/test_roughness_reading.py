@@ -120,6 +120,27 @@ def test_units_of_coordinates_may_be_stated_one_by_one(files, tmp_path, head, si
     assert scan.sizes == pytest.approx((sizes, sizes)) and np.ptp(scan.heights) / height == pytest.approx(1)
 
 
+@pytest.mark.parametrize(
+    ("sizes", "said"),
+    [
+        ((20.0,), "got \\(20.0,\\); allowed: 2 of them"),
+        ((20.0, 20.0, 20.0), ".* allowed: 2 of them"),
+        ((-5.0, 20.0), "got -5.0; allowed: .* > 0"),
+    ],
+)
+def test_sizes_are_those_of_the_directions(files, sizes, said):
+    with pytest.raises(hystrip.InputError, match=f"plain.txt, sizes: {said}"):
+        read_surface(files / "plain.txt", sizes=sizes, unit="um")
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("text", ["", "1 2 3\n1 2\n"])
+def test_what_is_no_scan_is_refused_without_a_warning(tmp_path, text):
+    (tmp_path / "none.txt").write_text(text)
+    with pytest.raises(hystrip.InputError):
+        read_surface(tmp_path / "none.txt", sizes=(20.0, 20.0), unit="um")
+
+
 def test_decimal_commas_are_read(files, tmp_path):
     path = text_scan(tmp_path / "scan.txt", "lengths", write=lambda number: number.replace(".", ","))
     assert np.allclose(read_surface(path, unit="um").heights.std(), eq4(LEVELS, 2e-5, 160).std(), rtol=1e-6, atol=0)

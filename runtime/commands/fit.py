@@ -8,6 +8,10 @@ import typer
 
 from .output import say, say_written
 
+_OPTIONS = {each: f"--{each}" for each in ("accuracy", "terms", "length", "decimal")} | {
+    "per_decade": "--per-decade", "material.nu": "--nu", "temperature_set": "--set", "frequencies": "--low, --high"
+}  # fmt: skip
+
 
 def command(
     data: Path = typer.Argument(
@@ -47,12 +51,15 @@ def command(
     from ..errors import FitWarning, InputError, printable
     from ..extras import require
     from ..files import refuse_unwritable
+    from ..inputs.checks import number
     from ..inputs.fitted import POOR
+    from ..inputs.half_space import HalfSpace
     from ..origins import outputs_from, refuse_other_origin
     from ..scene.edit import with_material, with_settings
     from ..scene.errors import located
     from ..scene.load import scene_text
     from ..tables import about_version, write_csv
+    from .options import as_options
     from .quantities import metres, pascals
     from .scene_options import settings
 
@@ -66,14 +73,19 @@ def command(
     if temperature_set is not None:  # the results of one set do not take the place of another's
         source, stem = f"{source}, set {printable(temperature_set)}", f"{stem}.{quote(temperature_set, safe=' ')}"
     given = settings(scene if writes_scene else "", pascals(pressure, "--pressure"), title, f"Rubber of {source}")
-    measured, shift = read_dma(data, temperature_set, decimal, shear), read_shift(data)
+    with as_options(_OPTIONS):
+        if nu is not None:
+            HalfSpace(E=1.0, nu=nu, moduli=[1.0], times=[1.0])  # what is wrong with nu is said before the work
+        if over is not None:
+            number("length", over, "m", 0, strict=True)
+        measured, shift = read_dma(data, temperature_set, decimal, shear), read_shift(data)
     refuse_unwritable(out, "--out")
     names = [f"{stem}.{each}" for each in ("fit.csv", *["fitted.toml"] * writes_scene, *["fit.png"] * plot)]
     refuse_other_origin(out, names, data)
     about = [*about_version(), f"data: {source}"]
-    measured = measured.between(low, high)
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), as_options(_OPTIONS):
         warnings.simplefilter("ignore", FitWarning)  # said below, with everything else about the fit
+        measured = measured.between(low, high)
         series = fit_prony(measured, accuracy=accuracy, per_decade=per_decade, terms=terms)
     files = {f"{stem}.fit.csv": lambda path: write_csv(path, rows(series, measured), about)}
     if writes_scene:

@@ -6,6 +6,8 @@ import typer
 
 from .output import say, say_written
 
+_OPTIONS = {each: f"--{each}" for each in ("count", "ratio", "wavelength", "longest", "shortest")}
+
 
 def command(
     surface: Path = typer.Argument(help="A measured surface, in any format that SurfaceTopography reads."),
@@ -42,6 +44,7 @@ def command(
     from ..scene.edit import with_levels, with_settings, with_solver_seen_from
     from ..scene.errors import located
     from ..scene.load import scene_text
+    from .options import as_options
     from .quantities import metres, pascals
     from .scene_options import settings
 
@@ -53,7 +56,8 @@ def command(
     names = [f"{surface.stem}.{part}" for part in ("levels.toml", *["spectrum.png"] * plot)]
     refuse_other_origin(out, names, surface)
     scan = read_surface(surface, channel=channel, unit=unit, sizes=tuple(size) if size else None)
-    found = levels_of(scan, count=count, ratio=ratio, wavelength=wavelength, **limits)
+    with as_options(_OPTIONS):
+        found = levels_of(scan, count=count, ratio=ratio, wavelength=wavelength, **limits)
     ends = f"{found.bands.max():.4g} to {found.bands.min():.4g} m"
     comment = f"Made from {surface.name}, wavelengths {ends}: rms height and gradient of each band."
     with located(scene):

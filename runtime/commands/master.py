@@ -6,6 +6,8 @@ import typer
 
 from .output import say, say_written
 
+_OPTIONS = {"T_ref": "--reference", "law": "--law", "decimal": "--decimal"}
+
 
 def command(
     data: Path = typer.Argument(help="Table of temperature, frequency, storage and loss modulus at several temperatures."),
@@ -28,24 +30,23 @@ def command(
     """
     from ..dma import master_curve, read_isotherms
     from ..dma.read import shift_remark
-    from ..errors import InputError
     from ..extras import require
     from ..files import refuse_unwritable
     from ..origins import outputs_from, refuse_other_origin
     from ..tables import about_version, write_csv
+    from .options import as_options
     from .quantities import kelvins
 
     if plot:
         require("matplotlib", "plot", "drawing (or give --no-plot)")
     T_ref = kelvins(reference, "--reference")
-    isotherms = read_isotherms(data, decimal, shear)
+    with as_options(_OPTIONS):
+        isotherms = read_isotherms(data, decimal, shear)
     refuse_unwritable(out, "--out")
     names = [f"{data.stem}.{part}" for part in ("master.csv", "shifts.csv", *["master.png"] * plot)]
     refuse_other_origin(out, names, data)
-    try:
+    with as_options(_OPTIONS):
         found = master_curve(isotherms, T_ref=T_ref, law=law, vertical=vertical)
-    except InputError as error:
-        raise InputError("--reference" if error.field == "T_ref" else error.field, error.value, error.allowed) from None
     curve, kind = found.data, found.data.kind
     points = {"f [Hz]": curve.frequency, f"{kind}_stor [Pa]": curve.storage, f"{kind}_loss [Pa]": curve.loss}
     factors = {

@@ -45,6 +45,9 @@ def command(
     names = [f"{case.name}.{kind}{f'_{level}' if level > 1 else ''}.png" for kind, wanted in drawn.items() if wanted]
     refuse_other_origin(out, names, case.source)
     result = point_of(case, pressure, velocity)
+    if result.pulled_off and (map or strip is not None):
+        allowed = f"one at which the surface is in contact, to draw it: at {float(result.velocity):g} m/s it is pulled off"
+        raise InputError("pressure" if pressure is None else "--pressure", float(result.pressure), allowed)
     if names:
         from ..plots import save
 

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from ..inputs.checks import LARGEST, SMALLEST
+
 #: roles of two columns, in order of preference: where storage or loss follows from the absolute value, little may remain of it
 PAIRS = (
     ("storage", "loss"),
@@ -20,7 +22,11 @@ def in_range(role: str, values: np.ndarray) -> tuple[np.ndarray, str]:
     """Which values of a column can be those of a solid, and the rule in words; SI units, phase angles in rad."""
     if role == "phase":
         return (values >= 0) & (values < np.pi / 2), "angles >= 0, below 90 degrees"
-    return (values >= 0, "numbers >= 0") if role in ("loss", "tan") else (values > 0, "numbers > 0")
+    least, rule = (0.0, "numbers >= 0") if role in ("loss", "tan") else (SMALLEST, "numbers > 0")
+    good = (values >= least) & (values <= LARGEST)
+    if (good | (values > 0)).all():  # but too large or small
+        rule += f", in SI from {least:g} to {LARGEST:g}"
+    return good, rule
 
 
 def moduli(pair: tuple[str, str], values: dict[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:

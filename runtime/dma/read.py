@@ -194,7 +194,7 @@ def _said(table: Table, chosen: dict[str, Column], taken: str, comma: bool, left
         lines.append(f"ignored: {', '.join(map(repr, ignored[:8]))}" + (", ..." if len(ignored) > 8 else ""))
     lines.append(f"cells parted by {table.separator}, decimal {'comma' if comma else 'point'}")
     if left_out:
-        lines.append(f"{left_out} rows left out: a number is missing")
+        lines.append(f"{left_out} row{'s' if left_out > 1 else ''} left out: a number is missing")
     return tuple(lines)
 
 

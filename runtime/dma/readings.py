@@ -30,7 +30,7 @@ class Readings:
         than two frequencies."""
         omega, at = self.omega[rows], "" if self.temperature is None else f" at {celsius(self.temperature[rows])}"
         if omega.max() <= omega.min() * (1 + 1e-12):
-            found = f"{omega.size} rows of numbers{at}, at {omega[0] / (2 * np.pi):.4g} Hz alone"
+            found = f"{omega.size} row{'s' if omega.size > 1 else ''} of numbers{at}, at {omega[0] / (2 * np.pi):.4g} Hz alone"
             together = f" at one temperature, within {_DRIFT:g} K" if at else ""
             raise InputError(f"{self.where}, frequency", found, f"at least two different{together}")
         T = None if self.temperature is None else float(self.temperature[rows].mean())

@@ -1,9 +1,11 @@
 """Reading measured topographies, in any format that SurfaceTopography knows."""
 
+import contextlib
 import io
 import os
 import re
 import warnings
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -11,6 +13,7 @@ import numpy as np
 from ..errors import InputError
 from ..extras import require
 from ..files import path_of
+from ..inputs.checks import number
 from .scan import Scan
 from .units import Units, lacks_lengths, units_of
 
@@ -60,7 +63,7 @@ def read_surface(
         is_other = ": this is a folder, a pipe or a device" if os.path.exists(where) else ""
         raise InputError(where, where, f"a file with a measured surface{is_other}")
     try:
-        with topographies.open_topography(_with_points(where)) as reader:
+        with _quiet(), topographies.open_topography(_with_points(where)) as reader:
             found = reader.default_channel if channel is None else _channel(reader, channel, where)
             options: dict[str, Any] = {} if found.index == reader.default_channel.index else {"channel_index": found.index}
             options |= _lengths(found, sizes, where)
@@ -79,6 +82,14 @@ def read_surface(
             said = "no format that SurfaceTopography knows"
             allowed += "; a matrix as text has blanks or tabs between numbers and nan for undefined points"
         raise InputError(where, said, allowed) from None
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    """Without what readers that look for their format in another one's file warn of."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        yield
 
 
 def _with_points(where: str) -> Any:
@@ -109,7 +120,13 @@ def _lengths(channel: Any, sizes: tuple[float, ...] | None, where: str) -> dict[
     if not lacks_lengths(channel) and sizes is not None:
         stated = " x ".join(f"{each:.6g}" for each in channel.physical_sizes or ()) or "where each point lies"
         raise InputError(f"{where}, sizes", sizes, f"none, since the file says: {stated} {channel.unit or ''}".rstrip())
-    return {} if sizes is None else {"physical_sizes": sizes}
+    if sizes is None:
+        return {}
+    for each in sizes:
+        number(f"{where}, sizes", each, "", 0, strict=True)
+    if len(sizes) != channel.dim:
+        raise InputError(f"{where}, sizes", sizes, f"{channel.dim} of them (--size), one for each direction of the scan")
+    return {"physical_sizes": sizes}
 
 
 def _even(topography: Any, units: Units, where: str) -> Scan:
