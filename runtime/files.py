@@ -185,7 +185,7 @@ def save(data: Dataset, path: str | os.PathLike[str]) -> Path:
     Needs the extra ``dataset``.
     """
     require("h5netcdf", "dataset", "writing netCDF")
-    target = Path(path)
+    target = path_of(path, "path", "a netCDF file to write")
     with Outputs(target.parent) as files:
         write_netcdf(data, files.path(target.name))
     return target

@@ -272,3 +272,13 @@ def test_a_level_says_its_strips_and_profile():
     assert np.allclose(level.profile(x, y[3]), f, atol=1e-20)
     # the strip's own profile is a cut through the level's
     assert np.allclose(D[3] - A[3] * (1 - np.cos(level.k * x)), 6e-7 - level.profile(x, y[3]), atol=1e-20)
+
+
+@pytest.mark.parametrize(("figure", "path", "field"), [(3, "a.png", "figure"), (None, 3, "path"), (None, "a.dream", "path")])
+def test_what_cannot_be_saved_is_named(over_pressure, tmp_path, monkeypatch, figure, path, field):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(hystrip.InputError, match=f"^{field}: got "):
+        hystrip.plots.save(over_pressure.plot("mu") if figure is None else figure, path)
+    with pytest.raises(hystrip.InputError, match="^path: got 3"):
+        over_pressure.save(3)
+    assert not list(tmp_path.iterdir())

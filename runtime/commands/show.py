@@ -46,7 +46,7 @@ def command(
     refuse_other_origin(out, names, case.source)
     result = point_of(case, pressure, velocity)
     if result.pulled_off and (map or strip is not None):
-        allowed = f"one at which the surface is in contact, to draw it: at {float(result.velocity):g} m/s it is pulled off"
+        allowed = f"one at which there is contact to draw: at {float(result.velocity):g} m/s the surface is pulled off"
         raise InputError("pressure" if pressure is None else "--pressure", float(result.pressure), allowed)
     if names:
         from ..plots import save

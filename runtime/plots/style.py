@@ -3,7 +3,9 @@
 import os
 from typing import Any
 
+from ..errors import InputError
 from ..extras import require
+from ..files import path_of
 
 COLUMN = 85 / 25.4
 """Width of a journal column [inch]."""
@@ -58,7 +60,12 @@ def stacked(count: int, width: float, height: float, **options: Any) -> Any:
 @styled
 def save(figure: Any, path: str | os.PathLike[str]) -> None:
     """Write a figure; the suffix (``.png``, ``.svg``, ``.pdf``) decides the format. PNG has 300 dots per inch."""
-    kind = os.fspath(path).rsplit(".", 1)[-1].lower()
+    if not hasattr(figure, "savefig"):
+        raise InputError("figure", figure, "a matplotlib Figure, such as result.plot()")
+    target = path_of(path, "path", "a picture to write")
+    kind, known = target.suffix[1:].lower(), figure.canvas.get_supported_filetypes()
+    if kind and kind not in known:
+        raise InputError("path", str(path), f"a name that ends in one of {', '.join(f'.{each}' for each in known)}")
     # A date would make every file differ.
     metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind)
-    figure.savefig(path, dpi=300, metadata=metadata)
+    figure.savefig(target, dpi=300, metadata=metadata)
