@@ -157,10 +157,3 @@ def test_next_to_pull_off_estimates_hold(level):
         error = np.abs(found.tau_mean - exact.tau_mean)
         assert found.converged.all() and (error <= rtol * np.abs(exact.tau_mean)).all()
         assert (error <= found.error_estimate[1]).all()
-
-
-def test_no_fraction_of_a_law_is_above_one():
-    """The interpolants of a law next to saturation were so by roundings."""
-    law = hystrip.friction_law(MATERIAL, ADHESION, LEVEL, V=V, rtol=1e-3, branch="loading")
-    found = law.contact_fraction(np.linspace(law.pull_off, law.p_sat, 400))
-    assert found.max() == 1 and found.min() >= 0

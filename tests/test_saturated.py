@@ -107,3 +107,10 @@ def test_a_law_is_constant_from_saturation_on():
     assert law.tau_sat == pytest.approx(tau, rel=1e-13)
     assert (law(law.p_sat * np.array([1.0, 1.5, 100.0])) == law.tau_sat).all()
     assert law(law.p_sat * 0.999) == pytest.approx(tau, rel=1e-2)
+
+
+def test_no_fraction_of_a_law_is_above_one():
+    """The interpolants of a law next to saturation were so by roundings."""
+    law = hystrip.friction_law(MATERIAL, ADHESION, LEVELS[1], V=1e-3, rtol=1e-3, branch="loading")
+    found = law.contact_fraction(np.linspace(law.pull_off, law.p_sat, 400))
+    assert found.max() == 1 and found.min() >= 0
