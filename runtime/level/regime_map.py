@@ -206,12 +206,12 @@ class Crossings:
         known = self.points.get(boundary)
         if known is not None:
             points = CurvePoints.joined([known, points])
-        # by velocity and along the curve, which has one E for each A; what is closer than this says nothing new
+        # by velocity and along the curve, which has one E for each A; what is closer than this says nothing new, but a turn does
         place = np.floor(_GRID * np.log(points.A))
-        order = np.lexsort((points.A, points.index, points.velocity))
+        turned = boundary in self.turns and np.isin(points.A, self.turns[boundary].A)
+        order = np.lexsort((points.A, ~np.broadcast_to(turned, points.A.shape), place, points.index, points.velocity))
         points, place = points.take(order), place[order]
         fresh = np.append(True, ~together(points) | (np.diff(place) != 0))
-        fresh[turning(points)] = True
         self.points[boundary] = points.take(np.flatnonzero(fresh))
 
     def expected(self, columns: LevelBatch) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
