@@ -51,7 +51,7 @@ response, time, rates, moved, rate_end = sp.symbols("response time rates moved r
 harmonic, transient, creep, creep_end, creep_start, lost = sp.symbols(
     "harmonic transient creep creep_end creep_start lost", real=True
 )
-decayed, lapsed = sp.symbols("decayed lapsed", real=True)
+decayed, lapsed, stiff, lossy = sp.symbols("decayed lapsed stiff lossy", real=True)
 
 _response = (UNIT[0], (response, eta * unit**2))
 
@@ -171,17 +171,29 @@ CONTACT_PASSAGE = Formula(
 EXCESS_ENTRY = Formula(
     "excess_entry",
     (s_0, f_0, p_0, D, m),
-    (s_0, D + p_0, f_0, response, alpha, divisible(alpha), per_time(f_0 - _f_start, alpha)),
+    (
+        s_0,
+        D + p_0,
+        total(response * alpha),
+        total(response),
+        f_0,
+        _f_start,
+        divisible(alpha),
+        per_time(f_0 - _f_start, alpha),
+    ),
     _response,
 )
 EXCESS_EVENT = Formula(
     "excess_event",
-    (s_1, s_0, level, f_0, response, alpha, time, rates),
+    (s_1, s_0, level, stiff, lossy, f_0, harmonic, time, rates),
     (
-        level - versine(s_1) + total((f_0 + moved) * decayed - harmonic * lapsed),
-        -sp.sin(s_1) - total(response * (alpha * sp.sin(s_1) + sp.cos(s_1)) + rates * decayed),
+        level
+        - versine(s_1)
+        - 2 * (stiff * sp.sin(middle) + lossy * sp.cos(middle)) * sp.sin(half)
+        + total(f_0 * decayed - harmonic * lapsed),
+        -sp.sin(s_1) - stiff * sp.sin(s_1) - lossy * sp.cos(s_1) - total(rates * decayed),
     ),
-    (*HALVES, (decayed, sp.exp((s_0 - s_1) / time)), (lapsed, expm1((s_0 - s_1) / time)), _rise, _end),
+    (*HALVES, (decayed, sp.exp((s_0 - s_1) / time)), (lapsed, expm1((s_0 - s_1) / time))),
 )
 
 # -- work of the contact pressure on the profile: the sums of one mode, per branch -------------------------------------

@@ -112,8 +112,8 @@ def contact(flows: ModeFlows) -> tuple[Kernel, ...]:
 
     excess_entry: Constants of excess_event in a contact entered at s_0 with the overstresses f_0.
 
-    .. math:: s_0,\quad D + p_0,\quad f_0,\quad \frac{\eta}{1 + \alpha^2},\quad \alpha,\quad \alpha,\quad \frac{f_0 -
-        f_{sat}(s_0)}{\alpha}
+    .. math:: s_0,\quad D + p_0,\quad \sum_i \frac{\eta \alpha}{1 + \alpha^2},\quad \sum_i \frac{\eta}{1 + \alpha^2},\quad
+        f_0,\quad f_{sat}(s_0),\quad \alpha,\quad \frac{f_0 - f_{sat}(s_0)}{\alpha}
 
     excess_event: Pressure above -p_0 in contact and its slope at s_1, from the constants of excess_entry. s_1 must not be before
     s_0.
