@@ -27,6 +27,8 @@ _SCAN = 32
 _ACROSS, _ALONG, _ROUNDS = 12, 8, 20
 #: how far to either side of a turn, of the way to where an island is absent, it is looked for
 _ASIDE = 1e-6
+#: width in theta of an island that is close enough to where it ends to find the turn of its curve from
+_CLOSE = 1e-2
 #: what an island may add to the means that is left aside, over their goal, and over what the heaviest beside it adds
 _LEFT, _LIGHT = 0.3, 0.1
 
@@ -160,19 +162,27 @@ def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips:
     """Penetrations at which the islands have shrunk so far that what is left does not tell; NaN: one is not absent at all.
 
     Where a curve turns, if an island ends there; else by ever smaller grids of strips across an island and along the way to its
-    end. ``strips`` (per column) counts the work."""
+    end, that move with it; the curves around are located. ``strips`` (per column) counts the work."""
     column, code, low, high, present, absent, weight = map(np.array, zip(*map(astuple, islands), strict=True))
     out = _vanish_at_turns(columns, column, code, low, high, present, absent, strips)
     number = np.flatnonzero(np.isnan(out))
     if not number.size:
         return out
+    asked, every = number, (column, code, absent)
     column, code, low, high, present, absent, weight = (v[number] for v in (column, code, low, high, present, absent, weight))
-    density, start, stop = weight / (high - low), np.zeros(number.size), np.ones(number.size)
+    # ends and penetrations of the islands where they are looked at last, and where they were close to their end first
+    tips, wider = np.full((2, 3, out.size), np.nan)
+    density, start, stop, drift = weight / (high - low), *np.array([[0.0], [1.0], [0.0]]).repeat(number.size, axis=1)
     for _ in range(_ROUNDS):
+        tip = np.array((low, high, present + (absent - present) * start))
+        wide = (high - low > _CLOSE) | np.isnan(wider[0, number])
+        tips[:, number], wider[:, number[wide]] = tip, tip[:, wide]
         across = (np.arange(_ACROSS) + 0.5) / _ACROSS
         step = (high - low) / _ACROSS
-        theta = (low[:, None] + (high - low)[:, None] * across)[:, None].repeat(_ALONG, axis=1)
         share = start[:, None] + (stop - start)[:, None] * np.linspace(0, 1, _ALONG)
+        # an island may be far narrower than it moves
+        moved = drift[:, None] * (share - start[:, None])
+        theta = np.clip((low[:, None] + (high - low)[:, None] * across)[:, None] + moved[:, :, None], 0.0, np.pi)
         D = (present[:, None] + (absent - present)[:, None] * share)[:, :, None].repeat(_ACROSS, axis=2)
         which = np.repeat(column, _ALONG * _ACROSS)
         np.add.at(strips, which, 1)
@@ -180,24 +190,44 @@ def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips:
         has = codes.reshape(D.shape) == code[:, None, None]
         # the last along the way that any strip has it, and from where to where there
         row = np.where(has.any(axis=2), np.arange(_ALONG), 0).max(axis=1)
-        every = np.arange(number.size)
-        there = has[every, row]
-        first, last = there.argmax(axis=1), _ACROSS - 1 - there[:, ::-1].argmax(axis=1)
-        low = np.maximum(theta[every, 0, first] - 1.5 * step, 0.0)
-        high = np.minimum(theta[every, 0, last] + 1.5 * step, np.pi)
+        each = np.arange(number.size)
+        first, last = has.argmax(axis=2), _ACROSS - 1 - has[:, :, ::-1].argmax(axis=2)
+        middle, at = 0.5 * step[:, None] * (first + last), share[each, row] - start
+        drift += np.divide(middle[each, row] - middle[:, 0], at, out=np.zeros_like(at), where=(at > 0) & has[:, 0].any(axis=1))
+        low, high = low + moved[each, row] + step * ([-1], [2]) + step * (first[each, row], last[each, row])
         keeps = (row == _ALONG - 1) & (stop == 1)
         further = np.minimum(row + 2, _ALONG - 1)
-        further = np.where(row == _ALONG - 1, np.minimum(2 * stop - start, 1.0), share[every, further])
-        start, stop = share[every, row], further
+        further = np.where(row == _ALONG - 1, np.minimum(2 * stop - start, 1.0), share[each, further])
+        start, stop = share[each, row], further
         out[number] = np.where(keeps, np.nan, present + (absent - present) * 0.5 * (start + stop))
         done = keeps | (density * (high - low) <= _LEFT)
         done |= np.abs((absent - present) * (stop - start)) <= 16 * EPS * np.maximum(np.abs(absent), columns.level.h)
         if done.all():
             break
-        number, column, code, present, absent, low, high, density, start, stop = (
-            v[~done] for v in (number, column, code, present, absent, low, high, density, start, stop)
+        number, column, code, present, absent, low, high, density, start, stop, drift = (
+            v[~done] for v in (number, column, code, present, absent, low, high, density, start, stop, drift)
         )
+    # nodes next to the end are expected to cross the curves there; and one of them may turn
+    ended = asked[~np.isnan(out[asked])]
+    column, code, absent = (v[ended] for v in every)
+    for at in (wider, tips):
+        _locate_around(columns, column, *at[:, ended], strips)
+    low, high, present = wider[:, ended]
+    turns = _vanish_at_turns(columns, column, code, low, high, present, absent, strips)
+    out[ended] = np.where(np.isnan(turns), out[ended], turns)
     return out
+
+
+def _locate_around(columns: LevelBatch, column, low, high, D, strips: np.ndarray) -> None:
+    """Locate the curves between the middles of islands and their ends, thetas ``low`` and ``high`` (n,), at ``D`` (n,)."""
+    theta = np.clip(np.stack((low, 0.5 * (low + high), high), axis=1), 0.0, np.pi)
+    np.add.at(strips, column, 3)
+    answers = columns.at(np.repeat(column, 3), np.repeat(D, 3)).evaluate(np.arange(theta.size), theta.ravel())
+    known = [v.reshape(*theta.shape, *v.shape[1:]) for v in answers]
+    changes, row, _ = Changes.between(np.arange(D.size), theta, known)
+    at = columns.at(column[row], D[row])
+    A = columns.level.amplitude(np.stack((changes.low, changes.high), axis=1))
+    by_equation(at, changes, A, np.repeat(at.D - columns.level.h, 2).reshape(-1, 2), "A")
 
 
 def _vanish_at_turns(columns: LevelBatch, column, code, low, high, present, absent, strips: np.ndarray) -> np.ndarray:
