@@ -85,6 +85,27 @@ MUTANTS = (
         "test_error_estimate.py",
     ),
     Mutant(
+        "a slope next to a turn from beyond it",
+        "level/inverse.py",
+        "np.clip(0.5 * min(t - part.t_low, part.t_high - t), *_STEPS)",
+        "_STEPS[1]",
+        "test_pull_off.py",
+    ),
+    Mutant(
+        "a curve is not looked at up to its breaks",
+        "level/curve.py",
+        "known[[0, -1]] + beyond",
+        "known[[0, -1]]",
+        "test_pull_off.py",
+    ),
+    Mutant(
+        "islands do not move",
+        "level/breaks.py",
+        "moved = drift[:, None]",
+        "moved = 0 * drift[:, None]",
+        "test_law_digits.py",
+    ),
+    Mutant(
         "loading may end below the pressure",
         "level/inverse.py",
         "(self.unloading or not self.waiting)",
