@@ -161,15 +161,19 @@ def islands(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) ->
 def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips: np.ndarray) -> np.ndarray:
     """Penetrations at which the islands have shrunk so far that what is left does not tell; NaN: one is not absent at all.
 
-    Where a curve turns, if an island ends there; else by ever smaller grids of strips across an island and along the way to its
-    end, that move with it; the curves around are located. ``strips`` (per column) counts the work."""
-    column, code, low, high, present, absent, weight = map(np.array, zip(*map(astuple, islands), strict=True))
-    out = _vanish_at_turns(columns, column, code, low, high, present, absent, strips)
-    number = np.flatnonzero(np.isnan(out))
-    if not number.size:
-        return out
-    asked, every = number, (column, code, absent)
-    column, code, low, high, present, absent, weight = (v[number] for v in (column, code, low, high, present, absent, weight))
+    Where a curve turns, if an island ends there; else where it is lost when followed. ``strips`` (per column) counts the work."""
+    told = [np.array(v) for v in zip(*map(astuple, islands), strict=True)]
+    out = _vanish_at_turns(columns, *told[:-1], strips)
+    left = np.flatnonzero(np.isnan(out))
+    if left.size:
+        out[left] = _followed(columns, *(v[left] for v in told), strips)
+    return out
+
+
+def _followed(columns: LevelBatch, column, code, low, high, present, absent, weight, strips: np.ndarray) -> np.ndarray:
+    """``locate_vanishing`` by ever smaller grids of strips across an island and along the way to its end, that move with it; the
+    curves around are located, and a turn of one of them that is found so is the end."""
+    number, out, whole = np.arange(column.size), np.full(column.size, np.nan), (column, code, absent)
     # ends and penetrations of the islands where they are looked at last, and where they were close to their end first
     tips, wider = np.full((2, 3, out.size), np.nan)
     density, start, stop, drift = weight / (high - low), *np.array([[0.0], [1.0], [0.0]]).repeat(number.size, axis=1)
@@ -208,8 +212,8 @@ def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips:
             v[~done] for v in (number, column, code, present, absent, low, high, density, start, stop, drift)
         )
     # nodes next to the end are expected to cross the curves there; and one of them may turn
-    ended = asked[~np.isnan(out[asked])]
-    column, code, absent = (v[ended] for v in every)
+    ended = np.flatnonzero(~np.isnan(out))
+    column, code, absent = (v[ended] for v in whole)
     for at in (wider, tips):
         _locate_around(columns, column, *at[:, ended], strips)
     low, high, present = wider[:, ended]

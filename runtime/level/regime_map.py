@@ -208,8 +208,8 @@ class Crossings:
             points = CurvePoints.joined([known, points])
         # by velocity and along the curve, which has one E for each A; what is closer than this says nothing new, but a turn does
         place = np.floor(_GRID * np.log(points.A))
-        turned = boundary in self.turns and np.isin(points.A, self.turns[boundary].A)
-        order = np.lexsort((points.A, ~np.broadcast_to(turned, points.A.shape), place, points.index, points.velocity))
+        others = ~np.isin(points.A, self.turns[boundary].A if boundary in self.turns else ())
+        order = np.lexsort((points.A, others, place, points.index, points.velocity))
         points, place = points.take(order), place[order]
         fresh = np.append(True, ~together(points) | (np.diff(place) != 0))
         self.points[boundary] = points.take(np.flatnonzero(fresh))
