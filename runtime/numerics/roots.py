@@ -27,9 +27,11 @@ def falling_root(
 
     ``function(x, index)`` returns the values at ``x`` of the members ``index``, all (k,), or a tuple of values and slopes. The
     signs at the ends are the caller's word: the ends are not evaluated. Where there are several roots one of them is found.
+    The ``guess`` is looked at first, the middle where it is NaN.
     Ends at two roundings of x, or at ``tolerance`` in x, whichever is larger. A bracket without width is its own root.
     """
-    x = 0.5 * (low + high) if guess is None else np.clip(guess, low, high)
+    middle = 0.5 * (low + high)
+    x = middle if guess is None else np.clip(np.where(np.isnan(guess), middle, guess), low, high)
     result = np.where(high > low, x, high)
     live = np.flatnonzero(high > low)
     x, lo, hi = x[live], low[live], high[live]
@@ -42,27 +44,29 @@ def falling_root(
         found = function(x, live)
         newton = isinstance(found, tuple)
         value, slope = found if newton else (found, None)
+        small = np.maximum(2 * EPS * np.abs(x), tolerance)
         # a slope of the wrong sign, or one that over- or underflowed, gives a step out of the bracket, no number, or none
         with np.errstate(all="ignore"):
             step = value / -(slope if newton else (value - last[1]) / (x - last[0]))
+            if not newton:
+                # a small step may be that of a steep secant: only a narrow bracket tells, and steps that are not too small make one
+                step = np.copysign(np.maximum(np.abs(step), 0.5 * small), step)
+            size = np.abs(step)
+            # of Newton's method the next step would be this one times the square of the last ratio of steps
+            ahead = size * np.minimum(size / correction, 1.0) ** 2 if newton else size
         positive = value > 0
         last, lo, hi = (x, value), np.where(positive, x, lo), np.where(positive, hi, x)
-        small = np.maximum(2 * EPS * np.maximum(np.abs(lo), np.abs(hi)), tolerance)
-        if not newton:
-            # a small step may be that of a steep secant: only a narrow bracket tells, and steps that are not too small make one
-            step = np.copysign(np.maximum(np.abs(step), 0.5 * small), step)
-        new, size = x + step, np.abs(step)
-        bisected = ~((new >= lo) & (new <= hi) & (size <= 0.5 * before) & (size > 0))
-        new = np.where(bisected, 0.5 * (lo + hi), new)
-        exact = value == 0
-        done = exact | (hi - lo <= small)
+        new, exact, width = x + step, value == 0, hi - lo
+        taken = (new >= lo) & (new <= hi) & (size <= 0.5 * before) & (size > 0)
+        done = exact | (width <= small)
         if newton:
-            # next to the root the next step would be this one times the square of the last ratio of steps
-            with np.errstate(all="ignore"):
-                ratio = np.minimum(size / correction, 1.0)
-            done |= ~bisected & (size * ratio * ratio <= small)
-        x = np.where(exact, x, new)
-        before, correction = np.where(bisected, hi - lo, size), np.where(bisected, 0.0, size)
+            done |= taken & (ahead <= small)
+        if not taken.all():
+            new = np.where(taken, new, np.where(exact, x, 0.5 * (lo + hi)))
+            size, correction = np.where(taken, size, width), np.where(taken, size, 0.0)
+        else:
+            correction = size
+        x, before = new, size
         if done.any():
             result[live[done]] = x[done]
             going = np.flatnonzero(~done)
