@@ -30,8 +30,8 @@ _FIRST, _LAST, _COSTLESS = 8, 64, 32
 _SHARE, _SLIVER = 0.4, 0.03
 #: how far from the valley the strip next to it is, in parts of the accuracy, relative to natural scales, at least and at most
 _VALLEY, _NEAREST, _FARTHEST = 10.0, 1e-14, 1e-3
-#: distance from a known break at which a strip is solved to detect a narrow zone; narrower ones do not affect the result
-_NEXT = 1e-6
+#: how far from a known break strips are that detect a narrow zone, in the same way: narrower ones do not affect the result
+_NEXT, _CLOSEST = 0.3, 1e-6
 #: smallest error claimed for a panel, as a share of its tolerance: a layer may be too thin to show at its nodes
 _LEAST = 1e-5
 
@@ -81,7 +81,8 @@ def equal_strips(columns: LevelBatch) -> Averages:
 def average(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray) -> Averages:
     """Means ``(1/pi) int_0^pi`` of the strips of every state to ``rtol |value| + atol``, ``rtol`` (n,) and ``atol`` (n, q)."""
     n, q = columns.size, columns.scales.size
-    work = _Work(columns, rtol, atol, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
+    share = (np.where(atol > 0, atol, np.inf) / columns.scales).min(axis=1)
+    work = _Work(columns, rtol, atol, share, np.zeros((n, q)), np.zeros((n, q)), np.zeros(n, int))
     stages = [Stage(work.start(*known_breaks(columns)), _FIRST)]
     while stages:
         stages = work.refine(stages)
@@ -122,6 +123,8 @@ class _Work:
     columns: LevelBatch
     rtol: np.ndarray
     atol: np.ndarray
+    #: the least that a quantity may err by, relative to natural scales
+    share: np.ndarray
     values: np.ndarray
     errors: np.ndarray
     strips: np.ndarray
@@ -135,8 +138,7 @@ class _Work:
         crest and next to the valley: of a third regime there may be so few that no node meets them."""
         n, every = self.rtol.size, np.arange(self.rtol.size)
         # what lies beyond the last strip before the valley does not matter at a column's accuracy
-        share = (np.where(self.atol > 0, self.atol, np.inf) / self.columns.scales).min(axis=1)
-        near_valley = np.pi * (1 - np.clip(_VALLEY * share, _NEAREST, _FARTHEST))
+        near_valley = np.pi * (1 - np.clip(_VALLEY * self.share, _NEAREST, _FARTHEST))
         crest, valley = self._later(every, np.zeros(n)), self._later(every, near_valley)
         ends, (before, after) = np.flatnonzero(ends), np.full((2, theta.size), -1)
         before[ends], after[ends] = self._beside(state[ends], theta[ends])
@@ -182,7 +184,7 @@ class _Work:
             # laws, whose fractions hardly count, are no more accurate than they have to be
             done &= (codes[:, 0] % len(CODE) != CODE["c"]) | (self.atol[state, 2] >= self.rtol[state])
         spread = width * np.ptp(values, axis=1)
-        narrow = ~usable & (width[:, 0] < _NEXT) & (spread <= _SLIVER * _SHARE * goal).all(axis=1)
+        narrow = ~usable & (width[:, 0] < _CLOSEST) & (spread <= _SLIVER * _SHARE * goal).all(axis=1)
         ended = narrow | (~done & (self.strips[state] > AVERAGE_LIMIT))
         error[ended] = spread[ended]
         done |= ended
@@ -211,7 +213,8 @@ class _Work:
 
     def _beside(self, state, theta) -> tuple[np.ndarray, np.ndarray]:
         """``_later`` on both sides of the places ``theta`` (k,)."""
-        return self._later(state, np.maximum(theta - _NEXT, 0.0)), self._later(state, np.minimum(theta + _NEXT, np.pi))
+        near = np.clip(_NEXT * self.share[state], _CLOSEST, _FARTHEST)
+        return self._later(state, np.maximum(theta - near, 0.0)), self._later(state, np.minimum(theta + near, np.pi))
 
     def _look_beside_thresholds(self, stage: Stage) -> None:
         """Strips beside thresholds where codes of panels do not follow one another: a third zone may be narrower than a step."""

@@ -49,7 +49,7 @@ def falling_root(
         with np.errstate(all="ignore"):
             step = value / -(slope if newton else (value - last[1]) / (x - last[0]))
             if not newton:
-                # a small step may be that of a steep secant: only a narrow bracket tells, and steps that are not too small make one
+                # a small step may be that of a steep secant: only a narrow bracket tells, and steps not too small make one
                 step = np.copysign(np.maximum(np.abs(step), 0.5 * small), step)
             size = np.abs(step)
             # of Newton's method the next step would be this one times the square of the last ratio of steps
