@@ -117,17 +117,23 @@ class Surface:
         full = self.full(V, load, by_pressure) if self.skip else np.zeros(V.size, bool)
         known = self.levels_needed(V, load) if by_pressure and self.skip and not full.all() else len(self.levels)
         surface = replace(self, levels=self.levels[:known], laws=_ATTEMPTS[0][1] * self.rtol)
-        out = _Solve(surface, V, load, by_pressure).run(full, progress)
+        first = _Solve(surface, V, load, by_pressure)
+        out, adhesive = first.run(full, progress), self.adhesion.p_0 > 0
         for factor, laws in _ATTEMPTS[1:] if self.strips is None else ():
+            same = factor == 1.0 and adhesive
+            if same and known == 1:
+                continue
             # where the work came to a limit more of it is no help
             size = np.abs(out.tau.sum(axis=0))
-            told = (V == 0) | (self.adhesion.p_0 > 0) | (out.error <= _DIGIT * size)
+            told = (V == 0) | adhesive | (out.error <= _DIGIT * size)
             sure = self.converged(out) & told
             missed = np.flatnonzero(~sure & ~np.isin(V, [limited for limited, _ in self.work.limits]))
             if missed.size and factor * self.rtol >= _FINEST:
                 finer = replace(surface, rtol=factor * self.rtol, laws=laws * self.rtol, families=factor == 1.0)
                 size = (size + np.where(told, self.friction_floor, 0.0))[missed]
-                again = _Solve(finer, V[missed], load[missed], by_pressure, size)
+                # with adhesion penetrations don't rest on laws
+                found = first.found.take(missed) if same else None
+                again = _Solve(finer, V[missed], load[missed], by_pressure, size, found)
                 # a friction of which no digit is told is better told by strips that are searched for, whatever the errors
                 out.improve(missed, again.run(np.zeros(missed.size, bool), None), ~told[missed] & (not finer.families))
         if known < len(self.levels):
@@ -136,13 +142,15 @@ class Surface:
 
 
 class _Solve:
-    """Points of a surface; ``friction`` (n,), Pa, that without adhesion errors are held against, if it is known."""
+    """Points of a surface; ``friction`` (n,), Pa, that without adhesion errors are held against, and the penetrations ``found``
+    of all of them, if they are known."""
 
-    def __init__(self, surface: Surface, V, load, by_pressure: bool, friction=None):
+    def __init__(self, surface: Surface, V, load, by_pressure: bool, friction=None, found: Penetrations | None = None):
         self.surface, self.V, self.load, self.by_pressure, self.friction = surface, V, load, by_pressure, friction
         self.M, n = len(surface.levels), V.size
         # nothing is known of them yet
         self.out = Points(np.full(n, np.nan), np.zeros(n), *np.zeros((3, self.M, n)), np.zeros(n), *np.zeros((2, n), bool))
+        self.known, self.found = found is not None, found or Penetrations.at(np.full(n, np.nan))
 
     def run(self, full, progress) -> Points:
         """Solve them; the points ``full`` (n,) are in saturated contact on every level."""
@@ -187,7 +195,9 @@ class _Solve:
             deepest = cut_penetration(columns, load, np.full(load.size, np.inf)) if self.by_pressure else load
             columns = with_family(columns, deepest, surface.rtol * size, carries=self.M > 1)
         D = load if families else columns.not_just_released(load)
-        found = invert(columns, load, 0.5 * surface.rtol) if self.by_pressure else Penetrations.at(D)
+        if not self.known:
+            self.found.put(index, invert(columns, load, 0.5 * surface.rtol) if self.by_pressure else Penetrations.at(D))
+        found = self.found.take(index)
         off, touching = np.isnan(found.D), np.flatnonzero(np.isfinite(found.D))
         self.out.pulled_off[index[off]], self.out.p[index[off]] = True, load[off]
         if not touching.size:

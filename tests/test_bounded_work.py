@@ -232,14 +232,31 @@ def test_a_point_that_errs_by_more_than_is_allowed_is_solved_once_more(monkeypat
     adhesion = hystrip.Dugdale(gamma=4.5298325052e-06, delta_0=1.46134e-08)
     levels = [hystrip.Level(1e-5, 1.9698e-6), hystrip.Level(1.85077e-6, 3.05468e-7)]
     point = {"pressure": 181.046, "velocity": 0.25602, "branch": "loading", "rtol": 1e-6}
+    asked = _count_inversions(monkeypatch)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         found = hystrip.solve(material, adhesion, levels, **point)
+    # penetrations don't rest on laws
+    assert len(asked) == 1
     monkeypatch.setattr(multilevel, "_ATTEMPTS", multilevel._ATTEMPTS[:1])
     with pytest.warns(hystrip.ConvergenceWarning):
         once = hystrip.solve(material, adhesion, levels, **point)
     assert found.converged.all() and found.tau_error < once.tau_error
     assert abs(found.tau - once.tau) <= found.tau_error + once.tau_error
+
+
+def _count_inversions(monkeypatch):
+    asked, invert = [], multilevel.invert
+    monkeypatch.setattr(multilevel, "invert", lambda *args: asked.append(args) or invert(*args))
+    return asked
+
+
+def test_a_level_alone_is_not_solved_twice_in_the_same_way(monkeypatch):
+    monkeypatch.setattr(multilevel.Surface, "converged", lambda self, points: np.zeros(points.error.shape, bool))
+    asked = _count_inversions(monkeypatch)
+    with pytest.warns(hystrip.ConvergenceWarning):
+        hystrip.solve(MATERIAL, ADHESION, LEVELS[:1], pressure=100.0, velocity=1e-3, rtol=1e-4)
+    assert [rtol for *_, rtol in asked] == [0.5e-4, 0.15e-4]
 
 
 @pytest.mark.filterwarnings("ignore::hystrip.ConvergenceWarning")
