@@ -150,7 +150,7 @@ class _Solve:
         self.M, n = len(surface.levels), V.size
         # nothing is known of them yet
         self.out = Points(np.full(n, np.nan), np.zeros(n), *np.zeros((3, self.M, n)), np.zeros(n), *np.zeros((2, n), bool))
-        self.known, self.found = found is not None, found or Penetrations.at(np.full(n, np.nan))
+        self.given, self.found = found is not None, found or Penetrations.at(np.full(n, np.nan))
 
     def run(self, full, progress) -> Points:
         """Solve them; the points ``full`` (n,) are in saturated contact on every level."""
@@ -195,7 +195,7 @@ class _Solve:
             deepest = cut_penetration(columns, load, np.full(load.size, np.inf)) if self.by_pressure else load
             columns = with_family(columns, deepest, surface.rtol * size, carries=self.M > 1)
         D = load if families else columns.not_just_released(load)
-        if not self.known:
+        if not self.given:
             self.found.put(index, invert(columns, load, 0.5 * surface.rtol) if self.by_pressure else Penetrations.at(D))
         found = self.found.take(index)
         off, touching = np.isnan(found.D), np.flatnonzero(np.isfinite(found.D))

@@ -15,6 +15,7 @@ from .branches import Piece
 from .breaks import between_breaks, first_contact, scan
 from .error_budget import ErrorBudget
 from .interpolation import Intervals, interpolate, means_in, weighed
+from .look import BENDS, DOUBT, between_nodes
 from .regime_map import OPENS, straight
 from .strips import LevelBatch
 
@@ -22,9 +23,6 @@ from .strips import LevelBatch
 _ROUGH, _NODES, _NARROW, _APART = 5e-3, 4, 0.1, (0.1, 0.9)
 #: how close to where gaps that adhere throughout open the crest lets go with short memory, in heights
 _SHORT = 1e-3
-#: how much more than its error a pressure keeps above what was before, and than what it bends between two nodes, which are the
-#: first ones or twice as many: a parabola keeps within an eighth of that from its chord
-_DOUBT, _BENDS = 2.0, (1.0, 0.25)
 
 
 def trace(
@@ -113,9 +111,9 @@ def reentrant_parts(columns: LevelBatch, intervals: Intervals, strips: np.ndarra
         return sampled([stage], Intervals.evenly, lambda parts, D: _rough_means(columns, parts, D, strips))[0]
 
     stage = looked(Stage(intervals, _NODES))
-    doubtful = np.isin(np.arange(intervals.size), [k for _, k, *_ in _parts([stage], _BENDS[0])])
+    doubtful = np.isin(np.arange(intervals.size), [k for _, k, *_ in _parts([stage], BENDS[0])])
     stages = [stage.take(~doubtful)] + ([looked(stage.take(doubtful))] if doubtful.any() else [])
-    found = _parts(stages, _BENDS[1])
+    found = _parts(stages, BENDS[1])
     parts = [replace(stages[s].parts.take([k]), **{name: np.array([v]) for name, v in ends.items()}) for s, k, ends, _ in found]
     out = Intervals.joined(parts) if parts else intervals.take([])
     return out if budget is None else weighed(columns, budget, out, [values for *_, values in found])
@@ -132,29 +130,24 @@ def _parts(stages: list[Stage], bends: float) -> list[tuple[int, int, dict, np.n
     met: dict[int, float] = {}
     out, looks = [], []
     for s, stage in enumerate(stages):
-        t, parts = interior_nodes(stage.n), stage.parts
-        D = np.column_stack((parts.low, parts.evenly(t), parts.high))
-        looks += [(s, k, t, D[k], stage.known[0][k], stage.known[1][k, :, 0]) for k in range(parts.size)]
-    for s, k, t, D, values, error in sorted(looks, key=lambda look: -look[3][-1]):
-        look, known = stages[s].parts, values[:, 0]
+        D = np.column_stack((stage.parts.low, stage.parts.evenly(interior_nodes(stage.n)), stage.parts.high))
+        p, slack = between_nodes(stage, D, bends)
+        looks += [(s, k, D[k], p[k], slack[k], *(v[k] for v in stage.known[:2])) for k in range(stage.parts.size)]
+    for s, k, D, p, slack, values, errors in sorted(looks, key=lambda look: -look[2][-1]):
+        look, known, error = stages[s].parts, values[:, 0], errors[:, 0]
         least = min(met.get(look.column[k], np.inf), look.ceiling[k])
-        # on to the ends, which are no nodes: a curve is often least at a break
-        beyond = t[0] / (t[1] - t[0]) * np.array([known[0] - known[1], known[-1] - known[-2]])
-        p, error = np.insert(known, [0, known.size], known[[0, -1]] + beyond), np.pad(error, 1, "edge")
-        bend = np.pad(np.abs(known[:-2] - 2 * known[1:-1] + known[2:]), 2, "edge")
-        slack = _DOUBT * np.maximum(error[:-1], error[1:]) + bends * np.maximum(bend[:-1], bend[1:])
         floor = np.minimum(p[:-1], p[1:]) - slack
         # the least that was before, above the upper end of each part
-        before = np.minimum.accumulate((known + error[1:-1])[::-1])[::-1]
+        before = np.minimum.accumulate((known + error)[::-1])[::-1]
         above = np.minimum(np.concatenate((before, [np.inf])), least)
         comes = np.flatnonzero(floor < above)
         for run in np.split(comes, np.flatnonzero(np.diff(comes) > 1) + 1) if comes.size else ():
             first, last = run[0], run[-1] + 1
-            if last == p.size - 1 and (p - _DOUBT * error)[first:last].min() > least:
+            if last == p.size - 1 and (p - DOUBT * np.pad(error, 1, "edge"))[first:last].min() > least:
                 # the curve goes on from what was met, and rises
                 continue
             ends = {"low": D[first], "inner_low": True} if first > 0 else {}
             ends |= {"high": D[last], "inner_high": True} if last < p.size - 1 else {}
             out.append((s, k, ends, values[max(first - 1, 0) : max(last, 2)]))
-        met[look.column[k]] = min(least, (known + error[1:-1]).min())
+        met[look.column[k]] = min(least, (known + error).min())
     return out

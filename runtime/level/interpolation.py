@@ -15,6 +15,7 @@ from .averages import level_means
 from .branches import Errors, Piece, share_of
 from .breaks import islands, locate_vanishing
 from .error_budget import ErrorBudget
+from .look import before_least
 from .strips import CURVE_LIMIT, NO_CURVE, LevelBatch
 
 #: share of the error allowed that each mean may have
@@ -128,6 +129,9 @@ class _Work:
                 divided.append((left.take(hopeless), goal[hopeless]))
                 going.append(left.take(~hopeless))
             else:
+                if self.columns.branch == "loading":
+                    ends = stage.parts.low, stage.parts.at(interior_nodes(stage.n)), stage.parts.high
+                    stage = stage.take(~before_least(stage, np.column_stack(ends)))
                 going.append(replace(stage, parts=weighed(self.columns, self.budget, stage.parts, stage.known[0])))
         parts = [part for stage, goal in divided for part in self._divided(stage, goal)]
         fresh = [Stage(self._counting(Intervals.joined(parts)), self.first)] if parts else []

@@ -27,11 +27,9 @@ def falling_root(
 
     ``function(x, index)`` returns the values at ``x`` of the members ``index``, all (k,), or a tuple of values and slopes. The
     signs at the ends are the caller's word: the ends are not evaluated. Where there are several roots one of them is found.
-    The ``guess`` is looked at first, the middle where it is NaN.
     Ends at two roundings of x, or at ``tolerance`` in x, whichever is larger. A bracket without width is its own root.
     """
-    middle = 0.5 * (low + high)
-    x = middle if guess is None else np.clip(np.where(np.isnan(guess), middle, guess), low, high)
+    x = 0.5 * (low + high) if guess is None else np.clip(guess, low, high)
     result = np.where(high > low, x, high)
     live = np.flatnonzero(high > low)
     x, lo, hi = x[live], low[live], high[live]
@@ -61,12 +59,10 @@ def falling_root(
         done = exact | (width <= small)
         if newton:
             done |= taken & (ahead <= small)
+        x, before, correction = new, size, size
         if not taken.all():
-            new = np.where(taken, new, np.where(exact, x, 0.5 * (lo + hi)))
-            size, correction = np.where(taken, size, width), np.where(taken, size, 0.0)
-        else:
-            correction = size
-        x, before = new, size
+            x = np.where(taken, new, np.where(exact, last[0], 0.5 * (lo + hi)))
+            before, correction = np.where(taken, size, width), np.where(taken, size, 0.0)
         if done.any():
             result[live[done]] = x[done]
             going = np.flatnonzero(~done)

@@ -67,17 +67,16 @@ class Orbit(Batch):
         return np.array([getattr(self, edge) for edge in ORBIT_EDGES[sequence]])
 
 
-def march(kernel, cycle: Cycle, x: np.ndarray, near: Orbit | None = None) -> Orbit:
-    """March every cycle from its onset phase ``x``; ``near``: edges to look at first, NaN where none is known."""
-    near = near or Orbit.blank(x.size)
+def march(kernel, cycle: Cycle, x: np.ndarray) -> Orbit:
+    """March every cycle from its onset phase ``x``."""
     # downward zero of the gap after the onset, where H + p_0 > 0; NaN where the gap stays open
     s, end = cycle.strips, cycle.centre + cycle.half_b
     b, i = np.where(cycle.direct, x, np.nan), np.flatnonzero(~cycle.direct & (x < end))
     closes = Event(kernel.gap_event, kernel.gap_entry(x[i], cycle.gap_on[i], -s.p_0[i], s.D[i], s.beta[i]))
-    b[i] = _crossing(closes, np.maximum(x, cycle.centre - cycle.half_b)[i], end[i], near.b[i])
+    b[i] = _crossing(closes, np.maximum(x, cycle.centre - cycle.half_b)[i], end[i])
     contact = ~np.isnan(b)
-    a = contact_end(kernel, cycle, b, cycle.q_on, near.a)
-    c = adhesion_end(kernel, cycle, np.where(contact, a, x), np.where(contact, 0.0, cycle.gap_on), near.c)
+    a = contact_end(kernel, cycle, b, cycle.q_on)
+    c = adhesion_end(kernel, cycle, np.where(contact, a, x), np.where(contact, 0.0, cycle.gap_on))
     c = np.where(cycle.bare & np.isfinite(a), a, c)
     engaged = np.isnan(c)
     r = np.full(x.shape, -np.inf)
@@ -87,9 +86,9 @@ def march(kernel, cycle: Cycle, x: np.ndarray, near: Orbit | None = None) -> Orb
     return Orbit(x.copy(), b, a, c, engaged, r)
 
 
-def contact_end(kernel, cycle: Cycle, b, q, near=None, way=0, after=None):
+def contact_end(kernel, cycle: Cycle, b, q, way=0, after=None):
     """Where contacts that begin at b with the excess pressure q end: at its downward zero, where H + p_0 < 0, not before
-    ``after``. NaN without contact, inf if it never ends. ``near``: phases to look at first, NaN where none is known.
+    ``after``. NaN without contact, inf if it never ends.
 
     ``way``: 1 for phases that are certain to be later (here and below: -1, earlier), whatever rounding does to the threshold.
     """
@@ -98,22 +97,20 @@ def contact_end(kernel, cycle: Cycle, b, q, near=None, way=0, after=None):
     low = np.fmax(low, b if after is None else after)
     entry = kernel.excess_entry(b[i], q[i], s.p_0[i], s.D[i], s.alpha[i], s.beta[i], s.L[i])
     event = Event(kernel.excess_event, entry, -way * (s.noise()[i] + ROUNDING * entry[4]) if way else 0.0)
-    near = after if near is None else near
-    a[i] = np.fmin(_crossing(event, low[i], high[i], None if near is None else near[i], way), np.inf)
+    a[i] = np.fmin(_crossing(event, low[i], high[i], None if after is None else low[i], way), np.inf)
     return a
 
 
-def adhesion_end(kernel, cycle: Cycle, start, gap, near=None, way=0):
+def adhesion_end(kernel, cycle: Cycle, start, gap, way=0):
     """Where adhesion that pulls a ``gap`` from ``start`` on ends: at the upward zero of gap - delta_0, where
-    H + p_0 + delta_0 < 0. NaN where the strip stays engaged. ``near``: see ``contact_end``."""
+    H + p_0 + delta_0 < 0. NaN where the strip stays engaged."""
     s, high = cycle.strips, cycle.centre + TWO_PI - cycle.half_c
     c, i = np.full(start.shape, np.nan), np.flatnonzero(~cycle.bare & (start < high))
     first, reach = start[i], s.delta_0[i]
     entry = kernel.gap_entry(first, gap[i], -s.p_0[i], s.D[i], s.beta[i])
     event = Event(kernel.gap_event, entry, reach + way * s.noise()[i] if way else reach, -1.0)
     low = np.maximum((cycle.centre + cycle.half_c)[i], first)
-    near = _stands_still(first, reach) if near is None else np.where(np.isnan(near[i]), _stands_still(first, reach), near[i])
-    c[i] = _crossing(event, low, high[i], near, way)
+    c[i] = _crossing(event, low, high[i], _stands_still(first, reach), way)
     return c
 
 
@@ -159,13 +156,8 @@ def between(left: Orbit, right: Orbit) -> Orbit:
     """Edges interpolated to where r vanishes linearly between two onsets: a start for Newton, not an orbit."""
     fall = left.r - right.r
     share = np.clip(np.divide(left.r, fall, out=np.full(fall.shape, 0.5), where=np.isfinite(fall) & (fall > 0)), 0, 1)
-    return mixed(left, right, share)
-
-
-def mixed(left: Orbit, right: Orbit, share: np.ndarray) -> Orbit:
-    """Edges of ``left`` (n,) and, by this ``share`` ((n,), or (k, 1) for k n of them), of ``right``."""
-    edges = [((1 - share) * getattr(left, e) + share * getattr(right, e)).ravel() for e in ("x", "b", "a", "c")]
-    return Orbit(*edges, np.zeros(edges[0].size, bool), np.full(edges[0].size, np.nan))
+    mixed = [(1 - share) * getattr(left, e) + share * getattr(right, e) for e in ("x", "b", "a", "c")]
+    return Orbit(*mixed, left.engaged.copy(), left.r.copy())
 
 
 class Event:

@@ -95,8 +95,8 @@ def _followed(kernel, cycle: Cycle, b, q_on, after) -> Orbit:
     """Bounds from contact that begins at b with ``q_on`` and does not end before ``after``."""
     out = Orbit.blank(cycle.size, engaged=True)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        out.b, out.a = b, contact_end(kernel, cycle, b, q_on, way=1, after=after)
-        out.c = adhesion_end(kernel, cycle, out.a, np.zeros(cycle.size), way=1)
+        out.b, out.a = b, contact_end(kernel, cycle, b, q_on, 1, after)
+        out.c = adhesion_end(kernel, cycle, out.a, np.zeros(cycle.size), 1)
         out.engaged = np.isnan(out.c)
         go = np.flatnonzero(~out.engaged)
         out.x[go] = np.nan_to_num(next_onset(kernel, cycle.among(go), out.c[go], -1), nan=np.inf)
@@ -112,7 +112,7 @@ def least_engaged_bounds(kernel, cycle: Cycle) -> Orbit:
     start = np.where(touched, out.a, np.maximum(out.a, at_rest))
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         gap = np.where(touched, 0.0, np.maximum(kernel.gap_after(at_rest, start, cycle.gap_on, -s.p_0, s.D, s.beta), 0.0))
-        out.c = adhesion_end(kernel, cycle, start, gap, way=-1)
+        out.c = adhesion_end(kernel, cycle, start, gap, -1)
         missed = np.isnan(out.c) | (cycle.half_b >= np.pi) | (~touched & (reach > 2))
         go = np.flatnonzero(~missed)
         out.c[go] = np.maximum(out.c, np.maximum(start, cycle.centre + cycle.half_c))[go]

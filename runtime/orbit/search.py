@@ -16,7 +16,7 @@ import numpy as np
 from ..numerics.roots import falling_root
 from ..numerics.rounding import EPS
 from .groups import Cycle, arc_versine
-from .march import LEAST_PHASE, TWO_PI, Orbit, march, mixed, next_onset
+from .march import LEAST_PHASE, TWO_PI, Orbit, march, next_onset
 from .sensitivity import falls, over, slope_bounds
 
 #: retardation times after which a displacement is gone, to the smallest number
@@ -44,8 +44,8 @@ class _Search:
         n = cycle.size
         self.found, self.left, self.right = np.zeros(n, bool), Orbit.blank(n), Orbit.blank(n)
 
-    def march(self, index, x, near: Orbit | None = None):
-        return march(self.kernel, self.cycle.take(index), x, near)
+    def march(self, index, x):
+        return march(self.kernel, self.cycle.take(index), x)
 
     def run(self) -> tuple[np.ndarray, Orbit, Orbit]:
         index = self._within_reach(self._without_memory(np.flatnonzero(self.cycle.half_d > 0)))
@@ -117,10 +117,11 @@ class _Search:
         """Divide the interval from each frontier to the onset ``beyond`` into ``parts``; exclude them, and what is left up
         to ``stop``, one after another, until one is not excluded: it brackets an orbit, or is divided in the next round."""
         n = index.size
+        inner = frontier.x + (beyond.x - frontier.x) * (np.arange(1, parts)[:, None] / parts)
+        every = np.tile(np.arange(n), parts - 1)
         points = [frontier, beyond, stop]
         if parts > 1:
-            inner = mixed(frontier, beyond, np.arange(1, parts)[:, None] / parts)
-            points.insert(1, self.march(np.tile(index, parts - 1), inner.x, inner))
+            points.insert(1, self.march(index[every], inner.ravel()))
         points = Orbit.joined(points)
         here, there = points.take(slice(0, -n)), points.take(slice(n, None))
         excluded, unique = self._judged(np.tile(index, parts + 1), here, there)

@@ -1,0 +1,41 @@
+"""What a look at a few nodes of the intervals of a curve tells of its pressure between them."""
+
+import numpy as np
+
+from ..numerics.quadrature import Stage
+
+#: how much more than its error a pressure keeps from what it is compared with, and than what it bends between two nodes, which
+#: are the first ones or twice as many: a parabola keeps within an eighth of that from its chord
+DOUBT, BENDS = 2.0, (1.0, 0.25)
+
+
+def between_nodes(stage: Stage, D: np.ndarray, bends: float) -> tuple[np.ndarray, np.ndarray]:
+    """Pressures of intervals at the nodes and both ends, ``D`` (m, n); how far beyond their range between two, (m, n - 1)."""
+    (p, error), step = (v[:, :, 0] for v in stage.known[:2]), np.diff(D)
+    slopes = np.diff(p) / step[:, 1:-1]
+    # on to the ends, which are no nodes: a curve is often least at a break
+    p = np.column_stack((p[:, 0] - slopes[:, 0] * step[:, 0], p, p[:, -1] + slopes[:, -1] * step[:, -1]))
+    # between evenly spaced nodes these are second differences
+    bend = np.abs(np.diff(np.diff(p) / step)) * 2 / (1 / step[:, 1:] + 1 / step[:, :-1])
+    error, bend = (np.pad(v, ((0, 0), (1, 1)), mode) for v, mode in ((error, "edge"), (bend, "constant")))
+    return p, DOUBT * np.maximum(error[:, 1:], error[:, :-1]) + bends * np.maximum(bend[:, 1:], bend[:, :-1])
+
+
+def before_least(stage: Stage, D: np.ndarray) -> np.ndarray:
+    """Which intervals of curves, (m,), with nodes ``D`` (m, n) and ends, end before the pressure is least.
+
+    As strips cling it falls below zero; until it comes back there, no part before its least is one that loading follows
+    (``branches.loaded``)."""
+    p, slack = between_nodes(stage, D, BENDS[0])
+    lowest = (np.minimum(p[:, 1:], p[:, :-1]) - slack).min(axis=1)
+    highest = (stage.known[0] + DOUBT * stage.known[1])[:, :, 0]
+    # where it falls, or surely is below zero, it does not come back
+    away = (p[:, 1:] < p[:, :-1]) | (p[:, 1:] + slack < 0)
+    before = np.zeros(lowest.size, bool)
+    for column in np.unique(stage.parts.column):
+        here = np.flatnonzero(stage.parts.column == column)
+        here = here[np.argsort(D[here, 0])]
+        met = np.logical_and.accumulate(away[here].ravel()).reshape(here.size, -1)[:, :-1]
+        least = np.where(met, highest[here], np.inf).min(axis=1)
+        before[here] = lowest[here] > np.append(np.minimum.accumulate(least[::-1])[-2::-1], np.inf)
+    return before
