@@ -93,10 +93,17 @@ MUTANTS = (
     ),
     Mutant(
         "a curve is not looked at up to its breaks",
-        "level/curve.py",
-        "known[[0, -1]] + beyond",
-        "known[[0, -1]]",
+        "level/look.py",
+        "slopes = np.diff(p) / step[:, 1:-1]",
+        "slopes = 0 * step[:, 1:-1]",
         "test_pull_off.py",
+    ),
+    Mutant(
+        "loading passes by a least pressure that errors leave open",
+        "level/look.py",
+        "- slack).min(axis=1)",
+        ").min(axis=1)",
+        "test_look.py",
     ),
     Mutant(
         "islands do not move",
