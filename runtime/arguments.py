@@ -91,6 +91,8 @@ def point_index(at: int | tuple[int, ...], shape: tuple[int, ...]) -> int:
     try:
         flat = 0
         for place, size in zip(index, sizes, strict=True):
+            if isinstance(place, bool):
+                raise TypeError
             flat = flat * size + range(size)[operator.index(place)]
         return flat
     except (IndexError, ValueError, TypeError):

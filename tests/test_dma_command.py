@@ -65,6 +65,8 @@ def test_several_temperatures_leave_nothing(run, tmp_path):
         (("--length", 0), "--length: got 0.0"),
         (("--terms", 50), "--terms: got 50"),
         (("--per-decade", 0), "--per-decade: got 0.0"),
+        (("--low", -1), "--low: got -1.0; allowed: a finite number >= 0 (Hz)"),
+        (("--high", -1), "--high: got -1.0; allowed: a finite number >= 0 (Hz)"),
         (("--low", 1000), "--low, --high: got (1000.0, None)"),
         (("--decimal", "x"), "--decimal: got 'x'"),
         (("--set", "3"), "--set: got '3'; allowed: None: rubber.csv has no column 'Set'"),

@@ -152,7 +152,9 @@ def test_points_are_counted_from_the_end_in_a_tuple_too(over_pressure, at, same)
     assert point_index((-1, -3), (2, 4)) == 5 and point_index((), ()) == 0 == point_index(-1, ())
 
 
-@pytest.mark.parametrize("at", [17, -18, (17,), (-18,), (0, 0), (), 1.0, (1.0,), "a", slice(0, 1), (slice(0, 1),), [1]])
+@pytest.mark.parametrize(
+    "at", [17, -18, (17,), (-18,), (0, 0), (), 1.0, (1.0,), "a", slice(0, 1), (slice(0, 1),), [1], True, (False,)]
+)
 def test_what_is_no_point_is_refused(over_pressure, at):
     with pytest.raises(hystrip.InputError, match="^at: got .*an index into the 17 points, of shape"):
         point_index(at, over_pressure.mu.shape)

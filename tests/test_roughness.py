@@ -166,3 +166,9 @@ def test_wrong_scans(heights, sizes, field):
     with pytest.raises(hystrip.InputError) as refused:
         Scan(heights, sizes)
     assert refused.value.field == field
+
+
+@pytest.mark.parametrize("filled", [-0.1, 1.1, True, "a"])
+def test_the_share_that_was_filled_is_one(filled):
+    with pytest.raises(hystrip.InputError, match="^scan.filled: got "):
+        Scan(np.zeros(16), 1.0, filled=filled)

@@ -8,7 +8,7 @@ import typer
 
 from .output import say, say_written
 
-_OPTIONS = {each: f"--{each}" for each in ("accuracy", "terms", "length", "decimal")} | {
+_OPTIONS = {each: f"--{each}" for each in ("accuracy", "terms", "length", "decimal", "low", "high")} | {
     "per_decade": "--per-decade", "material.nu": "--nu", "temperature_set": "--set", "frequencies": "--low, --high"
 }  # fmt: skip
 

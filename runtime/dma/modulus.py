@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..inputs.checks import LARGEST, has_unit, number, numbers
+from ..inputs.checks import LARGEST, has_unit, holds_truth, number, numbers
 
 #: frequencies per decade at which a function is tabulated: several to each relaxation time of the finest series
 _PER_DECADE = 12
@@ -78,6 +78,8 @@ class DynamicModulus:
         allowed = "complex numbers, storage + i loss (Pa)"
         if has_unit(modulus):
             raise InputError("modulus", modulus, f"{allowed}, without a unit of their own: convert them first")
+        if np.asarray(modulus).dtype.kind in "bSU" or holds_truth(modulus):
+            raise InputError("modulus", modulus, allowed)
         try:
             values = np.asarray(modulus, dtype=complex)
         except (TypeError, ValueError):
@@ -125,8 +127,8 @@ class DynamicModulus:
     def between(self, low: float | None = None, high: float | None = None) -> DynamicModulus:
         """The part from ``low`` to ``high``, in Hz. Raises InputError for no numbers, or if fewer than two frequencies remain."""
         f = self.frequency
-        least = 0.0 if low is None else number("low", low, "Hz")
-        most = LARGEST if high is None else number("high", high, "Hz")
+        least = 0.0 if low is None else number("low", low, "Hz", 0)
+        most = LARGEST if high is None else number("high", high, "Hz", 0)
         # a limit as written and a frequency that came through 2 pi and back differ by rounding
         keep = (f >= least * (1 - 1e-12)) & (f <= most * (1 + 1e-12))
         if keep.sum() < 2:

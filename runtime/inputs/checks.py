@@ -40,7 +40,7 @@ def numbers(field: str, value: Any, unit: str, minimum: float = -np.inf, strict:
         raw = np.asarray(value)
         if raw.dtype.kind == "O" and all(type(each) in (int, float) for each in raw.flat):  # integers of more than 64 bits
             raw = raw.astype(np.float64)
-        if raw.dtype.kind not in "iuf":
+        if raw.dtype.kind not in "iuf" or holds_truth(value):
             raise InputError(field, value, allowed)
         with np.errstate(over="ignore"):  # a longer float: refused below, by name
             array = raw.astype(np.float64)
@@ -95,6 +95,15 @@ def broadcast(**arrays: np.ndarray) -> tuple[int, ...]:
 def has_unit(value: Any) -> bool:
     """Whether a value is a quantity of Pint, Astropy or the like, whose unit would be dropped."""
     return hasattr(value, "to") and (hasattr(value, "units") or hasattr(value, "unit"))
+
+
+def holds_truth(value: Any) -> bool:
+    """Whether True or False stands somewhere among numbers, which NumPy takes for 1 or 0."""
+    if isinstance(value, np.ndarray):
+        return value.dtype.kind == "b"
+    kinds = set(map(type, value)) if isinstance(value, (list, tuple)) else set()
+    nested = not kinds.isdisjoint((list, tuple, np.ndarray))
+    return not kinds.isdisjoint((bool, np.bool_)) or (nested and any(map(holds_truth, value)))
 
 
 def _length(value: Any) -> float:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..inputs.checks import numbers
+from ..inputs.checks import number, numbers
 
 #: standard deviations of the others by which a value that several points share is off if it marks what was not measured
 _FAR = 20
@@ -43,6 +43,9 @@ class Scan:
             raise InputError("scan.heights", heights.shape, "shape (n,) or (n, m) with at least 8 points in each direction")
         if sizes.shape != (heights.ndim,):
             raise InputError("scan.sizes", self.sizes, f"{heights.ndim} numbers, one for each direction of the heights")
+        filled = number("scan.filled", self.filled, "", 0)
+        if filled > 1:
+            raise InputError("scan.filled", self.filled, "a share from 0 to 1")
         _refuse_marks(heights)
         if np.ptp(heights) > sizes.max():
             what = f"heights that differ by {np.ptp(heights):.4g} m on a scan of {sizes.max():.4g} m"
