@@ -100,6 +100,8 @@ CALLS = [
     (["audit", "--out", "binary.toml"], ["--out", "binary.toml", "a folder"]),
     (["regenerate", "binary.toml", "--out", "solver"], ["binary.toml"]),
 ]
+OUT = {"solve": 1, "sweep": 1, "show": 1, "figures": 0, "master": 1, "fit": 1, "levels": 1, "regenerate": 0, "audit": 0}
+CALLS += [([name, *["paper_fig7"] * count, "--out", ""], ["'--out'", "got ''", "a folder"]) for name, count in OUT.items()]
 
 
 def files_in(folder):

@@ -4,11 +4,12 @@ from pathlib import Path
 
 import typer
 
+from .options import out_option
 from .output import say
 
 
 def command(
-    out: Path = typer.Option(None, "--out", help="Folder to write into; without it, the installed package's own."),
+    out: Path = out_option("Folder to write into; without it, the installed package's own.", default=None),
 ) -> None:
     """Derive, verify, and write the audit pages.
 

@@ -4,12 +4,13 @@ from pathlib import Path
 
 import typer
 
+from .options import out_option
 from .output import say_written
 
 
 def command(
     only: list[str] = typer.Argument(None, help="Which ones, such as fig3 fig6; all without any."),
-    out: Path = typer.Option(Path("hystrip-figures"), "--out", help="Folder for the pictures and their data."),
+    out: Path = out_option("Folder for the pictures and their data.", default=Path("hystrip-figures")),
 ) -> None:
     """Draw the paper's Figures 3 to 7.
 

@@ -6,6 +6,7 @@ from urllib.parse import quote
 
 import typer
 
+from .options import as_options, out_option
 from .output import say, say_written
 
 _OPTIONS = {each: f"--{each}" for each in ("accuracy", "terms", "length", "decimal", "low", "high")} | {
@@ -36,7 +37,7 @@ def command(
     scene: str = typer.Option("starter", "--scene", help="The scene whose material is replaced [that of `hystrip init`]."),
     pressure: str = typer.Option(None, "--pressure", help='Nominal pressure of the scene, such as "0.2 MPa" [that of SCENE].'),
     title: str = typer.Option(None, "--title", help="Title of the scene."),
-    out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
+    out: Path = out_option("Folder for the results."),
     plot: bool = typer.Option(True, help="Draw the fit (PNG)."),
 ) -> None:
     """Fit relaxation times to DMA data: a material.
@@ -59,7 +60,6 @@ def command(
     from ..scene.errors import located
     from ..scene.load import scene_text
     from ..tables import about_version, write_csv
-    from .options import as_options
     from .quantities import metres, pascals
     from .scene_options import settings
 

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import typer
 
+from .options import as_options, out_option
 from .output import say, say_written
 
 _OPTIONS = {each: f"--{each}" for each in ("count", "ratio", "wavelength", "longest", "shortest")}
@@ -28,7 +29,7 @@ def command(
     scene: str = typer.Option("starter", "--scene", help="The scene whose levels are replaced [that of `hystrip init`]."),
     pressure: str = typer.Option(None, "--pressure", help='Nominal pressure of the scene, such as "0.2 MPa" [that of SCENE].'),
     title: str = typer.Option(None, "--title", help="Title of the scene."),
-    out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
+    out: Path = out_option("Folder for the results."),
     plot: bool = typer.Option(True, help="Draw the spectrum with the levels (PNG)."),
     allow_solver: bool = typer.Option(False, "--allow-solver", help="Run the code of a solver that the scene names."),
 ) -> None:
@@ -44,7 +45,6 @@ def command(
     from ..scene.edit import with_levels, with_settings, with_solver_seen_from
     from ..scene.errors import located
     from ..scene.load import scene_text
-    from .options import as_options
     from .quantities import metres, pascals
     from .scene_options import settings
 

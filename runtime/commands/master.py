@@ -4,6 +4,7 @@ from pathlib import Path
 
 import typer
 
+from .options import as_options, out_option
 from .output import say, say_written
 
 _OPTIONS = {"T_ref": "--reference", "law": "--law", "decimal": "--decimal"}
@@ -20,7 +21,7 @@ def command(
     vertical: bool = typer.Option(False, "--vertical", help="Shift moduli too."),
     decimal: str = typer.Option(None, "--decimal", help='"." or ",", for a file that can be read both ways.'),
     shear: bool = typer.Option(False, "--shear", help="Moduli whose names do not say it are shear moduli, G."),
-    out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
+    out: Path = out_option("Folder for the results."),
     plot: bool = typer.Option(True, help="Draw isotherms, master curve and shift factors (PNG)."),
 ) -> None:
     """Make one master curve of isotherms.
@@ -34,7 +35,6 @@ def command(
     from ..files import refuse_unwritable
     from ..origins import outputs_from, refuse_other_origin
     from ..tables import about_version, write_csv
-    from .options import as_options
     from .quantities import kelvins
 
     if plot:

@@ -5,12 +5,13 @@ from pathlib import Path
 
 import typer
 
+from .options import out_option
 from .output import say
 
 
 def command(
     model: Path = typer.Argument(None, help="A file that declares MODEL (its code is run); without it, the models of hystrip."),
-    out: Path = typer.Option(None, "--out", help="Folder to write into; without it (and MODEL), the installed package's own."),
+    out: Path = out_option("Folder to write into; without it (and MODEL), the installed package's own.", default=None),
 ) -> None:
     """Derive a solver with SymPy, certify and emit it.
 

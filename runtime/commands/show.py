@@ -4,6 +4,7 @@ from pathlib import Path
 
 import typer
 
+from .options import out_option
 from .output import say, say_written
 
 
@@ -17,7 +18,7 @@ def command(
     level: int = typer.Option(1, "--level", help="Which level, 1 the largest."),
     pressure: str = typer.Option(None, "--pressure", help="At this nominal pressure [the scene's, the first of them]."),
     velocity: str = typer.Option(None, "--velocity", help="At this sliding velocity [the scene's, the middle one]."),
-    out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the pictures."),
+    out: Path = out_option("Folder for the pictures."),
     allow_solver: bool = typer.Option(False, "--allow-solver", help="Run the code of a solver that the scene names."),
 ) -> None:
     """Look into a scene at one pressure and one velocity.

@@ -4,12 +4,13 @@ from pathlib import Path
 
 import typer
 
+from .options import out_option
 from .output import say, say_written
 
 
 def command(
     scene: str = typer.Argument(help="A scene file (TOML), or the name of a built-in scene such as paper_fig6."),
-    out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results."),
+    out: Path = out_option("Folder for the results."),
     plot: bool = typer.Option(True, help="Draw mu over velocity, or over the load (PNG)."),
     table: bool = typer.Option(True, help="Print the table."),
     netcdf: bool = typer.Option(False, "--netcdf", help="Write the labelled results as netCDF too (extra `dataset`)."),

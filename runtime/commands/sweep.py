@@ -4,6 +4,7 @@ from pathlib import Path
 
 import typer
 
+from .options import out_option
 from .output import say, say_written
 
 
@@ -14,7 +15,7 @@ def command(
         "--over",
         help="KEY=VALUES swept too, values as in a scene: --over 'material.times[0]=[1e-3, \"2 ms\"]'; may be repeated.",
     ),
-    out: Path = typer.Option(Path("hystrip-out"), "--out", help="Folder for the results; run again with the same to go on."),
+    out: Path = out_option("Folder for the results; run again with the same to go on."),
     workers: int = typer.Option(1, "--workers", help="Local processes."),
     scheduler: str = typer.Option(None, "--scheduler", help="Address of a Dask scheduler, such as tcp://host:8786."),
     batch: int = typer.Option(None, "--batch", help="Points solved and stored together [the scene's, or a few seconds of work]."),
