@@ -58,6 +58,18 @@ def test_several_temperatures_leave_nothing(run, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["ramp.csv"]
 
 
+def test_a_wrong_scene_is_refused_before_the_work(run, tmp_path, monkeypatch):
+    (tmp_path / "rubber.csv").write_text(table("f [Hz];E' [Pa];E'' [Pa]"))
+    (tmp_path / "surface.txt").write_text("not looked at")
+    (tmp_path / "s.toml").write_text("presure = 1e5\n")
+    for worker in ("hystrip.dma.fit_prony", "hystrip.roughness.read_surface"):
+        monkeypatch.setattr(worker, lambda *_, **__: pytest.fail("work before the scene was looked at"))
+    for command in (("fit", "rubber.csv", "--nu", 0.5), ("levels", "surface.txt")):
+        status, out, err = run(*command, "--scene", "s.toml", "--no-plot")
+        assert (status, out) == (2, "") and err.startswith("hystrip: s.toml: presure: unknown key (did you mean 'pressure'?)")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["rubber.csv", "s.toml", "surface.txt"]
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

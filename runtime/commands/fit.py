@@ -2,6 +2,7 @@
 
 import warnings
 from pathlib import Path
+from typing import Any
 from urllib.parse import quote
 
 import typer
@@ -47,7 +48,7 @@ def command(
     with its own replaced. A master curve of `hystrip master` brings its temperature shift along.
     """
     from ..dma import fit_prony, read_dma
-    from ..dma.output import SHEAR, material_tables, rows
+    from ..dma.output import SHEAR, material_tables, rows, shift_table
     from ..dma.read import read_shift
     from ..errors import FitWarning, InputError, printable
     from ..extras import require
@@ -80,6 +81,14 @@ def command(
             number("length", over, "m", 0, strict=True)
         measured, shift = read_dma(data, temperature_set, decimal, shear), read_shift(data)
     refuse_unwritable(out, "--out")
+    text = ""
+    if writes_scene:  # what is wrong with it is said before the work
+        stands_in: dict[str, Any] = {"material": {"kind": "half-space", "E": 1.0, "nu": 0.5, "moduli": [1.0], "times": [1.0]}}
+        if shift is not None:
+            stands_in["material.shift"] = shift_table(shift)
+        with located(scene):
+            text = with_settings(scene_text(scene)[0], given)
+            with_material(text, stands_in)
     names = [f"{stem}.{each}" for each in ("fit.csv", *["fitted.toml"] * writes_scene, *["fit.png"] * plot)]
     refuse_other_origin(out, names, data)
     about = [*about_version(), f"data: {source}"]
@@ -90,11 +99,11 @@ def command(
     files = {f"{stem}.fit.csv": lambda path: write_csv(path, rows(series, measured), about)}
     if writes_scene:
         material = series.half_space(nu, shift) if nu is not None else series.material(over, shift)
-        if len(series.times) > 1:  # the other closure does not determine the edges of such a material
-            given["edge"] = "constitutive"
+        # the other closure does not determine the edges of a material of several times
+        edge = {"edge": "constitutive"} if len(series.times) > 1 else {}
         tables, comment = material_tables(material, series, source, over)
         with located(scene):
-            text = with_material(with_settings(scene_text(scene)[0], given), tables, comment)
+            text = with_material(with_settings(text, edge), tables, comment)
         files[f"{stem}.fitted.toml"] = lambda path: path.write_text(text, encoding="utf-8", newline="\n")
     if plot:
         from ..plots import fitted_modulus, save

@@ -55,14 +55,17 @@ def command(
     refuse_unwritable(out, "--out")
     names = [f"{surface.stem}.{part}" for part in ("levels.toml", *["spectrum.png"] * plot)]
     refuse_other_origin(out, names, surface)
+    with located(scene):
+        text = with_settings(scene_text(scene)[0], given) if given else scene_text(scene)[0]
+        text = with_solver_seen_from(out, text, scene)
+        # what is wrong with the scene is said before the work
+        with_levels(text, [{"l": 1.0, "h": 1.0}], folder=out, allow_solver=allow_solver)
     scan = read_surface(surface, channel=channel, unit=unit, sizes=tuple(size) if size else None)
     with as_options(_OPTIONS):
         found = levels_of(scan, count=count, ratio=ratio, wavelength=wavelength, **limits)
     ends = f"{found.bands.max():.4g} to {found.bands.min():.4g} m"
     comment = f"Made from {surface.name}, wavelengths {ends}: rms height and gradient of each band."
     with located(scene):
-        text = with_settings(scene_text(scene)[0], given) if given else scene_text(scene)[0]
-        text = with_solver_seen_from(out, text, scene)
         levels = [{"l": each.l, "h": each.h} for each in found.levels]
         text = with_levels(text, levels, comment, folder=out, allow_solver=allow_solver)
     with outputs_from(surface, out, names) as files:
