@@ -24,9 +24,11 @@ def refuse_other_origin(out: Path, names: Sequence[str], source: str | os.PathLi
             raise InputError("--out", str(out), f"another folder: {name} in it is a folder, not a file to replace")
         if name.endswith(".csv") and (out / name).is_file() and read_at_most(out / name, 8) != b"# hystrip":
             raise InputError("--out", str(out), f"another folder: {name} in it was not written by this version of hystrip")
-        other = known.get(name, mine)
-        if other != mine and (out / name).exists():
-            raise InputError("--out", str(out), f"another folder: {name} in it was made from {other}, this would be from {mine}")
+        for there, other in known.items():
+            # names that differ in case alone are one on some file systems
+            if there.casefold() == name.casefold() and (there, other) != (name, mine) and (out / there).exists():
+                said = f"another folder: {there} in it was made from {other}, this would be from {mine}"
+                raise InputError("--out", str(out), said + (f", as {name}" if there != name else ""))
 
 
 @contextlib.contextmanager
@@ -43,7 +45,9 @@ def outputs_from(source: str | os.PathLike[str], out: Path, names: Sequence[str]
         with contextlib.suppress(OSError, NotImplementedError):
             alone.enter_context(filelock.FileLock(out / _LOCK, mode=0o666))
         refuse_other_origin(out, names, source)
-        known = _read(out) | dict.fromkeys(names, _origin(out, source))
+        here = {name.casefold() for name in names}
+        known = {there: other for there, other in _read(out).items() if there.casefold() not in here}
+        known |= dict.fromkeys(names, _origin(out, source))
         files.path(_INDEX).write_text(json.dumps(known, indent=1, sort_keys=True) + "\n", encoding="utf-8", newline="\n")
 
 

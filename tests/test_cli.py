@@ -272,6 +272,24 @@ def test_no_output_takes_the_place_of_another_kinds(run, tmp_path):
     assert not (tmp_path / "other/x.parts").exists()
 
 
+def test_names_that_differ_in_case_alone_are_one(run, tmp_path):
+    """Where a file system tells them apart too: results are copied to others."""
+    for folder, name in (("a", "mine"), ("b", "Mine")):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / f"{name}.toml").write_text(SCENE)
+    assert run("solve", "a/mine.toml", "--no-plot")[0] == 0
+    status, out, err = run("solve", "b/Mine.toml", "--no-plot")
+    assert (status, out) == (2, "")
+    assert "mine.csv in it was made from ../a/mine.toml, this would be from ../b/Mine.toml, as Mine.csv" in err
+    assert run("sweep", "a/mine.toml")[0] == 0
+    status, out, err = run("sweep", "b/Mine.toml")
+    assert (status, out) == (2, "") and "this would be from ../b/Mine.toml, as Mine.sweep.csv" in err
+    assert not (tmp_path / "hystrip-out/Mine.parts").exists()
+    (tmp_path / "hystrip-out/mine.csv").unlink()
+    assert run("solve", "b/Mine.toml", "--no-plot")[0] == 0
+    assert "mine.csv" not in json.loads((tmp_path / "hystrip-out/.origins.json").read_text())
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="no such names there")
 def test_a_name_of_two_lines_is_told_on_one(run, tmp_path):
     (tmp_path / "new\nwrote.toml").write_text(SCENE)
