@@ -5,6 +5,8 @@ import importlib.util
 import inspect
 import pkgutil
 import re
+import runpy
+import sys
 from pathlib import Path
 
 import pytest
@@ -28,6 +30,15 @@ def test_example(code, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     exec(compile(code, "example", "exec"), {})
     assert capsys.readouterr().out.strip()
+
+
+@pytest.mark.parametrize(
+    ("name", "hidden", "extra"), [("plot_4_own_model", "sympy", "regenerate"), ("plot_5_sweep", "distributed", "dask")]
+)
+def test_an_example_names_the_extra_that_it_lacks(monkeypatch, name, hidden, extra):
+    monkeypatch.setitem(sys.modules, hidden, None)
+    with pytest.raises(hystrip.errors.MissingExtra, match=rf"{hidden}.*pip install 'hystrip\[{extra}\]'"):
+        runpy.run_path(str(ROOT / f"tools/docs/examples/{name}.py"))
 
 
 def test_readme_is_two_screens_and_its_links_lead_somewhere():

@@ -12,7 +12,10 @@ from pathlib import Path
 import numpy as np
 
 import hystrip
-import hystrip.derivation
+from hystrip.extras import require
+
+require("sympy", "regenerate", "a model of one's own")
+import hystrip.derivation  # noqa: E402
 
 folder = Path(tempfile.mkdtemp())
 

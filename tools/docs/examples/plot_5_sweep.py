@@ -15,8 +15,9 @@ folder = tempfile.mkdtemp()
 # %%
 # Here the cluster is one process of this machine; ``scheduler="tcp://host:8786"`` takes any other.
 
-from distributed import LocalCluster  # noqa: E402
+from hystrip.extras import require  # noqa: E402
 
+LocalCluster = require("distributed", "dask", "a Dask cluster").LocalCluster
 over = {"adhesion.gamma": [0.0, 1e-5, 2e-5], "levels[1].h": [50e-9, 100e-9]}
 with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
     sweep = hystrip.sweep("paper_fig7", over=over, out=folder, scheduler=cluster.scheduler_address)
