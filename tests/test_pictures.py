@@ -146,6 +146,32 @@ def test_a_load_over_decades_has_a_logarithmic_axis(name, load):
         assert figure.axes[-1].get_xlabel().endswith("(Pa)" if name == "pressure" else "(m)")
 
 
+def test_values_over_decades_of_load_are_drawn_over_decades():
+    without = hystrip.Dugdale(gamma=0)
+    for adhesion, levels, pressure, scales in (
+        # stress and contact are at their greatest from some pressure on
+        (without, LEVELS, np.geomspace(1, 1e8, 9), ["linear", "linear", "log", "log"]),
+        (without, [SMALL], np.geomspace(1e6, 3e6, 3), ["linear"] * 4),
+        (ADHESION, [SMALL], np.linspace(-500, 3000, 8), ["linear"] * 4),
+    ):
+        figure = hystrip.solve(MATERIAL, adhesion, levels, pressure=pressure, velocity=1e-3, rtol=1e-2).plot()
+        assert [axis.get_yscale() for axis in figure.axes] == scales and inside(figure)
+        for axis in figure.axes:
+            low, high = axis.get_ylim()
+            drawn = np.concatenate([line.get_ydata() for line in axis.lines if line.get_label()[0] != "_"])
+            assert axis.get_yscale() == "linear" or (
+                0.2 * drawn.min() < low < drawn.min() and drawn.max() < high < 5 * drawn.max()
+            )
+
+
+@pytest.mark.parametrize("loads", [6, 7, 12])
+def test_loads_that_are_not_drawn_are_counted(loads):
+    pressure = np.linspace(1e8, 2e8, loads)[:, None]
+    figure = hystrip.solve(MATERIAL, hystrip.Dugdale(gamma=0), [SMALL], pressure=pressure, velocity=[1e-4, 1e-3]).plot()
+    said = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+    assert len(figure.axes) == 6 and said == ([] if loads == 6 else ["total", f"6 of {loads} loads are drawn"]) and inside(figure)
+
+
 @pytest.mark.parametrize("at, same", [((-1,), 16), (-1, 16), ((np.int64(15),), 15), (15, 15), ((-2,), 15)])
 def test_points_are_counted_from_the_end_in_a_tuple_too(over_pressure, at, same):
     assert point_index(at, over_pressure.mu.shape) == same

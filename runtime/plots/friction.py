@@ -47,7 +47,8 @@ _QUANTITIES = {
 
 @styled
 def friction(result: Result, kind: str | None = None) -> Figure:
-    """Draw a result over velocity, one panel for each of at most six loads; over the load where there is one velocity.
+    """Draw a result over velocity, one panel for each of at most six loads (of more the legend says so); over the load where
+    there is one velocity. Where the load spans decades, so may the values.
 
     Parameters
     ----------
@@ -99,6 +100,8 @@ def _over_velocity(result: Result, quantities: list[_Quantity]) -> Figure:
             factor, name = unit_for(_LOADS[result.load][1], load[row])
             ends = dict.fromkeys(f"{each / factor:.4g}" for each in (load[row].min(), load[row].max()))
             panel.set_title(f"{result.load} {' to '.join(ends)} {name}", fontsize=7)
+    if shown.size < rows:
+        panels[0].plot([], [], " ", label=f"{shown.size} of {rows} loads are drawn")
     low, high = velocity[shown].min(), velocity[shown].max()
     _scale(panels[-1], low, high, 0 < 10 * low <= high * (1 + 1e-12))
     panels[-1].set_xlabel("sliding velocity $V$ (m/s)")
@@ -106,20 +109,28 @@ def _over_velocity(result: Result, quantities: list[_Quantity]) -> Figure:
 
 
 def _over_decades(x: np.ndarray) -> bool:
-    """Whether positive values in ascending order are spaced as on a logarithmic axis rather than a linear one."""
+    """Whether values in ascending order are positive and spaced as on a logarithmic axis rather than a linear one."""
+    if not x.size:
+        return False
     low, high = x[0], x[-1]
     return bool(0 < 10 * low <= high * (1 + 1e-12) and np.median(x) - np.sqrt(low * high) < (low + high) / 2 - np.median(x))
 
 
-def _scale(panel: Any, low: float, high: float, logarithmic: bool) -> None:
-    """Limits of the horizontal axis and its kind, with labels that do not overlap."""
+def _logarithmic(panel: Any, which: str, low: float, high: float) -> None:
+    """Make an axis, ``"x"`` or ``"y"``, logarithmic, with labels at the least number of places."""
     from matplotlib.ticker import LogFormatterSciNotation, LogLocator
 
+    panel.set(**{f"{which}scale": "log"})
+    if high < 100 * low:
+        axis = getattr(panel, f"{which}axis")
+        axis.set_minor_locator(LogLocator(subs=(2, 5)))
+        axis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))
+
+
+def _scale(panel: Any, low: float, high: float, logarithmic: bool) -> None:
+    """Limits of the horizontal axis and its kind, with labels that do not overlap."""
     if logarithmic:
-        panel.set_xscale("log")
-        if high < 100 * low:
-            panel.xaxis.set_minor_locator(LogLocator(subs=(2, 5)))
-            panel.xaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(np.inf, np.inf)))
+        _logarithmic(panel, "x", low, high)
     else:
         panel.locator_params(axis="x", nbins=5)
     panel.set_xlim(low, high)
@@ -138,6 +149,10 @@ def _over_load(result: Result, quantities: list[_Quantity]) -> Figure:
     for panel, quantity in zip(panels, quantities, strict=True):
         curves = [(np.ravel(values)[order], style, label) for values, style, label in _curves(result, quantity)]
         drawn = unit_for(quantity.unit, *(values for values, _, _ in curves))
+        total = np.sort(curves[0][0][np.isfinite(curves[0][0])])
+        # values of zero or below have no place on a logarithmic axis
+        if logarithmic and _over_decades(total) and not any((values <= 0).any() for values, _, _ in curves):
+            _logarithmic(panel, "y", total[0], total[-1])
         _draw(panel, quantity, load / factor, curves, drawn, *of_points)
         if load[0] < 0 < load[-1]:
             panel.axvline(0, color="0.75", linewidth=0.5, zorder=0)
@@ -200,7 +215,8 @@ def _draw(
             panel.plot(x[alone], y[alone], ".", **style)
     if doubtful.size:
         panel.plot(doubtful, there, "o", markersize=4, markerfacecolor="none", color="black", zorder=4, label="not converged")
-    panel.axhline(0, color="0.6", linewidth=0.5, zorder=0)
+    if panel.get_yscale() == "linear":
+        panel.axhline(0, color="0.6", linewidth=0.5, zorder=0)
     panel.set_ylabel(quantity.label + (f" ({unit[1]})" if unit[1] else ""))
 
 
