@@ -150,8 +150,7 @@ def test_values_over_decades_of_load_are_drawn_over_decades():
     without = hystrip.Dugdale(gamma=0)
     for adhesion, levels, pressure, scales in (
         # stress and contact are at their greatest from some pressure on
-        (without, LEVELS, np.geomspace(1, 1e8, 9), ["linear", "linear", "log", "log"]),
-        (without, [SMALL], np.geomspace(1e6, 3e6, 3), ["linear"] * 4),
+        (without, LEVELS, np.geomspace(1, 1e8, 7), ["linear", "linear", "log", "log"]),
         (ADHESION, [SMALL], np.linspace(-500, 3000, 8), ["linear"] * 4),
     ):
         figure = hystrip.solve(MATERIAL, adhesion, levels, pressure=pressure, velocity=1e-3, rtol=1e-2).plot()

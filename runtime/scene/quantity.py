@@ -60,7 +60,10 @@ def _converted(text: str, unit: str, field: str) -> float:
         raise InputError(field, text, f"a number in {unit} without quotes, or text with a unit")
     if unit == "K" and match["unit"] in _OFFSETS:  # no factor turns degrees into kelvin
         offset, scale = _OFFSETS[match["unit"]]
-        return float((Decimal(match["number"]) + Decimal(offset)) * 5 / Decimal(scale))
+        kelvin = float((Decimal(match["number"]) + Decimal(offset)) * 5 / Decimal(scale))
+        if kelvin <= 0:
+            raise InputError(field, text, f"a temperature above absolute zero, -{offset} {match['unit']}")
+        return kelvin
     if not _UNIT.fullmatch(match["unit"]):
         raise InputError(field, text, _allowed(unit))
     return float(Decimal(match["number"]) * _factor(match["unit"], unit, field, text, _allowed(unit)))
