@@ -186,3 +186,12 @@ def test_a_set_has_one_temperature(tmp_path):
     assert read_dma(written(tmp_path, text), "2").storage.tolist() == [2e6, 3e6]
     with pytest.raises(hystrip.InputError, match="2 rows at 20.0 to 35.0 degC"):
         read_dma(tmp_path / "table.csv", "1")
+
+
+def test_utf_16_has_its_mark(tmp_path):
+    text = "f [Hz]\tE' [Pa]\tE'' [Pa]\n1\t2\t3\n2\t3\t4\n"
+    (tmp_path / "a.txt").write_bytes(text.encode("utf-16"))
+    assert read_dma(tmp_path / "a.txt").omega.size == 2
+    (tmp_path / "a.txt").write_bytes(text.encode("utf-16-le"))
+    with pytest.raises(hystrip.InputError, match="UTF-16 with its byte order mark"):
+        read_dma(tmp_path / "a.txt")

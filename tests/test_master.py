@@ -1,5 +1,7 @@
 """Master curves: the shift that isotherms were made with comes back; and the example from isotherms and scan to friction."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -245,3 +247,13 @@ def test_shift_travels_with_the_curve(tmp_path):
     (tmp_path / "rubber.csv").write_text(rubber()["rubber.csv"], encoding="utf-8")
     assert read_shift(tmp_path / "rubber.csv") == hystrip.WLF(8.86, 101.6, 293.15, 1.0)
     assert read_dma(tmp_path / "rubber.csv").omega.size == 97
+
+
+@pytest.mark.parametrize("law", ["best", "WLF", "Arrhenius"])
+def test_times_that_grow_with_temperature_follow_no_law(law):
+    """A column of temperatures upside down: WLF came out without any shift."""
+    upside_down = isotherms(hystrip.Arrhenius(6e4, 293.15), [0, 20, 40])
+    T = [each.temperature for each in upside_down]
+    upside_down = [dataclasses.replace(each, temperature=at) for each, at in zip(upside_down, T[::-1], strict=True)]
+    with pytest.raises(hystrip.InputError, match=r"isotherms: got 'log10 a_T = \[-.*allowed: times that become shorter"):
+        master_curve(upside_down, law=law)

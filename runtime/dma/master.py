@@ -182,7 +182,9 @@ def _law(T, log_a, errors, T_ref: float, exponent: float, law: str) -> tuple[WLF
         if E_a > 0:
             found.append(Arrhenius(E_a, T_ref, exponent))
     if law in ("best", "WLF") and several:
-        found.append(_wlf(T, log_a, weight, T_ref, exponent))
+        wlf = _wlf(T, log_a, weight, T_ref, exponent)
+        if np.sum((weight * (np.log10(wlf.factor(T)) - log_a)) ** 2) < np.sum((weight * log_a) ** 2):  # nearer than no shift
+            found.append(wlf)
     if not found:
         what = "two temperatures" if law == "WLF" and not several else f"log10 a_T = {np.round(log_a, 2).tolist()}"
         raise InputError("isotherms", what, "times that become shorter with temperature, at three temperatures or more for WLF")

@@ -138,7 +138,7 @@ def _text(where: str) -> str:
             continue
         if "\0" not in text:
             return text
-    raise InputError(where, where, "a text file (UTF-8, UTF-16 or Windows-1252)")
+    raise InputError(where, where, "a text file (UTF-8, UTF-16 with its byte order mark, or Windows-1252)")
 
 
 def _rows(where: str, lines: list[str], separator: str, whole: bool) -> list[tuple[int, list[str]]]:
