@@ -9,6 +9,7 @@ from surfaces import eq4
 
 import hystrip
 from hystrip.roughness import Scan, levels_of, read_surface
+from hystrip.roughness.units import _in_comments
 from hystrip.scene import load_scene
 
 LEVELS = [(1e-5, 1e-6), (5e-7, 1e-7)]
@@ -144,6 +145,25 @@ def test_what_is_no_scan_is_refused_without_a_warning(tmp_path, text):
 def test_decimal_commas_are_read(files, tmp_path):
     path = text_scan(tmp_path / "scan.txt", "lengths", write=lambda number: number.replace(".", ","))
     assert np.allclose(read_surface(path, unit="um").heights.std(), eq4(LEVELS, 2e-5, 160).std(), rtol=1e-6, atol=0)
+
+
+def test_a_byte_order_mark_hides_no_number(files, tmp_path):
+    path = text_scan(tmp_path / "marked.txt", "nothing")
+    plain = read_surface(path, **SIZES, unit="um")
+    for old, new in ((HEADS["nothing"].encode(), b""), (b".", b",")):  # the second time decimal commas too
+        path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes().replace(b"\xef\xbb\xbf", b"").replace(old, new))
+        scan = read_surface(path, **SIZES, unit="um")
+        assert np.array_equal(scan.heights, plain.heights)
+    (tmp_path / "line.xyz").write_text("# Lateral units: um\n# Value units: nm\n0 1\n1 2\n2 1\n", encoding="utf-8-sig")
+    assert _in_comments(tmp_path / "line.xyz") == ("nm", "µm")
+
+
+def test_points_of_a_line_follow_each_other(files, tmp_path):
+    for name, x in (("unsorted", [0, 2, 1, *range(3, 20)]), ("repeated", [0, 1, 1, *range(3, 20)])):
+        path = tmp_path / f"{name}.xyz"
+        np.savetxt(path, np.column_stack((x, np.sin(np.arange(20)))))
+        with pytest.raises(hystrip.InputError, match=rf"{name}.xyz, positions: got '1e-06 m after .*that grow from row to row"):
+            read_surface(path, unit="um")
 
 
 def test_gaps_and_uneven_steps_are_filled(files, tmp_path):

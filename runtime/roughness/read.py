@@ -1,5 +1,6 @@
 """Reading measured topographies, in any format that SurfaceTopography knows."""
 
+import codecs
 import contextlib
 import io
 import os
@@ -93,12 +94,14 @@ def _quiet() -> Iterator[None]:
 
 
 def _with_points(where: str) -> Any:
-    """The file; of one with decimal commas a copy without."""
+    """The file; of one with decimal commas, or a byte order mark, which would hide the first number, a copy without."""
     with open(where, "rb") as file:
-        if not any(map(_has_decimal_commas, file.read(_HEAD).splitlines())):
+        head = file.read(_HEAD)
+        commas = any(map(_has_decimal_commas, head.splitlines()))
+        if not commas and not head.startswith(codecs.BOM_UTF8):
             return where
-        file.seek(0)
-        return io.BytesIO(file.read().replace(b",", b".").replace(b";", b"\t"))
+        data = head.removeprefix(codecs.BOM_UTF8) + file.read()
+        return io.BytesIO(data.replace(b",", b".").replace(b";", b"\t") if commas else data)
 
 
 def _has_decimal_commas(line: bytes) -> bool:
@@ -133,6 +136,10 @@ def _even(topography: Any, units: Units, where: str) -> Scan:
     """The scan in metres, on an even grid without gaps."""
     topography = topography.to_unit("m")
     if not topography.is_uniform:
+        back = np.flatnonzero(np.diff(topography.positions()) <= 0)
+        if back.size:
+            value = f"{topography.positions()[back[0] + 1]:.6g} m after {topography.positions()[back[0]]:.6g} m"
+            raise InputError(f"{where}, positions", value, "positions along the line that grow from row to row")
         topography = topography.to_uniform(nb_points=len(topography.heights()))
     filled = float(np.mean(np.ma.getmaskarray(topography.heights())))
     if filled == 1:

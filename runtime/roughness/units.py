@@ -81,7 +81,7 @@ def _stated(reader: Any, channel: Any, where: str) -> tuple[str | None, list[str
 
 def _in_comments(where: str) -> tuple[str | None, str | None]:
     found: dict[str, str] = {}
-    with open(where, encoding="utf-8", errors="replace") as file:
+    with open(where, encoding="utf-8-sig", errors="replace") as file:
         for line in file:
             if not line.startswith("#"):
                 break
