@@ -110,12 +110,17 @@ def _friction(result: Any) -> list[str]:
 
 
 def _contact(result: Any) -> list[str]:
-    off = int(np.count_nonzero(result.pulled_off))
     return [
         f"real contact (touching on every level)  {percent(result.contact_fraction)}",
         f"level 1 is saturated from {span(result.p_sat, 'Pa')}",
-        *([f"{off} point{'s lie' if off > 1 else ' lies'} below pull-off: no contact, mu = 0, nothing to solve"] if off else []),
+        *below_pull_off(result),
     ]
+
+
+def below_pull_off(result: Any) -> list[str]:
+    """How many points have no contact, in a sentence; nothing if all have some."""
+    off = int(np.count_nonzero(result.pulled_off))
+    return [f"{off} point{'s lie' if off > 1 else ' lies'} below pull-off: no contact, mu = 0, nothing to solve"] if off else []
 
 
 def _closer(result: Any) -> list[str]:

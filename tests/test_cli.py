@@ -146,6 +146,13 @@ def test_solve_without_picture_and_table(run, tmp_path):
     assert visible(tmp_path / "hystrip-out") == ["mine.csv"]
 
 
+def test_no_contact_is_told(run, tmp_path):
+    """mu = 0 "exact" in a table looks like a surface without friction."""
+    (tmp_path / "mine.toml").write_text(SCENE.replace("= 5e6", "= -1e9"))
+    status, out, _ = run("solve", "mine.toml", "--no-plot", "--no-table")
+    assert status == 0 and out.startswith("note       2 points lie below pull-off: no contact, mu = 0")
+
+
 def test_one_velocity_has_no_curve_to_draw(run, tmp_path):
     for velocity in ("5e-3", "[5e-3, 5e-3]"):
         (tmp_path / "one.toml").write_text(SCENE.replace("[1e-3, 5e-3]", velocity))
