@@ -291,7 +291,7 @@ def test_bad_files_are_named(tmp_path, text, said):
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ({"terms": 2, "per_decade": 1}, "one of the four"),
+        ({"terms": 2, "per_decade": 1}, "one of them"),
         ({"terms": 0}, "terms: got 0"),
         ({"terms": 2.0}, "terms: got 2.0"),
         ({"per_decade": 0}, "per_decade: got 0"),

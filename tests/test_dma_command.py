@@ -80,6 +80,11 @@ def test_a_wrong_scene_is_refused_before_the_work(run, tmp_path, monkeypatch):
         (("--low", -1), "--low: got -1.0; allowed: a finite number >= 0 (Hz)"),
         (("--high", -1), "--high: got -1.0; allowed: a finite number >= 0 (Hz)"),
         (("--low", 1000), "--low, --high: got (1000.0, None)"),
+        (
+            ("--terms", 2, "--per-decade", 1),
+            "--accuracy, --terms, --per-decade: got {'terms': 2, 'per_decade': 1.0}; allowed: one of them",
+        ),
+        (("--shear",), "--shear: got True; allowed: False"),
         (("--decimal", "x"), "--decimal: got 'x'"),
         (("--set", "3"), "--set: got '3'; allowed: None: rubber.csv has no column 'Set'"),
     ],

@@ -132,7 +132,7 @@ ROUGH = Scan(eq4([(1e-6, 1e-7)], 4e-6, 64), (4e-6, 4e-6), periodic=True)
 @pytest.mark.parametrize(
     ("scan", "options", "said"),
     [
-        (ROUGH, {"count": 2, "ratio": 3}, "one of the three"),
+        (ROUGH, {"count": 2, "ratio": 3}, "one of them"),
         (ROUGH, {"count": 0}, "count: got 0"),
         (ROUGH, {"count": True}, "count: got True"),
         (ROUGH, {"ratio": 1}, "ratio: got 1"),

@@ -220,6 +220,8 @@ def test_command_writes_a_scene_that_loads(run, files, tmp_path):
         (["scan.nc", "--channel", "Phase"], "channel: got 'Phase'; allowed: one of 'Default'"),
         (["scan.nc", "--count", "0"], "count: got 0"),
         (["scan.nc", "--longest", "20"], "longest: got 20.0; allowed: a wavelength from 1e-07 to 2e-05 m"),
+        (["scan.nc", "--count", "2", "--ratio", "3"], "--count, --ratio: got {'count': 2, 'ratio': 3.0}; allowed: one of them"),
+        (["scan.nc", "--longest", "1 um", "--shortest", "2 um"], "--longest, --shortest: got (1e-06, 2e-06); allowed: a longest"),
         (["scan.nc", "--shortest", "ten"], "--shortest: got 'ten'"),
         (["scan.nc", "--scene", "absent.toml"], "no such file"),
     ],

@@ -10,8 +10,9 @@ import typer
 from .options import as_options, out_option
 from .output import say, say_written
 
-_OPTIONS = {each: f"--{each}" for each in ("accuracy", "terms", "length", "decimal", "low", "high")} | {
-    "per_decade": "--per-decade", "material.nu": "--nu", "temperature_set": "--set", "frequencies": "--low, --high"
+_OPTIONS = {each: f"--{each}" for each in ("accuracy", "terms", "length", "decimal", "low", "high", "shear")} | {
+    "per_decade": "--per-decade", "material.nu": "--nu", "temperature_set": "--set", "frequencies": "--low, --high",
+    "accuracy, terms, per_decade, times": "--accuracy, --terms, --per-decade"
 }  # fmt: skip
 
 

@@ -7,7 +7,9 @@ import typer
 from .options import as_options, out_option
 from .output import say, say_written
 
-_OPTIONS = {each: f"--{each}" for each in ("count", "ratio", "wavelength", "longest", "shortest")}
+_OPTIONS = {each: f"--{each}" for each in ("count", "ratio", "wavelength", "longest", "shortest")} | {
+    "count, ratio, edges": "--count, --ratio", "longest, shortest": "--longest, --shortest"
+}  # fmt: skip
 
 
 def command(

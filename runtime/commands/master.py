@@ -7,7 +7,7 @@ import typer
 from .options import as_options, out_option
 from .output import say, say_written
 
-_OPTIONS = {"T_ref": "--reference", "law": "--law", "decimal": "--decimal"}
+_OPTIONS = {"T_ref": "--reference", "law": "--law", "decimal": "--decimal", "shear": "--shear"}
 
 
 def command(

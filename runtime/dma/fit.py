@@ -79,7 +79,7 @@ def fit_prony(
     given = {"accuracy": accuracy, "terms": terms, "per_decade": per_decade, "times": times}
     if sum(each is not None for each in given.values()) > 1:
         shown = {key: each for key, each in given.items() if each is not None}
-        raise InputError("accuracy, terms, per_decade, times", shown, "one of the four")
+        raise InputError("accuracy, terms, per_decade, times", shown, "one of them")
     if terms is not None:
         if isinstance(terms, bool) or not isinstance(terms, (int, np.integer)) or not 1 <= terms <= MOST_TIMES:
             raise InputError("terms", terms, f"an integer from 1 to {MOST_TIMES}")

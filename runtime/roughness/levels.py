@@ -118,7 +118,7 @@ def levels_of(
     choice("wavelength", wavelength, _WAVELENGTHS)
     given = {"count": count, "ratio": ratio, "edges": edges}
     if sum(each is not None for each in given.values()) > 1:
-        raise InputError("count, ratio, edges", {k: v for k, v in given.items() if v is not None}, "one of the three")
+        raise InputError("count, ratio, edges", {k: v for k, v in given.items() if v is not None}, "one of them")
     bounds = _listed(edges, longest, shortest) if edges is not None else _spread(scan, count, ratio, longest, shortest)
     vectors, variance = scan.spectrum()
     # all waves of a level have its wave number along one direction at least, and no larger one
