@@ -13,6 +13,7 @@ import numpy as np
 from .dataset import FORMAT
 from .errors import InputError
 from .extras import require
+from .files import path_of
 from .inputs.as_json import adhesion_of, levels_of, material_of
 from .level_solution import Inputs, LevelSolution
 from .result import Result
@@ -70,7 +71,7 @@ def _opened(path: str | os.PathLike[str]) -> Dataset:
     """The dataset in a file, in memory. Raises InputError unless it is one of ours, and of a version that can be read."""
     xarray = require("xarray", "dataset", "reading a result")
     require("h5netcdf", "dataset", "reading netCDF")
-    shown = os.fspath(path)
+    shown = str(path_of(path, "path", "a netCDF file"))
     if not os.path.isfile(path):
         raise InputError("path", shown, "a file that exists")
     try:

@@ -158,6 +158,21 @@ def test_a_byte_order_mark_hides_no_number(files, tmp_path):
     assert _in_comments(tmp_path / "line.xyz") == ("nm", "µm")
 
 
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"height_factor": 0}, "height_factor: got 0; allowed: a finite number other than 0"),
+        ({"height_factor": "2"}, "height_factor: got '2'; allowed: a finite number"),
+        ({"sizes": 20}, "sizes: got 20; allowed: one number for each direction of the scan"),
+    ],
+)
+def test_arguments_of_the_wrong_kind_are_named(files, options, said):
+    with pytest.raises(hystrip.InputError, match=f"plain.txt, {said}"):
+        read_surface(files / "plain.txt", **{"sizes": (20.0, 20.0), "unit": "um", **options})
+    with pytest.raises(hystrip.InputError, match="scan: got 3; allowed: a hystrip.roughness.Scan"):
+        levels_of(3)
+
+
 def test_points_of_a_line_follow_each_other(files, tmp_path):
     for name, x in (("unsorted", [0, 2, 1, *range(3, 20)]), ("repeated", [0, 1, 1, *range(3, 20)])):
         path = tmp_path / f"{name}.xyz"

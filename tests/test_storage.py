@@ -109,6 +109,8 @@ def test_files_of_other_versions_are_refused_with_the_reason(saved, change, says
 
 
 def test_what_is_no_result_is_refused(saved, tmp_path):
+    with pytest.raises(hystrip.InputError, match="path: got 3; allowed: the path of a netCDF file"):
+        hystrip.load(3)
     with pytest.raises(hystrip.InputError, match="a file that exists"):
         hystrip.load(tmp_path / "absent.nc")
     (tmp_path / "text.nc").write_text("no netCDF")

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 _PANELS = 6
 #: near zero pressure mu has a pole: the axis shows mu where the pressure is at least this part of the largest
 _APART = 0.05
+#: a logarithmic axis ends at this part of the least total: what a level adds below is not worth decades of it
+_FAINT = 1e-3
 _LOADS = {"pressure": ("nominal pressure $p$", "Pa"), "penetration": ("penetration $D$", "m")}
 
 
@@ -150,10 +152,13 @@ def _over_load(result: Result, quantities: list[_Quantity]) -> Figure:
         curves = [(np.ravel(values)[order], style, label) for values, style, label in _curves(result, quantity)]
         drawn = unit_for(quantity.unit, *(values for values, _, _ in curves))
         total = np.sort(curves[0][0][np.isfinite(curves[0][0])])
-        # values of zero or below have no place on a logarithmic axis
-        if logarithmic and _over_decades(total) and not any((values <= 0).any() for values, _, _ in curves):
+        over_decades = logarithmic and _over_decades(total) and not any((values < 0).any() for values, _, _ in curves)
+        if over_decades:
             _logarithmic(panel, "y", total[0], total[-1])
         _draw(panel, quantity, load / factor, curves, drawn, *of_points)
+        if over_decades:
+            low, high = panel.get_ylim()
+            panel.set_ylim(max(low, _FAINT * total[0] / drawn[0]), min(high, 2 * total[-1] / drawn[0]))
         if load[0] < 0 < load[-1]:
             panel.axvline(0, color="0.75", linewidth=0.5, zorder=0)
     _scale(panels[-1], load[0] / factor, load[-1] / factor, logarithmic)

@@ -115,6 +115,8 @@ def levels_of(
     >>> print(f"{level.l:.6g} {level.h:.6g}")
     1e-06 3e-07
     """
+    if not isinstance(scan, Scan):
+        raise InputError("scan", scan, "a hystrip.roughness.Scan")
     choice("wavelength", wavelength, _WAVELENGTHS)
     given = {"count": count, "ratio": ratio, "edges": edges}
     if sum(each is not None for each in given.values()) > 1:

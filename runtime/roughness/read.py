@@ -14,7 +14,7 @@ import numpy as np
 from ..errors import InputError
 from ..extras import require
 from ..files import path_of
-from ..inputs.checks import number
+from ..inputs.checks import number, sequence
 from .scan import Scan
 from .units import Units, lacks_lengths, units_of
 
@@ -72,7 +72,7 @@ def read_surface(
             if found.unit is None:
                 options["unit"] = units.heights
             if height_factor is not None:
-                options["height_scale_factor"] = height_factor
+                options["height_scale_factor"] = _factor(height_factor, where)
             return _even(reader.topography(**options), units, where)
     except InputError:
         raise
@@ -125,11 +125,18 @@ def _lengths(channel: Any, sizes: tuple[float, ...] | None, where: str) -> dict[
         raise InputError(f"{where}, sizes", sizes, f"none, since the file says: {stated} {channel.unit or ''}".rstrip())
     if sizes is None:
         return {}
-    for each in sizes:
+    for each in (sizes := tuple(sequence(f"{where}, sizes", sizes, "one number for each direction of the scan"))):
         number(f"{where}, sizes", each, "", 0, strict=True)
     if len(sizes) != channel.dim:
         raise InputError(f"{where}, sizes", sizes, f"{channel.dim} of them (--size), one for each direction of the scan")
     return {"physical_sizes": sizes}
+
+
+def _factor(given: Any, where: str) -> float:
+    factor = number(f"{where}, height_factor", given, "")
+    if factor == 0:
+        raise InputError(f"{where}, height_factor", given, "a finite number other than 0")
+    return factor
 
 
 def _even(topography: Any, units: Units, where: str) -> Scan:
