@@ -18,11 +18,16 @@ if TYPE_CHECKING:
 STEEP = 0.3
 #: m: beyond, inertia and the size of a sample matter; below, a continuum does not hold
 LONGEST, SHORTEST = 0.1, 1e-9
+#: K: no rubber slides below; degrees without their unit come out there
+COLDEST = 100.0
 
 
-def notes(material: Material, levels: Sequence[Level], velocity: Floats) -> list[str]:
-    """Warnings about a surface, a material and velocities (m/s), one sentence each; none where nothing is odd."""
-    return [*_surface(levels), *_frequencies(material, levels, velocity)]
+def notes(material: Material, levels: Sequence[Level], velocity: Floats, temperature: float | None = None) -> list[str]:
+    """Warnings about surface, material, velocities (m/s) and temperature (K), one sentence each; none where nothing is odd."""
+    said = [*_surface(levels), *_frequencies(material, levels, velocity)]
+    if temperature is not None and temperature < COLDEST:
+        said.append(f"a temperature of {temperature:g} K, below {COLDEST:g} K: degrees have to be given with their unit, or in K")
+    return said
 
 
 def excited_band(levels: Sequence[Level], velocity: Floats) -> tuple[float, float] | None:

@@ -94,7 +94,7 @@ class Result:
         """What about the inputs may be beyond the model or the material, one sentence each; mostly none."""
         from .plausibility import notes
 
-        return notes(self.material, self.levels, self.velocity)
+        return notes(self.material, self.levels, self.velocity, self.temperature)
 
     def to_dataset(self) -> Dataset:
         """The result as an xarray Dataset: labelled dimensions, units, long names, inputs and versions in the attributes.

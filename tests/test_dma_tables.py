@@ -195,3 +195,9 @@ def test_utf_16_has_its_mark(tmp_path):
     (tmp_path / "a.txt").write_bytes(text.encode("utf-16-le"))
     with pytest.raises(hystrip.InputError, match="UTF-16 with its byte order mark"):
         read_dma(tmp_path / "a.txt")
+
+
+def test_numbers_that_are_none_in_the_first_row_are_no_units(tmp_path):
+    (tmp_path / "a.csv").write_text("f [Hz];E' [Pa];E'' [Pa]\n1.0D+00;2.0D+00;3.0D+00\n2.0D+00;3.0D+00;4.0D+00\n")
+    with pytest.raises(hystrip.InputError, match=r"line 2, column 'f \[Hz\]': got '1.0D\+00'; allowed: a number"):
+        read_dma(tmp_path / "a.csv")

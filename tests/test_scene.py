@@ -10,6 +10,7 @@ from scene_text import ONE_LEVEL
 
 from hystrip.errors import InputError
 from hystrip.scene import BUILTIN, load_scene, parse_scene
+from hystrip.scene.edit import with_levels, with_material
 from hystrip.scene.errors import SceneError, nearest
 from hystrip.scene.quantity import to_si
 from hystrip.scene.schema import SceneFile, json_schema
@@ -126,3 +127,13 @@ def test_json_schema_names_every_key_and_nothing_that_toml_lacks():
     for part in schema["$defs"].values():
         assert part["additionalProperties"] is False
         assert all(key["description"] for key in part["properties"].values())
+
+
+def test_nothing_of_a_table_stays_beside_what_is_put_in_its_place():
+    """Under a header in quotes, levels were left above the new ones."""
+    level = {"l": 1e-6, "h": 1e-7}
+    assert len(parse_scene(with_levels(ONE_LEVEL, [level, level])).levels) == 2
+    with pytest.raises(SceneError, match="^levels: got .*allowed: a table under its own header"):
+        with_levels(ONE_LEVEL.replace("[[levels]]", '[["levels"]]'), [level])
+    with pytest.raises(SceneError, match="^material: got .*allowed: a table under its own header"):
+        with_material(ONE_LEVEL.replace("[material]", '["material"]'), {"material": {"K": 1e9, "T_eps": 1.0, "T_sigma": 0.0}})

@@ -204,6 +204,9 @@ def test_plausibility_is_said():
         poor = fit_prony(lambda omega: 1e6 + 1e9 / (1 + (1j * omega * 1e-4) ** -0.4), band=(1e-2, 1e4), terms=1)
     (off,) = notes(poor.half_space(0.5), LEVELS, [1e-3, 0.5])
     assert "% rms off" in off
+    assert notes(material, LEVELS, [1e-3, 0.5], 293.15) == []
+    (cold,) = notes(material, LEVELS, [1e-3, 0.5], 25.0)
+    assert cold.startswith("a temperature of 25 K, below 100 K")
     # shifted to another temperature the fitted band moves with the times
     hot = hystrip.HalfSpace(1e6, 0.5, [5e6], [1e-3], shift=WLF, fit=material.fit).at_temperature(313.15)
     assert hot.fit.high == pytest.approx(1e4 / float(WLF.factor(313.15)))

@@ -16,7 +16,7 @@ from .table import Table, as_number, decimal_comma, read_table
 
 #: columns that mean nothing without a unit
 _WITH_UNIT = ("frequency", "omega", "storage", "loss", "absolute", "phase")
-_NUMBER = re.compile(r"[-+\u2212]?[.,]?\d[\d.,]*([eE][-+]?\d+)?$|[-+]?(nan|inf)", re.IGNORECASE)
+_NUMBER = re.compile(r"[-+\u2212]?[.,]?\d[\d.,]*([deDE][-+]?\d+)?$|[-+]?(nan|inf)", re.IGNORECASE)
 
 
 def read_dma(

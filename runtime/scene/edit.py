@@ -13,6 +13,7 @@ from .toml import parse_toml
 #: of what is measured more digits than these are noise
 _DIGITS = 6
 _IN_A_LINE = 5
+_REPLACEABLE = "a table under its own header, or a key on a line of its own, to be replaced"
 _HEADER = re.compile(r"\s*\[\[?\s*(?P<name>[^\]\s]+)\s*\]?\]")
 
 
@@ -107,8 +108,10 @@ def _replaced(text: str, name: str, tables: list[str]) -> str:
 
 
 def _checked(old: str, new: str, name: str, **options: Any) -> str:
-    """The new text, if it is a scene and differs from the old one in the table alone."""
-    parse_scene(_same_but(old, new, name), **options)
+    """The new text, if it is a scene and differs from the old one in the table alone, of which nothing old is left."""
+    if name in parse_toml(_replaced(_same_but(old, new, name), name, [])):
+        raise SceneError(name, parse_toml(old).get(name), _REPLACEABLE)
+    parse_scene(new, **options)
     return new
 
 
@@ -120,5 +123,5 @@ def _same_but(old: str, new: str, name: str) -> str:
     except SceneError:  # written in another way, and now there twice
         now = {}
     if {key: each for key, each in was.items() if key != name} != {key: each for key, each in now.items() if key != name}:
-        raise SceneError(name, was.get(name), "a table under its own header, or a key on a line of its own, to be replaced")
+        raise SceneError(name, was.get(name), _REPLACEABLE)
     return new
