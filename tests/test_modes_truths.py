@@ -55,6 +55,15 @@ def test_a_foundation_that_forgets_next_to_nothing_in_a_period():
     assert error <= allowed and sequence == "af"
 
 
+@pytest.mark.parametrize(("moduli", "times"), [([1.0, 1e5], [2.0, 10.0]), ([1.0, 1e6], [2.0, 1000.0])])
+def test_a_contact_far_narrower_than_that_of_the_first_period(moduli, times):
+    """Without adhesion, next to a glassy modulus 1e5 times the relaxed one: Newton's steps shrink the contact by a third each."""
+    scene = {"m": np.array(moduli), "theta": np.array(times), "P0": 0.0, "Delta": 1.0, "delta": 1.0}
+    for branch in ms.BRANCHES:
+        error, allowed, sequence = ms.compare(scene, branch, ms.solve([scene], branch), 0)
+        assert error <= allowed and sequence == "cf"
+
+
 def test_random_strips_without_instantaneous_compliance():
     """Kelvin-Voigt, whose two closures are one."""
     rng = np.random.default_rng(9)
