@@ -263,6 +263,8 @@ class _Solve:
         count = own + 3 * (self.M - 1)
         for quantity, rows in enumerate((out.tau, out.contact, out.adhesion), start=1):
             rows[:, index] = values[:, [quantity, *range(own + quantity - 1, count, 3)]].T
+        for fractions in (out.contact, out.adhesion):
+            fractions[:, index] = np.clip(fractions[:, index], 0.0, 1.0)  # laws, interpolated, may be a rounding outside
         error = errors[:, 1] + means.errors[:, range(own, count, 3)].sum(axis=1) + np.abs(values[:, count:]).sum(axis=1)
         # what is carried is that of the pressure at D: it grows with the contact, and with what that is pressed by
         grown = np.abs(root.slope[:, 1:3]) * errors[:, :1] / np.maximum(np.abs(values[:, 1:3]), np.finfo(float).tiny)

@@ -234,3 +234,16 @@ def test_the_error_of_a_law_is_in_the_error_of_what_it_carries():
 def test_the_error_of_a_law_is_no_less_than_that_of_its_segments():
     law = hystrip.friction_law(SLS, WEAK, hystrip.Level(500e-9, 100e-9), V=1e-3, rtol=1e-3)
     assert law.error_estimate >= max(s.errors.most[1] for s in law._laws.segments[0]) > 0
+
+
+def test_fractions_of_the_lower_levels_are_no_less_than_zero():
+    """All but saturated: the law of the third level, interpolated, gives an adhesion fraction of -3e-16."""
+    K = 1369963.4496905643
+    material = hystrip.Prony(K, [0.10671975900294922 * K], [3.889377206419892e-06])
+    sizes = (5.0876284e-05, 6.704480e-06), (2.5438142e-05, 5.594428e-06), (7.631442695366798e-06, 9.753850800240305e-08)
+    levels, adhesion = [hystrip.Level(*size) for size in sizes], hystrip.Dugdale(p_0=4.3731, delta_0=9.06779e-06)
+    result = hystrip.solve(
+        material, adhesion, levels, pressure=2.16, velocity=0.54878, edge="constitutive", branch="loading", rtol=1e-6
+    )
+    for fractions in (result.contact_by_level, result.adhesion_by_level):
+        assert (fractions >= 0).all() and (fractions <= 1).all()
