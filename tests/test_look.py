@@ -26,6 +26,13 @@ def test_a_straight_curve_is_known_on_to_its_ends():
     assert p == pytest.approx(3 * D - 1, abs=1e-14) and beyond == pytest.approx(0, abs=1e-14)
 
 
+def test_nodes_may_coincide_in_what_is_as_narrow_as_rounding():
+    stage, D = _looked(lambda D: 3 * D - 1, 1 - 2e-16, 1, 1 + 1e-15)
+    assert (np.diff(D) == 0).any()
+    p, beyond = between_nodes(stage, D, 1.0)
+    assert p == pytest.approx(2, abs=1e-13) and (beyond < 1e-13).all()
+
+
 @pytest.mark.parametrize("curve", [np.square, np.cos, lambda D: np.exp(-3 * D)])
 def test_between_nodes_a_curve_keeps_within_its_bounds(curve):
     stage, D = _looked(curve, 0, 0.7, 1.3)

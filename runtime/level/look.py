@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..numerics.quadrature import Stage
+from ..numerics.rounding import EPS
 
 #: how much more than its error a pressure keeps from what it is compared with, and than what it bends between two nodes, which
 #: are the first ones or twice as many: a parabola keeps within an eighth of that from its chord
@@ -11,7 +12,8 @@ DOUBT, BENDS = 2.0, (1.0, 0.25)
 
 def between_nodes(stage: Stage, D: np.ndarray, bends: float) -> tuple[np.ndarray, np.ndarray]:
     """Pressures of intervals at the nodes and both ends, ``D`` (m, n); how far beyond their range between two, (m, n - 1)."""
-    (p, error), step = (v[:, :, 0] for v in stage.known[:2]), np.diff(D)
+    # nodes may coincide
+    (p, error), step = (v[:, :, 0] for v in stage.known[:2]), np.maximum(np.diff(D), EPS * (D[:, -1:] - D[:, :1]))
     slopes = np.diff(p) / step[:, 1:-1]
     # on to the ends, which are no nodes: a curve is often least at a break
     p = np.column_stack((p[:, 0] - slopes[:, 0] * step[:, 0], p, p[:, -1] + slopes[:, -1] * step[:, -1]))
@@ -31,10 +33,8 @@ def before_least(stage: Stage, D: np.ndarray) -> np.ndarray:
     highest = (stage.known[0] + DOUBT * stage.known[1])[:, :, 0]
     # where it falls, or surely is below zero, it does not come back
     away = (p[:, 1:] < p[:, :-1]) | (p[:, 1:] + slack < 0)
-    before = np.zeros(lowest.size, bool)
-    for column in np.unique(stage.parts.column):
-        here = np.flatnonzero(stage.parts.column == column)
-        here = here[np.argsort(D[here, 0])]
+    before, order = np.zeros(lowest.size, bool), np.lexsort((D[:, 0], stage.parts.column))
+    for here in np.split(order, np.flatnonzero(np.diff(stage.parts.column[order])) + 1):
         met = np.logical_and.accumulate(away[here].ravel()).reshape(here.size, -1)[:, :-1]
         least = np.where(met, highest[here], np.inf).min(axis=1)
         before[here] = lowest[here] > np.append(np.minimum.accumulate(least[::-1])[-2::-1], np.inf)
