@@ -50,8 +50,8 @@ def falling_root(
                 # a small step may be that of a steep secant: only a narrow bracket tells, and steps not too small make one
                 step = np.copysign(np.maximum(np.abs(step), 0.5 * small), step)
             size = np.abs(step)
-            # of Newton's method the next step would be this one times the square of the last ratio of steps
-            ahead = size * np.minimum(size / correction, 1.0) ** 2 if newton else size
+            # Newton's next step would be this one times the square of the last ratio of steps
+            ahead = size * np.minimum(size / correction, 1.0) ** 2
         positive = value > 0
         last, lo, hi = (x, value), np.where(positive, x, lo), np.where(positive, hi, x)
         new, exact, width = x + step, value == 0, hi - lo
