@@ -181,10 +181,10 @@ MUTANTS = (
         "test_proofs.py",
     ),
     Mutant(
-        "half the way to the orbit that is always engaged",
-        "orbit/orbit_bounds.py",
-        "change = (s.p_0 - cycle.jump)",
-        "change = 0.5 * (s.p_0 - cycle.jump)",
+        "contact ends earlier than in the orbit that is always engaged",
+        "orbit/engine.py",
+        "orbit.a + STABLE",
+        "orbit.a - 0.1",
         "test_proofs.py",
     ),
     Mutant(

@@ -19,11 +19,11 @@ iterates from infinitely far fall to the least engaged one, and there is no long
 import numpy as np
 
 from .balance import exclude_out_of_reach, may_cling
-from .certificate import attracting, edges_admissible, greatest_gap, saturates, stable
+from .certificate import STABLE, attracting, edges_admissible, greatest_gap, saturates, stable
 from .chain import follow, refined, start
 from .groups import ROUNDING, TWO_PI, Cycle, Strips, adhesive_cycle, bare_cycle
 from .march import Orbit, between
-from .orbit_bounds import FAST, is_extremal, least_engaged_bounds, orbit_bounds
+from .orbit_bounds import is_extremal, least_engaged_bounds, orbit_bounds
 from .search import isolate_extremal, located
 from .solved import Record, Solved, settle
 
@@ -66,11 +66,12 @@ class _Batch:
         if not index.size:
             return
         cycle = adhesive_cycle(self.kernel, self.strips.among(index))
-        bounds = orbit_bounds(self.kernel, cycle, FAST) if self.unloading else least_engaged_bounds(self.kernel, cycle)
+        bounds = orbit_bounds(self.kernel, cycle) if self.unloading else least_engaged_bounds(self.kernel, cycle)
         self.record.solved.searched[index] = cycle.half_d > 0
         if self.unloading:
-            rest = self._contact_with_saturated_adhesion(index, partial & bounds.engaged)
+            rest, ends = self._contact_with_saturated_adhesion(index, partial & bounds.engaged)
             index, cycle, bounds = index[rest], cycle.among(rest), bounds.among(rest)
+            bounds.a = np.where(bounds.engaged, ends, bounds.a)
         if index.size:
             index = self._free_once(index, cycle, bounds)
         if self.unloading:
@@ -102,16 +103,17 @@ class _Batch:
             self.record.orbits(index, "cf", *self._unique(index, "cf"))
 
     def _contact_with_saturated_adhesion(self, index, ask):
-        """Solve those to ``ask`` of as strips without adhesion at ``D + p_0``; returns which of all have no such orbit."""
-        rest, ask = np.ones(index.size, bool), np.flatnonzero(ask)
+        """Solve those to ``ask`` of as strips without adhesion at ``D + p_0``; returns which of all have no such orbit, and
+        before which phase contact ends in all that they have, NaN where nothing tells."""
+        rest, ends, ask = np.ones(index.size, bool), np.full(index.size, np.nan), np.flatnonzero(ask)
         if ask.size:
             orbit, certified = self._unique(index[ask], "ac")
             # there is such an orbit without a limit to the gap: one that is not found is not certified, never passed over
             strips = self.strips.among(index[ask])
             within = ~certified | (greatest_gap(self.kernel, strips, orbit.a) <= strips.delta_0)
             self.record.orbits(index[ask], "ac", orbit, certified & within)
-            rest[ask] = ~within
-        return np.flatnonzero(rest)
+            rest[ask], ends[ask] = ~within, orbit.a + STABLE
+        return np.flatnonzero(rest), ends[rest]
 
     def _unique(self, index, sequence: str) -> tuple[Orbit, np.ndarray]:
         """The orbits of bare cycles, and which are certified. Where p does not step the onset map contracts everywhere
@@ -129,7 +131,7 @@ class _Batch:
         orbits: of the most engaged state, for ``loading`` of the least engaged one."""
         kernel, last, s, known = self.kernel, not self.unloading, cycle.strips, Orbit.blank(cycle.size)
         none, proven = (cycle.half_d <= 0) | np.isinf(bounds.x), np.zeros(cycle.size, bool)
-        hanging = np.flatnonzero(~none & (s.D <= -s.delta_0) & (s.beta > FAST) & (not last))
+        hanging = np.flatnonzero(~none & (s.D <= -s.delta_0) & (not last))
         if hanging.size:
             none[hanging] = exclude_out_of_reach(kernel, cycle.among(hanging))
         for sequence, may_be in (("acaf", ~cycle.direct), ("afc", cycle.direct), ("af", ~cycle.direct & ~cycle.touched)):

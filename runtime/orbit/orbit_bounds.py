@@ -23,15 +23,9 @@ has ``z > max(D + J_0 p_0, 0)``. (Where w is continuous where p steps, read w fo
 From the gap there adhesion ends at c and the next onset is met at x: in every orbit adhesion ends after c, every onset lies
 before x, and there is none if c does not exist.
 
-Beside a known orbit y there is a state nearer to all of them. Without release the period map E is convex in z, as
-w is the larger of u and ``z - J p_0``, and keeps order. So its one fixed point, the orbit that is always engaged, as if gaps had
-no limit, is more engaged than every orbit, and a step of Newton's method from any state ends at one that is more engaged still.
-From y that step is closed form. E differs from the period of y by adhesion that is not released in the free zone, of length F:
-
-    E(y) - y = -(p_0 - chi J p_0) (1 - exp(-F/beta)),   E' = exp(-2 pi/beta - (a - b) L/alpha),
-
-so that z is less than that of y by ``(y - E(y))/(1 - E')``. As contact begins in y, after that has faded over the first adhesion,
-the excess pressure is more by this over J; where y has no contact, by what is more than its gap where ``H + p_0`` turns negative.
+Nor is any orbit more engaged than the one that would be engaged all along if gaps had no limit. Adhesion that is not released
+leaves every state more engaged after a period, so that an orbit's states rise, period by period, to those of that one: from the
+end of its contact adhesion ends and the next onset is met as above.
 
 Each phase that is followed is further off than the event, by the sign of its function, whatever rounding does to that: contact or
 adhesion that is held longer (shorter) only leaves the state more (less) engaged than it is. Bounds come as orbits: contact ends
@@ -56,47 +50,27 @@ and so from all onsets before its own: adhesion ends after its.)
 
 import numpy as np
 
-from .groups import TWO_PI, Cycle, arc_versine
+from .groups import Cycle, arc_versine
 from .march import Orbit, adhesion_end, contact_end, next_onset
-from .sensitivity import contact_length, fading, falls, slope_grows
-
-#: beta above which a foundation remembers too much of the most engaged state for bounds from it to say much, unless adhesion
-#: moves it by more than the amplitude in a period. 30 to 300 cost about the same
-FAST = 60.0
+from .sensitivity import falls, slope_grows
 
 
-def orbit_bounds(kernel, cycle: Cycle, slowest: float = np.inf) -> Orbit:
-    """Bounds for cycles of strips that are not in saturated contact, up to the beta ``slowest`` (see ``FAST``)."""
-    s, out = cycle.strips, Orbit.blank(cycle.size, engaged=True)
-    says = s.beta <= np.maximum(slowest, TWO_PI * s.p_0)
-    index = np.flatnonzero(says & (cycle.half_b > 0) & (cycle.half_b < np.pi))
+def orbit_bounds(kernel, cycle: Cycle) -> Orbit:
+    """Bounds for cycles of strips that are not in saturated contact."""
+    out, index = Orbit.blank(cycle.size, engaged=True), np.flatnonzero((cycle.half_b > 0) & (cycle.half_b < np.pi))
     if index.size:
         part = cycle.among(index)
-        out.put(index, _followed(kernel, part, part.centre - part.half_b, part.q_on, part.centre + part.half_b))
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            a = contact_end(kernel, part, part.centre - part.half_b, part.q_on, 1, part.centre + part.half_b)
+        out.put(index, bounds_after_contact(kernel, part, a))
     return out
 
 
-def bounds_beside(kernel, cycle: Cycle, known: Orbit) -> Orbit:
-    """Bounds for cycles with ``known`` orbits."""
-    s, contact = cycle.strips, ~np.isnan(known.b)
-    b = np.where(contact, known.b, np.maximum(known.x, cycle.centre + cycle.half_b))
-    with np.errstate(all="ignore"):
-        change = (s.p_0 - cycle.jump) * kernel.decay_loss(known.x + TWO_PI - known.c, s.beta) - s.noise()
-        less = change / np.expm1(-fading(cycle, contact_length(known.b, known.a))) * kernel.decay(b - known.x, s.beta)
-        gap = np.where(contact, 0.0, kernel.gap_after(known.x, b, cycle.gap_on, -s.p_0, s.D, s.beta))
-        # without instantaneous compliance pressure has no memory
-        more = np.divide(np.maximum(less - gap, 0.0), s.J, out=np.zeros(cycle.size), where=s.J > 0)
-    out = _followed(kernel, cycle, b, cycle.q_on + more, np.where(contact, known.a, b))
-    out.x[np.isinf(out.x)] = np.nan  # there is an onset, however little rounding leaves of it
-    return out
-
-
-def _followed(kernel, cycle: Cycle, b, q_on, after) -> Orbit:
-    """Bounds from contact that begins at b with ``q_on`` and does not end before ``after``."""
+def bounds_after_contact(kernel, cycle: Cycle, a) -> Orbit:
+    """Bounds for cycles of which it is known that contact ends before ``a`` in every orbit."""
     out = Orbit.blank(cycle.size, engaged=True)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        out.b, out.a = b, contact_end(kernel, cycle, b, q_on, 1, after)
-        out.c = adhesion_end(kernel, cycle, out.a, np.zeros(cycle.size), 1)
+        out.a, out.c = a, adhesion_end(kernel, cycle, a, np.zeros(cycle.size), 1)
         out.engaged = np.isnan(out.c)
         go = np.flatnonzero(~out.engaged)
         out.x[go] = np.nan_to_num(next_onset(kernel, cycle.among(go), out.c[go], -1), nan=np.inf)
@@ -124,15 +98,16 @@ def least_engaged_bounds(kernel, cycle: Cycle) -> Orbit:
 def is_extremal(kernel, cycle: Cycle, orbit: Orbit, bounds: Orbit, last: bool) -> np.ndarray:
     """Which orbits are proven to be the first (``last``: last) of their onset arc.
 
-    ``bounds`` (``orbit_bounds``) are set where there were none.
+    ``bounds`` (``orbit_bounds``) are completed where only ``a`` is known.
     """
     if last:
         return falls(kernel, cycle, orbit, bounds) | slope_grows(kernel, cycle, orbit)
     proven = falls(kernel, cycle, bounds, orbit)
-    rest = np.flatnonzero(~proven & np.isnan(bounds.x))
+    rest = np.flatnonzero(~proven & np.isnan(bounds.x) & ~np.isnan(bounds.a))
     if rest.size:
         part, known = cycle.among(rest), orbit.among(rest)
-        beside = bounds_beside(kernel, part, known)
-        proven[rest] = falls(kernel, part, beside, known)
-        bounds.put(rest, beside)
+        closer = bounds_after_contact(kernel, part, bounds.a[rest])
+        closer.x[np.isinf(closer.x)] = np.nan  # there is an onset, however little rounding leaves of it
+        proven[rest] = falls(kernel, part, closer, known)
+        bounds.put(rest, closer)
     return proven

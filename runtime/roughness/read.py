@@ -58,7 +58,8 @@ def read_surface(
     InputError : the file cannot be read, lacks something, contradicts what is given, or has no defined point; names it
     MissingExtra : SurfaceTopography is not installed
     """
-    topographies = require("SurfaceTopography", "roughness", "reading a measured surface")
+    with _quiet():
+        topographies = require("SurfaceTopography", "roughness", "reading a measured surface")
     where = str(path_of(path, "path", "a file with a measured surface"))
     if not os.path.isfile(where):
         is_other = ": this is a folder, a pipe or a device" if os.path.exists(where) else ""
@@ -87,9 +88,10 @@ def read_surface(
 
 @contextlib.contextmanager
 def _quiet() -> Iterator[None]:
-    """Without what readers that look for their format in another one's file warn of."""
+    """Without what readers that look for their format in another one's file warn of, and of packages they do without."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)
+        for category in (RuntimeWarning, ImportWarning):
+            warnings.simplefilter("ignore", category)
         yield
 
 
