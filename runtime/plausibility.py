@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 STEEP = 0.3
 #: m: beyond, inertia and the size of a sample matter; below, a continuum does not hold
 LONGEST, SHORTEST = 0.1, 1e-9
-#: K: no rubber slides below; degrees without their unit come out there
-COLDEST = 100.0
+#: K: no rubber slides below or above; degrees taken for kelvin come out there, and kelvin taken for degrees
+COLDEST, HOTTEST = 100.0, 473.15
 
 
 def notes(material: Material, levels: Sequence[Level], velocity: Floats, temperature: float | None = None) -> list[str]:
@@ -27,6 +27,8 @@ def notes(material: Material, levels: Sequence[Level], velocity: Floats, tempera
     said = [*_surface(levels), *_frequencies(material, levels, velocity)]
     if temperature is not None and temperature < COLDEST:
         said.append(f"a temperature of {temperature:g} K, below {COLDEST:g} K: degrees have to be given with their unit, or in K")
+    if temperature is not None and temperature > HOTTEST:
+        said.append(f"a temperature of {temperature:g} K, above {HOTTEST:g} K: no rubber lasts there")
     return said
 
 

@@ -113,14 +113,18 @@ def _contact(result: Any) -> list[str]:
     return [
         f"real contact (touching on every level)  {percent(result.contact_fraction)}",
         f"level 1 is saturated from {span(result.p_sat, 'Pa')}",
-        *below_pull_off(result),
+        *special_points(result),
     ]
 
 
-def below_pull_off(result: Any) -> list[str]:
-    """How many points have no contact, in a sentence; nothing if all have some."""
-    off = int(np.count_nonzero(result.pulled_off))
-    return [f"{off} point{'s lie' if off > 1 else ' lies'} below pull-off: no contact, mu = 0, nothing to solve"] if off else []
+def special_points(result: Any) -> list[str]:
+    """How many points have no contact, and how many no mu, in a sentence each; nothing if there are none."""
+    at_zero = np.asarray(result.pressure) == 0
+    counts = {
+        "below pull-off: no contact, tau = 0, nothing to solve": np.count_nonzero(result.pulled_off),
+        "at zero pressure, where mu is not defined": np.count_nonzero(at_zero),
+    }
+    return [f"{count} point{'s lie' if count > 1 else ' lies'} {where}" for where, count in counts.items() if count]
 
 
 def _closer(result: Any) -> list[str]:

@@ -150,7 +150,7 @@ def test_no_contact_is_told(run, tmp_path):
     """mu = 0 "exact" in a table looks like a surface without friction."""
     (tmp_path / "mine.toml").write_text(SCENE.replace("= 5e6", "= -1e9"))
     status, out, _ = run("solve", "mine.toml", "--no-plot", "--no-table")
-    assert status == 0 and out.startswith("note       2 points lie below pull-off: no contact, mu = 0")
+    assert status == 0 and out.startswith("note       2 points lie below pull-off: no contact, tau = 0")
 
 
 def test_one_velocity_has_no_curve_to_draw(run, tmp_path):

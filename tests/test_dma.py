@@ -156,9 +156,9 @@ def test_what_instruments_export(tmp_path, name, encoding):
 
 
 def test_ambiguous_numbers_can_be_decided(tmp_path):
-    (tmp_path / "a.csv").write_text("f [Hz];E' [Pa];E'' [Pa]\n1;1,000;2,000\n2;3,000;4,000\n", encoding="utf-8")
-    assert read_dma(tmp_path / "a.csv", decimal=",").storage.tolist() == [1, 3]
-    assert read_dma(tmp_path / "a.csv", decimal=".").storage.tolist() == [1000, 3000]
+    (tmp_path / "a.csv").write_text("f [Hz];E' [kPa];E'' [kPa]\n1;1,000;2,000\n2;3,000;4,000\n", encoding="utf-8")
+    assert read_dma(tmp_path / "a.csv", decimal=",").storage.tolist() == [1e3, 3e3]
+    assert read_dma(tmp_path / "a.csv", decimal=".").storage.tolist() == [1e6, 3e6]
 
 
 def fractional_zener(omega):
@@ -276,7 +276,7 @@ BAD_FILES = [
     ("f [Hz];E' [Pa];E'' [Pa]\n1;1,5;2.5\n2;3,5;4.5\n", "line 2, .*got '2.5'; allowed: a number with a decimal comma"),
     ("T [furlong],f [Hz],E' [Pa],E'' [Pa]\n1,1,1,1\n2,2,2,2\n", "'T \\[furlong\\]', unit: got 'furlong'; allowed: K"),
     ("T [°C],f [Hz],E' [Pa],E'' [Pa]\n-300,1,1,1\n2,2,2,2\n", "above absolute zero"),
-    ("T [°C],f [Hz],E' [Pa],E'' [Pa]\n" + "".join(f"{T},{f},{f},1\n" for T in (20, 40) for f in (1, 2)), "`hystrip master`"),
+    ("T [°C],f [Hz],E' [kPa],E'' [kPa]\n" + "".join(f"{T},{f},{f},1\n" for T in (20, 40) for f in (1, 2)), "`hystrip master`"),
 ]
 
 

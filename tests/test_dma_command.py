@@ -9,6 +9,22 @@ F = np.geomspace(0.01, 100, 9)
 X = 2j * np.pi * F * 0.1
 G = 1e6 + 3e6 * X / (1 + X)
 FIT = ("--terms", 1, "--pressure", "1e5", "--no-plot")
+SHIFTED = """pressure = 1e5
+velocity = 1.0
+[material]
+kind = "half-space"
+E = 2e6
+nu = 0.5
+moduli = [8e6]
+times = [1e-3]
+[material.shift]
+model = "Arrhenius"
+E_a = 1e5
+T_ref = 293.15
+[[levels]]
+l = 1e-3
+h = 2e-5
+"""
 
 
 def table(names, *moduli, before=""):
@@ -68,6 +84,25 @@ def test_a_wrong_scene_is_refused_before_the_work(run, tmp_path, monkeypatch):
         status, out, err = run(*command, "--scene", "s.toml", "--no-plot")
         assert (status, out) == (2, "") and err.startswith("hystrip: s.toml: presure: unknown key (did you mean 'pressure'?)")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["rubber.csv", "s.toml", "surface.txt"]
+
+
+@pytest.mark.parametrize(
+    ("remark", "temperature", "said"),
+    [
+        ("", "'40 degC'", "'40 degC'; allowed: none: rubber.csv states no shift"),
+        ("# shift: WLF C_1=8.86 C_2=51.6 T_ref=293.15\n", "200", "200.0; allowed: a finite number > 241.55 (K)"),
+    ],
+)
+def test_a_temperature_that_the_material_cannot_have_is_refused_before_the_work(
+    run, tmp_path, monkeypatch, remark, temperature, said
+):
+    """The scene that comes out could not be solved."""
+    (tmp_path / "rubber.csv").write_text(remark + table("f [Hz];E' [Pa];E'' [Pa]"))
+    (tmp_path / "s.toml").write_text(f"temperature = {temperature}\n{SHIFTED}")
+    monkeypatch.setattr("hystrip.dma.fit_prony", lambda *_, **__: pytest.fail("work before the scene was looked at"))
+    status, out, err = run("fit", "rubber.csv", "--nu", 0.5, "--scene", "s.toml", "--no-plot")
+    assert (status, out) == (2, "") and err.startswith(f"hystrip: s.toml: temperature: got {said}"), err
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["rubber.csv", "s.toml"]
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ import pytest
 
 import hystrip
 from hystrip.dma import DynamicModulus, read_dma, read_isotherms
+from hystrip.dma.read import read_readings
 
 
 def written(tmp_path, text):
@@ -189,7 +190,7 @@ def test_a_set_has_one_temperature(tmp_path):
 
 
 def test_utf_16_has_its_mark(tmp_path):
-    text = "f [Hz]\tE' [Pa]\tE'' [Pa]\n1\t2\t3\n2\t3\t4\n"
+    text = "f [Hz]\tE' [kPa]\tE'' [kPa]\n1\t2\t3\n2\t3\t4\n"
     (tmp_path / "a.txt").write_bytes(text.encode("utf-16"))
     assert read_dma(tmp_path / "a.txt").omega.size == 2
     (tmp_path / "a.txt").write_bytes(text.encode("utf-16-le"))
@@ -201,3 +202,26 @@ def test_numbers_that_are_none_in_the_first_row_are_no_units(tmp_path):
     (tmp_path / "a.csv").write_text("f [Hz];E' [Pa];E'' [Pa]\n1.0D+00;2.0D+00;3.0D+00\n2.0D+00;3.0D+00;4.0D+00\n")
     with pytest.raises(hystrip.InputError, match=r"line 2, column 'f \[Hz\]': got '1.0D\+00'; allowed: a number"):
         read_dma(tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize(
+    ("names", "cells", "said"),
+    [
+        (
+            "T [°C];f [Hz];E' [MPa];E'' [MPa]",
+            (20, 293.15),
+            r"column 'T \[°C\]', taken for °C: 1 of 2 rows is at 566.3 K.*200 degC",
+        ),
+        ("T [K];f [Hz];E' [MPa];E'' [MPa]", (293.15, 20), r"column 'T \[K\]', taken for K: 1 of 2 rows is at 20 K"),
+        (
+            "T [K];f [Hz];E' [mPa];E'' [mPa]",
+            (293, 293),
+            'column "E\' \\[mPa\\]", taken for mPa: 2 of 2 rows are at 0.0015 to 0.003',
+        ),
+        ("T [K];f [Hz];E' [TPa];E'' [TPa]", (293, 293), "taken for TPa: 2 of 2 rows are at 1.5e\\+12 to 3e\\+12 Pa"),
+    ],
+)
+def test_what_no_rubber_has_is_remarked_on(tmp_path, names, cells, said):
+    text = names + "\n" + rows(*((T, f, *E) for T, f, E in zip(cells, HZ, MPA, strict=True)))
+    with pytest.warns(hystrip.dma.DataWarning, match=said):
+        read_readings(written(tmp_path, text))

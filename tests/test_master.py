@@ -192,13 +192,13 @@ def test_what_is_no_set_of_isotherms_is_refused(change, said):
 
 
 def test_files_without_temperatures_are_refused(tmp_path):
-    (tmp_path / "a.csv").write_text("f [Hz],E' [Pa],E'' [Pa]\n1,2,3\n2,3,4\n", encoding="utf-8")
+    (tmp_path / "a.csv").write_text("f [Hz],E' [kPa],E'' [kPa]\n1,2,3\n2,3,4\n", encoding="utf-8")
     with pytest.raises(hystrip.InputError, match="no column of temperatures"):
         read_isotherms(tmp_path / "a.csv")
-    (tmp_path / "b.csv").write_text("T [K],f [Hz],E' [Pa],E'' [Pa]\n300,1,2,3\n300.2,2,3,4\n", encoding="utf-8")
+    (tmp_path / "b.csv").write_text("T [K],f [Hz],E' [kPa],E'' [kPa]\n300,1,2,3\n300.2,2,3,4\n", encoding="utf-8")
     with pytest.raises(hystrip.InputError, match=r"one temperature, 27.0 degC \(300.10 K\)"):
         read_isotherms(tmp_path / "b.csv")
-    (tmp_path / "c.csv").write_text("# shift: WLF C_1=8\nf [Hz],E' [Pa],E'' [Pa]\n1,2,3\n2,3,4\n", encoding="utf-8")
+    (tmp_path / "c.csv").write_text("# shift: WLF C_1=8\nf [Hz],E' [kPa],E'' [kPa]\n1,2,3\n2,3,4\n", encoding="utf-8")
     with pytest.raises(hystrip.InputError, match="shift: got .# shift: WLF C_1=8"):
         read_shift(tmp_path / "c.csv")
 

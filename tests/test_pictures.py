@@ -106,6 +106,13 @@ def test_no_line_over_velocity_through_the_pole_nor_across_pull_off():
     assert high - low < np.ptp(held.mu)
 
 
+def test_a_panel_at_zero_pressure_says_why_it_is_empty():
+    result = hystrip.solve(MATERIAL, ADHESION, [SMALL], pressure=[[0.0], [1e8]], velocity=[1e-4, 1e-3], rtol=1e-2)
+    at_zero, other = result.plot("mu").axes
+    assert [text.get_text() for text in at_zero.texts] == [r"$\mu$ is not defined at zero pressure"] and not other.texts
+    assert "2 points lie at zero pressure, where mu is not defined" in result.summary()
+
+
 def test_velocity_is_found_along_any_axis():
     p, V = np.array([1e3, 2e3, 3e3]), np.array([1e-3, 1e-2])
     one, other = (

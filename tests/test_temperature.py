@@ -205,6 +205,8 @@ def test_plausibility_is_said():
     (off,) = notes(poor.half_space(0.5), LEVELS, [1e-3, 0.5])
     assert "% rms off" in off
     assert notes(material, LEVELS, [1e-3, 0.5], 293.15) == []
+    (hot,) = notes(material, LEVELS, [1e-3, 0.5], 566.3)
+    assert hot.startswith("a temperature of 566.3 K, above 473.15 K")
     (cold,) = notes(material, LEVELS, [1e-3, 0.5], 25.0)
     assert cold.startswith("a temperature of 25 K, below 100 K")
     # shifted to another temperature the fitted band moves with the times

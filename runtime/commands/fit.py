@@ -60,7 +60,7 @@ def command(
     from ..origins import outputs_from, refuse_other_origin
     from ..scene.edit import with_material, with_settings
     from ..scene.errors import located
-    from ..scene.load import scene_text
+    from ..scene.load import parse_toml, scene_text
     from ..tables import about_version, write_csv
     from .quantities import metres, pascals
     from .scene_options import settings
@@ -89,6 +89,10 @@ def command(
             stands_in["material.shift"] = shift_table(shift)
         with located(scene):
             text = with_settings(scene_text(scene)[0], given)
+            temperature = parse_toml(text).get("temperature")
+            if shift is None and temperature is not None:
+                allowed = f"none: {source} states no shift with temperature, which a master curve of `hystrip master` does"
+                raise InputError("temperature", temperature, allowed)
             with_material(text, stands_in)
     names = [f"{stem}.{each}" for each in ("fit.csv", *["fitted.toml"] * writes_scene, *["fit.png"] * plot)]
     refuse_other_origin(out, names, data)

@@ -27,7 +27,7 @@ def command(
     from ..files import refuse_unwritable, write_netcdf
     from ..origins import outputs_from, refuse_other_origin
     from ..scene import load_scene
-    from ..summary import below_pull_off
+    from ..summary import special_points
     from ..tables import about_result, friction_rows, write_csv
     from .progress import progress
 
@@ -60,6 +60,6 @@ def command(
     if summary:
         say(result.summary())
     else:
-        for note in [*result.notes, *below_pull_off(result)]:
+        for note in [*result.notes, *special_points(result)]:
             say(f"note       {note}")
     say_written(out / name for name in names)

@@ -1,6 +1,6 @@
 """Measured relaxation: from storage and loss modulus (DMA) to a Prony series, and from that to the foundation."""
 
-from ..errors import FitWarning
+from ..errors import DataWarning, FitWarning
 from .fit import fit_prony
 from .isotherms import read_isotherms
 from .master import MasterCurve, master_curve
@@ -9,6 +9,7 @@ from .read import read_dma
 from .series import Foundation, PronySeries
 
 __all__ = [
+    "DataWarning",
     "DynamicModulus",
     "FitWarning",
     "Foundation",

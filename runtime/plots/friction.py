@@ -220,6 +220,8 @@ def _draw(
             panel.plot(x[alone], y[alone], ".", **style)
     if doubtful.size:
         panel.plot(doubtful, there, "o", markersize=4, markerfacecolor="none", color="black", zorder=4, label="not converged")
+    if pole and not pressure.any():
+        panel.text(0.5, 0.5, "$\\mu$ is not defined at zero pressure", ha="center", va="bottom", transform=panel.transAxes)
     if panel.get_yscale() == "linear":
         panel.axhline(0, color="0.6", linewidth=0.5, zorder=0)
     panel.set_ylabel(quantity.label + (f" ({unit[1]})" if unit[1] else ""))

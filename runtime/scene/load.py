@@ -113,7 +113,9 @@ def _assembled(values: dict[str, Any], text: str, name: str, source: str) -> Sce
             raise SceneError(field, each.tolist(), allowed)
     objects = build_objects(values)
     rest = {key: each for key, each in values.items() if key not in ("material", "adhesion", "levels", "sweep")}
-    rest["temperature"] = None if values["temperature"] is None else float(values["temperature"])
+    if values["temperature"] is not None:
+        rest["temperature"] = float(values["temperature"])
+        objects["material"].at_temperature(rest["temperature"])  # what is wrong with it is said before the work
     return Scene(name=name, text=text, source=source, **objects, **rest)
 
 

@@ -1,0 +1,38 @@
+"""What about measured moduli and temperatures is hardly that of a rubber: said, not enforced."""
+
+import warnings
+
+import numpy as np
+
+from ..errors import DataWarning
+from ..plausibility import COLDEST, HOTTEST
+from .columns import Column
+
+#: Pa: softer than any gel that keeps its shape, stiffer than diamond; mPa taken for MPa comes out there
+SOFTEST, STIFFEST = 10.0, 1e12
+
+
+def remark_on(where: str, column: Column, storage: np.ndarray) -> None:
+    """Warn of storage moduli (Pa, one for each row) of no rubber; ``column`` holds what they follow from."""
+    _remark(where, column, storage, SOFTEST, STIFFEST, "Pa", f"{SOFTEST:g} to {STIFFEST:g} Pa", "another unit?")
+
+
+def remark_on_temperatures(where: str, column: Column, kelvin: np.ndarray) -> None:
+    """Warn of temperatures (K, one for each row) that no rubber is measured at."""
+    usual = f"{COLDEST:g} to {HOTTEST:g} K ({COLDEST - 273.15:g} to {HOTTEST - 273.15:g} degC)"
+    _remark(where, column, kelvin, COLDEST, HOTTEST, "K", usual, "another unit, or degrees and kelvin in one column?")
+
+
+def _remark(
+    where: str, column: Column, values: np.ndarray, low: float, high: float, unit: str, usual: str, question: str
+) -> None:
+    odd = values[(values < low) | (values > high)]
+    if odd.size:
+        ends = " to ".join(dict.fromkeys(f"{each:.4g}" for each in (odd.min(), odd.max())))
+        rows = "rows is" if odd.size == 1 else "rows are"
+        warnings.warn(
+            f"{where}, column {column.name!r}, taken for {column.unit}: {odd.size} of {values.size} {rows} at {ends} {unit}, "
+            f"where a rubber is within {usual}: {question}",
+            DataWarning,
+            stacklevel=5,
+        )
