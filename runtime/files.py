@@ -66,9 +66,11 @@ class Outputs:
             if isinstance(error, OSError) and self._parts:  # of what was being written
                 _name(error, next(reversed(self._parts)))
             if kind is None:
-                for final in self._parts:  # the one thing that would stop the renaming half-way
+                for final in self._parts:  # the one thing that would stop the renaming half-way, and what it would destroy
                     if final.is_dir():
                         raise IsADirectoryError(errno.EISDIR, "a folder stands where the file would go", str(final))
+                    if final.exists() and not final.is_file():
+                        raise OSError(errno.EINVAL, "a pipe or a device stands where the file would go", str(final))
                 self.flush()
                 for final, part in self._parts.items():
                     os.replace(part, final)

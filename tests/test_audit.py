@@ -300,3 +300,10 @@ def test_another_solver_than_the_installed_one_is_not_audited(tmp_path: Path, mo
     with pytest.raises(AuditError, match="stable.py"):
         publish.audit(tmp_path / "audit")
     assert not (tmp_path / "audit").exists()
+
+
+def test_a_page_of_somebody_else_is_not_replaced(run, tmp_path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("hystrip.derivation.audit", lambda *_, **__: pytest.fail("work before the folder was looked at"))
+    (tmp_path / "index.html").write_text("mine")
+    status, out, err = run("audit", "--out", ".")
+    assert (status, out) == (2, "") and err.startswith("hystrip: --out: got '.'; allowed: another folder: index.html in it")

@@ -172,6 +172,11 @@ def test_several_pressures_have_a_row_each_zero_an_empty_mu(run, tmp_path):
     assert np.isfinite([float(row["tau [Pa]"]) for row in table]).all()
 
 
+def test_init_says_commands_that_a_shell_takes(run):
+    assert "try: hystrip solve 'my scene.toml'" in run("init", "my scene.toml")[1]
+    assert "now: cd 'my folder'\n" in run("init", "--example", "rubber", "my folder")[1]
+
+
 def test_init_writes_a_scene_that_solves(run, tmp_path):
     status, out, _ = run("init", "mine.toml")
     assert status == 0 and "hystrip solve mine.toml" in out

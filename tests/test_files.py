@@ -33,6 +33,23 @@ def test_a_folder_in_the_place_of_one_file_keeps_all_away(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["b.png"]
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="makes a pipe with a name")
+def test_a_pipe_or_a_device_is_not_replaced(run, tmp_path):
+    os.mkfifo(tmp_path / "scene.toml")
+    with pytest.raises(OSError, match=r"a pipe or a device stands where the file would go: .*scene.toml"):
+        filled(tmp_path, "a.csv", "scene.toml")
+    status, out, err = run("init", "--force")
+    assert (status, out) == (1, "") and err.startswith("hystrip: scene.toml: a pipe or a device")
+    assert [path.name for path in tmp_path.iterdir()] == ["scene.toml"] and (tmp_path / "scene.toml").is_fifo()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="makes a link")
+def test_a_link_to_nothing_is_not_replaced_without_force(run, tmp_path):
+    (tmp_path / "scene.toml").symlink_to("nowhere")
+    assert run("init")[0] == run("init", "--example", "rubber", ".")[0] == 2
+    assert [path.name for path in tmp_path.iterdir()] == ["scene.toml"] and (tmp_path / "scene.toml").is_symlink()
+
+
 def test_an_error_leaves_neither_files_nor_the_folders_made_for_them(tmp_path):
     with pytest.raises(KeyError), Outputs(tmp_path / "one" / "two") as files:
         files.path("a.csv").write_text("half")

@@ -163,6 +163,8 @@ def test_regenerate_wants_a_folder_for_a_users_model(tmp_path, run):
         ("", [model], "--out"),
         (None, [model, "--out", tmp_path / "out"], "declares MODEL"),
         ("MODEL = 3", [model, "--out", tmp_path / "out"], "admissible model"),
+        ("MODEL = []", [model, "--out", tmp_path / "out"], "at least one model"),
+        ("raise SystemExit(0)", [model, "--out", tmp_path / "out"], "does not end the process"),
     ):
         model.unlink(missing_ok=True)
         if text is not None:
@@ -170,6 +172,15 @@ def test_regenerate_wants_a_folder_for_a_users_model(tmp_path, run):
         status, _, err = run("regenerate", *arguments)
         assert status == 2 and says in err
         assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("text", ["{", "[1]"])
+def test_certificates_of_no_solver_are_refused_before_the_work(tmp_path, run, monkeypatch, text):
+    monkeypatch.setattr("hystrip.derivation.regenerate", lambda *_, **__: pytest.fail("work before the folder was looked at"))
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out/certificates.json").write_text(text)
+    status, _, err = run("regenerate", "--out", "out")
+    assert status == 2 and err.startswith("hystrip: --out: got 'out'; allowed: a new folder, or one whose certificates.json")
 
 
 def test_moduli_and_times_are_swept(folder):

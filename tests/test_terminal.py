@@ -88,6 +88,14 @@ def test_no_standard_output_is_no_failure(tmp_path):
     assert (done.returncode, done.stderr) == (0, "") and (tmp_path / "hystrip-out/mine.csv").is_file()
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="closes a standard stream in a shell")
+def test_no_standard_error_is_no_failure(tmp_path):
+    (tmp_path / "mine.toml").write_text(SATURATED)
+    command = f"{sys.executable} -m hystrip solve mine.toml --no-plot --no-table 2>&-"
+    done = subprocess.run(command, shell=True, cwd=tmp_path, stdout=subprocess.PIPE, text=True)
+    assert (done.returncode, done.stdout.split()) == (0, ["wrote", "hystrip-out/mine.csv"])
+
+
 def test_the_progress_bar_shows_a_title_as_text(monkeypatch, capsys):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     with progress.progress("\x1b[31mred") as report:

@@ -16,6 +16,7 @@ def command(
     Pages for a browser, and JSON. Exits with 1, and names the step, if one does not verify. Needs the
     extras `regenerate` and `plot`.
     """
+    from ..errors import InputError
     from ..extras import require
     from ..files import refuse_unwritable
     from .derivation import needed
@@ -30,6 +31,8 @@ def command(
 
     folder = out if out is not None else Path(hystrip.generated.__file__).parent / "audit"
     refuse_unwritable(folder, "--out")
+    if (folder / "index.html").exists() and not (folder / "measured.json").exists():
+        raise InputError("--out", str(folder), "another folder: index.html in it was not written by `hystrip audit`")
     try:
         with progress("auditing") as report:
             hystrip.derivation.audit(folder, progress=report, measure=measured)

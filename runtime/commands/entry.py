@@ -22,6 +22,8 @@ def main() -> None:
 
 def _status() -> int:
     try:
+        if sys.stderr is None:  # closed: what is said there is for nobody
+            sys.stderr = open(os.devnull, "w", encoding="utf-8")
         if hasattr(sys.stdout, "reconfigure"):  # a title may hold what the terminal's encoding lacks
             sys.stdout.reconfigure(errors="replace")
         _show_warnings()

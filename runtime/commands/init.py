@@ -1,5 +1,7 @@
 """``hystrip init``: a commented scene to start from, or a whole example."""
 
+import os
+import shlex
 from pathlib import Path
 
 import typer
@@ -26,14 +28,14 @@ def command(
     path = Path("scene.toml") if path is None else path
     if path.is_dir():
         raise InputError("PATH", str(path), "the path of a file to write; this is a folder")
-    if path.exists() and not force:
+    if os.path.lexists(path) and not force:
         raise InputError("PATH", str(path), "a file that does not exist yet, or --force to replace it")
     if not path.parent.is_dir():
         raise InputError("PATH", str(path), "a file in a folder that exists")
     refuse_unwritable(path.parent, "PATH")
     template = resources.files("hystrip") / "scenes" / "starter.toml"
     write_text(path, template.read_text(encoding="utf-8"))
-    say(f"wrote {path}; try: hystrip solve {path}")
+    say(f"wrote {path}; try: hystrip solve {shlex.quote(str(path))}")
 
 
 def _example(name: str, folder: Path | None, force: bool) -> None:
@@ -46,7 +48,7 @@ def _example(name: str, folder: Path | None, force: bool) -> None:
     folder = Path(name) if folder is None else folder
     refuse_unwritable(folder, "PATH")
     files = rubber()
-    there = [each for each in files if (folder / each).exists()]
+    there = [each for each in files if os.path.lexists(folder / each)]
     if there and not force:
         raise InputError("PATH", str(folder), f"a folder without {', '.join(there)}, or --force to replace them")
     with Outputs(folder) as outputs:
@@ -54,7 +56,7 @@ def _example(name: str, folder: Path | None, force: bool) -> None:
             outputs.path(each).write_text(text, encoding="utf-8", newline="\n")
     say_written(folder / each for each in files)
     say(
-        f"now: cd {folder}\n"
+        f"now: cd {shlex.quote(str(folder))}\n"
         "     hystrip master raw.csv --vertical\n"
         "     hystrip fit rubber.csv --nu 0.49 --scene scene.toml\n"
         "     hystrip levels scan.txt --count 3 --scene hystrip-out/rubber.fitted.toml\n"

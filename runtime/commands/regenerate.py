@@ -21,6 +21,7 @@ def command(
     from ..files import refuse_unwritable
     from .derivation import needed
     from .progress import progress
+    from .signals import Terminated
 
     if model is not None and out is None:
         raise InputError("--out", None, "a folder for the solver of your model")
@@ -36,6 +37,17 @@ def command(
         raise InputError("MODEL", str(model), "a Python file that declares MODEL") from None
     except hystrip.derivation.DerivationError as error:
         raise InputError("MODEL", str(model), f"a file that declares an admissible model: {error}") from None
+    except SystemExit as end:
+        if isinstance(end, Terminated):
+            raise
+        raise InputError("MODEL", str(model), "a file that declares MODEL and does not end the process (sys.exit)") from None
+    if models == ():
+        raise InputError("MODEL", str(model), "a file that declares at least one model")
+    try:
+        hystrip.derivation.stored_bounds(folder)
+    except (ValueError, TypeError, KeyError, AttributeError):
+        allowed = "a new folder, or one whose certificates.json is as `hystrip regenerate` writes it"
+        raise InputError("--out", str(folder), allowed) from None
     # a short-lived process that makes millions of small expressions: looking for cycles among them is a good part of its time
     gc.set_threshold(500_000, 20, 20)
     try:
