@@ -49,6 +49,9 @@ CASES = {
     "penetration": lambda: solve(penetration=[5e-7, 6e-7], velocity=5e-3),
     "both change together": lambda: solve(pressure=[100.0, 200.0], velocity=[1e-3, 5e-3], branch="loading"),
     "equal strips": lambda: solve(pressure=100.0, velocity=[5e-3], strips=10, edge="constitutive"),
+    "choices out of arrays": lambda: solve(
+        pressure=100.0, velocity=5e-3, edge=np.str_("constitutive"), branch=np.str_("loading")
+    ),
     "no points": lambda: solve(pressure=[], velocity=[[1e-3], [2e-3]]),
     "Kelvin-Voigt": lambda: solve(material=hystrip.KelvinVoigt(1e9, 1e-2), pressure=100.0, velocity=5e-3),
     "two times": lambda: solve(

@@ -77,10 +77,10 @@ def sequence(field: str, values: Any, allowed: str) -> list[Any]:
 
 
 def choice(field: str, value: Any, allowed: Sequence[str]) -> str:
-    """``value`` if it is one of ``allowed``, else ``InputError``."""
+    """The one of ``allowed`` that ``value`` equals, a plain string whatever kind of one that is, else ``InputError``."""
     if not isinstance(value, str) or value not in allowed:
         raise InputError(field, value, "one of " + ", ".join(repr(a) for a in allowed))
-    return value
+    return allowed[allowed.index(value)]
 
 
 def broadcast(**arrays: np.ndarray) -> tuple[int, ...]:
