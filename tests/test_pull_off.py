@@ -157,3 +157,19 @@ def test_next_to_pull_off_estimates_hold(level):
         error = np.abs(found.tau_mean - exact.tau_mean)
         assert found.converged.all() and (error <= rtol * np.abs(exact.tau_mean)).all()
         assert (error <= found.error_estimate[1]).all()
+
+
+@pytest.mark.parametrize(
+    ("T_eps", "delta_0", "p_0", "h", "V", "edge", "p"),
+    [
+        (1.693e-2, 2.7895e-9, 342.84, 1.34093e-7, 1.45842e-3, "constitutive", -48.5),
+        (3.92341e-2, 3.94117e-9, 959.06, 1.205969e-6, 8.27707e-4, "continuous", 233.26),
+    ],
+)
+def test_first_passes_the_pressure_where_a_shallow_dip_does(T_eps, delta_0, p_0, h, V, edge, p):
+    """Some strips away from the crest let go at once, and the curve falls by half a percent of its scale."""
+    of = hystrip.StandardLinearSolid(1e9, T_eps, 1e-3), hystrip.Dugdale(p_0=p_0, delta_0=delta_0), hystrip.Level(l=1e-5, h=h)
+    found = hystrip.solve_level(*of, V=V, pressure=p, edge=edge, rtol=1e-4)
+    above = hystrip.solve_level(*of, V=V, D=found.D + h * np.linspace(1e-3, 0.1, 25), edge=edge, rtol=1e-4)
+    assert above.p_mean.min() > p
+    assert found.tau_mean == pytest.approx(hystrip.friction_law(*of, V=V, edge=edge, rtol=1e-4)(p), rel=1e-3)

@@ -145,13 +145,12 @@ class _Work:
     def _converged(self, stage: Stage) -> tuple[Stage, np.ndarray, np.ndarray]:
         """Append what has converged to the pieces; of columns with too many strips all as it is, with the spread of the values as
         error. Returns the rest, its goals (intervals, q), and which of it have to be divided."""
-        columns, intervals, (values, errors, _) = self.columns, stage.parts, stage.known
-        column, c = intervals.column, flat_ended(stage.n) @ values
-        goal = intervals.rtol[:, None] * np.abs(values).min(axis=1) + intervals.atol
+        columns, intervals, (values, errors, zones) = self.columns, stage.parts, stage.known
+        column, D, c = intervals.column, intervals.at(interior_nodes(stage.n)), flat_ended(stage.n) @ values
+        goal = allowed = intervals.rtol[:, None] * np.abs(values).min(axis=1) + intervals.atol
         blur, rounding, spread = _BLUR * errors.max(axis=1), _rounding(columns, stage, c), np.ptp(values, axis=1)
         # where next to nothing changes there is little to miss, whatever nobody marked there
-        noise = 0.1 * goal
-        error = np.minimum(interpolation_errors(c, noise, blur, rounding), 2 * spread)
+        error = np.minimum(interpolation_errors(c, 0.1 * goal, blur, rounding), 2 * spread)
         # what the means leave of it, at least what they may not have
         goal = np.maximum(goal - errors.max(axis=1), (1 - MEAN) * goal)
         done = (error <= goal).all(axis=1)
@@ -164,22 +163,23 @@ class _Work:
             error[ended], done = np.maximum(error, spread)[ended], done | ended
         bounds = errors + (error + _ROUNDED * rounding + _SPREAD * errors.max(axis=1))[:, None]
         for k in np.flatnonzero(done & ~jump):
-            known = Errors(interior_nodes(stage.n), bounds[k])
+            # what appears or vanishes between two nodes need not show at them
+            hidden = max((each.weight for each in islands(int(column[k]), D[k], zones[k], allowed[k])), default=0.0)
+            known = Errors(interior_nodes(stage.n), bounds[k] + np.minimum(hidden * allowed[k], spread[k]))
             ends = float(intervals.low[k]), float(intervals.high[k])
             self.pieces[column[k]].append(Piece(*ends, c[k], known, bool(intervals.inner_low[k]), bool(intervals.inner_high[k])))
         missed, before = error / goal, np.full_like(goal, np.inf)
         if stage.n >= _FIRST:
             half = flat_ended(stage.n // 2) @ values[:, 1::2]
-            before = np.maximum(interpolation_errors(half, noise, blur, rounding) / goal, 1.0)
+            before = np.maximum(interpolation_errors(half, 0.1 * allowed, blur, rounding) / goal, 1.0)
         # coefficients fall geometrically: where missed (missed / before)^2 on twice the nodes is over the goal, halves are better
         hopeless = (missed > before ** (2 / 3)).any(axis=1) | (stage.n >= _LAST)
         return stage.take(~done), goal[~done], hopeless[~done]
 
     def _divided(self, stage: Stage, goal: np.ndarray) -> list[Intervals]:
         """The intervals divided where something appears or vanishes between two nodes, away from the crest, or in halves."""
-        intervals, seen = stage.parts, []
-        for k, D in enumerate(intervals.at(interior_nodes(stage.n))):
-            seen += [(k, island) for island in islands(int(intervals.column[k]), D, stage.known[2][k], goal[k])]
+        intervals, zones, nodes = stage.parts, stage.known[2], stage.parts.at(interior_nodes(stage.n))
+        seen = [(k, each) for k, D in enumerate(nodes) for each in islands(int(intervals.column[k]), D, zones[k], goal[k])]
         found = locate_vanishing(self.columns, [island for _, island in seen], self.strips) if seen else np.empty(0)
         parts = []
         for k in range(intervals.size):
