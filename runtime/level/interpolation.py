@@ -54,6 +54,11 @@ class Intervals(Ranges):
         inner = np.zeros((2, column.size), bool)
         return cls(low, high, column, *inner, rtol[column], atol[column], np.full(column.size, np.inf))
 
+    @property
+    def pressure_alone(self) -> np.ndarray:
+        """Where nothing but the pressure is asked for, (m,)."""
+        return (self.atol[:, 1:] >= LARGEST).all(axis=1)
+
     def split(self, D: np.ndarray, soft: bool) -> tuple[Intervals, Intervals]:
         """The parts below and above D of each; the curve goes on smoothly there, or not."""
         smooth = np.full(self.size, soft)
@@ -140,7 +145,7 @@ class _Work:
     def _counting(self, intervals: Intervals) -> Intervals:
         """Without those asked for nothing but pressure that fall, or rise (by K times D at most) by no more than it may err."""
         rises = self.columns.material.K * intervals.width > intervals.atol[:, 0]
-        return intervals.take(rises | (intervals.atol[:, 1:] < LARGEST).any(axis=1))
+        return intervals.take(rises | ~intervals.pressure_alone)
 
     def _converged(self, stage: Stage) -> tuple[Stage, np.ndarray, np.ndarray]:
         """Append what has converged to the pieces; of columns with too many strips all as it is, with the spread of the values as
@@ -163,8 +168,9 @@ class _Work:
             error[ended], done = np.maximum(error, spread)[ended], done | ended
         bounds = errors + (error + _ROUNDED * rounding + _SPREAD * errors.max(axis=1))[:, None]
         for k in np.flatnonzero(done & ~jump):
-            # what appears or vanishes between two nodes need not show at them
-            hidden = max((each.weight for each in islands(int(column[k]), D[k], zones[k], allowed[k])), default=0.0)
+            # what appears or vanishes between two nodes need not show at them, and may turn the curve there
+            seen = islands(int(column[k]), D[k], zones[k], allowed[k]) if intervals.pressure_alone[k] else []
+            hidden = max((each.weight for each in seen), default=0.0)
             known = Errors(interior_nodes(stage.n), bounds[k] + np.minimum(hidden * allowed[k], spread[k]))
             ends = float(intervals.low[k]), float(intervals.high[k])
             self.pieces[column[k]].append(Piece(*ends, c[k], known, bool(intervals.inner_low[k]), bool(intervals.inner_high[k])))
