@@ -13,7 +13,7 @@ from .errors import InputError
 from .inputs.adhesion import Dugdale
 from .inputs.checks import broadcast, choice, number, numbers
 from .inputs.surface import Level
-from .level.averages import level_means
+from .level.averages import level_means, look_below
 from .level.inverse import invert
 from .level.strips import QUANTITIES, LevelBatch, WorkCounters
 from .points import warn_unconverged
@@ -207,6 +207,7 @@ def _means(columns: LevelBatch, p: np.ndarray | None, rtol: float) -> tuple[np.n
     if not columns.size:
         return columns.D, *np.zeros((2, 0, len(QUANTITIES)))
     if p is None:
+        look_below(columns)
         means = level_means(columns, accuracy)
         return columns.D, means.values, means.errors
     found, (values, errors) = invert(columns, p, 0.3 * rtol), np.zeros((2, p.size, len(QUANTITIES)))

@@ -11,7 +11,7 @@ from .errors import SolverError
 from .inputs.adhesion import Dugdale
 from .inputs.materials import Material
 from .inputs.surface import Level
-from .level.averages import level_means
+from .level.averages import level_means, look_below
 from .level.error_budget import LEAST_CONTACT, error_budget, peak_pressure, strips_across
 from .level.inverse import Penetrations, invert
 from .level.law import build_laws, merged
@@ -197,6 +197,8 @@ class _Solve:
         D = load if families else columns.not_just_released(load)
         if not self.given:
             self.found.put(index, invert(columns, load, 0.5 * surface.rtol) if self.by_pressure else Penetrations.at(D))
+        if not self.by_pressure:
+            look_below(columns.at(np.arange(index.size), D))
         found = self.found.take(index)
         off, touching = np.isnan(found.D), np.flatnonzero(np.isfinite(found.D))
         self.out.pulled_off[index[off]], self.out.p[index[off]] = True, load[off]

@@ -32,6 +32,8 @@ _SHARE, _SLIVER = 0.4, 0.03
 _VALLEY, _NEAREST, _FARTHEST = 10.0, 1e-14, 1e-3
 #: how far from a known break strips are that detect a narrow zone, in the same way: narrower ones do not affect the result
 _NEXT, _CLOSEST = 0.3, 1e-6
+#: how far below a penetration, in heights, it is looked for islands, as roughly
+_BELOW, _ROUGH = (0.003, 0.02, 0.1), 1e-2
 #: smallest error claimed for a panel, as a share of its tolerance: a layer may be too thin to show at its nodes
 _LEAST = 1e-5
 
@@ -57,6 +59,15 @@ def level_means(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray | None =
     if columns.family is None:
         return average(columns, rtol, atol)
     return Averages(*family_means(columns, rtol, atol), np.zeros(columns.size, int))
+
+
+def look_below(columns: LevelBatch) -> None:
+    """Locate the curves that divide the strips of ``columns`` from penetrations a little less. As a level is drawn out islands of
+    strips that let go appear, too narrow for nodes at first: where they do, the curve around one turns."""
+    if columns.adhesion.p_0 > 0 and columns.strips is None:
+        column, below = np.arange(columns.size).repeat(len(_BELOW)), columns.level.h * np.tile(_BELOW, columns.size)
+        level_means(columns.at(column, columns.D[column] - below), np.full(column.size, _ROUGH))
+        columns.crossings.turned(columns)
 
 
 def equal_strips(columns: LevelBatch) -> Averages:
