@@ -181,6 +181,20 @@ MUTANTS = (
         "test_proofs.py",
     ),
     Mutant(
+        "islands below a given penetration are not looked for",
+        "level/averages.py",
+        "if columns.adhesion.p_0 > 0 and columns.strips is None:",
+        "if columns.adhesion.p_0 < 0:",
+        "test_islands.py",
+    ),
+    Mutant(
+        "what is hidden between nodes of a first look does not count",
+        "level/interpolation.py",
+        "bounds[k] + np.minimum(hidden",
+        "bounds[k] + 0.0 * np.minimum(hidden",
+        "test_pull_off.py",
+    ),
+    Mutant(
         "contact ends earlier than in the orbit that is always engaged",
         "orbit/engine.py",
         "orbit.a + STABLE",
