@@ -69,7 +69,7 @@ def bounds_from_engaged(cycle):
 
 def proven(cycle, orbit):
     """By bounds on all orbits: from the one that is engaged all along, and from the most engaged state."""
-    found = (bounds_from_engaged(cycle), orbit_bounds(kernel, cycle))
+    found = (bounds_from_engaged(cycle), orbit_bounds(kernel, cycle, np.inf))
     return [falls(kernel, cycle, bounds, orbit) for bounds in found]
 
 
@@ -203,7 +203,7 @@ def test_bounds_on_all_orbits_hold_for_strips_that_snap_into_contact():
     s = s.take(np.flatnonzero((s.beta < 300) & ~saturates(kernel, s)))
     cycle = adhesive_cycle(kernel, s)
     assert cycle.direct.all()
-    bounds = orbit_bounds(kernel, cycle)
+    bounds = orbit_bounds(kernel, cycle, np.inf)
     index = np.flatnonzero(~bounds.engaged & (cycle.half_d > 0))
     cycle, s, seen = cycle.take(index), s.take(index), 0
     for share in (0.9, 0.5, 0.0, -0.5):

@@ -40,9 +40,7 @@ _LEAST = 1e-5
 
 @dataclass
 class Averages:
-    """Means over the cell: values and errors, (columns, q); strips evaluated for each column.
-
-    ``zones``: of each column, by the codes met along y."""
+    """Means over the cell: values and errors, (columns, q); of each column the strips evaluated, and its ``zones`` along y."""
 
     values: np.ndarray
     errors: np.ndarray
@@ -62,8 +60,8 @@ def level_means(columns: LevelBatch, rtol: np.ndarray, atol: np.ndarray | None =
 
 
 def look_below(columns: LevelBatch) -> None:
-    """Locate the curves that divide the strips of ``columns`` from penetrations a little less. As a level is drawn out islands of
-    strips that let go appear, too narrow for nodes at first: where they do, the curve around one turns."""
+    """Locate the curves that divide the strips of ``columns`` from a little below, and their turns: as a level is drawn out
+    islands of strips that let go appear, too narrow for nodes at first."""
     if columns.adhesion.p_0 > 0 and columns.strips is None:
         column, below = np.arange(columns.size).repeat(len(_BELOW)), columns.level.h * np.tile(_BELOW, columns.size)
         level_means(columns.at(column, columns.D[column] - below), np.full(column.size, _ROUGH))

@@ -23,8 +23,9 @@ from .certificate import STABLE, attracting, edges_admissible, greatest_gap, sat
 from .chain import follow, refined, start
 from .groups import ROUNDING, TWO_PI, Cycle, Strips, adhesive_cycle, bare_cycle
 from .march import Orbit, between
-from .orbit_bounds import is_extremal, least_engaged_bounds, orbit_bounds
+from .orbit_bounds import bounds_after_contact, is_extremal, least_engaged_bounds, orbit_bounds
 from .search import isolate_extremal, located
+from .sensitivity import falls
 from .solved import Record, Solved, settle
 
 #: strips solved at a time: memory stays bounded. Fewer cost more calls, more leave the cache
@@ -126,6 +127,16 @@ class _Batch:
             orbit[rest], certified[rest], _ = _isolated(self.kernel, cycle.take(rest), False, orbit.take(rest))
         return orbit, certified
 
+    def _bounds_by_engaged(self, index, cycle: Cycle, ends) -> Orbit:
+        """Bounds from the orbits that would be engaged all along if gaps had no limit, in contact until ``ends`` if known."""
+        more = np.flatnonzero(np.isnan(ends))
+        if more.size:
+            orbit, certified = self._unique(index[more], "ac")
+            ends[more[certified]] = orbit.a[certified] + STABLE
+        out = bounds_after_contact(self.kernel, cycle, ends)
+        out.x[np.isinf(out.x)] = np.nan  # there is an onset, however little rounding leaves of it
+        return out
+
     def _free_once(self, index, cycle: Cycle, bounds: Orbit):
         """Orbits that are free once per period: the first (``loading``: last) on the onset arc of every cycle. ``bounds`` on all
         orbits: of the most engaged state, for ``loading`` of the least engaged one."""
@@ -137,12 +148,20 @@ class _Batch:
         for sequence, may_be in (("acaf", ~cycle.direct), ("afc", cycle.direct), ("af", ~cycle.direct & ~cycle.touched)):
             pick = np.flatnonzero(~none & may_be & np.isnan(known.x))
             if pick.size:
-                part, limits = cycle.among(pick), bounds.take(pick)
-                orbit, good = _followed(kernel, part, sequence, start(kernel, part, sequence, None if last else limits))
-                pick, part, orbit, limits = pick[good], part.take(good), orbit.take(good), limits.take(good)
-                proven[pick] = is_extremal(kernel, part, orbit, limits, last)
-                known[pick], bounds[pick] = orbit, limits
+                part = cycle.among(pick)
+                orbit, good = _followed(
+                    kernel, part, sequence, start(kernel, part, sequence, None if last else bounds.take(pick))
+                )
+                pick, part, orbit = pick[good], part.take(good), orbit.take(good)
+                known[pick], proven[pick] = orbit, is_extremal(kernel, part, orbit, bounds.take(pick), last)
                 self.record.orbits(index[pick], sequence, orbit, proven[pick])
+        rest = np.flatnonzero(~proven & ~np.isnan(known.x) & np.isnan(bounds.x) & (not last))
+        if rest.size:
+            part, orbit = cycle.among(rest), known.take(rest)
+            bounds[rest] = limits = self._bounds_by_engaged(index[rest], part, bounds.a[rest])
+            proven[rest] = good = falls(kernel, part, limits, orbit)
+            for sequence, kind in _kinds(part, orbit).items():
+                self.record.orbits(index[rest], sequence, orbit, good & kind)
         rest = np.flatnonzero(~none & ~proven)
         if rest.size:
             cycle = cycle.among(rest)

@@ -6,11 +6,7 @@ nothing is more engaged than a gap that has just closed: engaged, with the least
 ``z = w > u + delta_0``, more than the ``u + J_0 p_0`` of that one where it does not snap. Where it does, the state just after the
 snap, ``z = u + delta_0`` in contact, is more engaged than any in a gap.) The order of states is kept in time. Hence, if from that
 state contact ends at a, adhesion ends at c and the next onset is met at x, then in every orbit contact and adhesion end before a
-and c, so that
-
-* no orbit is always engaged,
-* every onset lies after x, and
-* there is no onset, hence no orbit with one, if x does not exist.
+and c: no orbit is always engaged, every onset lies after x, and there is none, hence no orbit with one, if x does not exist.
 
 On the other side, in a gap ``z = w - J_0 p`` rises only where it is negative, and contact has ``z <= u + J_0 p_0``. So no orbit
 has ``z > max(D + J_0 p_0, 0)``. (Where w is continuous where p steps, read w for z, and 0 for J_0.)
@@ -32,12 +28,9 @@ adhesion that is held longer (shorter) only leaves the state more (less) engaged
 before ``a``, adhesion before ``c`` and begins after ``x`` (NaN: no bound; inf: there is no onset); ``engaged`` where an orbit may
 be so all along. Of ``least_engaged_bounds``: after, after and before (-inf: no onset).
 
-No orbit is more extremal than one that is known, proven without a march (``is_extremal``; what is not proven is left to
-``search``, and nothing is ever accepted for lack of a counterexample).
-
-Unloading. A more engaged orbit has an earlier onset, so the unloading orbit at x* is proven by excluding zeros of r between the
-earliest onset and x*. It is enough that R falls strictly (``sensitivity.falls``) all along from the onset before which
-bounds on all orbits leave none.
+That no orbit is more extremal than one that is known is proven without a march (``is_extremal``), or left to ``search``.
+Unloading. A more engaged orbit has an earlier onset, so the unloading orbit at x* is proven by excluding zeros of r before x*. It
+is enough that R falls strictly (``sensitivity.falls``) from the onset on before which bounds on all orbits leave none.
 
 Loading, of a strip within reach, ``D > -delta_0``. A less engaged orbit has a later onset. None has the last one, x_e, nor does
 the map lead on beyond it: there ``H = -delta_0``, so ``z = u + delta_0 = beta sin x_e > 0``, and H is less until the next arc of
@@ -50,14 +43,19 @@ and so from all onsets before its own: adhesion ends after its.)
 
 import numpy as np
 
-from .groups import Cycle, arc_versine
+from .groups import TWO_PI, Cycle, arc_versine
 from .march import Orbit, adhesion_end, contact_end, next_onset
 from .sensitivity import falls, slope_grows
 
+#: beta above which bounds from the most engaged state say little, unless adhesion pulls hard: 30 to 300 cost about the same
+_FAST = 60.0
 
-def orbit_bounds(kernel, cycle: Cycle) -> Orbit:
-    """Bounds for cycles of strips that are not in saturated contact."""
-    out, index = Orbit.blank(cycle.size, engaged=True), np.flatnonzero((cycle.half_b > 0) & (cycle.half_b < np.pi))
+
+def orbit_bounds(kernel, cycle: Cycle, slowest: float = _FAST) -> Orbit:
+    """Bounds for cycles of strips that are not in saturated contact, up to the beta ``slowest``."""
+    s, out = cycle.strips, Orbit.blank(cycle.size, engaged=True)
+    says = s.beta <= np.maximum(slowest, TWO_PI * s.p_0)
+    index = np.flatnonzero(says & (cycle.half_b > 0) & (cycle.half_b < np.pi))
     if index.size:
         part = cycle.among(index)
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
@@ -96,18 +94,7 @@ def least_engaged_bounds(kernel, cycle: Cycle) -> Orbit:
 
 
 def is_extremal(kernel, cycle: Cycle, orbit: Orbit, bounds: Orbit, last: bool) -> np.ndarray:
-    """Which orbits are proven to be the first (``last``: last) of their onset arc.
-
-    ``bounds`` (``orbit_bounds``) are completed where only ``a`` is known.
-    """
+    """Which orbits are proven by ``bounds`` on all to be the first (``last``: last) of their onset arc."""
     if last:
         return falls(kernel, cycle, orbit, bounds) | slope_grows(kernel, cycle, orbit)
-    proven = falls(kernel, cycle, bounds, orbit)
-    rest = np.flatnonzero(~proven & np.isnan(bounds.x) & ~np.isnan(bounds.a))
-    if rest.size:
-        part, known = cycle.among(rest), orbit.among(rest)
-        closer = bounds_after_contact(kernel, part, bounds.a[rest])
-        closer.x[np.isinf(closer.x)] = np.nan  # there is an onset, however little rounding leaves of it
-        proven[rest] = falls(kernel, part, closer, known)
-        bounds.put(rest, closer)
-    return proven
+    return falls(kernel, cycle, bounds, orbit)
