@@ -148,10 +148,8 @@ class _Batch:
         for sequence, may_be in (("acaf", ~cycle.direct), ("afc", cycle.direct), ("af", ~cycle.direct & ~cycle.touched)):
             pick = np.flatnonzero(~none & may_be & np.isnan(known.x))
             if pick.size:
-                part = cycle.among(pick)
-                orbit, good = _followed(
-                    kernel, part, sequence, start(kernel, part, sequence, None if last else bounds.take(pick))
-                )
+                part, limits = cycle.among(pick), None if last else bounds.take(pick)
+                orbit, good = _followed(kernel, part, sequence, start(kernel, part, sequence, limits))
                 pick, part, orbit = pick[good], part.take(good), orbit.take(good)
                 known[pick], proven[pick] = orbit, is_extremal(kernel, part, orbit, bounds.take(pick), last)
                 self.record.orbits(index[pick], sequence, orbit, proven[pick])
