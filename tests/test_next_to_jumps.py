@@ -5,7 +5,6 @@ import pytest
 
 import hystrip
 from hystrip.level.branches import Errors, Piece, branches_of
-from hystrip.level.interpolation import Intervals
 from hystrip.level.inverse import _Walk
 from hystrip.level.strips import AT_JUMP
 
@@ -62,8 +61,7 @@ def test_a_curve_that_may_turn_back_where_branches_meet_is_asked_for_again(p):
         Piece(D, D + 1, np.array([[c] * 2, [half] * 2]), known, **flags) for D, c, half in ((0, 1.5015, 0.5015), (1, 2.5, 0.5))
     ]
     (row,) = branches_of([pieces], True)
-    part = Intervals.of(np.array([0]), np.zeros(1), np.full(1, 2.0), np.zeros(1), np.zeros((1, 2)))
     for goal, again in ((1e-2, True), (1e-8, False)):
-        walk = _Walk(0, True, p, goal, 1e-8, [], [part])
+        walk = _Walk(0, True, p, goal, 1e-8, [])
         walk.go_on(pieces, row, False)
         assert (walk.now is not None) is again and (walk.root is None) is again and not walk.undecided

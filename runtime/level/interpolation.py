@@ -9,7 +9,7 @@ import numpy as np
 
 from ..numerics.chebyshev import flat_ended, interpolation_errors, lobatto
 from ..numerics.quadrature import Stage, interior_nodes, sampled
-from ..numerics.rounding import EPS, LARGEST
+from ..numerics.rounding import EPS
 from ..orbit.batch import Ranges
 from .averages import level_means
 from .branches import Errors, Piece, share_of
@@ -53,11 +53,6 @@ class Intervals(Ranges):
         """Intervals between breaks of the columns ``column`` (m,), as accurate as these, ``rtol`` (n,) and ``atol`` (n, q)."""
         inner = np.zeros((2, column.size), bool)
         return cls(low, high, column, *inner, rtol[column], atol[column], np.full(column.size, np.inf))
-
-    @property
-    def pressure_alone(self) -> np.ndarray:
-        """Where nothing but the pressure is asked for, (m,)."""
-        return (self.atol[:, 1:] >= LARGEST).all(axis=1)
 
     def split(self, D: np.ndarray, soft: bool) -> tuple[Intervals, Intervals]:
         """The parts below and above D of each; the curve goes on smoothly there, or not."""
@@ -139,19 +134,14 @@ class _Work:
                     stage = stage.take(~before_least(stage, np.column_stack(ends)))
                 going.append(replace(stage, parts=weighed(self.columns, self.budget, stage.parts, stage.known[0])))
         parts = [part for stage, goal in divided for part in self._divided(stage, goal)]
-        fresh = [Stage(self._counting(Intervals.joined(parts)), self.first)] if parts else []
+        fresh = [Stage(Intervals.joined(parts), self.first)] if parts else []
         return [stage for stage in (*going, *fresh) if stage.parts.size]
-
-    def _counting(self, intervals: Intervals) -> Intervals:
-        """Without those asked for nothing but pressure that fall, or rise (by K times D at most) by no more than it may err."""
-        rises = self.columns.material.K * intervals.width > intervals.atol[:, 0]
-        return intervals.take(rises | ~intervals.pressure_alone)
 
     def _converged(self, stage: Stage) -> tuple[Stage, np.ndarray, np.ndarray]:
         """Append what has converged to the pieces; of columns with too many strips all as it is, with the spread of the values as
         error. Returns the rest, its goals (intervals, q), and which of it have to be divided."""
-        columns, intervals, (values, errors, zones) = self.columns, stage.parts, stage.known
-        column, D, c = intervals.column, intervals.at(interior_nodes(stage.n)), flat_ended(stage.n) @ values
+        columns, intervals, (values, errors, _) = self.columns, stage.parts, stage.known
+        column, c = intervals.column, flat_ended(stage.n) @ values
         goal = allowed = intervals.rtol[:, None] * np.abs(values).min(axis=1) + intervals.atol
         blur, rounding, spread = _BLUR * errors.max(axis=1), _rounding(columns, stage, c), np.ptp(values, axis=1)
         # where next to nothing changes there is little to miss, whatever nobody marked there
@@ -168,12 +158,9 @@ class _Work:
             error[ended], done = np.maximum(error, spread)[ended], done | ended
         bounds = errors + (error + _ROUNDED * rounding + _SPREAD * errors.max(axis=1))[:, None]
         for k in np.flatnonzero(done & ~jump):
-            # what appears or vanishes between two nodes need not show at them, and may turn the curve there
-            seen = islands(int(column[k]), D[k], zones[k], allowed[k]) if intervals.pressure_alone[k] else []
-            hidden = max((each.weight for each in seen), default=0.0)
-            known = Errors(interior_nodes(stage.n), bounds[k] + np.minimum(hidden * allowed[k], spread[k]))
             ends = float(intervals.low[k]), float(intervals.high[k])
-            self.pieces[column[k]].append(Piece(*ends, c[k], known, bool(intervals.inner_low[k]), bool(intervals.inner_high[k])))
+            inner = bool(intervals.inner_low[k]), bool(intervals.inner_high[k])
+            self.pieces[column[k]].append(Piece(*ends, c[k], Errors(interior_nodes(stage.n), bounds[k]), *inner))
         missed, before = error / goal, np.full_like(goal, np.inf)
         if stage.n >= _FIRST:
             half = flat_ended(stage.n // 2) @ values[:, 1::2]

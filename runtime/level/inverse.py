@@ -7,6 +7,7 @@ The curve is interpolated part by part, from the end the branch of loading comes
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import compress, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -117,42 +118,47 @@ def _without_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol
 
 
 def _with_adhesion(columns: LevelBatch, p: np.ndarray, full: np.ndarray, rtol: float) -> Penetrations:
-    """``invert`` with adhesion."""
-    root, undecided = _first_passes(columns, p, cut_penetration(columns, p, full), rtol)
-    in_jump = ~np.isnan(root.D) & np.isnan(root.low)
-    return Penetrations(*_refine(columns, p, root, rtol, 1e-3 * columns.scales[0]), undecided, in_jump)
-
-
-def _first_passes(columns: LevelBatch, p: np.ndarray, top: np.ndarray, rtol: float) -> tuple[Root, np.ndarray]:
-    """Where the curve of each column first passes the pressure ``p`` (Pa, (n,)), below ``top`` (n,), where unloading comes from,
-    and which are undecided, (n,). All columns go along their curves together, a part of each at a time."""
-    h, unloading, bottom = columns.level.h, columns.branch == "unloading", first_contact(columns)
-    finest = _CLOSEST * (np.abs(p) + 1e-3 * columns.scales[0])
-    goal = np.maximum(ROUGH * (np.abs(p) + columns.scales[0]), rtol * (np.abs(p) + 1e-3 * columns.scales[0]))
-    parts = [_growing(bottom, D, _NEXT * h, unloading) for D in top]
-    walks = [_Walk(i, unloading, *of) for i, of in enumerate(zip(p, goal, finest, parts, strict=True))]
-    strips, nothing_else = np.zeros(p.size, int), np.full((p.size, columns.scales.size), LARGEST)
-    while going := [walk for walk in walks if walk.waiting or walk.now is not None]:
-        if fresh := [walk for walk in going if walk.now is None]:
-            D = np.linspace(*np.array([walk.waiting.pop() for walk in fresh]).T, _LOOKS, axis=1)
-            column = np.array([walk.column for walk in fresh])
-            row, low, high, _ = between_breaks(columns, column, D)
-            found = Intervals.of(column[row], low, high, np.zeros(p.size), nothing_else)
-            # at the top the curve is but cut, or saturates
-            found.inner_low[:], found.inner_high[:] = (low == D[row, 0]) & (low > bottom), high == D[row, -1]
-            for k, walk in enumerate(fresh):
-                walk.now = found.take(row == k)
-                walk.now.atol[:, 0] = walk.goal
-                walk.asked.append(walk.now)
-        pieces = interpolate(columns, Intervals.joined([walk.now for walk in going]), strips, first=_FIRST)
-        known = branches_of([[*walk.known, *pieces[walk.column]] for walk in going], unloading)
-        for walk, row in zip(going, known, strict=True):
-            walk.go_on(pieces[walk.column], row, bool(strips[walk.column] > CURVE_LIMIT))
+    """``invert`` with adhesion: to where the curve passes the pressure first, for all that is known of it once it is refined."""
+    h, q, unloading, bottom = columns.level.h, columns.scales.size, columns.branch == "unloading", first_contact(columns)
+    out, left, strips, floor = Penetrations.at(p * np.nan), np.arange(p.size), np.zeros(p.size, int), 1e-3 * columns.scales[0]
+    size, ways = np.abs(p) + floor, [_growing(bottom, top, _NEXT * h, unloading) for top in cut_penetration(columns, p, full)]
+    goal = np.maximum(ROUGH * (np.abs(p) + columns.scales[0]), rtol * size)
+    walks = [_Walk(i, unloading, *of) for i, *of in zip(left, p, goal, _CLOSEST * size, ways, strict=True)]
+    while left.size:
+        _go_along(columns, [walks[i] for i in left], strips)
+        nowhere = Root(np.nan, 0.0, np.zeros(q))
+        root = Root(*(np.array(v) for v in zip(*(walks[i].root or nowhere for i in left), strict=True)))
+        found = _refine(columns.at(left, np.zeros(left.size)), p[left], root, rtol, floor)
+        undecided = np.array([walks[i].undecided != "" for i in left])
+        out.put(left, Penetrations(*found, undecided, ~np.isnan(root.D) & np.isnan(root.low)))
+        # by now it is known how strips change over next to the root
+        turns = columns.crossings.turned(columns)
+        left = np.array([i for i in left if walks[i].divide(turns.E[turns.velocity == columns.V[i]] + h, out.D[i])], int)
     undecided = np.array([walk.undecided for walk in walks], object)
     for why in (NO_CURVE, AT_JUMP):
         columns.work.limit_reached(columns.V[undecided == why], columns.level.l, why)
-    nowhere = Root(np.nan, 0.0, np.zeros(columns.scales.size))
-    return Root(*(np.array(v) for v in zip(*(walk.root or nowhere for walk in walks), strict=True))), undecided != ""
+    return out
+
+
+def _go_along(columns: LevelBatch, walks: list[_Walk], strips: np.ndarray) -> None:
+    """All walks together, part by part, to where their curves first pass their pressures; ``strips`` (n,) counts the work."""
+    bottom = first_contact(columns)
+    while going := [walk for walk in walks if walk.now is not None or (walk.waiting and not walk.arrived)]:
+        if fresh := [walk for walk in going if walk.now is None]:
+            D = np.linspace(*np.array([walk.waiting.pop() for walk in fresh]).T, _LOOKS, axis=1)
+            row, low, high, _ = between_breaks(columns, np.array([walk.column for walk in fresh]), D)
+            # at the top the curve is but cut, or saturates
+            ends = np.array((low, high, (low == D[row, 0]) & (low > bottom), high == D[row, -1]))
+            for k, walk in enumerate(fresh):
+                walk.now = ends[:, row == k]
+        low, high, *inner = np.concatenate([walk.now for walk in going], axis=1)
+        column, goal = np.repeat([(walk.column, walk.goal) for walk in going], [walk.now.shape[1] for walk in going], axis=0).T
+        atol = np.column_stack((goal, np.full((low.size, columns.scales.size - 1), LARGEST)))
+        intervals = Intervals(low, high, column.astype(int), *(v > 0 for v in inner), 0 * low, atol, np.full(low.size, np.inf))
+        pieces = interpolate(columns, intervals, strips, first=_FIRST)
+        known = branches_of([[*walk.known, *pieces[walk.column]] for walk in going], columns.branch == "unloading")
+        for walk, row in zip(going, known, strict=True):
+            walk.go_on(pieces[walk.column], row, bool(strips[walk.column] > CURVE_LIMIT))
 
 
 def _growing(bottom: float, top: float, width: float, unloading: bool) -> list[tuple[float, float]]:
@@ -170,8 +176,8 @@ class _Walk:
     """One column along its curve, from the end its branch comes from to where it first passes the pressure ``p``.
 
     ``goal``: error of the curve's pressure that it may have so far, at last ``finest``, Pa. ``waiting``: what is ahead of it, the
-    next part last; ``asked``: the parts it has gone along; ``now``: the one it goes along, or what is asked for again of all;
-    ``known``: pieces of the others. ``undecided``: why, if it is.
+    next part last; ``now``: the intervals it goes along, low and high ends and which of them are inner ones, (4, k); ``known``:
+    pieces of all others. ``arrived``: it need not go on. ``undecided``: why, if it is.
     """
 
     column: int
@@ -180,10 +186,10 @@ class _Walk:
     goal: float
     finest: float
     waiting: list[tuple[float, float]]
-    asked: list[Intervals] = field(default_factory=list)
-    now: Intervals | None = None
+    now: np.ndarray | None = None
     known: list[Piece] = field(default_factory=list)
     root: Root | None = None
+    arrived: bool = False
     undecided: str = ""
 
     def go_on(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
@@ -204,12 +210,9 @@ class _Walk:
         whole = inside and all(a.t_high == 1 and b.t_low == 0 and a.piece.high == b.piece.low for a, b in joints)
         if not (least == most or whole):
             if self.goal > self.finest and not exhausted:
-                asked, start = Intervals.joined(self.asked), np.array([piece.low for piece in self.known])
-                of = (asked.low[:, None] <= start) & (start < asked.high[:, None])
-                again = (of & [_comes_to(self.p, piece, self.goal) for piece in self.known]).any(axis=1)
-                self.goal, self.now = max(_FINER * self.goal, self.finest), asked.take(np.flatnonzero(again))
-                self.now.atol[:, 0] = self.goal
-                self.known = [piece for piece, by in zip(self.known, of[again].any(axis=0), strict=True) if not by]
+                again = [self._comes_to(piece) for piece in self.known]
+                self.goal = max(_FINER * self.goal, self.finest)
+                self._ask_again(again)
                 return
             # two branches that overlap by less than they are known to may be one
             if not (inside and all(a.inner_high and b.inner_low for a, b in joints)):
@@ -217,16 +220,33 @@ class _Walk:
             k = max(k, 0)
         if 0 <= k < 2 * len(row) - 1:
             self.root = _in_jump(*row[k // 2 : k // 2 + 2], self.unloading) if k % 2 else _in_branch(row[k // 2], self.p)
-        if self.root is not None or clings:
-            self.waiting = []
+        self.arrived = self.root is not None or clings
 
+    def divide(self, turns: np.ndarray, D: float) -> bool:
+        """Whether to ask again for what comes to the pressure, but for errors, and has ``turns`` (m, (n,)), where strips change
+        over, before the root ``D``; divided there. The curve may turn as well, by less than it may err."""
+        before = turns[~(turns <= D if self.unloading else turns >= D)]
+        again = [((piece.low < before) & (before < piece.high)).any() and self._comes_to(piece) for piece in self.known]
+        if any(again):
+            self.root, self.undecided, self.arrived = None, "", False
+            self._ask_again(again, before)
+        return any(again)
 
-def _comes_to(p: float, piece: Piece, goal: float) -> bool:
-    """Whether the curve carries the pressure in a piece or next to it, but for errors; by less than the ``goal`` it may rise in
-    what was left out."""
-    t = np.array([0.0, 1.0, *(end for part in rising([piece])[0] for end in (part.t_low, part.t_high))])
-    met, doubt = piece.values(t)[:, 0], max(_DOUBT * piece.errors.most[0], goal)
-    return bool(met.min() - doubt <= p <= met.max() + doubt)
+    def _ask_again(self, again: list[bool], breaks: np.ndarray = np.empty(0)) -> None:
+        """Go along the pieces asked for ``again``, divided at the ``breaks`` (m, (n,)), instead of what is known there."""
+        ends = []
+        for piece in compress(self.known, again):
+            cuts = [piece.low, *np.sort(breaks[(piece.low < breaks) & (breaks < piece.high)]), piece.high]
+            for low, high in pairwise(cuts):
+                ends.append((low, high, piece.inner_low and low == piece.low, piece.inner_high and high == piece.high))
+        self.now = np.array(ends).T
+        self.known = [piece for piece, so in zip(self.known, again, strict=True) if not so]
+
+    def _comes_to(self, piece: Piece) -> bool:
+        """Whether the curve carries the pressure in a piece or next to it, but for errors."""
+        t = np.array([0.0, 1.0, *(end for part in rising([piece])[0] for end in (part.t_low, part.t_high))])
+        met, doubt = piece.values(t)[:, 0], max(_DOUBT * piece.errors.most[0], self.goal)
+        return bool(met.min() - doubt <= self.p <= met.max() + doubt)
 
 
 def _place(row: list[Branch], p: float, doubts: float) -> int:

@@ -98,8 +98,7 @@ class _Batch:
         return index[rest], clings[rest]
 
     def _without_adhesion(self, index):
-        if index.size:
-            index, _ = self._saturated(self._free(index))
+        index, _ = self._saturated(self._free(index))
         if index.size:
             self.record.orbits(index, "cf", *self._unique(index, "cf"))
 
@@ -152,21 +151,17 @@ class _Batch:
                 orbit, good = _followed(kernel, part, sequence, start(kernel, part, sequence, limits))
                 pick, part, orbit = pick[good], part.take(good), orbit.take(good)
                 known[pick], proven[pick] = orbit, is_extremal(kernel, part, orbit, bounds.take(pick), last)
-                self.record.orbits(index[pick], sequence, orbit, proven[pick])
         rest = np.flatnonzero(~proven & ~np.isnan(known.x) & np.isnan(bounds.x) & (not last))
         if rest.size:
             part, orbit = cycle.among(rest), known.take(rest)
             bounds[rest] = limits = self._bounds_by_engaged(index[rest], part, bounds.a[rest])
-            proven[rest] = good = falls(kernel, part, limits, orbit)
-            for sequence, kind in _kinds(part, orbit).items():
-                self.record.orbits(index[rest], sequence, orbit, good & kind)
+            proven[rest] = falls(kernel, part, limits, orbit)
         rest = np.flatnonzero(~none & ~proven)
         if rest.size:
-            cycle = cycle.among(rest)
-            orbit, certified, exists = _isolated(kernel, cycle, last, known.take(rest), bounds.x[rest])
-            for sequence, kind in _kinds(cycle, orbit).items():
-                self.record.orbits(index[rest], sequence, orbit, certified & kind)
+            known[rest], proven[rest], exists = _isolated(kernel, cycle.among(rest), last, known.take(rest), bounds.x[rest])
             none[rest] = ~exists
+        for sequence, kind in _kinds(cycle, known).items():
+            self.record.orbits(index, sequence, known, proven & kind)
         return index[none]
 
 
