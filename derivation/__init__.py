@@ -8,6 +8,7 @@ the paper's number ("Eq. 13") and whose checks stand under it; :mod:`.check` say
 A model given by its Prony series, with any number of relaxation times, goes through the same stages in :mod:`.modes`.
 """
 
+from . import required as required  # first
 from .check import Check, DerivationError, Derived
 from .derive import derive
 from .drift import Drift, check

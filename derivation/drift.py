@@ -15,7 +15,7 @@ from typing import Any
 from .certificates import SCALE, WORDS, certified_names
 from .derive import Report, derivations_of
 from .emit import emit, input_hash
-from .folder import AUDIT, CERTIFICATES, MEASURED, dumped, generated_folder, read_certificates, read_measured
+from .folder import AUDIT, CERTIFICATES, MEASURED, dumped, folder_of, read_certificates, read_measured
 from .model import Model
 from .outcome import Derivation
 from .pages import audit_files
@@ -39,7 +39,7 @@ def check(
     progress: Report | None = None,
 ) -> list[Drift]:
     """Compare the folder of generated files with what the derivation emits now; an empty list means no drift."""
-    folder = Path(generated) if generated is not None else generated_folder()
+    folder = folder_of(generated, "generated")
     derivations = derivations_of(models, progress)
     texts = emit(derivations)
     texts |= audit_texts(derivations, texts, _readable_certificates(folder), read_measured(folder))

@@ -12,6 +12,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from hystrip.files import path_of
+
 CERTIFICATES = "certificates.json"
 AUDIT = "audit"
 MEASURED = f"{AUDIT}/measured.json"  # pictures and measured figures of the pages, which `hystrip audit` makes anew
@@ -20,6 +22,11 @@ MEASURED = f"{AUDIT}/measured.json"  # pictures and measured figures of the page
 def generated_folder() -> Path:
     """Where the solvers of the package live."""
     return Path(str(resources.files("hystrip.generated")))
+
+
+def folder_of(given: str | os.PathLike[str] | None, field: str) -> Path:
+    """The folder that was ``given``, or where the solvers of the package live."""
+    return path_of(given, field, "a folder") if given is not None else generated_folder()
 
 
 def require_folder(target: Path) -> None:
@@ -41,9 +48,9 @@ def read_certificates(folder: Path) -> dict[str, Any]:
     return json.loads(path.read_text(encoding="utf-8"))["models"] if path.exists() else {}
 
 
-def stored_bounds(folder: Path | None = None) -> dict[str, dict[str, float]]:
+def stored_bounds(folder: str | os.PathLike[str] | None = None) -> dict[str, dict[str, float]]:
     """Bounds in ulp of the natural scale, by model and function."""
-    stored = read_certificates(folder or generated_folder())
+    stored = read_certificates(folder_of(folder, "folder"))
     return {model: {name: row["bound"] for name, row in entry["functions"].items()} for model, entry in stored.items()}
 
 

@@ -4,17 +4,22 @@ import keyword
 import os
 import runpy
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from hystrip.errors import InputError
+from hystrip.files import path_of
+from hystrip.inputs.checks import sequence
+from hystrip.inputs.prony import MOST_TIMES
+
+from .arguments import A_NAME, A_TEXT, coefficients, is_name, is_text, require_words
 from .check import DerivationError
 from .model import Model, Parameter, Roots, Series
 from .printing import FUNCTIONS, source
 from .symbols import K, T_eps, T_sigma, rate
 
-STEP = "model file"
+STEP = "model"
 TAKEN = ("stable", "modes", "audit", "certificates")  # files that stand beside the emitted solvers
 CALLED = ("np", "positive", "nonnegative", "finite", "of_operators")  # by the emitted function that takes the parameters
 STIFFNESS = Parameter(K, "K", "Pa/m", "relaxed stiffness of the foundation per area")
@@ -25,10 +30,12 @@ K_i, tau_i = sp.symbols("K_i tau_i", positive=True)
 def prony_model(name: str, modes: int | None = None, title: str = "") -> Model:
     """A spring beside ``modes`` Maxwell branches, or any number: ``p = K w + sum_i K_i (w - e_i)``, ``tau_i e_i' + e_i = w``.
 
-    The solver is given the Prony series as arrays K_i and tau_i. Raises :class:`ValueError` for what is no number of them.
+    The solver is given the Prony series as arrays K_i and tau_i. Raises :class:`hystrip.InputError` for an argument that cannot
+    be used.
     """
-    if modes is not None and not (isinstance(modes, int) and modes >= 1):
-        raise ValueError(f"prony_model: modes must be an integer, at least 1, not {modes!r}")
+    require_words(name, title)
+    if modes is not None and (not isinstance(modes, int) or isinstance(modes, bool) or not 1 <= modes <= MOST_TIMES):
+        raise InputError("modes", modes, f"an integer, at least 1 and at most {MOST_TIMES}, or None for any number")
     return Model(
         name=name,
         title=title or f"Generalised model with {modes or 'n'} relaxation times",
@@ -51,9 +58,12 @@ def operator_model(
 
     A parameter is named like its symbol: ``Parameter(sp.Symbol("T", positive=True), "T", "s", "retardation time")``. The times of
     the model are found by the solver once the parameters are numbers; numbers that make no passive, stable solid are refused
-    there. Raises :class:`DerivationError` for operators that do not belong together, or that the solver could not compute.
+    there. Raises :class:`DerivationError` for operators that do not belong together, or that the solver could not compute, and
+    :class:`hystrip.InputError` for an argument of another kind.
     """
-    Q, P = (tuple(map(sp.sympify, operator)) for operator in (Q, P))
+    require_words(name, title)
+    parameters = sequence("parameters", parameters, "a sequence of hystrip.derivation.Parameter")
+    Q, P = coefficients("Q", Q), coefficients("P", P)
     if len(Q) != len(P) or len(Q) < 2:
         raise DerivationError(
             name, f"Q and P have coefficients of the same powers 0 .. n, n >= 1; these have {len(Q)} and {len(P)}"
@@ -103,10 +113,10 @@ MODELS = (STANDARD_LINEAR_SOLID, KELVIN_VOIGT, GENERALISED)
 def load_model(path: str | os.PathLike[str]) -> tuple[Model, ...]:
     """The models that a file declares, as ``MODEL`` or ``MODELS``. The file is run: it is code of whoever names it.
 
-    Raises :class:`FileNotFoundError`, and :class:`DerivationError` for a file that does not run or declares no model that
-    can be emitted.
+    Raises :class:`FileNotFoundError`, :class:`DerivationError` for a file that does not run or declares no model that can be
+    emitted, and :class:`hystrip.InputError` for what is no path.
     """
-    file = Path(path)
+    file = path_of(path, "path", "a model file")
     if not file.is_file():
         raise FileNotFoundError(f"no model file {file}")
     try:
@@ -127,20 +137,19 @@ def load_model(path: str | os.PathLike[str]) -> tuple[Model, ...]:
 
 
 def require_names(models: Iterable[object]) -> None:
-    """Raise an error unless every model can be the name of a module, and no two are the same."""
+    """Raise :class:`DerivationError` unless every model can be the name of a module, and no two are the same."""
     seen: set[str] = set()
     for model in models:
         if not isinstance(model, Model):
             raise DerivationError(STEP, f"a model is a hystrip.derivation.Model, not {type(model).__name__}")
         name = model.name
-        if (
-            not (name.isidentifier() and name.isascii() and name == name.lower())
-            or keyword.iskeyword(name)
-            or name.startswith("_")
-        ):
-            raise DerivationError(
-                STEP, f"the name of a model is a lower-case Python name without leading underscore, not {name!r}"
-            )
+        if not is_name(name):
+            raise DerivationError(STEP, f"the name of a model is {A_NAME}, not {name!r}")
+        if not is_text(model.title):
+            raise DerivationError(name, f"the title of a model is {A_TEXT}, not {model.title!r}")
+        for field in ("parameters", "Q", "P"):
+            if not isinstance(getattr(model, field), (tuple, list)):
+                raise DerivationError(name, f"{field} of a model is a tuple, not {getattr(model, field)!r}")
         if name in TAKEN or name in seen:
             raise DerivationError(STEP, f"the name {name!r} is free: {', '.join((*TAKEN, *sorted(seen)))} are taken")
         seen.add(name)
@@ -153,6 +162,8 @@ def require_parameters(model: str, parameters: Iterable[object]) -> None:
     for parameter in parameters:
         if not (isinstance(parameter, Parameter) and isinstance(parameter.symbol, sp.Symbol)):
             raise DerivationError(model, f"a parameter is a hystrip.derivation.Parameter of a SymPy symbol, not {parameter!r}")
+        if not (is_text(parameter.unit) and is_text(parameter.meaning)):
+            raise DerivationError(model, f"unit and meaning of a parameter are {A_TEXT}, not those of {parameter!r}")
         name, printed = parameter.name, source(parameter.symbol)
         if name != printed or not name.isidentifier() or keyword.iskeyword(name) or name in (*CALLED, *seen):
             taken = ", ".join((*CALLED, *sorted(seen)))

@@ -6,6 +6,8 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
+from hystrip.errors import InputError
+
 from .certificates import Certificate, certificates_of, certified_names, domain, modes_of
 from .derive import Report, derivations_of, reported
 from .drift import audit_texts, certificates_text
@@ -14,6 +16,7 @@ from .folder import (
     CERTIFICATES,
     MEASURED,
     dumped,
+    folder_of,
     generated_folder,
     importable,
     read_certificates,
@@ -44,8 +47,11 @@ def regenerate(
     says why: ``{"module.function": "reason"}``. ``progress`` is called with (done, in all): of the models to derive, then of
     the functions of each to measure.
     """
-    target = Path(out_dir) if out_dir is not None else generated_folder()
+    target = folder_of(out_dir, "out_dir")
     require_folder(target)
+    accepted = {} if accept is None else accept
+    if not (isinstance(accepted, dict) and all(isinstance(text, str) for text in (*accepted, *accepted.values()))):
+        raise InputError("accept", accept, 'a dictionary {"module.function": "reason"}, or None')
     derivations = derivations_of(models, progress)
     files = emit(derivations)
     certificates = {}
@@ -54,7 +60,7 @@ def regenerate(
         for derivation in derivations:
             name = derivation.model.name
             measured = reported(certificates_of(derivation, solver(name)), progress, len(certified_names(derivation)))
-            rows = bounds_of(name, measured, stored, accept or {})
+            rows = bounds_of(name, measured, stored, accepted)
             certificates[name] = {"interface": INTERFACE, "modes": list(modes_of(derivation.model)), "functions": rows}
     files[CERTIFICATES] = certificates_text(certificates)
     known = read_measured(target) or read_measured(generated_folder())

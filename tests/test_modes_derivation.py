@@ -15,12 +15,15 @@ import pytest
 import sympy as sp
 from derived_once import derivations, emitted, tampered
 
+from hystrip import InputError
 from hystrip.derivation import (
     KELVIN_VOIGT,
     DerivationError,
     Model,
     Parameter,
     Series,
+    audit,
+    check,
     derive,
     generated_folder,
     load_model,
@@ -328,7 +331,7 @@ def test_a_refused_model_leaves_nothing_behind(tmp_path: Path) -> None:
         (FILE.replace("my_rubber", "My rubber"), "lower-case Python name"),
         (FILE.replace("my_rubber", "stable"), "taken"),
         (FILE.replace('my_rubber")', 'my_rubber", modes=0)'), "at least 1"),
-        (FILE.replace('my_rubber")', 'my_rubber", modes=2.5)'), "an integer, at least 1, not 2.5"),
+        (FILE.replace('my_rubber")', 'my_rubber", modes=2.5)'), "modes: got 2.5; allowed: an integer"),
         (FILE + "MODELS = (MODEL,)\n", "not both"),
     ],
 )
@@ -377,3 +380,52 @@ def test_symbols_without_a_sign_are_not_called_negative() -> None:
 def test_a_missing_file_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match="no model file .*absent.py"):
         load_model(tmp_path / "absent.py")
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: prony_model(5, modes=2), "name: got 5; allowed: a lower-case Python name"),
+        (lambda: prony_model("A b"), "name: got 'A b'; allowed: a lower-case Python name"),
+        (lambda: prony_model("a", modes=True), "modes: got True; allowed: an integer, at least 1 and at most 40"),
+        (lambda: prony_model("a", modes=41), "modes: got 41; allowed: an integer, at least 1 and at most 40"),
+        (lambda: prony_model("a", title='a "b"'), "title: got .*; allowed: text of one line without quotation marks"),
+        (lambda: operator_model(None, OF_ONE, (1, T_1), (1, 0)), "name: got None; allowed"),
+        (lambda: operator_model("a", OF_ONE[0], (1, T_1), (1, 0)), "parameters: got Parameter.*; allowed: a sequence"),
+        (lambda: operator_model("a", OF_ONE, 1 + T_1, (1, 0)), "Q: got T_1 . 1; allowed: a sequence of coefficients"),
+        (lambda: operator_model("a", OF_ONE, {1, T_1}, (1, 0)), "Q: got .*; allowed: a sequence of coefficients"),
+        (lambda: operator_model("a", OF_ONE, (1, "T_1 +"), (1, 0)), "Q.1.: got 'T_1 .'; allowed: a number or a SymPy expr"),
+        (lambda: operator_model("a", OF_ONE, (1, T_1), (1, None)), "P.1.: got None; allowed: a number or a SymPy expression"),
+        (lambda: load_model(5), "path: got 5; allowed: the path of a model file"),
+        (lambda: regenerate("unused", models=[]), r"models: got \[\]; allowed: at least one hystrip.derivation.Model"),
+        (lambda: regenerate("unused", models=KELVIN_VOIGT), "models: got Model.*; allowed: at least one"),
+        (lambda: regenerate(5), "out_dir: got 5; allowed: the path of a folder"),
+        (lambda: regenerate("unused", accept=["a"]), r"accept: got \['a'\]; allowed: a dictionary"),
+        (lambda: check(5), "generated: got 5; allowed: the path of a folder"),
+        (lambda: check(models=[]), "models: got .*; allowed: at least one"),
+        (lambda: audit(""), "out_dir: got ''; allowed: the path of a folder"),
+        (lambda: stored_bounds(5), "folder: got 5; allowed: the path of a folder"),
+    ],
+)
+def test_an_argument_that_cannot_be_used_is_named(call, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        call()
+
+
+@pytest.mark.parametrize(
+    ("model", "message"),
+    [
+        (None, "a model is a hystrip.derivation.Model, not NoneType"),
+        (replace(KELVIN_VOIGT, name=5), "the name of a model is a lower-case Python name .*, not 5"),
+        (replace(KELVIN_VOIGT, title=None), "the title of a model is text of one line .*, not None"),
+        (replace(KELVIN_VOIGT, P=None), "P of a model is a tuple, not None"),
+        (replace(KELVIN_VOIGT, parameters=(replace(OF_ONE[0], meaning='a\n"""'),)), "unit and meaning of a parameter are text"),
+    ],
+)
+def test_what_is_no_model_is_refused_before_it_is_derived(model, message: str) -> None:
+    with pytest.raises(DerivationError, match=message):
+        derive(model)
+
+
+def test_bounds_are_read_from_the_path_of_a_folder() -> None:
+    assert stored_bounds(str(generated_folder())) == stored_bounds()

@@ -174,6 +174,18 @@ except SystemExit as end:
     assert not (work / "elsewhere").exists() and not (work / "hystrip-out").exists()
 
 
+@pytest.mark.parametrize("hidden", ["sympy", "lark"])
+def test_the_derivation_names_its_extra(installed, hidden):
+    code = """
+try:
+    import hystrip.derivation.models
+except hystrip.MissingExtra as error:
+    print(error)
+"""
+    out, _ = installed(code, hide=[hidden])
+    assert repr(hidden) in out and "pip install 'hystrip[regenerate]'" in out
+
+
 def test_wheel_derives_and_emits_the_same_bytes(installed):
     """One small model: the derivation finds its templates there; that its sources are the tree's is tested above, and what they
     emit in test_drift."""

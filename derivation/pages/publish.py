@@ -9,7 +9,7 @@ from ..certificates import certified_names
 from ..derive import Report, derivations_of
 from ..drift import compare
 from ..emit import emit
-from ..folder import AUDIT, MEASURED, dumped, generated_folder, read_certificates, read_measured, write_files
+from ..folder import AUDIT, MEASURED, dumped, folder_of, generated_folder, read_certificates, read_measured, write_files
 from ..model import Model
 from .render import audit_files
 
@@ -34,7 +34,7 @@ def audit(
     solver and its certificates are those of this derivation.
     """
     installed = generated_folder()
-    target = Path(out_dir) if out_dir is not None else installed / AUDIT
+    target = folder_of(out_dir if out_dir is not None else installed / AUDIT, "out_dir")
     derivations = derivations_of(models, progress)
     texts = emit(derivations)
     names = {made.model.name: certified_names(made) for made in derivations}

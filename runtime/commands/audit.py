@@ -19,10 +19,8 @@ def command(
     from ..errors import InputError
     from ..extras import require
     from ..files import refuse_unwritable
-    from .derivation import needed
     from .progress import progress
 
-    needed("auditing")
     require("matplotlib", "plot", "drawing the audit's examples")
     import hystrip.derivation
     import hystrip.generated

@@ -19,13 +19,11 @@ def command(
     """
     from ..errors import HystripError, InputError
     from ..files import refuse_unwritable
-    from .derivation import needed
     from .progress import progress
     from .signals import Terminated
 
     if model is not None and out is None:
         raise InputError("--out", None, "a folder for the solver of your model")
-    needed("regenerating")
     import hystrip.derivation
     import hystrip.generated
 

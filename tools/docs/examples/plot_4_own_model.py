@@ -12,10 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import hystrip
-from hystrip.extras import require
-
-require("sympy", "regenerate", "a model of one's own")
-import hystrip.derivation  # noqa: E402
+import hystrip.derivation
 
 folder = Path(tempfile.mkdtemp())
 
