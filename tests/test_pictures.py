@@ -113,6 +113,29 @@ def test_a_panel_at_zero_pressure_says_why_it_is_empty():
     assert "2 points lie at zero pressure, where mu is not defined" in result.summary()
 
 
+def test_panels_of_a_surface_that_is_pulled_off_say_so():
+    result = hystrip.solve(MATERIAL, ADHESION, LEVELS[:1], pressure=-5e3, velocity=np.geomspace(1e-3, 1e-2, 3), rtol=1e-2)
+    assert result.pulled_off.all()
+    mu, contact = result.plot().axes
+    assert all([text.get_text() for text in panel.texts] == ["pulled off: no contact"] for panel in (mu, contact))
+    assert contact.get_ylim() == (-0.05, 1.05)
+
+
+def test_decades_of_velocity_that_begin_at_rest_are_drawn_over_decades():
+    over = functools.partial(hystrip.solve, MATERIAL, hystrip.Dugdale(gamma=0), LEVELS[:1], pressure=1e3, rtol=1e-2)
+    panel = over(velocity=np.r_[0, np.geomspace(1e-5, 1e-1, 9)]).plot("mu").axes[0]
+    assert panel.get_xscale() == "symlog" and panel.get_xlim() == (0, 1e-1)
+    even = hystrip.solve(
+        MATERIAL, hystrip.Dugdale(gamma=0), LEVELS[:1], pressure=1e3, velocity=np.linspace(0, 1e-1, 21), rtol=1e-2
+    )
+    assert even.plot("mu").axes[0].get_xscale() == "linear"
+
+
+def test_a_height_that_does_not_change_has_the_unit_of_its_magnitude():
+    result = hystrip.solve(MATERIAL, ADHESION, [hystrip.Level(l=1e-5, h=0)], pressure=100.0, velocity=1e-3)
+    assert result.plot("strip").axes[1].get_ylabel() == "height (nm)"
+
+
 def test_velocity_is_found_along_any_axis():
     p, V = np.array([1e3, 2e3, 3e3]), np.array([1e-3, 1e-2])
     one, other = (

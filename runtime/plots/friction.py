@@ -105,7 +105,10 @@ def _over_velocity(result: Result, quantities: list[_Quantity]) -> Figure:
     if shown.size < rows:
         panels[0].plot([], [], " ", label=f"{shown.size} of {rows} loads are drawn")
     low, high = velocity[shown].min(), velocity[shown].max()
+    moving = np.unique(velocity[shown][velocity[shown] > 0])
     _scale(panels[-1], low, high, 0 < 10 * low <= high * (1 + 1e-12))
+    if low == 0 and _over_decades(moving):
+        panels[-1].set_xscale("symlog", linthresh=moving[0], linscale=0.5)
     panels[-1].set_xlabel("sliding velocity $V$ (m/s)")
     return _with_legend(panels[0])
 
@@ -220,8 +223,12 @@ def _draw(
             panel.plot(x[alone], y[alone], ".", **style)
     if doubtful.size:
         panel.plot(doubtful, there, "o", markersize=4, markerfacecolor="none", color="black", zorder=4, label="not converged")
-    if pole and not pressure.any():
-        panel.text(0.5, 0.5, "$\\mu$ is not defined at zero pressure", ha="center", va="bottom", transform=panel.transAxes)
+    undefined = pole and not pressure.any()
+    if undefined or off.all():
+        said = "$\\mu$ is not defined at zero pressure" if undefined else "pulled off: no contact"
+        panel.text(0.5, 0.55, said, ha="center", va="bottom", transform=panel.transAxes)
+    if off.all() and quantity is _QUANTITIES["contact"]:
+        panel.set_ylim(-0.05, 1.05)
     if panel.get_yscale() == "linear":
         panel.axhline(0, color="0.6", linewidth=0.5, zorder=0)
     panel.set_ylabel(quantity.label + (f" ({unit[1]})" if unit[1] else ""))

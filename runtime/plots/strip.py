@@ -50,7 +50,8 @@ def _draw(strip: StripSolution, points: int, stresses: Sequence[Floats] | None, 
     panels = stacked(2 if stresses is None else 3, COLUMN, (0.6 if stresses is None else 0.52 * 1.5) * 2 * COLUMN)
     share = x / period
     _pressure(panels[0], share, p)
-    factor, unit = unit_for("m", np.ptp(w), np.ptp(w - gap))
+    heights = np.ptp(w), np.ptp(w - gap)
+    factor, unit = unit_for("m", heights if any(heights) else w)
     # positive displacement goes into the foundation: drawn downwards, the profile lies above it
     panels[1].plot(share, -(w - gap) / factor, color=OKABE_ITO[1], linestyle=DASHES[0], label="rigid profile")
     panels[1].plot(share, -w / factor, color="black", label="foundation")
