@@ -50,7 +50,7 @@ def shift_of_an_event() -> Derived:
 def onset_slope(regime: Row) -> Kernel:
     r"""A shift of the onset fades over contact with alpha, over the rest of the period with beta, and is scaled where p steps: T'
     as numerator and denominator, and the one less the other, which vanishes at a fold; an orbit is stable when T' < 1. Both are
-    products of loads, so that Newton's method finds a fold from far off, over ``1 + beta``, which all loads grow with.
+    products of loads, so that Newton's method finds a fold from far off, over 1 + beta, which all loads grow with.
 
     .. math:: T' = \prod_{\text{zones}} \frac{ds_{last}}{ds_{first}}
     """

@@ -24,11 +24,11 @@ def audit(
     out_dir: str | os.PathLike[str] | None = None,
     models: Iterable[Model] | None = None,
     progress: Report | None = None,
-    measure: Callable[[str], dict[str, Any] | None] = lambda model: None,
+    measure: Callable[[str], dict[str, Any] | None] | None = None,
 ) -> list[Path]:
     """Derive, verify and write the audit into ``out_dir`` (the generated folder's own); returns the files written.
 
-    ``measure``: pictures and measured figures of a model, by its name, if there are any.
+    ``measure``, if given: pictures and measured figures of a model, by its name, or None where there are none.
 
     Raises :class:`DerivationError` at the first step that does not verify, and :class:`AuditError` unless the installed
     solver and its certificates are those of this derivation.
@@ -42,7 +42,7 @@ def audit(
     stale = [record.path for record in drift if record.kind != "stray" and not record.path.startswith(AUDIT)]
     if stale:
         raise AuditError(f"{', '.join(stale)} in {installed} is not what the derivation emits; run `hystrip regenerate` first")
-    found = {name: figures for name in names if (figures := measure(name)) is not None}
+    found = {name: figures for name in names if measure is not None and (figures := measure(name)) is not None}
     for name, stored in read_measured(installed).items():
         if name in found:
             found[name]["tables"] |= {table: rows for table, rows in stored.get("tables", {}).items() if table in KEPT}
