@@ -35,12 +35,13 @@ FIRST = {6: "zone conditions", 11: "means over a level", 15: "saturated_pressure
 
 def content(derivation: Derivation, files: Mapping[str, str], certificates: Mapping[str, Any]) -> dict[str, Any]:
     """Everything on a model's page but what is measured. ``files``: the emitted texts; ``certificates``: rows by function."""
-    words, module = WORDS.get(derivation.kind, {}), f"{derivation.model.name}.py"
+    words, module = WORDS[derivation.kind], f"{derivation.model.name}.py"
+    method = [*WORDS["method"], words["regime"]]
     steps = {step.name: step for step in derivation.steps}
     computed = places.functions(f"generated/{module}", files[module])
     functions = sorted(name for name in computed if "." not in name)  # and no methods
     helpers = places.functions("generated/stable.py", files["stable.py"])
-    deriving = {step.function for step in derivation.steps} | {name for name, _ in WORDS["method"]}
+    deriving = {step.function for step in derivation.steps} | {name for name, _ in method}
     conditions = equations if derivation.kind == "one_time" else events
     regimes = [_regime(regime, conditions(regime), computed) for regime in derivation.regimes]
     return {
@@ -59,7 +60,7 @@ def content(derivation: Derivation, files: Mapping[str, str], certificates: Mapp
         "domains": list(DOMAINS.items()),
         "functions": {name: _proven(name, derivation.steps, regimes) for name in functions},
         "certificates": dict(sorted(certificates.items())),
-        "method": WORDS["method"],
+        "method": method,
         "sources": {name: places.deriving(name) for name in sorted(deriving)},
         "generated": computed | helpers,
         "helpers": [_helper(helper) for helper in HELPERS],
