@@ -149,6 +149,8 @@ LEVELS: dict[str, Binding] = {
     "carried friction": _carried,
     "friction coefficient": lambda values, words: {r"\mu": values[0], r"\tau_1": sp.Symbol("tau_1", real=True), "p_1": p_nominal},
     "strip profile": shape,
+    "means_c": lambda values, words: {r"\barp": values[0], r"\bar\tau": values[1], "p": words["p_sat"]},
+    "means_": named(r"\barp", r"\bar\tau"),
 }
 """Of steps that are the same on any foundation."""
 BINDINGS: Mapping[str, Binding] = LEVELS | {
@@ -170,8 +172,6 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "gap_link": _at_end("g"),
     "excess_link": _at_end("q"),
     "saturated_pressure": _function("p_sat"),
-    "means_c": lambda values, words: {r"\barp": values[0], r"\bar\tau": values[1], "p": words["p_sat"]},
-    "means_": named(r"\barp", r"\bar\tau"),
     "saturation threshold": threshold,
     "level_saturation_penetration": named("D_sat"),
     "level_saturation_pressure": named("p_sat"),

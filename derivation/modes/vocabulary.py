@@ -145,8 +145,6 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "saturated_pressure": named("p_sat"),
     "saturation threshold": lambda values, words: {**threshold(values, words), "K*": lambda *place: K * R},
     "means of a strip": lambda values, words: CLOSED | {"p": u + total(words["f_sat"].expression)},
-    "means_c": lambda values, words: {r"\barp": values[0], r"\bar\tau": values[1], "p": words["p_sat"]},
-    "means_": named(r"\barp", r"\bar\tau"),
     "level_saturation_": _level,
     "stack friction": _level,
 }

@@ -9,7 +9,6 @@ from ..surface import HEIGHT, WAVE
 from ..symbols import D_level, K, T_eps, T_sigma, V, delta_0, h, l, p_0, x, y
 
 y_j = sp.Symbol("y_j", real=True)
-height = HEIGHT.subs(WAVE)
 
 MATERIAL = {
     "K": K, "V": V, r"T_\varepsilon": T_eps, r"T_\epsilon": T_eps, r"T_\sigma": T_sigma, "p_0": p_0, r"\delta_0": delta_0,
@@ -22,13 +21,12 @@ def level(index: str, **more: Any) -> dict[str, Any]:
     return {**MATERIAL, f"h_{index}": h, f"l_{index}": l, f"D_{index}": D_level, f"f_{index}": surface, **more}
 
 
-def surface(along: sp.Expr = x, across: sp.Expr = y) -> sp.Expr:
-    return height.subs({x: along, y: across}, simultaneous=True)
-
-
 def field(expression: sp.Expr) -> Callable[..., sp.Expr]:
     """A field of x and y as the function that the paper writes."""
     return lambda along=x, across=y: expression.subs({x: along, y: across}, simultaneous=True)
+
+
+surface = field(HEIGHT.subs(WAVE))
 
 
 def strips(number: int, place: Callable[[int, sp.Expr], sp.Expr] | None = None) -> dict[str, Any]:
