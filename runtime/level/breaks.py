@@ -29,8 +29,8 @@ _ACROSS, _ALONG, _ROUNDS = 12, 8, 20
 _ASIDE = 1e-6
 #: width in theta of an island that is close enough to where it ends to find the turn of its curve from
 _CLOSE = 1e-2
-#: what an island may add to the means that is left aside, over their goal, and over what the heaviest beside it adds
-_LEFT, _LIGHT = 0.3, 0.1
+#: what an island may add to the means that is left aside, over their goal
+_LEFT = 0.3
 
 
 def reach(adhesion: Dugdale, K: float) -> float:
@@ -155,7 +155,7 @@ def islands(column: int, D: np.ndarray, zones: list[Zones], goal: np.ndarray) ->
             if weight > _LEFT:
                 found.append(IsolatedRegime(column, int(one.code[k[0]]), float(low), float(high), *ends, weight))
         most = max(most, found, key=lambda some: max((each.weight for each in some), default=0.0))
-    return [each for each in most if each.weight > _LIGHT * max(other.weight for other in most)]
+    return most
 
 
 def locate_vanishing(columns: LevelBatch, islands: list[IsolatedRegime], strips: np.ndarray) -> np.ndarray:
