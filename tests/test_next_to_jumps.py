@@ -5,8 +5,8 @@ import pytest
 
 import hystrip
 from hystrip.level.branches import Errors, Piece, branches_of
-from hystrip.level.inverse import _Walk
 from hystrip.level.strips import AT_JUMP
+from hystrip.level.walk import Walk
 
 K, LEVEL = 1e9, hystrip.Level(l=1e-5, h=1e-6)
 SLS, KELVIN_VOIGT, PRONY = hystrip.StandardLinearSolid, hystrip.KelvinVoigt, hystrip.Prony
@@ -46,7 +46,7 @@ def test_at_a_jump_itself_either_side_may_be_meant(unloading):
     piece = Piece(0.0, 1.0, np.array([[1.5, 1.5], [0.5, 0.5]]), Errors(np.array([0.5]), np.full((1, 2), 1e-8)))
     (row,) = branches_of([[piece]], unloading)
     for p, told, why in ((1 - 1e-6, False, ""), (1 - 1e-9, True, AT_JUMP), (1 + 1e-9, True, AT_JUMP), (1 + 1e-6, True, "")):
-        walk = _Walk(0, unloading, p, 1e-8, 1e-8, [])
+        walk = Walk(0, unloading, p, 1e-8, 1e-8, [])
         walk.go_on([piece], row, False)
         assert (walk.root is not None) is told and walk.undecided == why
         assert not told or walk.root.D == pytest.approx(0.0, abs=1e-9)
@@ -62,6 +62,6 @@ def test_a_curve_that_may_turn_back_where_branches_meet_is_asked_for_again(p):
     ]
     (row,) = branches_of([pieces], True)
     for goal, again in ((1e-2, True), (1e-8, False)):
-        walk = _Walk(0, True, p, goal, 1e-8, [])
+        walk = Walk(0, True, p, goal, 1e-8, [])
         walk.go_on(pieces, row, False)
         assert (walk.now is not None) is again and (walk.root is None) is again and not walk.undecided

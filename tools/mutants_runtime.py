@@ -86,7 +86,7 @@ MUTANTS = (
     ),
     Mutant(
         "a slope next to a turn from beyond it",
-        "level/inverse.py",
+        "level/walk.py",
         "np.clip(0.5 * min(t - part.t_low, part.t_high - t), *_STEPS)",
         "_STEPS[1]",
         "test_pull_off.py",
@@ -114,7 +114,7 @@ MUTANTS = (
     ),
     Mutant(
         "loading may end below the pressure",
-        "level/inverse.py",
+        "level/walk.py",
         "(self.unloading or not self.waiting)",
         "self.unloading",
         "test_next_to_saturation.py",
@@ -128,7 +128,7 @@ MUTANTS = (
     ),
     Mutant(
         "branches that overlap by less than they are known to are one",
-        "level/inverse.py",
+        "level/walk.py",
         "if not (least == most or whole):",
         "if not (least == most or (inside and all(a.inner_high and b.inner_low for a, b in joints))):",
         "test_next_to_jumps.py",
@@ -189,7 +189,7 @@ MUTANTS = (
     ),
     Mutant(
         "a dip that a first look passed over is not asked for",
-        "level/inverse.py",
+        "level/walk.py",
         "if any(again):",
         "if any(again) and False:",
         "test_pull_off.py",

@@ -17,14 +17,15 @@ import numpy as np
 from ..numerics.quadrature import Stage, interior_nodes, mapped, mapped_weights, sampled, sum_errors
 from ..numerics.rounding import EPS
 from ..orbit.batch import Ranges
+from ..orbit.regimes import CODE
 from .breaks import Zones, zones_along_y
 from .changes import Changes, locate_changes
 from .nonadhesive.average import family_means
 from .regime_map import by_equation, hides_another, known_breaks, theta_of
 from .strips import AVERAGE_LIMIT, LevelBatch
 
-#: nodes of a panel at first and at most, and one more
-_FIRST, _LAST = 8, 64
+#: nodes of a panel at first and at most, and one more; and in saturated contact, where strips take no search: as good as exact
+_FIRST, _LAST, _COSTLESS = 8, 64, 32
 #: a panel's part of what a state may err, and of that what brackets of changes may
 _SHARE, _SLIVER = 0.4, 0.03
 #: how far from the valley the strip next to it is, in parts of the accuracy, relative to natural scales, at least and at most
@@ -188,6 +189,9 @@ class _Work:
         error = width * sum_errors(values, 0.1 * self.atol[state]) + rounding
         goal = goal[state]
         done = usable & (error <= _SHARE * goal + 2 * rounding).all(axis=1)
+        if stage.n < _COSTLESS:
+            # laws, whose fractions hardly count, are no more accurate than they have to be
+            done &= (codes[:, 0] % len(CODE) != CODE["c"]) | (self.atol[state, 2] >= self.rtol[state])
         spread = width * np.ptp(values, axis=1)
         narrow = ~usable & (width[:, 0] < _CLOSEST) & (spread <= _SLIVER * _SHARE * goal).all(axis=1)
         ended = narrow | (~done & (self.strips[state] > AVERAGE_LIMIT))

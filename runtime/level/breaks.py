@@ -174,13 +174,12 @@ def _followed(columns: LevelBatch, column, code, low, high, present, absent, wei
     """``locate_vanishing`` by ever smaller grids of strips across an island and along the way to its end, that move with it; the
     curves around are located, and a turn of one of them that is found so is the end."""
     number, out, whole = np.arange(column.size), np.full(column.size, np.nan), (column, code, absent)
-    # ends and penetrations of the islands where they were close to their end first
-    wider = np.full((3, out.size), np.nan)
+    # ends and penetrations of the islands where they are looked at last, and where they were close to their end first
+    tips, wider = np.full((2, 3, out.size), np.nan)
     density, start, stop, drift = weight / (high - low), *np.array([[0.0], [1.0], [0.0]]).repeat(number.size, axis=1)
     for _ in range(_ROUNDS):
-        tip = np.array((low, high, present + (absent - present) * start))
-        wide = (high - low > _CLOSE) | np.isnan(wider[0, number])
-        wider[:, number[wide]] = tip[:, wide]
+        tip, far = np.array((low, high, present + (absent - present) * start)), (high - low > _CLOSE) | np.isnan(wider[0, number])
+        tips[:, number], wider[:, number[far]] = tip, tip[:, far]
         across = (np.arange(_ACROSS) + 0.5) / _ACROSS
         step = (high - low) / _ACROSS
         share = start[:, None] + (stop - start)[:, None] * np.linspace(0, 1, _ALONG)
@@ -214,8 +213,9 @@ def _followed(columns: LevelBatch, column, code, low, high, present, absent, wei
     # nodes next to the end are expected to cross the curves there; and one of them may turn
     ended = np.flatnonzero(~np.isnan(out))
     column, code, absent = (v[ended] for v in whole)
+    for at in (wider, tips):
+        _locate_around(columns, column, *at[:, ended], strips)
     low, high, present = wider[:, ended]
-    _locate_around(columns, column, low, high, present, strips)
     turns = _vanish_at_turns(columns, column, code, low, high, present, absent, strips)
     out[ended] = np.where(np.isnan(turns), out[ended], turns)
     return out

@@ -158,9 +158,8 @@ class _Work:
             error[ended], done = np.maximum(error, spread)[ended], done | ended
         bounds = errors + (error + _ROUNDED * rounding + _SPREAD * errors.max(axis=1))[:, None]
         for k in np.flatnonzero(done & ~jump):
-            ends = float(intervals.low[k]), float(intervals.high[k])
-            inner = bool(intervals.inner_low[k]), bool(intervals.inner_high[k])
-            self.pieces[column[k]].append(Piece(*ends, c[k], Errors(interior_nodes(stage.n), bounds[k]), *inner))
+            low, high, *inner = (v[k].item() for v in (intervals.low, intervals.high, intervals.inner_low, intervals.inner_high))
+            self.pieces[column[k]].append(Piece(low, high, c[k], Errors(interior_nodes(stage.n), bounds[k]), *inner))
         missed, before = error / goal, np.full_like(goal, np.inf)
         if stage.n >= _FIRST:
             half = flat_ended(stage.n // 2) @ values[:, 1::2]

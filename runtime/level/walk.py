@@ -1,0 +1,141 @@
+"""One column's way along its curve, from the end its branch comes from to where it first passes a pressure.
+
+The curve is interpolated part by part until the pressure lies on a branch of it (``branches``). Where the interpolation's error
+leaves open which, what comes to the pressure is interpolated again, finer, or divided where strips change over.
+"""
+
+from dataclasses import dataclass, field
+from itertools import compress, pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from ..numerics.rounding import EPS, LARGEST
+from .branches import Branch, ParameterAt, Piece, rising
+from .strips import AT_JUMP, NO_CURVE
+
+#: how much finer each further look is; by how many errors a turn has to keep away from the pressure; and part of a piece over
+#: which a curve is taken to be straight, at least and at most
+_FINER, _DOUBT, _STEPS = 0.03, 2.0, (1e-5, 1 / 64)
+
+
+class Root(NamedTuple):
+    """Where a coarse curve passes the pressure: between the penetrations ``low`` and ``high``, or (nan) in the jump at ``D``, or
+    (all nan) nowhere; how it rises over D, and the ``slope`` of all quantities over pressure, (q,). Or arrays of several."""
+
+    D: float | np.ndarray
+    rise: float | np.ndarray
+    slope: np.ndarray
+    low: float | np.ndarray = np.nan
+    high: float | np.ndarray = np.nan
+
+
+def growing(bottom: float, top: float, width: float, unloading: bool) -> list[tuple[float, float]]:
+    """The way between two penetrations in parts that grow from the end at which the branch arrives; the last one first."""
+    gone, width, parts = 0.0, max(width, EPS * (top - bottom)), []
+    while gone < top - bottom:
+        end = gone + width if top - bottom - gone > 2 * width else top - bottom
+        parts.append((max(top - end, bottom), top - gone) if unloading else (bottom + gone, min(bottom + end, top)))
+        gone, width = end, 2 * width
+    return parts[::-1]
+
+
+@dataclass
+class Walk:
+    """To the pressure ``p``, Pa. ``goal``: what the curve's may err by so far, at last ``finest``. ``waiting``: what is left, the
+    next part last; ``now``: the intervals it goes along, low and high ends and which of them are inner ones, (4, k); ``known``:
+    pieces of all others. ``arrived``: it need not go on. ``undecided``: why, if it is."""
+
+    column: int
+    unloading: bool
+    p: float
+    goal: float
+    finest: float
+    waiting: list[tuple[float, float]]
+    now: np.ndarray | None = None
+    known: list[Piece] = field(default_factory=list)
+    root: Root | None = None
+    arrived: bool = False
+    undecided: str = ""
+
+    def go_on(self, found: list[Piece], row: list[Branch], exhausted: bool) -> None:
+        """Look for the root in the branches of all that is known by now, the pieces ``found`` last included; where the work is
+        not ``exhausted`` what comes to the pressure may be asked for again, finer."""
+        self.now, self.known = None, [*self.known, *found]
+        clings = self.p < 0 and not self.unloading
+        # as the first strips cling the pressure falls below zero, and where it is least is known when it comes back
+        if not row or (clings and self.waiting and not (row[-1].p_high >= 0 > row[0].p_low + _DOUBT * row[0].errors.most[0])):
+            return
+        # where unloading comes from, and where the way of loading ends, the curve carries more than the pressure, but for errors
+        end = 2 * (len(row) - (self.unloading or not self.waiting))
+        least, k, most = (min(_place(row, self.p, doubts), end) for doubts in (-_DOUBT, 0.0, _DOUBT))
+        joints = [row[j - 1 : j + 1] for j in range(max(least, 0) // 2 + 1, min((most + 1) // 2 + 1, len(row)))]
+        inside = 0 <= least and most < 2 * len(row) - 1
+        whole = inside and all(a.t_high == 1 and b.t_low == 0 and a.piece.high == b.piece.low for a, b in joints)
+        if not (least == most or whole):
+            if self.goal > self.finest and not exhausted:
+                again = [self._comes_to(piece) for piece in self.known]
+                self.goal = max(_FINER * self.goal, self.finest)
+                self._ask_again(again)
+                return
+            # two branches that overlap by less than they are known to may be one
+            if not (inside and all(a.inner_high and b.inner_low for a, b in joints)):
+                self.undecided = NO_CURVE if exhausted else AT_JUMP
+            k = max(k, 0)
+        if 0 <= k < 2 * len(row) - 1:
+            self.root = _in_jump(*row[k // 2 : k // 2 + 2], self.unloading) if k % 2 else _in_branch(row[k // 2], self.p)
+        self.arrived = self.root is not None or clings
+
+    def divide(self, turns: np.ndarray, D: float) -> bool:
+        """Whether to ask again for what comes to the pressure, but for errors, and has ``turns`` (m, (n,)), where strips change
+        over, before the root ``D``; divided there. The curve may turn as well, by less than it may err."""
+        before = turns[~(turns <= D if self.unloading else turns >= D)]
+        again = [((piece.low < before) & (before < piece.high)).any() and self._comes_to(piece) for piece in self.known]
+        if any(again):
+            self.root, self.undecided, self.arrived = None, "", False
+            self._ask_again(again, before)
+        return any(again)
+
+    def _ask_again(self, again: list[bool], breaks: np.ndarray = np.empty(0)) -> None:
+        """Go along the pieces asked for ``again``, divided at the ``breaks`` (m, (n,)), instead of what is known there."""
+        ends = []
+        for piece in compress(self.known, again):
+            cuts = [piece.low, *np.sort(breaks[(piece.low < breaks) & (breaks < piece.high)]), piece.high]
+            for low, high in pairwise(cuts):
+                ends.append((low, high, piece.inner_low and low == piece.low, piece.inner_high and high == piece.high))
+        self.now = np.array(ends).T
+        self.known = [piece for piece, so in zip(self.known, again, strict=True) if not so]
+
+    def _comes_to(self, piece: Piece) -> bool:
+        """Whether the curve carries the pressure in a piece or next to it, but for errors."""
+        t = np.array([0.0, 1.0, *(end for part in rising([piece])[0] for end in (part.t_low, part.t_high))])
+        met, doubt = piece.values(t)[:, 0], max(_DOUBT * piece.errors.most[0], self.goal)
+        return bool(met.min() - doubt <= self.p <= met.max() + doubt)
+
+
+def _place(row: list[Branch], p: float, doubts: float) -> int:
+    """Where a pressure, greater by so many errors, is: below all branches (-1), on number k (2 k), or just above it (2 k + 1)."""
+    k = sum(part.p_low <= p + doubts * part.errors.most[0] for part in row) - 1
+    return 2 * k + (k < 0 or p + doubts * row[k].errors.most[0] > row[k].p_high)
+
+
+def _in_branch(part: Branch, p: float) -> Root:
+    """Where a branch, which may be narrower than the rounding of D, carries the pressure."""
+    t = float(ParameterAt([part])(np.zeros(1, int), np.array([p]))[0])
+    # nearer to a turn it bends more, but for rounding
+    for step in (np.clip(0.5 * min(t - part.t_low, part.t_high - t), *_STEPS), _STEPS[1]):
+        ends = np.clip([t - step, t + step], part.t_low, part.t_high)
+        low, high = part.piece.values(ends)
+        if high[0] != low[0]:
+            break
+    D = part.piece.penetration(np.array([t, *ends, part.t_low, part.t_high]))
+    step, apart = high - low, max(D[2] - D[1], EPS * abs(D[0]), 1 / LARGEST)
+    return Root(float(D[0]), step[0] / apart, step / step[0], float(D[3]), float(D[4]))
+
+
+def _in_jump(part: Branch, following: Branch, unloading: bool) -> Root:
+    """A curve that jumps over the pressure carries it at the jump, where strips of both sides can stand side by side: as more of
+    them have changed over, all goes from that of one side to that of the other, evenly as far as is known."""
+    step = np.subtract(*(one.piece.values(np.array([t]))[0] for one, t in ((following, following.t_low), (part, part.t_high))))
+    one, t = (part, part.t_high) if unloading else (following, following.t_low)
+    return Root(float(one.piece.penetration(t)), 0.0, step / step[0] if step[0] else np.zeros(step.size))
