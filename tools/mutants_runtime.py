@@ -190,8 +190,8 @@ MUTANTS = (
     Mutant(
         "a dip that a first look passed over is not asked for",
         "level/walk.py",
-        "if any(again):",
-        "if any(again) and False:",
+        "turns >= D)]",
+        "turns >= D)][:0]",
         "test_pull_off.py",
     ),
     Mutant(
