@@ -184,11 +184,28 @@ def _branch(p_low, p_high, error):
 @pytest.mark.parametrize("unloading", [True, False])
 def test_a_break_is_known_as_well_as_the_branch_that_ends_there(unloading):
     lower, upper = _branch(-1.0, 1.0, 1e-2), _branch(1.0, 2.0, 1e-6)
-    ends, segments = np.array([[-1.0], [2.0]]), segments_of([lower, upper], np.ones((2, 4)))
+    ends, segments = np.array([[-1.0], [2.0]]), segments_of([lower, upper], np.full((2, 4), 1e-9))
     laws = Laws([segments], *ends, np.zeros((1, 4)), np.full(1, np.inf), np.zeros(1, int), unloading)
-    errors = dict(zip(laws.breaks[0], laws.at_breaks[1][0], strict=True))
+    jumps, errors = (dict(zip(laws.breaks[0], told[0], strict=True)) for told in laws.at_breaks)
     assert errors[1.0] == (1e-6 if unloading else 1e-2)
     assert errors[-1.0] == 1e-2 and errors[2.0] == 1e-6
+    # friction goes with the pressure: before the break and beyond it, wherever that is, it differs by as much
+    assert jumps[1.0] == pytest.approx(2 * errors[1.0], rel=1e-3)
+
+
+def test_a_break_that_is_hardly_known_may_hide_as_much_friction_as_is_around_it():
+    """The second level's law, asked for on a thousandth of the surface down there, misses a dip of its curve: it ends a Pa above
+    the pull-off, at a small jump, where the friction is large."""
+    material = hystrip.StandardLinearSolid(K=1e9, T_eps=1e-2, T_sigma=3.3136196144642875e-05)
+    adhesion = hystrip.Dugdale(gamma=1.0247356077156405e-07, delta_0=1.3776163472605357e-09)
+    levels = [
+        hystrip.Level(1e-05, 1.335664606003326e-07),
+        hystrip.Level(8.038478085790302e-07, 3.7451142021671425e-08),
+        hystrip.Level(6.425763651437568e-08, 1.8980205476647202e-08),
+    ]
+    at = {"pressure": 12.023912567691406, "velocity": 0.00502483171755842}
+    coarse, fine = (hystrip.solve(material, adhesion, levels, rtol=rtol, **at) for rtol in (1e-5, 1e-6))
+    assert coarse.converged and abs(coarse.tau - fine.tau) <= coarse.tau_error
 
 
 def test_loading_does_not_begin_where_the_curve_only_seems_to_rise():

@@ -176,13 +176,12 @@ class _Work:
         parts = []
         for k in range(intervals.size):
             rest, breaks = intervals.take([k]), [D for (i, _), D in zip(seen, found, strict=True) if i == k]
-            apart, whole = _APART * rest.width[0], True
+            apart, before = _APART * rest.width[0], len(parts)
             for D in np.sort(breaks):
                 if rest.low[0] + apart < D < rest.high[0] - apart:
                     lower, rest = rest.split(np.full(1, D), soft=False)
                     parts.append(lower)
-                    whole = False
-            parts.append(rest.halves if whole else rest)
+            parts.append(rest if len(parts) > before else rest.halves)
         return parts
 
 

@@ -82,23 +82,25 @@ class Laws:
 
     @cached_property
     def at_breaks(self) -> tuple[np.ndarray, np.ndarray]:
-        """Change of all friction, own and carried, at each break, and how well the pressure of the break is known, Pa, (n, B)."""
+        """Change of all friction, own and carried, over where each break may be, and how well that is known, Pa, (n, B) both."""
         # what has no segments is saturated from pull-off on
         everywhere = np.abs(self.saturated[:, 1 + self.frictions]).sum(axis=1, keepdims=True)
         jumps, known_to = np.where(np.isfinite(self.breaks), everywhere, 0.0), np.zeros(self.breaks.shape)
         group, j = np.nonzero(np.isfinite(self.breaks) & np.array([len(row) > 0 for row in self.segments])[:, None])
         if group.size:
             p, sides = self.breaks[group, j], (np.maximum(j - 1, 0), j)
-            (below, before), (above, after) = (self.smooth(group, interval, p[None]) for interval in sides)
-            below, above = (np.where(p > self.pull_off[group], below[self.frictions, 0], 0.0), above[self.frictions, 0])
-            above = np.where(p < self.p_sat[group], above, self.saturated[group][:, 1 + self.frictions].T)
-            jumps[group, j] = np.abs(above - below).sum(axis=0)
             # a segment is left at one of its ends, and that tells where the law goes over to the next one
             ends = (self._ends[end, self._between[1 - end][group, at]] for end, at in zip((1, 0), sides, strict=True))
-            there = [np.abs(end - p) <= _SAME * np.abs(p).max() for end in ends]
-            errors = [np.where(at, known[1, 0], 0.0) for at, known in zip(there, (before, after), strict=True)]
+            known, near = (self.smooth(group, interval, p[None])[1][1, 0] for interval in sides), _SAME * np.abs(p).max()
+            errors = [np.where(np.abs(end - p) <= near, error, 0.0) for end, error in zip(ends, known, strict=True)]
             left, entered = errors[::-1] if self.unloading else errors
-            known_to[group, j] = np.where(left > 0, left, entered)
+            known_to[group, j] = shift = np.where(left > 0, left, entered)
+            # from before all pressures where the break may be to beyond them: frictions may rise steeply there
+            places = zip(sides, (p - shift, p + shift), strict=True)
+            below, above = (self.smooth(group, interval, at[None])[0][self.frictions, 0] for interval, at in places)
+            below = np.where(p > self.pull_off[group], below, 0.0)
+            above = np.where(p < self.p_sat[group], above, self.saturated[group][:, 1 + self.frictions].T)
+            jumps[group, j] = np.abs(above - below).sum(axis=0)
         return jumps, known_to
 
     @cached_property

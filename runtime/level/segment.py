@@ -41,8 +41,7 @@ class Cells:
     @property
     def greatest(self) -> np.ndarray:
         """The largest magnitude of each quantity at the nodes of the cells, (q,)."""
-        values = np.tensordot(chebvander(2 * lobatto(_DEGREE) - 1, _DEGREE), self.coefficients, 1)
-        return np.abs(values).max(axis=(0, 2))
+        return np.abs(np.tensordot(chebvander(2 * lobatto(_DEGREE) - 1, _DEGREE), self.coefficients, 1)).max(axis=(0, 2))
 
     @classmethod
     def joined(cls, every: Sequence[Cells], quantities: slice) -> Cells:
