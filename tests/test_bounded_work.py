@@ -137,6 +137,18 @@ def test_a_level_whose_valley_is_just_released_is_like_one_next_to_it(V, p_0, br
     assert V > 0 or abs(at.tau_mean) <= at.error_estimate[1]
 
 
+@pytest.mark.parametrize("T_eps", [1e-8, 1e-4, 1e-2])
+@pytest.mark.parametrize("branch", ["unloading", "loading"])
+@pytest.mark.filterwarnings("error")
+def test_without_adhesion_all_strips_are_alike_where_the_valley_is_just_released(T_eps, branch):
+    """At ``D = h`` every strip has ``D_j = 2 A``: the level is in contact as far as its middle strip is."""
+    material, adhesion, level = hystrip.KelvinVoigt(K=1e9, T_eps=T_eps), hystrip.Dugdale(gamma=0), LEVELS[0]
+    strip = hystrip.solve_strip(material, adhesion, l=level.l, A=level.h / 2, D=level.h, V=1e-3, branch=branch)
+    found = hystrip.solve_level(material, adhesion, level, V=1e-3, D=level.h, branch=branch, rtol=1e-9)
+    assert abs(found.contact_fraction - strip.contact_fraction) <= found.error_estimate[2] + 1e-15
+    assert found.strips < 100
+
+
 @pytest.mark.parametrize("branch", ["unloading", "loading"])
 @pytest.mark.parametrize("T_sigma", [1e-2, 1e-3])
 @pytest.mark.filterwarnings("error")

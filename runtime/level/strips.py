@@ -89,10 +89,10 @@ class LevelBatch:
         return replace(self, V=self.V[index], D=D, group=group)
 
     def not_just_released(self, D: np.ndarray) -> np.ndarray:
-        """``D`` (n,), but where it just releases the valley, so that rounding would decide strip by strip: there it adheres."""
+        """``D`` (n,), but where rounding would decide strip by strip whether an adhesive valley is released: there it adheres."""
         reach = self.stretch + self.adhesion.delta_0
         released, rounding = self.level.h - reach, ROUNDING * (self.level.h + reach)
-        return np.where(np.abs(D - released) < rounding, released + rounding, D)
+        return np.where((np.abs(D - released) < rounding) & (self.adhesion.p_0 > 0), released + rounding, D)
 
     @property
     def size(self) -> int:
@@ -119,9 +119,9 @@ class LevelBatch:
 
     def solve(self, column: np.ndarray, theta: np.ndarray) -> SolvedStrips:
         """Strips at ``theta = k y`` of the given columns, both of shape (m,). Raises ``SolverError`` for one not certified."""
-        A = self.level.amplitude(theta)
-        D = self.D[column] - self.level.drop(theta)
-        foundation, a = foundation_of(self.material), self.adhesion
+        foundation, a, A, D = foundation_of(self.material), self.adhesion, self.level.amplitude(theta), self.D[column]
+        # without adhesion strips are alike at D = h: all have D_j = 2 A, and rounding must not tell them apart
+        D = D - self.level.drop(theta) if a.p_0 > 0 else D - self.level.h + 2 * A
         solved, strips, scales = foundation.solve(self.level.l, A, D, self.V[column], a.p_0, a.delta_0, self.edge, self.branch)
         searched = int(np.count_nonzero(solved.searched))
         self.work.solved += searched
