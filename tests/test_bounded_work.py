@@ -149,6 +149,15 @@ def test_without_adhesion_all_strips_are_alike_where_the_valley_is_just_released
     assert found.strips < 100
 
 
+def test_without_adhesion_a_small_penetration_keeps_its_digits():
+    """So little of a crest touches that it is a paraboloid on a glassy foundation: ``K_g D^2/(2 pi h)``."""
+    level, D = hystrip.Level(1e-5, 1e-6), 1e-20
+    found = hystrip.solve_level(
+        hystrip.StandardLinearSolid(1e9, 1e-2, 1e-4), hystrip.Dugdale(gamma=0), level, V=2e-3, D=D, edge="constitutive", rtol=1e-9
+    )
+    assert found.p_mean == pytest.approx(1e11 * D**2 / (2 * np.pi * level.h), rel=1e-5)
+
+
 @pytest.mark.parametrize("branch", ["unloading", "loading"])
 @pytest.mark.parametrize("T_sigma", [1e-2, 1e-3])
 @pytest.mark.filterwarnings("error")

@@ -120,8 +120,8 @@ class LevelBatch:
     def solve(self, column: np.ndarray, theta: np.ndarray) -> SolvedStrips:
         """Strips at ``theta = k y`` of the given columns, both of shape (m,). Raises ``SolverError`` for one not certified."""
         foundation, a, A, D = foundation_of(self.material), self.adhesion, self.level.amplitude(theta), self.D[column]
-        # without adhesion strips are alike at D = h: all have D_j = 2 A, and rounding must not tell them apart
-        D = D - self.level.drop(theta) if a.p_0 > 0 else D - self.level.h + 2 * A
+        # without adhesion all strips are alike at D = h, where D_j = 2 A, but for rounding; a small D keeps its digits
+        D = np.where((a.p_0 == 0) & (2 * D > self.level.h), D - self.level.h + 2 * A, D - self.level.drop(theta))
         solved, strips, scales = foundation.solve(self.level.l, A, D, self.V[column], a.p_0, a.delta_0, self.edge, self.branch)
         searched = int(np.count_nonzero(solved.searched))
         self.work.solved += searched
