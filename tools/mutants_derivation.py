@@ -39,21 +39,20 @@ class Mutant:
     run: str = "derive"
 
 
-def m(subject: str, file: str, before: str, after: str, by: str, run: str = "derive") -> Mutant:
-    return Mutant(subject, file, before, after, by, run)
-
+m = Mutant
+EITHER_WAY = (
+    ("regimes.py", 'edges.all_along(adhesion, ">=", sp.Integer(0))', 'edges.all_along(adhesion, "<=", sp.Integer(0))'),
+    ("regimes.py", 'edges.all_along(adhesion, "<=", delta_0)', 'edges.all_along(adhesion, ">=", delta_0)'),
+    ("regimes.py", 'relation(">=", D, threshold)', 'relation("<=", D, threshold)'),
+    ("regimes.py", 'relation("<=", delta_0 - edges.step, 0)', 'relation(">=", delta_0 - edges.step, 0)'),
+)
+"""Inequalities that are the same on any foundation: file, before, after."""
 
 MUTANTS: tuple[Mutant, ...] = (
     # operators of the material
     m("operator", "models.py", "T_sigma / K)", "-T_sigma / K)", "admissibility"),
     m("operator", "models.py", "Q=(sp.Integer(1), T_eps)", "Q=(sp.Integer(1), T_sigma)", "model"),
-    m(
-        "operator",
-        "models.py",
-        "Q=(sp.Integer(1), T_eps)",
-        'Q=(sp.Integer(1), T_eps * sp.Symbol("x"))',
-        "model",
-    ),
+    m("operator", "models.py", "Q=(sp.Integer(1), T_eps)", 'Q=(sp.Integer(1), T_eps * sp.Symbol("x"))', "model"),
     m("operator", "strip.py", "(-V) ** n", "V ** n", "moving frame"),
     m("operator", "strip.py", "sp.cancel((q * (k * V) ** n)", "sp.cancel((q * (-k * V) ** n)", "dimensionless groups"),
     m(
@@ -104,101 +103,23 @@ MUTANTS: tuple[Mutant, ...] = (
     m("boundary equation", "conditions.py", "gap_at(onset - 2 * sp.pi / k", "gap_at(onset + 2 * sp.pi / k", "strip problem"),
     # inequalities
     m("inequality", "regime.py", "harmonic + p_0 if self.kind", "harmonic - p_0 if self.kind", "regime acaf"),
-    m(
-        "inequality",
-        "sequences.py",
-        '(">=", "rises") if self.rises else ("<=", "falls")',
-        '("<=", "rises") if self.rises else (">=", "falls")',
-        "inequalities of admissibility",
-        "inequalities",
-    ),
-    m(
-        "inequality",
-        "sequences.py",
-        "return self.kind == ADHESION and self.exit != NOTHING",
-        "return self.kind == ADHESION",
-        "inequalities of admissibility",
-        "inequalities",
-    ),
-    m(
-        "inequality",
-        "regimes.py",
-        'relation("<=", *edges, edges[0] + PERIOD)',
-        'relation(">=", *edges, edges[0] + PERIOD)',
-        "inequalities of admissibility",
-        "inequalities",
-    ),
-    m(
-        "inequality",
-        "regimes.py",
-        'edges.all_along(adhesion, ">=", sp.Integer(0))',
-        'edges.all_along(adhesion, "<=", sp.Integer(0))',
-        "inequalities of admissibility",
-        "inequalities",
-    ),
-    m(
-        "inequality",
-        "regime.py",
-        'relation("<" if sign == ">=" else ">", zone.drive(s), limit)',
-        'relation(">", zone.drive(s), limit)',
-        "inequalities of admissibility",
-        "inequalities",
-    ),
-    m(
-        "inequality",
-        "regimes.py",
-        'edges.all_along(adhesion, "<=", delta_0)',
-        'edges.all_along(adhesion, ">=", delta_0)',
-        "inequalities of admissibility",
-        "inequalities",
-    ),
-    m(
-        "inequality",
-        "regime.py",
-        'relation("<" if sign == ">=" else ">", zone.drive(s), limit)',
-        'relation("<", zone.drive(s), limit)',
-        "inequalities of admissibility",
-        "inequalities",
-    ),
-    m(
-        "inequality",
-        "regimes.py",
-        'relation(">=", D, threshold)',
-        'relation("<=", D, threshold)',
-        "inequalities of admissibility",
-        "inequalities",
-    ),
-    m(
-        "inequality",
-        "regimes.py",
-        'relation("<=", delta_0 - edges.step, 0)',
-        'relation(">=", delta_0 - edges.step, 0)',
-        "inequalities of admissibility",
-        "inequalities",
-    ),
-    m(
-        "inequality",
-        "regimes.py",
-        'relation(">=", crest, 0), sentence',
-        'relation("<=", crest, 0), sentence',
-        "inequalities of admissibility",
-        "inequalities",
-    ),
-    m(
-        "inequality",
-        "regimes.py",
-        'relation("<=", valley, delta_0)',
-        'relation(">=", valley, delta_0)',
-        "inequalities of admissibility",
-        "inequalities",
-    ),
-    m(
-        "inequality",
-        "regimes.py",
-        'relation(">=", crest, delta_0), relation',
-        'relation("<=", crest, delta_0), relation',
-        "inequalities of admissibility",
-        "inequalities",
+    *(
+        m("inequality", *change, "inequalities of admissibility", "inequalities")
+        for change in (
+            *EITHER_WAY,
+            (
+                "sequences.py",
+                '(">=", "rises") if self.rises else ("<=", "falls")',
+                '("<=", "rises") if self.rises else (">=", "falls")',
+            ),
+            ("sequences.py", "return self.kind == ADHESION and self.exit != NOTHING", "return self.kind == ADHESION"),
+            ("regimes.py", 'relation("<=", *edges, edges[0] + PERIOD)', 'relation(">=", *edges, edges[0] + PERIOD)'),
+            ("regime.py", 'relation("<" if sign == ">=" else ">", zone.drive(s), limit)', 'relation(">", zone.drive(s), limit)'),
+            ("regime.py", 'relation("<" if sign == ">=" else ">", zone.drive(s), limit)', 'relation("<", zone.drive(s), limit)'),
+            ("regimes.py", 'relation(">=", crest, 0), sentence', 'relation("<=", crest, 0), sentence'),
+            ("regimes.py", 'relation("<=", valley, delta_0)', 'relation(">=", valley, delta_0)'),
+            ("regimes.py", 'relation(">=", crest, delta_0), relation', 'relation("<=", crest, delta_0), relation'),
+        )
     ),
     # means, energy, stability
     m("mean", "averages.py", "as_derived(work, zones)),", "-as_derived(work, zones)),", "means_acaf"),
@@ -243,43 +164,20 @@ MUTANTS: tuple[Mutant, ...] = (
     m("level", "multilevel.py", "(2 * width * length(place) for place", "(width * length(place) for place", "contact area"),
     m("level", "level.py", "D - threshold.subs", "D + threshold.subs", "least pressure in complete contact"),
     # the paper as printed
-    m(
-        "print",
-        "paper/printed.toml",
-        r"h_i - \frac{h_i}{4}\left(\cos",
-        r"h_i + \frac{h_i}{4}\left(\cos",
-        "print of Eq. 4",
-        "print",
-    ),
-    m("print", "paper/printed.toml", r"w_i - V T_\epsilon", r"w_i + V T_\epsilon", "print of Eq. 5", "print"),
-    m("print", "paper/printed.toml", r"&= f_i(x,y) + D_i", r"&= D_i - f_i(x,y)", "print of Eq. 6", "print"),
-    m("print", "paper/printed.toml", r"p_i(x,y) &= -p_0", r"p_i(x,y) &= p_0", "print of Eq. 6", "print"),
-    m("print", "paper/printed.toml", r"A_i = 2\Delta", r"A_i = \Delta", "print of Eq. 9", "print"),
-    m(
-        "print",
-        "paper/printed.toml",
-        r"\bar{p}_i = \frac{2\Delta}{l_i^2}",
-        r"\bar{p}_i = \frac{\Delta}{l_i^2}",
-        "print of Eq. 11",
-        "print",
-    ),
-    m(
-        "print",
-        "paper/printed.toml",
-        r"+ 2\pi l_i V (T_\varepsilon - T_\sigma)\sin",
-        r"- 2\pi l_i V (T_\varepsilon - T_\sigma)\sin",
-        "print of Eq. 15",
-        "print",
-    ),
-    m("print", "paper/printed.toml", r"\frac{h_i}{4\pi^2 V^2", r"\frac{h_i^3}{4\pi^2 V^2", "print of Eq. 16", "print"),
-    m("print", "paper/printed.toml", r"\frac{1}{l_i^2} \iint", r"\frac{2}{l_i^2} \iint", "print of Eq. 7", "print"),
-    m(
-        "print",
-        "paper/printed.toml",
-        r"+ \bar{\tau}_M[p_{M-1}(x, y_j)]'",
-        r"- \bar{\tau}_M[p_{M-1}(x, y_j)]'",
-        "print of Eq. 12",
-        "print",
+    *(
+        m("print", "paper/printed.toml", before, after, f"print of Eq. {number}", "print")
+        for number, before, after in (
+            (4, r"h_i - \frac{h_i}{4}\left(\cos", r"h_i + \frac{h_i}{4}\left(\cos"),
+            (5, r"w_i - V T_\epsilon", r"w_i + V T_\epsilon"),
+            (6, r"&= f_i(x,y) + D_i", r"&= D_i - f_i(x,y)"),
+            (6, r"p_i(x,y) &= -p_0", r"p_i(x,y) &= p_0"),
+            (9, r"A_i = 2\Delta", r"A_i = \Delta"),
+            (11, r"\bar{p}_i = \frac{2\Delta}{l_i^2}", r"\bar{p}_i = \frac{\Delta}{l_i^2}"),
+            (15, r"+ 2\pi l_i V (T_\varepsilon - T_\sigma)\sin", r"- 2\pi l_i V (T_\varepsilon - T_\sigma)\sin"),
+            (16, r"\frac{h_i}{4\pi^2 V^2", r"\frac{h_i^3}{4\pi^2 V^2"),
+            (7, r"\frac{1}{l_i^2} \iint", r"\frac{2}{l_i^2} \iint"),
+            (12, r"+ \bar{\tau}_M[p_{M-1}(x, y_j)]'", r"- \bar{\tau}_M[p_{M-1}(x, y_j)]'"),
+        )
     ),
     m(
         "print",
@@ -317,14 +215,7 @@ MUTANTS: tuple[Mutant, ...] = (
         "displays",
     ),
     m("display", "zones.py", r"u(s) = D - 1 + \cos s", r"u(s) = D - 1 - \cos s", "profile", "displays"),
-    m(
-        "display",
-        "flows.py",
-        r"w(s) = p + (w_0 - p)",
-        r"w(s) = p - (w_0 - p)",
-        "relaxation flow",
-        "displays",
-    ),
+    m("display", "flows.py", r"w(s) = p + (w_0 - p)", r"w(s) = p - (w_0 - p)", "relaxation flow", "displays"),
     m(
         "display",
         "multilevel.py",
@@ -357,14 +248,7 @@ MUTANTS: tuple[Mutant, ...] = (
     # several relaxation times: law, jumps, zones, inequalities, displays, chain rule
     m("modes", "modes/flows.py", "unknown + alpha * sp.diff", "unknown - alpha * sp.diff", "contact flow", "modes"),
     m("modes", "modes/states.py", "LEAVE = J_j * beta_j /", "LEAVE = J_j * beta_k /", "states", "modes"),
-    m(
-        "modes",
-        "modes/chain.py",
-        "drive, forget = c_2 + c_1 -",
-        "drive, forget = c_2 + c_1 +",
-        "period map",
-        "modes",
-    ),
+    m("modes", "modes/chain.py", "drive, forget = c_2 + c_1 -", "drive, forget = c_2 + c_1 +", "period map", "modes"),
     m("modes", "modes/stable.py", "-lost, -J * p * lost)", "-lost, J * p * lost)", "relaxation_map", "modes"),
     m("modes", "modes/chain.py", "m_1, m_2 = dc_1 - dR_1 * z", "m_1, m_2 = dc_1 + dR_1 * z", "chain rule", "modes"),
     m("modes", "modes/chain.py", "(r * dz + dq + dr * z)", "(r * dz + dq - dr * z)", "chain rule", "modes"),
@@ -382,15 +266,12 @@ MUTANTS: tuple[Mutant, ...] = (
     ),
     m("tag", "modes/zones.py", "contact_work, Eq. 11: ", "contact_work, Eq. 10: ", "tags", "modes"),
     *(
-        m("inequality", file, before, after, "inequalities of admissibility", "modes")
-        for file, before, after in (
+        m("inequality", *change, "inequalities of admissibility", "modes")
+        for change in (
+            *EITHER_WAY,
             ("sequences.py", '("<=", "falls")', '(">=", "falls")'),
             ("sequences.py", '(">=", "rises")', '("<=", "rises")'),
             ("modes/regimes.py", "relation(sign, gap_at(s), limit)", "relation(sign, limit, gap_at(s))"),
-            ("regimes.py", 'relation("<=", delta_0 - edges.step, 0)', 'relation(">=", delta_0 - edges.step, 0)'),
-            ("regimes.py", 'edges.all_along(adhesion, ">=", sp.Integer(0))', 'edges.all_along(adhesion, "<=", sp.Integer(0))'),
-            ("regimes.py", 'edges.all_along(adhesion, "<=", delta_0)', 'edges.all_along(adhesion, ">=", delta_0)'),
-            ("regimes.py", 'relation(">=", D, threshold)', 'relation("<=", D, threshold)'),
         )
     ),
     # tags and status
@@ -426,12 +307,12 @@ MUTANTS: tuple[Mutant, ...] = (
 
 
 def copied(mutant: Mutant, folder: Path) -> ModuleType:
-    """Import a copy of the derivation with the mutation; what it changes must stand in the file exactly once."""
+    """Import a copy of the derivation with the mutation, in the first place where what it changes stands."""
     name = f"mutated_{folder.name}"
     shutil.copytree(SOURCES, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
     path = folder / name / mutant.file
     text = path.read_text(encoding="utf-8")
-    if text.count(mutant.before) < 1:
+    if mutant.before not in text:
         raise LookupError(f"{mutant.before!r} is not in {mutant.file}")
     path.write_text(text.replace(mutant.before, mutant.after, 1), encoding="utf-8")
     sys.path.insert(0, str(folder))
