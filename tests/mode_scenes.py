@@ -8,6 +8,7 @@ import numpy as np
 from oracle import march, modes
 from oracle.flow import CONSTITUTIVE
 from oracle.orbits import Unresolved
+from scenes import log_uniform
 
 import hystrip
 
@@ -16,10 +17,6 @@ BRANCHES = ("unloading", "loading")
 TOLERANCE, CONDITION = 1e-11, 16
 #: relative change of a group that its rounding in double precision is taken for
 ROUNDING = 1e-15
-
-
-def log_uniform(rng, low, high, size=None):
-    return 10 ** rng.uniform(np.log10(low), np.log10(high), size)
 
 
 def draw(rng, n, wide):

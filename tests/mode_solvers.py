@@ -15,8 +15,8 @@ ORDER = ("d", "b", "a", "c")
 class Orbits:
     """Orbits of one regime of random strips of the standard linear solid, ``constitutive``, as the runtime finds them."""
 
-    def __init__(self, sequence: str, J: float | None = None, count: int = 300, seed: int = 5):
-        draw = np.random.default_rng(seed)
+    def __init__(self, sequence: str, J: float | None = None):
+        draw, count = np.random.default_rng(5), 300
         beta, J_0 = 10.0 ** draw.uniform(-2, 3, count), 10.0 ** draw.uniform(-3, -1e-3, count)
         p_0, delta_0, D = 10.0 ** draw.uniform(-2, 1, count), 10.0 ** draw.uniform(-2, 0.5, count), draw.uniform(-2, 3, count)
         J_0 = J_0 if J is None else np.full(count, J)

@@ -12,7 +12,7 @@ FIELDS = ("l", "A", "D", "V", "K", "T_eps", "T_sigma", "p_0", "delta_0")
 EDGES, BRANCHES = ("continuous", "constitutive"), ("unloading", "loading")
 
 
-def log_uniform(rng, low, high, n):
+def log_uniform(rng, low, high, n=None):
     return 10.0 ** rng.uniform(np.log10(low), np.log10(high), n)
 
 

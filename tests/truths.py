@@ -5,11 +5,11 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+from scenes import BRANCHES, EDGES
 
 import hystrip
 
 PATH = Path(__file__).parent / "data" / "truths.json"
-EDGES, BRANCHES = ("continuous", "constitutive"), ("unloading", "loading")
 TEXT = ("kind", "edge", "branch", "sequence", "coexisting")
 
 

@@ -58,10 +58,10 @@ class Strip:
         centre = 2 * mp.pi * turn - self.lag
         return (centre - half, centre + half) if half > 0 else None
 
-    def arc_below(self, level, turn=0):
-        """Arc of phases where ``H < level``: the one that follows ``arc_above(level, turn)``."""
+    def arc_below(self, level):
+        """Arc of phases where ``H < level``: the one that follows ``arc_above(level)``."""
         half = mp.pi - self._half_width(level)
-        centre = 2 * mp.pi * turn + mp.pi - self.lag
+        centre = mp.pi - self.lag
         return (centre - half, centre + half) if half > 0 else None
 
     def _half_width(self, level):

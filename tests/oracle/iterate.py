@@ -13,6 +13,7 @@ import numpy as np
 CONTACT, ADHESION, FREE = 0, 1, 2
 LETTERS = "caf"
 TURN = 2 * np.pi
+SETTLED = 1e-11  # of its size, what a state may still be from its limit
 
 
 @dataclass
@@ -230,7 +231,7 @@ class Points:
         self.zone[i] = np.where(snap, CONTACT, following)
 
 
-def iterate(alpha, beta, P0, Delta, delta, constitutive, deep, periods=2000, tolerance=1e-11):
+def iterate(alpha, beta, P0, Delta, delta, constitutive, deep, periods):
     """Iterate the period map from deep contact (``deep``) or from far below until every strip repeats, or for ``periods``."""
     arrays = [np.asarray(v, float) for v in (alpha, beta, P0, Delta, delta)]
     points = Points(*arrays, np.asarray(constitutive, bool))
@@ -251,7 +252,7 @@ def iterate(alpha, beta, P0, Delta, delta, constitutive, deep, periods=2000, tol
         size = 1 + np.abs(points.value)
         # changes at the level of rounding no longer shrink; the first few say nothing of the contraction
         still = same & (moved <= 4e-16 * size)
-        done = still | ((left <= tolerance * size) & (number > 4))
+        done = still | ((left <= SETTLED * size) & (number > 4))
         if number == periods:
             done[:] = True
         finished = np.flatnonzero(done)
