@@ -22,6 +22,7 @@ import tempfile
 import time
 from pathlib import Path
 
+FILES = ("killed.sweep.csv", "killed.sweep.nc")
 SCENE = """
 penetration = {{ start = 1e-8, stop = 6e-8, num = 10 }}
 velocity = {{ start = 1e-4, stop = 1e-2, num = {velocities}, spacing = "log" }}
@@ -33,13 +34,17 @@ K = 1e9
 T_eps = 0.01
 T_sigma = 1e-4
 [adhesion]
-gamma = [1e-5, 2e-5]
+gamma = {gamma}
 delta_0 = 1e-8
 [[levels]]
 l = 5e-7
 h = 1e-7
 """
-FILES = ("killed.sweep.csv", "killed.sweep.nc")
+
+
+def scene(velocities: int, batch: int | None, gamma: str) -> str:
+    """Text of a scene of partial contact, ten penetrations by so many velocities by the energies of adhesion."""
+    return SCENE.format(velocities=velocities, batch=f"batch = {batch}" if batch else "", gamma=gamma)
 
 
 class Run:
@@ -47,9 +52,7 @@ class Run:
 
     def __init__(self, folder: Path, points: int, batch: int, workers: int):
         folder.mkdir(parents=True)
-        (folder / "killed.toml").write_text(
-            SCENE.format(velocities=points // 20, batch=f"batch = {batch}" if batch else ""), encoding="utf-8"
-        )
+        (folder / "killed.toml").write_text(scene(points // 20, batch, "[1e-5, 2e-5]"), encoding="utf-8")
         self.folder, self.workers, self.out = folder, workers, folder / "hystrip-out"
 
     def start(self) -> subprocess.Popen:
@@ -129,7 +132,7 @@ def change(folder: Path, changes: int, seed: int, say=print) -> list[str]:
     """What went wrong when the scene changed and the new sweep was killed as it deleted the old one's parts, or later."""
     import hystrip
 
-    def scene(number: int, where: Path) -> Path:
+    def changed(number: int, where: Path) -> Path:
         (where / "changing.toml").write_text(CHANGING.format(T_eps=0.01 + 0.001 * (number % 2)), encoding="utf-8")
         return where / "changing.toml"
 
@@ -141,16 +144,16 @@ def change(folder: Path, changes: int, seed: int, say=print) -> list[str]:
     for number in range(2):
         alone = folder / f"alone{number}"
         alone.mkdir(parents=True)
-        expected.append(hystrip.sweep(scene(number, alone), out=alone / "out").path.read_bytes())
+        expected.append(hystrip.sweep(changed(number, alone), out=alone / "out").path.read_bytes())
     chance, wrong, kept, refused = random.Random(seed), [], 0, 0
-    scene(0, folder)
+    changed(0, folder)
     start = time.monotonic()
     run().communicate()
     took = time.monotonic() - start
     parts = folder / "hystrip-out/changing.parts"
     plan = parts / "plan.json"
     for number in range(1, changes + 1):
-        scene(number, folder)
+        changed(number, folder)
         before = len(list(parts.glob("part-*")))
         process, end = run("--restart"), time.monotonic() + 4 * took
         if number % 3:  # while it deletes; at other times anywhere in the run

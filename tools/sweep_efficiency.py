@@ -20,32 +20,15 @@ from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
+from kill_sweep import scene
 
 import hystrip
 
-SCENE = """
-penetration = {{ start = 1e-8, stop = 6e-8, num = 10 }}
-velocity = {{ start = 1e-4, stop = 1e-2, num = {velocities}, spacing = "log" }}
-rtol = 1e-2
-[sweep]
-{batch}
-[material]
-K = 1e9
-T_eps = 0.01
-T_sigma = 1e-4
-[adhesion]
-gamma = 2e-5
-delta_0 = 1e-8
-[[levels]]
-l = 5e-7
-h = 1e-7
-"""
-
 
 def one_call(points: int) -> None:
-    scene = hystrip.StandardLinearSolid(1e9, 0.01, 1e-4), hystrip.Dugdale(gamma=2e-5, delta_0=1e-8)
+    solid, adhesion = hystrip.StandardLinearSolid(1e9, 0.01, 1e-4), hystrip.Dugdale(gamma=2e-5, delta_0=1e-8)
     D, V = np.linspace(1e-8, 6e-8, 10)[:, None], np.geomspace(1e-4, 1e-2, points // 10)
-    hystrip.solve(*scene, [hystrip.Level(5e-7, 1e-7)], penetration=D, velocity=V, rtol=1e-2)
+    hystrip.solve(solid, adhesion, [hystrip.Level(5e-7, 1e-7)], penetration=D, velocity=V, rtol=1e-2)
 
 
 def warm(executor, count: int) -> None:
@@ -81,8 +64,7 @@ def main() -> None:
         distributed.Client(cluster, set_as_default=False) as client,
     ):
         folder = Path(place)
-        batch = f"batch = {given.batch}" if given.batch else ""
-        (folder / "s.toml").write_text(SCENE.format(velocities=given.points // 10, batch=batch), encoding="utf-8")
+        (folder / "s.toml").write_text(scene(given.points // 10, given.batch, "2e-5"), encoding="utf-8")
         remote = client.get_executor()
         warm(pool, given.workers)
         warm(remote, given.workers)
