@@ -70,6 +70,11 @@ def gap_flow(strip: Strip, displacement: sp.Expr) -> Derived:
     return derived(gap_flow, gap, checks, emitted=("gap_after",))
 
 
+def steady_state(flow: sp.Expr) -> sp.Expr:
+    """What a flow comes to once its transient has died out: the periodic solution."""
+    return flow.replace(sp.exp, lambda exponent: sp.Integer(0))
+
+
 def solved(name: str, law: Callable[[sp.Expr], sp.Expr], entry: sp.Expr, along: sp.Symbol = s, since: sp.Symbol = s_0) -> sp.Expr:
     """Solve the linear law for a function of ``along`` with ``f(since) = entry``.
 

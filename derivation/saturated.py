@@ -6,7 +6,7 @@ import sympy as sp
 
 from . import stable
 from .check import Derived, derived, holds, zero
-from .flows import Flows
+from .flows import Flows, steady_state
 from .functions import Formula
 from .kernel import Kernel, kernel
 from .strip import TIMES
@@ -96,9 +96,7 @@ def field_kernels(flows: Flows, modulus: tuple[sp.Expr, sp.Expr]) -> tuple[Kerne
     .. math:: [p_{sat}]_{s_0}^{s_1}
     """
     storage, loss = modulus
-    # The periodic solution is what the contact flow leaves behind when its transient has died out.
-    pressure = flows.contact.value
-    periodic = pressure.replace(sp.exp, lambda exponent: sp.Integer(0))
+    periodic = steady_state(flows.contact.value)
     eq_15 = D - 1 + sp.re(sp.expand_complex((storage + sp.I * loss) * sp.exp(sp.I * s)))
     own = (
         zero("the law holds with w = u", flows.strip.law(flows.strip.u, periodic)),

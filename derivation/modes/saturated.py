@@ -5,6 +5,7 @@ from dataclasses import replace
 import sympy as sp
 
 from ..check import Claim, Derived, derived, holds, zero
+from ..flows import steady_state
 from ..kernel import Kernel, kernel
 from ..level import Level, R, in_complete_contact
 from ..saturated import Saturated, means, saturation_threshold
@@ -90,8 +91,7 @@ def field_kernels(flows: ModeFlows) -> tuple[Kernel, ...]:
 
     .. math:: p_{sat} = u + \sum_i f_{sat,i}
     """
-    # What the contact flow leaves behind when its transients have died out.
-    harmonic = flows.contact.value.replace(sp.exp, lambda exponent: sp.Integer(0))
+    harmonic = steady_state(flows.contact.value)
     eq_15 = sp.re(sp.expand_complex(sp.I * eta / (1 + sp.I * alpha) * sp.exp(sp.I * s)))
     own: tuple[Claim, ...] = (
         holds("nothing of the entry is left", not harmonic.has(f_0)),

@@ -6,6 +6,7 @@ from typing import Any
 import sympy as sp
 
 from ..displays import Binding, Names
+from ..flows import steady_state
 from ..latex import Of, Prefix
 from ..level import R
 from ..model import rate
@@ -21,7 +22,7 @@ from .symbols import J_0, J, S, across, enter, eta, f, f_0, leave, share, total,
 def vocabulary(flows: ModeFlows) -> dict[str, Any]:
     """The names without more: ``z``, ``f`` of any state."""
     relaxation, contact = flows.relaxation.value, flows.contact.value
-    harmonic = contact.replace(sp.exp, lambda exponent: sp.Integer(0))
+    harmonic = steady_state(contact)
     stiffness = 1 + total(sp.I * eta / (1 + sp.I * alpha))
     sums = {f"sum over {i}": _over(along, axis) for i, axis in (("i", BRANCHES), ("j", RETARDATION))}
     products = {f"prod over {i}": _over(product_along, axis) for i, axis in (("i", BRANCHES), ("j", RETARDATION), ("k", OTHER))}
@@ -32,7 +33,7 @@ def vocabulary(flows: ModeFlows) -> dict[str, Any]:
         "G": _matrix(share), "u": Of(s, u), "f_sat": Of(s, harmonic), "f_sat,i": Of(s, harmonic), "partial": slope,
         "w": J_0 * p + total(relaxation), "g": Of(s, J_0 * p + total(relaxation) - u),
         "relaxation": Of(s, relaxation), "contact": Of(s, contact), "p_sat": Of(s, u + total(harmonic)),
-        "K*": lambda place=None: K * stiffness, r"\mathrmIm": Prefix(sp.im), r"\mathrmRe": Prefix(sp.re),
+        "K*": lambda place=None: K * stiffness, r"\mathrmIm": Prefix(sp.im),
     }  # fmt: skip
 
 
