@@ -113,7 +113,7 @@ def excess_event(flows: Flows) -> tuple[Kernel, Kernel]:
     tangent = (beta - alpha) / (1 + alpha * beta)
     R_squared = (1 + beta**2) / (1 + alpha**2)
     loss = (beta - alpha) / (1 + alpha**2)
-    stated = EXCESS_ENTRY.written_out(EXCESS_ENTRY.args)
+    stated = EXCESS_ENTRY.written_out()
     R = sp.sqrt(1 + beta**2) / sp.sqrt(1 + alpha**2)
     one_harmonic = [
         zero("tan(phi) = (beta - alpha)/(1 + alpha beta)", sp.tan(2 * stated[3]) - tangent),

@@ -78,12 +78,12 @@ class Formula:
         """The formula applied to arguments, as one SymPy node."""
         return _node(self)(*args)
 
-    def written_out(self, args: Sequence[Any]) -> Any:
-        """Result with labels and calls replaced by what they stand for."""
+    def written_out(self, args: Sequence[Any] | None = None) -> Any:
+        """Result with labels and calls replaced by what they stand for, of ``args`` or of the formula's own."""
         labels: dict[sp.Symbol, sp.Expr] = {}
         for label, term in self.steps:
             labels[label] = written_out(term.xreplace(labels))
-        binding = dict(zip(self.args, map(sp.sympify, args), strict=True))
+        binding = dict(zip(self.args, map(sp.sympify, self.args if args is None else args), strict=True))
 
         def bound(e: sp.Expr) -> sp.Expr:
             e = written_out(e.xreplace(labels)).subs(binding, simultaneous=True)

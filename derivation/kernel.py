@@ -64,7 +64,7 @@ def kernel(
 ) -> Kernel:
     """Prove ``formula`` equal to ``exact`` and record it under the function ``by`` that derived it, with its own ``claims``."""
     name = formula.name
-    proven = same(name, formula.written_out(formula.args), exact, phases, halved)
+    proven = same(name, formula.written_out(), exact, phases, halved)
     return Kernel(formula, exact, derived(by, exact, [proven, *claims], name, emitted=(name,), **options))
 
 
@@ -83,7 +83,7 @@ def pair(
 ) -> tuple[Kernel, Kernel]:
     """An entry and its event, proven equal to ``exact`` together, and measured as the one function that they are."""
     entry, event = chain
-    constants = tuple(written_out(part) for part in entry.written_out(entry.args))
+    constants = tuple(written_out(part) for part in entry.written_out())
     composed = same(event.name, event.written_out((s_1, *constants)), exact, halved=halved)
     claim = replace(composed, claim=f"{event.name} after {entry.name} is the derived value and its slope")
     return chained(by, chain, exact, (constants, [claim]), (exact, [claim]))

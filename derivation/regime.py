@@ -35,7 +35,7 @@ class Zone(Span):
     def misses(self) -> sp.Expr:
         """What is left to the exit state at the end of the zone: a boundary equation."""
         if self.kind != CONTACT and self.exit != 0:  # delta_0 against delta_0: take the change
-            return sp.expand(self.entry - self.exit) + stable.GAP_CHANGE(self.first, self.last, self.entry, self.load, D, beta)
+            return self.missing + stable.GAP_CHANGE(self.first, self.last, self.entry, self.load, D, beta)
         return self.after() - self.exit
 
     def increment(self) -> sp.Expr:
@@ -57,7 +57,7 @@ class Zone(Span):
     @property
     def displacement(self) -> sp.Expr:
         """w on entry."""
-        return stable.PROFILE(self.first, D) + (NOTHING if self.kind == CONTACT else self.entry)
+        return self.fields(self.first, self.entry)[0]
 
 
 @dataclass(frozen=True)

@@ -73,7 +73,7 @@ def onset_slope(regime: Row) -> Kernel:
     change = -lost * (load + onset) * released - _grown(regime.zones[-1], onset, release) / (1 + beta)
     over, under = (written_out(-two) / (1 + beta) for two in (left_over * loads[0] * loads[-1], before[-1] * before[-2]))
     args = (*regime.edges, *PARAMETERS)
-    nearly = Formula("nearly", args, change, labels).written_out(args)
+    nearly = Formula("nearly", args, change, labels).written_out()
     factors = (*sp.Mul.make_args(left_over), loads[0] / before[-1], loads[-1] / before[-2])
     return kernel(
         onset_slope,

@@ -76,7 +76,7 @@ def load(flows: Flows) -> tuple[Kernel, ...]:
     angle = sp.Symbol("theta", real=True)
     around = sp.expand_trig(sp.expand(H.subs(s, angle - sp.atan(beta))))
     harmonic = D - 1 + sp.sqrt(1 + beta**2) * sp.cos(angle)
-    stated = stable.FORCING_ARC.written_out(stable.FORCING_ARC.args)
+    stated = stable.FORCING_ARC.written_out()
     checks = [
         zero("about s = -arctan(beta), H is D - 1 + sqrt(1 + beta^2) cos", sp.radsimp(sp.expand(around - harmonic))),
         zero("H + e vanishes where that cosine is (1 - D - e)/sqrt(1 + beta^2)", harmonic.subs(sp.cos(angle), half) + excess),
@@ -178,5 +178,5 @@ def contact_state(flows: Flows) -> tuple[Kernel, ...]:
 def _short_and_wide() -> Claim:
     """Both forms of the integral of (1 - exp(-t/alpha)) u' over the zone are the same."""
     args, steps = stable.CONTACT_WORK.args, stable.CONTACT_WORK.steps
-    short, wide = (Formula("form", args, form, steps).written_out(args) for form in (stable.SHORT, stable.WIDE))
+    short, wide = (Formula("form", args, form, steps).written_out() for form in (stable.SHORT, stable.WIDE))
     return zero("the form for short zones is that for wide ones", short - wide, phases=(s_0, s_1))
