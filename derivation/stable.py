@@ -105,16 +105,13 @@ RELAXATION_INTEGRAL = Formula(
 
 # -- contact: w = u ------------------------------------------------------------------------------------------------------
 
-_contact = (s_0, s_1, q_0, p_0, D, alpha, beta, L)
 EXCESS_AFTER = Formula(
     "excess_after",
-    _contact,
+    (s_0, s_1, q_0, p_0, D, alpha, beta, L),
     (q_0 + SATURATED_RISE(s_0, s_1, alpha, beta, L)) * decay(s_1 - s_0, alpha)
     - (p_0 + SATURATED_PRESSURE(s_1, D, alpha, beta, L)) * decay_loss(s_1 - s_0, alpha),
 )
 
-_increment = (s_0, s_1, q_0, p_0, D, alpha, beta, J, L)
-_contact_lag = (lag, PROFILE(s_0, D) + p_0 - q_0)
 AHEAD = (  # sine and cosine of atan(alpha) - s_0
     *UNIT,
     (sin_ahead, alpha_unit * sp.cos(s_0) - unit * sp.sin(s_0)),
@@ -122,9 +119,9 @@ AHEAD = (  # sine and cosine of atan(alpha) - s_0
 )
 CONTACT_INCREMENT = Formula(
     "contact_increment",
-    _increment,
+    (s_0, s_1, q_0, p_0, D, alpha, beta, J, L),
     J * lag * decay_loss(width, alpha) + L * unit * (sin_ahead * sine_lag(width, alpha) - cos_ahead * versine(width)),
-    (WIDTH, _contact_lag, *AHEAD),
+    (WIDTH, (lag, PROFILE(s_0, D) + p_0 - q_0), *AHEAD),
 )
 
 # Work of the contact pressure on the profile, int p u' ds, with t = s - s_0 and e = exp(-t/alpha):
@@ -159,14 +156,8 @@ CONTACT_WORK = Formula(
         (lost_twice, width**2 / 2 * loss_mean_twice(width, alpha)),
         (part, _sd - kept * _vs),
         (t_versine, width * _sd - sine_deficit(width / 2) * (width + 2 * sp.sin(width / 2))),
-        (
-            lost_versine,
-            unit * (unit * part + alpha_unit * (lost * sp.sin(width) + t_versine - lost_twice)),
-        ),
-        (
-            lost_sin,
-            unit * (unit * (lost * sp.sin(width) + t_versine - lost_twice) - alpha_unit * part),
-        ),
+        (lost_versine, unit * (unit * part + alpha_unit * (lost * sp.sin(width) + t_versine - lost_twice))),
+        (lost_sin, unit * (unit * (lost * sp.sin(width) + t_versine - lost_twice) - alpha_unit * part)),
         (ramp, _sd - lost - alpha * _vs),
         (ramp_work, lost_versine - part - sine_deficit(2 * width) / 4 - alpha * _vs**2 / 2),
     ),

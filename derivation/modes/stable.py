@@ -55,6 +55,17 @@ decayed, lapsed, stiff, lossy = sp.symbols("decayed lapsed stiff lossy", real=Tr
 
 _response = (UNIT[0], (response, eta * unit**2))
 
+
+def _field(phase: sp.Symbol) -> sp.Expr:
+    """Overstress of a branch in complete contact."""
+    return response * (alpha * sp.cos(phase) - sp.sin(phase))
+
+
+def _fall(phase: sp.Symbol) -> sp.Expr:
+    """How fast that falls."""
+    return response * (alpha * sp.sin(phase) + sp.cos(phase))
+
+
 # -- states ------------------------------------------------------------------------------------------------------------
 
 DISPLACEMENT = Formula("displacement", (z, p, m), J_0 * p + total(z))
@@ -109,10 +120,9 @@ GAP_EVENT = Formula(
 # -- contact: w = u ----------------------------------------------------------------------------------------------------
 
 _contact_zone = (s_0, s_1, f_0, m)
-SATURATED_OVERSTRESS = Formula("saturated_overstress", (s, m), response * (alpha * sp.cos(s) - sp.sin(s)), _response)
-_rise = (moved, -2 * sp.sin(half) * response * (alpha * sp.sin(middle) + sp.cos(middle)))
-_end = (harmonic, response * (alpha * sp.cos(s_1) - sp.sin(s_1)))
-_excess_change = total(f_0 * decay_loss(width, alpha) + moved * decay(width, alpha) - harmonic * decay_loss(width, alpha))
+SATURATED_OVERSTRESS = Formula("saturated_overstress", (s, m), _field(s), _response)
+_rise = (moved, -2 * sp.sin(half) * _fall(middle))
+_end = (harmonic, _field(s_1))
 OVERSTRESS_AFTER = Formula(
     "overstress_after",
     _contact_zone,
@@ -121,7 +131,11 @@ OVERSTRESS_AFTER = Formula(
 )
 CONTACT_PRESSURE = Formula("contact_pressure", (s, f, D), PROFILE(s, D) + total(f))
 EXCESS_CHANGE = Formula(
-    "excess_change", _contact_zone, PROFILE_RISE(s_0, s_1) + _excess_change, (WIDTH, *HALVES, *_response, _rise, _end)
+    "excess_change",
+    _contact_zone,
+    PROFILE_RISE(s_0, s_1)
+    + total(f_0 * decay_loss(width, alpha) + moved * decay(width, alpha) - harmonic * decay_loss(width, alpha)),
+    (WIDTH, *HALVES, *_response, _rise, _end),
 )
 _creep = (  # change of e over a contact entered without overstress
     creep,
@@ -139,7 +153,6 @@ CONTACT_MAP = Formula(
     (-sandwich(share, lost, enter), across(share, creep - lost * across(enter, J) * p_in)),
     (WIDTH, *AHEAD, _creep, (lost, S * decay_loss(width, alpha))),
 )
-_f_start = response * (alpha * sp.cos(s_0) - sp.sin(s_0))
 CONTACT_PASSAGE = Formula(
     "contact_passage",
     (s_0, s_1, z_0, p_in, m),
@@ -149,14 +162,14 @@ CONTACT_PASSAGE = Formula(
         across(share, creep_end + S * f_0 * rate_end),
         PROFILE_RISE(s_0, s_1) + total(f_0 * lost + moved * decay(width, alpha) - harmonic * lost),
         -back(enter, lost),
-        total(transient + response * (alpha * sp.sin(s_0) + sp.cos(s_0)) * decay(width, alpha)) - PROFILE_SLOPE(s_0),
-        PROFILE_SLOPE(s_1) - total(transient + response * (alpha * sp.sin(s_1) + sp.cos(s_1))),
+        total(transient + _fall(s_0) * decay(width, alpha)) - PROFILE_SLOPE(s_0),
+        PROFILE_SLOPE(s_1) - total(transient + _fall(s_1)),
     ),
     (
         WIDTH,
         *HALVES,
         *AHEAD,
-        (response, eta * unit**2),
+        _response[1],
         (f_0, OVERSTRESS(z_0, p_in, m)),
         (lost, decay_loss(width, alpha)),
         (rate_end, decay_rate(width, alpha)),
@@ -165,7 +178,7 @@ CONTACT_PASSAGE = Formula(
         (creep_start, unit * (sin_ahead * lost + cos_ahead * width * decay_mean(width, alpha))),
         _rise,
         _end,
-        (transient, (f_0 - _f_start) * rate_end),
+        (transient, (f_0 - _field(s_0)) * rate_end),
     ),
 )
 EXCESS_ENTRY = Formula(
@@ -177,9 +190,9 @@ EXCESS_ENTRY = Formula(
         total(response * alpha),
         total(response),
         f_0,
-        _f_start,
+        _field(s_0),
         divisible(alpha),
-        per_time(f_0 - _f_start, alpha),
+        per_time(f_0 - _field(s_0), alpha),
     ),
     _response,
 )
@@ -206,7 +219,7 @@ CONTACT_WORK = Formula(
     "contact_work",
     (s_0, s_1, f_0, D, m),
     stable.rise * (PROFILE(s_0, D) + PROFILE(s_1, D)) / 2 - total(_of_branch),
-    (*_work, (response, eta * unit**2)),
+    (*_work, _response[1]),
 )
 
 # -- complete contact --------------------------------------------------------------------------------------------------
@@ -214,6 +227,4 @@ CONTACT_WORK = Formula(
 STORAGE = Formula("storage", (m,), 1 + total(eta * unit * alpha_unit), UNIT)
 LOSS = Formula("loss", (m,), total(eta * unit**2), UNIT[:1])
 MODULUS_RATIO = Formula("modulus_ratio", (m,), hypot(1 + total(eta * unit * alpha_unit), total(eta * unit**2)), UNIT)
-SATURATED_PRESSURE = Formula(
-    "saturated_pressure", (s, D, m), PROFILE(s, D) + total(response * (alpha * sp.cos(s) - sp.sin(s))), _response
-)
+SATURATED_PRESSURE = Formula("saturated_pressure", (s, D, m), PROFILE(s, D) + total(_field(s)), _response)
