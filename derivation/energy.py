@@ -40,18 +40,17 @@ def friction_balance(regime: Row) -> Derived:
     extra = sp.expand(extra.subs(L, 1 - J))
     onset, release = heights[regime.edges[0]], heights[regime.edges[-1]]
     stiff = 1 / J  # glassy modulus
-    checks = []
     if regime.sequence in ("acaf", "af"):
         continuous, constitutive = -J * p_0 * (onset - release) / (1 - J), J * p_0**2
         claim = "constitutive: X = p_0^2/K_g, what a detachment costs at the glassy modulus"
-        checks += [
+        checks = [
             zero("continuous: X = -(J/L) p_0 (w_d - w_c)", sp.factor(extra.subs(chi, 0) - continuous)),
             zero(claim, sp.factor(extra.subs(chi, 1) - constitutive)),
         ]
         latex = r"X = (1 - \chi)\left[-\tfrac{J}{L}\,p_0\,(w_d - w_c)\right] + \chi J p_0^2"
     elif regime.sequence == "afc":
         work = p_0 * delta_0 + p_0**2 / (2 * stiff) - stiff * delta_0**2 / 2
-        checks += [
+        checks = [
             zero("X = p_0 delta_0 + p_0^2/(2 K_g) - K_g delta_0^2/2", sp.factor(extra - work)),
             holds(
                 "the snap costs nothing when it only just happens: both forms of X agree at J p_0 = delta_0",
@@ -60,7 +59,7 @@ def friction_balance(regime: Row) -> Derived:
         ]
         latex = r"X = p_0 \delta_0 + \frac{p_0^2}{2 K_g} - \frac{K_g \delta_0^2}{2}"
     else:
-        checks += [zero("nothing detaches: X = 0, the friction is the loss", extra)]
+        checks = [zero("nothing detaches: X = 0, the friction is the loss", extra)]
         latex = "X = 0"
     return derived(
         friction_balance,

@@ -24,7 +24,6 @@ def stiffness_under_a_wave() -> Derived:
 
     .. math:: \frac{p}{w} = \frac{E\,q}{2\,(1 - \nu^2)}
     """
-    name = "half-space under a wave"
     # Airy's function of plane strain in z > 0, with p = P cos qx on z = 0; it and its stresses vanish in the depth
     airy = P / q**2 * (1 + q * z) * sp.exp(-q * z) * sp.cos(q * x)
     s_x, s_z, s_xz = sp.diff(airy, z, 2), sp.diff(airy, x, 2), -sp.diff(airy, x, z)
@@ -41,7 +40,7 @@ def stiffness_under_a_wave() -> Derived:
         zero("the displacements have this shear", sp.simplify(sp.diff(down, x) + sp.diff(along, z) - 2 * (1 + nu) / E * s_xz)),
         zero("p = E q/(2 (1 - nu^2)) w", stiffness - E * q / (2 * (1 - nu**2))),
     ]
-    return derived(stiffness_under_a_wave, stiffness, checks, name=name)
+    return derived(stiffness_under_a_wave, stiffness, checks, "half-space under a wave")
 
 
 def foundation_of_a_level(stiffness: sp.Expr) -> Derived:
@@ -51,7 +50,6 @@ def foundation_of_a_level(stiffness: sp.Expr) -> Derived:
 
     .. math:: K(i\omega) = c\,\frac{\pi}{l}\,\frac{E(i\omega)}{1 - \nu^2},\quad c = \frac{1/2 + \sqrt{2}/4}{3/4}
     """
-    name = "foundation that stands for a half-space"
     waves = _waves()
     shape = sum(wave for wave, _ in waves)
     slope = sp.diff(shape, x)
@@ -73,7 +71,7 @@ def foundation_of_a_level(stiffness: sp.Expr) -> Derived:
         zero("waves of different wavenumber do not rub on one another", rubbing - sum(alone)),
         zero("K = c (pi/l) E/(1 - nu^2) with c = (1/2 + sqrt(2)/4)/(3/4)", K - c * sp.pi / l * loss / (1 - nu**2)),
     ]
-    return derived(foundation_of_a_level, c, checks, name=name)
+    return derived(foundation_of_a_level, c, checks, "foundation that stands for a half-space")
 
 
 def _waves() -> list[tuple[sp.Expr, sp.Expr]]:

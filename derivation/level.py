@@ -20,6 +20,8 @@ R = sp.Symbol("R", positive=True)
 ratio = sp.Symbol("ratio", positive=True)
 TIMES = {alpha: k * V * T_sigma, beta: k * V * T_eps, L: 1 - T_sigma / T_eps}
 RATIO = 20  # l_1/l_2 of the paper's two levels
+STRIP_MEANS = K * (PENETRATION - AMPLITUDE), K * AMPLITUDE * k * AMPLITUDE * LOSS / 2
+"""Eq. 11: mean pressure and friction of a strip in complete contact, the latter by the loss of its wave. SI."""
 Foundation = tuple[sp.Symbol, ...]  # what is given of it
 Level = tuple[tuple[Kernel, Kernel, Kernel], Derived]
 
@@ -74,8 +76,9 @@ def of_every_strip(threshold: sp.Expr, at_least_one: Claim) -> tuple[sp.Expr, li
 
 
 def one_level() -> tuple[sp.Expr, sp.Expr]:
-    """Eq. 11: mean pressure and friction of a level in complete contact, the latter by the loss of its wave."""
-    return over_strips(K * (PENETRATION - AMPLITUDE)), over_strips(K * AMPLITUDE * k * AMPLITUDE * LOSS / 2).subs(WAVE)
+    """Eq. 11: the same of a level."""
+    pressure, friction = map(over_strips, STRIP_MEANS)
+    return pressure, friction.subs(WAVE)
 
 
 def saturation(given: Foundation, modulus: sp.Expr, threshold: sp.Expr, at_least_one: Claim) -> tuple[Kernel, Kernel]:
@@ -144,7 +147,6 @@ def printed_equation_16(one_level: sp.Expr) -> Derived:
     .. math:: \mu = \frac{3\pi^2}{16} \frac{K V (T_\epsilon - T_\sigma)}{p_1} \sum_i \frac{h_i^2}{l_i^2 + 4\pi^2 V^2
         T_\sigma^2},\quad \frac{\text{printed}}{\text{derived}} = \frac{16}{3 h_i}
     """
-    name = "Eq. 16 as printed"
     true = one_level / p_nominal
     printed = sp.pi**2 * K * V * (T_eps - T_sigma) / p_nominal * h / (l**2 + 4 * sp.pi**2 * V**2 * T_sigma**2)
     unit = sp.Symbol("lambda", positive=True)  # lengths in a unit smaller by lambda; Pa and s as they are
@@ -168,14 +170,8 @@ def printed_equation_16(one_level: sp.Expr) -> Derived:
             _peak_orders(),
         ),
     ]
-    return derived(
-        printed_equation_16,
-        (true, printed),
-        checks,
-        name=name,
-        correction=CORRECTIONS[16],
-        emitted=("level_saturation_friction",),
-    )
+    emitted = ("level_saturation_friction",)
+    return derived(printed_equation_16, (true, printed), checks, "Eq. 16 as printed", correction=CORRECTIONS[16], emitted=emitted)
 
 
 FIGURE_7 = tuple(tuple(map(sp.Rational, ends)) for ends in (("1e-5", "1e-6"), ("5e-7", "1e-7"), ("5e-9", "5e-9")))
@@ -195,7 +191,6 @@ def least_pressure(threshold: sp.Expr, saturation: sp.Expr) -> Derived:
     .. math:: \min p = p_i - \tfrac14 K h_i (2 R_i - 1),\quad P_M = p_{sat,M},\quad P_i = \max\left(p_{sat,i},\ P_{i+1} +
         \tfrac14 K h_i (2 R_i - 1)\right)
     """
-    name = "least pressure in complete contact"
     symbol, over_one, cosine = sp.Symbol("R", positive=True), sp.Symbol("R_minus_1", nonnegative=True), sp.Symbol("c", real=True)
     lowest = D - threshold.subs(p_0, 0)  # of Eq. 15 in a strip: the threshold says where it is -p_0
     in_strip = sp.expand(sp.simplify(K * AMPLITUDE * lowest.subs(MODULUS, symbol).subs(D, PENETRATION / AMPLITUDE)))
@@ -213,7 +208,7 @@ def least_pressure(threshold: sp.Expr, saturation: sp.Expr) -> Derived:
         zero("there it is p_i - K h (2 R - 1)/4", least - p_nominal + drop),
         zero("at p_i = p_sat it is -p_0", sp.simplify(at_saturation + p_0)),
     ]
-    return derived(least_pressure, least, checks, name=name, emitted=("level_saturation_pressure",))
+    return derived(least_pressure, least, checks, "least pressure in complete contact", emitted=("level_saturation_pressure",))
 
 
 def levels_together(strip: Strip, one_level: sp.Expr) -> Derived:
@@ -222,7 +217,6 @@ def levels_together(strip: Strip, one_level: sp.Expr) -> Derived:
 
     .. math:: \bar\tau = \tfrac12 \sum_n n k A_n^2\,\mathrm{Im}\,K^*(i n k V),\quad \bar\tau = \sum_i \tau_{sat}(h_i, l_i)
     """
-    name = "levels in complete contact together"
     transfer, wave_numbers = strip.foundation.model.transfer, (1, RATIO)  # in units of k
     amplitudes = sp.symbols(" ".join(f"A_{n}" for n in wave_numbers), real=True)
     heights = sp.symbols(" ".join(f"h_{n}" for n in wave_numbers), positive=True)
@@ -246,4 +240,4 @@ def levels_together(strip: Strip, one_level: sp.Expr) -> Derived:
         zero(f"two levels with l_1 = {RATIO} l_2 on top of one another are two such harmonics", sp.diff(rest, x)),
         zero("and their exact friction is the sum of both tau_sat: what Eq. 12 to 14 give", sp.simplify(averaged - levels)),
     ]
-    return derived(levels_together, stated, checks, name=name, emitted=("level_saturation_friction",))
+    return derived(levels_together, stated, checks, "levels in complete contact together", emitted=("level_saturation_friction",))

@@ -9,12 +9,12 @@ from collections.abc import Sequence
 import sympy as sp
 
 from .check import Claim, Derived, derived, zero
-from .level import in_si, one_level, over_strips
+from .level import STRIP_MEANS, in_si, one_level, over_strips
 from .paper.record import CORRECTIONS
 from .saturated import FIELD, LOSS
 from .sequences import ADHESION, CONTACT, FREE, PERIOD, Row
 from .strip import Strip
-from .surface import AMPLITUDE, HEIGHT, PENETRATION, WAVE, mean_over_cell, mean_over_wave
+from .surface import AMPLITUDE, HEIGHT, WAVE, mean_over_cell, mean_over_wave
 from .symbols import D, D_level, K, V, a, b, h, k, l, p_0, p_nominal, s, s_0, s_1, t, x, y
 
 tau_below, slope_x, pressure, unknown = sp.symbols("tau_M f_x p tau", real=True)
@@ -67,15 +67,14 @@ def means_over_a_level() -> Derived:
 
     Checked in complete contact, for which both can be integrated.
     """
-    strip_p, strip_tau = K * (PENETRATION - AMPLITUDE), K * AMPLITUDE * k * AMPLITUDE * LOSS / 2
     checks = [
         zero(
             "complete contact: the strips' mean pressure, averaged over y, is that of Eq. 15 over the cell",
-            over_strips(strip_p) - mean_over_cell(in_si(FIELD)),
+            over_strips(STRIP_MEANS[0]) - mean_over_cell(in_si(FIELD)),
         ),
         zero(
             "equal strips represented by their middles: 2 N = 4 and 6 already give both means of complete contact exactly",
-            [_equal_strips(mean, number) - over_strips(mean) for mean in (strip_p, strip_tau) for number in (2, 3)],
+            [_equal_strips(mean, number) - over_strips(mean) for mean in STRIP_MEANS for number in (2, 3)],
         ),
     ]
     return derived(

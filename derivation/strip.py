@@ -94,11 +94,11 @@ def moving_frame(foundation: Foundation) -> Derived:
     w, p = sp.Function("w"), sp.Function("p")
     frame = {x: fixed - V * t}
     moved = applied(model.Q, w(fixed - V * t), t) - applied(model.P, p(fixed - V * t), t)
-    claimed = _in_space(model.Q, w(x)) - _in_space(model.P, p(x))
+    equation = sp.Eq(_in_space(model.Q, w(x)), _in_space(model.P, p(x)))
+    claimed = equation.lhs - equation.rhs
     tried = {w: sp.Lambda(x, sp.exp(3 * x) + x**3), p: sp.Lambda(x, sp.sin(2 * x) + x**2)}
     difference = moved.subs(tried).doit() - claimed.subs(tried).doit().subs(frame)
     checks = [zero("a field that moves with the surface, w(X - V t), obeys d/dt = -V d/dx", sp.expand(difference))]
-    equation = sp.Eq(_in_space(model.Q, w(x)), _in_space(model.P, p(x)))
     return derived(moving_frame, equation, checks, latex=sp.latex(equation))
 
 

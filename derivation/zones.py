@@ -83,7 +83,7 @@ def load(flows: Flows) -> tuple[Kernel, ...]:
         zero("the stable form says the same", [stated[0] - centre, sp.radsimp(sp.cos(stated[1]) - half)]),
     ]
     exact = (centre, sp.acos(half))
-    record = derived(load, exact, checks, name="forcing_arc", emitted=("forcing_arc",))
+    record = derived(load, exact, checks, "forcing_arc", emitted=("forcing_arc",))
     return forcing, Kernel(stable.FORCING_ARC, exact, record)
 
 
