@@ -121,7 +121,7 @@ def evaluator(expression: sp.Expr, module: str) -> tuple[list[sp.Symbol], Callab
 
 def flat(value: Any) -> list[Any]:
     """What nested tuples hold, in order; of anything else, itself."""
-    return [part for item in value for part in flat(item)] if isinstance(value, (tuple, list, sp.Tuple)) else [value]
+    return [part for item in value for part in flat(item)] if isinstance(value, (tuple, list)) else [value]
 
 
 def mapped(result: Any, function: Callable[[sp.Expr], sp.Expr]) -> Any:

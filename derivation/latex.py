@@ -119,9 +119,6 @@ class Meaning(lark.Transformer):
     def sine(self, function: lark.Token, argument: sp.Expr) -> sp.Expr:
         return SINES[function](argument)
 
-    def sine_to_power(self, function: lark.Token, power: sp.Expr, argument: sp.Expr) -> sp.Expr:
-        return SINES[function](argument) ** power
-
     def limit(self, variable: lark.Token, target: sp.Expr, of: sp.Expr) -> sp.Expr:
         return sp.limit(of, variable.value, target)
 

@@ -31,9 +31,6 @@ class NumPySource(PythonCodePrinter):
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         return SYMBOLS.get(expr.name, expr.name)
 
-    def _print_Tuple(self, expr: sp.Tuple) -> str:
-        return f"({', '.join(self._print(part) for part in expr)}{',' * (len(expr) == 1)})"
-
     def _print_Pi(self, expr: sp.Expr) -> str:
         return "np.pi"
 

@@ -119,8 +119,7 @@ def _interlaced() -> list[Claim]:
         holds(
             "stable: from each tau_i to the next every term falls, all together from oo to -oo: one lambda; above the largest "
             "from oo to 0: one lambda; below the least all are negative: none. So there are n, and each is positive",
-            sp.diff(term, time).is_nonpositive is not False
-            and sp.factor(-sp.diff(term, time) * (time - tau_i) ** 2).is_positive
+            sp.factor(-sp.diff(term, time) * (time - tau_i) ** 2).is_positive
             and (sp.limit(term, time, tau_i, "+"), sp.limit(term, time, tau_i, "-"), sp.limit(term, time, sp.oo))
             == (sp.oo, -sp.oo, 0),
         ),
