@@ -8,7 +8,7 @@ does not come out exactly zero raises :class:`DerivationError` with the name of 
 import inspect
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from .exact import is_zero
@@ -67,7 +67,7 @@ class Derived:
     checks: tuple[Check, ...]
     function: str  # dotted name of the function that derives it, within this package
     correction: str = ""  # what is wrong in the printed paper, for status CORRECTED
-    emitted: tuple[str, ...] = field(default=())  # names of the generated functions that compute it
+    emitted: tuple[str, ...] = ()  # names of the generated functions that compute it
 
 
 def zero(claim: str, residual: Any, outcome: str = EXACT, **options: Any) -> Claim:

@@ -29,7 +29,7 @@ def widths(phases: Sequence[sp.Symbol]) -> dict[sp.Symbol, sp.Expr]:
     return result
 
 
-def independent(expression: Any, phases: Sequence[sp.Symbol] = ()) -> sp.Expr:
+def independent(expression: Any, phases: Sequence[sp.Symbol]) -> sp.Expr:
     """The expression with everything written out in the independent quantities named above."""
     expression = written_out(sp.sympify(expression)).doit()
     expression = expression.subs(RELATIONS)

@@ -112,9 +112,9 @@ def written_out(expression: sp.Expr) -> sp.Expr:
 
 
 @cache
-def evaluator(expression: sp.Expr, module: str) -> tuple[list[sp.Symbol], Callable[..., Any]]:
+def evaluator(expression: Any, module: str) -> tuple[list[sp.Symbol], Callable[..., Any]]:
     """The symbols of an expression, and the function of them that computes it by ``module``."""
-    plain = written_out(expression)
+    plain = written_out(sp.sympify(expression))
     symbols = sorted(plain.free_symbols, key=str)
     return symbols, sp.lambdify(symbols, plain, module)
 

@@ -71,7 +71,7 @@ class Foundation:
         self.profile = sp.lambdify(s, u.subs(D, given[D]), "numpy")
 
     def number(self, expression: sp.Expr, more: Numbers | None = None) -> float:
-        symbols, evaluate = evaluator(sp.sympify(expression), "math")
+        symbols, evaluate = evaluator(expression, "math")
         values = {**self.given, **(more or {})}
         return float(evaluate(*(values[symbol] for symbol in symbols)))
 
@@ -86,7 +86,9 @@ class Foundation:
         return load + self.given[p_0], m[J] * load - m[leave] @ overstress
 
     def zones(self, regime: Row, edges: Numbers) -> list[Place]:
-        """Every zone, its ends and the state in which it is entered, on the orbit that returns."""
+        """Every zone, its ends and the state in which it is entered, on the orbit that returns; none without edges."""
+        if not regime.edges:
+            return []
         ends = [(edges[zone.first], self.number(zone.last, edges)) for zone in regime.zones]
         # [z] = [w] - J_0 [p], with [w] = chi J_0 [p]
         steps = [
@@ -108,7 +110,7 @@ class Foundation:
 
     def missed(self, regime: Row, edges: Numbers) -> float:
         """What is left of the boundary equations: what every zone leaves to its exit."""
-        places = self.zones(regime, edges) if regime.edges else []
+        places = self.zones(regime, edges)
         left = (self.at(zone, start, state, end)[0] - self.number(zone.exit) for zone, start, end, state in places)
         return max(map(abs, left), default=0.0)
 
@@ -142,7 +144,7 @@ class Foundation:
         return [self.profile(phase) + lag + self.given[p_0] for phase, lag in zip(phases, lagging, strict=True)]
 
     def satisfies(self, regime: Row, inequality: Inequality, edges: Numbers) -> bool:
-        places = self.zones(regime, edges) if regime.edges else []
+        places = self.zones(regime, edges)
         first, *rest = inequality.relations
         if rest and any(side.has(s) for side in rest[0].sides):  # for phases where the second holds, unless the third
             zone, start, end, _ = next(place for place in places if place[0].kind == ADHESION)

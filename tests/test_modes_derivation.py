@@ -146,7 +146,7 @@ def test_functions_stay_below_their_bounds(name: str) -> None:
     modes = (2, 6) if made.model.modes is None else (made.model.modes,)
     kernels = (*made.whole, *made.kernels)
     certificates = [measure(kernel, solver, modes, points=6) for kernel in kernels]
-    certificates += [measure_material(made.model, made.model.series, solver, modes, points=6)]
+    certificates += [measure_material(made.model, solver, modes, points=6)]
     certificates += measure_regimes(made.composed, made.kernels, solver, modes[:1], points=2)
     assert sorted(certificate.name for certificate in certificates) == sorted(bounds)
     for certificate in certificates:

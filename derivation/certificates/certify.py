@@ -34,7 +34,7 @@ def certificates_of(derivation: Derivation, solver: ModuleType) -> Iterator[Cert
     """Measure every function of a derivation as ``solver`` computes it."""
     modes = modes_of(derivation.model)
     if derivation.model.stated:
-        yield measure_material(derivation.model, derivation.model.series, solver, modes)
+        yield measure_material(derivation.model, solver, modes)
     for kernel in (*derivation.whole, *derivation.kernels):
         yield measure(kernel, solver, modes)
     yield from measure_regimes(derivation.composed, derivation.kernels, solver, modes)

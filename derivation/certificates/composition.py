@@ -21,9 +21,8 @@ from ..symbols import p, p_in, s, s_0, s_1
 from .measure import FLOOR
 from .point import Point
 from .reference import Reference
-from .scaled import Scaled, given, inverted, solved, values
+from .scaled import STEP, Scaled, given, inverted, solved, values
 
-STEP = mpmath.mpf(10) ** -60  # of a difference; an error of its square remains
 AGREED = mpmath.mpf(10) ** -50  # of its scale, between a difference and the derivative put together
 State = tuple[sp.Symbol, np.ndarray]
 
@@ -33,7 +32,7 @@ class Composition:
 
     def __init__(self, regime: Row, blocks: Callable[[str], Reference], point: Point):
         self.regime, self.blocks, self.point = regime, blocks, point
-        self.n = point.modes or 1
+        self.n = point.modes
         self.onset = point.values[regime.edges[0]]
 
     def functions(self, agreed: bool) -> dict[str, np.ndarray]:

@@ -101,7 +101,7 @@ def drawn(args: Sequence[sp.Symbol], seed: str, modes: int = 0, moving: bool = F
     if T_sigma in exact:
         exact[T_sigma] = mpmath.mpf(float(exact[T_eps] * exact[T_sigma]))
     given = {symbol: rounded(value) for symbol, value in exact.items()}
-    return Point(exact | {TURN: +mpmath.pi}, given, tuple(edges), modes or None, follow)
+    return Point(exact | {TURN: +mpmath.pi}, given, tuple(edges), modes or 1, follow)
 
 
 def _phases(draw: Random, edges: Sequence[sp.Symbol]) -> dict[sp.Symbol, mpmath.mpf]:

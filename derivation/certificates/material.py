@@ -9,7 +9,7 @@ import mpmath
 import numpy as np
 import sympy as sp
 
-from ..model import Model, Series
+from ..model import Model
 from ..modes.states import exact_modes
 from ..modes.symbols import MATERIAL, m
 from .measure import DIGITS, Certificate, grid
@@ -21,12 +21,12 @@ ROUGH = 200  # digits of an eigenvalue, which the nearness of a time can cost 80
 NEWTON = 5  # steps from there, or from a neighbouring point: each squares what is left
 
 
-def measure_material(model: Model, series: Series, solver: Any, modes: Sequence[int], points: int = POINTS) -> Certificate:
+def measure_material(model: Model, solver: Any, modes: Sequence[int], points: int = POINTS) -> Certificate:
     """Measure ``material_modes`` of a model that states its Prony series."""
     found = Certificate(NAME, (m,))
     with mpmath.workdps(DIGITS):
         for count, index in grid(modes, points):
-            material = Material(model, series, count)
+            material = Material(model, count)
             given = material.drawn(index)
 
             def function(given: dict[str, Any] = given) -> tuple[Any, ...]:
@@ -41,8 +41,8 @@ def measure_material(model: Model, series: Series, solver: Any, modes: Sequence[
 class Material:
     """Exact modes of a material with given parameters, and their natural scales."""
 
-    def __init__(self, model: Model, series: Series, count: int):
-        self.n, self.model, self.series = count, model, series
+    def __init__(self, model: Model, count: int):
+        self.n, self.model, series = count, model, model.series
         symbols = [parameter.symbol for parameter in self.model.parameters]
         self.branch = sp.lambdify(symbols, (series.K, series.viscosity, series.time), modules="mpmath")
 
@@ -52,7 +52,7 @@ class Material:
         spread = draw.choice((1.0, 3.0, 6.0))
         given: dict[str, Any] = {}
         for parameter in self.model.parameters:
-            if parameter.symbol not in self.series.arrays:
+            if parameter.symbol not in self.model.series.arrays:
                 given[parameter.name] = 10.0 ** draw.uniform(-3.0, 9.0)
                 continue
             values = [10.0 ** draw.uniform(-spread, spread) for _ in range(self.n)]

@@ -28,7 +28,7 @@ class Certificate:
     """Worst error of one function, in ulp of its natural scale, and where; collected point by point."""
 
     name: str
-    args: tuple[sp.Symbol, ...] = ()
+    args: tuple[sp.Symbol, ...]
     worst: float = 0.0
     where: dict[str, float] = field(default_factory=dict)
     points: int = 0

@@ -30,7 +30,7 @@ class Point:
     values: Values
     given: Values
     phases: tuple[sp.Symbol, ...] = ()
-    modes: int | None = None
+    modes: int = 1
     follow: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
     weights: Values = field(default_factory=dict)
 
@@ -85,7 +85,7 @@ def following(follow: Mapping[sp.Symbol, sp.Expr], values: Values) -> Values:
 
 
 def evaluated(expression: Any, values: Values) -> mpmath.mpf:
-    symbols, evaluate = evaluator(sp.sympify(expression), "mpmath")
+    symbols, evaluate = evaluator(expression, "mpmath")
     return mpmath.mpf(evaluate(*(values[symbol] for symbol in symbols)))
 
 

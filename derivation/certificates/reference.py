@@ -76,7 +76,7 @@ def _summed(node: sp.Expr) -> Evaluated:
 def _along_modes(expression: sp.Expr) -> Evaluated:
     """One value for each mode, also where all are the same."""
     inner = Together([expression])
-    return lambda point: np.broadcast_to(inner(point)[0], point.modes or 1)
+    return lambda point: np.broadcast_to(inner(point)[0], point.modes)
 
 
 def _matrix(expression: sp.Expr) -> Evaluated:
