@@ -9,8 +9,6 @@ import numpy as np
 import hystrip
 from hystrip.generated import standard_linear_solid
 
-ORDER = ("d", "b", "a", "c")
-
 
 class Orbits:
     """Orbits of one regime of random strips of the standard linear solid, ``constitutive``, as the runtime finds them."""

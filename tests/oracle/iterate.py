@@ -31,7 +31,6 @@ class Settled:
     pressure: np.ndarray
     remaining: np.ndarray
     contraction: np.ndarray
-    periods: np.ndarray
 
 
 class Points:
@@ -237,9 +236,7 @@ def iterate(alpha, beta, P0, Delta, delta, constitutive, deep, periods):
     points = Points(*arrays, np.asarray(constitutive, bool))
     points.start(deep)
     n = points.zone.size
-    out = Settled(
-        np.empty(n, object), *(np.full(n, np.nan) for _ in range(3)), np.full(n, np.inf), np.full(n, np.nan), np.full(n, periods)
-    )
+    out = Settled(np.empty(n, object), *(np.full(n, np.nan) for _ in range(3)), np.full(n, np.inf), np.full(n, np.nan))
     index = np.arange(n)
     zone, value, change = points.zone.copy(), points.value.copy(), np.full(n, np.inf)
     for number in range(1, periods + 1):
@@ -257,7 +254,7 @@ def iterate(alpha, beta, P0, Delta, delta, constitutive, deep, periods):
             done[:] = True
         finished = np.flatnonzero(done)
         if finished.size:
-            _write(out, index[finished], points, finished, np.where(still, 0.0, left)[finished], ratio[finished], number)
+            _write(out, index[finished], points, finished, np.where(still, 0.0, left)[finished], ratio[finished])
             keep = np.flatnonzero(~done)
             points, index = points.take(keep), index[keep]
             moved = moved[keep]
@@ -267,11 +264,11 @@ def iterate(alpha, beta, P0, Delta, delta, constitutive, deep, periods):
     return out
 
 
-def _write(out, index, points, pick, left, ratio, number):
+def _write(out, index, points, pick, left, ratio):
     out.contact[index] = points.length[pick, CONTACT] / TURN
     out.adhesion[index] = points.length[pick, ADHESION] / TURN
     out.pressure[index] = points.force[pick] / TURN
-    out.remaining[index], out.contraction[index], out.periods[index] = left, ratio, number
+    out.remaining[index], out.contraction[index] = left, ratio
     for j, i in zip(index, pick, strict=True):
         out.sequence[j] = cyclic([LETTERS[z] for z in points.order[i, : points.count[i]]])
 

@@ -23,7 +23,6 @@ class LevelMeans:
 
     values: np.ndarray
     change: np.ndarray
-    strips: int
 
 
 def level_means(K, T_eps, T_sigma, V, l, h, D, p_0, delta_0, edge, branch, rtol):  # noqa: E741
@@ -58,7 +57,7 @@ def level_means(K, T_eps, T_sigma, V, l, h, D, p_0, delta_0, edge, branch, rtol)
         else:
             raise ArithmeticError(f"the strips between {low} and {high} could not be summed to {rtol:g}: {moved}")
         total, change = total + now, change + moved
-    return LevelMeans(total, change, len(solved))
+    return LevelMeans(total, change)
 
 
 def _parts(strip, halvings):

@@ -16,13 +16,13 @@ they fall to the least engaged one. They are accelerated without passing it: if 
 derivative, then ``x + (I - M)^-1 (P(x) - x)`` is still below (above) the orbit.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from mpmath import fp, mp
 
-from .march import edges_of
+from .march import Solution, edges_of
 from .orbits import LOADING, UNLOADING, Unresolved
 
 DIGITS = 50
@@ -35,20 +35,6 @@ _SWEEPS = 4000
 _CLOSE_ENOUGH = 1e-8
 #: modes up to which a spectral radius is found to all digits
 _FEW = 3
-
-
-@dataclass(frozen=True)
-class ModesSolution:
-    """As ``march.Solution``; ``e``: dashpot displacements at the phase pi; ``slope``: spectral radius of the period map."""
-
-    sequence: str
-    edges: dict
-    p_mean: Any
-    tau_mean: Any
-    contact_fraction: Any
-    adhesion_fraction: Any
-    slope: Any
-    e: tuple
 
 
 class Foundation:
@@ -460,13 +446,12 @@ def _free(strip, start):
 def solve(theta, m, P0, Delta, delta, branch=UNLOADING, digits=DIGITS):
     """Extremal orbit of a dimensionless strip under ``constitutive``, with relative moduli ``m`` at times ``theta`` (sequences).
 
-    Means in units of ``K A`` and ``K k A^2``. Raises ``Unresolved`` next to a fold or a graze.
+    As ``march.solve``, with the spectral radius of the period map for the slope. Raises ``Unresolved`` next to a fold or a graze.
     """
     with mp.workdps(digits + _GUARD):
         strip = ModesStrip(Foundation(theta, m), P0, Delta, delta)
-        zones, e, exact = extremal(strip, branch)
-        found = _solution(strip, zones, e, exact)
-    return found
+        zones, _, exact = extremal(strip, branch)
+        return _solution(strip, zones, exact)
 
 
 def solve_si(K, moduli, times, V, l, A, D, p_0, delta_0, branch=UNLOADING, digits=DIGITS):
@@ -476,11 +461,10 @@ def solve_si(K, moduli, times, V, l, A, D, p_0, delta_0, branch=UNLOADING, digit
         k = 2 * mp.pi / l
         theta, m = [k * V * mp.mpf(t) for t in times], [mp.mpf(each) / K for each in moduli]
         found = solve(theta, m, p_0 / (K * A), delta_0 / A, D / A, branch, digits)
-        values = dict(found.__dict__, p_mean=found.p_mean * K * A, tau_mean=found.tau_mean * K * A * A * k)
-        return ModesSolution(**values)
+        return replace(found, p_mean=found.p_mean * K * A, tau_mean=found.tau_mean * K * A * A * k)
 
 
-def _solution(strip, zones, e, exact):
+def _solution(strip, zones, exact):
     turn = 2 * mp.pi
     lengths = {letter: mp.zero for letter in "caf"}
     pressure = friction = mp.zero
@@ -494,7 +478,7 @@ def _solution(strip, zones, e, exact):
             friction -= strip.P0 * (mp.cos(zone.end) - mp.cos(zone.start))
     cyclic = _joined(zones)
     sequence = "".join(letter for letter, _, _ in cyclic)
-    return ModesSolution(
+    return Solution(
         min(sequence[i:] + sequence[:i] for i in range(len(sequence))),
         edges_of(cyclic),
         pressure / turn,
@@ -502,7 +486,6 @@ def _solution(strip, zones, e, exact):
         lengths["c"] / turn,
         lengths["a"] / turn,
         radius(exact),
-        tuple(e),
     )
 
 
