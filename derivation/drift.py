@@ -43,19 +43,21 @@ def check(
     derivations = derivations_of(models, progress)
     texts = emit(derivations)
     texts |= audit_texts(derivations, texts, _readable_certificates(folder), read_measured(folder))
-    return compare(folder, texts, {d.model.name: certified_names(d) for d in derivations})
+    return compare(folder, texts, derivations)
 
 
-def compare(folder: Path, texts: Mapping[str, str], functions: Mapping[str, Iterable[str]]) -> list[Drift]:
+def compare(folder: Path, texts: Mapping[str, str], derivations: Iterable[Derivation]) -> list[Drift]:
     """Differences between the files in ``folder`` and what should be there.
 
-    These are the ``texts``, a certificate, not measured anew, for each of the ``functions`` by model, and measured figures.
+    These are the ``texts``, a certificate, not measured anew, for each function of the ``derivations``, and measured figures.
     """
     stored = _readable_certificates(folder)
     certificates = {}
-    for model, names in functions.items():
-        entry = stored.get(model, {"functions": {}})
-        certificates[model] = entry | {"functions": {name: entry["functions"].get(name, "to be measured") for name in names}}
+    for derivation in derivations:
+        name = derivation.model.name
+        entry = stored.get(name, {"functions": {}})
+        rows = {each: entry["functions"].get(each, "to be measured") for each in certified_names(derivation)}
+        certificates[name] = entry | {"functions": rows}
     wanted = {**texts, CERTIFICATES: certificates_text(certificates), MEASURED: dumped(read_measured(folder))}
     files = (path for path in folder.rglob("*") if path.is_file() and path.parent.name != "__pycache__")
     found = {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}

@@ -51,8 +51,7 @@ def in_complete_contact(given: Foundation, modulus: sp.Expr, loss: sp.Expr, thre
 
 def in_si(field: sp.Expr) -> sp.Expr:
     """A pressure of complete contact in a strip, given in units of K A over the phase, as a field of x and y in SI."""
-    times = {alpha: TIMES[alpha], beta: TIMES[beta]}
-    return sp.expand(sp.simplify(K * AMPLITUDE * field.subs({D: PENETRATION / AMPLITUDE, s: -k * x}).subs(times)))
+    return sp.expand(sp.simplify(K * AMPLITUDE * field.subs({D: PENETRATION / AMPLITUDE, s: -k * x}).subs(TIMES)))
 
 
 def over_strips(quantity: sp.Expr) -> sp.Expr:

@@ -147,7 +147,7 @@ class Foundation:
         places = self.zones(regime, edges)
         first, *rest = inequality.relations
         if rest and any(side.has(s) for side in rest[0].sides):  # for phases where the second holds, unless the third
-            zone, start, end, _ = next(place for place in places if place[0].kind == ADHESION)
+            _, start, end, _ = next(place for place in places if place[0].kind == ADHESION)
             held = [(phase, self._true(rest[0], {**edges, s: phase}, places)) for phase in _inside(start, end, 4 * SAMPLES)]
             phases = [phase for phase, holding in held if holding]
             if any(side.has(turn) for side in first.sides):  # at the end of every arc of them

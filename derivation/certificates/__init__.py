@@ -14,8 +14,8 @@ is that of each, added up.
 
 from .certify import certificates_of, certified_names, modes_of
 from .grid import WORDS, domain
-from .measure import COUNTS, Certificate, measure
+from .measure import Certificate, measure
 
 SCALE = "|f| + sum |x df/dx| over the parameters, the first phase (at least 1 rad) and the widths of the zones"
 
-__all__ = ["COUNTS", "SCALE", "WORDS", "Certificate", "certificates_of", "certified_names", "domain", "measure", "modes_of"]
+__all__ = ["SCALE", "WORDS", "Certificate", "certificates_of", "certified_names", "domain", "measure", "modes_of"]

@@ -12,7 +12,7 @@ BRANCH = eta_i * rate / (1 + tau_i * rate)
 """What a branch adds to p/w over K."""
 
 
-def foundation_law(model: Model) -> Derived:
+def foundation_law() -> Derived:
     r"""Eq. 1: The foundation is local: at each material point its displacement w and pressure p obey one linear
     equation in time, here with a state for each relaxation time.
 

@@ -27,7 +27,7 @@ from .zones import contact, gap, passages, relaxation, states
 
 def derive(model: Model) -> Derivation:
     """Derive and verify everything that follows from the Prony series of ``model``."""
-    ground = (admissibility(model), foundation_law(model), relaxed_stiffness(model), prony_series(model))
+    ground = (admissibility(model), foundation_law(), relaxed_stiffness(model), prony_series(model))
     coordinates = (dimensionless_groups(), partial_fractions(), point_states())
     flows, closure = mode_flows(), closures(model)
     complete = saturated(flows)

@@ -87,7 +87,7 @@ def _in_contact(values: list[sp.Expr], words: Names) -> Names:
     return own | {r"\Deltaz": values[0], "q": values[0]}
 
 
-def _passing(values: list[sp.Expr], words: Names, contact: bool) -> Names:
+def _passing(words: Names, contact: bool) -> Names:
     """What a zone does to the state z_0 by its flow."""
     if contact:
         overstress = -across(enter, z_0 - J * p_in)
@@ -103,7 +103,7 @@ def _passing(values: list[sp.Expr], words: Names, contact: bool) -> Names:
 def _map(contact: bool) -> Binding:
     def names(values: list[sp.Expr], words: Names) -> Names:
         forget = lambda state: applied(*values[0].args, state) if contact else values[0] * state  # noqa: E731
-        return _passing(values, words, contact) | {"c": values[1], "R": Prefix(forget)}
+        return _passing(words, contact) | {"c": values[1], "R": Prefix(forget)}
 
     return names
 
@@ -139,8 +139,8 @@ BINDINGS: Mapping[str, Binding] = LEVELS | {
     "contact_work": _in_contact,
     "relaxation_map": _map(contact=False),
     "contact_map": _map(contact=True),
-    "relaxation_passage": lambda values, words: _passing(values, words, contact=False),
-    "contact_passage": lambda values, words: _passing(values, words, contact=True),
+    "relaxation_passage": lambda values, words: _passing(words, contact=False),
+    "contact_passage": lambda values, words: _passing(words, contact=True),
     "modulus_ratio": named("R"),
     "saturated_overstress": named("f_sat,i"),
     "saturated_pressure": named("p_sat"),

@@ -4,6 +4,6 @@ content (from the SymPy objects) -> JSON and HTML. What a computer has to measur
 and stored; pages are made from the store, so that their text stays the same until somebody measures anew.
 """
 
-from .render import INDEX, audit_files
+from .render import audit_files
 
-__all__ = ["INDEX", "audit_files"]
+__all__ = ["audit_files"]

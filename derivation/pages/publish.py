@@ -5,7 +5,6 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-from ..certificates import certified_names
 from ..derive import Report, derivations_of
 from ..drift import compare
 from ..emit import emit
@@ -37,11 +36,11 @@ def audit(
     target = folder_of(out_dir if out_dir is not None else installed / AUDIT, "out_dir")
     derivations = derivations_of(models, progress)
     texts = emit(derivations)
-    names = {made.model.name: certified_names(made) for made in derivations}
-    drift = compare(installed, texts, names)
+    drift = compare(installed, texts, derivations)
     stale = [record.path for record in drift if record.kind != "stray" and not record.path.startswith(AUDIT)]
     if stale:
         raise AuditError(f"{', '.join(stale)} in {installed} is not what the derivation emits; run `hystrip regenerate` first")
+    names = [derivation.model.name for derivation in derivations]
     found = {name: figures for name in names if measure is not None and (figures := measure(name)) is not None}
     for name, stored in read_measured(installed).items():
         if name in found:

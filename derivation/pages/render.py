@@ -24,7 +24,6 @@ def audit_files(
     ``certificates`` holds the certified functions of each model, ``measured`` what was measured and drawn for each.
     """
     pages = {}
-    about = identity(files)
     models = []
     for derivation in derivations:
         name = derivation.model.name
@@ -32,7 +31,7 @@ def audit_files(
         pages[f"{name}.json"] = json.dumps(page, indent=1, sort_keys=True, default=vars) + "\n"
         pages[f"{name}.html"] = _render("page", page=page, measured=measured.get(name, {}))
         models.append(page)
-    pages[INDEX] = _render("index", models=models, identity=about)
+    pages[INDEX] = _render("index", models=models, identity=identity(files))
     return pages
 
 

@@ -46,11 +46,8 @@ class Points:
         n = beta.size
         self.zone, self.s, self.value = np.zeros(n, int), np.zeros(n), np.zeros(n)
         # of the period that is being followed
-        self.met = np.zeros((n, 3), bool)
         self.length = np.zeros((n, 3))
         self.force = np.zeros(n)
-        self.entries = np.zeros((n, 3), int)
-        self.first = np.full(n, -1)
         self.order = np.full((n, 6), -1)
         self.count = np.zeros(n, int)
 
