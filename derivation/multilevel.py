@@ -14,8 +14,8 @@ from .paper.record import CORRECTIONS
 from .saturated import FIELD, LOSS
 from .sequences import ADHESION, CONTACT, FREE, PERIOD, Row
 from .strip import Strip
-from .surface import AMPLITUDE, HEIGHT, WAVE, mean_over_cell, mean_over_wave
-from .symbols import D, D_level, K, V, a, b, h, k, l, p_0, p_nominal, s, s_0, s_1, t, x, y
+from .surface import AMPLITUDE, HEIGHT, RIGID, WAVE, mean_over_cell, mean_over_wave
+from .symbols import D_level, K, V, a, b, h, k, l, p_0, p_nominal, s, s_0, s_1, t, x, y
 
 tau_below, slope_x, pressure, unknown = sp.symbols("tau_M f_x p tau", real=True)
 
@@ -45,15 +45,14 @@ def local_stress() -> Derived:
     """
     slope = sp.diff(HEIGHT, x)
     stress = pressure * slope
-    profile = D - 1 + sp.cos(s)
-    work = sp.integrate(sp.expand(FIELD * sp.diff(profile, s)), (s, 0, PERIOD))
+    work = sp.integrate(sp.expand(FIELD * sp.diff(RIGID, s)), (s, 0, PERIOD))
     checks = [
         zero("a point of the foundation in contact yields at the rate w_t = V f_x", yielding() - V * slope),
         zero(
             "it is the stress whose power V tau is the power p w_t of the pressure on the foundation",
             sp.solve(V * unknown - pressure * yielding(), unknown)[0] - stress,
         ),
-        zero("in a strip f_x is k A u': its mean is that of p u'", slope - k * AMPLITUDE * sp.diff(profile, s).subs(s, -k * x)),
+        zero("in a strip f_x is k A u': its mean is that of p u'", slope - k * AMPLITUDE * sp.diff(RIGID, s).subs(s, -k * x)),
         zero("in complete contact its work over a period is pi Im K*/K, what an oscillation loses", work - sp.pi * LOSS),
     ]
     return derived(local_stress, stress, checks)

@@ -6,7 +6,7 @@ import sympy as sp
 
 from .check import Derived, derived, zero
 from .model import Foundation, applied
-from .surface import AMPLITUDE, HEIGHT, PENETRATION
+from .surface import AMPLITUDE, HEIGHT, PENETRATION, RIGID
 from .symbols import A, D, D_j, D_level, J, K, L, T_eps, T_sigma, V, alpha, beta, delta_0, k, p_0, s, t, x
 
 TIMES = {T_sigma: alpha / (k * V), T_eps: beta / (k * V)}
@@ -75,13 +75,12 @@ def strip_profile() -> Derived:
     .. math:: u(s) = D - 1 + \cos s,\quad A = \tfrac h4 (1 + \cos k y),\quad D_j = D - \tfrac h2 (1 - \cos k y)
     """
     target = PENETRATION - AMPLITUDE * (1 - sp.cos(k * x))
-    u = D - 1 + sp.cos(s)
     scaled = (D_j - A * (1 - sp.cos(k * x))).subs({D_j: A * D, x: -s / k}) / A
     checks = [
         zero("w = D - f is D_j - A (1 - cos kx) with the A and D_j of Eq. 8", D_level - HEIGHT - target),
-        zero("in units of A and with s = -k x the profile is u = D - 1 + cos s", scaled - u),
+        zero("in units of A and with s = -k x the profile is u = D - 1 + cos s", scaled - RIGID),
     ]
-    return derived(strip_profile, u, checks, emitted=("profile", "profile_slope", "profile_rise"))
+    return derived(strip_profile, RIGID, checks, emitted=("profile", "profile_slope", "profile_rise"))
 
 
 def moving_frame(foundation: Foundation) -> Derived:

@@ -2,7 +2,7 @@
 
 import sympy as sp
 
-from .symbols import D_level, h, k, l, x, y
+from .symbols import D, D_level, h, k, l, s, x, y
 
 HEIGHT = h - h / 4 * (sp.cos(k * x) + 1) * (sp.cos(k * y) + 1)
 """Eq. 4: f(x, y), how far the rigid surface stands back from its crest."""
@@ -13,6 +13,9 @@ AMPLITUDE = h / 4 * (1 + sp.cos(k * y))
 PENETRATION = D_level - h / 2 * (1 - sp.cos(k * y))
 """Eq. 8: D_j(y), the strip's own penetration."""
 
+
+RIGID = D - 1 + sp.cos(s)
+"""What a strip sees of the surface, u(s), with lengths in A and s = -k x; see the step "strip profile"."""
 
 WAVE = {k: 2 * sp.pi / l}
 """The wave number by the wavelength."""

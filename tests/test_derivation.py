@@ -150,7 +150,7 @@ def test_a_parabola_gives_the_known_pressure() -> None:
 
 TAMPERED = {
     "admissibility": ("models.py", "T_sigma / K)", "-T_sigma / K)"),
-    "strip profile": ("strip.py", "u = D - 1 + sp.cos(s)", "u = D - 1 - sp.cos(s)"),
+    "strip profile": ("surface.py", "RIGID = D - 1 + sp.cos(s)", "RIGID = D - 1 - sp.cos(s)"),
     "contact flow": ("flows.py", "(entry - particular.subs(along, since))", "(entry + particular.subs(along, since))"),
     "closures": ("jumps.py", "step_w = chi * J * step", "step_w = -chi * J * step"),
     "forcing": ("stable.py", "PROFILE(s, D) + beta * PROFILE_SLOPE(s)", "PROFILE(s, D) - beta * PROFILE_SLOPE(s)"),

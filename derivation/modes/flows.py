@@ -10,10 +10,11 @@ import sympy as sp
 
 from ..check import Claim, Derived, derived, zero
 from ..flows import solved, steady_state
-from ..symbols import D, alpha, beta, p, s, s_0
+from ..surface import RIGID
+from ..symbols import alpha, beta, p, s, s_0
 from .symbols import J, eta, f_0, z_0
 
-u = D - 1 + sp.cos(s)
+u = RIGID
 
 
 @dataclass(frozen=True)
