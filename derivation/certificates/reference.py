@@ -80,6 +80,9 @@ def _along_modes(expression: sp.Expr) -> Evaluated:
 
 
 def _matrix(expression: sp.Expr) -> Evaluated:
+    if isinstance(expression, sp.Mul) and expression.could_extract_minus_sign():
+        positive = _matrix(-expression)
+        return lambda point: -positive(point)
     if isinstance(expression, sandwich):
         left, vector, right = _matrix(expression.args[0]), _along_modes(expression.args[1]), _matrix(expression.args[2])
         return lambda point: (left(point) * vector(point)) @ right(point)

@@ -59,7 +59,7 @@ def value(e: sp.Expr, point: Sample) -> Any:
 
 @cache
 def _evaluator(e: sp.Expr) -> tuple[list[sp.Symbol], Callable[..., Any]]:
-    plain = e.replace(sandwich, lambda *parts: applied(*parts, z_0)).replace(slope, _difference)
+    plain = e.replace(sandwich, lambda *parts: applied(sandwich(*parts), z_0)).replace(slope, _difference)
     symbols = sorted(plain.free_symbols, key=str)
     return symbols, sp.lambdify(symbols, plain, [ON_ARRAYS, "mpmath"])
 
@@ -111,6 +111,10 @@ def _nodes(precision: int) -> list[tuple[mpmath.mpf, mpmath.mpf]]:
     return mpmath.calculus.quadrature.GaussLegendre(mpmath.mp).get_nodes(-1, 1, DEGREE, precision)
 
 
-def applied(left: sp.Expr, diagonal: sp.Expr, right: sp.Expr, vector: sp.Expr) -> sp.Expr:
-    """left diag(diagonal) right, times a vector."""
-    return across(left, diagonal * across(right, vector))
+def applied(matrix: sp.Expr, vector: sp.Expr) -> sp.Expr:
+    """A matrix of the derivation times a vector."""
+    if isinstance(matrix, sp.Mul) and matrix.could_extract_minus_sign():
+        return -applied(-matrix, vector)
+    if isinstance(matrix, sandwich):
+        return across(matrix.args[0], matrix.args[1] * across(matrix.args[2], vector))
+    return across(matrix, vector)

@@ -65,4 +65,5 @@ def generic(expression: sp.Expr) -> sp.Expr:
 
 
 def is_matrix(expression: Any) -> bool:
-    return expression in MATRICES or isinstance(expression, sandwich)
+    plain = -expression if isinstance(expression, sp.Mul) and expression.could_extract_minus_sign() else expression
+    return plain in MATRICES or isinstance(plain, sandwich)

@@ -102,7 +102,7 @@ def _passing(words: Names, contact: bool) -> Names:
 
 def _map(contact: bool) -> Binding:
     def names(values: list[sp.Expr], words: Names) -> Names:
-        forget = lambda state: applied(*values[0].args, state) if contact else values[0] * state  # noqa: E731
+        forget = lambda state: applied(values[0], state) if contact else values[0] * state  # noqa: E731
         return _passing(words, contact) | {"c": values[1], "R": Prefix(forget)}
 
     return names
